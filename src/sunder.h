@@ -556,8 +556,8 @@ typedef struct sunder_layer_summary {
     size_t moved, blocked, skipped, rounded;
     double total, mean, max; /* of the lengths of moves; mean over the moved */
     size_t max_feature;      /* whose move is longest; SIZE_MAX if nothing moved */
-    /* Sum of weight * length^2; no placement costs less that solves every pair not listed, and leaves none that is
-     * listed nearer than it stood. */
+    /* Sum of weight * length^2; no placement costs less that solves every pair not listed, leaves none that is listed
+     * worse than it stood, and none in overlap that is listed as too close. */
     double cost, lower_bound;
     double pair_bound; /* the part of that which bound pairs alone prove */
     bool verified;     /* every pair but those listed and those in blocks was proved apart (or
@@ -651,7 +651,8 @@ typedef struct sunder_bound_piece {
     size_t corners_a, corners_b;
     bool shadow; /* one of the parts is an anchor, which may not jump over the other: see sunder_proof */
     /* NAN: they owe each other what pairs owe. Else the pair is left in conflict, and held to this: to no more than the
-     * distance that it had. */
+     * distance that it had; if its interiors met then, and by the kind of the conflict do no more, to 0; if they do
+     * still, to some translation no longer than minus this, no less than the least at the start, that parts them. */
     double clearance;
 } sunder_bound_piece;
 

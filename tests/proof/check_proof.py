@@ -75,14 +75,14 @@ def check_anchors(problem, path):
 
 
 def check_conflicts(problem, conflicts, path):
-    """The result lists the same pairs, for the same reasons."""
-    def key(a, b, reason):
-        return (*sorted((str(a), str(b))), reason)
+    """The result lists the same pairs, of the same kinds, for the same reasons."""
+    def key(a, b, *more):
+        return (*sorted((str(a), str(b))), *more)
     listed = []
     for row, _, _ in geopackage.Layer(path, problem.name + "_conflicts").features.values():
         other = row["fid_b"] if row["barrier"] is None else f"{row['barrier']}:{row['barr_fid']}"
-        listed.append(key(row["fid_a"], other, row["reason"]))
-    told = [key(c["a"], c["b"], c["reason"]) for c in conflicts]
+        listed.append(key(row["fid_a"], other, row["kind"], row["reason"]))
+    told = [key(c["a"], c["b"], c["kind"], c["reason"]) for c in conflicts]
     demand(sorted(listed) == sorted(told), "the result lists other conflicts")
 
 
@@ -99,7 +99,7 @@ def check(options):
     for line in lines[1:]:
         if "block" in line:
             problem.add_block(line["block"])
-    problem.listed = {tuple(sorted((str(c["a"]), str(c["b"])))) for c in conflicts if not c.get("inside_block")}
+    problem.listed = {tuple(sorted((str(c["a"]), str(c["b"])))): c["kind"] for c in conflicts if not c.get("inside_block")}
     found = []
     for tree in told:
         found.append(trees.Tree(problem, tree))

@@ -69,8 +69,8 @@ def hull(points):
 
 
 class Piece:
-    """The convex polygon A - B grown by an open disc of radius `owed`; with 0 its interior. A shadow: of all places that
-    the way from the origin reaches through it."""
+    """The convex polygon A - B grown by an open disc of radius `owed`; with 0 its interior; negative: what is farther than
+    that from all outside. A shadow: of all places that the way from the origin reaches through it."""
 
     def __init__(self, a, b, owed, shadow):
         self.corners = hull([(p[0] - q[0], p[1] - q[1]) for p in a for q in b])
@@ -83,6 +83,7 @@ class Piece:
                 ex, ey = q[0] - p[0], q[1] - p[1]
                 self.edges.append((p[0], p[1], ex, ey, ex * ex + ey * ey))
         self.near = max(int(FINE * owed) - 1, 0) ** 2
+        self.inside = 2 if owed == 0 else (math.ceil(-FINE * owed) + 2) ** 2
 
     def holds_origin(self):
         return len(self.edges) > 0 and all(ex * y >= ey * x for x, y, ex, ey, _ in self.edges)
@@ -96,8 +97,8 @@ class Piece:
         for px, py, ex, ey, whole in self.edges:
             wx, wy = x - px, y - py
             cross = ex * wy - ey * wx
-            if self.owed == 0:
-                if cross <= 0 or cross * cross <= 2 * whole:
+            if self.owed <= 0:
+                if cross <= 0 or cross * cross <= self.inside * whole:
                     return False
             elif cross < 0:
                 outside.append((cross, wx, wy, ex, ey, whole))

@@ -166,6 +166,24 @@ def hold_farther(tree):
     return False
 
 
+def hold_higher(tree):
+    """One that is in another, held to a little less depth than it had."""
+    for piece in tree["pieces"]:
+        if piece.get("clearance", 0) < 0:
+            piece["clearance"] *= 0.99
+            return ("more than it had",)
+    return False
+
+
+def part(tree):
+    """One that is in another still, held to be in it no more."""
+    for piece in tree["pieces"]:
+        if piece.get("clearance", 0) < 0:
+            piece["clearance"] = 0
+            return ("more than it had",)
+    return False
+
+
 def heavier(tree):
     for body in tree["bodies"]:
         if body["weight"] is not None:
@@ -198,7 +216,7 @@ def raise_tree(tree):
 TREES = {"forces": change_forces, "pull": pull, "elsewhere": force_from_elsewhere, "child": drop_child,
          "no forces": drop_forces_of_a_leaf, "unnamed": unname, "part": move_part, "anchor": move_anchor,
          "side": move_side, "side anchor": leave_feature,
-         "shadow": fill_shadow, "held": hold_farther, "heavier": heavier, "nailed": nail_down, "joined": join_bodies, "raised": raise_tree,
+         "shadow": fill_shadow, "held": hold_farther, "depth": hold_higher, "in it": part, "heavier": heavier, "nailed": nail_down, "joined": join_bodies, "raised": raise_tree,
          **{kind: push_cut(kind) for kind in CUTS}}
 
 
@@ -315,7 +333,19 @@ def other_gap(lines):
     return ("another problem",)
 
 
-WHOLE = {"twice": twice, "twice in one": twice_in_one, "bound": raise_bound, "listed": list_pair, "gap": other_gap}
+def list_overlap(lines):
+    """Pairs that the list says to be parted, and which are held to that, listed as overlapping."""
+    of = {}
+    for piece in lines[-1]["pieces"]:
+        if piece.get("clearance") == 0:
+            of[frozenset((str(piece["a"]), str(piece["b"])))] = True
+    for line in lines:
+        if "conflict" in line and frozenset((str(line["a"]), str(line["b"]))) in of:
+            line["kind"] = "overlap"
+    return bool(of) and ("more than it had",)
+
+
+WHOLE = {"twice": twice, "twice in one": twice_in_one, "bound": raise_bound, "listed": list_pair, "kind": list_overlap, "gap": other_gap}
 
 
 class Asker:

@@ -158,7 +158,8 @@ class Problem:
         self.things = {fid: Thing(self.lattice, f[1], f[2]) for fid, f in layer.features.items()}
         self.attributes = {fid: f[0] for fid, f in layer.features.items()}
         self.owed, self.fixed, self.blocks, self.joined = {}, fixed, {}, {}
-        self.listed, self.stood = set(), {}  # pairs; the squares of the distances that they had, -1: they overlapped
+        self.listed = {}  # pairs: the kinds of their conflicts
+        self.stood = {}   # pairs: see how_it_stood()
         self.sides = set()
         for key, polygons, lines, width, gap, side in barriers:
             demand(key not in self.things, "two barriers are called", key)
@@ -281,22 +282,36 @@ class Problem:
             demand(not self.joins(a, b), a, "and", b, "join one block")
 
     def clearance(self, a, b, told):
-        """How far apart the two are held, in units of the lattice: listed ones to no more than the distance that they had, where
-        their interiors did not meet."""
+        """How far apart the two are held, in units of the lattice: listed ones to no more than the distance that they had; where
+        their interiors met, to 0 if the list says that they do no more, else to no less than their depth, negative."""
         required, pair = self.required(a, b), tuple(sorted((str(a), str(b))))
         if told is None:
             demand(pair not in self.listed, a, "and", b, "are listed")
             return required
         clearance = Fraction(told) * self.lattice.unit
-        demand(0 <= clearance <= required, "more is asked of", a, b, "than they owe")
-        if pair in self.listed:
-            if pair not in self.stood:
-                p, q = (self.things[k].whole() for k in (a, b))
-                p, q = (p, q) if p.area else (q, p)
-                self.stood[pair] = -1 if plane.interiors_meet(p, q) else plane.distance_square(p, q)
-            demand(self.stood[pair] >= 0 and clearance * clearance <= self.stood[pair],
+        demand(clearance <= required, "more is asked of", a, b, "than they owe")
+        if pair not in self.listed:
+            demand(clearance >= 0, "less is asked of", a, b, "than they owe")
+            return clearance
+        if pair not in self.stood:
+            self.stood[pair] = self.how_it_stood(a, b)
+        square, depth = self.stood[pair]
+        if clearance >= 0:
+            parted = square < 0 and self.listed[pair] in ("too_close", "barrier_near")
+            demand(clearance * clearance <= (0 if parted else square), "a listed pair is held to more than it had:", a, b)
+        else:
+            demand(square < 0 and depth is not None and depth <= clearance * clearance,
                    "a listed pair is held to more than it had:", a, b)
         return clearance
+
+    def how_it_stood(self, a, b):
+        """The square of the distance, or -1 and that of the least translation; None: one lay in the other, and may go deeper."""
+        p, q = (self.things[k].whole() for k in (a, b))
+        inside = any(plane.lies_in(x, y) for x, y, key in ((p, q, a), (q, p, b)) if y.area and not self.is_barrier(key))
+        p, q = (p, q) if p.area else (q, p)
+        if not plane.interiors_meet(p, q):
+            return plane.distance_square(p, q), None
+        return -1, None if inside else plane.least_square(p, q)
 
     def demand_part(self, key, corners):
         """Corners of a part of it, on the lattice."""

@@ -58,6 +58,15 @@ printf 'WKT,w\n"POLYGON((0 0,10 0,10 10,0 10))",1\n"POLYGON((0 10.5,10 10.5,10 2
 proved back houses.gpkg --gap 1 --max-shift 1 --no-blocks --barrier road.gpkg
 grep -q 'bound 0.12' said || fail "a listed road owes: $(cat said)"
 
+# A road through a house, 3 from its lower edge: the one above may not push it deeper into that, and goes all the way itself.
+printf 'WKT,w\n"LINESTRING(-30 3,40 3)",1\n' | layer through.gpkg through LINESTRING
+through=(--gap 1 --max-shift 1 --no-blocks --barrier through.gpkg)
+proved through houses.gpkg "${through[@]}"
+grep -Eq 'bound 0.(25|24999)' said || fail "a house goes deeper into a road: $(cat said)"
+refuted through houses.gpkg "${through[@]}" --need depth --need "in it"
+proved parted "$town" --gap 3 --max-shift 1 --barrier "$roads"
+refuted parted "$town" --gap 3 --max-shift 1 --barrier "$roads" --need kind --need held
+
 # A house between a wall that stands fast and a line that it overlaps: through the line would be nearest, but for its side.
 printf 'WKT,w\n"LINESTRING(9.5 -3,9.5 13)",1\n' | layer side.gpkg side LINESTRING
 printf 'WKT,w\n"POLYGON((0 0,10 0,10 10,0 10))",1\n"POLYGON((-10 -30,0 -30,0 40,-10 40))",1\n' | layer wall.gpkg buildings POLYGON

@@ -266,32 +266,146 @@ static double part_distance(const double *p, size_t n, const double *q, size_t m
     return fmin(corners_distance(p, n, q, m), corners_distance(q, m, p, n)) * (1 - 1e-12);
 }
 
-/* A pair that is listed keeps the distance that it had, and owes nothing where it overlapped. */
-static void keep_houses_apart(posing *p, size_t a, size_t b, bool listed)
+/* Convex parts of a house, or of a barrier. */
+typedef struct part_list {
+    const double *xy[HOUSE_PARTS];
+    size_t corners[HOUSE_PARTS], n;
+} part_list;
+
+static part_list parts_of_house(const house *h)
 {
-    const house *g = &p->t->house[a], *h = &p->t->house[b];
-    double radius = p->t->gap;
-    for (size_t i = 0; i < g->parts && listed; i++)
-        for (size_t j = 0; j < h->parts; j++)
-            radius = fmin(radius, part_distance(g->part[i].xy, g->part[i].corners, h->part[j].xy, h->part[j].corners));
-    for (size_t i = 0; i < g->parts && radius >= 0; i++)
-        for (size_t j = 0; j < h->parts; j++)
-            optimum_keep_apart(p->m, p->body_of[a], p->body_of[b], g->part[i].xy, g->part[i].corners, h->part[j].xy,
-                               h->part[j].corners, radius);
+    part_list list = {.n = h->parts};
+    for (size_t k = 0; k < h->parts; k++) {
+        list.xy[k] = h->part[k].xy;
+        list.corners[k] = h->part[k].corners;
+    }
+    return list;
 }
 
-static void keep_off_barrier(posing *p, size_t a, size_t k, bool listed)
+static part_list parts_of_barrier(const hamlet_barrier *b)
+{
+    part_list list = {.n = barrier_parts(b)};
+    for (size_t k = 0; k < list.n; k++) {
+        list.xy[k] = b->xy + 2 * k;
+        list.corners[k] = part_corners(b);
+    }
+    return list;
+}
+
+/* What of the convex polygon is on the one side of the line from a to b; returns how many corners. */
+static size_t clip(const double *xy, size_t n, const double *a, const double *b, double sign, double *out)
+{
+    size_t kept = 0;
+    for (size_t k = 0; k < n; k++) {
+        const double *p = xy + 2 * k, *q = xy + 2 * ((k + 1) % n);
+        const double s = sign * ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]));
+        const double t = sign * ((b[0] - a[0]) * (q[1] - a[1]) - (b[1] - a[1]) * (q[0] - a[0]));
+        if (s >= 0) memcpy(out + 2 * kept++, p, 2 * sizeof *p);
+        if ((s >= 0) == (t >= 0)) continue;
+        for (size_t c = 0; c < 2; c++) out[2 * kept + c] = p[c] + s / (s - t) * (q[c] - p[c]);
+        kept++;
+    }
+    return kept;
+}
+
+enum { CLIPPED = 32 };
+
+/* The area of what of a convex polygon is in none of the parts from the k-th on: beyond the first side of part k, or
+ * before that and beyond the second, and so on. */
+static double area_outside(const double *xy, size_t n, const part_list *of, size_t k)
+{
+    double area = 0, rest[2 * CLIPPED], before[2 * CLIPPED];
+    if (k == of->n) {
+        for (size_t c = 2; c < n; c++)
+            area += (xy[2 * c - 2] - xy[0]) * (xy[2 * c + 1] - xy[1]) - (xy[2 * c - 1] - xy[1]) * (xy[2 * c] - xy[0]);
+        return area / 2;
+    }
+    if (of->corners[k] < 3) return area_outside(xy, n, of, k + 1);
+    if (n + HOUSE_CORNERS > CLIPPED) abort();
+    memcpy(before, xy, 2 * n * sizeof *xy);
+    for (size_t c = 0; c < of->corners[k] && n > 2; c++) {
+        const double *a = of->xy[k] + 2 * c, *b = of->xy[k] + 2 * ((c + 1) % of->corners[k]);
+        const size_t m = clip(before, n, a, b, -1, rest);
+        if (m > 2) area += area_outside(rest, m, of, k + 1);
+        n = clip(before, n, a, b, 1, rest);
+        memcpy(before, rest, 2 * n * sizeof *rest);
+    }
+    return area;
+}
+
+/* All of p in q: what is not leaves an area that is no rounding, for all is on a grid. */
+static bool lies_in(const part_list *p, const part_list *q)
+{
+    double area = 0, size = 0;
+    for (size_t k = 0; k < p->n; k++) {
+        if (p->corners[k] < 3) return false;
+        area += area_outside(p->xy[k], p->corners[k], q, 0);
+        for (size_t c = 0; c < p->corners[k]; c++) size = fmax(size, fabs(p->xy[k][2 * c] - p->xy[0][0]));
+    }
+    return area < 1e-7 * size * size;
+}
+
+static void keep_parts_apart(optimum_problem *m, size_t a, size_t b, const part_list *p, const part_list *q,
+                             double radius)
+{
+    for (size_t i = 0; i < p->n; i++)
+        for (size_t j = 0; j < q->n; j++)
+            optimum_keep_apart(m, a, b, p->xy[i], p->corners[i], q->xy[j], q->corners[j], radius);
+}
+
+/* The length of the least translation that parts them, up to rounding no less than that. */
+static double depth_of(const part_list *p, const part_list *q)
+{
+    optimum_problem m = {.bodies = 2, .body = {{1, INFINITY}, {1, 0}}};
+    keep_parts_apart(&m, 0, 1, p, q, 0);
+    const optimum_answer answer = optimum_find(&m, 1e12, 1e-11, 100000);
+    optimum_free(&m);
+    if (answer.open) abort();
+    return sqrt(answer.high) * (1 + 1e-11) + 1e-9;
+}
+
+static bool says_parted(const sunder_conflict *c)
+{
+    return c->kind == SUNDER_CONFLICT_TOO_CLOSE || c->kind == SUNDER_CONFLICT_BARRIER_NEAR;
+}
+
+/* A pair that is listed, and so need not keep the distance that it owes; posed with what a bound says of such, or, not
+ * `kept`, with what a verdict does, and then with nothing where it overlapped. */
+static void keep_listed_apart(posing *p, size_t a, size_t b, const part_list *g, const part_list *h, double owed,
+                              const sunder_conflict *listed, bool kept)
+{
+    double radius = owed;
+    for (size_t i = 0; i < g->n; i++)
+        for (size_t j = 0; j < h->n; j++)
+            radius = fmin(radius, part_distance(g->xy[i], g->corners[i], h->xy[j], h->corners[j]));
+    if (radius < 0) {
+        if (!kept) return;
+        radius = 0;
+        if (!says_parted(listed) && (lies_in(g, h) || (b != p->barriers && lies_in(h, g)))) return;
+        if (!says_parted(listed)) radius = -depth_of(g, h);
+    }
+    keep_parts_apart(p->m, a, b, g, h, radius);
+}
+
+/* listed: NULL, or the pair's conflict. */
+static void keep_houses_apart(posing *p, size_t a, size_t b, const sunder_conflict *listed, bool kept)
+{
+    const part_list g = parts_of_house(&p->t->house[a]), h = parts_of_house(&p->t->house[b]);
+    if (listed)
+        keep_listed_apart(p, p->body_of[a], p->body_of[b], &g, &h, p->t->gap, listed, kept);
+    else
+        keep_parts_apart(p->m, p->body_of[a], p->body_of[b], &g, &h, p->t->gap);
+}
+
+static void keep_off_barrier(posing *p, size_t a, size_t k, const sunder_conflict *listed, bool kept)
 {
     const hamlet_barrier *b = &p->t->barrier[k];
-    const house *h = &p->t->house[a];
-    double radius = b->width / 2 + (b->gap < 0 ? p->t->gap : b->gap);
-    for (size_t i = 0; i < h->parts && listed; i++)
-        for (size_t j = 0; j < barrier_parts(b); j++)
-            radius = fmin(radius, part_distance(h->part[i].xy, h->part[i].corners, b->xy + 2 * j, part_corners(b)));
-    for (size_t i = 0; i < h->parts && radius >= 0; i++)
-        for (size_t j = 0; j < barrier_parts(b); j++)
-            optimum_keep_apart(p->m, p->body_of[a], p->barriers, h->part[i].xy, h->part[i].corners, b->xy + 2 * j,
-                               part_corners(b), radius);
+    const part_list g = parts_of_house(&p->t->house[a]), h = parts_of_barrier(b);
+    const double owed = b->width / 2 + (b->gap < 0 ? p->t->gap : b->gap);
+    if (listed)
+        keep_listed_apart(p, p->body_of[a], p->barriers, &g, &h, owed, listed, kept);
+    else
+        keep_parts_apart(p->m, p->body_of[a], p->barriers, &g, &h, owed);
 }
 
 static bool in_convex(const double *xy, size_t n, const double at[2])
@@ -328,11 +442,12 @@ static void keep_side(posing *p, size_t a, size_t k)
         optimum_keep_off(p->m, p->barriers, p->body_of[a], b->xy + 2 * j, part_corners(b), p->anchor[a]);
 }
 
-static bool is_listed(const sunder_conflict *listed, size_t n, const sunder_conflict *besides, size_t a, size_t b)
+static const sunder_conflict *find_listed(const sunder_conflict *listed, size_t n, const sunder_conflict *besides,
+                                          size_t a, size_t b)
 {
     for (size_t k = 0; k < n; k++)
-        if (listed[k].a == a && listed[k].b == b) return &listed[k] != besides;
-    return false;
+        if (listed[k].a == a && listed[k].b == b) return &listed[k] != besides ? &listed[k] : NULL;
+    return NULL;
 }
 
 void hamlet_pose(const hamlet *t, const sunder_conflict *listed, size_t n, const sunder_conflict *besides,
@@ -343,11 +458,11 @@ void hamlet_pose(const hamlet *t, const sunder_conflict *listed, size_t n, const
     for (size_t b = 0; b < t->n; b++) {
         for (size_t a = 0; a < b; a++) {
             if (p.body_of[a] == p.body_of[b]) continue;
-            keep_houses_apart(&p, a, b, is_listed(listed, n, besides, a, b));
+            keep_houses_apart(&p, a, b, find_listed(listed, n, besides, a, b), !besides);
             if (!t->jumps) keep_from_jumps(&p, a, b);
         }
         for (size_t k = 0; k < t->barriers; k++) {
-            keep_off_barrier(&p, b, k, is_listed(listed, n, besides, b, t->n + k));
+            keep_off_barrier(&p, b, k, find_listed(listed, n, besides, b, t->n + k), !besides);
             keep_side(&p, b, k);
         }
     }
@@ -358,9 +473,9 @@ void hamlet_pose_pair(const hamlet *t, const sunder_conflict *pair, int rules, o
     posing p;
     start(&p, t, m);
     if (pair->b < t->n)
-        keep_houses_apart(&p, pair->a, pair->b, false);
+        keep_houses_apart(&p, pair->a, pair->b, NULL, false);
     else
-        keep_off_barrier(&p, pair->a, pair->b - t->n, false);
+        keep_off_barrier(&p, pair->a, pair->b - t->n, NULL, false);
     const size_t of_a = p.body_of[pair->a], of_b = pair->b < t->n ? p.body_of[pair->b] : SIZE_MAX;
     for (size_t x = 0; x < t->n; x++) {
         const bool with_a = p.body_of[x] == of_a, with_b = p.body_of[x] == of_b;

@@ -72,7 +72,7 @@ static void add_side(search *s, const optimum_piece *p, size_t k)
 {
     double n[2], at[2];
     side_of(p, k, n, at);
-    const double size = fabs(n[0] * at[0]) + fabs(n[1] * at[1]) + p->radius * hypot(n[0], n[1]);
+    const double size = fabs(n[0] * at[0]) + fabs(n[1] * at[1]) + fabs(p->radius) * hypot(n[0], n[1]);
     add_row(s, p->a, p->b, n[0], n[1], down(dot(n, at) + p->radius * hypot(n[0], n[1]), size));
 }
 
@@ -198,7 +198,7 @@ static size_t list_children(const optimum_problem *m, size_t k, child *out)
         double before[2], normal[2], at[2];
         side_of(p, side, normal, at);
         out[n++] = (child){.choice = {.piece = k}, .side = side};
-        if (p->radius == 0) continue;
+        if (p->radius <= 0) continue;
         child corner = {.choice = {.piece = k, .corner = side, .sector = true}, .side = SIZE_MAX};
         side_of(p, (side + p->corners - 1) % p->corners, before, at);
         memcpy(corner.choice.d, before, sizeof before);

@@ -15,7 +15,8 @@ typedef struct optimum_body {
     double weight, limit; /* limit 0: fixed; INFINITY: none */
 } optimum_body;
 
-/* An open convex set: all places nearer than the radius to the polygon's interior; or a shadow, which ends nowhere. */
+/* An open convex set: all places nearer than the radius to the polygon's interior; where that is negative, those that
+ * are farther than as much from all outside; or a shadow, which ends nowhere. */
 typedef struct optimum_piece {
     size_t a, b; /* bodies */
     double radius;
@@ -34,7 +35,8 @@ typedef struct optimum_problem {
 } optimum_problem;
 
 /* What body b with the convex part q may not do to body a with the convex part p, of which one has area: to come nearer
- * than the radius, or (radius 0) to let the interiors meet. Corners counter-clockwise, multiples of 2^-10 below 2^23,
+ * than the radius, or (radius 0) to let the interiors meet, or (a negative one) to be so deep in each other that no
+ * translation as long as that parts them. Corners counter-clockwise, multiples of 2^-10 below 2^23,
  * so that differences and turns of three are exact. */
 void optimum_keep_apart(optimum_problem *m, size_t a, size_t b, const double *p, size_t np, const double *q, size_t nq,
                         double radius);

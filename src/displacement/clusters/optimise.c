@@ -11,7 +11,6 @@
  * it. */
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
-#include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/optimum/optimum.h"
 
@@ -24,13 +23,15 @@
 
 /* ---- Rounds ------------------------------------------------------------------------------------------------------ */
 
-/* Bodies of pairs that are in the one list, and not in the other. */
+/* Bodies of pairs of the one list that are not in the other, or held to something else there. */
 static void mark_unlike(const sunder_i_model *model, const sunder_i_waiver *one, size_t n, const sunder_i_waiver *other,
                         size_t m, bool *unlike)
 {
-    for (size_t k = 0; k < n; k++)
-        if (!m || !bsearch(&one[k], other, m, sizeof *other, sunder_i_by_id_pair))
+    for (size_t k = 0; k < n; k++) {
+        const sunder_i_waiver *like = m ? bsearch(&one[k], other, m, sizeof *other, sunder_i_by_id_pair) : NULL;
+        if (!like || sunder_i_waiver_clearance(like) != sunder_i_waiver_clearance(&one[k]))
             unlike[model->body_of[one[k].a]] = unlike[model->body_of[one[k].b]] = true;
+    }
 }
 
 /* A proof stands on what was asked of the group's pairs: where something else is asked now, it is made again. */
@@ -55,38 +56,6 @@ static bool forget_proofs(sunder_i_solver *s, const sunder_i_waiver *before, siz
     return true;
 }
 
-/* Did the interiors of the two, b any part of a barrier, meet at the start? */
-static bool overlapped(const sunder_i_solver *s, uint32_t a, uint32_t b)
-{
-    const sunder_i_relation key = {.a = a, .b = b};
-    size_t k = sunder_i_lower_bound(&key, s->start.pair, s->start.n, sizeof key, sunder_i_by_id_pair);
-    for (; k < s->start.n && s->start.pair[k].a == a && sunder_i_whole_of(&s->model, s->start.pair[k].b) == b; k++)
-        if (s->start.pair[k].overlap) return true;
-    return false;
-}
-
-/* How far apart the two stood at the start, rounded downwards; negative where they overlapped. */
-static sunder_status find_distance(const sunder_i_solver *s, uint32_t a, uint32_t b, double *distance,
-                                   sunder_error *err)
-{
-    const sunder_i_model *model = &s->model;
-    sunder_status status;
-    *distance = -1;
-    if (overlapped(s, a, b)) return SUNDER_OK;
-    if (sunder_i_is_barrier(model, b)) {
-        const sunder_i_translate home = sunder_i_at_home(model, a);
-        sunder_i_barrier_stance stance;
-        status = sunder_i_barrier_stand(model, &home, b, &stance, err);
-        *distance = stance.overlap ? -1 : stance.distance;
-    } else {
-        double on_a[2], on_b[2];
-        const sunder_feature *feature = model->layer->feature;
-        status = sunder_pair_distance(feature[a].shape, feature[b].shape, distance, on_a, on_b, err);
-    }
-    *distance *= 1 - 0x1p-50;
-    return status;
-}
-
 /* before: the list so far, [n]. */
 static sunder_status list_pair(sunder_i_solver *s, const sunder_i_relation *r, const sunder_i_waiver *before, size_t n,
                                sunder_error *err)
@@ -98,15 +67,15 @@ static sunder_status list_pair(sunder_i_solver *s, const sunder_i_relation *r, c
         last->overlap = last->overlap || r->overlap;
         return SUNDER_OK;
     }
-    double distance = -1;
+    sunder_i_requirement held = {.clearance = -INFINITY};
     sunder_status status = SUNDER_OK;
     const sunder_i_waiver key = {.a = a, .b = b},
                           *known = n ? bsearch(&key, before, n, sizeof key, sunder_i_by_id_pair) : NULL;
     if (known)
-        distance = known->distance;
+        held.clearance = known->stood;
     else if (sunder_i_is_conflict_of_bodies(&s->model, r))
-        status = find_distance(s, a, b, &distance, err);
-    if (!status) groups->waived[groups->waived_n++] = (sunder_i_waiver){a, b, distance, r->overlap};
+        status = sunder_i_requirement_find(&s->model, &s->start, a, b, &held, err);
+    if (!status) groups->waived[groups->waived_n++] = (sunder_i_waiver){a, b, held.clearance, r->overlap};
     return status;
 }
 

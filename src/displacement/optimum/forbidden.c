@@ -2,9 +2,11 @@
  *
  * Where convex pieces A and B of two bodies owe each other the distance g, the relative move u may not be in the open
  * set (A + (-B)) grown by the disc of radius g. So of two bodies the forbidden set is a union of such pieces, arcs and
- * all. Of pairs that are listed in the report it is asked that they stand no nearer than they stood, and nothing where
- * they overlapped; nothing of those of which one lies in the other, or could get there, with leave to overlap it:
- * leaving them out makes the set smaller, and a bound no more than weaker.
+ * all. Of pairs that are listed in the report it is asked that they stand no nearer than they stood; if they overlap
+ * still, as they did, that some translation no longer than the one that parted them leaves them disjoint: u may not be
+ * where the disc of that radius about it lies in the union of the pair's open pieces, as it does where it lies in one.
+ * Nothing is asked of those of which one lies in the other, or could get there, with leave to overlap it: leaving them
+ * out makes the set smaller, and a bound no more than weaker.
  * Courtyards are no matter: the pieces of a feature fill it, and nothing else. Shadows of what anchors may not pass,
  * and of the lines that side anchors may not cross, are further pieces, and nobody is let off them.
  *
@@ -25,6 +27,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 void sunder_i_forbidden_free(sunder_i_forbidden *f)
 {
@@ -56,7 +59,7 @@ const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sun
 static bool owe(const listing *l, uint32_t f, uint32_t g, const sunder_i_waiver **waiver)
 {
     *waiver = sunder_i_waiver_of(l->model, l->waived, f, g);
-    if (*waiver && (*waiver)->distance < 0) return false;
+    if (*waiver && sunder_i_waiver_clearance(*waiver) == -INFINITY) return false;
     if (sunder_i_is_barrier(l->model, f) || sunder_i_is_barrier(l->model, g)) return true;
     return !sunder_i_may_get_inside(&l->model->rules, l->model->box + 4 * (size_t)f, l->model->box + 4 * (size_t)g,
                                     nextafter(l->reach, INFINITY));
@@ -89,7 +92,7 @@ static bool begin_piece(listing *l, const sunder_i_body_piece *a, const sunder_i
     *n = sunder_i_obstacle_corners(corner + 2 * (size_t)a->corner, a->corners, corner + 2 * (size_t)b->corner,
                                    b->corners, l->offset, &l->scratch);
     if (*n == 0) return false;
-    *piece = (sunder_i_forbidden_piece){.edge = (uint32_t)f->edges, .a = a, .b = b};
+    *piece = (sunder_i_forbidden_piece){.edge = (uint32_t)f->edges, .a = a, .b = b, .clearance = NAN};
     piece->edges = (uint32_t)sunder_i_obstacle_edges(l->scratch.xy, *n, f->edge + f->edges);
     piece->vague = 0x1p-50 * (size_of(l, l->p, a) + size_of(l, l->q, b) + fabs(l->offset[0]) + fabs(l->offset[1]));
     return true;
@@ -106,6 +109,68 @@ static void keep_piece(sunder_i_forbidden *f, sunder_i_forbidden_piece *piece, c
     f->piece[f->pieces++] = *piece;
 }
 
+/* The edges of the polygon xy instead of those that the piece has. False if memory is out. */
+static bool set_edges(sunder_i_forbidden *f, sunder_i_forbidden_piece *piece, const double *xy, size_t n)
+{
+    if (!sunder_i_reserve(&f->edge, &f->edge_capacity, f->edges + n, sizeof *f->edge)) return false;
+    piece->edges = (uint32_t)sunder_i_obstacle_edges(xy, n, f->edge + f->edges);
+    return true;
+}
+
+/* What of the convex polygon has no edge nearer than that, by clipping; returns how many corners, to *out. */
+static size_t move_inwards(const sunder_i_obstacle_edge *edge, size_t edges, double depth, double **in, double **out,
+                           size_t n)
+{
+    for (size_t e = 0; e < edges; e++) {
+        const double *p = *in, *from = edge[e].from, *normal = edge[e].n;
+        size_t kept = 0;
+        for (size_t k = 0; k < n; k++) {
+            const double *a = p + 2 * k, *b = p + 2 * (k + 1 < n ? k + 1 : 0);
+            const double s = normal[0] * (a[0] - from[0]) + normal[1] * (a[1] - from[1]) + depth,
+                         t = normal[0] * (b[0] - from[0]) + normal[1] * (b[1] - from[1]) + depth;
+            if (s <= 0) memcpy(*out + 2 * kept++, a, 2 * sizeof *a);
+            if ((s <= 0) == (t <= 0)) continue;
+            const double share = s / (s - t);
+            for (size_t c = 0; c < 2; c++) (*out)[2 * kept + c] = a[c] + share * (b[c] - a[c]);
+            kept++;
+        }
+        double *swap = *in;
+        *in = *out;
+        *out = swap;
+        n = kept;
+    }
+    return n;
+}
+
+/* All u about which the disc of that radius lies in the piece, whose corners are xy: K moved inwards by as much, and by
+ * all that its corners may be off. For each corner of what is kept it is asked whether the disc about it is in K, with
+ * room for rounding: by the cancellation law its like is in the true piece then, and what is kept is not vague. */
+static bool add_eroded(listing *l, sunder_i_forbidden_piece *piece, const double *xy, size_t n, double depth)
+{
+    sunder_i_forbidden *f = l->out;
+    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
+    double size = depth;
+    for (size_t k = 0; k < 2 * n; k++) size = fmax(size, fabs(xy[k]));
+    const double least = depth * (1 + 0x1p-50) + piece->vague + 0x1p-48 * size;
+    if (!sunder_i_reserve(&l->drawn, &l->drawn_capacity, 4 * n, sizeof *l->drawn) ||
+        !sunder_i_reserve(&l->hull, &l->hull_capacity, 4 * n, sizeof *l->hull))
+        return false;
+    memcpy(l->drawn, xy, 2 * n * sizeof *xy);
+    double *corner = l->drawn, *scratch = l->hull;
+    const size_t corners = move_inwards(edge, piece->edges, least + 0x1p-48 * size, &corner, &scratch, n);
+    for (size_t k = 0; k < corners; k++)
+        for (uint32_t e = 0; e < piece->edges; e++)
+            if (edge[e].n[0] * (corner[2 * k] - edge[e].from[0]) +
+                    edge[e].n[1] * (corner[2 * k + 1] - edge[e].from[1]) >
+                -least)
+                return true;
+    if (corners < 3) return true;
+    if (!set_edges(f, piece, corner, corners)) return false;
+    piece->vague = 0;
+    keep_piece(f, piece, corner, corners);
+    return true;
+}
+
 static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
                       const sunder_i_waiver *waiver)
 {
@@ -113,8 +178,11 @@ static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_b
     size_t n;
     if (!begin_piece(l, a, b, &piece, &n)) return false;
     piece.radius = sunder_i_owed_below(l->model, a->feature, b->feature);
-    piece.waived = waiver != NULL;
-    if (waiver) piece.radius = fmin(piece.radius, waiver->distance);
+    if (waiver) {
+        piece.radius = fmin(piece.radius, fmax(0, sunder_i_waiver_clearance(waiver)));
+        piece.clearance = fmin(piece.radius, sunder_i_waiver_clearance(waiver));
+    }
+    if (piece.clearance < 0) return add_eroded(l, &piece, l->scratch.xy, n, -piece.clearance);
     keep_piece(l->out, &piece, l->scratch.xy, n);
     return true;
 }
@@ -163,8 +231,7 @@ static bool add_shadow(listing *l, const sunder_i_body_piece *a, const sunder_i_
     }
     if (!sunder_i_reserve(&l->hull, &l->hull_capacity, 4 * n + 2, sizeof *l->hull)) return false;
     const size_t corners = sunder_i_convex_hull(xy, 2 * n, l->hull);
-    if (!sunder_i_reserve(&f->edge, &f->edge_capacity, f->edges + corners, sizeof *f->edge)) return false;
-    piece.edges = (uint32_t)sunder_i_obstacle_edges(l->hull, corners, f->edge + f->edges);
+    if (!set_edges(f, &piece, l->hull, corners)) return false;
     piece.vague = 2 * far * off;
     piece.shadow = true;
     keep_piece(f, &piece, l->hull, corners);

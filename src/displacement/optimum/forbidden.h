@@ -2,7 +2,7 @@
 #ifndef SUNDER_I_FORBIDDEN_H
 #define SUNDER_I_FORBIDDEN_H
 
-#include "displacement/layer/model.h"
+#include "displacement/layer/requirement.h"
 #include "displacement/obstacles/obstacle.h"
 #include "spatial/box_tree.h"
 
@@ -11,7 +11,8 @@
 typedef struct sunder_i_forbidden_piece {
     uint32_t edge, edges;             /* of K, in sunder_i_forbidden.edge */
     const sunder_i_body_piece *a, *b; /* what it is made of: a piece of each body; of a shadow one is an anchor */
-    bool shadow, waived;              /* waived: its radius is less than what is owed */
+    bool shadow;
+    double clearance; /* NAN: all that is owed; else what its pair is held to instead (layer/requirement.h) */
     double radius, vague;
     double box[4]; /* of K grown */
 } sunder_i_forbidden_piece;
@@ -27,12 +28,19 @@ typedef struct sunder_i_forbidden {
 } sunder_i_forbidden;
 
 /* A pair that is listed in the report: things a < b, a barrier by its first part, for a pair with it is one, whichever
- * part is near. What it owes is not asked of it, but to stand no nearer than it stood. */
+ * part is near. What it owes is not asked of it, but to stand no worse than it stood, and to remain disjoint if it is.
+ */
 typedef struct sunder_i_waiver {
     uint32_t a, b;
-    double distance; /* at the start, rounded downwards; negative: nothing is asked */
-    bool overlap;    /* as things stand */
+    double stood; /* at the start: a clearance, as of layer/requirement.h */
+    bool overlap; /* as things stand */
 } sunder_i_waiver;
+
+/* What the pair is held to. */
+static inline double sunder_i_waiver_clearance(const sunder_i_waiver *waiver)
+{
+    return waiver->stood < 0 && !waiver->overlap ? 0 : waiver->stood;
+}
 
 typedef struct sunder_i_waived {
     const sunder_i_waiver *pair; /* sorted */

@@ -100,7 +100,7 @@ static bool name(recording *r, uint32_t pair, uint32_t piece, size_t *number)
         sunder_bound_piece *to = &r->piece[out->pieces];
         *to = (sunder_bound_piece){
             .i = p->i, .j = p->j, .a = from->a->feature, .b = from->b->feature, .shadow = from->shadow};
-        to->clearance = from->waived ? from->radius : NAN;
+        to->clearance = from->clearance;
         if (!add_part(r, from->a, &to->part_a, &to->corners_a) || !add_part(r, from->b, &to->part_b, &to->corners_b))
             return false;
         *as = out->pieces++;

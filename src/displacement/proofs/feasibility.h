@@ -2,21 +2,13 @@
 #ifndef SUNDER_I_FEASIBILITY_H
 #define SUNDER_I_FEASIBILITY_H
 
-#include "displacement/layer/model.h"
+#include "displacement/layer/requirement.h"
 
 typedef enum sunder_i_verdict {
     SUNDER_I_UNKNOWN,    /* the effort ran out, or a limit is infinite */
     SUNDER_I_INFEASIBLE, /* proved: no moves within the limits give every pair what it is owed */
     SUNDER_I_FEASIBLE    /* the solution does, up to a hair; what it did not meet is not heeded */
 } sunder_i_verdict;
-
-/* Two things, a < b, that need not be parted (of a barrier the first part stands for all), and what they are held to: a
- * clearance as of ways.h; -INFINITY: to nothing. */
-typedef struct sunder_i_requirement {
-    uint32_t a, b;
-    double clearance;
-    double shift[2]; /* where that is negative: a translation of b, about as long, that parted them */
-} sunder_i_requirement;
 
 typedef struct sunder_i_subproblem {
     const sunder_i_model *model;

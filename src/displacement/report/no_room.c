@@ -4,14 +4,12 @@
  * being held no worse than it stood. Each is asked about by itself (proofs/feasibility.c). A proof is then made
  * irreducible: without one feature after another, what cannot be proved any more needs it, and so does every part of
  * it; as far as the effort goes. */
-#include "displacement/layer/barrier_pairs.h"
 #include "displacement/proofs/feasibility.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
 #include "base/parallel.h"
 #include "base/union_find.h"
-#include "separation/separation.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -26,92 +24,14 @@ typedef struct requiring {
     sunder_i_requirement *required;
 } requiring;
 
-/* A length just below the distance of two that stand disjoint. What is known of it in doubles is near, and may be
- * above: it is asked exactly, and lengths farther below where need be. */
-static sunder_status below_distance(const sunder_feature *a, const sunder_feature *b, double near, double *below,
-                                    sunder_error *err)
-{
-    const double none[2] = {0, 0};
-    *below = 0;
-    for (int bits = FIRST_BITS; near > 0 && bits > LAST_BITS; bits -= BITS_A_STEP) {
-        bool apart;
-        const double length = near * (1 - ldexp(1, -bits));
-        const sunder_status status = sunder_i_apart(a->shape, none, b->shape, none, length, &apart, err);
-        if (status) return status;
-        if (!apart) continue;
-        *below = length;
-        return SUNDER_OK;
-    }
-    return SUNDER_OK;
-}
-
-/* What is demanded of a feature and a barrier; see below. */
-static sunder_status find_barrier_requirement(const sunder_i_model *model, const sunder_conflict *c,
-                                              sunder_i_requirement *required, sunder_error *err)
-{
-    double *clearance = &required->clearance;
-    const sunder_i_translate home = sunder_i_at_home(model, (uint32_t)c->a);
-    sunder_i_barrier_stance stance;
-    bool inside;
-    *clearance = -INFINITY;
-    sunder_status status = sunder_i_barrier_holds(model, &home, (uint32_t)c->b, &inside, err);
-    if (status || inside) return status;
-    status = sunder_i_barrier_stand(model, &home, (uint32_t)c->b, &stance, err);
-    if (status) return status;
-    if (stance.overlap) {
-        *clearance = -nextafter(stance.least.distance, INFINITY);
-        required->shift[0] = -stance.least.dx;
-        required->shift[1] = -stance.least.dy;
-        return SUNDER_OK;
-    }
-    *clearance = 0;
-    for (int bits = FIRST_BITS; stance.distance > 0 && bits > LAST_BITS; bits -= BITS_A_STEP) {
-        bool apart;
-        const double length = stance.distance * (1 - ldexp(1, -bits));
-        status = sunder_i_barrier_apart(model, &home, (uint32_t)c->b, length, &apart, err);
-        if (status) return status;
-        if (!apart) continue;
-        *clearance = fmin(length, sunder_i_owed_below(model, (uint32_t)c->a, (uint32_t)c->b));
-        break;
-    }
-    return SUNDER_OK;
-}
-
-/* Disjoint, it may come no nearer than it was; meeting, its depth may not grow: the double nearest to that length is
- * taken one step up. What lies in another may stay there. */
-static sunder_status find_requirement(const sunder_i_solver *s, const sunder_conflict *c,
-                                      sunder_i_requirement *required, sunder_error *err)
-{
-    double *clearance = &required->clearance;
-    const sunder_i_model *model = &s->model;
-    const sunder_i_relation *start = sunder_i_relations_find(&s->start, (uint32_t)c->a, (uint32_t)c->b);
-    *clearance = -INFINITY;
-    if (start && start->contained) return SUNDER_OK;
-    const sunder_feature *feature = model->layer->feature;
-    if (sunder_i_is_barrier(model, (uint32_t)c->b)) return find_barrier_requirement(model, c, required, err);
-    if (!start || !start->overlap) {
-        const sunder_status status = below_distance(&feature[c->a], &feature[c->b], c->before, clearance, err);
-        *clearance = fmin(model->rules.gap, *clearance);
-        return status;
-    }
-    const double none[2] = {0, 0};
-    sunder_separation least;
-    bool beyond;
-    const sunder_status status =
-        sunder_i_separate(feature[c->a].shape, none, feature[c->b].shape, none, 0, INFINITY, &least, &beyond, err);
-    if (status) return status;
-    *clearance = -nextafter(least.distance, INFINITY);
-    sunder_separation_clear(&least);
-    return SUNDER_OK;
-}
-
 static sunder_status find_some_requirements(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const requiring *g = context;
     for (size_t k = begin; k < end; k++) {
         const sunder_conflict *c = &g->report->conflict[g->listed[k]];
-        g->required[k] = (sunder_i_requirement){.a = (uint32_t)c->a, .b = (uint32_t)c->b};
-        const sunder_status status = find_requirement(g->solver, c, &g->required[k], err);
+        const sunder_i_solver *s = g->solver;
+        const sunder_status status =
+            sunder_i_requirement_find(&s->model, &s->start, (uint32_t)c->a, (uint32_t)c->b, &g->required[k], err);
         if (status) return status;
     }
     return SUNDER_OK;

@@ -2,8 +2,8 @@
  *
  * No layout costs less than the sum over disjoint sets of bodies of what each cannot do without. A group's bound owes
  * what all pairs of its bodies owe that were not listed when it was proved, and of those that were that they stand no
- * nearer than they stood: so it counts if no other pair of them is listed now, and if no body of it that may move was
- * counted with another group. */
+ * worse than they stood, and remain disjoint if they were: so it counts if no other pair of them is listed now, none of
+ * them overlaps that did not, and no body of it that may move was counted with another group. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
@@ -23,15 +23,17 @@ static bool claim(const sunder_i_model *model, const sunder_i_group *g, uint32_t
     return own;
 }
 
-/* Groups of whose pairs one is listed that was not when they were proved: their bound is for nothing. listed: [bodies]
- * scratch, by the numbers of groups. */
+/* Groups of whose pairs one is listed that was not when they were proved, or overlaps and did not then: their bound is
+ * for nothing. listed: [bodies] scratch, by the numbers of groups. */
 static void void_bounds(sunder_i_solver *s, const uint32_t *owner, bool *listed)
 {
     sunder_i_groups *groups = &s->groups;
     const sunder_i_waived waived = {groups->waived, groups->waived_n};
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
-        if (!sunder_i_is_conflict(r) || sunder_i_waiver_of(&s->model, &waived, r->a, r->b)) continue;
+        if (!sunder_i_is_conflict(r)) continue;
+        const sunder_i_waiver *waiver = sunder_i_waiver_of(&s->model, &waived, r->a, r->b);
+        if (waiver && (waiver->overlap || !r->overlap)) continue;
         for (int e = 0; e < 2; e++) {
             const uint32_t number = owner[s->model.body_of[e ? r->b : r->a]];
             if (number != SUNDER_I_NOBODY) listed[number] = true;

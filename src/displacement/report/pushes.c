@@ -7,7 +7,7 @@
  *
  *   several pieces of one pair    one push, the sum of theirs (renumber.c)
  *   a feature at its limit        the limit pushes too, and is nobody's pair
- *   a pair left in conflict       is held to the distance that it had; one that overlapped is asked for nothing */
+ *   a pair left in conflict       is held to the distance, or to the depth, that it had */
 #include "displacement/optimum/contact.h"
 #include "displacement/programs/quadratic.h"
 #include "displacement/report/report.h"

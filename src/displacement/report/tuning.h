@@ -24,10 +24,6 @@
 /* Making a proof irreducible takes no more than this many times what finding it was allowed, or a little. */
 #define REDUCING 4
 #define LITTLE_EFFORT 1000000u
-/* A length below a distance is taken 2^-51 of it below, and 2^8 times as far at each failure, down to 2^-10. */
-#define FIRST_BITS 51
-#define BITS_A_STEP 8
-#define LAST_BITS 10
 
 /* ---- A pair by itself (alone.c) ---------------------------------------------------------------------------------- */
 

@@ -1,0 +1,90 @@
+/* How a pair stood at the start, as what it may be held to: never more than it had.
+ *
+ * A distance is known as a double that is near, and may be above: lengths just below are asked exactly. The length of a
+ * least translation is the nearest double: one step up is no less. What lies in another may go deeper, so that a depth
+ * would be more than the rule asks (clusters/uphold.c). */
+#include "displacement/layer/requirement.h"
+#include "displacement/layer/barrier_pairs.h"
+
+#include "separation/separation.h"
+
+#include <math.h>
+
+/* A length below a distance is taken 2^-51 of it below, and 2^8 times as far at each failure, down to 2^-10. */
+#define FIRST_BITS 51
+#define BITS_A_STEP 8
+#define LAST_BITS 10
+
+/* Are the two, which stand disjoint, at least that far apart? */
+static sunder_status are_apart(const sunder_i_model *model, uint32_t a, uint32_t b, double length, bool *apart,
+                               sunder_error *err)
+{
+    const double none[2] = {0, 0};
+    const sunder_feature *feature = model->layer->feature;
+    if (!sunder_i_is_barrier(model, b))
+        return sunder_i_apart(feature[a].shape, none, feature[b].shape, none, length, apart, err);
+    const sunder_i_translate home = sunder_i_at_home(model, a);
+    return sunder_i_barrier_apart(model, &home, b, length, apart, err);
+}
+
+/* A length just below the distance, which is near to that, and no more than is owed. */
+static sunder_status below_distance(const sunder_i_model *model, double near, sunder_i_requirement *out,
+                                    sunder_error *err)
+{
+    out->clearance = 0;
+    for (int bits = FIRST_BITS; near > 0 && bits > LAST_BITS; bits -= BITS_A_STEP) {
+        bool apart;
+        const double length = near * (1 - ldexp(1, -bits));
+        const sunder_status status = are_apart(model, out->a, out->b, length, &apart, err);
+        if (status) return status;
+        if (!apart) continue;
+        out->clearance = fmin(length, sunder_i_owed_below(model, out->a, out->b));
+        break;
+    }
+    return SUNDER_OK;
+}
+
+static sunder_status of_barrier(const sunder_i_model *model, sunder_i_requirement *out, sunder_error *err)
+{
+    const sunder_i_translate home = sunder_i_at_home(model, out->a);
+    sunder_i_barrier_stance stance;
+    bool inside;
+    sunder_status status = sunder_i_barrier_holds(model, &home, out->b, &inside, err);
+    if (status || inside) return status;
+    status = sunder_i_barrier_stand(model, &home, out->b, &stance, err);
+    if (status || !stance.overlap) return status ? status : below_distance(model, stance.distance, out, err);
+    out->clearance = -nextafter(stance.least.distance, INFINITY);
+    out->shift[0] = -stance.least.dx;
+    out->shift[1] = -stance.least.dy;
+    return SUNDER_OK;
+}
+
+static sunder_status of_features(const sunder_i_model *model, sunder_i_requirement *out, sunder_error *err)
+{
+    const double none[2] = {0, 0};
+    const sunder_shape *a = model->layer->feature[out->a].shape, *b = model->layer->feature[out->b].shape;
+    bool overlap, beyond;
+    sunder_status status = sunder_i_overlap(a, none, b, none, &overlap, err);
+    if (!status && !overlap) {
+        double distance, on_a[2], on_b[2];
+        status = sunder_pair_distance(a, b, &distance, on_a, on_b, err);
+        return status ? status : below_distance(model, distance, out, err);
+    }
+    sunder_separation least;
+    if (!status) status = sunder_i_separate(a, none, b, none, 0, INFINITY, &least, &beyond, err);
+    if (status) return status;
+    out->clearance = -nextafter(least.distance, INFINITY);
+    out->shift[0] = least.dx;
+    out->shift[1] = least.dy;
+    sunder_separation_clear(&least);
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_requirement_find(const sunder_i_model *model, const sunder_i_relations *start, uint32_t a,
+                                        uint32_t b, sunder_i_requirement *out, sunder_error *err)
+{
+    *out = (sunder_i_requirement){.a = a, .b = b, .clearance = -INFINITY};
+    if (sunder_i_is_barrier(model, b)) return of_barrier(model, out, err);
+    const sunder_i_relation *stood = sunder_i_relations_find(start, a, b);
+    return stood && stood->contained ? SUNDER_OK : of_features(model, out, err);
+}

@@ -1,0 +1,23 @@
+/* What a pair that is left in conflict is held to; see requirement.c. */
+#ifndef SUNDER_I_REQUIREMENT_H
+#define SUNDER_I_REQUIREMENT_H
+
+#include "displacement/layer/model.h"
+
+/* Two things, a < b, that need not be parted (of a barrier the first part stands for all), and what they are held to
+ * instead, no better than they stood at the start:
+ *
+ *   clearance >= 0          disjoint interiors, and a distance of no less than that
+ *   -INFINITY < it < 0      some translation no longer than -clearance leaves them disjoint interiors
+ *   -INFINITY               nothing: the one lay in the other, and may lie anywhere in it */
+typedef struct sunder_i_requirement {
+    uint32_t a, b;
+    double clearance;
+    double shift[2]; /* where that is negative: a translation of b, about as long, that parted them */
+} sunder_i_requirement;
+
+/* a: a feature; b: a feature, or any part of a barrier. start: how the layer's pairs stood. */
+sunder_status sunder_i_requirement_find(const sunder_i_model *model, const sunder_i_relations *start, uint32_t a,
+                                        uint32_t b, sunder_i_requirement *out, sunder_error *err);
+
+#endif
