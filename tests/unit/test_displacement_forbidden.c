@@ -212,9 +212,35 @@ static void test_across_narrow_overlaps(void **state)
     }
 }
 
+/* Two pieces that overlap in a strip alone, ever narrower, and a region across it that no side of is parallel to it. */
+static void test_cover_by_a_strip(void **state)
+{
+    (void)state;
+    static set s;
+    const double home[2] = {0, 0}, turn[2] = {0.6, 0.8}, back[2] = {-0.6, -0.8};
+    for (int bits = 2; bits <= 24; bits++)
+        for (int grown = 0; grown < 2; grown++) {
+            const double half = ldexp(1, -bits), radius = grown ? 1.5 : 0;
+            memset(&s, 0, sizeof s);
+            s.forbidden = (sunder_i_forbidden){.piece = s.piece, .edge = s.edge};
+            add(&s, (double[4]){-40, -40, half - radius, 40}, radius);
+            add(&s, (double[4]){-half, -40, 40, 40}, 0);
+            assert_true(sunder_i_forbidden_index(&s.forbidden));
+            sunder_i_region region;
+            double gap[2];
+            uint64_t steps = 0;
+            sunder_i_region_init(&region, home, 20);
+            sunder_i_region_clip(&region, turn, -9, 0, s.forbidden.grain);
+            sunder_i_region_clip(&region, back, -7, 0, s.forbidden.grain);
+            assert_true(sunder_i_region_is_covered(&region, &s.forbidden, NULL, gap, &steps));
+            sunder_i_free(s.forbidden.tree.box);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_few_and_many), cmocka_unit_test(test_down_into_a_notch),
-                                       cmocka_unit_test(test_across_narrow_overlaps)};
+                                       cmocka_unit_test(test_across_narrow_overlaps),
+                                       cmocka_unit_test(test_cover_by_a_strip)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -114,7 +114,9 @@
 
 /* ---- Proofs that a region is covered (covered.c) ----------------------------------------------------------------- */
 
-/* How often a region is halved; how many looks all that may take: a proof that is not found is asked for again and
+/* A piece is left on a line that is this share of the way to the middle within it. */
+#define LEAVING_ROOM 0x1p-10
+/* How often a region is divided; how many looks all that may take: a proof that is not found is asked for again and
  * again, and its branch never closes. */
 #define COVER_DEPTH 60
 #define COVER_STEPS 200000u
