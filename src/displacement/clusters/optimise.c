@@ -168,19 +168,27 @@ static bool is_exact(const sunder_i_model *model, const sunder_i_group *g)
     return true;
 }
 
-/* Takes back what the group found. */
-static bool put_back(taking *t, uint32_t k)
+static bool takes_part(const sunder_i_group *g, uint32_t body)
+{
+    for (size_t m = 0; m < g->n; m++)
+        if (g->body[m] == body) return true;
+    return false;
+}
+
+/* Takes back what the group found. known: it ran into nobody but its own. */
+static bool put_back(taking *t, uint32_t k, bool known)
 {
     sunder_i_solver *s = t->solver;
     sunder_i_group *g = k == SUNDER_I_NOBODY ? NULL : &s->groups.group[k];
     if (!g || !g->improved) return false;
     g->improved = g->done = false;
     place(t, k, true);
-    /* What rounding ate into is looked for again with a wider margin; a place without room is looked for no more. */
+    /* What rounding ate into is looked for again with a wider margin; a place without room is looked for no more,
+     * unless it was somebody else who stood in it. */
     for (size_t m = 0; m < g->n; m++) {
         const uint32_t b = g->body[m];
         memcpy(g->move + 2 * m, t->before + 2 * (size_t)b, 2 * sizeof *g->move);
-        if (g->tight)
+        if (g->tight && known)
             s->groups.blunt[b] = true;
         else if (s->widened[b] < MOST_MARGINS_AGAIN)
             s->widened[b]++;
@@ -194,12 +202,12 @@ static bool put_back(taking *t, uint32_t k)
  * other the first one stays, if it can: they are looked at again, together. */
 static void part(taking *t, uint32_t a, uint32_t b, bool *any)
 {
-    const uint32_t i = t->by[t->solver->model.body_of[a]], j = t->by[t->solver->model.body_of[b]];
+    const uint32_t p = t->solver->model.body_of[a], q = t->solver->model.body_of[b], i = t->by[p], j = t->by[q];
     const sunder_i_group *group = t->solver->groups.group;
     if (i == SUNDER_I_NOBODY && j == SUNDER_I_NOBODY) return;
     const bool both = i != j && i != SUNDER_I_NOBODY && j != SUNDER_I_NOBODY && group[i].improved && group[j].improved;
-    if (!both || i > j) *any = put_back(t, i) || *any;
-    if (!both || j > i) *any = put_back(t, j) || *any;
+    if (!both || i > j) *any = put_back(t, i, i != SUNDER_I_NOBODY && takes_part(&group[i], q)) || *any;
+    if (!both || j > i) *any = put_back(t, j, j != SUNDER_I_NOBODY && takes_part(&group[j], p)) || *any;
 }
 
 static bool has_moved(const taking *t, uint32_t thing)
@@ -277,7 +285,7 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
         for (size_t k = 0; k < s->groups.n; k++) {
             if (!s->groups.group[k].improved) continue;
             place(&t, k, false);
-            if (!is_exact(&s->model, &s->groups.group[k])) put_back(&t, (uint32_t)k);
+            if (!is_exact(&s->model, &s->groups.group[k])) put_back(&t, (uint32_t)k, true);
             again = true;
         }
     }

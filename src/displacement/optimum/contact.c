@@ -17,10 +17,11 @@ double sunder_i_contact_hair(const sunder_i_model *model, const sunder_i_body *p
     return CONTACT * fmin(length, q->box[2] - q->box[0] + q->box[3] - q->box[1]);
 }
 
-static bool add(sunder_i_contact_list *out, const sunder_i_forbidden_piece *piece, const double n[2], double d)
+static bool add(sunder_i_contact_list *out, const sunder_i_forbidden_piece *piece, const double n[2], double d,
+                double off)
 {
     if (!sunder_i_reserve(&out->item, &out->capacity, out->n + 1, sizeof *out->item)) return false;
-    out->item[out->n++] = (sunder_i_contact){{n[0], n[1]}, d, piece->a->feature, piece->b->feature};
+    out->item[out->n++] = (sunder_i_contact){{n[0], n[1]}, d, off, piece->a->feature, piece->b->feature};
     return true;
 }
 
@@ -36,8 +37,9 @@ bool sunder_i_contacts_of_pair(const sunder_i_model *model, const sunder_i_waive
         const sunder_i_forbidden_piece *piece = &f.piece[k];
         double n[2];
         if (!sunder_i_box_near_point(piece->box, u[0], u[1], hair)) continue;
-        if (!(fabs(sunder_i_forbidden_normal(&f, piece, u, n) - piece->radius) <= hair)) continue;
-        ok = add(out, piece, n, n[0] * u[0] + n[1] * u[1]);
+        const double off = piece->radius - sunder_i_forbidden_normal(&f, piece, u, n);
+        if (!(fabs(off) <= hair)) continue;
+        ok = add(out, piece, n, n[0] * u[0] + n[1] * u[1], off);
     }
     if (edges) *edges += f.edges;
     sunder_i_forbidden_free(&f);

@@ -4,9 +4,10 @@
 
 #include "displacement/optimum/forbidden.h"
 
-/* A piece of a pair that its relative move u is on the boundary of: n.u >= d keeps it. */
+/* A piece of a pair that its relative move u is on the boundary of, up to a hair: n.u >= d keeps it where it is, and
+ * with d + off it is off the piece. */
 typedef struct sunder_i_contact {
-    double n[2], d;
+    double n[2], d, off;
     size_t a, b; /* the things that touch */
 } sunder_i_contact;
 

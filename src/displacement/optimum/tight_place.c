@@ -113,7 +113,7 @@ static double place_of(const fitting *f, size_t k) { return f->base[f->row[k]] +
 static void draw_away(fitting *f, const meeting *m)
 {
     const double *n = m->contact.n;
-    double missing = m->contact.d + f->margin, pull = 0, sign[4];
+    double missing = m->contact.d + m->contact.off + f->margin, pull = 0, sign[4];
     uint32_t row[4];
     for (size_t c = 0; c < 2; c++) {
         missing -= n[c] * (place_of(f, 2 * m->j + c) - place_of(f, 2 * m->i + c));
@@ -127,6 +127,23 @@ static void draw_away(fitting *f, const meeting *m)
     if (missing <= 0 || !(pull > TIGHT_PULL)) return;
     for (size_t k = 0; k < 4; k++)
         if (sign[k] != 0) f->base[row[k]] += missing / pull * sign[k];
+}
+
+/* Brings a body back within its limit, by the rows that may move. Where one coordinate uses all of the limit up, what
+ * is left of the other is 0, however little it missed the limit by: a share e of that is sqrt(2 e) of it. */
+static void draw_within(fitting *f, size_t k)
+{
+    const double limit = sunder_i_limit_of(&f->model->body[f->body[k]]),
+                 t[2] = {place_of(f, 2 * k), place_of(f, 2 * k + 1)};
+    const bool free[2] = {f->row[2 * k] != HOME, f->row[2 * k + 1] != HOME};
+    if (sunder_i_is_within_limit(t, limit)) return;
+    const double length = hypot(t[0], t[1]) * (1 + 0x1p-50);
+    for (int c = 0; c < 2; c++) {
+        if (!free[c]) continue;
+        const double other = t[1 - c], most = sqrt(fmax(0, (limit - other) * (limit + other))) * (1 - 0x1p-50),
+                     to = free[1 - c] ? t[c] * (limit / length) : fmax(-most, fmin(most, t[c]));
+        f->base[f->row[2 * k + (size_t)c]] += to - t[c];
+    }
 }
 
 static bool find_meetings(fitting *f, size_t i, size_t j)
@@ -146,8 +163,11 @@ static bool draw_apart(fitting *f)
     for (size_t i = 0; i < f->n; i++)
         for (size_t j = i + 1; j < f->n; j++)
             if (!sunder_i_step() || !find_meetings(f, i, j)) return false;
-    for (int turn = 0; turn < TIGHT_TURNS; turn++)
+    for (int turn = 0; turn < TIGHT_TURNS; turn++) {
         for (size_t k = 0; k < f->meetings; k++) draw_away(f, &f->meeting[k]);
+        for (size_t k = 0; k < f->n; k++)
+            if (!f->model->body[f->body[k]].fixed) draw_within(f, k);
+    }
     return true;
 }
 
