@@ -132,6 +132,28 @@ static size_t check_cover(rng *r, const set *s, sunder_i_reflex *reflex)
     return covered;
 }
 
+/* What is kept of a region's sides is what is found of them afresh; asked for again it takes no steps; all is free. */
+static void check_sides(rng *r, const set *s)
+{
+    sunder_i_free_sides kept = {0};
+    for (int k = 0; k < 20; k++) {
+        const double centre[2] = {(double)rng_int(r, -160, 160) / 4, (double)rng_int(r, -160, 160) / 4};
+        sunder_i_free_sides fresh = {0};
+        sunder_i_region region;
+        uint64_t steps = 0;
+        sunder_i_region_init(&region, centre, (double)rng_int(r, 1, 80) / 4);
+        assert_true(sunder_i_free_sides_find(&kept, &region, &s->forbidden, &steps));
+        steps = 0;
+        assert_true(sunder_i_free_sides_find(&kept, &region, &s->forbidden, &steps) && steps == 0);
+        assert_true(sunder_i_free_sides_find(&fresh, &region, &s->forbidden, &steps) && steps > 0);
+        assert_int_equal(kept.n, fresh.n);
+        if (kept.n) assert_memory_equal(kept.place, fresh.place, kept.n * sizeof *kept.place);
+        for (size_t m = 0; m < kept.n; m++) assert_true(depth_of(s, kept.place[m][0], kept.place[m][1]) <= hair);
+        sunder_i_free(fresh.place);
+    }
+    sunder_i_free(kept.place);
+}
+
 static void check(size_t n, size_t i)
 {
     static set s;
@@ -143,6 +165,7 @@ static void check(size_t n, size_t i)
     assert_true(sunder_i_forbidden_is_many(&s.forbidden) == (n > MANY_PIECES));
     check_places(&r, &s);
     const size_t covered = check_cover(&r, &s, &reflex);
+    check_sides(&r, &s);
     if (n == MOST) assert_true(covered > 0);
     sunder_i_free(reflex.place);
     sunder_i_free(s.forbidden.tree.box);

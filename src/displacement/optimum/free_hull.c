@@ -10,6 +10,7 @@
 #include "base/watch.h"
 
 #include <math.h>
+#include <string.h>
 
 /* ---- Reflex corners ---------------------------------------------------------------------------------------------- */
 
@@ -284,19 +285,41 @@ static void nearest_of_hull(const gathering *g, const double u[2], double out[2]
     for (int c = 0; c < 2; c++) out[c] = u[c] + at[c];
 }
 
-bool sunder_i_free_hull_nearest(const sunder_i_region *r, const sunder_i_forbidden *f, const sunder_i_reflex *reflex,
-                                const double u[2], double place[2], uint64_t *steps)
+/* Is what is known of its sides as it would be found again? */
+static bool is_known(const sunder_i_free_sides *s, const sunder_i_region *r)
+{
+    return s->any && s->region.n == r->n && memcmp(s->region.xy, r->xy, 2 * r->n * sizeof *r->xy) == 0;
+}
+
+bool sunder_i_free_sides_find(sunder_i_free_sides *s, const sunder_i_region *r, const sunder_i_forbidden *f,
+                              uint64_t *steps)
 {
     double at[MOST_EXTREME][2];
     gathering g = {at, 0};
+    if (is_known(s, r)) return true;
     for (uint32_t k = 0; k < r->n; k++)
         if (sunder_i_forbidden_is_many(f))
             gather_ends(&g, r, k, f, steps);
         else
             gather_side(&g, r, k, f, steps);
-    *steps += reflex->n;
+    if (!sunder_i_reserve(&s->place, &s->capacity, g.n, sizeof *s->place)) return false;
+    if (g.n) memcpy(s->place, at, g.n * sizeof *at);
+    s->n = g.n;
+    s->region = *r;
+    s->any = true;
+    return true;
+}
+
+bool sunder_i_free_hull_nearest(const sunder_i_free_sides *sides, const sunder_i_forbidden *f,
+                                const sunder_i_reflex *reflex, const double u[2], double place[2], uint64_t *steps)
+{
+    double at[MOST_EXTREME][2];
+    gathering g = {at, sides->n};
+    if (sides->n) memcpy(at, sides->place, sides->n * sizeof *at);
+    *steps += sides->n + reflex->n;
     for (size_t k = 0; k < reflex->n; k++)
-        if (holds(r, reflex->place[k], FREE_HAIR * f->size)) gather(&g, reflex->place[k][0], reflex->place[k][1]);
+        if (holds(&sides->region, reflex->place[k], FREE_HAIR * f->size))
+            gather(&g, reflex->place[k][0], reflex->place[k][1]);
     if (g.n == 0) return false;
     nearest_of_hull(&g, u, place);
     return true;

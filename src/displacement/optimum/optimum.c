@@ -120,13 +120,23 @@ sunder_status sunder_i_group_descend(const sunder_i_model *model, const sunder_i
     return attempt(model, waived, g, g->body, t, g->n, false, &better, err);
 }
 
+/* Blocks make their pairs afresh whenever they are asked: is that too dear for as often as they would have to be? */
+static bool blocks_are_dear(const sunder_i_tree *tree, uint64_t steps) { return tree->pair_steps > steps / ROUNDS; }
+
+/* share: of the steps, at first; where blocks would be no good with the rest of them, that is the tree's, and is paid
+ * for no more than theirs is. */
 static sunder_status branch(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
-                            sunder_i_tree *tree, uint64_t steps, sunder_error *err)
+                            sunder_i_tree *tree, uint64_t share, uint64_t steps, sunder_error *err)
 {
+    uint64_t most = share;
     for (;;) {
         bool better;
-        const sunder_i_tree_outcome outcome = sunder_i_tree_run(tree, steps);
+        const sunder_i_tree_outcome outcome = sunder_i_tree_run(tree, most);
         if (tree->failed) return sunder_i_no_memory(err);
+        if (outcome == SUNDER_I_TREE_SPENT && most < steps && blocks_are_dear(tree, steps)) {
+            most = steps;
+            continue;
+        }
         if (outcome != SUNDER_I_TREE_FOUND) break;
         const double *t = tree->program.t, cost = cost_of(model, tree->body, tree->task.n, t);
         bool tighter = false;
@@ -137,7 +147,7 @@ static sunder_status branch(const sunder_i_model *model, const sunder_i_waived *
         if (better || tighter) sunder_i_tree_lower_goal(tree, goal_of(model, g));
     }
     g->bound = fmax(g->bound, sunder_i_tree_bound(tree));
-    g->steps += tree->steps;
+    g->steps += most > share && tree->steps > share ? share : tree->steps;
     sunder_i_free(g->joins.item);
     g->joins = tree->joins;
     tree->joins = (sunder_i_list){0};
@@ -218,13 +228,14 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
                                 .keep = model->rules.keep_trees};
     sunder_i_tree tree;
     sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) status = branch(model, waived, g, &tree, movers > BRANCHED ? steps / 4 : steps, err);
+    if (!status) status = branch(model, waived, g, &tree, movers > BRANCHED ? steps / 4 : steps, steps, err);
     if (!status && !keep_guests(g, &tree, n)) status = sunder_i_no_memory(err);
     if (!status && task.keep && !sunder_i_tree_keep(&tree, &g->trees)) status = sunder_i_no_memory(err);
+    const bool spent = movers > BRANCHED && blocks_are_dear(&tree, steps);
     sunder_i_tree_free(&tree);
     if (status || g->joins.n || g->bound >= goal_of(model, g)) return status;
     if (movers <= BRANCHED) status = sunder_i_group_shake(model, waived, g, steps / 2, err);
-    if (status || movers <= FEW) return status;
+    if (status || movers <= FEW || spent) return status;
     return prove_blocks(model, waived, g, steps, err);
 }
 

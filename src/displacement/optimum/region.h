@@ -48,9 +48,22 @@ bool sunder_i_reflex_find(sunder_i_reflex *reflex, const sunder_i_forbidden *for
 bool sunder_i_reflex_seek(sunder_i_reflex *reflex, const sunder_i_forbidden *forbidden, const sunder_i_region *region,
                           const double from[2], const double down[2], uint64_t *steps);
 
-/* The place nearest to u of the convex hull of what the forbidden set leaves of the region, in doubles; of many pieces,
- * of what is known of that. False: it leaves nothing. */
-bool sunder_i_free_hull_nearest(const sunder_i_region *region, const sunder_i_forbidden *forbidden,
+/* What the forbidden set leaves of a region's sides: the ends of it, of many pieces the first and the last of a side.
+ * The region that was asked of last is known. */
+typedef struct sunder_i_free_sides {
+    sunder_i_region region;
+    bool any; /* was one asked of? */
+    double (*place)[2];
+    size_t n, capacity;
+} sunder_i_free_sides;
+
+/* False if memory is out. */
+bool sunder_i_free_sides_find(sunder_i_free_sides *sides, const sunder_i_region *region,
+                              const sunder_i_forbidden *forbidden, uint64_t *steps);
+
+/* The place nearest to u of the convex hull of what the forbidden set leaves of a region with these sides, in doubles;
+ * of many pieces, of what is known of that. False: it leaves nothing. */
+bool sunder_i_free_hull_nearest(const sunder_i_free_sides *sides, const sunder_i_forbidden *forbidden,
                                 const sunder_i_reflex *reflex, const double u[2], double place[2], uint64_t *steps);
 
 #endif

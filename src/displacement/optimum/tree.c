@@ -91,6 +91,7 @@ void sunder_i_tree_free(sunder_i_tree *t)
     for (size_t k = 0; k < t->pairs; k++) {
         sunder_i_forbidden_free(&t->pair[k].forbidden);
         sunder_i_free(t->pair[k].reflex.place);
+        sunder_i_free(t->pair[k].sides.place);
     }
     sunder_i_free(t->body);
     sunder_i_free(t->weight);
@@ -111,6 +112,7 @@ void sunder_i_tree_free(sunder_i_tree *t)
     sunder_i_free(t->named.item);
     sunder_i_free(t->used);
     sunder_i_free(t->conflict);
+    sunder_i_free(t->tried.place);
     sunder_i_free(t->kept);
     sunder_i_free(t->kept_factor);
     sunder_i_dual_free(&t->program);

@@ -58,6 +58,7 @@ typedef struct sunder_i_tree_pair {
     uint32_t i, j; /* places in the task's list */
     sunder_i_forbidden forbidden;
     sunder_i_reflex reflex;
+    sunder_i_free_sides sides; /* of a region that it had */
     bool has_reflex, touched;
     double reach; /* half side of the root */
     double centre[2];
@@ -107,13 +108,14 @@ typedef struct sunder_i_tree {
     sunder_i_list joins; /* bodies of other groups, in the way of a layout that would be cheaper */
     sunder_i_tree_conflict *conflict;
     size_t conflicts, conflict_capacity;
+    sunder_i_free_sides tried; /* of a region that a trial looks at */
     sunder_i_dual_program program;
     sunder_i_cut_force *kept; /* the program's state, while something else is tried */
     double *kept_factor;
     size_t kept_n, kept_capacity, kept_factor_capacity;
-    double leaf; /* the least value of a leaf */
-    uint64_t steps;
-    bool failed; /* memory is out */
+    double leaf;                /* the least value of a leaf */
+    uint64_t steps, pair_steps; /* pair_steps: of these, for making pairs */
+    bool failed;                /* memory is out */
 } sunder_i_tree;
 
 typedef enum sunder_i_tree_outcome {

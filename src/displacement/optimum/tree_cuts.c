@@ -62,7 +62,14 @@ bool sunder_i_tree_propose(sunder_i_tree *t, uint32_t pair, const sunder_i_regio
     double place[2];
     *none = region->n == 0;
     if (*none || !know_reflex(t, p)) return false;
-    if (!sunder_i_free_hull_nearest(region, &p->forbidden, &p->reflex, u, place, &t->steps)) {
+    /* A trial leaves what is known of the pair's own region. */
+    sunder_i_free_sides *sides = region == &p->region ? &p->sides : &t->tried;
+    if (sides == &t->tried) sides->any = false;
+    if (!sunder_i_free_sides_find(sides, region, &p->forbidden, &t->steps)) {
+        t->failed = true;
+        return false;
+    }
+    if (!sunder_i_free_hull_nearest(sides, &p->forbidden, &p->reflex, u, place, &t->steps)) {
         *none = true;
         return false;
     }

@@ -44,6 +44,7 @@ sunder_i_tree_pair *sunder_i_tree_pair_of(sunder_i_tree *t, uint32_t i, uint32_t
         !sunder_i_forbidden_index(&p->forbidden))
         t->failed = true;
     t->steps += 8 * p->forbidden.edges;
+    t->pair_steps += 8 * p->forbidden.edges;
     sunder_i_region_init(&p->region, p->centre, p->reach);
     return p;
 }
