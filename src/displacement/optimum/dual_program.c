@@ -205,9 +205,10 @@ bool sunder_i_dual_load(sunder_i_dual_program *p, const sunder_i_cut_force *acti
     return true;
 }
 
-/* All that act pull back by r for each unit of the new force; along them `missing` stays, so D grows without end. */
-static sunder_i_dual_outcome contradict(sunder_i_dual_program *p, uint32_t cut, double missing, const double *r,
-                                        double enough)
+/* All that act pull back by r for each unit of the new force, which is `force` by now; along them `missing` stays, so D
+ * grows without end. */
+static sunder_i_dual_outcome contradict(sunder_i_dual_program *p, uint32_t cut, double force, double missing,
+                                        const double *r, double enough)
 {
     const size_t n = p->acting_n;
     double *before = p->scratch + 2 * p->capacity, scale = fabs(enough) / missing;
@@ -216,7 +217,7 @@ static sunder_i_dual_outcome contradict(sunder_i_dual_program *p, uint32_t cut, 
     p->acting_n = n + 1;
     for (int attempt = 0; attempt < 24; attempt++, scale *= 2) {
         for (size_t k = 0; k < n; k++) p->acting[k].force = fmax(0, before[k] - scale * r[k]);
-        p->acting[n].force = scale;
+        p->acting[n].force = force + scale;
         if (sunder_i_dual_value(p) >= enough) return SUNDER_I_DUAL_CLOSED;
     }
     for (size_t k = 0; k < n; k++) p->acting[k].force = before[k];
@@ -256,8 +257,8 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *p, uint32_t cut, 
             leaves = k;
         }
         if (dependent && leaves == SIZE_MAX) {
-            if (force > 0 || !(missing > 0)) break;
-            return contradict(p, cut, missing, r, enough);
+            if (!(missing > 0)) break;
+            return contradict(p, cut, force, missing, r, enough);
         }
         const double whole = dependent ? INFINITY : fmax(0, missing) / left, step = fmin(whole, longest);
         for (size_t k = 0; k < p->acting_n; k++) p->acting[k].force = fmax(0, p->acting[k].force - step * r[k]);
