@@ -24,6 +24,7 @@
 
 /* The share of a cut's own square below which it is a combination of others. */
 #define DEPENDENT 1e-11
+#define NO_FACTOR 1e-9
 #define FEWEST_ROWS 32
 
 bool sunder_i_dual_init(sunder_i_dual_program *p, size_t bodies)
@@ -225,6 +226,29 @@ static sunder_i_dual_outcome contradict(sunder_i_dual_program *p, uint32_t cut, 
     return SUNDER_I_DUAL_STUCK;
 }
 
+/* The cut whose force vanishes first when all pull back by r, of those that do so by more than `least`; SIZE_MAX: none
+ * does. *step: how far the new force has grown then. */
+static size_t find_leaving(const sunder_i_dual_program *p, const double *r, double least, double *step)
+{
+    size_t leaves = SIZE_MAX;
+    *step = INFINITY;
+    for (size_t k = 0; k < p->acting_n; k++) {
+        if (!(r[k] > least) || !(p->acting[k].force / r[k] < *step)) continue;
+        *step = p->acting[k].force / r[k];
+        leaves = k;
+    }
+    return leaves;
+}
+
+/* Of a combination of those that act: what is less than this share of its largest factor is rounding, and no cut is let
+ * go for it, or the new force would grow beyond all bounds. */
+static double least_factor(const sunder_i_dual_program *p, const double *r)
+{
+    double most = 0;
+    for (size_t k = 0; k < p->acting_n; k++) most = fmax(most, fabs(r[k]));
+    return NO_FACTOR * most;
+}
+
 sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *p, uint32_t cut, double enough, bool *failed)
 {
     const sunder_i_move_cut *c = &p->cut[cut];
@@ -247,15 +271,8 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *p, uint32_t cut, 
         }
         missing -= force * square;
         solve_back(p, row, r);
-        size_t leaves = SIZE_MAX;
-        double longest = INFINITY;
-        for (size_t k = 0; k < p->acting_n; k++) {
-            if (!(r[k] > 1e-13 * fabs(square))) continue;
-            const double step = p->acting[k].force / r[k];
-            if (step >= longest) continue;
-            longest = step;
-            leaves = k;
-        }
+        double longest;
+        const size_t leaves = find_leaving(p, r, dependent ? least_factor(p, r) : 1e-13 * fabs(square), &longest);
         if (dependent && leaves == SIZE_MAX) {
             if (!(missing > 0)) break;
             return contradict(p, cut, force, missing, r, enough);
