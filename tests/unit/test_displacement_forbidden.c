@@ -77,8 +77,10 @@ static void check_places(rng *r, const set *s)
         const double angle = (double)rng_int(r, 0, 62) / 10 + 0.05, dir[2] = {cos(angle), sin(angle)};
         const double depth = sunder_i_forbidden_depth(&s->forbidden, u), oracle = depth_of(s, u[0], u[1]);
         assert_true(fabs(depth - oracle) <= hair);
-        const double way = sunder_i_forbidden_exit(&s->forbidden, u, dir);
+        const double way = sunder_i_forbidden_exit(&s->forbidden, u, dir, INFINITY);
         assert_true(depth_of(s, u[0] + way * dir[0], u[1] + way * dir[1]) <= hair);
+        const double half = sunder_i_forbidden_exit(&s->forbidden, u, dir, way / 2);
+        assert_true(way == 0 || (half >= way / 2 && half <= way));
         for (int e = 1; e < 8 && way > 1; e++) {
             /* On the way out all is forbidden, but for seams of pieces that touch. */
             const double on = way * e / 8, off = on + 0x1p-10;

@@ -96,8 +96,10 @@ bool sunder_i_forbidden_span(const sunder_i_forbidden *forbidden, const sunder_i
 double sunder_i_forbidden_depth(const sunder_i_forbidden *forbidden, const double u[2]);
 /* Is u within `hair` of the union? */
 bool sunder_i_forbidden_is_near(const sunder_i_forbidden *forbidden, const double u[2], double hair);
-/* The first place on the ray from u, from which it is in none of the pieces. */
-double sunder_i_forbidden_exit(const sunder_i_forbidden *forbidden, const double u[2], const double dir[2]);
+/* How far along the ray from u the first place is that is in none of the pieces; no less than `most`, if it is no
+ * nearer. */
+double sunder_i_forbidden_exit(const sunder_i_forbidden *forbidden, const double u[2], const double dir[2],
+                               double most);
 /* How far the ray from u, where nothing is forbidden, goes until it enters a piece, or comes to `most`. steps: grows by
  * the work done. */
 double sunder_i_forbidden_entry(const sunder_i_forbidden *forbidden, const double u[2], const double dir[2],

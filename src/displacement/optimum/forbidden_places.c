@@ -92,23 +92,23 @@ double sunder_i_forbidden_distance(const sunder_i_forbidden *f, const sunder_i_f
                                    const double u[2])
 {
     const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
-    double inside = -INFINITY, nearest = INFINITY;
+    double inside = -INFINITY, nearest = INFINITY; /* the latter squared */
     for (uint32_t k = 0; k < piece->edges; k++) {
         const sunder_i_obstacle_edge *e = &edge[k];
         const double wx = u[0] - e->from[0], wy = u[1] - e->from[1], s = e->n[0] * wx + e->n[1] * wy;
         if (s > inside) inside = s;
         if (s <= 0) continue;
         const double along = wy * e->n[0] - wx * e->n[1];
-        double far = s;
+        double far = s * s;
         if (along < 0) {
-            far = sqrt(wx * wx + wy * wy);
+            far = wx * wx + wy * wy;
         } else if (along > e->length) {
             const double past = along - e->length;
-            far = sqrt(s * s + past * past);
+            far += past * past;
         }
         if (far < nearest) nearest = far;
     }
-    return inside <= 0 ? inside : nearest;
+    return inside <= 0 ? inside : sqrt(nearest);
 }
 
 double sunder_i_forbidden_normal(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece, const double u[2],
@@ -136,36 +136,36 @@ double sunder_i_forbidden_normal(const sunder_i_forbidden *f, const sunder_i_for
     return distance;
 }
 
-/* Where the line is in the disc about c. */
-static void span_disc(const double c[2], double radius, const double from[2], const double dir[2], double span[2])
+static void widen(double span[2], double from, double to)
 {
-    const double wx = c[0] - from[0], wy = c[1] - from[1], mid = wx * dir[0] + wy * dir[1],
-                 off = wx * dir[1] - wy * dir[0], under = radius * radius - off * off;
-    if (!(under >= 0)) return;
-    const double half = sqrt(under);
-    span[0] = fmin(span[0], mid - half);
-    span[1] = fmax(span[1], mid + half);
+    if (from < span[0]) span[0] = from;
+    if (to > span[1]) span[1] = to;
 }
 
 bool sunder_i_forbidden_span(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece, const double from[2],
                              const double dir[2], double span[2])
 {
     const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
+    const double radius = piece->radius;
     span[0] = INFINITY;
     span[1] = -INFINITY;
     /* The line meets the piece grown, if at all, in a segment; its ends are on edges moved out, or on discs about
      * corners, and all that is there is in the piece. */
     for (uint32_t k = 0; k < piece->edges; k++) {
         const sunder_i_obstacle_edge *e = &edge[k];
-        const double across = e->n[0] * dir[0] + e->n[1] * dir[1];
-        const double wx = e->from[0] - from[0], wy = e->from[1] - from[1];
-        if (piece->radius > 0) span_disc(e->from, piece->radius, from, dir, span);
-        if (fabs(across) < 1e-14) continue;
-        const double s = (e->n[0] * wx + e->n[1] * wy + piece->radius) / across;
-        const double x = s * dir[0] - wx, y = s * dir[1] - wy, along = y * e->n[0] - x * e->n[1];
-        if (along < -f->grain || along > e->length + f->grain) continue;
-        span[0] = fmin(span[0], s);
-        span[1] = fmax(span[1], s);
+        const double wx = e->from[0] - from[0], wy = e->from[1] - from[1], off = wx * dir[1] - wy * dir[0],
+                     under = radius * radius - off * off;
+        if (under >= 0 && radius > 0) {
+            const double mid = wx * dir[0] + wy * dir[1], half = sqrt(under);
+            widen(span, mid - half, mid + half);
+        }
+        /* The edge moved out is crossed so far along it as `out` is to `across`, of which the signs are made alike. */
+        const double across = e->n[0] * dir[0] + e->n[1] * dir[1],
+                     out = off + radius * (e->n[0] * dir[1] - e->n[1] * dir[0]), along = across < 0 ? -out : out,
+                     speed = fabs(across);
+        if (speed < 1e-14 || along < -f->grain * speed || along > (e->length + f->grain) * speed) continue;
+        const double s = (e->n[0] * wx + e->n[1] * wy + radius) / across;
+        widen(span, s, s);
     }
     return span[0] < span[1];
 }
@@ -178,8 +178,10 @@ double sunder_i_forbidden_depth(const sunder_i_forbidden *f, const double u[2])
     double depth = 0;
     sunder_i_forbidden_walk walk;
     sunder_i_forbidden_start(&walk, f);
-    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, at));)
-        depth = fmax(depth, p->radius - sunder_i_forbidden_distance(f, p, u));
+    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, at));) {
+        const double d = p->radius - sunder_i_forbidden_distance(f, p, u);
+        if (d > depth) depth = d;
+    }
     return depth;
 }
 
@@ -192,10 +194,10 @@ bool sunder_i_forbidden_is_near(const sunder_i_forbidden *f, const double u[2], 
     return false;
 }
 
-double sunder_i_forbidden_exit(const sunder_i_forbidden *f, const double u[2], const double dir[2])
+double sunder_i_forbidden_exit(const sunder_i_forbidden *f, const double u[2], const double dir[2], double most)
 {
     double s = 0;
-    for (bool again = true; again;) {
+    for (bool again = true; again && s < most;) {
         again = false;
         const double x = u[0] + s * dir[0], y = u[1] + s * dir[1], at[4] = {x, y, x, y};
         sunder_i_forbidden_walk walk;

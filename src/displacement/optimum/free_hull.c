@@ -213,8 +213,8 @@ static void gather_ends(gathering *g, const sunder_i_region *r, uint32_t k, cons
     const double length = sqrt(dir[0] * dir[0] + dir[1] * dir[1]);
     if (!(length > 0)) return;
     for (int c = 0; c < 2; c++) dir[c] /= length;
-    const double back[2] = {-dir[0], -dir[1]}, first = sunder_i_forbidden_exit(f, p, dir),
-                 last = sunder_i_forbidden_exit(f, q, back);
+    const double back[2] = {-dir[0], -dir[1]}, first = sunder_i_forbidden_exit(f, p, dir, INFINITY),
+                 last = sunder_i_forbidden_exit(f, q, back, INFINITY);
     *steps += 2 * sunder_i_forbidden_look(f);
     if (first > length || last > length) return;
     gather(g, p[0] + first * dir[0], p[1] + first * dir[1]);
@@ -242,6 +242,8 @@ static double nearest_of(const double a[2], const double b[2], double out[2])
     return share;
 }
 
+static double square_of(double x, double y) { return x * x + y * y; }
+
 /* The nearest point of a hull, in the plane: the farthest towards where we look from joins, and of the
  * two segments that it makes with the last one the nearer stays. Ends when no point lies nearer. */
 static void nearest_of_hull(const gathering *g, const double u[2], double out[2])
@@ -249,7 +251,8 @@ static void nearest_of_hull(const gathering *g, const double u[2], double out[2]
     double a[2], b[2], at[2];
     size_t first = 0;
     for (size_t k = 1; k < g->n; k++)
-        if (hypot(g->at[k][0] - u[0], g->at[k][1] - u[1]) < hypot(g->at[first][0] - u[0], g->at[first][1] - u[1]))
+        if (square_of(g->at[k][0] - u[0], g->at[k][1] - u[1]) <
+            square_of(g->at[first][0] - u[0], g->at[first][1] - u[1]))
             first = k;
     for (int c = 0; c < 2; c++) a[c] = b[c] = at[c] = g->at[first][c] - u[c];
     for (size_t round = 0; round < g->n + 8; round++) {
@@ -273,9 +276,9 @@ static void nearest_of_hull(const gathering *g, const double u[2], double out[2]
         }
         nearest_of(a, p, to_a);
         nearest_of(b, p, to_b);
-        const bool by_a = hypot(to_a[0], to_a[1]) <= hypot(to_b[0], to_b[1]);
+        const bool by_a = square_of(to_a[0], to_a[1]) <= square_of(to_b[0], to_b[1]);
         const double *nearer = by_a ? to_a : to_b;
-        if (!(hypot(nearer[0], nearer[1]) < sqrt(square))) break;
+        if (!(square_of(nearer[0], nearer[1]) < square)) break;
         for (int c = 0; c < 2; c++) {
             at[c] = nearer[c];
             if (!by_a) a[c] = b[c];

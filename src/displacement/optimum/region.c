@@ -26,29 +26,30 @@ void sunder_i_region_init(sunder_i_region *r, const double c[2], double reach)
 }
 
 typedef struct clipping {
-    sunder_i_region out;
+    uint32_t n;
+    double xy[2 * SUNDER_I_REGION_CORNERS];
+    uint32_t cut[SUNDER_I_REGION_CORNERS];
     double grain;
     bool full, merged;
 } clipping;
 
 static void add(clipping *c, double x, double y, uint32_t cut)
 {
-    sunder_i_region *o = &c->out;
-    if (o->n) {
-        const double *last = o->xy + 2 * (o->n - 1);
+    if (c->n) {
+        const double *last = c->xy + 2 * (c->n - 1);
         if (fabs(last[0] - x) + fabs(last[1] - y) <= c->grain) {
-            o->cut[o->n - 1] = cut;
+            c->cut[c->n - 1] = cut;
             c->merged = true;
             return;
         }
     }
-    if (o->n == SUNDER_I_REGION_CORNERS) {
+    if (c->n == SUNDER_I_REGION_CORNERS) {
         c->full = true;
         return;
     }
-    o->xy[2 * o->n] = x;
-    o->xy[2 * o->n + 1] = y;
-    o->cut[o->n++] = cut;
+    c->xy[2 * c->n] = x;
+    c->xy[2 * c->n + 1] = y;
+    c->cut[c->n++] = cut;
 }
 
 void sunder_i_region_clip(sunder_i_region *r, const double n[2], double d, uint32_t cut, double grain)
@@ -60,7 +61,10 @@ void sunder_i_region_clip(sunder_i_region *r, const double n[2], double d, uint3
         any = any || s[k] < 0;
     }
     if (!any) return;
-    clipping c = {.grain = grain};
+    clipping c;
+    c.n = 0;
+    c.grain = grain;
+    c.full = c.merged = false;
     for (uint32_t k = 0; k < r->n; k++) {
         const uint32_t l = k + 1 < r->n ? k + 1 : 0;
         const double *p = r->xy + 2 * k, *q = r->xy + 2 * l;
@@ -71,8 +75,10 @@ void sunder_i_region_clip(sunder_i_region *r, const double n[2], double d, uint3
         add(&c, p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]), s[k] >= 0 ? cut : r->cut[k]);
     }
     if (c.full) return;
-    c.out.blur = r->blur + (c.merged ? 2 : 1) * grain;
-    *r = c.out;
+    r->n = c.n;
+    memcpy(r->xy, c.xy, 2 * c.n * sizeof *c.xy);
+    memcpy(r->cut, c.cut, c.n * sizeof *c.cut);
+    r->blur += (c.merged ? 2 : 1) * grain;
 }
 
 double sunder_i_region_beyond(const sunder_i_region *r, const double u[2], uint32_t *cut)

@@ -62,6 +62,11 @@ bool sunder_i_tree_init(sunder_i_tree *t, const sunder_i_task *task)
     const size_t n = task->n, most = t->capacity = n + MOST_GUESTS;
     t->task = *task;
     t->leaf = INFINITY;
+    for (int k = 0; k < SUNDER_I_TREE_RAYS; k++) {
+        const double angle = 6.283185307179586 * k / SUNDER_I_TREE_RAYS;
+        t->ray[k][0] = cos(angle);
+        t->ray[k][1] = sin(angle);
+    }
     t->body = sunder_i_alloc(most, sizeof *t->body);
     t->weight = sunder_i_alloc(most, sizeof *t->weight);
     t->anchor = sunder_i_calloc(2 * most, sizeof *t->anchor);

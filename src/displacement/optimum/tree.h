@@ -84,6 +84,9 @@ typedef struct sunder_i_tree_conflict {
     double depth, u[2];
 } sunder_i_tree_conflict;
 
+/* Directions all around, in which ways out are looked for; of every other one there is a tangent of a disc. */
+#define SUNDER_I_TREE_RAYS 32
+
 typedef struct sunder_i_tree {
     sunder_i_task task; /* its lists are the tree's own, and may grow by guests */
     uint32_t *body;
@@ -113,6 +116,7 @@ typedef struct sunder_i_tree {
     sunder_i_cut_force *kept; /* the program's state, while something else is tried */
     double *kept_factor;
     size_t kept_n, kept_capacity, kept_factor_capacity;
+    double ray[SUNDER_I_TREE_RAYS][2];
     double leaf;                /* the least value of a leaf */
     uint64_t steps, pair_steps; /* pair_steps: of these, for making pairs */
     bool failed;                /* memory is out */

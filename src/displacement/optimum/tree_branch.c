@@ -27,20 +27,20 @@ static void choose_rays(sunder_i_tree *t, const sunder_i_tree_conflict *c, branc
     const sunder_i_tree_pair *p = &t->pair[c->pair];
     const sunder_i_forbidden *f = &p->forbidden;
     double nearest = INFINITY, n[2] = {1, 0};
-    for (int k = 0; k < RAYS; k++) {
-        const double angle = 6.283185307179586 * k / RAYS, dir[2] = {cos(angle), sin(angle)};
-        const double way = sunder_i_forbidden_exit(f, c->u, dir);
+    for (int k = 0; k < SUNDER_I_TREE_RAYS; k++) {
+        const double *dir = t->ray[k];
+        const double way = sunder_i_forbidden_exit(f, c->u, dir, nearest);
         if (way >= nearest) continue;
         nearest = way;
         n[0] = dir[0];
         n[1] = dir[1];
     }
-    t->steps += RAYS * sunder_i_forbidden_look(f);
+    t->steps += SUNDER_I_TREE_RAYS * sunder_i_forbidden_look(f);
     const double ahead = (1 - NEARER) * nearest, mid[2] = {c->u[0] + ahead * n[0], c->u[1] + ahead * n[1]};
     for (int k = 0; k < 2; k++) {
         const double side = k ? 1 : -1, dir[2] = {-side * n[1], side * n[0]};
         /* No wider than 84 degrees: the angle to the ray behind stays less than straight. */
-        const double way = fmin(sunder_i_forbidden_exit(f, mid, dir), 10 * ahead);
+        const double way = fmin(sunder_i_forbidden_exit(f, mid, dir, 10 * ahead), 10 * ahead);
         const double x = ahead * n[0] + way * dir[0], y = ahead * n[1] + way * dir[1], length = sqrt(x * x + y * y);
         out->ray[k][0] = length > 0 ? x / length : n[0];
         out->ray[k][1] = length > 0 ? y / length : n[1];

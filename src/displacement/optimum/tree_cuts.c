@@ -32,13 +32,15 @@ static size_t cut_disc(sunder_i_tree *t, uint32_t pair, const double u[2], doubl
     const double radius = sqrt((t->task.goal - value) * p->slackness) * (1 + 0x1p-40) + doubt(t, p->i) +
                           doubt(t, p->j) + p->forbidden.grain;
     size_t made = 0;
-    for (int k = 0; k < DISC_SIDES && !t->failed; k++) {
-        const double angle = 6.283185307179586 * k / DISC_SIDES, n[2] = {cos(angle), sin(angle)};
+    for (int k = 0; k < SUNDER_I_TREE_RAYS && !t->failed; k += 2) {
+        const double n[2] = {t->ray[k][0], t->ray[k][1]};
         const double d = n[0] * u[0] + n[1] * u[1] - radius * (1 + 0x1p-48);
         double least = INFINITY;
         p = &t->pair[pair];
-        for (uint32_t c = 0; c < p->region.n; c++)
-            least = fmin(least, n[0] * p->region.xy[2 * c] + n[1] * p->region.xy[2 * c + 1]);
+        for (uint32_t c = 0; c < p->region.n; c++) {
+            const double at = n[0] * p->region.xy[2 * c] + n[1] * p->region.xy[2 * c + 1];
+            if (at < least) least = at;
+        }
         if (!(least < d - DISC_SHARE * radius)) continue;
         sunder_i_tree_cut(t, SUNDER_I_CUT_DISC, pair, n, d);
         made++;
