@@ -1,0 +1,162 @@
+/* displacement/optimum/shake: a group that is shaken never becomes dearer, stays apart, and the same seed gives the
+ * same bytes. */
+#include "scene.h"
+
+#include "displacement/optimum/optimum.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { WIDE = 5, HIGH = 4, MOST = WIDE * HIGH };
+
+static const double size = 10, pitch = 11, gap = 3;
+
+/* Boxes in a grid with a passage of 1 between them, which is to be 3, and their group: all of them moved away from the
+ * middle so far that they are apart, in rows and columns. */
+typedef struct grid {
+    scene scene;
+    sunder_layer *layer;
+    sunder_layer work;
+    size_t *number;
+    sunder_i_barriers parts;
+    sunder_i_model model;
+    sunder_i_group group;
+} grid;
+
+static void begin(grid *g, size_t wide, size_t high, uint64_t seed)
+{
+    sunder_i_rules rules;
+    sunder_error err;
+    const sunder_i_relations none = {0};
+    memset(g, 0, sizeof *g);
+    scene_begin(&g->scene, gap);
+    for (size_t k = 0; k < wide * high; k++)
+        scene_add_box(&g->scene, pitch * (double)(k % wide), pitch * (double)(k / wide), size, size);
+    g->scene.options.seed = seed;
+    assert_int_equal(sunder_layer_new(g->scene.feature, g->scene.n, &g->layer, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_rules_of(&g->scene.options, &rules, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_barriers_make(g->layer, gap, &g->parts, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_order_layer(g->layer, &g->parts, true, &g->work, &g->number, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_init(&g->work, &g->parts, &rules, &g->model, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_join(&g->model, &none, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_cut(&g->model, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_anchor(&g->model, &err), SUNDER_OK);
+    g->model.standing = &g->model.tree;
+    const size_t n = g->model.bodies;
+    g->group = (sunder_i_group){
+        .n = n, .margin = 0x1p-30, .body = calloc(n, sizeof(uint32_t)), .move = calloc(2 * n, sizeof(double))};
+    for (size_t k = 0; k < n; k++) {
+        const double middle[2] = {(double)(wide - 1) / 2, (double)(high - 1) / 2},
+                     at[2] = {(double)(k % wide), (double)(k / wide)};
+        g->group.body[k] = (uint32_t)k;
+        for (size_t c = 0; c < 2; c++) {
+            g->group.move[2 * k + c] = (at[c] - middle[c]) * (size + gap + 0.5 - pitch);
+            g->group.cost += g->group.move[2 * k + c] * g->group.move[2 * k + c];
+        }
+    }
+}
+
+static void end(grid *g)
+{
+    free(g->group.body);
+    free(g->group.move);
+    sunder_i_model_free(&g->model);
+    sunder_i_barriers_free(&g->parts);
+    sunder_i_free(g->work.feature);
+    sunder_i_free(g->number);
+    sunder_layer_free(g->layer);
+    scene_end(&g->scene);
+}
+
+static void shake(grid *g, uint64_t steps)
+{
+    const sunder_i_waived none = {0};
+    sunder_error err;
+    assert_int_equal(sunder_i_group_shake(&g->model, &none, &g->group, steps, &err), SUNDER_OK);
+}
+
+/* All stand the gap apart, and cost what the group says. */
+static void check_layout(const grid *g, size_t wide)
+{
+    double cost = 0;
+    for (size_t k = 0; k < g->group.n; k++) {
+        const double *t = g->group.move + 2 * k;
+        cost += t[0] * t[0] + t[1] * t[1];
+        for (size_t m = 0; m < k; m++) {
+            const double *s = g->group.move + 2 * m;
+            const double x = fabs(pitch * ((double)(k % wide) - (double)(m % wide)) + t[0] - s[0]) - size,
+                         y = fabs(pitch * ((double)(k / wide) - (double)(m / wide)) + t[1] - s[1]) - size;
+            assert_true(hypot(fmax(0, x), fmax(0, y)) >= gap * (1 - 1e-12));
+        }
+    }
+    assert_true(fabs(cost - g->group.cost) <= 1e-9 * cost);
+}
+
+static void test_never_dearer(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 0; seed < 6; seed++) {
+        grid g;
+        begin(&g, WIDE, HIGH, seed);
+        const double before = g.group.cost;
+        shake(&g, 20000000);
+        assert_true(g.group.cost < before && g.group.improved);
+        check_layout(&g, WIDE);
+        const double once = g.group.cost;
+        shake(&g, 20000000);
+        assert_true(g.group.cost <= once);
+        check_layout(&g, WIDE);
+        end(&g);
+    }
+}
+
+static void test_same_seed(void **state)
+{
+    (void)state;
+    double move[2 * MOST];
+    for (int k = 0; k < 2; k++) {
+        grid g;
+        begin(&g, WIDE, HIGH, 7);
+        shake(&g, 5000000);
+        if (k == 0) memcpy(move, g.group.move, sizeof move);
+        assert_memory_equal(move, g.group.move, sizeof move);
+        end(&g);
+    }
+}
+
+/* However many steps there are, a small group is shaken so often as it has ways; one that is to stay is not, nor is one
+ * body alone; and no steps are none. */
+static void test_ends(void **state)
+{
+    (void)state;
+    grid g;
+    begin(&g, 3, 1, 1);
+    shake(&g, UINT64_MAX / 8);
+    check_layout(&g, 3);
+    assert_true(g.group.cost >= 8 - 1e-9 && g.group.cost <= 8 + 1e-6); /* 2 to either side */
+    end(&g);
+    for (int k = 0; k < 3; k++) {
+        begin(&g, WIDE, HIGH, 1);
+        double move[2 * MOST];
+        memcpy(move, g.group.move, sizeof move);
+        g.group.held = k == 0;
+        if (k == 1) g.group.n = 1;
+        shake(&g, k == 2 ? 0 : 1000000);
+        assert_memory_equal(move, g.group.move, 2 * g.group.n * sizeof *move);
+        end(&g);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_never_dearer), cmocka_unit_test(test_same_seed),
+                                       cmocka_unit_test(test_ends)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
