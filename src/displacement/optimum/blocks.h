@@ -2,6 +2,7 @@
 #ifndef SUNDER_I_BLOCKS_H
 #define SUNDER_I_BLOCKS_H
 
+#include "displacement/optimum/bundle.h"
 #include "displacement/optimum/contact.h"
 #include "displacement/optimum/dual_program.h"
 #include "displacement/optimum/optimum.h"
@@ -25,6 +26,41 @@ bool sunder_i_contact_forces_find(sunder_i_contact_forces *contacts, const sunde
                                   const sunder_i_waived *waived, const sunder_i_group *group, const double *weight,
                                   const double *mass, const double *anchor);
 void sunder_i_contact_forces_free(sunder_i_contact_forces *contacts);
+
+/* ---- block_cover.c ----------------------------------------------------------------------------------------------- */
+
+/* A body as a member of a block. */
+typedef struct sunder_i_block_copy {
+    uint32_t at; /* in the group's list */
+    double share;
+    double force[2], anchor[2], t[2];
+} sunder_i_block_copy;
+
+typedef struct sunder_i_lagrangian {
+    const sunder_i_model *model;
+    const sunder_i_waived *waived;
+    const sunder_i_group *group;
+    double *weight, *mass, *anchor; /* of the group's bodies; anchors are 0 */
+    sunder_i_contact_forces contacts;
+    uint32_t *home;  /* [contacts] the block that holds the contact */
+    uint32_t *count; /* [group] copies of each body */
+    sunder_i_block_copy *item;
+    size_t items, capacity;
+    size_t *first; /* [blocks + 1] */
+    size_t blocks, first_capacity;
+    double *pressure; /* [group] scratch */
+    sunder_i_bundle bundle;
+    uint32_t *member; /* [items] as the bundle wants them */
+    double *others;
+    size_t size;                /* movers of a block */
+    uint64_t steps, most, each; /* each: for the tree of a block */
+} sunder_i_lagrangian;
+
+/* May the body move, which is in that place of the group's list? */
+static inline bool sunder_i_is_mover_of(const sunder_i_lagrangian *d, uint32_t at) { return d->mass[at] > 0; }
+
+/* Blocks from the contacts, afresh. False if memory is out. */
+bool sunder_i_make_blocks(sunder_i_lagrangian *lagrangian);
 
 /* ---- blocks.c ---------------------------------------------------------------------------------------------------- */
 

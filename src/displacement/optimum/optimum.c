@@ -121,20 +121,32 @@ sunder_status sunder_i_group_descend(const sunder_i_model *model, const sunder_i
 }
 
 /* Blocks make their pairs afresh whenever they are asked: is that too dear for as often as they would have to be? */
-static bool blocks_are_dear(const sunder_i_tree *tree, uint64_t steps) { return tree->pair_steps > steps / ROUNDS; }
-
-/* share: of the steps, at first; where blocks would be no good with the rest of them, that is the tree's, and is paid
- * for no more than theirs is. */
-static sunder_status branch(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
-                            sunder_i_tree *tree, uint64_t share, uint64_t steps, sunder_error *err)
+static bool blocks_are_dear(const sunder_i_tree *tree, uint64_t steps)
 {
-    uint64_t most = share;
-    for (;;) {
+    return tree->pair_steps > steps / BLOCKS_ASKED;
+}
+
+/* The tree of a large group that has taken `taken` of the steps: how many it may take in all, which is no more where it
+ * promises nothing. */
+static uint64_t steps_of_large(const sunder_i_tree *tree, uint64_t taken, uint64_t steps)
+{
+    const double share = taken ? sunder_i_tree_bound(tree) / tree->task.goal : 0;
+    if (taken == 0) return steps / TREE_FIRST;
+    if (share >= TREE_WHOLE_SHARE || blocks_are_dear(tree, steps)) return steps;
+    return share >= TREE_SECOND_SHARE ? steps / TREE_SECOND : 0;
+}
+
+/* What a large group's tree takes in place of blocks is not paid for, as they are not. */
+static sunder_status branch(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                            sunder_i_tree *tree, uint64_t steps, bool large, sunder_error *err)
+{
+    for (uint64_t most = large ? steps_of_large(tree, 0, steps) : steps;;) {
         bool better;
         const sunder_i_tree_outcome outcome = sunder_i_tree_run(tree, most);
         if (tree->failed) return sunder_i_no_memory(err);
-        if (outcome == SUNDER_I_TREE_SPENT && most < steps && blocks_are_dear(tree, steps)) {
-            most = steps;
+        const uint64_t more = outcome == SUNDER_I_TREE_SPENT && large ? steps_of_large(tree, most, steps) : 0;
+        if (more > most) {
+            most = more;
             continue;
         }
         if (outcome != SUNDER_I_TREE_FOUND) break;
@@ -147,7 +159,7 @@ static sunder_status branch(const sunder_i_model *model, const sunder_i_waived *
         if (better || tighter) sunder_i_tree_lower_goal(tree, goal_of(model, g));
     }
     g->bound = fmax(g->bound, sunder_i_tree_bound(tree));
-    g->steps += most > share && tree->steps > share ? share : tree->steps;
+    g->steps += large && tree->steps > steps / TREE_SECOND ? steps / TREE_SECOND : tree->steps;
     sunder_i_free(g->joins.item);
     g->joins = tree->joins;
     tree->joins = (sunder_i_list){0};
@@ -228,10 +240,10 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
                                 .keep = model->rules.keep_trees};
     sunder_i_tree tree;
     sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) status = branch(model, waived, g, &tree, movers > BRANCHED ? steps / 4 : steps, steps, err);
+    if (!status) status = branch(model, waived, g, &tree, steps, movers > BRANCHED, err);
     if (!status && !keep_guests(g, &tree, n)) status = sunder_i_no_memory(err);
     if (!status && task.keep && !sunder_i_tree_keep(&tree, &g->trees)) status = sunder_i_no_memory(err);
-    const bool spent = movers > BRANCHED && blocks_are_dear(&tree, steps);
+    const bool spent = movers > BRANCHED && (tree.steps >= steps || blocks_are_dear(&tree, steps));
     sunder_i_tree_free(&tree);
     if (status || g->joins.n || g->bound >= goal_of(model, g)) return status;
     if (movers <= BRANCHED) status = sunder_i_group_shake(model, waived, g, steps / 2, err);
