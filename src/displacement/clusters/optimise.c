@@ -103,7 +103,8 @@ static void hold(sunder_i_solver *s)
 }
 
 /* What the group's bodies have left, of which each is worth so many steps; a small group is worth as many as one of so
- * many bodies. */
+ * many bodies. Who has spent all gets a part once more: of a group that came about late something is to be proved, too.
+ */
 static uint64_t allowance(const sunder_i_solver *s, const sunder_i_group *g)
 {
     size_t movers = 0;
@@ -112,7 +113,7 @@ static uint64_t allowance(const sunder_i_solver *s, const sunder_i_group *g)
     const double each = small * STEPS_EACH * s->model.rules.effort;
     double steps = 0;
     for (size_t m = 0; m < g->n; m++)
-        if (!s->model.body[g->body[m]].fixed) steps += fmax(0, each - s->groups.spent[g->body[m]]);
+        if (!s->model.body[g->body[m]].fixed) steps += fmax(each / LATE, each - s->groups.spent[g->body[m]]);
     return (uint64_t)fmin(steps, 0x1p62);
 }
 

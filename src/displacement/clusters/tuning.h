@@ -27,9 +27,11 @@
 #define OPTIMISED 24
 /* A group's margin is widened no further for what is only cheaper. */
 #define MOST_MARGINS_AGAIN 3
-/* Steps for each body of a group at effort 1; a group that is smaller than this is worth as many as one of so many. */
+/* Steps for each body of a group at effort 1; a group that is smaller than this is worth as many as one of so many; and
+ * one whose bodies have spent theirs as members of others gets one in so many again. */
 #define STEPS_EACH 2e6
 #define SMALL_GROUP 24
+#define LATE 4
 
 /* ---- Nothing worse (uphold.c) ------------------------------------------------------------------------------------ */
 
