@@ -759,12 +759,13 @@ typedef struct sunder_proof {
     double within; /* the limit of those that have none; 0: there are none */
 } sunder_proof;
 
-/* The proof of conflict k of sunder_report_conflicts(), or NULL. It lives as long as the report. There is one for each
- * with SUNDER_REASON_NO_ROOM; the features of its nodes, but for the two in conflict, are the conflict's blocked_by:
- * none of them could be left out of it. With SUNDER_REASON_SIDE and SUNDER_REASON_JUMP its nodes are about the pair,
- * and about the ways of the members of their two blocks (shadows); without a limit `within` is one by which the two are
- * apart for certain: farther out nothing but shadows forbids a move, and what is shaded there was shaded before. With
- * SUNDER_REASON_MAX_SHIFT, if keep_trees was asked for and one was found, they are about the pair. */
+/* The proof of conflict k of sunder_report_conflicts(), or NULL. It lives as long as the report. There is one for
+ * each with SUNDER_REASON_NO_ROOM; the features of its nodes, but for the two in conflict, are the conflict's
+ * blocked_by: none of them could be left out of it. With SUNDER_REASON_SIDE and mostly SUNDER_REASON_JUMP there is one,
+ * too: its nodes are about the pair, and about the ways of the members of their two blocks (shadows). Without a limit
+ * `within` is one by which the two are apart for certain: farther out nothing but shadows forbids a move, and what is
+ * shaded there was shaded before. With SUNDER_REASON_MAX_SHIFT, if keep_trees was asked for and one was found, they are
+ * about the pair. */
 SUNDER_API const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k);
 
 /* ---- Routes ----------------------------------------------------------------------------------------------- */

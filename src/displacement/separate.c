@@ -54,6 +54,7 @@ static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
     sunder_status status = sunder_i_solver_find_infeasible(s, err);
     if (!status) status = sunder_i_model_cut(&s->model, err);
     if (!status) status = sunder_i_model_anchor(&s->model, err);
+    if (!status) status = sunder_i_solver_find_shut_in(s, err);
     if (!status) status = sunder_i_solver_init(s, err);
     if (status) return status;
     s->now.pair = sunder_i_alloc(s->start.n, sizeof *s->now.pair);

@@ -235,7 +235,7 @@ def is_shaded(polygon, v, far):
 def check(problem, told, conflicts):
     """Is there a proof? Then it holds."""
     problem.demand_listed(told)
-    if told["reason"] in ("no_room", "side", "jump"):
+    if told["reason"] in ("no_room", "side"):
         demand("proof" in told, "no solution, and no proof:", told["a"], told["b"])
     if "proof" not in told:
         return 0

@@ -10,6 +10,11 @@
  * parted, but may go inside, which are kept there from then on. Before the model is cut. */
 sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *solver, sunder_error *err);
 
+/* ---- shut_in_pairs.c --------------------------------------------------------------------------------------------- */
+
+/* ---- shut_in_pairs.c --------------------------------------------------------------------------------------------- */
+sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *solver, sunder_error *err);
+
 /* ---- lifted_limits.c --------------------------------------------------------------------------------------------- */
 
 /* Lets bodies go as far as they like, but for those that are set aside. *lifted: there were limits. */

@@ -23,6 +23,7 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_free(model->clear);
     sunder_i_free(model->seam);
     sunder_i_free(model->seam_at);
+    sunder_i_free(model->joint);
     sunder_i_free(model->side);
     sunder_i_free(model->side_anchor);
     sunder_i_free(model->side_at);
@@ -37,6 +38,7 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_free(model->wall);
     sunder_i_relaxations_free(&model->relaxations);
     sunder_i_free(model->given_up);
+    sunder_i_free(model->shut_in);
     sunder_i_free(model->move);
     sunder_i_free(model->lifted);
     sunder_i_free(model->inexact);

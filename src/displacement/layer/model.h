@@ -10,12 +10,15 @@
 #include "displacement/layer/seamless.h"
 #include "spatial/rtree.h"
 
+#include <stdlib.h>
+
 /* A body is what moves as one: a block, or a feature that stands alone. Bodies are numbered by their first members. */
 typedef struct sunder_i_body {
     uint32_t member, members; /* its features: members of them in sunder_i_model.member from there */
     uint32_t piece, pieces;   /* its convex pieces in sunder_i_model.piece */
     uint32_t wall, walls;     /* the edges of its members that keep others inside, in sunder_i_model.wall */
     uint32_t seam, seams;     /* pieces that cover what is between its pieces, in sunder_i_model.seam */
+    uint32_t joint, joints;   /* what covers the walls that its members share, in sunder_i_model.joint */
     uint32_t side, sides;     /* of a part of a barrier: its lines that may not be crossed, in sunder_i_model.side */
     double weight;            /* the sum of its members' */
     double limit;             /* the strictest of its members' */
@@ -34,6 +37,12 @@ typedef struct sunder_i_body_piece {
     uint32_t feature;
     double box[4]; /* relative to the body's origin */
 } sunder_i_body_piece;
+
+/* What covers a wall that two members of a block share, within the two. */
+typedef struct sunder_i_joint {
+    sunder_i_body_piece piece; /* its feature is the one, `other` the other */
+    uint32_t other;
+} sunder_i_joint;
 
 /* A line of a barrier that features may not cross. */
 typedef struct sunder_i_side {
@@ -78,6 +87,8 @@ struct sunder_i_model {
     double *seam_at;             /* [8 * seams] their four corners as they are */
     size_t seams;
     bool has_seams;
+    sunder_i_joint *joint; /* of the bodies that were asked for; joints.c */
+    size_t joints;
     sunder_i_id_pair *held; /* a feature, and one of another body that holds its anchor; sorted */
     size_t held_n;
     /* Where barriers have sides; else NULL: */
@@ -100,6 +111,8 @@ struct sunder_i_model {
     sunder_i_relaxations relaxations;
     sunder_i_id_pair *given_up; /* bodies given up: no solution was found that resolves this pair, too; sorted */
     size_t given_up_n;
+    sunder_i_id_pair *shut_in; /* bodies that nothing but a jump takes clear of each other, which is proved; sorted */
+    size_t shut_in_n;
     double *move;   /* [2 * bodies] where each stands now, relative to the start */
     double *lifted; /* [2 * bodies] where each stood when limits were lifted; NULL: they were not, or still are */
     bool *inexact;  /* [things] the translate was rounded */
@@ -152,6 +165,14 @@ static inline double sunder_i_reach_beyond(const sunder_i_model *model, uint32_t
     return fmax(0, sunder_i_owed_above(model, thing, thing) - model->rules.gap);
 }
 
+/* Are the bodies of these two things known to be shut in? */
+static inline bool sunder_i_are_shut_in(const sunder_i_model *model, uint32_t f, uint32_t g)
+{
+    const uint32_t i = model->body_of[f], j = model->body_of[g];
+    const sunder_i_id_pair pair = {i < j ? i : j, i < j ? j : i};
+    return model->shut_in_n && bsearch(&pair, model->shut_in, model->shut_in_n, sizeof pair, sunder_i_by_id_pair);
+}
+
 /* ---- model.c ----------------------------------------------------------------------------------------------------- */
 
 /* The boxes of the layer's features, behind which stand parts of barriers (layer.h), and the tree over them as they
@@ -190,6 +211,11 @@ bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);
 /* The seams of all features, unless they are known; after the pieces are cut. Proofs ask for them, the search does not.
  * Pointers into model->corner are void then. */
 sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err);
+
+/* ---- joints.c ---------------------------------------------------------------------------------------------------- */
+
+/* The joints of these bodies, ascending; once. Pointers into model->corner are void then. */
+sunder_status sunder_i_model_find_joints(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 
 /* ---- within_limit.c ---------------------------------------------------------------------------------------------- */
 

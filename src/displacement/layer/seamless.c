@@ -75,6 +75,12 @@ static bool find_quadrilateral(const double *xy, const uint32_t corner[4], doubl
     return false;
 }
 
+bool sunder_i_seam_between(const double corner[8], double out[8])
+{
+    const uint32_t in_turn[4] = {0, 1, 2, 3};
+    return find_quadrilateral(corner, in_turn, out);
+}
+
 static bool all_doubles(const sunder_shape *shape, const uint32_t corner[4])
 {
     for (int k = 0; k < 4; k++)

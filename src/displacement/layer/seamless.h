@@ -15,6 +15,9 @@ sunder_status sunder_i_seamless_make(const sunder_shape *shape, sunder_i_seamles
 /* The quadrilaterals alone that cover the shape's diagonals, *n of them: 8 doubles each, counter-clockwise, in *corner,
  * which is the caller's. False if memory is out. */
 bool sunder_i_seams_find(const sunder_shape *shape, double **corner, size_t *n);
+/* One about a segment uv that two convex pieces share: corner has u, a corner of the piece on its right, v, and one of
+ * the piece on its left. False if no doubles make one. */
+bool sunder_i_seam_between(const double corner[8], double out[8]);
 void sunder_i_seamless_free(sunder_i_seamless *seamless);
 
 #endif

@@ -43,6 +43,8 @@ typedef struct listing {
     const sunder_i_waived *waived;
     const sunder_i_body *p, *q;
     double offset[2], reach;
+    size_t most; /* pieces */
+    bool seams;
     sunder_i_scratch scratch;
     double *drawn, *hull; /* scratch of shadows */
     size_t drawn_capacity, hull_capacity;
@@ -187,7 +189,7 @@ static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_b
     return true;
 }
 
-static bool is_full(const listing *l) { return l->out->pieces > MOST_PIECES; }
+static bool is_full(const listing *l) { return l->out->pieces > l->most; }
 
 static bool add_pieces(listing *l)
 {
@@ -247,6 +249,26 @@ static bool may_cast(const listing *l, const sunder_i_body_piece *anchor, const 
                    : sunder_i_shadow_may_reach(anchor->box, piece->box, l->offset, way);
 }
 
+/* The shadow of one piece from the anchor of f. */
+static bool add_shadow_of(listing *l, uint32_t f, const sunder_i_body_piece *piece, bool swapped)
+{
+    const sunder_i_body_piece *anchor = &l->model->anchor[f];
+    if (!may_cast(l, anchor, piece, swapped) || sunder_i_is_held(l->model, f, piece->feature)) return true;
+    return add_shadow(l, swapped ? piece : anchor, swapped ? anchor : piece);
+}
+
+/* Those of what covers diagonals and shared walls. */
+static bool add_seams(listing *l, uint32_t f, const sunder_i_body *other, bool swapped)
+{
+    const sunder_i_model *model = l->model;
+    for (uint32_t k = other->seam; k < other->seam + other->seams; k++)
+        if (!add_shadow_of(l, f, &model->seam[k], swapped)) return false;
+    for (uint32_t k = other->joint; k < other->joint + other->joints; k++)
+        if (!sunder_i_is_held(model, f, model->joint[k].other) && !add_shadow_of(l, f, &model->joint[k].piece, swapped))
+            return false;
+    return true;
+}
+
 /* Shadows of pieces of `other` from the anchors of `p`; swapped: p is the second of the two. */
 static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_body *other, bool swapped)
 {
@@ -254,13 +276,10 @@ static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_
     if (sunder_i_is_barrier_body(model, other)) return true;
     for (uint32_t m = 0; m < p->members && !is_full(l); m++) {
         const uint32_t f = model->member[p->member + m];
-        const sunder_i_body_piece *anchor = &model->anchor[f];
-        if (!anchor->corners) continue;
-        for (uint32_t k = other->piece; k < other->piece + other->pieces; k++) {
-            const sunder_i_body_piece *piece = &model->piece[k];
-            if (!may_cast(l, anchor, piece, swapped) || sunder_i_is_held(model, f, piece->feature)) continue;
-            if (!add_shadow(l, swapped ? piece : anchor, swapped ? anchor : piece)) return false;
-        }
+        if (!model->anchor[f].corners) continue;
+        for (uint32_t k = other->piece; k < other->piece + other->pieces; k++)
+            if (!add_shadow_of(l, f, &model->piece[k], swapped)) return false;
+        if (l->seams && !add_seams(l, f, other, swapped)) return false;
     }
     return true;
 }
@@ -289,25 +308,48 @@ static bool add_all(listing *l)
     return l->model->rules.jumps || (add_shadows_from(l, l->p, l->q, false) && add_shadows_from(l, l->q, l->p, true));
 }
 
+static void begin(listing *l, uint32_t p, uint32_t q)
+{
+    *l->out = (sunder_i_forbidden){0};
+    l->p = &l->model->body[p];
+    l->q = &l->model->body[q];
+    for (size_t c = 0; c < 2; c++) l->offset[c] = l->q->origin[c] - l->p->origin[c];
+}
+
+static void end(listing *l, double reach)
+{
+    sunder_i_forbidden *f = l->out;
+    sunder_i_free(l->scratch.xy);
+    sunder_i_free(l->drawn);
+    sunder_i_free(l->hull);
+    f->size = 2 * reach;
+    for (size_t k = 0; k < f->pieces; k++)
+        for (size_t c = 0; c < 4; c++) f->size = fmax(f->size, fabs(f->piece[k].box[c]));
+    f->grain = 0x1p-46 * f->size;
+}
+
 bool sunder_i_forbidden_init(sunder_i_forbidden *f, const sunder_i_model *model, const sunder_i_waived *waived,
                              uint32_t p, uint32_t q, double reach)
 {
-    *f = (sunder_i_forbidden){0};
-    listing l = {
-        .out = f, .model = model, .waived = waived, .p = &model->body[p], .q = &model->body[q], .reach = reach};
-    for (size_t c = 0; c < 2; c++) l.offset[c] = l.q->origin[c] - l.p->origin[c];
+    listing l = {.out = f, .model = model, .waived = waived, .reach = reach, .most = MOST_PIECES};
+    begin(&l, p, q);
     bool ok = add_all(&l);
     while (ok && is_full(&l) && l.reach > model->rules.gap) {
         f->pieces = f->edges = 0;
         l.reach /= 2;
         ok = add_all(&l);
     }
-    sunder_i_free(l.scratch.xy);
-    sunder_i_free(l.drawn);
-    sunder_i_free(l.hull);
-    f->size = 2 * reach;
-    for (size_t k = 0; k < f->pieces; k++)
-        for (size_t c = 0; c < 4; c++) f->size = fmax(f->size, fabs(f->piece[k].box[c]));
-    f->grain = 0x1p-46 * f->size;
+    end(&l, reach);
+    return ok;
+}
+
+bool sunder_i_forbidden_with_seams(sunder_i_forbidden *f, const sunder_i_model *model, uint32_t p, uint32_t q,
+                                   double reach, size_t most)
+{
+    const sunder_i_waived none = {0};
+    listing l = {.out = f, .model = model, .waived = &none, .reach = reach, .most = most, .seams = true};
+    begin(&l, p, q);
+    const bool ok = add_all(&l);
+    end(&l, reach);
     return ok;
 }

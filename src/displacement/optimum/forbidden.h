@@ -56,7 +56,19 @@ const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sun
  * False if memory is out; failure leaves what sunder_i_forbidden_free() takes. */
 bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model *model, const sunder_i_waived *waived,
                              uint32_t p, uint32_t q, double reach);
+/* The same, with what covers the diagonals between pieces (layer/seams.c), and about `most` pieces at most: all of it
+ * only where they are no more. */
+bool sunder_i_forbidden_with_seams(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t p, uint32_t q,
+                                   double reach, size_t most);
 void sunder_i_forbidden_free(sunder_i_forbidden *forbidden);
+
+/* ---- shut_in.c --------------------------------------------------------------------------------------------------- */
+
+/* Is no direction seen to be open in which one of the two bodies could leave the other? In doubles, and fast. */
+bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q);
+/* *shut: proved, whatever the two do, one jumps over the other, crosses a side, or they stand too near each other.
+ * Seams are to be known. False if memory is out. */
+bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, bool *shut);
 
 /* ---- forbidden_places.c ------------------------------------------------------------------------------------------ */
 

@@ -144,6 +144,16 @@
 #define COVER_DEPTH 60
 #define COVER_STEPS 200000u
 
+/* ---- Pairs that are shut in (shut_in.c) -------------------------------------------------------------------------- */
+
+/* Directions that are looked along, each turned so far from the one before; pieces of a pair; and in how many parts
+ * each way its square is proved. */
+#define OUTLOOKS 16
+#define TURN_COS 0.9238795325112867
+#define TURN_SIN 0.3826834323650898
+#define MOST_SHUT_IN 200000u
+#define SQUARE_PARTS 4
+
 /* ---- Hulls (free_hull.c) ----------------------------------------------------------------------------------------- */
 
 /* Places that are looked at, and pieces on one side of a region; with more it is a guess. */

@@ -3,7 +3,9 @@
  *
  * That a limit is too short is decided by the least translation of the pair, exactly; that no way is left by branch and
  * bound (proofs/feasibility.c), which either proves it or is no answer. Its proof is kept: it names whose way was in
- * the way. For the limits the same branch and bound makes a record, where one is wanted. */
+ * the way. For the limits the same branch and bound makes a record, where one is wanted. Of two bodies that are shut in
+ * (clusters/shut_in_pairs.c) it is known beforehand; a record is looked for all the same, and where the rest of the two
+ * blocks has its part in it there is none. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/proofs/feasibility.h"
 #include "displacement/report/report.h"
@@ -97,7 +99,8 @@ sunder_status sunder_i_report_reason(const sunder_i_model *model, sunder_conflic
                                      sunder_error *err)
 {
     const double reach = limit_of(model, c->a) + limit_of(model, c->b);
-    c->reason = reach == 0 ? SUNDER_REASON_FIXED : SUNDER_REASON_UNRESOLVED;
+    const bool shut = c->b < model->features && sunder_i_are_shut_in(model, (uint32_t)c->a, (uint32_t)c->b);
+    c->reason = reach == 0 ? SUNDER_REASON_FIXED : shut ? SUNDER_REASON_JUMP : SUNDER_REASON_UNRESOLVED;
     if (reach == 0) return SUNDER_OK;
     if (reach == INFINITY) return reason_without_limit(model, c, proof, err);
     sunder_i_resolution resolution;

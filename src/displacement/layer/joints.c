@@ -1,0 +1,143 @@
+/* What covers the walls that members of a block share.
+ *
+ * As with the diagonals within a feature (seams.c): an anchor that goes straight along a wall where two members touch
+ * runs between the shadows of both, on the boundary of each. Each such wall, or the part of it that both have, gets a
+ * quadrilateral with a corner in either member. Members touch where an edge of the one lies along an edge of the other
+ * exactly; where they stand a hair apart there is a slit, through which an anchor may go.
+ *
+ * Both members are in the way of whoever meets it: of an anchor that lies in one of them nothing is said. */
+#include "displacement/layer/model.h"
+
+#include "base/watch.h"
+#include "spatial/box.h"
+
+#include <math.h>
+
+typedef struct joining {
+    sunder_i_model *model;
+    size_t capacity, corner_capacity;
+    sunder_i_list near;
+    bool failed;
+} joining;
+
+/* A convex piece of a feature, as given: the edge from corner k, and the corner behind that. */
+typedef struct edge {
+    sunder_point from, to, beyond;
+} edge;
+
+/* Is that vertex a double? */
+static bool is_exact(const sunder_shape *shape, uint32_t v) { return !shape->rational || !shape->exact[v].den.size; }
+
+static sunder_point point_of(const sunder_shape *shape, uint32_t v)
+{
+    return (sunder_point){shape->xy[2 * (size_t)v], shape->xy[2 * (size_t)v + 1]};
+}
+
+/* Of the piece with these vertices; false if one of the three is no double. */
+static bool edge_of(const sunder_shape *shape, const uint32_t *vertex, uint32_t n, uint32_t k, edge *e)
+{
+    const uint32_t v[3] = {vertex[k], vertex[(k + 1) % n], vertex[(k + 2) % n]};
+    for (int i = 0; i < 3; i++)
+        if (!is_exact(shape, v[i])) return false;
+    *e = (edge){point_of(shape, v[0]), point_of(shape, v[1]), point_of(shape, v[2])};
+    return true;
+}
+
+/* How far along the edge's line, by the coordinate in which it is longer. */
+static double along(const edge *e, sunder_point p)
+{
+    const double x = e->to.x - e->from.x, y = e->to.y - e->from.y;
+    return fabs(x) >= fabs(y) ? (x > 0 ? p.x : -p.x) : (y > 0 ? p.y : -p.y);
+}
+
+/* What e and f, of pieces on either side, have in common: from u to v, along e. */
+static bool find_common(const edge *e, const edge *f, sunder_point *u, sunder_point *v)
+{
+    if (sunder_orient(&e->from, &e->to, &f->from) != 0 || sunder_orient(&e->from, &e->to, &f->to) != 0 ||
+        sunder_orient(&e->from, &e->to, &f->beyond) >= 0)
+        return false;
+    *u = along(e, e->from) > along(e, f->to) ? e->from : f->to;
+    *v = along(e, e->to) < along(e, f->from) ? e->to : f->from;
+    return along(e, *u) < along(e, *v);
+}
+
+static void add(joining *j, uint32_t f, uint32_t g, const edge *e, const edge *of_g)
+{
+    sunder_i_model *model = j->model;
+    sunder_point u, v;
+    double at[8];
+    if (!find_common(e, of_g, &u, &v)) return;
+    const double corner[8] = {u.x, u.y, of_g->beyond.x, of_g->beyond.y, v.x, v.y, e->beyond.x, e->beyond.y};
+    if (!sunder_i_seam_between(corner, at)) return;
+    if (model->corners + 4 >= UINT32_MAX ||
+        !sunder_i_reserve(&model->joint, &j->capacity, model->joints + 1, sizeof *model->joint) ||
+        !sunder_i_reserve(&model->corner, &j->corner_capacity, 2 * (model->corners + 4), sizeof *model->corner)) {
+        j->failed = true;
+        return;
+    }
+    const double *origin = model->body[model->body_of[f]].origin;
+    sunder_i_joint *joint = &model->joint[model->joints++];
+    *joint = (sunder_i_joint){{.corner = (uint32_t)model->corners, .corners = 4, .feature = f}, g};
+    sunder_i_box_clear(joint->piece.box);
+    for (size_t k = 0; k < 4; k++) {
+        double *to = model->corner + 2 * model->corners++;
+        for (size_t c = 0; c < 2; c++) to[c] = at[2 * k + c] - origin[c];
+        sunder_i_box_include(joint->piece.box, to);
+    }
+}
+
+/* Edge e of feature f, and those of g. */
+static void look_along(joining *j, uint32_t f, uint32_t g, const edge *e)
+{
+    const sunder_shape *shape = j->model->layer->feature[g].shape;
+    uint32_t from = 0;
+    for (uint32_t p = 0; p < shape->pieces && !j->failed; from = shape->piece_end[p++]) {
+        const uint32_t n = shape->piece_end[p] - from;
+        for (uint32_t k = 0; k < n && !j->failed; k++) {
+            edge of_g;
+            if (edge_of(shape, shape->piece_vertex + from, n, k, &of_g)) add(j, f, g, e, &of_g);
+        }
+    }
+}
+
+static void join(joining *j, uint32_t f, uint32_t g)
+{
+    const sunder_shape *shape = j->model->layer->feature[f].shape;
+    const double *box = j->model->box + 4 * (size_t)g;
+    uint32_t from = 0;
+    for (uint32_t p = 0; p < shape->pieces && !j->failed; from = shape->piece_end[p++]) {
+        const uint32_t n = shape->piece_end[p] - from;
+        for (uint32_t k = 0; k < n; k++) {
+            edge e;
+            double own[4];
+            if (!edge_of(shape, shape->piece_vertex + from, n, k, &e)) continue;
+            sunder_i_box_of_segment((double[]){e.from.x, e.from.y}, (double[]){e.to.x, e.to.y}, own);
+            if (sunder_i_box_meet(own, box)) look_along(j, f, g, &e);
+        }
+    }
+    if (!sunder_i_steps(1 + shape->pieces)) j->failed = true;
+}
+
+static void join_members(joining *j, uint32_t b)
+{
+    sunder_i_model *model = j->model;
+    sunder_i_body *body = &model->body[b];
+    body->joint = (uint32_t)model->joints;
+    for (uint32_t m = 0; m < body->members && body->members > 1 && !j->failed; m++) {
+        const uint32_t f = model->member[body->member + m];
+        j->near.n = 0;
+        if (!model->present[f]) continue;
+        if (!sunder_i_rtree_query(&model->tree, model->box + 4 * (size_t)f, &j->near)) j->failed = true;
+        for (size_t k = 0; k < j->near.n && !j->failed; k++)
+            if (j->near.item[k] > f && model->body_of[j->near.item[k]] == b) join(j, f, j->near.item[k]);
+    }
+    body->joints = (uint32_t)model->joints - body->joint;
+}
+
+sunder_status sunder_i_model_find_joints(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err)
+{
+    joining j = {.model = model};
+    for (size_t k = 0; k < n && !j.failed; k++) join_members(&j, body[k]);
+    sunder_i_free(j.near.item);
+    return j.failed ? sunder_i_no_memory(err) : SUNDER_OK;
+}

@@ -1,0 +1,123 @@
+/* Do two bodies have no relative move that is free? Where jumps are not allowed that may be: what stands in a yard can
+ * leave it no more than the yard can leave what stands in it, and if the yard is too small there is no place in it.
+ *
+ * All relative moves within a square are asked about, so large that beyond it the two are apart for certain. There
+ * nothing but shadows forbids a move, and these have no end: whatever direction leads into one leads on in it for ever.
+ * So if the square is covered (covered.c) all of the plane is; whatever limits and fixed features say besides. Pieces
+ * of one block are forbidden together: the two bodies are asked about, each as a whole.
+ *
+ * Few pairs are shut in, and most show it at once that they are not: the way straight out is open. So directions are
+ * looked along first, in doubles, which decides nothing: where one is open there is nothing to prove. */
+#include "displacement/optimum/forbidden.h"
+#include "displacement/optimum/region.h"
+#include "displacement/optimum/tuning.h"
+
+#include "base/watch.h"
+
+#include <math.h>
+
+typedef struct looking {
+    const sunder_i_model *model;
+    const sunder_i_body *p, *q;
+    double offset[2]; /* of q's origin from p's */
+} looking;
+
+/* Does the ray from u along dir meet the convex piece, moved by shift? */
+static bool meets(const sunder_i_model *model, const sunder_i_body_piece *piece, const double shift[2],
+                  const double u[2], const double dir[2])
+{
+    const double *corner = model->corner + 2 * (size_t)piece->corner;
+    bool left = false, right = false, ahead = false;
+    for (uint32_t k = 0; k < piece->corners; k++) {
+        const double x = corner[2 * k] + shift[0] - u[0], y = corner[2 * k + 1] + shift[1] - u[1];
+        const double side = dir[0] * y - dir[1] * x;
+        left = left || side >= 0;
+        right = right || side <= 0;
+        ahead = ahead || dir[0] * x + dir[1] * y > 0;
+    }
+    return left && right && ahead;
+}
+
+/* Does an anchor of `of` that goes along dir run into `other`, which stands `shift` off? */
+static bool runs_into(const sunder_i_model *model, const sunder_i_body *of, const sunder_i_body *other,
+                      const double shift[2], const double dir[2])
+{
+    for (uint32_t m = 0; m < of->members; m++) {
+        const uint32_t f = model->member[of->member + m];
+        const sunder_i_body_piece *anchor = &model->anchor[f];
+        for (uint32_t k = other->piece; k < other->piece + other->pieces && anchor->corners; k++)
+            if (meets(model, &model->piece[k], shift, anchor->box, dir) &&
+                !sunder_i_is_held(model, f, model->piece[k].feature))
+                return true;
+    }
+    return false;
+}
+
+static bool is_open(const looking *l, const double dir[2])
+{
+    const double to_p[2] = {-l->offset[0], -l->offset[1]}, back[2] = {-dir[0], -dir[1]};
+    return !runs_into(l->model, l->q, l->p, to_p, dir) && !runs_into(l->model, l->p, l->q, l->offset, back);
+}
+
+/* Is there an open direction among so many, straight out first? */
+static bool any_is_open(const looking *l)
+{
+    double out[2];
+    for (int c = 0; c < 2; c++)
+        out[c] = l->q->box[c] + l->q->box[c + 2] + 2 * l->offset[c] - l->p->box[c] - l->p->box[c + 2];
+    const double length = hypot(out[0], out[1]);
+    double dir[2] = {length > 0 ? out[0] / length : 1, length > 0 ? out[1] / length : 0};
+    for (int k = 0; k < OUTLOOKS; k++) {
+        if (is_open(l, dir)) return true;
+        const double x = dir[0];
+        dir[0] = TURN_COS * x - TURN_SIN * dir[1];
+        dir[1] = TURN_SIN * x + TURN_COS * dir[1];
+    }
+    return false;
+}
+
+/* A relative move that is longer leaves the two apart by more than the gap. */
+static double farthest_near(const looking *l)
+{
+    double reach = 0;
+    for (int c = 0; c < 2; c++)
+        reach += fmax(fabs(l->p->box[c + 2] - l->offset[c] - l->q->box[c]),
+                      fabs(l->p->box[c] - l->offset[c] - l->q->box[c + 2]));
+    return reach + 2 * l->model->rules.gap;
+}
+
+/* The square, a part at a time: each may take what a cut may. */
+static bool is_covered(const sunder_i_forbidden *f, double reach, uint64_t *steps)
+{
+    const double half = reach / SQUARE_PARTS;
+    for (int k = 0; k < SQUARE_PARTS * SQUARE_PARTS; k++) {
+        const int column = k % SQUARE_PARTS, row = k / SQUARE_PARTS;
+        const double centre[2] = {(2 * column + 1) * half - reach, (2 * row + 1) * half - reach};
+        sunder_i_region part;
+        /* A little larger, for rounding. */
+        sunder_i_region_init(&part, centre, half * (1 + 0x1p-20));
+        if (!sunder_i_region_is_covered(&part, f, NULL, NULL, steps)) return false;
+    }
+    return true;
+}
+
+bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q)
+{
+    looking l = {.model = model, .p = &model->body[p], .q = &model->body[q]};
+    for (size_t c = 0; c < 2; c++) l.offset[c] = l.q->origin[c] - l.p->origin[c];
+    return !any_is_open(&l);
+}
+
+bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, bool *shut)
+{
+    looking l = {.model = model, .p = &model->body[p], .q = &model->body[q]};
+    for (size_t c = 0; c < 2; c++) l.offset[c] = l.q->origin[c] - l.p->origin[c];
+    const double reach = 2 * farthest_near(&l);
+    sunder_i_forbidden f;
+    uint64_t steps = 0;
+    bool ok = sunder_i_forbidden_with_seams(&f, model, p, q, reach, MOST_SHUT_IN) && sunder_i_forbidden_index(&f);
+    *shut = ok && is_covered(&f, reach, &steps);
+    ok = ok && sunder_i_steps(steps / 8);
+    sunder_i_forbidden_free(&f);
+    return ok;
+}
