@@ -2,8 +2,9 @@
  *
  * Pairs that clash in the end, and clashed at the start, are relaxed (relaxation.c), a few at a time: all others keep
  * what they owe, and these stand no worse than they stood. Which ones the compromise tells that the search ended in: it
- * misses most where the contradiction is. After each few the search goes on from there; and from home, in the end,
- * since a compromise may have pushed some that nothing needs to move any more.
+ * misses most where the contradiction is. After each few the search goes on from there. In the end each is asked for
+ * again (take_back.c); and all go down from home once more, since a compromise may have pushed some that nothing needs
+ * to move any more.
  *
  * Where that leads nowhere all that still clash are relaxed, and what came into a clash besides goes home, until
  * nothing clashes; in the end all are at home, where every relaxation holds. From there the cluster descends as from
@@ -124,16 +125,19 @@ static void try_from_home(sunder_i_search *s)
  * Returns whether nothing clashes in the end. */
 static bool give_up_gradually(sunder_i_search *s, const sunder_i_clash *at_home, size_t n)
 {
-    const uint64_t work = sunder_i_search_work(s);
-    const uint64_t more = (GIVE_UP_TIMES - 1) * work;
-    s->patience = 2 * work + (more < GIVE_UP_MOST ? more : GIVE_UP_MOST) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
+    const uint64_t work = sunder_i_search_work(s), more = (GIVE_UP_TIMES - 1) * work;
+    const uint64_t little = work + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
+    const uint64_t end = work + (more < GIVE_UP_MOST ? more : GIVE_UP_MOST) + little;
     bool done = false;
-    for (double share = FIRST_SHARE; !done && !s->failed && sunder_i_search_work(s) < s->patience; share /= MORE) {
+    for (double share = FIRST_SHARE; !done && !s->failed && sunder_i_search_work(s) < end; share /= MORE) {
         sunder_i_search_settle_parts(s);
         if (!s->failed) sunder_i_search_look(s, s->t);
         if (s->failed || !relax_cheapest(s, at_home, n, share)) break;
+        s->patience = end;
         done = sunder_i_search_descend(s);
     }
+    if (done && s->n >= CROWD) sunder_i_search_take_back(s);
+    s->patience = sunder_i_search_work(s) + little;
     if (done) try_from_home(s);
     s->patience = UINT64_MAX;
     return done && !s->failed;

@@ -64,6 +64,12 @@ void sunder_i_search_lower(sunder_i_search *search);
 /* The pairs that would clash with all at home; *n of them, sorted, the caller's. NULL if memory is out. */
 sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n);
 
+/* ---- take_back.c: and asked for again ---------------------------------------------------------------------------- */
+
+/* From a position without clashes: what this search has given up, one pair after the other, and where it can be had it
+ * goes there. */
+void sunder_i_search_take_back(sunder_i_search *search);
+
 /* ---- solve_cluster.c: how a search ends -------------------------------------------------------------------------- */
 
 /* Rounds the moves of its bodies. */

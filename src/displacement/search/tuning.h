@@ -68,6 +68,12 @@
  * conflicts to give up; where the last of them is cut short all are. */
 #define GIVE_UP_TIMES 8
 #define GIVE_UP_MOST 400000000u
+/* Of a crowd of so many bodies a descent takes more than retries (retry_cluster.c) are allowed; in smaller clusters
+ * these do better. What it gave up is asked for again with so much for each pair of bodies, and for all. With less, or
+ * more, for each a crowd of 70 houses ends with up to half as many again that are given up. */
+#define CROWD 48
+#define TAKE_BACK_EACH 8000000u
+#define TAKE_BACK_MOST 200000000u
 /* Moves no longer than this share of a body are what descents leave of none. */
 #define NEARLY_HOME 1e-7
 
