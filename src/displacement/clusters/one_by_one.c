@@ -46,15 +46,9 @@ static size_t list_requirements(const sunder_i_solver *s, sunder_i_requirement *
     size_t n = 0;
     for (size_t k = 0; k < model->relaxations.n; k++) {
         const sunder_i_relaxation *t = &model->relaxations.item[k];
-        const double depth = hypot(t->shift[0], t->shift[1]);
         const uint32_t b = sunder_i_whole_of(model, t->b);
         if (!is_conflict_now(s, t) || (n && required[n - 1].a == t->a && required[n - 1].b == b)) continue;
-        required[n++] = (sunder_i_requirement){t->a,
-                                               b,
-                                               t->inside   ? -INFINITY
-                                               : depth > 0 ? -depth
-                                                           : t->gap,
-                                               {t->shift[0], t->shift[1]}};
+        required[n++] = sunder_i_requirement_of(model, t);
     }
     return n;
 }

@@ -10,7 +10,6 @@
 #include "base/parallel.h"
 #include "base/union_find.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -159,15 +158,7 @@ static size_t list_requirements(const sunder_i_model *model, sunder_i_requiremen
     size_t n = 0;
     for (size_t k = 0; k < model->relaxations.n; k++) {
         const sunder_i_relaxation *t = &model->relaxations.item[k];
-        const double shift = hypot(t->shift[0], t->shift[1]);
-        if (!t->infeasible) continue;
-        const uint32_t b = sunder_i_whole_of(model, t->b);
-        required[n++] = (sunder_i_requirement){t->a,
-                                               b,
-                                               t->inside   ? -INFINITY
-                                               : shift > 0 ? -shift
-                                                           : t->gap,
-                                               {t->shift[0], t->shift[1]}};
+        if (t->infeasible) required[n++] = sunder_i_requirement_of(model, t);
     }
     return n;
 }

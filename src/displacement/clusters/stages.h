@@ -12,7 +12,7 @@ sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *solver, sunder_er
 
 /* ---- shut_in_pairs.c --------------------------------------------------------------------------------------------- */
 
-/* ---- shut_in_pairs.c --------------------------------------------------------------------------------------------- */
+/* Finds two bodies, in conflict, that nothing but a jump takes clear of each other, and leaves what is between them. */
 sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- lifted_limits.c --------------------------------------------------------------------------------------------- */

@@ -88,3 +88,11 @@ sunder_status sunder_i_requirement_find(const sunder_i_model *model, const sunde
     const sunder_i_relation *stood = sunder_i_relations_find(start, a, b);
     return stood && stood->contained ? SUNDER_OK : of_features(model, out, err);
 }
+
+sunder_i_requirement sunder_i_requirement_of(const sunder_i_model *model, const sunder_i_relaxation *relaxation)
+{
+    const double *shift = relaxation->shift, depth = hypot(shift[0], shift[1]);
+    const double clearance = relaxation->inside ? -INFINITY : depth > 0 ? -depth : relaxation->gap;
+    return (sunder_i_requirement){
+        relaxation->a, sunder_i_whole_of(model, relaxation->b), clearance, {shift[0], shift[1]}};
+}
