@@ -106,7 +106,7 @@ static void judge(const hamlet *t, size_t i, tally *sum)
             sum->dearer++;
             printf("case %zu: cost %.9g, optimum %.9g\n", i, cost, answer.high);
         }
-        if (cost > 0) sum->worst = fmax(sum->worst, over / cost);
+        if (cost > 0 && !answer.open) sum->worst = fmax(sum->worst, over / cost);
     }
     for (size_t k = 0; k < n; k++) check_verdict(t, c, n, &c[k], i, sum);
     optimum_free(&m);

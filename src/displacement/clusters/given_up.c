@@ -26,13 +26,23 @@ static bool restore(sunder_i_model *model, const sunder_i_cluster *cluster, size
     return true;
 }
 
+void sunder_i_sort_given_up(sunder_i_model *model)
+{
+    sunder_i_id_pair *list = model->given_up;
+    size_t out = 0;
+    if (model->given_up_n) qsort(list, model->given_up_n, sizeof *list, sunder_i_by_id_pair);
+    for (size_t k = 0; k < model->given_up_n; k++)
+        if (k == 0 || sunder_i_by_id_pair(&list[out - 1], &list[k])) list[out++] = list[k];
+    model->given_up_n = out;
+}
+
 /* The clusters' relaxations, in place of what the model had for the same features; those that were not proved
  * infeasible are given up. */
 static bool take_relaxations(sunder_i_model *model, const sunder_i_cluster *cluster, size_t clusters)
 {
     sunder_i_relaxations *all = &model->relaxations;
     const size_t before = all->n;
-    size_t n = 0, out = 0;
+    size_t n = 0;
     for (size_t k = 0; k < clusters; k++) n += cluster[k].relaxations.n;
     if (n == 0) return true;
     sunder_i_id_pair *given_up = sunder_i_realloc(model->given_up, model->given_up_n + n, sizeof *given_up);
@@ -52,10 +62,7 @@ static bool take_relaxations(sunder_i_model *model, const sunder_i_cluster *clus
             else if (!sunder_i_relaxations_add(all, &relaxation))
                 return false;
         }
-    qsort(given_up, model->given_up_n, sizeof *given_up, sunder_i_by_id_pair);
-    for (size_t k = 0; k < model->given_up_n; k++)
-        if (k == 0 || sunder_i_by_id_pair(&given_up[out - 1], &given_up[k])) given_up[out++] = given_up[k];
-    model->given_up_n = out;
+    sunder_i_sort_given_up(model);
     return sunder_i_relaxations_index(all, model);
 }
 

@@ -70,9 +70,11 @@ static void list_questions(const sunder_i_solver *s, question *list, size_t *fir
         const uint32_t i = model->body_of[t->a], j = model->body_of[t->b];
         if (t->infeasible || (model->body[i].fixed && model->body[j].fixed) || !is_conflict_now(s, t)) continue;
         if (last && last->a == t->a && sunder_i_whole_of(model, last->b) == sunder_i_whole_of(model, t->b)) continue;
-        if (was_asked(s, t)) continue;
+        const uint32_t of = model->body[i].fixed ? j : i, root = sunder_i_union_find(s->parent, of);
+        /* Who was left before anybody moved, and met nobody, is of no cluster. */
+        if (was_asked(s, t) || !sunder_i_solver_has_member(s, root, of)) continue;
         last = t;
-        list[n++] = (question){sunder_i_union_find(s->parent, model->body[i].fixed ? j : i), (uint32_t)k};
+        list[n++] = (question){root, (uint32_t)k};
     }
     if (n) qsort(list, n, sizeof *list, sunder_i_by_id_pair);
     *clusters = 0;

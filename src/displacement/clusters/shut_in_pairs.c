@@ -1,6 +1,8 @@
-/* Pairs of bodies in conflict that no moves resolve, with or without limits: one stands in a yard of the other that is
- * too small for it, and would have to jump out (optimum/shut_in.c). They are found before anything moves, so that
- * nobody looks for a solution: all conflicts of two such bodies are left, like those that limits leave no solution. */
+/* Conflicts that no moves resolve, with or without limits: one body stands in a yard of the other that is too small for
+ * it, and would have to jump out (optimum/shut_in.c). They are found before anything moves, so that no search begins
+ * with asking for a solution: all conflicts of two such bodies are left. Those of which that holds feature by feature,
+ * the rest of their blocks only minding its ways, are infeasible like those that limits leave no solution; of the
+ * others one may have a solution where the rest is left, so they are given up, and asked for again at the end. */
 #include "displacement/clusters/stages.h"
 
 #include "base/parallel.h"
@@ -18,7 +20,8 @@ static sunder_status judge(void *context, size_t begin, size_t end, sunder_error
 {
     const judging *g = context;
     for (size_t k = begin; k < end; k++)
-        if (!sunder_i_is_shut_in(g->model, g->pair[k].a, g->pair[k].b, &g->shut[k])) return sunder_i_no_memory(err);
+        if (!sunder_i_is_shut_in(g->model, g->pair[k].a, g->pair[k].b, NULL, &g->shut[k]))
+            return sunder_i_no_memory(err);
     return SUNDER_OK;
 }
 
@@ -46,23 +49,43 @@ static size_t list_pairs(const sunder_i_solver *s, sunder_i_id_pair *pair)
     return out;
 }
 
-/* Leaves the conflicts between them. */
-static sunder_status relax(sunder_i_solver *s, sunder_error *err)
+/* Leaves a conflict of two of these bodies; list: of features that are shut in by themselves. */
+static sunder_status leave(sunder_i_model *model, const sunder_i_relation *r, const sunder_i_id_pair *bodies,
+                           sunder_i_relaxations *more, sunder_error *err)
+{
+    const sunder_i_id_pair pair = {r->a, r->b};
+    sunder_i_relaxation relaxation;
+    bool shut;
+    if (!sunder_i_is_shut_in(model, bodies->a, bodies->b, &pair, &shut)) return sunder_i_no_memory(err);
+    const sunder_status status = sunder_i_relaxation_of(model, r->a, r->b, &relaxation, err);
+    if (status) return status;
+    relaxation.infeasible = shut;
+    if (shut) {
+        model->shut_in[model->shut_in_n++] = pair;
+    } else {
+        model->given_up[model->given_up_n++] = *bodies;
+    }
+    return sunder_i_relaxations_add(more, &relaxation) ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+/* Leaves the conflicts between these bodies, n pairs, sorted. */
+static sunder_status relax(sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, sunder_error *err)
 {
     sunder_i_model *model = &s->model;
     sunder_i_relaxations more = {0};
     sunder_status status = SUNDER_OK;
     for (size_t k = 0; k < s->start.n && !status; k++) {
         const sunder_i_relation *r = &s->start.pair[k];
-        sunder_i_relaxation relaxation;
-        if (!sunder_i_is_open_conflict(model, r) || !sunder_i_are_shut_in(model, r->a, r->b)) continue;
-        status = sunder_i_relaxation_of(model, r->a, r->b, &relaxation, err);
-        relaxation.infeasible = true;
-        if (!status && !sunder_i_relaxations_add(&more, &relaxation)) status = sunder_i_no_memory(err);
+        if (!sunder_i_is_open_conflict(model, r) || sunder_i_is_barrier(model, r->b)) continue;
+        const sunder_i_id_pair bodies = bodies_of(model, r);
+        if (bsearch(&bodies, list, n, sizeof bodies, sunder_i_by_id_pair))
+            status = leave(model, r, &bodies, &more, err);
     }
     for (size_t k = 0; k < more.n && !status; k++)
         if (!sunder_i_relaxations_add(&model->relaxations, &more.item[k])) status = sunder_i_no_memory(err);
     sunder_i_relaxations_free(&more);
+    if (model->shut_in_n) qsort(model->shut_in, model->shut_in_n, sizeof *model->shut_in, sunder_i_by_id_pair);
+    sunder_i_sort_given_up(model);
     if (!status && !sunder_i_relaxations_index(&model->relaxations, model)) status = sunder_i_no_memory(err);
     return status;
 }
@@ -83,15 +106,22 @@ sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *s, sunder_error *err
 {
     sunder_i_model *model = &s->model;
     if (model->rules.jumps) return SUNDER_OK;
-    model->shut_in = sunder_i_alloc(s->start.n, sizeof *model->shut_in);
-    if (!model->shut_in) return sunder_i_no_memory(err);
-    const size_t n = list_pairs(s, model->shut_in);
-    if (n == 0) return SUNDER_OK;
-    judging g = {model, model->shut_in, sunder_i_calloc(n, sizeof *g.shut)};
-    sunder_status status = g.shut ? find_seams(model, model->shut_in, n, err) : sunder_i_no_memory(err);
+    sunder_i_id_pair *pair = sunder_i_alloc(s->start.n, sizeof *pair);
+    if (!pair) return sunder_i_no_memory(err);
+    const size_t n = list_pairs(s, pair);
+    judging g = {model, pair, sunder_i_calloc(n, sizeof *g.shut)};
+    sunder_status status = g.shut ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status && n) status = find_seams(model, pair, n, err);
     if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_WHOLE, judge, &g, err);
+    size_t out = 0;
     for (size_t k = 0; k < n && !status; k++)
-        if (g.shut[k]) model->shut_in[model->shut_in_n++] = model->shut_in[k];
+        if (g.shut[k]) pair[out++] = pair[k];
+    if (!status && out) {
+        model->shut_in = sunder_i_alloc(s->start.n, sizeof *model->shut_in);
+        model->given_up = sunder_i_alloc(s->start.n, sizeof *model->given_up);
+        status = model->shut_in && model->given_up ? relax(s, pair, out, err) : sunder_i_no_memory(err);
+    }
     sunder_i_free(g.shut);
-    return status || model->shut_in_n == 0 ? status : relax(s, err);
+    sunder_i_free(pair);
+    return status;
 }

@@ -39,6 +39,8 @@ sunder_status sunder_i_solver_settle(sunder_i_solver *solver, double from, doubl
 
 /* ---- given_up.c -------------------------------------------------------------------------------------------------- */
 
+/* Sorted, each once. */
+void sunder_i_sort_given_up(sunder_i_model *model);
 /* Takes over the relaxations that clusters made, and those that they ended. */
 sunder_status sunder_i_solver_take_over(sunder_i_solver *solver, sunder_error *err);
 

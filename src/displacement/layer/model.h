@@ -111,7 +111,7 @@ struct sunder_i_model {
     sunder_i_relaxations relaxations;
     sunder_i_id_pair *given_up; /* bodies given up: no solution was found that resolves this pair, too; sorted */
     size_t given_up_n;
-    sunder_i_id_pair *shut_in; /* bodies that nothing but a jump takes clear of each other, which is proved; sorted */
+    sunder_i_id_pair *shut_in; /* features, a < b, that nothing but a jump takes clear of each other: proved; sorted */
     size_t shut_in_n;
     double *move;   /* [2 * bodies] where each stands now, relative to the start */
     double *lifted; /* [2 * bodies] where each stood when limits were lifted; NULL: they were not, or still are */
@@ -165,11 +165,10 @@ static inline double sunder_i_reach_beyond(const sunder_i_model *model, uint32_t
     return fmax(0, sunder_i_owed_above(model, thing, thing) - model->rules.gap);
 }
 
-/* Are the bodies of these two things known to be shut in? */
+/* Are these two features, f < g, known to be shut in? */
 static inline bool sunder_i_are_shut_in(const sunder_i_model *model, uint32_t f, uint32_t g)
 {
-    const uint32_t i = model->body_of[f], j = model->body_of[g];
-    const sunder_i_id_pair pair = {i < j ? i : j, i < j ? j : i};
+    const sunder_i_id_pair pair = {f, g};
     return model->shut_in_n && bsearch(&pair, model->shut_in, model->shut_in_n, sizeof pair, sunder_i_by_id_pair);
 }
 

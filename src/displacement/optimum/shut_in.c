@@ -3,8 +3,8 @@
  *
  * All relative moves within a square are asked about, so large that beyond it the two are apart for certain. There
  * nothing but shadows forbids a move, and these have no end: whatever direction leads into one leads on in it for ever.
- * So if the square is covered (covered.c) all of the plane is; whatever limits and fixed features say besides. Pieces
- * of one block are forbidden together: the two bodies are asked about, each as a whole.
+ * So if the square is covered (covered.c) all of the plane is; whatever limits and fixed features say besides. The two
+ * bodies are asked about, each as a whole; or two features, whose blocks go with them and only mind their ways.
  *
  * Few pairs are shut in, and most show it at once that they are not: the way straight out is open. So directions are
  * looked along first, in doubles, which decides nothing: where one is open there is nothing to prove. */
@@ -108,14 +108,28 @@ bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q
     return !any_is_open(&l);
 }
 
-bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, bool *shut)
+/* Leaves shadows, and of all other pieces those of these two features. */
+static void keep_pair(sunder_i_forbidden *f, const sunder_i_id_pair *pair)
+{
+    size_t out = 0;
+    for (size_t k = 0; k < f->pieces; k++) {
+        const uint32_t a = f->piece[k].a->feature, b = f->piece[k].b->feature;
+        if (f->piece[k].shadow || (a == pair->a && b == pair->b) || (a == pair->b && b == pair->a))
+            f->piece[out++] = f->piece[k];
+    }
+    f->pieces = out;
+}
+
+bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, const sunder_i_id_pair *pair, bool *shut)
 {
     looking l = {.model = model, .p = &model->body[p], .q = &model->body[q]};
     for (size_t c = 0; c < 2; c++) l.offset[c] = l.q->origin[c] - l.p->origin[c];
     const double reach = 2 * farthest_near(&l);
     sunder_i_forbidden f;
     uint64_t steps = 0;
-    bool ok = sunder_i_forbidden_with_seams(&f, model, p, q, reach, MOST_SHUT_IN) && sunder_i_forbidden_index(&f);
+    bool ok = sunder_i_forbidden_with_seams(&f, model, p, q, reach, MOST_SHUT_IN);
+    if (ok && pair) keep_pair(&f, pair);
+    ok = ok && sunder_i_forbidden_index(&f);
     *shut = ok && is_covered(&f, reach, &steps);
     ok = ok && sunder_i_steps(steps / 8);
     sunder_i_forbidden_free(&f);

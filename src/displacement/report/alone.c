@@ -3,9 +3,9 @@
  *
  * That a limit is too short is decided by the least translation of the pair, exactly; that no way is left by branch and
  * bound (proofs/feasibility.c), which either proves it or is no answer. Its proof is kept: it names whose way was in
- * the way. For the limits the same branch and bound makes a record, where one is wanted. Of two bodies that are shut in
- * (clusters/shut_in_pairs.c) it is known beforehand; a record is looked for all the same, and where the rest of the two
- * blocks has its part in it there is none. */
+ * the way. For the limits the same branch and bound makes a record, where one is wanted. Of two features that are
+ * shut in (clusters/shut_in_pairs.c) it is known beforehand; a record is looked for all the same, and where the effort
+ * ends first there is none. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/proofs/feasibility.h"
 #include "displacement/report/report.h"
