@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "shape/shape.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -197,6 +198,17 @@ static sunder_status unite(sunder_i_model *model, uint32_t b, sunder_error *err)
     sunder_i_free(ring_end);
     sunder_i_free(poly_end);
     return status;
+}
+
+double sunder_i_farthest_near(const sunder_i_model *model, uint32_t p, uint32_t q)
+{
+    const sunder_i_body *a = &model->body[p], *b = &model->body[q];
+    double reach = 0;
+    for (int c = 0; c < 2; c++) {
+        const double offset = b->origin[c] - a->origin[c];
+        reach += fmax(fabs(a->box[c + 2] - offset - b->box[c]), fabs(a->box[c] - offset - b->box[c + 2]));
+    }
+    return reach + 2 * model->rules.gap;
 }
 
 typedef struct uniting {

@@ -193,6 +193,8 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err);
 void sunder_i_piece_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out);
 /* The convex hull of n points, counter-clockwise, in out (room for n + 1), in doubles. The points are sorted. */
 size_t sunder_i_convex_hull(double *point, size_t n, double *out);
+/* A relative move of two bodies that is longer leaves them apart by more than the gap. */
+double sunder_i_farthest_near(const sunder_i_model *model, uint32_t p, uint32_t q);
 /* Unites the members of these bodies, those that are blocks and have not been. */
 sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 /* The shape of a body: its only member's, or the union. NULL if it was not united or is empty. */

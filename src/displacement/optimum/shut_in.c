@@ -76,16 +76,6 @@ static bool any_is_open(const looking *l)
     return false;
 }
 
-/* A relative move that is longer leaves the two apart by more than the gap. */
-static double farthest_near(const looking *l)
-{
-    double reach = 0;
-    for (int c = 0; c < 2; c++)
-        reach += fmax(fabs(l->p->box[c + 2] - l->offset[c] - l->q->box[c]),
-                      fabs(l->p->box[c] - l->offset[c] - l->q->box[c + 2]));
-    return reach + 2 * l->model->rules.gap;
-}
-
 /* The square, a part at a time: each may take what a cut may. */
 static bool is_covered(const sunder_i_forbidden *f, double reach, uint64_t *steps)
 {
@@ -124,7 +114,7 @@ bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, co
 {
     looking l = {.model = model, .p = &model->body[p], .q = &model->body[q]};
     for (size_t c = 0; c < 2; c++) l.offset[c] = l.q->origin[c] - l.p->origin[c];
-    const double reach = 2 * farthest_near(&l);
+    const double reach = 2 * sunder_i_farthest_near(model, p, q);
     sunder_i_forbidden f;
     uint64_t steps = 0;
     bool ok = sunder_i_forbidden_with_seams(&f, model, p, q, reach, MOST_SHUT_IN);

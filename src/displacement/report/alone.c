@@ -52,18 +52,6 @@ static sunder_status prove_alone(const sunder_i_model *model, const sunder_confl
     return status;
 }
 
-/* A relative move that is longer leaves the two apart by more than the gap. */
-static double farthest_near(const sunder_i_model *model, const sunder_conflict *c)
-{
-    const sunder_i_body *p = &model->body[model->body_of[c->a]], *q = &model->body[model->body_of[c->b]];
-    double reach = 0;
-    for (int k = 0; k < 2; k++) {
-        const double offset = q->origin[k] - p->origin[k];
-        reach += fmax(fabs(p->box[k + 2] - offset - q->box[k]), fabs(p->box[k] - offset - q->box[k + 2]));
-    }
-    return reach + 2 * model->rules.gap;
-}
-
 /* Where one of the two has no limit. Beyond where the two are apart for certain nothing but shadows forbids a relative
  * move, and these have no end: whatever direction leads into one there leads on in it for ever. So what has no solution
  * a little farther than there has none at all; sides, which are about moves of the one, are left out. */
@@ -71,7 +59,8 @@ static sunder_status reason_without_limit(const sunder_i_model *model, sunder_co
                                           sunder_error *err)
 {
     if (model->rules.jumps || c->b >= model->features) return SUNDER_OK;
-    const sunder_status status = prove_alone(model, c, SIDES_AND_JUMPS, 2 * farthest_near(model, c), proof, err);
+    const double within = 2 * sunder_i_farthest_near(model, model->body_of[c->a], model->body_of[c->b]);
+    const sunder_status status = prove_alone(model, c, SIDES_AND_JUMPS, within, proof, err);
     if (*proof) c->reason = SUNDER_REASON_JUMP;
     return status;
 }
