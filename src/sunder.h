@@ -560,9 +560,10 @@ typedef struct sunder_layer_summary {
      * worse than it stood, and none in overlap that is listed as too close. */
     double cost, lower_bound;
     double pair_bound; /* the part of that which bound pairs alone prove */
-    bool verified;     /* every pair but those listed and those in blocks was proved apart (or
-                                             inside, where that may overlap), and none listed stands worse */
-    double seconds_solve, seconds_verify;
+    /* Every pair but those listed and those in blocks was proved apart (or inside, where that may overlap), and none
+     * listed stands worse. */
+    bool verified;
+    double seconds_solve, seconds_verify; /* up to the last move; and what is asked and proved of them then */
 } sunder_layer_summary;
 
 /* The exact list of conflicts of a layer as it stands.

@@ -216,7 +216,6 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
     status = sunder_i_jumps_update(&s->jumps, &s->model, NULL, err);
     if (status) return status;
     report->summary.seconds_solve = solved - began;
-    report->summary.seconds_verify = sunder_i_now() - solved;
     sunder_i_count_relations(&s->model, &s->now, &report->summary.after);
     status = find_seams_for_proofs(s, has_conflicts(s), err);
     if (!status) status = sunder_i_report_conflicts(report, &s->model, &s->placement, &s->now, true, err);
@@ -230,6 +229,7 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
     if (!status) status = sunder_i_solver_is_upheld(s, &report->summary.verified, err);
     if (status) return status;
     sunder_i_report_moves(report, &s->model);
+    report->summary.seconds_verify = sunder_i_now() - solved;
     return sunder_i_report_renumber(report, s->number, err);
 }
 
