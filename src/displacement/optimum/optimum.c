@@ -39,16 +39,19 @@ static double cost_of(const sunder_i_model *model, const uint32_t *body, size_t 
 }
 
 /* What is to be proved of a group that costs so much: less than that by half of what still counts as optimal, and by
- * what a small part of the sizes about amounts to. No length that is not the layer's own takes part, so that a layer on
- * another scale gets the same moves. */
+ * what a small part of the gap amounts to; or, where that is 0, of the least that moves. (What stands may be a road,
+ * miles long.) No length that is not the layer's own takes part, so that a layer on another scale gets the same moves.
+ */
 static double goal_of(const sunder_i_model *model, const sunder_i_group *g)
 {
-    double length = model->rules.gap, weight = 0;
+    double length = INFINITY, weight = 0;
     for (size_t k = 0; k < g->n; k++) {
         const sunder_i_body *b = &model->body[g->body[k]];
-        if (!b->fixed) weight = fmax(weight, b->weight);
-        if (model->rules.gap == 0) length = fmax(length, b->box[2] - b->box[0]);
+        if (b->fixed) continue;
+        weight = fmax(weight, b->weight);
+        length = fmin(length, SMALL_EXTENT * fmax(b->box[2] - b->box[0], b->box[3] - b->box[1]));
     }
+    if (model->rules.gap > 0 || weight == 0) length = model->rules.gap;
     return g->cost * (1 - OPTIMAL_SHARE / 2) - weight * (SMALL_LENGTH * length) * (SMALL_LENGTH * length);
 }
 

@@ -16,8 +16,9 @@
 #define OPTIMAL_MORE 1e-7
 /* A layout is cheaper by no less than this share. */
 #define CHEAPER 0x1p-40
-/* A length that does not count, as a share of the gap or, where that is 0, of the bodies. */
+/* A length that does not count, as a share of the gap or, where that is 0, of so much of a body. */
 #define SMALL_LENGTH 0x1p-17
+#define SMALL_EXTENT 0x1p-4
 /* Of groups with more that move blocks are asked, too, and the branching gets of the steps one in so many at first; one
  * in so many in all if it has proved this share of what is to be proved by then; and all of them, without blocks, from
  * this share on, where blocks were never found to prove more. With no more than so many the branching is left alone. */
@@ -134,6 +135,8 @@
 #define TRIED 6
 /* The line on which the other two ways out are: so much nearer than the nearest, of the way. */
 #define NEARER 0.2
+/* So many grains away is no other place. */
+#define STUCK 16
 
 /* ---- Proofs that a region is covered (covered.c) ----------------------------------------------------------------- */
 
