@@ -43,6 +43,8 @@ typedef struct fitting {
     sunder_i_contact_list touch; /* of the pair looked at */
     meeting *meeting;
     size_t meetings, capacity;
+    double *corner; /* scratch */
+    size_t corners;
 } fitting;
 
 static void lower(int *exponent, double v)
@@ -51,10 +53,20 @@ static void lower(int *exponent, double v)
     if (e < *exponent) *exponent = e;
 }
 
-/* The step of all coordinates of the bodies and of what they owe, and a hair beside them; false: none that is
- * coarse. */
-static bool find_step(fitting *f)
+/* Corners as they stood: less the body's origin they may be rounded. False if memory is out. */
+static bool lower_by_piece(fitting *f, const sunder_i_body_piece *piece, int *exponent)
 {
+    if (!sunder_i_reserve(&f->corner, &f->corners, 2 * (size_t)piece->corners, sizeof *f->corner)) return false;
+    sunder_i_piece_as_given(f->model, piece, f->corner);
+    for (size_t v = 0; v < 2 * (size_t)piece->corners; v++) lower(exponent, f->corner[v]);
+    return true;
+}
+
+/* The step of all coordinates of the bodies and of what they owe, and a hair beside them; *coarse: there is one. False
+ * if memory is out. */
+static bool find_step(fitting *f, bool *coarse)
+{
+    *coarse = false;
     const sunder_i_model *model = f->model;
     int exponent = INT_MAX;
     double size = 0;
@@ -62,18 +74,16 @@ static bool find_step(fitting *f)
         const sunder_i_body *body = &model->body[f->body[k]];
         const uint32_t thing = model->member[body->member];
         lower(&exponent, sunder_i_owed_below(model, thing, thing));
-        if (sunder_i_owed_below(model, thing, thing) != sunder_i_owed_above(model, thing, thing)) return false;
+        if (sunder_i_owed_below(model, thing, thing) != sunder_i_owed_above(model, thing, thing)) return true;
         for (int c = 0; c < 4; c++) size = fmax(size, fabs(body->box[c]));
-        for (uint32_t p = body->piece; p < body->piece + body->pieces; p++) {
-            const sunder_i_body_piece *piece = &model->piece[p];
-            for (size_t v = 2 * (size_t)piece->corner; v < 2 * ((size_t)piece->corner + piece->corners); v++)
-                lower(&exponent, model->corner[v] + body->origin[v & 1]);
-        }
+        for (uint32_t p = body->piece; p < body->piece + body->pieces; p++)
+            if (!lower_by_piece(f, &model->piece[p], &exponent)) return false;
     }
-    if (exponent == INT_MAX) return false;
+    if (exponent == INT_MAX) return true;
     f->step = ldexp(1, exponent);
     f->hair = TIGHT_HAIR * size;
-    return f->step >= TIGHT_STEP * size;
+    *coarse = f->step >= TIGHT_STEP * size;
+    return true;
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
@@ -173,6 +183,24 @@ static bool draw_apart(fitting *f)
 
 /* ---- Doubles ----------------------------------------------------------------------------------------------------- */
 
+/* Rows of bodies that rounding brought beyond their limits go a unit back to where these stood; false: none is. Where
+ * rows have room it is many units. */
+static bool step_back(fitting *f, double unit)
+{
+    bool any = false;
+    for (size_t k = 0; k < 2 * f->n; k += 2) {
+        const sunder_i_body *body = &f->model->body[f->body[k / 2]];
+        const double t[2] = {place_of(f, k), place_of(f, k + 1)};
+        if (body->fixed || sunder_i_is_within_limit(t, sunder_i_limit_of(body))) continue;
+        for (size_t c = 0; c < 2; c++) {
+            if (f->row[k + c] == HOME || t[c] == 0) continue;
+            f->base[f->row[k + c]] -= copysign(unit, t[c]);
+            any = true;
+        }
+    }
+    return any;
+}
+
 /* Bases of rows in units that all of the group can hold; steps are whole numbers of these. */
 static void round_rows(fitting *f)
 {
@@ -182,6 +210,8 @@ static void round_rows(fitting *f)
         coarsest = fmax(coarsest, unit);
     }
     for (size_t row = 1; row < f->rows && coarsest > 0; row++) f->base[row] = coarsest * rint(f->base[row] / coarsest);
+    for (int turn = 0; turn < TIGHT_TURNS && step_back(f, coarsest); turn++) {
+    }
 }
 
 /* Can all bodies be moved just so? */
@@ -205,7 +235,11 @@ bool sunder_i_tight_place(const sunder_i_model *model, const sunder_i_waived *wa
 {
     fitting f = {.model = model, .waived = waived, .body = body, .t = move, .n = n, .margin = margin, .rows = 1};
     *found = false;
-    if (n > MOST_TIGHT || !find_step(&f)) return true;
+    if (n > MOST_TIGHT) return true;
+    bool coarse;
+    const bool known = find_step(&f, &coarse);
+    sunder_i_free(f.corner);
+    if (!known || !coarse) return known;
     double *to = sunder_i_alloc(2 * n, sizeof *to);
     f.row = sunder_i_alloc(2 * n, sizeof *f.row);
     f.base = sunder_i_calloc(2 * n + 1, sizeof *f.base);
