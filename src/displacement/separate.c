@@ -48,12 +48,19 @@ static sunder_status start(sunder_i_solver *s, const sunder_layer *layer, const 
     return sunder_i_count_thin_overlaps(&s->model, &s->placement, &s->start, &(*report)->summary.thin, err);
 }
 
+/* Most layers leave nothing to be proved. */
+static sunder_status find_seams_for_proofs(sunder_i_solver *s, bool wanted, sunder_error *err)
+{
+    return wanted ? sunder_i_model_find_seams(&s->model, err) : SUNDER_OK;
+}
+
 /* What is settled beforehand: pairs without a solution, the bodies in doubles, relations as they stand. */
 static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
 {
     sunder_status status = sunder_i_solver_find_infeasible(s, err);
     if (!status) status = sunder_i_model_cut(&s->model, err);
     if (!status) status = sunder_i_model_anchor(&s->model, err);
+    if (!status) status = find_seams_for_proofs(s, sunder_i_has_bare_barriers(&s->model), err);
     if (!status) status = sunder_i_solver_find_shut_in(s, err);
     if (!status) status = sunder_i_solver_init(s, err);
     if (status) return status;
@@ -62,12 +69,6 @@ static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
     if (s->start.n) memcpy(s->now.pair, s->start.pair, s->start.n * sizeof *s->now.pair);
     s->now.n = s->start.n;
     return SUNDER_OK;
-}
-
-/* Most layers leave nothing to be proved. */
-static sunder_status find_seams_for_proofs(sunder_i_solver *s, bool wanted, sunder_error *err)
-{
-    return wanted ? sunder_i_model_find_seams(&s->model, err) : SUNDER_OK;
 }
 
 /* Solves, looks again at what was given up, asks it once more, looks for better sides. Progress goes from `from` to

@@ -23,6 +23,7 @@ void sunder_i_groups_free(sunder_i_groups *g)
     sunder_i_free(g->joined);
     sunder_i_free(g->spent);
     sunder_i_free(g->blunt);
+    sunder_i_free(g->seamed);
     memset(g, 0, sizeof *g);
 }
 
@@ -243,7 +244,9 @@ sunder_status sunder_i_solver_gather_groups(sunder_i_solver *s, sunder_error *er
                    .counts = sunder_i_calloc(s->model.bodies, sizeof *g.counts)};
     if (!s->groups.spent) s->groups.spent = sunder_i_calloc(s->model.bodies, sizeof *s->groups.spent);
     if (!s->groups.blunt) s->groups.blunt = sunder_i_calloc(s->model.bodies, sizeof *s->groups.blunt);
-    const bool ok = g.parent && g.counts && s->groups.spent && s->groups.blunt && flood(&g) && list_members(&g);
+    if (!s->groups.seamed) s->groups.seamed = sunder_i_calloc(s->model.bodies, sizeof *s->groups.seamed);
+    const bool ok =
+        g.parent && g.counts && s->groups.spent && s->groups.blunt && s->groups.seamed && flood(&g) && list_members(&g);
     const sunder_status status = ok ? make_groups(&g, &s->groups, err) : sunder_i_no_memory(err);
     sunder_i_free(g.parent);
     sunder_i_free(g.counts);

@@ -120,7 +120,7 @@ static uint64_t allowance(const sunder_i_solver *s, const sunder_i_group *g)
 static sunder_status prove_groups(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const sunder_i_solver *s = context;
-    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n};
+    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n, s->groups.seamed};
     for (size_t k = begin; k < end; k++) {
         sunder_i_group *g = &s->groups.group[k];
         if (g->done) continue;
@@ -200,15 +200,28 @@ static bool put_back(taking *t, uint32_t k, bool known)
 }
 
 /* Who moved the one or the other of two features goes back: *any, if somebody did. Of two groups that run into each
- * other the first one stays, if it can: they are looked at again, together. */
-static void part(taking *t, uint32_t a, uint32_t b, bool *any)
+ * other the first one stays, if it can: they are looked at again, together. known: nothing is to be known of the two
+ * but what their group was told. */
+static void part(taking *t, uint32_t a, uint32_t b, bool known, bool *any)
 {
     const uint32_t p = t->solver->model.body_of[a], q = t->solver->model.body_of[b], i = t->by[p], j = t->by[q];
     const sunder_i_group *group = t->solver->groups.group;
     if (i == SUNDER_I_NOBODY && j == SUNDER_I_NOBODY) return;
     const bool both = i != j && i != SUNDER_I_NOBODY && j != SUNDER_I_NOBODY && group[i].improved && group[j].improved;
-    if (!both || i > j) *any = put_back(t, i, i != SUNDER_I_NOBODY && takes_part(&group[i], q)) || *any;
-    if (!both || j > i) *any = put_back(t, j, j != SUNDER_I_NOBODY && takes_part(&group[j], p)) || *any;
+    if (!both || i > j) *any = put_back(t, i, known && i != SUNDER_I_NOBODY && takes_part(&group[i], q)) || *any;
+    if (!both || j > i) *any = put_back(t, j, known && j != SUNDER_I_NOBODY && takes_part(&group[j], p)) || *any;
+}
+
+/* The same of a jump, which pieces may not tell of: an anchor that goes along a diagonal between two meets neither.
+ * From now on these two have what covers theirs (layer/seams.c). */
+static void part_jump(taking *t, uint32_t a, uint32_t b, bool *any)
+{
+    sunder_i_groups *groups = &t->solver->groups;
+    const uint32_t body[2] = {t->solver->model.body_of[a], t->solver->model.body_of[b]};
+    const bool known = groups->seamed[body[0]] && groups->seamed[body[1]];
+    for (int k = 0; k < 2; k++) groups->seamed[body[k]] = true;
+    groups->any_seamed = true;
+    part(t, a, b, known, any);
 }
 
 static bool has_moved(const taking *t, uint32_t thing)
@@ -223,7 +236,7 @@ typedef enum offence { NONE, WORSE, CONFLICT } offence;
 static sunder_status find_offence(const taking *t, const sunder_i_relation *r, offence *found, sunder_error *err)
 {
     const sunder_i_solver *s = t->solver;
-    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n};
+    const sunder_i_waived waived = {.pair = s->groups.waived, .n = s->groups.waived_n};
     *found = NONE;
     if (!sunder_i_is_conflict_of_bodies(&s->model, r) || (!has_moved(t, r->a) && !has_moved(t, r->b))) return SUNDER_OK;
     const sunder_i_waiver *waiver = sunder_i_waiver_of(&s->model, &waived, r->a, r->b);
@@ -249,7 +262,7 @@ static sunder_status mend_first(taking *t, bool *any, sunder_error *err)
         status = find_offence(t, &r, &found, err);
         if (status || found != WORSE) continue;
         status = sunder_i_solver_mend(s, &r, &t->budget, any, err);
-        if (!status && !*any) part(t, r.a, r.b, any);
+        if (!status && !*any) part(t, r.a, r.b, true, any);
     }
     return status;
 }
@@ -266,9 +279,9 @@ static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
         const sunder_i_relation *r = &s->now.pair[k];
         offence found;
         status = find_offence(t, r, &found, err);
-        if (!status && found == CONFLICT) part(t, r->a, r->b, any);
+        if (!status && found == CONFLICT) part(t, r->a, r->b, true, any);
     }
-    for (size_t k = 0; k < s->jumps.n && !status; k++) part(t, s->jumps.pair[k].a, s->jumps.pair[k].b, any);
+    for (size_t k = 0; k < s->jumps.n && !status; k++) part_jump(t, s->jumps.pair[k].a, s->jumps.pair[k].b, any);
     return status || *any ? status : mend_first(t, any, err);
 }
 
@@ -350,7 +363,8 @@ sunder_status sunder_i_solver_optimise(sunder_i_solver *s, sunder_error *err)
     sunder_status status = sunder_i_solver_waive(s, err);
     if (!status) status = sunder_i_solver_gather_groups(s, err);
     for (int round = 0; round < OPTIMISED && again && !status; round++) {
-        status = prove_all(s, &again, err);
+        if (s->groups.any_seamed) status = sunder_i_model_find_seams(&s->model, err);
+        if (!status) status = prove_all(s, &again, err);
         if (again && !status) status = sunder_i_solver_waive(s, err);
         if (again && !status) status = sunder_i_solver_gather_groups(s, err);
     }

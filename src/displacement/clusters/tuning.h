@@ -26,7 +26,7 @@
 /* Rounds of proofs, in which groups join. */
 #define OPTIMISED 24
 /* A group's margin is widened no further for what is only cheaper. */
-#define MOST_MARGINS_AGAIN 3
+#define MOST_MARGINS_AGAIN 6
 /* Steps for each body of a group at effort 1; a group that is smaller than this is worth as many as one of so many; and
  * one whose bodies have spent theirs as members of others gets one in so many again. */
 #define STEPS_EACH 2e6

@@ -209,6 +209,8 @@ bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);
 
 /* ---- seams.c ----------------------------------------------------------------------------------------------------- */
 
+/* Is there a barrier without area that owes nothing, so that it could hide on a diagonal? */
+bool sunder_i_has_bare_barriers(const sunder_i_model *model);
 /* The seams of all features, unless they are known; after the pieces are cut. Proofs ask for them, the search does not.
  * Pointers into model->corner are void then. */
 sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err);

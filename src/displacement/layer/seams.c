@@ -1,5 +1,8 @@
 /* What a feature's convex pieces leave out: the diagonals between them.
  *
+ * A segment or a point that features only may not meet has nothing beside it, and would hide on a diagonal. An anchor
+ * is a point, too:
+ *
  * An anchor that goes straight along a diagonal, or through a corner where two pieces end, runs between the shadows of
  * the pieces (obstacles/shadow.h), on the boundary of both. The feature is in its way all the same. So proofs, which
  * ask about pieces one by one and may pass on the boundary of each, are given one more about each diagonal: a convex
@@ -53,10 +56,18 @@ static sunder_status put_corners(sunder_i_model *model, sunder_error *err)
     return SUNDER_OK;
 }
 
+bool sunder_i_has_bare_barriers(const sunder_i_model *model)
+{
+    const sunder_i_barriers *b = model->barriers;
+    for (uint32_t k = 0; b->flat && k < b->n; k++)
+        if (sunder_i_required_above(b, k) == 0) return true;
+    return false;
+}
+
 sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err)
 {
     gathering g = {.model = model};
-    if (model->has_seams || model->rules.jumps) return SUNDER_OK;
+    if (model->has_seams || (model->rules.jumps && !sunder_i_has_bare_barriers(model))) return SUNDER_OK;
     model->has_seams = true;
     for (size_t b = 0; b < model->bodies; b++) {
         sunder_i_body *body = &model->body[b];

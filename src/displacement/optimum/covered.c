@@ -9,7 +9,8 @@
  * that lies between them.
  *
  * What touches the boundary of the union from within can so not be covered: whoever asks leaves some room. A middle
- * that is in no piece is told: it says where the union has a gap. */
+ * that is in no piece is told: it says where the union has a gap. So is the middle of a region too small to be divided
+ * again: there the union has one without width, between pieces that no more than touch. */
 #include "displacement/optimum/region.h"
 #include "displacement/optimum/tuning.h"
 
@@ -137,7 +138,7 @@ static bool is_covered(covering *c, const sunder_i_region *r, int depth)
         return true;
     }
     c->steps += walk.looks;
-    if (!most && c->gap) memcpy(c->gap, middle, sizeof middle);
+    if (c->gap && (!most || depth == COVER_DEPTH)) memcpy(c->gap, middle, sizeof middle);
     if (!most || depth == COVER_DEPTH || c->steps > c->most) return false;
     if (!find_leaving(c, most, r, middle, along, &d)) {
         measure(r, middle, along);

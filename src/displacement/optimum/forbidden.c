@@ -211,6 +211,35 @@ static bool add_pieces(listing *l)
     return true;
 }
 
+/* May a piece of the other lie on a diagonal between pieces of `of`, since it has no area, and is owed nothing? */
+static bool hides_in_seams(const listing *l, const sunder_i_body *of, const sunder_i_body *other)
+{
+    const uint32_t part = l->model->member[other->member];
+    return of->seams && sunder_i_is_barrier(l->model, part) && sunder_i_owed_below(l->model, part, part) == 0;
+}
+
+/* What covers the diagonals of one body, and pieces of the other without area; swapped: it is the second of the two. */
+static bool add_covers(listing *l, const sunder_i_body *of, const sunder_i_body *other, bool swapped)
+{
+    const sunder_i_model *model = l->model;
+    const double sign = swapped ? 1 : -1;
+    if (!hides_in_seams(l, of, other)) return true;
+    for (uint32_t k = of->seam; k < of->seam + of->seams && !is_full(l); k++) {
+        const sunder_i_body_piece *seam = &model->seam[k];
+        double box[4];
+        for (uint32_t c = 0; c < 4; c++)
+            box[c] = seam->box[c] + sign * l->offset[c & 1] + (c < 2 ? -l->reach : l->reach);
+        for (uint32_t m = other->piece; m < other->piece + other->pieces; m++) {
+            const sunder_i_body_piece *flat = &model->piece[m];
+            const sunder_i_waiver *waiver;
+            if (flat->corners > 2 || !sunder_i_box_meet(box, flat->box)) continue;
+            if (!owe(l, seam->feature, flat->feature, &waiver)) continue;
+            if (!add_piece(l, swapped ? flat : seam, swapped ? seam : flat, waiver)) return false;
+        }
+    }
+    return true;
+}
+
 /* The shadow of K = a + (-B) from u = 0, where a is an anchor of the one body and B a piece of the other, as far as it
  * matters: the hull of K and of K drawn out so far that it is out of reach. That lies in the shadow, which is convex;
  * its corners are off by as many times more. What K's own rounding could bring to 0 has no shadow here. */
@@ -273,13 +302,14 @@ static bool add_seams(listing *l, uint32_t f, const sunder_i_body *other, bool s
 static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_body *other, bool swapped)
 {
     const sunder_i_model *model = l->model;
+    const bool counts = l->seams || (l->waived->seamed && l->waived->seamed[other - model->body]);
     if (sunder_i_is_barrier_body(model, other)) return true;
     for (uint32_t m = 0; m < p->members && !is_full(l); m++) {
         const uint32_t f = model->member[p->member + m];
         if (!model->anchor[f].corners) continue;
         for (uint32_t k = other->piece; k < other->piece + other->pieces; k++)
             if (!add_shadow_of(l, f, &model->piece[k], swapped)) return false;
-        if (l->seams && !add_seams(l, f, other, swapped)) return false;
+        if (counts && !add_seams(l, f, other, swapped)) return false;
     }
     return true;
 }
@@ -304,7 +334,8 @@ static bool add_sides(listing *l, const sunder_i_body *p, const sunder_i_body *p
 
 static bool add_all(listing *l)
 {
-    if (!add_pieces(l) || !add_sides(l, l->p, l->q, false) || !add_sides(l, l->q, l->p, true)) return false;
+    if (!add_pieces(l) || !add_covers(l, l->p, l->q, false) || !add_covers(l, l->q, l->p, true)) return false;
+    if (!add_sides(l, l->p, l->q, false) || !add_sides(l, l->q, l->p, true)) return false;
     return l->model->rules.jumps || (add_shadows_from(l, l->p, l->q, false) && add_shadows_from(l, l->q, l->p, true));
 }
 

@@ -45,6 +45,7 @@ static inline double sunder_i_waiver_clearance(const sunder_i_waiver *waiver)
 typedef struct sunder_i_waived {
     const sunder_i_waiver *pair; /* sorted */
     size_t n;
+    const bool *seamed; /* [bodies] of which shadows of what covers their diagonals count too; NULL: of none */
 } sunder_i_waived;
 
 /* ---- forbidden.c ------------------------------------------------------------------------------------------------- */

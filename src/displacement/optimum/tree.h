@@ -177,10 +177,8 @@ size_t sunder_i_tree_refine(sunder_i_tree *tree, double value, bool *empty);
  * the hull. *none: nothing is free. */
 bool sunder_i_tree_propose(sunder_i_tree *tree, uint32_t pair, const sunder_i_region *region, const double u[2],
                            double n[2], double *d, bool *none);
-/* The same, proved, and made. */
-bool sunder_i_tree_cut_hull(sunder_i_tree *tree, uint32_t pair, const double u[2], bool *none);
-/* Is the pair left no room at the last node? Proved, and noted there. */
-bool sunder_i_tree_is_empty(sunder_i_tree *tree, uint32_t pair);
+/* The same, proved, and made. *empty: the pair is left no room at the last node, which is proved, and noted there. */
+bool sunder_i_tree_cut_hull(sunder_i_tree *tree, uint32_t pair, const double u[2], bool *empty);
 
 /* ---- tree_branch.c ----------------------------------------------------------------------------------------------- */
 

@@ -117,6 +117,15 @@ static sunder_i_tree_conflict choose(sunder_i_tree *t, double value, branching_r
     return best;
 }
 
+/* Is the one conflict of the node where it was, although this is a child? Then nothing below will tell more: it would be
+ * divided by the same rays for ever. */
+static bool is_stuck(const sunder_i_tree *t, const sunder_i_tree_conflict *c)
+{
+    const sunder_i_tree_pair *p = &t->pair[c->pair];
+    const double *at = t->program.t, x = at[2 * p->j] - at[2 * p->i], y = at[2 * p->j + 1] - at[2 * p->i + 1];
+    return t->conflicts == 1 && fabs(x - c->u[0]) + fabs(y - c->u[1]) <= STUCK * p->forbidden.grain;
+}
+
 void sunder_i_tree_divide(sunder_i_tree *t, uint32_t node)
 {
     const double value = t->node[node].value;
@@ -128,19 +137,24 @@ void sunder_i_tree_divide(sunder_i_tree *t, uint32_t node)
     const sunder_i_region region = t->pair[c.pair].region;
     for (int k = 0; k < 3 && !t->failed; k++) {
         double n[2][2], d[2];
-        bool none = false;
+        bool empty = false;
         const uint32_t child = sunder_i_tree_add_node(t, node, value);
         if (t->failed) return;
         cone_cuts(t, &c, &rays, k, n, d);
         for (int e = 0; e < 2 && !t->failed; e++) sunder_i_tree_cut(t, SUNDER_I_CUT_CONE, c.pair, n[e], d[e]);
-        if (!t->failed) sunder_i_tree_cut_hull(t, c.pair, c.u, &none);
+        const bool cut = !t->failed && sunder_i_tree_cut_hull(t, c.pair, c.u, &empty);
         if (t->failed) return;
-        if (none && sunder_i_tree_is_empty(t, c.pair)) {
+        if (empty) {
             t->node[child].state = SUNDER_I_EMPTY;
         } else {
             t->node[child].value = fmax(value, sunder_i_tree_solve(t));
             sunder_i_tree_keep_forces(t, child);
-            if (t->node[child].value >= t->task.goal) t->node[child].state = SUNDER_I_CLOSED;
+            if (t->node[child].value >= t->task.goal) {
+                t->node[child].state = SUNDER_I_CLOSED;
+            } else if (!cut && is_stuck(t, &c)) {
+                t->node[child].state = SUNDER_I_LEAF;
+                t->leaf = fmin(t->leaf, t->node[child].value);
+            }
         }
         if (t->node[child].state == SUNDER_I_OPEN) {
             const sunder_i_open open = {t->node[child].value, child};

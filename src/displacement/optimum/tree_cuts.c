@@ -104,12 +104,13 @@ static bool is_covered(sunder_i_tree *t, const sunder_i_tree_pair *p, const sund
     return true;
 }
 
-bool sunder_i_tree_is_empty(sunder_i_tree *t, uint32_t pair)
+/* Is the pair left no room at the last node? Proved, and noted there. gap: as of sunder_i_region_is_covered(). */
+static bool is_empty(sunder_i_tree *t, uint32_t pair, double gap[2])
 {
     const sunder_i_tree_pair *p = &t->pair[pair];
     sunder_i_tree_node *node = &t->node[t->nodes - 1];
     node->pair = pair;
-    return is_covered(t, p, &p->region, NULL, &node->named, &node->names);
+    return is_covered(t, p, &p->region, gap, &node->named, &node->names);
 }
 
 /* Cuts off what is before the line, but for some room, if that is forbidden. */
@@ -128,24 +129,40 @@ static bool try_cut(sunder_i_tree *t, uint32_t pair, const double n[2], double d
     return true;
 }
 
-/* Of many pieces: what is proposed stands on the reflex corners that are known; where it is refuted by a place that is
- * free, that leads to one more. */
-static bool cut_hull_of_many(sunder_i_tree *t, uint32_t pair, const double u[2], bool *none)
+/* The cut that was proposed, with some room. */
+static bool try_rooms(sunder_i_tree *t, uint32_t pair, const double u[2], const double n[2], double d, double gap[2])
 {
+    const sunder_i_forbidden *f = &t->pair[pair].forbidden;
+    const double far = CUT_FAR_ROOM * (d - (n[0] * u[0] + n[1] * u[1])), size = f->size;
+    if (!sunder_i_forbidden_is_many(f) &&
+        (try_cut(t, pair, n, d, CUT_ROOM * size, gap) || try_cut(t, pair, n, d, CUT_MORE_ROOM * size, gap)))
+        return true;
+    return try_cut(t, pair, n, d, far, gap);
+}
+
+/* What is proposed stands on the reflex corners that are known: of many pieces some, of a few all but such as lie in
+ * gaps without width. Where it is refuted by a place that is free, that leads to one more. */
+bool sunder_i_tree_cut_hull(sunder_i_tree *t, uint32_t pair, const double u[2], bool *empty)
+{
+    double before = NAN;
+    *empty = false;
     for (int tries = 0; tries < MOST_GAPS && !t->failed; tries++) {
         sunder_i_tree_pair *p = &t->pair[pair];
         double n[2], d, gap[2];
-        if (sunder_i_tree_propose(t, pair, &p->region, u, n, &d, none)) {
-            if (try_cut(t, pair, n, d, CUT_FAR_ROOM * (d - (n[0] * u[0] + n[1] * u[1])), gap)) return true;
+        bool none;
+        if (sunder_i_tree_propose(t, pair, &p->region, u, n, &d, &none)) {
+            if (d == before) return false; /* the same again */
+            before = d;
+            if (try_rooms(t, pair, u, n, d, gap)) return true;
         } else {
-            uint32_t named, names;
-            if (!*none || p->region.n == 0 || is_covered(t, p, &p->region, gap, &named, &names)) return false;
+            *empty = none && is_empty(t, pair, gap);
+            if (!none || *empty) return false;
             for (int c = 0; c < 2; c++) n[c] = gap[c] - u[c];
             const double length = sqrt(n[0] * n[0] + n[1] * n[1]);
             if (!(length > 0)) return false;
             for (int c = 0; c < 2; c++) n[c] /= length;
         }
-        if (!(fabs(gap[0]) < INFINITY) || t->failed) return false;
+        if (t->failed || !(fabs(gap[0]) < INFINITY)) return false;
         const double down[2] = {-n[0], -n[1]};
         const size_t known = p->reflex.n;
         p = &t->pair[pair];
@@ -153,16 +170,6 @@ static bool cut_hull_of_many(sunder_i_tree *t, uint32_t pair, const double u[2],
         if (p->reflex.n == known) return false;
     }
     return false;
-}
-
-bool sunder_i_tree_cut_hull(sunder_i_tree *t, uint32_t pair, const double u[2], bool *none)
-{
-    double n[2], d;
-    if (sunder_i_forbidden_is_many(&t->pair[pair].forbidden)) return cut_hull_of_many(t, pair, u, none);
-    if (!sunder_i_tree_propose(t, pair, &t->pair[pair].region, u, n, &d, none)) return false;
-    const double far = d - (n[0] * u[0] + n[1] * u[1]), size = t->pair[pair].forbidden.size;
-    return try_cut(t, pair, n, d, CUT_ROOM * size, NULL) || try_cut(t, pair, n, d, CUT_MORE_ROOM * size, NULL) ||
-           try_cut(t, pair, n, d, CUT_FAR_ROOM * far, NULL);
 }
 
 size_t sunder_i_tree_refine(sunder_i_tree *t, double value, bool *empty)
@@ -173,11 +180,9 @@ size_t sunder_i_tree_refine(sunder_i_tree *t, double value, bool *empty)
     for (size_t k = 0; k < t->conflicts && !*empty && !t->failed; k++) {
         const sunder_i_tree_conflict c = t->conflict[k];
         const uint64_t before = t->steps;
-        bool none;
         discs += cut_disc(t, c.pair, c.u, value);
-        made += sunder_i_tree_cut_hull(t, c.pair, c.u, &none);
+        made += sunder_i_tree_cut_hull(t, c.pair, c.u, empty);
         if (!sunder_i_steps(1 + (size_t)(t->steps - before) / 64)) t->failed = true;
-        if (none && !t->failed) *empty = sunder_i_tree_is_empty(t, c.pair);
     }
     if (t->task.keep && discs && !t->failed) sunder_i_tree_note_forces(t, &node->by, &node->bys);
     return made;

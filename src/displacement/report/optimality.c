@@ -28,7 +28,7 @@ static bool claim(const sunder_i_model *model, const sunder_i_group *g, uint32_t
 static void void_bounds(sunder_i_solver *s, const uint32_t *owner, bool *listed)
 {
     sunder_i_groups *groups = &s->groups;
-    const sunder_i_waived waived = {groups->waived, groups->waived_n};
+    const sunder_i_waived waived = {.pair = groups->waived, .n = groups->waived_n};
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
         if (!sunder_i_is_conflict(r)) continue;

@@ -47,7 +47,7 @@ static sunder_status prove(const sunder_i_solver *s, const sunder_bound_pair *pa
                            sunder_i_list *body, sunder_bound_tree *out, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
-    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n};
+    const sunder_i_waived waived = {.pair = s->groups.waived, .n = s->groups.waived_n};
     if (!find_bodies(model, pair, body)) return sunder_i_no_memory(err);
     double *weight = sunder_i_alloc(body->n, sizeof *weight), slack = 0;
     if (!weight) return sunder_i_no_memory(err);

@@ -149,7 +149,7 @@ static bool press(pressing *p, const sunder_i_group *g)
 
 sunder_status sunder_i_report_pushes(sunder_report *report, const sunder_i_solver *s, sunder_error *err)
 {
-    pressing p = {.solver = s, .waived = {s->groups.waived, s->groups.waived_n}, .report = report};
+    pressing p = {.solver = s, .waived = {.pair = s->groups.waived, .n = s->groups.waived_n}, .report = report};
     bool ok = true;
     if (s->model.rules.keep_pushes)
         for (size_t k = 0; k < s->groups.n && ok; k++) ok = press(&p, &s->groups.group[k]);
