@@ -85,14 +85,15 @@ static void test_too_narrow(void **state)
     scene_end(&s);
 }
 
-/* Beside lines, each of some width and without sides. */
-static void separate_beside(scene *s, const double *const *xy, const size_t *points, const double *width, size_t n)
+/* Beside lines, each of some width, without sides; gap: of lines, negative: the layer's. */
+static void separate_beside(scene *s, const double *const *xy, const size_t *points, const double *width, double gap,
+                            size_t n)
 {
     sunder_barrier barrier[4];
     sunder_layer *layer = NULL;
     assert_true(n <= 4);
     for (size_t k = 0; k < n; k++)
-        barrier[k] = (sunder_barrier){{.xy = xy[k], .line_end = &points[k], .lines = 1}, width[k], -1, false};
+        barrier[k] = (sunder_barrier){{.xy = xy[k], .line_end = &points[k], .lines = 1}, width[k], gap, false};
     sunder_report_free(s->report);
     s->report = NULL;
     assert_int_equal(sunder_layer_new(s->feature, s->n, &layer, NULL), SUNDER_OK);
@@ -122,7 +123,7 @@ static void test_slot_beside_a_line(void **state)
     s.options.allow_jumps = true;
     scene_add(&s, "POLYGON((4 2,12 2,12 8,11 8,11 3,5 3,5 8,4 8,4 2))")->weight = 2.25;
     scene_add(&s, "POLYGON((6 0,12 1,7 5,6 0))")->weight = 0.875;
-    separate_beside(&s, xy, points, width, 2);
+    separate_beside(&s, xy, points, width, -1, 2);
     check_optimum(&s, 25.2308555);
     scene_end(&s);
 }
@@ -140,7 +141,7 @@ static void test_slot_among_shadows(void **state)
     scene_add_box(&s, 7, 5, 4, 8);
     scene_add(&s, "POLYGON((5 9,11 9,11 16,10 16,10 10,6 10,6 16,5 16,5 9))");
     scene_add(&s, "POLYGON((7 9,11 9,11 10,8 10,8 17,7 17,7 9))");
-    separate_beside(&s, xy, points, width, 1);
+    separate_beside(&s, xy, points, width, -1, 1);
     check_optimum(&s, 16.940678);
     scene_end(&s);
 }
@@ -162,13 +163,66 @@ static void test_all_of_a_limit(void **state)
     scene_end(&s);
 }
 
+/* A line and a point without width lie on diagonals between the convex pieces of a U: beside neither piece, but in the
+ * U all the same. */
+static void test_lines_hide_on_no_diagonal(void **state)
+{
+    (void)state;
+    const double line[] = {5.625, 11.25, 3.375, 9, 11.25, 1.125}, grain[] = {5.625, 5.625}, width[] = {0, 0};
+    const double *const xy[] = {line, grain};
+    const size_t points[] = {3, 1};
+    scene s;
+    scene_begin(&s, 1.96875);
+    scene_add(&s, "POLYGON((2.25 5.625,9 5.625,9 9,7.875 9,7.875 6.75,3.375 6.75,3.375 9,2.25 9,2.25 5.625))");
+    separate_beside(&s, xy, points, width, 0, 2);
+    check_optimum(&s, 10.7578125); /* by (2.8125, 1.6875) */
+    scene_end(&s);
+}
+
+/* One that fits to the last bit into a yard on the one axis, and beside a neighbour on the other, goes as far as its
+ * limit lets it, obliquely. */
+static void test_limit_in_a_row(void **state)
+{
+    (void)state;
+    scene s;
+    scene_begin(&s, 0);
+    s.options.allow_jumps = true;
+    scene_add(&s, "POLYGON((400000.125 5200000.75,400001 5200000.75,400001 5200001.75,400000.125 5200001.75,400000.125 "
+                  "5200000.75),(400000.25 5200000.875,400000.25 5200001.625,400000.875 5200001.625,400000.875 "
+                  "5200000.875,400000.25 5200000.875))")
+        ->max_shift = 0.03125;
+    scene_add(&s, "POLYGON((400000.375 5200001.125,400001 5200001.125,400001 5200001.625,400000.875 5200001.625,"
+                  "400000.875 5200001.25,400000.5 5200001.25,400000.5 5200001.625,400000.375 5200001.625,400000.375 "
+                  "5200001.125))");
+    scene_add_box(&s, 400000.625, 5200000, 0.5, 0.875);
+    scene_separate(&s);
+    check_optimum(&s, 0.0221545815);
+    scene_end(&s);
+}
+
+/* A move of two millimetres, without a gap, away from what is half a mile long: proved as any other. */
+static void test_small_move_beside_what_is_long(void **state)
+{
+    (void)state;
+    scene s;
+    scene_begin(&s, 0);
+    s.options.no_blocks = true;
+    scene_add_box(&s, -400, -5, 800, 5)->fixed = true;
+    scene_add_box(&s, 0, -0.001953125, 10, 8);
+    scene_separate(&s);
+    check_optimum(&s, 0.001953125 * 0.001953125);
+    assert_true(s.summary.lower_bound > 0.9 * s.summary.cost);
+    scene_end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_slot_beside_a_line), cmocka_unit_test(test_slot_among_shadows),
         cmocka_unit_test(test_all_of_a_limit),     cmocka_unit_test(test_slot),
         cmocka_unit_test(test_slot_far_away),      cmocka_unit_test(test_row_between_walls),
-        cmocka_unit_test(test_too_narrow),
+        cmocka_unit_test(test_too_narrow),         cmocka_unit_test(test_lines_hide_on_no_diagonal),
+        cmocka_unit_test(test_limit_in_a_row),     cmocka_unit_test(test_small_move_beside_what_is_long),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
