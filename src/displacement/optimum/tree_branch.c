@@ -117,8 +117,8 @@ static sunder_i_tree_conflict choose(sunder_i_tree *t, double value, branching_r
     return best;
 }
 
-/* Is the one conflict of the node where it was, although this is a child? Then nothing below will tell more: it would be
- * divided by the same rays for ever. */
+/* Is the one conflict of the node where it was, although this is a child? Then nothing below will tell more: it would
+ * be divided by the same rays for ever. */
 static bool is_stuck(const sunder_i_tree *t, const sunder_i_tree_conflict *c)
 {
     const sunder_i_tree_pair *p = &t->pair[c->pair];
