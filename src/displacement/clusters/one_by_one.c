@@ -111,6 +111,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
                                      .required = g->required,
                                      .required_n = g->required_n,
                                      .margin = MARGINS * cluster_of(g->solver, g->question[q].root)->margin,
+                                     .no_plane = true, /* a solution is looked for, which it has none of */
                                      .effort = EFFORT_ALONE,
                                      .most = MOST_BODIES};
             p.reserve = sunder_i_solver_members(g->solver, g->question[q].root, &p.reserves);

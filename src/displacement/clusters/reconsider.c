@@ -139,6 +139,7 @@ static sunder_status decide_some(void *context, size_t begin, size_t end, sunder
                                                 .b = SUNDER_I_NOBODY,
                                                 .required = g->required,
                                                 .required_n = g->required_n,
+                                                .no_plane = true, /* a solution is looked for, which it has none of */
                                                 .effort = EFFORT * (uint64_t)n,
                                                 .most = MOST_BODIES};
         if (!status) status = sunder_i_decide(&subproblem, &g->decision[k], err);

@@ -98,10 +98,6 @@ static size_t choose(sunder_i_branching *c, const sunder_i_violation *deepest, s
 
 /* ---- The tree ---------------------------------------------------------------------------------------------------- */
 
-static void add_level(sunder_i_levels *s, unsigned level) { s->bit[level / 64] |= UINT64_C(1) << level % 64; }
-static void drop_level(sunder_i_levels *s, unsigned level) { s->bit[level / 64] &= ~(UINT64_C(1) << level % 64); }
-static bool has_level(const sunder_i_levels *s, unsigned level) { return s->bit[level / 64] >> level % 64 & 1; }
-
 static sunder_i_node *add_node(sunder_i_branching *c)
 {
     if (!sunder_i_reserve(&c->node, &c->node_capacity, c->nodes + 1, sizeof *c->node)) return NULL;
@@ -110,8 +106,7 @@ static sunder_i_node *add_node(sunder_i_branching *c)
     return node;
 }
 
-/* A node for the contradiction that the claims' forces prove. */
-static bool add_leaf(sunder_i_branching *c, sunder_i_levels *levels, size_t *root)
+bool sunder_i_branching_add_leaf(sunder_i_branching *c, sunder_i_levels *levels, size_t *root)
 {
     *root = c->nodes;
     memset(levels, 0, sizeof *levels);
@@ -121,15 +116,14 @@ static bool add_leaf(sunder_i_branching *c, sunder_i_levels *levels, size_t *roo
     for (size_t k = 0; k < c->claims; k++) {
         const sunder_i_claim *s = &c->claim[k];
         if (!(s->force > 0)) continue;
-        add_level(levels, s->level);
+        sunder_i_levels_add(levels, s->level);
         c->force[c->forces++] = (sunder_proof_force){s->node, s->way, s->behind, s->force};
         node->forces++;
     }
     return true;
 }
 
-/* A node for a violation, with the ways out of it that are in c->scratch. */
-static bool add_branch(sunder_i_branching *c, const sunder_i_violation *o, size_t ways, size_t *root)
+bool sunder_i_branching_add_branch(sunder_i_branching *c, const sunder_i_violation *o, size_t ways, size_t *root)
 {
     *root = c->nodes;
     sunder_i_node *node = add_node(c);
@@ -147,7 +141,8 @@ static bool add_branch(sunder_i_branching *c, const sunder_i_violation *o, size_
     return true;
 }
 
-static bool push(sunder_i_branching *c, uint32_t i, uint32_t j, size_t node, size_t way, bool behind, unsigned level)
+bool sunder_i_branching_push(sunder_i_branching *c, uint32_t i, uint32_t j, size_t node, size_t way, bool behind,
+                             unsigned level)
 {
     if (!sunder_i_reserve(&c->claim, &c->claim_capacity, c->claims + 1, sizeof *c->claim)) return false;
     const sunder_i_way *w = &c->way[way];
@@ -185,16 +180,16 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
         sunder_i_branching_begin(c, bodies);
         memcpy(c->t, t, 2 * bodies * sizeof *t);
         const size_t before = c->claims;
-        bool ok = push(c, i, j, node, way, false, level);
+        bool ok = sunder_i_branching_push(c, i, j, node, way, false, level);
         const bool dead = ok && sunder_i_branching_is_dead_end(c);
         if (dead)
-            ok = add_leaf(c, &used, &below);
+            ok = sunder_i_branching_add_leaf(c, &used, &below);
         else if (ok)
             status = sunder_i_branching_search(c, level + 1, verdict, &used, &below, err);
         if (!ok) status = sunder_i_no_memory(err);
         if (status || *verdict != SUNDER_I_INFEASIBLE) break;
         c->way[way].next = below;
-        if (!has_level(&used, level)) {
+        if (!sunder_i_levels_has(&used, level)) {
             *root = below;
             *levels = used;
             break;
@@ -202,9 +197,9 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
         for (size_t k = 0; k < sizeof used.bit / sizeof *used.bit; k++) levels->bit[k] |= used.bit[k];
         /* What comes now is behind this line; one beyond everybody's limits need not be said to be so. */
         c->claims = before;
-        if (!dead && !push(c, i, j, node, way, true, level)) status = sunder_i_no_memory(err);
+        if (!dead && !sunder_i_branching_push(c, i, j, node, way, true, level)) status = sunder_i_no_memory(err);
     }
-    drop_level(levels, level);
+    sunder_i_levels_drop(levels, level);
     c->claims = claims;
     sunder_i_free(t);
     return status;
@@ -230,7 +225,7 @@ sunder_status sunder_i_branching_search(sunder_i_branching *c, unsigned level, s
     if (status || outcome == SUNDER_I_NODE_UNDECIDED) return status;
     if (outcome == SUNDER_I_NODE_INFEASIBLE) {
         *verdict = SUNDER_I_INFEASIBLE;
-        return add_leaf(c, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
+        return sunder_i_branching_add_leaf(c, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
     }
     sunder_i_violation deepest[SUNDER_I_CHOICES];
     size_t n = look(c, deepest);
@@ -240,6 +235,6 @@ sunder_status sunder_i_branching_search(sunder_i_branching *c, unsigned level, s
         return c->failed ? sunder_i_no_memory(err) : SUNDER_OK;
     size_t ways, node;
     const size_t best = choose(c, deepest, n, &ways);
-    if (c->failed || !add_branch(c, &deepest[best], ways, &node)) return sunder_i_no_memory(err);
+    if (c->failed || !sunder_i_branching_add_branch(c, &deepest[best], ways, &node)) return sunder_i_no_memory(err);
     return search_cases(c, &deepest[best], node, level, verdict, levels, root, err);
 }

@@ -20,6 +20,26 @@ typedef struct sunder_i_levels {
     uint64_t bit[SUNDER_I_LEVELS / 64];
 } sunder_i_levels;
 
+static inline void sunder_i_levels_add(sunder_i_levels *s, unsigned level)
+{
+    s->bit[level / 64] |= UINT64_C(1) << level % 64;
+}
+
+static inline void sunder_i_levels_drop(sunder_i_levels *s, unsigned level)
+{
+    s->bit[level / 64] &= ~(UINT64_C(1) << level % 64);
+}
+
+static inline bool sunder_i_levels_has(const sunder_i_levels *s, unsigned level)
+{
+    return s->bit[level / 64] >> level % 64 & 1;
+}
+
+static inline void sunder_i_levels_join(sunder_i_levels *s, const sunder_i_levels *more)
+{
+    for (size_t k = 0; k < sizeof s->bit / sizeof *s->bit; k++) s->bit[k] |= more->bit[k];
+}
+
 /* A feature that is held to an overlap with a barrier: what stands for the translation that parts them takes part like
  * a body, whose limit is how long that may be. */
 typedef struct sunder_i_slack {
@@ -126,6 +146,9 @@ sunder_status sunder_i_branching_solve(sunder_i_branching *branching, sunder_i_n
  * so. */
 bool sunder_i_branching_is_dead_end(sunder_i_branching *branching);
 
+/* Do these claims of one pair, at most three, contradict the limits? Then the forces are set to say so. */
+bool sunder_i_branching_contradict(sunder_i_branching *branching, const uint32_t *claim, size_t n);
+
 /* ---- violations.c ------------------------------------------------------------------------------------------------ */
 
 /* Two convex pieces that the candidate has nearer than they owe; or an anchor, and a piece that it passed. */
@@ -141,6 +164,13 @@ typedef struct sunder_i_violation {
 
 /* The deepest of the candidate's, one of each pair of bodies: known ones first, the deepest first. Returns how many. */
 size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_violation deepest[SUNDER_I_CHOICES]);
+/* The ways between two pieces of bodies p and q: into branching->scratch. at: NULL, or as in ways.h. Returns how many.
+ */
+size_t sunder_i_branching_fill_ways(sunder_i_branching *branching, const sunder_i_body *p, const sunder_i_body_piece *a,
+                                    const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
+                                    const double *at);
+/* How far a relative move is from the first of the ways in branching->scratch; -INFINITY: there are none. */
+double sunder_i_branching_depth(const sunder_i_branching *branching, size_t ways, const double u[2]);
 /* The ways out of one, nearest to the candidate first: into branching->scratch. Returns how many. */
 size_t sunder_i_branching_ways(sunder_i_branching *branching, const sunder_i_violation *violation);
 
@@ -149,6 +179,28 @@ size_t sunder_i_branching_ways(sunder_i_branching *branching, const sunder_i_vio
 /* Goes through the branches below the claims as they are. levels: of those that the proof needs; *root: its node. */
 sunder_status sunder_i_branching_search(sunder_i_branching *branching, unsigned level, sunder_i_verdict *verdict,
                                         sunder_i_levels *levels, size_t *root, sunder_error *err);
+
+/* A node for the contradiction that the claims' forces prove, whose levels are told; one for a violation, with the ways
+ * out of it that are in branching->scratch; and the claim of one of its cases. False if memory is out. */
+bool sunder_i_branching_add_leaf(sunder_i_branching *branching, sunder_i_levels *levels, size_t *root);
+bool sunder_i_branching_add_branch(sunder_i_branching *branching, const sunder_i_violation *violation, size_t ways,
+                                   size_t *root);
+bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t j, size_t node, size_t way,
+                             bool behind, unsigned level);
+
+/* ---- plane.c ----------------------------------------------------------------------------------------------------- */
+
+/* What the plane of one relative move tells of a subproblem. */
+typedef struct sunder_i_plane_answer {
+    sunder_i_verdict verdict; /* feasible only if whoever else is asked about has no say */
+    double u[2];              /* then: the move of q less that of p */
+    uint32_t p, q;            /* bodies; q may be SUNDER_I_GROUND */
+    bool free;                /* a place was met where nothing is forbidden */
+    size_t root;
+} sunder_i_plane_answer;
+
+/* The question of the one body of a subproblem that may move, among what stands, or of its two. */
+sunder_status sunder_i_branching_plane(sunder_i_branching *branching, sunder_i_plane_answer *answer, sunder_error *err);
 
 /* ---- proof.c ----------------------------------------------------------------------------------------------------- */
 

@@ -49,6 +49,65 @@ static sunder_i_solution take_solution(sunder_i_branching *c)
     return (sunder_i_solution){c->body, c->t, c->bodies - c->slacks};
 }
 
+/* Of one body that moves among what stands, or of two: their relative move. */
+static sunder_status take_plane_solution(const sunder_i_branching *c, const sunder_i_plane_answer *found,
+                                         sunder_i_solution *out, sunder_error *err)
+{
+    const bool two = found->q != SUNDER_I_GROUND;
+    const uint32_t body[2] = {found->p, found->q};
+    const double of_p = c->limit[0], share = two ? of_p / (of_p + c->limit[1]) : 1, part[2] = {-share, 1 - share};
+    out->body = sunder_i_alloc(2, sizeof *out->body);
+    out->move = sunder_i_alloc(4, sizeof *out->move);
+    if (!out->body || !out->move) return sunder_i_no_memory(err);
+    out->bodies = two ? 2 : 1;
+    for (size_t k = 0; k < out->bodies; k++) {
+        const size_t from = two && found->p > found->q ? 1 - k : k;
+        out->body[k] = body[from];
+        for (size_t x = 0; x < 2; x++) out->move[2 * k + x] = part[from] * found->u[x];
+    }
+    return SUNDER_OK;
+}
+
+/* What the plane of one relative move tells of it: an answer, or that there is a place where nothing is forbidden there
+ * (*free), or neither. */
+static sunder_status decide_in_plane(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, bool *free,
+                                     sunder_error *err)
+{
+    sunder_i_branching c = {.subproblem = subproblem, .model = subproblem->model};
+    sunder_i_plane_answer answer;
+    sunder_status status = sunder_i_branching_plane(&c, &answer, err);
+    decision->verdict = answer.verdict;
+    *free = answer.free;
+    if (!status && answer.verdict == SUNDER_I_INFEASIBLE) {
+        decision->proof = sunder_i_proof_of(&c, answer.root);
+        if (!decision->proof) status = sunder_i_no_memory(err);
+    }
+    if (!status && answer.verdict == SUNDER_I_FEASIBLE)
+        status = take_plane_solution(&c, &answer, &decision->solution, err);
+    decision->work += sunder_i_branching_work(&c);
+    sunder_i_free(c.body);
+    sunder_i_free(c.t);
+    clear(&c);
+    return status;
+}
+
+/* First by lines that are as coarse as was asked for. */
+static sunder_status ask_plane(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, sunder_error *err)
+{
+    sunder_i_subproblem closely = *subproblem;
+    bool free;
+    sunder_status status = decide_in_plane(subproblem, decision, &free, err);
+    closely.coarse = 0;
+    if (!status && free && subproblem->coarse > 0) {
+        sunder_i_free(decision->solution.body);
+        sunder_i_free(decision->solution.move);
+        decision->solution = (sunder_i_solution){0};
+        status = decide_in_plane(&closely, decision, &free, err);
+    }
+    decision->no_plane = decision->verdict == SUNDER_I_UNKNOWN;
+    return status;
+}
+
 sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, sunder_error *err)
 {
     *decision = (sunder_i_decision){.verdict = SUNDER_I_UNKNOWN};
@@ -62,13 +121,22 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
     sunder_status status = c.failed ? sunder_i_no_memory(err) : SUNDER_OK;
     sunder_i_levels levels;
     size_t root = 0;
+    decision->no_plane = subproblem->no_plane;
+    if (!status && limited && c.longest > 0 && !subproblem->slack && !subproblem->no_plane)
+        status = ask_plane(subproblem, decision, err);
+    if (status || decision->verdict != SUNDER_I_UNKNOWN) {
+        sunder_i_free(c.body);
+        sunder_i_free(c.t);
+        clear(&c);
+        return status;
+    }
     if (!status && limited && c.longest > 0)
         status = sunder_i_branching_search(&c, 0, &decision->verdict, &levels, &root, err);
     if (!status && decision->verdict == SUNDER_I_INFEASIBLE) {
         decision->proof = sunder_i_proof_of(&c, root);
         if (!decision->proof) status = sunder_i_no_memory(err);
     }
-    decision->work = sunder_i_branching_work(&c);
+    decision->work += sunder_i_branching_work(&c);
     if (!status && decision->verdict == SUNDER_I_FEASIBLE) {
         decision->solution = take_solution(&c);
     } else {

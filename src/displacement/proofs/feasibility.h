@@ -34,6 +34,7 @@ typedef struct sunder_i_subproblem {
     bool any_way;    /* and cross sides: no way is forbidden */
     bool every_way;  /* the ways of all members of `body` are heeded, whoever else is not */
     double instead;  /* > 0: a limit for those that have none; else they are not asked about */
+    bool no_plane;   /* the plane of one relative move has been asked about, and had no answer */
     uint64_t effort; /* in constraints looked at */
     size_t most;     /* it ends where more bodies than these take part */
 } sunder_i_subproblem;
@@ -49,6 +50,7 @@ typedef struct sunder_i_decision {
     sunder_i_solution solution; /* if SUNDER_I_FEASIBLE */
     sunder_proof *proof;        /* if SUNDER_I_INFEASIBLE */
     uint64_t work;
+    bool no_plane; /* as above, for who asks again */
 } sunder_i_decision;
 
 /* Is anything held to an overlap with a barrier? */

@@ -77,6 +77,27 @@ bool sunder_i_branching_is_dead_end(sunder_i_branching *c)
     return false;
 }
 
+/* Forces of three such that they pull nowhere; false: none. */
+static bool balance_three(sunder_i_claim *p, sunder_i_claim *q, sunder_i_claim *r)
+{
+    const double of_p = q->n[0] * r->n[1] - q->n[1] * r->n[0], of_q = r->n[0] * p->n[1] - r->n[1] * p->n[0],
+                 of_r = p->n[0] * q->n[1] - p->n[1] * q->n[0], sign = of_p + of_q + of_r < 0 ? -1 : 1;
+    p->force = sign * of_p;
+    q->force = sign * of_q;
+    r->force = sign * of_r;
+    return p->force > 0 && q->force > 0 && r->force > 0;
+}
+
+bool sunder_i_branching_contradict(sunder_i_branching *c, const uint32_t *of, size_t n)
+{
+    bool is_set = n == 1;
+    for (size_t k = 0; k < c->claims; k++) c->claim[k].force = 0;
+    if (n == 1) c->claim[of[0]].force = 1;
+    if (n == 2) is_set = balance(&c->claim[of[0]], &c->claim[of[1]]);
+    if (n == 3) is_set = balance_three(&c->claim[of[0]], &c->claim[of[1]], &c->claim[of[2]]);
+    return is_set && is_contradiction(c);
+}
+
 /* ---- The program ------------------------------------------------------------------------------------------------- */
 
 static double at(const double n[2], const double *t) { return n[0] * t[0] + n[1] * t[1]; }

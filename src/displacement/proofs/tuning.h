@@ -24,4 +24,12 @@
 #define DISC_SIDES 16
 #define MOST_CORNERS 96
 
+/* ---- One relative move (plane.c) --------------------------------------------------------------------------------- */
+
+/* Sides of the polygon around the limits, and the most corners of a region. */
+#define PLANE_SIDES 24
+#define PLANE_CORNERS 48
+/* It ends after so much: some ten milliseconds. */
+#define PLANE_EFFORT 4000000u
+
 #endif

@@ -15,10 +15,9 @@
 
 static bool is_rational(const sunder_i_model *model, uint32_t f) { return model->layer->feature[f].shape->rational; }
 
-/* The ways between two pieces: into c->scratch. at: NULL, or as in ways.h. */
-static size_t fill_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
-                        const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
-                        const double *at)
+size_t sunder_i_branching_fill_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
+                                    const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
+                                    const double *at)
 {
     const sunder_i_model *model = c->model;
     const double reach = sunder_i_branching_limit(c, p) + sunder_i_branching_limit(c, q),
@@ -45,7 +44,7 @@ static size_t fill_ways(sunder_i_branching *c, const sunder_i_body *p, const sun
     return shadow ? sunder_i_ways_past(&parting, c->scratch) : sunder_i_ways_between(&parting, c->scratch);
 }
 
-static double depth_of(const sunder_i_branching *c, size_t ways, const double u[2])
+double sunder_i_branching_depth(const sunder_i_branching *c, size_t ways, const double u[2])
 {
     double at = -INFINITY;
     for (size_t k = 0; k < ways; k++) {
@@ -101,7 +100,8 @@ static void look_at(sunder_i_branching *c, const standing *s, const standing *r,
             if (!sunder_i_box_meet(box, b->box)) continue;
             if (!sunder_i_branching_owe(c, a->feature, b->feature, &clearance)) continue;
             if (has_slack(c, p, q, clearance)) continue;
-            const double depth = depth_of(c, fill_ways(c, p, a, q, b, clearance, false, c->closely ? u : NULL), u);
+            const double depth = sunder_i_branching_depth(
+                c, sunder_i_branching_fill_ways(c, p, a, q, b, clearance, false, c->closely ? u : NULL), u);
             if (depth > worst->depth)
                 *worst =
                     (sunder_i_violation){s->number, r->number, a, b, clearance, depth, NULL, false, false, c->closely};
@@ -115,7 +115,8 @@ static void look_at_shadow(sunder_i_branching *c, const standing *s, const stand
                            sunder_i_violation *worst)
 {
     const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
-    const double depth = depth_of(c, fill_ways(c, s->body, a, r->body, b, 0, true, NULL), u);
+    const double depth =
+        sunder_i_branching_depth(c, sunder_i_branching_fill_ways(c, s->body, a, r->body, b, 0, true, NULL), u);
     if (depth > worst->depth)
         *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, NULL, true, false, false};
 }
@@ -145,7 +146,8 @@ static void look_at_part(sunder_i_branching *c, const standing *s, uint32_t f, u
         for (uint32_t l = q->piece; l < q->piece + q->pieces; l++) {
             const sunder_i_body_piece *b = &model->piece[l];
             if (!sunder_i_box_meet(box, b->box)) continue;
-            const double depth = depth_of(c, fill_ways(c, p, a, q, b, 0, false, NULL), u);
+            const double depth =
+                sunder_i_branching_depth(c, sunder_i_branching_fill_ways(c, p, a, q, b, 0, false, NULL), u);
             if (depth > worst->depth)
                 *worst = (sunder_i_violation){.p = s->number,
                                               .q = model->body_of[part],
@@ -340,9 +342,9 @@ size_t sunder_i_branching_ways(sunder_i_branching *c, const sunder_i_violation *
     const standing s = stand(c, o->p), r = stand(c, o->q);
     double u[2] = {r.t[0] - s.t[0], r.t[1] - s.t[1]};
     if (o->slack) move_of_slack(c, o->slack, s.t, u);
-    const size_t n =
-        fill_ways(c, s.body, o->a, r.body, o->b, o->slack ? 0 : o->clearance, o->shadow, o->closely ? u : NULL);
-    depth_of(c, n, u);
+    const size_t n = sunder_i_branching_fill_ways(c, s.body, o->a, r.body, o->b, o->slack ? 0 : o->clearance, o->shadow,
+                                                  o->closely ? u : NULL);
+    sunder_i_branching_depth(c, n, u);
     if (n) qsort(c->scratch, n, sizeof *c->scratch, by_nearness);
     return n;
 }

@@ -108,6 +108,7 @@ typedef struct matter {
     bool open;
     bool fine;  /* by coarse lines there is a solution */
     bool slack; /* and by fine ones, with a translation for each two parts that are held to an overlap */
+    bool no_plane;
 } matter;
 
 typedef struct asking {
@@ -156,7 +157,9 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
         sunder_i_decision_clear(&decision);
         q->coarse = m->fine ? 0 : COARSE;
         q->slack = m->slack;
+        q->no_plane = m->no_plane || q->effort <= FIRST_EFFORT; /* what is easy needs no look at all there is */
         status = sunder_i_decide(q, &decision, err);
+        m->no_plane = m->no_plane || (!q->no_plane && decision.no_plane);
     } while (!status && decision.verdict == SUNDER_I_FEASIBLE && ask_closer(q, m));
     sunder_proof **proof = &report->proof[m->conflict];
     *proof = decision.proof;
@@ -164,6 +167,7 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
     m->open = !*proof && decision.verdict == SUNDER_I_UNKNOWN && decision.work > q->effort;
     if (!*proof) *pool = *pool > decision.work ? *pool - decision.work : 0;
     sunder_i_decision_clear(&decision);
+    q->no_plane = false;
     if (!status && *proof) status = reduce(q, proof, err);
     if (!status && *proof) c->reason = SUNDER_REASON_NO_ROOM;
     return status;
@@ -204,8 +208,8 @@ static size_t group(const sunder_i_solver *s, const sunder_report *report, const
         const sunder_conflict *c = &report->conflict[listed[k]];
         if (c->reason != SUNDER_REASON_UNRESOLVED) continue;
         const uint32_t i = model->body_of[c->a], j = model->body_of[c->b];
-        list[open++] =
-            (matter){sunder_i_union_find(s->parent, model->body[i].fixed ? j : i), listed[k], true, false, false};
+        list[open++] = (matter){
+            sunder_i_union_find(s->parent, model->body[i].fixed ? j : i), listed[k], true, false, false, false};
     }
     if (open) qsort(list, open, sizeof *list, sunder_i_by_id_pair);
     for (size_t k = 0; k < open; k++)

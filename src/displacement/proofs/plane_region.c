@@ -1,0 +1,85 @@
+/* Convex polygons of relative moves, in doubles: they decide nothing, and tell which claims to ask about. */
+#include "displacement/proofs/plane.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TURN 6.28318530717958647692
+
+void sunder_i_plane_disc(sunder_i_plane_region *r, double radius)
+{
+    const double far = radius / cos(TURN / (2 * PLANE_SIDES));
+    r->n = PLANE_SIDES;
+    for (int k = 0; k < PLANE_SIDES; k++) {
+        r->xy[2 * k] = far * cos(TURN * k / PLANE_SIDES);
+        r->xy[2 * k + 1] = far * sin(TURN * k / PLANE_SIDES);
+        r->claim[k] = SUNDER_I_NO_CLAIM;
+    }
+}
+
+bool sunder_i_plane_clip(sunder_i_plane_region *r, const double n[2], double d, uint32_t claim, uint32_t by[2])
+{
+    sunder_i_plane_region out = {.n = 0};
+    uint32_t nearest = 0;
+    for (uint32_t k = 0; k < r->n; k++) {
+        const double *u = r->xy + 2 * k, *v = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
+        const double s = sunder_i_plane_at(n, u) - d, t = sunder_i_plane_at(n, v) - d;
+        if (sunder_i_plane_at(n, u) > sunder_i_plane_at(n, r->xy + 2 * nearest)) nearest = k;
+        if (out.n + 2 > PLANE_CORNERS) return true; /* too many corners: it is left as large as it was */
+        if (s >= 0) {
+            memcpy(out.xy + 2 * out.n, u, 2 * sizeof *u);
+            out.claim[out.n++] = s == 0 && t < 0 ? claim : r->claim[k];
+        }
+        if ((s > 0 && t < 0) || (s < 0 && t > 0)) {
+            const double share = s / (s - t);
+            for (size_t x = 0; x < 2; x++) out.xy[2 * out.n + x] = u[x] + share * (v[x] - u[x]);
+            out.claim[out.n++] = s > 0 ? claim : r->claim[k];
+        }
+    }
+    by[0] = r->claim[nearest ? nearest - 1 : r->n - 1];
+    by[1] = r->claim[nearest];
+    if (out.n < 3) return false;
+    *r = out;
+    return true;
+}
+
+double sunder_i_plane_distance(const sunder_i_plane_region *r, double place[2], uint32_t by[2])
+{
+    double least = INFINITY;
+    bool inside = true;
+    for (uint32_t k = 0; k < r->n; k++) {
+        const uint32_t before = k ? k - 1 : r->n - 1;
+        const double *u = r->xy + 2 * k, *v = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
+        const double e[2] = {v[0] - u[0], v[1] - u[1]}, square = sunder_i_plane_at(e, e),
+                     along = -sunder_i_plane_at(e, u);
+        if (e[0] * u[1] - e[1] * u[0] > 0) inside = false; /* the origin is to the right */
+        const double share = square > 0 ? fmin(fmax(along / square, 0), 1) : 0;
+        const double w[2] = {u[0] + share * e[0], u[1] + share * e[1]}, off = hypot(w[0], w[1]);
+        if (!(off < least)) continue;
+        least = off;
+        memcpy(place, w, sizeof w);
+        by[0] = share > 0 ? r->claim[k] : r->claim[before];
+        by[1] = share < 1 ? r->claim[k] : r->claim[k + 1 < r->n ? k + 1 : 0];
+    }
+    if (inside) place[0] = place[1] = least = 0;
+    return least;
+}
+
+double sunder_i_plane_area(const sunder_i_plane_region *r)
+{
+    double sum = 0;
+    for (uint32_t k = 0; k < r->n; k++) {
+        const double *u = r->xy + 2 * k, *v = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
+        sum += u[0] * v[1] - u[1] * v[0];
+    }
+    return sum / 2;
+}
+
+void sunder_i_plane_middle(const sunder_i_plane_region *r, const double nearest[2], double reach, double out[2])
+{
+    out[0] = out[1] = 0;
+    for (uint32_t k = 0; k < r->n; k++)
+        for (size_t x = 0; x < 2; x++) out[x] += r->xy[2 * k + x] / r->n;
+    for (int k = 0; k < 30 && hypot(out[0], out[1]) > reach; k++)
+        for (size_t x = 0; x < 2; x++) out[x] = (out[x] + nearest[x]) / 2;
+}
