@@ -3,6 +3,7 @@
 #include "sqlite/calls.h"
 
 #include "base/interrupt.h"
+#include "sqlite/find.h"
 #include "sqlite/lock.h"
 
 #include <dlfcn.h>
@@ -16,8 +17,8 @@ enum { OK = 0, BUSY = 5, LOCKED = 6, READONLY = 8, CORRUPT = 11, NOTADB = 26, DO
 enum { OPEN_READONLY = 1, OPEN_READWRITE = 2 };
 enum { RESULT = 0xff }; /* beyond it: what kind of that result */
 
-/* False if the program has no such function. (That a pointer to data can hold one to a function is POSIX's word.) */
-static bool find(const char *name, void *function)
+/* (That a pointer to data can hold one to a function is POSIX's word.) */
+bool gis_sqlite_find(const char *name, void *function)
 {
     void *found = dlsym(RTLD_DEFAULT, name);
     memcpy(function, &found, sizeof found);
@@ -42,14 +43,14 @@ static int watch_database(sqlite3 *database, char **message, const void *routine
     void (*progress_handler)(sqlite3 *, int, int (*)(void *), void *);
     (void)message;
     (void)routines;
-    if (find("sqlite3_progress_handler", &progress_handler)) progress_handler(database, STEPS, stop, NULL);
+    if (gis_sqlite_find("sqlite3_progress_handler", &progress_handler)) progress_handler(database, STEPS, stop, NULL);
     return OK;
 }
 
 void gis_sqlite_heed_signals(void)
 {
     int (*auto_extension)(void (*)(void));
-    if (find("sqlite3_auto_extension", &auto_extension)) auto_extension((void (*)(void))watch_database);
+    if (gis_sqlite_find("sqlite3_auto_extension", &auto_extension)) auto_extension((void (*)(void))watch_database);
 }
 
 /* ---- Replacing --------------------------------------------------------------------------------------------------- */
@@ -70,10 +71,13 @@ typedef struct calls {
 
 static bool find_all(calls *sqlite)
 {
-    return find("sqlite3_open_v2", &sqlite->open) && find("sqlite3_close", &sqlite->close) &&
-           find("sqlite3_busy_timeout", &sqlite->busy_timeout) && find("sqlite3_errcode", &sqlite->error_code) &&
-           find("sqlite3_errmsg", &sqlite->error_message) && find("sqlite3_backup_init", &sqlite->begin) &&
-           find("sqlite3_backup_step", &sqlite->step) && find("sqlite3_backup_finish", &sqlite->finish);
+    return gis_sqlite_find("sqlite3_open_v2", &sqlite->open) && gis_sqlite_find("sqlite3_close", &sqlite->close) &&
+           gis_sqlite_find("sqlite3_busy_timeout", &sqlite->busy_timeout) &&
+           gis_sqlite_find("sqlite3_errcode", &sqlite->error_code) &&
+           gis_sqlite_find("sqlite3_errmsg", &sqlite->error_message) &&
+           gis_sqlite_find("sqlite3_backup_init", &sqlite->begin) &&
+           gis_sqlite_find("sqlite3_backup_step", &sqlite->step) &&
+           gis_sqlite_find("sqlite3_backup_finish", &sqlite->finish);
 }
 
 /* The transaction is committed by the step that comes to the last page. */

@@ -9,11 +9,11 @@
 
 #include "base/array.h"
 #include "base/interrupt.h"
+#include "sqlite/rows.h"
 #include "write/sql.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
-#include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -21,11 +21,23 @@
 
 enum { HEADER = 4, CELL = 24 };
 
+#define WHAT "the spatial index"
+
 /* ---- SQL --------------------------------------------------------------------------------------------------------- */
 
 static bool run(GDALDatasetH dataset, const char *sql, gis_error *error)
 {
-    return gis_sql_run(dataset, sql, "the spatial index", error);
+    return gis_sql_run(dataset, sql, WHAT, error);
+}
+
+/* GDAL's handle of the database; NULL where rows cannot be handed to SQLite past GDAL. */
+static void *handle_of(GDALDatasetH dataset)
+{
+    void *handle = GDALGetInternalHandle(dataset, "SQLITE_HANDLE");
+    char *source_id = handle ? gis_sql_ask(dataset, "SELECT sqlite_source_id()") : NULL;
+    if (!gis_sqlite_is_that_of(source_id)) handle = NULL;
+    CPLFree(source_id);
+    return handle;
 }
 
 /* "rtree_TABLE_COLUMN" and a suffix, with quotes doubled and around; CPLFree(). */
@@ -44,58 +56,6 @@ static char *tree_name(OGRLayerH layer, const char *suffix, char quote)
     return quoted;
 }
 
-/* A statement made of a head and many rows, run whenever it grows long. */
-typedef struct rows {
-    GDALDatasetH dataset;
-    char *head, *sql;
-    size_t head_length, n, capacity;
-} rows;
-
-static rows begin_rows(GDALDatasetH dataset, OGRLayerH layer, const char *table)
-{
-    char *name = tree_name(layer, table, '"');
-    rows all = {.dataset = dataset, .head = CPLStrdup(CPLSPrintf("INSERT INTO %s VALUES ", name))};
-    CPLFree(name);
-    all.head_length = strlen(all.head);
-    return all;
-}
-
-static bool flush(rows *all, gis_error *error)
-{
-    if (all->n <= all->head_length) return true;
-    all->sql[all->n - 1] = '\0'; /* the last comma */
-    all->n = 0;
-    return run(all->dataset, all->sql, error);
-}
-
-/* Of a statement, in bytes. SQLite takes a million; from a quarter of that on longer ones save nothing that counts. */
-enum { STATEMENT_SIZE = 250000 };
-
-/* Appends a row's text (it ends with a comma). */
-static bool add_row(rows *all, const char *text, size_t length, gis_error *error)
-{
-    if (all->n + length > STATEMENT_SIZE && !flush(all, error)) return false;
-    if (all->n + length + all->head_length + 1 > all->capacity) {
-        all->capacity = all->n + length + all->head_length + STATEMENT_SIZE + 1;
-        all->sql = CPLRealloc(all->sql, all->capacity);
-    }
-    if (all->n == 0) {
-        memcpy(all->sql, all->head, all->head_length);
-        all->n = all->head_length;
-    }
-    memcpy(all->sql + all->n, text, length + 1);
-    all->n += length;
-    return true;
-}
-
-static bool end_rows(rows *all, bool so_far, gis_error *error)
-{
-    bool done = so_far && flush(all, error);
-    CPLFree(all->head);
-    CPLFree(all->sql);
-    return done;
-}
-
 /* ---- Gathering --------------------------------------------------------------------------------------------------- */
 
 bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error)
@@ -109,6 +69,7 @@ bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gi
     boxes->trigger = gis_sql_ask(dataset, find);
     CPLFree(find);
     CPLFree(literal);
+    if (boxes->trigger && !handle_of(dataset)) gis_boxes_clear(boxes); /* GDAL fills it */
     if (!boxes->trigger) return true;
     char *name = tree_name(layer, "_insert", '"');
     char *drop = CPLStrdup(CPLSPrintf("DROP TRIGGER %s", name));
@@ -216,25 +177,26 @@ static bool sort_boxes(gis_boxes *boxes)
 
 /* ---- Nodes ------------------------------------------------------------------------------------------------------- */
 
-static char *put_hex(char *to, uint64_t value, int bytes)
+/* Big-endian, as SQLite has it on every machine. */
+static unsigned char *put_number(unsigned char *to, uint64_t value, int bytes)
 {
-    static const char digits[] = "0123456789ABCDEF";
-    for (int shift = 8 * bytes - 4; shift >= 0; shift -= 4) *to++ = digits[value >> shift & 15];
+    for (int shift = 8 * bytes - 8; shift >= 0; shift -= 8) *to++ = (unsigned char)(value >> shift);
     return to;
 }
 
-static char *put_float(char *to, float value)
+static unsigned char *put_float(unsigned char *to, float value)
 {
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
-    return put_hex(to, bits, 4);
+    return put_number(to, bits, 4);
 }
 
 typedef struct packing {
-    rows nodes, parents, leaves;
-    size_t capacity; /* cells in a node */
-    char *text;      /* room for one row of a node */
-    GIntBig next;    /* number of the next node */
+    gis_sqlite_rows nodes, parents, leaves;
+    size_t capacity;     /* cells in a node */
+    unsigned char *node; /* room for one, and for the rows or children in it */
+    int64_t *keys;
+    GIntBig next; /* number of the next node */
 } packing;
 
 /* One node of consecutive cells; gives its number and box in *made. root_depth < 0: it is not the root, which is
@@ -246,25 +208,19 @@ static bool write_node(packing *all, const struct gis_box *cells, size_t n, bool
     if (!gis_go_on(error)) return false;
     made->fid = root ? 1 : all->next++;
     memcpy(made->side, cells[0].side, sizeof made->side);
-    char *to = all->text + sprintf(all->text, "(%" PRId64 ",x'", (int64_t)made->fid);
-    to = put_hex(to, root ? (uint64_t)root_depth : 0, 2);
-    to = put_hex(to, n, 2);
+    memset(all->node, 0, HEADER + CELL * all->capacity);
+    unsigned char *to = put_number(all->node, root ? (uint64_t)root_depth : 0, 2);
+    to = put_number(to, n, 2);
     for (size_t i = 0; i < n; i++) {
-        to = put_hex(to, (uint64_t)cells[i].fid, 8);
+        all->keys[i] = cells[i].fid;
+        to = put_number(to, (uint64_t)cells[i].fid, 8);
         for (int k = 0; k < 4; k++) {
             to = put_float(to, cells[i].side[k]);
             made->side[k] = k % 2 ? fmaxf(made->side[k], cells[i].side[k]) : fminf(made->side[k], cells[i].side[k]);
         }
-        char link[64];
-        int length =
-            snprintf(link, sizeof link, "(%" PRId64 ",%" PRId64 "),", (int64_t)cells[i].fid, (int64_t)made->fid);
-        if (!add_row(leaf ? &all->leaves : &all->parents, link, (size_t)length, error)) return false;
     }
-    size_t unused = 2 * CELL * (all->capacity - n);
-    memset(to, '0', unused);
-    to += unused;
-    memcpy(to, "'),", 4);
-    return add_row(&all->nodes, all->text, (size_t)(to + 3 - all->text), error);
+    return gis_sqlite_rows_add(leaf ? &all->leaves : &all->parents, all->keys, n, made->fid, error) &&
+           gis_sqlite_rows_add_bytes(&all->nodes, made->fid, all->node, HEADER + CELL * all->capacity, error);
 }
 
 /* Level upon level, in place: the boxes of a level's nodes become the cells of the next. */
@@ -312,22 +268,33 @@ static size_t node_capacity(GDALDatasetH dataset, OGRLayerH layer)
     return bytes < HEADER + 2 * CELL ? 0 : (size_t)(bytes - HEADER) / CELL;
 }
 
+static bool begin_rows(gis_sqlite_rows *rows, GDALDatasetH dataset, OGRLayerH layer, const char *table, size_t at_once,
+                       gis_error *error)
+{
+    char *name = tree_name(layer, table, '"');
+    const bool done =
+        gis_sqlite_rows_begin(rows, GDALGetInternalHandle(dataset, "SQLITE_HANDLE"), name, at_once, WHAT, error);
+    CPLFree(name);
+    return done;
+}
+
 static bool fill(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error)
 {
     size_t capacity = node_capacity(dataset, layer);
     if (!capacity) return gis_fail(error, "the spatial index of layer %s is not as expected", OGR_L_GetName(layer));
     if (!sort_boxes(boxes)) return gis_no_memory(error);
-    packing all = {begin_rows(dataset, layer, "_node"),
-                   begin_rows(dataset, layer, "_parent"),
-                   begin_rows(dataset, layer, "_rowid"),
-                   capacity,
-                   CPLMalloc(2 * (HEADER + CELL * capacity) + 64),
-                   2};
-    bool done = empty_tables(dataset, layer, error) && write_levels(&all, boxes, error);
-    done = end_rows(&all.nodes, done, error);
-    done = end_rows(&all.parents, done, error);
-    done = end_rows(&all.leaves, done, error);
-    CPLFree(all.text);
+    packing all = {.capacity = capacity,
+                   .node = CPLMalloc(HEADER + CELL * capacity),
+                   .keys = CPLMalloc(capacity * sizeof *all.keys),
+                   .next = 2};
+    bool done = empty_tables(dataset, layer, error) && begin_rows(&all.nodes, dataset, layer, "_node", 1, error) &&
+                begin_rows(&all.parents, dataset, layer, "_parent", capacity, error) &&
+                begin_rows(&all.leaves, dataset, layer, "_rowid", capacity, error) && write_levels(&all, boxes, error);
+    gis_sqlite_rows_end(&all.nodes);
+    gis_sqlite_rows_end(&all.parents);
+    gis_sqlite_rows_end(&all.leaves);
+    CPLFree(all.node);
+    CPLFree(all.keys);
     return done;
 }
 
