@@ -70,6 +70,13 @@ static nearness any_near(sunder_i_operands *g, double units, const int64_t *gap)
     return worst;
 }
 
+/* The interiors are disjoint: are they nearer than the length? */
+static nearness roughly_near(sunder_i_operands *g, double length)
+{
+    const double units = length / g->unit;
+    return units >= 0 && units < 0x1p500 && (units > 0 || length == 0) ? any_near(g, units, NULL) : IN_DOUBT;
+}
+
 /* With the gap on the lattice, which may have to be a finer one for it. */
 static sunder_status exactly_apart(const sunder_shape *p, const sunder_shape *q,
                                    const sunder_i_operands_options *options, const double gap[2], bool *apart,
@@ -105,13 +112,35 @@ sunder_status sunder_i_apart_by(const sunder_shape *p, const double tp[2], const
     sunder_status status = sunder_i_operands_init(&g, p, q, &options, err);
     if (status) return status;
     nearness answer = sunder_i_operands_overlap(&g) ? NEAR : FAR;
-    const double units = gap[0] / g.unit;
-    if (answer == FAR && gap[0] > 0) answer = units > 0 && units < 0x1p500 ? any_near(&g, units, NULL) : IN_DOUBT;
+    if (answer == FAR && gap[0] > 0) answer = roughly_near(&g, gap[0]);
     status = sunder_i_operands_end(&g, err);
     if (status) return status;
     if (answer == IN_DOUBT) return exactly_apart(p, q, &options, gap, apart, err);
     *apart = answer == FAR;
     return SUNDER_OK;
+}
+
+sunder_status sunder_i_meet(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                            double gap, double tolerance, sunder_i_encounter *out, sunder_error *err)
+{
+    /* Of boxes that only touch nothing follows. */
+    const double far = fmax(fmax(gap, tolerance), 0x1p-1074);
+    *out = (sunder_i_encounter){.apart = true};
+    if (p->pieces == 0 || q->pieces == 0 || sunder_i_boxes_apart(p, tp, q, tq, far)) return SUNDER_OK;
+    sunder_i_operands g;
+    const sunder_i_operands_options options = {.tp = tp, .tq = tq};
+    sunder_status status = sunder_i_operands_init(&g, p, q, &options, err);
+    if (status) return status;
+    nearness at_gap = FAR, at_tolerance = FAR;
+    out->overlap = !sunder_i_boxes_apart(p, tp, q, tq, 0) && sunder_i_operands_overlap(&g);
+    if (!out->overlap && gap > 0) at_gap = roughly_near(&g, gap);
+    if (!out->overlap && (at_gap != FAR || !(gap > tolerance))) at_tolerance = roughly_near(&g, tolerance);
+    status = sunder_i_operands_end(&g, err);
+    if (status || out->overlap) return status;
+    out->touch = at_tolerance == NEAR;
+    out->may_touch = at_tolerance != FAR;
+    out->apart = at_gap == FAR;
+    return at_gap == IN_DOUBT ? exactly_apart(p, q, &options, (double[2]){gap, 0}, &out->apart, err) : SUNDER_OK;
 }
 
 sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],

@@ -16,7 +16,15 @@ sunder_status sunder_i_overlap(const sunder_shape *p, const double tp[2], const 
 /* Interiors disjoint and the distance at least gap? Exact. gap >= 0. */
 sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                              double gap, bool *apart, sunder_error *err);
-/* The same for a gap that is the sum of two doubles, the second at most half a unit in the last place of the first. */
+/* Both at once, and do they touch: is their distance, as the nearest double, at most the tolerance? What doubles do not
+ * tell of that stays open: may_touch without touch. Where interiors meet nothing more is said. */
+typedef struct sunder_i_encounter {
+    bool overlap, apart, touch, may_touch;
+} sunder_i_encounter;
+
+sunder_status sunder_i_meet(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                            double gap, double tolerance, sunder_i_encounter *out, sunder_error *err);
+/* sunder_i_apart() for a gap that is the sum of two doubles, the second at most half a unit in the last place of it. */
 sunder_status sunder_i_apart_by(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                                 const double gap[2], bool *apart, sunder_error *err);
 /* Does P + tp lie in Q + tq (closed sets)? Exact. */

@@ -63,6 +63,30 @@ static void check_distance(const polyset *p, const polyset *q, const sunder_shap
     if (apart) complain("not apart by a little more", p, q);
 }
 
+/* Asked at once: the same answers, and of a touch nothing that is not so. Translations of which only the difference
+ * matters. */
+static void check_meeting(const polyset *p, const polyset *q, const sunder_shape *a, const sunder_shape *b,
+                          const double t[2], bool meet)
+{
+    double d, on_p[2], on_q[2];
+    assert_int_equal(sunder_pair_distance(a, b, &d, on_p, on_q, NULL), SUNDER_OK);
+    const double length[] = {0, d / 2, d, nextafter(d, INFINITY), 2 * d, 1, 3};
+    for (size_t g = 0; g < sizeof length / sizeof *length; g++)
+        for (size_t k = 0; k < sizeof length / sizeof *length; k++) {
+            const double gap = length[g], tolerance = length[k];
+            sunder_i_encounter m;
+            bool apart;
+            if (gap > 0 && tolerance >= gap) continue;
+            assert_int_equal(sunder_i_meet(a, t, b, t, gap, tolerance, &m, NULL), SUNDER_OK);
+            if (m.overlap != meet) complain("overlap, asked at once", p, q);
+            if (meet) continue;
+            assert_int_equal(sunder_pair_apart(a, b, gap, &apart, NULL), SUNDER_OK);
+            if (m.apart != apart) complain("apart, asked at once", p, q);
+            if (m.touch && d > tolerance) complain("no touch", p, q);
+            if (gap > 0 && apart ? m.touch : !m.may_touch && d <= tolerance) complain("a touch", p, q);
+        }
+}
+
 typedef struct tally {
     size_t meet, in;
 } tally;
@@ -92,6 +116,8 @@ static void check_pair(const polyset *p, const polyset *q, rng *r, tally *t)
     if (sunder_i_overlap(a, t1, b, t1, &answer, NULL) || answer != meet) complain("overlap, translated", p, q);
     if (sunder_i_contained(a, t1, b, t1, &answer, NULL) || answer != in) complain("contained, translated", p, q);
     if (sunder_i_apart(a, t1, b, t1, 0, &answer, NULL) || answer == meet) complain("apart, translated", p, q);
+    check_meeting(p, q, a, b, (double[2]){0, 0}, meet);
+    check_meeting(p, q, a, b, t1, meet);
     polyset moved;
     polyset_init(&moved);
     polyset_copy(&moved, q);

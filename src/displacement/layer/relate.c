@@ -89,20 +89,18 @@ sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_transl
                               sunder_i_relation *r, sunder_error *err)
 {
     r->near = r->overlap = r->contained = r->a_in_b = r->duplicate = r->touch = r->kept = false;
-    bool overlap = false, apart = true;
-    sunder_status status = sunder_i_overlap(a->shape, a->t, b->shape, b->t, &overlap, err);
+    sunder_i_encounter m;
+    sunder_status status = sunder_i_meet(a->shape, a->t, b->shape, b->t, rules->gap, rules->tolerance, &m, err);
     if (status) return status;
-    if (overlap) return relate_overlapping(rules, a, b, r, err);
-    if (rules->gap > 0) status = sunder_i_apart(a->shape, a->t, b->shape, b->t, rules->gap, &apart, err);
-    if (status) return status;
-    r->near = !apart;
+    if (m.overlap) return relate_overlapping(rules, a, b, r, err);
+    r->near = !m.apart;
+    r->touch = m.touch;
     /* The tolerance is less than the gap, unless that is 0. */
-    if (apart && rules->gap > 0) return SUNDER_OK;
+    if (m.touch || !m.may_touch || (m.apart && rules->gap > 0)) return SUNDER_OK;
     double distance;
     status = distance_between(a, b, &distance, err);
-    if (status) return status;
-    r->touch = distance <= rules->tolerance;
-    return SUNDER_OK;
+    if (!status) r->touch = distance <= rules->tolerance;
+    return status;
 }
 
 const sunder_i_relation *sunder_i_relations_find(const sunder_i_relations *relations, uint32_t a, uint32_t b)
