@@ -77,23 +77,39 @@ size_t sunder_i_obstacle_edges(const double *d, size_t n, sunder_i_obstacle_edge
     return edges;
 }
 
+/* The line of an edge. */
+static sunder_i_support line_of(const sunder_i_obstacle_edge *e, double distance)
+{
+    return (sunder_i_support){{e->n[0], e->n[1]}, e->n[0] * e->from[0] + e->n[1] * e->from[1], distance};
+}
+
+/* The line through corner c, `far` from u, that faces u. */
+static sunder_i_support line_at(const double c[2], const double u[2], double far)
+{
+    const double cx = u[0] - c[0], cy = u[1] - c[1];
+    return (sunder_i_support){{cx / far, cy / far}, (cx * c[0] + cy * c[1]) / far, far};
+}
+
 sunder_i_support sunder_i_support_at(const sunder_i_obstacle_edge *edge, size_t n, const double u[2])
 {
-    sunder_i_support best = {{1, 0}, 0, -INFINITY}, corner = {{1, 0}, 0, INFINITY};
-    double nearest = INFINITY, perimeter = 0;
+    const sunder_i_obstacle_edge *best = NULL, *facing = NULL;
+    const double *corner = NULL;
+    double most = -INFINITY, nearest = INFINITY, perimeter = 0;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_obstacle_edge *e = &edge[k];
         const double wx = u[0] - e->from[0], wy = u[1] - e->from[1], s = e->n[0] * wx + e->n[1] * wy;
         perimeter += e->length;
-        if (s > best.distance)
-            best = (sunder_i_support){{e->n[0], e->n[1]}, e->n[0] * e->from[0] + e->n[1] * e->from[1], s};
+        if (s > most) {
+            most = s;
+            best = e;
+        }
         if (s < 0) continue;
         /* In front of this edge: either its inside or one of its ends is nearest. */
         const double along = wy * e->n[0] - wx * e->n[1];
         if (along >= 0 && along <= e->length) {
             if (s < nearest) {
                 nearest = s;
-                corner = (sunder_i_support){{e->n[0], e->n[1]}, e->n[0] * e->from[0] + e->n[1] * e->from[1], s};
+                facing = e;
             }
             continue;
         }
@@ -101,10 +117,12 @@ sunder_i_support sunder_i_support_at(const sunder_i_obstacle_edge *edge, size_t 
         const double cx = u[0] - c[0], cy = u[1] - c[1], far = sqrt(cx * cx + cy * cy);
         if (far < nearest) {
             nearest = far;
-            corner = (sunder_i_support){{cx / far, cy / far}, (cx * c[0] + cy * c[1]) / far, far};
+            facing = NULL;
+            corner = c;
         }
     }
     /* Very near a corner the direction to it is noise; an edge's normal serves as well there. */
-    if (best.distance <= 0 || !(nearest < INFINITY) || nearest < AT_A_CORNER * perimeter) return best;
-    return corner;
+    if (most <= 0 || !(nearest < INFINITY) || nearest < AT_A_CORNER * perimeter)
+        return best ? line_of(best, most) : (sunder_i_support){{1, 0}, 0, -INFINITY};
+    return facing ? line_of(facing, nearest) : line_at(corner, u, nearest);
 }

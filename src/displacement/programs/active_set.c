@@ -134,8 +134,8 @@ bool sunder_i_quadratic_equations(sunder_i_quadratic *p, double softness, double
         sunder_i_quadratic_place(p);
         if (sunder_i_quadratic_worst(p, softness) <= tolerance) break;
         /* Those that the solution violates get a force of their own by a pass or two of the first method. */
-        sunder_i_quadratic_sweep(p, softness, false);
-        sunder_i_quadratic_sweep(p, softness, false);
+        sunder_i_quadratic_sweep(p, softness);
+        sunder_i_quadratic_sweep(p, softness);
     }
     sunder_i_free(e.set);
     sunder_i_free(e.force);

@@ -6,7 +6,7 @@
  * zero forces ask for more than the positive ones are out of balance it lets them in. Each constraint is scaled so that
  * its diagonal in G is 1. G is never formed: a product with it is a push of the bodies and a look at the stretch of
  * each constraint. */
-#include "displacement/programs/methods.h"
+#include "displacement/programs/links.h"
 #include "displacement/programs/tuning.h"
 
 #include "base/memory.h"
@@ -20,20 +20,29 @@ typedef struct dual {
     double softness;
     double *scale;             /* [n] sqrt(mass_i + mass_j); 0 for what cannot move */
     double *f, *g, *step, *gs; /* [n] forces, gradient Gf - d, direction, G times it */
-    double *t;                 /* [2 * bodies] */
+    double *t;                 /* [2 * (bodies + 1)] */
+    sunder_i_link *link;       /* [n] */
 } dual;
 
 /* out = G v */
 static void multiply(dual *q, const double *v, double *out)
 {
     const sunder_i_quadratic *p = q->p;
-    memset(q->t, 0, 2 * p->bodies * sizeof *q->t);
+    const sunder_i_link *link = q->link;
+    const double *scale = q->scale, softness = q->softness;
+    double *t = q->t;
+    memset(t, 0, 2 * p->bodies * sizeof *t);
     for (size_t k = 0; k < q->n; k++)
-        if (v[k] != 0) sunder_i_push(p, &p->constraint[k], v[k] / q->scale[k], q->t);
+        if (v[k] != 0) sunder_i_link_push(&link[k], v[k] / scale[k], t);
+    t[2 * p->bodies] = t[2 * p->bodies + 1] = 0; /* the ground */
     for (size_t k = 0; k < q->n; k++)
-        out[k] = q->scale[k] > 0 ? sunder_i_stretch(&p->constraint[k], q->t) / q->scale[k] + q->softness * v[k] : 0;
+        out[k] = scale[k] > 0 ? sunder_i_link_stretch(&link[k], t) / scale[k] + softness * v[k] : 0;
     q->p->work += 2 * q->n;
 }
+
+/* As fmin() and fmax(), of which the first is a number: what is no number is passed over. Inline. */
+static inline double least(double so_far, double x) { return x < so_far ? x : so_far; }
+static inline double most(double so_far, double x) { return x > so_far ? x : so_far; }
 
 static void gradient(dual *q)
 {
@@ -95,12 +104,12 @@ static imbalance look(const dual *q, double short_step)
     imbalance i = {0, 0, 0};
     for (size_t k = 0; k < q->n; k++) {
         if (q->f[k] > 0) {
-            const double cut = fmin(q->f[k] / short_step, q->g[k]);
+            const double cut = least(q->f[k] / short_step, q->g[k]);
             i.cut += cut * q->g[k];
-            i.worst = fmax(i.worst, fabs(q->g[k]) * q->scale[k]);
+            i.worst = most(i.worst, fabs(q->g[k]) * q->scale[k]);
         } else if (q->g[k] < 0) {
             i.zero += q->g[k] * q->g[k];
-            i.worst = fmax(i.worst, -q->g[k] * q->scale[k]);
+            i.worst = most(i.worst, -q->g[k] * q->scale[k]);
         }
     }
     return i;
@@ -118,10 +127,10 @@ static bool step_within(dual *q, double short_step)
     const double length = dot(q->g, q->step, q->n) / curvature;
     double feasible = INFINITY;
     for (size_t k = 0; k < q->n; k++)
-        if (q->step[k] > 0) feasible = fmin(feasible, q->f[k] / q->step[k]);
+        if (q->step[k] > 0) feasible = least(feasible, q->f[k] / q->step[k]);
     const double taken = fmin(length, feasible);
     for (size_t k = 0; k < q->n; k++) {
-        q->f[k] = fmax(0, q->f[k] - taken * q->step[k]);
+        q->f[k] = most(0, q->f[k] - taken * q->step[k]);
         q->g[k] -= taken * q->gs[k];
     }
     if (length <= feasible) {
@@ -133,7 +142,7 @@ static bool step_within(dual *q, double short_step)
         return true;
     }
     for (size_t k = 0; k < q->n; k++)
-        if (q->f[k] > 0) q->f[k] = fmax(0, q->f[k] - short_step * q->g[k]);
+        if (q->f[k] > 0) q->f[k] = most(0, q->f[k] - short_step * q->g[k]);
     gradient(q);
     restart(q);
     return true;
@@ -142,7 +151,7 @@ static bool step_within(dual *q, double short_step)
 /* Lets in the zero forces that are called for; false where that leads nowhere. */
 static bool step_in(dual *q)
 {
-    for (size_t k = 0; k < q->n; k++) q->step[k] = q->f[k] > 0 ? 0 : fmin(q->g[k], 0);
+    for (size_t k = 0; k < q->n; k++) q->step[k] = q->f[k] > 0 ? 0 : least(0, q->g[k]);
     multiply(q, q->step, q->gs);
     const double curvature = curvature_of(q);
     if (curvature > 0) {
@@ -175,8 +184,14 @@ static void iterate(dual *q, double tolerance, unsigned steps)
 bool sunder_i_quadratic_gradient(sunder_i_quadratic *p, double softness, double tolerance, unsigned steps)
 {
     if (p->n == 0) return true;
-    double *memory = sunder_i_calloc(5 * p->n + 2 * p->bodies, sizeof *memory);
-    if (!memory) return false;
+    double *memory = sunder_i_calloc(5 * p->n + 2 * (p->bodies + 1), sizeof *memory);
+    sunder_i_link *link = sunder_i_alloc(p->n, sizeof *link);
+    if (!memory || !link) {
+        sunder_i_free(memory);
+        sunder_i_free(link);
+        return false;
+    }
+    sunder_i_links_make(p, link);
     dual q = {.p = p,
               .n = p->n,
               .softness = softness,
@@ -185,7 +200,8 @@ bool sunder_i_quadratic_gradient(sunder_i_quadratic *p, double softness, double 
               .g = memory + 2 * p->n,
               .step = memory + 3 * p->n,
               .gs = memory + 4 * p->n,
-              .t = memory + 5 * p->n};
+              .t = memory + 5 * p->n,
+              .link = link};
     for (size_t k = 0; k < p->n; k++) {
         const sunder_i_constraint *c = &p->constraint[k];
         q.scale[k] = sqrt(sunder_i_mass(p, c->i) + sunder_i_mass(p, c->j));
@@ -195,5 +211,6 @@ bool sunder_i_quadratic_gradient(sunder_i_quadratic *p, double softness, double 
     for (size_t k = 0; k < p->n; k++)
         if (q.scale[k] > 0) p->constraint[k].force = q.f[k] / q.scale[k];
     sunder_i_free(memory);
+    sunder_i_free(link);
     return true;
 }

@@ -34,7 +34,7 @@ static inline void sunder_i_push(const sunder_i_quadratic *p, const sunder_i_con
 /* t from the forces; what is missed at worst, softness allowed for; a pass of Hildreth's method. */
 void sunder_i_quadratic_place(sunder_i_quadratic *program);
 double sunder_i_quadratic_worst(const sunder_i_quadratic *program, double softness);
-double sunder_i_quadratic_sweep(sunder_i_quadratic *program, double softness, bool acting_only);
+void sunder_i_quadratic_sweep(sunder_i_quadratic *program, double softness);
 
 /* ---- conjugate_gradients.c --------------------------------------------------------------------------------------- */
 

@@ -9,10 +9,11 @@
  *
  * With softness s each constraint may be missed by s * (mass_i + mass_j) * force, which adds that to the diagonal of
  * the dual: contradictions then have a compromise. */
-#include "displacement/programs/methods.h"
+#include "displacement/programs/links.h"
 #include "displacement/programs/tuning.h"
 
 #include "base/invariant.h"
+#include "base/memory.h"
 
 #include <math.h>
 #include <string.h>
@@ -24,14 +25,11 @@ void sunder_i_quadratic_place(sunder_i_quadratic *p)
         if (p->constraint[k].force > 0) sunder_i_push(p, &p->constraint[k], p->constraint[k].force, p->t);
 }
 
-/* One pass over all constraints, or over those that act. Returns the farthest any force moved something. */
-double sunder_i_quadratic_sweep(sunder_i_quadratic *p, double softness, bool acting_only)
+void sunder_i_quadratic_sweep(sunder_i_quadratic *p, double softness)
 {
-    double farthest = 0;
-    p->work += acting_only ? p->n / 4 : p->n;
+    p->work += p->n;
     for (size_t k = 0; k < p->n; k++) {
         sunder_i_constraint *c = &p->constraint[k];
-        if (acting_only && !(c->force > 0)) continue;
         const double m = sunder_i_mass(p, c->i) + sunder_i_mass(p, c->j);
         if (!(m > 0)) continue;
         double change = (c->d - sunder_i_stretch(c, p->t) - softness * m * c->force) / (m * (1 + softness));
@@ -39,9 +37,7 @@ double sunder_i_quadratic_sweep(sunder_i_quadratic *p, double softness, bool act
         if (change == 0) continue;
         c->force += change;
         sunder_i_push(p, c, change, p->t);
-        farthest = fmax(farthest, fabs(change) * m);
     }
-    return farthest;
 }
 
 double sunder_i_quadratic_worst(const sunder_i_quadratic *p, double softness)
@@ -52,20 +48,89 @@ double sunder_i_quadratic_worst(const sunder_i_quadratic *p, double softness)
         const double m = sunder_i_mass(p, c->i) + sunder_i_mass(p, c->j);
         const double missed = c->d - sunder_i_stretch(c, p->t) - softness * m * c->force;
         if (missed != missed) return INFINITY; /* without a solution forces can outgrow all numbers */
-        v = fmax(v, missed);
+        if (missed > v) v = missed;
     }
     return v;
 }
 
+/* ---- Sweeps ------------------------------------------------------------------------------------------------------ */
+
+/* The same sweeps one after the other, over links. */
+typedef struct sweeping {
+    const sunder_i_quadratic *p;
+    double softness;
+    sunder_i_link *link; /* [n] */
+    double *t;           /* [2 * (bodies + 1)] */
+    uint32_t *acting;    /* [n] those that acted after the last full sweep: no other begins to act before the next */
+    size_t acting_n;
+} sweeping;
+
+/* What its force moved something by; 0 if it stays. */
+static inline double relax(const sweeping *s, uint32_t k)
+{
+    const sunder_i_link *link = &s->link[k];
+    sunder_i_constraint *c = &s->p->constraint[k];
+    const double m = link->mass[0] + link->mass[1];
+    if (!(m > 0)) return 0;
+    double change = (c->d - sunder_i_link_stretch(link, s->t) - s->softness * m * c->force) / (m * (1 + s->softness));
+    if (change < -c->force) change = -c->force;
+    if (change == 0) return 0;
+    c->force += change;
+    sunder_i_link_push(link, change, s->t);
+    s->t[2 * s->p->bodies] = s->t[2 * s->p->bodies + 1] = 0; /* the ground */
+    return fabs(change) * m;
+}
+
+static double sweep_all(sweeping *s)
+{
+    double farthest = 0;
+    s->acting_n = 0;
+    for (uint32_t k = 0; k < s->p->n; k++) {
+        const double moved = relax(s, k);
+        if (moved > farthest) farthest = moved;
+        if (s->p->constraint[k].force > 0) s->acting[s->acting_n++] = k;
+    }
+    return farthest;
+}
+
+static void sweep_acting(sweeping *s)
+{
+    for (size_t a = 0; a < s->acting_n; a++)
+        if (s->p->constraint[s->acting[a]].force > 0) relax(s, s->acting[a]);
+}
+
+/* Every so many sweeps one over all, until that moves nothing any more. False if memory is out. */
+static bool sweep(sunder_i_quadratic *p, double softness, double tolerance)
+{
+    const size_t places = 2 * (p->bodies + 1);
+    char *memory = sunder_i_alloc(p->n * (sizeof(sunder_i_link) + sizeof(uint32_t)) + places * sizeof(double), 1);
+    if (!memory) return false;
+    sweeping s = {.p = p, .softness = softness, .link = (sunder_i_link *)(void *)memory};
+    s.t = (double *)(void *)(s.link + p->n);
+    s.acting = (uint32_t *)(void *)(s.t + places);
+    sunder_i_links_make(p, s.link);
+    memset(s.t, 0, places * sizeof *s.t);
+    for (size_t k = 0; k < p->n; k++)
+        if (p->constraint[k].force > 0) sunder_i_link_push(&s.link[k], p->constraint[k].force, s.t);
+    s.t[places - 2] = s.t[places - 1] = 0;
+    for (int k = 0; k < SWEEPS; k++) {
+        const bool full = k % FULL_SWEEP == 0;
+        p->work += full ? p->n : p->n / 4;
+        if (!full)
+            sweep_acting(&s);
+        else if (sweep_all(&s) <= tolerance)
+            break;
+    }
+    sunder_i_free(memory);
+    return true;
+}
+
+/* ---- One way after the other ------------------------------------------------------------------------------------- */
+
 /* First the quick ways, which solve almost every program of a few dozen contacts to the last digit. */
 static bool solve_quickly(sunder_i_quadratic *p, double softness, double tolerance)
 {
-    sunder_i_quadratic_place(p);
-    for (int k = 0; k < SWEEPS; k++) {
-        const bool full = k % FULL_SWEEP == 0;
-        const double moved = sunder_i_quadratic_sweep(p, softness, !full);
-        if (full && moved <= tolerance) break;
-    }
+    if (!sweep(p, softness, tolerance)) return false;
     if (!sunder_i_quadratic_gradient(p, softness, tolerance, QUICK_STEPS)) return false;
     sunder_i_quadratic_place(p);
     if (sunder_i_quadratic_worst(p, softness) <= tolerance) return true;
