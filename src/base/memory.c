@@ -71,9 +71,8 @@ static size_t grown(size_t capacity, size_t need)
     return want;
 }
 
-bool sunder_i_reserve(void *array, size_t *capacity, size_t need, size_t size)
+bool sunder_i_enlarge(void *array, size_t *capacity, size_t need, size_t size)
 {
-    if (need <= *capacity) return true;
     const size_t want = grown(*capacity, need);
     if (want == 0) return false;
     void *old;

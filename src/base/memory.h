@@ -18,9 +18,15 @@ void *sunder_i_calloc(size_t n, size_t size);
 void *sunder_i_realloc(void *old, size_t n, size_t size);
 void sunder_i_free(void *memory);
 
+/* sunder_i_reserve() where there is less than that. */
+bool sunder_i_enlarge(void *array, size_t *capacity, size_t need, size_t size);
+
 /* Makes room for at least `need` elements of `size` bytes in a growing array (doubling); false if memory is out, with
  * the array as it was. *array NULL and *capacity 0 start one. */
-bool sunder_i_reserve(void *array, size_t *capacity, size_t need, size_t size);
+static inline bool sunder_i_reserve(void *array, size_t *capacity, size_t need, size_t size)
+{
+    return need <= *capacity || sunder_i_enlarge(array, capacity, need, size);
+}
 
 struct sunder_i_chunk;
 

@@ -158,28 +158,37 @@ void sunder_i_rtree_free(sunder_i_rtree *tree)
     memset(tree, 0, sizeof *tree);
 }
 
+/* The leaves of a node of the lowest level that meet the box: appended. */
+static bool take_leaves(const sunder_i_rtree *tree, size_t first, size_t end, const double box[4], sunder_i_list *hits)
+{
+    for (size_t c = first; c < end; c++)
+        if (sunder_i_box_meet(tree->box + 4 * c, box) && !sunder_i_list_push(hits, tree->item[c])) return false;
+    return true;
+}
+
+/* Depth first, children in their order. */
 bool sunder_i_rtree_query(const sunder_i_rtree *tree, const double box[4], sunder_i_list *hits)
 {
     if (tree->leaves == 0) return true;
-    /* At most 15 siblings wait on each of at most 16 levels. */
+    if (tree->levels == 1) return take_leaves(tree, 0, 1, box, hits);
+    /* At most 16 siblings wait on each of at most 16 levels. */
     struct {
         size_t node;
         unsigned level;
     } stack[16 * FANOUT];
-    size_t depth = 0;
+    size_t depth = 0, end;
     stack[depth].node = tree->level[tree->levels] - 1;
     stack[depth++].level = tree->levels - 1;
     while (depth) {
         const size_t node = stack[--depth].node;
         const unsigned l = stack[depth].level;
-        if (!sunder_i_box_meet(tree->box + 4 * node, box)) continue;
-        if (l == 0) {
-            if (!sunder_i_list_push(hits, tree->item[node])) return false;
+        const size_t first = children(tree, l, node, &end);
+        if (l == 1) {
+            if (!take_leaves(tree, first, end, box, hits)) return false;
             continue;
         }
-        size_t end;
-        const size_t first = children(tree, l, node, &end);
         for (size_t c = end; c-- > first;) {
+            if (!sunder_i_box_meet(tree->box + 4 * c, box)) continue;
             stack[depth].node = c;
             stack[depth++].level = l - 1;
         }

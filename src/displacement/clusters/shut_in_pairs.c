@@ -96,8 +96,9 @@ static sunder_status find_seams(sunder_i_model *model, const sunder_i_id_pair *p
     uint32_t *body = sunder_i_alloc(2 * n, sizeof *body);
     if (!body) return sunder_i_no_memory(err);
     memcpy(body, pair, 2 * n * sizeof *body);
-    sunder_status status = sunder_i_model_find_seams(model, err);
-    if (!status) status = sunder_i_model_find_joints(model, body, sunder_i_set_make(body, 2 * n), err);
+    const size_t bodies = sunder_i_set_make(body, 2 * n);
+    sunder_status status = sunder_i_model_find_seams_of(model, body, bodies, err);
+    if (!status) status = sunder_i_model_find_joints(model, body, bodies, err);
     sunder_i_free(body);
     return status;
 }

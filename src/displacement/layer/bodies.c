@@ -77,10 +77,29 @@ static int by_place(const void *a, const void *b)
     return p[1] < q[1] ? -1 : p[1] > q[1];
 }
 
+/* So few points as most features have are sorted by insertion. */
+#define FEW_TO_SORT 24
+
+static void sort_points(double *p, size_t n)
+{
+    if (n > FEW_TO_SORT) {
+        qsort(p, n, 2 * sizeof *p, by_place);
+        return;
+    }
+    for (size_t k = 1; k < n; k++) {
+        const double x = p[2 * k], y = p[2 * k + 1];
+        size_t at = k;
+        for (; at > 0 && (p[2 * at - 2] > x || (p[2 * at - 2] == x && p[2 * at - 1] > y)); at--)
+            memcpy(p + 2 * at, p + 2 * at - 2, 2 * sizeof *p);
+        p[2 * at] = x;
+        p[2 * at + 1] = y;
+    }
+}
+
 /* Andrew's monotone chain. */
 size_t sunder_i_convex_hull(double *p, size_t n, double *out)
 {
-    qsort(p, n, 2 * sizeof *p, by_place);
+    sort_points(p, n);
     size_t m = 0;
     for (int pass = 0; pass < 2; pass++) {
         const size_t bottom = m;
@@ -117,6 +136,17 @@ static sunder_status outline_feature(sunder_i_model *model, const sunder_i_body 
     return SUNDER_OK;
 }
 
+static sunder_status find_runs(sunder_i_model *model, sunder_error *err)
+{
+    const size_t runs = model->pieces / SUNDER_I_RUN;
+    model->run = sunder_i_alloc(4 * runs, sizeof *model->run);
+    if (!model->run) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < runs; k++) sunder_i_box_clear(model->run + 4 * k);
+    for (size_t k = 0; k < runs * SUNDER_I_RUN; k++)
+        sunder_i_box_join(model->run + 4 * (k / SUNDER_I_RUN), model->piece[k].box);
+    return SUNDER_OK;
+}
+
 sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
 {
     size_t pieces = 0, corners = 0;
@@ -150,7 +180,8 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
             if (status) return status;
         }
     }
-    return sunder_i_inclusion_walls(model, err);
+    const sunder_status status = find_runs(model, err);
+    return status ? status : sunder_i_inclusion_walls(model, err);
 }
 
 /* ---- Whole blocks ------------------------------------------------------------------------------------------------ */

@@ -15,6 +15,7 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_free(model->member);
     sunder_i_free(model->body);
     sunder_i_free(model->piece);
+    sunder_i_free(model->run);
     sunder_i_free(model->outline);
     sunder_i_free(model->corner);
     sunder_i_free(model->anchor);

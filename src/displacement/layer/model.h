@@ -23,6 +23,7 @@ typedef struct sunder_i_body {
     double weight;            /* the sum of its members' */
     double limit;             /* the strictest of its members' */
     bool fixed;               /* limit 0 counts too */
+    bool has_seams;           /* they were looked for */
     bool pinned;              /* stays where it came from: rounding would make a pair of it stand worse (uphold.c) */
     double origin[2];         /* its corners are stored relative to this */
     double box[4];            /* of its pieces, relative to the origin */
@@ -37,6 +38,10 @@ typedef struct sunder_i_body_piece {
     uint32_t feature;
     double box[4]; /* relative to the body's origin */
 } sunder_i_body_piece;
+
+/* Pieces that have a box in common, besides their own: whoever looks for some of a body's hundreds passes by the rest
+ * so many at a time. */
+#define SUNDER_I_RUN 8u
 
 /* What covers a wall that two members of a block share, within the two. */
 typedef struct sunder_i_joint {
@@ -76,6 +81,7 @@ struct sunder_i_model {
     uint32_t *member;        /* [things] things by body */
     sunder_i_body *body;
     sunder_i_body_piece *piece;
+    double *run;                  /* [4 * (pieces / SUNDER_I_RUN)] the boxes of runs of pieces, whosesoever */
     sunder_i_body_piece *outline; /* [things] the convex hull of each, for where its pieces are too many */
     double *corner;               /* [2 * corners] relative to the body's origin */
     size_t corners;
@@ -86,7 +92,7 @@ struct sunder_i_model {
     sunder_i_body_piece *seam;   /* convex pieces of features about the diagonals between their pieces; seams.c */
     double *seam_at;             /* [8 * seams] their four corners as they are */
     size_t seams;
-    bool has_seams;
+    bool has_seams;        /* of all bodies */
     sunder_i_joint *joint; /* of the bodies that were asked for; joints.c */
     size_t joints;
     sunder_i_id_pair *held; /* a feature, and one of another body that holds its anchor; sorted */
@@ -211,9 +217,10 @@ bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);
 
 /* Is there a barrier without area that owes nothing, so that it could hide on a diagonal? */
 bool sunder_i_has_bare_barriers(const sunder_i_model *model);
-/* The seams of all features, unless they are known; after the pieces are cut. Proofs ask for them, the search does not.
- * Pointers into model->corner are void then. */
+/* The seams of all bodies, or of these, but where they are known; after the pieces are cut. Proofs ask for them, the
+ * search does not. Pointers into model->corner are void then. */
 sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err);
+sunder_status sunder_i_model_find_seams_of(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 
 /* ---- joints.c ---------------------------------------------------------------------------------------------------- */
 

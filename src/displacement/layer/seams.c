@@ -34,15 +34,15 @@ static bool add_seams(gathering *g, uint32_t f)
     return ok;
 }
 
-/* Corners from the bodies' origins, behind all others. */
-static sunder_status put_corners(sunder_i_model *model, sunder_error *err)
+/* Corners of the seams from `first` on, from the bodies' origins, behind all others. */
+static sunder_status put_corners(sunder_i_model *model, size_t first, sunder_error *err)
 {
-    const size_t corners = model->corners + 4 * model->seams;
+    const size_t corners = model->corners + 4 * (model->seams - first);
     if (corners >= UINT32_MAX) return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
     double *corner = sunder_i_realloc(model->corner, 2 * corners, sizeof *corner);
     if (!corner) return sunder_i_no_memory(err);
     model->corner = corner;
-    for (size_t k = 0; k < model->seams; k++) {
+    for (size_t k = first; k < model->seams; k++) {
         sunder_i_body_piece *seam = &model->seam[k];
         const double *origin = model->body[model->body_of[seam->feature]].origin;
         seam->corner = (uint32_t)model->corners;
@@ -64,20 +64,40 @@ bool sunder_i_has_bare_barriers(const sunder_i_model *model)
     return false;
 }
 
+/* Has nobody a use for them? */
+static bool are_idle(const sunder_i_model *model) { return model->rules.jumps && !sunder_i_has_bare_barriers(model); }
+
+static bool add_body(gathering *g, sunder_i_body *body)
+{
+    sunder_i_model *model = g->model;
+    if (body->has_seams) return true;
+    body->has_seams = true;
+    body->seam = (uint32_t)model->seams;
+    for (uint32_t m = 0; m < body->members; m++) {
+        const uint32_t f = model->member[body->member + m];
+        if (!sunder_i_is_barrier(model, f) && model->present[f] && !add_seams(g, f)) return false;
+    }
+    body->seams = (uint32_t)model->seams - body->seam;
+    return true;
+}
+
+sunder_status sunder_i_model_find_seams_of(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err)
+{
+    const size_t first = model->seams;
+    gathering g = {model, first, 8 * first};
+    if (model->has_seams || are_idle(model)) return SUNDER_OK;
+    for (size_t k = 0; k < n; k++)
+        if (!add_body(&g, &model->body[body[k]])) return sunder_i_no_memory(err);
+    return put_corners(model, first, err);
+}
+
 sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err)
 {
-    gathering g = {.model = model};
-    if (model->has_seams || (model->rules.jumps && !sunder_i_has_bare_barriers(model))) return SUNDER_OK;
+    const size_t first = model->seams;
+    gathering g = {model, first, 8 * first};
+    if (model->has_seams || are_idle(model)) return SUNDER_OK;
     model->has_seams = true;
-    for (size_t b = 0; b < model->bodies; b++) {
-        sunder_i_body *body = &model->body[b];
-        body->seam = (uint32_t)model->seams;
-        for (uint32_t m = 0; m < body->members; m++) {
-            const uint32_t f = model->member[body->member + m];
-            if (!sunder_i_is_barrier(model, f) && model->present[f] && !add_seams(&g, f))
-                return sunder_i_no_memory(err);
-        }
-        body->seams = (uint32_t)model->seams - body->seam;
-    }
-    return put_corners(model, err);
+    for (size_t b = 0; b < model->bodies; b++)
+        if (!add_body(&g, &model->body[b])) return sunder_i_no_memory(err);
+    return put_corners(model, first, err);
 }

@@ -31,6 +31,12 @@ void sunder_i_obstacles_free(sunder_i_obstacles *obstacles)
     memset(obstacles, 0, sizeof *obstacles);
 }
 
+void sunder_i_obstacles_clear(sunder_i_obstacles *obstacles)
+{
+    obstacles->n = obstacles->walls = 0;
+    obstacles->failed = false;
+}
+
 /* ---- Building ---------------------------------------------------------------------------------------------------- */
 
 /* A wall with normal n through the corner c, ends to be filled in. */
@@ -165,25 +171,34 @@ typedef struct harvest {
     uint64_t work; /* done so far, in constraints looked at */
 } harvest;
 
-/* Does one obstacle hold all of these points, middle among them? */
-static bool is_held(const harvest *h, const double middle[2], const double (*point)[2], size_t n)
+/* Does that obstacle? */
+static bool holds_all(const sunder_i_obstacles *o, uint32_t obstacle, const double middle[2], const double (*point)[2],
+                      size_t n)
+{
+    const sunder_i_obstacle *it = &o->obstacle[obstacle];
+    bool holds = inside(o, it, middle);
+    for (size_t k = 0; k < n && holds; k++) holds = inside(o, it, point[k]);
+    return holds;
+}
+
+/* Does one obstacle, but for `own`, hold all of these points, middle among them? Mostly it is one that holds the whole
+ * cell. */
+static bool is_held(const harvest *h, const double middle[2], const double (*point)[2], size_t n, uint32_t own)
 {
     const sunder_i_obstacles *o = h->obstacles;
     uint32_t cell;
     if (sunder_i_cells_find(&h->cells, middle, &cell)) {
+        const uint32_t holder = h->cells.cell[cell].holder;
+        if (holder != SUNDER_I_NO_ENTRY && holds_all(o, holder, middle, point, n)) return true;
         for (uint32_t e = h->cells.cell[cell].first; e != SUNDER_I_NO_ENTRY; e = h->cells.entry[e].next) {
-            const sunder_i_obstacle *obstacle = &o->obstacle[h->cells.entry[e].obstacle];
-            bool holds = inside(o, obstacle, middle);
-            for (size_t k = 0; k < n && holds; k++) holds = inside(o, obstacle, point[k]);
-            if (holds) return true;
+            const uint32_t obstacle = h->cells.entry[e].obstacle;
+            if (obstacle != own && holds_all(o, obstacle, middle, point, n)) return true;
         }
         return false;
     }
     for (size_t k = 0; k < o->n; k++) {
         const uint32_t hit = h->order[k];
-        bool holds = inside(o, &o->obstacle[hit], middle);
-        for (size_t p = 0; p < n && holds; p++) holds = inside(o, &o->obstacle[hit], point[p]);
-        if (!holds) continue;
+        if (hit == own || !holds_all(o, hit, middle, point, n)) continue;
         h->order[k] = h->order[k / 2];
         h->order[k / 2] = hit;
         return true;
@@ -209,7 +224,7 @@ static void offer(harvest *h, const double x[2])
     if (!work(h, h->obstacles->n)) return;
     for (size_t k = 0; k < h->n && h->distance[k] <= d; k++)
         if (hypot(x[0] - h->place[k][0], x[1] - h->place[k][1]) <= h->spread) return;
-    if (is_held(h, x, NULL, 0)) return;
+    if (is_held(h, x, NULL, 0, SUNDER_I_NO_ENTRY)) return;
     size_t k = 0;
     while (k < h->n && h->distance[k] <= d) k++;
     /* Those behind that are too near the new one go. */
@@ -253,12 +268,12 @@ static void offer_crossings(harvest *h, const sunder_i_obstacle_side *wall, size
     }
 }
 
-/* Does one obstacle hold the whole wall? Most walls are deep inside the union. */
+/* Does one obstacle hold the whole wall? Most walls are deep inside the union. Its own does not. */
 static bool is_covered(const harvest *h, const sunder_i_obstacle_side *w)
 {
     const double middle[2] = {(w->from[0] + w->to[0]) / 2, (w->from[1] + w->to[1]) / 2},
                  end[2][2] = {{w->from[0], w->from[1]}, {w->to[0], w->to[1]}};
-    return is_held(h, middle, end, 2);
+    return is_held(h, middle, end, 2, w->obstacle);
 }
 
 /* The same by cells alone: one obstacle holds those of both ends, and what is between them. */

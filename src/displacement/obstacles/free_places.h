@@ -31,6 +31,8 @@ typedef struct sunder_i_obstacles {
 double sunder_i_obstacle_slack(const sunder_i_obstacle *obstacle);
 
 void sunder_i_obstacles_free(sunder_i_obstacles *obstacles);
+/* There are none any more; the memory stays. */
+void sunder_i_obstacles_clear(sunder_i_obstacles *obstacles);
 /* Adds the convex polygon d grown by gap; its round corners are replaced by tangents that contain them. */
 void sunder_i_obstacles_add(sunder_i_obstacles *obstacles, const double *d, size_t n, double gap);
 /* Local minima of the distance from target on the boundary of the free space, nearest first, at most `most` of them,

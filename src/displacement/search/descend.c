@@ -131,9 +131,14 @@ static void constrain(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
     constrain_pair(s, i, j, &(sighting){u, u, a->reach, yields, NULL, 0});
 }
 
+/* Mostly they are sorted already. */
 static void sort_constraints(sunder_i_search *s)
 {
-    if (s->program.n) qsort(s->program.constraint, s->program.n, sizeof *s->program.constraint, sunder_i_by_constraint);
+    const sunder_i_constraint *c = s->program.constraint;
+    size_t k = 1;
+    while (k < s->program.n && c[k - 1].key <= c[k].key) k++;
+    if (k < s->program.n)
+        qsort(s->program.constraint, s->program.n, sizeof *s->program.constraint, sunder_i_by_constraint);
 }
 
 /* All constraints around t. Returns whether a pair clashes there, or a limit is overstepped. */

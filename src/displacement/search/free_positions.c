@@ -200,19 +200,18 @@ static size_t find_beside(sunder_i_search *s, const sunder_i_body *p, const sund
     const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}, none[2] = {0, 0};
     const bool coarse_p = many && !sunder_i_is_barrier_body(s->model, p),
                coarse_q = many && !sunder_i_is_barrier_body(s->model, q);
-    sunder_i_obstacles o;
-    memset(&o, 0, sizeof o);
-    add_obstacles(s, &o, p, coarse_p, q, coarse_q, offset, target, reach);
-    size_t n = sunder_i_free_places(&o, target, reach, spread, most, places, &s->steps, &s->failed);
-    if (n == 0 && outside && outside_all(&o, target, INFINITY, places[0])) n = 1;
+    sunder_i_obstacles *o = &s->obstacles;
+    sunder_i_obstacles_clear(o);
+    add_obstacles(s, o, p, coarse_p, q, coarse_q, offset, target, reach);
+    size_t n = sunder_i_free_places(o, target, reach, spread, most, places, &s->steps, &s->failed);
+    if (n == 0 && outside && outside_all(o, target, INFINITY, places[0])) n = 1;
     bool shaded = false;
     for (size_t k = 0; k < n && !shaded && !s->failed; k++) shaded = is_shaded(s, p, none, q, places[k]);
     if (shaded) {
-        add_shadows(s, &o, p, none, q, target, reach);
-        n = sunder_i_free_places(&o, target, reach, spread, most, places, &s->steps, &s->failed);
+        add_shadows(s, o, p, none, q, target, reach);
+        n = sunder_i_free_places(o, target, reach, spread, most, places, &s->steps, &s->failed);
     }
-    s->failed = s->failed || o.failed;
-    sunder_i_obstacles_free(&o);
+    s->failed = s->failed || o->failed;
     return n;
 }
 
@@ -361,17 +360,16 @@ static bool find_among(others *all, const double home[2], double reach, double p
     sunder_i_search *s = all->search;
     double best[1][2];
     size_t n = 0;
-    sunder_i_obstacles o;
-    memset(&o, 0, sizeof o);
-    surround(all, &o, home, reach);
+    sunder_i_obstacles *o = &s->obstacles;
+    sunder_i_obstacles_clear(o);
+    surround(all, o, home, reach);
     for (int shadows = 0; shadows < 2; shadows++) {
-        n = sunder_i_free_places(&o, home, reach, 0, 1, best, &s->steps, &s->failed);
-        if (n == 0 && o.n && outside_all(&o, home, reach, best[0])) n = 1;
+        n = sunder_i_free_places(o, home, reach, 0, 1, best, &s->steps, &s->failed);
+        if (n == 0 && o->n && outside_all(o, home, reach, best[0])) n = 1;
         if (n == 0 || shadows || s->failed || !is_shaded_by_others(all, best[0])) break;
-        add_shadows_of_others(all, &o, home, reach);
+        add_shadows_of_others(all, o, home, reach);
     }
-    s->failed = s->failed || o.failed;
-    sunder_i_obstacles_free(&o);
+    s->failed = s->failed || o->failed;
     if (n) memcpy(place, best[0], sizeof best[0]);
     return n > 0;
 }

@@ -74,32 +74,132 @@ static bool are_exempt(const sunder_i_search *s, const sunder_i_body_piece *a, c
            (part->relaxation && part->relaxation->inside);
 }
 
-/* Parts of `from` that may stand within `reach` of parts of `to` at `v`; walls: `from` holds what it is in. Inline: the
- * innermost loop of the search. */
+typedef struct visiting {
+    sunder_i_search *s;
+    sunder_i_piece_pair *part;
+    bool swapped, walls;
+    sunder_i_visit_piece_pair call;
+    void *context;
+} visiting;
+
+/* A part of `from` with its box, and piece l of the other body. Inline, as what calls it: the innermost loops of the
+ * search. */
+static inline void visit_piece(const visiting *to, const sunder_i_body_piece *a, const double box[4], uint32_t l)
+{
+    const sunder_i_model *model = to->s->model;
+    const sunder_i_body_piece *b = &model->piece[l];
+    sunder_i_piece_pair *part = to->part;
+    if (!sunder_i_box_meet(box, b->box)) return;
+    part->relaxation = NULL;
+    if (to->walls ? !keeps(to->s, a, b, part) : are_exempt(to->s, a, b, part)) return;
+    part->key =
+        to->walls ? UINT64_C(1) << 62 | (uint64_t)(a - model->wall) << 32 | l : (uint64_t)(a - model->piece) << 32 | l;
+    part->a = to->swapped ? b : a;
+    part->b = to->swapped ? a : b;
+    to->call(to->s, part, to->context);
+}
+
+/* The box of a part as the other body sees it, grown. */
+static inline void box_seen(const sunder_i_body_piece *a, const double v[2], double reach, double box[4])
+{
+    for (int c = 0; c < 4; c++) box[c] = a->box[c] - v[c & 1] + (c < 2 ? -reach : reach);
+}
+
+/* Does a run of pieces begin here, and end before `end`, that has nothing to do with the box? */
+static inline bool is_run_beside(const sunder_i_model *model, uint32_t l, uint32_t end, const double box[4])
+{
+    return l % SUNDER_I_RUN == 0 && end - l >= SUNDER_I_RUN &&
+           !sunder_i_box_meet(model->run + 4 * (size_t)(l / SUNDER_I_RUN), box);
+}
+
+/* Pieces of a body whose boxes meet the box, ascending; MOST_FACING + 1 if there are more than that. */
+static inline uint32_t find_facing(const sunder_i_model *model, const sunder_i_body *body, const double box[4],
+                                   uint32_t piece[MOST_FACING])
+{
+    const uint32_t end = body->piece + body->pieces;
+    uint32_t n = 0;
+    for (uint32_t l = body->piece; l < end; l++) {
+        if (is_run_beside(model, l, end, box)) {
+            l += SUNDER_I_RUN - 1;
+            continue;
+        }
+        if (!sunder_i_box_meet(box, model->piece[l].box)) continue;
+        if (n == MOST_FACING) return n + 1;
+        piece[n++] = l;
+    }
+    return n;
+}
+
+/* The box of the other body as the parts see it, grown, and by more than rounding takes: what misses it misses the
+ * other's own, as that sees the part. */
+static inline void box_of_other(const sunder_i_body *other, const double v[2], double reach, double box[4])
+{
+    double most = fmax(fabs(v[0]), fabs(v[1])) + fabs(reach);
+    for (int c = 0; c < 4; c++) most = fmax(most, fabs(other->box[c]));
+    const double grown = reach + 0x1p-46 * most;
+    for (int c = 0; c < 4; c++) box[c] = other->box[c] + v[c & 1] + (c < 2 ? -grown : grown);
+}
+
+/* The first of the parts, as many as face the other body in one go: returns how many it is done with. Blocks have
+ * hundreds of pieces of which few face each other, so those of the other that none of these parts comes near are left
+ * out beforehand. */
+static inline uint32_t visit_some(const visiting *to, const sunder_i_body_piece *from, uint32_t n,
+                                  const sunder_i_body *other, const double v[2], double reach)
+{
+    sunder_i_search *s = to->s;
+    const uint32_t first = to->walls ? 0 : (uint32_t)(from - s->model->piece);
+    double box[PARTS_AT_ONCE][4], all[4], seen[4];
+    uint32_t part[PARTS_AT_ONCE], piece[MOST_FACING], parts = 0, done = 0;
+    sunder_i_box_clear(all);
+    box_of_other(other, v, reach, seen);
+    for (; done < n && parts < PARTS_AT_ONCE; done++) {
+        if (!to->walls && is_run_beside(s->model, first + done, first + n, seen)) {
+            done += SUNDER_I_RUN - 1;
+            continue;
+        }
+        if (!sunder_i_box_meet(from[done].box, seen)) continue;
+        box_seen(&from[done], v, reach, box[parts]);
+        if (!sunder_i_box_meet(box[parts], other->box)) continue;
+        sunder_i_box_join(all, box[parts]);
+        part[parts++] = done;
+    }
+    if (!sunder_i_steps(done * (1 + (size_t)other->pieces / 8))) s->failed = true;
+    if (parts == 0) return done;
+    const uint32_t facing = find_facing(s->model, other, all, piece);
+    for (uint32_t k = 0; k < parts; k++) {
+        const sunder_i_body_piece *a = &from[part[k]];
+        if (facing <= MOST_FACING)
+            for (uint32_t l = 0; l < facing && !s->failed; l++) visit_piece(to, a, box[k], piece[l]);
+        else
+            for (uint32_t l = 0; l < other->pieces && !s->failed; l++) visit_piece(to, a, box[k], other->piece + l);
+    }
+    return done;
+}
+
+/* All of them, where there are few. */
+static inline void visit_each(const visiting *to, const sunder_i_body_piece *from, uint32_t n,
+                              const sunder_i_body *other, const double v[2], double reach)
+{
+    sunder_i_search *s = to->s;
+    for (uint32_t k = 0; k < n; k++) {
+        double box[4];
+        box_seen(&from[k], v, reach, box);
+        if (!sunder_i_box_meet(box, other->box)) continue;
+        for (uint32_t l = 0; l < other->pieces && !s->failed; l++) visit_piece(to, &from[k], box, other->piece + l);
+    }
+    if (!sunder_i_steps(n * (1 + (size_t)other->pieces / 8))) s->failed = true;
+}
+
+/* Parts of `from` that may stand within `reach` of parts of `to` at `v`; walls: `from` holds what it is in. */
 static inline void visit_all(sunder_i_search *s, const sunder_i_body_piece *from, uint32_t n,
                              const sunder_i_body *other, const double v[2], double reach, sunder_i_piece_pair *part,
-                             bool swapped, bool walls, sunder_i_visit_piece_pair visit, void *context)
+                             bool swapped, bool walls, sunder_i_visit_piece_pair call, void *context)
 {
-    const sunder_i_model *model = s->model;
-    for (uint32_t k = 0; k < n; k++) {
-        const sunder_i_body_piece *a = &from[k];
-        const double box[4] = {a->box[0] - v[0] - reach, a->box[1] - v[1] - reach, a->box[2] - v[0] + reach,
-                               a->box[3] - v[1] + reach};
-        if (!sunder_i_steps(1 + other->pieces / 8)) s->failed = true;
-        if (!sunder_i_box_meet(box, other->box)) continue;
-        for (uint32_t l = other->piece; l < other->piece + other->pieces && !s->failed; l++) {
-            const sunder_i_body_piece *b = &model->piece[l];
-            if (!sunder_i_box_meet(box, b->box)) continue;
-            part->relaxation = NULL;
-            if (walls ? !keeps(s, a, b, part) : are_exempt(s, a, b, part)) continue;
-            const uint64_t key = walls ? UINT64_C(1) << 62 | (uint64_t)(a - model->wall) << 32 | l
-                                       : (uint64_t)(a - model->piece) << 32 | l;
-            part->a = swapped ? b : a;
-            part->b = swapped ? a : b;
-            part->key = key;
-            visit(s, part, context);
-        }
-    }
+    const visiting to = {s, part, swapped, walls, call, context};
+    if (n <= FEW_PARTS && other->pieces <= FEW_PARTS)
+        visit_each(&to, from, n, other, v, reach);
+    else
+        for (uint32_t done = 0; done < n;) done += visit_some(&to, from + done, n - done, other, v, reach);
 }
 
 void sunder_i_search_visit(sunder_i_search *s, const sunder_i_body_piece *from, uint32_t n, const sunder_i_body *other,

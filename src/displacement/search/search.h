@@ -3,6 +3,7 @@
 #define SUNDER_I_SEARCH_H
 
 #include "displacement/layer/inclusion.h"
+#include "displacement/obstacles/free_places.h"
 #include "displacement/obstacles/obstacle_cache.h"
 #include "displacement/obstacles/shadow.h"
 #include "displacement/programs/quadratic.h"
@@ -42,6 +43,7 @@ typedef struct sunder_i_search {
     double *went;                                 /* [2 n] ... for where they stood then; NULL: there is none yet */
     sunder_i_list about;                          /* of the last question who is about */
     sunder_i_scratch scratch;
+    sunder_i_obstacles obstacles;    /* about what a free place is looked for */
     sunder_i_obstacle_cache cache;   /* obstacles of pairs of pieces */
     sunder_i_obstacle_edge *shifted; /* one that is not kept there */
     size_t shifted_capacity;

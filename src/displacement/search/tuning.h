@@ -57,6 +57,20 @@
 /* Descents after jumps, before pairs are given up. */
 #define MOST_JUMPS 3
 
+/* ---- Who stands near whom (near.c) ------------------------------------------------------------------------------- */
+
+/* As few boxes as these are sorted by insertion. */
+#define FEW_TO_SORT 16
+
+/* ---- Pieces that face each other (piece_pairs.c) ----------------------------------------------------------------- */
+
+/* So many parts of the one body are looked at in one go, with no more than so many pieces of the other beforehand: both
+ * are kept on the stack. */
+#define PARTS_AT_ONCE 32
+#define MOST_FACING 256
+/* Where each has no more than this there is nothing to be gained by looking beforehand. */
+#define FEW_PARTS 12
+
 /* ---- Pairs given up (give_up.c) ---------------------------------------------------------------------------------- */
 
 /* Of clashes that hang together those are given up at first that miss at least this share of what the worst does; then
