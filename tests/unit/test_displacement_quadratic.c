@@ -164,9 +164,42 @@ static void check_nearest(void **state)
     assert_true(outcomes[0] > 0 && outcomes[1] > 0 && outcomes[2] <= test_count(4000) / 100);
 }
 
+/* A crowd in rows, each of which has to keep from those about it, in directions that are off by as much as a right
+ * angle: chains of contacts send the outer ones fifty times as far as the bodies are large. */
+enum { SIDE = 40, CROWD = SIDE * SIDE };
+
+static size_t crowd(rng *r, sunder_i_constraint *constraint)
+{
+    size_t n = 0;
+    for (int k = 0; k < CROWD; k++)
+        for (int e = 0; e < 4; e++) {
+            const int dx[] = {1, 0, 1, -1}, dy[] = {0, 1, 1, 1}, x = k % SIDE + dx[e], y = k / SIDE + dy[e];
+            if (x < 0 || x >= SIDE || y >= SIDE) continue;
+            const double angle = atan2(dy[e], dx[e]) + 3 * (rng_unit(r) - 0.5);
+            constraint[n++] = (sunder_i_constraint){
+                .i = (uint32_t)k, .j = (uint32_t)(y * SIDE + x), .n = {cos(angle), sin(angle)}, .d = e < 2 ? 1 : 0.5};
+        }
+    return n;
+}
+
+/* The interior point method, begun near, with slacks and forces such as small bodies have, takes half as much again. */
+static void check_crowd(void **state)
+{
+    (void)state;
+    static sunder_i_constraint constraint[4 * CROWD];
+    static double mass[CROWD], t[2 * CROWD];
+    rng r = rng_start(1, 0);
+    for (size_t k = 0; k < CROWD; k++) mass[k] = 0.5;
+    sunder_i_quadratic q = {.bodies = CROWD, .mass = mass, .t = t, .constraint = constraint};
+    q.n = crowd(&r, constraint);
+    assert_true(sunder_i_quadratic_solve(&q, 0, 1e-9, 0.02) <= 1e-9);
+    assert_true(q.work < 18000000);
+}
+
 int main(void)
 {
     printf("seed %llu\n", (unsigned long long)test_seed());
-    const struct CMUnitTest tests[] = {cmocka_unit_test(check_programs), cmocka_unit_test(check_nearest)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(check_programs), cmocka_unit_test(check_nearest),
+                                       cmocka_unit_test(check_crowd)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -168,6 +168,33 @@ static bool advance(interior *q, double tolerance, double *mu)
     return step > LEAST_STEP;
 }
 
+/* Where the forces have sent the bodies, slacks no less than a part of a body: few bodies go no farther than that, and
+ * where their program has no solution what comes of it keeps near what the quick methods found. */
+static void begin_near(interior *q, double scale, double mean)
+{
+    const sunder_i_quadratic *p = q->p;
+    for (size_t b = 0; b < p->bodies; b++)
+        if (q->unknown[b] != SUNDER_I_GROUND) memcpy(q->x + q->unknown[b], p->t + 2 * b, 2 * sizeof *q->x);
+    for (size_t c = 0; c < q->m; c++) {
+        q->s[c] = fmax(stretch(q, c, q->x) - p->constraint[c].d, FIRST_SLACK * scale);
+        q->f[c] = FIRST_SLACK * mean * scale * scale / q->s[c];
+    }
+}
+
+/* Nothing has moved, slacks are as large as the worst miss there, forces such as would mend it. Slacks and forces that
+ * begin far below what they become run into zero one after the other: begun near, where chains of contacts send bodies
+ * ten times as far as they are large, one in eight of the programs of 10,000 places with symbols of 2 km did not end,
+ * and what a solution would have parted had to jump. Begun so all end, in two thirds of the steps. */
+static void begin_far(interior *q, double scale, double mean)
+{
+    double worst = FIRST_SLACK * scale;
+    for (size_t c = 0; c < q->m; c++) worst = fmax(worst, q->p->constraint[c].d);
+    for (size_t c = 0; c < q->m; c++) {
+        q->s[c] = fmax(-q->p->constraint[c].d, worst);
+        q->f[c] = mean * worst * worst / q->s[c];
+    }
+}
+
 bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double tolerance, double scale)
 {
     if (p->n == 0) return true;
@@ -189,18 +216,15 @@ bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double 
         }
         for (size_t b = 0; b < p->bodies; b++) {
             if (q.unknown[b] == SUNDER_I_GROUND) continue;
-            for (size_t e = 0; e < 2; e++) {
-                q.h[q.unknown[b] + e] = 1 / p->mass[b];
-                q.x[q.unknown[b] + e] = p->t[2 * b + e];
-            }
+            for (size_t e = 0; e < 2; e++) q.h[q.unknown[b] + e] = 1 / p->mass[b];
             mean += 2 / p->mass[b] / (double)q.n;
         }
-        for (size_t c = 0; c < q.m; c++) {
-            const sunder_i_constraint *k = &p->constraint[c];
-            q.soft[c] = softness * (sunder_i_mass(p, k->i) + sunder_i_mass(p, k->j));
-            q.s[c] = fmax(stretch(&q, c, q.x) - k->d, FIRST_SLACK * scale);
-            q.f[c] = FIRST_SLACK * mean * scale * scale / q.s[c];
-        }
+        for (size_t c = 0; c < q.m; c++)
+            q.soft[c] = softness * (sunder_i_mass(p, p->constraint[c].i) + sunder_i_mass(p, p->constraint[c].j));
+        if (q.n <= 2 * MOST_NEAR)
+            begin_near(&q, scale, mean);
+        else
+            begin_far(&q, scale, mean);
         for (int k = 0; k < MOST_STEPS && !sunder_i_quadratic_is_done(p) && advance(&q, tolerance, &mu); k++)
             if (!sunder_i_look()) break;
         for (size_t b = 0; b < p->bodies; b++)
