@@ -195,20 +195,33 @@ static sunder_status prove_blocks(const sunder_i_model *model, const sunder_i_wa
     return status;
 }
 
+/* Blocks of a part, in earnest only where a quick look at them proves a good share of what it costs: where all have
+ * come far, since everybody pushes, what few of them cannot do without is next to nothing, however long they are
+ * asked. */
+static sunder_status prove_part(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *part,
+                                uint64_t steps, double *bound, sunder_i_bound_trees *trees, sunder_error *err)
+{
+    const sunder_status status = sunder_i_blocks_bound(model, waived, part, steps / QUICK_LOOK, 0, bound, trees, err);
+    if (status || *bound < QUICK_SHARE * part->cost) return status;
+    return sunder_i_blocks_bound(model, waived, part, steps, *bound, bound, trees, err);
+}
+
 /* Of a group too large for any program over all of it: parts of neighbours in number, by blocks. */
 static sunder_status prove_parts(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
                                  uint64_t steps, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     for (size_t first = 0; first < g->n && !status; first += PART) {
+        sunder_i_bound_trees trees = {0};
         sunder_i_group part = {.body = g->body + first,
                                .move = g->move + 2 * first,
                                .n = g->n - first < PART ? g->n - first : PART,
                                .number = g->number};
         double bound = 0;
         part.cost = cost_of(model, part.body, part.n, part.move);
-        if (part.cost > 0)
-            status = sunder_i_blocks_bound(model, waived, &part, steps / g->n * part.n, 0, &bound, &g->trees, err);
+        if (part.cost > 0) status = prove_part(model, waived, &part, steps / g->n * part.n, &bound, &trees, err);
+        if (!status && !sunder_i_bound_trees_take(&g->trees, &trees)) status = sunder_i_no_memory(err);
+        sunder_i_bound_trees_free(&trees);
         if (bound > 0) g->bound = nextafter(g->bound + bound, -INFINITY);
     }
     g->steps += steps;

@@ -57,9 +57,9 @@
 #define SHARE_OF_STEP 0.99
 /* Slacks begin no less than this share of a length such as bodies move by, forces so that the products are alike. */
 #define FIRST_SLACK 0.1
-/* Of so many bodies a program begins where its forces have sent them. Begun far, like larger ones, 388 blocks of a dense
- * old town at gap 3 end 4 % dearer: more of the programs with sides that contradict each other have a solution then,
- * and it is taken. */
+/* Of so many bodies a program begins where its forces have sent them. Begun far, like larger ones, 388 blocks of a
+ * dense old town at gap 3 end 4 % dearer: more of the programs with sides that contradict each other have a solution
+ * then, and it is taken. */
 #define MOST_NEAR 500
 /* Forces that fade below this share of the mean are of constraints that do not act. */
 #define FADED 1e-9

@@ -173,6 +173,13 @@ static double longest_step(const sunder_i_search *s)
     return longest;
 }
 
+static bool is_crowd(const sunder_i_search *s)
+{
+    size_t movers = 0;
+    for (size_t k = 0; k < s->n; k++) movers += s->mass[k] > 0;
+    return movers > LARGE_CROWD;
+}
+
 static double longest_move(const sunder_i_search *s)
 {
     double longest = 0;
@@ -312,7 +319,7 @@ static const char *check_next(const sunder_i_search *s)
 bool sunder_i_search_descend(sunder_i_search *s)
 {
     double reach = s->gap, cost = INFINITY, softness = SOFT;
-    const double longest_reach = fmax(s->gap / 2, s->extent / SMALL_PART);
+    const double longest_reach = fmax(s->gap / 2, s->extent / (is_crowd(s) ? PART_OF_CROWD : SMALL_PART));
     bool free_now = false;
     int clashing_rounds = 0, idle = 0;
     double least_missed = INFINITY, least_left = INFINITY;

@@ -238,6 +238,7 @@ sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder
     if (ok && best && near && order) {
         s.settled = SETTLED_BETTER;
         s.effort = BETTER_EFFORT * (uint64_t)cluster->n;
+        if (s.effort > BETTER_MOST) s.effort = BETTER_MOST;
         const double before = sunder_i_search_cost(&s, s.t);
         if (is_free_start(&s)) {
             improve(&s, order, best, near);

@@ -46,6 +46,11 @@
 #define NEARLY_SOLVED 0.03
 /* A way that is free up to some point is gone to just before it. */
 #define JUST_BEFORE 0.999
+/* In a crowd of more that move a small part is a greater one: programs with all that bodies might run into allow less,
+ * but need not be solved again and again with what they did. 1,750 of Italy's places, in the first descent: with 50,
+ * 1.4 thousand million steps to 3.14e11 m2, with 10 0.8 to 3.06, with 4 0.5 to 3.03, with 1.5 0.3 to 3.10. */
+#define LARGE_CROWD 500
+#define PART_OF_CROWD 3
 /* The next round looks so many times as far as the longest step of this one, and this part of the gap at least. */
 #define STEPS_AHEAD 1.5
 #define LEAST_REACH 8
@@ -164,6 +169,9 @@
 
 /* How much it may cost, in constraints looked at, for each body of the cluster: some ten milliseconds. */
 #define BETTER_EFFORT 1200000u
+/* And for all of a crowd, of which the costliest come first. 4,200 places of Italy with all of theirs: 17 s for 0.2 %
+ * of the cost. */
+#define BETTER_MOST 600000000u
 /* Rounds of places and sides in turn; one that gains less than this share of the cost is the last. */
 #define BETTER_ROUNDS 4
 #define ROUND_GAIN 1e-3
