@@ -47,7 +47,7 @@
 /* A part is looked at with one in so many of its steps first; with all of them if that proves this share of what it
  * costs. */
 #define QUICK_LOOK 16
-#define QUICK_SHARE 0.25
+#define QUICK_SHARE 0.1
 /* So many bodies that stand in the way may take part besides. */
 #define MOST_GUESTS 24
 
