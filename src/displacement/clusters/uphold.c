@@ -5,8 +5,11 @@
  *
  * - one of the two is put a unit or a few beside its place; or takes the other's move, or one coordinate of it; or all
  *   that moved alike take one move, or one coordinate of it: where they are then in nobody's way;
+ * - or the search is asked for places near by of the pair and those about it that leave a margin (../search/ease.c);
  * - where no such place will do (a slanted corridor of exact width has none), the one whose move is cheaper is pinned
  *   to where it came from. Its neighbours settle about it, and if they cannot, yield in their turn.
+ *   A pair of the same cluster waits until they have: who was pinned stands in somebody's way meanwhile, and whoever
+ *   that is need not be pinned as well.
  *
  * A place that is taken breaks the rule for no pair, a body that is pinned stays so, and with all at home nothing
  * stands worse: the loop ends. */
@@ -15,6 +18,7 @@
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/rounding.h"
 
+#include "base/union_find.h"
 #include "separation/separation.h"
 
 #include <float.h>
@@ -90,6 +94,7 @@ typedef struct trial {
     double *stood; /* [2 n] */
     size_t n, body_capacity, stood_capacity;
     unsigned along; /* which coordinates: bit 0 is x, bit 1 is y */
+    double *goal;   /* [2 n] to each its own, in place of one for all; or NULL */
     bool *taken;    /* [bodies] where many are asked; else NULL */
     size_t *budget; /* bodies that may yet be moved in vain */
     sunder_i_list near;
@@ -99,7 +104,8 @@ typedef struct trial {
 /* What body k of the trial is to move by, if they are all to move by `to`. */
 static void goal_of(const trial *t, size_t k, const double to[2], double goal[2])
 {
-    for (unsigned c = 0; c < 2; c++) goal[c] = t->along >> c & 1 ? to[c] : t->stood[2 * k + c];
+    for (unsigned c = 0; c < 2; c++)
+        goal[c] = t->goal ? t->goal[2 * k + c] : t->along >> c & 1 ? to[c] : t->stood[2 * k + c];
 }
 
 static bool take(trial *t, uint32_t b)
@@ -297,6 +303,58 @@ sunder_status sunder_i_solver_mend(sunder_i_solver *s, const sunder_i_relation *
     return status;
 }
 
+/* ---- With a margin ----------------------------------------------------------------------------------------------- */
+
+static sunder_i_cluster *cluster_of(const sunder_i_solver *s, uint32_t body)
+{
+    size_t n;
+    const uint32_t *member = sunder_i_solver_members(s, sunder_i_union_find(s->parent, body), &n);
+    for (size_t k = 0; k < s->clusters && n; k++)
+        if (s->cluster[k].body == member) return &s->cluster[k];
+    return NULL;
+}
+
+/* The bodies of a cluster that are to go elsewhere. */
+static bool take_moved(trial *t, const sunder_i_cluster *c, const double *move)
+{
+    const sunder_i_solver *s = t->solver;
+    t->goal = sunder_i_alloc(2 * c->n, sizeof *t->goal);
+    for (size_t k = 0; k < c->n && t->goal; k++) {
+        const uint32_t b = c->body[k];
+        if (!sunder_i_may_move(&s->model.body[b]) ||
+            memcmp(move + 2 * k, s->model.move + 2 * (size_t)b, 2 * sizeof *move) == 0)
+            continue;
+        if (!take(t, b)) return false;
+        memcpy(t->goal + 2 * (t->n - 1), move + 2 * k, 2 * sizeof *move);
+    }
+    return t->goal != NULL;
+}
+
+/* Asks the search for places that leave the pair better by the margin, near where all stand: *well, if there are such,
+ * and they hold. */
+static sunder_status ease(sunder_i_solver *s, const sunder_i_relation *r, bool others, bool *well, sunder_error *err)
+{
+    const uint32_t i = s->model.body_of[r->a], j = s->model.body_of[r->b];
+    trial t = {.solver = s};
+    *well = false;
+    sunder_status status = sunder_i_solver_gather(s, err);
+    if (!status) status = sunder_i_solver_unite_blocks(s, err);
+    const sunder_i_cluster *c = status ? NULL : cluster_of(s, sunder_i_may_move(&s->model.body[i]) ? i : j);
+    if (!c) return status;
+    const double none[2] = {0, 0};
+    double *move = sunder_i_solver_load_moves(s, c);
+    bool done;
+    status = sunder_i_cluster_ease(&s->model, c, r->a, r->b, others, move, &done, err);
+    if (!status && done && !take_moved(&t, c, move)) status = sunder_i_no_memory(err);
+    if (!status && done) status = try_place(&t, none, err);
+    *well = t.well;
+    sunder_i_free(t.body);
+    sunder_i_free(t.stood);
+    sunder_i_free(t.goal);
+    sunder_i_free(t.near.item);
+    return status;
+}
+
 /* ---- Staying ----------------------------------------------------------------------------------------------------- */
 
 static double cost_of(const sunder_i_solver *s, uint32_t b)
@@ -331,12 +389,26 @@ static sunder_status pin_jumps(sunder_i_solver *s, bool *pinned, sunder_error *e
     return status;
 }
 
+/* What stands about a body that was pinned stands in its way for now: its cluster has to settle first. */
+static void hold(sunder_i_solver *s, bool *held, uint32_t body)
+{
+    if (!s->model.body[body].fixed) held[sunder_i_union_find(s->parent, body)] = true;
+}
+
+static bool is_held(const sunder_i_solver *s, const bool *held, uint32_t body)
+{
+    return !s->model.body[body].fixed && held[sunder_i_union_find(s->parent, body)];
+}
+
 sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     size_t budget = IN_VAIN;
+    bool *held = sunder_i_alloc(s->model.bodies, sizeof *held); /* a pair of the cluster waits until it has settled */
+    if (!held) return sunder_i_no_memory(err);
     for (bool any = s->now.n + s->jumps.n > 0, pinned; any && !status;) {
         any = pinned = false;
+        memset(held, 0, s->model.bodies * sizeof *held);
         status = pin_jumps(s, &pinned, err);
         any = pinned;
         for (size_t k = 0; k < s->now.n && !status; k++) {
@@ -347,13 +419,18 @@ sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
             if (status || !breaks || (!sunder_i_may_move(&s->model.body[i]) && !sunder_i_may_move(&s->model.body[j])))
                 continue;
             any = true;
+            if (is_held(s, held, i) || is_held(s, held, j)) continue;
             status = sunder_i_solver_mend(s, &r, &budget, &well, err);
+            for (int others = 1; others >= 0 && !status && !well; others--) status = ease(s, &r, others, &well, err);
             if (status || well) continue;
             pinned = true;
             status = pin(s, i, j, err);
+            hold(s, held, i);
+            hold(s, held, j);
         }
         if (pinned && !status) status = sunder_i_solver_settle(s, SOUGHT, SOUGHT, err);
     }
     for (size_t b = 0; b < s->model.bodies; b++) s->model.body[b].pinned = false;
+    sunder_i_free(held);
     return status;
 }

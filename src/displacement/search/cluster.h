@@ -66,6 +66,14 @@ sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder
 sunder_status sunder_i_cluster_descend(const sunder_i_model *model, const sunder_i_cluster *cluster, double cost,
                                        double *move, bool *found, sunder_error *err);
 
+/* ---- ease.c ------------------------------------------------------------------------------------------------------ */
+
+/* A pair of things that is left in conflict, and of which rounding took a hair: *done, if it and those about it have
+ * places where it stands better by the margin; rounded. All others keep what they owe or are held to; others: of those
+ * that are left in conflict who has moved is to have the margin, too, else only who has it. */
+sunder_status sunder_i_cluster_ease(const sunder_i_model *model, const sunder_i_cluster *cluster, uint32_t a,
+                                    uint32_t b, bool others, double *move, bool *done, sunder_error *err);
+
 /* ---- invite.c ---------------------------------------------------------------------------------------------------- */
 
 /* Bodies of the cluster that would have a nearer place but for others who might move: pairs of the two go to

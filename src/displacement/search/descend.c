@@ -371,6 +371,18 @@ bool sunder_i_search_descend(sunder_i_search *s)
     return free_now && !s->failed;
 }
 
+bool sunder_i_search_make_good(sunder_i_search *s)
+{
+    double left = INFINITY;
+    for (int round = 0; round < MOST_MENDING && left > s->tolerance && !s->failed; round++) {
+        constrain_all(s, s->gap / LEAST_REACH);
+        if (s->failed || !(solve_lazily(s, 0) <= s->tolerance) || is_out_of_patience(s)) return false;
+        left = sunder_i_search_look(s, s->next);
+        memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
+    }
+    return left <= s->tolerance && !s->failed;
+}
+
 /* ---- Where it ended in a compromise -------------------------------------------------------------------------------
  * */
 

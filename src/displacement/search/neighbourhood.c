@@ -194,6 +194,21 @@ bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *v, uint32_t i, uint32
     return done && !v->all->failed;
 }
 
+bool sunder_i_neighbourhood_make_good(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach)
+{
+    sunder_i_search part;
+    if (!open_part(v, i, j, most, reach, &part)) return false;
+    part.patience *= MENDING_TIMES;
+    bool done = v->moving > 0 && sunder_i_search_make_good(&part);
+    if (done && !part.failed) {
+        put(v, part.t);
+        done = is_free(v);
+        if (!done) put(v, v->t);
+    }
+    end(v, &part);
+    return done && !v->all->failed;
+}
+
 /* What those that move cost, standing at t, a place for each of v->place, less what they cost at `best`, one for
  * each of all. */
 static double costs_more(const sunder_i_neighbourhood *v, const double *t, const double *best)

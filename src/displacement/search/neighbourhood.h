@@ -23,6 +23,9 @@ void sunder_i_neighbourhood_free(sunder_i_neighbourhood *neighbourhood);
  * They are put there. reach: how far off somebody may be run into. */
 bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                    double reach);
+/* The same from places that miss no more than hairs, which are made good near by. */
+bool sunder_i_neighbourhood_make_good(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
+                                      double reach);
 /* From a solution, `best`, which all stand at but for i and j, down with those about these, everybody else standing.
  * What is cheaper by more than `least` is kept; returns by how much, or 0: then all are as in `best`. */
 double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,

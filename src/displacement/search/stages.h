@@ -27,6 +27,9 @@ bool sunder_i_search_constrain_limits(sunder_i_search *search);
 /* From t, the sequence of quadratic programs. True if it ends with no clash; then t is a local optimum. Else t is a
  * compromise. */
 bool sunder_i_search_descend(sunder_i_search *search);
+/* From t, where no more than hairs are missed: the nearest place, but for what is cheaper, that misses nothing on the
+ * sides that are taken there. True if there is one; it is t then. */
+bool sunder_i_search_make_good(sunder_i_search *search);
 /* A compromise misses a little everywhere, where there is a contradiction and where there is none. Of the sets of
  * bodies that have nothing to do with each other those go where the program in full sends them, if that solves it for
  * them. */

@@ -144,6 +144,10 @@
 #define SHORT_PATIENCE 20000u
 #define SHORT_PATIENCE_EACH 600u
 
+/* What was missed by a hair is made good in so many rounds (descend.c), and that may take so many times as much. */
+#define MOST_MENDING 4
+#define MENDING_TIMES 16
+
 /* ---- Pairs asked once more (retry_cluster.c) --------------------------------------------------------------------- */
 
 /* How many may move at each stage, before all may: fourfold, since what one more stage costs is then a quarter of the
