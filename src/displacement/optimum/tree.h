@@ -47,6 +47,7 @@ typedef struct sunder_i_tree_node {
     uint32_t cut, cuts, force, forces;
     double value; /* proved: no layout below it costs less, or the goal */
     sunder_i_node_state state;
+    bool stuck;    /* what its parent was divided by is where it was */
     uint32_t pair; /* which it was divided by, or has no room left */
     /* Where it is kept: the forces that its discs stand on, of cuts above it, and the pieces that leave no room. */
     uint32_t by, bys, named, names;

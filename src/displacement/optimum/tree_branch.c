@@ -117,19 +117,39 @@ static sunder_i_tree_conflict choose(sunder_i_tree *t, double value, branching_r
     return best;
 }
 
-/* Is the one conflict of the node where it was, although this is a child? Then nothing below will tell more: it would
- * be divided by the same rays for ever. */
+/* Is the conflict that the node was divided by where it was, in a child without a cut? Then that will tell no more: it
+ * would be divided by the same rays for ever. */
 static bool is_stuck(const sunder_i_tree *t, const sunder_i_tree_conflict *c)
 {
     const sunder_i_tree_pair *p = &t->pair[c->pair];
     const double *at = t->program.t, x = at[2 * p->j] - at[2 * p->i], y = at[2 * p->j + 1] - at[2 * p->i + 1];
-    return t->conflicts == 1 && fabs(x - c->u[0]) + fabs(y - c->u[1]) <= STUCK * p->forbidden.grain;
+    return fabs(x - c->u[0]) + fabs(y - c->u[1]) <= STUCK * p->forbidden.grain;
+}
+
+/* Leaves out the conflicts that nodes above were divided by in vain, since when nothing more was proved. */
+static void leave_out_stuck(sunder_i_tree *t, uint32_t node)
+{
+    const double least = t->node[node].value * (1 - HOLDS);
+    for (uint32_t at = node; t->node[at].parent != SUNDER_I_NO_NODE; at = t->node[at].parent) {
+        const uint32_t parent = t->node[at].parent;
+        size_t kept = 0;
+        if (t->node[parent].value < least) return;
+        for (size_t k = 0; k < t->conflicts; k++)
+            if (!t->node[at].stuck || t->conflict[k].pair != t->node[parent].pair) t->conflict[kept++] = t->conflict[k];
+        t->conflicts = kept;
+    }
 }
 
 void sunder_i_tree_divide(sunder_i_tree *t, uint32_t node)
 {
     const double value = t->node[node].value;
     branching_rays rays = {0};
+    leave_out_stuck(t, node);
+    if (t->conflicts == 0) {
+        t->node[node].state = SUNDER_I_LEAF;
+        t->leaf = fmin(t->leaf, value);
+        return;
+    }
     const sunder_i_tree_conflict c = choose(t, value, &rays);
     if (t->failed) return;
     t->node[node].state = SUNDER_I_DIVIDED;
@@ -149,12 +169,8 @@ void sunder_i_tree_divide(sunder_i_tree *t, uint32_t node)
         } else {
             t->node[child].value = fmax(value, sunder_i_tree_solve(t));
             sunder_i_tree_keep_forces(t, child);
-            if (t->node[child].value >= t->task.goal) {
-                t->node[child].state = SUNDER_I_CLOSED;
-            } else if (!cut && is_stuck(t, &c)) {
-                t->node[child].state = SUNDER_I_LEAF;
-                t->leaf = fmin(t->leaf, t->node[child].value);
-            }
+            t->node[child].stuck = !cut && is_stuck(t, &c);
+            if (t->node[child].value >= t->task.goal) t->node[child].state = SUNDER_I_CLOSED;
         }
         if (t->node[child].state == SUNDER_I_OPEN) {
             const sunder_i_open open = {t->node[child].value, child};
