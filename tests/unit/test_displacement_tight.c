@@ -200,6 +200,23 @@ static void test_limit_in_a_row(void **state)
     scene_end(&s);
 }
 
+/* Two that would jump over each other where each goes when the other stands as it does now, which is far from there. */
+static void test_two_groups_that_jump(void **state)
+{
+    (void)state;
+    scene s;
+    scene_begin(&s, 0.9375);
+    s.options.no_blocks = true;
+    s.options.touch_tolerance = 0;
+    s.options.contained = SUNDER_CONTAINMENT_SEPARATE;
+    scene_add(&s, "POLYGON((2.5 0,4.375 0,4.375 0.625,3.125 0.625,3.125 3.75,2.5 3.75,2.5 0))");
+    scene_add(&s, "POLYGON((1.875 1.25,3.75 1.25,3.75 1.875,2.5 1.875,2.5 6.25,1.875 6.25,1.875 1.25))");
+    scene_add(&s, "POLYGON((0.625 0.625,5 1.875,1.875 3.125,0.625 0.625))")->fixed = true;
+    scene_separate(&s);
+    check_optimum(&s, 21.3058035477);
+    scene_end(&s);
+}
+
 /* A move of two millimetres, without a gap, away from what is half a mile long: proved as any other. */
 static void test_small_move_beside_what_is_long(void **state)
 {
@@ -218,11 +235,12 @@ static void test_small_move_beside_what_is_long(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_slot_beside_a_line), cmocka_unit_test(test_slot_among_shadows),
-        cmocka_unit_test(test_all_of_a_limit),     cmocka_unit_test(test_slot),
-        cmocka_unit_test(test_slot_far_away),      cmocka_unit_test(test_row_between_walls),
-        cmocka_unit_test(test_too_narrow),         cmocka_unit_test(test_lines_hide_on_no_diagonal),
-        cmocka_unit_test(test_limit_in_a_row),     cmocka_unit_test(test_small_move_beside_what_is_long),
+        cmocka_unit_test(test_slot_beside_a_line),   cmocka_unit_test(test_slot_among_shadows),
+        cmocka_unit_test(test_all_of_a_limit),       cmocka_unit_test(test_slot),
+        cmocka_unit_test(test_slot_far_away),        cmocka_unit_test(test_row_between_walls),
+        cmocka_unit_test(test_too_narrow),           cmocka_unit_test(test_lines_hide_on_no_diagonal),
+        cmocka_unit_test(test_limit_in_a_row),       cmocka_unit_test(test_small_move_beside_what_is_long),
+        cmocka_unit_test(test_two_groups_that_jump),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

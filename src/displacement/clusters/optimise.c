@@ -212,16 +212,28 @@ static void part(taking *t, uint32_t a, uint32_t b, bool known, bool *any)
     if (!both || j > i) *any = put_back(t, j, known && j != SUNDER_I_NOBODY && takes_part(&group[j], p)) || *any;
 }
 
+/* Groups that proofs take together from now on. False if memory is out. */
+static bool note_joined(sunder_i_groups *groups, uint32_t one, uint32_t other)
+{
+    if (!sunder_i_reserve(&groups->joined, &groups->capacity, groups->joins + 1, sizeof *groups->joined)) return false;
+    groups->joined[groups->joins++] = (sunder_i_id_pair){one, other};
+    return true;
+}
+
 /* The same of a jump, which pieces may not tell of: an anchor that goes along a diagonal between two meets neither.
- * From now on these two have what covers theirs (layer/seams.c). */
-static void part_jump(taking *t, uint32_t a, uint32_t b, bool *any)
+ * From now on these two have what covers theirs (layer/seams.c). And whom one jumps over may stand far from it now: so
+ * two groups are taken together. False if memory is out. */
+static bool part_jump(taking *t, uint32_t a, uint32_t b, bool *any)
 {
     sunder_i_groups *groups = &t->solver->groups;
     const uint32_t body[2] = {t->solver->model.body_of[a], t->solver->model.body_of[b]};
+    const uint32_t group[2] = {groups->of[body[0]], groups->of[body[1]]};
     const bool known = groups->seamed[body[0]] && groups->seamed[body[1]];
     for (int k = 0; k < 2; k++) groups->seamed[body[k]] = true;
     groups->any_seamed = true;
     part(t, a, b, known, any);
+    return group[0] == group[1] || group[0] == SUNDER_I_NOBODY || group[1] == SUNDER_I_NOBODY ||
+           note_joined(groups, group[0], group[1]);
 }
 
 static bool has_moved(const taking *t, uint32_t thing)
@@ -281,7 +293,8 @@ static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
         status = find_offence(t, r, &found, err);
         if (!status && found == CONFLICT) part(t, r->a, r->b, true, any);
     }
-    for (size_t k = 0; k < s->jumps.n && !status; k++) part_jump(t, s->jumps.pair[k].a, s->jumps.pair[k].b, any);
+    for (size_t k = 0; k < s->jumps.n && !status; k++)
+        if (!part_jump(t, s->jumps.pair[k].a, s->jumps.pair[k].b, any)) status = sunder_i_no_memory(err);
     return status || *any ? status : mend_first(t, any, err);
 }
 
@@ -333,8 +346,7 @@ static bool join(sunder_i_solver *s, bool *any)
                 host[b] = g->number;
                 continue;
             }
-            ok = sunder_i_reserve(&groups->joined, &groups->capacity, groups->joins + 1, sizeof *groups->joined);
-            if (ok) groups->joined[groups->joins++] = (sunder_i_id_pair){g->number, host[b]};
+            ok = note_joined(groups, g->number, host[b]);
             *any = true;
         }
     }
