@@ -198,7 +198,7 @@ static size_t list_children(const optimum_problem *m, size_t k, child *out)
         double before[2], normal[2], at[2];
         side_of(p, side, normal, at);
         out[n++] = (child){.choice = {.piece = k}, .side = side};
-        if (p->radius <= 0) continue;
+        if (p->radius <= 0 || p->shadow) continue;
         child corner = {.choice = {.piece = k, .corner = side, .sector = true}, .side = SIZE_MAX};
         side_of(p, (side + p->corners - 1) % p->corners, before, at);
         memcpy(corner.choice.d, before, sizeof before);

@@ -16,7 +16,7 @@ typedef struct optimum_body {
 } optimum_body;
 
 /* An open convex set: all places nearer than the radius to the polygon's interior; where that is negative, those that
- * are farther than as much from all outside; or a shadow, which ends nowhere. */
+ * are farther than as much from all outside; or a shadow, which ends nowhere, its sides moved out by the radius. */
 typedef struct optimum_piece {
     size_t a, b; /* bodies */
     double radius;
@@ -24,7 +24,7 @@ typedef struct optimum_piece {
     double
         xy[2 *
            OPTIMUM_CORNERS]; /* counter-clockwise; of a shadow the near side, whose ends go on away from the origin */
-    bool shadow;             /* then the radius is 0 */
+    bool shadow;
 } optimum_piece;
 
 typedef struct optimum_problem {
