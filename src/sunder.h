@@ -765,8 +765,8 @@ typedef struct sunder_proof {
  * blocked_by: none of them could be left out of it. With SUNDER_REASON_SIDE and mostly SUNDER_REASON_JUMP there is one,
  * too: its nodes are about the pair, and about the ways of the members of their two blocks (shadows). Without a limit
  * `within` is one by which the two are apart for certain: farther out nothing but shadows forbids a move, and what is
- * shaded there was shaded before. With SUNDER_REASON_MAX_SHIFT, if keep_trees was asked for and one was found, they are
- * about the pair. */
+ * shaded there was shaded before; with SUNDER_REASON_NO_ROOM all nodes are about members of the two blocks then. With
+ * SUNDER_REASON_MAX_SHIFT, if keep_trees was asked for and one was found, they are about the pair. */
 SUNDER_API const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k);
 
 /* ---- Routes ----------------------------------------------------------------------------------------------- */

@@ -72,13 +72,24 @@ class Verdict:
             demand(self.problem.is_barrier(k) or self.body_of(k) in own, "the way of a bystander:", k)
 
     def check_within(self):
-        """Apart by more than they owe, however far beyond."""
+        """Apart by more than they owe, however far beyond: the two features, or all of their blocks."""
         a, b = self.told["a"], self.told["b"]
-        demand(self.told["reason"] == "jump", "a length for those without a limit, with the reason", self.told["reason"])
-        (p, q), owed = (self.problem.things[k].whole().box for k in (a, b)), self.problem.required(a, b)
-        reach = [max(abs(p[x + 2] - q[x]), abs(p[x] - q[x + 2])) + owed for x in (0, 1)]
+        demand(self.told["reason"] in ("jump", "no_room"), "a length for those without a limit, with the reason",
+               self.told["reason"])
+        pairs = [(a, b)]
+        if self.told["reason"] == "no_room":
+            demand(not self.problem.is_barrier(a) and not self.problem.is_barrier(b), "a barrier, where there is no limit")
+            bodies = {self.body_of(a), self.body_of(b)}
+            for node in self.nodes:
+                for k in (node["a"], node["b"]) if "ways" in node else ():
+                    demand(not self.problem.is_barrier(k) and self.body_of(k) in bodies,
+                           "a bystander, where there is no limit:", k)
+            pairs = [(k, l) for k in self.body_of(a) for l in self.body_of(b)]
         within = Fraction(self.within) * self.unit
-        demand(within * within >= reach[0] ** 2 + reach[1] ** 2, "farther out the two could still be too near:", a, b)
+        for k, l in pairs:
+            (p, q), owed = (self.problem.things[x].whole().box for x in (k, l)), self.problem.required(k, l)
+            reach = [max(abs(p[x + 2] - q[x]), abs(p[x] - q[x + 2])) + owed for x in (0, 1)]
+            demand(within * within >= reach[0] ** 2 + reach[1] ** 2, "farther out the two could still be too near:", k, l)
 
     def is_listed(self, a, b):
         return self.key(a, b) in self.kinds and self.key(a, b) != self.own

@@ -16,7 +16,7 @@ static double limit_of(const checking *c, size_t f)
         const double own = c->feature[g].fixed ? 0 : c->feature[g].max_shift;
         if (own < limit) limit = own;
     }
-    return limit;
+    return limit == 1e308 && c->proof->within > 0 ? c->proof->within : limit;
 }
 
 /* r = at least the square root of s >= 0, by a share of 2^-200 at most and 2^-600. */

@@ -1,4 +1,4 @@
-/* A block of many parts that has no room, and hundreds of conflicts: each is proved. */
+/* Conflicts without room that are proved: of a block of many parts, and in a yard without a limit. */
 #include "random.h"
 #include "scene.h"
 
@@ -62,8 +62,33 @@ static void check_strewn_block(void **state)
     scene_end(&s);
 }
 
+/* A hut in a yard of four walls, without a limit: it would have room beside each of two of them, if it were not for the
+ * other, and may not jump out. */
+static void check_tight_yard(void **state)
+{
+    scene s;
+    size_t n;
+    scene_begin(&s, 3);
+    s.options.effort = 0;
+    scene_add_box(&s, 0, 0, 30, 5);
+    scene_add_box(&s, 0, 25, 30, 5);
+    scene_add_box(&s, 0, 5, 5, 20);
+    scene_add_box(&s, 25, 5, 5, 20);
+    scene_add_box(&s, 7, 10, 16, 10);
+    scene_separate(&s);
+    const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
+    assert_int_equal(scene_left(&s), 2);
+    for (size_t k = 0; k < n; k++) {
+        if (c[k].inside_block) continue;
+        assert_int_equal(c[k].reason, SUNDER_REASON_NO_ROOM);
+        assert_int_equal(c[k].n_blocked_by, 3); /* the other, and those over which it would leave */
+        assert_true(sunder_report_proof(s.report, k)->within > 0);
+    }
+    scene_end(&s);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(check_strewn_block)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(check_strewn_block), cmocka_unit_test(check_tight_yard)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

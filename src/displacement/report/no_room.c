@@ -173,6 +173,46 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
     return status;
 }
 
+/* Those of the two bodies, ascending; *n of them. NULL if memory is out. */
+static uint32_t *members_of(const sunder_i_model *model, const uint32_t body[2], size_t *n)
+{
+    const sunder_i_body *p = &model->body[body[0]], *r = &model->body[body[1]];
+    uint32_t *set = sunder_i_alloc((size_t)p->members + r->members, sizeof *set);
+    if (!set) return NULL;
+    memcpy(set, model->member + p->member, p->members * sizeof *set);
+    memcpy(set + p->members, model->member + r->member, r->members * sizeof *set);
+    *n = sunder_i_set_make(set, (size_t)p->members + r->members);
+    return set;
+}
+
+/* The same of two of which one has no limit: of them alone, whoever else is about. Beyond where they are apart for
+ * certain nothing but shadows forbids a relative move, and what is shaded there was shaded before (alone.c). */
+static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_i_subproblem *q, uint64_t *pool,
+                                       sunder_error *err)
+{
+    const sunder_conflict *c = &g->report->conflict[m->conflict];
+    const uint32_t body[2] = {q->model->body_of[c->a], q->model->body_of[c->b]};
+    sunder_i_subproblem two = *q;
+    uint32_t *set = members_of(q->model, body, &two.features);
+    if (!set) return sunder_i_no_memory(err);
+    two.feature = set;
+    two.reserves = 0;
+    two.instead = 2 * sunder_i_farthest_near(q->model, body[0], body[1]);
+    const sunder_status status = ask(g, m, &two, pool, err);
+    sunder_i_free(set);
+    return status;
+}
+
+/* Are they two that move, and one of them without a limit? */
+static bool has_no_limit(const asking *g, const matter *m)
+{
+    const sunder_i_model *model = &g->solver->model;
+    const sunder_conflict *c = &g->report->conflict[m->conflict];
+    const double p = sunder_i_limit_of(&model->body[model->body_of[c->a]]),
+                 r = sunder_i_limit_of(&model->body[model->body_of[c->b]]);
+    return p > 0 && r > 0 && p + r == INFINITY;
+}
+
 /* All conflicts of a cluster at one effort, before any is asked about at the next. */
 static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
@@ -189,7 +229,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
             for (matter *m = first; m < last && pool; m++) {
                 if (!m->open) continue;
                 q.effort = effort < pool ? effort : pool;
-                status = ask(g, m, &q, &pool, err);
+                status = has_no_limit(g, m) ? ask_without_limit(g, m, &q, &pool, err) : ask(g, m, &q, &pool, err);
                 if (status) return status;
             }
     }
