@@ -222,7 +222,6 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
     if (!status) status = sunder_i_report_conflicts(report, &s->model, &s->placement, &s->now, true, err);
     if (!status) status = sunder_i_report_bound(report, s, err);
     if (!status) status = sunder_i_report_optimality(report, s, err);
-    if (!status) status = sunder_i_report_pair_trees(report, s, err);
     if (!status) status = sunder_i_report_pushes(report, s, err);
     if (!status) status = sunder_i_report_proofs(report, s, err);
     if (!status) status = sunder_i_report_blockers(report, s, err);

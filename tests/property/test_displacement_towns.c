@@ -1,6 +1,6 @@
 /* What becomes of a town is a matter of the town: alone, or in a layer with others out of reach, in whatever order
  * these come, its features make the same moves to the last bit, and the same is said of its conflicts and proved of its
- * pairs.
+ * pairs and groups.
  *
  * Towns are crowds of slanted boxes that overlap and lie in each other, some without a solution for limits and fixed
  * ones. Each has its coordinates wherever it stands in the list; its own features keep their order. */
@@ -67,7 +67,7 @@ static void found(country *c, rng *r, double far)
     c->options.contained = rng_once_in(r, 2) ? SUNDER_CONTAINMENT_IGNORE : SUNDER_CONTAINMENT_SEPARATE;
     c->options.gap = rng_once_in(r, 3) ? 0 : 0.5 + 2 * rng_unit(r);
     c->options.effort = rng_once_in(r, 3) ? 0 : 0.02;
-    c->options.keep_pushes = true;
+    c->options.keep_pushes = c->options.keep_trees = true;
     const double limit = rng_once_in(r, 3) ? INFINITY : 6 * rng_unit(r);
     c->towns = (size_t)rng_int(r, 2, TOWNS);
     for (size_t k = 0; k < c->towns; k++) {
@@ -121,7 +121,7 @@ static sunder_report *run(const country *c, const order *o)
 
 /* A line of numbers for each fact, features by their places in the town; in the report's order. */
 typedef struct facts {
-    double number[20 * HOUSES * HOUSES];
+    double number[40 * HOUSES * HOUSES];
     size_t n;
 } facts;
 
@@ -150,6 +150,27 @@ static void note_conflict(facts *f, const order *o, const sunder_conflict *c)
     for (size_t k = 0; k < c->n_blocked_by; k++) note(f, house_at(o, c->blocked_by[k]));
 }
 
+/* The town that a tree is about: no body that moves is of another. */
+static size_t town_of(const order *o, const sunder_bound_tree *tree)
+{
+    for (size_t k = 0; k < tree->bodies; k++)
+        if (tree->body[k].weight < INFINITY) return o->town[tree->body[k].thing];
+    return TOWNS;
+}
+
+static void note_tree(facts *f, const order *o, const sunder_bound_tree *tree)
+{
+    note(f, tree->bound);
+    note(f, (double)tree->nodes);
+    note(f, (double)tree->cuts);
+    for (size_t k = 0; k < tree->bodies; k++) {
+        note(f, house_at(o, tree->body[k].thing));
+        note(f, tree->body[k].weight);
+        note(f, tree->body[k].shift[0]);
+        note(f, tree->body[k].shift[1]);
+    }
+}
+
 static void gather(const sunder_report *report, const order *o, size_t which, facts *f)
 {
     size_t n;
@@ -173,6 +194,9 @@ static void gather(const sunder_report *report, const order *o, size_t which, fa
         note(f, pair[k].least);
         note(f, pair[k].multiplier);
     }
+    const sunder_bound_tree *tree = sunder_report_bound_trees(report, &n);
+    for (size_t k = 0; k < n; k++)
+        if (town_of(o, &tree[k]) == which) note_tree(f, o, &tree[k]);
     const sunder_push *push = sunder_report_pushes(report, &n);
     for (size_t k = 0; k < n; k++) {
         if (o->town[push[k].a] != which) continue;

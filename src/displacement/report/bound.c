@@ -76,6 +76,28 @@ static void ascend_all(const sunder_i_model *model, sunder_bound_pair *pairs, su
         if (!(pairs[k].multiplier > 0) || !isfinite(pairs[k].multiplier)) pairs[k].multiplier = 0;
 }
 
+/* What the pairs prove of each part of the layer, at its root; downwards. root: NULL, and all is one part. load:
+ * [bodies], all 0. */
+static void add_up(const sunder_i_model *model, const sunder_bound_pair *pairs, size_t n, uint32_t *root, double *load,
+                   double *value)
+{
+    for (size_t k = 0; k < n; k++) {
+        const uint32_t i = model->body_of[pairs[k].a], j = model->body_of[pairs[k].b];
+        if (!(pairs[k].multiplier > 0)) continue;
+        const uint32_t at = root ? sunder_i_union_find(root, model->body[i].fixed ? j : i) : 0;
+        value[at] = down(value[at] + down(pairs[k].multiplier * pairs[k].least));
+        load[i] = up(load[i] + pairs[k].multiplier);
+        load[j] = up(load[j] + pairs[k].multiplier);
+    }
+    for (uint32_t b = 0; b < model->bodies; b++) {
+        if (!(load[b] > 0) || model->body[b].fixed) continue;
+        const uint32_t at = root ? sunder_i_union_find(root, b) : 0;
+        value[at] = down(value[at] - up(up(load[b] * load[b]) / (4 * weight_below(model, &model->body[b]))));
+    }
+}
+
+static double positive(double value) { return value > 0 && isfinite(value) ? value : 0; }
+
 sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, double *bound,
                              sunder_error *err)
 {
@@ -85,30 +107,29 @@ sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pai
     uint32_t *root = sunder_i_alloc(model->bodies, sizeof *root);
     sunder_i_id_pair *which = sunder_i_alloc(n, sizeof *which);
     const bool ok = load && root && which;
-    if (ok) ascend_all(model, pairs, which, n, root, load);
-    sunder_i_free(root);
-    sunder_i_free(which);
-    if (!ok) {
-        sunder_i_free(load);
-        return sunder_i_no_memory(err);
-    }
-    for (size_t b = 0; b < model->bodies; b++) load[b] = 0;
-    double value = 0;
-    for (size_t k = 0; k < n; k++) {
-        const uint32_t i = model->body_of[pairs[k].a], j = model->body_of[pairs[k].b];
+    if (ok) {
+        ascend_all(model, pairs, which, n, root, load);
         /* Two fixed bodies have no solution at all, and prove nothing. */
-        if (model->body[i].fixed && model->body[j].fixed) pairs[k].multiplier = 0;
-        if (!(pairs[k].multiplier > 0)) continue;
-        value = down(value + down(pairs[k].multiplier * pairs[k].least));
-        load[i] = up(load[i] + pairs[k].multiplier);
-        load[j] = up(load[j] + pairs[k].multiplier);
-    }
-    for (size_t b = 0; b < model->bodies; b++) {
-        if (!(load[b] > 0) || model->body[b].fixed) continue;
-        const double w = weight_below(model, &model->body[b]);
-        value = down(value - up(up(load[b] * load[b]) / (4 * w)));
+        for (size_t k = 0; k < n; k++)
+            if (model->body[model->body_of[pairs[k].a]].fixed && model->body[model->body_of[pairs[k].b]].fixed)
+                pairs[k].multiplier = 0;
+        for (size_t b = 0; b < model->bodies; b++) load[b] = 0;
+        add_up(model, pairs, n, NULL, load, bound);
+        *bound = positive(*bound);
     }
     sunder_i_free(load);
-    *bound = value > 0 && isfinite(value) ? value : 0;
-    return SUNDER_OK;
+    sunder_i_free(root);
+    sunder_i_free(which);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+bool sunder_i_bound_parts(const sunder_i_model *model, const sunder_bound_pair *pairs, size_t n, uint32_t *root,
+                          double *value)
+{
+    double *load = sunder_i_calloc(model->bodies, sizeof *load);
+    if (!load) return false;
+    add_up(model, pairs, n, root, load, value);
+    for (size_t b = 0; b < model->bodies; b++) value[b] = positive(value[b]);
+    sunder_i_free(load);
+    return true;
 }

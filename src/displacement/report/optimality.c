@@ -1,4 +1,4 @@
-/* The lower bound of the layer: what is proved of its contact groups, added up.
+/* The lower bound of the layer: what is proved of its contact groups, or of pairs, added up part by part.
  *
  * No layout costs less than the sum over disjoint sets of bodies of what each cannot do without. A group's bound owes
  * what all pairs of its bodies owe that were not listed when it was proved, and of those that were that they stand no
@@ -6,6 +6,7 @@
  * them overlaps that did not, and no body of it that may move was counted with another group. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
+#include "displacement/report/tuning.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -54,16 +55,39 @@ static double cost_of(const sunder_i_model *model, const sunder_i_group *g)
     return cost * (1 + ((double)g->n + 8) * 0x1p-50);
 }
 
-/* The trees of the bounds that count become the report's. */
-static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, sunder_error *err)
+/* What is proved of groups counts no more where it does not hold of the result; the others' costs, and how many of them
+ * are optimal. */
+static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver *s, sunder_error *err)
 {
-    size_t n = 0;
+    uint32_t *owner = sunder_i_alloc(s->model.bodies, sizeof *owner);
+    bool *listed = sunder_i_calloc(s->model.bodies, sizeof *listed);
+    const bool ok = owner && listed;
+    for (size_t b = 0; b < s->model.bodies && ok; b++) owner[b] = SUNDER_I_NOBODY;
+    for (size_t k = 0; k < s->groups.n && ok; k++)
+        if (!claim(&s->model, &s->groups.group[k], owner)) s->groups.group[k].bound = 0;
+    if (ok) void_bounds(s, owner, listed);
+    sunder_i_free(owner);
+    sunder_i_free(listed);
+    for (size_t k = 0; k < s->groups.n && ok; k++) {
+        sunder_i_group *g = &s->groups.group[k];
+        g->cost = cost_of(&s->model, g);
+        summary->clusters_optimal += sunder_i_group_is_optimal(g);
+    }
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+/* The trees of the groups that a bound stands on become the report's. *sum: what these groups prove. */
+static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, const sunder_i_parts *parts,
+                                double *sum, sunder_error *err)
+{
+    size_t n = report->bound_pairs; /* and room for those of pairs */
     for (size_t k = 0; k < groups->n; k++) n += groups->group[k].trees.n;
-    report->bound_tree = sunder_i_alloc(n, sizeof *report->bound_tree);
+    report->bound_tree = sunder_i_calloc(n, sizeof *report->bound_tree);
     if (!report->bound_tree) return sunder_i_no_memory(err);
     for (size_t k = 0; k < groups->n; k++) {
         sunder_i_group *g = &groups->group[k];
-        if (!(g->bound > 0)) continue;
+        if (!(g->bound > 0) || sunder_i_part_is_by_pairs(parts, g->number)) continue;
+        *sum = nextafter(*sum + g->bound, -INFINITY);
         for (size_t m = 0; m < g->trees.n; m++) {
             g->trees.tree[m].group = k;
             report->bound_tree[report->bound_trees++] = g->trees.tree[m];
@@ -73,31 +97,31 @@ static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, 
     return SUNDER_OK;
 }
 
+/* Trees for all that the bound stands on. What they prove of pairs is a little less, and where one may get inside the
+ * other nothing: the bound is what the trees prove then, or what all pairs prove by themselves. */
+static sunder_status keep_trees(sunder_report *report, sunder_i_solver *s, sunder_i_parts *parts, sunder_error *err)
+{
+    sunder_layer_summary *summary = &report->summary;
+    double groups = 0, pairs = 0;
+    sunder_status status = take_trees(report, &s->groups, parts, &groups, err);
+    if (!status) status = sunder_i_report_pair_trees(report, s, parts, &pairs, err);
+    if (status) return status;
+    const double sum = groups > 0 ? nextafter(groups + pairs, -INFINITY) : pairs;
+    summary->lower_bound = sum >= summary->pair_bound * (1 - NEARLY_AS_MUCH) ? sum : summary->pair_bound;
+    return SUNDER_OK;
+}
+
 sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver *s, sunder_error *err)
 {
     sunder_layer_summary *summary = &report->summary;
-    double sum = 0;
+    const bool proved = s->groups.n && s->model.rules.effort > 0;
     summary->clusters = s->groups.n;
-    if (s->groups.n == 0 || !(s->model.rules.effort > 0)) return SUNDER_OK;
-    uint32_t *owner = sunder_i_alloc(s->model.bodies, sizeof *owner);
-    bool *listed = sunder_i_calloc(s->model.bodies, sizeof *listed);
-    if (!owner || !listed) {
-        sunder_i_free(owner);
-        sunder_i_free(listed);
-        return sunder_i_no_memory(err);
-    }
-    for (size_t b = 0; b < s->model.bodies; b++) owner[b] = SUNDER_I_NOBODY;
-    for (size_t k = 0; k < s->groups.n; k++)
-        if (!claim(&s->model, &s->groups.group[k], owner)) s->groups.group[k].bound = 0;
-    void_bounds(s, owner, listed);
-    sunder_i_free(owner);
-    sunder_i_free(listed);
-    for (size_t k = 0; k < s->groups.n; k++) {
-        sunder_i_group *g = &s->groups.group[k];
-        g->cost = cost_of(&s->model, g);
-        summary->clusters_optimal += sunder_i_group_is_optimal(g);
-        sum = nextafter(sum + g->bound, -INFINITY);
-    }
-    if (isfinite(sum)) summary->lower_bound = fmax(summary->lower_bound, sum);
-    return s->model.rules.keep_trees ? take_trees(report, &s->groups, err) : SUNDER_OK;
+    if (!proved && !s->model.rules.keep_trees) return SUNDER_OK;
+    sunder_i_parts parts = {0};
+    sunder_status status = proved ? count_groups(summary, s, err) : SUNDER_OK;
+    if (!status) status = sunder_i_parts_find(&parts, report, s, err);
+    if (!status) summary->lower_bound = fmax(summary->pair_bound, sunder_i_parts_bound(&parts, s->model.bodies));
+    if (!status && s->model.rules.keep_trees) status = keep_trees(report, s, &parts, err);
+    sunder_i_parts_free(&parts);
+    return status;
 }

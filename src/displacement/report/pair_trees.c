@@ -1,26 +1,23 @@
-/* Trees for the bound of pairs, where that is more than contact groups prove, so that a reader has something to check.
+/* Trees for the bound of pairs, of parts of the layer of which it is more than contact groups prove, so that a reader has
+ * something to check.
  *
  * The bound of pairs is sum l d - sum (sum l)^2 / (4 w), by multipliers l (bound.c). A body shares its weight out
  * among its pairs as their multipliers are: w_ij = w l_ij / sum l. Then the least of w_ij |t_i|^2 + w_ji |t_j|^2 over
  * what the pair by itself may do is no less than its part of that sum, l d - l^2 / (4 w_ij) - l^2 / (4 w_ji), by weak
  * duality; and trees of one group add up whose weights of a body are no more than its own. So there is a tree of two
- * bodies for each pair, and all are of one group.
+ * bodies for each pair, and those of a part are one group.
  *
- * What such trees prove is less by what counts as free in them, a share of some 2^-31: that is the bound then. Where
- * they prove much less (a pair that may get one inside the other is nothing to them) all stays as it was. */
+ * What such trees prove is less by what counts as free in them, a share of some 2^-31. A pair that may get one inside the
+ * other is nothing to them. */
 #include "displacement/clusters/stages.h"
 #include "displacement/optimum/tree.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
-#include <math.h>
+#include "base/union_find.h"
 
-static double sum_of(const sunder_bound_tree *tree, size_t n)
-{
-    double sum = 0;
-    for (size_t k = 0; k < n; k++) sum = nextafter(sum + tree[k].bound, -INFINITY);
-    return sum;
-}
+#include <math.h>
+#include <stdlib.h>
 
 /* Bodies of the pair's tree: the two; or the feature's, and all parts of the barrier that a solution no dearer than the
  * least translation could be kept off by. */
@@ -72,54 +69,64 @@ static sunder_status prove(const sunder_i_solver *s, const sunder_bound_pair *pa
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-static bool counts(const sunder_bound_pair *pair) { return pair->multiplier > 0; }
-
-static sunder_status prove_all(sunder_report *report, const sunder_i_solver *s, sunder_bound_tree *tree, size_t *n,
-                               sunder_error *err)
+/* The pair of features, or of a feature and a barrier: the body that moves, or one of the two. */
+static uint32_t mover_of(const sunder_i_model *model, const sunder_bound_pair *pair)
 {
-    double *load = sunder_i_calloc(s->model.bodies, sizeof *load);
-    sunder_i_list body = {0};
-    sunder_status status = load ? SUNDER_OK : sunder_i_no_memory(err);
-    for (size_t k = 0; !status && k < report->bound_pairs; k++) {
+    const uint32_t a = model->body_of[pair->a];
+    return model->body[a].fixed ? model->body_of[pair->b] : a;
+}
+
+/* The pairs of parts whose bound stands on them, part after part: (the part's root, the pair); how many. */
+static size_t list_pairs(const sunder_report *report, const sunder_i_model *model, sunder_i_parts *parts,
+                         sunder_i_id_pair *which)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < report->bound_pairs; k++) {
         const sunder_bound_pair *p = &report->bound_pair[k];
-        if (!counts(p)) continue;
+        const uint32_t mover = mover_of(model, p);
+        if (!(p->multiplier > 0) || !sunder_i_part_is_by_pairs(parts, mover)) continue;
+        which[n++] = (sunder_i_id_pair){sunder_i_union_find(parts->root, mover), (uint32_t)k};
+    }
+    qsort(which, n, sizeof *which, sunder_i_by_id_pair);
+    return n;
+}
+
+static sunder_status prove_all(sunder_report *report, const sunder_i_solver *s, const sunder_i_id_pair *which, size_t n,
+                               double *load, double *sum, sunder_error *err)
+{
+    sunder_i_list body = {0};
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < n; k++) {
+        const sunder_bound_pair *p = &report->bound_pair[which[k].b];
         load[s->model.body_of[p->a]] += p->multiplier;
         load[s->model.body_of[p->b]] += p->multiplier;
     }
-    for (size_t k = 0; !status && k < report->bound_pairs; k++) {
-        if (!counts(&report->bound_pair[k])) continue;
-        status = prove(s, &report->bound_pair[k], load, &body, &tree[*n], err);
-        if (!status && tree[*n].bound > 0)
-            ++*n;
-        else if (!status)
-            sunder_i_bound_tree_free(&tree[*n]);
+    for (size_t k = 0; k < n && !status; k++) {
+        sunder_bound_tree *tree = &report->bound_tree[report->bound_trees];
+        status = prove(s, &report->bound_pair[which[k].b], load, &body, tree, err);
+        if (status) break;
+        tree->group = s->groups.n + which[k].a;
+        if (tree->bound > 0) {
+            *sum = nextafter(*sum + tree->bound, -INFINITY);
+            report->bound_trees++;
+        } else {
+            sunder_i_bound_tree_free(tree);
+        }
     }
-    sunder_i_free(load);
     sunder_i_free(body.item);
     return status;
 }
 
-sunder_status sunder_i_report_pair_trees(sunder_report *report, sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_report_pair_trees(sunder_report *report, sunder_i_solver *s, sunder_i_parts *parts, double *sum,
+                                         sunder_error *err)
 {
-    sunder_layer_summary *summary = &report->summary;
-    /* Trees of blocks prove less than the sum of their bounds: but then the groups prove more than the pairs. */
-    if (!s->model.rules.keep_trees || summary->lower_bound > summary->pair_bound ||
-        sum_of(report->bound_tree, report->bound_trees) == summary->lower_bound)
-        return SUNDER_OK;
-    sunder_bound_tree *tree = sunder_i_calloc(report->bound_pairs, sizeof *tree);
-    size_t n = 0;
-    sunder_status status = tree ? sunder_i_solver_waive(s, err) : sunder_i_no_memory(err);
-    if (!status) status = prove_all(report, s, tree, &n, err);
-    const double sum = sum_of(tree, n);
-    if (!status && sum >= summary->lower_bound * (1 - NEARLY_AS_MUCH)) {
-        for (size_t k = 0; k < report->bound_trees; k++) sunder_i_bound_tree_free(&report->bound_tree[k]);
-        sunder_i_free(report->bound_tree);
-        report->bound_tree = tree;
-        report->bound_trees = n;
-        summary->lower_bound = fmin(summary->lower_bound, sum);
-        return SUNDER_OK;
-    }
-    for (size_t k = 0; k < n; k++) sunder_i_bound_tree_free(&tree[k]);
-    sunder_i_free(tree);
+    sunder_i_id_pair *which = sunder_i_alloc(report->bound_pairs, sizeof *which);
+    double *load = sunder_i_calloc(s->model.bodies, sizeof *load);
+    sunder_status status = which && load ? SUNDER_OK : sunder_i_no_memory(err);
+    const size_t n = status ? 0 : list_pairs(report, &s->model, parts, which);
+    if (!status && n) status = sunder_i_solver_waive(s, err);
+    if (!status && n) status = prove_all(report, s, which, n, load, sum, err);
+    sunder_i_free(which);
+    sunder_i_free(load);
     return status;
 }

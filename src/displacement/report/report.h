@@ -68,18 +68,44 @@ sunder_status sunder_i_count_thin_overlaps(const sunder_i_model *model, const su
  * get none. */
 sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, double *bound,
                              sunder_error *err);
+/* What they prove of each part of the layer: value[], [bodies] and 0, at its root in the union-find root[]. What is fixed
+ * is of no part. False if memory is out. */
+bool sunder_i_bound_parts(const sunder_i_model *model, const sunder_bound_pair *pairs, size_t n, uint32_t *root,
+                          double *value);
 /* Fills the report's pairs for the lower bound, and the bound. */
 sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
 
+/* ---- parts.c ------------------------------------------------------------------------------------------------------ */
+
+/* The layer in parts that have nothing to do with each other: bodies that hang together by pairs that a bound stands
+ * on, or by a contact group of which something is proved. So what stands elsewhere has no say in which of the two
+ * proves more. What is fixed holds none together. */
+typedef struct sunder_i_parts {
+    uint32_t *root;    /* [bodies] union-find */
+    double *by_pairs;  /* [bodies] what the pairs prove of the part; at its root */
+    double *by_groups; /* [bodies] what its groups prove, added up */
+} sunder_i_parts;
+
+/* Failure leaves what sunder_i_parts_free() takes. */
+sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *report, const sunder_i_solver *solver,
+                                  sunder_error *err);
+void sunder_i_parts_free(sunder_i_parts *parts);
+/* Do its pairs prove more than its groups? */
+bool sunder_i_part_is_by_pairs(const sunder_i_parts *parts, uint32_t body);
+/* The sum of the better bounds; downwards. */
+double sunder_i_parts_bound(const sunder_i_parts *parts, size_t bodies);
+
 /* ---- optimality.c ------------------------------------------------------------------------------------------------ */
 
-/* Contact groups, those of them that are optimal, and what is proved of them added to the bound. */
+/* Contact groups, those of them that are optimal, and the bound: of each part of the layer what its pairs prove, or its
+ * groups, whichever is more; with the trees, where these are kept. */
 sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver *solver, sunder_error *err);
 
 /* ---- pair_trees.c ------------------------------------------------------------------------------------------------ */
 
-/* Where pairs prove more than contact groups, and trees are kept: trees for them instead. */
-sunder_status sunder_i_report_pair_trees(sunder_report *report, sunder_i_solver *solver, sunder_error *err);
+/* Adds trees for the pairs of those parts of which they prove more than groups do. *sum: what these trees prove. */
+sunder_status sunder_i_report_pair_trees(sunder_report *report, sunder_i_solver *solver, sunder_i_parts *parts,
+                                         double *sum, sunder_error *err);
 
 /* ---- pushes.c ---------------------------------------------------------------------------------------------------- */
 

@@ -1,0 +1,78 @@
+/* Which parts of the layer have nothing to do with each other, and what is proved of each. */
+#include "displacement/report/report.h"
+
+#include "base/union_find.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool moves(const sunder_i_model *model, uint32_t body) { return !model->body[body].fixed; }
+
+/* All bodies of the group that may move, guests among them; returns the first, or SUNDER_I_NOBODY. */
+static uint32_t join_group(const sunder_i_model *model, const sunder_i_group *g, uint32_t *root)
+{
+    uint32_t first = SUNDER_I_NOBODY;
+    for (size_t m = 0; m < g->n + g->guests.n; m++) {
+        const uint32_t b = m < g->n ? g->body[m] : g->guests.item[m - g->n];
+        if (!moves(model, b)) continue;
+        if (first == SUNDER_I_NOBODY) first = b;
+        sunder_i_union_join(root, first, b);
+    }
+    return first;
+}
+
+static void join_pairs(const sunder_i_model *model, const sunder_report *report, uint32_t *root)
+{
+    for (size_t k = 0; k < report->bound_pairs; k++) {
+        const sunder_bound_pair *p = &report->bound_pair[k];
+        const uint32_t i = model->body_of[p->a], j = model->body_of[p->b];
+        if (p->multiplier > 0 && moves(model, i) && moves(model, j)) sunder_i_union_join(root, i, j);
+    }
+}
+
+sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *report, const sunder_i_solver *s,
+                                  sunder_error *err)
+{
+    const sunder_i_model *model = &s->model;
+    *parts = (sunder_i_parts){.root = sunder_i_alloc(model->bodies, sizeof *parts->root),
+                              .by_pairs = sunder_i_calloc(model->bodies, sizeof *parts->by_pairs),
+                              .by_groups = sunder_i_calloc(model->bodies, sizeof *parts->by_groups)};
+    if (!parts->root || !parts->by_pairs || !parts->by_groups) return sunder_i_no_memory(err);
+    sunder_i_union_init(parts->root, model->bodies);
+    join_pairs(model, report, parts->root);
+    for (size_t k = 0; k < s->groups.n; k++)
+        if (s->groups.group[k].bound > 0) join_group(model, &s->groups.group[k], parts->root);
+    for (size_t k = 0; k < s->groups.n; k++) {
+        const sunder_i_group *g = &s->groups.group[k];
+        if (!(g->bound > 0)) continue;
+        double *sum = &parts->by_groups[sunder_i_union_find(parts->root, g->number)];
+        *sum = *sum > 0 ? nextafter(*sum + g->bound, -INFINITY) : g->bound;
+    }
+    return sunder_i_bound_parts(model, report->bound_pair, report->bound_pairs, parts->root, parts->by_pairs)
+               ? SUNDER_OK
+               : sunder_i_no_memory(err);
+}
+
+void sunder_i_parts_free(sunder_i_parts *parts)
+{
+    sunder_i_free(parts->root);
+    sunder_i_free(parts->by_pairs);
+    sunder_i_free(parts->by_groups);
+    memset(parts, 0, sizeof *parts);
+}
+
+bool sunder_i_part_is_by_pairs(const sunder_i_parts *parts, uint32_t body)
+{
+    const uint32_t at = sunder_i_union_find(parts->root, body);
+    return parts->by_pairs[at] > parts->by_groups[at];
+}
+
+double sunder_i_parts_bound(const sunder_i_parts *parts, size_t bodies)
+{
+    double sum = 0;
+    for (size_t b = 0; b < bodies; b++) {
+        const double most = fmax(parts->by_pairs[b], parts->by_groups[b]);
+        if (most > 0) sum = nextafter(sum + most, -INFINITY);
+    }
+    return isfinite(sum) ? sum : 0;
+}
