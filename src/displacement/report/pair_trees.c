@@ -1,5 +1,5 @@
-/* Trees for the bound of pairs, of parts of the layer of which it is more than contact groups prove, so that a reader has
- * something to check.
+/* Trees for the bound of pairs, of parts of the layer of which it is more than contact groups prove, so that a reader
+ * has something to check.
  *
  * The bound of pairs is sum l d - sum (sum l)^2 / (4 w), by multipliers l (bound.c). A body shares its weight out
  * among its pairs as their multipliers are: w_ij = w l_ij / sum l. Then the least of w_ij |t_i|^2 + w_ji |t_j|^2 over
@@ -7,8 +7,8 @@
  * duality; and trees of one group add up whose weights of a body are no more than its own. So there is a tree of two
  * bodies for each pair, and those of a part are one group.
  *
- * What such trees prove is less by what counts as free in them, a share of some 2^-31. A pair that may get one inside the
- * other is nothing to them. */
+ * What such trees prove is less by what counts as free in them, a share of some 2^-31. A pair that may get one inside
+ * the other is nothing to them. */
 #include "displacement/clusters/stages.h"
 #include "displacement/optimum/tree.h"
 #include "displacement/report/report.h"

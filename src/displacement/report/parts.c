@@ -8,8 +8,8 @@
 
 static bool moves(const sunder_i_model *model, uint32_t body) { return !model->body[body].fixed; }
 
-/* All bodies of the group that may move, guests among them; returns the first, or SUNDER_I_NOBODY. */
-static uint32_t join_group(const sunder_i_model *model, const sunder_i_group *g, uint32_t *root)
+/* All bodies of the group that may move, guests among them. */
+static void join_group(const sunder_i_model *model, const sunder_i_group *g, uint32_t *root)
 {
     uint32_t first = SUNDER_I_NOBODY;
     for (size_t m = 0; m < g->n + g->guests.n; m++) {
@@ -18,7 +18,6 @@ static uint32_t join_group(const sunder_i_model *model, const sunder_i_group *g,
         if (first == SUNDER_I_NOBODY) first = b;
         sunder_i_union_join(root, first, b);
     }
-    return first;
 }
 
 static void join_pairs(const sunder_i_model *model, const sunder_report *report, uint32_t *root)

@@ -68,14 +68,14 @@ sunder_status sunder_i_count_thin_overlaps(const sunder_i_model *model, const su
  * get none. */
 sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, double *bound,
                              sunder_error *err);
-/* What they prove of each part of the layer: value[], [bodies] and 0, at its root in the union-find root[]. What is fixed
- * is of no part. False if memory is out. */
+/* What they prove of each part of the layer: value[], [bodies] and 0, at its root in the union-find root[]. What is
+ * fixed is of no part. False if memory is out. */
 bool sunder_i_bound_parts(const sunder_i_model *model, const sunder_bound_pair *pairs, size_t n, uint32_t *root,
                           double *value);
 /* Fills the report's pairs for the lower bound, and the bound. */
 sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
 
-/* ---- parts.c ------------------------------------------------------------------------------------------------------ */
+/* ---- parts.c ----------------------------------------------------------------------------------------------------- */
 
 /* The layer in parts that have nothing to do with each other: bodies that hang together by pairs that a bound stands
  * on, or by a contact group of which something is proved. So what stands elsewhere has no say in which of the two
