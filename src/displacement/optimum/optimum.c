@@ -130,11 +130,13 @@ static bool blocks_are_dear(const sunder_i_tree *tree, uint64_t steps)
 }
 
 /* The tree of a large group that has taken `taken` of the steps: how many it may take in all, which is no more where it
- * promises nothing. */
+ * promises nothing. At a higher effort it takes no fewer than at effort 1. */
 static uint64_t steps_of_large(const sunder_i_tree *tree, uint64_t taken, uint64_t steps)
 {
     const double share = taken ? sunder_i_tree_bound(tree) / tree->task.goal : 0;
+    const uint64_t once = (uint64_t)((double)steps / fmax(tree->task.model->rules.effort, 1));
     if (taken == 0) return steps / TREE_FIRST;
+    if (taken < once && blocks_are_dear(tree, once)) return once;
     if (share >= TREE_WHOLE_SHARE || blocks_are_dear(tree, steps)) return steps;
     return share >= TREE_SECOND_SHARE ? steps / TREE_SECOND : 0;
 }
