@@ -157,7 +157,7 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
         sunder_i_decision_clear(&decision);
         q->coarse = m->fine ? 0 : COARSE;
         q->slack = m->slack;
-        q->no_plane = m->no_plane || q->effort <= FIRST_EFFORT; /* what is easy needs no look at all there is */
+        q->no_plane = m->no_plane;
         status = sunder_i_decide(q, &decision, err);
         m->no_plane = m->no_plane || (!q->no_plane && decision.no_plane);
     } while (!status && decision.verdict == SUNDER_I_FEASIBLE && ask_closer(q, m));
