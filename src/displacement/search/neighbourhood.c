@@ -176,6 +176,18 @@ static bool open_part(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t 
     return false;
 }
 
+/* Ends the part. Where its search is done, all are put where it went, if nothing is in the way there; else back. */
+static bool end_where_it_went(sunder_i_neighbourhood *v, sunder_i_search *part, bool done)
+{
+    if (done && !part->failed) {
+        put(v, part->t);
+        done = is_free(v);
+        if (!done) put(v, v->t);
+    }
+    end(v, part);
+    return done && !v->all->failed;
+}
+
 bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach)
 {
     sunder_i_search part;
@@ -185,13 +197,7 @@ bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *v, uint32_t i, uint32
         part.patience += PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
         done = sunder_i_search_descend(&part);
     }
-    if (done && !part.failed) {
-        put(v, part.t);
-        done = is_free(v);
-        if (!done) put(v, v->t);
-    }
-    end(v, &part);
-    return done && !v->all->failed;
+    return end_where_it_went(v, &part, done);
 }
 
 bool sunder_i_neighbourhood_make_good(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach)
@@ -199,14 +205,8 @@ bool sunder_i_neighbourhood_make_good(sunder_i_neighbourhood *v, uint32_t i, uin
     sunder_i_search part;
     if (!open_part(v, i, j, most, reach, &part)) return false;
     part.patience *= MENDING_TIMES;
-    bool done = v->moving > 0 && sunder_i_search_make_good(&part);
-    if (done && !part.failed) {
-        put(v, part.t);
-        done = is_free(v);
-        if (!done) put(v, v->t);
-    }
-    end(v, &part);
-    return done && !v->all->failed;
+    const bool done = v->moving > 0 && sunder_i_search_make_good(&part);
+    return end_where_it_went(v, &part, done);
 }
 
 /* What those that move cost, standing at t, a place for each of v->place, less what they cost at `best`, one for
