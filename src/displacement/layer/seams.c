@@ -1,7 +1,7 @@
 /* What a feature's convex pieces leave out: the diagonals between them.
  *
- * A segment or a point that features only may not meet has nothing beside it, and would hide on a diagonal. An anchor
- * is a point, too:
+ * A barrier's segment or point that features may touch, but not meet, has no width: on a diagonal it would lie between
+ * the pieces, and meet neither. So it is with an anchor, which is a point, too:
  *
  * An anchor that goes straight along a diagonal, or through a corner where two pieces end, runs between the shadows of
  * the pieces (obstacles/shadow.h), on the boundary of both. The feature is in its way all the same. So proofs, which
