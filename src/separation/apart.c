@@ -51,6 +51,13 @@ static bool exactly_near(sunder_i_operands *g, uint32_t i, uint32_t j, int64_t g
                                          gap) < 0;
 }
 
+static bool exactly_touch(sunder_i_operands *g, uint32_t i, uint32_t j)
+{
+    const uint32_t in = g->shape[0]->next[i], jn = g->shape[1]->next[j];
+    return sunder_i_segments_meet(&g->placed.lattice, g->at[0][i], g->at[0][in], g->at[1][j], g->at[1][jn]) !=
+           SUNDER_I_APART;
+}
+
 /* Is any edge of P nearer than the gap to one of Q? Without `gap` (on the lattice) in doubles, and perhaps in doubt. */
 static nearness any_near(sunder_i_operands *g, double units, const int64_t *gap)
 {
@@ -75,6 +82,19 @@ static nearness roughly_near(sunder_i_operands *g, double length)
 {
     const double units = length / g->unit;
     return units >= 0 && units < 0x1p500 && (units > 0 || length == 0) ? any_near(g, units, NULL) : IN_DOUBT;
+}
+
+/* The interiors are disjoint: has an edge of P a point in common with one of Q? */
+static nearness any_touch(sunder_i_operands *g)
+{
+    uint32_t m, n;
+    const double reach = 16 * g->error;
+    const uint32_t *p = edges_near(g, 0, reach, &m), *q = edges_near(g, 1, reach, &n);
+    if (!p || !q) return IN_DOUBT;
+    for (uint32_t i = 0; i < m; i++)
+        for (uint32_t j = 0; j < n; j++)
+            if (edges_near_each_other(g, p[i], q[j], 0) != FAR && exactly_touch(g, p[i], q[j])) return NEAR;
+    return FAR;
 }
 
 /* With the gap on the lattice, which may have to be a finer one for it. */
@@ -134,7 +154,8 @@ sunder_status sunder_i_meet(const sunder_shape *p, const double tp[2], const sun
     nearness at_gap = FAR, at_tolerance = FAR;
     out->overlap = !sunder_i_boxes_apart(p, tp, q, tq, 0) && sunder_i_operands_overlap(&g);
     if (!out->overlap && gap > 0) at_gap = roughly_near(&g, gap);
-    if (!out->overlap && (at_gap != FAR || !(gap > tolerance))) at_tolerance = roughly_near(&g, tolerance);
+    if (!out->overlap && (at_gap != FAR || !(gap > tolerance)))
+        at_tolerance = tolerance > 0 ? roughly_near(&g, tolerance) : any_touch(&g);
     status = sunder_i_operands_end(&g, err);
     if (status || out->overlap) return status;
     out->touch = at_tolerance == NEAR;

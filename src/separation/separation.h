@@ -17,7 +17,8 @@ sunder_status sunder_i_overlap(const sunder_shape *p, const double tp[2], const 
 sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                              double gap, bool *apart, sunder_error *err);
 /* Both at once, and do they touch: is their distance, as the nearest double, at most the tolerance? What doubles do not
- * tell of that stays open: may_touch without touch. Where interiors meet nothing more is said. */
+ * tell of that stays open: may_touch without touch; but for the tolerance 0, which is decided. Where interiors meet
+ * nothing more is said. */
 typedef struct sunder_i_encounter {
     bool overlap, apart, touch, may_touch;
 } sunder_i_encounter;

@@ -84,6 +84,7 @@ static void check_meeting(const polyset *p, const polyset *q, const sunder_shape
             if (m.apart != apart) complain("apart, asked at once", p, q);
             if (m.touch && d > tolerance) complain("no touch", p, q);
             if (gap > 0 && apart ? m.touch : !m.may_touch && d <= tolerance) complain("a touch", p, q);
+            if (tolerance == 0 && m.may_touch != m.touch) complain("a touch in doubt", p, q);
         }
 }
 
