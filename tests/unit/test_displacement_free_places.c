@@ -140,8 +140,28 @@ static void test_crowds(void **state)
     }
 }
 
+/* Round corners: as fine as the gap is wide; where it is next to nothing beside the obstacle two tangents will do. */
+static void test_corners(void **state)
+{
+    (void)state;
+    const double square[] = {0, 0, 8, 0, 8, 8, 0, 8}, needle[] = {0, 0, 8, 0, 8, 1e-3};
+    sunder_i_obstacles o = {0};
+    sunder_i_obstacles_add(&o, square, 4, 1);
+    sunder_i_obstacles_add(&o, square, 4, 1e-9);
+    sunder_i_obstacles_add(&o, needle, 3, 1e-9);
+    assert_false(o.failed);
+    assert_int_equal(o.obstacle[0].walls, 16);
+    assert_int_equal(o.obstacle[1].walls, 4);
+    assert_int_equal(o.obstacle[2].walls, 4);
+    for (int k = 0; k < 2; k++) {
+        assert_true(o.obstacle[2].box[k] > -2e-9 && o.obstacle[2].box[k] <= -1e-9);
+        assert_true(o.obstacle[2].box[k + 2] < (k ? 1e-3 : 8) + 2e-9);
+    }
+    sunder_i_obstacles_free(&o);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_crowds)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_crowds), cmocka_unit_test(test_corners)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

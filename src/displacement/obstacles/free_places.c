@@ -56,12 +56,32 @@ static void add_normal(sunder_i_obstacles *o, const double n[2], const double c[
     w->obstacle = (uint32_t)o->n;
 }
 
-/* The normals between those of two edges that meet in c. */
-static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2], const double c[2], double gap)
+/* By how much normals may turn at a round corner, and the cosine of that. */
+typedef struct roundness {
+    double turn, cosine;
+} roundness;
+
+/* Where the gap is next to nothing beside the polygon (the margin of a
+ * search whose gap is 0, all shadows) so is what a corner holds too much. */
+static roundness find_roundness(const double *d, size_t n, double gap)
 {
-    const double turn = atan2(n[0] * m[1] - n[1] * m[0], n[0] * m[0] + n[1] * m[1]);
+    double box[4];
+    sunder_i_box_clear(box);
+    for (size_t k = 0; k < n; k++) sunder_i_box_include(box, d + 2 * k);
+    const bool next_to_nothing = gap < NEXT_TO_NOTHING * (box[2] - box[0] + box[3] - box[1]);
+    const double turn = next_to_nothing ? CORNER_TURN_AT_MOST : CORNER_TURN;
+    return (roundness){turn, cos(turn)};
+}
+
+/* The normals between those of two edges that meet in c. */
+static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2], const double c[2], double gap,
+                      const roundness *most)
+{
+    const double sine = n[0] * m[1] - n[1] * m[0], cosine = n[0] * m[0] + n[1] * m[1];
+    if (sine >= 0 && cosine > most->cosine) return;
+    const double turn = atan2(sine, cosine);
     const double angle = turn < -FLAT ? turn + 2 * PI : turn; /* a flat piece turns by half a circle */
-    const int steps = (int)ceil(angle / CORNER_TURN);
+    const int steps = (int)ceil(angle / most->turn);
     for (int k = 1; k < steps; k++) {
         const double a = angle * k / steps, t[2] = {n[0] * cos(a) - n[1] * sin(a), n[0] * sin(a) + n[1] * cos(a)};
         add_normal(o, t, c, gap);
@@ -96,13 +116,14 @@ void sunder_i_obstacles_add(sunder_i_obstacles *o, const double *d, size_t n, do
     }
     double before[2] = {0, 0}, first_normal[2] = {0, 0};
     const double *first_corner = d;
+    const roundness most = find_roundness(d, n, gap);
     bool any = false;
     for (size_t k = 0; k < n; k++) {
         const double *p = d + 2 * k, *q = d + 2 * (k + 1 < n ? k + 1 : 0);
         const double ex = q[0] - p[0], ey = q[1] - p[1], length = sqrt(ex * ex + ey * ey);
         if (!(length > 0)) continue;
         const double m[2] = {ey / length, -ex / length};
-        if (any && gap > 0) add_round(o, before, m, p, gap);
+        if (any && gap > 0) add_round(o, before, m, p, gap, &most);
         add_normal(o, m, p, gap);
         if (!any) {
             memcpy(first_normal, m, sizeof m);
@@ -111,7 +132,7 @@ void sunder_i_obstacles_add(sunder_i_obstacles *o, const double *d, size_t n, do
         memcpy(before, m, sizeof m);
         any = true;
     }
-    if (any && gap > 0) add_round(o, before, first_normal, first_corner, gap);
+    if (any && gap > 0) add_round(o, before, first_normal, first_corner, gap, &most);
     if (o->failed) return;
     if (o->walls - first < 3) {
         o->walls = first; /* no area, no gap: no obstacle */

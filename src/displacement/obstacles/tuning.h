@@ -8,6 +8,10 @@
 /* Round corners are cut by tangents so that normals turn by no more than this: the place proposed keeps at most 2 %
  * more than the gap. */
 #define CORNER_TURN (PI / 8)
+/* A gap below this share of the obstacle needs no more than two tangents at a corner: a place then keeps half of the
+ * gap too much, which nobody sees. */
+#define NEXT_TO_NOTHING 1e-6
+#define CORNER_TURN_AT_MOST (PI / 2 + FLAT)
 /* A turn to the right by no more than this is none: rounding of normals, where two sides lie on one line. */
 #define FLAT 1e-3
 /* Crossings are looked for among at most this many sides, the nearest to the target: it bounds the work where a block
