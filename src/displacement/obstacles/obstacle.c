@@ -41,27 +41,29 @@ static size_t edge_at(const double *p, size_t n, size_t k, double sign, double o
     return next;
 }
 
+/* Each corner is the difference of two, whichever edges led there: added up edge by edge the last one would miss the
+ * first by what rounding added up to, and the edge between the two, of no length to speak of, would look anywhere. */
 size_t sunder_i_obstacle_corners(const double *a, size_t na, const double *b, size_t nb, const double offset[2],
                                  sunder_i_scratch *scratch)
 {
     double *d = sunder_i_scratch_reserve(scratch, na + nb);
     if (!d) return 0;
     size_t i = sunder_i_extreme_corner(a, na, 1), j = sunder_i_extreme_corner(b, nb, -1), n = 0;
-    double x = a[2 * i] - b[2 * j] - offset[0], y = a[2 * i + 1] - b[2 * j + 1] - offset[1], u[2], v[2];
-    i = edge_at(a, na, i, 1, u);
-    j = edge_at(b, nb, j, -1, v);
+    double u[2], v[2];
+    size_t next_i = edge_at(a, na, i, 1, u), next_j = edge_at(b, nb, j, -1, v);
     /* Both start at the lowest corner, so both sequences of edges turn from direction 0 to 2 pi, and merge by
      * turning. */
     sunder_i_merge m = sunder_i_merge_of((uint32_t)na, (uint32_t)nb);
     while (SUNDER_I_MERGE_NEXT(&m, sunder_i_turns_first(u, v) ? -1 : 1)) {
-        d[2 * n] = x;
-        d[2 * n++ + 1] = y;
-        x += m.of_a ? u[0] : v[0];
-        y += m.of_a ? u[1] : v[1];
-        if (m.of_a)
-            i = edge_at(a, na, i, 1, u);
-        else
-            j = edge_at(b, nb, j, -1, v);
+        d[2 * n] = a[2 * i] - b[2 * j] - offset[0];
+        d[2 * n++ + 1] = a[2 * i + 1] - b[2 * j + 1] - offset[1];
+        if (m.of_a) {
+            i = next_i;
+            next_i = edge_at(a, na, i, 1, u);
+        } else {
+            j = next_j;
+            next_j = edge_at(b, nb, j, -1, v);
+        }
     }
     return n;
 }
