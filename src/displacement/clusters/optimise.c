@@ -153,7 +153,8 @@ static void place(taking *t, size_t k, bool back)
     for (size_t m = 0; m < g->n; m++) {
         const uint32_t b = g->body[m];
         if (!back) memcpy(t->before + 2 * (size_t)b, t->solver->model.move + 2 * (size_t)b, 2 * sizeof *t->before);
-        if (!back) t->by[b] = (uint32_t)k;
+        /* What stands does not go, and may be of several groups. */
+        if (!back && !t->solver->model.body[b].fixed) t->by[b] = (uint32_t)k;
         sunder_i_solver_place(t->solver, b, back ? t->before + 2 * (size_t)b : g->move + 2 * m);
     }
 }
