@@ -232,6 +232,47 @@ static void test_small_move_beside_what_is_long(void **state)
     scene_end(&s);
 }
 
+/* Half a unit each leaves the box in the slot, and half a unit from a line that nobody was in contact with. */
+static void test_slot_beside_a_stranger(void **state)
+{
+    (void)state;
+    const double line[] = {12, 14, 8, 14}, width[] = {0};
+    const double *const xy[] = {line};
+    const size_t points[] = {2};
+    scene s;
+    scene_begin(&s, 0);
+    s.options.no_blocks = true;
+    s.options.contained = SUNDER_CONTAINMENT_SEPARATE;
+    scene_add(&s, "POLYGON((1 8,9 8,9 12,8 12,8 9,2 9,2 12,1 12,1 8))");
+    scene_add_box(&s, 1, 8, 6, 8);
+    separate_beside(&s, xy, points, width, 0.5, 1);
+    check_optimum(&s, 1);
+    scene_end(&s);
+}
+
+/* A triangle in a U is drawn away from a line, and the U back within its limit, in turn: the two meet at so narrow an
+ * angle that this takes long. */
+static void test_limit_beside_a_line(void **state)
+{
+    (void)state;
+    const double line[] = {0.5, 1.75, 1.25, 0.875}, width[] = {0.03125};
+    const double *const xy[] = {line};
+    const size_t points[] = {2};
+    scene s;
+    scene_begin(&s, 0);
+    s.options.no_blocks = true;
+    s.options.allow_jumps = true;
+    s.options.contained = SUNDER_CONTAINMENT_SEPARATE;
+    scene_add(&s, "POLYGON((0.75 0.25,1.75 0.25,1.75 1.125,1.625 1.125,1.625 0.375,0.875 0.375,0.875 1.125,0.75 1.125,"
+                  "0.75 0.25))")
+        ->max_shift = 0.0625;
+    scene_add(&s, "POLYGON((1 0.625,1.75 0.625,1 1.625,1 0.625))")->max_shift = 0.625;
+    scene_add(&s, "POLYGON((1.125 1.125,1.625 1.25,1.75 1.75,1.25 1.625,1.125 1.125))")->max_shift = 0.53125;
+    separate_beside(&s, xy, points, width, -1, 1);
+    check_optimum(&s, 0.10905587915);
+    scene_end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -240,7 +281,8 @@ int main(void)
         cmocka_unit_test(test_slot_far_away),        cmocka_unit_test(test_row_between_walls),
         cmocka_unit_test(test_too_narrow),           cmocka_unit_test(test_lines_hide_on_no_diagonal),
         cmocka_unit_test(test_limit_in_a_row),       cmocka_unit_test(test_small_move_beside_what_is_long),
-        cmocka_unit_test(test_two_groups_that_jump),
+        cmocka_unit_test(test_two_groups_that_jump), cmocka_unit_test(test_slot_beside_a_stranger),
+        cmocka_unit_test(test_limit_beside_a_line),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,9 @@
  * of bodies in different rows still have room, and get their margin: rows are drawn away from them in turn
  * [projections, Kac37]. The rest is for those who ask exactly whether the layout holds.
  *
+ * Nobody of the group need have touched it before: a place without room may be so by what stands outside, a barrier
+ * mostly. So whoever stands within a hair of the place takes part, in rows that stay where they are.
+ *
  *   coordinates without a common step     no place: there, no passage is just as wide as what goes through
  *   a tight passage that lies obliquely   only where the place is on the lattice, too: else no doubles are in it */
 #include "displacement/optimum/contact.h"
@@ -32,20 +35,50 @@ typedef struct meeting {
 typedef struct fitting {
     const sunder_i_model *model;
     const sunder_i_waived *waived;
-    const uint32_t *body;
-    const double *t;
-    size_t n;
-    double step, hair, margin;
-    uint32_t *row; /* [2 * n] of each body's x, and of its y; rows of both axes are numbered together */
-    double *base;  /* [2 * n + 1] the move of the first body of each row */
-    double *ahead; /* [2 * n] whole steps from there */
+    size_t n, all;  /* those that are to be placed; with those outside that stand within a hair, after them */
+    uint32_t *body; /* [all] */
+    double *t;      /* [2 * all] moves, good up to rounding; those outside stand just so */
+    size_t capacity, places;
+    int exponent; /* of the step */
+    double step, size, hair, margin;
+    uint32_t *row; /* [2 * all] of each body's x, and of its y; rows of both axes are numbered together */
+    double *base;  /* [2 * all + 1] the move of the first body of each row */
+    double *ahead; /* [2 * all] whole steps from there */
+    bool *stays;   /* [2 * all + 1] rows with somebody that stands */
     size_t rows;
     sunder_i_contact_list touch; /* of the pair looked at */
     meeting *meeting;
-    size_t meetings, capacity;
-    double *corner; /* scratch */
+    size_t meetings, most_meetings;
+    sunder_i_list near; /* scratch */
+    double *corner;     /* scratch */
     size_t corners;
 } fitting;
+
+static void end_fitting(fitting *f)
+{
+    sunder_i_free(f->body);
+    sunder_i_free(f->t);
+    sunder_i_free(f->row);
+    sunder_i_free(f->base);
+    sunder_i_free(f->ahead);
+    sunder_i_free(f->stays);
+    sunder_i_free(f->touch.item);
+    sunder_i_free(f->meeting);
+    sunder_i_free(f->near.item);
+    sunder_i_free(f->corner);
+}
+
+static bool add_body(fitting *f, uint32_t body, const double t[2])
+{
+    if (!sunder_i_reserve(&f->body, &f->capacity, f->all + 1, sizeof *f->body) ||
+        !sunder_i_reserve(&f->t, &f->places, 2 * f->all + 2, sizeof *f->t))
+        return false;
+    f->body[f->all] = body;
+    memcpy(f->t + 2 * f->all++, t, 2 * sizeof *t);
+    return true;
+}
+
+/* ---- The step ---------------------------------------------------------------------------------------------------- */
 
 static void lower(int *exponent, double v)
 {
@@ -62,27 +95,89 @@ static bool lower_by_piece(fitting *f, const sunder_i_body_piece *piece, int *ex
     return true;
 }
 
-/* The step of all coordinates of the bodies and of what they owe, and a hair beside them; *coarse: there is one. False
- * if memory is out. */
+/* By the coordinates of a body and what it owes; *known: that is a double. False if memory is out. */
+static bool lower_by_body(fitting *f, const sunder_i_body *body, int *exponent, bool *known)
+{
+    const sunder_i_model *model = f->model;
+    const uint32_t thing = model->member[body->member];
+    const double owed = sunder_i_owed_below(model, thing, thing);
+    lower(exponent, owed);
+    *known = owed == sunder_i_owed_above(model, thing, thing);
+    for (uint32_t p = body->piece; *known && p < body->piece + body->pieces; p++)
+        if (!lower_by_piece(f, &model->piece[p], exponent)) return false;
+    return true;
+}
+
+static bool is_coarse(const fitting *f, int exponent) { return ldexp(1, exponent) >= TIGHT_STEP * f->size; }
+
+/* The step of all coordinates of the group's bodies and of what they owe, and a hair beside them; *coarse: there is
+ * one. False if memory is out. */
 static bool find_step(fitting *f, bool *coarse)
 {
-    *coarse = false;
-    const sunder_i_model *model = f->model;
-    int exponent = INT_MAX;
-    double size = 0;
-    for (size_t k = 0; k < f->n; k++) {
-        const sunder_i_body *body = &model->body[f->body[k]];
-        const uint32_t thing = model->member[body->member];
-        lower(&exponent, sunder_i_owed_below(model, thing, thing));
-        if (sunder_i_owed_below(model, thing, thing) != sunder_i_owed_above(model, thing, thing)) return true;
-        for (int c = 0; c < 4; c++) size = fmax(size, fabs(body->box[c]));
-        for (uint32_t p = body->piece; p < body->piece + body->pieces; p++)
-            if (!lower_by_piece(f, &model->piece[p], &exponent)) return false;
+    *coarse = true;
+    f->exponent = INT_MAX;
+    for (size_t k = 0; k < f->n && *coarse; k++) {
+        const sunder_i_body *body = &f->model->body[f->body[k]];
+        for (int c = 0; c < 4; c++) f->size = fmax(f->size, fabs(body->box[c]));
+        if (!lower_by_body(f, body, &f->exponent, coarse)) return false;
     }
-    if (exponent == INT_MAX) return true;
-    f->step = ldexp(1, exponent);
-    f->hair = TIGHT_HAIR * size;
-    *coarse = f->step >= TIGHT_STEP * size;
+    f->hair = TIGHT_HAIR * f->size;
+    *coarse = *coarse && f->exponent < INT_MAX && is_coarse(f, f->exponent);
+    return true;
+}
+
+/* ---- Those outside ----------------------------------------------------------------------------------------------- */
+
+static bool takes_part(const fitting *f, uint32_t body)
+{
+    for (size_t k = 0; k < f->all; k++)
+        if (f->body[k] == body) return true;
+    return false;
+}
+
+/* Bodies that stand in the box of the one at place k of the list, or on its way there, grown by the gap: in f->near,
+ * ascending. False if memory is out. */
+static bool find_near(fitting *f, size_t k)
+{
+    const sunder_i_model *model = f->model;
+    const sunder_i_body *body = &model->body[f->body[k]];
+    const double home[2] = {0, 0}, reach = model->rules.gap + f->hair;
+    double box[4], start[4];
+    f->near.n = 0;
+    sunder_i_body_box(body, f->t + 2 * k, reach, box);
+    sunder_i_body_box(body, home, reach, start);
+    if (sunder_i_forbids_ways(model)) sunder_i_box_join(box, start);
+    if (!sunder_i_rtree_query(model->standing, box, &f->near)) return false;
+    for (size_t m = 0; m < f->near.n; m++) f->near.item[m] = model->body_of[f->near.item[m]];
+    f->near.n = sunder_i_set_make(f->near.item, f->near.n);
+    return true;
+}
+
+/* Takes the body in, where it is touched by the one at place k, and has coordinates in coarse steps too. */
+static bool take_in(fitting *f, size_t k, uint32_t other)
+{
+    const double *stands = f->model->move + 2 * (size_t)other;
+    int exponent = f->exponent;
+    bool known;
+    if (!sunder_i_step() || !sunder_i_contacts_of_pair(f->model, f->waived, f->body[k], other, f->t + 2 * k, stands,
+                                                       f->hair, &f->touch, NULL))
+        return false;
+    if (f->touch.n == 0) return true;
+    if (!lower_by_body(f, &f->model->body[other], &exponent, &known)) return false;
+    if (!known || !is_coarse(f, exponent)) return true;
+    f->exponent = exponent;
+    return add_body(f, other, stands);
+}
+
+/* Whoever else stands within a hair of the place takes part. */
+static bool find_outside(fitting *f)
+{
+    for (size_t k = 0; k < f->n; k++) {
+        if (f->model->body[f->body[k]].fixed) continue;
+        if (!find_near(f, k)) return false;
+        for (size_t m = 0; m < f->near.n && f->all < 2 * MOST_TIGHT; m++)
+            if (!takes_part(f, f->near.item[m]) && !take_in(f, k, f->near.item[m])) return false;
+    }
     return true;
 }
 
@@ -101,26 +196,35 @@ static void line_up(fitting *f, size_t k, size_t row)
     f->ahead[k] = f->step * rint((f->t[k] - f->base[row]) / f->step);
 }
 
-/* Coordinate c of all bodies: at home, or in the row of one before, or the first of a new one. */
+/* Coordinate k is at home, or in a row from `first` on, or the first of a new one. */
+static void find_row(fitting *f, size_t first, size_t k)
+{
+    size_t row = HOME;
+    if (!f->model->body[f->body[k / 2]].fixed && !is_aligned(f, k, 0))
+        for (row = first; row < f->rows && !is_aligned(f, k, f->base[row]); row++) {
+        }
+    if (row == f->rows) {
+        f->stays[row] = k >= 2 * f->n;
+        f->base[f->rows++] = f->t[k];
+    }
+    line_up(f, k, row);
+}
+
+/* Coordinate c of all bodies: of those outside first, whose rows stay. */
 static void find_rows(fitting *f, size_t c)
 {
     const size_t first = f->rows;
-    for (size_t k = c; k < 2 * f->n; k += 2) {
-        size_t row = HOME;
-        if (!f->model->body[f->body[k / 2]].fixed && !is_aligned(f, k, 0))
-            for (row = first; row < f->rows && !is_aligned(f, k, f->base[row]); row++) {
-            }
-        if (row == f->rows) f->base[f->rows++] = f->t[k];
-        line_up(f, k, row);
-    }
+    for (size_t k = 2 * f->n + c; k < 2 * f->all; k += 2) find_row(f, first, k);
+    for (size_t k = c; k < 2 * f->n; k += 2) find_row(f, first, k);
 }
 
 static double place_of(const fitting *f, size_t k) { return f->base[f->row[k]] + f->ahead[k]; }
 
 /* ---- Contacts with room ------------------------------------------------------------------------------------------ */
 
-/* Draws the rows of two bodies away from their contact, if it is theirs to move from. */
-static void draw_away(fitting *f, const meeting *m)
+/* Draws the rows of two bodies away from their contact, if it is theirs to move from. True if half of the margin was
+ * missing. */
+static bool draw_away(fitting *f, const meeting *m)
 {
     const double *n = m->contact.n;
     double missing = m->contact.d + m->contact.off + f->margin, pull = 0, sign[4];
@@ -130,13 +234,14 @@ static void draw_away(fitting *f, const meeting *m)
         row[2 * c] = f->row[2 * m->i + c];
         row[2 * c + 1] = f->row[2 * m->j + c];
         const bool apart = row[2 * c] != row[2 * c + 1];
-        sign[2 * c] = apart && row[2 * c] != HOME ? -n[c] : 0;
-        sign[2 * c + 1] = apart && row[2 * c + 1] != HOME ? n[c] : 0;
+        sign[2 * c] = apart && !f->stays[row[2 * c]] ? -n[c] : 0;
+        sign[2 * c + 1] = apart && !f->stays[row[2 * c + 1]] ? n[c] : 0;
         pull += sign[2 * c] * sign[2 * c] + sign[2 * c + 1] * sign[2 * c + 1];
     }
-    if (missing <= 0 || !(pull > TIGHT_PULL)) return;
+    if (missing <= 0 || !(pull > TIGHT_PULL)) return false;
     for (size_t k = 0; k < 4; k++)
         if (sign[k] != 0) f->base[row[k]] += missing / pull * sign[k];
+    return missing > f->margin / 2;
 }
 
 /* Brings a body back within its limit, by the rows that may move. Where one coordinate uses all of the limit up, what
@@ -145,7 +250,7 @@ static void draw_within(fitting *f, size_t k)
 {
     const double limit = sunder_i_limit_of(&f->model->body[f->body[k]]),
                  t[2] = {place_of(f, 2 * k), place_of(f, 2 * k + 1)};
-    const bool free[2] = {f->row[2 * k] != HOME, f->row[2 * k + 1] != HOME};
+    const bool free[2] = {!f->stays[f->row[2 * k]], !f->stays[f->row[2 * k + 1]]};
     if (sunder_i_is_within_limit(t, limit)) return;
     const double length = hypot(t[0], t[1]) * (1 + 0x1p-50);
     for (int c = 0; c < 2; c++) {
@@ -162,7 +267,7 @@ static bool find_meetings(fitting *f, size_t i, size_t j)
     if (body[f->body[i]].fixed && body[f->body[j]].fixed) return true;
     if (!sunder_i_contacts_of_pair(f->model, f->waived, f->body[i], f->body[j], f->t + 2 * i, f->t + 2 * j, f->hair,
                                    &f->touch, NULL) ||
-        !sunder_i_reserve(&f->meeting, &f->capacity, f->meetings + f->touch.n, sizeof *f->meeting))
+        !sunder_i_reserve(&f->meeting, &f->most_meetings, f->meetings + f->touch.n, sizeof *f->meeting))
         return false;
     for (size_t k = 0; k < f->touch.n; k++) f->meeting[f->meetings++] = (meeting){i, j, f->touch.item[k]};
     return true;
@@ -171,10 +276,12 @@ static bool find_meetings(fitting *f, size_t i, size_t j)
 static bool draw_apart(fitting *f)
 {
     for (size_t i = 0; i < f->n; i++)
-        for (size_t j = i + 1; j < f->n; j++)
+        for (size_t j = i + 1; j < f->all; j++)
             if (!sunder_i_step() || !find_meetings(f, i, j)) return false;
-    for (int turn = 0; turn < TIGHT_TURNS; turn++) {
-        for (size_t k = 0; k < f->meetings; k++) draw_away(f, &f->meeting[k]);
+    bool again = true;
+    for (int turn = 0; turn < TIGHT_TURNS && again; turn++) {
+        again = false;
+        for (size_t k = 0; k < f->meetings; k++) again = draw_away(f, &f->meeting[k]) || again;
         for (size_t k = 0; k < f->n; k++)
             if (!f->model->body[f->body[k]].fixed) draw_within(f, k);
     }
@@ -193,7 +300,7 @@ static bool step_back(fitting *f, double unit)
         const double t[2] = {place_of(f, k), place_of(f, k + 1)};
         if (body->fixed || sunder_i_is_within_limit(t, sunder_i_limit_of(body))) continue;
         for (size_t c = 0; c < 2; c++) {
-            if (f->row[k + c] == HOME || t[c] == 0) continue;
+            if (f->stays[f->row[k + c]] || t[c] == 0) continue;
             f->base[f->row[k + c]] -= copysign(unit, t[c]);
             any = true;
         }
@@ -209,8 +316,9 @@ static void round_rows(fitting *f)
         sunder_i_round_move(f->model, f->body[k], f->t + 2 * k, out, &unit);
         coarsest = fmax(coarsest, unit);
     }
-    for (size_t row = 1; row < f->rows && coarsest > 0; row++) f->base[row] = coarsest * rint(f->base[row] / coarsest);
-    for (int turn = 0; turn < TIGHT_TURNS && step_back(f, coarsest); turn++) {
+    for (size_t row = 0; row < f->rows && coarsest > 0; row++)
+        if (!f->stays[row]) f->base[row] = coarsest * rint(f->base[row] / coarsest);
+    for (int turn = 0; turn < TIGHT_STEPS_BACK && step_back(f, coarsest); turn++) {
     }
 }
 
@@ -230,35 +338,42 @@ static bool take_places(const fitting *f, double *move)
     return true;
 }
 
+static bool fit(fitting *f, double *move, bool *found)
+{
+    const size_t all = f->all;
+    double *to = sunder_i_alloc(2 * f->n, sizeof *to);
+    f->step = ldexp(1, f->exponent);
+    f->row = sunder_i_alloc(2 * all, sizeof *f->row);
+    f->base = sunder_i_calloc(2 * all + 1, sizeof *f->base);
+    f->ahead = sunder_i_alloc(2 * all, sizeof *f->ahead);
+    f->stays = sunder_i_calloc(2 * all + 1, sizeof *f->stays);
+    bool ok = to && f->row && f->base && f->ahead && f->stays;
+    if (ok) {
+        f->rows = 1;
+        f->stays[HOME] = true;
+        for (size_t c = 0; c < 2; c++) find_rows(f, c);
+        ok = draw_apart(f);
+    }
+    if (ok) {
+        round_rows(f);
+        *found = take_places(f, to);
+        memcpy(move, to, 2 * f->n * sizeof *move);
+    }
+    sunder_i_free(to);
+    return ok;
+}
+
 bool sunder_i_tight_place(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *body, size_t n,
                           double margin, double *move, bool *found)
 {
-    fitting f = {.model = model, .waived = waived, .body = body, .t = move, .n = n, .margin = margin, .rows = 1};
+    fitting f = {.model = model, .waived = waived, .margin = margin};
+    bool ok = true, coarse;
     *found = false;
     if (n > MOST_TIGHT) return true;
-    bool coarse;
-    const bool known = find_step(&f, &coarse);
-    sunder_i_free(f.corner);
-    if (!known || !coarse) return known;
-    double *to = sunder_i_alloc(2 * n, sizeof *to);
-    f.row = sunder_i_alloc(2 * n, sizeof *f.row);
-    f.base = sunder_i_calloc(2 * n + 1, sizeof *f.base);
-    f.ahead = sunder_i_alloc(2 * n, sizeof *f.ahead);
-    bool ok = to && f.row && f.base && f.ahead;
-    if (ok) {
-        for (size_t c = 0; c < 2; c++) find_rows(&f, c);
-        ok = draw_apart(&f);
-    }
-    if (ok) {
-        round_rows(&f);
-        *found = take_places(&f, to);
-        memcpy(move, to, 2 * n * sizeof *move);
-    }
-    sunder_i_free(to);
-    sunder_i_free(f.row);
-    sunder_i_free(f.base);
-    sunder_i_free(f.ahead);
-    sunder_i_free(f.touch.item);
-    sunder_i_free(f.meeting);
+    for (size_t k = 0; k < n && ok; k++) ok = add_body(&f, body[k], move + 2 * k);
+    f.n = n;
+    ok = ok && find_step(&f, &coarse);
+    if (ok && coarse) ok = find_outside(&f) && fit(&f, move, found);
+    end_fitting(&f);
     return ok;
 }

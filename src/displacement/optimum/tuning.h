@@ -53,15 +53,17 @@
 
 /* ---- Places with no room to spare (tight_place.c) ---------------------------------------------------------------- */
 
-/* Of so many bodies at most. What lies on a lattice does so up to this share of the bodies' size; and no lattice is
+/* Of so many bodies at most, and as many outside. What lies on a lattice does so up to this share of the bodies' size; and no lattice is
  * looked at whose step is less than this share. */
 #define MOST_TIGHT 24
 #define TIGHT_HAIR 0x1p-26
 #define TIGHT_STEP 0x1p-18
 /* Where there is room, so many margins are left. */
 #define TIGHT_MARGIN 4
-/* Rows are drawn away from their contacts so often; not from one along which they hardly move. */
-#define TIGHT_TURNS 16
+/* Rows are drawn away from their contacts so often at most (where two meet at a narrow angle it takes many turns), and
+ * brought back by a unit so often; not from a contact along which they hardly move. */
+#define TIGHT_TURNS 1000
+#define TIGHT_STEPS_BACK 16
 #define TIGHT_PULL 0x1p-20
 
 /* ---- Large groups (contact_forces.c, blocks.c) ------------------------------------------------------------------- */
