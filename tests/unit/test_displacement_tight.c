@@ -85,15 +85,9 @@ static void test_too_narrow(void **state)
     scene_end(&s);
 }
 
-/* Beside lines, each of some width, without sides; gap: of lines, negative: the layer's. */
-static void separate_beside(scene *s, const double *const *xy, const size_t *points, const double *width, double gap,
-                            size_t n)
+static void separate_beside_all(scene *s, const sunder_barrier *barrier, size_t n)
 {
-    sunder_barrier barrier[4];
     sunder_layer *layer = NULL;
-    assert_true(n <= 4);
-    for (size_t k = 0; k < n; k++)
-        barrier[k] = (sunder_barrier){{.xy = xy[k], .line_end = &points[k], .lines = 1}, width[k], gap, false};
     sunder_report_free(s->report);
     s->report = NULL;
     assert_int_equal(sunder_layer_new(s->feature, s->n, &layer, NULL), SUNDER_OK);
@@ -101,6 +95,17 @@ static void separate_beside(scene *s, const double *const *xy, const size_t *poi
     assert_int_equal(sunder_layer_separate(layer, &s->options, &s->report, NULL), SUNDER_OK);
     sunder_layer_free(layer);
     sunder_report_summary(s->report, &s->summary);
+}
+
+/* Beside lines, each of some width, without sides; gap: of lines, negative: the layer's. */
+static void separate_beside(scene *s, const double *const *xy, const size_t *points, const double *width, double gap,
+                            size_t n)
+{
+    sunder_barrier barrier[4];
+    assert_true(n <= 4);
+    for (size_t k = 0; k < n; k++)
+        barrier[k] = (sunder_barrier){{.xy = xy[k], .line_end = &points[k], .lines = 1}, width[k], gap, false};
+    separate_beside_all(s, barrier, n);
 }
 
 static void check_optimum(const scene *s, double cost)
@@ -273,6 +278,28 @@ static void test_limit_beside_a_line(void **state)
     scene_end(&s);
 }
 
+/* One goes by the corner of another, just as far as the third pushes it: to the last bit that would be a jump, beside
+ * it none. The third has no room to spare in x, in its yard. */
+static void test_by_a_corner(void **state)
+{
+    (void)state;
+    scene s;
+    scene_begin(&s, 0);
+    s.options.no_blocks = true;
+    s.options.contained = SUNDER_CONTAINMENT_SEPARATE;
+    scene_add(&s, "POLYGON((400001 5200009,400006 5200009,400006 5200016,400001 5200016,400001 5200009),(400002 "
+                  "5200010,400002 5200015,400005 5200015,400005 5200010,400002 5200010))");
+    scene_add_box(&s, 400002, 5200004, 5, 8);
+    scene_add(&s, "POLYGON((400002 5200006,400007 5200006,400007 5200007,400003 5200007,400003 5200010,400002 5200010,"
+                  "400002 5200006))");
+    const sunder_feature *pool = scene_add_box(&s, 400003, 5200011, 3, 1);
+    s.n--; /* a barrier */
+    separate_beside_all(&s, &(sunder_barrier){.geometry = {.shape = pool->shape}, .gap = -1}, 1);
+    check_optimum(&s, 18.5);
+    s.n++;
+    scene_end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -282,7 +309,7 @@ int main(void)
         cmocka_unit_test(test_too_narrow),           cmocka_unit_test(test_lines_hide_on_no_diagonal),
         cmocka_unit_test(test_limit_in_a_row),       cmocka_unit_test(test_small_move_beside_what_is_long),
         cmocka_unit_test(test_two_groups_that_jump), cmocka_unit_test(test_slot_beside_a_stranger),
-        cmocka_unit_test(test_limit_beside_a_line),
+        cmocka_unit_test(test_limit_beside_a_line),  cmocka_unit_test(test_by_a_corner),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

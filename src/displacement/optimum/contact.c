@@ -21,7 +21,7 @@ static bool add(sunder_i_contact_list *out, const sunder_i_forbidden_piece *piec
                 double off)
 {
     if (!sunder_i_reserve(&out->item, &out->capacity, out->n + 1, sizeof *out->item)) return false;
-    out->item[out->n++] = (sunder_i_contact){{n[0], n[1]}, d, off, piece->a->feature, piece->b->feature};
+    out->item[out->n++] = (sunder_i_contact){{n[0], n[1]}, d, off, piece->a->feature, piece->b->feature, piece->shadow};
     return true;
 }
 

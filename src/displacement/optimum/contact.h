@@ -9,6 +9,7 @@
 typedef struct sunder_i_contact {
     double n[2], d, off;
     size_t a, b; /* the things that touch */
+    bool shadow; /* which are closed: u may not be on the boundary of one */
 } sunder_i_contact;
 
 typedef struct sunder_i_contact_list {

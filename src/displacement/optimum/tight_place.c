@@ -11,6 +11,10 @@
  * Nobody of the group need have touched it before: a place without room may be so by what stands outside, a barrier
  * mostly. So whoever stands within a hair of the place takes part, in rows that stay where they are.
  *
+ * Shadows are closed: what is on the boundary of one to the last bit has jumped. Where a row has no way out of that,
+ * only coordinates in which a body is squeezed, touched from both sides, are lined up, and all others have their
+ * margins.
+ *
  *   coordinates without a common step     no place: there, no passage is just as wide as what goes through
  *   a tight passage that lies obliquely   only where the place is on the lattice, too: else no doubles are in it */
 #include "displacement/optimum/contact.h"
@@ -45,6 +49,7 @@ typedef struct fitting {
     double *base;  /* [2 * all + 1] the move of the first body of each row */
     double *ahead; /* [2 * all] whole steps from there */
     bool *stays;   /* [2 * all + 1] rows with somebody that stands */
+    bool *alone;   /* [2 * all] coordinates that are not lined up */
     size_t rows;
     sunder_i_contact_list touch; /* of the pair looked at */
     meeting *meeting;
@@ -62,6 +67,7 @@ static void end_fitting(fitting *f)
     sunder_i_free(f->base);
     sunder_i_free(f->ahead);
     sunder_i_free(f->stays);
+    sunder_i_free(f->alone);
     sunder_i_free(f->touch.item);
     sunder_i_free(f->meeting);
     sunder_i_free(f->near.item);
@@ -200,7 +206,9 @@ static void line_up(fitting *f, size_t k, size_t row)
 static void find_row(fitting *f, size_t first, size_t k)
 {
     size_t row = HOME;
-    if (!f->model->body[f->body[k / 2]].fixed && !is_aligned(f, k, 0))
+    if (f->alone[k])
+        row = f->rows;
+    else if (!f->model->body[f->body[k / 2]].fixed && !is_aligned(f, k, 0))
         for (row = first; row < f->rows && !is_aligned(f, k, f->base[row]); row++) {
         }
     if (row == f->rows) {
@@ -210,27 +218,45 @@ static void find_row(fitting *f, size_t first, size_t k)
     line_up(f, k, row);
 }
 
-/* Coordinate c of all bodies: of those outside first, whose rows stay. */
-static void find_rows(fitting *f, size_t c)
+/* Coordinate c of all bodies: of those outside first, whose rows stay; at last those that nobody is to be lined up
+ * with. */
+static void find_rows_along(fitting *f, size_t c)
 {
     const size_t first = f->rows;
     for (size_t k = 2 * f->n + c; k < 2 * f->all; k += 2) find_row(f, first, k);
-    for (size_t k = c; k < 2 * f->n; k += 2) find_row(f, first, k);
+    for (int alone = 0; alone < 2; alone++)
+        for (size_t k = c; k < 2 * f->n; k += 2)
+            if (f->alone[k] == alone) find_row(f, first, k);
+}
+
+static void find_rows(fitting *f)
+{
+    f->rows = 1;
+    f->base[HOME] = 0;
+    f->stays[HOME] = true;
+    for (size_t c = 0; c < 2; c++) find_rows_along(f, c);
 }
 
 static double place_of(const fitting *f, size_t k) { return f->base[f->row[k]] + f->ahead[k]; }
 
 /* ---- Contacts with room ------------------------------------------------------------------------------------------ */
 
+/* How much the two bodies are nearer than the margin. */
+static double missing_at(const fitting *f, const meeting *m)
+{
+    double missing = m->contact.d + m->contact.off + f->margin;
+    for (size_t c = 0; c < 2; c++) missing -= m->contact.n[c] * (place_of(f, 2 * m->j + c) - place_of(f, 2 * m->i + c));
+    return missing;
+}
+
 /* Draws the rows of two bodies away from their contact, if it is theirs to move from. True if half of the margin was
  * missing. */
 static bool draw_away(fitting *f, const meeting *m)
 {
-    const double *n = m->contact.n;
-    double missing = m->contact.d + m->contact.off + f->margin, pull = 0, sign[4];
+    const double *n = m->contact.n, missing = missing_at(f, m);
+    double pull = 0, sign[4];
     uint32_t row[4];
     for (size_t c = 0; c < 2; c++) {
-        missing -= n[c] * (place_of(f, 2 * m->j + c) - place_of(f, 2 * m->i + c));
         row[2 * c] = f->row[2 * m->i + c];
         row[2 * c + 1] = f->row[2 * m->j + c];
         const bool apart = row[2 * c] != row[2 * c + 1];
@@ -273,11 +299,16 @@ static bool find_meetings(fitting *f, size_t i, size_t j)
     return true;
 }
 
-static bool draw_apart(fitting *f)
+static bool find_all_meetings(fitting *f)
 {
     for (size_t i = 0; i < f->n; i++)
         for (size_t j = i + 1; j < f->all; j++)
             if (!sunder_i_step() || !find_meetings(f, i, j)) return false;
+    return true;
+}
+
+static void draw_apart(fitting *f)
+{
     bool again = true;
     for (int turn = 0; turn < TIGHT_TURNS && again; turn++) {
         again = false;
@@ -285,7 +316,32 @@ static bool draw_apart(fitting *f)
         for (size_t k = 0; k < f->n; k++)
             if (!f->model->body[f->body[k]].fixed) draw_within(f, k);
     }
-    return true;
+}
+
+/* Is the margin missing to a shadow? */
+static bool is_in_shadow(const fitting *f)
+{
+    for (size_t k = 0; k < f->meetings; k++)
+        if (f->meeting[k].contact.shadow && missing_at(f, &f->meeting[k]) > f->margin / 2) return true;
+    return false;
+}
+
+/* Is the body at place k of the list touched from that side, along axis c, by what is no shadow? */
+static bool is_touched(const fitting *f, size_t k, size_t c, double side)
+{
+    for (size_t m = 0; m < f->meetings; m++) {
+        const meeting *at = &f->meeting[m];
+        const double from = at->j == k ? at->contact.n[c] : at->i == k ? -at->contact.n[c] : 0;
+        if (!at->contact.shadow && from * side > TIGHT_PULL) return true;
+    }
+    return false;
+}
+
+static void leave_alone(fitting *f)
+{
+    for (size_t k = 0; k < 2 * f->n; k++)
+        f->alone[k] = !f->model->body[f->body[k / 2]].fixed &&
+                      !(is_touched(f, k / 2, k & 1, 1) && is_touched(f, k / 2, k & 1, -1));
 }
 
 /* ---- Doubles ----------------------------------------------------------------------------------------------------- */
@@ -347,14 +403,16 @@ static bool fit(fitting *f, double *move, bool *found)
     f->base = sunder_i_calloc(2 * all + 1, sizeof *f->base);
     f->ahead = sunder_i_alloc(2 * all, sizeof *f->ahead);
     f->stays = sunder_i_calloc(2 * all + 1, sizeof *f->stays);
-    bool ok = to && f->row && f->base && f->ahead && f->stays;
+    f->alone = sunder_i_calloc(2 * all, sizeof *f->alone);
+    const bool ok = to && f->row && f->base && f->ahead && f->stays && f->alone && find_all_meetings(f);
     if (ok) {
-        f->rows = 1;
-        f->stays[HOME] = true;
-        for (size_t c = 0; c < 2; c++) find_rows(f, c);
-        ok = draw_apart(f);
-    }
-    if (ok) {
+        find_rows(f);
+        draw_apart(f);
+        if (is_in_shadow(f)) {
+            leave_alone(f);
+            find_rows(f);
+            draw_apart(f);
+        }
         round_rows(f);
         *found = take_places(f, to);
         memcpy(move, to, 2 * f->n * sizeof *move);
