@@ -12,8 +12,8 @@
  * mostly. So whoever stands within a hair of the place takes part, in rows that stay where they are.
  *
  * Shadows are closed: what is on the boundary of one to the last bit has jumped. Where a row has no way out of that,
- * only coordinates in which a body is squeezed, touched from both sides, are lined up, and all others have their
- * margins.
+ * only coordinates in which a body is squeezed, touched squarely from both sides, are lined up, and all others have
+ * their margins.
  *
  *   coordinates without a common step     no place: there, no passage is just as wide as what goes through
  *   a tight passage that lies obliquely   only where the place is on the lattice, too: else no doubles are in it */
@@ -127,8 +127,8 @@ static bool find_step(fitting *f, bool *coarse)
         for (int c = 0; c < 4; c++) f->size = fmax(f->size, fabs(body->box[c]));
         if (!lower_by_body(f, body, &f->exponent, coarse)) return false;
     }
-    f->hair = TIGHT_HAIR * f->size;
     *coarse = *coarse && f->exponent < INT_MAX && is_coarse(f, f->exponent);
+    if (*coarse) f->hair = fmin(TIGHT_HAIR * f->size, TIGHT_STEP_HAIR * ldexp(1, f->exponent));
     return true;
 }
 
@@ -326,13 +326,13 @@ static bool is_in_shadow(const fitting *f)
     return false;
 }
 
-/* Is the body at place k of the list touched from that side, along axis c, by what is no shadow? */
+/* Is the body at place k of the list touched squarely from that side, along axis c, by what is no shadow? */
 static bool is_touched(const fitting *f, size_t k, size_t c, double side)
 {
     for (size_t m = 0; m < f->meetings; m++) {
         const meeting *at = &f->meeting[m];
         const double from = at->j == k ? at->contact.n[c] : at->i == k ? -at->contact.n[c] : 0;
-        if (!at->contact.shadow && from * side > TIGHT_PULL) return true;
+        if (!at->contact.shadow && from * side > 1 - TIGHT_PULL) return true;
     }
     return false;
 }
@@ -418,6 +418,19 @@ static bool fit(fitting *f, double *move, bool *found)
         memcpy(move, to, 2 * f->n * sizeof *move);
     }
     sunder_i_free(to);
+    return ok;
+}
+
+bool sunder_i_may_be_tight(const sunder_i_model *model, const uint32_t *body, size_t n, bool *may)
+{
+    const double home[2] = {0, 0};
+    fitting f = {.model = model, .n = n};
+    bool ok = true;
+    *may = false;
+    if (n > MOST_TIGHT) return true;
+    for (size_t k = 0; k < n && ok; k++) ok = add_body(&f, body[k], home);
+    ok = ok && find_step(&f, may);
+    end_fitting(&f);
     return ok;
 }
 

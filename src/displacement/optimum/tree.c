@@ -133,7 +133,8 @@ double sunder_i_tree_bound(const sunder_i_tree *t)
 
 void sunder_i_tree_lower_goal(sunder_i_tree *t, double goal) { t->task.goal = fmin(t->task.goal, goal); }
 
-/* Looks into one node. True if its least has no conflicts: *leaf is what that is proved to cost. */
+/* Looks into one node. True if its least has no conflicts, or none that a division tells more of: *leaf is what that is
+ * proved to cost. */
 static bool look_into(sunder_i_tree *t, uint32_t node, double *leaf)
 {
     sunder_i_tree_load(t, node);
@@ -146,7 +147,7 @@ static bool look_into(sunder_i_tree *t, uint32_t node, double *leaf)
             return false;
         }
         sunder_i_tree_find_conflicts(t);
-        if (t->conflicts == 0 && !t->failed && t->task.group_of) sunder_i_tree_meet(t);
+        if (t->conflicts == 0 && !t->failed) sunder_i_tree_meet(t);
         if (t->failed) return false;
         if (t->conflicts == 0) {
             t->node[node].state = SUNDER_I_LEAF;
@@ -169,8 +170,10 @@ static bool look_into(sunder_i_tree *t, uint32_t node, double *leaf)
         node = child;
         if (!made) break;
     }
-    if (!t->failed) sunder_i_tree_divide(t, node);
-    return false;
+    if (t->failed) return false;
+    sunder_i_tree_divide(t, node);
+    *leaf = t->node[node].value;
+    return !t->failed && t->node[node].state == SUNDER_I_LEAF;
 }
 
 sunder_i_tree_outcome sunder_i_tree_run(sunder_i_tree *t, uint64_t steps)

@@ -40,7 +40,10 @@ static void choose_rays(sunder_i_tree *t, const sunder_i_tree_conflict *c, branc
     for (int k = 0; k < 2; k++) {
         const double side = k ? 1 : -1, dir[2] = {-side * n[1], side * n[0]};
         /* No wider than 84 degrees: the angle to the ray behind stays less than straight. */
-        const double way = fmin(sunder_i_forbidden_exit(f, mid, dir, 10 * ahead), 10 * ahead);
+        double way = fmin(sunder_i_forbidden_exit(f, mid, dir, 10 * ahead), 10 * ahead);
+        /* In a slot without width the way out is beside u as well as ahead: a ray along it would leave it to both of
+         * its cones, and one of these would have u in its hull. */
+        if (way < IN_SLOT * ahead) way = BESIDE_SLOT * ahead;
         const double x = ahead * n[0] + way * dir[0], y = ahead * n[1] + way * dir[1], length = sqrt(x * x + y * y);
         out->ray[k][0] = length > 0 ? x / length : n[0];
         out->ray[k][1] = length > 0 ? y / length : n[1];
@@ -145,9 +148,9 @@ void sunder_i_tree_divide(sunder_i_tree *t, uint32_t node)
     const double value = t->node[node].value;
     branching_rays rays = {0};
     leave_out_stuck(t, node);
-    if (t->conflicts == 0) {
+    if (t->conflicts == 0) sunder_i_tree_meet(t);
+    if (t->conflicts == 0 || t->failed) {
         t->node[node].state = SUNDER_I_LEAF;
-        t->leaf = fmin(t->leaf, value);
         return;
     }
     const sunder_i_tree_conflict c = choose(t, value, &rays);

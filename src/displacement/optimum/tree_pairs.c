@@ -148,7 +148,7 @@ static void find_near(sunder_i_tree *t, uint32_t i)
 void sunder_i_tree_meet(sunder_i_tree *t)
 {
     const size_t n = t->task.n;
-    for (uint32_t i = 0; i < n && !t->failed; i++) {
+    for (uint32_t i = 0; i < n && !t->failed && t->task.group_of; i++) {
         if (!(t->mass[i] > 0)) continue;
         find_near(t, i);
         for (size_t k = 0; k < t->near.n && !t->failed; k++) {

@@ -53,11 +53,13 @@
 
 /* ---- Places with no room to spare (tight_place.c) ---------------------------------------------------------------- */
 
-/* Of so many bodies at most, and as many outside. What lies on a lattice does so up to this share of the bodies' size; and no lattice is
- * looked at whose step is less than this share. */
+/* Of so many bodies at most, and as many outside. No lattice is looked at whose step is less than this share of the
+ * bodies' size. What lies on a lattice does so up to this share of the size, but no more than that of the step: so far a
+ * tree is off that does not come nearer to a corner by dividing. */
 #define MOST_TIGHT 24
-#define TIGHT_HAIR 0x1p-26
 #define TIGHT_STEP 0x1p-18
+#define TIGHT_HAIR 0x1p-22
+#define TIGHT_STEP_HAIR 0x1p-8
 /* Where there is room, so many margins are left. */
 #define TIGHT_MARGIN 4
 /* Rows are drawn away from their contacts so often at most (where two meet at a narrow angle it takes many turns), and
@@ -141,6 +143,9 @@
 #define TRIED 6
 /* The line on which the other two ways out are: so much nearer than the nearest, of the way. */
 #define NEARER 0.2
+/* What is no wider than this share of the way ahead is a slot, which rays leave so wide. */
+#define IN_SLOT 0x1p-16
+#define BESIDE_SLOT 0x1p-4
 /* So many grains away is no other place. */
 #define STUCK 16
 
