@@ -5,10 +5,12 @@
  * that there are now being held no worse (proofs/feasibility.c). It is the question that the report will ask
  * (report/no_room.c); so what has a solution is not left to be told there that nothing is known of it. The search goes
  * on from a solution, one in each cluster at a time, and where it can, the pair is no longer given up; else all is left
- * as it was. No pair is asked about twice. */
+ * as it was. A solution without room to spare, which the margins of the search close, is lined up to the last bit
+ * (optimum/tight_place.c): whether it holds is asked exactly, as of all that moved. No pair is asked about twice. */
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
 #include "displacement/layer/resolution.h"
+#include "displacement/optimum/optimum.h"
 #include "displacement/proofs/feasibility.h"
 
 #include "base/parallel.h"
@@ -92,6 +94,39 @@ static const sunder_i_cluster *cluster_of(const sunder_i_solver *s, uint32_t roo
     return NULL;
 }
 
+/* How far those may go that have no limit, so that they are asked about, too: past all of their cluster. */
+static double far_for(const sunder_i_model *model, const uint32_t *body, size_t n)
+{
+    double far = 0;
+    for (size_t k = 0; k < n; k++) {
+        const double *box = model->body[body[k]].box;
+        if (!sunder_i_is_barrier_body(model, &model->body[body[k]]))
+            far += box[2] - box[0] + box[3] - box[1] + model->rules.gap;
+    }
+    return far;
+}
+
+/* One question, with a margin; and without one, where there may be a place that just fits. */
+static sunder_status ask(sunder_i_subproblem *p, sunder_i_decision *decision, sunder_error *err)
+{
+    bool tight = false;
+    sunder_status status = sunder_i_decide(p, decision, err);
+    if (!status && decision->verdict == SUNDER_I_INFEASIBLE && p->margin > 0 &&
+        !sunder_i_may_be_tight(p->model, p->body, p->bodies, &tight))
+        status = sunder_i_no_memory(err);
+    if (!status && tight) {
+        sunder_i_decision_clear(decision);
+        p->margin = 0;
+        status = sunder_i_decide(p, decision, err);
+    }
+    if (!status && decision->verdict == SUNDER_I_FEASIBLE && sunder_i_may_have_slack(p)) {
+        sunder_i_decision_clear(decision);
+        p->slack = true;
+        status = sunder_i_decide(p, decision, err);
+    }
+    return status;
+}
+
 /* The first of a cluster's questions that has a solution. */
 static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
@@ -115,15 +150,11 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
                                      .effort = EFFORT_ALONE,
                                      .most = MOST_BODIES};
             p.reserve = sunder_i_solver_members(g->solver, g->question[q].root, &p.reserves);
+            p.instead = far_for(model, p.reserve, p.reserves);
             for (size_t m = 0; m < p.reserves; m++)
                 if (isfinite(sunder_i_limit_of(&model->body[p.reserve[m]])))
                     p.farthest = fmax(p.farthest, sunder_i_limit_of(&model->body[p.reserve[m]]));
-            status = sunder_i_decide(&p, decision, err);
-            if (!status && decision->verdict == SUNDER_I_FEASIBLE && sunder_i_may_have_slack(&p)) {
-                sunder_i_decision_clear(decision);
-                p.slack = true;
-                status = sunder_i_decide(&p, decision, err);
-            }
+            status = ask(&p, decision, err);
             g->asked[q] = true;
             if (status || decision->verdict == SUNDER_I_FEASIBLE) break;
             sunder_i_decision_clear(decision);
@@ -137,7 +168,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
 
 /* A solution that one cluster is to go on from, and the relaxations that it does without. */
 typedef struct proposal {
-    uint32_t root;
+    uint32_t root, which; /* the relaxation that was asked about */
     const sunder_i_solution *solution;
     sunder_i_restored *restored;
     size_t n;
@@ -155,7 +186,7 @@ static bool propose(const asking *g, uint32_t which, const sunder_i_solution *so
 {
     const sunder_i_model *model = &g->solver->model;
     const sunder_i_relaxations *all = &model->relaxations;
-    *out = (proposal){.solution = solution, .restored = sunder_i_alloc(all->n, sizeof *out->restored)};
+    *out = (proposal){.which = which, .solution = solution, .restored = sunder_i_alloc(all->n, sizeof *out->restored)};
     for (size_t k = 0; k < all->n && out->restored; k++) {
         const sunder_i_relaxation *t = &all->item[k];
         const bool met = sunder_i_set_has(solution->body, solution->bodies, model->body_of[t->a]) ||
@@ -199,23 +230,67 @@ static bool list_proposals(sunder_i_solver *s, const asking *g, size_t clusters,
 
 typedef struct resuming {
     const sunder_i_solver *solver;
+    const asking *asked;
     const proposal *proposal;
     size_t n;
 } resuming;
 
-static sunder_status resume(const sunder_i_solver *s, const proposal *x, sunder_i_cluster *c, double *move,
-                            sunder_error *err)
+/* What the other conflicts are held to, as proofs know it. NULL if memory is out. */
+static sunder_i_waiver *waive_others(const resuming *g, uint32_t which, size_t *n)
+{
+    const sunder_i_model *model = &g->solver->model;
+    const sunder_i_relaxation *t = &model->relaxations.item[which];
+    const uint32_t b = sunder_i_whole_of(model, t->b);
+    sunder_i_waiver *out = sunder_i_alloc(g->asked->required_n, sizeof *out);
+    *n = 0;
+    for (size_t k = 0; k < g->asked->required_n && out; k++) {
+        const sunder_i_requirement *r = &g->asked->required[k];
+        if (r->a != t->a || r->b != b) out[(*n)++] = (sunder_i_waiver){r->a, r->b, r->clearance, r->clearance < 0};
+    }
+    return out;
+}
+
+/* Where the search finds no margin: lined up to the last bit. */
+static sunder_status line_up(const resuming *g, const proposal *x, sunder_i_cluster *c, double *move, bool *done,
+                             sunder_error *err)
+{
+    sunder_i_waived waived = {0};
+    sunder_i_waiver *others = waive_others(g, x->which, &waived.n);
+    waived.pair = others;
+    bool ok = others != NULL &&
+              sunder_i_tight_place(&g->solver->model, &waived, c->body, c->n, MARGINS * c->margin, move, done);
+    sunder_i_free(others);
+    if (ok && *done && x->n) {
+        c->restored = sunder_i_alloc(x->n, sizeof *c->restored);
+        ok = c->restored != NULL;
+        if (ok) memcpy(c->restored, x->restored, x->n * sizeof *c->restored);
+        c->restored_n = ok ? x->n : 0;
+    }
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+static void place(const sunder_i_cluster *c, const sunder_i_solution *solution, double *move)
+{
+    for (size_t k = 0, at = 0; k < solution->bodies; k++) {
+        while (c->body[at] < solution->body[k]) at++;
+        memcpy(move + 2 * at, solution->move + 2 * k, 2 * sizeof *move);
+    }
+}
+
+static sunder_status resume(const resuming *g, const proposal *x, sunder_i_cluster *c, double *move, sunder_error *err)
 {
     const size_t size = 2 * c->n * sizeof *move;
     double *stood = sunder_i_alloc(2 * c->n, sizeof *stood);
     bool done = false;
     if (!stood) return sunder_i_no_memory(err);
     memcpy(stood, move, size);
-    for (size_t k = 0, at = 0; k < x->solution->bodies; k++) {
-        while (c->body[at] < x->solution->body[k]) at++;
-        memcpy(move + 2 * at, x->solution->move + 2 * k, 2 * sizeof *move);
+    place(c, x->solution, move);
+    sunder_status status = sunder_i_cluster_resume(&g->solver->model, c, x->restored, x->n, move, &done, err);
+    if (!status && !done) {
+        memcpy(move, stood, size);
+        place(c, x->solution, move);
+        status = line_up(g, x, c, move, &done, err);
     }
-    const sunder_status status = sunder_i_cluster_resume(&s->model, c, x->restored, x->n, move, &done, err);
     if (!done) memcpy(move, stood, size);
     sunder_i_free(stood);
     return status;
@@ -230,7 +305,7 @@ static sunder_status resume_clusters(void *context, size_t begin, size_t end, su
         double *move = sunder_i_solver_load_moves(g->solver, c);
         const uint32_t root = g->solver->member[c->body - g->solver->body].root;
         for (size_t p = 0; p < g->n && !status; p++)
-            if (g->proposal[p].root == root) status = resume(g->solver, &g->proposal[p], c, move, err);
+            if (g->proposal[p].root == root) status = resume(g, &g->proposal[p], c, move, err);
     }
     return status;
 }
@@ -249,7 +324,7 @@ static bool note_asked(sunder_i_solver *s, const asking *g, size_t questions)
 
 static sunder_status go_on(sunder_i_solver *s, const asking *asked, size_t clusters, bool *changed, sunder_error *err)
 {
-    resuming g = {.solver = s};
+    resuming g = {.solver = s, .asked = asked};
     proposal *list = sunder_i_calloc(clusters, sizeof *list);
     sunder_status status = SUNDER_OK;
     if (!list || !list_proposals(s, asked, clusters, list, &g.n) || !note_asked(s, asked, asked->first[clusters]))
