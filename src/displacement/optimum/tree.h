@@ -183,8 +183,8 @@ bool sunder_i_tree_cut_hull(sunder_i_tree *tree, uint32_t pair, const double u[2
 
 /* ---- tree_branch.c ----------------------------------------------------------------------------------------------- */
 
-/* Divides the node by one of its conflicts; children that are not closed are opened. Without one that tells more it is a
- * leaf. */
+/* Divides the node by one of its conflicts; children that are not closed are opened. Without one that tells more it is
+ * a leaf. */
 void sunder_i_tree_divide(sunder_i_tree *tree, uint32_t node);
 
 /* ---- tree_record.c ----------------------------------------------------------------------------------------------- */

@@ -54,8 +54,8 @@
 /* ---- Places with no room to spare (tight_place.c) ---------------------------------------------------------------- */
 
 /* Of so many bodies at most, and as many outside. No lattice is looked at whose step is less than this share of the
- * bodies' size. What lies on a lattice does so up to this share of the size, but no more than that of the step: so far a
- * tree is off that does not come nearer to a corner by dividing. */
+ * bodies' size. What lies on a lattice does so up to this share of the size, but no more than that of the step: so far
+ * a tree is off that does not come nearer to a corner by dividing. */
 #define MOST_TIGHT 24
 #define TIGHT_STEP 0x1p-18
 #define TIGHT_HAIR 0x1p-22
