@@ -115,6 +115,7 @@ static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sig
 typedef struct around {
     const double *t;
     double reach;
+    bool as_it_stands; /* whatever clashes is parted where it stands: it misses a hair */
     bool clashing;
 } around;
 
@@ -126,7 +127,7 @@ static void constrain(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
     if (sunder_i_search_pair(s, i, j, u, &yields) > s->tolerance) {
         a->clashing = true;
         double place[1][2];
-        if (sunder_i_search_free_pair(s, i, j, u, 0, 1, place)) memcpy(u, place[0], sizeof u);
+        if (!a->as_it_stands && sunder_i_search_free_pair(s, i, j, u, 0, 1, place)) memcpy(u, place[0], sizeof u);
     }
     constrain_pair(s, i, j, &(sighting){u, u, a->reach, yields, NULL, 0});
 }
@@ -142,7 +143,7 @@ static void sort_constraints(sunder_i_search *s)
 }
 
 /* All constraints around t. Returns whether a pair clashes there, or a limit is overstepped. */
-static bool constrain_all(sunder_i_search *s, double reach)
+static bool constrain_all(sunder_i_search *s, double reach, bool as_it_stands)
 {
     sunder_i_quadratic *p = &s->program;
     /* The last round's constraints become the old ones. */
@@ -154,7 +155,7 @@ static bool constrain_all(sunder_i_search *s, double reach)
     p->constraint = swap;
     p->capacity = capacity;
     p->n = 0;
-    around a = {.t = s->t, .reach = reach};
+    around a = {.t = s->t, .reach = reach, .as_it_stands = as_it_stands};
     sunder_i_search_near(s, s->t, s->gap + reach, constrain, &a);
     sunder_i_search_passing(s, s->t, s->gap + reach, constrain, &a);
     for (size_t k = 0; k < s->old_n && !s->failed; k++)
@@ -326,7 +327,7 @@ bool sunder_i_search_descend(sunder_i_search *s)
     double *best = sunder_i_alloc(2 * s->n, sizeof *best);
     if (!best) s->failed = true;
     for (int round = 0; round < MOST_ROUNDS && !is_out_of_patience(s) && !s->failed; round++) {
-        const bool clashing = constrain_all(s, reach);
+        const bool clashing = constrain_all(s, reach, false);
         if (s->failed) break;
         double v;
         if (clashing) {
@@ -375,7 +376,7 @@ bool sunder_i_search_make_good(sunder_i_search *s)
 {
     double left = INFINITY;
     for (int round = 0; round < MOST_MENDING && left > s->tolerance && !s->failed; round++) {
-        constrain_all(s, s->gap / LEAST_REACH);
+        constrain_all(s, s->gap / LEAST_REACH, true);
         if (s->failed || !(solve_lazily(s, 0) <= s->tolerance) || is_out_of_patience(s)) return false;
         left = sunder_i_search_look(s, s->next);
         memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
@@ -401,7 +402,7 @@ void sunder_i_search_settle_parts(sunder_i_search *s)
     uint32_t *root = sunder_i_alloc(s->n, sizeof *root);
     bool *unsolved = sunder_i_calloc(s->n, sizeof *unsolved);
     s->failed = s->failed || !root || !unsolved;
-    if (!s->failed) constrain_all(s, s->gap);
+    if (!s->failed) constrain_all(s, s->gap, false);
     if (!s->failed) {
         solve_lazily(s, 0);
         join_constrained(s, root);
