@@ -11,7 +11,8 @@
  *
  * At the start every relaxation holds, so to leave everything where it was is always a way. (The second demands more
  * than need be: another translation of the same length might part them. The exact check, uphold.c, demands just what
- * is needed.) */
+ * is needed. A solution found by those who know that may have turned it: then the pair is held to the way out that it
+ * has there, and who is sent home is relaxed anew, as all stood there.) */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/model.h"
 #include "displacement/layer/resolution.h"
@@ -22,6 +23,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* A way out of an overlap is shorter than the one it takes the place of by this share, far above rounding. */
+#define HAIR 0x1p-40
 
 void sunder_i_relaxations_free(sunder_i_relaxations *relaxations)
 {
@@ -233,6 +237,39 @@ sunder_status sunder_i_relaxation_of(const sunder_i_model *model, uint32_t f, ui
     out->shift[1] = least.dy;
     sunder_separation_clear(&least);
     return SUNDER_OK;
+}
+
+/* The least translation of b that parts the two, moved by ta and tb, if it is no longer than `upper`. */
+static sunder_status way_out(const sunder_i_model *model, const sunder_i_relaxation *t, const double ta[2],
+                             const double tb[2], double upper, double way[2], bool *beyond, sunder_error *err)
+{
+    const bool barrier = sunder_i_is_barrier(model, t->b);
+    const sunder_feature *feature = model->layer->feature;
+    sunder_i_translate moved = sunder_i_at_home(model, t->a);
+    sunder_separation least;
+    memcpy(moved.t, ta, sizeof moved.t);
+    const sunder_status status =
+        barrier ? sunder_i_barrier_least(model, &moved, t->b, 0, upper, &least, beyond, err)
+                : sunder_i_separate(feature[t->a].shape, ta, feature[t->b].shape, tb, 0, upper, &least, beyond, err);
+    if (status) return status;
+    way[0] = barrier ? -least.dx : least.dx;
+    way[1] = barrier ? -least.dy : least.dy;
+    sunder_separation_clear(&least);
+    return SUNDER_OK;
+}
+
+/* It is as long as the former, less a hair: who stands no deeper may go as deep. */
+sunder_status sunder_i_relaxation_turn(const sunder_i_model *model, const double ta[2], const double tb[2],
+                                       sunder_i_relaxation *relaxation, bool *fits, sunder_error *err)
+{
+    const double depth = hypot(relaxation->shift[0], relaxation->shift[1]);
+    double way[2] = {0, 0};
+    bool beyond;
+    const sunder_status status = way_out(model, relaxation, ta, tb, depth, way, &beyond, err);
+    const double length = hypot(way[0], way[1]), share = length > 0 ? (1 - HAIR) * depth / length : 1;
+    *fits = !status && !beyond && share >= 1;
+    for (int c = 0; c < 2 && *fits; c++) relaxation->shift[c] = share * way[c];
+    return status;
 }
 
 bool sunder_i_relaxations_spread(sunder_i_relaxations *out, const sunder_i_model *model,

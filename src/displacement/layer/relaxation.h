@@ -67,6 +67,10 @@ sunder_i_restored sunder_i_restored_of(const sunder_i_model *model, const sunder
 /* A relaxation for two features, by how they stood at the start. */
 sunder_status sunder_i_relaxation_of(const sunder_i_model *model, uint32_t f, uint32_t g, sunder_i_relaxation *out,
                                      sunder_error *err);
+/* What was relaxed by one way out of an overlap, by the one that is the shortest where a and b are moved by ta and tb:
+ * *fits, if it is no longer. Who is turned no longer holds at home. */
+sunder_status sunder_i_relaxation_turn(const sunder_i_model *model, const double ta[2], const double tb[2],
+                                       sunder_i_relaxation *relaxation, bool *fits, sunder_error *err);
 /* Appends relaxations for all members of two bodies that stood within reach of each other. */
 sunder_status sunder_i_relaxations_make(const sunder_i_model *model, uint32_t body, uint32_t other, double reach,
                                         sunder_i_relaxations *out, sunder_error *err);
