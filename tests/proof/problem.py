@@ -11,6 +11,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import exact_plane as plane  # noqa: E402
 import geopackage  # noqa: E402
 from cover import hull  # noqa: E402
+from repair import repaired  # noqa: E402
 
 
 class Refused(Exception):
@@ -138,6 +139,8 @@ class Problem:
             place_symbols(layer, symbol_corners(options.symbol))
         self.name, self.options = layer.name, options
         self.tolerance = options.touch_tolerance if options.touch_tolerance is not None else options.gap / 10
+        for fid, (attributes, polygons, lines) in layer.features.items():
+            layer.features[fid] = attributes, [repaired(p) for p in polygons], lines
         fixed = layer.fids(path, options.fixed_where)
         self.ignored = layer.fids(path, options.ignore_where)
         barriers = [b for spec in options.barrier for b in self.read_barriers(spec)]
@@ -178,6 +181,7 @@ class Problem:
             width = float(attributes[words["width-field"]] or 0 if "width-field" in words else words.get("width", 0))
             gap = float(words["gap"]) if "gap" in words else self.options.gap
             if polygons or lines:
+                polygons = [repaired(p) for p in polygons]
                 yield f"{layer.name}:{fid}", polygons, lines, max(width, 0.0), gap, words.get("side", "yes") == "yes"
 
     # ---- Features

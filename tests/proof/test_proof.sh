@@ -67,6 +67,11 @@ refuted through houses.gpkg "${through[@]}" --need depth --need "in it"
 proved parted "$town" --gap 3 --max-shift 1 --barrier "$roads"
 refuted parted "$town" --gap 3 --max-shift 1 --barrier "$roads" --need kind --need held
 
+# Invalid polygons, whose edges cross and share a length, at places that no double is: corners are the nearest ones.
+printf 'WKT,w\n"POLYGON((0 0,10 3,10 0.5,0.3 10.1,0 0))",1\n"POLYGON((9 0,20 0,20 10,13 -1,9.5 10,9 0))",1\n"POLYGON((8 9,15 8,15 12,11 8.2,9 12,8 9),(14 10,18 10,18 13,14 13,18 13,14 10))",1\n' |
+    layer crossed.gpkg buildings POLYGON
+proved crossed crossed.gpkg --gap 0.7 --no-blocks
+
 # A house between a wall that stands fast and a line that it overlaps: through the line would be nearest, but for its side.
 printf 'WKT,w\n"LINESTRING(9.5 -3,9.5 13)",1\n' | layer side.gpkg side LINESTRING
 printf 'WKT,w\n"POLYGON((0 0,10 0,10 10,0 10))",1\n"POLYGON((-10 -30,0 -30,0 40,-10 40))",1\n' | layer wall.gpkg buildings POLYGON

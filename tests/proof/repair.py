@@ -1,0 +1,113 @@
+"""Invalid polygons by the even-odd rule, in fractions; corners are the nearest doubles at the end.
+
+Edges are cut where they meet. Of what lies on each other an odd number is boundary, for the inside changes across it. From there
+rings are followed with the inside on their left, at a place where several meet to the next edge of the same inside; corners
+on straight ways are left out. A polygon of which no edges cross or lie on each other has its rings already.
+"""
+from fractions import Fraction
+
+
+def side(a, b, c):
+    value = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    return (value > 0) - (value < 0)
+
+
+def is_between(p, q, at):
+    """On the segment, if it is on its line."""
+    return min(p[0], q[0]) <= at[0] <= max(p[0], q[0]) and min(p[1], q[1]) <= at[1] <= max(p[1], q[1])
+
+
+def meetings(e, f):
+    """Places that the two have in common, ends of what they share; and whether they cross, or share a length."""
+    (a, b), (c, d) = e, f
+    sides = side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)
+    if sides[0] * sides[1] < 0 and sides[2] * sides[3] < 0:
+        ux, uy, vx, vy = b[0] - a[0], b[1] - a[1], d[0] - c[0], d[1] - c[1]
+        s = ((c[0] - a[0]) * vy - (c[1] - a[1]) * vx) / (ux * vy - uy * vx)
+        return {(a[0] + s * ux, a[1] + s * uy)}, True
+    found = {p for p, s in zip((c, d), sides[:2]) if s == 0 and is_between(a, b, p)}
+    found |= {p for p, s in zip((a, b), sides[2:]) if s == 0 and is_between(c, d, p)}
+    return found, len(found) > 1
+
+
+def cut(edges):
+    """(the pieces of each, whether any cross or share a length); edges by ascending least x are looked at in a sweep."""
+    cuts, open_now, crossing = [{p, q} for p, q in edges], [], False
+    for k in sorted(range(len(edges)), key=lambda k: min(edges[k][0][0], edges[k][1][0])):
+        e = edges[k]
+        start, low, high = min(e[0][0], e[1][0]), min(e[0][1], e[1][1]), max(e[0][1], e[1][1])
+        open_now = [m for m in open_now if max(edges[m][0][0], edges[m][1][0]) >= start]
+        for m in open_now:
+            f = edges[m]
+            if max(f[0][1], f[1][1]) < low or min(f[0][1], f[1][1]) > high:
+                continue
+            found, bad = meetings(e, f)
+            cuts[k] |= found
+            cuts[m] |= found
+            crossing = crossing or bad
+        open_now.append(k)
+    pieces = []
+    for places in cuts:
+        line = sorted(places)
+        pieces += zip(line, line[1:])
+    return pieces, crossing
+
+
+def is_inside_on_left(boundary, p, q):
+    """Along a ray from the middle of the piece, square to it."""
+    x, y = (p[0] + q[0]) / 2, (p[1] + q[1]) / 2
+    wx, wy = p[1] - q[1], q[0] - p[0]
+    inside = False
+    for a, b in boundary:
+        sa, sb = wx * (a[1] - y) - wy * (a[0] - x), wx * (b[1] - y) - wy * (b[0] - x)
+        if (sa > 0) != (sb > 0):
+            share = sa / (sa - sb)
+            inside ^= wx * (a[0] + share * (b[0] - a[0]) - x) + wy * (a[1] + share * (b[1] - a[1]) - y) > 0
+    return inside
+
+
+def turn_rank(back, out):
+    """Ascending by the angle, clockwise from the one direction on."""
+    cross, dot = back[0] * out[1] - back[1] * out[0], back[0] * out[0] + back[1] * out[1]
+    half = 0 if cross < 0 else 1 if cross == 0 and dot < 0 else 2 if cross > 0 else 3
+    return half, dot / cross if cross else 0
+
+
+def follow(boundary):
+    """Rings of directed pieces."""
+    leaving = {}
+    for p, q in boundary:
+        p, q = (p, q) if is_inside_on_left(boundary, p, q) else (q, p)
+        leaving.setdefault(p, []).append(q)
+    while leaving:
+        first = min(leaving)
+        ring, p, q = [first], first, leaving[first].pop()
+        while True:
+            if not leaving[p]:
+                del leaving[p]
+            if q == first:
+                break
+            ring.append(q)
+            back = p[0] - q[0], p[1] - q[1]
+            ways = leaving[q]
+            ways.sort(key=lambda r: turn_rank(back, (r[0] - q[0], r[1] - q[1])), reverse=True)
+            p, q = q, ways.pop()
+        yield ring
+
+
+def without_straight(ring):
+    return [p for k, p in enumerate(ring) if side(ring[k - 1], p, ring[(k + 1) % len(ring)]) != 0]
+
+
+def repaired(rings):
+    """The rings of a polygon in doubles, by the even-odd rule."""
+    exact = [[(Fraction(x), Fraction(y)) for x, y in ring] for ring in rings]
+    edges = [(ring[k - 1], p) for ring in exact for k, p in enumerate(ring) if ring[k - 1] != p]
+    pieces, crossing = cut(edges)
+    if not crossing:
+        return rings
+    odd = set()
+    for piece in pieces:
+        odd ^= {piece}
+    found = [without_straight(ring) for ring in follow(sorted(odd))]
+    return [[(float(x), float(y)) for x, y in ring] for ring in found if ring]
