@@ -19,13 +19,15 @@
 
 #include <cmocka.h>
 
-enum { MOST = 48, CORNERS = 8 };
+enum { MOST = 48, CORNERS = 8, BARRIERS = 6 };
 
 typedef struct town {
     double xy[MOST][2 * CORNERS];
-    proof_feature plain[MOST];
+    proof_feature plain[MOST]; /* barriers behind the features */
     sunder_feature feature[MOST];
     size_t n;
+    sunder_barrier barrier[BARRIERS];
+    size_t corners[BARRIERS], barriers;
     double gap;
     bool blocks;
 } town;
@@ -39,7 +41,7 @@ static sunder_feature *add(town *t, const double *xy, size_t corners, double lim
     memcpy(own, xy, 2 * corners * sizeof *own);
     if (sunder_shape_from_rings(own, &corners, &rings, 1, SUNDER_VALIDITY_STRICT, &shape, &err))
         fail_msg("%s", err.message);
-    t->plain[t->n] = (proof_feature){own, corners, limit, limit == 0};
+    t->plain[t->n] = (proof_feature){.xy = own, .corners = corners, .max_shift = limit, .fixed = limit == 0};
     t->feature[t->n] = (sunder_feature){.shape = shape, .weight = 1, .max_shift = limit, .block = -1};
     return &t->feature[t->n++];
 }
@@ -50,6 +52,37 @@ static sunder_feature *add_box(town *t, double x, double y, double w, double h, 
     return add(t, xy, 4, limit);
 }
 
+/* A line, a point or (four corners) an area, behind all features. width: a dyadic, like the gap. */
+static void add_barrier(town *t, const double *xy, size_t corners, double width, double gap)
+{
+    const size_t rings = 1, k = t->barriers++;
+    double *own = t->xy[t->n + k];
+    sunder_shape *area = NULL;
+    sunder_error err;
+    memcpy(own, xy, 2 * corners * sizeof *own);
+    t->corners[k] = corners;
+    t->plain[t->n + k] = (proof_feature){own, corners, 0, true, corners < 4, width / 2 + gap};
+    t->barrier[k] = (sunder_barrier){.width = width, .gap = gap};
+    if (corners < 4) {
+        t->barrier[k].geometry = (sunder_obstacle){.xy = own, .line_end = &t->corners[k], .lines = 1};
+        return;
+    }
+    if (sunder_shape_from_rings(own, &t->corners[k], &rings, 1, SUNDER_VALIDITY_STRICT, &area, &err))
+        fail_msg("%s", err.message);
+    t->barrier[k].geometry.shape = area;
+}
+
+static sunder_report *separate_beside(const town *t, const sunder_layer_options *options)
+{
+    sunder_layer *layer = NULL;
+    sunder_report *report = NULL;
+    assert_int_equal(sunder_layer_new(t->feature, t->n, &layer, NULL), SUNDER_OK);
+    assert_int_equal(sunder_layer_set_barriers(layer, t->barrier, t->barriers, NULL), SUNDER_OK);
+    assert_int_equal(sunder_layer_separate(layer, options, &report, NULL), SUNDER_OK);
+    sunder_layer_free(layer);
+    return report;
+}
+
 static sunder_report *separate(const town *t)
 {
     sunder_layer_options options;
@@ -58,12 +91,15 @@ static sunder_report *separate(const town *t)
     options.no_blocks = !t->blocks;
     options.gap = t->gap;
     options.touch_tolerance = 0;
+    options.allow_jumps = t->barriers > 0;
+    if (t->barriers) return separate_beside(t, &options);
     return run_separate(t->feature, t->n, &options);
 }
 
 static void free_town(town *t)
 {
     for (size_t k = 0; k < t->n; k++) sunder_shape_free((sunder_shape *)t->feature[k].shape);
+    for (size_t k = 0; k < t->barriers; k++) sunder_shape_free((sunder_shape *)t->barrier[k].geometry.shape);
 }
 
 /* How many conflicts have no room, all of them proved; the others have no proof. */
@@ -78,7 +114,7 @@ static size_t check_proofs(const town *t, const sunder_report *report, size_t tr
             continue;
         }
         proved++;
-        const char *wrong = proof_check(t->plain, t->n, t->gap, report, k);
+        const char *wrong = proof_check(t->plain, t->n, t->n + t->barriers, t->gap, report, k);
         if (wrong) fail_msg("trial %zu: the proof for %zu and %zu: %s", trial, c[k].a, c[k].b, wrong);
     }
     return proved;
@@ -220,6 +256,68 @@ static void check_towns(void **state)
     }
     print_message("%zu with a proof, of %zu nodes, %zu without\n", proved, nodes, open);
     assert_true(proved > trials / 4);
+}
+
+/* ---- Beside barriers -------------------------------------------------------------------------------------------- */
+
+static double quarters(rng *r, int64_t low, int64_t high) { return (double)rng_int(r, 4 * low, 4 * high) / 4; }
+
+/* A box, a triangle or a slanted quadrangle: of what is convex it can be asked how deep a line lay in it. */
+static void add_convex(rng *r, town *t, double x, double y, double limit)
+{
+    const double w = quarters(r, 2, 6), h = quarters(r, 2, 6), lean = quarters(r, 0, 1);
+    const double box[] = {x, y, x + w, y, x + w, y + h, x, y + h};
+    const double quad[] = {x, y, x + w, y + lean, x + w + lean, y + h + lean, x + lean, y + h};
+    const double three[] = {x, y, x + w, y + lean, x + lean, y + h};
+    switch (rng_int(r, 0, 2)) {
+    case 0: add(t, box, 4, limit); break;
+    case 1: add(t, quad, 4, limit); break;
+    default: add(t, three, 3, limit); break;
+    }
+}
+
+static void add_some_barrier(rng *r, town *t, double x, double y, double wide)
+{
+    const double p = x + quarters(r, 0, (int64_t)wide), q = y + quarters(r, 0, (int64_t)wide);
+    const double u = quarters(r, -12, 12), v = quarters(r, -12, 12), width = quarters(r, 0, 2), gap = quarters(r, 0, 1);
+    const double line[] = {p, q, p + u, q + v}, area[] = {p, q, p + 2, q, p + 2, q + 1.5, p, q + 1.5};
+    const size_t corners = (size_t)rng_int(r, 1, 3);
+    add_barrier(t, corners == 3 ? area : line, corners == 3 ? 4 : u == 0 && v == 0 ? 1 : corners, width, gap);
+}
+
+/* Houses among lines, points and areas that stand too near to them, or run through them. */
+static void check_beside_barriers(void **state)
+{
+    (void)state;
+    size_t proved = 0, open = 0, of_barriers = 0, slack = 0;
+    const size_t trials = test_count(100);
+    for (size_t trial = 0; trial < trials; trial++) {
+        rng r = rng_start(test_seed(), trial);
+        town t;
+        memset(&t, 0, sizeof t);
+        t.gap = quarters(&r, 0, 1);
+        t.blocks = rng_once_in(&r, 3);
+        const size_t n = (size_t)rng_int(&r, 2, 8), barriers = (size_t)rng_int(&r, 1, 4);
+        const double wide = 10, limit = (double)rng_int(&r, 1, 16) / 8, origin = floor(pow(10, 6 * rng_unit(&r)));
+        while (t.n < n)
+            add_convex(&r, &t, origin + quarters(&r, 0, (int64_t)wide), origin + quarters(&r, 0, (int64_t)wide),
+                       rng_once_in(&r, 6) ? 0 : limit);
+        for (size_t k = 0; k < barriers; k++) add_some_barrier(&r, &t, origin, origin, wide);
+        sunder_report *report = separate(&t);
+        proved += check_proofs(&t, report, trial, &open);
+        size_t c;
+        const sunder_conflict *listed = sunder_report_conflicts(report, &c);
+        for (size_t k = 0; k < c; k++) {
+            const sunder_proof *proof = sunder_report_proof(report, k);
+            of_barriers += proof && listed[k].b >= t.n;
+            for (size_t m = 0; proof && m < proof->nodes; m++) slack += proof->node[m].slack;
+        }
+        sunder_report_free(report);
+        free_town(&t);
+    }
+    print_message("%zu with a proof, %zu of them with barriers, %zu nodes with slack, %zu without\n", proved,
+                  of_barriers, slack, open);
+    assert_true(of_barriers > trials / 8);
 }
 
 /* ---- Held pairs ------------------------------------------------------------------------------------------------- */
@@ -403,10 +501,15 @@ static void check_irreducible(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_huge_and_small), cmocka_unit_test(check_explains_its_own),
-        cmocka_unit_test(check_two_lanes),      cmocka_unit_test(check_irreducible),
-        cmocka_unit_test(check_packed),         cmocka_unit_test(check_exact_fits),
-        cmocka_unit_test(check_held),           cmocka_unit_test(check_towns),
+        cmocka_unit_test(check_huge_and_small),
+        cmocka_unit_test(check_explains_its_own),
+        cmocka_unit_test(check_two_lanes),
+        cmocka_unit_test(check_irreducible),
+        cmocka_unit_test(check_packed),
+        cmocka_unit_test(check_exact_fits),
+        cmocka_unit_test(check_held),
+        cmocka_unit_test(check_towns),
+        cmocka_unit_test(check_beside_barriers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,8 +18,22 @@ static const sunder_conflict *find_listed(const checking *c, size_t a, size_t b)
 
 /* May two features be held to the clearance, as they stood? Disjoint, or touching: to their distance. Else to the least
  * way out, which must not be longer. */
+static bool stood_so_beside(const proof_feature *a, const proof_feature *line, double clearance)
+{
+    if (proof_line_meets(line, a)) return clearance <= 0 && proof_line_parts(line, a, clearance);
+    mpq_t square, was;
+    mpq_inits(square, was, NULL);
+    mpq_set_d(square, clearance);
+    mpq_mul(square, square, square);
+    proof_line_square(was, line, a);
+    const bool so = clearance <= 0 || mpq_cmp(square, was) <= 0;
+    mpq_clears(square, was, NULL);
+    return so;
+}
+
 static bool stood_so(const proof_feature *a, const proof_feature *b, double clearance)
 {
+    if (b->line) return stood_so_beside(a, b, clearance);
     polyset p, q;
     standing was;
     mpq_t square;
@@ -39,26 +53,36 @@ static bool stood_so(const proof_feature *a, const proof_feature *b, double clea
 static const char *check_clearance(const checking *c, const sunder_proof_node *node)
 {
     const sunder_conflict *own = &c->listed[c->conflict], *listed = find_listed(c, node->a, node->b);
-    if (!listed || listed == own) return node->clearance <= c->gap ? NULL : "more than the gap is asked for";
     const proof_feature *a = &c->feature[node->a], *b = &c->feature[node->b];
+    const double owed = node->b >= c->n ? b->owed : c->gap;
+    if (node->slack && (!listed || listed == own || node->clearance >= 0))
+        return "slack, where nothing is held to less";
+    if (!listed || listed == own) return node->clearance <= owed ? NULL : "more than is owed is asked for";
+    if (node->clearance > owed) return "a listed pair is held to more than it owes";
     /* Of those that are not convex it is not asked whether they are contained. */
-    if ((is_convex_part(a->xy, a->corners) && is_part_of(a->xy, a->corners, b)) ||
-        (is_convex_part(b->xy, b->corners) && is_part_of(b->xy, b->corners, a)))
+    if ((!b->line && is_convex_part(a->xy, a->corners) && is_part_of(a->xy, a->corners, b)) ||
+        (node->b < c->n && is_convex_part(b->xy, b->corners) && is_part_of(b->xy, b->corners, a)))
         return "what is contained may stay so";
     return stood_so(a, b, node->clearance) ? NULL : "a listed pair is held to more than it had";
 }
 
 /* ---- The tree ---- */
 
+static bool is_part(const checking *c, size_t thing, const double *part, size_t corners)
+{
+    const proof_feature *f = &c->feature[thing];
+    return f->line ? is_part_of_line(part, corners, f) : is_convex_part(part, corners) && is_part_of(part, corners, f);
+}
+
 /* Is it about parts of its features, which are owed so much, and do its ways leave nothing out? */
 static const char *check_question(const checking *c, const sunder_proof_node *node)
 {
     const double *a = c->proof->corner + 2 * node->part_a, *b = c->proof->corner + 2 * node->part_b;
     if (proof_same_block(c, node->a, node->b)) return "a node is about one block";
-    if (node->shadow) return proof_check_shadow(c, node);
-    if (!is_convex_part(a, node->corners_a) || !is_convex_part(b, node->corners_b)) return "a part is not convex";
-    if (!is_part_of(a, node->corners_a, &c->feature[node->a]) || !is_part_of(b, node->corners_b, &c->feature[node->b]))
-        return "a part is not of its feature";
+    if (node->a >= c->n) return "a barrier comes first";
+    if (node->shadow) return node->b < c->n ? proof_check_shadow(c, node) : "a barrier with sides";
+    if (!is_part(c, node->a, a, node->corners_a) || !is_part(c, node->b, b, node->corners_b))
+        return "a part is not convex, or not of its feature";
     const char *wrong = check_clearance(c, node);
     return wrong ? wrong : proof_check_ways(c, node);
 }
@@ -82,13 +106,13 @@ static const char *check_node(checking *c, size_t at, size_t depth)
 static const char *check_blockers(const checking *c)
 {
     const sunder_conflict *own = &c->listed[c->conflict];
-    bool *used = calloc(c->n, sizeof *used);
+    bool *used = calloc(c->things, sizeof *used);
     for (size_t k = 0; k < c->proof->nodes; k++)
         if (c->proof->node[k].ways) used[c->proof->node[k].a] = used[c->proof->node[k].b] = true;
     used[own->a] = used[own->b] = false;
     size_t n = 0;
     bool same = true;
-    for (size_t f = 0; f < c->n; f++)
+    for (size_t f = 0; f < c->things; f++)
         if (used[f]) {
             same = same && n < own->n_blocked_by && own->blocked_by[n] == f;
             n++;
@@ -97,9 +121,10 @@ static const char *check_blockers(const checking *c)
     return same && n == own->n_blocked_by ? NULL : "blocked_by is not what the proof is about";
 }
 
-const char *proof_check(const proof_feature *feature, size_t n, double gap, const sunder_report *report, size_t k)
+const char *proof_check(const proof_feature *thing, size_t n, size_t things, double gap, const sunder_report *report,
+                        size_t k)
 {
-    checking c = {.feature = feature, .n = n, .conflict = k, .gap = gap, .report = report};
+    checking c = {.feature = thing, .n = n, .things = things, .conflict = k, .gap = gap, .report = report};
     c.listed = sunder_report_conflicts(report, &c.listed_n);
     c.proof = sunder_report_proof(report, k);
     if (!c.proof || c.proof->nodes == 0) return "there is no proof";

@@ -4,17 +4,23 @@
 
 #include "sunder.h"
 
-/* A simple polygon, counter-clockwise, as it stood at the start. */
+/* A feature: a simple polygon, counter-clockwise, as it stood at the start. Or a barrier: the same, or a line (one of a
+ * single corner is a point); it is fixed. */
 typedef struct proof_feature {
     const double *xy;
     size_t corners;
     double max_shift;
     bool fixed;
+    bool line;
+    double owed; /* of a barrier: half its width, and its gap */
 } proof_feature;
 
 /* Follows the proof of conflict k of the report: its parts lie in their features, its ways leave nothing out, no
  * clearance is more than is owed, its leaves contradict the limits, and blocked_by names its features. NULL if all is
- * so, else what is not. Features that lie in each other must not be allowed to overlap. */
-const char *proof_check(const proof_feature *feature, size_t n, double gap, const sunder_report *report, size_t k);
+ * so, else what is not. thing: n features, and behind them the barriers, which have no sides. Features that lie in each
+ * other must not be allowed to overlap; of a line that a listed feature overlapped it is asked whether it is deeper only
+ * where it has one segment, and the feature is convex: else it is taken for wrong. */
+const char *proof_check(const proof_feature *thing, size_t n, size_t things, double gap, const sunder_report *report,
+                        size_t k);
 
 #endif

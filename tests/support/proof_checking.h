@@ -8,8 +8,8 @@
 #include <stdbool.h>
 
 typedef struct checking {
-    const proof_feature *feature;
-    size_t n, conflict;
+    const proof_feature *feature; /* [things], of which barriers are those from n on */
+    size_t n, things, conflict;
     double gap;
     const sunder_report *report;
     const sunder_conflict *listed;
@@ -22,6 +22,14 @@ typedef struct checking {
 /* proof_parts.c: every other corner on the left of every side; convex, and inside the feature. */
 bool is_convex_part(const double *xy, size_t n);
 bool is_part_of(const double *part, size_t n, const proof_feature *f);
+
+/* proof_lines.c: of a line and a polygon. Does it run through the open polygon? The square of their distance. */
+bool proof_line_meets(const proof_feature *line, const proof_feature *polygon);
+void proof_line_square(mpq_t square, const proof_feature *line, const proof_feature *polygon);
+/* Of a convex polygon and one segment: is the least translation that takes them apart no longer than that? */
+bool proof_line_parts(const proof_feature *line, const proof_feature *polygon, double most);
+/* Are the part's one or two corners on one segment of the line? */
+bool is_part_of_line(const double *part, size_t n, const proof_feature *line);
 
 /* proof_ways.c: what lies behind all the ways, an open convex polygon, must be in conflict. */
 const char *proof_check_ways(const checking *c, const sunder_proof_node *node);

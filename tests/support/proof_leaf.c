@@ -4,6 +4,7 @@
 
 bool proof_same_block(const checking *c, size_t a, size_t b)
 {
+    if (a >= c->n || b >= c->n) return a == b;
     return a == b || (sunder_report_block(c->report, a) >= 0 &&
                       sunder_report_block(c->report, a) == sunder_report_block(c->report, b));
 }
@@ -33,40 +34,85 @@ static void root_above(mpq_t r, const mpq_t s)
     mpz_clear(n);
 }
 
-/* What the limits lose of a leaf: the sum over blocks, each by its first member. */
+/* The sum of the leaf's forces, each with the sign that it has for block b; or of those that push the slack of that
+ * node's pair. */
+static void sum_net(const checking *c, const sunder_proof_node *leaf, size_t b, const sunder_proof_node *slack,
+                    vec *net)
+{
+    vec n;
+    mpq_t f;
+    vec_init(&n), mpq_init(f);
+    mpq_set_ui(net->x, 0, 1);
+    mpq_set_ui(net->y, 0, 1);
+    for (size_t k = 0; k < leaf->forces; k++) {
+        const sunder_proof_force *force = &c->proof->force[leaf->force + k];
+        const sunder_proof_node *node = &c->proof->node[force->node];
+        int sign = slack ? node->slack && node->a == slack->a && node->b == slack->b
+                         : proof_same_block(c, b, node->b) - proof_same_block(c, b, node->a);
+        if (force->behind) sign = -sign;
+        if (sign == 0) continue;
+        vec_set_d(&n, c->proof->way[force->way].n);
+        mpq_set_d(f, sign * force->force);
+        mpq_mul(n.x, n.x, f);
+        mpq_mul(n.y, n.y, f);
+        mpq_add(net->x, net->x, n.x);
+        mpq_add(net->y, net->y, n.y);
+    }
+    vec_clear(&n), mpq_clear(f);
+}
+
+static void add_lost(mpq_t lost, const vec *net, double limit)
+{
+    mpq_t f, most;
+    mpq_inits(f, most, NULL);
+    vec_dot(f, net, net);
+    if (mpq_sgn(f) != 0) {
+        root_above(f, f);
+        mpq_set_d(most, limit);
+        mpq_mul(f, f, most);
+        mpq_add(lost, lost, f);
+    }
+    mpq_clears(f, most, NULL);
+}
+
+/* Is it the first of the proof's nodes about the slack of its pair? */
+static bool is_first_slack(const sunder_proof *p, size_t k)
+{
+    for (size_t m = 0; m < k; m++)
+        if (p->node[m].slack && p->node[m].a == p->node[k].a && p->node[m].b == p->node[k].b) return false;
+    return p->node[k].slack;
+}
+
+/* The least clearance that the pair's slack is known by: a leaf loses most by that. */
+static double longest_slack(const sunder_proof *p, const sunder_proof_node *of)
+{
+    double longest = 0;
+    for (size_t m = 0; m < p->nodes; m++)
+        if (p->node[m].slack && p->node[m].a == of->a && p->node[m].b == of->b && -p->node[m].clearance > longest)
+            longest = -p->node[m].clearance;
+    return longest;
+}
+
+/* What the limits lose of a leaf: the sum over blocks, each by its first member; and over slacks. */
 static void sum_lost(const checking *c, const sunder_proof_node *leaf, mpq_t lost)
 {
-    vec net, n;
-    mpq_t f, limit;
-    vec_init(&net), vec_init(&n), mpq_inits(f, limit, NULL);
+    const sunder_proof *p = c->proof;
+    vec net;
+    vec_init(&net);
     mpq_set_ui(lost, 0, 1);
     for (size_t b = 0; b < c->n; b++) {
         bool first = true;
         for (size_t g = 0; g < b && first; g++) first = !proof_same_block(c, b, g);
         if (!first) continue;
-        mpq_set_ui(net.x, 0, 1);
-        mpq_set_ui(net.y, 0, 1);
-        for (size_t k = 0; k < leaf->forces; k++) {
-            const sunder_proof_force *force = &c->proof->force[leaf->force + k];
-            const sunder_proof_node *node = &c->proof->node[force->node];
-            const int sign =
-                (proof_same_block(c, b, node->b) - proof_same_block(c, b, node->a)) * (force->behind ? -1 : 1);
-            if (sign == 0) continue;
-            vec_set_d(&n, c->proof->way[force->way].n);
-            mpq_set_d(f, sign * force->force);
-            mpq_mul(n.x, n.x, f);
-            mpq_mul(n.y, n.y, f);
-            mpq_add(net.x, net.x, n.x);
-            mpq_add(net.y, net.y, n.y);
-        }
-        vec_dot(f, &net, &net);
-        if (mpq_sgn(f) == 0) continue;
-        root_above(f, f);
-        mpq_set_d(limit, limit_of(c, b));
-        mpq_mul(f, f, limit);
-        mpq_add(lost, lost, f);
+        sum_net(c, leaf, b, NULL, &net);
+        add_lost(lost, &net, limit_of(c, b));
     }
-    vec_clear(&net), vec_clear(&n), mpq_clears(f, limit, NULL);
+    for (size_t k = 0; k < p->nodes; k++) {
+        if (!is_first_slack(p, k)) continue;
+        sum_net(c, leaf, 0, &p->node[k], &net);
+        add_lost(lost, &net, longest_slack(p, &p->node[k]));
+    }
+    vec_clear(&net);
 }
 
 const char *proof_check_leaf(const checking *c, const sunder_proof_node *leaf, size_t depth)

@@ -77,13 +77,14 @@ const char *proof_check_ways(const checking *c, const sunder_proof_node *node)
     vec v;
     mpq_t d, most;
     vec_init(&v), mpq_inits(d, most, NULL);
-    mpq_set_d(most, node->clearance);
+    const double clearance = node->slack ? 0 : node->clearance; /* with its slack it is disjoint */
+    mpq_set_d(most, clearance);
     mpq_mul(most, most, most);
     for (size_t i = 0; i < node->ways && !wrong; i++)
         for (size_t j = i + 1; j < node->ways && !wrong; j++) {
             if (!proof_crossing(&way[i], &way[j], &v) || !proof_is_behind_all(way, node->ways, &v)) continue;
-            if (node->clearance < 0) {
-                if (!hull_holds_disc(&k, &v, node->clearance)) wrong = "a move that is no worse has no way";
+            if (clearance < 0) {
+                if (!hull_holds_disc(&k, &v, clearance)) wrong = "a move that is no worse has no way";
                 continue;
             }
             hull_square_from(d, &k, &v);
