@@ -99,7 +99,8 @@ static sunder_status seek(sunder_i_solver *s, bool known, double from, double to
         if (!status) status = sunder_i_solver_ask_one_by_one(s, &again, err);
         if (!status && again) status = sunder_i_solver_settle(s, from + 6 * step, to, err);
     }
-    return status;
+    if (!status) status = sunder_i_solver_fit_exactly(s, err);
+    return status ? status : sunder_i_solver_settle(s, to, to, err);
 }
 
 /* Without limits first, and then, if one is overstepped, within them: what nothing oversteps changes nothing. */

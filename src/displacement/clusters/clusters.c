@@ -118,6 +118,15 @@ const uint32_t *sunder_i_solver_members(const sunder_i_solver *s, uint32_t root,
     return s->body + first;
 }
 
+sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *s, uint32_t body)
+{
+    size_t n;
+    const uint32_t *member = sunder_i_solver_members(s, sunder_i_union_find(s->parent, body), &n);
+    for (size_t k = 0; k < s->clusters && n; k++)
+        if (s->cluster[k].body == member) return &s->cluster[k];
+    return NULL;
+}
+
 /* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: a
  * power of two, two to four units in the last place of the largest coordinate; four times as much for each failed
  * check. So where a shift keeps coordinates in their binades the search, which reckons from the bodies' own origins,
@@ -187,8 +196,8 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
         sunder_i_cluster *c = &s->cluster[s->clusters++];
         for (end = first; end < s->members && s->member[end].root == s->member[first].root; end++) {
             const sunder_i_body *body = &s->model.body[s->member[end].body];
-            c->limited = c->limited || body->fixed || body->pinned || body->limit < INFINITY ||
-                         sunder_i_forbids_ways(&s->model);
+            c->limited =
+                c->limited || body->fixed || body->pinned || body->limit < INFINITY || sunder_i_forbids_ways(&s->model);
         }
         c->brief = s->brief;
         c->body = s->body + first;

@@ -83,6 +83,8 @@ bool sunder_i_solver_add_edge(sunder_i_solver *solver, uint32_t i, uint32_t j);
 bool sunder_i_solver_has_member(const sunder_i_solver *solver, uint32_t root, uint32_t body);
 /* The members of the cluster of that root, ascending; none if it is no cluster's. */
 const uint32_t *sunder_i_solver_members(const sunder_i_solver *solver, uint32_t root, size_t *n);
+/* The cluster that the body is of, as they were last gathered; NULL: none. */
+sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *solver, uint32_t body);
 /* What is asked of these bodies beyond the gap. */
 double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *body, size_t n);
 /* Clusters from the edges, afresh. */

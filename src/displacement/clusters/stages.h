@@ -54,6 +54,11 @@ sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed,
 /* The same of single pairs, the others staying in conflict. */
 sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *solver, bool *changed, sunder_error *err);
 
+/* ---- exact_fits.c ------------------------------------------------------------------------------------------------ */
+
+/* And of such as fit exactly, where coordinates lie on a lattice. */
+sunder_status sunder_i_solver_fit_exactly(sunder_i_solver *solver, sunder_error *err);
+
 /* ---- retry_list.c ------------------------------------------------------------------------------------------------ */
 
 /* Once nothing joins clusters any more: asks what was given up once more, a cluster at a time. */
@@ -81,6 +86,11 @@ sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *er
 
 /* ---- uphold.c ---------------------------------------------------------------------------------------------------- */
 
+/* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */
+bool sunder_i_solver_is_always_listed(const sunder_i_solver *solver, const sunder_i_relation *r);
+/* Is it one, and does it stand worse than it stood? */
+sunder_status sunder_i_solver_breaks_rule(const sunder_i_solver *solver, const sunder_i_relation *r, bool *breaks,
+                                          sunder_error *err);
 /* Does the pair, which is in conflict, stand worse than it stood? Exact. */
 sunder_status sunder_i_solver_is_worse(const sunder_i_solver *solver, const sunder_i_relation *r, bool *worse,
                                        sunder_error *err);

@@ -21,6 +21,13 @@
 #define EFFORT_ALONE 400000u
 #define MARGINS 4
 
+/* ---- What fits exactly (exact_fits.c) ---------------------------------------------------------------------------- */
+
+/* What the search may miss, as a share of the smaller body: far below the hair by which a place may be beside the
+ * lattice (TIGHT_HAIR), far above what programs leave. Of a cluster so many are asked in vain, one after the other. */
+#define FIT_ROOM 0x1p-32
+#define FITS_IN_VAIN 8
+
 /* ---- Proofs of optimality (optimise.c) --------------------------------------------------------------------------- */
 
 /* Rounds of proofs, in which groups join. */

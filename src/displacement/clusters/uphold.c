@@ -14,6 +14,7 @@
  * A place that is taken breaks the rule for no pair, a body that is pinned stays so, and with all at home nothing
  * stands worse: the loop ends. */
 #include "displacement/clusters/stages.h"
+#include "displacement/clusters/trial.h"
 #include "displacement/clusters/tuning.h"
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/rounding.h"
@@ -62,15 +63,16 @@ sunder_status sunder_i_solver_is_worse(const sunder_i_solver *s, const sunder_i_
 }
 
 /* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */
-static bool is_always_listed(const sunder_i_solver *s, const sunder_i_relation *r)
+bool sunder_i_solver_is_always_listed(const sunder_i_solver *s, const sunder_i_relation *r)
 {
     return sunder_i_is_conflict(r) && (s->model.body_of[r->a] != s->model.body_of[r->b] || (r->overlap && !r->touch));
 }
 
-static sunder_status breaks_rule(const sunder_i_solver *s, const sunder_i_relation *r, bool *breaks, sunder_error *err)
+sunder_status sunder_i_solver_breaks_rule(const sunder_i_solver *s, const sunder_i_relation *r, bool *breaks,
+                                          sunder_error *err)
 {
     *breaks = false;
-    return is_always_listed(s, r) ? sunder_i_solver_is_worse(s, r, breaks, err) : SUNDER_OK;
+    return sunder_i_solver_is_always_listed(s, r) ? sunder_i_solver_is_worse(s, r, breaks, err) : SUNDER_OK;
 }
 
 sunder_status sunder_i_solver_is_upheld(const sunder_i_solver *s, bool *upheld, sunder_error *err)
@@ -79,108 +81,13 @@ sunder_status sunder_i_solver_is_upheld(const sunder_i_solver *s, bool *upheld, 
     *upheld = s->jumps.n == 0;
     for (size_t k = 0; k < s->now.n && *upheld && !status; k++) {
         bool breaks;
-        status = breaks_rule(s, &s->now.pair[k], &breaks, err);
+        status = sunder_i_solver_breaks_rule(s, &s->now.pair[k], &breaks, err);
         *upheld = !status && !breaks;
     }
     return status;
 }
 
 /* ---- A place nearby ---------------------------------------------------------------------------------------------- */
-
-/* Bodies that are to have one move, or one coordinate of it, and where they stood. */
-typedef struct trial {
-    sunder_i_solver *solver;
-    uint32_t *body;
-    double *stood; /* [2 n] */
-    size_t n, body_capacity, stood_capacity;
-    unsigned along; /* which coordinates: bit 0 is x, bit 1 is y */
-    double *goal;   /* [2 n] to each its own, in place of one for all; or NULL */
-    bool *taken;    /* [bodies] where many are asked; else NULL */
-    size_t *budget; /* bodies that may yet be moved in vain */
-    sunder_i_list near;
-    bool well; /* so far */
-} trial;
-
-/* What body k of the trial is to move by, if they are all to move by `to`. */
-static void goal_of(const trial *t, size_t k, const double to[2], double goal[2])
-{
-    for (unsigned c = 0; c < 2; c++)
-        goal[c] = t->goal ? t->goal[2 * k + c] : t->along >> c & 1 ? to[c] : t->stood[2 * k + c];
-}
-
-static bool take(trial *t, uint32_t b)
-{
-    const double *move = t->solver->model.move + 2 * (size_t)b;
-    if (!sunder_i_reserve(&t->body, &t->body_capacity, t->n + 1, sizeof *t->body) ||
-        !sunder_i_reserve(&t->stood, &t->stood_capacity, 2 * (t->n + 1), sizeof *t->stood))
-        return false;
-    t->body[t->n] = b;
-    memcpy(t->stood + 2 * t->n++, move, 2 * sizeof *move);
-    return true;
-}
-
-/* Is the pair in no conflict but one that it was in, in no overlap that had ended, and no worse than at the start? */
-static sunder_status look_at_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
-{
-    trial *t = context;
-    if (!is_always_listed(t->solver, r)) return SUNDER_OK;
-    const sunder_i_relation *old = sunder_i_relations_find(&t->solver->now, r->a, r->b);
-    bool breaks = !old || !sunder_i_is_conflict(old) || (r->overlap && !old->overlap);
-    const sunder_status status = breaks ? SUNDER_OK : breaks_rule(t->solver, r, &breaks, err);
-    t->well = *on = !breaks;
-    return status;
-}
-
-/* Can all of them go there, exactly and within their limits, and does one of them stand elsewhere? */
-static bool can_go(const trial *t, const double to[2])
-{
-    bool any = false;
-    for (size_t k = 0; k < t->n; k++) {
-        double exact[2], goal[2];
-        goal_of(t, k, to, goal);
-        any = any || t->stood[2 * k] != goal[0] || t->stood[2 * k + 1] != goal[1];
-        if (!sunder_i_is_within_limit(goal, t->solver->model.body[t->body[k]].limit) ||
-            !sunder_i_round_move(&t->solver->model, t->body[k], goal, exact, NULL) || exact[0] != goal[0] ||
-            exact[1] != goal[1])
-            return false;
-    }
-    return any;
-}
-
-/* Puts the bodies of a trial there, or back where they stood (to: NULL). */
-static sunder_status put(trial *t, const double *to, sunder_error *err)
-{
-    sunder_i_solver *s = t->solver;
-    sunder_status status = SUNDER_OK;
-    memset(s->changed, 0, s->model.features * sizeof *s->changed);
-    for (size_t k = 0; k < t->n && !status; k++) {
-        double goal[2] = {t->stood[2 * k], t->stood[2 * k + 1]};
-        if (to) goal_of(t, k, to, goal);
-        sunder_i_solver_place(s, t->body[k], goal);
-        status = sunder_i_placement_move_body(&s->model, &s->placement, t->body[k], err);
-        if (!status) status = sunder_i_jumps_follow(&s->jumps, &s->model, t->body[k], err);
-    }
-    return status;
-}
-
-/* Tries one place for them all: they stay there if all is well, else go back. */
-static sunder_status try_place(trial *t, const double to[2], sunder_error *err)
-{
-    sunder_i_solver *s = t->solver;
-    t->well = false;
-    if (!can_go(t, to)) return SUNDER_OK;
-    t->well = true;
-    sunder_status status = put(t, to, err);
-    for (size_t k = 0; k < t->n && t->well && !status; k++)
-        status = sunder_i_placement_visit(&s->model, &s->placement, t->body[k], &t->near, look_at_pair, t, err);
-    for (size_t k = 0; k < t->n && t->well && !status; k++) {
-        bool jumps;
-        status = sunder_i_jumps_of_body(&s->jumps, &s->model, t->body[k], &t->near, &jumps, err);
-        t->well = !jumps;
-    }
-    if (status) return status;
-    return t->well ? sunder_i_solver_relate(s, err) : put(t, NULL, err);
-}
 
 /* The units of what the body may be moved by from where it stands. */
 static void units_of(const sunder_i_solver *s, uint32_t b, double unit[2])
@@ -196,7 +103,7 @@ static void units_of(const sunder_i_solver *s, uint32_t b, double unit[2])
 }
 
 /* The eight places a unit beside its own, and those some units farther: the search lets go of as much. */
-static sunder_status try_nearby(trial *t, sunder_error *err)
+static sunder_status try_nearby(sunder_i_trial *t, sunder_error *err)
 {
     const double stood[2] = {t->stood[0], t->stood[1]};
     double unit[2];
@@ -206,7 +113,7 @@ static sunder_status try_nearby(trial *t, sunder_error *err)
     for (int step = 1; step <= ALIKE && !t->well && !status; step *= 4)
         for (int k = 0; k < 9 && !t->well && !status; k++) {
             const double to[2] = {stood[0] + step * (k % 3 - 1) * unit[0], stood[1] + step * (k / 3 - 1) * unit[1]};
-            if (k != 4) status = try_place(t, to, err);
+            if (k != 4) status = sunder_i_trial_place(t, to, err);
         }
     return status;
 }
@@ -214,7 +121,7 @@ static sunder_status try_nearby(trial *t, sunder_error *err)
 /* ---- All that move as one ---------------------------------------------------------------------------------------- */
 
 /* Do the two move alike, as far as the trial asks, up to a few units? */
-static bool is_alike(const trial *t, uint32_t b, uint32_t other, double hair)
+static bool is_alike(const sunder_i_trial *t, uint32_t b, uint32_t other, double hair)
 {
     const double *p = t->solver->model.move + 2 * (size_t)b, *q = t->solver->model.move + 2 * (size_t)other;
     for (unsigned c = 0; c < 2; c++)
@@ -223,7 +130,7 @@ static bool is_alike(const trial *t, uint32_t b, uint32_t other, double hair)
 }
 
 /* Those about body b who moved as it did. */
-static sunder_status take_alike(trial *t, uint32_t b, double hair, sunder_error *err)
+static sunder_status take_alike(sunder_i_trial *t, uint32_t b, double hair, sunder_error *err)
 {
     const sunder_i_model *model = &t->solver->model;
     const sunder_i_body *p = &model->body[b];
@@ -238,7 +145,7 @@ static sunder_status take_alike(trial *t, uint32_t b, double hair, sunder_error 
             const uint32_t other = model->body_of[t->near.item[k]];
             if (t->taken[other] || !sunder_i_may_move(&t->solver->model.body[other]) || !is_alike(t, b, other, hair))
                 continue;
-            if (!take(t, other)) return sunder_i_no_memory(err);
+            if (!sunder_i_trial_take(t, other)) return sunder_i_no_memory(err);
             t->taken[other] = true;
         }
     }
@@ -247,7 +154,7 @@ static sunder_status take_alike(trial *t, uint32_t b, double hair, sunder_error 
 
 /* A row that was pushed along, each of which must not stand worse to the next, has to move as one to the last bit: all
  * take the move of the one whose coordinates are the coarsest. */
-static sunder_status try_together(trial *t, sunder_error *err)
+static sunder_status try_together(sunder_i_trial *t, sunder_error *err)
 {
     double coarsest = 0, to[2] = {0, 0};
     sunder_status status = SUNDER_OK;
@@ -266,7 +173,7 @@ static sunder_status try_together(trial *t, sunder_error *err)
     }
     for (size_t k = 0; k < t->n; k++) t->taken[t->body[k]] = false;
     t->well = false;
-    if (!status && t->n <= *t->budget) status = try_place(t, to, err);
+    if (!status && t->n <= *t->budget) status = sunder_i_trial_place(t, to, err);
     if (!t->well) *t->budget -= t->n < *t->budget ? t->n : *t->budget;
     return status;
 }
@@ -282,7 +189,7 @@ sunder_status sunder_i_solver_mend(sunder_i_solver *s, const sunder_i_relation *
                                    sunder_error *err)
 {
     const uint32_t pair[2] = {s->model.body_of[r->a], s->model.body_of[r->b]};
-    trial t = {.solver = s, .budget = budget};
+    sunder_i_trial t = {.solver = s, .budget = budget};
     sunder_status status = SUNDER_OK;
     for (size_t k = 0; k < sizeof ways / sizeof *ways && !t.well && !status; k++)
         for (int e = 0; e < 2 && !t.well && !status; e++) {
@@ -290,68 +197,38 @@ sunder_status sunder_i_solver_mend(sunder_i_solver *s, const sunder_i_relation *
             t.n = 0;
             t.along = ways[k].along;
             if (!sunder_i_may_move(&s->model.body[pair[e]])) continue;
-            if (!take(&t, pair[e])) status = sunder_i_no_memory(err);
+            if (!sunder_i_trial_take(&t, pair[e])) status = sunder_i_no_memory(err);
             if (!status && ways[k].way == NEARBY) status = try_nearby(&t, err);
-            if (!status && ways[k].way == PARTNER) status = try_place(&t, to, err);
+            if (!status && ways[k].way == PARTNER) status = sunder_i_trial_place(&t, to, err);
             if (!status && ways[k].way == TOGETHER) status = try_together(&t, err);
         }
     *well = t.well;
-    sunder_i_free(t.body);
-    sunder_i_free(t.stood);
-    sunder_i_free(t.taken);
-    sunder_i_free(t.near.item);
+    sunder_i_trial_free(&t);
     return status;
 }
 
 /* ---- With a margin ----------------------------------------------------------------------------------------------- */
-
-static sunder_i_cluster *cluster_of(const sunder_i_solver *s, uint32_t body)
-{
-    size_t n;
-    const uint32_t *member = sunder_i_solver_members(s, sunder_i_union_find(s->parent, body), &n);
-    for (size_t k = 0; k < s->clusters && n; k++)
-        if (s->cluster[k].body == member) return &s->cluster[k];
-    return NULL;
-}
-
-/* The bodies of a cluster that are to go elsewhere. */
-static bool take_moved(trial *t, const sunder_i_cluster *c, const double *move)
-{
-    const sunder_i_solver *s = t->solver;
-    t->goal = sunder_i_alloc(2 * c->n, sizeof *t->goal);
-    for (size_t k = 0; k < c->n && t->goal; k++) {
-        const uint32_t b = c->body[k];
-        if (!sunder_i_may_move(&s->model.body[b]) ||
-            memcmp(move + 2 * k, s->model.move + 2 * (size_t)b, 2 * sizeof *move) == 0)
-            continue;
-        if (!take(t, b)) return false;
-        memcpy(t->goal + 2 * (t->n - 1), move + 2 * k, 2 * sizeof *move);
-    }
-    return t->goal != NULL;
-}
 
 /* Asks the search for places that leave the pair better by the margin, near where all stand: *well, if there are such,
  * and they hold. */
 static sunder_status ease(sunder_i_solver *s, const sunder_i_relation *r, bool others, bool *well, sunder_error *err)
 {
     const uint32_t i = s->model.body_of[r->a], j = s->model.body_of[r->b];
-    trial t = {.solver = s};
+    sunder_i_trial t = {.solver = s};
     *well = false;
     sunder_status status = sunder_i_solver_gather(s, err);
     if (!status) status = sunder_i_solver_unite_blocks(s, err);
-    const sunder_i_cluster *c = status ? NULL : cluster_of(s, sunder_i_may_move(&s->model.body[i]) ? i : j);
+    const sunder_i_cluster *c =
+        status ? NULL : sunder_i_solver_cluster_of(s, sunder_i_may_move(&s->model.body[i]) ? i : j);
     if (!c) return status;
     const double none[2] = {0, 0};
     double *move = sunder_i_solver_load_moves(s, c);
     bool done;
     status = sunder_i_cluster_ease(&s->model, c, r->a, r->b, others, move, &done, err);
-    if (!status && done && !take_moved(&t, c, move)) status = sunder_i_no_memory(err);
-    if (!status && done) status = try_place(&t, none, err);
+    if (!status && done && !sunder_i_trial_take_moved(&t, c, move)) status = sunder_i_no_memory(err);
+    if (!status && done) status = sunder_i_trial_place(&t, none, err);
     *well = t.well;
-    sunder_i_free(t.body);
-    sunder_i_free(t.stood);
-    sunder_i_free(t.goal);
-    sunder_i_free(t.near.item);
+    sunder_i_trial_free(&t);
     return status;
 }
 
@@ -415,7 +292,7 @@ sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
             const sunder_i_relation r = s->now.pair[k];
             const uint32_t i = s->model.body_of[r.a], j = s->model.body_of[r.b];
             bool breaks, well = false;
-            status = breaks_rule(s, &r, &breaks, err);
+            status = sunder_i_solver_breaks_rule(s, &r, &breaks, err);
             if (status || !breaks || (!sunder_i_may_move(&s->model.body[i]) && !sunder_i_may_move(&s->model.body[j])))
                 continue;
             any = true;

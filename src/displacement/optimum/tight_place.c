@@ -116,15 +116,15 @@ static bool lower_by_body(fitting *f, const sunder_i_body *body, int *exponent, 
 
 static bool is_coarse(const fitting *f, int exponent) { return ldexp(1, exponent) >= TIGHT_STEP * f->size; }
 
-/* The step of all coordinates of the group's bodies and of what they owe, and a hair beside them; *coarse: there is
- * one. False if memory is out. */
+/* The step of all coordinates of the group's bodies and of what they owe, and a hair beside those that may move (what
+ * stands may be a road, miles long); *coarse: there is one. False if memory is out. */
 static bool find_step(fitting *f, bool *coarse)
 {
     *coarse = true;
     f->exponent = INT_MAX;
     for (size_t k = 0; k < f->n && *coarse; k++) {
         const sunder_i_body *body = &f->model->body[f->body[k]];
-        for (int c = 0; c < 4; c++) f->size = fmax(f->size, fabs(body->box[c]));
+        for (int c = 0; c < 4 && !body->fixed; c++) f->size = fmax(f->size, fabs(body->box[c]));
         if (!lower_by_body(f, body, &f->exponent, coarse)) return false;
     }
     *coarse = *coarse && f->exponent < INT_MAX && is_coarse(f, f->exponent);

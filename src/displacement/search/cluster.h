@@ -74,6 +74,14 @@ sunder_status sunder_i_cluster_descend(const sunder_i_model *model, const sunder
 sunder_status sunder_i_cluster_ease(const sunder_i_model *model, const sunder_i_cluster *cluster, uint32_t a,
                                     uint32_t b, bool others, double *move, bool *done, sunder_error *err);
 
+/* ---- fit.c ------------------------------------------------------------------------------------------------------- */
+
+/* Two bodies that were given up: are there places for them and those about them that miss no more than `room` of what
+ * they owe? *found, and the moves, not rounded. Others keep what they owe, or are held to, as nearly. from_home: all of
+ * a small cluster begin there. */
+sunder_status sunder_i_cluster_fit(const sunder_i_model *model, const sunder_i_cluster *cluster, uint32_t a, uint32_t b,
+                                   double room, bool from_home, double *move, bool *found, sunder_error *err);
+
 /* ---- invite.c ---------------------------------------------------------------------------------------------------- */
 
 /* Bodies of the cluster that would have a nearer place but for others who might move: pairs of the two go to

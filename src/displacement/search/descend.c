@@ -319,7 +319,8 @@ static const char *check_next(const sunder_i_search *s)
 
 bool sunder_i_search_descend(sunder_i_search *s)
 {
-    double reach = s->gap, cost = INFINITY, softness = SOFT;
+    /* At least a margin: who was put in a free place stands beside its pieces, a hair farther than is asked. */
+    double reach = fmax(s->gap, 4 * s->tolerance), cost = INFINITY, softness = SOFT;
     const double longest_reach = fmax(s->gap / 2, s->extent / (is_crowd(s) ? PART_OF_CROWD : SMALL_PART));
     bool free_now = false;
     int clashing_rounds = 0, idle = 0;
@@ -346,7 +347,7 @@ bool sunder_i_search_descend(sunder_i_search *s)
         const double next_cost = sunder_i_search_cost(s, s->next);
         const double step = longest_step(s);
         if (free_now && free_next && next_cost - HOPEFUL * (cost - next_cost) > s->hope) break;
-        if (free_now && (!free_next || next_cost > cost - s->settled * cost)) {
+        if (free_now && (!free_next || next_cost >= cost - s->settled * cost)) {
             /* The last round; one that ends in a clash was stuck numerically, and what stands is free. */
             if (free_next && next_cost < cost) memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
             sunder_i_free(best);

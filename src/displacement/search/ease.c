@@ -14,16 +14,6 @@
 
 static const size_t stage[] = RETRY_STAGES;
 
-static uint32_t place_of(const sunder_i_search *s, uint32_t body)
-{
-    for (size_t part = 0; part < 2; part++) {
-        const uint32_t *set = part ? s->body + s->own : s->body;
-        const uint32_t *found = bsearch(&body, set, part ? s->n - s->own : s->own, sizeof body, sunder_i_by_number);
-        if (found) return (uint32_t)(found - s->body);
-    }
-    return SUNDER_I_NOBODY;
-}
-
 /* Do two bodies of the search stand to each other otherwise than they did, by more than rounding? */
 static bool have_moved(const sunder_i_search *s, uint32_t i, uint32_t j)
 {
@@ -38,7 +28,8 @@ static bool ask_margins(sunder_i_search *s, uint32_t a, uint32_t b)
     bool ok = true;
     for (size_t k = 0; k < model->relaxations.n && ok; k++) {
         sunder_i_relaxation t = model->relaxations.item[k];
-        const uint32_t i = place_of(s, model->body_of[t.a]), j = place_of(s, model->body_of[t.b]);
+        const uint32_t i = sunder_i_search_place_of(s, model->body_of[t.a]),
+                       j = sunder_i_search_place_of(s, model->body_of[t.b]);
         const bool is_asked = t.a == a && sunder_i_whole_of(model, t.b) == sunder_i_whole_of(model, b);
         if (i == SUNDER_I_NOBODY || j == SUNDER_I_NOBODY || (!is_asked && !have_moved(s, i, j))) continue;
         t.gap += s->gap - model->rules.gap;
@@ -84,7 +75,8 @@ sunder_status sunder_i_cluster_ease(const sunder_i_model *model, const sunder_i_
     bool ok = sunder_i_search_init_about(&s, model, cluster, move) && ask_margins(&s, a, b);
     *done = false;
     if (ok && s.relaxations.n) {
-        const uint32_t i = place_of(&s, model->body_of[a]), j = place_of(&s, model->body_of[b]);
+        const uint32_t i = sunder_i_search_place_of(&s, model->body_of[a]),
+                       j = sunder_i_search_place_of(&s, model->body_of[b]);
         const uint32_t p = i == SUNDER_I_NOBODY ? j : i, q = j == SUNDER_I_NOBODY ? i : j;
         if (!others) spare_others(&s, p, q);
         *done = p != SUNDER_I_NOBODY && !s.failed && make_good(&s, p, q);

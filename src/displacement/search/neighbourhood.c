@@ -123,14 +123,20 @@ static bool begin(sunder_i_neighbourhood *v, sunder_i_search *part)
     return true;
 }
 
+/* Gives back what was lent: before the whole is looked at, which would begin another one. */
+static void give_back_cache(sunder_i_neighbourhood *v, sunder_i_search *part)
+{
+    if (part->cache.slots) v->all->cache = part->cache;
+    memset(&part->cache, 0, sizeof part->cache);
+}
+
 static void end(sunder_i_neighbourhood *v, sunder_i_search *part)
 {
     v->all->steps += part->steps + part->program.work;
     v->all->failed = v->all->failed || part->failed;
     memset(&part->relaxations, 0, sizeof part->relaxations);
     part->restored = NULL;
-    if (part->cache.slots) v->all->cache = part->cache;
-    memset(&part->cache, 0, sizeof part->cache);
+    give_back_cache(v, part);
     sunder_i_search_free(part);
     for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = false;
 }
@@ -180,6 +186,7 @@ static bool open_part(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t 
 static bool end_where_it_went(sunder_i_neighbourhood *v, sunder_i_search *part, bool done)
 {
     if (done && !part->failed) {
+        give_back_cache(v, part);
         put(v, part->t);
         done = is_free(v);
         if (!done) put(v, v->t);
@@ -235,6 +242,7 @@ double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *v, uint32_t i, uin
     part.hope = sunder_i_search_cost(&part, v->t);
     if (sunder_i_search_descend(&part) && !part.failed) gain = -costs_more(v, part.t, best);
     if (gain > least) {
+        give_back_cache(v, &part);
         put(v, part.t);
         if (!is_free(v)) gain = 0;
     }

@@ -129,23 +129,14 @@ static bool settle_all(retrying *p)
     return done && !s->failed;
 }
 
-static uint32_t place_of(const sunder_i_search *s, uint32_t body)
-{
-    for (size_t part = 0; part < 2; part++) {
-        const uint32_t *set = part ? s->body + s->own : s->body;
-        const uint32_t *found = bsearch(&body, set, part ? s->n - s->own : s->own, sizeof body, sunder_i_by_number);
-        if (found) return (uint32_t)(found - s->body);
-    }
-    return SUNDER_I_NOBODY; /* cannot be: retries are of the cluster's own */
-}
-
 static bool settle_one(retrying *p, size_t k, size_t level)
 {
     sunder_i_search *s = p->search;
     if (level == STAGES) return settle_all(p);
     const sunder_i_id_pair *pair = &p->retry[k].body;
-    const bool done = sunder_i_neighbourhood_settle(&p->neighbourhood, place_of(s, pair->a), place_of(s, pair->b),
-                                                    stage[level], s->gap + 2 * p->retry[k].missing);
+    const bool done = sunder_i_neighbourhood_settle(&p->neighbourhood, sunder_i_search_place_of(s, pair->a),
+                                                    sunder_i_search_place_of(s, pair->b), stage[level],
+                                                    s->gap + 2 * p->retry[k].missing);
     p->in_vain[k] = !p->neighbourhood.wider;
     return done;
 }

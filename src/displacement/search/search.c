@@ -3,6 +3,7 @@
 #include "displacement/search/tuning.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The mean size of the bodies that are not parts of barriers: how long those are says nothing of how far a
@@ -100,4 +101,14 @@ double sunder_i_search_cost(const sunder_i_search *s, const double *t)
     for (size_t k = 0; k < s->n; k++)
         if (s->mass[k] > 0) cost += (t[2 * k] * t[2 * k] + t[2 * k + 1] * t[2 * k + 1]) / (2 * s->mass[k]);
     return cost;
+}
+
+uint32_t sunder_i_search_place_of(const sunder_i_search *s, uint32_t body)
+{
+    for (size_t part = 0; part < 2; part++) {
+        const uint32_t *set = part ? s->body + s->own : s->body;
+        const uint32_t *found = bsearch(&body, set, part ? s->n - s->own : s->own, sizeof body, sunder_i_by_number);
+        if (found) return (uint32_t)(found - s->body);
+    }
+    return SUNDER_I_NOBODY;
 }

@@ -68,6 +68,8 @@ static inline uint64_t sunder_i_search_work(const sunder_i_search *s) { return s
 double sunder_i_search_limit(const sunder_i_search *search, uint32_t i);
 /* By how much it is farther at t, by more than a hair; else 0 (limits.c). */
 double sunder_i_search_overstep(const sunder_i_search *search, uint32_t i, const double *t);
+/* The place of a body of the model in the search, or SUNDER_I_NOBODY. */
+uint32_t sunder_i_search_place_of(const sunder_i_search *search, uint32_t body);
 /* sum w |t|^2 */
 double sunder_i_search_cost(const sunder_i_search *search, const double *t);
 

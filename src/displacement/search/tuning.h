@@ -169,6 +169,14 @@
 /* Overlaps are parted at the cost of other pairs in clusters of which no more than so many may move. */
 #define MOST_TRADING 64
 
+/* ---- What fits exactly (fit.c) ----------------------------------------------------------------------------------- */
+
+/* How many may move at each stage: no more than there is a search for exact places among (TIGHT_MOST). */
+#define FIT_STAGES                                                                                                     \
+    {                                                                                                                  \
+        2, 8, 16                                                                                                       \
+    }
+
 /* ---- Better sides (improve.c) ------------------------------------------------------------------------------------ */
 
 /* How much it may cost, in constraints looked at, for each body of the cluster: some ten milliseconds. */
