@@ -25,6 +25,8 @@
 #define RECONSIDERED 4
 /* Pairs are asked about one by one so often: each time one in a cluster is solved. */
 #define ASKED_ALONE 16
+/* What was given up is asked once more so often: each time what is granted runs into others, and more is given up. */
+#define RETRIED 3
 /* Better sides are looked for so often, where clusters joined since the last time. */
 #define IMPROVED 3
 
@@ -86,8 +88,13 @@ static sunder_status seek(sunder_i_solver *s, bool known, double from, double to
         known = known && !again;
     }
     if (status || known) return status;
-    status = sunder_i_solver_retry(s, err);
-    if (!status) status = sunder_i_solver_settle(s, from + 4 * step, from + 5 * step, err);
+    again = true;
+    for (int round = 0; round < RETRIED && again && !status; round++) {
+        status = sunder_i_solver_retry(s, err);
+        const size_t left = s->model.relaxations.n;
+        if (!status) status = sunder_i_solver_settle(s, from + 4 * step, from + 5 * step, err);
+        again = s->model.relaxations.n > left;
+    }
     /* What ran into others while it was improved is another cluster then. */
     for (int round = 0; round < IMPROVED && !status && !sunder_i_solver_is_improved(s); round++) {
         status = sunder_i_solver_improve(s, err);

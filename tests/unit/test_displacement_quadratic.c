@@ -196,10 +196,37 @@ static void check_crowd(void **state)
     assert_true(q.work < 18000000);
 }
 
+/* That it is to cost no more than so much changes nothing where a solution costs less; where there is none it is mostly
+ * known to cost more. */
+static void check_dear(void **state)
+{
+    (void)state;
+    size_t found = 0, dear = 0;
+    for (size_t trial = 0; trial < test_count(4000); trial++) {
+        rng r = rng_start(test_seed(), trial);
+        program p, q;
+        double cost = 0;
+        draw(&r, &p);
+        const bool solved = sunder_i_quadratic_solve(&p.q, 0, 1e-9, 1000) <= 1e-9;
+        for (size_t b = 0; b < BODIES; b++)
+            if (p.mass[b] > 0) cost += (p.t[2 * b] * p.t[2 * b] + p.t[2 * b + 1] * p.t[2 * b + 1]) / (2 * p.mass[b]);
+        r = rng_start(test_seed(), trial);
+        draw(&r, &q);
+        q.q.most_cost = 1.01 * cost;
+        const double v = sunder_i_quadratic_solve(&q.q, 0, 1e-9, 1000);
+        if (solved && memcmp(p.t, q.t, sizeof p.t)) fail_msg("trial %zu: another solution", trial);
+        if (!solved && v <= 1e-9) fail_msg("trial %zu: %g is missed where there is no solution", trial, v);
+        found += solved;
+        dear += v == INFINITY;
+    }
+    printf("%zu found, %zu too dear\n", found, dear);
+    assert_true(found > 0 && dear > 0);
+}
+
 int main(void)
 {
     printf("seed %llu\n", (unsigned long long)test_seed());
     const struct CMUnitTest tests[] = {cmocka_unit_test(check_programs), cmocka_unit_test(check_nearest),
-                                       cmocka_unit_test(check_crowd)};
+                                       cmocka_unit_test(check_crowd), cmocka_unit_test(check_dear)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,6 +41,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->improved);
     sunder_i_free(s->limit);
     sunder_i_free(s->aside);
+    sunder_i_free(s->went);
     sunder_i_relaxations_free(&s->waiting);
     sunder_i_free(s->carrier);
     sunder_i_free(s->member);

@@ -170,6 +170,7 @@ sunder_status sunder_i_solver_settle(sunder_i_solver *s, double from, double to,
         for (size_t k = 0; k < s->members; k++) s->carrier[s->body[k]] = SUNDER_I_NOBODY;
         status = sunder_i_solver_take_over(s, err);
         if (!status) status = sunder_i_solver_relate(s, err);
+        if (!status) status = sunder_i_solver_set_far_aside(s, err);
         if (!status) status = find_work(s, &any, err);
     }
     return status;

@@ -19,6 +19,8 @@ sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *solver, sunder_error
 
 /* Lets bodies go as far as they like, but for those that are set aside. *lifted: there were limits. */
 sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, bool *lifted, sunder_error *err);
+/* As long as they are lifted: clusters that run into others from where they cannot stay go home, and are set aside. */
+sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_error *err);
 /* What went too far goes back where it came from, to be solved within its limits: *any, if there is such. */
 sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, bool *any, sunder_error *err);
 

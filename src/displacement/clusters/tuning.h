@@ -10,6 +10,11 @@
 /* A round is taken for so much of what is left of the progress: few layers need more than some rounds. */
 #define SHARE_OF_ROUND 0.25
 
+/* ---- Without limits (lifted_limits.c) ---------------------------------------------------------------------------- */
+
+/* Clusters that cost more than within their limits become one as long as it has no more bodies than this. */
+#define MOST_LIFTED 128
+
 /* ---- Is there a solution after all? (reconsider.c) --------------------------------------------------------------- */
 
 /* How long a solution is looked for, in constraints looked at: so many for each body. Among more than these bodies none

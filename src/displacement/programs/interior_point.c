@@ -195,6 +195,13 @@ static void begin_far(interior *q, double scale, double mean)
     }
 }
 
+/* Do the forces as they are prove that all solutions cost too much? */
+static bool is_beyond(const interior *q, double softness)
+{
+    for (size_t c = 0; c < q->m; c++) q->p->constraint[c].force = q->f[c];
+    return sunder_i_quadratic_is_beyond(q->p, softness);
+}
+
 bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double tolerance, double scale)
 {
     if (p->n == 0) return true;
@@ -226,7 +233,7 @@ bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double 
         else
             begin_far(&q, scale, mean);
         for (int k = 0; k < MOST_STEPS && !sunder_i_quadratic_is_done(p) && advance(&q, tolerance, &mu); k++)
-            if (!sunder_i_look()) break;
+            if (!sunder_i_look() || is_beyond(&q, softness)) break;
         for (size_t b = 0; b < p->bodies; b++)
             for (size_t e = 0; e < 2; e++)
                 p->t[2 * b + e] = q.unknown[b] == SUNDER_I_GROUND ? 0 : q.x[q.unknown[b] + e];

@@ -36,6 +36,10 @@ void sunder_i_quadratic_place(sunder_i_quadratic *program);
 double sunder_i_quadratic_worst(const sunder_i_quadratic *program, double softness);
 void sunder_i_quadratic_sweep(sunder_i_quadratic *program, double softness);
 
+/* Do the forces prove that every solution costs more than program->most_cost? Not of soft programs, nor where
+ * memory is out. */
+bool sunder_i_quadratic_is_beyond(const sunder_i_quadratic *program, double softness);
+
 /* ---- conjugate_gradients.c --------------------------------------------------------------------------------------- */
 
 /* Conjugate gradients on the forces, which stay non-negative; at most `steps`, until no constraint is missed, nor one

@@ -53,6 +53,24 @@ double sunder_i_quadratic_worst(const sunder_i_quadratic *p, double softness)
     return v;
 }
 
+/* Weak duality: whatever the forces, no solution costs less than sum f d - sum w |t|^2, with t as they send it. */
+bool sunder_i_quadratic_is_beyond(const sunder_i_quadratic *p, double softness)
+{
+    if (softness > 0 || !(p->most_cost > 0)) return false;
+    double *t = sunder_i_calloc(2 * p->bodies, sizeof *t), least = 0;
+    if (!t) return false;
+    for (size_t k = 0; k < p->n; k++) {
+        const sunder_i_constraint *c = &p->constraint[k];
+        if (!(c->force > 0)) continue;
+        sunder_i_push(p, c, c->force, t);
+        least += c->force * c->d;
+    }
+    for (size_t b = 0; b < p->bodies; b++)
+        if (p->mass[b] > 0) least -= (t[2 * b] * t[2 * b] + t[2 * b + 1] * t[2 * b + 1]) / (2 * p->mass[b]);
+    sunder_i_free(t);
+    return least > p->most_cost * (1 + BEYOND);
+}
+
 /* ---- Sweeps ------------------------------------------------------------------------------------------------------ */
 
 /* The same sweeps one after the other, over links. */
@@ -133,7 +151,7 @@ static bool solve_quickly(sunder_i_quadratic *p, double softness, double toleran
     if (!sweep(p, softness, tolerance)) return false;
     if (!sunder_i_quadratic_gradient(p, softness, tolerance, QUICK_STEPS)) return false;
     sunder_i_quadratic_place(p);
-    if (sunder_i_quadratic_worst(p, softness) <= tolerance) return true;
+    if (sunder_i_quadratic_worst(p, softness) <= tolerance || sunder_i_quadratic_is_beyond(p, softness)) return true;
     if (!sunder_i_quadratic_equations(p, softness, tolerance)) return false;
     sunder_i_quadratic_place(p);
     return true;
@@ -167,6 +185,12 @@ static double finish(sunder_i_quadratic *p)
     return fmax(0, missed);
 }
 
+static double give_up(sunder_i_quadratic *p)
+{
+    finish(p);
+    return INFINITY;
+}
+
 double sunder_i_quadratic_solve(sunder_i_quadratic *p, double softness, double tolerance, double scale)
 {
     if (p->n <= MOST_QUICK) {
@@ -175,6 +199,7 @@ double sunder_i_quadratic_solve(sunder_i_quadratic *p, double softness, double t
     }
     sunder_i_quadratic_place(p);
     if (sunder_i_quadratic_is_done(p)) return finish(p);
+    if (sunder_i_quadratic_is_beyond(p, softness)) return give_up(p);
     if (!sunder_i_quadratic_interior(p, softness, tolerance, scale)) return -1;
-    return finish(p);
+    return sunder_i_quadratic_is_beyond(p, softness) ? give_up(p) : finish(p);
 }

@@ -24,6 +24,8 @@ typedef struct sunder_i_quadratic {
     double *t;          /* [2 * bodies] out */
     uint64_t work;      /* done so far, roughly in constraints looked at */
     uint64_t most_work; /* 0, or how much may be: then what is done by then is the solution, such as it is */
+    double most_cost;   /* 0, or what no solution that is of use costs more than: where none costs as little, none is
+                           looked for any longer */
 } sunder_i_quadratic;
 
 /* n.(t_j - t_i) */
@@ -37,7 +39,8 @@ static inline double sunder_i_stretch(const sunder_i_constraint *c, const double
 
 /* min sum w |t|^2 under the constraints, starting from their forces. softness > 0 lets every constraint yield in
  * proportion to its force (relative to what the force moves), so that contradictions end in a compromise. Returns the
- * worst violation; negative if memory is out. scale: a length such as bodies move by. */
+ * worst violation, INFINITY where all that is known is that any solution costs too much; negative if memory is out.
+ * scale: a length such as bodies move by. */
 double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, double tolerance, double scale);
 
 #endif

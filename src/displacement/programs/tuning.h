@@ -15,6 +15,9 @@
 /* Steps of conjugate gradients: chains of some hundred contacts take as many. */
 #define QUICK_STEPS 400
 
+/* A program is left for its cost when the forces prove that it is dearer by this share. */
+#define BEYOND 1e-6
+
 /* ---- Conjugate gradients ----------------------------------------------------------------------------------------- */
 
 /* Powers to find the largest eigenvalue by, and what covers that the value found is too small. */

@@ -315,10 +315,22 @@ static const char *check_next(const sunder_i_search *s)
 }
 #endif
 
+/* With all that move at their limits; 0 where one has none. */
+static double most_cost(const sunder_i_search *s)
+{
+    double cost = 0;
+    for (uint32_t k = 0; k < s->n; k++) {
+        const double limit = sunder_i_search_limit(s, k);
+        if (s->mass[k] > 0) cost += limit * limit / (2 * s->mass[k]);
+    }
+    return cost < INFINITY ? cost : 0;
+}
+
 /* ---- The sequence ------------------------------------------------------------------------------------------------ */
 
 bool sunder_i_search_descend(sunder_i_search *s)
 {
+    s->program.most_cost = most_cost(s);
     /* At least a margin: who was put in a free place stands beside its pieces, a hair farther than is asked. */
     double reach = fmax(s->gap, 4 * s->tolerance), cost = INFINITY, softness = SOFT;
     const double longest_reach = fmax(s->gap / 2, s->extent / (is_crowd(s) ? PART_OF_CROWD : SMALL_PART));
@@ -398,6 +410,19 @@ static void join_constrained(const sunder_i_search *s, uint32_t *root)
     }
 }
 
+/* Do they make no more than one set? */
+static bool is_one_part(const sunder_i_search *s, uint32_t *root)
+{
+    uint32_t first = SUNDER_I_NOBODY;
+    for (size_t k = 0; k < s->program.n; k++) {
+        const sunder_i_constraint *c = &s->program.constraint[k];
+        const uint32_t of = sunder_i_union_find(root, c->j == SUNDER_I_GROUND ? c->i : c->j);
+        if (first != SUNDER_I_NOBODY && of != first) return false;
+        first = of;
+    }
+    return true;
+}
+
 void sunder_i_search_settle_parts(sunder_i_search *s)
 {
     uint32_t *root = sunder_i_alloc(s->n, sizeof *root);
@@ -405,6 +430,9 @@ void sunder_i_search_settle_parts(sunder_i_search *s)
     s->failed = s->failed || !root || !unsolved;
     if (!s->failed) constrain_all(s, s->gap, false);
     if (!s->failed) {
+        /* Where one part has no solution the others are to be solved all the same. */
+        join_constrained(s, root);
+        s->program.most_cost = is_one_part(s, root) ? most_cost(s) : 0;
         solve_lazily(s, 0);
         join_constrained(s, root);
         for (size_t k = 0; k < s->program.n; k++) {

@@ -228,14 +228,15 @@ static void look_at_changed(sunder_i_search *s, const neighbours *g, const bool 
     }
 }
 
-/* One pass over what clashes now. Marks what changed, and returns whether anything did. */
-static bool yield_once(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool *changed)
+/* One pass over what clashes now by more than that. Marks what changed, and returns whether anything did. */
+static bool yield_once(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double hair, bool *changed)
 {
     bool any = false;
     const size_t before = s->relaxations.n;
     memset(changed, 0, s->n * sizeof *changed);
     for (size_t k = 0; k < s->clashes && !s->failed; k++) {
         const sunder_i_clash *c = &s->clash[k];
+        if (c->violation <= hair) continue;
         const bool yields = n && bsearch(c, at_home, n, sizeof *at_home, sunder_i_by_id_pair) && relax(s, c->i, c->j);
         const bool i = yields || send_home(s, c->i), j = yields || send_home(s, c->j);
         changed[c->i] = changed[c->i] || i;
@@ -272,20 +273,89 @@ static void settle_at_home(sunder_i_search *s)
     sunder_i_free(stand);
 }
 
-void sunder_i_search_give_up(sunder_i_search *s)
+/* How many clash at t by more than a hair, such as rounding leaves. */
+static size_t count_clashes(sunder_i_search *s, const double *t)
+{
+    size_t n = 0;
+    sunder_i_search_look(s, t);
+    for (size_t k = 0; k < s->clashes; k++) n += s->clash[k].violation > MENDED * s->tolerance;
+    return n;
+}
+
+/* To where the search began, if fewer clash there than at its end. Returns whether they are few beside those that
+ * clashed at home: then most of it was solved before, in parts that ran into each other. */
+static bool begin_again(sunder_i_search *s, const double *start, size_t at_home)
+{
+    const size_t clashes = count_clashes(s, s->t), then = count_clashes(s, start);
+    if (then >= clashes) return false;
+    memcpy(s->t, start, 2 * s->n * sizeof *s->t);
+    return then <= at_home / FEW_LEFT;
+}
+
+/* Relaxes the pairs that clashed at home of all bodies of which a pair misses at least half of what the worst does. */
+static void relax_about(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool *about)
+{
+    double worst = 0;
+    const size_t before = s->relaxations.n;
+    memset(about, 0, s->n * sizeof *about);
+    for (size_t k = 0; k < s->clashes; k++) worst = fmax(worst, s->clash[k].violation);
+    for (size_t k = 0; k < s->clashes; k++)
+        if (s->clash[k].violation >= FIRST_SHARE * worst) about[s->clash[k].i] = about[s->clash[k].j] = true;
+    for (size_t k = 0; k < n && !s->failed; k++)
+        if (about[at_home[k].i] || about[at_home[k].j]) relax(s, at_home[k].i, at_home[k].j);
+    if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
+}
+
+/* From where parts were solved that ran into each other: gives up what bodies owe others that still clash, and what
+ * those do that clash after that, and so on. Others keep what they have; what is given up in excess is asked for again
+ * (retry_cluster.c). Returns whether nothing clashes in the end. */
+static bool give_up_about(sunder_i_search *s, const double *start, const sunder_i_clash *at_home, size_t n)
+{
+    const size_t size = 2 * s->n * sizeof *s->t;
+    bool *about = sunder_i_alloc(s->n, sizeof *about), done = false;
+    s->failed = s->failed || !about;
+    s->patience = sunder_i_search_work(s) + GIVE_UP_MOST + PATIENCE_EACH * (uint64_t)s->n;
+    for (int ring = 0; ring < MOST_RINGS && !done && !s->failed; ring++) {
+        sunder_i_search_look(s, s->t);
+        if (!s->failed) relax_about(s, at_home, n, about);
+        memcpy(s->t, start, size);
+        s->program.n = 0;
+        done = !s->failed && sunder_i_search_descend(s);
+    }
+    s->patience = UINT64_MAX;
+    if (!done) memcpy(s->t, start, size);
+    sunder_i_free(about);
+    return done && !s->failed;
+}
+
+/* What clashes is relaxed, or goes home, until nothing clashes by more than that. */
+static void yield(sunder_i_search *s, const neighbours *near, const sunder_i_clash *at_home, size_t n, double hair)
+{
+    bool *changed = sunder_i_alloc(s->n, sizeof *changed);
+    s->failed = s->failed || !changed;
+    if (!s->failed) sunder_i_search_look(s, s->t);
+    while (!s->failed && yield_once(s, at_home, n, hair, changed)) look_at_changed(s, near, changed);
+    sunder_i_free(changed);
+}
+
+void sunder_i_search_give_up(sunder_i_search *s, const double *start)
 {
     size_t n = 0;
     neighbours near = {0};
     sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
-    bool *changed = sunder_i_alloc(s->n, sizeof *changed);
-    s->failed = s->failed || !at_home || !changed;
-    const bool done = !s->failed && give_up_gradually(s, at_home, n);
+    s->failed = s->failed || !at_home;
+    const bool again = !s->failed && s->n >= CROWD && begin_again(s, start, n);
+    const bool done = !s->failed && (again ? give_up_about(s, start, at_home, n) : give_up_gradually(s, at_home, n));
+    if (!s->failed && !done && !again) begin_again(s, start, n);
     if (!s->failed && !done) sunder_i_search_clip(s);
     if (!s->failed && !done) find_neighbours(s, &near);
-    if (!s->failed) sunder_i_search_look(s, s->t);
-    while (!s->failed && yield_once(s, at_home, n, changed)) look_at_changed(s, &near, changed);
+    if (!s->failed && !done) {
+        /* What rounding took of what was solved before is no reason to give anything up. */
+        yield(s, &near, at_home, n, MENDED * s->tolerance);
+        if (!s->failed) sunder_i_search_make_good(s);
+    }
+    if (!s->failed) yield(s, &near, at_home, n, 0);
     free_neighbours(&near);
-    sunder_i_free(changed);
     sunder_i_free(at_home);
     sunder_i_search_lower(s);
     if (done && !s->failed) settle_at_home(s);

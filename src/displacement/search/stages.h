@@ -58,7 +58,7 @@ bool sunder_i_search_spread(sunder_i_search *search);
 
 /* From where the search ended, with clashes, to where the pairs that clashed at the start are relaxed and nothing
  * clashes; then down from there. The new relaxations are in search->relaxations. */
-void sunder_i_search_give_up(sunder_i_search *search);
+void sunder_i_search_give_up(sunder_i_search *search, const double *start);
 /* Relaxes pairs that, with all at home, miss no more than the margin, which is asked beyond what they owe. Returns
  * whether there were any. */
 bool sunder_i_search_waive_margins(sunder_i_search *search);

@@ -87,6 +87,10 @@
  * conflicts to give up; where the last of them is cut short all are. */
 #define GIVE_UP_TIMES 8
 #define GIVE_UP_MOST 400000000u
+/* A crowd of which no more than one pair in so many clashes where its parts were solved begins there. */
+#define FEW_LEFT 3
+/* From there what is given up grows by rings of neighbours about what still clashes. */
+#define MOST_RINGS 8
 /* Of a crowd of so many bodies a descent takes more than retries (retry_cluster.c) are allowed; in smaller clusters
  * these do better. What it gave up is asked for again with so much for each pair of bodies, and for all. With less, or
  * more, for each a crowd of 70 houses ends with up to half as many again that are given up. */
