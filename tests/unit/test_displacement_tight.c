@@ -378,6 +378,41 @@ static void test_no_nearer_by_dividing(void **state)
     scene_end(&s);
 }
 
+/* Without limits the box would leave the ring by half a unit; with one of its own it stays within, and the ring goes: who
+ * had a solution without limits is asked about once more within them. */
+static void test_within_limits_too(void **state)
+{
+    (void)state;
+    scene s;
+    scene_begin(&s, 0);
+    s.options.no_blocks = true;
+    s.options.contained = SUNDER_CONTAINMENT_SEPARATE;
+    scene_add(&s, "POLYGON((8 1,13 1,13 9,8 9,8 1),(9 2,9 8,12 8,12 2,9 2))");
+    scene_add(&s, "POLYGON((2 8,6 8,6 15,2 15,2 8),(3 9,3 14,5 14,5 9,3 9))");
+    scene_add(&s, "POLYGON((9 3,12 3,12 9,9 9,9 3),(10 4,10 8,11 8,11 4,10 4))")->max_shift = 0.25;
+    scene_separate(&s);
+    check_optimum(&s, 0.25 * 0.25 + 0.75 * 0.75);
+    scene_end(&s);
+}
+
+/* A triangle goes as far as its limit lets it, along an axis, and what it missed that by is a thousand times as much
+ * across. */
+static void test_nothing_left_of_a_limit(void **state)
+{
+    (void)state;
+    scene s;
+    scene_begin(&s, 0);
+    s.options.no_blocks = true;
+    s.options.contained = SUNDER_CONTAINMENT_SEPARATE;
+    scene_add(&s, "POLYGON((5 5,10 6,6 11,5 5))");
+    scene_add_box(&s, 3, 4, 8, 3)->max_shift = 1.25;
+    scene_add(&s, "POLYGON((8 4,11 4,11 5,9 5,9 11,8 11,8 4))")->max_shift = 1.75;
+    scene_separate(&s);
+    assert_int_equal(scene_left(&s), 0);
+    assert_true(s.summary.cost < 8.6875 * (1 + 1e-4) && s.summary.verified);
+    scene_end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -399,6 +434,8 @@ int main(void)
         cmocka_unit_test(test_into_a_yard),
         cmocka_unit_test(test_a_ray_along_a_slot),
         cmocka_unit_test(test_no_nearer_by_dividing),
+        cmocka_unit_test(test_within_limits_too),
+        cmocka_unit_test(test_nothing_left_of_a_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

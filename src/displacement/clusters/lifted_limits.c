@@ -236,7 +236,9 @@ sunder_status sunder_i_solver_restore_limits(sunder_i_solver *s, bool *any, sund
     for (uint32_t b = 0; b < model->bodies; b++)
         if (!s->aside[b]) memcpy(model->lifted + 2 * (size_t)b, model->move + 2 * (size_t)b, 2 * sizeof *model->move);
     for (size_t b = 0; b < model->bodies; b++) model->body[b].limit = s->limit[b];
-    memset(s->reconsidered, 0, model->bodies * sizeof *s->reconsidered); /* within limits more can be proved */
+    /* Within limits more can be proved, and what had a solution without them may have another. */
+    memset(s->reconsidered, 0, model->bodies * sizeof *s->reconsidered);
+    s->alone_n = 0;
     if (!status) {
         find_offenders(s, root);
         for (uint32_t b = 0; b < model->bodies; b++) {

@@ -202,6 +202,17 @@ static void line_up(fitting *f, size_t k, size_t row)
     f->ahead[k] = f->step * rint((f->t[k] - f->base[row]) / f->step);
 }
 
+/* Where one coordinate uses up all of a limit, up to a hair, nothing is left of the other but what that hair makes of it,
+ * which is much more: so it is at home. */
+static void leave_limits_whole(fitting *f)
+{
+    for (size_t k = 0; k < 2 * f->n; k++) {
+        const double limit = sunder_i_limit_of(&f->model->body[f->body[k / 2]]), left = limit - fabs(f->t[k]);
+        double *other = &f->t[k ^ 1];
+        if (limit > 0 && isfinite(limit) && left <= f->hair && *other * *other <= 4 * f->hair * limit) *other = 0;
+    }
+}
+
 /* Coordinate k is at home, or in a row from `first` on, or the first of a new one. */
 static void find_row(fitting *f, size_t first, size_t k)
 {
@@ -406,6 +417,7 @@ static bool fit(fitting *f, double *move, bool *found)
     f->alone = sunder_i_calloc(2 * all, sizeof *f->alone);
     const bool ok = to && f->row && f->base && f->ahead && f->stays && f->alone && find_all_meetings(f);
     if (ok) {
+        leave_limits_whole(f);
         find_rows(f);
         draw_apart(f);
         if (is_in_shadow(f)) {
