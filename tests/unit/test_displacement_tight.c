@@ -378,8 +378,8 @@ static void test_no_nearer_by_dividing(void **state)
     scene_end(&s);
 }
 
-/* Without limits the box would leave the ring by half a unit; with one of its own it stays within, and the ring goes: who
- * had a solution without limits is asked about once more within them. */
+/* Without limits the box would leave the ring by half a unit; with one of its own it stays within, and the ring goes:
+ * who had a solution without limits is asked about once more within them. */
 static void test_within_limits_too(void **state)
 {
     (void)state;

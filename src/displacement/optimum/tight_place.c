@@ -202,8 +202,8 @@ static void line_up(fitting *f, size_t k, size_t row)
     f->ahead[k] = f->step * rint((f->t[k] - f->base[row]) / f->step);
 }
 
-/* Where one coordinate uses up all of a limit, up to a hair, nothing is left of the other but what that hair makes of it,
- * which is much more: so it is at home. */
+/* Where one coordinate uses up all of a limit, up to a hair, nothing is left of the other but what that hair makes of
+ * it, which is much more: so it is at home. */
 static void leave_limits_whole(fitting *f)
 {
     for (size_t k = 0; k < 2 * f->n; k++) {
