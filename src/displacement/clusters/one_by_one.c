@@ -127,6 +127,13 @@ static sunder_status ask(sunder_i_subproblem *p, sunder_i_decision *decision, su
     return status;
 }
 
+/* May one of the two go as far as it likes? */
+static bool has_no_limit(const sunder_i_model *model, const sunder_i_relaxation *t)
+{
+    return sunder_i_limit_of(&model->body[model->body_of[t->a]]) == INFINITY ||
+           sunder_i_limit_of(&model->body[model->body_of[t->b]]) == INFINITY;
+}
+
 /* The first of a cluster's questions that has a solution. */
 static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
@@ -147,7 +154,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
                                      .required_n = g->required_n,
                                      .margin = MARGINS * cluster_of(g->solver, g->question[q].root)->margin,
                                      .no_plane = true, /* a solution is looked for, which it has none of */
-                                     .effort = EFFORT_ALONE,
+                                     .effort = has_no_limit(model, t) ? EFFORT_WITHOUT_LIMIT : EFFORT_ALONE,
                                      .most = MOST_BODIES};
             p.reserve = sunder_i_solver_members(g->solver, g->question[q].root, &p.reserves);
             p.instead = far_for(model, p.reserve, p.reserves);
