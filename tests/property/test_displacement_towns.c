@@ -68,9 +68,11 @@ static void found(country *c, rng *r, double far)
     c->options.gap = rng_once_in(r, 3) ? 0 : 0.5 + 2 * rng_unit(r);
     c->options.effort = rng_once_in(r, 3) ? 0 : 0.02;
     c->options.keep_pushes = c->options.keep_trees = true;
-    const double limit = rng_once_in(r, 3) ? INFINITY : 6 * rng_unit(r);
+    const bool limited = !rng_once_in(r, 3);
     c->towns = (size_t)rng_int(r, 2, TOWNS);
     for (size_t k = 0; k < c->towns; k++) {
+        /* What no one oversteps in one town is little in another. */
+        const double limit = limited ? (rng_once_in(r, 2) ? 60 : 6) * rng_unit(r) : INFINITY;
         const size_t n = (size_t)rng_int(r, 1, HOUSES), row = (size_t)rng_int(r, 1, 5);
         const double x = 1000.25 + far * (double)k, y = 2000 + far * rng_unit(r), pitch = 4 + 3 * rng_unit(r);
         while (c->town[k].n < n)

@@ -144,7 +144,7 @@ typedef struct taking {
     sunder_i_solver *solver;
     uint32_t *by;   /* [bodies] the place in the list of the group that moved it; SUNDER_I_NOBODY: none */
     double *before; /* [2 * bodies] */
-    size_t budget;  /* bodies that may yet be moved in vain */
+    size_t *budget; /* [bodies] by roots of clusters: bodies that may yet be moved in vain */
 } taking;
 
 static void place(taking *t, size_t k, bool back)
@@ -274,7 +274,7 @@ static sunder_status mend_first(taking *t, bool *any, sunder_error *err)
         offence found;
         status = find_offence(t, &r, &found, err);
         if (status || found != WORSE) continue;
-        status = sunder_i_solver_mend(s, &r, &t->budget, any, err);
+        status = sunder_i_solver_mend(s, &r, t->budget, any, err);
         if (!status && !*any) part(t, r.a, r.b, true, any);
     }
     return status;
@@ -303,8 +303,9 @@ static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
 static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
 {
     const size_t n = s->model.bodies;
-    taking t = {s, sunder_i_alloc(n, sizeof *t.by), sunder_i_alloc(2 * n, sizeof *t.before), IN_VAIN};
-    sunder_status status = t.by && t.before ? SUNDER_OK : sunder_i_no_memory(err);
+    taking t = {s, sunder_i_alloc(n, sizeof *t.by), sunder_i_alloc(2 * n, sizeof *t.before),
+                sunder_i_solver_patience(s)};
+    sunder_status status = t.by && t.before && t.budget ? SUNDER_OK : sunder_i_no_memory(err);
     bool again = false;
     *any = false;
     if (!status) {
@@ -325,6 +326,7 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
         *any = *any || s->groups.group[k].improved || !s->groups.group[k].done;
         s->groups.group[k].improved = false;
     }
+    sunder_i_free(t.budget);
     sunder_i_free(t.by);
     sunder_i_free(t.before);
     return status;

@@ -96,8 +96,11 @@ sunder_status sunder_i_solver_breaks_rule(const sunder_i_solver *solver, const s
 /* Does the pair, which is in conflict, stand worse than it stood? Exact. */
 sunder_status sunder_i_solver_is_worse(const sunder_i_solver *solver, const sunder_i_relation *r, bool *worse,
                                        sunder_error *err);
+/* For sunder_i_solver_mend(): each cluster has its own, so that what is done for one takes nothing from another. The
+ * caller's; NULL: memory is out. */
+size_t *sunder_i_solver_patience(const sunder_i_solver *solver);
 /* Puts one of the two, or a row, a hair beside where it stands, so that the pair stands no worse, and nothing else
- * does: *well, if there is such a place. budget: bodies that may yet be moved in vain. */
+ * does: *well, if there is such a place. budget: [bodies] by roots of clusters, how many may yet be moved in vain. */
 sunder_status sunder_i_solver_mend(sunder_i_solver *solver, const sunder_i_relation *r, size_t *budget, bool *well,
                                    sunder_error *err);
 /* Takes back what rounding made worse, pair by pair. */

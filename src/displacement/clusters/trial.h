@@ -14,7 +14,7 @@ typedef struct sunder_i_trial {
     unsigned along; /* which coordinates: bit 0 is x, bit 1 is y */
     double *goal;   /* [2 n] to each its own, in place of one for all; or NULL */
     bool *taken;    /* [bodies] where many are asked; else NULL */
-    size_t *budget; /* bodies that may yet be moved in vain */
+    size_t *budget; /* bodies that may yet be moved in vain, for pairs of this cluster */
     const sunder_i_id_pair
         *parted; /* bodies of which no pair may be in conflict, but for what is infeasible; or NULL */
     sunder_i_list near;

@@ -52,7 +52,7 @@
 
 /* Moves are alike that differ by no more than so many units: what a row that was pushed along gathers by rounding. */
 #define ALIKE 16
-/* So many bodies in all may be moved together in vain: rows of a few hundred, some dozens of them. */
+/* So many bodies of a cluster may be moved together in vain: rows of a few hundred, some dozens of them. */
 #define IN_VAIN 20000
 /* The progress at which this comes (../separate.c). */
 #define SOUGHT 0.8

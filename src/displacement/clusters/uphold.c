@@ -185,11 +185,18 @@ static const struct {
     unsigned along;
 } ways[] = {{NEARBY, 3}, {PARTNER, 3}, {PARTNER, 1}, {PARTNER, 2}, {TOGETHER, 3}, {TOGETHER, 1}, {TOGETHER, 2}};
 
+size_t *sunder_i_solver_patience(const sunder_i_solver *s)
+{
+    size_t *budget = sunder_i_alloc(s->model.bodies, sizeof *budget);
+    for (size_t b = 0; b < s->model.bodies && budget; b++) budget[b] = IN_VAIN;
+    return budget;
+}
+
 sunder_status sunder_i_solver_mend(sunder_i_solver *s, const sunder_i_relation *r, size_t *budget, bool *well,
                                    sunder_error *err)
 {
     const uint32_t pair[2] = {s->model.body_of[r->a], s->model.body_of[r->b]};
-    sunder_i_trial t = {.solver = s, .budget = budget};
+    sunder_i_trial t = {.solver = s};
     sunder_status status = SUNDER_OK;
     for (size_t k = 0; k < sizeof ways / sizeof *ways && !t.well && !status; k++)
         for (int e = 0; e < 2 && !t.well && !status; e++) {
@@ -197,6 +204,7 @@ sunder_status sunder_i_solver_mend(sunder_i_solver *s, const sunder_i_relation *
             t.n = 0;
             t.along = ways[k].along;
             if (!sunder_i_may_move(&s->model.body[pair[e]])) continue;
+            t.budget = &budget[sunder_i_union_find(s->parent, pair[e])];
             if (!sunder_i_trial_take(&t, pair[e])) status = sunder_i_no_memory(err);
             if (!status && ways[k].way == NEARBY) status = try_nearby(&t, err);
             if (!status && ways[k].way == PARTNER) status = sunder_i_trial_place(&t, to, err);
@@ -280,9 +288,9 @@ static bool is_held(const sunder_i_solver *s, const bool *held, uint32_t body)
 sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
-    size_t budget = IN_VAIN;
+    size_t *budget = sunder_i_solver_patience(s);
     bool *held = sunder_i_alloc(s->model.bodies, sizeof *held); /* a pair of the cluster waits until it has settled */
-    if (!held) return sunder_i_no_memory(err);
+    if (!held || !budget) status = sunder_i_no_memory(err);
     for (bool any = s->now.n + s->jumps.n > 0, pinned; any && !status;) {
         any = pinned = false;
         memset(held, 0, s->model.bodies * sizeof *held);
@@ -297,7 +305,7 @@ sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
                 continue;
             any = true;
             if (is_held(s, held, i) || is_held(s, held, j)) continue;
-            status = sunder_i_solver_mend(s, &r, &budget, &well, err);
+            status = sunder_i_solver_mend(s, &r, budget, &well, err);
             for (int others = 1; others >= 0 && !status && !well; others--) status = ease(s, &r, others, &well, err);
             if (status || well) continue;
             pinned = true;
@@ -309,5 +317,6 @@ sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
     }
     for (size_t b = 0; b < s->model.bodies; b++) s->model.body[b].pinned = false;
     sunder_i_free(held);
+    sunder_i_free(budget);
     return status;
 }
