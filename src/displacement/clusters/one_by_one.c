@@ -127,10 +127,10 @@ static sunder_status ask(sunder_i_subproblem *p, sunder_i_decision *decision, su
     return status;
 }
 
-/* May one of the two go as far as it likes? */
+/* May both go as far as they like? */
 static bool has_no_limit(const sunder_i_model *model, const sunder_i_relaxation *t)
 {
-    return sunder_i_limit_of(&model->body[model->body_of[t->a]]) == INFINITY ||
+    return sunder_i_limit_of(&model->body[model->body_of[t->a]]) == INFINITY &&
            sunder_i_limit_of(&model->body[model->body_of[t->b]]) == INFINITY;
 }
 

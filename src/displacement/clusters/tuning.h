@@ -24,7 +24,7 @@
 
 /* How long for one pair, the others staying in conflict (one_by_one.c): some milliseconds. */
 #define EFFORT_ALONE 400000u
-/* The same where one of the two has no limit: then it is the rule against jumps that stands in the way, and beside a
+/* The same where neither of the two has a limit: then it is the rule against jumps that stands in the way, and beside a
  * yard of dozens of houses all effort is in vain. */
 #define EFFORT_WITHOUT_LIMIT 50000u
 #define MARGINS 4
