@@ -72,6 +72,19 @@ printf 'WKT,w\n"POLYGON((0 0,10 3,10 0.5,0.3 10.1,0 0))",1\n"POLYGON((9 0,20 0,2
     layer crossed.gpkg buildings POLYGON
 proved crossed crossed.gpkg --gap 0.7 --no-blocks
 
+# A group of more than are proved together: parts of it have trees of their own, and the file has those of all parts.
+{
+    echo "WKT,w"
+    for i in {0..195}; do
+        a=$((i / 14)) b=$((i % 14))
+        x=$((120 * a + (7 * a + 3 * b) % 5)) y=$((120 * b + (3 * a + 5 * b) % 7))
+        echo "\"POLYGON(($x $y,$((x + 100)) $y,$((x + 100)) $((y + 100)),$x $((y + 100))))\",1"
+    done
+} | layer crowd.gpkg buildings POLYGON
+"$SUNDER" separate crowd.gpkg o.gpkg --overwrite -q -l buildings --gap 30 --effort 0.1 --proof crowd.jsonl || fail "a crowd"
+python3 "$here/check_proof.py" crowd.jsonl crowd.gpkg --layer buildings --gap 30 --result o.gpkg >said || fail "a crowd: $(cat said)"
+grep -Eq 'bound [1-9].* [1-9][0-9]* trees' said && ! grep -q 'bound of pairs' said || fail "a group in parts: $(cat said)"
+
 # A house between a wall that stands fast and a line that it overlaps: through the line would be nearest, but for its side.
 printf 'WKT,w\n"LINESTRING(9.5 -3,9.5 13)",1\n' | layer side.gpkg side LINESTRING
 printf 'WKT,w\n"POLYGON((0 0,10 0,10 10,0 10))",1\n"POLYGON((-10 -30,0 -30,0 40,-10 40))",1\n' | layer wall.gpkg buildings POLYGON
