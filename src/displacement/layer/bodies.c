@@ -31,7 +31,7 @@ static void cut_feature(sunder_i_model *model, sunder_i_body *body, uint32_t f, 
     }
 }
 
-/* The corners of an anchor, a side or a seam; false if it is a piece of a shape. */
+/* The corners of an anchor, a side, a seam or a joint; false if it is a piece of a shape. */
 static bool anchor_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out)
 {
     const uint32_t f = piece->feature;
@@ -51,6 +51,11 @@ static bool anchor_as_given(const sunder_i_model *model, const sunder_i_body_pie
     for (uint32_t k = body->seam; !at && k < body->seam + body->seams; k++) {
         if (piece != &model->seam[k]) continue;
         memcpy(out, model->seam_at + 8 * (size_t)k, 8 * sizeof *out);
+        at = out;
+    }
+    for (uint32_t k = body->joint; !at && k < body->joint + body->joints; k++) {
+        if (piece != &model->joint[k].piece) continue;
+        memcpy(out, model->joint[k].at, sizeof model->joint[k].at);
         at = out;
     }
     return at;

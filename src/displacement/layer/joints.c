@@ -12,6 +12,7 @@
 #include "spatial/box.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef struct joining {
     sunder_i_model *model;
@@ -77,7 +78,8 @@ static void add(joining *j, uint32_t f, uint32_t g, const edge *e, const edge *o
     }
     const double *origin = model->body[model->body_of[f]].origin;
     sunder_i_joint *joint = &model->joint[model->joints++];
-    *joint = (sunder_i_joint){{.corner = (uint32_t)model->corners, .corners = 4, .feature = f}, g};
+    *joint = (sunder_i_joint){.piece = {.corner = (uint32_t)model->corners, .corners = 4, .feature = f}, .other = g};
+    memcpy(joint->at, at, sizeof at);
     sunder_i_box_clear(joint->piece.box);
     for (size_t k = 0; k < 4; k++) {
         double *to = model->corner + 2 * model->corners++;

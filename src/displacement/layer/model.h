@@ -47,6 +47,7 @@ typedef struct sunder_i_body_piece {
 typedef struct sunder_i_joint {
     sunder_i_body_piece piece; /* its feature is the one, `other` the other */
     uint32_t other;
+    double at[8]; /* its four corners as they are */
 } sunder_i_joint;
 
 /* A line of a barrier that features may not cross. */
