@@ -32,7 +32,7 @@ bool sunder_i_contacts_of_pair(const sunder_i_model *model, const sunder_i_waive
     const double u[2] = {v[0] - t[0], v[1] - t[1]};
     sunder_i_forbidden f;
     out->n = 0;
-    bool ok = sunder_i_forbidden_init(&f, model, waived, i, j, fabs(u[0]) + fabs(u[1]) + hair);
+    bool ok = sunder_i_forbidden_init_near(&f, model, waived, i, j, u, hair);
     for (size_t k = 0; k < f.pieces && ok; k++) {
         const sunder_i_forbidden_piece *piece = &f.piece[k];
         double n[2];
@@ -53,7 +53,7 @@ bool sunder_i_are_in_contact(const sunder_i_model *model, uint32_t i, uint32_t j
     const double u[2] = {v[0] - t[0], v[1] - t[1]};
     const double hair = sunder_i_contact_hair(model, &model->body[i], &model->body[j]);
     sunder_i_forbidden f;
-    const bool ok = sunder_i_forbidden_init(&f, model, &none, i, j, fabs(u[0]) + fabs(u[1]) + hair);
+    const bool ok = sunder_i_forbidden_init_near(&f, model, &none, i, j, u, hair);
     *contact = ok && sunder_i_forbidden_is_near(&f, u, hair);
     sunder_i_forbidden_free(&f);
     return ok;

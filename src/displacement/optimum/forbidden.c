@@ -43,7 +43,8 @@ typedef struct listing {
     const sunder_i_waived *waived;
     const sunder_i_body *p, *q;
     double offset[2], reach;
-    size_t most; /* pieces */
+    double window[4]; /* of u that are asked about */
+    size_t most;      /* pieces */
     bool seams;
     sunder_i_scratch scratch;
     double *drawn, *hull; /* scratch of shadows */
@@ -194,11 +195,11 @@ static bool is_full(const listing *l) { return l->out->pieces > l->most; }
 static bool add_pieces(listing *l)
 {
     const sunder_i_model *model = l->model;
-    const double reach = l->reach + model->rules.gap;
+    const double gap = model->rules.gap, *w = l->window;
     for (uint32_t k = l->p->piece; k < l->p->piece + l->p->pieces && !is_full(l); k++) {
         const sunder_i_body_piece *a = &model->piece[k];
-        const double box[4] = {a->box[0] - l->offset[0] - reach, a->box[1] - l->offset[1] - reach,
-                               a->box[2] - l->offset[0] + reach, a->box[3] - l->offset[1] + reach};
+        const double box[4] = {a->box[0] - l->offset[0] - w[2] - gap, a->box[1] - l->offset[1] - w[3] - gap,
+                               a->box[2] - l->offset[0] - w[0] + gap, a->box[3] - l->offset[1] - w[1] + gap};
         if (!sunder_i_steps(1 + l->q->pieces / 8)) return false;
         if (!sunder_i_box_meet(box, l->q->box)) continue;
         for (uint32_t m = l->q->piece; m < l->q->piece + l->q->pieces; m++) {
@@ -273,7 +274,7 @@ static bool add_shadow(listing *l, const sunder_i_body_piece *a, const sunder_i_
 static bool may_cast(const listing *l, const sunder_i_body_piece *anchor, const sunder_i_body_piece *piece,
                      bool swapped)
 {
-    const double way[4] = {-l->reach, -l->reach, l->reach, l->reach};
+    const double *w = l->window, way[4] = {fmin(0, w[0]), fmin(0, w[1]), fmax(0, w[2]), fmax(0, w[3])};
     return swapped ? sunder_i_shadow_may_reach(piece->box, anchor->box, l->offset, way)
                    : sunder_i_shadow_may_reach(anchor->box, piece->box, l->offset, way);
 }
@@ -345,6 +346,7 @@ static void begin(listing *l, uint32_t p, uint32_t q)
     l->p = &l->model->body[p];
     l->q = &l->model->body[q];
     for (size_t c = 0; c < 2; c++) l->offset[c] = l->q->origin[c] - l->p->origin[c];
+    for (size_t c = 0; c < 4; c++) l->window[c] = c < 2 ? -l->reach : l->reach;
 }
 
 static void end(listing *l, double reach)
@@ -368,9 +370,22 @@ bool sunder_i_forbidden_init(sunder_i_forbidden *f, const sunder_i_model *model,
     while (ok && is_full(&l) && l.reach > model->rules.gap) {
         f->pieces = f->edges = 0;
         l.reach /= 2;
+        for (size_t c = 0; c < 4; c++) l.window[c] /= 2;
         ok = add_all(&l);
     }
     end(&l, reach);
+    return ok;
+}
+
+bool sunder_i_forbidden_init_near(sunder_i_forbidden *f, const sunder_i_model *model, const sunder_i_waived *waived,
+                                  uint32_t p, uint32_t q, const double u[2], double hair)
+{
+    listing l = {.out = f, .model = model, .waived = waived, .most = SIZE_MAX};
+    l.reach = fabs(u[0]) + fabs(u[1]) + hair;
+    begin(&l, p, q);
+    for (size_t c = 0; c < 4; c++) l.window[c] = u[c & 1] + (c < 2 ? -hair : hair);
+    const bool ok = add_all(&l);
+    end(&l, l.reach);
     return ok;
 }
 

@@ -57,8 +57,12 @@ const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sun
  * False if memory is out; failure leaves what sunder_i_forbidden_free() takes. */
 bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model *model, const sunder_i_waived *waived,
                              uint32_t p, uint32_t q, double reach);
-/* The same, with what covers the diagonals between pieces (layer/seams.c), and about `most` pieces at most: all of it
- * only where they are no more. */
+/* All pieces that come within a hair of u, and a few others. */
+bool sunder_i_forbidden_init_near(sunder_i_forbidden *forbidden, const sunder_i_model *model,
+                                  const sunder_i_waived *waived, uint32_t p, uint32_t q, const double u[2],
+                                  double hair);
+/* As sunder_i_forbidden_init(), with what covers the diagonals between pieces (layer/seams.c), and about `most` pieces
+ * at most: all of it only where they are no more. */
 bool sunder_i_forbidden_with_seams(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t p, uint32_t q,
                                    double reach, size_t most);
 void sunder_i_forbidden_free(sunder_i_forbidden *forbidden);
