@@ -5,6 +5,7 @@
  * is known by the least of its bodies that may move, so that its name does not depend on others, and one that did not
  * change from one round to the next keeps its proof. */
 #include "displacement/clusters/stages.h"
+#include "displacement/clusters/tuning.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/optimum/contact.h"
 
@@ -23,6 +24,7 @@ void sunder_i_groups_free(sunder_i_groups *g)
     sunder_i_free(g->joined);
     sunder_i_free(g->spent);
     sunder_i_free(g->blunt);
+    sunder_i_free(g->shaken);
     sunder_i_free(g->seamed);
     memset(g, 0, sizeof *g);
 }
@@ -131,6 +133,19 @@ static bool list_members(gathering *g)
     return ok;
 }
 
+/* Do those that were shaken pay for nearly all that it costs? */
+static bool is_tired(const sunder_i_solver *s, const sunder_i_group *g)
+{
+    double all = 0, tired = 0;
+    for (size_t k = 0; k < g->n; k++) {
+        const sunder_i_body *b = &s->model.body[g->body[k]];
+        const double *t = g->move + 2 * k, cost = b->fixed ? 0 : b->weight * (t[0] * t[0] + t[1] * t[1]);
+        all += cost;
+        if (s->groups.shaken[g->body[k]]) tired += cost;
+    }
+    return tired > MOSTLY_SHAKEN * all;
+}
+
 /* The group of these members, as they stand; it is known by the least of them that may move, so that its name does not
  * depend on others. */
 static sunder_status make_group(const sunder_i_solver *s, const sunder_i_id_pair *member, size_t n, sunder_i_group *out,
@@ -148,6 +163,7 @@ static sunder_status make_group(const sunder_i_solver *s, const sunder_i_id_pair
         if (out->number == SUNDER_I_NOBODY && !s->model.body[b].fixed) out->number = b;
     }
     out->margin = sunder_i_solver_margin(s, out->body, n);
+    out->tired = is_tired(s, out);
     return SUNDER_OK;
 }
 
@@ -244,9 +260,10 @@ sunder_status sunder_i_solver_gather_groups(sunder_i_solver *s, sunder_error *er
                    .counts = sunder_i_calloc(s->model.bodies, sizeof *g.counts)};
     if (!s->groups.spent) s->groups.spent = sunder_i_calloc(s->model.bodies, sizeof *s->groups.spent);
     if (!s->groups.blunt) s->groups.blunt = sunder_i_calloc(s->model.bodies, sizeof *s->groups.blunt);
+    if (!s->groups.shaken) s->groups.shaken = sunder_i_calloc(s->model.bodies, sizeof *s->groups.shaken);
     if (!s->groups.seamed) s->groups.seamed = sunder_i_calloc(s->model.bodies, sizeof *s->groups.seamed);
-    const bool ok =
-        g.parent && g.counts && s->groups.spent && s->groups.blunt && s->groups.seamed && flood(&g) && list_members(&g);
+    const bool ok = g.parent && g.counts && s->groups.spent && s->groups.blunt && s->groups.shaken &&
+                    s->groups.seamed && flood(&g) && list_members(&g);
     const sunder_status status = ok ? make_groups(&g, &s->groups, err) : sunder_i_no_memory(err);
     sunder_i_free(g.parent);
     sunder_i_free(g.counts);

@@ -136,6 +136,8 @@ static void charge(sunder_i_solver *s)
     for (size_t k = 0; k < s->groups.n; k++) {
         sunder_i_group *g = &s->groups.group[k];
         for (size_t m = 0; m < g->n; m++) s->groups.spent[g->body[m]] += (double)g->steps / (double)g->n;
+        for (size_t m = 0; m < g->n && g->shaken; m++) s->groups.shaken[g->body[m]] = true;
+        g->shaken = false;
         g->steps = 0;
     }
 }

@@ -30,6 +30,7 @@ typedef struct sunder_i_groups {
     size_t joins, capacity;
     double *spent; /* [bodies] steps of proofs */
     bool *blunt;   /* [bodies] a place without room did not hold for them */
+    bool *shaken;  /* [bodies] its group was shaken with patience */
     bool *seamed;  /* [bodies] one that was proposed to jump over another, or was jumped over: along a diagonal? */
     bool any_seamed;
 } sunder_i_groups;

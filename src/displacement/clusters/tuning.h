@@ -47,6 +47,8 @@
 #define STEPS_EACH 2e6
 #define SMALL_GROUP 24
 #define LATE 4
+/* A group is tired of being shaken with patience if those that were pay for more than this share of its cost. */
+#define MOSTLY_SHAKEN 0.9
 
 /* ---- Nothing worse (uphold.c) ------------------------------------------------------------------------------------ */
 

@@ -245,7 +245,8 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     if (polished || known >= goal_of(model, g)) return polished;
     if (movers > BRANCHED) {
         const sunder_status status = sunder_i_group_shake(model, waived, g, steps / 2, err);
-        if (status) return status;
+        /* Whoever patience has sent to another side stands among others now: the next round knows whom to ask. */
+        if (status || (g->shaken && g->improved)) return status;
     }
     const size_t n = g->n;
     const sunder_i_task task = {.model = model,

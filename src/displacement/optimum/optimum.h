@@ -24,6 +24,7 @@ typedef struct sunder_i_group {
     bool done, improved;  /* it was looked into; the moves are not what they were */
     sunder_i_list guests; /* bodies that stand alone and take part in the proof; owned */
     sunder_i_list joins;  /* bodies of other groups, in the way of what would be cheaper; owned */
+    bool shaken, tired;   /* with patience: in this round; in one before, but for what costs little */
     uint64_t steps;
     sunder_i_bound_trees trees; /* what the bound stands on, where that is kept; owned */
 } sunder_i_group;

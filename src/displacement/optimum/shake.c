@@ -7,6 +7,11 @@
  * (search/descend.c), and so is one that takes long. Whoever is let go is drawn at random, from the user's seed and in
  * the order of the group's list, so that a group's result does not depend on others.
  *
+ * Blocks of hundreds of pieces that lay on each other have to go far, and their neighbours with them. Where patience
+ * ended every descent it grows until some come to an end. Who pays most is let go most often then, or all that they
+ * moved by is turned, so that they go to another side, and everybody looks as far about himself as anybody has gone. In
+ * the heaps of Paris what it costs falls by a quarter.
+ *
  * That only those let go and their neighbours go down, while all others stand, was tried: eight times as many descents
  * found less, since in a dense group what one gains by another side all have to make room for.
  *
@@ -32,7 +37,8 @@ typedef struct shaking {
     double *best;           /* [2 * search.n] a solution ... */
     double cost;            /* ... and its cost */
     near_body *near;        /* [n] scratch */
-    uint64_t random;
+    uint64_t random, patience;
+    size_t times, ended; /* of tries; of these, came to an end */
 } shaking;
 
 static int by_nearness(const void *a, const void *b)
@@ -65,6 +71,18 @@ static size_t list_near(const shaking *k, uint32_t middle)
     return n;
 }
 
+/* The moves of the n nearest are turned, all by the same angle: who was pushed to the one side goes to another. */
+static void turn(shaking *k, size_t n)
+{
+    const double angle = 6.283185307179586 * draw_unit(&k->random), c = cos(angle), s = sin(angle);
+    for (size_t m = 0; m < n; m++) {
+        double *t = k->search.t + 2 * (size_t)k->near[m].at;
+        const double x = c * t[0] - s * t[1];
+        t[1] = s * t[0] + c * t[1];
+        t[0] = x;
+    }
+}
+
 /* The n nearest are let go: to where they came from, or halfway, and up to half their size beside that. */
 static void let_go(shaking *k, size_t n)
 {
@@ -91,41 +109,105 @@ static bool begins_free(shaking *k)
     return true;
 }
 
-/* So many times at most, or until so much work is done. */
-static void shake(shaking *k, size_t times, uint64_t work)
+/* One of the group's bodies, as likely as it is dear. */
+static uint32_t draw_payer(shaking *k)
+{
+    const sunder_i_search *s = &k->search;
+    const double at = draw_unit(&k->random) * k->cost;
+    double sum = 0;
+    uint32_t last = 0;
+    for (uint32_t i = 0; i < k->n && sum <= at; i++) {
+        if (!(s->mass[i] > 0)) continue;
+        sum += (s->t[2 * i] * s->t[2 * i] + s->t[2 * i + 1] * s->t[2 * i + 1]) / (2 * s->mass[i]);
+        last = i;
+    }
+    return last;
+}
+
+/* Those about one body; true: it came to an end. */
+static bool shake_about(shaking *k, uint32_t middle, bool turned)
 {
     sunder_i_search *s = &k->search;
-    for (size_t n = 0; n < times && sunder_i_search_work(s) < work && !s->failed; n++) {
-        const size_t movers = list_near(k, (uint32_t)(sunder_i_draw(&k->random) % k->n));
-        const size_t most = movers < SHAKEN ? movers : SHAKEN;
-        let_go(k, most < 2 ? most : 2 + sunder_i_draw(&k->random) % (most - 1));
-        s->program.n = 0;
-        s->patience = sunder_i_search_work(s) + SHAKE_PATIENCE + SHAKE_PATIENCE_EACH * (uint64_t)s->n;
-        sunder_i_search_attempt(s, k->best, &k->cost);
+    const size_t movers = list_near(k, middle);
+    const size_t most = movers < SHAKEN ? movers : SHAKEN;
+    const size_t n = most < 2 ? most : 2 + sunder_i_draw(&k->random) % (most - 1);
+    if (turned)
+        turn(k, n);
+    else
+        let_go(k, n);
+    s->program.n = 0;
+    s->patience = sunder_i_search_work(s) + k->patience;
+    sunder_i_search_attempt(s, k->best, &k->cost);
+    const bool ended = sunder_i_search_work(s) < s->patience;
+    k->ended += ended;
+    return ended;
+}
+
+/* Until so much work is done. */
+static void shake(shaking *k, uint64_t work)
+{
+    sunder_i_search *s = &k->search;
+    for (size_t n = 0; n < k->times && sunder_i_search_work(s) < work && !s->failed; n++)
+        shake_about(k, (uint32_t)(sunder_i_draw(&k->random) % k->n), false);
+}
+
+/* With patience; until it was in vain so often, or so much work is done. */
+static void shake_patiently(shaking *k, uint64_t work)
+{
+    sunder_i_search *s = &k->search;
+    for (size_t vain = 0, hasty = 0; vain < SHAKEN_IN_VAIN && sunder_i_search_work(s) < work && !s->failed;) {
+        const double before = k->cost;
+        const bool turned = sunder_i_draw(&k->random) % ONE_TURN == 0, ended = shake_about(k, draw_payer(k), turned);
+        vain = k->cost < before * (1 - SHAKEN_LITTLE) ? 0 : vain + ended;
+        hasty = ended ? 0 : hasty + 1;
+        if (hasty < HASTY) continue;
+        k->patience *= MORE_PATIENCE;
+        hasty = 0;
     }
+}
+
+static uint64_t work_of(uint64_t steps, uint64_t each) { return steps < UINT64_MAX / each ? each * steps : UINT64_MAX; }
+
+/* From where the group stands, everybody looking so far about himself at least; what is cheaper goes to the group. */
+static sunder_status shake_group(shaking *k, const sunder_i_model *model, const sunder_i_waived *waived,
+                                 sunder_i_group *g, double about, uint64_t steps, sunder_error *err)
+{
+    const sunder_i_cluster cluster = {.body = g->body, .n = g->n, .margin = g->margin, .about = about};
+    sunder_i_search *s = &k->search;
+    bool ok = sunder_i_search_init_about(s, model, &cluster, g->move), better = false;
+    k->best = sunder_i_alloc(2 * s->n, sizeof *k->best);
+    if (ok && k->best && begins_free(k)) {
+        const double cost = k->cost;
+        s->settled = SHAKE_SETTLED;
+        k->patience = SHAKE_PATIENCE + SHAKE_PATIENCE_EACH * (uint64_t)s->n;
+        if (about > 0)
+            shake_patiently(k, work_of(steps, SHAKE_WORK_MOST));
+        else
+            shake(k, work_of(steps, SHAKE_WORK));
+        better = k->cost < cost;
+    }
+    ok = ok && k->best && !s->failed;
+    sunder_i_search_free(s);
+    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status && better) status = sunder_i_group_descend(model, waived, g, k->best, err);
+    sunder_i_free(k->best);
+    return status;
 }
 
 sunder_status sunder_i_group_shake(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
                                    uint64_t steps, sunder_error *err)
 {
     if (g->held || g->n < 2) return SUNDER_OK;
-    const sunder_i_cluster cluster = {.body = g->body, .n = g->n, .margin = g->margin};
-    shaking k = {.n = g->n, .random = model->rules.seed};
-    sunder_i_search *s = &k.search;
-    bool ok = sunder_i_search_init_about(s, model, &cluster, g->move), better = false;
-    k.best = sunder_i_alloc(2 * s->n, sizeof *k.best);
+    shaking k = {.n = g->n, .random = model->rules.seed, .times = 1 + g->n * g->n / PAIRS_A_SHAKE};
+    double farthest = 0;
+    for (size_t m = 0; m < 2 * g->n; m++) farthest = fmax(farthest, fabs(g->move[m]));
     k.near = sunder_i_alloc(k.n, sizeof *k.near);
-    if (ok && k.best && k.near && begins_free(&k)) {
-        const double cost = k.cost;
-        s->settled = SHAKE_SETTLED;
-        shake(&k, 1 + k.n * k.n / PAIRS_A_SHAKE, SHAKE_WORK * steps);
-        better = k.cost < cost;
+    sunder_status status = k.near ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) status = shake_group(&k, model, waived, g, 0, steps, err);
+    if (!status && k.ended == 0 && !g->tired && g->n > HEAP) {
+        status = shake_group(&k, model, waived, g, farthest / 2, steps, err);
+        g->shaken = true;
     }
-    ok = ok && k.best && k.near && !s->failed;
-    sunder_i_search_free(s);
-    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status && better) status = sunder_i_group_descend(model, waived, g, k.best, err);
-    sunder_i_free(k.best);
     sunder_i_free(k.near);
     return status;
 }

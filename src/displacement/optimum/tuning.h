@@ -41,6 +41,16 @@
 #define SHAKE_SETTLED 1e-5
 #define SHAKEN 16
 #define PAIRS_A_SHAKE 8
+/* A group of more bodies that no descent came to an end for is shaken with patience, which grows so many times after so
+ * many descents without an end: until so many came to one and gained less than this share, or so much work is done. One
+ * in so many times moves are turned. */
+#define HEAP 16
+#define MORE_PATIENCE 4
+#define HASTY 2
+#define SHAKEN_IN_VAIN 24
+#define SHAKEN_LITTLE 1e-3
+#define SHAKE_WORK_MOST 100
+#define ONE_TURN 3
 /* A group of which more move is taken in parts of so many bodies. */
 #define MOST_TOGETHER 192
 #define PART 96

@@ -30,7 +30,8 @@ static bool find_surroundings(const sunder_i_model *model, const sunder_i_cluste
     for (size_t k = 0; k < cluster->n; k++) {
         const sunder_i_body *b = &model->body[cluster->body[k]];
         if (b->fixed || b->pieces == 0) continue;
-        const double reach = model->rules.gap + cluster->margin + MOVES_ABOUT * fmax(farthest(own + 2 * k), mean);
+        const double reach =
+            model->rules.gap + cluster->margin + MOVES_ABOUT * fmax(fmax(farthest(own + 2 * k), mean), cluster->about);
         double box[4];
         sunder_i_body_box(b, none, reach, box);
         if (!sunder_i_rtree_query(model->standing, box, hits)) return false;
