@@ -184,6 +184,23 @@ static void test_lines_hide_on_no_diagonal(void **state)
     scene_end(&s);
 }
 
+/* Beside a point that is owed nothing, without a gap: places are looked for farther and farther from nothing. */
+static void test_beside_a_point(void **state)
+{
+    (void)state;
+    const double line[] = {12, 9, 5, -2, -1, 9}, point[] = {11, 6}, width[] = {0, 0};
+    const double *const xy[] = {line, point};
+    const size_t points[] = {3, 1};
+    scene s;
+    scene_begin(&s, 0);
+    s.options.allow_jumps = true;
+    scene_add(&s, "POLYGON((5 7,10 7,5 13,5 7))")->max_shift = 1.25;
+    scene_add_box(&s, 6, 3, 8, 6)->max_shift = 5;
+    separate_beside(&s, xy, points, width, -1, 2);
+    assert_true(s.summary.cost == 9);
+    scene_end(&s);
+}
+
 /* One that fits to the last bit into a yard on the one axis, and beside a neighbour on the other, goes as far as its
  * limit lets it, obliquely. */
 static void test_limit_in_a_row(void **state)
@@ -425,6 +442,7 @@ int main(void)
         cmocka_unit_test(test_too_narrow),
         cmocka_unit_test(test_lines_hide_on_no_diagonal),
         cmocka_unit_test(test_limit_in_a_row),
+        cmocka_unit_test(test_beside_a_point),
         cmocka_unit_test(test_small_move_beside_what_is_long),
         cmocka_unit_test(test_two_groups_that_jump),
         cmocka_unit_test(test_slot_beside_a_stranger),

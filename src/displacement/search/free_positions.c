@@ -231,10 +231,13 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
         free_pair_exactly(s, ps, qs, target, shallow, places[0]) && !is_shaded(s, p, none, q, places[0]))
         return 1;
     const double all = BEYOND_ALL * (extent(p->box) + extent(q->box) + s->gap);
-    for (double reach = fmax(2 * s->gap, PAIR_REACH * fmin(extent(p->box), extent(q->box)));; reach *= PAIR_GROWTH) {
+    double reach = fmax(2 * s->gap, PAIR_REACH * fmin(extent(p->box), extent(q->box)));
+    /* Beside a point, to which no gap is owed, it begins with the other one's size: from 0 it would not grow. */
+    if (!(reach > 0)) reach = PAIR_REACH * fmax(extent(p->box), extent(q->box));
+    for (;; reach *= PAIR_GROWTH) {
         const size_t n = find_beside(s, p, q, many, target, reach, spread, reach > all, most, places);
         if (n || s->failed) return n;
-        if (reach > all) return 0;
+        if (reach > all || !(reach > 0)) return 0;
     }
 }
 
@@ -391,6 +394,6 @@ bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, dou
         sunder_i_free(about.foreign.item);
         if (!sunder_i_look()) s->failed = true;
         if (found || s->failed) return found && !s->failed;
-        if (reach >= limit || reach > all) return false;
+        if (reach >= limit || reach > all || !(reach > 0)) return false;
     }
 }
