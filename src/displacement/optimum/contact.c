@@ -58,3 +58,18 @@ bool sunder_i_are_in_contact(const sunder_i_model *model, uint32_t i, uint32_t j
     sunder_i_forbidden_free(&f);
     return ok;
 }
+
+bool sunder_i_who_is_about(const sunder_i_model *model, uint32_t body, const double t[2], double reach,
+                           sunder_i_list *out)
+{
+    const double home[2] = {0, 0};
+    double box[4], start[4];
+    out->n = 0;
+    sunder_i_body_box(&model->body[body], t, reach, box);
+    sunder_i_body_box(&model->body[body], home, reach, start);
+    if (sunder_i_forbids_ways(model)) sunder_i_box_join(box, start);
+    if (!sunder_i_rtree_query(model->standing, box, out)) return false;
+    for (size_t k = 0; k < out->n; k++) out->item[k] = model->body_of[out->item[k]];
+    out->n = sunder_i_set_make(out->item, out->n);
+    return true;
+}

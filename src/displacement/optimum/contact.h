@@ -29,4 +29,9 @@ bool sunder_i_contacts_of_pair(const sunder_i_model *model, const sunder_i_waive
 bool sunder_i_are_in_contact(const sunder_i_model *model, uint32_t i, uint32_t j, const double t[2], const double v[2],
                              bool *contact);
 
+/* Bodies that stand within reach of where one goes, or, where ways matter, of its way there, by boxes: instead of what
+ * is in out, ascending, the body itself among them if it stands there. False if memory is out. */
+bool sunder_i_who_is_about(const sunder_i_model *model, uint32_t body, const double t[2], double reach,
+                           sunder_i_list *out);
+
 #endif

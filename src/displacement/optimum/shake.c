@@ -38,7 +38,7 @@ typedef struct shaking {
     double cost;            /* ... and its cost */
     near_body *near;        /* [n] scratch */
     uint64_t random, patience;
-    size_t times, ended; /* of tries; of these, came to an end */
+    size_t times, ended; /* tries at most, without patience; those of all that came to an end */
 } shaking;
 
 static int by_nearness(const void *a, const void *b)

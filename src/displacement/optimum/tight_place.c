@@ -141,24 +141,6 @@ static bool takes_part(const fitting *f, uint32_t body)
     return false;
 }
 
-/* Bodies that stand in the box of the one at place k of the list, or on its way there, grown by the gap: in f->near,
- * ascending. False if memory is out. */
-static bool find_near(fitting *f, size_t k)
-{
-    const sunder_i_model *model = f->model;
-    const sunder_i_body *body = &model->body[f->body[k]];
-    const double home[2] = {0, 0}, reach = model->rules.gap + f->hair;
-    double box[4], start[4];
-    f->near.n = 0;
-    sunder_i_body_box(body, f->t + 2 * k, reach, box);
-    sunder_i_body_box(body, home, reach, start);
-    if (sunder_i_forbids_ways(model)) sunder_i_box_join(box, start);
-    if (!sunder_i_rtree_query(model->standing, box, &f->near)) return false;
-    for (size_t m = 0; m < f->near.n; m++) f->near.item[m] = model->body_of[f->near.item[m]];
-    f->near.n = sunder_i_set_make(f->near.item, f->near.n);
-    return true;
-}
-
 /* Takes the body in, where it is touched by the one at place k, and has coordinates in coarse steps too. */
 static bool take_in(fitting *f, size_t k, uint32_t other)
 {
@@ -180,7 +162,8 @@ static bool find_outside(fitting *f)
 {
     for (size_t k = 0; k < f->n; k++) {
         if (f->model->body[f->body[k]].fixed) continue;
-        if (!find_near(f, k)) return false;
+        if (!sunder_i_who_is_about(f->model, f->body[k], f->t + 2 * k, f->model->rules.gap + f->hair, &f->near))
+            return false;
         for (size_t m = 0; m < f->near.n && f->all < 2 * MOST_TIGHT; m++)
             if (!takes_part(f, f->near.item[m]) && !take_in(f, k, f->near.item[m])) return false;
     }

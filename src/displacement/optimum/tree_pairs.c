@@ -1,5 +1,6 @@
 /* Pairs of a task: what they may not do, made where they are first met, and who is in conflict at a node's least. */
 #include "displacement/obstacles/shadow.h"
+#include "displacement/optimum/contact.h"
 #include "displacement/optimum/tree.h"
 #include "displacement/optimum/tuning.h"
 
@@ -128,20 +129,11 @@ static bool takes_part(const sunder_i_tree *t, uint32_t body)
     return false;
 }
 
-/* Bodies outside that stand in the box of body i at the node, or on its way there, grown by the gap: in t->near,
- * ascending. */
+/* Bodies outside that body i might meet at the node, or on its way there: in t->near, ascending. */
 static void find_near(sunder_i_tree *t, uint32_t i)
 {
     const sunder_i_model *model = t->task.model;
-    const double home[2] = {0, 0};
-    double box[4], start[4];
-    t->near.n = 0;
-    sunder_i_body_box(&model->body[t->body[i]], t->program.t + 2 * i, model->rules.gap, box);
-    sunder_i_body_box(&model->body[t->body[i]], home, model->rules.gap, start);
-    if (sunder_i_forbids_ways(model)) sunder_i_box_join(box, start);
-    if (!sunder_i_rtree_query(model->standing, box, &t->near)) t->failed = true;
-    for (size_t k = 0; k < t->near.n; k++) t->near.item[k] = model->body_of[t->near.item[k]];
-    t->near.n = sunder_i_set_make(t->near.item, t->near.n);
+    if (!sunder_i_who_is_about(model, t->body[i], t->program.t + 2 * i, model->rules.gap, &t->near)) t->failed = true;
     t->steps += 16 + t->near.n * t->task.n / 8;
 }
 
