@@ -124,6 +124,17 @@ def move_anchor(tree):
     return False
 
 
+def move_shade(tree):
+    """What casts a shadow, off its feature, or off the block that it lies in."""
+    for piece in tree["pieces"]:
+        part = piece["A"] if len(piece["A"]) > 2 else piece["B"]
+        if piece.get("shadow") and not is_side(piece) and len(part) > 2:
+            for corner in part:
+                corner[1] += 0.25
+            return ("does not lie in",)
+    return False
+
+
 def is_side(piece):
     return any(isinstance(piece[k], str) and ":" in piece[k] for k in "ab")
 
@@ -215,6 +226,7 @@ def raise_tree(tree):
 
 TREES = {"forces": change_forces, "pull": pull, "elsewhere": force_from_elsewhere, "child": drop_child,
          "no forces": drop_forces_of_a_leaf, "unnamed": unname, "part": move_part, "anchor": move_anchor,
+         "shade": move_shade,
          "side": move_side, "side anchor": leave_feature,
          "shadow": fill_shadow, "held": hold_farther, "depth": hold_higher, "in it": part, "heavier": heavier, "nailed": nail_down, "joined": join_bodies, "raised": raise_tree,
          **{kind: push_cut(kind) for kind in CUTS}}

@@ -71,6 +71,31 @@ def in_polygon(corners, outline):
     return plane.locate(outline.scaled(n), middle) > 0
 
 
+def in_union(corners, outlines):
+    """A convex polygon with area within the union of polygons: cut along an edge that goes through it, until none does."""
+    if any(in_polygon(corners, o) for o in outlines):
+        return True
+    box, sides = plane.box_of(corners), list(zip(corners, corners[1:] + corners[:1]))
+    for edge in (e for o in outlines for e in plane.near_edges(o, box)):
+        if goes_through(edge, sides):
+            return in_union(left_of(edge, sides), outlines) and in_union(left_of(edge[::-1], sides), outlines)
+    return False
+
+
+def left_of(edge, sides):
+    """What of a convex polygon is on the left of the edge's line, which goes through it."""
+    (ax, ay), (bx, by) = edge
+    found = []
+    for p, q in sides:
+        s, t = ((bx - ax) * (v[1] - ay) - (by - ay) * (v[0] - ax) for v in (p, q))
+        if s >= 0:
+            found.append(p)
+        if s * t < 0:
+            share = Fraction(s, s - t)
+            found.append((p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1])))
+    return found
+
+
 def goes_through(edge, sides):
     """Does the segment meet the open convex polygon with these sides?"""
     (ax, ay), (bx, by) = edge
@@ -324,6 +349,21 @@ class Problem:
         demand(self.things[key].has_part(part), "a part does not lie in", key)
         return part
 
+    def demand_passed(self, key, corners, other, anchor):
+        """A part of what the anchor of another feature may not pass: of a feature, or of members of its block, which moves as
+        one, that do not hold the anchor either."""
+        part = tuple(self.lattice.point(p) for p in corners)
+        if len(hull(part)) < 3 or self.things[key].has_part(part):
+            return self.demand_part(key, corners)
+        box = plane.box_of(part)
+        members = [k for k in self.block(key) if plane.boxes_near(self.things[k].whole().box, box)]
+        members = [k for k in members if not self.things[k].holds_place(anchor)]
+        for k in members:
+            self.demand_owed(k, other)
+        outlines = [o for k in members for o in self.things[k].outlines if o.box]
+        demand(in_union(hull(part), outlines), "a part does not lie in the block of", key)
+        return part
+
     def demand_anchor(self, key, corners, other):
         at = tuple(corners[0])
         demand(len(corners) == 1 and self.anchors.setdefault(key, at) == at, "that is not the anchor of", key)
@@ -344,8 +384,10 @@ class Problem:
             return self.demand_side_anchor(a, told_a), self.demand_side(b, told_b, a, told_a)
         demand(not self.options.allow_jumps, "jumps are allowed")
         if len(told_a) == 1:
-            return self.demand_anchor(a, told_a, b), self.demand_part(b, told_b)
-        return self.demand_part(a, told_a), self.demand_anchor(b, told_b, a)
+            place = self.demand_anchor(a, told_a, b)
+            return place, self.demand_passed(b, told_b, a, place[0])
+        place = self.demand_anchor(b, told_b, a)
+        return self.demand_passed(a, told_a, b, place[0]), place
 
     def demand_side_anchor(self, key, corners):
         """A feature has one; where no side meets its interior it is the anchor."""

@@ -113,6 +113,29 @@ proved short yard.gpkg "${yard[@]}" --max-shift 0.5
 grep -q '"reason": "max_shift".*"proof": ' short.jsonl || fail "a limit by itself: $(cat short.jsonl)"
 refuted short yard.gpkg "${yard[@]}" --max-shift 0.5 --need leaf
 
+# A house that is in a yard by its anchor, and nearer to the way out; along the wall that the two halves of the yard share the anchor
+# would run between the shadows of both. What covers that wall lies in both halves and in neither.
+printf 'WKT,w\n"POLYGON((0 0,0 1,-19 1,-19 29,0 29,0 30,-20 30,-20 0))",1\n"POLYGON((0 0,20 0,20 30,0 30,0 29,19 29,19 1,0 1))",1\n"POLYGON((-6 24,6 24,0 36))",1\n' |
+    layer halves.gpkg buildings POLYGON
+proved halves halves.gpkg --gap 1
+grep -q 'bound 42.66' said || fail "along a shared wall: $(cat said)"
+refuted halves halves.gpkg --gap 1 --need shade
+PYTHONPATH=$here python3 - <<'END' || fail "what lies in a union"
+from problem import in_union, plane
+def boxes(*sides): return [plane.Outline([[(a, b), (c, b), (c, d), (a, d)]]) for a, b, c, d in sides]
+part = [(0, 0), (8, 2), (10, 10), (2, 8)]
+assert in_union(part, boxes((0, 0, 5, 10), (5, 0, 10, 10)))  # a wall in common
+assert in_union(part, boxes((0, 0, 7, 10), (3, 0, 10, 10)))  # in each other
+assert in_union(part, boxes((0, 0, 5, 5), (5, 0, 10, 5), (0, 5, 5, 10), (5, 5, 10, 10)))
+assert not in_union(part, boxes((0, 0, 5, 10)))
+assert not in_union(part, boxes((0, 0, 5, 10), (5, 0, 10, 9)))
+assert not in_union(part, boxes((0, 0, 4, 10), (5, 0, 10, 10)))  # a slit
+assert not in_union(part, boxes((0, 0, 5, 5), (5, 0, 10, 5), (0, 5, 5, 10)))
+yard = plane.Outline([[(0, 0), (10, 0), (10, 10), (0, 10)], [(4, 4), (4, 6), (6, 6), (6, 4)]])
+assert not in_union(part, [yard])
+assert in_union(part, [yard] + boxes((4, 4, 6, 6)))
+END
+
 # Symbols of points: five within each other's reach, one of them too far in for its limit.
 printf 'WKT,w\n"POINT(0 0)",1\n"POINT(3 1)",1\n"POINT(1.5 3.1)",1\n"POINT(40 0)",1\n"POINT(40.25 0.5)",1\n' |
     layer points.gpkg buildings POINT
