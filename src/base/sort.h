@@ -1,8 +1,12 @@
-/* Sorting on memory of our own: stable merge sort of indices by an exact comparison, radix sort of keys. */
+/* Sorting on memory of our own: stable merge sort of indices by an exact comparison, radix sort of keys; and where
+ * mostly few are sorted, often, insertion. */
 #ifndef SUNDER_I_SORT_H
 #define SUNDER_I_SORT_H
 
 #include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
 
 /* Sorts n indices so that compare(context, index[i], index[i + 1]) <= 0; stable. False if memory is out. */
 bool sunder_i_sort_indices(uint32_t *index, size_t n, int (*compare)(void *context, uint32_t a, uint32_t b),
@@ -13,5 +17,28 @@ int sunder_i_descending(void *doubles, uint32_t a, uint32_t b);
 
 /* Sorts n keys ascending. False if memory is out. */
 bool sunder_i_sort_keys(uint64_t *key, size_t n);
+
+/* Fewer than that are sorted by insertion: the corners of most features, the bodies of most clusters. */
+#define SUNDER_I_FEW_TO_SORT 25
+/* Items are no larger than that. */
+#define SUNDER_I_MOST_ITEM 16
+
+/* Sorts n items like qsort(). The comparison is compiled in; items that it calls equal are alike in all that counts. */
+static inline void sunder_i_sort_few(void *list, size_t n, size_t size, int (*compare)(const void *, const void *))
+{
+    char *item = list;
+    _Alignas(double) char held[SUNDER_I_MOST_ITEM];
+    if (n >= SUNDER_I_FEW_TO_SORT) {
+        qsort(list, n, size, compare);
+        return;
+    }
+    for (size_t k = 1; k < n; k++) {
+        size_t at = k;
+        memcpy(held, item + k * size, size);
+        for (; at > 0 && compare(item + (at - 1) * size, held) > 0; at--)
+            memcpy(item + at * size, item + (at - 1) * size, size);
+        memcpy(item + at * size, held, size);
+    }
+}
 
 #endif

@@ -3,6 +3,7 @@
 #include "displacement/layer/model.h"
 
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "shape/shape.h"
 
 #include <math.h>
@@ -82,29 +83,10 @@ static int by_place(const void *a, const void *b)
     return p[1] < q[1] ? -1 : p[1] > q[1];
 }
 
-/* So few points as most features have are sorted by insertion. */
-#define FEW_TO_SORT 24
-
-static void sort_points(double *p, size_t n)
-{
-    if (n > FEW_TO_SORT) {
-        qsort(p, n, 2 * sizeof *p, by_place);
-        return;
-    }
-    for (size_t k = 1; k < n; k++) {
-        const double x = p[2 * k], y = p[2 * k + 1];
-        size_t at = k;
-        for (; at > 0 && (p[2 * at - 2] > x || (p[2 * at - 2] == x && p[2 * at - 1] > y)); at--)
-            memcpy(p + 2 * at, p + 2 * at - 2, 2 * sizeof *p);
-        p[2 * at] = x;
-        p[2 * at + 1] = y;
-    }
-}
-
 /* Andrew's monotone chain. */
 size_t sunder_i_convex_hull(double *p, size_t n, double *out)
 {
-    sort_points(p, n);
+    sunder_i_sort_few(p, n, 2 * sizeof *p, by_place);
     size_t m = 0;
     for (int pass = 0; pass < 2; pass++) {
         const size_t bottom = m;

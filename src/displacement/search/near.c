@@ -1,6 +1,7 @@
 /* Which bodies of a cluster stand near each other: a sweep over their boxes from left to right. */
 #include "displacement/search/search.h"
-#include "displacement/search/tuning.h"
+
+#include "base/sort.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,22 +12,6 @@ static int by_left(const void *a, const void *b)
     const double *p = *(const double *const *)a, *q = *(const double *const *)b;
     if (p[0] != q[0]) return p[0] < q[0] ? -1 : 1;
     return p < q ? -1 : p > q;
-}
-
-/* Most clusters are of a few bodies. */
-static void sort_left(const double **left, size_t n)
-{
-    if (n > FEW_TO_SORT) {
-        qsort(left, n, sizeof *left, by_left);
-        return;
-    }
-    for (size_t k = 1; k < n; k++) {
-        const double *box = left[k];
-        size_t at = k;
-        for (; at > 0 && (left[at - 1][0] > box[0] || (left[at - 1][0] == box[0] && left[at - 1] > box)); at--)
-            left[at] = left[at - 1];
-        left[at] = box;
-    }
 }
 
 static bool sort_boxes(sunder_i_search *s, const double *t, double reach, bool or_home)
@@ -45,7 +30,7 @@ static bool sort_boxes(sunder_i_search *s, const double *t, double reach, bool o
         }
         left[k] = s->box + 4 * k;
     }
-    sort_left(left, s->n);
+    sunder_i_sort_few(left, s->n, sizeof *left, by_left);
     for (size_t k = 0; k < s->n; k++) s->order[k] = (uint32_t)((size_t)(left[k] - s->box) / 4);
     sunder_i_free(left);
     return true;

@@ -22,6 +22,18 @@ bool sunder_i_search_is_beyond(const sunder_i_search *search, const double *t);
 /* Adds tangents for the limits that search->next oversteps. Returns whether there were any. */
 bool sunder_i_search_constrain_limits(sunder_i_search *search);
 
+/* ---- constrain.c: what a program demands ------------------------------------------------------------------------- */
+
+/* Constraints by their keys. */
+int sunder_i_by_constraint(const void *a, const void *b);
+/* Adds one to the program, unless one of those from `first` on says as much; a weaker one of these is replaced. */
+void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const sunder_i_constraint *constraint);
+/* The program of all constraints around t; what clashes is parted where it stands (it misses a hair), or each pair by
+ * its least way out. Returns whether a pair clashes there, or a limit is overstepped. */
+bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it_stands);
+/* Adds the limits and the pieces that search->next runs into. Returns whether there were any. */
+bool sunder_i_search_constrain_further(sunder_i_search *search);
+
 /* ---- descend.c: down from a position ----------------------------------------------------------------------------- */
 
 /* From t, the sequence of quadratic programs. True if it ends with no clash; then t is a local optimum. Else t is a
@@ -34,10 +46,6 @@ bool sunder_i_search_make_good(sunder_i_search *search);
  * bodies that have nothing to do with each other those go where the program in full sends them, if that solves it for
  * them. */
 void sunder_i_search_settle_parts(sunder_i_search *search);
-/* Constraints by their keys. */
-int sunder_i_by_constraint(const void *a, const void *b);
-/* Adds one to the program, unless one of those from `first` on says as much; a weaker one of these is replaced. */
-void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const sunder_i_constraint *constraint);
 
 /* ---- jump.c: out of clashes -------------------------------------------------------------------------------------- */
 

@@ -62,11 +62,6 @@
 /* Descents after jumps, before pairs are given up. */
 #define MOST_JUMPS 3
 
-/* ---- Who stands near whom (near.c) ------------------------------------------------------------------------------- */
-
-/* As few boxes as these are sorted by insertion. */
-#define FEW_TO_SORT 16
-
 /* ---- Pieces that face each other (piece_pairs.c) ----------------------------------------------------------------- */
 
 /* So many parts of the one body are looked at in one go, with no more than so many pieces of the other beforehand: both
