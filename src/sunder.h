@@ -728,7 +728,17 @@ SUNDER_API const sunder_bound_tree *sunder_report_bound_trees(const sunder_repor
  * A leaf has forces, positive, each on a way of a node above it: on the one that leads to the leaf (then h = d, m = n),
  * or on one before that (behind; then h = -d, m = -n). So m.u >= h in this case, for all of them. But the sum of force
  * * h is greater than the sum, over blocks, of limit * |sum of force * m, with a minus where the block is A|, and over
- * pairs with slack, of minus the clearance * |sum of force * m|: no such moves are within the limits. */
+ * pairs with slack, of minus the clearance * |sum of force * m|: no such moves are within the limits.
+ *
+ * Where `held`, the pair is not the conflict itself, and what it is held to is its distance at the start, or minus the
+ * length of its least translation then, exactly: what `clearance` says is near to that, and not to be relied on. It is
+ * so that a line may pass the place where the two stood: d = 0.
+ *
+ * Where a leaf is `still`, two ways that lead to it, line_way of line_node, are about one block and what cannot move,
+ * with d = 0, and n opposite to each other; so of the block's move only t with n.t = 0 is left. Moves are such that all
+ * corners of the block are doubles afterwards. No coordinate of them can leave its binade within the limit; so t is a
+ * multiple of the unit there in each coordinate, and the least of these with n.t = 0 that is not 0 is beyond the limit.
+ * So t = 0, and the limit of the block counts as 0 in that leaf. */
 typedef struct sunder_proof_way {
     double n[2], d;
     size_t next;
@@ -747,8 +757,11 @@ typedef struct sunder_proof_node {
     double clearance;
     bool shadow;      /* one of the parts is an anchor: see above */
     bool slack;       /* the second part is moved by the pair's slack, too: see above */
+    bool held;        /* the clearance is exactly what the pair stood apart at the start: see above */
     size_t way, ways; /* its first way, and how many; none: a leaf */
     size_t force, forces;
+    bool still; /* a leaf: a block that is between the lines of two ways stays where it is: see above */
+    size_t line_node[2], line_way[2];
 } sunder_proof_node;
 
 typedef struct sunder_proof {

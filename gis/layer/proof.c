@@ -140,6 +140,7 @@ static void put_ways(proof_writer *w, const sunder_proof *proof, const sunder_pr
     put_corners(w, "A", proof->corner + 2 * node->part_a, node->corners_a);
     put_corners(w, "B", proof->corner + 2 * node->part_b, node->corners_b);
     if (node->slack) gis_json_put_bool(&w->json, "slack", true);
+    if (node->held) gis_json_put_bool(&w->json, "held", true);
     if (node->shadow)
         gis_json_put_bool(&w->json, "shadow", true);
     else
@@ -153,6 +154,20 @@ static void put_ways(proof_writer *w, const sunder_proof *proof, const sunder_pr
         gis_json_put_double(&w->json, "d", way->d);
         gis_json_put_size(&w->json, "next", way->next);
         gis_json_close(&w->json, '}');
+    }
+    gis_json_close(&w->json, ']');
+}
+
+/* The two ways between whose lines a block stays where it is, each by its node and its place there. */
+static void put_still(proof_writer *w, const sunder_proof *proof, const sunder_proof_node *leaf)
+{
+    gis_json_key(&w->json, "still");
+    gis_json_open(&w->json, '[');
+    for (size_t k = 0; k < 2; k++) {
+        gis_json_open(&w->json, '[');
+        gis_json_size(&w->json, leaf->line_node[k]);
+        gis_json_size(&w->json, leaf->line_way[k] - proof->node[leaf->line_node[k]].way);
+        gis_json_close(&w->json, ']');
     }
     gis_json_close(&w->json, ']');
 }
@@ -177,6 +192,7 @@ static void put_proof(proof_writer *w, const sunder_proof *proof)
             gis_json_close(&w->json, '}');
         }
         gis_json_close(&w->json, ']');
+        if (node->still) put_still(w, proof, node);
         gis_json_close(&w->json, '}');
     }
     gis_json_close(&w->json, ']');

@@ -8,6 +8,7 @@ asked about by itself. Kinds that the file has nothing for are passed over, unle
 import copy
 import io
 import json
+import math
 import sys
 import tempfile
 from contextlib import redirect_stdout
@@ -282,6 +283,62 @@ def shorten_slack(told):
     return False
 
 
+def leaves_still(told):
+    return [n for n in told["proof"] if "still" in n]
+
+
+def let_go(told):
+    """A block between two lines, which counts as still no more."""
+    found = leaves_still(told)
+    for leaf in found:
+        del leaf["still"]
+    return bool(found) and ("no contradiction",)
+
+
+def one_line(told):
+    """One line, twice."""
+    for leaf in leaves_still(told):
+        leaf["still"][1] = leaf["still"][0]
+        return ("not opposite",)
+    return False
+
+
+def push_line(told):
+    """A line a little farther than where the two stood."""
+    for leaf in leaves_still(told):
+        node, way = leaf["still"][0]
+        told["proof"][node]["ways"][way]["d"] = 1e-9
+        return ("has no way", "does not pass where")
+    return False
+
+
+def turn_lines(told):
+    """Both by as little as doubles can tell: then they are no edges of what the two stood by."""
+    for leaf in leaves_still(told):
+        for node, way in leaf["still"]:
+            n = told["proof"][node]["ways"][way]["n"]
+            n[0] = math.nextafter(n[0], 2)
+        return ("has no way", "not opposite")
+    return False
+
+
+def hold_roughly(told):
+    """What holds of the distance, claimed of the double that is just below."""
+    for node in told["proof"]:
+        if node.pop("held", False):
+            return ("has no way", "more than it had")
+    return False
+
+
+def hold_own(told):
+    """The conflict itself, held to what it had."""
+    for node in told["proof"]:
+        if "clearance" in node and {node["a"], node["b"]} == {told["a"], told["b"]}:
+            node["held"] = True
+            return ("not listed",)
+    return False
+
+
 def blame(told):
     told["blocked_by"] = told["blocked_by"][1:] if told["blocked_by"] else [told["a"]]
     return ("blocked_by",)
@@ -306,6 +363,8 @@ def other_reason(told):
 
 VERDICTS = {"way": drop_way, "leaf": weaken_leaves, "clearance": ask_more, "slack": drop_slack,
             "claimed slack": claim_slack, "short slack": shorten_slack, "blamed": blame,
+            "let go": let_go, "one line": one_line, "pushed line": push_line, "turned lines": turn_lines,
+            "held roughly": hold_roughly, "held itself": hold_own,
             "within": shorten_within, "reason": other_reason}
 
 

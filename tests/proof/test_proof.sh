@@ -102,6 +102,19 @@ proved bend bent.gpkg "${bend[@]}"
 grep -q '"reason": "no_room"' bend.jsonl || fail "a house on a bend has no proof: $(cat bend.jsonl)"
 refuted bend bent.gpkg "${bend[@]}" --need slack --need "claimed slack" --need "short slack"
 
+# A block on both sides of a road, and a house that stands too near to it at one end: in the reals it would slide along the
+# road, by the lattice of its coordinates it cannot.
+printf 'WKT,w\n"LINESTRING(600001.37 5000002.91,600032.77 5000027.43)",1\n' | layer lane.gpkg lane LINESTRING
+printf 'WKT,w,k\n"%s",1,1\n"%s",1,1\n"%s",2,2\n' \
+    "POLYGON((600008.45 5000010.86,600012.74 5000015.01,600009.98 5000018.57,600005.25 5000014.87))" \
+    "POLYGON((600011.48 5000008.98,600014.73 5000004.73,600020.64 5000009.35,600018.22 5000014.32))" \
+    "POLYGON((600021.39 5000012.94,600024.95 5000008.41,600029.1 5000011.5,600024.8 5000016.9))" | layer lanes.gpkg buildings POLYGON
+lane=(--gap 3 --max-shift 2 --no-blocks --block-field k --fixed-where 'w = 2' --allow-jumps --barrier lane.gpkg,width=5,gap=0,side=no)
+proved lane lanes.gpkg "${lane[@]}"
+grep -q '"still": ' lane.jsonl || fail "a block beside a road has no lattice: $(cat lane.jsonl)"
+refuted lane lanes.gpkg "${lane[@]}" --need "let go" --need "one line" --need "pushed line" --need "turned lines" \
+    --need "held roughly" --need "held itself"
+
 # A house too wide for its yard: without a limit it would have to jump; and a limit may be short by itself.
 printf 'WKT,w\n"POLYGON((0 0,20 0,20 20,0 20),(2 2,18 2,18 18,2 18))",1\n"POLYGON((1 4,17 4,17 16,1 16))",1\n' |
     layer yard.gpkg buildings POLYGON

@@ -52,11 +52,14 @@ class Verdict:
             self.check_shadow(difference(*parts), ways)
             return
         parts = problem.demand_part(a, node["A"]), problem.demand_part(b, node["B"])
+        if node.get("held"):
+            self.check_ways(difference(*parts), ways, *self.stood(a, b))
+            return
         clearance = Fraction(node["clearance"]) * self.unit
         self.check_clearance(a, b, clearance)
         if node.get("slack"):
             demand(self.is_listed(a, b) and clearance < 0, "slack, where nothing is held to an overlap")
-        self.check_ways(difference(*parts), ways, 0 if node.get("slack") else clearance)
+        self.check_ways(difference(*parts), ways, *((False, 0) if node.get("slack") else (clearance < 0, clearance ** 2)))
 
     def check_alone(self, node):
         """Of a pair by itself, nothing but what its reason is about."""
@@ -111,16 +114,34 @@ class Verdict:
             demand(clearance * clearance <= plane.distance_square(p, q),
                    "a listed pair is held to more than it had:", a, b)
 
-    def check_ways(self, polygon, ways, clearance):
-        """What lies behind all ways is bounded, and its corners are in conflict."""
+    def stood(self, a, b):
+        """Of another listed pair: were the two in each other at the start, and the square of their least translation; or of
+        their distance."""
+        demand(self.is_listed(a, b), "held to what it had, and not listed:", a, b)
+        demand(self.kinds[self.key(a, b)] not in ("contained", "duplicate"), "what is contained may stay so")
+        p, q = (self.problem.things[k].whole() for k in (a, b))
+        p, q = (p, q) if p.area else (q, p)
+        if plane.interiors_meet(p, q):
+            inside = any(plane.lies_in(x, y) for x, y in ((p, q), (q, p)) if y.area)
+            demand(not inside, "what is in another may go deeper:", a, b)
+            square = plane.least_square(p, q)
+            demand(square is not None, "held to a depth that is not known:", a, b)
+            return True, square
+        square = plane.distance_square(p, q)
+        demand(square <= self.problem.required(a, b) ** 2, "more is asked of", a, b, "than they owe")
+        return False, square
+
+    def check_ways(self, polygon, ways, inside, square):
+        """What lies behind all ways is bounded, and its corners are in conflict: no farther from the polygon than what that
+        is the square of, or with a disc of that size inside it."""
         for w in ways:
             for along in ((w[1], -w[0]), (-w[1], w[0])):
                 demand(any(m[0] * along[0] + m[1] * along[1] > 0 for m in ways), "the ways leave a direction out")
         for corner in corners_behind(ways):
-            if clearance < 0:
-                demand(holds_disc(polygon, corner, -clearance), "a move that is no worse has no way")
+            if inside:
+                demand(holds_disc(polygon, corner, square), "a move that is no worse has no way")
             else:
-                demand(is_near(polygon, corner, clearance), "a move that keeps the clearance has no way")
+                demand(is_near(polygon, corner, square), "a move that keeps the clearance has no way")
 
     def check_shadow(self, polygon, ways):
         for w in ways:
@@ -138,7 +159,52 @@ class Verdict:
             node, way = f["node"], f["way"]
             demand(f["force"] > 0 and node in taken, "a force that is not on the way, or none")
             demand(0 <= way < taken[node] if f["behind"] else way == taken[node], "a force is on another case")
+        self.resting = self.check_still(leaf["still"], taken) if "still" in leaf else None
         demand(self.wins(leaf, float, self.FILTER) or self.wins(leaf, Fraction, 0), "a leaf is no contradiction")
+
+    def check_still(self, lines, taken):
+        """The body that is between the lines of two ways, and has no place there but its own; see docs/PROOF.md."""
+        demand(len(lines) == 2, "two lines")
+        found = []
+        for node, way in lines:
+            demand(node in taken and way == taken[node], "a line that is not on the way")
+            node = self.nodes[node]
+            way = node["ways"][way]
+            demand(not node.get("slack") and way["d"] == 0, "a line that does not pass where the two stood")
+            bodies = [self.body_of(node[k]) for k in "ab"]
+            moving = [k for k in (0, 1) if self.limit_of(bodies[k]) != 0]
+            demand(len(moving) == 1, "a line between two that move")
+            sign = 2 * moving[0] - 1
+            found.append((bodies[moving[0]], sign * Fraction(way["n"][0]), sign * Fraction(way["n"][1])))
+        (body, px, py), (other, qx, qy) = found
+        demand(body == other, "two lines of two bodies")
+        demand(px * qy == py * qx and px * qx + py * qy < 0, "lines that are not opposite to each other")
+        limit = self.limit_of(body)
+        demand(limit is not None, "a lattice without a limit")
+        unit = [self.unit_of(body, x, Fraction(limit)) for x in (0, 1)]
+        demand(px != 0 and py != 0, "there is another place on the line")
+        # p i + q j = 0 for whole numbers i and j of units: they are multiples of q and -p, divided by what those share.
+        p, q = px * unit[0], py * unit[1]
+        whole = p.denominator * q.denominator
+        p, q = int(p * whole), int(q * whole)
+        share = math.gcd(p, q)
+        i, j = q // share * unit[0], p // share * unit[1]
+        demand(i * i + j * j > Fraction(limit) ** 2, "there is another place on the line")
+        return body
+
+    def unit_of(self, body, x, limit):
+        """What the coordinate of every corner is a multiple of, wherever it is a double within the limit."""
+        things = [self.problem.things[k] for k in body]
+        at = [Fraction(p[x], self.unit) for t in things for o in [*t.polygons] for ring in o for p in ring]
+        low, high = min(at) - limit, max(at) + limit
+        if high < 0:
+            low, high = -high, -low
+        demand(low > 0, "a coordinate may come to nothing")
+        unit = Fraction(2) ** (math.floor(math.log2(low)) - 54)
+        while unit * 2 ** 53 <= low:
+            unit *= 2
+        demand(unit * 2 ** 53 > high, "a coordinate may leave its binade")
+        return unit
 
     FILTER = 1e-9  # of all that is added up: far more than doubles can be off by in sums of some thousand terms
 
@@ -160,7 +226,7 @@ class Verdict:
                 net[body] = g[0] + side * x, g[1] + side * y, g[2] + abs(x) + abs(y)
         lost = number(0)
         for body, (x, y, most) in net.items():
-            limit = self.limit_of(body)
+            limit = 0 if body == self.resting else self.limit_of(body)
             if limit == 0 or most == 0:
                 continue
             if limit is None:
@@ -202,20 +268,22 @@ def sides(polygon, w):
     return list(zip(grown, grown[1:] + grown[:1]))
 
 
-def is_near(polygon, corner, clearance):
-    """A place no farther from a convex polygon, which may be a segment or a point, than that."""
+def is_near(polygon, corner, most):
+    """A place no farther from a convex polygon, which may be a segment or a point; most: the square."""
     x, y, w = corner
     edges = sides(polygon, w)
     if len(polygon) > 2 and all(plane.side(p, q, (x, y)) >= 0 for p, q in edges):
         return True
-    n, d = (clearance * w).numerator ** 2, (clearance * w).denominator ** 2
+    most = Fraction(most) * w * w
+    n, d = most.numerator, most.denominator
     return any(square * d <= n * whole for square, whole in (plane.square_to_edge((x, y), e) for e in edges))
 
 
-def holds_disc(polygon, corner, radius):
-    """The disc about the place within the polygon."""
+def holds_disc(polygon, corner, square):
+    """The disc about the place within the polygon; square: of its radius."""
     x, y, w = corner
-    n, d = (radius * w).numerator ** 2, (radius * w).denominator ** 2
+    square = Fraction(square) * w * w
+    n, d = square.numerator, square.denominator
     for p, q in sides(polygon, w):
         ex, ey = q[0] - p[0], q[1] - p[1]
         cross = ex * (y - p[1]) - ey * (x - p[0])

@@ -16,53 +16,82 @@ static const sunder_conflict *find_listed(const checking *c, size_t a, size_t b)
     return NULL;
 }
 
+/* Did the two meet at the start? The square of their least way out then, else of their distance. False: not known. */
+static bool find_standing(const proof_feature *a, const proof_feature *b, bool *meet, mpq_t square)
+{
+    if (b->line) {
+        *meet = proof_line_meets(b, a);
+        if (*meet) return proof_line_least(square, b, a);
+        proof_line_square(square, b, a);
+        return true;
+    }
+    polyset p, q;
+    standing was;
+    polyset_init(&p), polyset_init(&q);
+    polyset_polygon(&p, a->xy, a->corners);
+    polyset_polygon(&q, b->xy, b->corners);
+    standing_of(&was, &p, &q);
+    *meet = was.meet;
+    mpq_set(square, was.square);
+    standing_clear(&was);
+    polyset_free(&p), polyset_free(&q);
+    return true;
+}
+
 /* May two features be held to the clearance, as they stood? Disjoint, or touching: to their distance. Else to the least
  * way out, which must not be longer. */
-static bool stood_so_beside(const proof_feature *a, const proof_feature *line, double clearance)
+static bool stood_so(const proof_feature *a, const proof_feature *b, double clearance)
 {
-    if (proof_line_meets(line, a)) return clearance <= 0 && proof_line_parts(line, a, clearance);
     mpq_t square, was;
+    bool meet;
     mpq_inits(square, was, NULL);
     mpq_set_d(square, clearance);
     mpq_mul(square, square, square);
-    proof_line_square(was, line, a);
-    const bool so = clearance <= 0 || mpq_cmp(square, was) <= 0;
+    bool so = find_standing(a, b, &meet, was);
+    if (so) so = meet ? clearance <= 0 && mpq_cmp(was, square) <= 0 : clearance <= 0 || mpq_cmp(square, was) <= 0;
     mpq_clears(square, was, NULL);
     return so;
 }
 
-static bool stood_so(const proof_feature *a, const proof_feature *b, double clearance)
+/* Of those that are not convex it is not asked. */
+static bool are_contained(const checking *c, const sunder_proof_node *node)
 {
-    if (b->line) return stood_so_beside(a, b, clearance);
-    polyset p, q;
-    standing was;
-    mpq_t square;
-    polyset_init(&p), polyset_init(&q), mpq_init(square);
-    polyset_polygon(&p, a->xy, a->corners);
-    polyset_polygon(&q, b->xy, b->corners);
-    standing_of(&was, &p, &q);
-    mpq_set_d(square, clearance);
-    mpq_mul(square, square, square);
-    const bool so = was.meet ? clearance <= 0 && mpq_cmp(was.square, square) <= 0
-                             : clearance <= 0 || mpq_cmp(square, was.square) <= 0;
-    standing_clear(&was), mpq_clear(square);
-    polyset_free(&p), polyset_free(&q);
-    return so;
+    const proof_feature *a = &c->feature[node->a], *b = &c->feature[node->b];
+    return (!b->line && is_convex_part(a->xy, a->corners) && is_part_of(a->xy, a->corners, b)) ||
+           (node->b < c->n && is_convex_part(b->xy, b->corners) && is_part_of(b->xy, b->corners, a));
 }
 
-static const char *check_clearance(const checking *c, const sunder_proof_node *node)
+/* What it asks for: inside, or else beyond what that is the square of. */
+static const char *check_held(const checking *c, const sunder_proof_node *node, bool *inside, mpq_t square)
+{
+    const sunder_conflict *listed = find_listed(c, node->a, node->b);
+    if (!listed || listed == &c->listed[c->conflict] || node->slack) return "held, and no other of the list";
+    if (are_contained(c, node)) return "what is contained may stay so";
+    if (!find_standing(&c->feature[node->a], &c->feature[node->b], inside, square)) return "held to what is not known";
+    const double owed = node->b >= c->n ? c->feature[node->b].owed : c->gap;
+    mpq_t most;
+    mpq_init(most);
+    mpq_set_d(most, owed);
+    mpq_mul(most, most, most);
+    const bool more = !*inside && mpq_cmp(square, most) > 0;
+    mpq_clear(most);
+    return more ? "a listed pair is held to more than it owes" : NULL;
+}
+
+static const char *check_clearance(const checking *c, const sunder_proof_node *node, bool *inside, mpq_t square)
 {
     const sunder_conflict *own = &c->listed[c->conflict], *listed = find_listed(c, node->a, node->b);
     const proof_feature *a = &c->feature[node->a], *b = &c->feature[node->b];
     const double owed = node->b >= c->n ? b->owed : c->gap;
+    if (node->held) return check_held(c, node, inside, square);
     if (node->slack && (!listed || listed == own || node->clearance >= 0))
         return "slack, where nothing is held to less";
+    *inside = !node->slack && node->clearance < 0;
+    mpq_set_d(square, node->slack ? 0 : node->clearance); /* with its slack it is disjoint */
+    mpq_mul(square, square, square);
     if (!listed || listed == own) return node->clearance <= owed ? NULL : "more than is owed is asked for";
     if (node->clearance > owed) return "a listed pair is held to more than it owes";
-    /* Of those that are not convex it is not asked whether they are contained. */
-    if ((!b->line && is_convex_part(a->xy, a->corners) && is_part_of(a->xy, a->corners, b)) ||
-        (node->b < c->n && is_convex_part(b->xy, b->corners) && is_part_of(b->xy, b->corners, a)))
-        return "what is contained may stay so";
+    if (are_contained(c, node)) return "what is contained may stay so";
     return stood_so(a, b, node->clearance) ? NULL : "a listed pair is held to more than it had";
 }
 
@@ -83,8 +112,13 @@ static const char *check_question(const checking *c, const sunder_proof_node *no
     if (node->shadow) return node->b < c->n ? proof_check_shadow(c, node) : "a barrier with sides";
     if (!is_part(c, node->a, a, node->corners_a) || !is_part(c, node->b, b, node->corners_b))
         return "a part is not convex, or not of its feature";
-    const char *wrong = check_clearance(c, node);
-    return wrong ? wrong : proof_check_ways(c, node);
+    bool inside = false;
+    mpq_t most;
+    mpq_init(most);
+    const char *wrong = check_clearance(c, node, &inside, most);
+    if (!wrong) wrong = proof_check_ways(c, node, inside, most);
+    mpq_clear(most);
+    return wrong;
 }
 
 static const char *check_node(checking *c, size_t at, size_t depth)

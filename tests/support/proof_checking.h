@@ -26,13 +26,14 @@ bool is_part_of(const double *part, size_t n, const proof_feature *f);
 /* proof_lines.c: of a line and a polygon. Does it run through the open polygon? The square of their distance. */
 bool proof_line_meets(const proof_feature *line, const proof_feature *polygon);
 void proof_line_square(mpq_t square, const proof_feature *line, const proof_feature *polygon);
-/* Of a convex polygon and one segment: is the least translation that takes them apart no longer than that? */
-bool proof_line_parts(const proof_feature *line, const proof_feature *polygon, double most);
+/* Of a convex polygon and one segment: the square of the least translation that takes them apart. False: of others. */
+bool proof_line_least(mpq_t square, const proof_feature *line, const proof_feature *polygon);
 /* Are the part's one or two corners on one segment of the line? */
 bool is_part_of_line(const double *part, size_t n, const proof_feature *line);
 
-/* proof_ways.c: what lies behind all the ways, an open convex polygon, must be in conflict. */
-const char *proof_check_ways(const checking *c, const sunder_proof_node *node);
+/* proof_ways.c: what lies behind all the ways, an open convex polygon, must be in conflict: nearer than what `most` is
+ * the square of; or deeper inside. */
+const char *proof_check_ways(const checking *c, const sunder_proof_node *node, bool inside, const mpq_t most);
 /* Where two ways' lines cross; false if nowhere. Does v lie behind all ways, or on their lines? */
 bool proof_crossing(const sunder_proof_way *a, const sunder_proof_way *b, vec *v);
 bool proof_is_behind_all(const sunder_proof_way *way, size_t n, const vec *v);
@@ -41,8 +42,12 @@ bool proof_is_behind_all(const sunder_proof_way *way, size_t n, const vec *v);
  * the shadow of that. */
 const char *proof_check_shadow(const checking *c, const sunder_proof_node *node);
 
+/* proof_still.c: two lines leave a block one place; a member of it is *first then, else SIZE_MAX. */
+const char *proof_check_still(const checking *c, const sunder_proof_node *leaf, size_t depth, size_t *first);
+
 /* proof_leaf.c: the forces on the way to the leaf win more than the limits can lose. */
 bool proof_same_block(const checking *c, size_t a, size_t b);
+double proof_limit_of(const checking *c, size_t feature);
 const char *proof_check_leaf(const checking *c, const sunder_proof_node *leaf, size_t depth);
 
 #endif

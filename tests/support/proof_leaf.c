@@ -2,6 +2,8 @@
 #include "proof_checking.h"
 #include "rational_plane.h"
 
+#include <stdint.h>
+
 bool proof_same_block(const checking *c, size_t a, size_t b)
 {
     if (a >= c->n || b >= c->n) return a == b;
@@ -9,7 +11,7 @@ bool proof_same_block(const checking *c, size_t a, size_t b)
                       sunder_report_block(c->report, a) == sunder_report_block(c->report, b));
 }
 
-static double limit_of(const checking *c, size_t f)
+double proof_limit_of(const checking *c, size_t f)
 {
     double limit = 1e308;
     for (size_t g = 0; g < c->n; g++) {
@@ -93,8 +95,9 @@ static double longest_slack(const sunder_proof *p, const sunder_proof_node *of)
     return longest;
 }
 
-/* What the limits lose of a leaf: the sum over blocks, each by its first member; and over slacks. */
-static void sum_lost(const checking *c, const sunder_proof_node *leaf, mpq_t lost)
+/* What the limits lose of a leaf: the sum over blocks, each by its first member, but that which stays still; and over
+ * slacks. */
+static void sum_lost(const checking *c, const sunder_proof_node *leaf, size_t still, mpq_t lost)
 {
     const sunder_proof *p = c->proof;
     vec net;
@@ -103,9 +106,9 @@ static void sum_lost(const checking *c, const sunder_proof_node *leaf, mpq_t los
     for (size_t b = 0; b < c->n; b++) {
         bool first = true;
         for (size_t g = 0; g < b && first; g++) first = !proof_same_block(c, b, g);
-        if (!first) continue;
+        if (!first || (still != SIZE_MAX && proof_same_block(c, b, still))) continue;
         sum_net(c, leaf, b, NULL, &net);
-        add_lost(lost, &net, limit_of(c, b));
+        add_lost(lost, &net, proof_limit_of(c, b));
     }
     for (size_t k = 0; k < p->nodes; k++) {
         if (!is_first_slack(p, k)) continue;
@@ -119,7 +122,8 @@ const char *proof_check_leaf(const checking *c, const sunder_proof_node *leaf, s
 {
     mpq_t won, lost, f, d;
     mpq_inits(won, lost, f, d, NULL);
-    const char *wrong = NULL;
+    size_t still = SIZE_MAX;
+    const char *wrong = leaf->still ? proof_check_still(c, leaf, depth, &still) : NULL;
     for (size_t k = 0; k < leaf->forces && !wrong; k++) {
         const sunder_proof_force *force = &c->proof->force[leaf->force + k];
         size_t level = 0;
@@ -136,7 +140,7 @@ const char *proof_check_leaf(const checking *c, const sunder_proof_node *leaf, s
         mpq_mul(f, f, d);
         mpq_add(won, won, f);
     }
-    sum_lost(c, leaf, lost);
+    sum_lost(c, leaf, still, lost);
     if (!wrong && mpq_cmp(won, lost) <= 0) wrong = "a leaf is no contradiction";
     mpq_clears(won, lost, f, d, NULL);
     return wrong;

@@ -136,26 +136,23 @@ bool proof_line_meets(const proof_feature *line, const proof_feature *polygon)
     return meets;
 }
 
-bool proof_line_parts(const proof_feature *line, const proof_feature *polygon, double most)
+bool proof_line_least(mpq_t square, const proof_feature *line, const proof_feature *polygon)
 {
     if (line->corners > 2 || !is_convex_part(polygon->xy, polygon->corners)) return false;
     hull k = hull_difference(polygon->xy, polygon->corners, line->xy, line->corners);
-    bool parts = false;
     vec e, w, zero;
-    mpq_t room, whole, square;
-    vec_init(&e), vec_init(&w), vec_init(&zero), mpq_inits(room, whole, square, NULL);
-    mpq_set_d(square, most);
-    mpq_mul(square, square, square);
-    for (size_t m = 0; m < k.n && !parts; m++) {
+    mpq_t room, whole;
+    vec_init(&e), vec_init(&w), vec_init(&zero), mpq_inits(room, whole, NULL);
+    for (size_t m = 0; m < k.n; m++) {
         vec_sub(&e, &k.v[(m + 1) % k.n], &k.v[m]);
         vec_sub(&w, &zero, &k.v[m]);
         vec_cross(room, &e, &w);
         vec_dot(whole, &e, &e);
-        mpq_mul(whole, whole, square);
         mpq_mul(room, room, room);
-        parts = mpq_cmp(room, whole) <= 0;
+        mpq_div(room, room, whole);
+        if (m == 0 || mpq_cmp(room, square) < 0) mpq_set(square, room);
     }
-    vec_clear(&e), vec_clear(&w), vec_clear(&zero), mpq_clears(room, whole, square, NULL);
+    vec_clear(&e), vec_clear(&w), vec_clear(&zero), mpq_clears(room, whole, NULL);
     hull_free(&k);
-    return parts;
+    return true;
 }

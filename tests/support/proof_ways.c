@@ -65,8 +65,8 @@ bool proof_is_behind_all(const sunder_proof_way *way, size_t n, const vec *v)
 }
 
 /* What lies behind all the ways, an open convex polygon, must be in conflict: its corners within the clearance of the
- * parts' difference or, for a negative one, deeper in it than that. */
-const char *proof_check_ways(const checking *c, const sunder_proof_node *node)
+ * parts' difference or, inside, deeper in it than that. */
+const char *proof_check_ways(const checking *c, const sunder_proof_node *node, bool inside, const mpq_t most)
 {
     const sunder_proof *p = c->proof;
     const sunder_proof_way *way = p->way + node->way;
@@ -75,22 +75,19 @@ const char *proof_check_ways(const checking *c, const sunder_proof_node *node)
     hull k = hull_difference(a, node->corners_a, b, node->corners_b);
     const char *wrong = NULL;
     vec v;
-    mpq_t d, most;
-    vec_init(&v), mpq_inits(d, most, NULL);
-    const double clearance = node->slack ? 0 : node->clearance; /* with its slack it is disjoint */
-    mpq_set_d(most, clearance);
-    mpq_mul(most, most, most);
+    mpq_t d;
+    vec_init(&v), mpq_init(d);
     for (size_t i = 0; i < node->ways && !wrong; i++)
         for (size_t j = i + 1; j < node->ways && !wrong; j++) {
             if (!proof_crossing(&way[i], &way[j], &v) || !proof_is_behind_all(way, node->ways, &v)) continue;
-            if (clearance < 0) {
-                if (!hull_holds_disc(&k, &v, clearance)) wrong = "a move that is no worse has no way";
+            if (inside) {
+                if (!hull_holds_disc(&k, &v, most)) wrong = "a move that is no worse has no way";
                 continue;
             }
             hull_square_from(d, &k, &v);
             if (mpq_cmp(d, most) > 0) wrong = "a move that keeps the clearance has no way";
         }
-    vec_clear(&v), mpq_clears(d, most, NULL);
+    vec_clear(&v), mpq_clear(d);
     hull_free(&k);
     return wrong;
 }

@@ -128,24 +128,22 @@ void hull_square_from(mpq_t best, const hull *h, const vec *p)
     vec_clear(&e), vec_clear(&w), mpq_clears(along, whole, d, NULL);
 }
 
-bool hull_holds_disc(const hull *h, const vec *p, double s)
+bool hull_holds_disc(const hull *h, const vec *p, const mpq_t square)
 {
     bool holds = true;
     vec e, w;
-    mpq_t room, whole, square;
-    vec_init(&e), vec_init(&w), mpq_inits(room, whole, square, NULL);
+    mpq_t room, whole;
+    vec_init(&e), vec_init(&w), mpq_inits(room, whole, NULL);
     for (size_t k = 0; k < h->n && holds; k++) {
         vec_sub(&e, &h->v[(k + 1) % h->n], &h->v[k]);
         vec_sub(&w, p, &h->v[k]);
         vec_cross(room, &e, &w);
         vec_dot(whole, &e, &e);
-        mpq_set_d(square, s);
-        mpq_mul(square, square, square);
         mpq_mul(whole, whole, square);
         holds = mpq_sgn(room) >= 0;
         mpq_mul(room, room, room);
         holds = holds && mpq_cmp(room, whole) >= 0;
     }
-    vec_clear(&e), vec_clear(&w), mpq_clears(room, whole, square, NULL);
+    vec_clear(&e), vec_clear(&w), mpq_clears(room, whole, NULL);
     return holds;
 }

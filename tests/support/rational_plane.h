@@ -30,7 +30,7 @@ hull hull_difference(const double *a, size_t na, const double *b, size_t nb);
 void hull_free(hull *h);
 /* The squared distance of p from the closed polygon. */
 void hull_square_from(mpq_t square, const hull *h, const vec *p);
-/* Does the disc of radius |s| round p lie in the polygon? */
-bool hull_holds_disc(const hull *h, const vec *p, double s);
+/* Does the disc round p lie in the polygon? square: of its radius. */
+bool hull_holds_disc(const hull *h, const vec *p, const mpq_t square);
 
 #endif

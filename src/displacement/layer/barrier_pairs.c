@@ -181,6 +181,46 @@ sunder_status sunder_i_barrier_worsened(const sunder_i_model *model, const sunde
     return compare(model, was, is, part, reach * ABOVE, worse, err);
 }
 
+/* ---- By parts ---------------------------------------------------------------------------------------------------- */
+
+/* The shape of what stands there of `other`: all of a feature, or of a barrier what is as near as the parts. */
+static sunder_status compare_to_parts(const sunder_i_model *model, uint32_t feature, uint32_t other,
+                                      const sunder_shape *part, const sunder_shape *of_other, bool *worse,
+                                      sunder_error *err)
+{
+    const sunder_feature *all = model->layer->feature;
+    const sunder_i_pair parts = {of_other, part, NULL, NULL};
+    if (!sunder_i_is_barrier(model, other))
+        return sunder_i_pair_worsened(&parts, &(sunder_i_pair){all[other].shape, all[feature].shape, NULL, NULL}, worse,
+                                      err);
+    const sunder_i_translate home = sunder_i_at_home(model, feature);
+    sunder_i_barrier_stance stance;
+    sunder_shape *near = NULL;
+    sunder_status status = sunder_i_barrier_stand(model, &home, other, &stance, err);
+    const double reach = stance.overlap ? stance.least.distance : stance.distance;
+    if (!status) status = find_near(model, &home, other, reach * ABOVE, false, &near, err);
+    if (!status && near)
+        status = sunder_i_pair_worsened(&parts, &(sunder_i_pair){near, facing(&home, near), NULL, home.t}, worse, err);
+    sunder_shape_free(near);
+    return status;
+}
+
+/* The whole pair stands no better than parts of it; so it stands as these do, unless it stands worse. */
+sunder_status sunder_i_parts_stand_so(const sunder_i_model *model, uint32_t feature, uint32_t other,
+                                      const sunder_i_piece_of *part, const sunder_i_piece_of *of_other, bool *so,
+                                      sunder_error *err)
+{
+    sunder_shape *p = NULL, *q = NULL;
+    bool worse = true;
+    sunder_status status = sunder_i_shape_of_pieces(part, 1, &p, err);
+    if (!status) status = sunder_i_shape_of_pieces(of_other, 1, &q, err);
+    if (!status) status = compare_to_parts(model, feature, other, p, q, &worse, err);
+    *so = !status && !worse;
+    sunder_shape_free(p);
+    sunder_shape_free(q);
+    return status;
+}
+
 /* ---- Any two things ---------------------------------------------------------------------------------------------- */
 
 sunder_status sunder_i_resolve_things(const sunder_i_model *model, size_t a, size_t b, double upper,

@@ -32,6 +32,12 @@ sunder_status sunder_i_barrier_apart(const sunder_i_model *model, const sunder_i
 sunder_status sunder_i_barrier_worsened(const sunder_i_model *model, const sunder_i_translate *was,
                                         const sunder_i_translate *is, uint32_t part, bool *worse, sunder_error *err);
 
+/* A feature and another thing, and a convex part of each: did the two stand as the parts did, and no nearer, or deeper
+ * in each other? */
+sunder_status sunder_i_parts_stand_so(const sunder_i_model *model, uint32_t feature, uint32_t other,
+                                      const sunder_i_piece_of *part, const sunder_i_piece_of *of_other, bool *so,
+                                      sunder_error *err);
+
 /* Of any two things, a feature first: what it takes to resolve it between them, as they stood (resolution.h). */
 sunder_status sunder_i_resolve_things(const sunder_i_model *model, size_t a, size_t b, double upper,
                                       sunder_i_resolution *out, sunder_error *err);

@@ -113,12 +113,21 @@ bool sunder_i_branching_add_leaf(sunder_i_branching *c, sunder_i_levels *levels,
     sunder_i_node *node = add_node(c);
     if (!node || !sunder_i_reserve(&c->force, &c->force_capacity, c->forces + c->claims, sizeof *c->force))
         return false;
+    bool still = false;
     for (size_t k = 0; k < c->claims; k++) {
         const sunder_i_claim *s = &c->claim[k];
         if (!(s->force > 0)) continue;
         sunder_i_levels_add(levels, s->level);
         c->force[c->forces++] = (sunder_proof_force){s->node, s->way, s->behind, s->force};
         node->forces++;
+        const uint32_t between = c->still ? sunder_i_branching_place(c, c->between) : SUNDER_I_GROUND;
+        still = still || (c->still && (s->i == between || s->j == between));
+    }
+    node->still = still;
+    for (unsigned k = 0; k < 2 && still; k++) {
+        sunder_i_levels_add(levels, c->claim[k].level);
+        node->line_node[k] = c->claim[k].node;
+        node->line_way[k] = c->claim[k].way;
     }
     return true;
 }
@@ -135,6 +144,7 @@ bool sunder_i_branching_add_branch(sunder_i_branching *c, const sunder_i_violati
     node->clearance = o->clearance;
     node->shadow = o->shadow;
     node->slack = o->slack != NULL;
+    node->held = o->held;
     node->ways = ways;
     memcpy(c->way + c->ways, c->scratch, ways * sizeof *c->way);
     c->ways += ways;
@@ -159,6 +169,22 @@ bool sunder_i_branching_push(sunder_i_branching *c, uint32_t i, uint32_t j, size
     return true;
 }
 
+/* Are the claims those of both walls, and no others? Then who is between them stays where it is (corridor.c). */
+static bool is_between(const sunder_i_branching *c, unsigned level)
+{
+    bool between = c->walls == 2 && level == 1 && c->claims == 2;
+    for (size_t k = 0; k < 2 && between; k++)
+        between = !c->claim[k].behind && c->claim[k].level == k && c->claim[k].way == c->node[c->claim[k].node].way;
+    return between;
+}
+
+static void set_still(sunder_i_branching *c, bool still)
+{
+    const uint32_t at = sunder_i_branching_place(c, c->between);
+    c->still = still;
+    c->limit[at] = still ? 0 : sunder_i_branching_limit(c, &c->model->body[c->between]);
+}
+
 /* The cases of a node, one after the other, from the candidate that is there. */
 static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violation *o, size_t node, unsigned level,
                                   sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
@@ -181,11 +207,14 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
         memcpy(c->t, t, 2 * bodies * sizeof *t);
         const size_t before = c->claims;
         bool ok = sunder_i_branching_push(c, i, j, node, way, false, level);
+        const bool between = ok && is_between(c, level);
+        if (between) set_still(c, true);
         const bool dead = ok && sunder_i_branching_is_dead_end(c);
         if (dead)
             ok = sunder_i_branching_add_leaf(c, &used, &below);
         else if (ok)
             status = sunder_i_branching_search(c, level + 1, verdict, &used, &below, err);
+        if (between) set_still(c, false);
         if (!ok) status = sunder_i_no_memory(err);
         if (status || *verdict != SUNDER_I_INFEASIBLE) break;
         c->way[way].next = below;
@@ -216,11 +245,30 @@ static size_t look(sunder_i_branching *c, sunder_i_violation deepest[SUNDER_I_CH
     return n;
 }
 
+/* The branches of a wall, from where all stand. */
+static sunder_status search_wall(sunder_i_branching *c, unsigned level, sunder_i_verdict *verdict,
+                                 sunder_i_levels *levels, size_t *root, sunder_error *err)
+{
+    const sunder_i_corridor_wall *w = &c->wall[level];
+    const sunder_i_violation o = {.p = c->between,
+                                  .q = c->model->body_of[w->b->feature],
+                                  .a = w->a,
+                                  .b = w->b,
+                                  .clearance = w->clearance,
+                                  .held = true};
+    const size_t ways = sunder_i_branching_wall_ways(c, w);
+    size_t node;
+    if (!c->failed && ways == 0) return SUNDER_OK;
+    if (c->failed || !sunder_i_branching_add_branch(c, &o, ways, &node)) return sunder_i_no_memory(err);
+    return search_cases(c, &o, node, level, verdict, levels, root, err);
+}
+
 sunder_status sunder_i_branching_search(sunder_i_branching *c, unsigned level, sunder_i_verdict *verdict,
                                         sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
     sunder_i_node_outcome outcome;
     *verdict = SUNDER_I_UNKNOWN;
+    if (level < c->walls) return search_wall(c, level, verdict, levels, root, err);
     sunder_status status = sunder_i_branching_solve(c, &outcome, err);
     if (status || outcome == SUNDER_I_NODE_UNDECIDED) return status;
     if (outcome == SUNDER_I_NODE_INFEASIBLE) {

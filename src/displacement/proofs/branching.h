@@ -64,8 +64,18 @@ typedef struct sunder_i_node {
     double clearance;
     bool shadow; /* one part is an anchor, which may not pass the other */
     bool slack;  /* the ways are those of the second part when it is moved by the pair's slack */
+    bool held;   /* the clearance is what the pair stood apart, exactly */
     size_t way, ways, force, forces;
+    bool still; /* a leaf: between the lines of two ways a body stays where it is */
+    size_t line_node[2], line_way[2];
 } sunder_i_node;
+
+/* A listed pair of who may move and what stands, and a line that it may not cross, exactly: n.u >= 0, n of doubles and
+ * about 1 long. */
+typedef struct sunder_i_corridor_wall {
+    const sunder_i_body_piece *a, *b; /* a: of who may move */
+    double clearance, n[2];
+} sunder_i_corridor_wall;
 
 typedef struct sunder_i_branching {
     const sunder_i_subproblem *subproblem;
@@ -95,7 +105,12 @@ typedef struct sunder_i_branching {
     size_t scratch_capacity;
     sunder_i_list near;
     bool closely; /* lines are made for the candidate (ways.h) */
-    bool failed;  /* memory is out */
+    /* Two walls, opposite to each other, or none: the first branches. The body between them, and whether it is. */
+    sunder_i_corridor_wall wall[2];
+    size_t walls;
+    uint32_t between;
+    bool still;
+    bool failed; /* memory is out */
 } sunder_i_branching;
 
 /* Work done so far, and whether that, or who takes part, is more than was allowed. */
@@ -160,6 +175,7 @@ typedef struct sunder_i_violation {
     bool shadow;                       /* a or b is an anchor, and in the shadow of the other */
     bool known;                        /* nobody joins for it: both take part already, or one of them never moves */
     bool closely;                      /* as of sunder_i_branching */
+    bool held;                         /* it is a wall */
 } sunder_i_violation;
 
 /* The deepest of the candidate's, one of each pair of bodies: known ones first, the deepest first. Returns how many. */
@@ -187,6 +203,13 @@ bool sunder_i_branching_add_branch(sunder_i_branching *branching, const sunder_i
                                    size_t *root);
 bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t j, size_t node, size_t way,
                              bool behind, unsigned level);
+
+/* ---- corridor.c -------------------------------------------------------------------------------------------------- */
+
+/* Are there two walls that leave this body, which takes part, no place but its own? Then they are branching->wall. */
+sunder_status sunder_i_branching_find_corridor(sunder_i_branching *branching, uint32_t body, sunder_error *err);
+/* The ways out of one, that beyond its line first: into branching->scratch. Returns how many; 0: none are found. */
+size_t sunder_i_branching_wall_ways(sunder_i_branching *branching, const sunder_i_corridor_wall *wall);
 
 /* ---- plane.c ----------------------------------------------------------------------------------------------------- */
 

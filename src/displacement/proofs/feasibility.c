@@ -122,7 +122,10 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
     sunder_i_levels levels;
     size_t root = 0;
     decision->no_plane = subproblem->no_plane;
-    if (!status && limited && c.longest > 0 && !subproblem->slack && !subproblem->no_plane)
+    for (size_t k = 0; k < c.bodies && !status && limited && subproblem->still && !c.walls; k++)
+        status = sunder_i_branching_find_corridor(&c, c.body[k], err);
+    limited = limited && (!subproblem->still || c.walls);
+    if (!status && limited && c.longest > 0 && !subproblem->slack && !subproblem->still && !subproblem->no_plane)
         status = ask_plane(subproblem, decision, err);
     if (status || decision->verdict != SUNDER_I_UNKNOWN) {
         sunder_i_free(c.body);

@@ -29,6 +29,7 @@ typedef struct sunder_i_subproblem {
     /* What is held to an overlap with a barrier has one translation that parts them all, not one for each two parts:
      * proofs are larger, and some are found only so. */
     bool slack;
+    bool still;      /* only of a body between two lines, which has no place there but its own: corridor.c */
     bool every_side; /* the sides of barriers that are not among them are heeded, too */
     bool any_jump;   /* features may jump over each other */
     bool any_way;    /* and cross sides: no way is forbidden */

@@ -34,6 +34,14 @@ static size_t copy_part(copying *g, const sunder_i_body_piece *piece)
     return at;
 }
 
+/* Of a node on the way down. */
+static size_t copy_of(const copying *g, size_t node)
+{
+    size_t level = 0;
+    while (g->path[level] != node) level++;
+    return g->path_copy[level];
+}
+
 static size_t copy(copying *g, size_t at, size_t depth)
 {
     const sunder_i_branching *c = g->branching;
@@ -46,11 +54,14 @@ static size_t copy(copying *g, size_t at, size_t depth)
     proof->forces += from->forces;
     for (size_t k = 0; k < from->forces; k++) {
         const sunder_proof_force *f = &c->force[from->force + k];
-        size_t level = 0;
-        while (g->path[level] != f->node) level++;
-        const sunder_proof_node *above = &g->node[g->path_copy[level]];
-        g->force[to->force + k] = (sunder_proof_force){
-            g->path_copy[level], above->way + (f->way - c->node[f->node].way), f->behind, f->force};
+        const size_t above = copy_of(g, f->node);
+        g->force[to->force + k] =
+            (sunder_proof_force){above, g->node[above].way + (f->way - c->node[f->node].way), f->behind, f->force};
+    }
+    to->still = from->still;
+    for (size_t k = 0; k < 2 && from->still; k++) {
+        to->line_node[k] = copy_of(g, from->line_node[k]);
+        to->line_way[k] = g->node[to->line_node[k]].way + (from->line_way[k] - c->node[from->line_node[k]].way);
     }
     if (from->ways == 0) return number;
     to->a = from->a;
@@ -58,6 +69,7 @@ static size_t copy(copying *g, size_t at, size_t depth)
     to->clearance = from->clearance;
     to->shadow = from->shadow;
     to->slack = from->slack;
+    to->held = from->held;
     to->corners_a = from->part_a->corners;
     to->corners_b = from->part_b->corners;
     to->part_a = copy_part(g, from->part_a);

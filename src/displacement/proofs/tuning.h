@@ -24,6 +24,13 @@
 #define DISC_SIDES 16
 #define MOST_CORNERS 96
 
+/* ---- Between two lines (corridor.c) ------------------------------------------------------------------------------ */
+
+/* Parts of more corners are passed by. */
+#define WALL_CORNERS 64
+/* No other edge turns by less from one that is taken for a line. */
+#define NEARLY_PARALLEL 0x1p-14
+
 /* ---- One relative move (plane.c) --------------------------------------------------------------------------------- */
 
 /* Sides of the polygon around the limits, and the most corners of a region. */

@@ -103,8 +103,8 @@ static void look_at(sunder_i_branching *c, const standing *s, const standing *r,
             const double depth = sunder_i_branching_depth(
                 c, sunder_i_branching_fill_ways(c, p, a, q, b, clearance, false, c->closely ? u : NULL), u);
             if (depth > worst->depth)
-                *worst =
-                    (sunder_i_violation){s->number, r->number, a, b, clearance, depth, NULL, false, false, c->closely};
+                *worst = (sunder_i_violation){s->number, r->number, a,     b,          clearance, depth,
+                                              NULL,      false,     false, c->closely, false};
         }
     }
 }
@@ -118,7 +118,7 @@ static void look_at_shadow(sunder_i_branching *c, const standing *s, const stand
     const double depth =
         sunder_i_branching_depth(c, sunder_i_branching_fill_ways(c, s->body, a, r->body, b, 0, true, NULL), u);
     if (depth > worst->depth)
-        *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, NULL, true, false, false};
+        *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, NULL, true, false, false, false};
 }
 
 /* The move of the barrier, as the feature's body sees it, that is to part the two. */

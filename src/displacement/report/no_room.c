@@ -108,6 +108,7 @@ typedef struct matter {
     bool open;
     bool fine;  /* by coarse lines there is a solution */
     bool slack; /* and by fine ones, with a translation for each two parts that are held to an overlap */
+    bool still; /* and with such, too: but is there a place for it that doubles hold? */
     bool no_plane;
 } matter;
 
@@ -132,10 +133,12 @@ static double farthest_of(const sunder_i_model *model, const uint32_t *body, siz
 }
 
 /* The next of the ways to ask: first by lines that are a little coarse, which make smaller proofs; where that has a
- * solution, as finely as can be; and where that has one, with a slack for what is held to overlaps. */
+ * solution, as finely as can be; where that has one, with a slack for what is held to overlaps; and at last whether
+ * either of the two is held between two lines, with no place there that doubles hold. */
 static bool ask_closer(const sunder_i_subproblem *q, matter *m)
 {
-    if (m->slack || (m->fine && !sunder_i_may_have_slack(q))) return false;
+    if (m->still) return false;
+    m->still = m->slack || (m->fine && !sunder_i_may_have_slack(q));
     m->slack = m->fine;
     m->fine = true;
     return true;
@@ -156,7 +159,8 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
     do {
         sunder_i_decision_clear(&decision);
         q->coarse = m->fine ? 0 : COARSE;
-        q->slack = m->slack;
+        q->slack = m->slack && !m->still;
+        q->still = m->still;
         q->no_plane = m->no_plane;
         status = sunder_i_decide(q, &decision, err);
         m->no_plane = m->no_plane || (!q->no_plane && decision.no_plane);
@@ -249,7 +253,7 @@ static size_t group(const sunder_i_solver *s, const sunder_report *report, const
         if (c->reason != SUNDER_REASON_UNRESOLVED) continue;
         const uint32_t i = model->body_of[c->a], j = model->body_of[c->b];
         list[open++] = (matter){
-            sunder_i_union_find(s->parent, model->body[i].fixed ? j : i), listed[k], true, false, false, false};
+            .root = sunder_i_union_find(s->parent, model->body[i].fixed ? j : i), .conflict = listed[k], .open = true};
     }
     if (open) qsort(list, open, sizeof *list, sunder_i_by_id_pair);
     for (size_t k = 0; k < open; k++)

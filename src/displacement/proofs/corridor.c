@@ -1,0 +1,334 @@
+/* Who may slide along a line only, and is on a lattice that has no other place there.
+ *
+ * A block on both sides of a straight road, in conflict with it on both, may stand no nearer to the one side nor to the
+ * other: what is left to it is to slide along the road. In the reals that is a way out; but moves are such that doubles
+ * hold every corner afterwards, so they are multiples of the unit in the last place of the coordinates, and on the line
+ * of a segment whose ends are doubles likewise the next such place is as far away as the segment is long, divided by
+ * what the numbers of its two coordinates have in common. Mostly that is farther than any limit.
+ *
+ * So where branching has led to a solution of the reals, it is asked whether one of the bodies that it was about is
+ * held between two such lines. The lines have to be told without any rounding. The pair of a line is listed, and stands
+ * no worse than it stood:
+ *
+ *       A - B grown by what the two stood apart          N = a normal of A - B, a vector of doubles: the edge that it
+ *      ___________________________                           is of has corners of doubles, and their difference is one
+ *                 u = 0           \                      the line N.u = 0 passes the place where they stood, at the
+ *      _____P___________Q______                              distance that they had: exactly that of the whole pair
+ *              A - B           \
+ *
+ * N.u >= 0 is then one of the ways out of the pair of parts, as ways.c finds them, in place of the one that is next to
+ * it: of all of the boundary of what is forbidden, that line has to tell of what is on it alone, as long as no other
+ * edge is nearly parallel to it. Whether the pair of parts stood as the whole pair did is asked exactly
+ * (layer/barrier_pairs.h). Of two such lines of one body, one opposite to the other, the first two branches are made;
+ * between them its limit is 0 (branches.c). */
+#include "displacement/layer/barrier_pairs.h"
+#include "displacement/proofs/branching.h"
+#include "displacement/proofs/tuning.h"
+
+#include "shape/shape.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- Exactly --------------------------------------------------------------------------------------------------- */
+
+/* q - p, if that is a double. The rounding error of a difference is itself a double [Knu97, 4.2.2]. */
+static bool subtract(double q, double p, double *out)
+{
+    const double s = q - p, back = s - q;
+    *out = s;
+    return isfinite(s) && (q - (s - back)) - (p + back) == 0;
+}
+
+/* Is p q - r s nothing? */
+static bool are_equal_products(double p, double q, double r, double s)
+{
+    const double a = p * q, b = r * s;
+    return a == b && fma(p, q, -a) == fma(r, s, -b);
+}
+
+static bool are_parallel(const double m[2], const double n[2]) { return are_equal_products(m[0], n[1], m[1], n[0]); }
+
+static double dot(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
+
+/* A multiple of the normal that is still one of doubles, about 1 long. */
+static void scale(double n[2])
+{
+    const int e = ilogb(hypot(n[0], n[1]));
+    for (int x = 0; x < 2; x++) n[x] = ldexp(n[x], -e);
+    for (int bits = 10; bits > 0; bits--) {
+        const double times = rint(ldexp(1, bits) / hypot(n[0], n[1])), m[2] = {times * n[0], times * n[1]};
+        if (fma(times, n[0], -m[0]) != 0 || fma(times, n[1], -m[1]) != 0) continue;
+        for (int x = 0; x < 2; x++) n[x] = ldexp(m[x], -bits);
+        return;
+    }
+}
+
+/* ---- The lattice ------------------------------------------------------------------------------------------------- */
+
+/* The exponent of the unit of one coordinate, wherever the body may go: all of its corners stay between two powers of
+ * two that follow each other. */
+static bool find_unit(const sunder_i_model *model, const sunder_i_body *body, size_t c, int *unit)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (uint32_t k = 0; k < body->members; k++) {
+        const sunder_shape *shape = model->layer->feature[model->member[body->member + k]].shape;
+        for (size_t v = 0; shape && v < sunder_i_shape_raw_vertices(shape); v++) {
+            low = fmin(low, shape->raw_xy[2 * v + c]);
+            high = fmax(high, shape->raw_xy[2 * v + c]);
+        }
+    }
+    low = nextafter(low - body->limit, -INFINITY);
+    high = nextafter(high + body->limit, INFINITY);
+    if (!isfinite(high - low) || !(low > 0 || high < 0) || ilogb(low) != ilogb(high)) return false;
+    *unit = ilogb(low) - 52;
+    return *unit >= -1022;
+}
+
+/* v = odd * 2^exponent. */
+static uint64_t odd_part(double v, int *exponent)
+{
+    uint64_t m = (uint64_t)ldexp(frexp(fabs(v), exponent), 53);
+    *exponent -= 53;
+    for (; (m & 1) == 0; m >>= 1) ++*exponent;
+    return m;
+}
+
+static uint64_t common_divisor(uint64_t p, uint64_t q)
+{
+    while (q) {
+        const uint64_t rest = p % q;
+        p = q;
+        q = rest;
+    }
+    return p;
+}
+
+/* Are all other places of the line n.t = 0 beyond the body's limit? Places have i and j units; with n0 = p / unit 0
+ * and n1 = q / unit 1 they have p i + q j = 0, and the nearest is q and -p, divided by what they have in common. */
+static bool is_alone(const sunder_i_model *model, const sunder_i_body *body, const double n[2])
+{
+    int unit[2], e[2];
+    if (n[0] == 0 || n[1] == 0 || !find_unit(model, body, 0, &unit[0]) || !find_unit(model, body, 1, &unit[1]))
+        return false;
+    const uint64_t p = odd_part(n[0], &e[0]), q = odd_part(n[1], &e[1]), odd = common_divisor(p, q);
+    for (int x = 0; x < 2; x++) e[x] += unit[x];
+    const int common = e[0] < e[1] ? e[0] : e[1];
+    const double i = ldexp((double)(q / odd), e[1] - common + unit[0]),
+                 j = ldexp((double)(p / odd), e[0] - common + unit[1]);
+    return hypot(i, j) > body->limit * (1 + 0x1p-40);
+}
+
+/* ---- A line ------------------------------------------------------------------------------------------------------ */
+
+/* Two parts of a pair, and the line of u that passes where they stood. */
+typedef struct facing {
+    sunder_i_corridor_wall wall;
+    double a[2 * WALL_CORNERS], b[2 * WALL_CORNERS]; /* their corners as given */
+} facing;
+
+/* The normal of an edge of A - B: the k-th edge of A, or behind these of B; not scaled. False: not of doubles. */
+static bool normal_of(const facing *f, size_t k, double n[2])
+{
+    const size_t na = f->wall.a->corners, nb = f->wall.b->corners;
+    const bool of_a = k < na;
+    const double *xy = of_a ? f->a : f->b, *p = xy + 2 * (of_a ? k : k - na),
+                 *q = xy + 2 * (of_a ? (k + 1) % na : (k - na + 1) % nb);
+    double x, y;
+    const bool exact_x = subtract(q[0], p[0], &x), exact_y = subtract(q[1], p[1], &y);
+    n[0] = of_a ? y : -y;
+    n[1] = of_a ? -x : x;
+    return exact_x && exact_y;
+}
+
+/* The corner that is farthest along n. */
+static const double *farthest(const double *xy, size_t corners, const double n[2], double sign)
+{
+    const double *best = xy;
+    for (size_t k = 1; k < corners; k++) {
+        const double d[2] = {xy[2 * k] - best[0], xy[2 * k + 1] - best[1]};
+        if (sign * dot(n, d) > 0) best = xy + 2 * k;
+    }
+    return best;
+}
+
+/* How far u = 0 is from the line of an edge of A - B, negative inside. */
+static double beyond(const facing *f, const double n[2])
+{
+    const double *p = farthest(f->a, f->wall.a->corners, n, 1), *q = farthest(f->b, f->wall.b->corners, n, -1),
+                 d[2] = {p[0] - q[0], p[1] - q[1]};
+    return -dot(n, d) / hypot(n[0], n[1]);
+}
+
+/* Does the foot of u = 0 on the k-th edge lie on that, a hair from its ends? */
+static bool has_foot(const facing *f, size_t k, const double n[2], double hair)
+{
+    const size_t na = f->wall.a->corners, nb = f->wall.b->corners;
+    const bool of_a = k < na;
+    const double *other = of_a ? farthest(f->b, nb, n, -1) : farthest(f->a, na, n, 1),
+                 *p = of_a ? f->a + 2 * k : f->b + 2 * (k - na),
+                 *q = of_a ? f->a + 2 * ((k + 1) % na) : f->b + 2 * ((k - na + 1) % nb),
+                 to_p[2] = {p[0] - other[0], p[1] - other[1]}, to_q[2] = {q[0] - other[0], q[1] - other[1]},
+                 e[2] = {q[0] - p[0], q[1] - p[1]}, room = hair * hypot(e[0], e[1]);
+    return dot(to_p, e) < -room && dot(to_q, e) > room;
+}
+
+/* Of all other edges: none is nearly parallel to the k-th, save for those that are just so; and none is less deep,
+ * where the parts are in each other. */
+static bool stands_out(const facing *f, size_t k, const double n[2], double hair)
+{
+    const double depth = beyond(f, n), length = hypot(n[0], n[1]);
+    for (size_t m = 0; m < f->wall.a->corners + f->wall.b->corners; m++) {
+        double other[2];
+        if (m == k) continue;
+        if (!normal_of(f, m, other)) return false;
+        const double size = hypot(other[0], other[1]) * length, along = dot(n, other) / size;
+        if (along > 0 && are_parallel(n, other)) continue;
+        if (along > 0 && fabs(n[0] * other[1] - n[1] * other[0]) < NEARLY_PARALLEL * size) return false;
+        if (depth < 0 && !(beyond(f, other) < depth - hair)) return false;
+    }
+    return true;
+}
+
+/* Is the k-th edge of A - B such a line? */
+static bool is_line(const sunder_i_branching *c, facing *f, size_t k, double clearance)
+{
+    double *n = f->wall.n;
+    /* So long that no edge that turns from it has a line in common with it (ways.c: what is less than a hair). */
+    if (!normal_of(f, k, n) || !(NEARLY_PARALLEL * hypot(n[0], n[1]) > 8 * c->hair)) return false;
+    if (!(fabs(beyond(f, n) - clearance) <= c->hair)) return false;
+    if (!(clearance >= 0 ? has_foot(f, k, n, c->hair) : beyond(f, n) < -c->hair)) return false;
+    if (!stands_out(f, k, n, c->hair)) return false;
+    scale(n);
+    return true;
+}
+
+/* ---- The lines of a body ----------------------------------------------------------------------------------------- */
+
+typedef struct looking {
+    sunder_i_branching *branching;
+    uint32_t mover;
+    sunder_i_corridor_wall *line;
+    size_t n, capacity;
+    sunder_status status;
+    sunder_error *err;
+} looking;
+
+static bool is_rational(const sunder_i_model *model, uint32_t f) { return model->layer->feature[f].shape->rational; }
+
+static void look_at(looking *g, const sunder_i_body_piece *a, const sunder_i_body_piece *b, double clearance)
+{
+    const sunder_i_model *model = g->branching->model;
+    facing f = {.wall = {.a = a, .b = b, .clearance = clearance}};
+    g->branching->looked += a->corners * b->corners;
+    if (a->corners > WALL_CORNERS || b->corners > WALL_CORNERS) return;
+    sunder_i_piece_as_given(model, a, f.a);
+    sunder_i_piece_as_given(model, b, f.b);
+    for (size_t k = 0; k < a->corners + b->corners && !g->status; k++) {
+        bool same;
+        if (!is_line(g->branching, &f, k, clearance)) continue;
+        g->status =
+            sunder_i_parts_stand_so(model, a->feature, b->feature, &(sunder_i_piece_of){.n = a->corners, .xy = f.a},
+                                    &(sunder_i_piece_of){.n = b->corners, .xy = f.b}, &same, g->err);
+        if (g->status || !same) continue;
+        if (!sunder_i_reserve(&g->line, &g->capacity, g->n + 1, sizeof *g->line))
+            g->status = sunder_i_no_memory(g->err);
+        else
+            g->line[g->n++] = f.wall;
+    }
+}
+
+/* Feature f of the mover, and what stands: a feature, or part of a barrier. */
+static void look_at_pair(looking *g, uint32_t f, uint32_t standing, double clearance)
+{
+    const sunder_i_model *model = g->branching->model;
+    const sunder_i_body *p = &model->body[g->mover], *q = &model->body[model->body_of[standing]];
+    const double reach = fabs(clearance) + g->branching->hair;
+    sunder_i_branching_join(g->branching, model->body_of[standing]); /* which tells how large a hair is */
+    for (uint32_t k = p->piece; k < p->piece + p->pieces; k++) {
+        const sunder_i_body_piece *a = &model->piece[k];
+        double box[4];
+        if (a->feature != f) continue;
+        for (uint32_t x = 0; x < 4; x++)
+            box[x] = a->box[x] + (p->origin[x & 1] - q->origin[x & 1]) + (x < 2 ? -reach : reach);
+        for (uint32_t l = q->piece; l < q->piece + q->pieces && !g->status; l++)
+            if (model->piece[l].feature == standing && sunder_i_box_meet(box, model->piece[l].box))
+                look_at(g, a, &model->piece[l], clearance);
+    }
+}
+
+static void look_at_requirement(looking *g, const sunder_i_requirement *r)
+{
+    sunder_i_branching *c = g->branching;
+    const sunder_i_model *model = c->model;
+    const uint32_t f = model->body_of[r->a] == g->mover ? r->a : r->b, other = f == r->a ? r->b : r->a;
+    double clearance, box[4];
+    if (sunder_i_limit_of(&model->body[model->body_of[other]]) > 0 || is_rational(model, f)) return;
+    if ((r->a == c->subproblem->a && r->b == c->subproblem->b) || !sunder_i_branching_owe(c, f, other, &clearance))
+        return;
+    if (!sunder_i_is_barrier(model, other)) {
+        if (!is_rational(model, other)) look_at_pair(g, f, other, clearance);
+        return;
+    }
+    const uint32_t end = (uint32_t)model->features + model->barriers->part_end[sunder_i_barrier_of(model, other)];
+    sunder_i_box_grow(model->box + 4 * (size_t)f, fabs(clearance) + c->hair, box);
+    c->near.n = 0;
+    if (!sunder_i_rtree_query(&model->tree, box, &c->near)) g->status = sunder_i_no_memory(g->err);
+    if (c->near.n) qsort(c->near.item, c->near.n, sizeof *c->near.item, sunder_i_by_number);
+    for (size_t k = 0; k < c->near.n && !g->status; k++)
+        if (c->near.item[k] >= other && c->near.item[k] < end && !is_rational(model, c->near.item[k]))
+            look_at_pair(g, f, c->near.item[k], clearance);
+}
+
+static bool is_of(const sunder_i_model *model, uint32_t thing, uint32_t body) { return model->body_of[thing] == body; }
+
+/* Two lines of the body that leave it one place. */
+static bool choose(const looking *g, sunder_i_corridor_wall out[2])
+{
+    const sunder_i_model *model = g->branching->model;
+    for (size_t k = 0; k < g->n; k++)
+        for (size_t l = k + 1; l < g->n; l++) {
+            const double *m = g->line[k].n, *n = g->line[l].n;
+            if (!(dot(m, n) < 0) || !are_parallel(m, n) || !is_alone(model, &model->body[g->mover], n)) continue;
+            out[0] = g->line[k];
+            out[1] = g->line[l];
+            return true;
+        }
+    return false;
+}
+
+sunder_status sunder_i_branching_find_corridor(sunder_i_branching *c, uint32_t body, sunder_error *err)
+{
+    const sunder_i_model *model = c->model;
+    const sunder_i_subproblem *q = c->subproblem;
+    looking g = {.branching = c, .mover = body, .err = err};
+    for (size_t k = 0; k < q->required_n && !g.status; k++)
+        if (is_of(model, q->required[k].a, body) || is_of(model, q->required[k].b, body))
+            look_at_requirement(&g, &q->required[k]);
+    if (!g.status && choose(&g, c->wall)) {
+        c->walls = 2;
+        c->between = body;
+    }
+    sunder_i_free(g.line);
+    return g.status;
+}
+
+size_t sunder_i_branching_wall_ways(sunder_i_branching *c, const sunder_i_corridor_wall *wall)
+{
+    const sunder_i_body *p = &c->model->body[c->between], *q = &c->model->body[c->model->body_of[wall->b->feature]];
+    const size_t n = sunder_i_branching_fill_ways(c, p, wall->a, q, wall->b, wall->clearance, false, NULL);
+    const double length = hypot(wall->n[0], wall->n[1]);
+    size_t at = n;
+    for (size_t k = 0; k < n; k++) {
+        const sunder_i_way *w = &c->scratch[k];
+        const double sine = (w->n[0] * wall->n[1] - w->n[1] * wall->n[0]) / length;
+        if (dot(w->n, wall->n) > 0 && fabs(sine) < 0x1p-40 && fabs(w->d) <= 2 * c->hair) {
+            if (at < n) return 0;
+            at = k;
+        }
+    }
+    if (at == n) return 0;
+    c->scratch[at] = c->scratch[0];
+    c->scratch[0] = (sunder_i_way){.n = {wall->n[0], wall->n[1]}, .d = 0};
+    return n;
+}

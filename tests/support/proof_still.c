@@ -1,0 +1,101 @@
+/* Does a block between two lines stay where it is? By the lattice of moves that leave all of its corners doubles. */
+#include "proof_checking.h"
+
+#include <math.h>
+#include <stdint.h>
+
+/* A line of a way: what moves, and the normal as that sees it. */
+typedef struct line {
+    size_t feature;
+    vec n;
+} line;
+
+static const char *take_line(const checking *c, const sunder_proof_node *leaf, size_t k, size_t depth, line *out)
+{
+    size_t level = 0;
+    while (level < depth && c->path_node[level] != leaf->line_node[k]) level++;
+    if (level == depth || c->path_way[level] != leaf->line_way[k]) return "a line is not on the way";
+    const sunder_proof_node *node = &c->proof->node[leaf->line_node[k]];
+    const sunder_proof_way *way = &c->proof->way[leaf->line_way[k]];
+    if (way->d != 0 || node->slack) return "a line does not pass where the two stood";
+    const bool a = node->a < c->n && proof_limit_of(c, node->a) > 0,
+               b = node->b < c->n && proof_limit_of(c, node->b) > 0;
+    if (a == b) return "a line between two that move, or stand";
+    const double n[2] = {a ? -way->n[0] : way->n[0], a ? -way->n[1] : way->n[1]};
+    out->feature = a ? node->a : node->b;
+    vec_set_d(&out->n, n);
+    return NULL;
+}
+
+/* The exponent of the unit of one coordinate of the block; false: it may leave its binade. */
+static bool find_unit(const checking *c, size_t feature, size_t x, double limit, int *unit)
+{
+    bool any = false, same = true;
+    for (size_t f = 0; f < c->n && same; f++)
+        for (size_t k = 0; k < c->feature[f].corners && same && proof_same_block(c, f, feature); k++)
+            for (int end = -1; end < 2 && same; end += 2) {
+                const double at = c->feature[f].xy[2 * k + x], sum = at + end * limit;
+                /* Rounding may carry it to the power of two, and not beyond. */
+                same = isfinite(sum) && sum != 0 && (sum > 0) == (at > 0) && (!any || ilogb(sum) == *unit) &&
+                       fabs(sum) != ldexp(1, ilogb(sum));
+                if (same) *unit = ilogb(sum);
+                any = true;
+            }
+    *unit -= 52;
+    return any && same;
+}
+
+/* n.t = 0 for t of i and j units: i and j are multiples of q and -p, divided by what those have in common; p and q: the
+ * coordinates of n in units, as whole numbers. Is that, in lengths, beyond the limit? */
+static bool is_far(const vec *n, const int unit[2], double limit)
+{
+    mpq_t p, q, whole, square;
+    mpz_t share;
+    mpq_inits(p, q, whole, square, NULL), mpz_init(share);
+    mpq_set_d(p, ldexp(1, unit[0]));
+    mpq_set_d(q, ldexp(1, unit[1]));
+    mpq_mul(p, p, n->x);
+    mpq_mul(q, q, n->y);
+    mpz_mul(mpq_numref(whole), mpq_denref(p), mpq_denref(q));
+    mpq_mul(p, p, whole);
+    mpq_mul(q, q, whole);
+    mpz_gcd(share, mpq_numref(p), mpq_numref(q));
+    mpz_divexact(mpq_numref(p), mpq_numref(p), share);
+    mpz_divexact(mpq_numref(q), mpq_numref(q), share);
+    mpq_set_d(whole, ldexp(1, unit[1]));
+    mpq_mul(p, p, whole);
+    mpq_set_d(whole, ldexp(1, unit[0]));
+    mpq_mul(q, q, whole);
+    mpq_mul(p, p, p);
+    mpq_mul(q, q, q);
+    mpq_add(square, p, q);
+    mpq_set_d(whole, limit);
+    mpq_mul(whole, whole, whole);
+    const bool far = mpq_cmp(square, whole) > 0;
+    mpq_clears(p, q, whole, square, NULL), mpz_clear(share);
+    return far;
+}
+
+const char *proof_check_still(const checking *c, const sunder_proof_node *leaf, size_t depth, size_t *first)
+{
+    line l[2];
+    int unit[2];
+    mpq_t cross, dot;
+    vec_init(&l[0].n), vec_init(&l[1].n), mpq_inits(cross, dot, NULL);
+    const char *wrong = take_line(c, leaf, 0, depth, &l[0]);
+    if (!wrong) wrong = take_line(c, leaf, 1, depth, &l[1]);
+    if (!wrong) {
+        const double limit = proof_limit_of(c, l[0].feature);
+        vec_cross(cross, &l[0].n, &l[1].n);
+        vec_dot(dot, &l[0].n, &l[1].n);
+        if (!proof_same_block(c, l[0].feature, l[1].feature) || mpq_sgn(cross) != 0 || mpq_sgn(dot) >= 0)
+            wrong = "two lines are not opposite to each other, or of two blocks";
+        else if (!find_unit(c, l[0].feature, 0, limit, &unit[0]) || !find_unit(c, l[0].feature, 1, limit, &unit[1]))
+            wrong = "a coordinate may leave its binade";
+        else if (mpq_sgn(l[0].n.x) == 0 || mpq_sgn(l[0].n.y) == 0 || !is_far(&l[0].n, unit, limit))
+            wrong = "there is another place on the line";
+        *first = l[0].feature;
+    }
+    vec_clear(&l[0].n), vec_clear(&l[1].n), mpq_clears(cross, dot, NULL);
+    return wrong;
+}
