@@ -1,5 +1,5 @@
 /* displacement/optimum/shake: a group that is shaken never becomes dearer, stays apart, and the same seed gives the
- * same bytes. */
+ * same bytes; and displacement/optimum/optimum: what was asked of a group is not asked of it again. */
 #include "scene.h"
 
 #include "displacement/optimum/optimum.h"
@@ -195,9 +195,50 @@ static void test_ends(void **state)
     }
 }
 
+static bool count_look(void *looks)
+{
+    ++*(size_t *)looks;
+    return true;
+}
+
+/* How often a proof looks up. */
+static size_t prove(grid *g)
+{
+    const sunder_i_waived none = {0};
+    size_t looks = 0;
+    uint32_t of[MOST] = {0};
+    sunder_error err;
+    sunder_watch(count_look, &looks);
+    assert_int_equal(sunder_i_group_prove(&g->model, &none, of, &g->group, 8000000, &err), SUNDER_OK);
+    sunder_watch(NULL, NULL);
+    return looks;
+}
+
+/* A group too large for its tree, that costs what it cost when it was asked, or nearly, keeps what is proved of it, at
+ * a fraction of the work; one of which a part was asked is asked once more. */
+static void test_asked_once(void **state)
+{
+    (void)state;
+    grid g;
+    begin(&g, WIDE, HIGH, 0, 1);
+    const double cost = g.group.cost;
+    const size_t first = prove(&g);
+    const double bound = g.group.bound, asked = g.group.asked;
+    assert_true(bound > 0 && bound < g.group.cost && asked >= g.group.cost && asked <= cost * (1 + 1e-9));
+    g.group.asked = 0.95 * g.group.cost;
+    const size_t again = prove(&g);
+    assert_true(again < first / 2 && g.group.bound == bound && g.group.asked < g.group.cost);
+    g.group.asked = 0.5 * g.group.cost;
+    assert_true(prove(&g) > 2 * again);
+    assert_true(g.group.bound >= bound && g.group.asked >= g.group.cost);
+    check_layout(&g, WIDE, 1e-12);
+    end(&g);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_never_dearer), cmocka_unit_test(test_same_seed),
-                                       cmocka_unit_test(test_patience), cmocka_unit_test(test_ends)};
+                                       cmocka_unit_test(test_patience), cmocka_unit_test(test_ends),
+                                       cmocka_unit_test(test_asked_once)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

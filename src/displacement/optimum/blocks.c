@@ -224,7 +224,8 @@ static bool improve(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *c
                     bool *ok)
 {
     const double cost = d->group->cost;
-    double now = *bound, stride = first_stride(d, best, cost - now);
+    double now = *bound, stride = first_stride(d, best, cost - now), past = now;
+    size_t in_vain = 0;
     for (size_t m = 0; m < d->items; m++)
         for (size_t e = 0; e < 2; e++) centre[2 * m + e] = best[m].share * best[m].anchor[e];
     for (uint64_t each = d->each; d->steps < d->most && cost - now > BLOCKS_NEAR * cost;) {
@@ -244,6 +245,11 @@ static bool improve(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *c
         if (value > *bound) {
             *bound = value;
             memcpy(best, d->item, d->items * sizeof *best);
+        }
+        if (++in_vain == LOOKS && *bound - past < PROVED_LITTLE * (cost - past)) break;
+        if (in_vain == LOOKS) {
+            in_vain = 0;
+            past = *bound;
         }
         if (value < now + SERIOUS * promise) {
             stride *= SHORTER;

@@ -180,6 +180,19 @@ static bool keep_guests(sunder_i_group *g, const sunder_i_tree *tree, size_t fro
     return true;
 }
 
+/* Of a group whose tree ended without a proof blocks are asked in earnest only where a quick look at them proves nearly
+ * as much as the tree: what is small enough for a tree they seldom prove more of. */
+static sunder_status look_at_blocks(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g,
+                                    uint64_t steps, bool *promising, sunder_error *err)
+{
+    sunder_i_bound_trees trees = {0};
+    double bound;
+    const sunder_status status = sunder_i_blocks_bound(model, waived, g, steps / QUICK_LOOK, 0, &bound, &trees, err);
+    sunder_i_bound_trees_free(&trees);
+    *promising = bound >= QUICK_AS_MUCH * g->bound;
+    return status;
+}
+
 /* What blocks prove, where that is more. */
 static sunder_status prove_blocks(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
                                   uint64_t steps, sunder_error *err)
@@ -230,7 +243,9 @@ static sunder_status prove_parts(const sunder_i_model *model, const sunder_i_wai
     return status;
 }
 
-/* known: what is proved already. If no more is to be proved, nothing is. */
+/* known: what is proved already. If no more is to be proved, nothing is. Of a group that costs little more than when
+ * all was asked of it (it was put back by a rounding error, or has lost or won a few bodies) neither blocks nor parts
+ * are asked again. */
 static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
                                   sunder_i_group *g, double known, uint64_t steps, sunder_error *err)
 {
@@ -240,11 +255,14 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     if (!isfinite(g->cost)) return SUNDER_OK;
     size_t movers = 0;
     for (size_t k = 0; k < g->n; k++) movers += !model->body[g->body[k]].fixed;
-    if (movers > MOST_TOGETHER) return prove_parts(model, waived, g, steps, err);
+    const double before = g->cost; /* what is found to be cheaper may be put back */
+    const bool asked = g->asked >= ASKED_SHARE * before;
+    if (!asked) g->asked = movers > MOST_TOGETHER ? before : 0;
+    if (movers > MOST_TOGETHER) return asked ? SUNDER_OK : prove_parts(model, waived, g, steps, err);
     const sunder_status polished = attempt(model, waived, g, g->body, g->move, g->n, false, &better, err);
     if (polished || known >= goal_of(model, g)) return polished;
     if (movers > BRANCHED) {
-        const sunder_status status = sunder_i_group_shake(model, waived, g, steps / 2, err);
+        const sunder_status status = sunder_i_group_shake(model, waived, g, steps / (asked ? 2 * AGAIN : 2), err);
         /* Whoever patience has sent to another side stands among others now: the next round knows whom to ask. */
         if (status || (g->shaken && g->improved)) return status;
     }
@@ -263,11 +281,15 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     if (!status && !keep_guests(g, &tree, n)) status = sunder_i_no_memory(err);
     if (!status && task.keep && !sunder_i_tree_keep(&tree, &g->trees)) status = sunder_i_no_memory(err);
     const bool spent = movers > BRANCHED && (tree.steps >= steps || blocks_are_dear(&tree, steps));
+    const bool small = movers <= BRANCHED && tree.steps >= steps;
     sunder_i_tree_free(&tree);
     if (status || g->joins.n || g->bound >= goal_of(model, g)) return status;
     if (movers <= BRANCHED) status = sunder_i_group_shake(model, waived, g, steps / 2, err);
-    if (status || movers <= FEW || spent) return status;
-    return prove_blocks(model, waived, g, steps, err);
+    if (status || movers <= FEW || asked) return status;
+    g->asked = before;
+    bool promising = !spent;
+    if (small) status = look_at_blocks(model, waived, g, steps, &promising, err);
+    return status || !promising ? status : prove_blocks(model, waived, g, steps, err);
 }
 
 sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,

@@ -58,6 +58,11 @@
  * costs. */
 #define QUICK_LOOK 16
 #define QUICK_SHARE 0.1
+#define QUICK_AS_MUCH 0.75
+/* A group that is nearly what it was when it was asked (by this share of its cost) keeps what was proved of it; it is
+ * shaken with one in so many of the steps. */
+#define ASKED_SHARE 0.9
+#define AGAIN 4
 /* So many bodies that stand in the way may take part besides. */
 #define MOST_GUESTS 24
 
@@ -104,6 +109,9 @@
  * that is less than this. */
 #define PROMISED_LITTLE 0.02
 #define PROMISED_NOTHING 0.001
+/* So many looks that together prove less than this share of what is missing are the last. */
+#define LOOKS 3
+#define PROVED_LITTLE 0x1p-6
 
 /* ---- What cuts promise (bundle.c) -------------------------------------------------------------------------------- */
 
