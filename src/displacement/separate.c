@@ -73,39 +73,70 @@ static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* Solves, looks again at what was given up, asks it once more, looks for better sides. Progress goes from `from` to
- * `to`. known: nothing is to be solved but what comes of looking again. */
-static sunder_status seek(sunder_i_solver *s, bool known, double from, double to, sunder_error *err)
+static bool any_of(const sunder_i_solver *s, const bool *flag)
+{
+    for (size_t b = 0; b < s->model.bodies; b++)
+        if (flag[b]) return true;
+    return false;
+}
+
+/* Asks what was given up of clusters that are wanted once more, and again where that made others give up. */
+static sunder_status retry(sunder_i_solver *s, double from, double to, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    memcpy(s->gave_up, s->wanted, s->model.bodies * sizeof *s->gave_up);
+    for (int round = 0; round < RETRIED && any_of(s, s->gave_up) && !status; round++) {
+        status = sunder_i_solver_retry(s, err);
+        memset(s->gave_up, 0, s->model.bodies * sizeof *s->gave_up);
+        if (!status) status = sunder_i_solver_settle(s, from, to, err);
+    }
+    return status;
+}
+
+/* What ran into others while it was improved is another cluster then. */
+static sunder_status improve(sunder_i_solver *s, double from, double to, sunder_error *err)
+{
+    bool improved;
+    sunder_status status = sunder_i_solver_is_improved(s, &improved, err);
+    for (int round = 0; round < IMPROVED && !status && !improved; round++) {
+        status = sunder_i_solver_improve(s, err);
+        if (!status) status = sunder_i_solver_settle(s, from + round * (to - from) / IMPROVED, to, err);
+        if (!status) status = sunder_i_solver_is_improved(s, &improved, err);
+    }
+    return status;
+}
+
+static sunder_status ask_one_by_one(sunder_i_solver *s, double from, double to, sunder_error *err)
+{
+    bool again = true;
+    sunder_status status = SUNDER_OK;
+    for (int round = 0; round < ASKED_ALONE && again && !status; round++) {
+        status = find_seams_for_proofs(s, s->model.given_up_n > 0, err);
+        if (!status) status = sunder_i_solver_ask_one_by_one(s, &again, err);
+        if (!status && again) status = sunder_i_solver_settle(s, from, to, err);
+    }
+    return status;
+}
+
+/* Solves, looks again at what was given up, asks it once more, looks for better sides: of the clusters that are wanted,
+ * and of those of which it turns out that they have a better solution. Progress goes from `from` to `to`.
+ *
+ * Rounds are the layer's: they end when no cluster has any use for one. A round does nothing to a cluster that had none
+ * by itself, so that what becomes of one does not depend on how long others take, wherever they are. */
+static sunder_status seek(sunder_i_solver *s, double from, double to, sunder_error *err)
 {
     const double step = (to - from) / 7;
     bool again = true;
-    sunder_status status = known ? SUNDER_OK : sunder_i_solver_choose_holders(s, err);
-    if (!status && !known) status = sunder_i_solver_settle(s, from, from + 3 * step, err);
+    sunder_status status = sunder_i_solver_choose_holders(s, err);
+    if (!status) status = sunder_i_solver_settle(s, from, from + 3 * step, err);
     for (int round = 0; round < RECONSIDERED && again && !status; round++) {
         status = find_seams_for_proofs(s, s->model.given_up_n > 0, err);
         if (!status) status = sunder_i_solver_reconsider(s, &again, err);
         if (!status && again) status = sunder_i_solver_settle(s, from + 3 * step, from + 4 * step, err);
-        known = known && !again;
     }
-    if (status || known) return status;
-    again = true;
-    for (int round = 0; round < RETRIED && again && !status; round++) {
-        status = sunder_i_solver_retry(s, err);
-        const size_t left = s->model.relaxations.n;
-        if (!status) status = sunder_i_solver_settle(s, from + 4 * step, from + 5 * step, err);
-        again = s->model.relaxations.n > left;
-    }
-    /* What ran into others while it was improved is another cluster then. */
-    for (int round = 0; round < IMPROVED && !status && !sunder_i_solver_is_improved(s); round++) {
-        status = sunder_i_solver_improve(s, err);
-        if (!status) status = sunder_i_solver_settle(s, from + (5 + round / 2.0) * step, to, err);
-    }
-    again = true;
-    for (int round = 0; round < ASKED_ALONE && again && !status; round++) {
-        status = find_seams_for_proofs(s, s->model.given_up_n > 0, err);
-        if (!status) status = sunder_i_solver_ask_one_by_one(s, &again, err);
-        if (!status && again) status = sunder_i_solver_settle(s, from + 6 * step, to, err);
-    }
+    if (!status) status = retry(s, from + 4 * step, from + 5 * step, err);
+    if (!status) status = improve(s, from + 5 * step, to, err);
+    if (!status) status = ask_one_by_one(s, from + 6 * step, to, err);
     if (!status) status = sunder_i_solver_fit_exactly(s, err);
     return status ? status : sunder_i_solver_settle(s, to, to, err);
 }
@@ -113,16 +144,17 @@ static sunder_status seek(sunder_i_solver *s, bool known, double from, double to
 /* Without limits first, and then, if one is overstepped, within them: what nothing oversteps changes nothing. */
 static sunder_status solve(sunder_i_solver *s, sunder_error *err)
 {
-    bool lifted = false, back = false;
+    bool lifted = false;
     sunder_status status = sunder_i_solver_lift_limits(s, &lifted, err);
     if (!status && !lifted) status = sunder_i_solver_move_inside(s, err);
-    if (!status) status = seek(s, false, PREPARED, lifted ? FOUND_WITHOUT_LIMITS : FOUND, err);
+    if (!status) status = seek(s, PREPARED, lifted ? FOUND_WITHOUT_LIMITS : FOUND, err);
     if (!status) status = sunder_i_solver_optimise(s, err);
-    if (!status && lifted) status = sunder_i_solver_restore_limits(s, &back, err);
+    if (!status && lifted) status = sunder_i_solver_restore_limits(s, err);
     if (!status && lifted) status = sunder_i_solver_move_inside(s, err);
-    if (!status && lifted) status = seek(s, !back, FOUND_WITHOUT_LIMITS, FOUND, err);
-    if (!status && back) status = sunder_i_solver_optimise(s, err);
+    if (!status && lifted) status = seek(s, FOUND_WITHOUT_LIMITS, FOUND, err);
+    if (!status && lifted && any_of(s, s->wanted)) status = sunder_i_solver_optimise(s, err);
     if (!status) status = sunder_i_solver_uphold(s, err);
+    for (size_t b = 0; b < s->model.bodies; b++) s->wanted[b] = true;
     /* What was mended, or settled about what was, is proved once more; nothing gets worse by that. */
     if (!status) status = sunder_i_solver_optimise(s, err);
     if (!status && !(s->model.rules.effort > 0)) status = sunder_i_solver_gather_groups(s, err);

@@ -4,21 +4,26 @@
 
 #include "base/parallel.h"
 
+/* There is nothing to be done for it, or nobody wants it. */
 static bool is_improved(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
+    if (!sunder_i_solver_any_of(s, c->body, c->n, s->wanted)) return true;
     for (size_t k = 0; k < c->n; k++)
         if (!s->improved[c->body[k]] && !s->model.body[c->body[k]].fixed) return false;
     return true;
 }
 
-bool sunder_i_solver_is_improved(const sunder_i_solver *s)
+sunder_status sunder_i_solver_is_improved(const sunder_i_solver *s, bool *improved, sunder_error *err)
 {
-    for (size_t e = 0; e < s->edges; e++)
+    bool *wanted = sunder_i_solver_who_hang_with(s, s->wanted);
+    *improved = true;
+    for (size_t e = 0; e < s->edges && wanted; e++)
         for (int k = 0; k < 2; k++) {
             const uint32_t b = k ? s->edge[e].b : s->edge[e].a;
-            if (!s->improved[b] && !s->model.body[b].fixed) return false;
+            if (!s->improved[b] && wanted[b]) *improved = false;
         }
-    return true;
+    sunder_i_free(wanted);
+    return wanted ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
 static sunder_status improve_clusters(void *context, size_t begin, size_t end, sunder_error *err)
@@ -69,6 +74,10 @@ sunder_status sunder_i_solver_improve(sunder_i_solver *s, sunder_error *err)
         status = sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, improve_clusters, s, err);
     if (status) return status;
     sunder_i_solver_commit(s);
-    for (size_t k = 0; k < s->members; k++) s->improved[s->body[k]] = true;
+    for (size_t k = 0; k < s->clusters; k++) {
+        const sunder_i_cluster *c = &s->cluster[k];
+        for (size_t m = 0; m < c->n && sunder_i_solver_any_of(s, c->body, c->n, s->wanted); m++)
+            s->improved[c->body[m]] = true;
+    }
     return sunder_i_solver_relate(s, err);
 }

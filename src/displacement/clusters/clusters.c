@@ -38,6 +38,9 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->changed);
     sunder_i_free(s->reconsidered);
     sunder_i_free(s->alone);
+    sunder_i_free(s->wanted);
+    sunder_i_free(s->doubtful);
+    sunder_i_free(s->gave_up);
     sunder_i_free(s->improved);
     sunder_i_free(s->limit);
     sunder_i_free(s->aside);
@@ -64,10 +67,17 @@ sunder_status sunder_i_solver_init(sunder_i_solver *s, sunder_error *err)
     s->reconsidered = sunder_i_calloc(n, sizeof *s->reconsidered);
     s->improved = sunder_i_calloc(n, sizeof *s->improved);
     s->carrier = sunder_i_alloc(n, sizeof *s->carrier);
+    s->wanted = sunder_i_alloc(n, sizeof *s->wanted);
+    s->doubtful = sunder_i_alloc(n, sizeof *s->doubtful);
+    s->gave_up = sunder_i_calloc(n, sizeof *s->gave_up);
+    if (!s->wanted || !s->doubtful || !s->gave_up) return sunder_i_no_memory(err);
     if (!s->improved || !s->parent || !s->dirty || !s->widened || !s->changed || !s->reconsidered || !s->carrier)
         return sunder_i_no_memory(err);
     sunder_i_union_init(s->parent, n);
-    for (size_t b = 0; b < n; b++) s->carrier[b] = SUNDER_I_NOBODY;
+    for (size_t b = 0; b < n; b++) {
+        s->carrier[b] = SUNDER_I_NOBODY;
+        s->wanted[b] = s->doubtful[b] = true;
+    }
     return SUNDER_OK;
 }
 
@@ -145,6 +155,27 @@ double sunder_i_solver_margin(const sunder_i_solver *s, const uint32_t *b, size_
     int exponent;
     frexp(largest + fmax(s->model.rules.gap, s->barriers.farthest), &exponent);
     return ldexp(1, exponent - 51 + 2 * (int)widened);
+}
+
+bool sunder_i_solver_any_of(const sunder_i_solver *s, const uint32_t *body, size_t n, const bool *flag)
+{
+    for (size_t k = 0; k < n; k++)
+        if (flag[body[k]] && !s->model.body[body[k]].fixed) return true;
+    return false;
+}
+
+bool *sunder_i_solver_who_hang_with(const sunder_i_solver *s, const bool *flag)
+{
+    const sunder_i_body *body = s->model.body;
+    bool *root = sunder_i_calloc(s->model.bodies, sizeof *root), *out = sunder_i_calloc(s->model.bodies, sizeof *out);
+    for (uint32_t b = 0; b < s->model.bodies && root && out; b++)
+        if (flag[b] && !body[b].fixed) root[sunder_i_union_find(s->parent, b)] = true;
+    for (uint32_t b = 0; b < s->model.bodies && root && out; b++)
+        out[b] = !body[b].fixed && root[sunder_i_union_find(s->parent, b)];
+    if (!root) sunder_i_free(out);
+    const bool ok = root != NULL;
+    sunder_i_free(root);
+    return ok ? out : NULL;
 }
 
 #ifndef NDEBUG

@@ -202,7 +202,7 @@ static bool hand_on(const sunder_i_model *model, sunder_i_groups *old, sunder_i_
         if (heir == SUNDER_I_NOBODY) continue;
         sunder_i_group *to = &now->group[at[heir]];
         if (to->done) continue;
-        to->bound = nextafter(to->bound + g->bound, -INFINITY);
+        to->bound = to->bound > 0 ? nextafter(to->bound + g->bound, -INFINITY) : g->bound;
         to->asked += g->asked;
         for (size_t m = 0; m < g->guests.n && ok; m++) ok = sunder_i_list_push(&to->guests, g->guests.item[m]);
         to->guests.n = sunder_i_set_make(to->guests.item, to->guests.n);

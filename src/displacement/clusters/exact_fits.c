@@ -161,13 +161,14 @@ static sunder_status fit(sunder_i_solver *s, sunder_i_cluster *c, const sunder_i
     return status;
 }
 
-/* Is it a pair that was given up, of one cluster, which may fit exactly? */
+/* Is it a pair that was given up, of one cluster that is wanted, which may fit exactly? */
 static sunder_status may_fit(const sunder_i_solver *s, const sunder_i_cluster *c, const sunder_i_id_pair *pair,
                              bool *may, sunder_error *err)
 {
     const uint32_t body[2] = {pair->a, pair->b};
     *may = false;
     if (!c || !sunder_i_set_has(c->body, c->n, pair->a) || !sunder_i_set_has(c->body, c->n, pair->b) ||
+        !sunder_i_solver_any_of(s, c->body, c->n, s->wanted) ||
         !sunder_i_relaxations_between(&s->model.relaxations, pair->a, pair->b))
         return SUNDER_OK;
     return sunder_i_may_be_tight(&s->model, body, 2, may) ? SUNDER_OK : sunder_i_no_memory(err);

@@ -38,8 +38,11 @@ void sunder_i_sort_given_up(sunder_i_model *model)
 
 /* The clusters' relaxations, in place of what the model had for the same features; those that were not proved
  * infeasible are given up. */
-static bool take_relaxations(sunder_i_model *model, const sunder_i_cluster *cluster, size_t clusters)
+static bool take_relaxations(sunder_i_solver *s)
 {
+    sunder_i_model *model = &s->model;
+    const sunder_i_cluster *cluster = s->cluster;
+    const size_t clusters = s->clusters;
     sunder_i_relaxations *all = &model->relaxations;
     const size_t before = all->n;
     size_t n = 0;
@@ -57,10 +60,12 @@ static bool take_relaxations(sunder_i_model *model, const sunder_i_cluster *clus
             if (!relaxation.infeasible)
                 given_up[model->given_up_n++] = (sunder_i_id_pair){i < j ? i : j, i < j ? j : i};
             relaxation.infeasible = old ? old->infeasible : relaxation.infeasible;
-            if (old)
+            if (old) {
                 all->item[old - all->item] = relaxation;
-            else if (!sunder_i_relaxations_add(all, &relaxation))
-                return false;
+                continue;
+            }
+            s->gave_up[i] = s->gave_up[j] = true;
+            if (!sunder_i_relaxations_add(all, &relaxation)) return false;
         }
     sunder_i_sort_given_up(model);
     return sunder_i_relaxations_index(all, model);
@@ -68,6 +73,6 @@ static bool take_relaxations(sunder_i_model *model, const sunder_i_cluster *clus
 
 sunder_status sunder_i_solver_take_over(sunder_i_solver *s, sunder_error *err)
 {
-    const bool ok = restore(&s->model, s->cluster, s->clusters) && take_relaxations(&s->model, s->cluster, s->clusters);
+    const bool ok = restore(&s->model, s->cluster, s->clusters) && take_relaxations(s);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }

@@ -225,32 +225,49 @@ static bool forget(sunder_i_solver *s, const bool *back)
     return sunder_i_relaxations_index(relaxations, model);
 }
 
-sunder_status sunder_i_solver_restore_limits(sunder_i_solver *s, bool *any, sunder_error *err)
+/* Within limits more can be proved, and what had a solution without them may have another: whoever hangs together with
+ * one that has a limit is asked about again. (What is without limits is left as it was found, whoever has some.) */
+static bool doubt(sunder_i_solver *s)
 {
     sunder_i_model *model = &s->model;
-    bool *root = sunder_i_calloc(model->bodies, sizeof *root), *back = sunder_i_calloc(model->bodies, sizeof *back);
-    sunder_status status = root && back ? SUNDER_OK : sunder_i_no_memory(err);
-    *any = false;
+    size_t out = 0;
+    for (size_t b = 0; b < model->bodies; b++)
+        s->doubtful[b] = !model->body[b].fixed && model->body[b].limit < INFINITY;
+    bool *doubtful = sunder_i_solver_who_hang_with(s, s->doubtful);
+    if (!doubtful) return false;
+    for (size_t b = 0; b < model->bodies; b++) s->reconsidered[b] = s->reconsidered[b] && !doubtful[b];
+    for (size_t k = 0; k < s->alone_n; k++)
+        if (!doubtful[model->body_of[s->alone[k].a]] && !doubtful[model->body_of[s->alone[k].b]])
+            s->alone[out++] = s->alone[k];
+    s->alone_n = out;
+    sunder_i_free(s->doubtful);
+    s->doubtful = doubtful;
+    return true;
+}
+
+sunder_status sunder_i_solver_restore_limits(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_i_model *model = &s->model;
+    bool *root = sunder_i_calloc(model->bodies, sizeof *root), *back = s->wanted;
+    sunder_status status = root ? SUNDER_OK : sunder_i_no_memory(err);
     model->lifted = s->went; /* of those that were set aside, and all others as they stand */
     s->went = NULL;
     for (uint32_t b = 0; b < model->bodies; b++)
         if (!s->aside[b]) memcpy(model->lifted + 2 * (size_t)b, model->move + 2 * (size_t)b, 2 * sizeof *model->move);
     for (size_t b = 0; b < model->bodies; b++) model->body[b].limit = s->limit[b];
-    /* Within limits more can be proved, and what had a solution without them may have another. */
-    memset(s->reconsidered, 0, model->bodies * sizeof *s->reconsidered);
-    s->alone_n = 0;
+    if (!status && !doubt(s)) status = sunder_i_no_memory(err);
     if (!status) {
         find_offenders(s, root);
         for (uint32_t b = 0; b < model->bodies; b++) {
             back[b] = !model->body[b].fixed && root[sunder_i_union_find(s->parent, b)];
-            *any = *any || back[b];
+            s->doubtful[b] = s->doubtful[b] || back[b];
         }
         send_home(s, back);
-        if (*any) s->members = 0; /* else who once was in a cluster with a fixed body would pass for known to it */
         memset(s->aside, 0, model->bodies * sizeof *s->aside);
         status = forget(s, back) ? sunder_i_solver_relate(s, err) : sunder_i_no_memory(err);
     }
+    /* Else who once was in a cluster with a fixed body would pass for known to it. */
+    if (!status) status = sunder_i_solver_gather(s, err);
     sunder_i_free(root);
-    sunder_i_free(back);
     return status;
 }

@@ -62,7 +62,9 @@ static bool was_asked(const sunder_i_solver *s, const sunder_i_relaxation *t)
     return s->alone_n && bsearch(&key, s->alone, s->alone_n, sizeof key, sunder_i_by_id_pair);
 }
 
-static void list_questions(const sunder_i_solver *s, question *list, size_t *first, size_t *clusters)
+/* wanted: [bodies] of clusters that are */
+static void list_questions(const sunder_i_solver *s, const bool *wanted, question *list, size_t *first,
+                           size_t *clusters)
 {
     const sunder_i_model *model = &s->model;
     size_t n = 0;
@@ -74,7 +76,7 @@ static void list_questions(const sunder_i_solver *s, question *list, size_t *fir
         if (last && last->a == t->a && sunder_i_whole_of(model, last->b) == sunder_i_whole_of(model, t->b)) continue;
         const uint32_t of = model->body[i].fixed ? j : i, root = sunder_i_union_find(s->parent, of);
         /* Who was left before anybody moved, and met nobody, is of no cluster. */
-        if (was_asked(s, t) || !sunder_i_solver_has_member(s, root, of)) continue;
+        if (!wanted[of] || was_asked(s, t) || !sunder_i_solver_has_member(s, root, of)) continue;
         last = t;
         list[n++] = (question){root, (uint32_t)k};
     }
@@ -364,11 +366,11 @@ sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *s, bool *changed, 
     question *list = sunder_i_alloc(n, sizeof *list);
     size_t *first = sunder_i_alloc(n + 1, sizeof *first), clusters = 0;
     sunder_i_requirement *required = sunder_i_alloc(n, sizeof *required);
-    bool *asked = sunder_i_calloc(n, sizeof *asked);
+    bool *asked = sunder_i_calloc(n, sizeof *asked), *wanted = sunder_i_solver_who_hang_with(s, s->wanted);
     sunder_i_decision *decision = sunder_i_calloc(n, sizeof *decision);
-    if (!status && (!list || !first || !required || !asked || !decision)) status = sunder_i_no_memory(err);
+    if (!status && (!list || !first || !required || !asked || !wanted || !decision)) status = sunder_i_no_memory(err);
     if (!status) {
-        list_questions(s, list, first, &clusters);
+        list_questions(s, wanted, list, first, &clusters);
         asking g = {s, list, first, required, list_requirements(s, required), asked, decision};
         status = sunder_i_parallel(s->model.rules.threads, clusters, SUNDER_I_GRAIN_WHOLE, ask_clusters, &g, err);
         if (!status) status = go_on(s, &g, clusters, changed, err);
@@ -378,6 +380,7 @@ sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *s, bool *changed, 
     sunder_i_free(first);
     sunder_i_free(required);
     sunder_i_free(asked);
+    sunder_i_free(wanted);
     sunder_i_free(decision);
     return status;
 }

@@ -117,13 +117,18 @@ static uint64_t allowance(const sunder_i_solver *s, const sunder_i_group *g)
     return (uint64_t)fmin(steps, 0x1p62);
 }
 
+static bool is_wanted(const sunder_i_solver *s, const sunder_i_group *g)
+{
+    return sunder_i_solver_any_of(s, g->body, g->n, s->wanted);
+}
+
 static sunder_status prove_groups(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const sunder_i_solver *s = context;
     const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n, s->groups.seamed};
     for (size_t k = begin; k < end; k++) {
         sunder_i_group *g = &s->groups.group[k];
-        if (g->done) continue;
+        if (g->done || !is_wanted(s, g)) continue;
         const sunder_status status = sunder_i_group_prove(&s->model, &waived, s->groups.of, g, allowance(s, g), err);
         if (status) return status;
     }
@@ -325,8 +330,9 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
         if (!status) status = put_back_offenders(&t, &again, err);
     }
     for (size_t k = 0; !status && k < s->groups.n; k++) {
-        *any = *any || s->groups.group[k].improved || !s->groups.group[k].done;
-        s->groups.group[k].improved = false;
+        sunder_i_group *g = &s->groups.group[k];
+        *any = *any || (is_wanted(s, g) && (g->improved || !g->done));
+        g->improved = false;
     }
     sunder_i_free(t.budget);
     sunder_i_free(t.by);
@@ -343,8 +349,9 @@ static bool join(sunder_i_solver *s, bool *any)
     *any = false;
     for (size_t b = 0; host && b < s->model.bodies; b++) host[b] = groups->of[b];
     for (size_t k = 0; k < groups->n && host && ok; k++) {
-        const sunder_i_group *g = &groups->group[k];
-        for (size_t m = 0; m < g->joins.n + g->guests.n && ok; m++) {
+        sunder_i_group *g = &groups->group[k];
+        bool joined = false;
+        for (size_t m = 0; m < g->joins.n + g->guests.n && ok && is_wanted(s, g); m++) {
             const uint32_t b = m < g->joins.n ? g->joins.item[m] : g->guests.item[m - g->joins.n];
             if (s->model.body[b].fixed || host[b] == g->number) continue;
             if (host[b] == SUNDER_I_NOBODY) {
@@ -352,8 +359,10 @@ static bool join(sunder_i_solver *s, bool *any)
                 continue;
             }
             ok = note_joined(groups, g->number, host[b]);
-            *any = true;
+            *any = joined = true;
         }
+        /* Who is in nobody's group stays so: there is nothing new to be proved of this one. */
+        if (!joined) g->joins.n = 0;
     }
     ok = ok && host;
     sunder_i_free(host);

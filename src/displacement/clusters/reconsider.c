@@ -169,13 +169,20 @@ static sunder_status ask(const sunder_i_solver *s, const components *all, bool *
 {
     const sunder_i_model *model = &s->model;
     bool *root = sunder_i_calloc(model->bodies, sizeof *root);
-    if (!root) return sunder_i_no_memory(err);
+    bool *doubtful = sunder_i_solver_who_hang_with(s, s->doubtful);
+    if (!root || !doubtful) {
+        sunder_i_free(root);
+        sunder_i_free(doubtful);
+        return sunder_i_no_memory(err);
+    }
     for (size_t k = 0; k < model->given_up_n; k++) {
         mark(all, model, model->given_up[k].a, root);
         mark(all, model, model->given_up[k].b, root);
     }
     for (size_t k = 0; k < all->n; k++)
-        asked[k] = root[all->component[k].root] && !s->reconsidered[all->component[k].root];
+        asked[k] = root[all->component[k].root] && doubtful[all->component[k].root] &&
+                   !s->reconsidered[all->component[k].root];
+    sunder_i_free(doubtful);
     sunder_i_free(root);
     return SUNDER_OK;
 }
@@ -200,7 +207,7 @@ static bool take_back(sunder_i_model *model, const sunder_i_solution *solution)
     return sunder_i_relaxations_index(&model->relaxations, model);
 }
 
-/* Puts the bodies where the solution has them; what it moved becomes one cluster. */
+/* Puts the bodies where the solution has them; what it moved becomes one cluster, with which the search goes on. */
 static bool go_on_from(sunder_i_solver *s, const component *c, const sunder_i_solution *solution)
 {
     bool ok = take_back(&s->model, solution);
@@ -208,6 +215,7 @@ static bool go_on_from(sunder_i_solver *s, const component *c, const sunder_i_so
         const uint32_t b = solution->body[k];
         double move[2];
         if (s->model.body[b].fixed) continue;
+        s->wanted[b] = true;
         sunder_i_round_move(&s->model, b, solution->move + 2 * k, move, NULL);
         sunder_i_solver_place(s, b, move);
         if ((move[0] != 0 || move[1] != 0) && b != c->root) ok = ok && sunder_i_solver_add_edge(s, c->root, b);

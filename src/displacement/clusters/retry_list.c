@@ -126,6 +126,7 @@ static size_t first_of(const retries *all, uint32_t root)
     return sunder_i_lower_bound(&key, all->retry, all->n, sizeof key, by_root);
 }
 
+/* Of a cluster in which nothing was given up since it was last asked the same would be said again. */
 static sunder_status retry_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const asking *g = context;
@@ -136,18 +137,19 @@ static sunder_status retry_clusters(void *context, size_t begin, size_t end, sun
         double *move = sunder_i_solver_load_moves(s, c);
         const uint32_t root = s->member[c->body - s->body].root;
         const size_t first = first_of(g->retries, root), last = first_of(g->retries, root + 1);
-        if (first < last)
+        if (first < last && sunder_i_solver_any_of(s, c->body, c->n, s->gave_up))
             status = sunder_i_cluster_retry(&s->model, c, g->retries->retry + first, last - first, move, err);
     }
     return status;
 }
 
 /* Pairs that cannot be resolved, but taken off each other, become members of clusters. */
-static bool join_relaxed(sunder_i_solver *s)
+static bool join_relaxed(sunder_i_solver *s, const bool *asked)
 {
     const sunder_i_model *model = &s->model;
     for (size_t k = 0; k < model->relaxations.relaxed_n; k++) {
         const sunder_i_relaxed_bodies *t = &model->relaxations.relaxed[k];
+        if (!asked[t->i] && !asked[t->j]) continue;
         if (t->reach > 0 && t->reach <= sunder_i_limit_of(&model->body[t->i]) + sunder_i_limit_of(&model->body[t->j]) &&
             !sunder_i_solver_add_edge(s, t->i, t->j))
             return false;
@@ -177,7 +179,7 @@ static bool join_about(sunder_i_solver *s, bool *alone, uint32_t b, double far, 
 }
 
 /* What is to be asked may take others to make way: those about a pair of which the relaxation might end. */
-static bool join_neighbours(sunder_i_solver *s)
+static bool join_neighbours(sunder_i_solver *s, const bool *asked)
 {
     const sunder_i_model *model = &s->model;
     sunder_i_list near = {0};
@@ -189,7 +191,7 @@ static bool join_neighbours(sunder_i_solver *s)
         const double depth = hypot(t->shift[0], t->shift[1]);
         const double missing = depth > 0 ? depth : sunder_i_owed_above(model, t->a, t->b) - t->gap;
         const uint32_t i = model->body_of[t->a], j = model->body_of[t->b];
-        if (t->infeasible && !sunder_i_can_be_disjoint(model, t)) continue;
+        if ((!asked[i] && !asked[j]) || (t->infeasible && !sunder_i_can_be_disjoint(model, t))) continue;
         ok = join_about(s, alone, i, fmin(missing, sunder_i_limit_of(&model->body[i])), &near) &&
              join_about(s, alone, j, fmin(missing, sunder_i_limit_of(&model->body[j])), &near);
     }
@@ -198,12 +200,20 @@ static bool join_neighbours(sunder_i_solver *s)
     return ok;
 }
 
+static sunder_status join_all(sunder_i_solver *s, sunder_error *err)
+{
+    bool *asked = sunder_i_solver_who_hang_with(s, s->gave_up);
+    const bool ok = asked && join_relaxed(s, asked) && join_neighbours(s, asked);
+    sunder_i_free(asked);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
 sunder_status sunder_i_solver_retry(sunder_i_solver *s, sunder_error *err)
 {
     retries all = {0};
     if (s->model.relaxations.n == 0) return SUNDER_OK;
-    if (!join_relaxed(s) || !join_neighbours(s)) return sunder_i_no_memory(err);
-    sunder_status status = sunder_i_solver_gather(s, err);
+    sunder_status status = join_all(s, err);
+    if (!status) status = sunder_i_solver_gather(s, err);
     if (!status) status = sunder_i_solver_unite_blocks(s, err);
     if (!status && !list_retries(s, &all)) status = sunder_i_no_memory(err);
     asking g = {s, &all};

@@ -54,10 +54,13 @@ typedef struct sunder_i_solver {
     bool *reconsidered;      /* [bodies] of the least of a component of conflicts: no solution was found */
     sunder_i_id_pair *alone; /* things of pairs that were asked about by themselves (one_by_one.c); sorted */
     size_t alone_n, alone_capacity;
-    bool *improved;                  /* [bodies] better sides were looked for since the body's cluster was solved */
-    double *limit;                   /* [bodies] the limits, while they are lifted */
-    bool *aside;                     /* [bodies] left as they are while limits are lifted; NULL: they never were */
-    double *went;                    /* [2 * bodies] where those stood that were set aside because they went too far */
+    bool *wanted;   /* [bodies] what is sought is sought of the clusters that have one of these (clusters.c) */
+    bool *doubtful; /* [bodies] and of those of such is asked again whether they have a solution */
+    bool *gave_up;  /* [bodies] of pairs that were given up since this was last cleared */
+    bool *improved; /* [bodies] better sides were looked for since the body's cluster was solved */
+    double *limit;  /* [bodies] the limits, while they are lifted */
+    bool *aside;    /* [bodies] left as they are while limits are lifted; NULL: they never were */
+    double *went;   /* [2 * bodies] where those stood that were set aside because they went too far */
     sunder_i_relaxations waiting;    /* of what was set aside */
     uint32_t *carrier;               /* [bodies] whose place to start from instead of its own, or SUNDER_I_NOBODY */
     sunder_i_cluster_member *member; /* cluster after cluster, bodies ascending */
@@ -87,6 +90,11 @@ bool sunder_i_solver_has_member(const sunder_i_solver *solver, uint32_t root, ui
 const uint32_t *sunder_i_solver_members(const sunder_i_solver *solver, uint32_t root, size_t *n);
 /* The cluster that the body is of, as they were last gathered; NULL: none. */
 sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *solver, uint32_t body);
+/* Does any of them that may move have the flag? flag: [bodies] */
+bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body, size_t n, const bool *flag);
+/* Who hangs together, by edges as they are now, with one that has the flag: [bodies], the caller's. A fixed body hangs
+ * with nobody. NULL if memory is out. */
+bool *sunder_i_solver_who_hang_with(const sunder_i_solver *solver, const bool *flag);
 /* What is asked of these bodies beyond the gap. */
 double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *body, size_t n);
 /* Clusters from the edges, afresh. */

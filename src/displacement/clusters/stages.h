@@ -21,8 +21,9 @@ sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *solver, sunder_error
 sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, bool *lifted, sunder_error *err);
 /* As long as they are lifted: clusters that run into others from where they cannot stay go home, and are set aside. */
 sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_error *err);
-/* What went too far goes back where it came from, to be solved within its limits: *any, if there is such. */
-sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, bool *any, sunder_error *err);
+/* What went too far goes back where it came from, to be solved within its limits: that is what is wanted from then on.
+ */
+sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- move_inside.c ----------------------------------------------------------------------------------------------- */
 
@@ -68,9 +69,9 @@ sunder_status sunder_i_solver_retry(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- better_sides.c ---------------------------------------------------------------------------------------------- */
 
-/* Were better sides looked for since any cluster was last solved? */
-bool sunder_i_solver_is_improved(const sunder_i_solver *solver);
-/* Better sides, for every cluster that was solved since they were last looked for. */
+/* Were better sides looked for since any cluster that is wanted was last solved? */
+sunder_status sunder_i_solver_is_improved(const sunder_i_solver *solver, bool *improved, sunder_error *err);
+/* Better sides, for each of those clusters that was solved since they were last looked for. */
 sunder_status sunder_i_solver_improve(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- contact_groups.c -------------------------------------------------------------------------------------------- */

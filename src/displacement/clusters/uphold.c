@@ -285,6 +285,14 @@ static bool is_held(const sunder_i_solver *s, const bool *held, uint32_t body)
     return !s->model.body[body].fixed && held[sunder_i_union_find(s->parent, body)];
 }
 
+/* Pairs come and go while they are gone through, those of others of the layer, too: the place of the next one. */
+static size_t first_after(const sunder_i_solver *s, sunder_i_id_pair last)
+{
+    const sunder_i_relation key = {.a = last.a, .b = last.b};
+    const size_t at = sunder_i_lower_bound(&key, s->now.pair, s->now.n, sizeof key, sunder_i_by_id_pair);
+    return at < s->now.n && s->now.pair[at].a == last.a && s->now.pair[at].b == last.b ? at + 1 : at;
+}
+
 sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
@@ -296,8 +304,10 @@ sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
         memset(held, 0, s->model.bodies * sizeof *held);
         status = pin_jumps(s, &pinned, err);
         any = pinned;
-        for (size_t k = 0; k < s->now.n && !status; k++) {
+        sunder_i_id_pair last = {0, 0}; /* no pair */
+        for (size_t k; (k = first_after(s, last)) < s->now.n && !status;) {
             const sunder_i_relation r = s->now.pair[k];
+            last = (sunder_i_id_pair){r.a, r.b};
             const uint32_t i = s->model.body_of[r.a], j = s->model.body_of[r.b];
             bool breaks, well = false;
             status = sunder_i_solver_breaks_rule(s, &r, &breaks, err);

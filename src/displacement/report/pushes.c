@@ -8,6 +8,7 @@
  *   several pieces of one pair    one push, the sum of theirs (renumber.c)
  *   a feature at its limit        the limit pushes too, and is nobody's pair
  *   a pair left in conflict       is held to the distance, or to the depth, that it had */
+#include "displacement/clusters/stages.h"
 #include "displacement/optimum/contact.h"
 #include "displacement/programs/quadratic.h"
 #include "displacement/report/report.h"
@@ -147,12 +148,15 @@ static bool press(pressing *p, const sunder_i_group *g)
     return ok;
 }
 
-sunder_status sunder_i_report_pushes(sunder_report *report, const sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *s, sunder_error *err)
 {
+    if (!s->model.rules.keep_pushes) return SUNDER_OK;
+    /* Without proofs nobody has asked for it yet. */
+    const sunder_status status = s->groups.waived ? SUNDER_OK : sunder_i_solver_waive(s, err);
+    if (status) return status;
     pressing p = {.solver = s, .waived = {.pair = s->groups.waived, .n = s->groups.waived_n}, .report = report};
     bool ok = true;
-    if (s->model.rules.keep_pushes)
-        for (size_t k = 0; k < s->groups.n && ok; k++) ok = press(&p, &s->groups.group[k]);
+    for (size_t k = 0; k < s->groups.n && ok; k++) ok = press(&p, &s->groups.group[k]);
     sunder_i_free(p.program.constraint);
     sunder_i_free(p.push);
     sunder_i_free(p.near.item);

@@ -110,7 +110,7 @@ sunder_status sunder_i_report_pair_trees(sunder_report *report, sunder_i_solver 
 /* ---- pushes.c ---------------------------------------------------------------------------------------------------- */
 
 /* How hard pairs in contact are pressed, where that is wanted. */
-sunder_status sunder_i_report_pushes(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
+sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *solver, sunder_error *err);
 
 /* ---- no_room.c --------------------------------------------------------------------------------------------------- */
 

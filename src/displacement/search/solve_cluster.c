@@ -47,11 +47,18 @@ static bool find_free_but_for_margins(sunder_i_search *s, const sunder_i_cluster
     return find_free(s, cluster);
 }
 
+static bool has_limits(const sunder_i_search *s)
+{
+    for (size_t k = 0; k < s->n; k++)
+        if (!s->model->body[s->body[k]].fixed && s->model->body[s->body[k]].limit < INFINITY) return true;
+    return false;
+}
+
 /* The same from where the bodies stood when limits were lifted: the sides that they had found there. */
 static bool find_free_from_lifted(sunder_i_search *s, const sunder_i_cluster *cluster)
 {
     const sunder_i_model *model = s->model;
-    if (!model->lifted) return false;
+    if (!model->lifted || !has_limits(s)) return false;
     for (size_t k = 0; k < s->n; k++)
         if (s->mass[k] > 0) memcpy(s->t + 2 * k, model->lifted + 2 * (size_t)s->body[k], 2 * sizeof *s->t);
     s->program.n = 0;
