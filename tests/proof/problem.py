@@ -11,6 +11,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import exact_plane as plane  # noqa: E402
 import geopackage  # noqa: E402
 from cover import hull  # noqa: E402
+from nearly_in import nearly_in  # noqa: E402
 from repair import repaired  # noqa: E402
 
 
@@ -255,7 +256,8 @@ class Problem:
         return self.blocks.get(fid, (fid,))
 
     def joins(self, a, b):
-        """Do the two join one block by themselves? None: they overlap by more than their least way out tells."""
+        """Do the two join one block by themselves? None: they overlap by more than their least way out tells, and do not lie in
+        each other for sure."""
         options = self.options
         if options.block_field:
             values = [self.attributes[f][options.block_field] for f in (a, b)]
@@ -276,8 +278,8 @@ class Problem:
         if not plane.interiors_meet(p, q):
             square = plane.distance_square(p, q)
             return square <= tolerance * tolerance
-        if self.options.contained == "block" and (plane.corners_lie_in(p, q, tolerance) or
-                                                  plane.corners_lie_in(q, p, tolerance)):
+        inside = [nearly_in(p, q, tolerance), nearly_in(q, p, tolerance)] if self.options.contained == "block" else []
+        if True in inside:
             return True
         square = plane.least_square(p, q)
         if square is not None and square <= tolerance * tolerance:

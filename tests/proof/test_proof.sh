@@ -133,7 +133,7 @@ printf 'WKT,w\n"POLYGON((0 0,0 1,-19 1,-19 29,0 29,0 30,-20 30,-20 0))",1\n"POLY
 proved halves halves.gpkg --gap 1
 grep -q 'bound 42.66' said || fail "along a shared wall: $(cat said)"
 refuted halves halves.gpkg --gap 1 --need shade
-PYTHONPATH=$here python3 - <<'END' || fail "what lies in a union"
+PYTHONPATH=$here python3 - <<'END' || fail "what lies in what"
 from problem import in_union, plane
 def boxes(*sides): return [plane.Outline([[(a, b), (c, b), (c, d), (a, d)]]) for a, b, c, d in sides]
 part = [(0, 0), (8, 2), (10, 10), (2, 8)]
@@ -147,6 +147,12 @@ assert not in_union(part, boxes((0, 0, 5, 5), (5, 0, 10, 5), (0, 5, 5, 10)))
 yard = plane.Outline([[(0, 0), (10, 0), (10, 10), (0, 10)], [(4, 4), (4, 6), (6, 6), (6, 4)]])
 assert not in_union(part, [yard])
 assert in_union(part, [yard] + boxes((4, 4, 6, 6)))
+
+from nearly_in import nearly_in
+wide, = boxes((0, 0, 1000, 1000))
+dent = plane.Outline([[(0, 0), (1000, 0), (1000, 1000), (600, 1000), (500, 700), (400, 1000), (0, 1000)]])  # 95 at most from its sides
+assert [nearly_in(wide, dent, d) for d in (97, 96, 95, 94, 40)] == [True, None, None, False, False]
+assert nearly_in(dent, wide, 0)
 END
 
 # Symbols of points: five within each other's reach, one of them too far in for its limit.

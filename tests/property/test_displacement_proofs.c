@@ -53,7 +53,7 @@ static sunder_feature *add_box(town *t, double x, double y, double w, double h, 
 }
 
 /* A line, a point or (four corners) an area, behind all features. width: a dyadic, like the gap. */
-static void add_barrier(town *t, const double *xy, size_t corners, double width, double gap)
+static void add_barrier(town *t, const double *xy, size_t corners, double width, double gap, bool sides)
 {
     const size_t rings = 1, k = t->barriers++;
     double *own = t->xy[t->n + k];
@@ -61,8 +61,8 @@ static void add_barrier(town *t, const double *xy, size_t corners, double width,
     sunder_error err;
     memcpy(own, xy, 2 * corners * sizeof *own);
     t->corners[k] = corners;
-    t->plain[t->n + k] = (proof_feature){own, corners, 0, true, corners < 4, width / 2 + gap};
-    t->barrier[k] = (sunder_barrier){.width = width, .gap = gap};
+    t->plain[t->n + k] = (proof_feature){own, corners, 0, true, corners < 4, width / 2 + gap, sides};
+    t->barrier[k] = (sunder_barrier){.width = width, .gap = gap, .side = sides};
     if (corners < 4) {
         t->barrier[k].geometry = (sunder_obstacle){.xy = own, .line_end = &t->corners[k], .lines = 1};
         return;
@@ -102,14 +102,14 @@ static void free_town(town *t)
     for (size_t k = 0; k < t->barriers; k++) sunder_shape_free((sunder_shape *)t->barrier[k].geometry.shape);
 }
 
-/* How many conflicts have no room, all of them proved; the others have no proof. */
+/* How many conflicts have no room, or none on their side, all of them proved; the others have no proof. */
 static size_t check_proofs(const town *t, const sunder_report *report, size_t trial, size_t *open)
 {
     size_t n, proved = 0;
     const sunder_conflict *c = sunder_report_conflicts(report, &n);
     for (size_t k = 0; k < n; k++) {
         *open += c[k].reason == SUNDER_REASON_UNRESOLVED;
-        if (c[k].reason != SUNDER_REASON_NO_ROOM) {
+        if (c[k].reason != SUNDER_REASON_NO_ROOM && c[k].reason != SUNDER_REASON_SIDE) {
             assert_null(sunder_report_proof(report, k));
             continue;
         }
@@ -282,14 +282,18 @@ static void add_some_barrier(rng *r, town *t, double x, double y, double wide)
     const double u = quarters(r, -12, 12), v = quarters(r, -12, 12), width = quarters(r, 0, 2), gap = quarters(r, 0, 1);
     const double line[] = {p, q, p + u, q + v}, area[] = {p, q, p + 2, q, p + 2, q + 1.5, p, q + 1.5};
     const size_t corners = (size_t)rng_int(r, 1, 3);
-    add_barrier(t, corners == 3 ? area : line, corners == 3 ? 4 : u == 0 && v == 0 ? 1 : corners, width, gap);
+    add_barrier(t, corners == 3 ? area : line,
+                corners == 3       ? 4
+                : u == 0 && v == 0 ? 1
+                                   : corners,
+                width, gap, rng_once_in(r, 2));
 }
 
-/* Houses among lines, points and areas that stand too near to them, or run through them. */
+/* Houses among lines, points and areas that stand too near to them, or run through them; half of these have sides. */
 static void check_beside_barriers(void **state)
 {
     (void)state;
-    size_t proved = 0, open = 0, of_barriers = 0, slack = 0;
+    size_t proved = 0, open = 0, of_barriers = 0, slack = 0, sides = 0;
     const size_t trials = test_count(100);
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
@@ -310,14 +314,75 @@ static void check_beside_barriers(void **state)
         for (size_t k = 0; k < c; k++) {
             const sunder_proof *proof = sunder_report_proof(report, k);
             of_barriers += proof && listed[k].b >= t.n;
-            for (size_t m = 0; proof && m < proof->nodes; m++) slack += proof->node[m].slack;
+            for (size_t m = 0; proof && m < proof->nodes; m++) {
+                slack += proof->node[m].slack;
+                sides += proof->node[m].shadow;
+            }
         }
         sunder_report_free(report);
         free_town(&t);
     }
-    print_message("%zu with a proof, %zu of them with barriers, %zu nodes with slack, %zu without\n", proved,
-                  of_barriers, slack, open);
-    assert_true(of_barriers > trials / 8);
+    print_message("%zu with a proof, %zu of them with barriers, %zu nodes with slack, %zu about sides, %zu without\n",
+                  proved, of_barriers, slack, sides, open);
+    assert_true(of_barriers > trials / 8 && sides > trials / 50);
+}
+
+/* The proof of conflict k with all that a side takes away a little greater: it has to be refused. */
+static void check_refused(const town *t, const sunder_report *report, size_t trial, size_t k)
+{
+    const sunder_proof *p = sunder_report_proof(report, k);
+    for (size_t m = 0; p && m < p->nodes; m++) {
+        if (!p->node[m].shadow) continue;
+        sunder_proof_way *way = (sunder_proof_way *)p->way + p->node[m].way;
+        double was[64];
+        for (size_t w = 0; w < p->node[m].ways && w < 64; w++) {
+            was[w] = way[w].d;
+            way[w].d += ldexp(1, -10);
+        }
+        const char *wrong = proof_check(t->plain, t->n, t->n + t->barriers, t->gap, report, k);
+        if (!wrong) fail_msg("trial %zu: the proof of conflict %zu holds for more than the side takes away", trial, k);
+        for (size_t w = 0; w < p->node[m].ways && w < 64; w++) way[w].d = was[w];
+    }
+}
+
+/* A house with a line through it, near the edge that it could leave by but for its side; a fixed one, or another line
+ * or area with sides, leaves it too little room on the other. */
+static void check_beside_sides(void **state)
+{
+    (void)state;
+    size_t proved = 0, open = 0, sides = 0, alone = 0;
+    const size_t trials = test_count(60);
+    for (size_t trial = 0; trial < trials; trial++) {
+        rng r = rng_start(test_seed(), trial);
+        town t;
+        memset(&t, 0, sizeof t);
+        t.gap = quarters(&r, 0, 1);
+        const double x = floor(pow(10, 6 * rng_unit(&r))), lean = quarters(&r, 0, 4), off = quarters(&r, 0, 1);
+        const double line[] = {x + 3.25 - lean, x - 30, x + 3.25 + lean, x + 34};
+        const double other[] = {x - off, x - 30, x - off, x + 34};
+        const double area[] = {x - off - 2, x - 30, x - off, x - 30, x - off, x + 34, x - off - 2, x + 34};
+        const int beyond = (int)rng_int(&r, 0, 2);
+        add_box(&t, x, x, 4, 4, quarters(&r, 4, 6));
+        if (beyond == 0) add_box(&t, x - off - 8, x - 30, 8, 64, 0);
+        add_barrier(&t, line, 2, 0, t.gap, true);
+        if (beyond == 1) add_barrier(&t, other, 2, 0, t.gap, true);
+        if (beyond == 2) add_barrier(&t, area, 4, 0, t.gap, true);
+        sunder_report *report = separate(&t);
+        proved += check_proofs(&t, report, trial, &open);
+        size_t c;
+        const sunder_conflict *listed = sunder_report_conflicts(report, &c);
+        for (size_t k = 0; k < c; k++) {
+            const sunder_proof *proof = sunder_report_proof(report, k);
+            check_refused(&t, report, trial, k);
+            alone += listed[k].reason == SUNDER_REASON_SIDE;
+            for (size_t m = 0; proof && m < proof->nodes; m++) sides += proof->node[m].shadow;
+        }
+        sunder_report_free(report);
+        free_town(&t);
+    }
+    print_message("%zu with a proof, %zu of them of the pair by itself, %zu nodes about sides, %zu without\n", proved,
+                  alone, sides, open);
+    assert_true(sides > trials / 4 && 10 * open <= proved);
 }
 
 /* ---- Held pairs ------------------------------------------------------------------------------------------------- */
@@ -404,7 +469,7 @@ static void check_corridors(void **state)
         add_beside(&r, &t, &at, 12, 8, 1 + rng_unit(&r), false, limit);
         add_beside(&r, &t, &at, 21, 5, 3, false, 0);
         t.feature[0].block = t.feature[1].block = 0;
-        add_barrier(&t, line, 2, 5, 0);
+        add_barrier(&t, line, 2, 5, 0, false);
         sunder_report *report = separate(&t);
         proved += check_proofs(&t, report, trial, &open);
         size_t c;
@@ -577,6 +642,7 @@ int main(void)
         cmocka_unit_test(check_packed),         cmocka_unit_test(check_exact_fits),
         cmocka_unit_test(check_held),           cmocka_unit_test(check_corridors),
         cmocka_unit_test(check_towns),          cmocka_unit_test(check_beside_barriers),
+        cmocka_unit_test(check_beside_sides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

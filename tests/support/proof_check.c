@@ -109,7 +109,7 @@ static const char *check_question(const checking *c, const sunder_proof_node *no
     const double *a = c->proof->corner + 2 * node->part_a, *b = c->proof->corner + 2 * node->part_b;
     if (proof_same_block(c, node->a, node->b)) return "a node is about one block";
     if (node->a >= c->n) return "a barrier comes first";
-    if (node->shadow) return node->b < c->n ? proof_check_shadow(c, node) : "a barrier with sides";
+    if (node->shadow) return proof_check_shadow(c, node);
     if (!is_part(c, node->a, a, node->corners_a) || !is_part(c, node->b, b, node->corners_b))
         return "a part is not convex, or not of its feature";
     bool inside = false;

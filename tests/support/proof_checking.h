@@ -38,8 +38,8 @@ const char *proof_check_ways(const checking *c, const sunder_proof_node *node, b
 bool proof_crossing(const sunder_proof_way *a, const sunder_proof_way *b, vec *v);
 bool proof_is_behind_all(const sunder_proof_way *way, size_t n, const vec *v);
 
-/* proof_shadow.c: the node is about an anchor and what it may not jump over, and what lies behind all the ways is in
- * the shadow of that. */
+/* proof_shadow.c: the node is about an anchor and what it may not jump over, or a side anchor and a side, and what lies
+ * behind all the ways is in the shadow of that. */
 const char *proof_check_shadow(const checking *c, const sunder_proof_node *node);
 
 /* proof_still.c: two lines leave a block one place; a member of it is *first then, else SIZE_MAX. */

@@ -4,11 +4,41 @@
 #include "passage_oracle.h"
 #include "proof_checking.h"
 
+#include <math.h>
+
+/* Is x v on the segment for some x > 0, no more than 1 unless `far`? Of one that looks at the origin endways it is not
+ * told. */
+static bool is_behind_segment(const hull *k, const vec *v, bool far)
+{
+    mpq_t x, slope, along, whole;
+    vec e, at;
+    mpq_inits(x, slope, along, whole, NULL);
+    vec_init(&e), vec_init(&at);
+    vec_sub(&e, &k->v[1], &k->v[0]);
+    vec_cross(slope, &e, v);
+    vec_cross(x, &e, &k->v[0]);
+    bool on = mpq_sgn(slope) != 0;
+    if (on) {
+        mpq_div(x, x, slope);
+        on = mpq_sgn(x) > 0 && (far || mpq_cmp_ui(x, 1, 1) <= 0);
+        mpq_mul(at.x, x, v->x);
+        mpq_mul(at.y, x, v->y);
+        vec_sub(&at, &at, &k->v[0]);
+        vec_dot(along, &at, &e);
+        vec_dot(whole, &e, &e);
+        on = on && mpq_sgn(along) >= 0 && mpq_cmp(along, whole) <= 0;
+    }
+    mpq_clears(x, slope, along, whole, NULL);
+    vec_clear(&e), vec_clear(&at);
+    return on;
+}
+
 /* Is x v in the polygon for some x >= 0, no more than 1 unless `far`? The origin is not in it. */
 static bool is_shaded(const hull *k, const vec *v, bool far)
 {
     mpq_t low, high, slope, level;
     vec e;
+    if (k->n == 2) return is_behind_segment(k, v, far);
     mpq_inits(low, high, slope, level, NULL);
     vec_init(&e);
     mpq_set_ui(high, 1, 1);
@@ -94,7 +124,59 @@ static const char *check_anchor(const proof_feature *of, const proof_feature *ot
     return held ? "an anchor is held by what it may not jump over" : NULL;
 }
 
-const char *proof_check_shadow(const checking *c, const sunder_proof_node *node)
+/* A side anchor: which it is the library chooses, one for each feature and within its box. */
+static const char *check_side_anchor(const checking *c, size_t f, const double anchor[2])
+{
+    const proof_feature *of = &c->feature[f];
+    double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (size_t k = 0; k < 2 * of->corners; k++) {
+        box[k & 1] = fmin(box[k & 1], of->xy[k]);
+        box[2 + (k & 1)] = fmax(box[2 + (k & 1)], of->xy[k]);
+    }
+    for (size_t k = 0; k < 2; k++)
+        if (anchor[k] < box[k] || anchor[k] > box[2 + k]) return "a side anchor outside of its feature";
+    for (size_t k = 0; k < c->proof->nodes; k++) {
+        const sunder_proof_node *other = &c->proof->node[k];
+        const double *at = c->proof->corner + 2 * other->part_a;
+        if (other->ways && other->shadow && other->a == f && other->b >= c->n &&
+            (at[0] != anchor[0] || at[1] != anchor[1]))
+            return "two side anchors of one feature";
+    }
+    return NULL;
+}
+
+/* Is it on an edge of the barrier's area, of which the anchor is strictly on the right? */
+static bool is_outer_side(const proof_feature *area, const double side[4], const double anchor[2])
+{
+    vec p, q, at;
+    vec_init(&p), vec_init(&q), vec_init(&at);
+    vec_set_d(&p, side), vec_set_d(&q, side + 2), vec_set_d(&at, anchor);
+    bool outer = false;
+    for (size_t k = 0; k < area->corners && !outer; k++) {
+        const double *from = area->xy + 2 * k, *to = area->xy + 2 * ((k + 1) % area->corners);
+        const double edge[4] = {from[0], from[1], to[0], to[1]};
+        outer = is_part_of_line(side, 2, &(proof_feature){.xy = edge, .corners = 2, .line = true}) &&
+                (to[0] - from[0]) * (side[2] - side[0]) + (to[1] - from[1]) * (side[3] - side[1]) > 0;
+    }
+    outer = outer && vec_side(&p, &q, &at) < 0;
+    vec_clear(&p), vec_clear(&q), vec_clear(&at);
+    return outer;
+}
+
+static const char *check_side(const checking *c, const sunder_proof_node *node)
+{
+    const double *anchor = c->proof->corner + 2 * node->part_a, *side = c->proof->corner + 2 * node->part_b;
+    const proof_feature *barrier = &c->feature[node->b];
+    if (!barrier->sides) return "a barrier without sides";
+    if (node->corners_a != 1 || node->corners_b != 2) return "a side is a segment, and has an anchor";
+    if (barrier->line ? !is_part_of_line(side, 2, barrier) : !is_outer_side(barrier, side, anchor))
+        return "a side is not of its barrier, or faces away";
+    if (barrier->line && is_part_of_line(anchor, 1, barrier)) return "a side anchor lies on its barrier";
+    return check_side_anchor(c, node->a, anchor);
+}
+
+/* A part of a feature, and the anchor of another. */
+static const char *check_jump(const checking *c, const sunder_proof_node *node)
 {
     const double *a = c->proof->corner + 2 * node->part_a, *b = c->proof->corner + 2 * node->part_b;
     const bool of_a = node->corners_a == 1;
@@ -103,9 +185,15 @@ const char *proof_check_shadow(const checking *c, const sunder_proof_node *node)
     const double *part = of_a ? b : a;
     const size_t n = of_a ? node->corners_b : node->corners_a;
     if (!is_convex_part(part, n) || !is_part_of(part, n, g)) return "what casts a shadow is not of its feature";
-    const char *wrong = check_anchor(f, g, of_a ? a : b);
+    return check_anchor(f, g, of_a ? a : b);
+}
+
+const char *proof_check_shadow(const checking *c, const sunder_proof_node *node)
+{
+    const char *wrong = node->b >= c->n ? check_side(c, node) : check_jump(c, node);
     if (wrong) return wrong;
-    hull k = hull_difference(a, node->corners_a, b, node->corners_b);
+    hull k = hull_difference(c->proof->corner + 2 * node->part_a, node->corners_a, c->proof->corner + 2 * node->part_b,
+                             node->corners_b);
     wrong = check_ways(c, node, &k);
     hull_free(&k);
     return wrong;
