@@ -46,6 +46,10 @@ sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const
 sunder_status sunder_i_separate(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                                 double gap, double upper, sunder_separation *out, bool *beyond, sunder_error *err);
 
+/* Is the least translation that takes the interiors apart no longer than these lengths together, both finite? Exact. */
+sunder_status sunder_i_parts_within(const sunder_shape *p, const sunder_shape *q, const double length[2], bool *within,
+                                    sunder_error *err);
+
 /* A pair as it stands: P + tp and Q + tq, neither empty. A NULL translation is zero. */
 typedef struct sunder_i_pair {
     const sunder_shape *p, *q;

@@ -118,6 +118,26 @@ static void check_limits(void **state)
     scene_end(&s);
 }
 
+/* What is missing is less than the last bit of the limits' sum, as doubles give it. */
+static void check_limits_short_by_a_bit(void **state)
+{
+    const double limit[][2] = {{1, 2}, {1, nextafter(2, 0)}, {0.1, 2.9}, {0, nextafter(3, 0)}, {0, 3}};
+    const bool enough[] = {true, false, false, false, true};
+    for (size_t k = 0; k < sizeof limit / sizeof *limit; k++) {
+        scene s;
+        scene_begin(&s, 0);
+        scene_add_box(&s, 0, 0, 10, 10)->max_shift = limit[k][0];
+        scene_add_box(&s, 7, 1, 10, 10)->max_shift = limit[k][1];
+        if (limit[k][0] == 0) s.feature[0].fixed = true;
+        scene_separate(&s);
+        assert_int_equal(scene_left(&s), enough[k] ? 0 : 1);
+        size_t n;
+        const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
+        if (n) assert_int_equal(c->reason, SUNDER_REASON_MAX_SHIFT);
+        scene_end(&s);
+    }
+}
+
 static void check_chain_without_room(void **state)
 {
     scene s;
@@ -296,12 +316,19 @@ static void check_within(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_nothing),          cmocka_unit_test(check_two_squares),
-        cmocka_unit_test(check_weights),          cmocka_unit_test(check_fixed),
-        cmocka_unit_test(check_limits),           cmocka_unit_test(check_chain_without_room),
-        cmocka_unit_test(check_row_without_room), cmocka_unit_test(check_courtyard),
-        cmocka_unit_test(check_narrow_yard),      cmocka_unit_test(check_yard_without_gate),
-        cmocka_unit_test(check_nothing_worse),    cmocka_unit_test(check_ignored),
+        cmocka_unit_test(check_nothing),
+        cmocka_unit_test(check_two_squares),
+        cmocka_unit_test(check_weights),
+        cmocka_unit_test(check_fixed),
+        cmocka_unit_test(check_limits),
+        cmocka_unit_test(check_limits_short_by_a_bit),
+        cmocka_unit_test(check_chain_without_room),
+        cmocka_unit_test(check_row_without_room),
+        cmocka_unit_test(check_courtyard),
+        cmocka_unit_test(check_narrow_yard),
+        cmocka_unit_test(check_yard_without_gate),
+        cmocka_unit_test(check_nothing_worse),
+        cmocka_unit_test(check_ignored),
         cmocka_unit_test(check_within),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -29,12 +29,13 @@ static sunder_status judge(void *context, size_t begin, size_t end, sunder_error
     for (size_t k = begin; k < end && !status; k++) {
         const sunder_i_relation *r = &g->start->pair[k];
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
-        const double reach = sunder_i_limit_of(&model->body[i]) + sunder_i_limit_of(&model->body[j]);
+        const double limit[2] = {sunder_i_limit_of(&model->body[i]), sunder_i_limit_of(&model->body[j])},
+                     reach = limit[0] + limit[1];
         if (!sunder_i_is_open_conflict(model, r) || reach == INFINITY ||
             (!sunder_i_is_barrier(model, r->b) &&
              boxes_can_part(model->box + 4 * (size_t)r->a, model->box + 4 * (size_t)r->b, model->rules.gap, reach)))
             continue;
-        status = sunder_i_resolve_things(model, r->a, r->b, nextafter(reach, INFINITY), &g->resolution[k], err);
+        status = sunder_i_resolve_within(model, r->a, r->b, limit, &g->resolution[k], err);
         if (status || !g->resolution[k].beyond) continue;
         status = sunder_i_relaxation_of(model, r->a, r->b, &g->relaxation[k], err);
         g->relaxation[k].infeasible = true;

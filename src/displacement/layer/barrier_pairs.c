@@ -16,6 +16,9 @@
 /* More than a length as doubles give it, by what they may be off. */
 #define ABOVE (1 + 0x1p-20)
 
+/* A length is near another, as a share of it, by far more than what bounds of lengths are off by. */
+#define NEARLY 0x1p-28
+
 /* ---- The feature, and what of the barrier is near ---------------------------------------------------------------- */
 
 static void box_of(const sunder_i_translate *feature, double box[4])
@@ -239,4 +242,19 @@ sunder_status sunder_i_resolve_things(const sunder_i_model *model, size_t a, siz
     out->least = fmax(0, least.lower_bound);
     out->apart_beyond = out->beyond = out->beyond || out->least > upper;
     return SUNDER_OK;
+}
+
+sunder_status sunder_i_resolve_within(const sunder_i_model *model, size_t a, size_t b, const double limit[2],
+                                      sunder_i_resolution *out, sunder_error *err)
+{
+    const sunder_feature *feature = model->layer->feature;
+    const double sum = limit[0] + limit[1];
+    bool within;
+    sunder_status status = sunder_i_resolve_things(model, a, b, nextafter(sum, INFINITY), out, err);
+    if (status || out->beyond || sum == INFINITY || sunder_i_is_barrier(model, (uint32_t)b) || model->rules.gap > 0 ||
+        sunder_i_may_be_inside(&model->rules) || out->least < sum * (1 - NEARLY))
+        return status;
+    status = sunder_i_parts_within(feature[a].shape, feature[b].shape, limit, &within, err);
+    if (!status) out->apart_beyond = out->beyond = !within;
+    return status;
 }

@@ -87,14 +87,13 @@ static sunder_status reason_of_ways(const sunder_i_model *model, sunder_conflict
 sunder_status sunder_i_report_reason(const sunder_i_model *model, sunder_conflict *c, sunder_proof **proof,
                                      sunder_error *err)
 {
-    const double reach = limit_of(model, c->a) + limit_of(model, c->b);
+    const double limit[2] = {limit_of(model, c->a), limit_of(model, c->b)}, reach = limit[0] + limit[1];
     const bool shut = c->b < model->features && sunder_i_are_shut_in(model, (uint32_t)c->a, (uint32_t)c->b);
     c->reason = reach == 0 ? SUNDER_REASON_FIXED : shut ? SUNDER_REASON_JUMP : SUNDER_REASON_UNRESOLVED;
     if (reach == 0) return SUNDER_OK;
     if (reach == INFINITY) return reason_without_limit(model, c, proof, err);
     sunder_i_resolution resolution;
-    const sunder_status status =
-        sunder_i_resolve_things(model, c->a, c->b, nextafter(reach, INFINITY), &resolution, err);
+    const sunder_status status = sunder_i_resolve_within(model, c->a, c->b, limit, &resolution, err);
     if (status) return status;
     if (!resolution.beyond) return reason_of_ways(model, c, proof, err);
     c->reason = SUNDER_REASON_MAX_SHIFT;
