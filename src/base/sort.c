@@ -103,3 +103,45 @@ int sunder_i_descending(void *doubles, uint32_t a, uint32_t b)
     const double *v = doubles;
     return (v[a] < v[b]) - (v[a] > v[b]);
 }
+
+static void insert_valued(sunder_i_valued *k, size_t n)
+{
+    for (size_t i = 1; i < n; i++) {
+        const sunder_i_valued v = k[i];
+        size_t j = i;
+        for (; j > 0 && k[j - 1].value > v.value; j--) k[j] = k[j - 1];
+        k[j] = v;
+    }
+}
+
+static void merge_valued(const sunder_i_valued *from, sunder_i_valued *to, size_t left, size_t middle, size_t right)
+{
+    size_t i = left, j = middle, k = left;
+    while (i < middle && j < right) {
+        const bool second = from[j].value < from[i].value;
+        to[k++] = from[second ? j : i];
+        j += second;
+        i += !second;
+    }
+    memcpy(to + k, from + i, (middle - i) * sizeof *to);
+    memcpy(to + k + (middle - i), from + j, (right - j) * sizeof *to);
+}
+
+bool sunder_i_sort_valued(sunder_i_valued *valued, size_t n)
+{
+    for (size_t i = 0; i < n; i += RUN) insert_valued(valued + i, n - i < RUN ? n - i : RUN);
+    sunder_i_valued *from = valued, *to = valued + n;
+    for (size_t width = RUN; width < n; width *= 2) {
+        for (size_t left = 0; left < n; left += 2 * width) {
+            const size_t middle = left + width < n ? left + width : n;
+            const size_t right = left + 2 * width < n ? left + 2 * width : n;
+            if (!sunder_i_steps((right - left) / 8 + 1)) return false;
+            merge_valued(from, to, left, middle, right);
+        }
+        sunder_i_valued *t = from;
+        from = to;
+        to = t;
+    }
+    if (from != valued) memcpy(valued, from, n * sizeof *valued);
+    return true;
+}

@@ -41,4 +41,14 @@ static inline void sunder_i_sort_few(void *list, size_t n, size_t size, int (*co
     }
 }
 
+/* An item by a double, for what is sorted by doubles first; `mark` goes along. */
+typedef struct sunder_i_valued {
+    double value;
+    uint32_t item, mark;
+} sunder_i_valued;
+
+/* Sorts n of them by value, ascending and stable. There is room for 2 n, and what the second half holds is lost. False
+ * where the work is to stop. */
+bool sunder_i_sort_valued(sunder_i_valued *valued, size_t n);
+
 #endif

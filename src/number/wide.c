@@ -19,7 +19,7 @@ static magnitude product(int64_t a, sunder_i_i128 b)
     return m;
 }
 
-sunder_i_i256 sunder_i_mul_add(int64_t a, sunder_i_i128 b, int64_t c, sunder_i_i128 d)
+sunder_i_i256 sunder_i_mul_add_long(int64_t a, sunder_i_i128 b, int64_t c, sunder_i_i128 d)
 {
     magnitude s = product(a, b), t = product(c, d);
     sunder_i_i256 r;
@@ -92,7 +92,7 @@ int sunder_i_i256_cmp(const sunder_i_i256 *a, const sunder_i_i256 *b)
     return a->sign * sunder_i_limbs_cmp(a->limb, b->limb, 4);
 }
 
-double sunder_i_i256_double(const sunder_i_i256 *a)
+double sunder_i_i256_double_long(const sunder_i_i256 *a)
 {
     int top = 3;
     while (top > 0 && a->limb[top] == 0) top--;

@@ -117,7 +117,8 @@ static bool trace(const sunder_i_graph *g, const sunder_i_coverage *coverage, su
     tracer t = {.g = g, .out = out};
     bool ok = trace_rings(&t) && gather_segments(&t, coverage) && gather_points(&t, coverage);
     sunder_i_found found = {t.vertex,   t.ring,  t.rings,  g->components,           t.segment,
-                            t.segments, t.point, t.points, sunder_i_sum_vertex_cmp, out};
+                            t.segments, t.point, t.points, sunder_i_sum_vertex_cmp, out,
+                            g->vertex};
     ok = ok && sunder_i_canonical(&found, out);
     sunder_i_free(t.vertex);
     sunder_i_free(t.ring);

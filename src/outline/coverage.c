@@ -9,44 +9,27 @@
 #include "base/invariant.h"
 #include "base/sort.h"
 #include "base/watch.h"
+#include "outline/events.h"
 #include "predicate/narrow.h"
 
 #include <string.h>
 
-/* How many cover, rest on either bank, or are live candidates. */
-typedef struct state {
-    int32_t cover, left, right, domain;
-} state;
+typedef sunder_i_line_state state;
 
-/* What changes at a place on the line; all zero where only a corner stands there. */
-typedef struct event {
-    sunder_i_fraction at;
-    state change;
-    uint32_t corner; /* of a part, at that place; NO_CORNER if none is known */
-} event;
-
-#define NO_CORNER UINT32_MAX
+#define NO_CORNER SUNDER_I_NO_CORNER
 
 typedef struct finder {
     const sunder_i_convex_pieces *parts;
     const sunder_i_lines *lines;
     const uint8_t *fate;
     sunder_i_coverage *out;
-    event *events; /* of the line at hand */
-    size_t events_n, events_capacity;
-    uint32_t *order;
-    size_t order_capacity;
+    sunder_i_events events; /* of the line at hand */
     bool no_memory;
 } finder;
 
-static void add_event(finder *f, sunder_i_fraction at, state change, uint32_t corner)
+static void add_event(finder *f, sunder_i_fraction at, state change, uint32_t corner, uint32_t side)
 {
-    if (f->events_n == f->events_capacity &&
-        !sunder_i_reserve(&f->events, &f->events_capacity, f->events_n + 1, sizeof *f->events)) {
-        f->no_memory = true;
-        return;
-    }
-    f->events[f->events_n++] = (event){at, change, corner};
+    if (!sunder_i_events_add(&f->events, at, change, corner, side)) f->no_memory = true;
 }
 
 /* ---- One part and one line ---- */
@@ -87,10 +70,10 @@ static int side_of(const polygon *p, const sunder_i_supporting_line *line, uint3
         sunder_i_narrow_cross(p->s->direction[line->class], sunder_i_narrow_sub(corner(p, i), line->a)));
 }
 
-/* Where the chain of corners from..to, on side `sign` of the line at its end and not there at its start, comes
- * through. */
-static sunder_i_fraction cross_chain(const polygon *p, const sunder_i_supporting_line *line, uint32_t from, uint32_t to,
-                                     int sign)
+/* The chain of corners from..to, on side `sign` of the line at its end and not there at its start, comes through:
+ * `change` is there. */
+static void cross_chain(finder *f, const polygon *p, const sunder_i_supporting_line *line, uint32_t from, uint32_t to,
+                        int sign, int32_t change)
 {
     uint32_t low = from, high = to; /* corner low is strictly on side -sign; corner high is not */
     while (high - low > 1) {
@@ -100,23 +83,26 @@ static sunder_i_fraction cross_chain(const polygon *p, const sunder_i_supporting
         else
             high = middle;
     }
-    return sunder_i_crossing(p->s->lattice, line->a, line->b, corner(p, low), corner(p, high));
+    add_event(f, sunder_i_crossing(p->s->lattice, line->a, line->b, corner(p, low), corner(p, high)),
+              (state){change, 0, 0, 0}, NO_CORNER, p->first + (low < p->n ? low : low - p->n));
 }
+
+static uint32_t side_before(const polygon *p, uint32_t k) { return k > p->first ? k - 1 : p->first + p->n - 1; }
 
 /* One side on the line, covering one bank of it. */
 static void rest_side(finder *f, const polygon *p, const sunder_i_supporting_line *line, uint32_t side, bool left)
 {
     sunder_i_lattice *l = p->s->lattice;
-    const uint32_t next = side + 1 < p->first + p->n ? side + 1 : p->first;
+    const uint32_t before = side_before(p, side), next = side + 1 < p->first + p->n ? side + 1 : p->first;
     const sunder_i_fraction from = sunder_i_along(l, line->a, line->b, p->s->corner[side]);
     const sunder_i_fraction to = sunder_i_along(l, line->a, line->b, p->s->corner[next]);
     const int32_t live = f->fate[side] == SUNDER_I_OPEN;
     if (left) {
-        add_event(f, from, (state){0, 1, 0, live}, side);
-        add_event(f, to, (state){0, -1, 0, -live}, next);
+        add_event(f, from, (state){0, 1, 0, live}, side, before);
+        add_event(f, to, (state){0, -1, 0, -live}, next, next);
     } else {
-        add_event(f, to, (state){0, 0, 1, live}, next);
-        add_event(f, from, (state){0, 0, -1, -live}, side);
+        add_event(f, to, (state){0, 0, 1, live}, next, next);
+        add_event(f, from, (state){0, 0, -1, -live}, side, before);
     }
 }
 
@@ -128,11 +114,11 @@ static void rest_on(finder *f, const polygon *p, const sunder_i_supporting_line 
     const uint32_t end = p->first + (i < p->n ? i : 0);
     uint32_t side = p->first + (i ? i : p->n) - 1;
     if (p->s->rank[side] != rank) {
-        add_event(f, sunder_i_along(p->s->lattice, line->a, line->b, p->s->corner[end]), (state){0, 0, 0, 0}, end);
+        add_event(f, sunder_i_along(p->s->lattice, line->a, line->b, p->s->corner[end]), (state){0, 0, 0, 0}, end,
+                  side);
         return;
     }
-    for (; p->s->rank[side] == rank; side = side > p->first ? side - 1 : p->first + p->n - 1)
-        rest_side(f, p, line, side, left);
+    for (; p->s->rank[side] == rank; side = side_before(p, side)) rest_side(f, p, line, side, left);
 }
 
 static void meet(finder *f, const sunder_i_supporting_line *line, uint32_t part)
@@ -146,8 +132,8 @@ static void meet(finder *f, const sunder_i_supporting_line *line, uint32_t part)
     if (low < 0 && high > 0) {
         const uint32_t up_to = highest >= lowest ? highest : highest + p.n;
         const uint32_t down_to = lowest > highest ? lowest : lowest + p.n;
-        add_event(f, cross_chain(&p, line, highest, down_to, -1), (state){1, 0, 0, 0}, NO_CORNER);
-        add_event(f, cross_chain(&p, line, lowest, up_to, 1), (state){-1, 0, 0, 0}, NO_CORNER);
+        cross_chain(f, &p, line, highest, down_to, -1, 1);
+        cross_chain(f, &p, line, lowest, up_to, 1, -1);
     } else if (low == 0)
         rest_on(f, &p, line, lowest, forward, true);
     else if (high == 0)
@@ -156,12 +142,6 @@ static void meet(finder *f, const sunder_i_supporting_line *line, uint32_t part)
 
 /* ---- Along one line ---- */
 
-static int compare_events(void *context, uint32_t a, uint32_t b)
-{
-    const finder *f = context;
-    return sunder_i_fraction_cmp(f->parts->lattice, &f->events[a].at, &f->events[b].at);
-}
-
 static bool uncovered(const state *s) { return s->domain > 0 && s->cover == 0; }
 
 static uint8_t banks(const state *s)
@@ -169,14 +149,33 @@ static uint8_t banks(const state *s)
     return (uint8_t)((s->left > 0 ? SUNDER_I_BANK_LEFT : 0) | (s->right > 0 ? SUNDER_I_BANK_RIGHT : 0));
 }
 
-/* A vertex of the result; where a corner is known to stand there it is a lattice point, which is cheaper to compare. */
-static uint32_t add_vertex(finder *f, const sunder_i_supporting_line *line, const sunder_i_fraction *at,
-                           uint32_t corner)
+/* Takes note of the line of a side that is not on lines->line. */
+static void note_side(const finder *f, uint32_t side, sunder_i_vertex_lines *lines)
+{
+    if (side == SUNDER_I_NO_SIDE || lines->others == 2) return;
+    const uint32_t other = f->lines->of[side];
+    if (other == SUNDER_I_NO_LINE || (lines->others && lines->other[0] == other) ||
+        f->lines->line[other].class == f->lines->line[lines->line].class)
+        return;
+    lines->other[lines->others++] = other;
+}
+
+/* A vertex of the result. Most are known by the lines that meet there; where a corner is known to stand there it is a
+ * lattice point, which is cheaper to compare. */
+static uint32_t add_vertex(finder *f, const sunder_i_fraction *at, uint32_t corner, const sunder_i_vertex_lines *lines)
 {
     sunder_i_lattice *l = f->parts->lattice;
+    const sunder_i_supporting_line *line = &f->lines->line[lines->line];
+    if (l->narrow && lines->others > 0) {
+        const sunder_i_point u = sunder_i_narrow_sub(line->b, line->a);
+        const uint32_t known =
+            sunder_i_vertex_table_find(&f->out->vertices, (double)line->a.x + at->value * (double)u.x,
+                                       (double)line->a.y + at->value * (double)u.y, lines);
+        if (known != SUNDER_I_NO_VERTEX) return known;
+    }
     const sunder_i_hpoint p = corner == NO_CORNER ? sunder_i_hpoint_at(l, line->a, line->b, at)
                                                   : sunder_i_hpoint_of(l, f->parts->corner[corner]);
-    const uint32_t vertex = sunder_i_vertex_table_add(&f->out->vertices, &p);
+    const uint32_t vertex = sunder_i_vertex_table_add(&f->out->vertices, &p, lines);
     if (vertex == SUNDER_I_NO_VERTEX) f->no_memory = true;
     return vertex;
 }
@@ -192,60 +191,65 @@ static void add_stretch(finder *f, sunder_i_outline_stretch stretch)
     o->stretch[o->stretches++] = stretch;
 }
 
+/* What there is at one place of the line. */
+typedef struct place {
+    size_t end; /* of its events, in order */
+    int32_t cover_ends, domain_starts;
+    uint32_t corner; /* or NO_CORNER */
+    sunder_i_vertex_lines lines;
+} place;
+
+/* Goes past the events of a place. */
+static place pass_place(const finder *f, uint32_t line, size_t from, state *s)
+{
+    const sunder_i_valued *order = f->events.order;
+    place p = {from, 0, 0, NO_CORNER, {line, {0, 0}, 0}};
+    do {
+        const sunder_i_event *e = &f->events.event[order[p.end].item];
+        p.cover_ends += e->change.cover < 0;
+        p.domain_starts += e->change.domain > 0;
+        if (e->corner != NO_CORNER) p.corner = e->corner;
+        note_side(f, e->side, &p.lines);
+        s->cover += e->change.cover;
+        s->left += e->change.left;
+        s->right += e->change.right;
+        s->domain += e->change.domain;
+    } while (++p.end < f->events.n && !order[p.end].mark);
+    return p;
+}
+
 /* Sweeps the events of one line, place by place. */
 static void sweep(finder *f, uint32_t number)
 {
-    const sunder_i_supporting_line *line = &f->lines->line[number];
     state s = {0, 0, 0, 0};
     uint32_t last = 0; /* the vertex where the open stretch starts, while uncovered(&s) */
-    for (size_t i = 0; i < f->events_n;) {
-        const event *here = &f->events[f->order[i]];
+    for (size_t i = 0; i < f->events.n;) {
+        const sunder_i_event *here = &f->events.event[f->events.order[i].item];
         const state before = s;
-        int32_t cover_ends = 0, domain_starts = 0;
-        uint32_t corner = NO_CORNER;
-        size_t j = i;
-        for (; j < f->events_n; j++) {
-            const event *e = &f->events[f->order[j]];
-            const int later = j > i ? -compare_events(f, f->order[i], f->order[j]) : 0;
-            SUNDER_I_ASSERT(later >= 0); /* events stand in order along the line */
-            if (later) break;
-            cover_ends += e->change.cover < 0;
-            domain_starts += e->change.domain > 0;
-            if (e->corner != NO_CORNER) corner = e->corner;
-            s.cover += e->change.cover;
-            s.left += e->change.left;
-            s.right += e->change.right;
-            s.domain += e->change.domain;
-        }
+        const place p = pass_place(f, number, i, &s);
         /* The place itself: intervals of cover are open, candidates closed. */
         SUNDER_I_ASSERT(s.cover >= 0 && s.left >= 0 && s.right >= 0 && s.domain >= 0);
-        const bool point_free = before.cover == cover_ends && before.domain + domain_starts > 0;
+        const bool point_free = before.cover == p.cover_ends && before.domain + p.domain_starts > 0;
         if (point_free) {
-            const uint32_t vertex = add_vertex(f, line, &here->at, corner);
+            const uint32_t vertex = add_vertex(f, &here->at, p.corner, &p.lines);
             if (f->no_memory) return;
             if (uncovered(&before)) add_stretch(f, (sunder_i_outline_stretch){number, last, vertex, banks(&before)});
             last = vertex;
         }
-        i = j;
+        i = p.end;
     }
     SUNDER_I_ASSERT(s.cover == 0 && s.left == 0 && s.right == 0 && s.domain == 0); /* every interval has ended */
 }
 
 static void sweep_line(finder *f, uint32_t number, const uint64_t *pair, size_t n)
 {
-    f->events_n = 0;
+    f->events.n = 0;
     for (size_t i = 0; i < n && !f->no_memory; i++) {
         if (!sunder_i_step()) f->no_memory = true;
         if (i == 0 || pair[i] != pair[i - 1]) meet(f, &f->lines->line[number], (uint32_t)pair[i]);
     }
-    if (!sunder_i_reserve(&f->order, &f->order_capacity, f->events_n, sizeof *f->order)) f->no_memory = true;
-    if (f->no_memory) return;
-    for (uint32_t i = 0; i < f->events_n; i++) f->order[i] = i;
-    if (!sunder_i_sort_indices(f->order, f->events_n, compare_events, f)) {
-        f->no_memory = true;
-        return;
-    }
-    sweep(f, number);
+    if (!f->no_memory && !sunder_i_events_sort(&f->events, f->parts->lattice)) f->no_memory = true;
+    if (!f->no_memory) sweep(f, number);
 }
 
 /* ---- Sides that are boundary as they stand ---- */
@@ -255,7 +259,7 @@ static uint32_t corner_vertex(finder *f, uint32_t corner, bool between)
 {
     const sunder_i_hpoint p = sunder_i_hpoint_of(f->parts->lattice, f->parts->corner[corner]);
     const uint32_t vertex = between ? sunder_i_vertex_table_append(&f->out->vertices, &p)
-                                    : sunder_i_vertex_table_add(&f->out->vertices, &p);
+                                    : sunder_i_vertex_table_add(&f->out->vertices, &p, NULL);
     if (vertex == SUNDER_I_NO_VERTEX) f->no_memory = true;
     return vertex;
 }
@@ -329,8 +333,7 @@ sunder_status sunder_i_coverage_find(const sunder_i_convex_pieces *parts, const 
     memset(out, 0, sizeof *out);
     finder f = {.parts = parts, .lines = lines, .fate = culled->fate, .out = out};
     const bool ok = find_all(&f, culled);
-    sunder_i_free(f.events);
-    sunder_i_free(f.order);
+    sunder_i_events_free(&f.events);
     if (ok) return SUNDER_OK;
     sunder_i_coverage_free(out);
     return sunder_i_no_memory(err);

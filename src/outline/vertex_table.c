@@ -1,6 +1,7 @@
 /* A hash table over a fine grid of the approximate coordinates. Two approximations of one point differ by far less
  * than a grid step, so they fall in one grid square, or both close to the border between two: looking into every
- * square that the error reaches finds the point. Equality itself is decided exactly.
+ * square that the error reaches finds the point. Equality itself is decided exactly: by the numbers of two lines that
+ * meet there, for which no point has to be read or made, or by the coordinates.
  *
  * Where the approximations cannot tell places apart (small detail far from the origin, in a sum of which another member
  * is farther still) one square would come to hold all of them. Then the table is made anew with hashes of the exact
@@ -15,12 +16,12 @@ typedef struct square {
     int64_t x, y;
 } square;
 
-static size_t hash(square q)
+static uint32_t hash(square q)
 {
     uint64_t h = (uint64_t)q.x * 0x9e3779b97f4a7c15u ^ (uint64_t)q.y * 0xc2b2ae3d27d4eb4fu;
     h ^= h >> 32;
     h *= 0x9e3779b97f4a7c15u;
-    return (size_t)(h ^ h >> 29);
+    return (uint32_t)(h >> 32);
 }
 
 /* Squares are counted from far below the smallest coordinate, so that cutting off the fraction rounds down. */
@@ -29,47 +30,95 @@ static square square_of(const sunder_i_vertex_table *g, double x, double y)
     return (square){(int64_t)(x * g->per_step + 0x1p42), (int64_t)(y * g->per_step + 0x1p42)};
 }
 
-static uint32_t find(const sunder_i_vertex_table *g, size_t start, const sunder_i_hpoint *p, bool *crowded)
+static bool is_on(const sunder_i_vertex_slot *s, const sunder_i_vertex_lines *lines)
 {
-    size_t at = start & g->mask;
-    for (; g->slot[at]; at = (at + 1) & g->mask)
-        if (sunder_i_hpoint_equal(g->lattice, &g->point[g->slot[at] - 1], p)) return g->slot[at] - 1;
+    bool met = false;
+    for (uint32_t i = 0; i < lines->others; i++)
+        met |= (s->line == lines->line && s->other == lines->other[i]) ||
+               (s->other == lines->line && s->line == lines->other[i]);
+    return met;
+}
+
+static uint32_t find_lines(const sunder_i_vertex_table *g, uint32_t h, const sunder_i_vertex_lines *lines)
+{
+    for (size_t at = h & g->mask; g->slot[at].number; at = (at + 1) & g->mask)
+        if (g->slot[at].hash == h && is_on(&g->slot[at], lines)) return g->slot[at].number - 1;
+    return SUNDER_I_NO_VERTEX;
+}
+
+static uint32_t find(const sunder_i_vertex_table *g, uint32_t h, const sunder_i_hpoint *p, bool *crowded)
+{
+    const size_t start = h & g->mask;
+    size_t at = start;
+    for (; g->slot[at].number; at = (at + 1) & g->mask)
+        if (g->slot[at].hash == h && sunder_i_hpoint_equal(g->lattice, &g->point[g->slot[at].number - 1], p))
+            return g->slot[at].number - 1;
     if (((at - start) & g->mask) > CROWD) *crowded = true;
     return SUNDER_I_NO_VERTEX;
+}
+
+typedef struct squares {
+    square low, high;
+} squares;
+
+static squares squares_near(const sunder_i_vertex_table *g, double x, double y)
+{
+    return (squares){square_of(g, x - g->error, y - g->error), square_of(g, x + g->error, y + g->error)};
 }
 
 /* The place of p, if it is known; *crowded is set if that was hard to tell. */
 static uint32_t find_near(const sunder_i_vertex_table *g, const sunder_i_hpoint *p, bool *crowded)
 {
-    const square low = square_of(g, p->ax - g->error, p->ay - g->error);
-    const square high = square_of(g, p->ax + g->error, p->ay + g->error);
-    for (int64_t x = low.x; x <= high.x; x++)
-        for (int64_t y = low.y; y <= high.y; y++) {
+    const squares s = squares_near(g, p->ax, p->ay);
+    for (int64_t x = s.low.x; x <= s.high.x; x++)
+        for (int64_t y = s.low.y; y <= s.high.y; y++) {
             const uint32_t v = find(g, hash((square){x, y}), p, crowded);
             if (v != SUNDER_I_NO_VERTEX) return v;
         }
     return SUNDER_I_NO_VERTEX;
 }
 
-static void insert(sunder_i_vertex_table *g, uint32_t number)
+uint32_t sunder_i_vertex_table_find(const sunder_i_vertex_table *table, double ax, double ay,
+                                    const sunder_i_vertex_lines *lines)
 {
-    const sunder_i_hpoint *p = &g->point[number];
-    size_t at = (g->exact ? sunder_i_hpoint_hash(g->lattice, p) : hash(square_of(g, p->ax, p->ay))) & g->mask;
-    while (g->slot[at]) at = (at + 1) & g->mask;
-    g->slot[at] = number + 1;
+    if (table->exact) return SUNDER_I_NO_VERTEX;
+    const squares s = squares_near(table, ax, ay);
+    for (int64_t x = s.low.x; x <= s.high.x; x++)
+        for (int64_t y = s.low.y; y <= s.high.y; y++) {
+            const uint32_t v = find_lines(table, hash((square){x, y}), lines);
+            if (v != SUNDER_I_NO_VERTEX) return v;
+        }
+    return SUNDER_I_NO_VERTEX;
 }
 
-/* A table at most half full with so many places; what is there is entered anew. */
-static bool make_table(sunder_i_vertex_table *g, size_t places)
+static void insert(sunder_i_vertex_table *g, sunder_i_vertex_slot s)
+{
+    size_t at = s.hash & g->mask;
+    while (g->slot[at].number) at = (at + 1) & g->mask;
+    g->slot[at] = s;
+}
+
+static uint32_t hash_of(const sunder_i_vertex_table *g, const sunder_i_hpoint *p)
+{
+    return g->exact ? (uint32_t)sunder_i_hpoint_hash(g->lattice, p) : hash(square_of(g, p->ax, p->ay));
+}
+
+/* A table at most half full with so many places; what is there is entered anew, with other hashes if asked. */
+static bool make_table(sunder_i_vertex_table *g, size_t places, bool other_hashes)
 {
     size_t size = 16;
     while (size < 2 * places) size *= 2;
-    uint32_t *slot = sunder_i_calloc(size, sizeof *slot);
+    sunder_i_vertex_slot *old = g->slot, *slot = sunder_i_calloc(size, sizeof *slot);
+    const size_t old_size = old ? g->mask + 1 : 0;
     if (!slot) return false;
-    sunder_i_free(g->slot);
     g->slot = slot;
     g->mask = size - 1;
-    for (size_t i = 0; i < g->n; i++) insert(g, (uint32_t)i);
+    for (size_t i = 0; i < old_size; i++) {
+        if (!old[i].number) continue;
+        if (other_hashes) old[i].hash = hash_of(g, &g->point[old[i].number - 1]);
+        insert(g, old[i]);
+    }
+    sunder_i_free(old);
     return true;
 }
 
@@ -83,7 +132,7 @@ bool sunder_i_vertex_table_init(sunder_i_vertex_table *table, sunder_i_lattice *
     /* Each approximation is within 2^-50 of its coordinate's size (predicate.h). */
     table->error = most * 0x1p-48;
     return sunder_i_reserve(&table->point, &table->capacity, expected + appended + 1, sizeof *table->point) &&
-           make_table(table, expected);
+           make_table(table, expected, false);
 }
 
 uint32_t sunder_i_vertex_table_append(sunder_i_vertex_table *table, const sunder_i_hpoint *p)
@@ -94,24 +143,23 @@ uint32_t sunder_i_vertex_table_append(sunder_i_vertex_table *table, const sunder
     return (uint32_t)table->n++;
 }
 
-uint32_t sunder_i_vertex_table_add(sunder_i_vertex_table *table, const sunder_i_hpoint *p)
+uint32_t sunder_i_vertex_table_add(sunder_i_vertex_table *table, const sunder_i_hpoint *p,
+                                   const sunder_i_vertex_lines *lines)
 {
     bool crowded = false;
-    const uint32_t known = table->exact ? find(table, sunder_i_hpoint_hash(table->lattice, p), p, &crowded)
-                                        : find_near(table, p, &crowded);
+    const uint32_t known = table->exact ? find(table, hash_of(table, p), p, &crowded) : find_near(table, p, &crowded);
     if (known != SUNDER_I_NO_VERTEX) return known;
     if (crowded && !table->exact) {
         table->exact = true;
-        if (!make_table(table, table->n)) return SUNDER_I_NO_VERTEX;
-        table->entered = table->n;
+        if (!make_table(table, table->entered, true)) return SUNDER_I_NO_VERTEX;
     }
-    if (2 * (table->entered + 1) > table->mask + 1) {
-        if (!make_table(table, 2 * table->n)) return SUNDER_I_NO_VERTEX;
-        table->entered = table->n;
-    }
+    if (2 * (table->entered + 1) > table->mask + 1 && !make_table(table, 2 * table->entered, false))
+        return SUNDER_I_NO_VERTEX;
     const uint32_t number = sunder_i_vertex_table_append(table, p);
     if (number == SUNDER_I_NO_VERTEX) return number;
-    insert(table, number);
+    const bool met = lines && lines->others > 0;
+    insert(table,
+           (sunder_i_vertex_slot){number + 1, hash_of(table, p), met ? lines->line : 0, met ? lines->other[0] : 0});
     table->entered++;
     return number;
 }

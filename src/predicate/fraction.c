@@ -113,7 +113,17 @@ int sunder_i_fraction_cmp(sunder_i_lattice *l, const sunder_i_fraction *s, const
     if (d > bound) return 1;
     if (d < -bound) return -1;
     l->counts.exact_fallbacks++;
-    if (s->den != 0 && t->den != 0) return sunder_i_cmp_products(s->num, t->den, t->num, s->den);
+    if (s->den != 0 && t->den != 0) {
+        /* What the doubles leave open is no farther apart than this. */
+        const double apart = 2 * bound;
+        if (sunder_i_i128_is_short(s->den) && sunder_i_i128_is_short(t->den) &&
+            sunder_i_is_low_64(apart, (int64_t)s->den, (int64_t)t->den))
+            return sunder_i_sign_low_64((uint64_t)s->num, (uint64_t)s->den, (uint64_t)t->num, (uint64_t)t->den);
+        if (sunder_i_is_low_128(apart, s->den, t->den))
+            return sunder_i_sign_low_128((sunder_i_u128)s->num, (sunder_i_u128)s->den, (sunder_i_u128)t->num,
+                                         (sunder_i_u128)t->den);
+        return sunder_i_cmp_products(s->num, t->den, t->num, s->den);
+    }
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
     const int c = sunder_i_ratio_cmp(m, sunder_i_fraction_read(m, l, s), sunder_i_fraction_read(m, l, t));

@@ -15,7 +15,7 @@ static double scaled(const sunder_i_lattice *l, double v) { return l->approx_shi
 
 static sunder_i_hpoint native(const sunder_i_lattice *l, sunder_i_i256 x, sunder_i_i256 y, sunder_i_i128 w)
 {
-    const double d = (double)w;
+    const double d = sunder_i_i128_double(w);
     return (sunder_i_hpoint){x, y, w, scaled(l, sunder_i_i256_double(&x) / d), scaled(l, sunder_i_i256_double(&y) / d)};
 }
 
@@ -126,14 +126,39 @@ sunder_i_rational_point sunder_i_hpoint_read(sunder_i_arena *arena, const sunder
     return (sunder_i_rational_point){x.num, sunder_i_lattice_read(arena, l, (int64_t)p->y.limb[0]).num, x.den};
 }
 
-/* By the coordinate k, x or y, where the filter did not tell. */
+static sunder_i_u128 low_bits(const sunder_i_i256 *a)
+{
+    const sunder_i_u128 m = (sunder_i_u128)a->limb[1] << 64 | a->limb[0];
+    return a->sign < 0 ? -m : m;
+}
+
+static double bound_of(double a, double b)
+{
+    return HPOINT_ERROR * (fabs(a) + fabs(b)) + DBL_MIN; /* the last for underflow */
+}
+
+/* Of native points and the coordinate k, x or y, p / v against q / w: the filter left them open, so that they are no
+ * farther apart than twice its bound. */
+static int native_cmp(const sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b, int k)
+{
+    const sunder_i_i256 *p = k ? &a->y : &a->x, *q = k ? &b->y : &b->x;
+    const double apart = 2 * (k ? bound_of(a->ay, b->ay) : bound_of(a->ax, b->ax));
+    if (a->w == b->w) return sunder_i_i256_cmp(p, q);
+    if (l->approx_shift == 0) {
+        const sunder_i_u128 pl = low_bits(p), ql = low_bits(q), v = (sunder_i_u128)a->w, w = (sunder_i_u128)b->w;
+        if (sunder_i_i128_is_short(a->w) && sunder_i_i128_is_short(b->w) &&
+            sunder_i_is_low_64(apart, (int64_t)v, (int64_t)w))
+            return sunder_i_sign_low_64((uint64_t)pl, (uint64_t)v, (uint64_t)ql, (uint64_t)w);
+        if (sunder_i_is_low_128(apart, a->w, b->w)) return sunder_i_sign_low_128(pl, v, ql, w);
+    }
+    return sunder_i_cmp_products_256(p, b->w, q, a->w);
+}
+
+/* By the coordinate k, where the filter did not tell. */
 static int coordinate_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b, int k)
 {
     l->counts.exact_fallbacks++;
-    if (a->w != 0 && b->w != 0) {
-        const sunder_i_i256 *p = k ? &a->y : &a->x, *q = k ? &b->y : &b->x;
-        return a->w == b->w ? sunder_i_i256_cmp(p, q) : sunder_i_cmp_products_256(p, b->w, q, a->w);
-    }
+    if (a->w != 0 && b->w != 0) return native_cmp(l, a, b, k);
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
     const sunder_i_rational_point p = sunder_i_hpoint_read(m, l, a), q = sunder_i_hpoint_read(m, l, b);
@@ -145,7 +170,7 @@ static int coordinate_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const s
 /* 0 where the doubles leave it open. */
 static int filter(double a, double b)
 {
-    const double d = a - b, bound = HPOINT_ERROR * (fabs(a) + fabs(b)) + DBL_MIN; /* the last for underflow */
+    const double d = a - b, bound = bound_of(a, b);
     return d > bound ? 1 : d < -bound ? -1 : 0;
 }
 
@@ -158,6 +183,13 @@ int sunder_i_hpoint_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sun
     if (c) return c;
     c = filter(a->ay, b->ay);
     return c ? c : coordinate_cmp(l, a, b, 1);
+}
+
+int sunder_i_hpoint_cmp_x(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
+{
+    l->counts.comparisons++;
+    const int c = filter(a->ax, b->ax);
+    return c ? c : coordinate_cmp(l, a, b, 0);
 }
 
 int sunder_i_hpoint_cmp_y(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)

@@ -27,7 +27,10 @@ static inline sunder_i_i128 sunder_i_narrow_orient(sunder_i_point a, sunder_i_po
 }
 
 /* num / den as a double: both conversions and the division round once each, relative error below 2^-51. */
-static inline double sunder_i_narrow_value(sunder_i_i128 num, sunder_i_i128 den) { return (double)num / (double)den; }
+static inline double sunder_i_narrow_value(sunder_i_i128 num, sunder_i_i128 den)
+{
+    return sunder_i_i128_double(num) / sunder_i_i128_double(den);
+}
 
 /* |s.value - s| <= 2^-50 * max(1, |s.value|), so values further apart than this settle the order. */
 #define SUNDER_I_FRACTION_ERROR 0x1p-49

@@ -4,6 +4,8 @@
 
 #include "base/sort.h"
 
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 int sunder_i_sum_vertex_cmp(void *context, uint32_t v, uint32_t w)
@@ -24,6 +26,68 @@ static int compare_rings(void *context, uint32_t a, uint32_t b)
         if (c) return c;
     }
     return (m > n) - (m < n);
+}
+
+/* Of hpoints, each within 2^-50 of its size: may b, which is not below a as a double, be below or equal? */
+static bool is_open(double a, double b) { return b - a <= 0x1p-49 * (fabs(a) + fabs(b)) + DBL_MIN; }
+
+static const sunder_i_hpoint *first_place(const sunder_i_found *f, uint32_t ring)
+{
+    return &f->place[f->vertex[f->ring[ring].start]];
+}
+
+/* Puts rings in order of which the doubles left it open. */
+static bool settle_rings(sunder_i_found *f, const sunder_i_valued *k, size_t n, uint32_t *order)
+{
+    for (size_t i = 0; i < n; i++) order[i] = k[i].item;
+    return n == 1 || sunder_i_sort_indices(order, n, compare_rings, f);
+}
+
+/* The same for rings of which y is told apart by doubles; x is the same for all. */
+static bool sort_column(sunder_i_found *f, sunder_i_valued *k, size_t n, uint32_t *order)
+{
+    for (size_t i = 0; i < n; i++) k[i].value = first_place(f, k[i].item)->ay;
+    if (!sunder_i_sort_valued(k, n)) return false;
+    for (size_t i = 0, j; i < n; i = j) {
+        for (j = i + 1; j < n && is_open(k[j - 1].value, k[j].value);) j++;
+        if (!settle_rings(f, k + i, j - i, order + i)) return false;
+    }
+    return true;
+}
+
+static bool is_column(const sunder_i_found *f, sunder_i_lattice *l, const sunder_i_valued *k, size_t n)
+{
+    for (size_t i = 1; i < n; i++)
+        if (sunder_i_hpoint_cmp_x(l, first_place(f, k[i - 1].item), first_place(f, k[i].item)) != 0) return false;
+    return true;
+}
+
+/* By the doubles of the vertices where the rings start, as far as these tell them apart. */
+static bool sort_rings_by_places(sunder_i_found *f, sunder_i_lattice *l, uint32_t *order)
+{
+    const size_t n = f->rings;
+    sunder_i_valued *k = sunder_i_alloc(4 * n, sizeof *k); /* a column is sorted behind, with room of its own */
+    bool ok = k != NULL;
+    for (uint32_t r = 0; ok && r < n; r++) k[r] = (sunder_i_valued){first_place(f, r)->ax, r, 0};
+    ok = ok && sunder_i_sort_valued(k, n);
+    for (size_t i = 0, j; ok && i < n; i = j) {
+        for (j = i + 1; j < n && is_open(k[j - 1].value, k[j].value);) j++;
+        if (j - i > 2 && is_column(f, l, k + i, j - i)) {
+            memcpy(k + 2 * n, k + i, (j - i) * sizeof *k);
+            ok = sort_column(f, k + 2 * n, j - i, order + i);
+        } else {
+            ok = settle_rings(f, k + i, j - i, order + i);
+        }
+    }
+    sunder_i_free(k);
+    return ok;
+}
+
+static bool sort_rings(sunder_i_found *f, sunder_i_lattice *l, uint32_t *order)
+{
+    if (f->place && f->rings > 1) return sort_rings_by_places(f, l, order);
+    for (uint32_t r = 0; r < f->rings; r++) order[r] = r;
+    return sunder_i_sort_indices(order, f->rings, compare_rings, f);
 }
 
 /* Outer rings take the polygons in order; then every ring, in order, the next place in its polygon.
@@ -71,8 +135,7 @@ static bool put_rings(sunder_i_found *f, sunder_sum *out)
     out->ring_end = sunder_i_alloc(n, sizeof *out->ring_end);
     out->poly_end = sunder_i_alloc(n, sizeof *out->poly_end);
     bool ok = order && out->ring_vertex && out->ring_end && out->poly_end;
-    for (uint32_t r = 0; ok && r < n; r++) order[r] = r;
-    ok = ok && sunder_i_sort_indices(order, n, compare_rings, f);
+    ok = ok && sort_rings(f, &out->lattice, order);
     if (ok) {
         deal_rings(f, order, order + n, order + 2 * n, order + 3 * n, out);
         copy_rings(f, order + n, out);

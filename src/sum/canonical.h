@@ -28,6 +28,7 @@ typedef struct sunder_i_found {
     size_t points;
     int (*compare)(void *context, uint32_t v, uint32_t w); /* the lexicographic order of two vertices */
     void *context;
+    const sunder_i_hpoint *place; /* of each vertex, where known: then most need no comparison */
 } sunder_i_found;
 
 /* For those that know their vertices as the sum does, which then is the context. */

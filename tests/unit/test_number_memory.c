@@ -175,10 +175,18 @@ static void test_sort(void **state)
     for (size_t n = 0; n < 3000; n = n * 2 + (size_t)rng_int(&g, 0, 1) + (n == 0)) {
         uint64_t *key = calloc(n + 1, sizeof *key), *sorted = calloc(n + 1, sizeof *sorted);
         uint32_t *index = calloc(n + 1, sizeof *index);
+        sunder_i_valued *valued = calloc(2 * n + 1, sizeof *valued);
         for (size_t i = 0; i < n; i++) {
             key[i] = n % 2 ? rng_next(&g) >> rng_int(&g, 0, 63) : (uint64_t)rng_int(&g, 0, 99);
             sorted[i] = key[i];
             index[i] = (uint32_t)i;
+            valued[i] = (sunder_i_valued){(double)key[i], (uint32_t)i, (uint32_t)~i};
+        }
+        assert_true(sunder_i_sort_valued(valued, n));
+        for (size_t i = 0; i < n; i++) {
+            assert_true(valued[i].value == (double)key[valued[i].item] && valued[i].mark == ~valued[i].item);
+            assert_true(i == 0 || valued[i - 1].value < valued[i].value ||
+                        (valued[i - 1].value == valued[i].value && valued[i - 1].item < valued[i].item)); /* stable */
         }
         assert_true(sunder_i_sort_indices(index, n, by_tens, key));
         for (size_t i = 1; i < n; i++) {
@@ -191,6 +199,7 @@ static void test_sort(void **state)
         free(key);
         free(sorted);
         free(index);
+        free(valued);
     }
 }
 

@@ -119,6 +119,100 @@ static void test_mul_add(void **state)
     close_numbers(&n);
 }
 
+/* Short factors: the extremes of 64 bits among them. */
+static void test_mul_add_short(void **state)
+{
+    (void)state;
+    numbers n;
+    open_numbers(&n);
+    rng g = rng_start(test_seed(), 6);
+    for (int i = 0; i < ROUNDS; i++) {
+        int64_t f[4];
+        for (int k = 0; k < 4; k++) {
+            const bool extreme = rng_once_in(&g, 4);
+            f[k] = extreme ? (rng_once_in(&g, 2) ? INT64_MAX : -INT64_MAX) : (int64_t)random_i128(&g, 63);
+        }
+        const sunder_i_i128 b = rng_once_in(&g, 8) ? INT64_MIN : f[1];
+        mpz_from_i128(n.b, b);
+        mpz_mul_si(n.s, n.b, f[0]);
+        mpz_set_si(n.d, f[3]);
+        mpz_mul_si(n.d, n.d, f[2]);
+        mpz_add(n.s, n.s, n.d);
+        const sunder_i_i256 v = sunder_i_mul_add(f[0], b, f[2], f[3]);
+        mpz_from_i256(n.a, &v);
+        assert_int_equal(mpz_cmp(n.a, n.s), 0);
+        assert_int_equal(v.sign, mpz_sgn(n.s));
+        assert_true(sunder_i_i128_double(b) == (double)b);
+    }
+    close_numbers(&n);
+}
+
+/* |p / v - q / w| rounded up. */
+static double apart_of(const numbers *n)
+{
+    mpq_t x, y;
+    mpq_inits(x, y, NULL);
+    mpq_set_num(x, n->a);
+    mpq_set_den(x, n->b);
+    mpq_set_num(y, n->c);
+    mpq_set_den(y, n->d);
+    mpq_canonicalize(x);
+    mpq_canonicalize(y);
+    mpq_sub(x, x, y);
+    const double apart = nextafter(fabs(mpq_get_d(x)), INFINITY);
+    mpq_clears(x, y, NULL);
+    return apart;
+}
+
+/* p / v and q / w close to each other, of any length: where the room allows, the lowest bits tell their order. */
+static void test_low_bits(void **state)
+{
+    (void)state;
+    numbers n;
+    open_numbers(&n);
+    rng g = rng_start(test_seed(), 7);
+    int low_64 = 0, low_128 = 0, equal = 0;
+    for (int i = 0; i < ROUNDS; i++) {
+        const unsigned bits = i % 2 ? 62 : 100;
+        const sunder_i_i128 v = (sunder_i_i128)sunder_i_i128_abs(random_i128(&g, bits)) + 1;
+        const sunder_i_i128 w = (sunder_i_i128)sunder_i_i128_abs(random_i128(&g, bits)) + 1;
+        mpz_from_i128(n.b, v);
+        mpz_from_i128(n.d, w);
+        mpz_from_i128(n.a, random_i128(&g, 126)); /* p = a v + some, q = a w + some */
+        mpz_mul(n.c, n.a, n.d);
+        mpz_mul(n.a, n.a, n.b);
+        const int64_t off = i % 3 ? (int64_t)random_i128(&g, 20) : 0;
+        mpz_set_si(n.s, off);
+        mpz_add(n.a, n.a, n.s);
+        const double apart = apart_of(&n);
+        mpz_mul(n.s, n.a, n.d);
+        mpz_mul(n.t, n.c, n.b);
+        const int want = sign(mpz_cmp(n.s, n.t));
+        mpz_t mask;
+        mpz_init_set_ui(mask, 1);
+        mpz_mul_2exp(mask, mask, 128);
+        mpz_fdiv_r(n.a, n.a, mask); /* the lowest bits, in two's complement */
+        mpz_fdiv_r(n.c, n.c, mask);
+        mpz_clear(mask);
+        uint64_t p[2] = {0, 0}, q[2] = {0, 0};
+        mpz_export(p, NULL, -1, sizeof *p, 0, 0, n.a);
+        mpz_export(q, NULL, -1, sizeof *q, 0, 0, n.c);
+        const bool is_short = sunder_i_i128_is_short(v) && sunder_i_i128_is_short(w);
+        if (is_short && sunder_i_is_low_64(apart, (int64_t)v, (int64_t)w)) {
+            assert_int_equal(sunder_i_sign_low_64(p[0], (uint64_t)v, q[0], (uint64_t)w), want);
+            low_64++;
+        }
+        if (sunder_i_is_low_128(apart, v, w)) {
+            const sunder_i_u128 pl = (sunder_i_u128)p[1] << 64 | p[0], ql = (sunder_i_u128)q[1] << 64 | q[0];
+            assert_int_equal(sunder_i_sign_low_128(pl, (sunder_i_u128)v, ql, (sunder_i_u128)w), want);
+            low_128++;
+            equal += want == 0;
+        }
+    }
+    assert_true(low_64 > ROUNDS / 20 && low_128 > low_64 && equal > ROUNDS / 20);
+    close_numbers(&n);
+}
+
 static void test_cmp_products_256(void **state)
 {
     (void)state;
@@ -153,13 +247,13 @@ static void test_i256_double(void **state)
             assert_true(d == 0);
             continue;
         }
-        /* |d - v| < 2^-52 |v| */
+        /* |d - v| < 2^-51 |v| */
         mpq_set_d(e, d);
         mpq_set_z(x, n.a);
         mpq_sub(e, e, x);
         mpq_abs(e, e);
         mpq_abs(x, x);
-        mpq_div_2exp(x, x, 52);
+        mpq_div_2exp(x, x, 51);
         assert_true(mpq_cmp(e, x) < 0);
     }
     mpq_clears(e, x, NULL);
@@ -172,6 +266,8 @@ int main(void)
                                        cmocka_unit_test(test_mul),
                                        cmocka_unit_test(test_cmp_products),
                                        cmocka_unit_test(test_mul_add),
+                                       cmocka_unit_test(test_mul_add_short),
+                                       cmocka_unit_test(test_low_bits),
                                        cmocka_unit_test(test_cmp_products_256),
                                        cmocka_unit_test(test_i256_double)};
     return cmocka_run_group_tests_name("number/wide", tests, NULL, NULL);

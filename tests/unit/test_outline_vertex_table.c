@@ -47,7 +47,7 @@ static uint64_t add_twice(bool wide, int64_t step, size_t expected)
         const int place = i < SIDE * SIDE ? (int)rng_int(&r, 0, SIDE * SIDE - 1) : i % (SIDE * SIDE);
         const sunder_i_hpoint p = point(&l, &r, place, step);
         const size_t before = places.n;
-        const uint32_t got = sunder_i_vertex_table_add(&places, &p);
+        const uint32_t got = sunder_i_vertex_table_add(&places, &p, NULL);
         if (number[place] == UINT32_MAX) {
             assert_int_equal(got, before);
             assert_int_equal(places.n, before + 1);
@@ -77,6 +77,42 @@ static void test_places(void **state)
             }
 }
 
+static uint32_t find(const sunder_i_vertex_table *t, const sunder_i_hpoint *p, uint32_t line, uint32_t first,
+                     uint32_t second)
+{
+    const sunder_i_vertex_lines lines = {line, {first, second}, 2};
+    return sunder_i_vertex_table_find(t, p->ax, p->ay, &lines);
+}
+
+/* A place is known by the two lines that it was found with, from either of them, wherever its doubles are; by others
+ * it is not. Columns are lines 0 .. SIDE - 1, rows those above. */
+static void test_lines(void **state)
+{
+    (void)state;
+    const uint32_t none = 3 * SIDE;
+    sunder_i_lattice l;
+    sunder_i_vertex_table places;
+    rng r = rng_start(test_seed(), 8);
+    open_lattice(&l, false);
+    assert_true(sunder_i_vertex_table_init(&places, &l, 0x1p58, 0, 0)); /* it grows, and keeps what it knows */
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const sunder_i_hpoint p = point(&l, &r, i, (int64_t)1 << 50);
+        const sunder_i_vertex_lines lines = {(uint32_t)(i % SIDE), {SIDE + (uint32_t)(i / SIDE), 0}, i % 7 ? 1 : 0};
+        assert_int_equal(sunder_i_vertex_table_add(&places, &p, &lines), i);
+    }
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const sunder_i_hpoint p = point(&l, &r, i, (int64_t)1 << 50);
+        const uint32_t column = (uint32_t)(i % SIDE), row = SIDE + (uint32_t)(i / SIDE);
+        const uint32_t want = i % 7 ? (uint32_t)i : SUNDER_I_NO_VERTEX;
+        assert_int_equal(find(&places, &p, column, none, row), want);
+        assert_int_equal(find(&places, &p, row, column, none), want);
+        assert_int_equal(find(&places, &p, column, none, row + 1), SUNDER_I_NO_VERTEX);
+        assert_int_equal(find(&places, &p, none, column, row), SUNDER_I_NO_VERTEX);
+    }
+    sunder_i_vertex_table_free(&places);
+    sunder_i_lattice_free(&l);
+}
+
 /* Points of one value have one hash; others nearly never. */
 static void test_hash(void **state)
 {
@@ -97,6 +133,7 @@ static void test_hash(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_places), cmocka_unit_test(test_hash)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_places), cmocka_unit_test(test_lines),
+                                       cmocka_unit_test(test_hash)};
     return cmocka_run_group_tests_name("places", tests, NULL, NULL);
 }

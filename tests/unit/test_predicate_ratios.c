@@ -238,6 +238,7 @@ static void check_crossing(bench *b, int k, const spot *truth, const mpq_t t)
     for (int n = 0; n < SPOTS; n++) {
         const sunder_i_hpoint own = sunder_i_hpoint_of(l, b->s[n].at[k]);
         assert_int_equal(sunder_i_hpoint_cmp(l, &h, &own), lexicographic(truth, &b->s[n]));
+        assert_int_equal(sunder_i_hpoint_cmp_x(l, &h, &own), sign(mpq_cmp(truth->x, b->s[n].x)));
         assert_int_equal(sunder_i_hpoint_cmp_y(l, &own, &h), -sign(mpq_cmp(truth->y, b->s[n].y)));
     }
     mpq_clear(got);

@@ -1,0 +1,85 @@
+/* Events are sorted by the doubles of their fractions, and exactly within each run of them whose doubles leave it
+ * open: so an exact comparison is made of neighbours only, and of each two that are at one place once or twice. */
+#include "outline/events.h"
+
+#include "base/sort.h"
+#include "predicate/narrow.h"
+
+#include <math.h>
+#include <string.h>
+
+#define FEW 8 /* so many at one place need no memory */
+
+bool sunder_i_events_add(sunder_i_events *events, sunder_i_fraction at, sunder_i_line_state change, uint32_t corner,
+                         uint32_t side)
+{
+    if (events->n == events->capacity &&
+        !sunder_i_reserve(&events->event, &events->capacity, events->n + 1, sizeof *events->event))
+        return false;
+    events->event[events->n++] = (sunder_i_event){at, change, corner, side};
+    return true;
+}
+
+typedef struct context {
+    const sunder_i_events *events;
+    sunder_i_lattice *lattice;
+} context;
+
+static int compare(void *user, uint32_t a, uint32_t b)
+{
+    const context *c = user;
+    return sunder_i_fraction_cmp(c->lattice, &c->events->event[a].at, &c->events->event[b].at);
+}
+
+/* Puts keys in order whose doubles leave it open, and says which are at one place. */
+static bool settle(context *c, sunder_i_valued *k, size_t n)
+{
+    if (n == 2) {
+        const int order = compare(c, k[0].item, k[1].item);
+        if (order > 0) {
+            const sunder_i_valued swap = k[0];
+            k[0] = k[1];
+            k[1] = swap;
+        }
+        k[0].mark = true;
+        k[1].mark = order != 0;
+        return true;
+    }
+    uint32_t few[FEW], *index = n <= FEW ? few : sunder_i_alloc(n, sizeof *index);
+    if (!index) return false;
+    for (size_t i = 0; i < n; i++) index[i] = k[i].item;
+    const bool ok = sunder_i_sort_indices(index, n, compare, c);
+    for (size_t i = 0; ok && i < n; i++)
+        k[i] = (sunder_i_valued){c->events->event[index[i]].at.value, index[i],
+                                 i == 0 || compare(c, index[i - 1], index[i]) != 0};
+    if (index != few) sunder_i_free(index);
+    return ok;
+}
+
+/* May b, which is not below a as a double, be below or equal in truth? If not, no key after b is below one before a:
+ * what their doubles may be off by more they are farther apart. Ratios may be beyond all doubles: infinite ones are
+ * open, too. */
+static bool is_open(double a, double b) { return !(b - a > SUNDER_I_FRACTION_ERROR * (1 + fabs(a) + fabs(b))); }
+
+bool sunder_i_events_sort(sunder_i_events *events, sunder_i_lattice *lattice)
+{
+    const size_t n = events->n;
+    if (!sunder_i_reserve(&events->order, &events->order_capacity, 2 * n, sizeof *events->order)) return false;
+    sunder_i_valued *k = events->order;
+    for (size_t i = 0; i < n; i++) k[i] = (sunder_i_valued){events->event[i].at.value, (uint32_t)i, true};
+    if (!sunder_i_sort_valued(k, n)) return false;
+    context c = {events, lattice};
+    for (size_t i = 0, j; i < n; i = j) {
+        for (j = i + 1; j < n && is_open(k[j - 1].value, k[j].value);) j++;
+        if (j - i > 1 && !settle(&c, k + i, j - i)) return false;
+    }
+    lattice->counts.comparisons += n;
+    return true;
+}
+
+void sunder_i_events_free(sunder_i_events *events)
+{
+    sunder_i_free(events->event);
+    sunder_i_free(events->order);
+    memset(events, 0, sizeof *events);
+}
