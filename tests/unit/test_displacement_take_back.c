@@ -1,0 +1,193 @@
+/* displacement/search/take_back: of what a search has given up it gets back what has a solution, the least first, and
+ * nothing else is changed; and displacement/search/ease: a pair that is left in conflict gets a margin where there is
+ * room for one. */
+#include "scene.h"
+
+#include "displacement/search/stages.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { MOST = 8 };
+
+static const double margin = 0x1p-30;
+
+/* Features, each a body by itself, in their own order. */
+typedef struct board {
+    scene scene;
+    sunder_layer *layer;
+    sunder_layer work;
+    size_t *number;
+    sunder_i_barriers parts;
+    sunder_i_model model;
+    uint32_t body[MOST];
+    double move[2 * MOST];
+} board;
+
+static void set_up(board *b)
+{
+    sunder_i_rules rules;
+    sunder_error err;
+    const sunder_i_relations none = {0};
+    b->scene.options.no_blocks = b->scene.options.allow_jumps = true;
+    assert_int_equal(sunder_layer_new(b->scene.feature, b->scene.n, &b->layer, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_rules_of(&b->scene.options, &rules, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_barriers_make(b->layer, rules.gap, &b->parts, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_order_layer(b->layer, &b->parts, true, &b->work, &b->number, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_init(&b->work, &b->parts, &rules, &b->model, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_join(&b->model, &none, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_cut(&b->model, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_anchor(&b->model, &err), SUNDER_OK);
+    b->model.standing = &b->model.tree;
+    assert_int_equal(b->model.bodies, b->scene.n);
+    for (uint32_t k = 0; k < b->scene.n; k++) b->body[k] = k;
+    memset(b->move, 0, sizeof b->move);
+}
+
+static void end(board *b)
+{
+    sunder_i_model_free(&b->model);
+    sunder_i_barriers_free(&b->parts);
+    sunder_i_free(b->work.feature);
+    sunder_i_free(b->number);
+    sunder_layer_free(b->layer);
+    scene_end(&b->scene);
+}
+
+static void relax(const board *b, sunder_i_relaxations *list, uint32_t p, uint32_t q)
+{
+    sunder_i_relaxation t;
+    sunder_error err;
+    assert_int_equal(sunder_i_relaxation_of(&b->model, p, q, &t, &err), SUNDER_OK);
+    assert_true(sunder_i_relaxations_add(list, &t) && sunder_i_relaxations_index(list, &b->model));
+}
+
+/* How far q stands to the right of p, both ten wide. */
+static double between(const double *t, const double *x, size_t p, size_t q)
+{
+    return x[q] + t[2 * q] - x[p] - t[2 * p] - 10;
+}
+
+static void test_taken_back(void **state)
+{
+    (void)state;
+    /* Two that overlap by 2 and may part; two that overlap by 3, and may not; and one between two that are fixed, which
+     * cannot leave the one without going deeper into the other. */
+    static const double x[] = {0, 8, 100, 107, 200, 209, 218.5};
+    board b;
+    memset(&b, 0, sizeof b);
+    scene_begin(&b.scene, 0);
+    for (size_t k = 0; k < sizeof x / sizeof *x; k++) {
+        sunder_feature *f = scene_add_box(&b.scene, x[k], 0, 10, 10);
+        f->max_shift = k < 2 ? 1.5 : k < 4 ? 1 : 0.75;
+        f->fixed = k == 4 || k == 6;
+    }
+    set_up(&b);
+    sunder_i_search s;
+    assert_true(sunder_i_search_init(&s, &b.model, b.body, b.scene.n, margin, b.move));
+    relax(&b, &s.relaxations, 0, 1);
+    relax(&b, &s.relaxations, 2, 3);
+    relax(&b, &s.relaxations, 4, 5);
+    relax(&b, &s.relaxations, 5, 6);
+    sunder_i_search_take_back(&s);
+    assert_false(s.failed);
+    assert_null(sunder_i_relaxations_find(&s.relaxations, 0, 1));
+    assert_non_null(sunder_i_relaxations_find(&s.relaxations, 2, 3));
+    assert_non_null(sunder_i_relaxations_find(&s.relaxations, 4, 5));
+    assert_non_null(sunder_i_relaxations_find(&s.relaxations, 5, 6));
+    assert_true(between(s.t, x, 0, 1) >= 0);
+    for (size_t k = 4; k < 2 * b.scene.n; k++) assert_true(s.t[k] == 0);
+    assert_true(s.patience == UINT64_MAX);
+    sunder_i_search_free(&s);
+    end(&b);
+}
+
+/* Of two that cannot both be had the one is taken back that misses less, whichever is listed first: the second is to go
+ * to the right off the first and up off the third, and may go as far as the farther of these, but not both. */
+static void test_least_first(void **state)
+{
+    (void)state;
+    for (int mirrored = 0; mirrored < 2; mirrored++) {
+        const double right = mirrored ? 1.5 : 1, up = mirrored ? 1 : 1.5;
+        board b;
+        memset(&b, 0, sizeof b);
+        scene_begin(&b.scene, 0);
+        scene_add_box(&b.scene, right - 10, 0, 10, 10)->fixed = true;
+        scene_add_box(&b.scene, 0, 0, 10, 10)->max_shift = 1.6;
+        scene_add_box(&b.scene, 0, up - 10, 10, 10)->fixed = true;
+        set_up(&b);
+        sunder_i_search s;
+        assert_true(sunder_i_search_init(&s, &b.model, b.body, b.scene.n, margin, b.move));
+        relax(&b, &s.relaxations, 0, 1);
+        relax(&b, &s.relaxations, 1, 2);
+        sunder_i_search_take_back(&s);
+        assert_false(s.failed);
+        assert_true((sunder_i_relaxations_find(&s.relaxations, 0, 1) == NULL) == !mirrored);
+        assert_true((sunder_i_relaxations_find(&s.relaxations, 1, 2) == NULL) == mirrored);
+        assert_true(s.t[2 + mirrored] >= 1 && hypot(s.t[2], s.t[3]) <= 1.6 && fabs(s.t[3 - mirrored]) < 0.5);
+        sunder_i_search_free(&s);
+        end(&b);
+    }
+}
+
+/* Two that owe each other 3, stood 1 apart, are left so, and stand a hair nearer; right of them a fixed one, 3 away, or
+ * farther. */
+static void ask_for_margin(double room, bool others, bool expected)
+{
+    const double x[] = {0, 11, 24 + room}, hair = 0x1p-40;
+    board b;
+    sunder_error err;
+    bool done;
+    memset(&b, 0, sizeof b);
+    scene_begin(&b.scene, 3);
+    for (size_t k = 0; k < 3; k++) scene_add_box(&b.scene, x[k], 0, 10, 10)->fixed = k != 1;
+    b.scene.feature[1].max_shift = 1;
+    set_up(&b);
+    relax(&b, &b.model.relaxations, 0, 1);
+    b.move[2] = b.model.move[2] = -hair;
+    const sunder_i_cluster c = {.body = b.body, .n = 3, .margin = margin, .limited = true};
+    assert_int_equal(sunder_i_cluster_ease(&b.model, &c, 0, 1, others, b.move, &done, &err), SUNDER_OK);
+    assert_int_equal(done, expected);
+    if (done) {
+        assert_true(between(b.move, x, 0, 1) >= 1 + margin / 2);
+        assert_true(between(b.move, x, 0, 1) <= 1 + 4 * margin);
+        assert_true(between(b.move, x, 1, 2) >= 3);
+    } else {
+        assert_true(b.move[2] == -hair && b.move[3] == 0);
+    }
+    assert_true(b.move[0] == 0 && b.move[4] == 0);
+    end(&b);
+}
+
+static void test_eased(void **state)
+{
+    (void)state;
+    for (int others = 0; others < 2; others++) {
+        ask_for_margin(1, others, true);
+        ask_for_margin(8 * margin, others, true);
+    }
+}
+
+static void test_no_room_for_a_margin(void **state)
+{
+    (void)state;
+    for (int others = 0; others < 2; others++) ask_for_margin(0, others, false);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_taken_back),
+        cmocka_unit_test(test_least_first),
+        cmocka_unit_test(test_eased),
+        cmocka_unit_test(test_no_room_for_a_margin),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
