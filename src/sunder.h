@@ -732,13 +732,15 @@ SUNDER_API const sunder_bound_tree *sunder_report_bound_trees(const sunder_repor
  *
  * Where `held`, the pair is not the conflict itself, and what it is held to is its distance at the start, or minus the
  * length of its least translation then, exactly: what `clearance` says is near to that, and not to be relied on. It is
- * so that a line may pass the place where the two stood: d = 0.
+ * so that a line may pass the place where the two stood: d = 0. Where both `slack` and `held`, the first way says more
+ * than its d: n.u >= h, h the greatest of n.(p - q) over corners p of the first part and q of the second.
  *
  * Where a leaf is `still`, two ways that lead to it, line_way of line_node, are about one block and what cannot move,
- * with d = 0, and n opposite to each other; so of the block's move only t with n.t = 0 is left. Moves are such that all
- * corners of the block are doubles afterwards. No coordinate of them can leave its binade within the limit; so t is a
- * multiple of the unit there in each coordinate, and the least of these with n.t = 0 that is not 0 is beyond the limit.
- * So t = 0, and the limit of the block counts as 0 in that leaf. */
+ * with d = 0, and n opposite to each other (or one is a first way that is held with a slack, and h no less than |n|
+ * times the pair's least translation at the start, so that n.u >= 0 without it); so of the block's move only t with n.t
+ * = 0 is left. Moves are such that all corners of the block are doubles afterwards. No coordinate of them can leave its
+ * binade within the limit; so t is a multiple of the unit there in each coordinate, and the least of these with n.t = 0
+ * that is not 0 is beyond the limit. So t = 0, and the limit of the block counts as 0 in that leaf. */
 typedef struct sunder_proof_way {
     double n[2], d;
     size_t next;

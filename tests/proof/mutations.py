@@ -307,8 +307,8 @@ def push_line(told):
     """A line a little farther than where the two stood."""
     for leaf in leaves_still(told):
         node, way = leaf["still"][0]
-        told["proof"][node]["ways"][way]["d"] = 1e-9
-        return ("has no way", "does not pass where")
+        told["proof"][node]["ways"][way]["d"] += 1e-6
+        return ("has no way", "does not pass where", "beyond where")
     return False
 
 
@@ -318,7 +318,7 @@ def turn_lines(told):
         for node, way in leaf["still"]:
             n = told["proof"][node]["ways"][way]["n"]
             n[0] = math.nextafter(n[0], 2)
-        return ("has no way", "not opposite")
+        return ("has no way", "not opposite", "beyond where", "may reach by itself")
     return False
 
 
@@ -326,7 +326,19 @@ def hold_roughly(told):
     """What holds of the distance, claimed of the double that is just below."""
     for node in told["proof"]:
         if node.pop("held", False):
-            return ("has no way", "more than it had")
+            return ("has no way", "more than it had", "not told exactly")
+    return False
+
+
+def reach_line(told):
+    """A line that a slack may well reach, for one that it does not."""
+    for leaf in leaves_still(told):
+        node, way = leaf["still"][0]
+        ways = told["proof"][node]["ways"]
+        if told["proof"][node].get("slack") and len(ways) > 1:
+            ways[0]["n"], ways[1]["n"] = ways[1]["n"], ways[0]["n"]
+            ways[0]["d"], ways[1]["d"] = ways[1]["d"], ways[0]["d"]
+            return ("not opposite", "may reach by itself", "has no way", "beyond where")
     return False
 
 
@@ -363,7 +375,7 @@ def other_reason(told):
 
 VERDICTS = {"way": drop_way, "leaf": weaken_leaves, "clearance": ask_more, "slack": drop_slack,
             "claimed slack": claim_slack, "short slack": shorten_slack, "blamed": blame,
-            "let go": let_go, "one line": one_line, "pushed line": push_line, "turned lines": turn_lines,
+            "let go": let_go, "one line": one_line, "pushed line": push_line, "turned lines": turn_lines, "reached line": reach_line,
             "held roughly": hold_roughly, "held itself": hold_own,
             "within": shorten_within, "reason": other_reason}
 

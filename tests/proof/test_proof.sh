@@ -114,6 +114,15 @@ proved lane lanes.gpkg "${lane[@]}"
 grep -q '"still": ' lane.jsonl || fail "a block beside a road has no lattice: $(cat lane.jsonl)"
 refuted lane lanes.gpkg "${lane[@]}" --need "let go" --need "one line" --need "pushed line" --need "turned lines" \
     --need "held roughly" --need "held itself"
+# The same of houses that the road runs through, at the waist of one: no part of that is as deep in it as the whole.
+printf 'WKT,w,k\n"%s",1,1\n"%s",1,1\n"%s",2,2\n' \
+    "POLYGON((600009.69 5000006.87,600013.39 5000010.27,600010.64 5000010.53,600008.71 5000016.26,600004.65 5000013.34,600009.83 5000009.14))" \
+    "POLYGON((600014.70 5000015.09,600017.38 5000014.90,600021.10 5000006.89,600028.02 5000011.03,600027.40 5000011.82,600020.04 5000018.00,600021.19 5000019.78))" \
+    "POLYGON((600029.37 5000013.36,600033.23 5000015.73,600029.84 5000020.07,600025.90 5000016.99))" | layer pierced.gpkg buildings POLYGON
+proved pierced pierced.gpkg "${lane[@]}"
+grep -q '"slack": true, "held": true' pierced.jsonl || fail "a block that a road runs through: $(cat pierced.jsonl)"
+refuted pierced pierced.gpkg "${lane[@]}" --need "let go" --need "one line" --need "pushed line" --need "turned lines" \
+    --need "held roughly" --need "reached line"
 
 # A house too wide for its yard: without a limit it would have to jump; and a limit may be short by itself.
 printf 'WKT,w\n"POLYGON((0 0,20 0,20 20,0 20),(2 2,18 2,18 18,2 18))",1\n"POLYGON((1 4,17 4,17 16,1 16))",1\n' |

@@ -52,13 +52,17 @@ class Verdict:
             self.check_shadow(difference(*parts), ways)
             return
         parts = problem.demand_part(a, node["A"]), problem.demand_part(b, node["B"])
-        if node.get("held"):
+        if node.get("held") and not node.get("slack"):
             self.check_ways(difference(*parts), ways, *self.stood(a, b))
             return
         clearance = Fraction(node["clearance"]) * self.unit
         self.check_clearance(a, b, clearance)
         if node.get("slack"):
             demand(self.is_listed(a, b) and clearance < 0, "slack, where nothing is held to an overlap")
+        if node.get("held"):  # the first way is exactly where the parts let go of each other
+            h = farthest(difference(*parts), ways[0])
+            demand(ways[0][2] <= h, "a line beyond where the parts let go of each other")
+            ways[0] = (*ways[0][:2], h)
         self.check_ways(difference(*parts), ways, *((False, 0) if node.get("slack") else (clearance < 0, clearance ** 2)))
 
     def check_alone(self, node):
@@ -170,7 +174,10 @@ class Verdict:
             demand(node in taken and way == taken[node], "a line that is not on the way")
             node = self.nodes[node]
             way = node["ways"][way]
-            demand(not node.get("slack") and way["d"] == 0, "a line that does not pass where the two stood")
+            if node.get("slack"):
+                self.demand_far(node, way)
+            else:
+                demand(way["d"] == 0, "a line that does not pass where the two stood")
             bodies = [self.body_of(node[k]) for k in "ab"]
             moving = [k for k in (0, 1) if self.limit_of(bodies[k]) != 0]
             demand(len(moving) == 1, "a line between two that move")
@@ -191,6 +198,17 @@ class Verdict:
         i, j = q // share * unit[0], p // share * unit[1]
         demand(i * i + j * j > Fraction(limit) ** 2, "there is another place on the line")
         return body
+
+    def demand_far(self, node, way):
+        """A line that no slack is long enough to reach by itself, so that the two may come no nearer to it."""
+        demand(node.get("held") and way is node["ways"][0], "a line that is not told exactly")
+        a, b = node["a"], node["b"]
+        inside, square = self.stood(a, b)
+        parts = self.problem.demand_part(a, node["A"]), self.problem.demand_part(b, node["B"])
+        n = line_of(way["n"], way["d"], self.unit)
+        h = farthest(difference(*parts), n)
+        demand(inside and h > 0 and h * h >= square * (n[0] * n[0] + n[1] * n[1]),
+               "a line that the slack may reach by itself")
 
     def unit_of(self, body, x, limit):
         """What the coordinate of every corner is a multiple of, wherever it is a double within the limit."""
@@ -252,6 +270,11 @@ class Verdict:
 
 def difference(a, b):
     return hull([(p[0] - q[0], p[1] - q[1]) for p in a for q in b])
+
+
+def farthest(polygon, line):
+    """How far it goes along the normal of a line."""
+    return max(line[0] * x + line[1] * y for x, y in polygon)
 
 
 def corners_behind(ways):

@@ -428,7 +428,7 @@ typedef struct street {
 /* A quadrangle beside it, from s to s + length along it, at least so far off; on its left, or its right. */
 static void add_beside(rng *r, town *t, const street *at, double s, double length, double off, bool left, double limit)
 {
-    const double side = left ? 1 : -1, deep = 4 + rng_unit(r), lean = rng_unit(r);
+    const double side = left ? 1 : -1, deep = fmax(4, 4 - 3 * off) + rng_unit(r), lean = rng_unit(r);
     const double of[4][2] = {{s, off}, {s + length, off + lean}, {s + length, off + deep}, {s, off + deep}};
     double xy[8];
     for (size_t k = 0; k < 4; k++) {
@@ -445,7 +445,7 @@ static void add_beside(rng *r, town *t, const street *at, double s, double lengt
 static void check_corridors(void **state)
 {
     (void)state;
-    size_t proved = 0, open = 0, still = 0, odd = 0;
+    size_t proved = 0, open = 0, still = 0, deep = 0, odd = 0;
     const size_t trials = test_count(60);
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
@@ -465,9 +465,11 @@ static void check_corridors(void **state)
         const double length = hypot(at.along[0], at.along[1]);
         for (size_t x = 0; x < 2; x++) at.along[x] /= length;
         odd += !round;
-        add_beside(&r, &t, &at, 10, 6, 1 + rng_unit(&r), true, limit);
-        add_beside(&r, &t, &at, 12, 8, 1 + rng_unit(&r), false, limit);
-        add_beside(&r, &t, &at, 21, 5, 3, false, 0);
+        /* Or the line runs through both. */
+        const double in = rng_once_in(&r, 2) ? 3 : 0;
+        add_beside(&r, &t, &at, 10, 6, 1 + rng_unit(&r) - in, true, limit);
+        add_beside(&r, &t, &at, in > 0 ? 18 : 12, 8, 1 + rng_unit(&r) - in, false, limit);
+        add_beside(&r, &t, &at, in > 0 ? 27 : 21, 5, 3, false, 0);
         t.feature[0].block = t.feature[1].block = 0;
         add_barrier(&t, line, 2, 5, 0, false);
         sunder_report *report = separate(&t);
@@ -479,14 +481,16 @@ static void check_corridors(void **state)
             for (size_t m = 0; proof && m < proof->nodes; m++)
                 if (proof->node[m].still) {
                     still++;
+                    deep += in > 0;
                     break;
                 }
         }
         sunder_report_free(report);
         free_town(&t);
     }
-    print_message("%zu with a proof, %zu by a lattice, %zu without\n", proved, still, open);
-    assert_true(2 * still > odd);
+    print_message("%zu with a proof, %zu by a lattice, %zu of these of a line through houses, %zu without\n", proved,
+                  still, deep, open);
+    assert_true(2 * still > odd && 8 * deep > odd);
 }
 
 /* ---- By name ---------------------------------------------------------------------------------------------------- */

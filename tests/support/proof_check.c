@@ -16,8 +16,7 @@ static const sunder_conflict *find_listed(const checking *c, size_t a, size_t b)
     return NULL;
 }
 
-/* Did the two meet at the start? The square of their least way out then, else of their distance. False: not known. */
-static bool find_standing(const proof_feature *a, const proof_feature *b, bool *meet, mpq_t square)
+bool proof_find_standing(const proof_feature *a, const proof_feature *b, bool *meet, mpq_t square)
 {
     if (b->line) {
         *meet = proof_line_meets(b, a);
@@ -47,7 +46,7 @@ static bool stood_so(const proof_feature *a, const proof_feature *b, double clea
     mpq_inits(square, was, NULL);
     mpq_set_d(square, clearance);
     mpq_mul(square, square, square);
-    bool so = find_standing(a, b, &meet, was);
+    bool so = proof_find_standing(a, b, &meet, was);
     if (so) so = meet ? clearance <= 0 && mpq_cmp(was, square) <= 0 : clearance <= 0 || mpq_cmp(square, was) <= 0;
     mpq_clears(square, was, NULL);
     return so;
@@ -65,9 +64,10 @@ static bool are_contained(const checking *c, const sunder_proof_node *node)
 static const char *check_held(const checking *c, const sunder_proof_node *node, bool *inside, mpq_t square)
 {
     const sunder_conflict *listed = find_listed(c, node->a, node->b);
-    if (!listed || listed == &c->listed[c->conflict] || node->slack) return "held, and no other of the list";
+    if (!listed || listed == &c->listed[c->conflict]) return "held, and no other of the list";
     if (are_contained(c, node)) return "what is contained may stay so";
-    if (!find_standing(&c->feature[node->a], &c->feature[node->b], inside, square)) return "held to what is not known";
+    if (!proof_find_standing(&c->feature[node->a], &c->feature[node->b], inside, square))
+        return "held to what is not known";
     const double owed = node->b >= c->n ? c->feature[node->b].owed : c->gap;
     mpq_t most;
     mpq_init(most);
@@ -83,7 +83,7 @@ static const char *check_clearance(const checking *c, const sunder_proof_node *n
     const sunder_conflict *own = &c->listed[c->conflict], *listed = find_listed(c, node->a, node->b);
     const proof_feature *a = &c->feature[node->a], *b = &c->feature[node->b];
     const double owed = node->b >= c->n ? b->owed : c->gap;
-    if (node->held) return check_held(c, node, inside, square);
+    if (node->held && !node->slack) return check_held(c, node, inside, square);
     if (node->slack && (!listed || listed == own || node->clearance >= 0))
         return "slack, where nothing is held to less";
     *inside = !node->slack && node->clearance < 0;

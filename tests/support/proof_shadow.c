@@ -96,7 +96,7 @@ static const char *check_ways(const checking *c, const sunder_proof_node *node, 
             if (is_endless(way, node->ways, &v) && !is_shaded(k, &v, true)) wrong = "the ways leave a direction out";
         }
         for (size_t j = i + 1; j < node->ways && !wrong; j++)
-            if (proof_crossing(&way[i], &way[j], &v) && proof_is_behind_all(way, node->ways, &v) &&
+            if (proof_crossing(&way[i], NULL, &way[j], &v) && proof_is_behind_all(way, NULL, node->ways, &v) &&
                 !is_shaded(k, &v, false))
                 wrong = "a move that jumps over nothing has no way";
     }

@@ -10,6 +10,28 @@ typedef struct line {
     vec n;
 } line;
 
+/* Is it the node's first way, which no slack is long enough to reach by itself? */
+static bool is_far_line(const checking *c, const sunder_proof_node *node, size_t way)
+{
+    mpq_t least, h, square;
+    vec n;
+    bool meet;
+    if (!node->held || way != node->way) return false;
+    mpq_inits(least, h, square, NULL), vec_init(&n);
+    hull k = hull_difference(c->proof->corner + 2 * node->part_a, node->corners_a, c->proof->corner + 2 * node->part_b,
+                             node->corners_b);
+    proof_farthest(h, &k, &c->proof->way[way]);
+    vec_set_d(&n, c->proof->way[way].n);
+    vec_dot(square, &n, &n);
+    bool far = proof_find_standing(&c->feature[node->a], &c->feature[node->b], &meet, least) && meet && mpq_sgn(h) > 0;
+    mpq_mul(square, square, least);
+    mpq_mul(h, h, h);
+    far = far && mpq_cmp(h, square) >= 0;
+    hull_free(&k);
+    mpq_clears(least, h, square, NULL), vec_clear(&n);
+    return far;
+}
+
 static const char *take_line(const checking *c, const sunder_proof_node *leaf, size_t k, size_t depth, line *out)
 {
     size_t level = 0;
@@ -17,7 +39,8 @@ static const char *take_line(const checking *c, const sunder_proof_node *leaf, s
     if (level == depth || c->path_way[level] != leaf->line_way[k]) return "a line is not on the way";
     const sunder_proof_node *node = &c->proof->node[leaf->line_node[k]];
     const sunder_proof_way *way = &c->proof->way[leaf->line_way[k]];
-    if (way->d != 0 || node->slack) return "a line does not pass where the two stood";
+    if (node->slack ? !is_far_line(c, node, leaf->line_way[k]) : way->d != 0)
+        return "a line does not pass where the two stood";
     const bool a = node->a < c->n && proof_limit_of(c, node->a) > 0,
                b = node->b < c->n && proof_limit_of(c, node->b) > 0;
     if (a == b) return "a line between two that move, or stand";

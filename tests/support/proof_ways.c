@@ -23,7 +23,28 @@ static bool is_open(const sunder_proof_way *way, size_t n)
     return open;
 }
 
-bool proof_crossing(const sunder_proof_way *a, const sunder_proof_way *b, vec *v)
+static void level_of(mpq_t d, const sunder_proof_way *way, const mpq_t *exact)
+{
+    if (exact)
+        mpq_set(d, *exact);
+    else
+        mpq_set_d(d, way->d);
+}
+
+void proof_farthest(mpq_t d, const hull *k, const sunder_proof_way *way)
+{
+    vec n;
+    mpq_t own;
+    vec_init(&n), mpq_init(own);
+    vec_set_d(&n, way->n);
+    for (size_t m = 0; m < k->n; m++) {
+        vec_dot(own, &n, &k->v[m]);
+        if (m == 0 || mpq_cmp(own, d) > 0) mpq_set(d, own);
+    }
+    vec_clear(&n), mpq_clear(own);
+}
+
+bool proof_crossing(const sunder_proof_way *a, const mpq_t *exact, const sunder_proof_way *b, vec *v)
 {
     vec m, n;
     mpq_t det, d, e, f;
@@ -33,7 +54,7 @@ bool proof_crossing(const sunder_proof_way *a, const sunder_proof_way *b, vec *v
     vec_cross(det, &m, &n);
     const bool any = mpq_sgn(det) != 0;
     if (any) {
-        mpq_set_d(d, a->d);
+        level_of(d, a, exact);
         mpq_set_d(e, b->d);
         mpq_mul(v->x, d, n.y);
         mpq_mul(f, e, m.y);
@@ -48,7 +69,7 @@ bool proof_crossing(const sunder_proof_way *a, const sunder_proof_way *b, vec *v
     return any;
 }
 
-bool proof_is_behind_all(const sunder_proof_way *way, size_t n, const vec *v)
+bool proof_is_behind_all(const sunder_proof_way *way, const mpq_t *first, size_t n, const vec *v)
 {
     vec m;
     mpq_t s, d;
@@ -56,7 +77,7 @@ bool proof_is_behind_all(const sunder_proof_way *way, size_t n, const vec *v)
     vec_init(&m), mpq_inits(s, d, NULL);
     for (size_t k = 0; k < n && behind; k++) {
         vec_set_d(&m, way[k].n);
-        mpq_set_d(d, way[k].d);
+        level_of(d, &way[k], k == 0 ? first : NULL);
         vec_dot(s, &m, v);
         behind = mpq_cmp(s, d) <= 0;
     }
@@ -75,11 +96,17 @@ const char *proof_check_ways(const checking *c, const sunder_proof_node *node, b
     hull k = hull_difference(a, node->corners_a, b, node->corners_b);
     const char *wrong = NULL;
     vec v;
-    mpq_t d;
-    vec_init(&v), mpq_init(d);
+    mpq_t d, h;
+    vec_init(&v), mpq_inits(d, h, NULL);
+    const mpq_t *first = node->slack && node->held ? &h : NULL;
+    proof_farthest(h, &k, &way[0]);
+    mpq_set_d(d, way[0].d);
+    if (first && mpq_cmp(d, h) > 0) wrong = "a line beyond where the parts let go of each other";
     for (size_t i = 0; i < node->ways && !wrong; i++)
         for (size_t j = i + 1; j < node->ways && !wrong; j++) {
-            if (!proof_crossing(&way[i], &way[j], &v) || !proof_is_behind_all(way, node->ways, &v)) continue;
+            if (!proof_crossing(&way[i], i == 0 ? first : NULL, &way[j], &v) ||
+                !proof_is_behind_all(way, first, node->ways, &v))
+                continue;
             if (inside) {
                 if (!hull_holds_disc(&k, &v, most)) wrong = "a move that is no worse has no way";
                 continue;
@@ -87,7 +114,7 @@ const char *proof_check_ways(const checking *c, const sunder_proof_node *node, b
             hull_square_from(d, &k, &v);
             if (mpq_cmp(d, most) > 0) wrong = "a move that keeps the clearance has no way";
         }
-    vec_clear(&v), mpq_clear(d);
+    vec_clear(&v), mpq_clears(d, h, NULL);
     hull_free(&k);
     return wrong;
 }

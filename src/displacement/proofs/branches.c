@@ -255,12 +255,46 @@ static sunder_status search_wall(sunder_i_branching *c, unsigned level, sunder_i
                                   .a = w->a,
                                   .b = w->b,
                                   .clearance = w->clearance,
+                                  .slack = w->slack,
                                   .held = true};
     const size_t ways = sunder_i_branching_wall_ways(c, w);
     size_t node;
     if (!c->failed && ways == 0) return SUNDER_OK;
     if (c->failed || !sunder_i_branching_add_branch(c, &o, ways, &node)) return sunder_i_no_memory(err);
     return search_cases(c, &o, node, level, verdict, levels, root, err);
+}
+
+/* Who is not beyond a wall that is of an overlap leaves it by its other side, or its end: with all of its pieces. The
+ * one that the candidate's slack leaves deepest; false: it parts them all. */
+static bool find_left(sunder_i_branching *c, sunder_i_violation *deepest)
+{
+    const sunder_i_body *p = &c->model->body[c->between];
+    *deepest = (sunder_i_violation){.depth = 2 * c->hair};
+    for (size_t k = 0; k < c->walls && !c->failed; k++)
+        for (uint32_t l = p->piece; l < p->piece + p->pieces && c->wall[k].slack && !c->failed; l++) {
+            sunder_i_violation o = {.p = c->between,
+                                    .q = c->model->body_of[c->wall[k].b->feature],
+                                    .a = &c->model->piece[l],
+                                    .b = c->wall[k].b,
+                                    .clearance = c->wall[k].clearance,
+                                    .slack = c->wall[k].slack,
+                                    .known = true};
+            if (o.a->feature != c->wall[k].a->feature || sunder_i_branching_ways(c, &o) == 0) continue;
+            o.depth = -c->scratch[0].at;
+            if (o.depth > deepest->depth) *deepest = o;
+        }
+    return deepest->a && !c->failed;
+}
+
+static sunder_status branch(sunder_i_branching *c, const sunder_i_violation *o, unsigned level,
+                            sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
+{
+    const size_t ways = sunder_i_branching_ways(c, o);
+    size_t node;
+    if (level == SUNDER_I_LEVELS || sunder_i_branching_is_over(c))
+        return c->failed ? sunder_i_no_memory(err) : SUNDER_OK;
+    if (c->failed || !sunder_i_branching_add_branch(c, o, ways, &node)) return sunder_i_no_memory(err);
+    return search_cases(c, o, node, level, verdict, levels, root, err);
 }
 
 sunder_status sunder_i_branching_search(sunder_i_branching *c, unsigned level, sunder_i_verdict *verdict,
@@ -276,6 +310,8 @@ sunder_status sunder_i_branching_search(sunder_i_branching *c, unsigned level, s
         return sunder_i_branching_add_leaf(c, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
     }
     sunder_i_violation deepest[SUNDER_I_CHOICES];
+    if (!c->still && find_left(c, &deepest[0])) return branch(c, &deepest[0], level, verdict, levels, root, err);
+    if (c->failed) return sunder_i_no_memory(err);
     size_t n = look(c, deepest);
     while (n == 0 && !c->failed && !sunder_i_branching_is_over(c) && sunder_i_branching_widen(c)) n = look(c, deepest);
     if (n == 0 && !c->failed) *verdict = SUNDER_I_FEASIBLE;

@@ -75,6 +75,10 @@ typedef struct sunder_i_node {
 typedef struct sunder_i_corridor_wall {
     const sunder_i_body_piece *a, *b; /* a: of who may move */
     double clearance, n[2];
+    /* NULL; or the pair is held to this overlap, and n.(u + v) >= d, v its slack: between the two it is more than d, by
+     * so much that n.u >= 0 all the same. */
+    const sunder_i_requirement *slack;
+    double d;
 } sunder_i_corridor_wall;
 
 typedef struct sunder_i_branching {

@@ -19,7 +19,14 @@
  * N.u >= 0 is then one of the ways out of the pair of parts, as ways.c finds them, in place of the one that is next to
  * it: of all of the boundary of what is forbidden, that line has to tell of what is on it alone, as long as no other
  * edge is nearly parallel to it. Whether the pair of parts stood as the whole pair did is asked exactly
- * (layer/barrier_pairs.h). Of two such lines of one body, one opposite to the other, the first two branches are made;
+ * (layer/barrier_pairs.h).
+ *
+ * Of an overlap with a barrier no one pair of parts may be as deep as the whole: what lies across a road of several
+ * pieces leaves it by the last of them. There the line is that at which this last one lets go of the road, so that its
+ * slack v (feasibility.h) has to take it there, n.(u + v) >= h. If the overlap was h / |n| deep at most, no v does more
+ * than h along n, and n.u >= 0 again. How deep it was is asked beside the hull of the feature, exactly.
+ *
+ * Of two such lines of one body, one opposite to the other, the first two branches are made;
  * between them its limit is 0 (branches.c). */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/proofs/branching.h"
@@ -29,6 +36,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- Exactly --------------------------------------------------------------------------------------------------- */
 
@@ -203,6 +211,44 @@ static bool is_line(const sunder_i_branching *c, facing *f, size_t k, double cle
     return true;
 }
 
+/* ---- A line that a translation out of an overlap has to reach ---------------------------------------------------- */
+
+/* Is none of the corners farther along n than corner `at`, exactly? */
+static bool is_extreme(const double *xy, size_t corners, const double n[2], const double at[2])
+{
+    for (size_t k = 0; k < corners; k++) {
+        double d[2];
+        if (!subtract(xy[2 * k], at[0], &d[0]) || !subtract(xy[2 * k + 1], at[1], &d[1])) return false;
+        const double size = fabs(n[0] * d[0]) + fabs(n[1] * d[1]);
+        if (dot(n, d) < -0x1p-50 * size || are_equal_products(n[0], d[0], -n[1], d[1])) continue;
+        return false;
+    }
+    return true;
+}
+
+/* The k-th edge of A - B, of the extreme corners `hull` of the feature that A is of: one that all of the feature has to
+ * be moved to, along n, and at which it is as far as the pair's overlap at the start was deep. */
+static bool is_far_line(const sunder_i_branching *c, facing *f, size_t k, const double *hull, size_t corners)
+{
+    double *n = f->wall.n, d[2];
+    if (!normal_of(f, k, n) || !(NEARLY_PARALLEL * hypot(n[0], n[1]) > 8 * c->hair)) return false;
+    if (!(fabs(beyond(f, n) - f->wall.clearance) <= c->hair)) return false;
+    for (size_t m = 0; m < f->wall.a->corners + f->wall.b->corners; m++) {
+        double other[2];
+        if (m == k) continue;
+        if (!normal_of(f, m, other)) return false;
+        const double size = hypot(other[0], other[1]) * hypot(n[0], n[1]);
+        if (dot(n, other) > 0 && !are_parallel(n, other) &&
+            fabs(n[0] * other[1] - n[1] * other[0]) < NEARLY_PARALLEL * size)
+            return false;
+    }
+    const double *p = farthest(f->a, f->wall.a->corners, n, 1), *q = farthest(f->b, f->wall.b->corners, n, -1);
+    scale(n);
+    if (!is_extreme(hull, corners, n, p) || !subtract(p[0], q[0], &d[0]) || !subtract(p[1], q[1], &d[1])) return false;
+    f->wall.d = dot(n, d) - 0x1p-48 * (fabs(n[0] * d[0]) + fabs(n[1] * d[1]));
+    return true;
+}
+
 /* ---- The lines of a body ----------------------------------------------------------------------------------------- */
 
 typedef struct looking {
@@ -236,6 +282,70 @@ static void look_at(looking *g, const sunder_i_body_piece *a, const sunder_i_bod
         else
             g->line[g->n++] = f.wall;
     }
+}
+
+static void look_at_depth(looking *g, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
+                          const sunder_i_requirement *r, const double *hull, size_t corners)
+{
+    const sunder_i_model *model = g->branching->model;
+    facing f = {.wall = {.a = a, .b = b, .clearance = r->clearance, .slack = r}};
+    g->branching->looked += a->corners * b->corners;
+    if (a->corners > WALL_CORNERS || b->corners > WALL_CORNERS) return;
+    sunder_i_piece_as_given(model, a, f.a);
+    sunder_i_piece_as_given(model, b, f.b);
+    for (size_t k = 0; k < a->corners + b->corners && !g->status; k++) {
+        bool same;
+        if (!is_far_line(g->branching, &f, k, hull, corners)) continue;
+        g->status = sunder_i_parts_stand_so(model, a->feature, b->feature,
+                                            &(sunder_i_piece_of){.n = (uint32_t)corners, .xy = hull},
+                                            &(sunder_i_piece_of){.n = b->corners, .xy = f.b}, &same, g->err);
+        if (g->status || !same) continue;
+        if (!sunder_i_reserve(&g->line, &g->capacity, g->n + 1, sizeof *g->line))
+            g->status = sunder_i_no_memory(g->err);
+        else
+            g->line[g->n++] = f.wall;
+    }
+}
+
+/* The corners of the hull of a feature, as given, counter-clockwise and strictly convex; false: it is none so. */
+static bool find_hull(const sunder_i_model *model, uint32_t f, double **hull, size_t *corners)
+{
+    const sunder_shape *shape = model->layer->feature[f].shape;
+    const size_t n = shape->vertices;
+    double *xy = sunder_i_alloc(2 * n, sizeof *xy);
+    *hull = sunder_i_alloc(2 * (n + 1), sizeof **hull);
+    *corners = 0;
+    if (xy && *hull) {
+        memcpy(xy, shape->xy, 2 * n * sizeof *xy);
+        *corners = sunder_i_convex_hull(xy, n, *hull);
+    }
+    for (size_t k = 0; k < *corners; k++) {
+        const double *p = *hull + 2 * k, *q = *hull + 2 * ((k + 1) % *corners), *r = *hull + 2 * ((k + 2) % *corners);
+        if (sunder_orient(&(sunder_point){p[0], p[1]}, &(sunder_point){q[0], q[1]}, &(sunder_point){r[0], r[1]}) <= 0)
+            *corners = 0;
+    }
+    sunder_i_free(xy);
+    return *corners > 2;
+}
+
+/* All pieces of the feature, and of the barrier those that its hull meets. */
+static void look_at_overlap(looking *g, uint32_t f, const sunder_i_requirement *r)
+{
+    sunder_i_branching *c = g->branching;
+    const sunder_i_model *model = c->model;
+    const sunder_i_body *p = &model->body[g->mover];
+    double *hull = NULL;
+    size_t corners;
+    if (find_hull(model, f, &hull, &corners))
+        for (size_t n = 0; n < c->near.n && !g->status; n++) {
+            const sunder_i_body *q = &model->body[model->body_of[c->near.item[n]]];
+            sunder_i_branching_join(c, model->body_of[c->near.item[n]]);
+            for (uint32_t k = p->piece; k < p->piece + p->pieces; k++)
+                for (uint32_t l = q->piece; l < q->piece + q->pieces && !g->status; l++)
+                    if (model->piece[k].feature == f)
+                        look_at_depth(g, &model->piece[k], &model->piece[l], r, hull, corners);
+        }
+    sunder_i_free(hull);
 }
 
 /* Feature f of the mover, and what stands: a feature, or part of a barrier. */
@@ -275,20 +385,25 @@ static void look_at_requirement(looking *g, const sunder_i_requirement *r)
     c->near.n = 0;
     if (!sunder_i_rtree_query(&model->tree, box, &c->near)) g->status = sunder_i_no_memory(g->err);
     if (c->near.n) qsort(c->near.item, c->near.n, sizeof *c->near.item, sunder_i_by_number);
-    for (size_t k = 0; k < c->near.n && !g->status; k++)
+    size_t out = 0;
+    for (size_t k = 0; k < c->near.n; k++)
         if (c->near.item[k] >= other && c->near.item[k] < end && !is_rational(model, c->near.item[k]))
-            look_at_pair(g, f, c->near.item[k], clearance);
+            c->near.item[out++] = c->near.item[k];
+    c->near.n = out;
+    for (size_t k = 0; k < c->near.n && !g->status; k++) look_at_pair(g, f, c->near.item[k], clearance);
+    if (clearance < 0 && !g->status) look_at_overlap(g, f, r);
 }
 
 static bool is_of(const sunder_i_model *model, uint32_t thing, uint32_t body) { return model->body_of[thing] == body; }
 
-/* Two lines of the body that leave it one place. */
-static bool choose(const looking *g, sunder_i_corridor_wall out[2])
+/* Two lines of the body that leave it one place; slack: or lines that a slack has to reach. */
+static bool choose(const looking *g, bool slack, sunder_i_corridor_wall out[2])
 {
     const sunder_i_model *model = g->branching->model;
     for (size_t k = 0; k < g->n; k++)
         for (size_t l = k + 1; l < g->n; l++) {
             const double *m = g->line[k].n, *n = g->line[l].n;
+            if (!slack && (g->line[k].slack || g->line[l].slack)) continue;
             if (!(dot(m, n) < 0) || !are_parallel(m, n) || !is_alone(model, &model->body[g->mover], n)) continue;
             out[0] = g->line[k];
             out[1] = g->line[l];
@@ -305,7 +420,7 @@ sunder_status sunder_i_branching_find_corridor(sunder_i_branching *c, uint32_t b
     for (size_t k = 0; k < q->required_n && !g.status; k++)
         if (is_of(model, q->required[k].a, body) || is_of(model, q->required[k].b, body))
             look_at_requirement(&g, &q->required[k]);
-    if (!g.status && choose(&g, c->wall)) {
+    if (!g.status && (choose(&g, false, c->wall) || choose(&g, true, c->wall))) {
         c->walls = 2;
         c->between = body;
     }
@@ -316,19 +431,20 @@ sunder_status sunder_i_branching_find_corridor(sunder_i_branching *c, uint32_t b
 size_t sunder_i_branching_wall_ways(sunder_i_branching *c, const sunder_i_corridor_wall *wall)
 {
     const sunder_i_body *p = &c->model->body[c->between], *q = &c->model->body[c->model->body_of[wall->b->feature]];
-    const size_t n = sunder_i_branching_fill_ways(c, p, wall->a, q, wall->b, wall->clearance, false, NULL);
+    const size_t n =
+        sunder_i_branching_fill_ways(c, p, wall->a, q, wall->b, wall->slack ? 0 : wall->clearance, false, NULL);
     const double length = hypot(wall->n[0], wall->n[1]);
     size_t at = n;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_way *w = &c->scratch[k];
         const double sine = (w->n[0] * wall->n[1] - w->n[1] * wall->n[0]) / length;
-        if (dot(w->n, wall->n) > 0 && fabs(sine) < 0x1p-40 && fabs(w->d) <= 2 * c->hair) {
+        if (dot(w->n, wall->n) > 0 && fabs(sine) < 0x1p-40 && fabs(w->d - wall->d / length) <= 4 * c->hair) {
             if (at < n) return 0;
             at = k;
         }
     }
     if (at == n) return 0;
     c->scratch[at] = c->scratch[0];
-    c->scratch[0] = (sunder_i_way){.n = {wall->n[0], wall->n[1]}, .d = 0};
+    c->scratch[0] = (sunder_i_way){.n = {wall->n[0], wall->n[1]}, .d = wall->d};
     return n;
 }

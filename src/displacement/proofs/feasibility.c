@@ -111,6 +111,7 @@ static sunder_status ask_plane(const sunder_i_subproblem *subproblem, sunder_i_d
 sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, sunder_error *err)
 {
     *decision = (sunder_i_decision){.verdict = SUNDER_I_UNKNOWN};
+    sunder_i_subproblem with_slack = *subproblem;
     sunder_i_branching c = {.subproblem = subproblem, .model = subproblem->model};
     bool limited = subproblem->bodies <= subproblem->most;
     for (size_t k = 0; k < subproblem->bodies && limited; k++) {
@@ -125,6 +126,8 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
     for (size_t k = 0; k < c.bodies && !status && limited && subproblem->still && !c.walls; k++)
         status = sunder_i_branching_find_corridor(&c, c.body[k], err);
     limited = limited && (!subproblem->still || c.walls);
+    with_slack.slack = subproblem->slack || (c.walls && (c.wall[0].slack || c.wall[1].slack));
+    c.subproblem = &with_slack;
     if (!status && limited && c.longest > 0 && !subproblem->slack && !subproblem->still && !subproblem->no_plane)
         status = ask_plane(subproblem, decision, err);
     if (status || decision->verdict != SUNDER_I_UNKNOWN) {
