@@ -286,15 +286,14 @@ sunder_status sunder_i_branching_plane(sunder_i_branching *c, sunder_i_plane_ans
     g.i = sunder_i_branching_join(c, g.p);
     g.j = g.q == SUNDER_I_GROUND ? SUNDER_I_GROUND : sunder_i_branching_join(c, g.q);
     for (size_t k = 0; k < c->bodies && !c->failed; k++) g.reach += c->limit[k];
+    sunder_i_plane_disc(&g.disc, g.reach);
     bool ok = !c->failed && (g.q == SUNDER_I_GROUND ? sunder_i_plane_add_ground(&g) : sunder_i_plane_add_body(&g, g.q));
     ok = ok && sunder_i_reserve(&g.list, &g.list_capacity, g.obstacles, sizeof *g.list);
     sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
     for (uint32_t k = 0; ok && k < g.obstacles; k++) g.list[g.listed++] = k;
     if (ok) {
-        sunder_i_plane_region all;
         sunder_i_levels levels;
-        sunder_i_plane_disc(&all, g.reach);
-        status = divide(&g, &all, 0, 0, &answer->verdict, &levels, &answer->root, err);
+        status = divide(&g, &g.disc, 0, 0, &answer->verdict, &levels, &answer->root, err);
     }
     answer->p = g.p;
     answer->q = g.q;

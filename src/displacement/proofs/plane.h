@@ -29,6 +29,7 @@ typedef struct sunder_i_plane {
     uint32_t p, q; /* bodies; q: SUNDER_I_GROUND: all that stands */
     uint32_t i, j; /* their places */
     double reach;
+    sunder_i_plane_region disc; /* the polygon around that */
     sunder_i_plane_obstacle *obstacle;
     size_t obstacles, obstacle_capacity;
     sunder_i_way *way;

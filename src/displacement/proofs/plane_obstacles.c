@@ -15,11 +15,14 @@ static bool add_obstacle(sunder_i_plane *g, const sunder_i_plane_obstacle *o, si
 {
     const sunder_i_branching *c = g->c;
     if (ways == 0) return true;
-    sunder_i_plane_region r;
+    const double beyond = g->disc.xy[0] * (1 + 0x1p-20); /* a line so far off has all of the disc on one side */
+    for (size_t k = 0; k < ways; k++)
+        if (c->scratch[k].d < -beyond) return true;
+    sunder_i_plane_region r = g->disc;
     uint32_t by[2];
-    sunder_i_plane_disc(&r, g->reach);
     for (size_t k = 0; k < ways; k++) {
         const double back[2] = {-c->scratch[k].n[0], -c->scratch[k].n[1]};
+        if (c->scratch[k].d > beyond) continue;
         if (!sunder_i_plane_clip(&r, back, -c->scratch[k].d, SUNDER_I_NO_CLAIM, by)) return true;
     }
     if (!sunder_i_reserve(&g->obstacle, &g->obstacle_capacity, g->obstacles + 1, sizeof *g->obstacle) ||

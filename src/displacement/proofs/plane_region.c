@@ -19,12 +19,22 @@ void sunder_i_plane_disc(sunder_i_plane_region *r, double radius)
 
 bool sunder_i_plane_clip(sunder_i_plane_region *r, const double n[2], double d, uint32_t claim, uint32_t by[2])
 {
-    sunder_i_plane_region out = {.n = 0};
+    double at[PLANE_CORNERS], greatest = -INFINITY;
     uint32_t nearest = 0;
+    bool cut = false;
+    for (uint32_t k = 0; k < r->n; k++) {
+        at[k] = sunder_i_plane_at(n, r->xy + 2 * k);
+        cut = cut || !(at[k] - d >= 0);
+        if (!(at[k] > greatest)) continue;
+        greatest = at[k];
+        nearest = k;
+    }
+    if (!cut) return true;
+    sunder_i_plane_region out;
+    out.n = 0;
     for (uint32_t k = 0; k < r->n; k++) {
         const double *u = r->xy + 2 * k, *v = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
-        const double s = sunder_i_plane_at(n, u) - d, t = sunder_i_plane_at(n, v) - d;
-        if (sunder_i_plane_at(n, u) > sunder_i_plane_at(n, r->xy + 2 * nearest)) nearest = k;
+        const double s = at[k] - d, t = at[k + 1 < r->n ? k + 1 : 0] - d;
         if (out.n + 2 > PLANE_CORNERS) return true; /* too many corners: it is left as large as it was */
         if (s >= 0) {
             memcpy(out.xy + 2 * out.n, u, 2 * sizeof *u);
@@ -39,7 +49,9 @@ bool sunder_i_plane_clip(sunder_i_plane_region *r, const double n[2], double d, 
     by[0] = r->claim[nearest ? nearest - 1 : r->n - 1];
     by[1] = r->claim[nearest];
     if (out.n < 3) return false;
-    *r = out;
+    r->n = out.n;
+    memcpy(r->xy, out.xy, 2 * out.n * sizeof *r->xy);
+    memcpy(r->claim, out.claim, out.n * sizeof *r->claim);
     return true;
 }
 
