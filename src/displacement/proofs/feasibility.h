@@ -10,6 +10,16 @@ typedef enum sunder_i_verdict {
     SUNDER_I_FEASIBLE    /* the solution does, up to a hair; what it did not meet is not heeded */
 } sunder_i_verdict;
 
+/* Planes of relative moves that questions after each other have in common, the last first; all of one model, which does
+ * not change, and of one thread (plane_kept.c). All zero: none. */
+#define SUNDER_I_PLANES_KEPT 4
+struct sunder_i_plane_kept;
+typedef struct sunder_i_planes {
+    struct sunder_i_plane_kept *plane[SUNDER_I_PLANES_KEPT];
+} sunder_i_planes;
+
+void sunder_i_planes_clear(sunder_i_planes *planes);
+
 typedef struct sunder_i_subproblem {
     const sunder_i_model *model;
     const uint32_t *body; /* the bodies to begin with; those that they run into are asked about as well */
@@ -29,15 +39,16 @@ typedef struct sunder_i_subproblem {
     /* What is held to an overlap with a barrier has one translation that parts them all, not one for each two parts:
      * proofs are larger, and some are found only so. */
     bool slack;
-    bool still;      /* only of a body between two lines, which has no place there but its own: corridor.c */
-    bool every_side; /* the sides of barriers that are not among them are heeded, too */
-    bool any_jump;   /* features may jump over each other */
-    bool any_way;    /* and cross sides: no way is forbidden */
-    bool every_way;  /* the ways of all members of `body` are heeded, whoever else is not */
-    double instead;  /* > 0: a limit for those that have none; else they are not asked about */
-    bool no_plane;   /* the plane of one relative move has been asked about, and had no answer */
-    uint64_t effort; /* in constraints looked at */
-    size_t most;     /* it ends where more bodies than these take part */
+    bool still;              /* only of a body between two lines, which has no place there but its own: corridor.c */
+    bool every_side;         /* the sides of barriers that are not among them are heeded, too */
+    bool any_jump;           /* features may jump over each other */
+    bool any_way;            /* and cross sides: no way is forbidden */
+    bool every_way;          /* the ways of all members of `body` are heeded, whoever else is not */
+    double instead;          /* > 0: a limit for those that have none; else they are not asked about */
+    bool no_plane;           /* the plane of one relative move has been asked about, and had no answer */
+    sunder_i_planes *planes; /* NULL, or kept for who asks about the same bodies again */
+    uint64_t effort;         /* in constraints looked at */
+    size_t most;             /* it ends where more bodies than these take part */
 } sunder_i_subproblem;
 
 typedef struct sunder_i_solution {

@@ -287,7 +287,8 @@ sunder_status sunder_i_branching_plane(sunder_i_branching *c, sunder_i_plane_ans
     g.j = g.q == SUNDER_I_GROUND ? SUNDER_I_GROUND : sunder_i_branching_join(c, g.q);
     for (size_t k = 0; k < c->bodies && !c->failed; k++) g.reach += c->limit[k];
     sunder_i_plane_disc(&g.disc, g.reach);
-    bool ok = !c->failed && (g.q == SUNDER_I_GROUND ? sunder_i_plane_add_ground(&g) : sunder_i_plane_add_body(&g, g.q));
+    sunder_i_planes own = {0}, *planes = c->subproblem->planes ? c->subproblem->planes : &own;
+    bool ok = !c->failed && (g.kept = sunder_i_planes_take(planes, &g)) != NULL && sunder_i_plane_add_obstacles(&g);
     ok = ok && sunder_i_reserve(&g.list, &g.list_capacity, g.obstacles, sizeof *g.list);
     sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
     for (uint32_t k = 0; ok && k < g.obstacles; k++) g.list[g.listed++] = k;
@@ -300,8 +301,8 @@ sunder_status sunder_i_branching_plane(sunder_i_branching *c, sunder_i_plane_ans
     memcpy(answer->u, g.free, sizeof g.free);
     answer->free = answer->verdict == SUNDER_I_FEASIBLE;
     if (answer->free && !is_all(c, &g)) answer->verdict = SUNDER_I_UNKNOWN;
+    sunder_i_planes_clear(&own);
     sunder_i_free(g.obstacle);
-    sunder_i_free(g.way);
     sunder_i_free(g.list);
     return status;
 }

@@ -14,6 +14,30 @@ typedef struct sunder_i_plane_region {
     uint32_t claim[PLANE_CORNERS];
 } sunder_i_plane_region;
 
+/* Two pieces whose ways may matter within reach: what the model says, whoever asks. */
+typedef struct sunder_i_plane_pieces {
+    const sunder_i_body_piece *a, *b;
+    uint32_t q;        /* the body of b */
+    uint32_t f, g;     /* features or parts of barriers that owe each other; or f may not pass g */
+    bool shadow, side; /* of an anchor, of a side anchor */
+    bool made, none;   /* its ways are, for this clearance; they leave it nothing within reach */
+    double clearance;
+    size_t way, ways, room;
+    double box[4]; /* of what limits leave of it */
+} sunder_i_plane_pieces;
+
+/* What may be forbidden in the plane of one relative move, kept from question to question: ways are made for the first
+ * that asks. */
+struct sunder_i_plane_kept {
+    uint32_t p, q; /* bodies; q: SUNDER_I_GROUND: all that stands */
+    double reach, coarse;
+    sunder_i_plane_pieces *pieces;
+    size_t n, capacity;
+    sunder_i_way *way;
+    size_t ways, way_capacity;
+    uint64_t looked[3]; /* what finding pieces, anchors and sides costs who asks, be it done before */
+};
+
 /* A convex set that is forbidden: what is behind all its ways. */
 typedef struct sunder_i_plane_obstacle {
     const sunder_i_body_piece *a, *b;
@@ -30,10 +54,10 @@ typedef struct sunder_i_plane {
     uint32_t i, j; /* their places */
     double reach;
     sunder_i_plane_region disc; /* the polygon around that */
+    struct sunder_i_plane_kept *kept;
+    const sunder_i_way *way; /* its */
     sunder_i_plane_obstacle *obstacle;
     size_t obstacles, obstacle_capacity;
-    sunder_i_way *way;
-    size_t ways, way_capacity;
     uint32_t *list; /* of obstacles that meet the region at hand, and those above it */
     size_t listed, list_capacity;
     double free[2]; /* where nothing is in the way, if that is the answer */
@@ -56,8 +80,14 @@ void sunder_i_plane_middle(const sunder_i_plane_region *region, const double nea
 
 /* ---- plane_obstacles.c ------------------------------------------------------------------------------------------- */
 
-/* What forbids moves of g->p beside that body; and beside all that stands within reach. False if memory is out. */
-bool sunder_i_plane_add_body(sunder_i_plane *plane, uint32_t q);
-bool sunder_i_plane_add_ground(sunder_i_plane *plane);
+/* Lists what may forbid moves of p beside q, or beside all that stands within reach. False if memory is out. */
+bool sunder_i_plane_find(const sunder_i_plane *plane, struct sunder_i_plane_kept *kept);
+/* Makes obstacles of what does so in the question at hand. False if memory is out. */
+bool sunder_i_plane_add_obstacles(sunder_i_plane *plane);
+
+/* ---- plane_kept.c ------------------------------------------------------------------------------------------------ */
+
+/* What was kept of that plane, or is from now on. NULL if memory is out. */
+struct sunder_i_plane_kept *sunder_i_planes_take(sunder_i_planes *planes, const sunder_i_plane *plane);
 
 #endif

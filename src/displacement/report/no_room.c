@@ -224,18 +224,23 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end; k++) {
         matter *first = g->matter + g->first[k], *last = g->matter + g->first[k + 1];
-        sunder_i_subproblem q = {
-            .model = &g->solver->model, .required = g->required, .required_n = g->required_n, .most = MOST_BODIES};
+        sunder_i_planes planes = {0};
+        sunder_i_subproblem q = {.model = &g->solver->model,
+                                 .required = g->required,
+                                 .required_n = g->required_n,
+                                 .most = MOST_BODIES,
+                                 .planes = &planes};
         q.reserve = sunder_i_solver_members(g->solver, first->root, &q.reserves);
         q.farthest = farthest_of(q.model, q.reserve, q.reserves);
         uint64_t pool = EFFORT * g->times + EFFORT_EACH * (uint64_t)(q.reserves + 2);
-        for (uint64_t effort = FIRST_EFFORT; effort <= MOST_EFFORT * g->times && pool; effort *= GROWTH)
-            for (matter *m = first; m < last && pool; m++) {
+        for (uint64_t effort = FIRST_EFFORT; effort <= MOST_EFFORT * g->times && pool && !status; effort *= GROWTH)
+            for (matter *m = first; m < last && pool && !status; m++) {
                 if (!m->open) continue;
                 q.effort = effort < pool ? effort : pool;
                 status = has_no_limit(g, m) ? ask_without_limit(g, m, &q, &pool, err) : ask(g, m, &q, &pool, err);
-                if (status) return status;
             }
+        sunder_i_planes_clear(&planes);
+        if (status) return status;
     }
     return status;
 }
