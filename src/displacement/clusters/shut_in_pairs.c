@@ -20,8 +20,7 @@ static sunder_status judge(void *context, size_t begin, size_t end, sunder_error
 {
     const judging *g = context;
     for (size_t k = begin; k < end; k++)
-        if (!sunder_i_is_shut_in(g->model, g->pair[k].a, g->pair[k].b, NULL, &g->shut[k]))
-            return sunder_i_no_memory(err);
+        if (!sunder_i_is_shut_in(g->model, g->pair[k].a, g->pair[k].b, &g->shut[k])) return sunder_i_no_memory(err);
     return SUNDER_OK;
 }
 
@@ -49,21 +48,84 @@ static size_t list_pairs(const sunder_i_solver *s, sunder_i_id_pair *pair)
     return out;
 }
 
-/* Leaves a conflict of two of these bodies; list: of features that are shut in by themselves. */
-static sunder_status leave(sunder_i_model *model, const sunder_i_relation *r, const sunder_i_id_pair *bodies,
-                           sunder_i_relaxations *more, sunder_error *err)
-{
-    const sunder_i_id_pair pair = {r->a, r->b};
-    sunder_i_relaxation relaxation;
+/* A conflict of two bodies that are shut in: is it by itself? */
+typedef struct matter {
+    sunder_i_id_pair bodies, pair;
     bool shut;
-    if (!sunder_i_is_shut_in(model, bodies->a, bodies->b, &pair, &shut)) return sunder_i_no_memory(err);
-    const sunder_status status = sunder_i_relaxation_of(model, r->a, r->b, &relaxation, err);
+} matter;
+
+static int by_bodies(const void *a, const void *b)
+{
+    const matter *p = a, *q = b;
+    const int order = sunder_i_by_id_pair(&p->bodies, &q->bodies);
+    return order ? order : sunder_i_by_id_pair(&p->pair, &q->pair);
+}
+
+static int by_pair(const void *a, const void *b)
+{
+    return sunder_i_by_id_pair(&((const matter *)a)->pair, &((const matter *)b)->pair);
+}
+
+/* Those of two bodies, n of them. */
+static sunder_status judge_features(const sunder_i_model *model, matter *list, size_t n, sunder_error *err)
+{
+    sunder_i_id_pair *pair = sunder_i_alloc(n, sizeof *pair);
+    bool *shut = sunder_i_calloc(n, sizeof *shut);
+    bool ok = pair && shut;
+    for (size_t k = 0; k < n && ok; k++) pair[k] = list[k].pair;
+    ok = ok && sunder_i_which_are_shut_in(model, list->bodies.a, list->bodies.b, pair, n, shut);
+    for (size_t k = 0; k < n && ok; k++) list[k].shut = shut[k];
+    sunder_i_free(pair);
+    sunder_i_free(shut);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+typedef struct judging_features {
+    const sunder_i_model *model;
+    matter *matter;
+    const size_t *first; /* [pairs of bodies + 1] */
+} judging_features;
+
+static sunder_status judge_some(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const judging_features *g = context;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = begin; k < end && !status; k++)
+        status = judge_features(g->model, g->matter + g->first[k], g->first[k + 1] - g->first[k], err);
+    return status;
+}
+
+/* The conflicts between these bodies, n pairs, sorted: by pairs of bodies, whose first ones are told. Returns how many
+ * conflicts. */
+static size_t list_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, matter *out,
+                             size_t *first, size_t *pairs)
+{
+    size_t found = 0;
+    for (size_t k = 0; k < s->start.n; k++) {
+        const sunder_i_relation *r = &s->start.pair[k];
+        if (!sunder_i_is_open_conflict(&s->model, r) || sunder_i_is_barrier(&s->model, r->b)) continue;
+        const sunder_i_id_pair bodies = bodies_of(&s->model, r);
+        if (bsearch(&bodies, list, n, sizeof bodies, sunder_i_by_id_pair))
+            out[found++] = (matter){bodies, {r->a, r->b}, false};
+    }
+    if (found) qsort(out, found, sizeof *out, by_bodies);
+    *pairs = 0;
+    for (size_t k = 0; k < found; k++)
+        if (k == 0 || sunder_i_by_id_pair(&out[k - 1].bodies, &out[k].bodies)) first[(*pairs)++] = k;
+    first[*pairs] = found;
+    return found;
+}
+
+static sunder_status leave(sunder_i_model *model, const matter *m, sunder_i_relaxations *more, sunder_error *err)
+{
+    sunder_i_relaxation relaxation;
+    const sunder_status status = sunder_i_relaxation_of(model, m->pair.a, m->pair.b, &relaxation, err);
     if (status) return status;
-    relaxation.infeasible = shut;
-    if (shut) {
-        model->shut_in[model->shut_in_n++] = pair;
+    relaxation.infeasible = m->shut;
+    if (m->shut) {
+        model->shut_in[model->shut_in_n++] = m->pair;
     } else {
-        model->given_up[model->given_up_n++] = *bodies;
+        model->given_up[model->given_up_n++] = m->bodies;
     }
     return sunder_i_relaxations_add(more, &relaxation) ? SUNDER_OK : sunder_i_no_memory(err);
 }
@@ -73,17 +135,19 @@ static sunder_status relax(sunder_i_solver *s, const sunder_i_id_pair *list, siz
 {
     sunder_i_model *model = &s->model;
     sunder_i_relaxations more = {0};
-    sunder_status status = SUNDER_OK;
-    for (size_t k = 0; k < s->start.n && !status; k++) {
-        const sunder_i_relation *r = &s->start.pair[k];
-        if (!sunder_i_is_open_conflict(model, r) || sunder_i_is_barrier(model, r->b)) continue;
-        const sunder_i_id_pair bodies = bodies_of(model, r);
-        if (bsearch(&bodies, list, n, sizeof bodies, sunder_i_by_id_pair))
-            status = leave(model, r, &bodies, &more, err);
-    }
+    matter *found = sunder_i_alloc(s->start.n, sizeof *found);
+    size_t *first = sunder_i_alloc(s->start.n + 1, sizeof *first), pairs = 0;
+    sunder_status status = found && first ? SUNDER_OK : sunder_i_no_memory(err);
+    const size_t conflicts = status ? 0 : list_conflicts(s, list, n, found, first, &pairs);
+    judging_features g = {model, found, first};
+    if (!status) status = sunder_i_parallel(model->rules.threads, pairs, SUNDER_I_GRAIN_WHOLE, judge_some, &g, err);
+    if (conflicts) qsort(found, conflicts, sizeof *found, by_pair);
+    for (size_t k = 0; k < conflicts && !status; k++) status = leave(model, &found[k], &more, err);
     for (size_t k = 0; k < more.n && !status; k++)
         if (!sunder_i_relaxations_add(&model->relaxations, &more.item[k])) status = sunder_i_no_memory(err);
     sunder_i_relaxations_free(&more);
+    sunder_i_free(found);
+    sunder_i_free(first);
     if (model->shut_in_n) qsort(model->shut_in, model->shut_in_n, sizeof *model->shut_in, sunder_i_by_id_pair);
     sunder_i_sort_given_up(model);
     if (!status && !sunder_i_relaxations_index(&model->relaxations, model)) status = sunder_i_no_memory(err);

@@ -71,10 +71,12 @@ void sunder_i_forbidden_free(sunder_i_forbidden *forbidden);
 
 /* Is no direction seen to be open in which one of the two bodies could leave the other? In doubles, and fast. */
 bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q);
-/* *shut: proved, whatever the two do, one jumps over the other, crosses a side, or they stand too near each other;
- * pair: NULL, or of all that may be too near these two features alone. Seams are to be known. False if memory is
- * out. */
-bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, const sunder_i_id_pair *pair, bool *shut);
+/* *shut: proved, whatever the two do, one jumps over the other, crosses a side, or they stand too near each other.
+ * Seams are to be known. False if memory is out. */
+bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, bool *shut);
+/* The same of n pairs of their features: where of all that may be too near those two alone are asked about. */
+bool sunder_i_which_are_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, const sunder_i_id_pair *pair,
+                                size_t n, bool *shut);
 
 /* ---- forbidden_places.c ------------------------------------------------------------------------------------------ */
 

@@ -98,30 +98,55 @@ bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q
     return !any_is_open(&l);
 }
 
-/* Leaves shadows, and of all other pieces those of these two features. */
-static void keep_pair(sunder_i_forbidden *f, const sunder_i_id_pair *pair)
+/* The shadows of all, and of all other pieces those of these two features: into part, whose pieces have room for all. */
+static void keep_pair(const sunder_i_forbidden *all, const sunder_i_id_pair *pair, sunder_i_forbidden *part)
 {
     size_t out = 0;
-    for (size_t k = 0; k < f->pieces; k++) {
-        const uint32_t a = f->piece[k].a->feature, b = f->piece[k].b->feature;
-        if (f->piece[k].shadow || (a == pair->a && b == pair->b) || (a == pair->b && b == pair->a))
-            f->piece[out++] = f->piece[k];
+    for (size_t k = 0; k < all->pieces; k++) {
+        const uint32_t a = all->piece[k].a->feature, b = all->piece[k].b->feature;
+        if (all->piece[k].shadow || (a == pair->a && b == pair->b) || (a == pair->b && b == pair->a))
+            part->piece[out++] = all->piece[k];
     }
-    f->pieces = out;
+    part->pieces = out;
 }
 
-bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, const sunder_i_id_pair *pair, bool *shut)
+/* What the two bodies forbid each other, and how far they are asked about. */
+static bool find_forbidden(sunder_i_forbidden *f, const sunder_i_model *model, uint32_t p, uint32_t q, double *reach)
 {
-    looking l = {.model = model, .p = &model->body[p], .q = &model->body[q]};
-    for (size_t c = 0; c < 2; c++) l.offset[c] = l.q->origin[c] - l.p->origin[c];
-    const double reach = 2 * sunder_i_farthest_near(model, p, q);
+    *reach = 2 * sunder_i_farthest_near(model, p, q);
+    return sunder_i_forbidden_with_seams(f, model, p, q, *reach, MOST_SHUT_IN);
+}
+
+bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, bool *shut)
+{
     sunder_i_forbidden f;
+    double reach;
     uint64_t steps = 0;
-    bool ok = sunder_i_forbidden_with_seams(&f, model, p, q, reach, MOST_SHUT_IN);
-    if (ok && pair) keep_pair(&f, pair);
-    ok = ok && sunder_i_forbidden_index(&f);
+    bool ok = find_forbidden(&f, model, p, q, &reach) && sunder_i_forbidden_index(&f);
     *shut = ok && is_covered(&f, reach, &steps);
     ok = ok && sunder_i_steps(steps / 8);
     sunder_i_forbidden_free(&f);
+    return ok;
+}
+
+bool sunder_i_which_are_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, const sunder_i_id_pair *pair,
+                                size_t n, bool *shut)
+{
+    sunder_i_forbidden all;
+    double reach;
+    bool ok = find_forbidden(&all, model, p, q, &reach);
+    for (size_t k = 0; k < n && ok; k++) {
+        sunder_i_forbidden part = all; /* its edges are those of all */
+        uint64_t steps = 0;
+        part.piece = sunder_i_alloc(all.pieces, sizeof *part.piece);
+        ok = part.piece != NULL;
+        if (ok) keep_pair(&all, &pair[k], &part);
+        ok = ok && sunder_i_forbidden_index(&part);
+        shut[k] = ok && is_covered(&part, reach, &steps);
+        ok = ok && sunder_i_steps(steps / 8);
+        part.edge = NULL;
+        sunder_i_forbidden_free(&part);
+    }
+    sunder_i_forbidden_free(&all);
     return ok;
 }

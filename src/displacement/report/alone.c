@@ -11,7 +11,10 @@
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
+#include "base/parallel.h"
+
 #include <math.h>
+#include <stdlib.h>
 
 static double limit_of(const sunder_i_model *model, size_t f)
 {
@@ -25,7 +28,7 @@ typedef enum ways_heeded { NO_WAYS, SIDES, SIDES_AND_JUMPS } ways_heeded;
 /* The proof that the pair by itself, under those rules, has no solution; NULL if none is found. Whoever is of their
  * blocks goes with them. instead: a limit for who has none. */
 static sunder_status prove_alone(const sunder_i_model *model, const sunder_conflict *c, ways_heeded ways,
-                                 double instead, sunder_proof **proof, sunder_error *err)
+                                 double instead, sunder_i_planes *planes, sunder_proof **proof, sunder_error *err)
 {
     const size_t bodies = c->b < model->features ? 2 : 1;
     const uint32_t feature[2] = {(uint32_t)c->a, (uint32_t)c->b},
@@ -42,6 +45,7 @@ static sunder_status prove_alone(const sunder_i_model *model, const sunder_confl
                                        .any_way = ways == NO_WAYS,
                                        .every_way = true,
                                        .instead = instead,
+                                       .planes = planes,
                                        .effort = ALONE_EFFORT,
                                        .most = ALONE_MOST};
     sunder_i_decision decision;
@@ -55,28 +59,28 @@ static sunder_status prove_alone(const sunder_i_model *model, const sunder_confl
 /* Where one of the two has no limit. Beyond where the two are apart for certain nothing but shadows forbids a relative
  * move, and these have no end: whatever direction leads into one there leads on in it for ever. So what has no solution
  * a little farther than there has none at all; sides, which are about moves of the one, are left out. */
-static sunder_status reason_without_limit(const sunder_i_model *model, sunder_conflict *c, sunder_proof **proof,
-                                          sunder_error *err)
+static sunder_status reason_without_limit(const sunder_i_model *model, sunder_conflict *c, sunder_i_planes *planes,
+                                          sunder_proof **proof, sunder_error *err)
 {
     if (model->rules.jumps || c->b >= model->features) return SUNDER_OK;
     const double within = 2 * sunder_i_farthest_near(model, model->body_of[c->a], model->body_of[c->b]);
-    const sunder_status status = prove_alone(model, c, SIDES_AND_JUMPS, within, proof, err);
+    const sunder_status status = prove_alone(model, c, SIDES_AND_JUMPS, within, planes, proof, err);
     if (*proof) c->reason = SUNDER_REASON_JUMP;
     return status;
 }
 
 /* Within limits that by themselves leave a solution. */
-static sunder_status reason_of_ways(const sunder_i_model *model, sunder_conflict *c, sunder_proof **proof,
-                                    sunder_error *err)
+static sunder_status reason_of_ways(const sunder_i_model *model, sunder_conflict *c, sunder_i_planes *planes,
+                                    sunder_proof **proof, sunder_error *err)
 {
     const bool jump = !model->rules.jumps && c->b < model->features;
     if (!jump && model->sides == 0) return SUNDER_OK;
-    sunder_status status = prove_alone(model, c, jump ? SIDES_AND_JUMPS : SIDES, 0, proof, err);
+    sunder_status status = prove_alone(model, c, jump ? SIDES_AND_JUMPS : SIDES, 0, planes, proof, err);
     if (status || !*proof) return status;
     c->reason = jump ? SUNDER_REASON_JUMP : SUNDER_REASON_SIDE;
     if (!jump || model->sides == 0) return SUNDER_OK;
     sunder_proof *by_sides = NULL;
-    status = prove_alone(model, c, SIDES, 0, &by_sides, err);
+    status = prove_alone(model, c, SIDES, 0, planes, &by_sides, err);
     if (!by_sides) return status;
     sunder_i_proof_free(*proof);
     *proof = by_sides;
@@ -84,18 +88,87 @@ static sunder_status reason_of_ways(const sunder_i_model *model, sunder_conflict
     return status;
 }
 
-sunder_status sunder_i_report_reason(const sunder_i_model *model, sunder_conflict *c, sunder_proof **proof,
-                                     sunder_error *err)
+static sunder_status find_reason(const sunder_i_model *model, sunder_conflict *c, sunder_i_planes *planes,
+                                 sunder_proof **proof, sunder_error *err)
 {
     const double limit[2] = {limit_of(model, c->a), limit_of(model, c->b)}, reach = limit[0] + limit[1];
     const bool shut = c->b < model->features && sunder_i_are_shut_in(model, (uint32_t)c->a, (uint32_t)c->b);
     c->reason = reach == 0 ? SUNDER_REASON_FIXED : shut ? SUNDER_REASON_JUMP : SUNDER_REASON_UNRESOLVED;
     if (reach == 0) return SUNDER_OK;
-    if (reach == INFINITY) return reason_without_limit(model, c, proof, err);
+    if (reach == INFINITY) return reason_without_limit(model, c, planes, proof, err);
     sunder_i_resolution resolution;
     const sunder_status status = sunder_i_resolve_within(model, c->a, c->b, limit, &resolution, err);
     if (status) return status;
-    if (!resolution.beyond) return reason_of_ways(model, c, proof, err);
+    if (!resolution.beyond) return reason_of_ways(model, c, planes, proof, err);
     c->reason = SUNDER_REASON_MAX_SHIFT;
-    return model->rules.keep_trees ? prove_alone(model, c, NO_WAYS, 0, proof, err) : SUNDER_OK;
+    return model->rules.keep_trees ? prove_alone(model, c, NO_WAYS, 0, planes, proof, err) : SUNDER_OK;
+}
+
+/* ---- All of them ------------------------------------------------------------------------------------------------- */
+
+/* A conflict, and the two bodies that it is of: of a barrier's the ground stands for all. */
+typedef struct matter {
+    sunder_i_id_pair bodies;
+    uint32_t conflict;
+} matter;
+
+typedef struct asking {
+    const sunder_i_model *model;
+    sunder_report *report;
+    const matter *matter;
+    const size_t *first; /* [pairs of bodies + 1] */
+} asking;
+
+static int by_bodies(const void *a, const void *b)
+{
+    const matter *p = a, *q = b;
+    const int order = sunder_i_by_id_pair(&p->bodies, &q->bodies);
+    return order ? order : (p->conflict > q->conflict) - (p->conflict < q->conflict);
+}
+
+/* Those of the same two bodies one after the other: what forbids their moves is the same. */
+static sunder_status find_reasons(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const asking *g = context;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = begin; k < end && !status; k++) {
+        sunder_i_planes planes = {0};
+        for (size_t m = g->first[k]; m < g->first[k + 1] && !status; m++) {
+            const uint32_t at = g->matter[m].conflict;
+            status = find_reason(g->model, &g->report->conflict[at], &planes, &g->report->proof[at], err);
+        }
+        sunder_i_planes_clear(&planes);
+    }
+    return status;
+}
+
+static size_t list_matters(const sunder_report *report, const sunder_i_model *model, matter *list, size_t *first)
+{
+    size_t n = 0, pairs = 0;
+    for (size_t k = 0; k < report->conflicts; k++) {
+        const sunder_conflict *c = &report->conflict[k];
+        if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
+        const uint32_t i = model->body_of[c->a], j = c->b < model->features ? model->body_of[c->b] : SUNDER_I_NOBODY;
+        list[n++] = (matter){i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i}, (uint32_t)k};
+    }
+    if (n) qsort(list, n, sizeof *list, by_bodies);
+    for (size_t k = 0; k < n; k++)
+        if (k == 0 || sunder_i_by_id_pair(&list[k - 1].bodies, &list[k].bodies)) first[pairs++] = k;
+    first[pairs] = n;
+    return pairs;
+}
+
+sunder_status sunder_i_report_reasons(sunder_report *report, const sunder_i_model *model, sunder_error *err)
+{
+    matter *list = sunder_i_alloc(report->conflicts, sizeof *list);
+    size_t *first = sunder_i_alloc(report->conflicts + 1, sizeof *first);
+    sunder_status status = list && first ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) {
+        const asking g = {model, report, list, first};
+        const size_t pairs = list_matters(report, model, list, first);
+        status = sunder_i_parallel(model->rules.threads, pairs, SUNDER_I_GRAIN_WHOLE, find_reasons, (void *)&g, err);
+    }
+    sunder_i_free(list);
+    sunder_i_free(first);
+    return status;
 }

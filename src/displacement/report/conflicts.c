@@ -189,13 +189,13 @@ typedef struct describing {
     const sunder_i_model *model;
     const sunder_i_placement *placement;
     sunder_conflict *conflict;
-    sunder_proof **proof; /* NULL: reasons are not wanted */
+    bool reasons; /* they are wanted */
     const bool *overlap;
 } describing;
 
 /* A feature and a barrier: as the feature stands, and as it stood. The link runs from the feature; where that overlaps
  * the barrier, the least translation is drawn as if the barrier moved, as for two features. */
-static sunder_status describe_barrier(const describing *d, sunder_conflict *c, sunder_proof **proof, sunder_error *err)
+static sunder_status describe_barrier(const describing *d, sunder_conflict *c, sunder_error *err)
 {
     const sunder_i_model *model = d->model;
     sunder_i_barrier_stance now, home;
@@ -215,9 +215,7 @@ static sunder_status describe_barrier(const describing *d, sunder_conflict *c, s
             c->to[k] = c->from[k] - t[k];
         }
     }
-    if (!d->proof) return SUNDER_OK;
-    status = sunder_i_report_reason(model, c, proof, err);
-    if (status) return status;
+    if (!d->reasons) return SUNDER_OK;
     const sunder_i_translate was = sunder_i_at_home(model, (uint32_t)c->a);
     status = sunder_i_barrier_stand(model, &was, (uint32_t)c->b, &home, err);
     c->before = home.distance;
@@ -230,9 +228,8 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
     const sunder_i_model *model = d->model;
     for (size_t k = begin; k < end; k++) {
         sunder_conflict *c = &d->conflict[k];
-        sunder_proof **proof = d->proof ? &d->proof[k] : NULL;
         if (sunder_i_is_barrier(model, (uint32_t)c->b)) {
-            const sunder_status status = describe_barrier(d, c, proof, err);
+            const sunder_status status = describe_barrier(d, c, err);
             if (status) return status;
             continue;
         }
@@ -246,12 +243,8 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
         c->before = c->distance;
         if (c->inside_block) {
             c->reason = SUNDER_REASON_SAME_BLOCK;
-        } else if (d->proof) {
-            if (sunder_i_is_included(model, (uint32_t)c->a, (uint32_t)c->b))
-                c->reason = SUNDER_REASON_KEPT;
-            else
-                status = sunder_i_report_reason(model, c, proof, err);
-            if (status) return status;
+        } else if (d->reasons) {
+            if (sunder_i_is_included(model, (uint32_t)c->a, (uint32_t)c->b)) c->reason = SUNDER_REASON_KEPT;
             double on_a[2], on_b[2];
             status = sunder_pair_distance(model->layer->feature[c->a].shape, model->layer->feature[c->b].shape,
                                           &c->before, on_a, on_b, err);
@@ -288,8 +281,8 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_mo
         report->conflict[k++].inside_block = is_inside(model, &r);
     }
     report->conflicts = n;
-    describing d = {model, placement, report->conflict, report->proof, overlap};
+    describing d = {model, placement, report->conflict, reasons, overlap};
     sunder_status status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_PAIRS, describe, &d, err);
     sunder_i_free(overlap);
-    return status;
+    return status || !reasons ? status : sunder_i_report_reasons(report, model, err);
 }

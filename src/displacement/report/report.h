@@ -50,11 +50,10 @@ void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relati
 
 /* ---- alone.c ----------------------------------------------------------------------------------------------------- */
 
-/* Why a conflict between blocks remains, as far as the pair itself tells: `fixed`, `max_shift`, `side`, `jump`,
+/* Why conflicts between blocks remain, as far as each pair itself tells: `fixed`, `max_shift`, `side`, `jump`,
  * decided exactly; else `unresolved`. Of a side or a jump the proof that it was decided by; of a limit one, if trees
  * are kept and it is found. */
-sunder_status sunder_i_report_reason(const sunder_i_model *model, sunder_conflict *c, sunder_proof **proof,
-                                     sunder_error *err);
+sunder_status sunder_i_report_reasons(sunder_report *report, const sunder_i_model *model, sunder_error *err);
 
 /* ---- thin_overlaps.c --------------------------------------------------------------------------------------------- */
 
