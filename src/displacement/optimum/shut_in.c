@@ -98,7 +98,7 @@ bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q
     return !any_is_open(&l);
 }
 
-/* The shadows of all, and of all other pieces those of these two features: into part, whose pieces have room for all. */
+/* The shadows of all, and of all other pieces those of these two features: into part, which has room for all. */
 static void keep_pair(const sunder_i_forbidden *all, const sunder_i_id_pair *pair, sunder_i_forbidden *part)
 {
     size_t out = 0;

@@ -1,7 +1,8 @@
-/* Planes of relative moves that were asked about, for who asks about the same bodies again: two blocks of dozens of houses
- * stand in a hundred conflicts, each of which is asked about, and once more without each feature of its proof
- * (report/no_room.c). The pieces are the same each time, tens of thousands of them, and so are the ways of all but those
- * that are asked about. What is kept tells nobody anything but sooner: answers are the same, and are counted the same. */
+/* Planes of relative moves that were asked about, for who asks about the same bodies again: two blocks of dozens of
+ * houses stand in a hundred conflicts, each of which is asked about, and once more without each feature of its proof
+ * (report/no_room.c). The pieces are the same each time, tens of thousands of them, and so are the ways of all but
+ * those that are asked about. What is kept tells nobody anything but sooner: answers are the same, and what they cost
+ * is counted the same. */
 #include "displacement/proofs/plane.h"
 
 #include <string.h>
