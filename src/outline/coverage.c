@@ -61,30 +61,51 @@ static uint32_t first_above(const polygon *p, uint32_t r)
     return low;
 }
 
-static int side_of(const polygon *p, const sunder_i_supporting_line *line, uint32_t i)
+/* A corner and a line: its side, and on a narrow lattice how high it stands: the cross product of the line's direction
+ * with its way from line->a. */
+typedef struct stand {
+    int side;
+    sunder_i_i128 height;
+} stand;
+
+static stand stand_of(const polygon *p, const sunder_i_supporting_line *line, uint32_t i)
 {
     sunder_i_lattice *l = p->s->lattice;
-    if (!l->narrow) return sunder_i_orient(l, line->a, line->b, corner(p, i));
+    if (!l->narrow) return (stand){sunder_i_orient(l, line->a, line->b, corner(p, i)), 0};
     l->counts.orientation_tests++;
-    return sunder_i_i128_sign(
-        sunder_i_narrow_cross(p->s->direction[line->class], sunder_i_narrow_sub(corner(p, i), line->a)));
+    const sunder_i_i128 height =
+        sunder_i_narrow_cross(p->s->direction[line->class], sunder_i_narrow_sub(corner(p, i), line->a));
+    return (stand){sunder_i_i128_sign(height), height};
 }
 
-/* The chain of corners from..to, on side `sign` of the line at its end and not there at its start, comes through:
- * `change` is there. */
-static void cross_chain(finder *f, const polygon *p, const sunder_i_supporting_line *line, uint32_t from, uint32_t to,
-                        int sign, int32_t change)
+/* Where the line meets the side between two corners that stand at different heights. */
+static sunder_i_fraction crossing(const polygon *p, const sunder_i_supporting_line *line, uint32_t i, stand at_i,
+                                  uint32_t j, stand at_j)
 {
-    uint32_t low = from, high = to; /* corner low is strictly on side -sign; corner high is not */
+    sunder_i_lattice *l = p->s->lattice;
+    if (!l->narrow) return sunder_i_crossing(l, line->a, line->b, corner(p, i), corner(p, j));
+    l->counts.segment_intersections++;
+    const sunder_i_point c = sunder_i_narrow_sub(corner(p, i), line->a), d = sunder_i_narrow_sub(corner(p, j), line->a);
+    return sunder_i_narrow_fraction(sunder_i_narrow_cross(c, d), at_j.height - at_i.height);
+}
+
+/* The chain of corners from..to, on another side of the line at its end, and at its start strictly on the other, comes
+ * through: `change` is there. */
+static void cross_chain(finder *f, const polygon *p, const sunder_i_supporting_line *line, uint32_t from, stand at_from,
+                        uint32_t to, stand at_to, int32_t change)
+{
+    uint32_t low = from, high = to; /* corner low is strictly on the side of the first; corner high is not */
+    stand at_low = at_from, at_high = at_to;
     while (high - low > 1) {
         const uint32_t middle = (low + high) / 2;
-        if (side_of(p, line, middle) == -sign)
-            low = middle;
+        const stand at = stand_of(p, line, middle);
+        if (at.side == at_from.side)
+            low = middle, at_low = at;
         else
-            high = middle;
+            high = middle, at_high = at;
     }
-    add_event(f, sunder_i_crossing(p->s->lattice, line->a, line->b, corner(p, low), corner(p, high)),
-              (state){change, 0, 0, 0}, NO_CORNER, p->first + (low < p->n ? low : low - p->n));
+    add_event(f, crossing(p, line, low, at_low, high, at_high), (state){change, 0, 0, 0}, NO_CORNER,
+              p->first + (low < p->n ? low : low - p->n));
 }
 
 static uint32_t side_before(const polygon *p, uint32_t k) { return k > p->first ? k - 1 : p->first + p->n - 1; }
@@ -128,15 +149,15 @@ static void meet(finder *f, const sunder_i_supporting_line *line, uint32_t part)
     const polygon p = {s, first, s->end[part] - first};
     /* Sides with ranks between forward and back climb to the left of the line, the others fall. */
     const uint32_t lowest = first_above(&p, forward), highest = first_above(&p, back);
-    const int low = side_of(&p, line, lowest), high = side_of(&p, line, highest);
-    if (low < 0 && high > 0) {
+    const stand low = stand_of(&p, line, lowest), high = stand_of(&p, line, highest);
+    if (low.side < 0 && high.side > 0) {
         const uint32_t up_to = highest >= lowest ? highest : highest + p.n;
         const uint32_t down_to = lowest > highest ? lowest : lowest + p.n;
-        cross_chain(f, &p, line, highest, down_to, -1, 1);
-        cross_chain(f, &p, line, lowest, up_to, 1, -1);
-    } else if (low == 0)
+        cross_chain(f, &p, line, highest, high, down_to, low, 1);
+        cross_chain(f, &p, line, lowest, low, up_to, high, -1);
+    } else if (low.side == 0)
         rest_on(f, &p, line, lowest, forward, true);
-    else if (high == 0)
+    else if (high.side == 0)
         rest_on(f, &p, line, highest, back, false);
 }
 
@@ -166,16 +187,17 @@ static uint32_t add_vertex(finder *f, const sunder_i_fraction *at, uint32_t corn
 {
     sunder_i_lattice *l = f->parts->lattice;
     const sunder_i_supporting_line *line = &f->lines->line[lines->line];
+    bool is_new = false;
     if (l->narrow && lines->others > 0) {
         const sunder_i_point u = sunder_i_narrow_sub(line->b, line->a);
         const uint32_t known =
             sunder_i_vertex_table_find(&f->out->vertices, (double)line->a.x + at->value * (double)u.x,
-                                       (double)line->a.y + at->value * (double)u.y, lines);
+                                       (double)line->a.y + at->value * (double)u.y, lines, &is_new);
         if (known != SUNDER_I_NO_VERTEX) return known;
     }
     const sunder_i_hpoint p = corner == NO_CORNER ? sunder_i_hpoint_at(l, line->a, line->b, at)
                                                   : sunder_i_hpoint_of(l, f->parts->corner[corner]);
-    const uint32_t vertex = sunder_i_vertex_table_add(&f->out->vertices, &p, lines);
+    const uint32_t vertex = sunder_i_vertex_table_add(&f->out->vertices, &p, lines, is_new);
     if (vertex == SUNDER_I_NO_VERTEX) f->no_memory = true;
     return vertex;
 }
@@ -259,7 +281,7 @@ static uint32_t corner_vertex(finder *f, uint32_t corner, bool between)
 {
     const sunder_i_hpoint p = sunder_i_hpoint_of(f->parts->lattice, f->parts->corner[corner]);
     const uint32_t vertex = between ? sunder_i_vertex_table_append(&f->out->vertices, &p)
-                                    : sunder_i_vertex_table_add(&f->out->vertices, &p, NULL);
+                                    : sunder_i_vertex_table_add(&f->out->vertices, &p, NULL, false);
     if (vertex == SUNDER_I_NO_VERTEX) f->no_memory = true;
     return vertex;
 }

@@ -39,10 +39,13 @@ static bool is_on(const sunder_i_vertex_slot *s, const sunder_i_vertex_lines *li
     return met;
 }
 
-static uint32_t find_lines(const sunder_i_vertex_table *g, uint32_t h, const sunder_i_vertex_lines *lines)
+static uint32_t find_lines(const sunder_i_vertex_table *g, uint32_t h, const sunder_i_vertex_lines *lines, bool *is_new)
 {
-    for (size_t at = h & g->mask; g->slot[at].number; at = (at + 1) & g->mask)
-        if (g->slot[at].hash == h && is_on(&g->slot[at], lines)) return g->slot[at].number - 1;
+    for (size_t at = h & g->mask; g->slot[at].number; at = (at + 1) & g->mask) {
+        if (g->slot[at].hash != h) continue;
+        *is_new = false;
+        if (is_on(&g->slot[at], lines)) return g->slot[at].number - 1;
+    }
     return SUNDER_I_NO_VERTEX;
 }
 
@@ -79,13 +82,14 @@ static uint32_t find_near(const sunder_i_vertex_table *g, const sunder_i_hpoint 
 }
 
 uint32_t sunder_i_vertex_table_find(const sunder_i_vertex_table *table, double ax, double ay,
-                                    const sunder_i_vertex_lines *lines)
+                                    const sunder_i_vertex_lines *lines, bool *is_new)
 {
+    *is_new = !table->exact;
     if (table->exact) return SUNDER_I_NO_VERTEX;
     const squares s = squares_near(table, ax, ay);
     for (int64_t x = s.low.x; x <= s.high.x; x++)
         for (int64_t y = s.low.y; y <= s.high.y; y++) {
-            const uint32_t v = find_lines(table, hash((square){x, y}), lines);
+            const uint32_t v = find_lines(table, hash((square){x, y}), lines, is_new);
             if (v != SUNDER_I_NO_VERTEX) return v;
         }
     return SUNDER_I_NO_VERTEX;
@@ -144,11 +148,14 @@ uint32_t sunder_i_vertex_table_append(sunder_i_vertex_table *table, const sunder
 }
 
 uint32_t sunder_i_vertex_table_add(sunder_i_vertex_table *table, const sunder_i_hpoint *p,
-                                   const sunder_i_vertex_lines *lines)
+                                   const sunder_i_vertex_lines *lines, bool is_new)
 {
     bool crowded = false;
-    const uint32_t known = table->exact ? find(table, hash_of(table, p), p, &crowded) : find_near(table, p, &crowded);
-    if (known != SUNDER_I_NO_VERTEX) return known;
+    if (!is_new) {
+        const uint32_t known =
+            table->exact ? find(table, hash_of(table, p), p, &crowded) : find_near(table, p, &crowded);
+        if (known != SUNDER_I_NO_VERTEX) return known;
+    }
     if (crowded && !table->exact) {
         table->exact = true;
         if (!make_table(table, table->entered, true)) return SUNDER_I_NO_VERTEX;

@@ -36,14 +36,14 @@ typedef struct sunder_i_vertex_table {
  * those that are appended. False if memory is out. */
 bool sunder_i_vertex_table_init(sunder_i_vertex_table *table, sunder_i_lattice *lattice, double most, size_t expected,
                                 size_t appended);
-/* The place near (ax, ay), each within table->error / 2, where two of these lines met; SUNDER_I_NO_VERTEX if none is
- * known. */
+/* The place near (ax, ay), each off by less than three quarters of table->error, where two of these lines met;
+ * SUNDER_I_NO_VERTEX if none is known. *is_new: there is no place at all that it might be. */
 uint32_t sunder_i_vertex_table_find(const sunder_i_vertex_table *table, double ax, double ay,
-                                    const sunder_i_vertex_lines *lines);
-/* The number of the place of p, on these lines (NULL: none is known), made if it is new; SUNDER_I_NO_VERTEX if memory
- * is out. */
+                                    const sunder_i_vertex_lines *lines, bool *is_new);
+/* The number of the place of p, on these lines (NULL: none is known), made if it is new, which may be known;
+ * SUNDER_I_NO_VERTEX if memory is out. */
 uint32_t sunder_i_vertex_table_add(sunder_i_vertex_table *table, const sunder_i_hpoint *p,
-                                   const sunder_i_vertex_lines *lines);
+                                   const sunder_i_vertex_lines *lines, bool is_new);
 /* The same for a point that is known to be new and never to be asked for again. */
 uint32_t sunder_i_vertex_table_append(sunder_i_vertex_table *table, const sunder_i_hpoint *p);
 void sunder_i_vertex_table_free(sunder_i_vertex_table *table);

@@ -5,15 +5,6 @@
 
 #include <math.h>
 
-static sunder_i_fraction narrow_fraction(sunder_i_i128 num, sunder_i_i128 den)
-{
-    if (den < 0) {
-        num = -num;
-        den = -den;
-    }
-    return (sunder_i_fraction){num, den, sunder_i_narrow_value(num, den)};
-}
-
 /* num / den from the scratch arena, den not zero. */
 static sunder_i_fraction pooled_fraction(sunder_i_lattice *l, sunder_i_big num, sunder_i_big den)
 {
@@ -39,8 +30,8 @@ sunder_i_fraction sunder_i_crossing(sunder_i_lattice *l, sunder_i_point a, sunde
     l->counts.segment_intersections++;
     if (are_plain(l, a, b, c) && (l->narrow || sunder_i_point_is_plain(d))) {
         const sunder_i_point w = sunder_i_narrow_sub(d, c);
-        return narrow_fraction(sunder_i_narrow_cross(sunder_i_narrow_sub(c, a), w),
-                               sunder_i_narrow_cross(sunder_i_narrow_sub(b, a), w));
+        return sunder_i_narrow_fraction(sunder_i_narrow_cross(sunder_i_narrow_sub(c, a), w),
+                                        sunder_i_narrow_cross(sunder_i_narrow_sub(b, a), w));
     }
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
@@ -60,7 +51,7 @@ sunder_i_fraction sunder_i_along(sunder_i_lattice *l, sunder_i_point a, sunder_i
     if (are_plain(l, a, b, c)) {
         const sunder_i_point u = sunder_i_narrow_sub(b, a), v = sunder_i_narrow_sub(c, a);
         const uint64_t ux = (uint64_t)(u.x < 0 ? -u.x : u.x), uy = (uint64_t)(u.y < 0 ? -u.y : u.y);
-        return ux >= uy ? narrow_fraction(v.x, u.x) : narrow_fraction(v.y, u.y);
+        return ux >= uy ? sunder_i_narrow_fraction(v.x, u.x) : sunder_i_narrow_fraction(v.y, u.y);
     }
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
@@ -76,7 +67,7 @@ sunder_i_fraction sunder_i_foot(sunder_i_lattice *l, sunder_i_point a, sunder_i_
 {
     if (are_plain(l, a, b, c)) {
         const sunder_i_point u = sunder_i_narrow_sub(b, a);
-        return narrow_fraction(sunder_i_narrow_dot(sunder_i_narrow_sub(c, a), u), sunder_i_narrow_dot(u, u));
+        return sunder_i_narrow_fraction(sunder_i_narrow_dot(sunder_i_narrow_sub(c, a), u), sunder_i_narrow_dot(u, u));
     }
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;

@@ -32,6 +32,16 @@ static inline double sunder_i_narrow_value(sunder_i_i128 num, sunder_i_i128 den)
     return sunder_i_i128_double(num) / sunder_i_i128_double(den);
 }
 
+/* num / den, den not zero, below 2^124 in magnitude. */
+static inline sunder_i_fraction sunder_i_narrow_fraction(sunder_i_i128 num, sunder_i_i128 den)
+{
+    if (den < 0) {
+        num = -num;
+        den = -den;
+    }
+    return (sunder_i_fraction){num, den, sunder_i_narrow_value(num, den)};
+}
+
 /* |s.value - s| <= 2^-50 * max(1, |s.value|), so values further apart than this settle the order. */
 #define SUNDER_I_FRACTION_ERROR 0x1p-49
 

@@ -47,7 +47,7 @@ static uint64_t add_twice(bool wide, int64_t step, size_t expected)
         const int place = i < SIDE * SIDE ? (int)rng_int(&r, 0, SIDE * SIDE - 1) : i % (SIDE * SIDE);
         const sunder_i_hpoint p = point(&l, &r, place, step);
         const size_t before = places.n;
-        const uint32_t got = sunder_i_vertex_table_add(&places, &p, NULL);
+        const uint32_t got = sunder_i_vertex_table_add(&places, &p, NULL, false);
         if (number[place] == UINT32_MAX) {
             assert_int_equal(got, before);
             assert_int_equal(places.n, before + 1);
@@ -81,7 +81,10 @@ static uint32_t find(const sunder_i_vertex_table *t, const sunder_i_hpoint *p, u
                      uint32_t second)
 {
     const sunder_i_vertex_lines lines = {line, {first, second}, 2};
-    return sunder_i_vertex_table_find(t, p->ax, p->ay, &lines);
+    bool is_new;
+    const uint32_t found = sunder_i_vertex_table_find(t, p->ax, p->ay, &lines, &is_new);
+    assert_false(is_new); /* all that is asked for is there */
+    return found;
 }
 
 /* A place is known by the two lines that it was found with, from either of them, wherever its doubles are; by others
@@ -98,7 +101,10 @@ static void test_lines(void **state)
     for (int i = 0; i < SIDE * SIDE; i++) {
         const sunder_i_hpoint p = point(&l, &r, i, (int64_t)1 << 50);
         const sunder_i_vertex_lines lines = {(uint32_t)(i % SIDE), {SIDE + (uint32_t)(i / SIDE), 0}, i % 7 ? 1 : 0};
-        assert_int_equal(sunder_i_vertex_table_add(&places, &p, &lines), i);
+        bool is_new;
+        assert_int_equal(sunder_i_vertex_table_find(&places, p.ax, p.ay, &lines, &is_new), SUNDER_I_NO_VERTEX);
+        assert_true(is_new);
+        assert_int_equal(sunder_i_vertex_table_add(&places, &p, &lines, i % 2), i);
     }
     for (int i = 0; i < SIDE * SIDE; i++) {
         const sunder_i_hpoint p = point(&l, &r, i, (int64_t)1 << 50);
