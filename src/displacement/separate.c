@@ -56,11 +56,10 @@ static sunder_status find_seams_for_proofs(sunder_i_solver *s, bool wanted, sund
     return wanted ? sunder_i_model_find_seams(&s->model, err) : SUNDER_OK;
 }
 
-/* What is settled beforehand: pairs without a solution, the bodies in doubles, relations as they stand. */
+/* What else is settled beforehand: the bodies in doubles, relations as they stand. */
 static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
 {
-    sunder_status status = sunder_i_solver_find_infeasible(s, err);
-    if (!status) status = sunder_i_model_cut(&s->model, err);
+    sunder_status status = sunder_i_model_cut(&s->model, err);
     if (!status) status = sunder_i_model_anchor(&s->model, err);
     if (!status) status = find_seams_for_proofs(s, sunder_i_has_bare_barriers(&s->model), err);
     if (!status) status = sunder_i_solver_find_shut_in(s, err);
@@ -166,6 +165,7 @@ static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const s
                           sunder_report **report, sunder_error *err)
 {
     sunder_status status = start(s, layer, options, false, report, err);
+    if (!status) status = sunder_i_solver_find_infeasible(s, err);
     if (!status) status = prepare(s, err);
     if (!status && !sunder_i_progress(&s->model.rules, PREPARED)) status = sunder_i_no_memory(err);
     if (!status) status = solve(s, err);
@@ -173,67 +173,29 @@ static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const s
     return status;
 }
 
-typedef struct spared {
-    const sunder_i_id_pair *pair; /* of features and barriers, as they were numbered */
-    size_t n;
-} spared;
-
-static bool is_spared(const sunder_i_solver *s, const spared *list, uint32_t a, uint32_t b)
-{
-    const uint32_t p = (uint32_t)s->number[a], q = (uint32_t)s->number[b];
-    const sunder_i_id_pair key = {p < q ? p : q, p < q ? q : p};
-    return list->n && bsearch(&key, list->pair, list->n, sizeof key, sunder_i_by_id_pair);
-}
-
-/* Those pairs are left as they are. */
-static sunder_status spare(sunder_i_solver *s, const spared *list, sunder_error *err)
-{
-    sunder_i_model *model = &s->model;
-    sunder_status status = SUNDER_OK;
-    for (size_t k = 0; k < s->start.n && list->n && !status; k++) {
-        const sunder_i_relation *r = &s->start.pair[k];
-        sunder_i_relaxation relaxation;
-        if (!sunder_i_is_conflict_of_bodies(model, r) || !is_spared(s, list, r->a, r->b)) continue;
-        status = sunder_i_relaxation_of(model, r->a, r->b, &relaxation, err);
-        relaxation.infeasible = true;
-        if (!status && !sunder_i_relaxations_spread(&model->relaxations, model, &relaxation, model->rules.gap))
-            status = sunder_i_no_memory(err);
-    }
-    if (!status && !sunder_i_relaxations_index(&model->relaxations, model)) status = sunder_i_no_memory(err);
-    return status;
-}
-
-/* Is there a pair that limits leave no solution for, and that is not spared? */
-static bool is_beyond_limits(const sunder_i_solver *s, const spared *list)
-{
-    const sunder_i_model *model = &s->model;
-    for (size_t k = 0; k < model->relaxations.n; k++) {
-        const sunder_i_relaxation *t = &model->relaxations.item[k];
-        if (is_spared(s, list, t->a, t->b)) continue;
-        if (sunder_i_may_move(&model->body[model->body_of[t->a]]) ||
-            sunder_i_may_move(&model->body[model->body_of[t->b]]))
-            return true;
-    }
-    return false;
-}
-
 /* A question about a conflict: a small layer of its own, of which nothing is reported. It is whether all of it has a
- * solution: a pair or a cluster without one ends it, and nothing is given up or improved. (Only who has to leave what
- * it lies in finds that out by a search in vain.) */
+ * solution: a pair without one ends it, or a proof, or a cluster for which none is found, and nothing is given up or
+ * improved. (Only who has to leave what it lies in finds that out by a search in vain.) */
 static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_options *options,
                                   const sunder_i_id_pair *pair, size_t n, sunder_i_solver *s, sunder_error *err)
 {
-    const spared list = {pair, n};
+    const sunder_i_spared list = {pair, n};
     sunder_report *report = NULL;
     sunder_status status = start(s, layer, options, false, &report, err);
-    if (!status) status = prepare(s, err);
-    s->brief = !status && s->model.inclusions == 0;
-    s->hopeless = s->brief && is_beyond_limits(s, &list);
-    if (!status && !s->hopeless) status = spare(s, &list, err);
+    sunder_report_free(report);
+    if (!status) status = sunder_i_solver_find_infeasible(s, err);
+    if (status) return status;
+    s->brief = s->model.inclusions == 0;
+    s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, &list);
+    if (s->hopeless) return SUNDER_OK;
+    status = prepare(s, err);
+    /* Two may be shut in, too. */
+    s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, &list);
+    if (!status && s->brief && !s->hopeless) status = sunder_i_solver_is_proved_hopeless(s, &list, &s->hopeless, err);
+    if (!status && !s->hopeless) status = sunder_i_solver_spare(s, &list, err);
     if (!status && !s->hopeless) status = sunder_i_solver_move_inside(s, err);
     if (!status && !s->hopeless) status = sunder_i_solver_choose_holders(s, err);
     if (!status && !s->hopeless) status = sunder_i_solver_settle(s, 0, 1, err);
-    sunder_report_free(report);
     return status;
 }
 

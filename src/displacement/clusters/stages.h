@@ -87,6 +87,22 @@ sunder_status sunder_i_solver_waive(sunder_i_solver *solver, sunder_error *err);
 /* Proves of each contact group how little it could cost; what is found to be cheaper is taken. */
 sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *err);
 
+/* ---- spared.c ---------------------------------------------------------------------------------------------------- */
+
+/* Pairs that a question leaves as they are, sorted. */
+typedef struct sunder_i_spared {
+    const sunder_i_id_pair *pair; /* of features and barriers, as they were numbered */
+    size_t n;
+} sunder_i_spared;
+
+/* Is there a pair that was found to have no solution, and that is not spared? */
+bool sunder_i_solver_is_beyond_limits(const sunder_i_solver *solver, const sunder_i_spared *spared);
+/* Is it proved, with little effort, that those that are not spared cannot all be solved? */
+sunder_status sunder_i_solver_is_proved_hopeless(const sunder_i_solver *solver, const sunder_i_spared *spared,
+                                                 bool *proved, sunder_error *err);
+/* Relaxes those that are. */
+sunder_status sunder_i_solver_spare(sunder_i_solver *solver, const sunder_i_spared *spared, sunder_error *err);
+
 /* ---- uphold.c ---------------------------------------------------------------------------------------------------- */
 
 /* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */

@@ -29,6 +29,11 @@
 #define EFFORT_WITHOUT_LIMIT 50000u
 #define MARGINS 4
 
+/* ---- Questions about one conflict (spared.c) --------------------------------------------------------------------- */
+
+/* How long a proof is looked for before a solution is: about as long as one conflict of a small layer takes. */
+#define EFFORT_BRIEFLY 100000u
+
 /* ---- What fits exactly (exact_fits.c) ---------------------------------------------------------------------------- */
 
 /* What the search may miss, as a share of the smaller body: far below the hair by which a place may be beside the
