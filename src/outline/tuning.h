@@ -6,7 +6,7 @@
 
 /* Up to so many pairs of a line and a part other than its own make a leaf: then looking at a pair costs less than
  * sorting it out. Measured on stars, combs, forks and random polygons. */
-#define LEAF_PAIRS 48
+#define LEAF_PAIRS 96
 #define LEAF_PAIRS_OF_TWO 6 /* the next split may leave each of two parts alone with its sides */
 /* Sides that nearly coincide pass, as a bundle, through both halves of a cell, and through both halves of these: every
  * split doubles what there is to ask and none brings anything. So a cell is left as it is where the pairs of a side and
