@@ -99,6 +99,20 @@ static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sig
     sunder_i_search_piece_pairs(s, i, j, at->near, at->reach + s->gap, at->yields, constrain_part, &pair);
 }
 
+/* What a free place beside round corners of the pair keeps too much, at most. Who is parted from a wide barrier in a
+ * corner between two of its parts stands by so much beside the one, but owes it as much as the other: were it out of
+ * reach, the program would send him through it. */
+static double kept_too_much(const sunder_i_search *s, uint32_t i, uint32_t j)
+{
+    const sunder_i_model *model = s->model;
+    double beyond = 0;
+    for (int k = 0; k < 2; k++) {
+        const sunder_i_body *body = &model->body[s->body[k ? j : i]];
+        beyond = fmax(beyond, sunder_i_reach_beyond(model, model->member[body->member]));
+    }
+    return KEPT_TOO_MUCH * (s->gap + beyond);
+}
+
 typedef struct around {
     const double *t;
     double reach;
@@ -109,14 +123,18 @@ typedef struct around {
 static void constrain(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
 {
     around *a = context;
+    double reach = a->reach;
     double u[2] = {a->t[2 * j] - a->t[2 * i], a->t[2 * j + 1] - a->t[2 * i + 1]};
     bool yields;
     if (sunder_i_search_pair(s, i, j, u, &yields) > s->tolerance) {
         a->clashing = true;
         double place[1][2];
-        if (!a->as_it_stands && sunder_i_search_free_pair(s, i, j, u, 0, 1, place)) memcpy(u, place[0], sizeof u);
+        if (!a->as_it_stands && sunder_i_search_free_pair(s, i, j, u, 0, 1, place)) {
+            memcpy(u, place[0], sizeof u);
+            reach = fmax(reach, kept_too_much(s, i, j));
+        }
     }
-    constrain_pair(s, i, j, &(sighting){u, u, a->reach, yields, NULL, 0});
+    constrain_pair(s, i, j, &(sighting){u, u, reach, yields, NULL, 0});
 }
 
 /* Mostly they are sorted already. */

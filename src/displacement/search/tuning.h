@@ -20,6 +20,8 @@
 #define HARDEST 1e-6
 /* From a free position rounds gain less and less: what so many times the last gain does not reach is out of reach. */
 #define HOPEFUL 4
+/* A free place keeps at most this share more than is owed (CORNER_TURN of obstacles/), and a hair. */
+#define KEPT_TOO_MUCH 0.02
 /* Times that constraints are added to one program; to a soft one, of which the solution is no place to stay, fewer. */
 #define MOST_ADDITIONS 24
 #define MOST_SOFT_ADDITIONS 4
