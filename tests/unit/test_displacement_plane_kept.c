@@ -1,0 +1,170 @@
+/* displacement/proofs/plane_kept: who asks about the same bodies again, of a small layer, is told the same with what
+ * was kept as without, for the same effort, whatever was asked before. */
+#include "random.h"
+#include "scene.h"
+
+#include "displacement/layer/placement.h"
+#include "displacement/proofs/feasibility.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { LAYERS = 80, QUESTIONS = 60, MOVING = 6, STANDING = 6 };
+
+typedef struct layer {
+    scene scene;
+    sunder_layer *layer;
+    sunder_layer work;
+    size_t *number;
+    sunder_i_barriers parts;
+    sunder_i_model model;
+    sunder_i_placement placement;
+    sunder_i_relations start;
+} layer;
+
+static int64_t draw_block(rng *r) { return rng_once_in(r, 3) ? -1 : rng_int(r, 0, 1); }
+
+/* A box with a blunt gable, which coarse lines pass by. */
+static sunder_feature *add_house(rng *r, scene *s)
+{
+    char wkt[200];
+    const double x = (double)rng_int(r, 0, 40) / 4, y = (double)rng_int(r, 0, 40) / 4,
+                 w = (double)rng_int(r, 1, 12) / 4, h = (double)rng_int(r, 1, 12) / 4;
+    snprintf(wkt, sizeof wkt, "POLYGON ((%.4f %.4f, %.4f %.4f, %.4f %.4f, %.4f %.4f, %.4f %.4f, %.4f %.4f))", x, y,
+             x + w, y, x + w, y + h, x + w / 2, y + h + 0.125, x, y + h, x, y);
+    return scene_add(s, wkt);
+}
+
+/* A crowd of houses: more bodies than are kept, some of them blocks, some without a limit, and some that stand. */
+static void begin(rng *r, layer *l)
+{
+    sunder_i_rules rules;
+    sunder_error err;
+    memset(l, 0, sizeof *l);
+    scene_begin(&l->scene, 1);
+    l->scene.options.allow_jumps = rng_once_in(r, 2);
+    for (int k = 0; k < MOVING + STANDING; k++) {
+        sunder_feature *f = add_house(r, &l->scene);
+        f->fixed = k >= MOVING;
+        f->max_shift = (double)rng_int(r, 2, 8);
+        f->block = f->fixed ? -1 : draw_block(r);
+    }
+    assert_int_equal(sunder_layer_new(l->scene.feature, l->scene.n, &l->layer, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_rules_of(&l->scene.options, &rules, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_barriers_make(l->layer, 1, &l->parts, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_order_layer(l->layer, &l->parts, true, &l->work, &l->number, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_init(&l->work, &l->parts, &rules, &l->model, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_placement_init(&l->model, &l->placement, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_placement_relate(&l->model, &l->placement, NULL, NULL, &l->start, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_join(&l->model, &l->start, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_cut(&l->model, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_anchor(&l->model, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_find_seams(&l->model, &err), SUNDER_OK);
+}
+
+static void end(layer *l)
+{
+    sunder_i_free(l->start.pair);
+    sunder_i_placement_free(&l->model, &l->placement);
+    sunder_i_model_free(&l->model);
+    sunder_i_barriers_free(&l->parts);
+    sunder_i_free(l->work.feature);
+    sunder_i_free(l->number);
+    sunder_layer_free(l->layer);
+    scene_end(&l->scene);
+}
+
+/* One of three that move, and another or what stands, under some of the rules, with some features heeded alone, and
+ * some pair held to less. */
+static void draw_question(rng *r, const layer *l, uint32_t body[2], uint32_t *feature, sunder_i_requirement *required,
+                          sunder_i_subproblem *q)
+{
+    const uint32_t a = (uint32_t)rng_int(r, 0, 2), b = (uint32_t)rng_int(r, 1, MOVING);
+    body[0] = l->model.body_of[a];
+    body[1] = l->model.body_of[b];
+    *q = (sunder_i_subproblem){
+        .model = &l->model, .body = body, .bodies = 2, .a = SUNDER_I_NOBODY, .b = SUNDER_I_NOBODY, .most = 8};
+    if (body[0] == body[1]) q->bodies = 1;
+    q->effort = rng_once_in(r, 4) ? 2000 : 200000;
+    q->coarse = rng_once_in(r, 2) ? 0x1p-5 : 0;
+    q->any_jump = rng_once_in(r, 3);
+    q->every_way = rng_once_in(r, 3);
+    if (rng_once_in(r, 2)) {
+        for (uint32_t f = 0; f < l->scene.n; f++)
+            if (f == a || f == b || rng_once_in(r, 2)) feature[q->features++] = f;
+        q->feature = feature;
+    }
+    if (rng_once_in(r, 2)) {
+        const uint32_t f = (uint32_t)rng_int(r, 0, MOVING - 1), g = (uint32_t)rng_int(r, MOVING, MOVING + STANDING - 1);
+        *required = (sunder_i_requirement){.a = f, .b = g, .clearance = (double)rng_int(r, 0, 3) / 4};
+        q->required = required;
+        q->required_n = 1;
+    }
+}
+
+static void expect_same(const sunder_i_decision *kept, const sunder_i_decision *anew)
+{
+    assert_int_equal(kept->verdict, anew->verdict);
+    assert_int_equal(kept->work, anew->work);
+    assert_int_equal(kept->no_plane, anew->no_plane);
+    assert_int_equal(kept->solution.bodies, anew->solution.bodies);
+    for (size_t k = 0; k < kept->solution.bodies; k++) {
+        assert_int_equal(kept->solution.body[k], anew->solution.body[k]);
+        for (size_t x = 0; x < 2; x++) assert_true(kept->solution.move[2 * k + x] == anew->solution.move[2 * k + x]);
+    }
+    assert_true(!kept->proof == !anew->proof);
+    if (!kept->proof) return;
+    assert_int_equal(kept->proof->nodes, anew->proof->nodes);
+    for (size_t k = 0; k < kept->proof->nodes; k++) {
+        assert_int_equal(kept->proof->node[k].a, anew->proof->node[k].a);
+        assert_int_equal(kept->proof->node[k].b, anew->proof->node[k].b);
+        assert_int_equal(kept->proof->node[k].ways, anew->proof->node[k].ways);
+    }
+}
+
+static void check_questions(rng *r, const layer *l, size_t *told)
+{
+    sunder_i_planes planes = {0};
+    sunder_error err;
+    for (int k = 0; k < QUESTIONS; k++) {
+        uint32_t body[2], feature[MOVING + STANDING];
+        sunder_i_requirement required;
+        sunder_i_subproblem q;
+        sunder_i_decision kept, anew;
+        draw_question(r, l, body, feature, &required, &q);
+        assert_int_equal(sunder_i_decide(&q, &anew, &err), SUNDER_OK);
+        q.planes = &planes;
+        assert_int_equal(sunder_i_decide(&q, &kept, &err), SUNDER_OK);
+        expect_same(&kept, &anew);
+        told[kept.verdict]++;
+        sunder_i_decision_clear(&kept);
+        sunder_i_decision_clear(&anew);
+    }
+    sunder_i_planes_clear(&planes);
+}
+
+static void test_questions(void **state)
+{
+    size_t told[3] = {0};
+    (void)state;
+    for (uint64_t k = 0; k < LAYERS; k++) {
+        rng r = rng_start(11, k);
+        layer l;
+        begin(&r, &l);
+        check_questions(&r, &l, told);
+        end(&l);
+    }
+    assert_true(told[SUNDER_I_INFEASIBLE] > LAYERS && told[SUNDER_I_FEASIBLE] > LAYERS);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_questions)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
