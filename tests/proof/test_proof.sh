@@ -200,5 +200,12 @@ else
     for name in krems_2013 saint_jean_la_poterie; do proved $name "$data/$name.gpkg" --gap 3; done
     ogr2ogr baltimore.gpkg "/vsizip/$data/baltimore_2015_shp.zip" buildings -nln buildings 2>/dev/null || fail "ogr2ogr"
     proved baltimore baltimore.gpkg --gap 3
+    # Blocks that share an effort: what has a solution of reals, and is asked about its lattice, leaves the last of them theirs.
+    paris=$data/paris_cite_2014.gpkg
+    "$SUNDER" separate "$paris" o.gpkg --overwrite -q --input-layer buildings --output-layer main --layers main,conflicts \
+        --bbox 652450,6862380,652940,6862830 --barrier "$paris,layer=roads,width=5" --max-shift 10 --effort 0 --proof paris.jsonl 2>err
+    for pair in '"a": 1734, "b": 4095,' '"a": 4098, "b": 1832,'; do
+        grep "$pair" paris.jsonl | grep -q '"reason": "no_room"' || fail "beside Paris's roads $pair is left open"
+    done
 fi
 finish

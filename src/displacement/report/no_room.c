@@ -108,7 +108,7 @@ typedef struct matter {
     bool open;
     bool fine;  /* by coarse lines there is a solution */
     bool slack; /* and by fine ones, with a translation for each two parts that are held to an overlap */
-    bool still; /* and with such, too: but is there a place for it that doubles hold? */
+    bool still; /* and with such, too: but is there a place for it that doubles hold? Asked when all else was */
     bool no_plane;
 } matter;
 
@@ -133,15 +133,14 @@ static double farthest_of(const sunder_i_model *model, const uint32_t *body, siz
 }
 
 /* The next of the ways to ask: first by lines that are a little coarse, which make smaller proofs; where that has a
- * solution, as finely as can be; where that has one, with a slack for what is held to overlaps; and at last whether
- * either of the two is held between two lines, with no place there that doubles hold. */
+ * solution, as finely as can be; where that has one, with a slack for what is held to overlaps. That is all that reals
+ * tell; whether either of the two is held between two lines, with no place there that doubles hold, is for later. */
 static bool ask_closer(const sunder_i_subproblem *q, matter *m)
 {
-    if (m->still) return false;
     m->still = m->slack || (m->fine && !sunder_i_may_have_slack(q));
     m->slack = m->fine;
     m->fine = true;
-    return true;
+    return !m->still;
 }
 
 /* Asks about one conflict: is there a proof? It is open as long as more effort might tell. */
@@ -164,12 +163,13 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
         q->no_plane = m->no_plane;
         status = sunder_i_decide(q, &decision, err);
         m->no_plane = m->no_plane || (!q->no_plane && decision.no_plane);
-    } while (!status && decision.verdict == SUNDER_I_FEASIBLE && ask_closer(q, m));
+    } while (!status && decision.verdict == SUNDER_I_FEASIBLE && !m->still && ask_closer(q, m));
     sunder_proof **proof = &report->proof[m->conflict];
     *proof = decision.proof;
     decision.proof = NULL;
     m->open = !*proof && decision.verdict == SUNDER_I_UNKNOWN && decision.work > q->effort;
-    if (!*proof) *pool = *pool > decision.work ? *pool - decision.work : 0;
+    const bool later = m->still && !q->still; /* it has a solution of reals, and is not asked for one again */
+    if (!*proof && !later) *pool = *pool > decision.work ? *pool - decision.work : 0;
     sunder_i_decision_clear(&decision);
     q->no_plane = false;
     if (!status && *proof) status = reduce(q, proof, err);
@@ -217,7 +217,23 @@ static bool has_no_limit(const asking *g, const matter *m)
     return p > 0 && r > 0 && p + r == INFINITY;
 }
 
-/* All conflicts of a cluster at one effort, before any is asked about at the next. */
+/* All conflicts of a cluster that are open at one effort, before any is asked about at the next. */
+static sunder_status ask_cluster(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
+                                 sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    uint64_t pool = EFFORT * g->times + EFFORT_EACH * (uint64_t)(q->reserves + 2);
+    for (uint64_t effort = FIRST_EFFORT; effort <= MOST_EFFORT * g->times && pool && !status; effort *= GROWTH)
+        for (matter *m = first; m < last && pool && !status; m++) {
+            if (!m->open) continue;
+            q->effort = effort < pool ? effort : pool;
+            status = has_no_limit(g, m) ? ask_without_limit(g, m, q, &pool, err) : ask(g, m, q, &pool, err);
+        }
+    return status;
+}
+
+/* Who stays where it is by its lattice is asked about when all that reals tell is told, with an effort of its own: such
+ * questions are large and often in vain, and those that come after them in a cluster have to be left theirs. */
 static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const asking *g = context;
@@ -232,13 +248,9 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
                                  .planes = &planes};
         q.reserve = sunder_i_solver_members(g->solver, first->root, &q.reserves);
         q.farthest = farthest_of(q.model, q.reserve, q.reserves);
-        uint64_t pool = EFFORT * g->times + EFFORT_EACH * (uint64_t)(q.reserves + 2);
-        for (uint64_t effort = FIRST_EFFORT; effort <= MOST_EFFORT * g->times && pool && !status; effort *= GROWTH)
-            for (matter *m = first; m < last && pool && !status; m++) {
-                if (!m->open) continue;
-                q.effort = effort < pool ? effort : pool;
-                status = has_no_limit(g, m) ? ask_without_limit(g, m, &q, &pool, err) : ask(g, m, &q, &pool, err);
-            }
+        status = ask_cluster(g, first, last, &q, err);
+        for (matter *m = first; m < last; m++) m->open = m->still;
+        if (!status) status = ask_cluster(g, first, last, &q, err);
         sunder_i_planes_clear(&planes);
         if (status) return status;
     }
