@@ -46,7 +46,7 @@ static void go_down(double x)
     const size_t points = 3;
     const sunder_barrier barrier = {{.xy = line, .line_end = &points, .lines = 1}, 2 * half, -1, false};
     double corner[2], move[4] = {0};
-    scene scene;
+    scene s;
     sunder_layer *layer, work;
     sunder_i_rules rules;
     sunder_i_barriers parts;
@@ -55,12 +55,12 @@ static void go_down(double x)
     size_t *number;
     bool found;
     find_corner(x, corner);
-    scene_begin(&scene, 0);
-    scene.options.no_blocks = scene.options.allow_jumps = true;
-    scene_add_box(&scene, left, lower, width, 1);
-    assert_int_equal(sunder_layer_new(scene.feature, scene.n, &layer, &err), SUNDER_OK);
+    scene_begin(&s, 0);
+    s.options.no_blocks = s.options.allow_jumps = true;
+    scene_add_box(&s, left, lower, width, 1);
+    assert_int_equal(sunder_layer_new(s.feature, s.n, &layer, &err), SUNDER_OK);
     assert_int_equal(sunder_layer_set_barriers(layer, &barrier, 1, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_rules_of(&scene.options, &rules, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_rules_of(&s.options, &rules, &err), SUNDER_OK);
     assert_int_equal(sunder_i_barriers_make(layer, 0, &parts, &err), SUNDER_OK);
     assert_int_equal(sunder_i_order_layer(layer, &parts, true, &work, &number, &err), SUNDER_OK);
     assert_int_equal(sunder_i_model_init(&work, &parts, &rules, &model, &err), SUNDER_OK);
@@ -83,7 +83,7 @@ static void go_down(double x)
     sunder_i_free(work.feature);
     sunder_i_free(number);
     sunder_layer_free(layer);
-    scene_end(&scene);
+    scene_end(&s);
 }
 
 static void test_between_an_edge_and_a_round_end(void **state)
