@@ -430,6 +430,30 @@ static void test_nothing_left_of_a_limit(void **state)
     scene_end(&s);
 }
 
+/* Two limits meet in one row: a house (all of its limit) within a wall that is within another, whose limit leaves the
+ * row no other way than along a circle. Found with random layers, where it cost five times as much. */
+static void test_two_limits_in_a_row(void **state)
+{
+    (void)state;
+    const double y = sqrt(2.25 * 2.25 - 1.6875 * 1.6875);
+    scene s;
+    scene_begin(&s, 0);
+    scene_add(&s, "POLYGON((5.625 3.375,12.375 3.375,12.375 12.375,11.25 12.375,11.25 4.5,6.75 4.5,6.75 12.375,"
+                  "5.625 12.375,5.625 3.375))");
+    scene_add(&s, "POLYGON((6.75 7.875,12.375 7.875,12.375 12.375,11.25 12.375,11.25 9,7.875 9,7.875 12.375,"
+                  "6.75 12.375,6.75 7.875))");
+    scene_add(&s, "POLYGON((9 3.375,13.5 3.375,13.5 4.5,10.125 4.5,10.125 7.875,9 7.875,9 3.375))")->max_shift = 0.5625;
+    scene_add(&s, "POLYGON((10.125 10.125,14.625 10.125,10.125 18,10.125 10.125))");
+    s.feature[0].max_shift = 2.8125;
+    s.feature[3].max_shift = 2.25;
+    s.feature[0].block = s.feature[3].block = 7;
+    s.options.allow_jumps = s.options.no_blocks = true;
+    s.options.contained = SUNDER_CONTAINMENT_SEPARATE;
+    scene_separate(&s);
+    check_optimum(&s, 2 * 2.25 * 2.25 + 2 * 0.5625 * 0.5625 + (4.5 - y) * (4.5 - y));
+    scene_end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -454,6 +478,7 @@ int main(void)
         cmocka_unit_test(test_no_nearer_by_dividing),
         cmocka_unit_test(test_within_limits_too),
         cmocka_unit_test(test_nothing_left_of_a_limit),
+        cmocka_unit_test(test_two_limits_in_a_row),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

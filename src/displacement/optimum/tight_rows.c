@@ -105,13 +105,14 @@ static bool draw_away(sunder_i_tight *f, const sunder_i_tight_meeting *m)
 }
 
 /* Brings a body back within its limit, by the rows that may move. Where one coordinate uses all of the limit up, what
- * is left of the other is 0, however little it missed the limit by: a share e of that is sqrt(2 e) of it. */
-static void draw_within(sunder_i_tight *f, size_t k)
+ * is left of the other is 0, however little it missed the limit by: a share e of that is sqrt(2 e) of it. True if it
+ * was beyond by half of the margin: another body's limit may bring the row that they share back out. */
+static bool draw_within(sunder_i_tight *f, size_t k)
 {
     const double limit = sunder_i_limit_of(&f->model->body[f->body[k]]),
                  t[2] = {sunder_i_tight_place_of(f, 2 * k), sunder_i_tight_place_of(f, 2 * k + 1)};
     const bool free[2] = {!f->stays[f->row[2 * k]], !f->stays[f->row[2 * k + 1]]};
-    if (sunder_i_is_within_limit(t, limit)) return;
+    if (sunder_i_is_within_limit(t, limit)) return false;
     const double length = hypot(t[0], t[1]) * (1 + 0x1p-50);
     for (int c = 0; c < 2; c++) {
         if (!free[c]) continue;
@@ -119,6 +120,7 @@ static void draw_within(sunder_i_tight *f, size_t k)
                      to = free[1 - c] ? t[c] * (limit / length) : fmax(-most, fmin(most, t[c]));
         f->base[f->row[2 * k + (size_t)c]] += to - t[c];
     }
+    return (free[0] || free[1]) && length - limit > f->margin / 2;
 }
 
 static bool find_meetings(sunder_i_tight *f, size_t i, size_t j)
@@ -149,7 +151,7 @@ static void draw_apart(sunder_i_tight *f)
         again = false;
         for (size_t k = 0; k < f->meetings; k++) again = draw_away(f, &f->meeting[k]) || again;
         for (size_t k = 0; k < f->n; k++)
-            if (!f->model->body[f->body[k]].fixed) draw_within(f, k);
+            if (!f->model->body[f->body[k]].fixed) again = draw_within(f, k) || again;
     }
 }
 
