@@ -181,18 +181,24 @@ static bool has_foot(const facing *f, size_t k, const double n[2], double hair)
     return dot(to_p, e) < -room && dot(to_q, e) > room;
 }
 
+/* Nearly so, but not just so. */
+static bool are_nearly_parallel(const double n[2], const double other[2])
+{
+    const double size = hypot(other[0], other[1]) * hypot(n[0], n[1]);
+    return dot(n, other) > 0 && !are_parallel(n, other) &&
+           fabs(n[0] * other[1] - n[1] * other[0]) < NEARLY_PARALLEL * size;
+}
+
 /* Of all other edges: none is nearly parallel to the k-th, save for those that are just so; and none is less deep,
  * where the parts are in each other. */
 static bool stands_out(const facing *f, size_t k, const double n[2], double hair)
 {
-    const double depth = beyond(f, n), length = hypot(n[0], n[1]);
+    const double depth = beyond(f, n);
     for (size_t m = 0; m < f->wall.a->corners + f->wall.b->corners; m++) {
         double other[2];
         if (m == k) continue;
-        if (!normal_of(f, m, other)) return false;
-        const double size = hypot(other[0], other[1]) * length, along = dot(n, other) / size;
-        if (along > 0 && are_parallel(n, other)) continue;
-        if (along > 0 && fabs(n[0] * other[1] - n[1] * other[0]) < NEARLY_PARALLEL * size) return false;
+        if (!normal_of(f, m, other) || are_nearly_parallel(n, other)) return false;
+        if (dot(n, other) > 0 && are_parallel(n, other)) continue;
         if (depth < 0 && !(beyond(f, other) < depth - hair)) return false;
     }
     return true;
@@ -236,11 +242,7 @@ static bool is_far_line(const sunder_i_branching *c, facing *f, size_t k, const 
     for (size_t m = 0; m < f->wall.a->corners + f->wall.b->corners; m++) {
         double other[2];
         if (m == k) continue;
-        if (!normal_of(f, m, other)) return false;
-        const double size = hypot(other[0], other[1]) * hypot(n[0], n[1]);
-        if (dot(n, other) > 0 && !are_parallel(n, other) &&
-            fabs(n[0] * other[1] - n[1] * other[0]) < NEARLY_PARALLEL * size)
-            return false;
+        if (!normal_of(f, m, other) || are_nearly_parallel(n, other)) return false;
     }
     const double *p = farthest(f->a, f->wall.a->corners, n, 1), *q = farthest(f->b, f->wall.b->corners, n, -1);
     scale(n);
@@ -262,6 +264,21 @@ typedef struct looking {
 
 static bool is_rational(const sunder_i_model *model, uint32_t f) { return model->layer->feature[f].shape->rational; }
 
+/* Takes the line, if the pair stood as `part`, of the feature, and the other thing's part did. */
+static void take_line(looking *g, const facing *f, const double *part, size_t corners)
+{
+    const sunder_i_corridor_wall *w = &f->wall;
+    bool same;
+    g->status = sunder_i_parts_stand_so(g->branching->model, w->a->feature, w->b->feature,
+                                        &(sunder_i_piece_of){.n = (uint32_t)corners, .xy = part},
+                                        &(sunder_i_piece_of){.n = w->b->corners, .xy = f->b}, &same, g->err);
+    if (g->status || !same) return;
+    if (!sunder_i_reserve(&g->line, &g->capacity, g->n + 1, sizeof *g->line))
+        g->status = sunder_i_no_memory(g->err);
+    else
+        g->line[g->n++] = *w;
+}
+
 static void look_at(looking *g, const sunder_i_body_piece *a, const sunder_i_body_piece *b, double clearance)
 {
     const sunder_i_model *model = g->branching->model;
@@ -270,18 +287,8 @@ static void look_at(looking *g, const sunder_i_body_piece *a, const sunder_i_bod
     if (a->corners > WALL_CORNERS || b->corners > WALL_CORNERS) return;
     sunder_i_piece_as_given(model, a, f.a);
     sunder_i_piece_as_given(model, b, f.b);
-    for (size_t k = 0; k < a->corners + b->corners && !g->status; k++) {
-        bool same;
-        if (!is_line(g->branching, &f, k, clearance)) continue;
-        g->status =
-            sunder_i_parts_stand_so(model, a->feature, b->feature, &(sunder_i_piece_of){.n = a->corners, .xy = f.a},
-                                    &(sunder_i_piece_of){.n = b->corners, .xy = f.b}, &same, g->err);
-        if (g->status || !same) continue;
-        if (!sunder_i_reserve(&g->line, &g->capacity, g->n + 1, sizeof *g->line))
-            g->status = sunder_i_no_memory(g->err);
-        else
-            g->line[g->n++] = f.wall;
-    }
+    for (size_t k = 0; k < a->corners + b->corners && !g->status; k++)
+        if (is_line(g->branching, &f, k, clearance)) take_line(g, &f, f.a, a->corners);
 }
 
 static void look_at_depth(looking *g, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
@@ -293,18 +300,8 @@ static void look_at_depth(looking *g, const sunder_i_body_piece *a, const sunder
     if (a->corners > WALL_CORNERS || b->corners > WALL_CORNERS) return;
     sunder_i_piece_as_given(model, a, f.a);
     sunder_i_piece_as_given(model, b, f.b);
-    for (size_t k = 0; k < a->corners + b->corners && !g->status; k++) {
-        bool same;
-        if (!is_far_line(g->branching, &f, k, hull, corners)) continue;
-        g->status = sunder_i_parts_stand_so(model, a->feature, b->feature,
-                                            &(sunder_i_piece_of){.n = (uint32_t)corners, .xy = hull},
-                                            &(sunder_i_piece_of){.n = b->corners, .xy = f.b}, &same, g->err);
-        if (g->status || !same) continue;
-        if (!sunder_i_reserve(&g->line, &g->capacity, g->n + 1, sizeof *g->line))
-            g->status = sunder_i_no_memory(g->err);
-        else
-            g->line[g->n++] = f.wall;
-    }
+    for (size_t k = 0; k < a->corners + b->corners && !g->status; k++)
+        if (is_far_line(g->branching, &f, k, hull, corners)) take_line(g, &f, hull, corners);
 }
 
 /* The corners of the hull of a feature, as given, counter-clockwise and strictly convex; false: it is none so. */

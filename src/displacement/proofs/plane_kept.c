@@ -21,18 +21,18 @@ void sunder_i_planes_clear(sunder_i_planes *planes)
     memset(planes, 0, sizeof *planes);
 }
 
+static bool is_of(const struct sunder_i_plane_kept *kept, const sunder_i_plane *g)
+{
+    return kept->p == g->p && kept->q == g->q && kept->reach == g->reach && kept->coarse == g->c->subproblem->coarse;
+}
+
 /* The last that was asked about stands first. */
 struct sunder_i_plane_kept *sunder_i_planes_take(sunder_i_planes *planes, const sunder_i_plane *g)
 {
-    const double coarse = g->c->subproblem->coarse;
-    struct sunder_i_plane_kept *found = NULL;
     size_t at = 0;
-    for (; at + 1 < SUNDER_I_PLANES_KEPT && planes->plane[at]; at++) {
-        const struct sunder_i_plane_kept *kept = planes->plane[at];
-        if (kept->p == g->p && kept->q == g->q && kept->reach == g->reach && kept->coarse == coarse) break;
-    }
-    found = planes->plane[at];
-    if (found && !(found->p == g->p && found->q == g->q && found->reach == g->reach && found->coarse == coarse)) {
+    while (at + 1 < SUNDER_I_PLANES_KEPT && planes->plane[at] && !is_of(planes->plane[at], g)) at++;
+    struct sunder_i_plane_kept *found = planes->plane[at];
+    if (found && !is_of(found, g)) {
         free_kept(found);
         found = NULL;
     }
@@ -44,7 +44,7 @@ struct sunder_i_plane_kept *sunder_i_planes_take(sunder_i_planes *planes, const 
     found->p = g->p;
     found->q = g->q;
     found->reach = g->reach;
-    found->coarse = coarse;
+    found->coarse = g->c->subproblem->coarse;
     planes->plane[0] = found;
     return sunder_i_plane_find(g, found) ? found : NULL;
 }
