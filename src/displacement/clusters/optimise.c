@@ -249,6 +249,9 @@ static bool has_moved(const taking *t, uint32_t thing)
     return t->by[t->solver->model.body_of[thing]] != SUNDER_I_NOBODY;
 }
 
+/* Has one of the two gone back since pairs were related? What ran into who went back may stay. */
+static bool is_outdated(const sunder_i_solver *s, uint32_t a, uint32_t b) { return s->changed[a] || s->changed[b]; }
+
 typedef enum offence { NONE, WORSE, CONFLICT } offence;
 
 /* A conflict that is to be none, or an overlap that had ended; or one that is listed, and stands worse than it stood.
@@ -298,11 +301,14 @@ static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
     for (size_t k = 0; k < s->now.n && !status; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
         offence found;
+        if (is_outdated(s, r->a, r->b)) continue;
         status = find_offence(t, r, &found, err);
         if (!status && found == CONFLICT) part(t, r->a, r->b, true, any);
     }
-    for (size_t k = 0; k < s->jumps.n && !status; k++)
-        if (!part_jump(t, s->jumps.pair[k].a, s->jumps.pair[k].b, any)) status = sunder_i_no_memory(err);
+    for (size_t k = 0; k < s->jumps.n && !status; k++) {
+        const sunder_i_id_pair *p = &s->jumps.pair[k];
+        if (!is_outdated(s, p->a, p->b) && !part_jump(t, p->a, p->b, any)) status = sunder_i_no_memory(err);
+    }
     return status || *any ? status : mend_first(t, any, err);
 }
 
