@@ -454,6 +454,33 @@ static void test_two_limits_in_a_row(void **state)
     scene_end(&s);
 }
 
+/* Two limits that draw a row to and fro, far from the origin: what lies within both is narrow, but has room. Found with
+ * random layers. */
+static void test_between_two_limits(void **state)
+{
+    (void)state;
+    scene s;
+    scene_begin(&s, 0);
+    scene_add(&s, "POLYGON((400001.5 5200000.75,400004.5 5200001.5,400005.25 5200006.75,400002.25 5200006,"
+                  "400001.5 5200000.75))");
+    scene_add(&s, "POLYGON((400001.5 5200002.25,400005.25 5200002.25,400005.25 5200003,400002.25 5200003,"
+                  "400002.25 5200006.75,400001.5 5200006.75,400001.5 5200002.25))");
+    scene_add(&s, "POLYGON((400002.25 5200000.75,400006.75 5200000.75,400006.75 5200003.75,400006 5200003.75,"
+                  "400006 5200001.5,400003 5200001.5,400003 5200003.75,400002.25 5200003.75,400002.25 5200000.75))");
+    scene_add_box(&s, 400005.25, 5200000.75, 3, 2.25);
+    const double weight[] = {2.25, 2.875, 1, 1.625}, limit[] = {3, INFINITY, 1.875, 1.5};
+    for (size_t k = 0; k < 4; k++) {
+        s.feature[k].weight = weight[k];
+        s.feature[k].max_shift = limit[k];
+    }
+    s.feature[0].block = s.feature[3].block = 7;
+    s.options.allow_jumps = s.options.no_blocks = true;
+    s.options.contained = SUNDER_CONTAINMENT_SEPARATE;
+    scene_separate(&s);
+    check_optimum(&s, 19.5714335818);
+    scene_end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -479,6 +506,7 @@ int main(void)
         cmocka_unit_test(test_within_limits_too),
         cmocka_unit_test(test_nothing_left_of_a_limit),
         cmocka_unit_test(test_two_limits_in_a_row),
+        cmocka_unit_test(test_between_two_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,6 +18,7 @@ typedef struct sunder_i_tight {
     size_t capacity, places;
     int exponent; /* of the step */
     double step, size, hair, margin;
+    double room;   /* what moves are to be shorter than their limits by */
     uint32_t *row; /* [2 * all] of each body's x, and of its y; rows of both axes are numbered together */
     double *base;  /* [2 * all + 1] the move of the first body of each row */
     double *ahead; /* [2 * all] whole steps from there */
@@ -47,6 +48,8 @@ bool sunder_i_tight_find_outside(sunder_i_tight *f);
 /* Of all that take part: rows, drawn apart where they have room, and within limits. The step is known. False if memory
  * is out. */
 bool sunder_i_tight_draw_rows(sunder_i_tight *f);
+/* These rows, from where they are. */
+void sunder_i_tight_draw_apart(sunder_i_tight *f);
 /* Where coordinate k is, of two for each body. */
 static inline double sunder_i_tight_place_of(const sunder_i_tight *f, size_t k)
 {

@@ -59,7 +59,16 @@ static bool step_back(sunder_i_tight *f, double unit)
     return any;
 }
 
-/* Bases of rows in units that all of the group can hold; steps are whole numbers of these. */
+/* The bases in whole units. */
+static void round_bases(sunder_i_tight *f, double unit)
+{
+    for (size_t row = 0; row < f->rows; row++)
+        if (!f->stays[row]) f->base[row] = unit * rint(f->base[row] / unit);
+}
+
+/* Bases of rows in units that all of the group can hold; steps are whole numbers of these. Two limits that draw a row
+ * to and fro leave it room between them, where there is any, that steps of one unit towards home do not find: it is
+ * drawn a few units farther in. */
 static void round_rows(sunder_i_tight *f)
 {
     double coarsest = 0, out[2], unit;
@@ -67,10 +76,14 @@ static void round_rows(sunder_i_tight *f)
         sunder_i_round_move(f->model, f->body[k], f->t + 2 * k, out, &unit);
         coarsest = fmax(coarsest, unit);
     }
-    for (size_t row = 0; row < f->rows && coarsest > 0; row++)
-        if (!f->stays[row]) f->base[row] = coarsest * rint(f->base[row] / coarsest);
-    for (int turn = 0; turn < TIGHT_STEPS_BACK && step_back(f, coarsest); turn++) {
-    }
+    if (!(coarsest > 0)) return;
+    round_bases(f, coarsest);
+    bool beyond = true;
+    for (int turn = 0; turn < TIGHT_STEPS_BACK && beyond; turn++) beyond = step_back(f, coarsest);
+    if (!beyond) return;
+    f->room = TIGHT_ROOM * coarsest;
+    sunder_i_tight_draw_apart(f);
+    round_bases(f, coarsest);
 }
 
 /* Can all bodies be moved just so? */

@@ -106,21 +106,22 @@ static bool draw_away(sunder_i_tight *f, const sunder_i_tight_meeting *m)
 
 /* Brings a body back within its limit, by the rows that may move. Where one coordinate uses all of the limit up, what
  * is left of the other is 0, however little it missed the limit by: a share e of that is sqrt(2 e) of it. True if it
- * was beyond by half of the margin: another body's limit may bring the row that they share back out. */
+ * was beyond by half of the margin, or by a part of the room that is to be left: another body's limit may bring the row
+ * that they share back out. */
 static bool draw_within(sunder_i_tight *f, size_t k)
 {
-    const double limit = sunder_i_limit_of(&f->model->body[f->body[k]]),
+    const double limit = fmax(0, sunder_i_limit_of(&f->model->body[f->body[k]]) - f->room),
                  t[2] = {sunder_i_tight_place_of(f, 2 * k), sunder_i_tight_place_of(f, 2 * k + 1)};
     const bool free[2] = {!f->stays[f->row[2 * k]], !f->stays[f->row[2 * k + 1]]};
     if (sunder_i_is_within_limit(t, limit)) return false;
-    const double length = hypot(t[0], t[1]) * (1 + 0x1p-50);
+    const double length = hypot(t[0], t[1]) * (1 + 0x1p-50), little = f->room > 0 ? f->room / 4 : f->margin / 2;
     for (int c = 0; c < 2; c++) {
         if (!free[c]) continue;
         const double other = t[1 - c], most = sqrt(fmax(0, (limit - other) * (limit + other))) * (1 - 0x1p-50),
                      to = free[1 - c] ? t[c] * (limit / length) : fmax(-most, fmin(most, t[c]));
         f->base[f->row[2 * k + (size_t)c]] += to - t[c];
     }
-    return (free[0] || free[1]) && length - limit > f->margin / 2;
+    return (free[0] || free[1]) && length - limit > little;
 }
 
 static bool find_meetings(sunder_i_tight *f, size_t i, size_t j)
@@ -144,7 +145,7 @@ static bool find_all_meetings(sunder_i_tight *f)
     return true;
 }
 
-static void draw_apart(sunder_i_tight *f)
+void sunder_i_tight_draw_apart(sunder_i_tight *f)
 {
     bool again = true;
     for (int turn = 0; turn < TIGHT_TURNS && again; turn++) {
@@ -193,11 +194,11 @@ bool sunder_i_tight_draw_rows(sunder_i_tight *f)
     if (!f->row || !f->base || !f->ahead || !f->stays || !f->alone || !find_all_meetings(f)) return false;
     leave_limits_whole(f);
     find_rows(f);
-    draw_apart(f);
+    sunder_i_tight_draw_apart(f);
     if (is_in_shadow(f)) {
         leave_alone(f);
         find_rows(f);
-        draw_apart(f);
+        sunder_i_tight_draw_apart(f);
     }
     return true;
 }

@@ -83,6 +83,8 @@
 #define TIGHT_TURNS 1000
 #define TIGHT_STEPS_BACK 16
 #define TIGHT_PULL 0x1p-20
+/* Where that does not do, so many units are left of limits, of which rounding takes one at most. */
+#define TIGHT_ROOM 2
 
 /* ---- Large groups (contact_forces.c, blocks.c) ------------------------------------------------------------------- */
 
