@@ -134,24 +134,44 @@ static size_t check_cover(rng *r, const set *s, sunder_i_reflex *reflex)
     return covered;
 }
 
-/* What is kept of a region's sides is what is found of them afresh; asked for again it takes no steps; all is free. */
+/* The sides of the region as `known` tells of them, and from nothing: the same places, for as many steps. */
+static void check_known(const set *s, const sunder_i_free_sides *known, const sunder_i_region *region)
+{
+    sunder_i_free_sides fresh = {0}, told = {0};
+    uint64_t steps = 0, told_steps = 0;
+    assert_true(sunder_i_free_sides_find(&fresh, &fresh, region, &s->forbidden, &steps));
+    assert_true(sunder_i_free_sides_find(&told, known, region, &s->forbidden, &told_steps));
+    assert_int_equal(told.n, fresh.n);
+    assert_true(told_steps == steps);
+    if (told.n) assert_memory_equal(told.place, fresh.place, told.n * sizeof *told.place);
+    assert_memory_equal(told.first, fresh.first, (region->n + 1) * sizeof *told.first);
+    sunder_i_free(fresh.place);
+    sunder_i_free(told.place);
+}
+
+/* What is kept of a region's sides is what is found of them afresh; asked for again it takes no steps; all is free. Of
+ * a region that was cut it tells of the sides that are left. */
 static void check_sides(rng *r, const set *s)
 {
     sunder_i_free_sides kept = {0};
     for (int k = 0; k < 20; k++) {
         const double centre[2] = {(double)rng_int(r, -160, 160) / 4, (double)rng_int(r, -160, 160) / 4};
-        sunder_i_free_sides fresh = {0};
         sunder_i_region region;
         uint64_t steps = 0;
         sunder_i_region_init(&region, centre, (double)rng_int(r, 1, 80) / 4);
-        assert_true(sunder_i_free_sides_find(&kept, &region, &s->forbidden, &steps));
+        check_known(s, &kept, &region);
+        assert_true(sunder_i_free_sides_find(&kept, &kept, &region, &s->forbidden, &steps) && steps > 0);
         steps = 0;
-        assert_true(sunder_i_free_sides_find(&kept, &region, &s->forbidden, &steps) && steps == 0);
-        assert_true(sunder_i_free_sides_find(&fresh, &region, &s->forbidden, &steps) && steps > 0);
-        assert_int_equal(kept.n, fresh.n);
-        if (kept.n) assert_memory_equal(kept.place, fresh.place, kept.n * sizeof *kept.place);
+        assert_true(sunder_i_free_sides_find(&kept, &kept, &region, &s->forbidden, &steps) && steps == 0);
+        check_known(s, &kept, &region);
         for (size_t m = 0; m < kept.n; m++) assert_true(depth_of(s, kept.place[m][0], kept.place[m][1]) <= hair);
-        sunder_i_free(fresh.place);
+        for (int cut = 0; cut < 4; cut++) {
+            const double angle = (double)rng_int(r, 0, 62) / 10, n[2] = {cos(angle), sin(angle)};
+            const double d = n[0] * centre[0] + n[1] * centre[1] - (double)rng_int(r, 0, 80) / 8;
+            sunder_i_region_clip(&region, n, d, 0, s->forbidden.grain);
+            check_known(s, &kept, &region);
+            if (cut % 2) assert_true(sunder_i_free_sides_find(&kept, &kept, &region, &s->forbidden, &steps));
+        }
     }
     sunder_i_free(kept.place);
 }

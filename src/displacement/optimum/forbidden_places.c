@@ -142,19 +142,27 @@ static void widen(double span[2], double from, double to)
     if (to > span[1]) span[1] = to;
 }
 
+/* What is crossed may be a grain beyond an edge's ends, and every length in the question is off by less than one. */
+#define CLEAR_GRAINS 8
+
 bool sunder_i_forbidden_span(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece, const double from[2],
                              const double dir[2], double span[2])
 {
-    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
-    const double radius = piece->radius;
+    const sunder_i_obstacle_edge *edge = f->edge + piece->edge, *first = edge;
+    const double radius = piece->radius, clear = radius + CLEAR_GRAINS * f->grain;
     span[0] = INFINITY;
     span[1] = -INFINITY;
+    if (piece->edges == 0) return false;
     /* The line meets the piece grown, if at all, in a segment; its ends are on edges moved out, or on discs about
-     * corners, and all that is there is in the piece. */
+     * corners, and all that is there is in the piece. Most edges lie on one side of the line, with both corners and the
+     * discs about them: nothing else is to be asked of those. */
+    double next = (first->from[0] - from[0]) * dir[1] - (first->from[1] - from[1]) * dir[0];
     for (uint32_t k = 0; k < piece->edges; k++) {
-        const sunder_i_obstacle_edge *e = &edge[k];
-        const double wx = e->from[0] - from[0], wy = e->from[1] - from[1], off = wx * dir[1] - wy * dir[0],
-                     under = radius * radius - off * off;
+        const sunder_i_obstacle_edge *e = &edge[k], *after = k + 1 < piece->edges ? e + 1 : first;
+        const double off = next;
+        next = (after->from[0] - from[0]) * dir[1] - (after->from[1] - from[1]) * dir[0];
+        if ((off > clear && next > clear) || (off < -clear && next < -clear)) continue;
+        const double wx = e->from[0] - from[0], wy = e->from[1] - from[1], under = radius * radius - off * off;
         if (under >= 0 && radius > 0) {
             const double mid = wx * dir[0] + wy * dir[1], half = sqrt(under);
             widen(span, mid - half, mid + half);

@@ -294,21 +294,54 @@ static bool is_known(const sunder_i_free_sides *s, const sunder_i_region *r)
     return s->any && s->region.n == r->n && memcmp(s->region.xy, r->xy, 2 * r->n * sizeof *r->xy) == 0;
 }
 
-bool sunder_i_free_sides_find(sunder_i_free_sides *s, const sunder_i_region *r, const sunder_i_forbidden *f,
-                              uint64_t *steps)
+/* Side k of the region among those of which is known what is free of them: a cut leaves most sides as they were. They
+ * go round alike, so it is looked for from `from` on. UINT32_MAX: it is not known. */
+static uint32_t find_side(const sunder_i_free_sides *known, const sunder_i_region *r, uint32_t k, uint32_t from)
+{
+    const uint32_t n = known->any && known->n < MOST_EXTREME ? known->region.n : 0;
+    const double *p = r->xy + 2 * k, *q = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0), *xy = known->region.xy;
+    for (uint32_t tried = 0, m = from < n ? from : 0; tried < n; tried++) {
+        const uint32_t next = m + 1 < n ? m + 1 : 0;
+        if (xy[2 * m] == p[0] && xy[2 * m + 1] == p[1] && xy[2 * next] == q[0] && xy[2 * next + 1] == q[1]) return m;
+        m = next;
+    }
+    return UINT32_MAX;
+}
+
+static void gather_known(gathering *g, const sunder_i_free_sides *known, uint32_t side, uint64_t *steps)
+{
+    for (uint32_t m = known->first[side]; m < known->first[side + 1]; m++)
+        gather(g, known->place[m][0], known->place[m][1]);
+    *steps += known->steps[side];
+}
+
+bool sunder_i_free_sides_find(sunder_i_free_sides *s, const sunder_i_free_sides *known, const sunder_i_region *r,
+                              const sunder_i_forbidden *f, uint64_t *steps)
 {
     double at[MOST_EXTREME][2];
+    uint32_t first[SUNDER_I_REGION_CORNERS + 1] = {0};
+    uint64_t took[SUNDER_I_REGION_CORNERS] = {0};
     gathering g = {at, 0};
     if (is_known(s, r)) return true;
-    for (uint32_t k = 0; k < r->n; k++)
-        if (sunder_i_forbidden_is_many(f))
-            gather_ends(&g, r, k, f, steps);
-        else
-            gather_side(&g, r, k, f, steps);
+    for (uint32_t k = 0, from = 0; k < r->n; k++) {
+        const uint32_t side = find_side(known, r, k, from);
+        if (side != UINT32_MAX) {
+            gather_known(&g, known, side, &took[k]);
+            from = side + 1;
+        } else if (sunder_i_forbidden_is_many(f)) {
+            gather_ends(&g, r, k, f, &took[k]);
+        } else {
+            gather_side(&g, r, k, f, &took[k]);
+        }
+        *steps += took[k];
+        first[k + 1] = (uint32_t)g.n;
+    }
     if (!sunder_i_reserve(&s->place, &s->capacity, g.n, sizeof *s->place)) return false;
     if (g.n) memcpy(s->place, at, g.n * sizeof *at);
     s->n = g.n;
     s->region = *r;
+    memcpy(s->first, first, sizeof first);
+    memcpy(s->steps, took, sizeof took);
     s->any = true;
     return true;
 }

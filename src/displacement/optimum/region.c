@@ -87,8 +87,9 @@ double sunder_i_region_beyond(const sunder_i_region *r, const double u[2], uint3
     for (uint32_t k = 0; k < r->n; k++) {
         if (r->cut[k] == SUNDER_I_NO_CUT) continue;
         const double *p = r->xy + 2 * k, *q = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
-        const double ex = q[0] - p[0], ey = q[1] - p[1], length = sqrt(ex * ex + ey * ey);
-        const double beyond = length > 0 ? ((u[0] - p[0]) * ey - (u[1] - p[1]) * ex) / length : 0;
+        const double ex = q[0] - p[0], ey = q[1] - p[1], product = (u[0] - p[0]) * ey - (u[1] - p[1]) * ex;
+        if (!(product > 0)) continue;
+        const double length = sqrt(ex * ex + ey * ey), beyond = length > 0 ? product / length : 0;
         if (beyond <= most) continue;
         most = beyond;
         *cut = r->cut[k];

@@ -49,17 +49,19 @@ bool sunder_i_reflex_seek(sunder_i_reflex *reflex, const sunder_i_forbidden *for
                           const double from[2], const double down[2], uint64_t *steps);
 
 /* What the forbidden set leaves of a region's sides: the ends of it, of many pieces the first and the last of a side.
- * The region that was asked of last is known. */
+ * The region that was asked of last is known, side by side. */
 typedef struct sunder_i_free_sides {
     sunder_i_region region;
-    bool any; /* was one asked of? */
+    bool any;                                    /* was one asked of? */
+    uint32_t first[SUNDER_I_REGION_CORNERS + 1]; /* of its side k the places from first[k] to first[k + 1] */
+    uint64_t steps[SUNDER_I_REGION_CORNERS];     /* that it took to find them */
     double (*place)[2];
     size_t n, capacity;
 } sunder_i_free_sides;
 
-/* False if memory is out. */
-bool sunder_i_free_sides_find(sunder_i_free_sides *sides, const sunder_i_region *region,
-                              const sunder_i_forbidden *forbidden, uint64_t *steps);
+/* Of sides that `known` has, which may be the same, what it tells is taken. False if memory is out. */
+bool sunder_i_free_sides_find(sunder_i_free_sides *sides, const sunder_i_free_sides *known,
+                              const sunder_i_region *region, const sunder_i_forbidden *forbidden, uint64_t *steps);
 
 /* The place nearest to u of the convex hull of what the forbidden set leaves of a region with these sides, in doubles;
  * of many pieces, of what is known of that. False: it leaves nothing. */

@@ -67,7 +67,7 @@ bool sunder_i_tree_propose(sunder_i_tree *t, uint32_t pair, const sunder_i_regio
     /* A trial leaves what is known of the pair's own region. */
     sunder_i_free_sides *sides = region == &p->region ? &p->sides : &t->tried;
     if (sides == &t->tried) sides->any = false;
-    if (!sunder_i_free_sides_find(sides, region, &p->forbidden, &t->steps)) {
+    if (!sunder_i_free_sides_find(sides, &p->sides, region, &p->forbidden, &t->steps)) {
         t->failed = true;
         return false;
     }

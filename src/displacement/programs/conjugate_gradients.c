@@ -14,6 +14,12 @@
 #include <math.h>
 #include <string.h>
 
+/* Sizes of the imbalance: of positive forces (twice, once cut where it would make them negative), of those at zero; and
+ * the worst, as a length. */
+typedef struct imbalance {
+    double cut, zero, worst;
+} imbalance;
+
 typedef struct dual {
     sunder_i_quadratic *p;
     size_t n;
@@ -22,22 +28,35 @@ typedef struct dual {
     double *f, *g, *step, *gs; /* [n] forces, gradient Gf - d, direction, G times it */
     double *t;                 /* [2 * (bodies + 1)] */
     sunder_i_link *link;       /* [n] */
+    imbalance seen;            /* at the forces as they are ... */
+    bool is_seen;              /* ... if it is known */
 } dual;
 
-/* out = G v */
-static void multiply(dual *q, const double *v, double *out)
+/* Where v pushes the bodies: to q->t. */
+static void push_all(dual *q, const double *v)
 {
     const sunder_i_quadratic *p = q->p;
     const sunder_i_link *link = q->link;
-    const double *scale = q->scale, softness = q->softness;
+    const double *scale = q->scale;
     double *t = q->t;
     memset(t, 0, 2 * p->bodies * sizeof *t);
     for (size_t k = 0; k < q->n; k++)
         if (v[k] != 0) sunder_i_link_push(&link[k], v[k] / scale[k], t);
     t[2 * p->bodies] = t[2 * p->bodies + 1] = 0; /* the ground */
-    for (size_t k = 0; k < q->n; k++)
-        out[k] = scale[k] > 0 ? sunder_i_link_stretch(&link[k], t) / scale[k] + softness * v[k] : 0;
     q->p->work += 2 * q->n;
+}
+
+/* (G v)_k, after v was pushed. */
+static inline double product_of(const dual *q, const double *v, size_t k)
+{
+    return q->scale[k] > 0 ? sunder_i_link_stretch(&q->link[k], q->t) / q->scale[k] + q->softness * v[k] : 0;
+}
+
+/* out = G v */
+static void multiply(dual *q, const double *v, double *out)
+{
+    push_all(q, v);
+    for (size_t k = 0; k < q->n; k++) out[k] = product_of(q, v, k);
 }
 
 /* As fmin() and fmax(), of which the first is a number: what is no number is passed over. Inline. */
@@ -70,21 +89,30 @@ static double largest(dual *q)
     return ABOVE_FOUND * value;
 }
 
-static double dot(const double *a, const double *b, size_t n)
-{
-    double v = 0;
-    for (size_t k = 0; k < n; k++) v += a[k] * b[k];
-    return v;
-}
+/* Along the step: its curvature, or 0 where it is nothing but rounding; how steep it is; how far it goes until a force
+ * is zero. Constraints that contradict each other make a direction without curvature, and the dual falls along it
+ * without end: a step there could have any length, and be no number at last. The diagonal of G is 1, so sums of n terms
+ * are wrong by n 2^-53 of the step's square at most; a chain of n contacts has a curvature of 5 / n^2 of it at least.
+ * Between the two there is room up to 100,000 contacts. */
+typedef struct direction {
+    double curvature, slope, feasible;
+} direction;
 
-/* The curvature along the step, or 0 where it is nothing but rounding. Constraints that contradict each other make such
- * a direction, and the dual falls along it without end: a step there could have any length, and be no number at last.
- * The diagonal of G is 1, so sums of n terms are wrong by n 2^-53 of the step's square at most; a chain of n contacts
- * has a curvature of 5 / n^2 of it at least. Between the two there is room up to 100,000 contacts. */
-static double curvature_of(const dual *q)
+/* G times the step to q->gs, and on the same way all sums along it: each is added up by itself, in its order, and none
+ * waits for another. */
+static direction look_along(dual *q)
 {
-    const double value = dot(q->step, q->gs, q->n);
-    return value > 0x1p-44 * dot(q->step, q->step, q->n) ? value : 0;
+    const double *step = q->step, *f = q->f, *g = q->g;
+    double curvature = 0, square = 0, slope = 0, feasible = INFINITY;
+    push_all(q, step);
+    for (size_t k = 0; k < q->n; k++) {
+        const double product = q->gs[k] = product_of(q, step, k);
+        curvature += step[k] * product;
+        square += step[k] * step[k];
+        slope += g[k] * step[k];
+        if (step[k] > 0) feasible = least(feasible, f[k] / step[k]);
+    }
+    return (direction){curvature > 0x1p-44 * square ? curvature : 0, slope, feasible};
 }
 
 /* The gradient among the positive forces is the next direction. */
@@ -93,51 +121,53 @@ static void restart(dual *q)
     for (size_t k = 0; k < q->n; k++) q->step[k] = q->f[k] > 0 ? q->g[k] : 0;
 }
 
-/* Sizes of the imbalance: of positive forces (twice, once cut where it would make them negative), of those at zero; and
- * the worst, as a length. */
-typedef struct imbalance {
-    double cut, zero, worst;
-} imbalance;
+static inline void note_imbalance(imbalance *i, double f, double g, double scale, double short_step)
+{
+    if (f > 0) {
+        i->cut += least(f / short_step, g) * g;
+        i->worst = most(i->worst, fabs(g) * scale);
+    } else if (g < 0) {
+        i->zero += g * g;
+        i->worst = most(i->worst, -g * scale);
+    }
+}
 
 static imbalance look(const dual *q, double short_step)
 {
     imbalance i = {0, 0, 0};
-    for (size_t k = 0; k < q->n; k++) {
-        if (q->f[k] > 0) {
-            const double cut = least(q->f[k] / short_step, q->g[k]);
-            i.cut += cut * q->g[k];
-            i.worst = most(i.worst, fabs(q->g[k]) * q->scale[k]);
-        } else if (q->g[k] < 0) {
-            i.zero += q->g[k] * q->g[k];
-            i.worst = most(i.worst, -q->g[k] * q->scale[k]);
-        }
-    }
+    for (size_t k = 0; k < q->n; k++) note_imbalance(&i, q->f[k], q->g[k], q->scale[k], short_step);
     return i;
+}
+
+/* So far along the step. Returns what of the gradient that is left is along it, among the positive forces; the
+ * imbalance is seen on the way. */
+static double go(dual *q, double taken, double short_step)
+{
+    imbalance i = {0, 0, 0};
+    double along = 0;
+    for (size_t k = 0; k < q->n; k++) {
+        const double f = q->f[k] = most(0, q->f[k] - taken * q->step[k]);
+        const double g = q->g[k] -= taken * q->gs[k];
+        if (f > 0) along += g * q->gs[k];
+        note_imbalance(&i, f, g, q->scale[k], short_step);
+    }
+    q->seen = i;
+    return along;
 }
 
 /* One step among the positive forces; false where it leads nowhere. */
 static bool step_within(dual *q, double short_step)
 {
-    multiply(q, q->step, q->gs);
-    const double curvature = curvature_of(q);
-    if (!(curvature > 0)) {
+    const direction d = look_along(q);
+    q->is_seen = false;
+    if (!(d.curvature > 0)) {
         restart(q);
         return false;
     }
-    const double length = dot(q->g, q->step, q->n) / curvature;
-    double feasible = INFINITY;
-    for (size_t k = 0; k < q->n; k++)
-        if (q->step[k] > 0) feasible = least(feasible, q->f[k] / q->step[k]);
-    const double taken = fmin(length, feasible);
-    for (size_t k = 0; k < q->n; k++) {
-        q->f[k] = most(0, q->f[k] - taken * q->step[k]);
-        q->g[k] -= taken * q->gs[k];
-    }
-    if (length <= feasible) {
-        double along = 0;
-        for (size_t k = 0; k < q->n; k++)
-            if (q->f[k] > 0) along += q->g[k] * q->gs[k];
-        along /= curvature;
+    const double length = d.slope / d.curvature;
+    const double along = go(q, fmin(length, d.feasible), short_step) / d.curvature;
+    if (length <= d.feasible) {
+        q->is_seen = true;
         for (size_t k = 0; k < q->n; k++) q->step[k] = (q->f[k] > 0 ? q->g[k] : 0) - along * q->step[k];
         return true;
     }
@@ -152,17 +182,17 @@ static bool step_within(dual *q, double short_step)
 static bool step_in(dual *q)
 {
     for (size_t k = 0; k < q->n; k++) q->step[k] = q->f[k] > 0 ? 0 : least(0, q->g[k]);
-    multiply(q, q->step, q->gs);
-    const double curvature = curvature_of(q);
-    if (curvature > 0) {
-        const double length = dot(q->g, q->step, q->n) / curvature;
+    const direction d = look_along(q);
+    q->is_seen = false;
+    if (d.curvature > 0) {
+        const double length = d.slope / d.curvature;
         for (size_t k = 0; k < q->n; k++) {
             q->f[k] -= length * q->step[k];
             q->g[k] -= length * q->gs[k];
         }
     }
     restart(q);
-    return curvature > 0;
+    return d.curvature > 0;
 }
 
 static void iterate(dual *q, double tolerance, unsigned steps)
@@ -173,11 +203,13 @@ static void iterate(dual *q, double tolerance, unsigned steps)
     /* Nowhere along a direction made of earlier ones, and then nowhere along the gradient itself: this is the end. */
     int nowhere = 0;
     for (unsigned k = 0; k < steps && nowhere < 2 && !sunder_i_quadratic_is_done(q->p); k++) {
-        const imbalance i = look(q, short_step);
+        const imbalance i = q->is_seen ? q->seen : look(q, short_step);
         if (i.worst <= tolerance) break;
         const bool somewhere = i.zero <= i.cut ? step_within(q, short_step) : step_in(q);
         nowhere = somewhere ? 0 : nowhere + 1;
-        if (k % REFRESH == REFRESH - 1) gradient(q);
+        if (k % REFRESH != REFRESH - 1) continue;
+        gradient(q);
+        q->is_seen = false;
     }
 }
 
