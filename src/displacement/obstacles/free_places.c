@@ -13,11 +13,13 @@
 #include "displacement/obstacles/cells.h"
 #include "displacement/obstacles/tuning.h"
 
+#include "base/heap.h"
 #include "base/invariant.h"
 #include "base/list.h"
 #include "base/watch.h"
 #include "spatial/box.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,21 +41,17 @@ void sunder_i_obstacles_clear(sunder_i_obstacles *obstacles)
 
 /* ---- Building ---------------------------------------------------------------------------------------------------- */
 
-/* A wall with normal n through the corner c, ends to be filled in. */
-static void add_normal(sunder_i_obstacles *o, const double n[2], const double c[2], double gap)
+/* A wall with normal n through the corner c, ends to be filled in: for now it starts at that corner, which
+ * close_walls() moves out. */
+static inline void add_normal(sunder_i_obstacles *o, const double n[2], const double c[2], double gap)
 {
-    if (o->failed || !sunder_i_reserve(&o->wall, &o->wall_capacity, o->walls + 1, sizeof *o->wall)) {
+    if (o->failed || (o->walls == o->wall_capacity &&
+                      !sunder_i_reserve(&o->wall, &o->wall_capacity, o->walls + 1, sizeof *o->wall))) {
         o->failed = true;
         return;
     }
-    sunder_i_obstacle_side *w = &o->wall[o->walls++];
-    memset(w, 0, sizeof *w);
-    w->n[0] = n[0];
-    w->n[1] = n[1];
-    w->h = n[0] * c[0] + n[1] * c[1] + gap;
-    w->from[0] = c[0]; /* for now the corner that this wall starts at; close_walls() moves it out */
-    w->from[1] = c[1];
-    w->obstacle = (uint32_t)o->n;
+    o->wall[o->walls++] = (sunder_i_obstacle_side){
+        .n = {n[0], n[1]}, .h = n[0] * c[0] + n[1] * c[1] + gap, .from = {c[0], c[1]}, .obstacle = (uint32_t)o->n};
 }
 
 /* By how much normals may turn at a round corner, and the cosine of that. */
@@ -149,10 +147,15 @@ double sunder_i_obstacle_slack(const sunder_i_obstacle *obstacle)
     return ON_A_SIDE * (b[2] - b[0] + b[3] - b[1]);
 }
 
-static bool inside(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacle, const double x[2])
+static inline bool in_box(const sunder_i_obstacle *obstacle, const double x[2])
 {
     const double *b = obstacle->box;
-    if (x[0] <= b[0] || x[0] >= b[2] || x[1] <= b[1] || x[1] >= b[3]) return false;
+    return !(x[0] <= b[0] || x[0] >= b[2] || x[1] <= b[1] || x[1] >= b[3]);
+}
+
+static bool inside(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacle, const double x[2])
+{
+    if (!in_box(obstacle, x)) return false;
     const double slack = sunder_i_obstacle_slack(obstacle);
     for (uint32_t k = 0; k < obstacle->walls; k++) {
         const sunder_i_obstacle_side *w = &o->wall[obstacle->wall + k];
@@ -161,13 +164,21 @@ static bool inside(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacl
     return true;
 }
 
-static int by_distance(const void *a, const void *b)
+/* A wall, by how far it is from the target. */
+typedef struct near_wall {
+    double distance;
+    const sunder_i_obstacle_side *wall;
+} near_wall;
+
+/* The nearer one; of equals one of the lesser obstacle, then by its normal, then the earlier one. */
+static bool comes_before(const void *a, const void *b)
 {
-    const sunder_i_obstacle_side *v = a, *w = b;
-    if (v->distance != w->distance) return v->distance < w->distance ? -1 : 1;
-    if (v->obstacle != w->obstacle) return v->obstacle < w->obstacle ? -1 : 1;
-    if (v->n[0] != w->n[0]) return v->n[0] < w->n[0] ? -1 : 1;
-    return v->n[1] < w->n[1] ? -1 : v->n[1] > w->n[1];
+    const near_wall *p = a, *q = b;
+    if (p->distance != q->distance) return p->distance < q->distance;
+    const sunder_i_obstacle_side *v = p->wall, *w = q->wall;
+    if (v->obstacle != w->obstacle) return v->obstacle < w->obstacle;
+    if (v->n[0] != w->n[0]) return v->n[0] < w->n[0];
+    return v->n[1] != w->n[1] ? v->n[1] < w->n[1] : v < w;
 }
 
 /* The point of the wall nearest to x. */
@@ -219,7 +230,7 @@ static bool is_held(const harvest *h, const double middle[2], const double (*poi
     }
     for (size_t k = 0; k < o->n; k++) {
         const uint32_t hit = h->order[k];
-        if (hit == own || !holds_all(o, hit, middle, point, n)) continue;
+        if (hit == own || !in_box(&o->obstacle[hit], middle) || !holds_all(o, hit, middle, point, n)) continue;
         h->order[k] = h->order[k / 2];
         h->order[k / 2] = hit;
         return true;
@@ -306,23 +317,27 @@ static bool is_covered_by_cells(const harvest *h, const sunder_i_obstacle_side *
     return holder != SUNDER_I_NO_ENTRY && holder == h->cells.cell[to].holder;
 }
 
-/* Feet on the walls, then crossings of walls; `sorted` are the walls by distance, h->obstacles holds them
- * by obstacle. covered: the distances of walls that were left out. */
-static void search(harvest *h, sunder_i_obstacle_side *sorted, size_t walls, const double *covered, size_t n)
+/* Feet on the walls, then crossings of walls. `near` is a heap of n walls, of which those that are not covered go to
+ * `bare`, in order; covered: the distances of walls that were left out. */
+static void search(harvest *h, near_wall *near, size_t n, sunder_i_obstacle_side *bare, const double *covered,
+                   size_t left_out)
 {
-    size_t bare = 0;
-    for (size_t k = 0; k < walls && sorted[k].distance <= reach_of(h); k++) {
+    size_t bares = 0;
+    while (n && near[0].distance <= reach_of(h)) {
+        near_wall nearest;
         double x[2];
+        sunder_i_heap_pop(near, &n, sizeof *near, &nearest, comes_before);
         if (!work(h, h->obstacles->n)) return;
-        if (is_covered(h, &sorted[k])) continue;
-        nearest_on(&sorted[k], h->target, x);
+        if (is_covered(h, nearest.wall)) continue;
+        nearest_on(nearest.wall, h->target, x);
         offer(h, x);
-        sorted[bare++] = sorted[k];
+        bare[bares] = *nearest.wall;
+        bare[bares++].distance = nearest.distance;
     }
-    for (size_t k = 0; k < n; k++)
+    for (size_t k = 0; k < left_out; k++)
         if (covered[k] <= reach_of(h)) h->work += work_of(h->obstacles->n);
-    for (size_t k = 0; k < bare && k < MOST_CROSSED && sorted[k].distance <= reach_of(h); k++)
-        offer_crossings(h, sorted, k);
+    for (size_t k = 0; k < bares && k < MOST_CROSSED && bare[k].distance <= reach_of(h); k++)
+        offer_crossings(h, bare, k);
 }
 
 #ifndef NDEBUG
@@ -334,25 +349,29 @@ static const char *check(const harvest *h)
 }
 #endif
 
-/* Its distance from the target; the walls that may matter, of those within the limit, go to `sorted`. */
-static void gather(harvest *h, sunder_i_obstacle_side *sorted, double *covered)
+/* Walls that may matter, of those within the limit. Most are farther off, by squares, which are told apart from the
+ * limit's by more than rounding makes of them. */
+static void gather(harvest *h, near_wall *near, sunder_i_obstacle_side *bare, double *covered)
 {
     const sunder_i_obstacles *o = h->obstacles;
-    size_t walls = 0, n = 0;
+    const double beyond = h->limit * h->limit * (1 + 0x1p-40) + DBL_MIN;
+    size_t n = 0, left_out = 0;
     for (size_t k = 0; k < o->walls; k++) {
-        sunder_i_obstacle_side *w = &sorted[walls];
+        const sunder_i_obstacle_side *w = &o->wall[k];
         double x[2];
-        *w = o->wall[k];
         nearest_on(w, h->target, x);
-        w->distance = hypot(x[0] - h->target[0], x[1] - h->target[1]);
-        if (!(w->distance <= h->limit)) continue;
+        const double dx = x[0] - h->target[0], dy = x[1] - h->target[1];
+        if (dx * dx + dy * dy > beyond) continue;
+        const double distance = hypot(dx, dy);
+        if (!(distance <= h->limit)) continue;
         if (is_covered_by_cells(h, w))
-            covered[n++] = w->distance;
+            covered[left_out++] = distance;
         else
-            walls++;
+            near[n++] = (near_wall){distance, w};
     }
-    if (walls) qsort(sorted, walls, sizeof *sorted, by_distance);
-    search(h, sorted, walls, covered, n);
+    near_wall scratch;
+    sunder_i_heap_make(near, n, sizeof *near, &scratch, comes_before);
+    search(h, near, n, bare, covered, left_out);
 }
 
 size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2], double limit, double spread,
@@ -363,22 +382,24 @@ size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2],
     h.distance = distance;
     h.most = most < MOST_PLACES ? most : MOST_PLACES;
     h.order = sunder_i_alloc(o->n, sizeof *h.order);
-    sunder_i_obstacle_side *sorted = sunder_i_alloc(o->walls, sizeof *sorted);
+    sunder_i_obstacle_side *bare = sunder_i_alloc(o->walls, sizeof *bare);
+    near_wall *near = sunder_i_alloc(o->walls, sizeof *near);
     double *covered = sunder_i_alloc(o->walls, sizeof *covered);
-    if (!h.order || !sorted || !covered || o->failed) {
+    if (!h.order || !bare || !near || !covered || o->failed) {
         *failed = true;
     } else if (h.most) {
         for (size_t k = 0; k < o->n; k++) h.order[k] = (uint32_t)k;
         offer(&h, target);
         if (h.n == 0 && !sunder_i_cells_make(o, target, limit, &h.cells)) *failed = true;
-        if (h.n == 0 && !*failed) gather(&h, sorted, covered);
+        if (h.n == 0 && !*failed) gather(&h, near, bare, covered);
         *failed = *failed || sunder_i_stopped();
     }
     SUNDER_I_CHECK(check(&h), h.n);
     *steps += h.work + 2 * o->walls;
     sunder_i_cells_free(&h.cells);
     sunder_i_free(h.order);
-    sunder_i_free(sorted);
+    sunder_i_free(bare);
+    sunder_i_free(near);
     sunder_i_free(covered);
     return h.n;
 }

@@ -173,7 +173,9 @@ bool sunder_i_search_constrain(sunder_i_search *s, double reach, bool as_it_stan
  * where they stood apart. */
 static void constrain_met(sunder_i_search *s, const sunder_i_constraint *known, size_t known_n)
 {
-    sunder_i_search_look(s, s->next);
+    const uint64_t before = s->steps;
+    s->seen = sunder_i_search_look(s, s->next);
+    s->seen_steps = s->steps - before;
     const size_t clashes = s->clashes;
     for (size_t c = 0; c < clashes && !s->failed; c++) {
         const uint32_t i = s->clash[c].i, j = s->clash[c].j;

@@ -83,13 +83,24 @@ static double solve_lazily(sunder_i_search *s, double softness)
 {
     double v = 0;
     const int most = softness > 0 ? MOST_SOFT_ADDITIONS : MOST_ADDITIONS;
+    s->ended = false;
     for (int k = 0; k < most && !is_out_of_patience(s) && !s->failed; k++) {
         v = solve(s, softness);
         /* No solution: what lies in the way of where it went astray is of no interest. */
         if (softness == 0 && v > NO_SOLUTION * (s->extent + s->gap)) break;
-        if (!sunder_i_search_constrain_further(s)) break;
+        s->ended = !sunder_i_search_constrain_further(s);
+        if (s->ended) break;
     }
     return v;
+}
+
+/* What clashes where the program ends. The last that was done to it was to look there in vain, mostly: what that saw is
+ * there still, and counts as work once more. */
+static double look_at_end(sunder_i_search *s)
+{
+    if (!s->ended) return sunder_i_search_look(s, s->next);
+    s->steps += s->seen_steps;
+    return s->seen;
 }
 
 /* Around a position with clashes: softly; and in full, if what is missed is little beside how far things go and the
@@ -112,6 +123,7 @@ static double compromise(sunder_i_search *s, double softness)
             if (n) memcpy(s->program.constraint, constraint, n * sizeof *constraint);
             s->program.n = n;
             memcpy(s->next, next, 2 * s->n * sizeof *next);
+            s->ended = false;
             full = v;
         }
     }
@@ -131,6 +143,7 @@ static void stop_short(sunder_i_search *s)
         if (there < 0 && there < here) share = fmin(share, fmax(0, here) / (here - there));
     }
     for (size_t k = 0; k < 2 * s->n; k++) s->next[k] = s->t[k] + JUST_BEFORE * share * (s->next[k] - s->t[k]);
+    s->ended = false;
 }
 
 #ifndef NDEBUG
@@ -185,7 +198,7 @@ bool sunder_i_search_descend(sunder_i_search *s)
             }
         }
         if (s->failed) break;
-        const double left = sunder_i_search_look(s, s->next);
+        const double left = look_at_end(s);
         const bool free_next = left <= s->tolerance;
         const double next_cost = sunder_i_search_cost(s, s->next);
         const double step = longest_step(s);
@@ -222,7 +235,7 @@ bool sunder_i_search_make_good(sunder_i_search *s)
     for (int round = 0; round < MOST_MENDING && left > s->tolerance && !s->failed; round++) {
         sunder_i_search_constrain(s, s->gap / LEAST_REACH, true);
         if (s->failed || !(solve_lazily(s, 0) <= s->tolerance) || is_out_of_patience(s)) return false;
-        left = sunder_i_search_look(s, s->next);
+        left = look_at_end(s);
         memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
     }
     return left <= s->tolerance && !s->failed;

@@ -331,12 +331,30 @@ static void measure_part(sunder_i_search *s, const sunder_i_piece_pair *part, vo
     if (edge) m->worst = fmax(m->worst, gap - sunder_i_search_support(part, edge, n, m->u).distance);
 }
 
-double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], bool *yields)
+/* As if no pair were relaxed: that is the same whenever they stand so. */
+static double measure(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2])
 {
     missing m = {u, 0};
+    sunder_i_measure *known = sunder_i_measures_slot(&s->measures, s->n, i, j, u);
+    if (!known) {
+        s->failed = true;
+        return 0;
+    }
+    if (sunder_i_measure_is_of(known, i, j, u)) {
+        s->steps += known->steps;
+        return known->missed;
+    }
+    const uint64_t before = s->steps;
+    sunder_i_search_piece_pairs(s, i, j, u, s->gap, false, measure_part, &m);
+    if (!s->failed) *known = (sunder_i_measure){i, j, {u[0], u[1]}, m.worst, s->steps - before};
+    return m.worst;
+}
+
+double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], bool *yields)
+{
+    missing m = {u, measure(s, i, j, u)};
     double shift;
     *yields = false;
-    sunder_i_search_piece_pairs(s, i, j, u, s->gap, false, measure_part, &m);
     if (m.worst <= s->tolerance || !sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift)) return m.worst;
     *yields = true;
     m.worst = 0;

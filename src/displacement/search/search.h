@@ -8,6 +8,7 @@
 #include "displacement/obstacles/shadow.h"
 #include "displacement/programs/quadratic.h"
 #include "displacement/search/cluster.h"
+#include "displacement/search/measures.h"
 
 /* Two bodies of the cluster, by their places in it, and what they miss. */
 typedef struct sunder_i_clash {
@@ -29,6 +30,9 @@ typedef struct sunder_i_search {
     uint32_t *order;            /* [n] for sweeps over boxes */
     sunder_i_quadratic program; /* its constraints are kept sorted by key */
     double *next;               /* [2 n] the program's result */
+    bool ended;                 /* nothing was in its way but what the program knows, ... */
+    double seen;                /* ... by a look that found this missed there, ... */
+    uint64_t seen_steps;        /* ... which took so many steps */
     uint32_t tangents;          /* of limits that were added so far, which tells them apart */
     sunder_i_constraint *old;   /* the previous round's, for the forces */
     size_t old_n, old_capacity;
@@ -41,10 +45,13 @@ typedef struct sunder_i_search {
     struct sunder_i_neighbourhood *neighbourhood; /* lent: changes are tried in it; NULL: with all */
     sunder_i_rtree ways;                          /* of a large cluster (ways.c) ... */
     double *went;                                 /* [2 n] ... for where they stood then; NULL: there is none yet */
+    double least_way;                             /* who passed another has gone farther (shadows.c) ... */
+    bool least_known;                             /* ... if that was asked */
     sunder_i_list about;                          /* of the last question who is about */
     sunder_i_scratch scratch;
     sunder_i_obstacles obstacles;    /* about what a free place is looked for */
     sunder_i_obstacle_cache cache;   /* obstacles of pairs of pieces */
+    sunder_i_measures measures;      /* what pairs miss */
     sunder_i_obstacle_edge *shifted; /* one that is not kept there */
     size_t shifted_capacity;
     double extent;          /* the mean size of the bodies */

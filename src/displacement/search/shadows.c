@@ -199,7 +199,9 @@ void sunder_i_search_passing(sunder_i_search *s, const double *t, double reach, 
 {
     if (!sunder_i_forbids_ways(s->model) || s->n < 2) return;
     /* Of two that passed, moves together are longer than this. */
-    const double least = least_way(s) + s->model->rules.gap, most = longest(s, t);
+    if (!s->least_known) s->least_way = least_way(s);
+    s->least_known = true;
+    const double least = s->least_way + s->model->rules.gap, most = longest(s, t);
     if (2 * most < least) return;
     swept *list = sunder_i_alloc(s->n, sizeof *list);
     if (!list) {

@@ -73,6 +73,13 @@
 /* Where each has no more than this there is nothing to be gained by looking beforehand. */
 #define FEW_PARTS 12
 
+/* ---- What pairs miss (measures.c) -------------------------------------------------------------------------------- */
+
+/* Slots for what is kept: so many for each body, no fewer and no more than that in all; some dozen kilobytes mostly. */
+#define MEASURES_EACH 8
+#define FEWEST_MEASURES 64
+#define MOST_MEASURES 4096
+
 /* ---- Pairs given up (give_up.c) ---------------------------------------------------------------------------------- */
 
 /* Of clashes that hang together those are given up at first that miss at least this share of what the worst does; then
