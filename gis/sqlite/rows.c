@@ -47,65 +47,46 @@ static bool fail(const gis_sqlite_rows *rows, gis_error *error)
     return gis_fail(error, "%s cannot be written: %s", rows->what, find_all()->error_message(rows->database));
 }
 
-/* The parameters are the value, or the bytes, and the keys. */
-static bool prepare(gis_sqlite_rows *rows, const char *table, size_t n, void **statement, gis_error *error)
+bool gis_sqlite_rows_begin(gis_sqlite_rows *rows, void *database, const char *table, const char *what, gis_error *error)
 {
-    static const char head[] = "INSERT INTO ", tail[] = " VALUES (?2, ?1)";
-    enum { ROW = 32 }; /* ", (?123, ?1)" */
-    char *sql = malloc(sizeof head + strlen(table) + sizeof tail + n * ROW);
+    static const char head[] = "INSERT INTO ", tail[] = " VALUES (?1, ?2)";
+    *rows = (gis_sqlite_rows){.database = database, .what = what};
+    char *sql = malloc(sizeof head + strlen(table) + sizeof tail);
     if (!sql) return gis_no_memory(error);
-    int length = sprintf(sql, "%s%s%s", head, table, tail);
-    for (size_t k = 1; k < n; k++) length += sprintf(sql + length, ", (?%zu, ?1)", k + 2);
-    const int result = find_all()->prepare(rows->database, sql, length + 1, statement, NULL);
+    const int length = sprintf(sql, "%s%s%s", head, table, tail);
+    const int result = find_all()->prepare(database, sql, length + 1, &rows->statement, NULL);
     free(sql);
     return result == OK || fail(rows, error);
 }
 
-bool gis_sqlite_rows_begin(gis_sqlite_rows *rows, void *database, const char *table, size_t at_once, const char *what,
-                           gis_error *error)
-{
-    *rows = (gis_sqlite_rows){.database = database, .at_once = at_once, .what = what};
-    return prepare(rows, table, 1, &rows->one, error) &&
-           (at_once < 2 || prepare(rows, table, at_once, &rows->many, error));
-}
-
 /* bound: its parameters are. */
-static bool insert(const gis_sqlite_rows *rows, void *statement, bool bound, gis_error *error)
+static bool insert(const gis_sqlite_rows *rows, bool bound, gis_error *error)
 {
     const calls *sqlite = find_all();
-    const bool done = bound && sqlite->step(statement) == DONE;
-    return (sqlite->reset(statement) == OK && done) || fail(rows, error);
+    const bool done = bound && sqlite->step(rows->statement) == DONE;
+    return (sqlite->reset(rows->statement) == OK && done) || fail(rows, error);
 }
 
-static bool bind_keys(void *statement, const int64_t *key, size_t n)
+bool gis_sqlite_rows_add(gis_sqlite_rows *rows, int64_t key, int64_t value, gis_error *error)
 {
-    bool bound = true;
-    for (size_t k = 0; k < n && bound; k++) bound = find_all()->bind_number(statement, (int)k + 2, key[k]) == OK;
-    return bound;
-}
-
-bool gis_sqlite_rows_add(gis_sqlite_rows *rows, const int64_t *key, size_t n, int64_t value, gis_error *error)
-{
-    for (size_t done = 0; done < n;) {
-        const bool many = rows->many && n - done >= rows->at_once;
-        const size_t now = many ? rows->at_once : 1;
-        void *statement = many ? rows->many : rows->one;
-        const bool bound = find_all()->bind_number(statement, 1, value) == OK && bind_keys(statement, key + done, now);
-        if (!insert(rows, statement, bound, error)) return false;
-        done += now;
-    }
-    return true;
+    const calls *sqlite = find_all();
+    return insert(rows,
+                  sqlite->bind_number(rows->statement, 1, key) == OK &&
+                      sqlite->bind_number(rows->statement, 2, value) == OK,
+                  error);
 }
 
 bool gis_sqlite_rows_add_bytes(gis_sqlite_rows *rows, int64_t key, const void *bytes, size_t n, gis_error *error)
 {
-    const bool bound = find_all()->bind_bytes(rows->one, 1, bytes, (int)n, NULL) == OK && bind_keys(rows->one, &key, 1);
-    return insert(rows, rows->one, bound, error);
+    const calls *sqlite = find_all();
+    return insert(rows,
+                  sqlite->bind_number(rows->statement, 1, key) == OK &&
+                      sqlite->bind_bytes(rows->statement, 2, bytes, (int)n, NULL) == OK,
+                  error);
 }
 
 void gis_sqlite_rows_end(gis_sqlite_rows *rows)
 {
-    if (rows->one) find_all()->finalize(rows->one);
-    if (rows->many) find_all()->finalize(rows->many);
+    if (rows->statement) find_all()->finalize(rows->statement);
     *rows = (gis_sqlite_rows){0};
 }

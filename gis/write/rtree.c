@@ -191,13 +191,25 @@ static unsigned char *put_float(unsigned char *to, float value)
     return put_number(to, bits, 4);
 }
 
+/* A feature, and the leaf that it is in. */
+typedef struct leaf_row {
+    GIntBig fid, node;
+} leaf_row;
+
 typedef struct packing {
-    gis_sqlite_rows nodes, parents, leaves;
+    gis_sqlite_rows nodes, parents;
     size_t capacity;     /* cells in a node */
-    unsigned char *node; /* room for one, and for the rows or children in it */
-    int64_t *keys;
+    unsigned char *node; /* room for one */
+    leaf_row *row;       /* of all leaves */
+    size_t rows;
     GIntBig next; /* number of the next node */
 } packing;
+
+static int compare_rows(const void *a, const void *b)
+{
+    const leaf_row *p = a, *q = b;
+    return (p->fid > q->fid) - (p->fid < q->fid);
+}
 
 /* One node of consecutive cells; gives its number and box in *made. root_depth < 0: it is not the root, which is
  * node 1. */
@@ -212,15 +224,17 @@ static bool write_node(packing *all, const struct gis_box *cells, size_t n, bool
     unsigned char *to = put_number(all->node, root ? (uint64_t)root_depth : 0, 2);
     to = put_number(to, n, 2);
     for (size_t i = 0; i < n; i++) {
-        all->keys[i] = cells[i].fid;
+        if (leaf)
+            all->row[all->rows++] = (leaf_row){cells[i].fid, made->fid};
+        else if (!gis_sqlite_rows_add(&all->parents, cells[i].fid, made->fid, error))
+            return false;
         to = put_number(to, (uint64_t)cells[i].fid, 8);
         for (int k = 0; k < 4; k++) {
             to = put_float(to, cells[i].side[k]);
             made->side[k] = k % 2 ? fmaxf(made->side[k], cells[i].side[k]) : fminf(made->side[k], cells[i].side[k]);
         }
     }
-    return gis_sqlite_rows_add(leaf ? &all->leaves : &all->parents, all->keys, n, made->fid, error) &&
-           gis_sqlite_rows_add_bytes(&all->nodes, made->fid, all->node, HEADER + CELL * all->capacity, error);
+    return gis_sqlite_rows_add_bytes(&all->nodes, made->fid, all->node, HEADER + CELL * all->capacity, error);
 }
 
 /* Level upon level, in place: the boxes of a level's nodes become the cells of the next. */
@@ -268,13 +282,24 @@ static size_t node_capacity(GDALDatasetH dataset, OGRLayerH layer)
     return bytes < HEADER + 2 * CELL ? 0 : (size_t)(bytes - HEADER) / CELL;
 }
 
-static bool begin_rows(gis_sqlite_rows *rows, GDALDatasetH dataset, OGRLayerH layer, const char *table, size_t at_once,
+static bool begin_rows(gis_sqlite_rows *rows, GDALDatasetH dataset, OGRLayerH layer, const char *table,
                        gis_error *error)
 {
     char *name = tree_name(layer, table, '"');
-    const bool done =
-        gis_sqlite_rows_begin(rows, GDALGetInternalHandle(dataset, "SQLITE_HANDLE"), name, at_once, WHAT, error);
+    const bool done = gis_sqlite_rows_begin(rows, GDALGetInternalHandle(dataset, "SQLITE_HANDLE"), name, WHAT, error);
     CPLFree(name);
+    return done;
+}
+
+/* The leaf of each row, by rising rows, though the tree has them along the curve. */
+static bool write_leaf_rows(packing *all, GDALDatasetH dataset, OGRLayerH layer, gis_error *error)
+{
+    gis_sqlite_rows rows = {0};
+    qsort(all->row, all->rows, sizeof *all->row, compare_rows);
+    bool done = begin_rows(&rows, dataset, layer, "_rowid", error);
+    for (size_t i = 0; done && i < all->rows; i++)
+        done = gis_go_on(error) && gis_sqlite_rows_add(&rows, all->row[i].fid, all->row[i].node, error);
+    gis_sqlite_rows_end(&rows);
     return done;
 }
 
@@ -285,16 +310,17 @@ static bool fill(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_er
     if (!sort_boxes(boxes)) return gis_no_memory(error);
     packing all = {.capacity = capacity,
                    .node = CPLMalloc(HEADER + CELL * capacity),
-                   .keys = CPLMalloc(capacity * sizeof *all.keys),
+                   .row = malloc(boxes->n * sizeof *all.row),
                    .next = 2};
-    bool done = empty_tables(dataset, layer, error) && begin_rows(&all.nodes, dataset, layer, "_node", 1, error) &&
-                begin_rows(&all.parents, dataset, layer, "_parent", capacity, error) &&
-                begin_rows(&all.leaves, dataset, layer, "_rowid", capacity, error) && write_levels(&all, boxes, error);
+    if (!all.row) gis_no_memory(error);
+    bool done = all.row && empty_tables(dataset, layer, error) &&
+                begin_rows(&all.nodes, dataset, layer, "_node", error) &&
+                begin_rows(&all.parents, dataset, layer, "_parent", error) && write_levels(&all, boxes, error);
     gis_sqlite_rows_end(&all.nodes);
     gis_sqlite_rows_end(&all.parents);
-    gis_sqlite_rows_end(&all.leaves);
+    done = done && write_leaf_rows(&all, dataset, layer, error);
     CPLFree(all.node);
-    CPLFree(all.keys);
+    free(all.row);
     return done;
 }
 
