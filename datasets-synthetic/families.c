@@ -24,7 +24,10 @@ static const family families[] = {
     {"robot", "star + convex obstacles", family_robot, 1000},
     {"fat-grid", "upright bars + lying bars: a grid of stout rectangles", family_fat_grid, 1000},
     {"fat-cover", "blocks and bars + plates: bars cover what stout squares leave", family_fat_cover, 1000},
-    {"tight", "rooms behind passages exactly as wide as Q", family_tight, 8}};
+    {"tight", "rooms behind passages exactly as wide as Q", family_tight, 8},
+    {"buildings", "outlines of houses + a round brush", family_buildings, 1000},
+    {"coast", "an island's shore + a round brush", family_coast, 1000},
+    {"overlap", "two houses in each other's way", family_overlap, 1000}};
 
 enum { FAMILIES = sizeof families / sizeof *families };
 
@@ -33,7 +36,7 @@ enum { MAP_X = 451234, MAP_Y = 5411234 };
 
 typedef struct family_settings {
     const family *chosen;
-    uint64_t m, n, seed;
+    uint64_t m, n, seed, count;
     bool map, swap;
 } family_settings;
 
@@ -44,6 +47,7 @@ static void usage(FILE *out)
           "  --size N                     about N vertices each, at least 8 (20)\n"
           "  --size-q N                   another size for Q\n"
           "  --seed N                     which of them (1)\n"
+          "  --count N                    N pairs, with this seed and the next ones (1)\n"
           "  --coordinates integer|map    map: like 451234.567 5411234.567 (integer)\n"
           "  --swap                       Q first\n\n",
           out);
@@ -72,6 +76,7 @@ static bool parse_option(family_settings *settings, const char *name, const char
     const uint64_t most = 1000000;
     if (strcmp(name, "--size") == 0) return parse_number(value, FAMILY_LEAST, most, &settings->m);
     if (strcmp(name, "--size-q") == 0) return parse_number(value, FAMILY_LEAST, most, &settings->n);
+    if (strcmp(name, "--count") == 0) return parse_number(value, 1, most, &settings->count);
     if (strcmp(name, "--seed") == 0) return parse_number(value, 0, UINT64_MAX, &settings->seed);
     if (strcmp(name, "--coordinates") != 0) return false;
     settings->map = strcmp(value, "map") == 0;
@@ -95,9 +100,26 @@ static bool parse_arguments(int argc, char **argv, family_settings *settings)
     return settings->chosen != NULL;
 }
 
+static bool draw_pair(const family_settings *settings, uint64_t seed)
+{
+    const family *f = settings->chosen;
+    const int64_t units = f->map_units;
+    const family_place place =
+        settings->map ? (family_place){units, MAP_X * units, MAP_Y * units} : (family_place){1, 0, 0};
+    const uint64_t purpose = (uint64_t)(f - families);
+    family_streams streams = {town_random_at(seed, 0, 0, purpose), town_random_at(seed, 1, 0, purpose)};
+    family_set p = {0}, q = {0};
+    f->draw(&p, &q, settings->m, settings->n, &streams);
+    const bool done = family_print(settings->swap ? &q : &p, &place, stdout) &&
+                      family_print(settings->swap ? &p : &q, &place, stdout);
+    family_set_free(&p);
+    family_set_free(&q);
+    return done;
+}
+
 int main(int argc, char **argv)
 {
-    family_settings settings = {.m = 20, .seed = 1};
+    family_settings settings = {.m = 20, .seed = 1, .count = 1};
     if (argc == 2 && strcmp(argv[1], "--help") == 0) {
         usage(stdout);
         return 0;
@@ -106,19 +128,9 @@ int main(int argc, char **argv)
         usage(stderr);
         return 2;
     }
-    const family *f = settings.chosen;
-    const int64_t units = f->map_units;
-    const family_place place =
-        settings.map ? (family_place){units, MAP_X * units, MAP_Y * units} : (family_place){1, 0, 0};
-    const uint64_t purpose = (uint64_t)(f - families);
-    family_streams streams = {town_random_at(settings.seed, 0, 0, purpose),
-                              town_random_at(settings.seed, 1, 0, purpose)};
-    family_set p = {0}, q = {0};
-    f->draw(&p, &q, settings.m, settings.n, &streams);
-    const bool done = family_print(settings.swap ? &q : &p, &place, stdout) &&
-                      family_print(settings.swap ? &p : &q, &place, stdout) && fflush(stdout) == 0;
-    family_set_free(&p);
-    family_set_free(&q);
+    bool done = true;
+    for (uint64_t i = 0; done && i < settings.count; i++) done = draw_pair(&settings, settings.seed + i);
+    if (done) done = fflush(stdout) == 0;
     if (!done) fputs("sunder-families: error: the output could not be written\n", stderr);
     return done ? 0 : 1;
 }

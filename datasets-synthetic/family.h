@@ -56,6 +56,7 @@ typedef struct family_streams {
 typedef void family_draw(family_set *p, family_set *q, size_t m, size_t n, family_streams *streams);
 
 family_draw family_convex, family_comb, family_fork, family_slanted_fork, family_covered_fork, family_star,
-    family_random, family_robot, family_fat_grid, family_fat_cover, family_tight;
+    family_random, family_robot, family_fat_grid, family_fat_cover, family_tight, family_buildings, family_coast,
+    family_overlap;
 
 #endif

@@ -20,7 +20,7 @@ inputs() {
   ls "$source"/tests/golden/*.wkt
   ls "$source"/../shared/cases/*.wkt 2>/dev/null || true
   ls "$source"/../shared/families/*_{10,20,50}.txt 2>/dev/null || true
-  for family in convex comb fork slanted-fork covered-fork star random robot fat-grid fat-cover tight; do
+  for family in convex comb fork slanted-fork covered-fork star random robot fat-grid fat-cover tight buildings coast overlap; do
     for size in 12 30; do
       for seed in 1 2 3; do
         file=$scratch/$family-$size-$seed.wkt
