@@ -4,7 +4,8 @@
 #include "sunder.h"
 #include "wkt_input.h"
 
-static sunder_status pass(const bench_set *set, size_t pairs, double *total, sunder_error *err)
+static __attribute__((noinline)) sunder_status bench_once(const bench_set *set, size_t pairs, double *total,
+                                                          sunder_error *err)
 {
     *total = 0;
     for (size_t i = 0; i < pairs; i++) {
@@ -51,15 +52,16 @@ int main(int argc, char **argv)
             for (size_t i = 0; i < 2 * set[n - 1].vertices; i++) set[n - 1].xy[i] = -set[n - 1].xy[i];
     }
     fclose(f);
-    for (int k = 0; k < 3; k++) {
+    const size_t passes = bench_setting("SUNDER_BENCH_RUNS", 0) > 0 ? 1 : 3;
+    for (size_t k = 0; k < passes; k++) {
         const double start = bench_now();
-        if (pass(set, n / 2, &total, &err)) {
+        if (bench_once(set, n / 2, &total, &err)) {
             fprintf(stderr, "bench_pair: %s\n", err.message);
             return 1;
         }
         t[k] = bench_now() - start;
     }
-    printf("%zu %.3f %.9g\n", n / 2, 1e6 * bench_median(t, 3) / (double)(n / 2), total);
+    printf("%zu %.3f %.9g\n", n / 2, 1e6 * bench_median(t, passes) / (double)(n / 2), total);
     for (size_t i = 0; i < n; i++) bench_set_free(&set[i]);
     free(set);
     return 0;

@@ -4,8 +4,8 @@
 #include "sunder.h"
 #include "wkt_input.h"
 
-static sunder_status once(const bench_set *p, const bench_set *q, double *seconds, sunder_sum_size *counts,
-                          sunder_error *err)
+static __attribute__((noinline)) sunder_status bench_once(const bench_set *p, const bench_set *q, double *seconds,
+                                                          sunder_sum_size *counts, sunder_error *err)
 {
     sunder_shape *a = NULL, *b = NULL;
     sunder_sum *sum = NULL;
@@ -38,7 +38,7 @@ int main(int argc, char **argv)
             continue;
         }
         while (!failed && bench_again(n, spent)) {
-            if (once(&p, &q, &t[n], &c, &err)) {
+            if (bench_once(&p, &q, &t[n], &c, &err)) {
                 fprintf(stderr, "bench_sum: %s: %s\n", argv[i], err.message);
                 failed = 1;
                 break;

@@ -112,11 +112,12 @@ static inline int bench_pair_read(const char *path, bench_set *p, bench_set *q)
     return ok;
 }
 
-/* CPU time of the process: on a shared machine steadier than the clock on the wall, and the same for one thread. */
+/* CPU time of the one thread: on a shared machine steadier than the clock on the wall. Not that of the process, which
+ * Linux counts in ticks as soon as the process has a limit of CPU time. */
 static inline double bench_now(void)
 {
     struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
@@ -132,11 +133,22 @@ static inline double bench_median(double *t, size_t n)
     return n % 2 ? t[n / 2] : (t[n / 2 - 1] + t[n / 2]) / 2;
 }
 
-/* Runs enough for a median: another one after n runs that took `spent` seconds in all? */
+/* The value of a variable of the environment, or what stands for none. */
+static inline double bench_setting(const char *name, double otherwise)
+{
+    const char *s = getenv(name);
+    return s && *s ? atof(s) : otherwise;
+}
+
+/* Runs enough for a median: another one after n runs that took `spent` seconds in all? A program that is already known
+ * to be slower than the best by far (SUNDER_BENCH_BEST, seconds) runs once. SUNDER_BENCH_RUNS says how many, for
+ * counting. */
 static inline int bench_again(size_t n, double spent)
 {
-    const char *s = getenv("SUNDER_BENCH_SECONDS");
-    const double budget = s && *s ? atof(s) : 1.0;
+    const double budget = bench_setting("SUNDER_BENCH_SECONDS", 1), best = bench_setting("SUNDER_BENCH_BEST", 0),
+                 runs = bench_setting("SUNDER_BENCH_RUNS", 0);
+    if (runs > 0) return (double)n < runs;
+    if (n > 0 && best > 0 && spent > 3 * best * (double)n) return 0;
     return n < 3 ? n == 0 || spent < 10 * budget : n < 99 && spent < budget;
 }
 
