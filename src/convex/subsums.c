@@ -1,10 +1,11 @@
-/* Subsums: the operands' pieces are made and ranked, then each of the one is merged with each of the other, and sides
- * are asked whether they can carry boundary. */
+/* Subsums: the operands' pieces are made and ranked, those of the one are merged with those of the other where the
+ * union needs it, and sides are asked whether they can carry boundary. */
 #include "convex/subsums.h"
 
 #include "base/watch.h"
 #include "convex/hertel_mehlhorn.h"
 #include "convex/merge.h"
+#include "convex/needed_subsums.h"
 #include "predicate/predicate.h"
 
 #include <string.h>
@@ -73,6 +74,30 @@ static void add_subsum(const operand *p, uint32_t i, const operand *q, uint32_t 
     out->end[out->n++] = out->corners = at;
 }
 
+static uint32_t corners_of(const sunder_i_convex_pieces *list, uint32_t piece)
+{
+    return list->end[piece] - sunder_i_convex_pieces_first(list, piece);
+}
+
+/* Those of a list that leaves some out. */
+static bool add_listed(const operand *p, const operand *q, const sunder_i_subsum_list *list,
+                       sunder_i_convex_pieces *out)
+{
+    size_t corners = 0;
+    for (size_t k = 0; k < list->n; k++)
+        corners +=
+            corners_of(&p->pieces, (uint32_t)(list->pair[k] >> 32)) + corners_of(&q->pieces, (uint32_t)list->pair[k]);
+    if (!sunder_i_convex_pieces_init(out, list->n, corners)) return false;
+    out->lattice = p->pieces.lattice;
+    out->classes = p->pieces.classes;
+    out->direction = p->pieces.direction;
+    for (size_t k = 0; k < list->n; k++) {
+        if (!sunder_i_step()) return false;
+        add_subsum(p, (uint32_t)(list->pair[k] >> 32), q, (uint32_t)list->pair[k], out);
+    }
+    return true;
+}
+
 static bool add_all(const operand *p, const operand *q, sunder_i_convex_pieces *out)
 {
     const uint32_t m = p->pieces.n, n = q->pieces.n;
@@ -81,7 +106,19 @@ static bool add_all(const operand *p, const operand *q, sunder_i_convex_pieces *
         if (!sunder_i_steps(n)) return false;
         for (uint32_t j = 0; j < n; j++) add_subsum(p, i, q, j, out);
     }
-    return !out->lattice->arena.failed;
+    return true;
+}
+
+/* Fewer subsums are made at once. */
+#define FEW_SUBSUMS 256
+
+static bool add_needed(const operand *p, const operand *q, sunder_i_convex_pieces *out)
+{
+    sunder_i_subsum_list list = {.all = (size_t)p->pieces.n * q->pieces.n < FEW_SUBSUMS};
+    if (!list.all && !sunder_i_needed_subsums(&p->pieces, &q->pieces, &list)) return false;
+    const bool ok = list.all ? add_all(p, q, out) : add_listed(p, q, &list, out);
+    sunder_i_subsum_list_free(&list);
+    return ok && !out->lattice->arena.failed;
 }
 
 sunder_status sunder_i_subsums_build(sunder_i_lattice *lattice, const sunder_shape *p, const sunder_i_point *vp,
@@ -97,7 +134,7 @@ sunder_status sunder_i_subsums_build(sunder_i_lattice *lattice, const sunder_sha
     if (ok) {
         take_edge_ranks(&a);
         take_edge_ranks(&b);
-        ok = add_all(&a, &b, out);
+        ok = add_needed(&a, &b, out);
     }
     operand_free(&a);
     operand_free(&b);

@@ -1,4 +1,5 @@
-/* The convex subsums P_i + Q_j of all pairs of convex pieces.
+/* The convex subsums P_i + Q_j of pairs of convex pieces: of all pairs, or of so many that their union is the same
+ * (needed_subsums.h).
  *
  * A point is in int P + int Q exactly when it is in the interior of some subsum, so the union of the open subsums
  * is the whole open sum: diagonals of the decompositions and members that touch need no care.

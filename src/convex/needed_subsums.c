@@ -1,0 +1,343 @@
+/* Most subsums of ragged operands lie deep inside the sum, where a few large ones cover all: these are found without
+ * making the others.
+ *
+ * The box of the whole sum is halved into cells. What may reach into a cell is kept as pairs of groups of pieces
+ * (piece_tree.h), one of each operand, which stand for all sums of the one's pieces with the other's and are opened as
+ * the cells become small. A cell that lies inside one subsum is done with: that one is needed, and of whatever else
+ * reaches into the cell nothing is, here. In a cell that few reach into all of them are needed. Nothing reaches into
+ * the rest. So every subsum is covered, cell by cell, by needed ones; and as cells are closed and their holders open,
+ * the union is the same set, its degenerate holes included.
+ *
+ * Floating point with one-sided error bounds: a wrong "don't know" makes one subsum more. */
+#include "convex/needed_subsums.h"
+
+#include "base/sort.h"
+#include "base/watch.h"
+#include "convex/approx_sum.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Numbers that decide how long it takes, never what comes out but for subsums more or less; by measurement on stars,
+ * random polygons, forks, covered forks, robots and grids. */
+
+/* A cell that no more reach into is not halved further. */
+#define LEAF 32
+/* A pair of groups is opened where it is so many times as large as the cell. */
+#define COARSE 12
+/* Pairs of groups looked at in a cell, below each one listed for it, for a subsum that holds it. */
+#define LOOKS 16
+/* For each subsum so many pairs may be looked at in all, handed down from cell to cell: less than it costs to make one
+ * and to find it covered. */
+#define CREDIT 32.0
+/* Going round a subsum costs so many looks at pairs. */
+#define WALK 4
+/* Where more than this share of all is needed, or the subsums cover their box less than that many times, with no one
+ * that has a tenth of it, leaving some out gains nothing. */
+#define MOST_NEEDED 0.5
+#define LEAST_LAYERS 4
+#define LARGE_SHARE 0.1
+#define SAMPLES 64
+/* Halved more often than that, a box is a point in doubles. */
+#define DEPTH 96
+
+typedef struct pair {
+    uint32_t a, b; /* groups */
+} pair;
+
+typedef struct cell {
+    double box[4];
+    size_t from, to; /* its pairs */
+    double subsums;  /* in these */
+    double credit;
+    int depth;
+} cell;
+
+typedef struct finder {
+    const sunder_i_piece_tree *p, *q;
+    sunder_i_subsum_list *out;
+    double whole; /* all subsums */
+    double error;
+    pair *pair; /* lists of all cells on the stack, one after the other */
+    size_t pairs, capacity;
+    cell *stack;
+    size_t cells, cells_capacity;
+    uint32_t *slot;  /* [slots] places in out's list, past which one is; 0: free */
+    size_t slots;    /* a power of two */
+    double spent;    /* looks, on the cell at hand */
+    double subsums;  /* in the pairs listed for a half */
+    uint64_t holder; /* the subsum that holds the window, once `held` */
+    bool held, no_memory;
+} finder;
+
+static uint64_t subsum_of(const finder *f, uint32_t a, uint32_t b)
+{
+    return (uint64_t)f->p->group[a].piece << 32 | f->q->group[b].piece;
+}
+
+/* Where is the window, seen from the sum of the longest pieces of two groups? */
+static sunder_i_window_place place_of(finder *f, uint32_t a, uint32_t b, const sunder_i_cell_window *w)
+{
+    f->spent += WALK;
+    return sunder_i_approx_sum_sees(f->p, f->p->group[a].piece, f->q, f->q->group[b].piece, w);
+}
+
+/* ---- What reaches into a window ---- */
+
+static bool apart(const sunder_i_piece_group *a, const sunder_i_piece_group *b, const sunder_i_cell_window *w)
+{
+    for (int k = 0; k < SUNDER_I_WAYS; k++)
+        if (a->low[k] + b->low[k] > w->high[k] || a->high[k] + b->high[k] < w->low[k]) return true;
+    return false;
+}
+
+static void push(finder *f, uint32_t a, uint32_t b)
+{
+    if (f->pairs == f->capacity && !sunder_i_reserve(&f->pair, &f->capacity, f->pairs + 1, sizeof *f->pair)) {
+        f->no_memory = true;
+        return;
+    }
+    f->pair[f->pairs++] = (pair){a, b};
+    f->subsums += (double)f->p->group[a].pieces * (double)f->q->group[b].pieces;
+}
+
+static double size_of(const sunder_i_piece_group *g) { return fmax(g->high[0] - g->low[0], g->high[1] - g->low[1]); }
+
+/* Is it the first of two groups that is to be opened? The larger one of those with several pieces is. */
+static bool opens_first(const sunder_i_piece_group *a, const sunder_i_piece_group *b)
+{
+    return b->pieces == 1 || (a->pieces > 1 && size_of(a) >= size_of(b));
+}
+
+/* Lists what of a pair reaches into the window, opened until no pair is larger than `size`; until one subsum is found
+ * to hold the window. */
+static void list_pair(finder *f, uint32_t a, uint32_t b, const sunder_i_cell_window *w, double size)
+{
+    const sunder_i_piece_group *ga = &f->p->group[a], *gb = &f->q->group[b];
+    f->spent++;
+    if (f->held || f->no_memory || apart(ga, gb, w)) return;
+    if (ga->pieces == 1 && gb->pieces == 1) {
+        const sunder_i_window_place place = place_of(f, a, b, w);
+        if (place == SUNDER_I_ACROSS) push(f, a, b);
+        f->held = place == SUNDER_I_WITHIN;
+        f->holder = subsum_of(f, a, b);
+        return;
+    }
+    if (size_of(ga) + size_of(gb) <= size) {
+        push(f, a, b);
+        return;
+    }
+    const bool first = opens_first(ga, gb);
+    const uint32_t *part = first ? ga->part : gb->part;
+    for (int k = 0; k < 3 && part[k] != SUNDER_I_NO_GROUP; k++)
+        list_pair(f, first ? part[k] : a, first ? b : part[k], w, size);
+}
+
+/* ---- What holds one ---- */
+
+/* May one subsum of the pair? */
+static bool may_hold(const sunder_i_piece_group *a, const sunder_i_piece_group *b, const sunder_i_cell_window *w)
+{
+    for (int k = 0; k < SUNDER_I_WAYS; k++) {
+        if (a->low[k] + b->low[k] > w->low[k] || a->high[k] + b->high[k] < w->high[k]) return false;
+        if (a->widest[k] + b->widest[k] < w->high[k] - w->low[k]) return false;
+    }
+    return true;
+}
+
+/* Looks for a subsum of the pair that holds the window, long pieces first. */
+static bool find_holder(finder *f, uint32_t a, uint32_t b, const sunder_i_cell_window *w, int *looks)
+{
+    const sunder_i_piece_group *ga = &f->p->group[a], *gb = &f->q->group[b];
+    if (--*looks < 0) return false;
+    f->spent++;
+    if (!may_hold(ga, gb, w)) return false;
+    if (ga->pieces == 1 && gb->pieces == 1) {
+        f->holder = subsum_of(f, a, b);
+        return place_of(f, a, b, w) == SUNDER_I_WITHIN;
+    }
+    const bool first = opens_first(ga, gb);
+    const uint32_t *part = first ? ga->part : gb->part;
+    for (int k = 0; k < 3 && part[k] != SUNDER_I_NO_GROUP; k++)
+        if (find_holder(f, first ? part[k] : a, first ? b : part[k], w, looks)) return true;
+    return false;
+}
+
+static bool is_held(finder *f, const cell *c, const sunder_i_cell_window *w)
+{
+    for (size_t i = c->from; i < c->to; i++) {
+        int looks = LOOKS;
+        if (find_holder(f, f->pair[i].a, f->pair[i].b, w, &looks)) return true;
+    }
+    return false;
+}
+
+/* ---- The list ---- */
+
+/* Where in the table a subsum stands, or the free slot where it would. */
+static size_t slot_of(const finder *f, uint64_t subsum)
+{
+    size_t at = (size_t)((subsum * 0x9e3779b97f4a7c15u) >> 32) & (f->slots - 1);
+    while (f->slot[at] && f->out->pair[f->slot[at] - 1] != subsum) at = (at + 1) & (f->slots - 1);
+    return at;
+}
+
+/* Room in the table for one more, at most half full. */
+static bool reserve_slot(finder *f)
+{
+    if (2 * (f->out->n + 1) <= f->slots) return true;
+    sunder_i_free(f->slot);
+    f->slots = f->slots ? 2 * f->slots : 1024;
+    f->slot = sunder_i_calloc(f->slots, sizeof *f->slot);
+    if (!f->slot) return false;
+    for (size_t i = 0; i < f->out->n; i++) f->slot[slot_of(f, f->out->pair[i])] = (uint32_t)(i + 1);
+    return true;
+}
+
+/* Lists a subsum, once. */
+static void need(finder *f, uint64_t subsum)
+{
+    sunder_i_subsum_list *l = f->out;
+    if (!reserve_slot(f) || !sunder_i_reserve(&l->pair, &l->capacity, l->n + 1, sizeof *l->pair)) {
+        f->no_memory = true;
+        return;
+    }
+    const size_t at = slot_of(f, subsum);
+    if (f->slot[at]) return;
+    l->pair[l->n++] = subsum;
+    f->slot[at] = (uint32_t)l->n;
+    l->all = (double)l->n > MOST_NEEDED * f->whole;
+}
+
+/* All that reaches into the cell is needed; or one that holds it. */
+static void need_all(finder *f, const cell *c, const sunder_i_cell_window *w)
+{
+    const size_t from = f->pairs;
+    f->held = false;
+    for (size_t i = c->from; i < c->to; i++) list_pair(f, f->pair[i].a, f->pair[i].b, w, -INFINITY);
+    if (f->held) {
+        need(f, f->holder);
+        return;
+    }
+    for (size_t i = from; i < f->pairs && !f->no_memory && !f->out->all; i++)
+        need(f, subsum_of(f, f->pair[i].a, f->pair[i].b));
+}
+
+/* ---- Cells ---- */
+
+/* Puts one half of a cell on the stack, with what of the cell's pairs reaches into it, unless nothing does, or one
+ * subsum holds it. */
+static void put_half(finder *f, const cell *c, const double box[4])
+{
+    const sunder_i_cell_window w = sunder_i_cell_window_of(box, f->error);
+    const size_t from = f->pairs;
+    f->held = false;
+    f->subsums = 0;
+    for (size_t i = c->from; i < c->to; i++)
+        list_pair(f, f->pair[i].a, f->pair[i].b, &w, COARSE * 2 * fmax(w.hx, w.hy));
+    if (f->no_memory) return;
+    if (f->held || f->pairs == from) {
+        f->pairs = from;
+        if (f->held) need(f, f->holder);
+        return;
+    }
+    if (!sunder_i_reserve(&f->stack, &f->cells_capacity, f->cells + 1, sizeof *f->stack)) {
+        f->no_memory = true;
+        return;
+    }
+    f->stack[f->cells++] = (cell){{box[0], box[1], box[2], box[3]}, from, f->pairs, f->subsums, 0, c->depth + 1};
+}
+
+/* Both halves across the longer axis; what credit is left goes to them by what they have to do. */
+static void halve(finder *f, const cell *c)
+{
+    const int axis = c->box[3] - c->box[1] > c->box[2] - c->box[0];
+    const size_t first = f->cells;
+    double box[2][4], all = 0;
+    memcpy(box[0], c->box, sizeof box[0]);
+    memcpy(box[1], c->box, sizeof box[1]);
+    box[0][axis + 2] = box[1][axis] = c->box[axis] / 2 + c->box[axis + 2] / 2;
+    for (int k = 0; k < 2 && !f->no_memory; k++) put_half(f, c, box[k]);
+    for (size_t i = first; i < f->cells; i++) all += f->stack[i].subsums;
+    for (size_t i = first; i < f->cells; i++) f->stack[i].credit = (c->credit - f->spent) * (f->stack[i].subsums / all);
+}
+
+static void descend(finder *f)
+{
+    while (f->cells > 0 && !f->no_memory && !f->out->all) {
+        const cell c = f->stack[--f->cells];
+        const sunder_i_cell_window w = sunder_i_cell_window_of(c.box, f->error);
+        f->pairs = c.to; /* lists above are of cells that are done with */
+        f->spent = 0;
+        if (c.subsums <= LEAF || c.credit <= 0 || c.depth > DEPTH)
+            need_all(f, &c, &w);
+        else if (is_held(f, &c, &w))
+            need(f, f->holder);
+        else
+            halve(f, &c);
+        if (!sunder_i_steps((size_t)(f->spent / WALK) + 1)) f->no_memory = true;
+    }
+}
+
+/* Do the subsums lie in layers, or is one of them large? Some are asked, spread over all, and those of long pieces. */
+static bool is_worth_it(const finder *f, const double box[4])
+{
+    const uint32_t m = f->p->pieces->n, n = f->q->pieces->n;
+    double sum = 0, largest = 0;
+    for (uint32_t k = 0; k < SAMPLES; k++) {
+        sum += sunder_i_approx_sum_area(f->p, (uint32_t)((uint64_t)k * 7919 % m), f->q,
+                                        (uint32_t)((uint64_t)k * 104729 % n));
+        const double large = sunder_i_approx_sum_area(f->p, f->p->group[k % f->p->groups].piece, f->q,
+                                                      f->q->group[k * 5 % f->q->groups].piece);
+        largest = fmax(largest, large);
+    }
+    const double area = (box[2] - box[0]) * (box[3] - box[1]);
+    return sum / SAMPLES * f->whole >= LEAST_LAYERS * area || largest >= LARGE_SHARE * area;
+}
+
+static bool find(finder *f)
+{
+    const sunder_i_piece_group *a = f->p->group, *b = f->q->group;
+    f->whole = (double)a->pieces * (double)b->pieces;
+    f->error = sunder_i_approx_sum_error(f->p, f->q);
+    cell root = {.from = 0, .to = 1, .subsums = f->whole, .credit = CREDIT * f->whole};
+    for (int k = 0; k < 2; k++) {
+        root.box[k] = a->low[k] + b->low[k] - f->error;
+        root.box[k + 2] = a->high[k] + b->high[k] + f->error;
+    }
+    f->out->all = !is_worth_it(f, root.box);
+    if (f->out->all) return true;
+    push(f, 0, 0);
+    f->no_memory |= !sunder_i_reserve(&f->stack, &f->cells_capacity, 1, sizeof *f->stack);
+    if (!f->no_memory) {
+        f->stack[f->cells++] = root;
+        descend(f);
+    }
+    sunder_i_free(f->pair);
+    sunder_i_free(f->stack);
+    sunder_i_free(f->slot);
+    return !f->no_memory && (f->out->all || sunder_i_sort_keys(f->out->pair, f->out->n));
+}
+
+bool sunder_i_needed_subsums(const sunder_i_convex_pieces *p, const sunder_i_convex_pieces *q,
+                             sunder_i_subsum_list *out)
+{
+    sunder_i_piece_tree tp, tq;
+    memset(out, 0, sizeof *out);
+    if (!sunder_i_piece_tree_build(p, &tp)) return false;
+    bool ok = sunder_i_piece_tree_build(q, &tq);
+    if (ok) {
+        finder f = {.p = &tp, .q = &tq, .out = out};
+        ok = find(&f);
+        sunder_i_piece_tree_free(&tq);
+    }
+    sunder_i_piece_tree_free(&tp);
+    if (!ok) sunder_i_subsum_list_free(out);
+    return ok;
+}
+
+void sunder_i_subsum_list_free(sunder_i_subsum_list *list)
+{
+    sunder_i_free(list->pair);
+    memset(list, 0, sizeof *list);
+}
