@@ -11,6 +11,7 @@
 
 void sunder_i_model_free(sunder_i_model *model)
 {
+    sunder_shape_free(model->disc);
     sunder_i_free(model->body_of);
     sunder_i_free(model->member);
     sunder_i_free(model->body);
@@ -99,7 +100,9 @@ sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_barr
         const double beyond = sunder_i_reach_beyond(model, (uint32_t)f);
         if (beyond > 0) sunder_i_box_grow(model->box + 4 * f, beyond, model->box + 4 * f);
     }
-    const sunder_status status = sunder_i_rtree_build(model->box, model->present, n, &model->tree, err);
+    sunder_status status = sunder_i_rtree_build(model->box, model->present, n, &model->tree, err);
+    if (!status) status = sunder_i_thin_disc(rules->tolerance, &model->disc, err);
+    model->rules.disc = model->disc;
     return status ? status : make_seamless(model, err);
 }
 

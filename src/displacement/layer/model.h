@@ -75,6 +75,7 @@ static inline void sunder_i_body_box(const sunder_i_body *body, const double t[2
 struct sunder_i_model {
     const sunder_layer *layer;
     sunder_i_rules rules;
+    sunder_shape *disc; /* rules.disc */
     const sunder_i_barriers *barriers;
     size_t bodies, pieces;
     size_t features, things; /* features come first, then parts of barriers, which are fixed bodies each */

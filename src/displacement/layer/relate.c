@@ -65,7 +65,7 @@ static sunder_status relate_overlapping(const sunder_i_rules *rules, const sunde
     r->duplicate = a_exact && b_exact;
     r->kept = r->contained && sunder_i_may_be_inside(rules);
     if (r->contained) return SUNDER_OK;
-    return sunder_i_overlap_is_thin(a, b, rules->tolerance, &r->touch, err);
+    return sunder_i_overlap_is_thin(a, b, rules->tolerance, rules->disc, &r->touch, err);
 }
 
 /* The distance of two disjoint sets that may stand translated. */

@@ -38,9 +38,11 @@ const sunder_i_relation *sunder_i_relations_find(const sunder_i_relations *relat
 
 /* Two interiors meet: in no more than the tolerance? That is, the least translation that takes them apart is no longer,
  * or no polygon of 16 corners in the disc of that diameter (sunder_shape_disc()) fits into what the two have in common.
- * Exact. */
+ * Exact. disc: that polygon. */
 sunder_status sunder_i_overlap_is_thin(const sunder_i_translate *a, const sunder_i_translate *b, double tolerance,
-                                       bool *thin, sunder_error *err);
+                                       const sunder_shape *disc, bool *thin, sunder_error *err);
+/* The polygon, to be freed: it costs more than most of the questions that it is for. NULL where it would be a point. */
+sunder_status sunder_i_thin_disc(double tolerance, sunder_shape **disc, sunder_error *err);
 
 /* ---- roomy_place.c ----------------------------------------------------------------------------------------------- */
 

@@ -20,31 +20,26 @@ static sunder_status fits_where_proposed(const sunder_i_translate *a, const sund
     return status;
 }
 
-static sunder_status no_disc_fits(const sunder_i_translate *a, const sunder_i_translate *b, double diameter, bool *thin,
-                                  sunder_error *err)
+sunder_status sunder_i_thin_disc(double tolerance, sunder_shape **disc, sunder_error *err)
 {
-    sunder_shape *disc;
-    bool fits;
-    if (!(diameter / 2 > 0)) return SUNDER_OK; /* a point, as far as doubles go, and there is one */
-    sunder_status status = sunder_shape_disc(diameter / 2, DISC_CORNERS, true, &disc, err);
-    if (status) return status;
-    status = fits_where_proposed(a, b, disc, diameter / 2, &fits, err);
-    if (!status && !fits) status = sunder_i_fits_in_both(a->shape, a->t, b->shape, b->t, disc, &fits, err);
-    if (!status) *thin = !fits;
-    sunder_shape_free(disc);
-    return status;
+    *disc = NULL;
+    return tolerance / 2 > 0 ? sunder_shape_disc(tolerance / 2, DISC_CORNERS, true, disc, err) : SUNDER_OK;
 }
 
 sunder_status sunder_i_overlap_is_thin(const sunder_i_translate *a, const sunder_i_translate *b, double tolerance,
-                                       bool *thin, sunder_error *err)
+                                       const sunder_shape *disc, bool *thin, sunder_error *err)
 {
     *thin = false;
     if (!(tolerance > 0)) return SUNDER_OK;
     sunder_separation least;
-    bool beyond = false;
-    const sunder_status status = sunder_i_separate(a->shape, a->t, b->shape, b->t, 0, tolerance, &least, &beyond, err);
+    bool beyond = false, fits;
+    sunder_status status = sunder_i_separate(a->shape, a->t, b->shape, b->t, 0, tolerance, &least, &beyond, err);
     if (status) return status;
     sunder_separation_clear(&least);
     *thin = !beyond;
-    return *thin ? SUNDER_OK : no_disc_fits(a, b, tolerance, thin, err);
+    if (*thin || !disc) return SUNDER_OK; /* a point, as far as doubles go, and there is one */
+    status = fits_where_proposed(a, b, disc, tolerance / 2, &fits, err);
+    if (!status && !fits) status = sunder_i_fits_in_both(a->shape, a->t, b->shape, b->t, disc, &fits, err);
+    if (!status) *thin = !fits;
+    return status;
 }

@@ -8,6 +8,7 @@ typedef struct thin_search {
     const sunder_i_model *model;
     const sunder_i_placement *placement;
     const sunder_i_relations *relations;
+    const sunder_shape *disc;
     bool *thin; /* [relations] */
 } thin_search;
 
@@ -19,8 +20,9 @@ static sunder_status look_at(void *context, size_t begin, size_t end, sunder_err
         if (!r->overlap || r->contained || sunder_i_is_barrier(s->model, r->b) ||
             s->model->body_of[r->a] == s->model->body_of[r->b])
             continue;
-        const sunder_status status = sunder_i_overlap_is_thin(
-            &s->placement->translate[r->a], &s->placement->translate[r->b], s->model->rules.thin, &s->thin[k], err);
+        const sunder_status status =
+            sunder_i_overlap_is_thin(&s->placement->translate[r->a], &s->placement->translate[r->b],
+                                     s->model->rules.thin, s->disc, &s->thin[k], err);
         if (status) return status;
     }
     return SUNDER_OK;
@@ -31,11 +33,13 @@ sunder_status sunder_i_count_thin_overlaps(const sunder_i_model *model, const su
 {
     *n = 0;
     if (!(model->rules.thin > 0)) return SUNDER_OK;
-    thin_search s = {model, placement, relations, sunder_i_calloc(relations->n, sizeof *s.thin)};
-    if (!s.thin) return sunder_i_no_memory(err);
-    const sunder_status status =
-        sunder_i_parallel(model->rules.threads, relations->n, SUNDER_I_GRAIN_PAIRS, look_at, &s, err);
+    sunder_shape *disc;
+    sunder_status status = sunder_i_thin_disc(model->rules.thin, &disc, err);
+    thin_search s = {model, placement, relations, disc, sunder_i_calloc(relations->n, sizeof *s.thin)};
+    if (!status && !s.thin) status = sunder_i_no_memory(err);
+    if (!status) status = sunder_i_parallel(model->rules.threads, relations->n, SUNDER_I_GRAIN_PAIRS, look_at, &s, err);
     for (size_t k = 0; k < relations->n && !status; k++) *n += s.thin[k];
     sunder_i_free(s.thin);
+    sunder_shape_free(disc);
     return status;
 }
