@@ -47,46 +47,63 @@ static bool fail(const gis_sqlite_rows *rows, gis_error *error)
     return gis_fail(error, "%s cannot be written: %s", rows->what, find_all()->error_message(rows->database));
 }
 
-bool gis_sqlite_rows_begin(gis_sqlite_rows *rows, void *database, const char *table, const char *what, gis_error *error)
+/* Rows of one statement: what beginning and ending one costs is a small part of them then. */
+enum { AT_ONCE = 100 };
+
+static bool prepare(const gis_sqlite_rows *rows, const char *table, size_t n, void **statement, gis_error *error)
 {
-    static const char head[] = "INSERT INTO ", tail[] = " VALUES (?1, ?2)";
-    *rows = (gis_sqlite_rows){.database = database, .what = what};
-    char *sql = malloc(sizeof head + strlen(table) + sizeof tail);
+    static const char head[] = "INSERT INTO ", tail[] = " VALUES (?, ?)", row[] = ", (?, ?)";
+    char *sql = malloc(sizeof head + strlen(table) + sizeof tail + n * sizeof row);
     if (!sql) return gis_no_memory(error);
-    const int length = sprintf(sql, "%s%s%s", head, table, tail);
-    const int result = find_all()->prepare(database, sql, length + 1, &rows->statement, NULL);
+    int length = sprintf(sql, "%s%s%s", head, table, tail);
+    for (size_t k = 1; k < n; k++) length += sprintf(sql + length, "%s", row);
+    const int result = find_all()->prepare(rows->database, sql, length + 1, statement, NULL);
     free(sql);
     return result == OK || fail(rows, error);
 }
 
-/* bound: its parameters are. */
-static bool insert(const gis_sqlite_rows *rows, bool bound, gis_error *error)
+bool gis_sqlite_rows_begin(gis_sqlite_rows *rows, void *database, const char *table, bool many, const char *what,
+                           gis_error *error)
 {
-    const calls *sqlite = find_all();
-    const bool done = bound && sqlite->step(rows->statement) == DONE;
-    return (sqlite->reset(rows->statement) == OK && done) || fail(rows, error);
+    *rows = (gis_sqlite_rows){.database = database, .what = what};
+    return prepare(rows, table, 1, &rows->one, error) && (!many || prepare(rows, table, AT_ONCE, &rows->many, error));
 }
 
-bool gis_sqlite_rows_add(gis_sqlite_rows *rows, int64_t key, int64_t value, gis_error *error)
+/* bound: its parameters are. */
+static bool insert(const gis_sqlite_rows *rows, void *statement, bool bound, gis_error *error)
 {
     const calls *sqlite = find_all();
-    return insert(rows,
-                  sqlite->bind_number(rows->statement, 1, key) == OK &&
-                      sqlite->bind_number(rows->statement, 2, value) == OK,
-                  error);
+    const bool done = bound && sqlite->step(statement) == DONE;
+    return (sqlite->reset(statement) == OK && done) || fail(rows, error);
+}
+
+bool gis_sqlite_rows_add(gis_sqlite_rows *rows, const int64_t (*row)[2], size_t n, gis_error *error)
+{
+    const calls *sqlite = find_all();
+    for (size_t done = 0; done < n;) {
+        const size_t now = rows->many && n - done >= AT_ONCE ? AT_ONCE : 1;
+        void *statement = now > 1 ? rows->many : rows->one;
+        bool bound = true;
+        for (size_t k = 0; k < 2 * now && bound; k++)
+            bound = sqlite->bind_number(statement, (int)k + 1, row[done + k / 2][k % 2]) == OK;
+        if (!insert(rows, statement, bound, error)) return false;
+        done += now;
+    }
+    return true;
 }
 
 bool gis_sqlite_rows_add_bytes(gis_sqlite_rows *rows, int64_t key, const void *bytes, size_t n, gis_error *error)
 {
     const calls *sqlite = find_all();
-    return insert(rows,
-                  sqlite->bind_number(rows->statement, 1, key) == OK &&
-                      sqlite->bind_bytes(rows->statement, 2, bytes, (int)n, NULL) == OK,
+    return insert(rows, rows->one,
+                  sqlite->bind_number(rows->one, 1, key) == OK &&
+                      sqlite->bind_bytes(rows->one, 2, bytes, (int)n, NULL) == OK,
                   error);
 }
 
 void gis_sqlite_rows_end(gis_sqlite_rows *rows)
 {
-    if (rows->statement) find_all()->finalize(rows->statement);
+    if (rows->one) find_all()->finalize(rows->one);
+    if (rows->many) find_all()->finalize(rows->many);
     *rows = (gis_sqlite_rows){0};
 }

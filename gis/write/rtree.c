@@ -191,24 +191,22 @@ static unsigned char *put_float(unsigned char *to, float value)
     return put_number(to, bits, 4);
 }
 
-/* A feature, and the leaf that it is in. */
-typedef struct leaf_row {
-    GIntBig fid, node;
-} leaf_row;
+/* A feature, or a node, and the node that it is in. */
+typedef int64_t row_of[2];
 
 typedef struct packing {
-    gis_sqlite_rows nodes, parents;
-    size_t capacity;     /* cells in a node */
-    unsigned char *node; /* room for one */
-    leaf_row *row;       /* of all leaves */
-    size_t rows;
+    gis_sqlite_rows nodes;
+    size_t capacity;       /* cells in a node */
+    unsigned char *node;   /* room for one */
+    row_of *leaf, *parent; /* of all features, and of all nodes but the root */
+    size_t leaves, parents;
     GIntBig next; /* number of the next node */
 } packing;
 
 static int compare_rows(const void *a, const void *b)
 {
-    const leaf_row *p = a, *q = b;
-    return (p->fid > q->fid) - (p->fid < q->fid);
+    const row_of *p = a, *q = b;
+    return ((*p)[0] > (*q)[0]) - ((*p)[0] < (*q)[0]);
 }
 
 /* One node of consecutive cells; gives its number and box in *made. root_depth < 0: it is not the root, which is
@@ -224,10 +222,9 @@ static bool write_node(packing *all, const struct gis_box *cells, size_t n, bool
     unsigned char *to = put_number(all->node, root ? (uint64_t)root_depth : 0, 2);
     to = put_number(to, n, 2);
     for (size_t i = 0; i < n; i++) {
-        if (leaf)
-            all->row[all->rows++] = (leaf_row){cells[i].fid, made->fid};
-        else if (!gis_sqlite_rows_add(&all->parents, cells[i].fid, made->fid, error))
-            return false;
+        int64_t *row = leaf ? all->leaf[all->leaves++] : all->parent[all->parents++];
+        row[0] = cells[i].fid;
+        row[1] = made->fid;
         to = put_number(to, (uint64_t)cells[i].fid, 8);
         for (int k = 0; k < 4; k++) {
             to = put_float(to, cells[i].side[k]);
@@ -282,23 +279,29 @@ static size_t node_capacity(GDALDatasetH dataset, OGRLayerH layer)
     return bytes < HEADER + 2 * CELL ? 0 : (size_t)(bytes - HEADER) / CELL;
 }
 
-static bool begin_rows(gis_sqlite_rows *rows, GDALDatasetH dataset, OGRLayerH layer, const char *table,
+static bool begin_rows(gis_sqlite_rows *rows, GDALDatasetH dataset, OGRLayerH layer, const char *table, bool many,
                        gis_error *error)
 {
     char *name = tree_name(layer, table, '"');
-    const bool done = gis_sqlite_rows_begin(rows, GDALGetInternalHandle(dataset, "SQLITE_HANDLE"), name, WHAT, error);
+    const bool done =
+        gis_sqlite_rows_begin(rows, GDALGetInternalHandle(dataset, "SQLITE_HANDLE"), name, many, WHAT, error);
     CPLFree(name);
     return done;
 }
 
-/* The leaf of each row, by rising rows, though the tree has them along the curve. */
-static bool write_leaf_rows(packing *all, GDALDatasetH dataset, OGRLayerH layer, gis_error *error)
+/* Rows at a time, between which the user may stop; and how many are many. */
+enum { STRETCH = 10000, MANY_ROWS = 100 };
+
+/* By rising keys, though the tree has them along the curve. */
+static bool write_rows(GDALDatasetH dataset, OGRLayerH layer, const char *table, row_of *row, size_t n,
+                       gis_error *error)
 {
     gis_sqlite_rows rows = {0};
-    qsort(all->row, all->rows, sizeof *all->row, compare_rows);
-    bool done = begin_rows(&rows, dataset, layer, "_rowid", error);
-    for (size_t i = 0; done && i < all->rows; i++)
-        done = gis_go_on(error) && gis_sqlite_rows_add(&rows, all->row[i].fid, all->row[i].node, error);
+    if (n) qsort(row, n, sizeof *row, compare_rows);
+    bool done = begin_rows(&rows, dataset, layer, table, n >= MANY_ROWS, error);
+    for (size_t i = 0; done && i < n; i += STRETCH)
+        done = gis_go_on(error) &&
+               gis_sqlite_rows_add(&rows, (const int64_t(*)[2])row + i, n - i < STRETCH ? n - i : STRETCH, error);
     gis_sqlite_rows_end(&rows);
     return done;
 }
@@ -310,17 +313,18 @@ static bool fill(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_er
     if (!sort_boxes(boxes)) return gis_no_memory(error);
     packing all = {.capacity = capacity,
                    .node = CPLMalloc(HEADER + CELL * capacity),
-                   .row = malloc(boxes->n * sizeof *all.row),
+                   .leaf = malloc(boxes->n * sizeof *all.leaf),
+                   .parent = malloc(boxes->n * sizeof *all.parent), /* fewer than that */
                    .next = 2};
-    if (!all.row) gis_no_memory(error);
-    bool done = all.row && empty_tables(dataset, layer, error) &&
-                begin_rows(&all.nodes, dataset, layer, "_node", error) &&
-                begin_rows(&all.parents, dataset, layer, "_parent", error) && write_levels(&all, boxes, error);
+    bool done = (all.leaf && all.parent) || gis_no_memory(error);
+    done = done && empty_tables(dataset, layer, error) &&
+           begin_rows(&all.nodes, dataset, layer, "_node", false, error) && write_levels(&all, boxes, error);
     gis_sqlite_rows_end(&all.nodes);
-    gis_sqlite_rows_end(&all.parents);
-    done = done && write_leaf_rows(&all, dataset, layer, error);
+    done = done && write_rows(dataset, layer, "_parent", all.parent, all.parents, error) &&
+           write_rows(dataset, layer, "_rowid", all.leaf, all.leaves, error);
     CPLFree(all.node);
-    free(all.row);
+    free(all.leaf);
+    free(all.parent);
     return done;
 }
 
