@@ -7,8 +7,8 @@
 #
 # Installs what is missing and builds (not if SUNDER_BUILD names a build). Sums and pairs are CPU seconds of one thread, medians of
 # several runs. Sunder is measured before and after its peers and the worse of the two counts. A peer's method that is stopped
-# could not have been the best: it may take as long as three runs at the speed of the best so far, and three seconds. Rows under
-# a millisecond are also counted in instructions, by callgrind; with --instructions all rows that a peer does in three seconds.
+# could not have been the best: it may take as long as three runs at the speed of the best so far, and three seconds. One that was
+# stopped, or took ten times the best, is not tried on the next size of the same family. Rows under a millisecond are also counted in instructions, by callgrind; with --instructions all rows that a peer does in three seconds.
 #
 # Operands are in memory before the clock starts, results in memory when it stops. CGAL has its own decompositions and they count;
 # GEOS and Clipper are given the convex subsums and only unite them, see subsums.h.
@@ -138,13 +138,18 @@ methods_of() { # FAMILY: CGAL's, the likely best first
   esac
 }
 
+declare -A hopeless=() # family, program, method
+
 # Tries PROGRAM METHOD on the file; sets best, best_method and best_program where it is better than those.
 try() {
-  local most=$limit line status=0
-  [[ -x $build/$1 ]] || return 0
+  local most=$limit line status=0 kind="${name%_*} $1 $2"
+  if [[ ! -x $build/$1 || -n ${hopeless[$kind]:-} ]]; then return 0; fi
   if [[ -n $best ]]; then most=$(awk -v b="$best" 'BEGIN { printf "%d", 3.999 + 3 * b }'); fi
   line=$(ulimit -t "$most" -v "$memory"; SUNDER_BENCH_BEST=${best:-0} exec "$build/$1" "$2" "$file" 2>"$scratch/err") || status=$?
   echo "$name $1 $2 $([[ $status -eq 0 ]] && echo "$line" || echo "status $status within $most s")" >&2
+  if [[ $status -ne 0 ]] || { [[ -n $best ]] && less "$(awk -v b="$best" 'BEGIN { print 10 * b }')" "${line##* }"; }; then
+    hopeless[$kind]=1
+  fi
   if [[ $status -eq 0 ]] && { [[ -z $best ]] || less "${line##* }" "$best"; }; then
     best=${line##* } best_method=$2 best_program=$1
   fi
