@@ -12,6 +12,7 @@
 #   orders.csv                the incremental union in random order, as given and by three measures of fatness
 #   run.txt                   machine, compiler, commit, seed, limits
 #   tables.md                 exponents in n fitted over the sizes; phases; orders; decompositions
+#   roads.md                  the default in parts of the best other road, family by family and size by size (roads.sh)
 #   figure-5.svg ... -7.svg   bar charts; figure-1.svg ... -4.svg and figure-7-*.svg are pictures of inputs and sums
 #
 # A run that takes longer than the limit or more memory than allowed is recorded as such, and larger sizes of the same kind are not
@@ -39,7 +40,7 @@ if [[ -z ${SUNDER_BUILD:-} ]]; then
   setup_need gnuplot gnuplot-nox gnuplot --version
   setup_need Python python3 python3 --version
   setup_install
-  setup_build "$source" "$SUNDER_BUILD" sunder sunder-families bench_paper
+  setup_build "$source" "$SUNDER_BUILD" sunder sunder-families bench_paper bench_sum
 fi
 sunder=$SUNDER_BUILD/sunder families=$SUNDER_BUILD/sunder-families pieces=$SUNDER_BUILD/bench_paper
 for tool in "$sunder" "$families" jq gnuplot python3; do
@@ -250,5 +251,9 @@ echo family,size,order,subsums,edges,comparisons,orientation_tests,segment_inter
 pictures
 experiments
 python3 "$source/tests/bench/paper_charts.py" "$out"
+if [[ -x $SUNDER_BUILD/bench_sum ]]; then
+  SUNDER_ROADS_SIZES="$sizes $large" SUNDER_ROADS_DECOMPOSED=$decomposed SUNDER_ROADS_LIMIT=$limit \
+    "$source/tests/bench/roads.sh" "${names[@]}" >"$out/roads.md"
+fi
 agreement | tee -a "$out/run.txt"
 echo "$out"

@@ -8,7 +8,8 @@
 # Installs what is missing and builds (not if SUNDER_BUILD names a build). Sums and pairs are CPU seconds of one thread, medians of
 # several runs. Sunder is measured before and after its peers and the worse of the two counts. A peer's method that is stopped
 # could not have been the best: it may take as long as three runs at the speed of the best so far, and three seconds. One that was
-# stopped, or took ten times the best, is not tried on the next size of the same family. Rows under a millisecond are also counted in instructions, by callgrind; with --instructions all rows that a peer does in three seconds.
+# stopped, or took ten times the best, is not tried on the next size of the same family. Rows under a millisecond are also counted
+# in instructions, by callgrind; with --instructions all rows that a peer does in three seconds.
 #
 # Operands are in memory before the clock starts, results in memory when it stops. CGAL has its own decompositions and they count;
 # GEOS and Clipper are given the convex subsums and only unite them, see subsums.h.
@@ -32,7 +33,7 @@ if [[ -z ${SUNDER_BUILD:-} ]]; then
   SUNDER_BUILD=$source_dir/build/release
   {
     setup_toolchain
-    setup_want "a C++ compiler" g++ setup_has_header vector -x c++
+    setup_want "a C++ compiler" g++ g++ --version
     setup_want "CGAL" "libcgal-dev libgmp-dev libmpfr-dev" setup_has_header CGAL/version.h
     setup_want "GEOS" libgeos-dev setup_has_header geos_c.h
     setup_want "Clipper" libpolyclipping-dev test -e /usr/include/polyclipping/clipper.hpp
