@@ -2,7 +2,8 @@
  * it, and would have to jump out (optimum/shut_in.c). They are found before anything moves, so that no search begins
  * with asking for a solution: all conflicts of two such bodies are left. Those of which that holds feature by feature,
  * the rest of their blocks only minding its ways, are infeasible like those that limits leave no solution; of the
- * others one may have a solution where the rest is left, so they are given up, and asked for again at the end. */
+ * others one may have a solution where the rest is left, so they are given up, and asked for again at the end, but for
+ * those that are proved to have none (shut_in_conflicts.c). */
 #include "displacement/clusters/stages.h"
 
 #include "base/parallel.h"
@@ -52,6 +53,7 @@ static size_t list_pairs(const sunder_i_solver *s, sunder_i_id_pair *pair)
 typedef struct matter {
     sunder_i_id_pair bodies, pair;
     bool shut;
+    sunder_i_relaxation relaxation;
 } matter;
 
 static int by_bodies(const void *a, const void *b)
@@ -70,14 +72,22 @@ static int by_pair(const void *a, const void *b)
 static sunder_status judge_features(const sunder_i_model *model, matter *list, size_t n, sunder_error *err)
 {
     sunder_i_id_pair *pair = sunder_i_alloc(n, sizeof *pair);
+    sunder_i_relaxation *relaxation = sunder_i_alloc(n, sizeof *relaxation);
     bool *shut = sunder_i_calloc(n, sizeof *shut);
-    bool ok = pair && shut;
+    bool ok = pair && relaxation && shut;
     for (size_t k = 0; k < n && ok; k++) pair[k] = list[k].pair;
     ok = ok && sunder_i_which_are_shut_in(model, list->bodies.a, list->bodies.b, pair, n, shut);
-    for (size_t k = 0; k < n && ok; k++) list[k].shut = shut[k];
+    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    for (size_t k = 0; k < n && !status; k++) {
+        status = sunder_i_relaxation_of(model, pair[k].a, pair[k].b, &relaxation[k], err);
+        list[k].shut = relaxation[k].infeasible = shut[k];
+    }
+    if (!status) status = sunder_i_find_unsolvable(model, &list->bodies, relaxation, n, err);
+    for (size_t k = 0; k < n && !status; k++) list[k].relaxation = relaxation[k];
     sunder_i_free(pair);
+    sunder_i_free(relaxation);
     sunder_i_free(shut);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return status;
 }
 
 typedef struct judging_features {
@@ -106,7 +116,7 @@ static size_t list_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *l
         if (!sunder_i_is_open_conflict(&s->model, r) || sunder_i_is_barrier(&s->model, r->b)) continue;
         const sunder_i_id_pair bodies = bodies_of(&s->model, r);
         if (bsearch(&bodies, list, n, sizeof bodies, sunder_i_by_id_pair))
-            out[found++] = (matter){bodies, {r->a, r->b}, false};
+            out[found++] = (matter){.bodies = bodies, .pair = {r->a, r->b}};
     }
     if (found) qsort(out, found, sizeof *out, by_bodies);
     *pairs = 0;
@@ -118,16 +128,12 @@ static size_t list_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *l
 
 static sunder_status leave(sunder_i_model *model, const matter *m, sunder_i_relaxations *more, sunder_error *err)
 {
-    sunder_i_relaxation relaxation;
-    const sunder_status status = sunder_i_relaxation_of(model, m->pair.a, m->pair.b, &relaxation, err);
-    if (status) return status;
-    relaxation.infeasible = m->shut;
     if (m->shut) {
         model->shut_in[model->shut_in_n++] = m->pair;
     } else {
         model->given_up[model->given_up_n++] = m->bodies;
     }
-    return sunder_i_relaxations_add(more, &relaxation) ? SUNDER_OK : sunder_i_no_memory(err);
+    return sunder_i_relaxations_add(more, &m->relaxation) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
 /* Leaves the conflicts between these bodies, n pairs, sorted. */

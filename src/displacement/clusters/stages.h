@@ -15,6 +15,13 @@ sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *solver, sunder_er
 /* Finds two bodies, in conflict, that nothing but a jump takes clear of each other, and leaves what is between them. */
 sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *solver, sunder_error *err);
 
+/* ---- shut_in_conflicts.c ----------------------------------------------------------------------------------------- */
+
+/* Of n conflicts between two bodies those that are proved to have no solution, all others being held no worse than they
+ * stood, are called infeasible. */
+sunder_status sunder_i_find_unsolvable(const sunder_i_model *model, const sunder_i_id_pair *bodies,
+                                       sunder_i_relaxation *relaxation, size_t n, sunder_error *err);
+
 /* ---- lifted_limits.c --------------------------------------------------------------------------------------------- */
 
 /* Lets bodies go as far as they like, but for those that are set aside. *lifted: there were limits. */

@@ -34,6 +34,15 @@
 /* How long a proof is looked for before a solution is: about as long as one conflict of a small layer takes. */
 #define EFFORT_BRIEFLY 100000u
 
+/* ---- Two bodies that are shut in (shut_in_conflicts.c) ----------------------------------------------------------- */
+
+/* What lines may be short by, as a share of how far two features may go: proofs are smaller, and few are missed. */
+#define COARSE_IN_PLANE 0x1p-8
+/* Bodies of more pairs of pieces are not asked about; nor any more of two when so much was done in vain: a block in the
+ * yard of another, 160,000 pairs in all, took 3 s for nothing. */
+#define MOST_IN_PLANE 50000u
+#define EFFORT_IN_VAIN 2000000u
+
 /* ---- What fits exactly (exact_fits.c) ---------------------------------------------------------------------------- */
 
 /* What the search may miss, as a share of the smaller body: far below the hair by which a place may be beside the

@@ -15,7 +15,8 @@ typedef struct sunder_i_relaxation {
     uint32_t a, b;
     double shift[2], gap;
     bool inside;
-    bool infeasible; /* no moves within the limits resolve the pair, which was proved; else the search gave up */
+    bool infeasible; /* it was proved that nothing resolves the pair, by itself or with what is left besides; else the
+                        search gave up */
 } sunder_i_relaxation;
 
 /* Bodies i < j with n relaxations between members of theirs; no shift is longer than `reach`. */

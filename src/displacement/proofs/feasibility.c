@@ -130,7 +130,7 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
     c.subproblem = &with_slack;
     if (!status && limited && c.longest > 0 && !subproblem->slack && !subproblem->still && !subproblem->no_plane)
         status = ask_plane(subproblem, decision, err);
-    if (status || decision->verdict != SUNDER_I_UNKNOWN) {
+    if (status || decision->verdict != SUNDER_I_UNKNOWN || subproblem->effort == 0) {
         sunder_i_free(c.body);
         sunder_i_free(c.t);
         clear(&c);

@@ -47,7 +47,7 @@ typedef struct sunder_i_subproblem {
     double instead;          /* > 0: a limit for those that have none; else they are not asked about */
     bool no_plane;           /* the plane of one relative move has been asked about, and had no answer */
     sunder_i_planes *planes; /* NULL, or kept for who asks about the same bodies again */
-    uint64_t effort;         /* in constraints looked at */
+    uint64_t effort;         /* in constraints looked at; 0: the plane of one relative move is asked, and no more */
     size_t most;             /* it ends where more bodies than these take part */
 } sunder_i_subproblem;
 

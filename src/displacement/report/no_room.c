@@ -52,7 +52,20 @@ static size_t features_of(const sunder_i_model *model, const sunder_proof *proof
     return sunder_i_set_make(set, n);
 }
 
-/* Leaves out what the proof can do without, in order of number, while the effort lasts. */
+/* The same into a set that has room for them: they are among those of another proof, whose nodes may be fewer. False if
+ * memory is out. */
+static bool take_features(const sunder_i_model *model, const sunder_proof *proof, uint32_t *set, size_t *n)
+{
+    uint32_t *all = sunder_i_alloc(2 * proof->nodes, sizeof *all);
+    if (!all) return false;
+    *n = features_of(model, proof, all);
+    memcpy(set, all, *n * sizeof *set);
+    sunder_i_free(all);
+    return true;
+}
+
+/* Leaves out what the proof can do without, in order of number, while the effort lasts: the feature at hand, and what a
+ * proof without it has no more use for. */
 static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_proof **proof, sunder_error *err)
 {
     sunder_i_subproblem q = *subproblem;
@@ -84,8 +97,7 @@ static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_proof 
             sunder_i_proof_free(*proof);
             *proof = decision.proof;
             decision.proof = NULL;
-            /* Its nodes may be more than the first proof's, its features are among those of the set. */
-            left = out;
+            if (!take_features(q.model, *proof, set, &left)) status = sunder_i_no_memory(err);
         } else {
             set[out] = all[k];
             left = sunder_i_set_make(set, out + 1);

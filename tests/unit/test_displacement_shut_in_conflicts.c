@@ -1,0 +1,165 @@
+/* displacement/clusters/shut_in_conflicts: of a house in a yard of four others, which of its conflicts with them have
+ * no solution if the others stay as they are? */
+#include "scene.h"
+
+#include "displacement/clusters/stages.h"
+#include "displacement/layer/placement.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { WEST, EAST, SOUTH, NORTH, SIDES };
+
+typedef struct yard {
+    scene scene;
+    sunder_layer *layer;
+    sunder_layer work;
+    size_t *number;
+    sunder_i_barriers parts;
+    sunder_i_model model;
+    sunder_i_placement placement;
+    sunder_i_relations start;
+} yard;
+
+static void add_box(scene *s, double x, double y, double width, double height, int64_t block)
+{
+    char wkt[200];
+    snprintf(wkt, sizeof wkt, "POLYGON ((%g %g, %g %g, %g %g, %g %g, %g %g))", x, y, x + width, y, x + width,
+             y + height, x, y + height, x, y);
+    scene_add(s, wkt)->block = block;
+}
+
+/* A house of 2 by 2, half a gap from three sides of its yard, and `east` from the fourth. */
+static void begin(yard *y, double east)
+{
+    sunder_i_rules rules;
+    sunder_error err;
+    memset(y, 0, sizeof *y);
+    scene_begin(&y->scene, 1);
+    const double width = 2.5 + east;
+    add_box(&y->scene, -1, -1, 1, 5, 0);
+    add_box(&y->scene, width, -1, 1, 5, 0);
+    add_box(&y->scene, 0, -1, width, 1, 0);
+    add_box(&y->scene, 0, 3, width, 1, 0);
+    add_box(&y->scene, 0.5, 0.5, 2, 2, 1);
+    assert_int_equal(sunder_layer_new(y->scene.feature, y->scene.n, &y->layer, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_rules_of(&y->scene.options, &rules, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_barriers_make(y->layer, 1, &y->parts, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_order_layer(y->layer, &y->parts, true, &y->work, &y->number, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_init(&y->work, &y->parts, &rules, &y->model, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_placement_init(&y->model, &y->placement, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_placement_relate(&y->model, &y->placement, NULL, NULL, &y->start, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_join(&y->model, &y->start, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_cut(&y->model, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_anchor(&y->model, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_find_seams(&y->model, &err), SUNDER_OK);
+}
+
+static void end(yard *y)
+{
+    sunder_i_free(y->start.pair);
+    sunder_i_placement_free(&y->model, &y->placement);
+    sunder_i_model_free(&y->model);
+    sunder_i_barriers_free(&y->parts);
+    sunder_i_free(y->work.feature);
+    sunder_i_free(y->number);
+    sunder_layer_free(y->layer);
+    scene_end(&y->scene);
+}
+
+/* Which side of the yard the pair is of: the one that is not the house is told by its middle. */
+static int side_of(const yard *y, const sunder_i_relaxation *t, double width)
+{
+    for (uint32_t e = 0; e < 2; e++) {
+        const double *box = y->model.box + 4 * (size_t)(e ? t->b : t->a);
+        const double u = (box[0] + box[2]) / 2, v = (box[1] + box[3]) / 2;
+        if (u < 0 || u > width) return u < 0 ? WEST : EAST;
+        if (v < 0 || v > 3) return v < 0 ? SOUTH : NORTH;
+    }
+    return SIDES;
+}
+
+/* Says of each conflict whether it was proved; of how many there are. */
+static size_t ask(yard *y, double width, bool proved[SIDES])
+{
+    sunder_i_relaxation relaxation[SIDES];
+    sunder_error err;
+    size_t n = 0;
+    sunder_i_id_pair bodies = {0, 0};
+    memset(proved, 0, SIDES * sizeof *proved);
+    for (size_t k = 0; k < y->start.n; k++) {
+        const sunder_i_relation *r = &y->start.pair[k];
+        if (!sunder_i_is_open_conflict(&y->model, r)) continue;
+        const uint32_t i = y->model.body_of[r->a], j = y->model.body_of[r->b];
+        bodies = i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i};
+        assert_int_equal(sunder_i_relaxation_of(&y->model, r->a, r->b, &relaxation[n++], &err), SUNDER_OK);
+    }
+    assert_int_equal(sunder_i_find_unsolvable(&y->model, &bodies, relaxation, n, &err), SUNDER_OK);
+    for (size_t k = 0; k < n; k++) proved[side_of(y, &relaxation[k], width)] = relaxation[k].infeasible;
+    return n;
+}
+
+/* Each alone has a solution; none has, since the side across is as near. */
+static void check_no_place(void **state)
+{
+    yard y;
+    bool proved[SIDES];
+    begin(&y, 0.5);
+    assert_int_equal(ask(&y, 3, proved), 4);
+    for (int k = 0; k < SIDES; k++) assert_true(proved[k]);
+    end(&y);
+    (void)state;
+}
+
+/* There is room in the east. */
+static void check_place(void **state)
+{
+    yard y;
+    bool proved[SIDES];
+    begin(&y, 1.75);
+    assert_int_equal(ask(&y, 4.25, proved), 3);
+    assert_false(proved[WEST]);
+    assert_true(proved[SOUTH]);
+    assert_true(proved[NORTH]);
+    end(&y);
+    (void)state;
+}
+
+/* What limits leave no solution is held no worse than it stood, and no more is asked of it. */
+static void check_others(void **state)
+{
+    yard y;
+    bool proved[SIDES];
+    begin(&y, 0.5);
+    for (size_t k = 0; k < y.start.n; k++) {
+        const sunder_i_relation *r = &y.start.pair[k];
+        sunder_i_relaxation t;
+        sunder_error err;
+        if (!sunder_i_is_open_conflict(&y.model, r)) continue;
+        assert_int_equal(sunder_i_relaxation_of(&y.model, r->a, r->b, &t, &err), SUNDER_OK);
+        if (side_of(&y, &t, 3) != EAST) continue;
+        t.infeasible = true;
+        t.gap = 0;
+        assert_true(sunder_i_relaxations_add(&y.model.relaxations, &t));
+    }
+    assert_true(sunder_i_relaxations_index(&y.model.relaxations, &y.model));
+    assert_int_equal(ask(&y, 3, proved), 3);
+    assert_false(proved[WEST]);
+    assert_true(proved[SOUTH]);
+    assert_true(proved[NORTH]);
+    end(&y);
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(check_no_place), cmocka_unit_test(check_place),
+                                       cmocka_unit_test(check_others)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
