@@ -4,6 +4,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+bool sunder_i_list_copy(sunder_i_list *list, const sunder_i_list *from)
+{
+    if (from->n == 0) return true;
+    list->item = sunder_i_alloc(from->n, sizeof *list->item);
+    if (!list->item) return false;
+    memcpy(list->item, from->item, from->n * sizeof *list->item);
+    list->n = list->capacity = from->n;
+    return true;
+}
+
 int sunder_i_by_number(const void *a, const void *b)
 {
     const uint32_t *p = a, *q = b;

@@ -5,6 +5,8 @@
  * Where the curve's grid is too coarse to tell centres apart only speed suffers. */
 #include "spatial/rtree.h"
 
+#include "base/sort.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,10 +16,6 @@
 /* The tree is worn when its nodes have so many times the size that they were packed to: queries then look at about that
  * many times the nodes, and building anew costs about as much as asking once for each box. */
 #define WORN 1.5
-
-typedef struct place {
-    uint32_t hilbert, item;
-} place;
 
 /* The position of cell (x, y) of a 65536 x 65536 grid on the Hilbert curve; by halving the square. */
 static uint32_t hilbert(uint32_t x, uint32_t y)
@@ -39,13 +37,6 @@ static uint32_t hilbert(uint32_t x, uint32_t y)
     return d;
 }
 
-static int by_place(const void *a, const void *b)
-{
-    const place *p = a, *q = b;
-    if (p->hilbert != q->hilbert) return p->hilbert < q->hilbert ? -1 : 1;
-    return p->item < q->item ? -1 : p->item > q->item;
-}
-
 /* Which of 65536 columns the middle of [low, high] is in; halves keep it finite. */
 static uint32_t cell(double low, double high, double all_low, double all_high)
 {
@@ -55,9 +46,10 @@ static uint32_t cell(double low, double high, double all_low, double all_high)
     return v <= 0 ? 0 : v >= 65535 ? 65535 : (uint32_t)v;
 }
 
-static sunder_status sort_places(const double *box, const bool *present, size_t n, place **out, size_t *leaves)
+/* Items by their places along the curve, each behind its place in one number. */
+static sunder_status sort_places(const double *box, const bool *present, size_t n, uint64_t **out, size_t *leaves)
 {
-    place *places = sunder_i_alloc(n, sizeof *places);
+    uint64_t *places = sunder_i_alloc(n, sizeof *places);
     if (!places) return SUNDER_ENOMEM;
     double all[4];
     sunder_i_box_clear(all);
@@ -67,10 +59,13 @@ static sunder_status sort_places(const double *box, const bool *present, size_t 
     for (size_t i = 0; i < n; i++) {
         if (present && !present[i]) continue;
         const double *b = box + 4 * i;
-        places[k].item = (uint32_t)i;
-        places[k++].hilbert = hilbert(cell(b[0], b[2], all[0], all[2]), cell(b[1], b[3], all[1], all[3]));
+        const uint32_t along = hilbert(cell(b[0], b[2], all[0], all[2]), cell(b[1], b[3], all[1], all[3]));
+        places[k++] = (uint64_t)along << 32 | i;
     }
-    qsort(places, k, sizeof *places, by_place);
+    if (!sunder_i_sort_keys(places, k)) {
+        sunder_i_free(places);
+        return SUNDER_ENOMEM;
+    }
     *out = places;
     *leaves = k;
     return SUNDER_OK;
@@ -96,7 +91,7 @@ static double size_of(const double box[4]) { return box[2] - box[0] + (box[3] - 
 sunder_status sunder_i_rtree_build(const double *box, const bool *present, size_t n, sunder_i_rtree *out,
                                    sunder_error *err)
 {
-    place *places = NULL;
+    uint64_t *places = NULL;
     size_t leaves = 0;
     if (sort_places(box, present, n, &places, &leaves)) return sunder_i_no_memory(err);
     sunder_i_rtree tree;
@@ -119,9 +114,10 @@ sunder_status sunder_i_rtree_build(const double *box, const bool *present, size_
         return sunder_i_no_memory(err);
     }
     for (size_t i = 0; i < leaves; i++) {
-        tree.item[i] = places[i].item;
-        tree.leaf[places[i].item] = (uint32_t)i;
-        memcpy(tree.box + 4 * i, box + 4 * (size_t)places[i].item, 4 * sizeof(double));
+        const uint32_t item = (uint32_t)places[i];
+        tree.item[i] = item;
+        tree.leaf[item] = (uint32_t)i;
+        memcpy(tree.box + 4 * i, box + 4 * (size_t)item, 4 * sizeof(double));
     }
     sunder_i_free(places);
     for (unsigned l = 1; l < tree.levels; l++)

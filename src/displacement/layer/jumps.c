@@ -144,19 +144,22 @@ static bool is_asked(const pair_search *s, uint32_t f)
     return s->changed ? s->changed[f] : has_moved(s->jumps, s->model, f);
 }
 
-static sunder_status find_jumped(const pair_search *s, uint32_t f, sunder_i_list *list, sunder_error *err)
+/* near: scratch. */
+static sunder_status find_jumped(const pair_search *s, uint32_t f, sunder_i_list *near, sunder_i_list *list,
+                                 sunder_error *err)
 {
     size_t kept = 0;
     sunder_status status = SUNDER_OK;
-    if (!sunder_i_rtree_query(&s->jumps->tree, s->jumps->way + 4 * (size_t)f, list)) return sunder_i_no_memory(err);
-    for (size_t i = 0; i < list->n && !status; i++) {
-        const uint32_t g = list->item[i];
+    near->n = 0;
+    if (!sunder_i_rtree_query(&s->jumps->tree, s->jumps->way + 4 * (size_t)f, near)) return sunder_i_no_memory(err);
+    for (size_t i = 0; i < near->n && !status; i++) {
+        const uint32_t g = near->item[i];
         bool jumps = false;
         if (g > f || !is_asked(s, g)) status = ask_both(s->jumps, s->model, f, g, &jumps, err);
-        if (jumps) list->item[kept++] = g;
+        if (jumps) near->item[kept++] = g;
     }
-    list->n = kept;
-    return status;
+    near->n = kept;
+    return status || sunder_i_list_copy(list, near) ? status : sunder_i_no_memory(err);
 }
 
 static sunder_status find_partners(void *context, size_t begin, size_t end, sunder_error *err)
@@ -165,7 +168,7 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
     sunder_i_list near = {0};
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
-        if (!s->model->rules.jumps) status = find_jumped(s, s->asked[k], &s->found[k], err);
+        if (!s->model->rules.jumps) status = find_jumped(s, s->asked[k], &near, &s->found[k], err);
         if (!status && s->model->sides)
             status = find_crossed(s->jumps, s->model, s->asked[k], &near, &s->found[k], err);
     }

@@ -116,28 +116,36 @@ typedef struct pair_search {
     sunder_i_list *found;  /* [asked] partners of each; of two that changed the greater is the lesser's partner */
 } pair_search;
 
+/* Those of f, sorted, in `near`. False if memory is out. */
+static bool find_partners_of(const pair_search *s, uint32_t f, double reach, sunder_i_list *near)
+{
+    double box[4];
+    size_t kept = 0;
+    if (reach > 0)
+        sunder_i_box_grow(s->placement->box + 4 * (size_t)f, reach, box);
+    else
+        memcpy(box, s->placement->box + 4 * (size_t)f, sizeof box);
+    near->n = 0;
+    if (!sunder_i_rtree_query(&s->placement->tree, box, near)) return false;
+    for (size_t k = 0; k < near->n; k++) {
+        const uint32_t g = near->item[k];
+        if (g > f || (s->changed && !s->changed[g])) near->item[kept++] = g;
+    }
+    near->n = kept;
+    if (kept > 1) qsort(near->item, kept, sizeof *near->item, sunder_i_by_number);
+    return true;
+}
+
 static sunder_status find_partners(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const pair_search *s = context;
     const double reach = fmax(s->model->rules.gap, s->model->rules.tolerance);
-    for (size_t a = begin; a < end; a++) {
-        const uint32_t f = s->asked[a];
-        double box[4];
-        if (reach > 0)
-            sunder_i_box_grow(s->placement->box + 4 * (size_t)f, reach, box);
-        else
-            memcpy(box, s->placement->box + 4 * (size_t)f, sizeof box);
-        sunder_i_list *list = &s->found[a];
-        if (!sunder_i_rtree_query(&s->placement->tree, box, list)) return sunder_i_no_memory(err);
-        size_t kept = 0;
-        for (size_t k = 0; k < list->n; k++) {
-            const uint32_t g = list->item[k];
-            if (g > f || (s->changed && !s->changed[g])) list->item[kept++] = g;
-        }
-        list->n = kept;
-        if (kept) qsort(list->item, kept, sizeof *list->item, sunder_i_by_number);
-    }
-    return SUNDER_OK;
+    sunder_i_list near = {0};
+    bool ok = true;
+    for (size_t a = begin; a < end && ok; a++)
+        ok = find_partners_of(s, s->asked[a], reach, &near) && sunder_i_list_copy(&s->found[a], &near);
+    sunder_i_free(near.item);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
 static sunder_status relate(const sunder_i_model *model, const sunder_i_placement *placement, sunder_i_relation *r,
