@@ -44,21 +44,6 @@ static bool find_two(const builder *b, const cell *c, const box *where_to, uint3
     return false;
 }
 
-/* In the box the part is one half-plane, and one of the same is there already: within the box they are the same
- * set, with the same candidate along its border. */
-static bool known_half_plane(builder *b, uint32_t side, uint32_t stamp)
-{
-    const uint32_t line = b->lines->of[side];
-    if (line == SUNDER_I_NO_LINE) return false;
-    uint32_t *seen = &b->single[2 * (size_t)line + (b->parts->rank[side] >= b->parts->classes)];
-    if (*seen != stamp) {
-        *seen = stamp;
-        return false;
-    }
-    b->shared[line] = true;
-    return true;
-}
-
 /* Shrinks the cell to what its candidates in the box need, and chooses the axis to split across. Returns how many
  * lines they are on. */
 static size_t shrink(builder *b, cell *c, const box *whole)
@@ -91,8 +76,40 @@ typedef struct half {
     size_t entries_n, runs_n, sides;
     bool held;
     uint32_t holder; /* the part that holds it */
-    uint32_t stamp;  /* of known_half_plane() */
+    uint32_t stamp;  /* of is_half_plane_known() */
 } half;
+
+/* In the half the part is one half-plane, about to be listed. Is one listed that is the same, with the same candidate
+ * along its border; or, parallel to it, certainly wider? Then within the half there is nothing to it but its border,
+ * and in the second case that is covered. If it is the wider one, it takes the other's place. */
+static bool is_half_plane_known(builder *b, half *h, uint32_t part, uint32_t side)
+{
+    const approx_side *s = &b->side[side];
+    const double depth =
+        (s->dx * (h->cy - s->ay) - s->dy * (h->cx - s->ax)) / (fabs(s->dx) + fabs(s->dy)); /* of the centre in it */
+    half_plane *known = &b->widest[b->parts->rank[side]];
+    if (known->stamp != h->stamp) {
+        *known = (half_plane){h->stamp, side, depth, h->entries_n, h->runs_n};
+        return false;
+    }
+    const uint32_t line = b->lines->of[side], other = known->side;
+    if (line != SUNDER_I_NO_LINE && line == b->lines->of[other]) {
+        b->shared[line] = true;
+        return true;
+    }
+    /* Either is off by b->error, and the quotients by less. */
+    if (known->depth > depth + 4 * b->error) {
+        sunder_i_cells_cover(b, side, h->entries[known->entry].part);
+        return true;
+    }
+    if (!(depth > known->depth + 4 * b->error)) return false;
+    h->entries[known->entry].part = part;
+    h->runs[known->run] = side;
+    known->side = side;
+    known->depth = depth;
+    sunder_i_cells_cover(b, other, part);
+    return true;
+}
 
 /* Takes note of what one part is in one half: its runs that pass are behind the half's list, n of them with so
  * many sides. */
@@ -101,7 +118,7 @@ static void settle_entry(builder *b, half *h, uint32_t part, uint32_t n, uint32_
     if (n == 0) {
         h->held = true;
         h->holder = part;
-    } else if (sides > 1 || !known_half_plane(b, h->runs[h->runs_n], h->stamp)) {
+    } else if (sides > 1 || !is_half_plane_known(b, h, part, h->runs[h->runs_n])) {
         h->entries[h->entries_n++] = (entry){part, n};
         h->runs_n += n;
         h->sides += sides;
@@ -399,12 +416,12 @@ sunder_status sunder_i_cull(const sunder_i_convex_pieces *parts, const sunder_i_
     out->fate = sunder_i_calloc(parts->corners, sizeof *out->fate);
     out->live_line = sunder_i_calloc(lines->n, sizeof *out->live_line);
     b.stamp = sunder_i_calloc(lines->n, sizeof *b.stamp);
-    b.single = sunder_i_calloc(2 * (size_t)lines->n, sizeof *b.single);
+    b.widest = sunder_i_calloc(2 * (size_t)parts->classes, sizeof *b.widest);
     b.shared = sunder_i_calloc(lines->n, sizeof *b.shared);
     b.recent_bits = RECENT_BITS_LEAST;
     while (b.recent_bits < RECENT_BITS_MOST && lines->n >> b.recent_bits) b.recent_bits++;
     b.recent = sunder_i_alloc((size_t)1 << b.recent_bits, sizeof *b.recent);
-    const bool ok = out->fate && out->live_line && b.stamp && b.single && b.shared && b.recent;
+    const bool ok = out->fate && out->live_line && b.stamp && b.widest && b.shared && b.recent;
     if (ok) sunder_i_cells_forget_pairs(&b);
     sunder_status status = ok ? descend(&b, err) : sunder_i_no_memory(err);
     if (status == SUNDER_OK && !sunder_i_cells_fates(&b)) status = sunder_i_no_memory(err);
@@ -414,7 +431,7 @@ sunder_status sunder_i_cull(const sunder_i_convex_pieces *parts, const sunder_i_
     sunder_i_free(b.runs);
     sunder_i_free(b.stack);
     sunder_i_free(b.stamp);
-    sunder_i_free(b.single);
+    sunder_i_free(b.widest);
     sunder_i_free(b.shared);
     sunder_i_free(b.recent);
     if (status != SUNDER_OK) sunder_i_culled_free(out);

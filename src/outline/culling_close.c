@@ -57,6 +57,14 @@ void sunder_i_cells_gather(builder *b, size_t from, size_t to, const box *c)
     }
 }
 
+void sunder_i_cells_cover(builder *b, uint32_t side, uint32_t part)
+{
+    const uint32_t line = b->lines->of[side];
+    if (line == SUNDER_I_NO_LINE) return;
+    b->out->fate[side] |= CONTESTED;
+    push_pair(b, line, part);
+}
+
 /* The box is inside `one`, or inside `one` and `other` together: every candidate of the parent's lists that passes
  * through it is covered there. */
 void sunder_i_cells_close(builder *b, const cell *parent, const box *c, uint32_t one, uint32_t other)

@@ -53,6 +53,13 @@ typedef struct crossing {
     box clipped;
 } crossing;
 
+/* A part that is no more than a half-plane in half a cell: the widest so far in its direction. */
+typedef struct half_plane {
+    uint32_t stamp, side;
+    double depth;      /* of the half's centre in it, in a measure that parallel sides have in common */
+    size_t entry, run; /* where it stands in the half's lists */
+} half_plane;
+
 /* Marks of a candidate while the cells are made: it passes through a leaf of several parts; through one of its
  * own part alone; it is, in some cell, not all of its line's story. */
 enum { PASSES = 1, ALONE = 2, CONTESTED = 4 };
@@ -77,9 +84,9 @@ typedef struct builder {
     cell *stack;
     size_t stack_n, stack_capacity;
     trial trial;
-    uint32_t *stamp;  /* [lines] the last cell that counted the line */
-    uint32_t *single; /* [2 * lines] the last cell with a part whose only side is on the line, on either bank */
-    uint64_t *recent; /* [2^recent_bits] pairs pushed of late; UINT64_MAX: none */
+    uint32_t *stamp;    /* [lines] the last cell that counted the line */
+    half_plane *widest; /* [2 * classes] by rank */
+    uint64_t *recent;   /* [2^recent_bits] pairs pushed of late; UINT64_MAX: none */
     int recent_bits;
     bool *shared;   /* [lines] somewhere one part stands for several along the line */
     uint32_t cells; /* stamps given out */
@@ -148,6 +155,8 @@ bool sunder_i_cells_root(builder *b, cell *root);
 void sunder_i_cells_forget_pairs(builder *b);
 /* Lists the candidates of some runs that pass through a box: b->crossing. */
 void sunder_i_cells_gather(builder *b, size_t from, size_t to, const box *c);
+/* What of a side, if it is a candidate, is in the half at hand is inside a part. */
+void sunder_i_cells_cover(builder *b, uint32_t side, uint32_t part);
 /* The box is inside `one`, or inside `one` and `other` together. */
 void sunder_i_cells_close(builder *b, const cell *parent, const box *c, uint32_t one, uint32_t other);
 /* One part alone reaches into it. */
