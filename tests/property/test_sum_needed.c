@@ -109,22 +109,50 @@ static void test_far_and_tiny(void **state)
     (void)state;
     rng r = rng_start(test_seed() * 5, 0);
     for (size_t i = 0; i < 4; i++) {
-        polyset p, q, one;
+        polyset p, q;
         polyset_init(&p);
         polyset_init(&q);
-        polyset_init(&one);
         random_star(&p, &r, 40, 1000);
         random_star(&q, &r, 40, 1000);
         if (i & 1)
-            polyset_rectangle(&one, 1e9, -1e9, 1e9 + 1, -1e9 + 1);
+            polyset_rectangle(i & 2 ? &p : &q, 1e9, -1e9, 1e9 + 1, -1e9 + 1);
         else
-            polyset_rectangle(&one, 3000, 0, 3000 + 0x1p-20, 0x1p-20);
-        polyset_append(i & 2 ? &p : &q, &one);
+            polyset_rectangle(i & 2 ? &p : &q, 3000, 0, 3000 + 0x1p-20, 0x1p-20);
         assert_true(agrees(&p, &q, i + 1));
-        polyset_free(&one);
         polyset_free(&p);
         polyset_free(&q);
     }
+}
+
+/* Long copies of one outline a little apart stay together in every cell: of their sides, half-planes there, the widest
+ * covers the others. Questions are counted, for each vertex that comes out. */
+static void test_copies(void **state)
+{
+    (void)state;
+    polyset p, q;
+    sunder_sum_size size;
+    sunder_counts counts;
+    sunder_sum *sum = NULL;
+    polyset_init(&p);
+    polyset_init(&q);
+    for (int i = 0; i < 100; i++) {
+        const double corner[] = {8 * i, 0, 8 * i + 400, 0, 8 * i + 210, 8000};
+        polyset_polygon(&p, corner, 3);
+    }
+    polyset_rectangle(&q, 0, 0, 8, 4);
+    polyset_rectangle(&q, 0, 0, 4, 9);
+    sunder_shape *a = polyset_shape(&p), *b = polyset_shape(&q);
+    assert_true(a && b && sunder_minkowski_sum(a, b, NULL, &sum, NULL) == SUNDER_OK);
+    sunder_sum_get_size(sum, &size);
+    sunder_sum_get_counts(sum, &counts);
+    print_message("copies: %zu vertices, %llu orientation tests\n", size.vertices,
+                  (unsigned long long)counts.orientation_tests);
+    assert_true(size.vertices == 404 && counts.orientation_tests < 250 * size.vertices);
+    sunder_sum_free(sum);
+    sunder_shape_free(a);
+    sunder_shape_free(b);
+    polyset_free(&p);
+    polyset_free(&q);
 }
 
 static void test_memory(void **state)
@@ -146,6 +174,7 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_families), cmocka_unit_test(test_share),
-                                       cmocka_unit_test(test_far_and_tiny), cmocka_unit_test(test_memory)};
+                                       cmocka_unit_test(test_far_and_tiny), cmocka_unit_test(test_copies),
+                                       cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests_name("subsums that the outline needs", tests, NULL, NULL);
 }
