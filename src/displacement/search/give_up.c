@@ -2,9 +2,9 @@
  *
  * Pairs that clash in the end, and clashed at the start, are relaxed (relaxation.c), a few at a time: all others keep
  * what they owe, and these stand no worse than they stood. Which ones the compromise tells that the search ended in: it
- * misses most where the contradiction is. After each few the search goes on from there. In the end each is asked for
- * again (take_back.c); and all go down from home once more, since a compromise may have pushed some that nothing needs
- * to move any more.
+ * misses most where the contradiction is. After each few the search goes on from there, a crowd from home. In the end
+ * each is asked for again (take_back.c); and all go down from home once more, since a compromise may have pushed some
+ * that nothing needs to move any more.
  *
  * Where that leads nowhere all that still clash are relaxed, and what came into a clash besides goes home, until
  * nothing clashes; in the end all are at home, where every relaxation holds. From there the cluster descends as from
@@ -103,6 +103,12 @@ static bool relax_cheapest(sunder_i_search *s, const sunder_i_clash *at_home, si
     return s->relaxations.n > before;
 }
 
+static void send_all_home(sunder_i_search *s)
+{
+    for (uint32_t k = 0; k < s->n; k++) send_home(s, k);
+    s->program.n = 0;
+}
+
 /* With the same pairs given up, from where all came from: where that ends without clashes and cheaper, it stays
  * there. */
 static void try_from_home(sunder_i_search *s)
@@ -114,26 +120,33 @@ static void try_from_home(sunder_i_search *s)
     if (!stand) s->failed = true;
     if (s->failed) return;
     memcpy(stand, s->t, size);
-    for (uint32_t k = 0; k < s->n; k++) send_home(s, k);
-    s->program.n = 0;
+    send_all_home(s);
     if (!sunder_i_search_descend(s) || sunder_i_search_cost(s, stand) <= sunder_i_search_cost(s, s->t))
         memcpy(s->t, stand, size);
     sunder_i_free(stand);
 }
 
+/* What is given up in excess of so many is not all asked for again; yet they are few enough to give up gradually. */
+static bool is_crowd(const sunder_i_search *s) { return s->n >= CROWD && s->n <= LARGE_CROWD; }
+
 /* Gives up the cheapest pairs, goes on from there, and so on, more at once each time, as far as the effort goes.
- * Returns whether nothing clashes in the end. */
+ * Returns whether nothing clashes in the end.
+ *
+ * A crowd goes on from home: where it ended hundreds are pushed into each other, those too that were given up and may
+ * not stand worse, and the more that is given up the fewer of those that clash there have anything left to give. */
 static bool give_up_gradually(sunder_i_search *s, const sunder_i_clash *at_home, size_t n)
 {
-    const uint64_t work = sunder_i_search_work(s), more = (GIVE_UP_TIMES - 1) * work;
+    const uint64_t work = sunder_i_search_work(s), times = (GIVE_UP_TIMES - 1) * work;
     const uint64_t little = work + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
-    const uint64_t end = work + (more < GIVE_UP_MOST ? more : GIVE_UP_MOST) + little;
+    const uint64_t more = is_crowd(s) ? GIVE_UP_OF_CROWD : times < GIVE_UP_MOST ? times : GIVE_UP_MOST;
+    const uint64_t end = work + more + little;
     bool done = false;
     for (double share = FIRST_SHARE; !done && !s->failed && sunder_i_search_work(s) < end; share /= MORE) {
         sunder_i_search_settle_parts(s);
         if (!s->failed) sunder_i_search_look(s, s->t);
         if (s->failed || !relax_cheapest(s, at_home, n, share)) break;
         s->patience = end;
+        if (is_crowd(s)) send_all_home(s);
         done = sunder_i_search_descend(s);
     }
     if (done && s->n >= CROWD) sunder_i_search_take_back(s);
@@ -282,14 +295,18 @@ static size_t count_clashes(sunder_i_search *s, const double *t)
     return n;
 }
 
-/* To where the search began, if fewer clash there than at its end. Returns whether they are few beside those that
- * clashed at home: then most of it was solved before, in parts that ran into each other. */
-static bool begin_again(sunder_i_search *s, const double *start, size_t at_home)
+/* Do fewer clash where the search began than at its end, and few beside those that clashed at home? Then most of it was
+ * solved before, in parts that ran into each other. */
+static bool was_solved_in_parts(sunder_i_search *s, const double *start, size_t at_home)
 {
     const size_t clashes = count_clashes(s, s->t), then = count_clashes(s, start);
-    if (then >= clashes) return false;
-    memcpy(s->t, start, 2 * s->n * sizeof *s->t);
-    return then <= at_home / FEW_LEFT;
+    return then < clashes && then <= at_home / FEW_LEFT;
+}
+
+/* To where the search began, if fewer clash there than at its end. */
+static void begin_again(sunder_i_search *s, const double *start)
+{
+    if (count_clashes(s, start) < count_clashes(s, s->t)) memcpy(s->t, start, 2 * s->n * sizeof *s->t);
 }
 
 /* Relaxes the pairs that clashed at home of all bodies of which a pair misses at least half of what the worst does. */
@@ -341,12 +358,18 @@ static void yield(sunder_i_search *s, const neighbours *near, const sunder_i_cla
 void sunder_i_search_give_up(sunder_i_search *s, const double *start)
 {
     size_t n = 0;
+    bool done = false;
     neighbours near = {0};
     sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
     s->failed = s->failed || !at_home;
-    const bool again = !s->failed && s->n >= CROWD && begin_again(s, start, n);
-    const bool done = !s->failed && (again ? give_up_about(s, start, at_home, n) : give_up_gradually(s, at_home, n));
-    if (!s->failed && !done && !again) begin_again(s, start, n);
+    const bool parts = !s->failed && s->n >= CROWD && was_solved_in_parts(s, start, n);
+    if (!s->failed && s->n > LARGE_CROWD) begin_again(s, start);
+    if (!s->failed && (!parts || is_crowd(s))) done = give_up_gradually(s, at_home, n);
+    if (!s->failed && !done && !parts) begin_again(s, start);
+    if (!s->failed && !done && parts) {
+        sunder_i_relaxations_free(&s->relaxations);
+        done = give_up_about(s, start, at_home, n);
+    }
     if (!s->failed && !done) sunder_i_search_clip(s);
     if (!s->failed && !done) find_neighbours(s, &near);
     if (!s->failed && !done) {
