@@ -38,6 +38,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->changed);
     sunder_i_free(s->reconsidered);
     sunder_i_free(s->alone);
+    sunder_i_free(s->alone_work);
     sunder_i_free(s->wanted);
     sunder_i_free(s->doubtful);
     sunder_i_free(s->gave_up);

@@ -32,6 +32,7 @@ typedef struct asking {
     const sunder_i_requirement *required; /* what conflicts are held to that there are now */
     size_t required_n;
     bool *asked;                 /* [questions] */
+    uint64_t *work;              /* [bodies] what questions took in vain so far: of the bodies of each cluster */
     sunder_i_decision *decision; /* [clusters] */
 } asking;
 
@@ -108,11 +109,13 @@ static double far_for(const sunder_i_model *model, const uint32_t *body, size_t 
     return far;
 }
 
-/* One question, with a margin; and without one, where there may be a place that just fits. */
-static sunder_status ask(sunder_i_subproblem *p, sunder_i_decision *decision, sunder_error *err)
+/* One question, with a margin; and without one, where there may be a place that just fits. *work grows by what it
+ * took. */
+static sunder_status ask(sunder_i_subproblem *p, sunder_i_decision *decision, uint64_t *work, sunder_error *err)
 {
     bool tight = false;
     sunder_status status = sunder_i_decide(p, decision, err);
+    *work += decision->work;
     if (!status && decision->verdict == SUNDER_I_INFEASIBLE && p->margin > 0 &&
         !sunder_i_may_be_tight(p->model, p->body, p->bodies, &tight))
         status = sunder_i_no_memory(err);
@@ -120,11 +123,13 @@ static sunder_status ask(sunder_i_subproblem *p, sunder_i_decision *decision, su
         sunder_i_decision_clear(decision);
         p->margin = 0;
         status = sunder_i_decide(p, decision, err);
+        *work += decision->work;
     }
     if (!status && decision->verdict == SUNDER_I_FEASIBLE && sunder_i_may_have_slack(p)) {
         sunder_i_decision_clear(decision);
         p->slack = true;
         status = sunder_i_decide(p, decision, err);
+        *work += decision->work;
     }
     return status;
 }
@@ -136,6 +141,16 @@ static bool has_no_limit(const sunder_i_model *model, const sunder_i_relaxation 
            sunder_i_limit_of(&model->body[model->body_of[t->b]]) == INFINITY;
 }
 
+/* What may yet be asked in vain of a cluster with these members. */
+static uint64_t left_to_ask(const asking *g, const uint32_t *member, size_t n)
+{
+    const uint64_t pool = POOL_ALONE + POOL_ALONE_EACH * (uint64_t)n;
+    uint64_t taken = 0;
+    for (size_t k = 0; k < n; k++)
+        if (!g->solver->model.body[member[k]].fixed) taken += g->work[member[k]];
+    return taken < pool ? pool - taken : 0;
+}
+
 /* The first of a cluster's questions that has a solution. */
 static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
@@ -144,7 +159,10 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end; k++) {
         sunder_i_decision *decision = &g->decision[k];
-        for (size_t q = g->first[k]; q < g->first[k + 1] && !status; q++) {
+        size_t members;
+        const uint32_t *member = sunder_i_solver_members(g->solver, g->question[g->first[k]].root, &members);
+        uint64_t left = left_to_ask(g, member, members);
+        for (size_t q = g->first[k]; q < g->first[k + 1] && left && !status; q++) {
             const sunder_i_relaxation *t = &model->relaxations.item[g->question[q].relaxation];
             const uint32_t body[2] = {model->body_of[t->a], model->body_of[t->b]};
             sunder_i_subproblem p = {.model = model,
@@ -158,15 +176,19 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
                                      .no_plane = true, /* a solution is looked for, which it has none of */
                                      .effort = has_no_limit(model, t) ? EFFORT_WITHOUT_LIMIT : EFFORT_ALONE,
                                      .most = MOST_BODIES};
-            p.reserve = sunder_i_solver_members(g->solver, g->question[q].root, &p.reserves);
+            p.reserve = member;
+            p.reserves = members;
             p.instead = far_for(model, p.reserve, p.reserves);
             for (size_t m = 0; m < p.reserves; m++)
                 if (isfinite(sunder_i_limit_of(&model->body[p.reserve[m]])))
                     p.farthest = fmax(p.farthest, sunder_i_limit_of(&model->body[p.reserve[m]]));
-            status = ask(&p, decision, err);
+            uint64_t work = 0;
+            status = ask(&p, decision, &work, err);
             g->asked[q] = true;
             if (status || decision->verdict == SUNDER_I_FEASIBLE) break;
             sunder_i_decision_clear(decision);
+            g->work[model->body[body[0]].fixed ? body[1] : body[0]] += work;
+            left -= work < left ? work : left;
         }
         if (status) return status;
     }
@@ -368,10 +390,12 @@ sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *s, bool *changed, 
     sunder_i_requirement *required = sunder_i_alloc(n, sizeof *required);
     bool *asked = sunder_i_calloc(n, sizeof *asked), *wanted = sunder_i_solver_who_hang_with(s, s->wanted);
     sunder_i_decision *decision = sunder_i_calloc(n, sizeof *decision);
-    if (!status && (!list || !first || !required || !asked || !wanted || !decision)) status = sunder_i_no_memory(err);
+    if (!s->alone_work) s->alone_work = sunder_i_calloc(s->model.bodies, sizeof *s->alone_work);
+    if (!status && (!list || !first || !required || !asked || !wanted || !decision || !s->alone_work))
+        status = sunder_i_no_memory(err);
     if (!status) {
         list_questions(s, wanted, list, first, &clusters);
-        asking g = {s, list, first, required, list_requirements(s, required), asked, decision};
+        asking g = {s, list, first, required, list_requirements(s, required), asked, s->alone_work, decision};
         status = sunder_i_parallel(s->model.rules.threads, clusters, SUNDER_I_GRAIN_WHOLE, ask_clusters, &g, err);
         if (!status) status = go_on(s, &g, clusters, changed, err);
     }

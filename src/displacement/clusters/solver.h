@@ -54,13 +54,14 @@ typedef struct sunder_i_solver {
     bool *reconsidered;      /* [bodies] of the least of a component of conflicts: no solution was found */
     sunder_i_id_pair *alone; /* things of pairs that were asked about by themselves (one_by_one.c); sorted */
     size_t alone_n, alone_capacity;
-    bool *wanted;   /* [bodies] what is sought is sought of the clusters that have one of these (clusters.c) */
-    bool *doubtful; /* [bodies] and of those of such is asked again whether they have a solution */
-    bool *gave_up;  /* [bodies] of pairs that were given up since this was last cleared */
-    bool *improved; /* [bodies] better sides were looked for since the body's cluster was solved */
-    double *limit;  /* [bodies] the limits, while they are lifted */
-    bool *aside;    /* [bodies] left as they are while limits are lifted; NULL: they never were */
-    double *went;   /* [2 * bodies] where those stood that were set aside because they went too far */
+    uint64_t *alone_work; /* [bodies] what those questions took in vain, by one body of each pair */
+    bool *wanted;         /* [bodies] what is sought is sought of the clusters that have one of these (clusters.c) */
+    bool *doubtful;       /* [bodies] and of those of such is asked again whether they have a solution */
+    bool *gave_up;        /* [bodies] of pairs that were given up since this was last cleared */
+    bool *improved;       /* [bodies] better sides were looked for since the body's cluster was solved */
+    double *limit;        /* [bodies] the limits, while they are lifted */
+    bool *aside;          /* [bodies] left as they are while limits are lifted; NULL: they never were */
+    double *went;         /* [2 * bodies] where those stood that were set aside because they went too far */
     sunder_i_relaxations waiting;    /* of what was set aside */
     uint32_t *carrier;               /* [bodies] whose place to start from instead of its own, or SUNDER_I_NOBODY */
     sunder_i_cluster_member *member; /* cluster after cluster, bodies ascending */

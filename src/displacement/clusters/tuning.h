@@ -24,6 +24,10 @@
 
 /* How long for one pair, the others staying in conflict (one_by_one.c): some milliseconds. */
 #define EFFORT_ALONE 400000u
+/* All questions of a cluster that no solution comes of may take so much together, and so much for each of its bodies. A
+ * grid of 600 squares that have no room within their limits is left with 1,953 pairs to be asked about. */
+#define POOL_ALONE 1000000000u
+#define POOL_ALONE_EACH 10000u
 /* The same where neither of the two has a limit: then it is the rule against jumps that stands in the way, and beside a
  * yard of dozens of houses all effort is in vain. */
 #define EFFORT_WITHOUT_LIMIT 50000u
@@ -70,6 +74,10 @@
 #define ALIKE 16
 /* So many bodies of a cluster may be moved together in vain: rows of a few hundred, some dozens of them. */
 #define IN_VAIN 20000
+/* A margin is asked in vain of clusters of so many bodies together: of one of 5,000 a hundred times. */
+#define EASED_IN_VAIN 500000
+/* All pairs of a cluster wait until who was pinned has settled, if it has no more bodies than these. */
+#define MOST_HELD 1024
 /* The progress at which this comes (../separate.c). */
 #define SOUGHT 0.8
 

@@ -9,7 +9,8 @@
  * - where no such place will do (a slanted corridor of exact width has none), the one whose move is cheaper is pinned
  *   to where it came from. Its neighbours settle about it, and if they cannot, yield in their turn.
  *   A pair of the same cluster waits until they have: who was pinned stands in somebody's way meanwhile, and whoever
- *   that is need not be pinned as well.
+ *   that is need not be pinned as well. In a cluster of thousands, which takes long to settle, only pairs of these two
+ *   wait.
  *
  * A place that is taken breaks the rule for no pair, a body that is pinned stays so, and with all at home nothing
  * stands worse: the loop ends. */
@@ -274,15 +275,67 @@ static sunder_status pin_jumps(sunder_i_solver *s, bool *pinned, sunder_error *e
     return status;
 }
 
-/* What stands about a body that was pinned stands in its way for now: its cluster has to settle first. */
-static void hold(sunder_i_solver *s, bool *held, uint32_t body)
+/* Whose pairs wait until clusters have settled, and what was asked of clusters in vain. */
+typedef struct waiting {
+    bool *body, *cluster; /* [bodies] the one; by roots, all of it */
+    size_t *vain;         /* [bodies] by roots: bodies of which a margin was asked in vain */
+    uint32_t *size;       /* [bodies] of clusters, by the roots that they had when the pass began */
+} waiting;
+
+static bool waiting_init(waiting *w, size_t bodies)
 {
-    if (!s->model.body[body].fixed) held[sunder_i_union_find(s->parent, body)] = true;
+    w->body = sunder_i_alloc(bodies, sizeof *w->body);
+    w->cluster = sunder_i_alloc(bodies, sizeof *w->cluster);
+    w->vain = sunder_i_calloc(bodies, sizeof *w->vain);
+    w->size = sunder_i_alloc(bodies, sizeof *w->size);
+    return w->body && w->cluster && w->vain && w->size;
 }
 
-static bool is_held(const sunder_i_solver *s, const bool *held, uint32_t body)
+static void waiting_free(waiting *w)
 {
-    return !s->model.body[body].fixed && held[sunder_i_union_find(s->parent, body)];
+    sunder_i_free(w->body);
+    sunder_i_free(w->cluster);
+    sunder_i_free(w->vain);
+    sunder_i_free(w->size);
+}
+
+/* Nobody waits; clusters are as large as they are. */
+static void begin_pass(const sunder_i_solver *s, waiting *w)
+{
+    const size_t n = s->model.bodies;
+    memset(w->body, 0, n * sizeof *w->body);
+    memset(w->cluster, 0, n * sizeof *w->cluster);
+    memset(w->size, 0, n * sizeof *w->size);
+    for (uint32_t b = 0; b < n; b++)
+        if (!s->model.body[b].fixed) w->size[sunder_i_union_find(s->parent, b)]++;
+}
+
+/* What stands about a body that was pinned stands in its way for now: its cluster has to settle first. */
+static void hold(sunder_i_solver *s, waiting *w, uint32_t body)
+{
+    const uint32_t root = sunder_i_union_find(s->parent, body);
+    if (s->model.body[body].fixed) return;
+    w->body[body] = true;
+    w->cluster[root] = w->cluster[root] || w->size[root] <= MOST_HELD;
+}
+
+static bool is_held(const sunder_i_solver *s, const waiting *w, uint32_t body)
+{
+    return !s->model.body[body].fixed && (w->body[body] || w->cluster[sunder_i_union_find(s->parent, body)]);
+}
+
+/* ease(), with others and without, unless too much of that was in vain. */
+static sunder_status ease_either_way(sunder_i_solver *s, const sunder_i_relation *r, waiting *w, bool *well,
+                                     sunder_error *err)
+{
+    const uint32_t i = s->model.body_of[r->a], j = s->model.body_of[r->b];
+    const uint32_t root = sunder_i_union_find(s->parent, s->model.body[i].fixed ? j : i);
+    sunder_status status = SUNDER_OK;
+    *well = false;
+    if (w->vain[root] >= EASED_IN_VAIN) return SUNDER_OK;
+    for (int others = 1; others >= 0 && !status && !*well; others--) status = ease(s, r, others, well, err);
+    if (!*well) w->vain[root] += w->size[root];
+    return status;
 }
 
 /* Pairs come and go while they are gone through, those of others of the layer, too: the place of the next one. */
@@ -297,11 +350,11 @@ sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     size_t *budget = sunder_i_solver_patience(s);
-    bool *held = sunder_i_alloc(s->model.bodies, sizeof *held); /* a pair of the cluster waits until it has settled */
-    if (!held || !budget) status = sunder_i_no_memory(err);
+    waiting held;
+    if (!waiting_init(&held, s->model.bodies) || !budget) status = sunder_i_no_memory(err);
     for (bool any = s->now.n + s->jumps.n > 0, pinned; any && !status;) {
         any = pinned = false;
-        memset(held, 0, s->model.bodies * sizeof *held);
+        begin_pass(s, &held);
         status = pin_jumps(s, &pinned, err);
         any = pinned;
         sunder_i_id_pair last = {0, 0}; /* no pair */
@@ -314,19 +367,19 @@ sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
             if (status || !breaks || (!sunder_i_may_move(&s->model.body[i]) && !sunder_i_may_move(&s->model.body[j])))
                 continue;
             any = true;
-            if (is_held(s, held, i) || is_held(s, held, j)) continue;
+            if (is_held(s, &held, i) || is_held(s, &held, j)) continue;
             status = sunder_i_solver_mend(s, &r, budget, &well, err);
-            for (int others = 1; others >= 0 && !status && !well; others--) status = ease(s, &r, others, &well, err);
+            if (!status && !well) status = ease_either_way(s, &r, &held, &well, err);
             if (status || well) continue;
             pinned = true;
             status = pin(s, i, j, err);
-            hold(s, held, i);
-            hold(s, held, j);
+            hold(s, &held, i);
+            hold(s, &held, j);
         }
         if (pinned && !status) status = sunder_i_solver_settle(s, SOUGHT, SOUGHT, err);
     }
     for (size_t b = 0; b < s->model.bodies; b++) s->model.body[b].pinned = false;
-    sunder_i_free(held);
+    waiting_free(&held);
     sunder_i_free(budget);
     return status;
 }

@@ -11,6 +11,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const size_t stage[] = RETRY_STAGES;
 
@@ -38,21 +39,36 @@ static bool ask_margins(sunder_i_search *s, uint32_t a, uint32_t b)
     return ok && sunder_i_relaxations_index(&s->relaxations, model);
 }
 
+static sunder_i_id_pair in_order(uint32_t p, uint32_t q)
+{
+    return p < q ? (sunder_i_id_pair){p, q} : (sunder_i_id_pair){q, p};
+}
+
 /* But for those that have none as they stand. */
 static void spare_others(sunder_i_search *s, uint32_t i, uint32_t j)
 {
-    const sunder_i_model *model = s->model;
     sunder_i_search_look(s, s->t);
+    sunder_i_id_pair *clash = sunder_i_alloc(s->clashes, sizeof *clash);
+    size_t n = 0, kept = 0;
+    s->failed = s->failed || !clash;
+    if (s->failed) {
+        sunder_i_free(clash);
+        return;
+    }
     for (size_t c = 0; c < s->clashes; c++) {
         const uint32_t p = s->clash[c].i, q = s->clash[c].j;
-        if ((p == i && q == j) || (p == j && q == i)) continue;
-        for (size_t k = s->relaxations.n; k-- > 0;) {
-            const sunder_i_relaxation t = s->relaxations.item[k];
-            const uint32_t x = model->body_of[t.a], y = model->body_of[t.b];
-            if ((x == s->body[p] && y == s->body[q]) || (x == s->body[q] && y == s->body[p]))
-                sunder_i_relaxations_remove(&s->relaxations, model, &t);
-        }
+        if ((p != i || q != j) && (p != j || q != i)) clash[n++] = in_order(s->body[p], s->body[q]);
     }
+    if (n) qsort(clash, n, sizeof *clash, sunder_i_by_id_pair);
+    for (size_t k = 0; k < s->relaxations.n; k++) {
+        const sunder_i_relaxation *t = &s->relaxations.item[k];
+        const sunder_i_id_pair key = in_order(s->model->body_of[t->a], s->model->body_of[t->b]);
+        if (n && bsearch(&key, clash, n, sizeof key, sunder_i_by_id_pair)) continue;
+        memmove(&s->relaxations.item[kept++], t, sizeof *t);
+    }
+    s->relaxations.n = kept;
+    if (!sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
+    sunder_i_free(clash);
 }
 
 static bool make_good(sunder_i_search *s, uint32_t i, uint32_t j)
