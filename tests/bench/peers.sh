@@ -82,7 +82,7 @@ header() {
   cat <<END
 # Beside the peers
 
-What \`tests/bench/peers.sh\` printed, without a change; its beginning says how it measures.
+What \`tests/bench/peers.sh\` printed; its beginning says how it measures.
 
 - machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) cores, $(uname -sr), load $(cut -d' ' -f1-3 /proc/loadavg) at the start
 - date: $(date -u +%Y-%m-%d)
@@ -90,7 +90,8 @@ What \`tests/bench/peers.sh\` printed, without a change; its beginning says how 
 - Sunder's compiler: $("${cc:-cc}" --version | head -n 1), $(cached CMAKE_BUILD_TYPE) $(cached CMAKE_C_FLAGS_RELEASE) $(cached CMAKE_C_FLAGS)
 - the peers': $([[ -x $cxx ]] && "$cxx" --version | head -n 1 || echo none), -O3 -DNDEBUG; GEOS and Clipper as Debian builds them
 - CGAL $(version libcgal-dev) (EPECK), GEOS $(version libgeos-dev), Clipper $(version libpolyclipping-dev) (Clipper2 is not in Debian 12), GMP $(version libgmp-dev), GDAL $(version libgdal-dev), glibc $(version libc6)
-- inputs: $([[ -d $input ]] && echo "the team's files FAMILY_N, what is missing there by sunder-families" || echo "sunder-families, seed 1")
+- inputs: $([[ -d $input ]] && echo "../shared/families, and what is missing there by sunder-families, seed 1" || echo "sunder-families, seed 1")
+- repetitions: for ${SUNDER_BENCH_SECONDS:-1} s a figure, three at least where they take less than ten times that
 END
 }
 
@@ -226,11 +227,11 @@ million() { awk -v a="$1" 'BEGIN { printf "%.3f", a / 1e6 }'; }
 
 # ---- Least separations ----
 
-# The second lines of the team's pairs_fit hold the mover turned by half a turn: reflected, the pieces overlap their plates, and the
+# The second lines of pairs_fit in ../shared hold the mover turned by half a turn: reflected, the pieces overlap their plates, and the
 # exact fits are the nearest places for many of them. So it is with `tight`.
 pair_rows() {
   local row name turn line ours theirs again
-  printf '\n## Least separating translations\n\nMicroseconds a pair; %s pairs, and Sunder alone on every pair of the file.\n\n' "$pairs"
+  printf '\n## Least separating translations\n\nMicroseconds a pair; %s pairs, and Sunder alone on every pair of the file. CGAL loses exact fits: its lengths are larger where\nthey are the nearest places.\n\n' "$pairs"
   echo "| input | Sunder, all | Sunder | CGAL | ratio | sum of lengths: Sunder | CGAL | pairs CGAL could not do |"
   echo "|---|---|---|---|---|---|---|---|"
   for row in 'pairs_buildings as-is' 'pairs_fit reflect'; do
