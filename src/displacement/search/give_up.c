@@ -345,13 +345,16 @@ static bool give_up_about(sunder_i_search *s, const double *start, const sunder_
     return done && !s->failed;
 }
 
-/* What clashes is relaxed, or goes home, until nothing clashes by more than that. */
-static void yield(sunder_i_search *s, const neighbours *near, const sunder_i_clash *at_home, size_t n, double hair)
+/* What clashes is relaxed, or goes home, until nothing clashes by more than that. near: of all, once anything does. */
+static void yield(sunder_i_search *s, neighbours *near, const sunder_i_clash *at_home, size_t n, double hair)
 {
     bool *changed = sunder_i_alloc(s->n, sizeof *changed);
     s->failed = s->failed || !changed;
     if (!s->failed) sunder_i_search_look(s, s->t);
-    while (!s->failed && yield_once(s, at_home, n, hair, changed)) look_at_changed(s, near, changed);
+    while (!s->failed && yield_once(s, at_home, n, hair, changed)) {
+        if (!near->first) find_neighbours(s, near);
+        if (!s->failed) look_at_changed(s, near, changed);
+    }
     sunder_i_free(changed);
 }
 
@@ -371,7 +374,6 @@ void sunder_i_search_give_up(sunder_i_search *s, const double *start)
         done = give_up_about(s, start, at_home, n);
     }
     if (!s->failed && !done) sunder_i_search_clip(s);
-    if (!s->failed && !done) find_neighbours(s, &near);
     if (!s->failed && !done) {
         /* What rounding took of what was solved before is no reason to give anything up. */
         yield(s, &near, at_home, n, MENDED * s->tolerance);
