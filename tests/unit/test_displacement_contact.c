@@ -1,5 +1,5 @@
 /* displacement/optimum/contact: bodies of many pieces that were moved far touch as others do. */
-#include "scene.h"
+#include "scene_model.h"
 
 #include "displacement/optimum/contact.h"
 
@@ -35,44 +35,27 @@ static void test_far(void **state)
 {
     (void)state;
     scene s;
-    sunder_layer *layer;
-    sunder_layer work;
-    size_t *number;
-    sunder_i_barriers parts;
-    sunder_i_model model;
-    sunder_i_rules rules;
-    sunder_error err;
-    const sunder_i_relations none = {0};
+    scene_model m;
     char *wkt = comb();
     scene_begin(&s, gap);
     s.options.allow_jumps = true;
     scene_add(&s, wkt);
     scene_add(&s, wkt);
-    assert_int_equal(sunder_layer_new(s.feature, s.n, &layer, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_rules_of(&s.options, &rules, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_barriers_make(layer, gap, &parts, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_order_layer(layer, &parts, true, &work, &number, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_init(&work, &parts, &rules, &model, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_join(&model, &none, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_cut(&model, &err), SUNDER_OK);
-    assert_true(model.bodies == 2 && model.body[0].pieces * model.body[1].pieces > 4096);
+    scene_model_begin(&m, &s);
+    assert_true(m.model.bodies == 2 && m.model.body[0].pieces * m.model.body[1].pieces > 4096);
     for (int k = 0; k < 6; k++) {
         /* Side by side: they touch at the right distance, and neither nearer nor farther. */
         const double side = k < 3 ? 1 : -1, t[2] = {-40 * side, 0}, v[2] = {side * (43 + 0.25 * (k % 3 - 1)), 0};
         bool contact;
-        assert_true(sunder_i_are_in_contact(&model, 0, 1, t, v, &contact));
+        assert_true(sunder_i_are_in_contact(&m.model, 0, 1, t, v, &contact));
         if (k % 3 != 0) assert_true(contact == (k % 3 == 1));
         sunder_i_contact_list list = {0};
-        assert_true(sunder_i_contacts_of_pair(&model, &(sunder_i_waived){0}, 0, 1, t, v, 0x1p-20, &list, NULL));
+        assert_true(sunder_i_contacts_of_pair(&m.model, &(sunder_i_waived){0}, 0, 1, t, v, 0x1p-20, &list, NULL));
         assert_true((list.n > 0) == (k % 3 == 1));
-        for (size_t m = 0; m < list.n; m++) assert_true(side * list.item[m].n[0] > 0.999);
+        for (size_t i = 0; i < list.n; i++) assert_true(side * list.item[i].n[0] > 0.999);
         sunder_i_free(list.item);
     }
-    sunder_i_model_free(&model);
-    sunder_i_barriers_free(&parts);
-    sunder_i_free(work.feature);
-    sunder_i_free(number);
-    sunder_layer_free(layer);
+    scene_model_end(&m);
     scene_end(&s);
     free(wkt);
 }

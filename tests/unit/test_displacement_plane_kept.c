@@ -1,9 +1,8 @@
 /* displacement/proofs/plane_kept: who asks about the same bodies again, of a small layer, is told the same with what
  * was kept as without, for the same effort, whatever was asked before. */
 #include "random.h"
-#include "scene.h"
+#include "scene_model.h"
 
-#include "displacement/layer/placement.h"
 #include "displacement/proofs/feasibility.h"
 
 #include <setjmp.h>
@@ -19,13 +18,7 @@ enum { LAYERS = 80, QUESTIONS = 60, MOVING = 6, STANDING = 6 };
 
 typedef struct layer {
     scene scene;
-    sunder_layer *layer;
-    sunder_layer work;
-    size_t *number;
-    sunder_i_barriers parts;
-    sunder_i_model model;
-    sunder_i_placement placement;
-    sunder_i_relations start;
+    scene_model of;
 } layer;
 
 static int64_t draw_block(rng *r) { return rng_once_in(r, 3) ? -1 : rng_int(r, 0, 1); }
@@ -44,8 +37,6 @@ static sunder_feature *add_house(rng *r, scene *s)
 /* A crowd of houses: more bodies than are kept, some of them blocks, some without a limit, and some that stand. */
 static void begin(rng *r, layer *l)
 {
-    sunder_i_rules rules;
-    sunder_error err;
     memset(l, 0, sizeof *l);
     scene_begin(&l->scene, 1);
     l->scene.options.allow_jumps = rng_once_in(r, 2);
@@ -55,28 +46,12 @@ static void begin(rng *r, layer *l)
         f->max_shift = (double)rng_int(r, 2, 8);
         f->block = f->fixed ? -1 : draw_block(r);
     }
-    assert_int_equal(sunder_layer_new(l->scene.feature, l->scene.n, &l->layer, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_rules_of(&l->scene.options, &rules, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_barriers_make(l->layer, 1, &l->parts, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_order_layer(l->layer, &l->parts, true, &l->work, &l->number, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_init(&l->work, &l->parts, &rules, &l->model, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_placement_init(&l->model, &l->placement, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_placement_relate(&l->model, &l->placement, NULL, NULL, &l->start, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_join(&l->model, &l->start, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_cut(&l->model, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_anchor(&l->model, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_find_seams(&l->model, &err), SUNDER_OK);
+    scene_model_related(&l->of, &l->scene);
 }
 
 static void end(layer *l)
 {
-    sunder_i_free(l->start.pair);
-    sunder_i_placement_free(&l->model, &l->placement);
-    sunder_i_model_free(&l->model);
-    sunder_i_barriers_free(&l->parts);
-    sunder_i_free(l->work.feature);
-    sunder_i_free(l->number);
-    sunder_layer_free(l->layer);
+    scene_model_end(&l->of);
     scene_end(&l->scene);
 }
 
@@ -86,10 +61,10 @@ static void draw_question(rng *r, const layer *l, uint32_t body[2], uint32_t *fe
                           sunder_i_subproblem *q)
 {
     const uint32_t a = (uint32_t)rng_int(r, 0, 2), b = (uint32_t)rng_int(r, 1, MOVING);
-    body[0] = l->model.body_of[a];
-    body[1] = l->model.body_of[b];
+    body[0] = l->of.model.body_of[a];
+    body[1] = l->of.model.body_of[b];
     *q = (sunder_i_subproblem){
-        .model = &l->model, .body = body, .bodies = 2, .a = SUNDER_I_NOBODY, .b = SUNDER_I_NOBODY, .most = 8};
+        .model = &l->of.model, .body = body, .bodies = 2, .a = SUNDER_I_NOBODY, .b = SUNDER_I_NOBODY, .most = 8};
     if (body[0] == body[1]) q->bodies = 1;
     q->effort = rng_once_in(r, 4) ? 2000 : 200000;
     q->coarse = rng_once_in(r, 2) ? 0x1p-5 : 0;

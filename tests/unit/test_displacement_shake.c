@@ -1,6 +1,6 @@
 /* displacement/optimum/shake: a group that is shaken never becomes dearer, stays apart, and the same seed gives the
  * same bytes; and displacement/optimum/optimum: what was asked of a group is not asked of it again. */
-#include "scene.h"
+#include "scene_model.h"
 
 #include "displacement/optimum/optimum.h"
 
@@ -23,11 +23,7 @@ static const double size = 10, pitch = 11, gap = 3;
  * middle so far that they are apart, in rows and columns. */
 typedef struct grid {
     scene scene;
-    sunder_layer *layer;
-    sunder_layer work;
-    size_t *number;
-    sunder_i_barriers parts;
-    sunder_i_model model;
+    scene_model of;
     sunder_i_group group;
 } grid;
 
@@ -51,9 +47,6 @@ static void add_comb(scene *s, double x, double y, int teeth)
 
 static void begin(grid *g, size_t wide, size_t high, int teeth, uint64_t seed)
 {
-    sunder_i_rules rules;
-    sunder_error err;
-    const sunder_i_relations none = {0};
     memset(g, 0, sizeof *g);
     scene_begin(&g->scene, gap);
     for (size_t k = 0; k < wide * high; k++) {
@@ -64,16 +57,8 @@ static void begin(grid *g, size_t wide, size_t high, int teeth, uint64_t seed)
             scene_add_box(&g->scene, x, y, size, size);
     }
     g->scene.options.seed = seed;
-    assert_int_equal(sunder_layer_new(g->scene.feature, g->scene.n, &g->layer, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_rules_of(&g->scene.options, &rules, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_barriers_make(g->layer, gap, &g->parts, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_order_layer(g->layer, &g->parts, true, &g->work, &g->number, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_init(&g->work, &g->parts, &rules, &g->model, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_join(&g->model, &none, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_cut(&g->model, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_anchor(&g->model, &err), SUNDER_OK);
-    g->model.standing = &g->model.tree;
-    const size_t n = g->model.bodies;
+    scene_model_begin(&g->of, &g->scene);
+    const size_t n = g->of.model.bodies;
     g->group = (sunder_i_group){
         .n = n, .margin = 0x1p-30, .body = calloc(n, sizeof(uint32_t)), .move = calloc(2 * n, sizeof(double))};
     for (size_t k = 0; k < n; k++) {
@@ -91,11 +76,7 @@ static void end(grid *g)
 {
     free(g->group.body);
     free(g->group.move);
-    sunder_i_model_free(&g->model);
-    sunder_i_barriers_free(&g->parts);
-    sunder_i_free(g->work.feature);
-    sunder_i_free(g->number);
-    sunder_layer_free(g->layer);
+    scene_model_end(&g->of);
     scene_end(&g->scene);
 }
 
@@ -103,7 +84,7 @@ static void shake(grid *g, uint64_t steps)
 {
     const sunder_i_waived none = {0};
     sunder_error err;
-    assert_int_equal(sunder_i_group_shake(&g->model, &none, &g->group, steps, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_group_shake(&g->of.model, &none, &g->group, steps, &err), SUNDER_OK);
 }
 
 /* All stand the gap apart, up to a share of it, and cost what the group says. */
@@ -209,7 +190,7 @@ static size_t prove(grid *g)
     uint32_t of[MOST] = {0};
     sunder_error err;
     sunder_watch(count_look, &looks);
-    assert_int_equal(sunder_i_group_prove(&g->model, &none, of, &g->group, 8000000, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_group_prove(&g->of.model, &none, of, &g->group, 8000000, &err), SUNDER_OK);
     sunder_watch(NULL, NULL);
     return looks;
 }

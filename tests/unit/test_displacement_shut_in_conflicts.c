@@ -1,9 +1,8 @@
 /* displacement/clusters/shut_in_conflicts: of a house in a yard of four others, which of its conflicts with them have
  * no solution if the others stay as they are? */
-#include "scene.h"
+#include "scene_model.h"
 
 #include "displacement/clusters/stages.h"
-#include "displacement/layer/placement.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,13 +17,7 @@ enum { WEST, EAST, SOUTH, NORTH, SIDES };
 
 typedef struct yard {
     scene scene;
-    sunder_layer *layer;
-    sunder_layer work;
-    size_t *number;
-    sunder_i_barriers parts;
-    sunder_i_model model;
-    sunder_i_placement placement;
-    sunder_i_relations start;
+    scene_model of;
 } yard;
 
 static void add_box(scene *s, double x, double y, double width, double height, int64_t block)
@@ -38,8 +31,6 @@ static void add_box(scene *s, double x, double y, double width, double height, i
 /* A house of 2 by 2, half a gap from three sides of its yard, and `east` from the fourth. */
 static void begin(yard *y, double east)
 {
-    sunder_i_rules rules;
-    sunder_error err;
     memset(y, 0, sizeof *y);
     scene_begin(&y->scene, 1);
     const double width = 2.5 + east;
@@ -48,28 +39,12 @@ static void begin(yard *y, double east)
     add_box(&y->scene, 0, -1, width, 1, 0);
     add_box(&y->scene, 0, 3, width, 1, 0);
     add_box(&y->scene, 0.5, 0.5, 2, 2, 1);
-    assert_int_equal(sunder_layer_new(y->scene.feature, y->scene.n, &y->layer, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_rules_of(&y->scene.options, &rules, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_barriers_make(y->layer, 1, &y->parts, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_order_layer(y->layer, &y->parts, true, &y->work, &y->number, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_init(&y->work, &y->parts, &rules, &y->model, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_placement_init(&y->model, &y->placement, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_placement_relate(&y->model, &y->placement, NULL, NULL, &y->start, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_join(&y->model, &y->start, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_cut(&y->model, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_anchor(&y->model, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_find_seams(&y->model, &err), SUNDER_OK);
+    scene_model_related(&y->of, &y->scene);
 }
 
 static void end(yard *y)
 {
-    sunder_i_free(y->start.pair);
-    sunder_i_placement_free(&y->model, &y->placement);
-    sunder_i_model_free(&y->model);
-    sunder_i_barriers_free(&y->parts);
-    sunder_i_free(y->work.feature);
-    sunder_i_free(y->number);
-    sunder_layer_free(y->layer);
+    scene_model_end(&y->of);
     scene_end(&y->scene);
 }
 
@@ -77,7 +52,7 @@ static void end(yard *y)
 static int side_of(const yard *y, const sunder_i_relaxation *t, double width)
 {
     for (uint32_t e = 0; e < 2; e++) {
-        const double *box = y->model.box + 4 * (size_t)(e ? t->b : t->a);
+        const double *box = y->of.model.box + 4 * (size_t)(e ? t->b : t->a);
         const double u = (box[0] + box[2]) / 2, v = (box[1] + box[3]) / 2;
         if (u < 0 || u > width) return u < 0 ? WEST : EAST;
         if (v < 0 || v > 3) return v < 0 ? SOUTH : NORTH;
@@ -93,14 +68,14 @@ static size_t ask(yard *y, double width, bool proved[SIDES])
     size_t n = 0;
     sunder_i_id_pair bodies = {0, 0};
     memset(proved, 0, SIDES * sizeof *proved);
-    for (size_t k = 0; k < y->start.n; k++) {
-        const sunder_i_relation *r = &y->start.pair[k];
-        if (!sunder_i_is_open_conflict(&y->model, r)) continue;
-        const uint32_t i = y->model.body_of[r->a], j = y->model.body_of[r->b];
+    for (size_t k = 0; k < y->of.start.n; k++) {
+        const sunder_i_relation *r = &y->of.start.pair[k];
+        if (!sunder_i_is_open_conflict(&y->of.model, r)) continue;
+        const uint32_t i = y->of.model.body_of[r->a], j = y->of.model.body_of[r->b];
         bodies = i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i};
-        assert_int_equal(sunder_i_relaxation_of(&y->model, r->a, r->b, &relaxation[n++], &err), SUNDER_OK);
+        assert_int_equal(sunder_i_relaxation_of(&y->of.model, r->a, r->b, &relaxation[n++], &err), SUNDER_OK);
     }
-    assert_int_equal(sunder_i_find_unsolvable(&y->model, &bodies, relaxation, n, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_find_unsolvable(&y->of.model, &bodies, relaxation, n, &err), SUNDER_OK);
     for (size_t k = 0; k < n; k++) proved[side_of(y, &relaxation[k], width)] = relaxation[k].infeasible;
     return n;
 }
@@ -137,18 +112,18 @@ static void check_others(void **state)
     yard y;
     bool proved[SIDES];
     begin(&y, 0.5);
-    for (size_t k = 0; k < y.start.n; k++) {
-        const sunder_i_relation *r = &y.start.pair[k];
+    for (size_t k = 0; k < y.of.start.n; k++) {
+        const sunder_i_relation *r = &y.of.start.pair[k];
         sunder_i_relaxation t;
         sunder_error err;
-        if (!sunder_i_is_open_conflict(&y.model, r)) continue;
-        assert_int_equal(sunder_i_relaxation_of(&y.model, r->a, r->b, &t, &err), SUNDER_OK);
+        if (!sunder_i_is_open_conflict(&y.of.model, r)) continue;
+        assert_int_equal(sunder_i_relaxation_of(&y.of.model, r->a, r->b, &t, &err), SUNDER_OK);
         if (side_of(&y, &t, 3) != EAST) continue;
         t.infeasible = true;
         t.gap = 0;
-        assert_true(sunder_i_relaxations_add(&y.model.relaxations, &t));
+        assert_true(sunder_i_relaxations_add(&y.of.model.relaxations, &t));
     }
-    assert_true(sunder_i_relaxations_index(&y.model.relaxations, &y.model));
+    assert_true(sunder_i_relaxations_index(&y.of.model.relaxations, &y.of.model));
     assert_int_equal(ask(&y, 3, proved), 3);
     assert_false(proved[WEST]);
     assert_true(proved[SOUTH]);

@@ -1,7 +1,7 @@
 /* displacement/search/take_back: of what a search has given up it gets back what has a solution, the least first, and
  * nothing else is changed; and displacement/search/ease: a pair that is left in conflict gets a margin where there is
  * room for one. */
-#include "scene.h"
+#include "scene_model.h"
 
 #include "displacement/search/stages.h"
 
@@ -22,42 +22,23 @@ static const double margin = 0x1p-30;
 /* Features, each a body by itself, in their own order. */
 typedef struct board {
     scene scene;
-    sunder_layer *layer;
-    sunder_layer work;
-    size_t *number;
-    sunder_i_barriers parts;
-    sunder_i_model model;
+    scene_model of;
     uint32_t body[MOST];
     double move[2 * MOST];
 } board;
 
 static void set_up(board *b)
 {
-    sunder_i_rules rules;
-    sunder_error err;
-    const sunder_i_relations none = {0};
     b->scene.options.no_blocks = b->scene.options.allow_jumps = true;
-    assert_int_equal(sunder_layer_new(b->scene.feature, b->scene.n, &b->layer, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_rules_of(&b->scene.options, &rules, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_barriers_make(b->layer, rules.gap, &b->parts, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_order_layer(b->layer, &b->parts, true, &b->work, &b->number, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_init(&b->work, &b->parts, &rules, &b->model, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_join(&b->model, &none, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_cut(&b->model, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_model_anchor(&b->model, &err), SUNDER_OK);
-    b->model.standing = &b->model.tree;
-    assert_int_equal(b->model.bodies, b->scene.n);
+    scene_model_begin(&b->of, &b->scene);
+    assert_int_equal(b->of.model.bodies, b->scene.n);
     for (uint32_t k = 0; k < b->scene.n; k++) b->body[k] = k;
     memset(b->move, 0, sizeof b->move);
 }
 
 static void end(board *b)
 {
-    sunder_i_model_free(&b->model);
-    sunder_i_barriers_free(&b->parts);
-    sunder_i_free(b->work.feature);
-    sunder_i_free(b->number);
-    sunder_layer_free(b->layer);
+    scene_model_end(&b->of);
     scene_end(&b->scene);
 }
 
@@ -65,8 +46,8 @@ static void relax(const board *b, sunder_i_relaxations *list, uint32_t p, uint32
 {
     sunder_i_relaxation t;
     sunder_error err;
-    assert_int_equal(sunder_i_relaxation_of(&b->model, p, q, &t, &err), SUNDER_OK);
-    assert_true(sunder_i_relaxations_add(list, &t) && sunder_i_relaxations_index(list, &b->model));
+    assert_int_equal(sunder_i_relaxation_of(&b->of.model, p, q, &t, &err), SUNDER_OK);
+    assert_true(sunder_i_relaxations_add(list, &t) && sunder_i_relaxations_index(list, &b->of.model));
 }
 
 /* How far q stands to the right of p, both ten wide. */
@@ -91,7 +72,7 @@ static void test_taken_back(void **state)
     }
     set_up(&b);
     sunder_i_search s;
-    assert_true(sunder_i_search_init(&s, &b.model, b.body, b.scene.n, margin, b.move));
+    assert_true(sunder_i_search_init(&s, &b.of.model, b.body, b.scene.n, margin, b.move));
     relax(&b, &s.relaxations, 0, 1);
     relax(&b, &s.relaxations, 2, 3);
     relax(&b, &s.relaxations, 4, 5);
@@ -124,7 +105,7 @@ static void test_least_first(void **state)
         scene_add_box(&b.scene, 0, up - 10, 10, 10)->fixed = true;
         set_up(&b);
         sunder_i_search s;
-        assert_true(sunder_i_search_init(&s, &b.model, b.body, b.scene.n, margin, b.move));
+        assert_true(sunder_i_search_init(&s, &b.of.model, b.body, b.scene.n, margin, b.move));
         relax(&b, &s.relaxations, 0, 1);
         relax(&b, &s.relaxations, 1, 2);
         sunder_i_search_take_back(&s);
@@ -150,10 +131,10 @@ static void ask_for_margin(double room, bool others, bool expected)
     for (size_t k = 0; k < 3; k++) scene_add_box(&b.scene, x[k], 0, 10, 10)->fixed = k != 1;
     b.scene.feature[1].max_shift = 1;
     set_up(&b);
-    relax(&b, &b.model.relaxations, 0, 1);
-    b.move[2] = b.model.move[2] = -hair;
+    relax(&b, &b.of.model.relaxations, 0, 1);
+    b.move[2] = b.of.model.move[2] = -hair;
     const sunder_i_cluster c = {.body = b.body, .n = 3, .margin = margin, .limited = true};
-    assert_int_equal(sunder_i_cluster_ease(&b.model, &c, 0, 1, others, b.move, &done, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_cluster_ease(&b.of.model, &c, 0, 1, others, b.move, &done, &err), SUNDER_OK);
     assert_int_equal(done, expected);
     if (done) {
         assert_true(between(b.move, x, 0, 1) >= 1 + margin / 2);

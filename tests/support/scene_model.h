@@ -1,0 +1,28 @@
+/* A scene's layer as the search and the proofs have it: what unit tests of their rooms begin with. What fails, fails
+ * the test. */
+#ifndef SUNDER_TESTS_SCENE_MODEL_H
+#define SUNDER_TESTS_SCENE_MODEL_H
+
+#include "scene.h"
+
+#include "displacement/layer/placement.h"
+
+typedef struct scene_model {
+    sunder_layer *layer;
+    sunder_layer work; /* the layer in the order of the work */
+    size_t *number;
+    sunder_i_barriers parts;
+    sunder_i_model model;
+    sunder_i_placement placement; /* these two by scene_model_related() only */
+    sunder_i_relations start;
+    bool placed;
+} scene_model;
+
+/* By the scene's options; its features stay the scene's. Nothing is related: blocks are those of the features' numbers,
+ * and what stands is looked for among all. */
+void scene_model_begin(scene_model *m, const scene *s);
+/* The same, placed and related as at the start of a run, with its seams. */
+void scene_model_related(scene_model *m, const scene *s);
+void scene_model_end(scene_model *m);
+
+#endif
