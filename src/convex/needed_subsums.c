@@ -115,6 +115,7 @@ static void list_pair(finder *f, uint32_t a, uint32_t b, const sunder_i_cell_win
 {
     const sunder_i_piece_group *ga = &f->p->group[a], *gb = &f->q->group[b];
     f->spent++;
+    f->no_memory |= !sunder_i_step();
     if (f->held || f->no_memory || apart(ga, gb, w)) return;
     if (ga->pieces == 1 && gb->pieces == 1) {
         const sunder_i_window_place place = place_of(f, a, b, w);
@@ -149,7 +150,7 @@ static bool may_hold(const sunder_i_piece_group *a, const sunder_i_piece_group *
 static bool find_holder(finder *f, uint32_t a, uint32_t b, const sunder_i_cell_window *w, int *looks)
 {
     const sunder_i_piece_group *ga = &f->p->group[a], *gb = &f->q->group[b];
-    if (--*looks < 0) return false;
+    if (--*looks < 0 || !sunder_i_step()) return false; /* told to stop: whoever lists pairs next says so */
     f->spent++;
     if (!may_hold(ga, gb, w)) return false;
     if (ga->pieces == 1 && gb->pieces == 1) {
@@ -275,7 +276,6 @@ static void descend(finder *f)
             need(f, f->holder);
         else
             halve(f, &c);
-        if (!sunder_i_steps((size_t)(f->spent / WALK) + 1)) f->no_memory = true;
     }
 }
 
