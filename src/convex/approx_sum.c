@@ -3,7 +3,7 @@
  * With u = 2^-53 and all coordinates of the operands within `most` together: a corner of the sum is off by 2u * most
  * (conversion and addition), differences of coordinates by as much again, products and their difference by 3u of
  * products up to 2 * most * |d|. Together below 16 u * most * (|dx| + |dy|); twice that is used. Off narrow lattices
- * approx_shift keeps the largest coordinates near 2^500, and the 2^-900 covers what underflows. */
+ * approx_shift keeps the largest coordinates near 2^500; what underflows beside them is SUNDER_I_APPROX_UNDERFLOW. */
 #include "convex/approx_sum.h"
 
 #include "convex/merge.h"
@@ -56,7 +56,7 @@ sunder_i_window_place sunder_i_approx_sum_sees(const sunder_i_piece_tree *p, uin
     for (circuit r = circuit_of(p, i, q, j); next_side(&r);) {
         const sunder_i_approx_side *a = &r.a[r.merge.a], *b = &r.b[r.merge.b], *s = r.merge.of_a ? a : b;
         const double adx = fabs(s->dx), ady = fabs(s->dy), reach = w->hx * ady + w->hy * adx;
-        const double error = w->error * (adx + ady) + 0x1p-900;
+        const double error = w->error * (adx + ady) + SUNDER_I_APPROX_UNDERFLOW;
         const double c = s->dx * (w->cy - (a->y + b->y)) - s->dy * (w->cx - (a->x + b->x));
         if (c + reach < -error) return SUNDER_I_BEYOND;
         if (!(c - reach > error)) where = SUNDER_I_ACROSS;

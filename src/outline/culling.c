@@ -8,6 +8,9 @@
 
 #include <string.h>
 
+/* Beside coordinates near 2^500 the directions of such are not known as doubles. */
+#define SHORT_SIDE 0x1p-500
+
 /* Do two half-planes cover the box? f and g are the cross products of filter_part(), positive inside; if f + r g
  * > 0 all over the box for some r >= 0, then g > 0 wherever f <= 0. The r that makes the slopes cancel where the
  * sides run against each other is tried. */
@@ -17,10 +20,11 @@ static bool both_hold(const builder *b, const approx_side *f, const approx_side 
     const double cx = c->low[0] / 2 + c->high[0] / 2, cy = c->low[1] / 2 + c->high[1] / 2;
     const double hx = c->high[0] / 2 - c->low[0] / 2, hy = c->high[1] / 2 - c->low[1] / 2;
     const double fs = fabs(f->dx) + fabs(f->dy), gs = fabs(g->dx) + fabs(g->dy), r = fs / gs;
+    if (fs < SHORT_SIDE || gs < SHORT_SIDE) return false;
     const double fc = f->dx * (cy - f->ay) - f->dy * (cx - f->ax), gc = g->dx * (cy - g->ay) - g->dy * (cx - g->ax);
     const double reach = hx * fabs(f->dy + r * g->dy) + hy * fabs(f->dx + r * g->dx);
     /* The errors of both, and those of the additions here, which are relative to terms below (hx + hy) * fs. */
-    const double error = 4 * b->error * fs + 0x1p-48 * (hx + hy) * fs + 0x1p-900;
+    const double error = 4 * b->error * fs + 0x1p-48 * (hx + hy) * fs + SUNDER_I_APPROX_UNDERFLOW;
     return fc + r * gc - reach > error;
 }
 
@@ -85,8 +89,9 @@ typedef struct half {
 static bool is_half_plane_known(builder *b, half *h, uint32_t part, uint32_t side)
 {
     const approx_side *s = &b->side[side];
-    const double depth =
-        (s->dx * (h->cy - s->ay) - s->dy * (h->cx - s->ax)) / (fabs(s->dx) + fabs(s->dy)); /* of the centre in it */
+    const double length = fabs(s->dx) + fabs(s->dy);
+    if (length < SHORT_SIDE) return false;
+    const double depth = (s->dx * (h->cy - s->ay) - s->dy * (h->cx - s->ax)) / length; /* of the centre in it */
     half_plane *known = &b->widest[b->parts->rank[side]];
     if (known->stamp != h->stamp) {
         *known = (half_plane){h->stamp, side, depth, h->entries_n, h->runs_n};
@@ -132,7 +137,7 @@ static int side_of_half(const builder *b, const half *h, const approx_side *s, c
                         double hy)
 {
     const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
-    const double error = b->error * (adx + ady) + 0x1p-900;
+    const double error = b->error * (adx + ady) + SUNDER_I_APPROX_UNDERFLOW;
     const double c = s->dx * (h->cy - at->ay) - s->dy * (h->cx - at->ax);
     return c + reach < -error ? BEYOND : c - reach > error ? WITHIN : ACROSS;
 }
@@ -191,7 +196,7 @@ static void filter_one(builder *b, half *h, const run *runs, const entry *source
         }
         const approx_side *s = &b->side[r];
         const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
-        const double error = b->error * (adx + ady) + 0x1p-900;
+        const double error = b->error * (adx + ady) + SUNDER_I_APPROX_UNDERFLOW;
         const double c = s->dx * (h->cy - s->ay) - s->dy * (h->cx - s->ax);
         if (c + reach < -error) return; /* all of the half is beyond this side */
         out[n] = r;
@@ -241,7 +246,7 @@ static void filter_part(builder *b, half h[2], const run *runs, const entry *sou
         }
         const approx_side *s = &b->side[r];
         const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
-        const double error = b->error * (adx + ady) + 0x1p-900;
+        const double error = b->error * (adx + ady) + SUNDER_I_APPROX_UNDERFLOW;
         const double c0 = s->dx * (h[0].cy - s->ay) - s->dy * (h[0].cx - s->ax);
         const double c1 = s->dx * (h[1].cy - s->ay) - s->dy * (h[1].cx - s->ax);
         out0[n0] = out1[n1] = r;

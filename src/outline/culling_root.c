@@ -65,8 +65,8 @@ static bool approximate(builder *b, box *all)
     /* With u = 2^-53 and all coordinates and box corners within `most` (cells lie within the box of all): the start
      * point is off by 2u * most (conversion), differences of coordinates by as much again, products and their
      * difference by 3u of products up to 2 * most * |d|. Together below 16 u * most * (|dx| + |dy|); twice that is
-     * used. Subnormals: approx_shift keeps the largest coordinates near 2^500, and the 2^-900 covers what
-     * underflows. */
+     * used. Subnormals: approx_shift keeps the largest coordinates near 2^500; what underflows beside
+     * them is SUNDER_I_APPROX_UNDERFLOW. */
     b->error = 0x1p-48 * most + 0x1p-900;
     b->out->most = most;
     /* A candidate on the very border must not be missed. */
