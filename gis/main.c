@@ -130,6 +130,9 @@ int main(int argc, char **argv)
         status = no_command();
     } else if (strcmp(first, "--version") == 0) {
         printf("sunder %s\n", sunder_version());
+    } else if (strcmp(first, "--options-json") == 0) {
+        gis_error error;
+        status = gis_options_json(&error) ? GIS_DONE : gis_say_failure(&error);
     } else if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
         gis_help_program();
     } else {

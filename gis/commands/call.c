@@ -33,15 +33,16 @@ static bool add_numbers(gis_call *call, const gis_option *option, const double *
 static bool add_option(gis_call *call, const gis_options *options, const gis_option *option, gis_error *error)
 {
     gis_option_id id = option->id;
-    switch (option->type) {
-    case GIS_TYPE_COUNT:
-    case GIS_TYPE_SCALE: return add_numbers(call, option, &options->number[id], 1, error);
-    case GIS_TYPE_BOX: return add_numbers(call, option, options->box, 4, error);
-    case GIS_TYPE_LIST:
-    case GIS_TYPE_PAIRS:
+    if (gis_option_is_list(option)) {
         for (const char **each = options->list[id]; each && *each; each++)
             if (!add(call, option, *each, error)) return false;
         return true;
+    }
+    switch (option->type) {
+    case GIS_TYPE_COUNT:
+    case GIS_TYPE_NUMBER:
+    case GIS_TYPE_SCALE: return add_numbers(call, option, &options->number[id], 1, error);
+    case GIS_TYPE_BOX: return add_numbers(call, option, options->box, 4, error);
     case GIS_TYPE_FLAG: return add(call, option, "", error);
     default: return add(call, option, options->text[id] ? options->text[id] : "", error);
     }

@@ -41,7 +41,7 @@ static void print_own(unsigned command)
 {
     for (int i = 0; i < OPT_N; i++) {
         const gis_option *option = &gis_option_table[i];
-        if (option->group != GIS_GROUP_OWN || !(option->commands & command)) continue;
+        if (option->group > GIS_GROUP_IDENTITY || !(option->commands & command)) continue;
         char name[256];
         describe(option, false, name, sizeof name);
         printf("  %-*s %s", HELP_COLUMN - 3, name, option->help);
@@ -76,6 +76,7 @@ void gis_help_command(const gis_command *command)
 {
     printf("Usage: sunder %s [options] %s\n%s.\n\n", command->name, command->operands, command->summary);
     for (int group = 0; group < GIS_GROUP_HIDDEN; group++) {
+        if (group == GIS_GROUP_IDENTITY) continue;
         printf("%s\n", group_titles[group]);
         if (group == GIS_GROUP_OWN)
             print_own(command->bit);
@@ -107,6 +108,7 @@ void gis_help_program(void)
     for (size_t i = 0; i < gis_n_commands; i++)
         printf("  %-10s %-18s %s\n", gis_commands[i].name, gis_commands[i].operands, gis_commands[i].summary);
     printf("\n`sunder COMMAND --help` lists the options of a command; `sunder --version` prints the version.\n"
+           "`sunder --options-json` prints all of them for other programs.\n"
            "Exit status: 0 done, 1 failed, 2 wrong usage, 3 conflicts remain or were found, or no route.\n"
            "SIGINT and SIGTERM end a run, the output as it was; a second one at once.\n");
 }

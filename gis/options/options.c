@@ -136,6 +136,14 @@ static bool read_scale(const char *value, double *number, gis_error *error)
     return true;
 }
 
+bool gis_option_is_list(const gis_option *option) { return option->type >= GIS_TYPE_BARRIERS; }
+
+bool gis_option_is_needed(const gis_option *option)
+{
+    gis_option_id id = option->id;
+    return id == OPT_SHAPE || id == OPT_ROBOT || id == OPT_FROM || id == OPT_TO;
+}
+
 /* Takes one value of the option; `value` is NULL for a flag. */
 static bool set_value(const gis_option *option, arguments *in, const char *value, gis_options *out, gis_error *error)
 {
@@ -143,7 +151,9 @@ static bool set_value(const gis_option *option, arguments *in, const char *value
     gis_option_id id = option->id;
     switch (option->type) {
     case GIS_TYPE_FLAG: return true;
-    case GIS_TYPE_LIST: return push(out, id, value, error);
+    case GIS_TYPE_BARRIERS:
+    case GIS_TYPE_FORMATS:
+    case GIS_TYPE_SETTINGS: return push(out, id, value, error);
     case GIS_TYPE_PAIRS:
         if (!strchr(value, '=')) {
             if (in->next >= in->count) return gis_fail_usage(error, "%.*s %s: expected K=V", n, option->names, value);
@@ -169,7 +179,7 @@ static bool set_value(const gis_option *option, arguments *in, const char *value
             return gis_fail_usage(error, "%.*s=%s: expected %.*s or %.*s=%s", n, option->names, value, n, option->names,
                                   n, option->names, option->metavar);
         break;
-    case GIS_TYPE_TEXT:
+    default:
         if (!*value) return gis_fail_usage(error, "%.*s: its value is empty", n, option->names);
         break;
     }
@@ -217,8 +227,7 @@ static bool parse_option(const char *word, arguments *in, gis_options *out, gis_
     size_t n = equals ? (size_t)(equals - word) : strlen(word);
     const gis_option *option = find_option(out->command->bit, word, n);
     if (!option) return unknown_option(out->command, word, n, error);
-    bool repeatable = option->type == GIS_TYPE_LIST || option->type == GIS_TYPE_PAIRS || option->type == GIS_TYPE_FLAG;
-    if (out->given[option->id] && !repeatable)
+    if (out->given[option->id] && !gis_option_is_list(option) && option->type != GIS_TYPE_FLAG)
         return gis_fail_usage(error, "%.*s is given twice", name_length(option), option->names);
     out->given[option->id] = true;
     const char *value = equals ? equals + 1 : NULL;

@@ -1,5 +1,5 @@
-/* options.h: the one table of options. It feeds the parser (options.c), --help (help.c) and the test that compares both
- * with the manual page. */
+/* options.h: the one table of options. It feeds the parser (options.c), --help (help.c), --options-json
+ * (options_json.c), from which other programs know them, and the tests that compare these with the manual page. */
 #ifndef GIS_OPTIONS_H
 #define GIS_OPTIONS_H
 
@@ -37,23 +37,40 @@ typedef enum gis_option_id {
 } gis_option_id;
 /* clang-format on */
 
+/* What a value is. The kinds of text differ for whoever offers a choice of them: a completion, a dialogue. */
 typedef enum gis_option_type {
     GIS_TYPE_FLAG,
     GIS_TYPE_TEXT,
-    GIS_TYPE_LIST,    /* repeatable text */
-    GIS_TYPE_PAIRS,   /* repeatable K=V; also as two arguments, K V, as older GDAL takes --config */
-    GIS_TYPE_CHOICE,  /* one of metavar's words, parted by | */
-    GIS_TYPE_LENGTH,  /* gis_length, >= 0 */
-    GIS_TYPE_COUNT,   /* an integer >= 0 */
-    GIS_TYPE_NUMBER,  /* a decimal >= 0 */
-    GIS_TYPE_SCALE,   /* N or 1:N, > 0 */
-    GIS_TYPE_BOX,     /* four numbers with commas, or, as -spat has them, four arguments */
-    GIS_TYPE_OPTIONAL /* alone, or with =metavar */
+    GIS_TYPE_LAYER,     /* of INPUT */
+    GIS_TYPE_FIELD,     /* of that layer */
+    GIS_TYPE_SQL,       /* a condition on its features */
+    GIS_TYPE_STATEMENT, /* of SQL */
+    GIS_TYPE_SHAPE,
+    GIS_TYPE_POINT,   /* X,Y */
+    GIS_TYPE_DATASET, /* that is read */
+    GIS_TYPE_OUTPUT,  /* a dataset that is written */
+    GIS_TYPE_FILE,    /* that is written */
+    GIS_TYPE_FORMAT,  /* a driver of GDAL */
+    GIS_TYPE_CRS,
+    GIS_TYPE_CHOICE,   /* one of metavar's words, parted by | */
+    GIS_TYPE_CHOICES,  /* several of metavar's words, there and here parted by commas */
+    GIS_TYPE_LENGTH,   /* gis_length, >= 0 */
+    GIS_TYPE_COUNT,    /* an integer >= 0 */
+    GIS_TYPE_NUMBER,   /* a decimal >= 0 */
+    GIS_TYPE_SCALE,    /* N or 1:N, > 0 */
+    GIS_TYPE_BOX,      /* four numbers with commas, or, as -spat has them, four arguments */
+    GIS_TYPE_OPTIONAL, /* alone, or with =metavar */
+    /* These may be given again. */
+    GIS_TYPE_BARRIERS, /* a data source with its keys */
+    GIS_TYPE_FORMATS,  /* a driver of GDAL each */
+    GIS_TYPE_SETTINGS, /* K=V */
+    GIS_TYPE_PAIRS     /* K=V; also as two arguments, K V, as older GDAL takes --config */
 } gis_option_type;
 
 /* Sections of --help. What is peculiar to the commands gets a line each; the rest is known from ogr2ogr. */
 typedef enum gis_option_group {
     GIS_GROUP_OWN,
+    GIS_GROUP_IDENTITY, /* listed with those of the command's own */
     GIS_GROUP_INPUT,
     GIS_GROUP_OUTPUT,
     GIS_GROUP_TROUBLE,
@@ -76,6 +93,11 @@ typedef struct gis_option {
 /* Indexed by gis_option_id, in the order of --help. */
 extern const gis_option gis_option_table[OPT_N];
 
+/* May it be given again, each time with one more value? (A flag may be, too, and means the same.) */
+bool gis_option_is_list(const gis_option *option);
+/* Does no command that knows it run without it? */
+bool gis_option_is_needed(const gis_option *option);
+
 typedef struct gis_options gis_options;
 
 typedef struct gis_command {
@@ -94,8 +116,8 @@ extern const size_t gis_n_commands;
 struct gis_options {
     const gis_command *command;
     bool given[OPT_N];
-    const char *text[OPT_N]; /* of TEXT, CHOICE, OPTIONAL, LENGTH: as given, else the fallback of a CHOICE, else NULL */
-    const char **list[OPT_N]; /* of LIST and PAIRS: NULL-terminated, or NULL */
+    const char *text[OPT_N];  /* of texts, CHOICE, OPTIONAL, LENGTH: as given, else the fallback of a CHOICE, or NULL */
+    const char **list[OPT_N]; /* of those that may be given again: NULL-terminated, or NULL */
     gis_length length[OPT_N];
     double number[OPT_N]; /* of COUNT, NUMBER, SCALE */
     double box[4];
@@ -113,5 +135,8 @@ void gis_options_clear(gis_options *options);
 /* --help of the program and of one command, on stdout. */
 void gis_help_program(void);
 void gis_help_command(const gis_command *command);
+
+/* --options-json: all commands with their operands and options, as JSON on stdout. False if memory is out. */
+bool gis_options_json(gis_error *error);
 
 #endif

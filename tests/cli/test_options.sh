@@ -1,0 +1,45 @@
+# shellcheck shell=bash disable=SC1091
+# --options-json, from which other programs know the options, says what --help and the parser say.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
+
+expect 0 --options-json
+[ ! -s err ] || fail "--options-json writes to stderr"
+mv out options.json
+refused 2 'unknown option' separate --options-json a b
+
+for command in separate check sum pair buffer route; do "$SUNDER" $command --help >help.$command; done
+python3 "$SUNDER_SOURCE/tests/cli/options.py" help <options.json >said || fail "$(cat said)"
+
+# Each option by itself, in all of its spellings, is asked of the parser: is there a value to it, may it come twice?
+python3 "$SUNDER_SOURCE/tests/cli/options.py" calls <options.json >calls || fail "no list of calls"
+[ "$(wc -l <calls)" -ge 300 ] || fail "only $(wc -l <calls) calls"
+while IFS=$'\t' read -r words command option; do
+    read -ra more <<<"$option"
+    run "$command" "${more[@]}" </dev/null
+    [ "$status" -eq 2 ] || fail "$command $option: status $status"
+    grep -qE "$words" err || fail "$command $option: not '$words'"
+done <calls
+
+# What is needed is missed, and nothing else is.
+layer in.gpkg houses POLYGON <<'X'
+id,WKT
+1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
+X
+refused 2 'needs INPUT OUTPUT' separate in.gpkg
+refused 2 '--shape is missing' buffer in.gpkg out.gpkg
+refused 2 '--robot SHAPE is missing' route square:1 --from 5,5 --to 6,6
+refused 2 '--from X,Y is missing' route square:1 --robot square:1 --to 6,6
+refused 2 '--to X,Y is missing' route square:1 --robot square:1 --from 5,5
+same "$(json '[.commands[].options[] | select(.needed) | .name] | sort | join(" ")' options.json)" \
+    '--from --robot --shape --to' 'needed:'
+same "$(json '[.commands[] | .name + ":" + ([.operands[] | select(.needed) | .name] | join(","))] | join(" ")' options.json)" \
+    'separate:INPUT,OUTPUT check:INPUT sum:P,Q pair:P,Q buffer:INPUT,OUTPUT route:OBSTACLES' 'operands:'
+
+# A default that can be typed is what holds without it.
+expect 0 separate in.gpkg plain.gpkg --quiet
+mapfile -t typed < <(json '.commands[] | select(.name == "separate") | .options[] | select(.default != null) | .name + "=" + .default' options.json)
+[ "${#typed[@]}" -ge 6 ] || fail "only ${#typed[@]} defaults"
+expect 0 separate in.gpkg typed.gpkg --quiet "${typed[@]}"
+same "$(ogrinfo -q typed.gpkg houses)" "$(ogrinfo -q plain.gpkg houses)" 'typed defaults'
+finish
