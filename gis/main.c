@@ -129,7 +129,7 @@ int main(int argc, char **argv)
     } else if (!first) {
         status = no_command();
     } else if (strcmp(first, "--version") == 0) {
-        printf("sunder %s\n", sunder_version());
+        printf("sunder %s\nGDAL %s\nGMP %s\n", sunder_version(), GDALVersionInfo("RELEASE_NAME"), sunder_gmp_version());
     } else if (strcmp(first, "--options-json") == 0) {
         gis_error error;
         status = gis_options_json(&error) ? GIS_DONE : gis_say_failure(&error);

@@ -57,6 +57,9 @@ SUNDER_API const char *sunder_status_string(sunder_status status);
 /* The library's version, as SUNDER_VERSION of the build. */
 SUNDER_API const char *sunder_version(void);
 
+/* The version of the GMP that the library runs with, which need not be the one that it was built with. */
+SUNDER_API const char *sunder_gmp_version(void);
+
 /* The allocation hooks; all memory goes through them. NULLs restore malloc, realloc and free. Call before any other
  * function and never while an object lives. */
 SUNDER_API void sunder_set_allocator(void *(*allocate)(size_t), void *(*reallocate)(void *, size_t),

@@ -1,6 +1,8 @@
-/* The fixed words of the public enumerations, and the version. Each list is as long as its enumeration, which the
+/* The fixed words of the public enumerations, and the versions. Each list is as long as its enumeration, which the
  * compiler checks; a number that is none of the values has no word. */
 #include "sunder.h"
+
+#include <gmp.h>
 
 #define WORDS(function, type, last, none, ...)                                                                         \
     const char *function(type value)                                                                                   \
@@ -11,6 +13,8 @@
     }
 
 const char *sunder_version(void) { return SUNDER_VERSION; }
+
+const char *sunder_gmp_version(void) { return gmp_version; }
 
 WORDS(sunder_status_string, sunder_status, SUNDER_EFAULT, "unknown status", "no error", "invalid geometry",
       "argument out of range", "result beyond the range of doubles", "out of memory", "stopped on request",

@@ -3,7 +3,10 @@
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 expect 0 --version
-grep -qE '^sunder [0-9]+\.[0-9]+\.[0-9]+$' out || fail "--version says $(cat out)"
+same "$(sed -n 1p out)" "sunder $(sed -n 's/^#define SUNDER_VERSION "\(.*\)"/\1/p' "$SUNDER_SOURCE/src/sunder.h")" version
+same "$(sed -n 2p out)" "$(ogr2ogr --version | sed 's/,.*//')" 'version of GDAL'
+sed -n '3p' out | grep -qE '^GMP [0-9]+\.[0-9]+\.[0-9]+$' || fail "--version says $(cat out)"
+same "$(wc -l <out)" 3 'lines of --version'
 expect 0 --help
 mv out commands
 for command in separate check sum pair buffer route; do

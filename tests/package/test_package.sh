@@ -27,6 +27,12 @@ expect() { # what, command...: the sum of a 4 x 4 and a 1 x 2 rectangle has the 
     echo "$what: ok"
 }
 
+# The program's completion for bash comes with it.
+if [ -x "$prefix/bin/sunder" ]; then
+    bash -n "$prefix/share/bash-completion/completions/sunder"
+    echo "completion: ok"
+fi
+
 cc=$(sed -n 's/^CMAKE_C_COMPILER:[A-Z]*=//p' "$SUNDER_BUILD/CMakeCache.txt")
 if command -v pkg-config >/dev/null; then
     PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name sunder.pc)")

@@ -4,6 +4,7 @@
 #include "failing.h"
 #include "random.h"
 
+#include <gmp.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -148,6 +149,7 @@ static void test_words(void **state)
     assert_string_equal(sunder_phase_string((sunder_phase)3), "");
     assert_string_equal(sunder_containment_string((sunder_containment)-1), "");
     assert_string_equal(sunder_version(), SUNDER_VERSION);
+    assert_string_equal(sunder_gmp_version(), gmp_version);
     for (int i = 0; i <= SUNDER_EFAULT; i++)
         for (int j = 0; j < i; j++)
             assert_string_not_equal(sunder_status_string((sunder_status)i), sunder_status_string((sunder_status)j));
