@@ -10,9 +10,10 @@
  * Uniting over the pieces of B gives all but what only the diagonals between pieces reach: with X open nothing, since a
  * bit of y can be traded for a bit of b; with X closed only seams without area, which the closure has.
  *
- * So the bands are united in a planar map (../planar_map/), one after the other in random order, what lies inside being
- * forgotten. No band reaches a cell of the map that none covers, be it a face, an edge or a vertex: so the boundary of
- * X + c does not either, and the cell lies in X + c as a whole or not at all. One of its corners is enough to ask.
+ * So the bands are united in a planar map (../planar_map/), one after the other in biased random order, what lies
+ * inside being forgotten. No band reaches a cell of the map that none covers, be it a face, an edge or a vertex: so the
+ * boundary of X + c does not either, and the cell lies in X + c as a whole or not at all. One of its corners is enough
+ * to ask.
  * (Where X + c is drawn as a region beside the bands, its complement needs a frame, and counts of vertices where rings
  * touch; asking costs one location a cell, and few cells are left.)
  *
@@ -57,12 +58,33 @@ static bool go_on(const sunder_sum_options *options, const share *s, uint64_t do
            options->progress(s->from + (s->to - s->from) * ((double)done / (double)all), options->progress_user);
 }
 
-/* A random order of n things; NULL if memory is out. */
-static uint64_t *random_order(uint64_t *random, uint64_t n)
+enum { ROUNDS = 64 };
+
+/* In which round of how many does a thing go in? In the last one half of the things, in the one before a quarter. */
+static unsigned round_of(uint64_t *random)
+{
+    unsigned heads = 0;
+    for (uint64_t r = sunder_i_draw(random) | (uint64_t)1 << (ROUNDS - 1); !(r & 1); r >>= 1) heads++;
+    return ROUNDS - 1 - heads;
+}
+
+/* An order of n things that follow each other along rings; NULL if memory is out. Rounds of twice as many things each
+ * time, drawn at random, keep the expected costs of a random order within a factor; within a round things stand in
+ * their own order, so that the next one goes in near the last, where the map is at hand already [ACR03]. Half the time
+ * of a random order on coasts of a hundred thousand vertices. */
+static uint64_t *biased_order(uint64_t *random, uint64_t n)
 {
     uint64_t *order = sunder_i_alloc(n, sizeof *order);
-    for (uint64_t i = 0; order && i < n; i++) order[i] = i;
-    if (order) sunder_i_shuffle(order, n, sizeof *order, random);
+    uint8_t *round = sunder_i_alloc(n, sizeof *round);
+    uint64_t at[ROUNDS + 1] = {0};
+    for (uint64_t i = 0; order && round && i < n; i++) at[1 + (round[i] = (uint8_t)round_of(random))]++;
+    for (unsigned r = 0; r < ROUNDS; r++) at[r + 1] += at[r];
+    for (uint64_t i = 0; order && round && i < n; i++) order[at[round[i]]++] = i;
+    if (!round) {
+        sunder_i_free(order);
+        order = NULL;
+    }
+    sunder_i_free(round);
     return order;
 }
 
@@ -100,7 +122,7 @@ static sunder_status draw_figure(const sunder_i_figure *f, sunder_i_lattice *lat
     sunder_status status = sunder_i_planar_map_new(lattice, sunder_i_draw(random), &map, err);
     if (status != SUNDER_OK) return status;
     uint32_t *next = successors(f);
-    uint64_t *order = random_order(random, f->sides);
+    uint64_t *order = biased_order(random, f->sides);
     status = next && order ? SUNDER_OK : sunder_i_no_memory(err);
     for (size_t i = 0; i < f->sides && status == SUNDER_OK; i++) {
         uint32_t ends[2];
@@ -147,7 +169,7 @@ static sunder_status unite_bands(stage *g, sunder_error *err)
     const sunder_i_figure *f = g->figure;
     const uint64_t all = (f->sides + f->segments + f->points) * (uint64_t)g->element->pieces;
     uint32_t *next = successors(f);
-    uint64_t *order = random_order(&g->random, all);
+    uint64_t *order = biased_order(&g->random, all);
     sunder_status status = next && order ? SUNDER_OK : sunder_i_no_memory(err);
     for (uint64_t i = 0; i < all && status == SUNDER_OK; i++)
         status = go_on(g->options, &of_bands, i, all) ? add_band(g, next, order[i], err) : sunder_i_cancelled(err);
