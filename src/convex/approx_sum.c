@@ -7,6 +7,7 @@
 #include "convex/approx_sum.h"
 
 #include "convex/merge.h"
+#include "number/trust.h"
 
 #include <math.h>
 
@@ -56,7 +57,7 @@ sunder_i_window_place sunder_i_approx_sum_sees(const sunder_i_piece_tree *p, uin
     for (circuit r = circuit_of(p, i, q, j); next_side(&r);) {
         const sunder_i_approx_side *a = &r.a[r.merge.a], *b = &r.b[r.merge.b], *s = r.merge.of_a ? a : b;
         const double adx = fabs(s->dx), ady = fabs(s->dy), reach = w->hx * ady + w->hy * adx;
-        const double error = w->error * (adx + ady) + SUNDER_I_APPROX_UNDERFLOW;
+        const double error = SUNDER_I_DOUBT(w->error * (adx + ady) + SUNDER_I_APPROX_UNDERFLOW);
         const double c = s->dx * (w->cy - (a->y + b->y)) - s->dy * (w->cx - (a->x + b->x));
         if (c + reach < -error) return SUNDER_I_BEYOND;
         if (!(c - reach > error)) where = SUNDER_I_ACROSS;

@@ -66,7 +66,7 @@ static int32_t winding_of_others(const sunder_i_convolution *c, sunder_i_point a
         const sunder_i_point a = c->corner[i], b = c->corner[c->next[i]];
         if ((a.y > at.y) == (b.y > at.y)) continue;
         const bool up = b.y > at.y;
-        const sunder_i_i128 side = sunder_i_narrow_orient(a, b, at);
+        const sunder_i_det side = sunder_i_narrow_orient(a, b, at);
         if (up ? side < 0 : side > 0) winding += up ? -1 : 1; /* it passes to the left of the place */
     }
     return winding;

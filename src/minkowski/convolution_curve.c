@@ -23,7 +23,7 @@ static uint32_t before(const mover *t, uint32_t j) { return j ? j - 1 : t->m - 1
 /* The sign of the turn from d to the side of Q that ends in corner j. */
 static int turn_to(const mover *t, sunder_i_point d, uint32_t j)
 {
-    const sunder_i_i128 c = sunder_i_narrow_cross(d, sunder_i_narrow_sub(t->q[j], t->q[before(t, j)]));
+    const sunder_i_det c = sunder_i_narrow_cross(d, sunder_i_narrow_sub(t->q[j], t->q[before(t, j)]));
     return (c > 0) - (c < 0);
 }
 
@@ -57,7 +57,7 @@ static bool find_corners(mover *t, uint32_t start)
     uint32_t j = find_corner(t, d);
     do {
         const sunder_i_point e = sunder_i_narrow_sub(t->at[p->next[v]], t->at[v]);
-        const sunder_i_i128 bend = sunder_i_narrow_cross(d, e);
+        const sunder_i_det bend = sunder_i_narrow_cross(d, e);
         if (bend == 0 || p->shared[v]) return false;
         t->curve->reflex[v] = bend < 0;
         j = walk_to(t, j, e, bend < 0);

@@ -65,7 +65,7 @@ static uint32_t first_above(const polygon *p, uint32_t r)
  * with its way from line->a. */
 typedef struct stand {
     int side;
-    sunder_i_i128 height;
+    sunder_i_det height;
 } stand;
 
 static stand stand_of(const polygon *p, const sunder_i_supporting_line *line, uint32_t i)
@@ -73,9 +73,9 @@ static stand stand_of(const polygon *p, const sunder_i_supporting_line *line, ui
     sunder_i_lattice *l = p->s->lattice;
     if (!l->narrow) return (stand){sunder_i_orient(l, line->a, line->b, corner(p, i)), 0};
     l->counts.orientation_tests++;
-    const sunder_i_i128 height =
+    const sunder_i_det height =
         sunder_i_narrow_cross(p->s->direction[line->class], sunder_i_narrow_sub(corner(p, i), line->a));
-    return (stand){sunder_i_i128_sign(height), height};
+    return (stand){sunder_i_det_sign(height), height};
 }
 
 /* Where the line meets the side between two corners that stand at different heights. */

@@ -24,7 +24,7 @@ static bool both_hold(const builder *b, const approx_side *f, const approx_side 
     const double fc = f->dx * (cy - f->ay) - f->dy * (cx - f->ax), gc = g->dx * (cy - g->ay) - g->dy * (cx - g->ax);
     const double reach = hx * fabs(f->dy + r * g->dy) + hy * fabs(f->dx + r * g->dx);
     /* The errors of both, and those of the additions here, which are relative to terms below (hx + hy) * fs. */
-    const double error = 4 * b->error * fs + 0x1p-48 * (hx + hy) * fs + SUNDER_I_APPROX_UNDERFLOW;
+    const double error = SUNDER_I_DOUBT(4 * b->error * fs + 0x1p-48 * (hx + hy) * fs + SUNDER_I_APPROX_UNDERFLOW);
     return fc + r * gc - reach > error;
 }
 
@@ -137,7 +137,7 @@ static int side_of_half(const builder *b, const half *h, const approx_side *s, c
                         double hy)
 {
     const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
-    const double error = b->error * (adx + ady) + SUNDER_I_APPROX_UNDERFLOW;
+    const double error = SUNDER_I_DOUBT(b->error * (adx + ady) + SUNDER_I_APPROX_UNDERFLOW);
     const double c = s->dx * (h->cy - at->ay) - s->dy * (h->cx - at->ax);
     return c + reach < -error ? BEYOND : c - reach > error ? WITHIN : ACROSS;
 }
@@ -196,7 +196,7 @@ static void filter_one(builder *b, half *h, const run *runs, const entry *source
         }
         const approx_side *s = &b->side[r];
         const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
-        const double error = b->error * (adx + ady) + SUNDER_I_APPROX_UNDERFLOW;
+        const double error = SUNDER_I_DOUBT(b->error * (adx + ady) + SUNDER_I_APPROX_UNDERFLOW);
         const double c = s->dx * (h->cy - s->ay) - s->dy * (h->cx - s->ax);
         if (c + reach < -error) return; /* all of the half is beyond this side */
         out[n] = r;
@@ -246,7 +246,7 @@ static void filter_part(builder *b, half h[2], const run *runs, const entry *sou
         }
         const approx_side *s = &b->side[r];
         const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
-        const double error = b->error * (adx + ady) + SUNDER_I_APPROX_UNDERFLOW;
+        const double error = SUNDER_I_DOUBT(b->error * (adx + ady) + SUNDER_I_APPROX_UNDERFLOW);
         const double c0 = s->dx * (h[0].cy - s->ay) - s->dy * (h[0].cx - s->ax);
         const double c1 = s->dx * (h[1].cy - s->ay) - s->dy * (h[1].cx - s->ax);
         out0[n0] = out1[n1] = r;

@@ -4,6 +4,8 @@
 
 #include "outline/culling.h"
 
+#include "number/trust.h"
+
 #include <math.h>
 
 /* A side as doubles, in the units of sunder_i_approx(): where it starts and its vector. */

@@ -69,7 +69,7 @@ static key make_key(const sunder_i_convex_pieces *s, uint32_t side)
     const sunder_i_point d = s->direction[k.class], a = s->corner[side];
     uint64_t hash = mix(0, k.class);
     if (s->lattice->narrow || (sunder_i_point_is_plain(d) && sunder_i_point_is_plain(a))) {
-        k.offset = sunder_i_narrow_cross(d, a);
+        k.offset = sunder_i_det_i128(sunder_i_narrow_cross(d, a));
         hash = mix(mix(hash, (uint64_t)k.offset), (uint64_t)(k.offset >> 64));
     } else {
         hash = pooled_offset(s->lattice, d, a, hash, &k);

@@ -87,13 +87,35 @@ sunder_i_fraction sunder_i_fraction_int(sunder_i_lattice *l, int n)
 sunder_i_ratio sunder_i_fraction_read(sunder_i_arena *arena, const sunder_i_lattice *l, const sunder_i_fraction *t)
 {
     if (t->den == 0) return sunder_i_lattice_read(arena, l, (int64_t)t->num);
-    return (sunder_i_ratio){sunder_i_big_i128(arena, t->num), sunder_i_big_i128(arena, t->den)};
+    return (sunder_i_ratio){sunder_i_big_i128(arena, sunder_i_det_i128(t->num)),
+                            sunder_i_big_i128(arena, sunder_i_det_i128(t->den))};
 }
 
 int sunder_i_fraction_sign(const sunder_i_lattice *l, const sunder_i_fraction *t)
 {
-    if (t->den != 0) return sunder_i_i128_sign(t->num);
+    if (t->den != 0) return sunder_i_det_sign(t->num);
     return sunder_i_big_sign(l->pool[(int64_t)t->num - INT64_MIN].ratio.num);
+}
+
+/* Of two that doubles leave open: they are no farther apart than `apart`. */
+static __attribute__((noinline)) int exact_fraction_cmp(sunder_i_lattice *l, const sunder_i_fraction *s,
+                                                        const sunder_i_fraction *t, double apart)
+{
+    l->counts.exact_fallbacks++;
+    if (s->den != 0 && t->den != 0) {
+        const sunder_i_i128 p = sunder_i_det_i128(s->num), v = sunder_i_det_i128(s->den);
+        const sunder_i_i128 q = sunder_i_det_i128(t->num), w = sunder_i_det_i128(t->den);
+        if (sunder_i_i128_is_short(v) && sunder_i_i128_is_short(w) && sunder_i_is_low_64(apart, (int64_t)v, (int64_t)w))
+            return sunder_i_sign_low_64((uint64_t)p, (uint64_t)v, (uint64_t)q, (uint64_t)w);
+        if (sunder_i_is_low_128(apart, v, w))
+            return sunder_i_sign_low_128((sunder_i_u128)p, (sunder_i_u128)v, (sunder_i_u128)q, (sunder_i_u128)w);
+        return sunder_i_cmp_products(p, w, q, v);
+    }
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    const int c = sunder_i_ratio_cmp(m, sunder_i_fraction_read(m, l, s), sunder_i_fraction_read(m, l, t));
+    sunder_i_lattice_end(l, mark);
+    return c;
 }
 
 int sunder_i_fraction_cmp(sunder_i_lattice *l, const sunder_i_fraction *s, const sunder_i_fraction *t)
@@ -103,21 +125,5 @@ int sunder_i_fraction_cmp(sunder_i_lattice *l, const sunder_i_fraction *s, const
     const double bound = SUNDER_I_FRACTION_ERROR * (1 + fabs(s->value) + fabs(t->value));
     if (d > bound) return 1;
     if (d < -bound) return -1;
-    l->counts.exact_fallbacks++;
-    if (s->den != 0 && t->den != 0) {
-        /* What the doubles leave open is no farther apart than this. */
-        const double apart = 2 * bound;
-        if (sunder_i_i128_is_short(s->den) && sunder_i_i128_is_short(t->den) &&
-            sunder_i_is_low_64(apart, (int64_t)s->den, (int64_t)t->den))
-            return sunder_i_sign_low_64((uint64_t)s->num, (uint64_t)s->den, (uint64_t)t->num, (uint64_t)t->den);
-        if (sunder_i_is_low_128(apart, s->den, t->den))
-            return sunder_i_sign_low_128((sunder_i_u128)s->num, (sunder_i_u128)s->den, (sunder_i_u128)t->num,
-                                         (sunder_i_u128)t->den);
-        return sunder_i_cmp_products(s->num, t->den, t->num, s->den);
-    }
-    const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    sunder_i_arena *m = &l->scratch;
-    const int c = sunder_i_ratio_cmp(m, sunder_i_fraction_read(m, l, s), sunder_i_fraction_read(m, l, t));
-    sunder_i_lattice_end(l, mark);
-    return c;
+    return SUNDER_I_DOUBLES_MAY_ERR ? exact_fraction_cmp(l, s, t, 2 * bound) : 0;
 }

@@ -39,8 +39,8 @@ sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *l, sunder_i_point a, sunder
 {
     if (l->narrow || (t->den != 0 && sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b) && !l->pooled)) {
         const sunder_i_point u = sunder_i_narrow_sub(b, a);
-        return native(l, sunder_i_mul_add(a.x, t->den, u.x, t->num), sunder_i_mul_add(a.y, t->den, u.y, t->num),
-                      t->den);
+        const sunder_i_i128 num = sunder_i_det_i128(t->num), den = sunder_i_det_i128(t->den);
+        return native(l, sunder_i_mul_add(a.x, den, u.x, num), sunder_i_mul_add(a.y, den, u.y, num), den);
     }
     /* a + (num / den) u with a over v, u = b - a over w: (a w den + u v num) / (v w den), and less where w = v. */
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
@@ -134,7 +134,7 @@ static sunder_i_u128 low_bits(const sunder_i_i256 *a)
 
 static double bound_of(double a, double b)
 {
-    return HPOINT_ERROR * (fabs(a) + fabs(b)) + DBL_MIN; /* the last for underflow */
+    return SUNDER_I_DOUBT(HPOINT_ERROR * (fabs(a) + fabs(b)) + DBL_MIN); /* the last for underflow */
 }
 
 /* Of native points and the coordinate k, x or y, p / v against q / w: the filter left them open, so that they are no
@@ -155,7 +155,8 @@ static int native_cmp(const sunder_i_lattice *l, const sunder_i_hpoint *a, const
 }
 
 /* By the coordinate k, where the filter did not tell. */
-static int coordinate_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b, int k)
+static __attribute__((noinline)) int exact_coordinate_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a,
+                                                          const sunder_i_hpoint *b, int k)
 {
     l->counts.exact_fallbacks++;
     if (a->w != 0 && b->w != 0) return native_cmp(l, a, b, k);
@@ -165,6 +166,11 @@ static int coordinate_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const s
     const int c = sunder_i_rational_cmp(m, &p, &q, k);
     sunder_i_lattice_end(l, mark);
     return c;
+}
+
+static int coordinate_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b, int k)
+{
+    return SUNDER_I_DOUBLES_MAY_ERR ? exact_coordinate_cmp(l, a, b, k) : 0;
 }
 
 /* 0 where the doubles leave it open. */
@@ -212,7 +218,8 @@ static int filter_side(const sunder_i_lattice *l, sunder_i_point a, sunder_i_poi
     const double ax = sunder_i_approx(l, a.x), ay = sunder_i_approx(l, a.y);
     const double bx = sunder_i_approx(l, b.x), by = sunder_i_approx(l, b.y);
     const double most = fmax(fmax(fmax(fabs(ax), fabs(ay)), fmax(fabs(bx), fabs(by))), fmax(fabs(c->ax), fabs(c->ay)));
-    const double det = (bx - ax) * (c->ay - ay) - (by - ay) * (c->ax - ax), bound = 0x1p-43 * most * most;
+    const double det = (bx - ax) * (c->ay - ay) - (by - ay) * (c->ax - ax),
+                 bound = SUNDER_I_DOUBT(0x1p-43 * most * most);
     return most < 0x1p-200 ? 0 : det > bound ? 1 : det < -bound ? -1 : 0;
 }
 
@@ -238,18 +245,23 @@ uint64_t sunder_i_hpoint_hash(sunder_i_lattice *l, const sunder_i_hpoint *p)
     return h;
 }
 
+/* cross(b - a, c - a) * w: big integers; a rarely asked question. */
+static __attribute__((noinline)) int exact_orient_hpoint(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b,
+                                                         const sunder_i_hpoint *c)
+{
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    l->counts.exact_fallbacks++;
+    const int s = sunder_i_rational_orient(m, sunder_i_rational_get(m, l, a), sunder_i_rational_get(m, l, b),
+                                           sunder_i_hpoint_read(m, l, c));
+    sunder_i_lattice_end(l, mark);
+    return s;
+}
+
 int sunder_i_orient_hpoint(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_hpoint *c)
 {
     l->counts.orientation_tests++;
     if (l->arena.failed) return 0;
-    int s = l->pooled ? 0 : filter_side(l, a, b, c);
-    if (s) return s;
-    /* cross(b - a, c - a) * w: big integers; a rarely asked question. */
-    const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    sunder_i_arena *m = &l->scratch;
-    l->counts.exact_fallbacks++;
-    s = sunder_i_rational_orient(m, sunder_i_rational_get(m, l, a), sunder_i_rational_get(m, l, b),
-                                 sunder_i_hpoint_read(m, l, c));
-    sunder_i_lattice_end(l, mark);
-    return s;
+    const int s = l->pooled ? 0 : filter_side(l, a, b, c);
+    return s || !SUNDER_I_DOUBLES_MAY_ERR ? s : exact_orient_hpoint(l, a, b, c);
 }

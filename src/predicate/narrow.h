@@ -6,14 +6,14 @@
 
 #include "predicate/predicate.h"
 
-static inline sunder_i_i128 sunder_i_narrow_cross(sunder_i_point u, sunder_i_point v)
+static inline sunder_i_det sunder_i_narrow_cross(sunder_i_point u, sunder_i_point v)
 {
-    return (sunder_i_i128)u.x * v.y - (sunder_i_i128)u.y * v.x;
+    return (sunder_i_det)u.x * (sunder_i_det)v.y - (sunder_i_det)u.y * (sunder_i_det)v.x;
 }
 
-static inline sunder_i_i128 sunder_i_narrow_dot(sunder_i_point u, sunder_i_point v)
+static inline sunder_i_det sunder_i_narrow_dot(sunder_i_point u, sunder_i_point v)
 {
-    return (sunder_i_i128)u.x * v.x + (sunder_i_i128)u.y * v.y;
+    return (sunder_i_det)u.x * (sunder_i_det)v.x + (sunder_i_det)u.y * (sunder_i_det)v.y;
 }
 
 static inline sunder_i_point sunder_i_narrow_sub(sunder_i_point a, sunder_i_point b)
@@ -21,19 +21,19 @@ static inline sunder_i_point sunder_i_narrow_sub(sunder_i_point a, sunder_i_poin
     return (sunder_i_point){a.x - b.x, a.y - b.y};
 }
 
-static inline sunder_i_i128 sunder_i_narrow_orient(sunder_i_point a, sunder_i_point b, sunder_i_point c)
+static inline sunder_i_det sunder_i_narrow_orient(sunder_i_point a, sunder_i_point b, sunder_i_point c)
 {
     return sunder_i_narrow_cross(sunder_i_narrow_sub(b, a), sunder_i_narrow_sub(c, a));
 }
 
 /* num / den as a double: both conversions and the division round once each, relative error below 2^-51. */
-static inline double sunder_i_narrow_value(sunder_i_i128 num, sunder_i_i128 den)
+static inline double sunder_i_narrow_value(sunder_i_det num, sunder_i_det den)
 {
-    return sunder_i_i128_double(num) / sunder_i_i128_double(den);
+    return sunder_i_det_double(num) / sunder_i_det_double(den);
 }
 
 /* num / den, den not zero, below 2^124 in magnitude. */
-static inline sunder_i_fraction sunder_i_narrow_fraction(sunder_i_i128 num, sunder_i_i128 den)
+static inline sunder_i_fraction sunder_i_narrow_fraction(sunder_i_det num, sunder_i_det den)
 {
     if (den < 0) {
         num = -num;
@@ -43,6 +43,6 @@ static inline sunder_i_fraction sunder_i_narrow_fraction(sunder_i_i128 num, sund
 }
 
 /* |s.value - s| <= 2^-50 * max(1, |s.value|), so values further apart than this settle the order. */
-#define SUNDER_I_FRACTION_ERROR 0x1p-49
+#define SUNDER_I_FRACTION_ERROR SUNDER_I_DOUBT(0x1p-49)
 
 #endif

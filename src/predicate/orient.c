@@ -24,19 +24,24 @@ static int filter_products(double s, double t)
     return size > SMALLEST ? sign_of(s + t, PRODUCT_ERROR * size) : 0;
 }
 
-int sunder_i_int_cmp(sunder_i_lattice *l, int64_t a, int64_t b)
+/* What no filter tells is asked of functions that are called exact_*: what they cost can be counted. */
+static __attribute__((noinline)) int exact_int_cmp(sunder_i_lattice *l, int64_t a, int64_t b)
 {
-    if (l->narrow || (sunder_i_is_plain(a) && sunder_i_is_plain(b))) return (a > b) - (a < b);
-    if (l->arena.failed) return 0;
-    const double x = sunder_i_approx(l, a), y = sunder_i_approx(l, b);
-    const int c = sign_of(x - y, 0x1p-51 * (fabs(x) + fabs(y)) + SMALLEST);
-    if (c) return c;
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
     const sunder_i_ratio p = sunder_i_lattice_read(m, l, a), q = sunder_i_lattice_read(m, l, b);
     const int s = sunder_i_big_cmp(sunder_i_times(m, p.num, q.den), sunder_i_times(m, q.num, p.den));
     sunder_i_lattice_end(l, mark);
     return s;
+}
+
+int sunder_i_int_cmp(sunder_i_lattice *l, int64_t a, int64_t b)
+{
+    if (l->narrow || (sunder_i_is_plain(a) && sunder_i_is_plain(b))) return (a > b) - (a < b);
+    if (l->arena.failed) return 0;
+    const double x = sunder_i_approx(l, a), y = sunder_i_approx(l, b);
+    const int c = sign_of(x - y, 0x1p-51 * (fabs(x) + fabs(y)) + SMALLEST);
+    return c ? c : exact_int_cmp(l, a, b);
 }
 
 int sunder_i_point_cmp(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b)
@@ -134,26 +139,31 @@ static int filter_orient(const sunder_i_lattice *l, sunder_i_point a, sunder_i_p
     return sign_of((bx - ax) * (cy - ay) - (by - ay) * (cx - ax), SIDE_ERROR * most * most);
 }
 
-int sunder_i_orient(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
+static __attribute__((noinline)) int exact_orient(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b,
+                                                  sunder_i_point c)
 {
-    l->counts.orientation_tests++;
-    if (l->narrow || (both_plain(a, b) && sunder_i_point_is_plain(c)))
-        return sunder_i_i128_sign(sunder_i_narrow_orient(a, b, c));
-    if (l->arena.failed) return 0;
-    int s = l->pooled ? 0 : filter_orient(l, a, b, c);
-    if (s) return s;
     l->counts.exact_fallbacks++;
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    s = sunder_i_rational_orient(m, sunder_i_rational_get(m, l, a), sunder_i_rational_get(m, l, b),
-                                 sunder_i_rational_get(m, l, c));
+    const int s = sunder_i_rational_orient(m, sunder_i_rational_get(m, l, a), sunder_i_rational_get(m, l, b),
+                                           sunder_i_rational_get(m, l, c));
     sunder_i_lattice_end(l, mark);
     return s;
 }
 
+int sunder_i_orient(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
+{
+    l->counts.orientation_tests++;
+    if (l->narrow || (both_plain(a, b) && sunder_i_point_is_plain(c)))
+        return sunder_i_det_sign(sunder_i_narrow_orient(a, b, c));
+    if (l->arena.failed) return 0;
+    const int s = l->pooled ? 0 : filter_orient(l, a, b, c);
+    return s ? s : exact_orient(l, a, b, c);
+}
+
 /* ---- Products of two vectors ---- */
 
-static int exact_product(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v, bool cross)
+static __attribute__((noinline)) int exact_product(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v, bool cross)
 {
     l->counts.exact_fallbacks++;
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
@@ -167,7 +177,7 @@ static int exact_product(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v
 int sunder_i_cross_sign(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v)
 {
     l->counts.orientation_tests++;
-    if (l->narrow || both_plain(u, v)) return sunder_i_i128_sign(sunder_i_narrow_cross(u, v));
+    if (l->narrow || both_plain(u, v)) return sunder_i_det_sign(sunder_i_narrow_cross(u, v));
     if (l->arena.failed) return 0;
     const int s = l->pooled ? 0
                             : filter_products(sunder_i_approx(l, u.x) * sunder_i_approx(l, v.y),
@@ -177,7 +187,7 @@ int sunder_i_cross_sign(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v)
 
 int sunder_i_dot_sign(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v)
 {
-    if (l->narrow || both_plain(u, v)) return sunder_i_i128_sign(sunder_i_narrow_dot(u, v));
+    if (l->narrow || both_plain(u, v)) return sunder_i_det_sign(sunder_i_narrow_dot(u, v));
     if (l->arena.failed) return 0;
     const int s = l->pooled ? 0
                             : filter_products(sunder_i_approx(l, u.x) * sunder_i_approx(l, v.x),

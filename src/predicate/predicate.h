@@ -9,6 +9,7 @@
 #ifndef SUNDER_I_PREDICATE_H
 #define SUNDER_I_PREDICATE_H
 
+#include "number/trust.h"
 #include "predicate/rational_point.h"
 
 /* ---- Order and orientation: degree 1 and 2 ---- */
@@ -38,7 +39,7 @@ int sunder_i_angle_cmp(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_poi
 /* The point a + (num / den) * (b - a) of a line ab. den > 0. value is close: |value - num/den| <= 4e-16 * max(1,
  * |num/den|). den == 0: num is the handle of that ratio. */
 typedef struct sunder_i_fraction {
-    sunder_i_i128 num, den;
+    sunder_i_det num, den;
     double value;
 } sunder_i_fraction;
 

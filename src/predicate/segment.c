@@ -56,8 +56,8 @@ sunder_i_meeting sunder_i_segments_meet(sunder_i_lattice *l, sunder_i_point a, s
 static int narrow_distance_cmp(sunder_i_point p, sunder_i_point a, sunder_i_point b, int64_t gap)
 {
     const sunder_i_point u = sunder_i_narrow_sub(b, a), ap = sunder_i_narrow_sub(p, a), bp = sunder_i_narrow_sub(p, b);
-    const sunder_i_i128 limit = (sunder_i_i128)gap * gap;
-    sunder_i_i128 square;
+    const sunder_i_det limit = (sunder_i_det)gap * (sunder_i_det)gap;
+    sunder_i_det square;
     if (sunder_i_narrow_dot(ap, u) <= 0)
         square = sunder_i_narrow_dot(ap, ap);
     else if (sunder_i_narrow_dot(bp, u) >= 0)

@@ -31,7 +31,7 @@ static sunder_i_big sum_edges(sunder_i_arena *arena, const sunder_shape *shape, 
     for (uint32_t i = 0; i < shape->vertices && !arena->failed; i++) {
         const sunder_i_point a = placed->p[i], b = placed->p[shape->next[i]];
         if (sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b)) {
-            const sunder_i_i128 term = sunder_i_narrow_cross(a, b), before = run;
+            const sunder_i_i128 term = sunder_i_det_i128(sunder_i_narrow_cross(a, b)), before = run;
             if (!__builtin_add_overflow(before, term, &run)) continue;
             plain = sunder_i_big_add(arena, plain, sunder_i_big_i128(arena, before));
             run = term;

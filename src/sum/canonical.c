@@ -29,7 +29,7 @@ static int compare_rings(void *context, uint32_t a, uint32_t b)
 }
 
 /* Of hpoints, each within 2^-50 of its size: may b, which is not below a as a double, be below or equal? */
-static bool is_open(double a, double b) { return b - a <= 0x1p-49 * (fabs(a) + fabs(b)) + DBL_MIN; }
+static bool is_open(double a, double b) { return b - a <= SUNDER_I_DOUBT(0x1p-49 * (fabs(a) + fabs(b)) + DBL_MIN); }
 
 static const sunder_i_hpoint *first_place(const sunder_i_found *f, uint32_t ring)
 {
