@@ -14,7 +14,8 @@
 
 typedef struct equations {
     uint32_t *set;        /* [capacity] acting constraints */
-    double *gram;         /* lower triangle of the factor, by rows of `capacity` */
+    double *factor;       /* its lower triangle, by columns of `capacity` */
+    double *row;          /* [capacity] the one at hand */
     double *half, *force; /* after the forward half; the solution */
     size_t n, capacity;
     int factors; /* so far */
@@ -30,35 +31,48 @@ static double gram(const sunder_i_quadratic *p, const sunder_i_constraint *a, co
     return dot * m;
 }
 
-/* Cholesky factor, a row at a time, skipping the leading zeros of each row, and the solution of G f = d. Rows before
- * `from` are those of the last call. The diagonal is a little raised. */
+/* Row r of the Gram matrix up to the diagonal, which is a little raised. */
+static void fill_row(const sunder_i_quadratic *p, const equations *e, size_t r, double softness, double *row)
+{
+    const sunder_i_constraint *c = &p->constraint[e->set[r]];
+    for (size_t k = 0; k <= r; k++) row[k] = gram(p, c, &p->constraint[e->set[k]]);
+    row[r] *= 1 + softness + RAISED;
+}
+
+/* Cholesky factor, a row at a time, and the solution of G f = d. Rows before `from` are those of the last call.
+ *
+ * The factor is kept by columns: as soon as an entry of a row is known, what it takes from those that follow in the row
+ * is one pass over a column, and most entries are zero, since most constraints have no body in common. Each entry is
+ * the same sum in the same order as if it were found by itself. */
 static bool solve_equations(sunder_i_quadratic *p, equations *e, size_t from, double softness)
 {
     p->work += e->n * e->n * (e->n - from) / 32 + e->n * e->n / 8;
+    double *row = e->row;
     for (size_t r = from; r < e->n; r++) {
-        double *row = e->gram + r * e->capacity;
-        const sunder_i_constraint *c = &p->constraint[e->set[r]];
-        double f = c->d;
-        for (size_t k = 0; k <= r; k++) {
-            const double *other = e->gram + k * e->capacity;
-            double g = gram(p, c, &p->constraint[e->set[k]]);
-            if (k == r) g *= 1 + softness + RAISED;
-            for (size_t i = 0; i < k; i++) g -= row[i] * other[i];
-            if (k < r) {
-                row[k] = g / other[k];
-                f -= row[k] * e->half[k];
-            } else {
-                if (!(g > 0)) return false;
-                row[r] = sqrt(g);
+        double f = p->constraint[e->set[r]].d;
+        fill_row(p, e, r, softness, row);
+        for (size_t k = 0; k < r; k++) {
+            double *column = e->factor + k * e->capacity;
+            if (row[k] == 0) {
+                column[r] = 0;
+                continue;
             }
+            const double x = row[k] / column[k];
+            column[r] = x;
+            f -= x * e->half[k];
+            for (size_t i = k + 1; i <= r; i++) row[i] -= x * column[i];
         }
-        e->half[r] = f / row[r];
+        if (!(row[r] > 0)) return false;
+        const double root = sqrt(row[r]);
+        e->factor[r * e->capacity + r] = root;
+        e->half[r] = f / root;
     }
     memcpy(e->force, e->half, e->n * sizeof *e->force);
     for (size_t r = e->n; r-- > 0;) {
+        const double *column = e->factor + r * e->capacity;
         double f = e->force[r];
-        for (size_t k = r + 1; k < e->n; k++) f -= e->gram[k * e->capacity + r] * e->force[k];
-        e->force[r] = f / e->gram[r * e->capacity + r];
+        for (size_t k = r + 1; k < e->n; k++) f -= column[k] * e->force[k];
+        e->force[r] = f / column[r];
     }
     return true;
 }
@@ -127,8 +141,9 @@ bool sunder_i_quadratic_equations(sunder_i_quadratic *p, double softness, double
     e.set = sunder_i_alloc(e.capacity, sizeof *e.set);
     e.force = sunder_i_alloc(e.capacity, sizeof *e.force);
     e.half = sunder_i_alloc(e.capacity, sizeof *e.half);
-    e.gram = sunder_i_calloc(e.capacity * e.capacity, sizeof *e.gram);
-    const bool ok = e.set && e.force && e.half && e.gram;
+    e.row = sunder_i_alloc(e.capacity, sizeof *e.row);
+    e.factor = sunder_i_calloc(e.capacity * e.capacity, sizeof *e.factor);
+    const bool ok = e.set && e.force && e.half && e.row && e.factor;
     for (int round = 0; ok && round < MOST_ADDING; round++) {
         if (!gather(p, &e) || !descend(p, &e, softness)) break;
         sunder_i_quadratic_place(p);
@@ -140,6 +155,7 @@ bool sunder_i_quadratic_equations(sunder_i_quadratic *p, double softness, double
     sunder_i_free(e.set);
     sunder_i_free(e.force);
     sunder_i_free(e.half);
-    sunder_i_free(e.gram);
+    sunder_i_free(e.row);
+    sunder_i_free(e.factor);
     return ok;
 }
