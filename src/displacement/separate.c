@@ -199,13 +199,6 @@ static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_
     return status;
 }
 
-static bool has_conflicts(const sunder_i_solver *s)
-{
-    for (size_t k = 0; k < s->now.n; k++)
-        if (sunder_i_is_conflict_of_bodies(&s->model, &s->now.pair[k])) return true;
-    return false;
-}
-
 /* Relations once more from nothing, so that the verdict leans on no earlier one; and what is proved of them. */
 static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
                               double began, sunder_error *err)
@@ -220,7 +213,7 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
     if (status) return status;
     report->summary.seconds_solve = solved - began;
     sunder_i_count_relations(&s->model, &s->now, &report->summary.after);
-    status = find_seams_for_proofs(s, has_conflicts(s), err);
+    status = sunder_i_report_find_seams(s, err);
     if (!status) status = sunder_i_report_conflicts(report, &s->model, &s->placement, &s->now, true, err);
     if (!status) status = sunder_i_report_bound(report, s, err);
     if (!status) status = sunder_i_report_optimality(report, s, err);

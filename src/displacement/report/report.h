@@ -48,6 +48,11 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_mo
 void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relations *relations,
                               sunder_conflict_counts *counts);
 
+/* ---- seams_about.c ----------------------------------------------------------------------------------------------- */
+
+/* The seams of all bodies that questions about what is left in conflict may come to; before any is asked. */
+sunder_status sunder_i_report_find_seams(sunder_i_solver *solver, sunder_error *err);
+
 /* ---- alone.c ----------------------------------------------------------------------------------------------------- */
 
 /* Why conflicts between blocks remain, as far as each pair itself tells: `fixed`, `max_shift`, `side`, `jump`,
