@@ -88,6 +88,7 @@ static bool open_sink(separate_run *run, gis_error *error)
     gis_sink_request request = gis_resolve_sink(run->options, run->to.output, gis_source_name(run->input.source));
     request.suffixes = run->suffixes;
     if (!gis_sink_open(&request, run->input.source, &run->sink, error)) return false;
+    if (gis_sink_remembers(run->sink) && !gis_source_unpack(run->input.source, error)) return false;
     if (!gis_sink_takes_more(run->sink)) run->chosen = LAYER_MAIN;
     run->request.rules.keep_pushes = (run->chosen & LAYER_PUSHES) != 0;
     return true;

@@ -21,9 +21,10 @@ gis_value gis_fid_value(const gis_layer_input *input, size_t feature)
 
 bool gis_id_value(const gis_layer_input *input, size_t i, char **copy, gis_value *value, gis_error *error)
 {
-    OGRFeatureH feature = gis_source_feature(input->source, i);
     *value = (gis_value){.kind = GIS_NULL};
-    if (input->id_field < 0 || !OGR_F_IsFieldSetAndNotNull(feature, input->id_field)) return true;
+    if (input->id_field < 0) return true;
+    OGRFeatureH feature = gis_source_feature(input->source, i);
+    if (!OGR_F_IsFieldSetAndNotNull(feature, input->id_field)) return true;
     switch (gis_id_type(input)) {
     case OFTInteger64:
         *value = (gis_value){GIS_INTEGER, {.integer = OGR_F_GetFieldAsInteger64(feature, input->id_field)}};

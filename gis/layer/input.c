@@ -23,8 +23,8 @@ void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t
         n += snprintf(text + n, size - (size_t)n, "feature %zu", i + 1);
     else
         n += snprintf(text + n, size - (size_t)n, "FID " CPL_FRMT_GIB, fid);
-    OGRFeatureH feature = gis_source_feature(input->source, i);
-    if (input->id_field >= 0 && (size_t)n < size && OGR_F_IsFieldSetAndNotNull(feature, input->id_field))
+    OGRFeatureH feature = input->id_field >= 0 ? gis_source_feature(input->source, i) : NULL;
+    if (feature && (size_t)n < size && OGR_F_IsFieldSetAndNotNull(feature, input->id_field))
         snprintf(text + n, size - (size_t)n, " (id %s)", OGR_F_GetFieldAsString(feature, input->id_field));
 }
 
@@ -46,9 +46,10 @@ static bool hint_at_symbol(const gis_layer_input *input, gis_error *error)
     return false;
 }
 
-static bool open_source(gis_layer_input *input, gis_error *error)
+static bool open_source(gis_layer_input *input, bool packed, gis_error *error)
 {
     gis_source_request request = input->request->source;
+    request.packed = packed;
     input->points = input->request->symbol || input->request->symbol_field;
     request.takes = input->points ? GIS_TAKES_POINTS : GIS_TAKES_POLYGONS;
     if (!gis_source_open(&request, &input->source, error))
@@ -153,11 +154,11 @@ static bool read_barriers(gis_layer_input *input, gis_error *error)
     return ok;
 }
 
-static bool start_reading(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
+static bool start_reading(const gis_layer_input_request *request, bool packed, gis_layer_input *out, gis_error *error)
 {
     *out = (gis_layer_input){
         .request = request, .id_field = -1, .max_shift = INFINITY, .tolerance = -1, .barrier_reach = INFINITY};
-    if (!open_source(out, error)) return false;
+    if (!open_source(out, packed, error)) return false;
     out->units = gis_crs_units_of(gis_source_crs(out->source), request->scale);
     out->shape = calloc(out->n + 1, sizeof *out->shape);
     return out->shape || gis_no_memory(error);
@@ -165,7 +166,7 @@ static bool start_reading(const gis_layer_input_request *request, gis_layer_inpu
 
 bool gis_layer_shapes_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
 {
-    if (!start_reading(request, out, error)) return false;
+    if (!start_reading(request, false, out, error)) return false;
     out->as_chords = true;
     return gis_layer_shapes(out, error);
 }
@@ -184,7 +185,7 @@ static void warn_of_others(const gis_layer_input *input)
 
 bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
 {
-    if (!start_reading(request, out, error)) return false;
+    if (!start_reading(request, true, out, error)) return false;
     out->feature = calloc(out->n + 1, sizeof *out->feature);
     if (!out->feature) return gis_no_memory(error);
     if (!gis_layer_lengths(out, error) || !gis_layer_shapes(out, error)) return false;

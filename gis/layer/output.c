@@ -43,7 +43,9 @@ bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_r
             {GIS_TEXT, {.text = sunder_feature_status_string(sunder_report_status(report, i))}},
             block_value(input, report, i),
         };
-        if (!gis_sink_write_moved(layer, gis_source_feature(input->source, i), dx, dy, values, error)) return false;
+        OGRFeatureH feature = gis_source_feature(input->source, i);
+        if (!feature) return gis_no_memory(error);
+        if (!gis_sink_write_moved(layer, feature, dx, dy, values, error)) return false;
     }
     return true;
 }

@@ -21,7 +21,7 @@ typedef struct gis_layer_rules {
     bool count_thin;  /* where the tolerance is 0: how many overlaps would one of a hundredth of a metre join? */
     double effort;    /* how hard to look for better sides, and for proofs */
     uint64_t seed;    /* of what that draws at random */
-    bool keep_trees;  /* what the bound stands on is wanted, for --proof */
+    bool keep_trees;  /* proofs, and what the bound stands on, are wanted: for --proof */
     bool keep_pushes; /* what presses on what is */
     unsigned threads; /* 0: as many as there are processors */
 } gis_layer_rules;

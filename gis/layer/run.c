@@ -28,6 +28,7 @@ static sunder_layer_options core_options(const gis_layer_input *input)
     core.seed = rules->seed;
     core.keep_trees = rules->keep_trees;
     core.keep_pushes = rules->keep_pushes;
+    core.drop_proofs = !rules->keep_trees;
     core.threads = rules->threads;
     core.barrier_reach = input->barrier_reach;
     core.allow_jumps = input->points || rules->allow_jumps;

@@ -53,7 +53,7 @@ static bool polygon_shape(gis_layer_input *input, size_t i, gis_polygonal_part *
     char who[GIS_WHO_SIZE];
     sunder_shape *shape = NULL, *grown;
     bool invalid;
-    if (!gis_geometry_polygonal_part(gis_source_geometry(input->source, i), part, error)) return false;
+    if (!gis_source_polygons(input->source, i, part, error)) return false;
     if (input->request->wound) gis_polygons_wind(&part->set);
     /* Almost all are valid and without arcs: nobody asks what they are called. */
     sunder_error why;

@@ -3,7 +3,9 @@
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "read/source.h"
 
+#include "base/array.h"
 #include "base/interrupt.h"
+#include "read/packed.h"
 #include "read/source_layer.h"
 #include "sqlite/calls.h"
 #include "sqlite/lock.h"
@@ -15,6 +17,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A feature as it was read; or its record, and the feature is NULL. */
+typedef struct gis_read_feature {
+    OGRFeatureH feature;
+    const unsigned char *record;
+} gis_read_feature;
+
 struct gis_source {
     GDALDatasetH dataset;
     OGRLayerH layer;
@@ -22,9 +30,10 @@ struct gis_source {
     OGRSpatialReferenceH crs;
     char *path, *name, *where;
     const char *where_option; /* as messages call it; the request's */
-    OGRFeatureH *features;
+    gis_read_feature *features;
     unsigned char *contents;
-    size_t n, capacity;
+    size_t n, capacity, contents_capacity;
+    gis_packed *packed; /* what records are of */
     bool fids_unique;
     gis_sentences warnings;
 };
@@ -134,39 +143,55 @@ static bool choose_crs(gis_source *source, const gis_source_request *request, gi
 
 /* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
-static bool keep(gis_source *source, OGRFeatureH feature)
+/* Takes the feature over, packed if it can be. */
+static bool keep(gis_source *source, OGRFeatureH feature, const unsigned char *record)
 {
-    if (source->n == source->capacity) {
-        size_t capacity = source->capacity ? 2 * source->capacity : 1024;
-        OGRFeatureH *features = realloc(source->features, capacity * sizeof(OGRFeatureH));
-        if (features) source->features = features;
-        unsigned char *contents = realloc(source->contents, capacity);
-        if (contents) source->contents = contents;
-        if (!features || !contents) return false;
-        source->capacity = capacity;
-    }
-    source->contents[source->n] = (unsigned char)gis_geometry_content(OGR_F_GetGeometryRef(feature));
-    source->features[source->n++] = feature;
+    const gis_content content = record ? GIS_POLYGONS : gis_geometry_content(OGR_F_GetGeometryRef(feature));
+    if (!gis_array_reserve(&source->features, &source->capacity, source->n + 1, sizeof *source->features) ||
+        !gis_array_reserve(&source->contents, &source->contents_capacity, source->n + 1, sizeof *source->contents))
+        return false;
+    source->contents[source->n] = (unsigned char)content;
+    source->features[source->n++] = record ? (gis_read_feature){.record = record} : (gis_read_feature){feature, NULL};
+    if (record) OGR_F_Destroy(feature);
     return true;
+}
+
+static bool fail_not_finite(const gis_source *source, OGRFeatureH feature, gis_error *error)
+{
+    return gis_fail(error, "layer %s, FID %" PRId64 ": a coordinate is not a finite number", source->name,
+                    (int64_t)OGR_F_GetFID(feature));
+}
+
+/* One feature, which is the source's from now on if *kept. */
+static bool take(gis_source *source, const gis_source_request *request, OGRFeatureH feature, bool *kept,
+                 gis_error *error)
+{
+    const unsigned char *record = NULL;
+    const bool pack = source->packed && !request->wants;
+    if (pack && !gis_packed_add(source->packed, feature, &record, error)) return false;
+    if (record ? !gis_packed_is_finite(record) : !gis_geometry_is_finite(OGR_F_GetGeometryRef(feature)))
+        return fail_not_finite(source, feature, error);
+    if (request->wants && !request->wants(request->user, source->crs, feature)) return true;
+    *kept = keep(source, feature, record);
+    return *kept || gis_no_memory(error);
 }
 
 static bool read_features(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     OGR_L_ResetReading(source->layer);
     for (OGRFeatureH feature; (feature = OGR_L_GetNextFeature(source->layer)) != NULL;) {
-        if (!gis_geometry_is_finite(OGR_F_GetGeometryRef(feature))) {
-            GIntBig fid = OGR_F_GetFID(feature);
-            OGR_F_Destroy(feature);
-            return gis_fail(error, "layer %s, FID %" PRId64 ": a coordinate is not a finite number", source->name,
-                            (int64_t)fid);
-        }
-        const bool wanted = !request->wants || request->wants(request->user, source->crs, feature);
-        const bool kept = wanted && keep(source, feature);
+        bool kept = false;
+        const bool taken = take(source, request, feature, &kept, error);
         if (!kept) OGR_F_Destroy(feature);
-        if (wanted && !kept) return gis_no_memory(error);
-        if (!gis_go_on(error)) return false;
+        if (!taken || !gis_go_on(error)) return false;
     }
     return gis_go_on(error); /* a statement that is cut short may look like the last feature */
+}
+
+static bool begin_packing(gis_source *source, gis_error *error)
+{
+    source->packed = calloc(1, sizeof *source->packed);
+    return source->packed ? gis_packed_begin(source->packed, source->layer, error) : gis_no_memory(error);
 }
 
 static bool read_all(gis_source *source, const gis_source_request *request, gis_error *error)
@@ -225,7 +250,8 @@ static bool fill(gis_source *source, const gis_source_request *request, gis_erro
         source->name = CPLStrdup(OGR_L_GetName(source->layer));
     }
     return gis_layer_fits(source->layer, source->name, request->takes, error) && choose_crs(source, request, error) &&
-           select_features(source, request, error) && read_all(source, request, error) && look_at_fids(source, error);
+           select_features(source, request, error) && (!request->packed || begin_packing(source, error)) &&
+           read_all(source, request, error) && look_at_fids(source, error);
 }
 
 bool gis_source_open(const gis_source_request *request, gis_source **out, gis_error *error)
@@ -243,7 +269,10 @@ bool gis_source_open(const gis_source_request *request, gis_source **out, gis_er
 void gis_source_close(gis_source *source)
 {
     if (!source) return;
-    for (size_t i = 0; i < source->n; i++) OGR_F_Destroy(source->features[i]);
+    for (size_t i = 0; i < source->n; i++)
+        if (source->features[i].feature) OGR_F_Destroy(source->features[i].feature);
+    if (source->packed) gis_packed_clear(source->packed);
+    free(source->packed);
     free(source->features);
     free(source->contents);
     if (source->crs) OSRRelease(source->crs);
@@ -259,14 +288,42 @@ void gis_source_close(gis_source *source)
 /* ---- Getters ----------------------------------------------------------------------------------------------------- */
 
 size_t gis_source_count(const gis_source *source) { return source->n; }
-OGRFeatureH gis_source_feature(const gis_source *source, size_t i) { return source->features[i]; }
+
+OGRFeatureH gis_source_feature(const gis_source *source, size_t i)
+{
+    const gis_read_feature *read = &source->features[i];
+    return read->feature ? read->feature : gis_packed_feature(source->packed, read->record);
+}
 
 OGRGeometryH gis_source_geometry(const gis_source *source, size_t i)
 {
-    return OGR_F_GetGeometryRef(source->features[i]);
+    return OGR_F_GetGeometryRef(gis_source_feature(source, i));
 }
 
-GIntBig gis_source_fid(const gis_source *source, size_t i) { return OGR_F_GetFID(source->features[i]); }
+bool gis_source_polygons(const gis_source *source, size_t i, gis_polygonal_part *part, gis_error *error)
+{
+    const gis_read_feature *read = &source->features[i];
+    return read->feature ? gis_geometry_polygonal_part(OGR_F_GetGeometryRef(read->feature), part, error)
+                         : gis_packed_polygons(read->record, part, error);
+}
+
+GIntBig gis_source_fid(const gis_source *source, size_t i)
+{
+    const gis_read_feature *read = &source->features[i];
+    return read->feature ? OGR_F_GetFID(read->feature) : gis_packed_fid(read->record);
+}
+
+bool gis_source_unpack(gis_source *source, gis_error *error)
+{
+    for (size_t i = 0; i < source->n; i++) {
+        gis_read_feature *read = &source->features[i];
+        if (!read->feature) read->feature = gis_packed_copy(source->packed, read->record);
+        if (!read->feature) return gis_no_memory(error);
+    }
+    if (source->packed) gis_packed_clear(source->packed);
+    return true;
+}
+
 bool gis_source_fids_unique(const gis_source *source) { return source->fids_unique; }
 gis_content gis_source_content(const gis_source *source, size_t i) { return (gis_content)source->contents[i]; }
 

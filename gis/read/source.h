@@ -1,7 +1,7 @@
 /* source.h: reading one layer, whole, as ogr2ogr would select it.
  *
- * All selected features are read and kept as OGR features, attributes and all, so that they can be written back with
- * nothing lost. The dataset stays open until gis_source_close(). */
+ * All selected features are read and kept, attributes and all, so that they can be written back with nothing lost: as
+ * OGR features, or packed (packed.h). The dataset stays open until gis_source_close(). */
 #ifndef GIS_SOURCE_H
 #define GIS_SOURCE_H
 
@@ -35,7 +35,8 @@ typedef struct gis_source_request {
     bool (*within)(void *user, OGRLayerH layer, OGRSpatialReferenceH crs, double box[4]);
     /* NULL, or says of each feature as it is read whether it is to be kept. */
     bool (*wants)(void *user, OGRSpatialReferenceH crs, OGRFeatureH feature);
-    void *user; /* of these two */
+    void *user;  /* of these two */
+    bool packed; /* features are packed where they can be: one at a time is asked for, and by one thread */
 } gis_source_request;
 
 typedef struct gis_source gis_source;
@@ -50,10 +51,15 @@ bool gis_source_open(const gis_source_request *request, gis_source **out, gis_er
 void gis_source_close(gis_source *source);
 
 size_t gis_source_count(const gis_source *source);
-/* Feature i, in the order read; its geometry and attributes are the source's own. Borrowed, do not change. */
+/* Feature i, in the order read; its geometry and attributes are the source's own. Borrowed, do not change; of a source
+ * that is packed until another one is asked for. */
 OGRFeatureH gis_source_feature(const gis_source *source, size_t i);
 /* Its geometry; NULL if it has none. */
 OGRGeometryH gis_source_geometry(const gis_source *source, size_t i);
+/* gis_geometry_polygonal_part() of it. */
+bool gis_source_polygons(const gis_source *source, size_t i, gis_polygonal_part *part, gis_error *error);
+/* Makes features of all that is packed, for who keeps them: then they live as long as the source. */
+bool gis_source_unpack(gis_source *source, gis_error *error);
 /* Its FID as read; OGRNullFID if it has none. */
 GIntBig gis_source_fid(const gis_source *source, size_t i);
 /* Are all FIDs set and different? False may happen with --sql. */

@@ -138,6 +138,11 @@ bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gi
 
 bool gis_sink_takes_more(const gis_sink *sink) { return !sink->to_stdout; }
 
+bool gis_sink_remembers(const gis_sink *sink)
+{
+    return !sink->format.keeps_doubles && sink->place != GIS_PLACE_DATABASE;
+}
+
 static void free_layer(gis_sink_layer *layer)
 {
     gis_sink_forget_sent(layer);

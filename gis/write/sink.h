@@ -40,6 +40,8 @@ bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gi
 
 /* False for /vsistdout/: only the main layer is wanted. */
 bool gis_sink_takes_more(const gis_sink *sink);
+/* Are features that are given to gis_sink_write() and gis_sink_write_moved() needed until the end, to be compared? */
+bool gis_sink_remembers(const gis_sink *sink);
 
 typedef struct gis_field {
     const char *name;  /* at most 10 characters */

@@ -335,7 +335,7 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
     CSLDestroy(options);
     /* What is promised is promised of the features; arrows and links may be rounded. */
     layer->promised = layer->request.like_source || !layer->request.suffix[0];
-    layer->keep_sent = !sink->format.keeps_doubles && sink->place != GIS_PLACE_DATABASE;
+    layer->keep_sent = gis_sink_remembers(sink);
     layer->can_rewrite = layer->keep_sent && layer->file && digits_are_ours(sink);
     if (done && sink->format.keeps_doubles) gis_digests_begin(layer);
     return done && gis_sink_unbroken(sink, error);

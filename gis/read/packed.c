@@ -1,0 +1,297 @@
+/* packed.c: see packed.h. A record is: the FID; how many bytes of geometry, and these, as ISO well-known binary in the
+ * machine's own order; of each field a byte that says whether it is set, and its value. Nothing in it is aligned. */
+#include "read/packed.h"
+
+#include "base/array.h"
+
+#include <cpl_port.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { UNSET, EMPTY, VALUE }; /* of a field: not set, null, or what follows */
+
+/* The machine's order of bytes: doubles can be taken as they stand. */
+#ifdef CPL_LSB
+static const OGRwkbByteOrder order = wkbNDR;
+#else
+static const OGRwkbByteOrder order = wkbXDR;
+#endif
+
+enum { CHUNK = 1 << 20 };
+
+/* ---- Room -------------------------------------------------------------------------------------------------------- */
+
+bool gis_packed_begin(gis_packed *packed, OGRLayerH layer, gis_error *error)
+{
+    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer);
+    const int n = OGR_FD_GetFieldCount(definition);
+    *packed = (gis_packed){.fields = n};
+    if (OGR_FD_GetGeomFieldCount(definition) != 1) return true;
+    packed->type = malloc(((size_t)n + 1) * sizeof *packed->type);
+    if (!packed->type) return gis_no_memory(error);
+    for (int i = 0; i < n; i++) {
+        OGRFieldDefnH field = OGR_FD_GetFieldDefn(definition, i);
+        const OGRFieldType type = packed->type[i] = OGR_Fld_GetType(field);
+        if (OGR_Fld_GetSubType(field) != OFSTNone ||
+            (type != OFTInteger && type != OFTInteger64 && type != OFTReal && type != OFTString))
+            return true;
+    }
+    packed->definition = definition;
+    packed->crs = OGR_L_GetSpatialRef(layer);
+    return true;
+}
+
+void gis_packed_clear(gis_packed *packed)
+{
+    if (packed->made) OGR_F_Destroy(packed->made);
+    for (size_t k = 0; k < packed->chunks; k++) free(packed->chunk[k]);
+    free(packed->chunk);
+    free(packed->type);
+    *packed = (gis_packed){0};
+}
+
+/* So many bytes behind the last record; NULL if memory is out. */
+static unsigned char *take(gis_packed *packed, size_t size)
+{
+    if (packed->room - packed->used < size) {
+        const size_t room = size > CHUNK / 16 ? size : CHUNK;
+        if (!gis_array_reserve(&packed->chunk, &packed->capacity, packed->chunks + 1, sizeof *packed->chunk))
+            return NULL;
+        unsigned char *chunk = malloc(room);
+        if (!chunk) return NULL;
+        packed->chunk[packed->chunks++] = chunk;
+        packed->room = room;
+        packed->used = 0;
+    }
+    unsigned char *at = packed->chunk[packed->chunks - 1] + packed->used;
+    packed->used += size;
+    return at;
+}
+
+/* ---- Packing ----------------------------------------------------------------------------------------------------- */
+
+static bool has_points(OGRGeometryH polygon)
+{
+    const int rings = OGR_G_GetGeometryCount(polygon);
+    for (int r = 0; r < rings; r++)
+        if (OGR_G_GetPointCount(OGR_G_GetGeometryRef(polygon, r)) == 0) return false;
+    return rings > 0;
+}
+
+/* A Polygon or MultiPolygon in the plane, no ring of it empty. */
+static bool is_plain(const gis_packed *packed, OGRGeometryH geometry)
+{
+    if (!geometry || OGR_G_GetSpatialReference(geometry) != packed->crs) return false;
+    const OGRwkbGeometryType type = OGR_G_GetGeometryType(geometry);
+    if (type == wkbPolygon) return has_points(geometry);
+    const int parts = OGR_G_GetGeometryCount(geometry);
+    for (int k = 0; k < parts && type == wkbMultiPolygon; k++)
+        if (!has_points(OGR_G_GetGeometryRef(geometry, k))) return false;
+    return parts > 0 && type == wkbMultiPolygon;
+}
+
+static int state_of(OGRFeatureH feature, int field)
+{
+    return !OGR_F_IsFieldSet(feature, field) ? UNSET : OGR_F_IsFieldNull(feature, field) ? EMPTY : VALUE;
+}
+
+static size_t size_of_values(const gis_packed *packed, OGRFeatureH feature)
+{
+    size_t size = (size_t)packed->fields;
+    for (int i = 0; i < packed->fields; i++)
+        if (state_of(feature, i) == VALUE)
+            size += packed->type[i] == OFTString ? strlen(OGR_F_GetFieldAsString(feature, i)) + 1 : sizeof(int64_t);
+    return size;
+}
+
+static unsigned char *put(unsigned char *to, const void *from, size_t n)
+{
+    memcpy(to, from, n);
+    return to + n;
+}
+
+static unsigned char *put_value(unsigned char *to, const gis_packed *packed, OGRFeatureH feature, int i)
+{
+    *to = (unsigned char)state_of(feature, i);
+    if (*to++ != VALUE) return to;
+    if (packed->type[i] == OFTString) {
+        const char *text = OGR_F_GetFieldAsString(feature, i);
+        return put(to, text, strlen(text) + 1);
+    }
+    if (packed->type[i] == OFTReal) {
+        const double real = OGR_F_GetFieldAsDouble(feature, i);
+        return put(to, &real, sizeof real);
+    }
+    const int64_t number = OGR_F_GetFieldAsInteger64(feature, i);
+    return put(to, &number, sizeof number);
+}
+
+bool gis_packed_add(gis_packed *packed, OGRFeatureH feature, const unsigned char **record, gis_error *error)
+{
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
+    *record = NULL;
+    if (!packed->definition || !is_plain(packed, geometry) || OGR_F_GetStyleString(feature) ||
+        OGR_F_GetNativeData(feature) || OGR_F_GetNativeMediaType(feature))
+        return true;
+    const GIntBig fid = OGR_F_GetFID(feature);
+    const int bytes = OGR_G_WkbSize(geometry);
+    if (bytes <= 0) return true; /* too many for an int */
+    unsigned char *to = take(packed, sizeof fid + sizeof bytes + (size_t)bytes + size_of_values(packed, feature));
+    if (!to) return gis_no_memory(error);
+    const unsigned char *const at = to;
+    to = put(to, &fid, sizeof fid);
+    to = put(to, &bytes, sizeof bytes);
+    if (OGR_G_ExportToIsoWkb(geometry, order, to) != OGRERR_NONE) return gis_no_memory(error);
+    to += bytes;
+    for (int i = 0; i < packed->fields; i++) to = put_value(to, packed, feature, i);
+    *record = at;
+    return true;
+}
+
+/* ---- Reading ----------------------------------------------------------------------------------------------------- */
+
+GIntBig gis_packed_fid(const unsigned char *record)
+{
+    GIntBig fid;
+    memcpy(&fid, record, sizeof fid);
+    return fid;
+}
+
+static uint32_t number_at(const unsigned char **at)
+{
+    uint32_t number;
+    memcpy(&number, *at, sizeof number);
+    *at += sizeof number;
+    return number;
+}
+
+/* The geometry of a record: its bytes, from its own byte of order on. */
+static const unsigned char *geometry_of(const unsigned char *record, size_t *bytes)
+{
+    record += sizeof(GIntBig);
+    *bytes = number_at(&record);
+    return record;
+}
+
+/* Past the order of bytes and the type; tells the type. */
+static uint32_t begin_geometry(const unsigned char **at)
+{
+    ++*at;
+    return number_at(at);
+}
+
+/* A visit of one ring of n points, of the last one of a polygon or not; false ends it all. */
+typedef bool visit_ring(void *user, const unsigned char *points, size_t n, bool last);
+
+static bool visit_polygon(const unsigned char **at, visit_ring *visit, void *user)
+{
+    begin_geometry(at);
+    for (uint32_t rings = number_at(at); rings > 0; rings--) {
+        const size_t n = number_at(at);
+        if (!visit(user, *at, n, rings == 1)) return false;
+        *at += 2 * n * sizeof(double);
+    }
+    return true;
+}
+
+static bool visit_rings(const unsigned char *record, visit_ring *visit, void *user)
+{
+    size_t bytes;
+    const unsigned char *at = geometry_of(record, &bytes), *inside = at;
+    if (begin_geometry(&inside) == wkbPolygon) return visit_polygon(&at, visit, user);
+    for (uint32_t polygons = number_at(&inside); polygons > 0; polygons--)
+        if (!visit_polygon(&inside, visit, user)) return false;
+    return true;
+}
+
+static bool visit_finite(void *user, const unsigned char *points, size_t n, bool last)
+{
+    (void)user;
+    (void)last;
+    for (size_t k = 0; k < 2 * n; k++) {
+        double x;
+        memcpy(&x, points + k * sizeof x, sizeof x);
+        if (!isfinite(x)) return false;
+    }
+    return true;
+}
+
+bool gis_packed_is_finite(const unsigned char *record) { return visit_rings(record, visit_finite, NULL); }
+
+typedef struct appending {
+    gis_polygons *set;
+    gis_error *error;
+} appending;
+
+static bool visit_appending(void *user, const unsigned char *points, size_t n, bool last)
+{
+    const appending *to = user;
+    gis_polygons *set = to->set;
+    if (!gis_polygons_reserve(set, n, to->error)) return false;
+    memcpy(set->xy + 2 * set->vertices, points, 2 * n * sizeof(double));
+    set->vertices += n;
+    return gis_polygons_end_ring(set, to->error) && (!last || gis_polygons_end_polygon(set, to->error));
+}
+
+bool gis_packed_polygons(const unsigned char *record, gis_polygonal_part *part, gis_error *error)
+{
+    appending to = {&part->set, error};
+    part->set.vertices = part->set.rings = part->set.polygons = 0;
+    part->linearised = 0;
+    return visit_rings(record, visit_appending, &to);
+}
+
+/* ---- Features again ---------------------------------------------------------------------------------------------- */
+
+static const unsigned char *set_value(OGRFeatureH feature, int i, OGRFieldType type, const unsigned char *from)
+{
+    const int state = *from++;
+    double real;
+    int64_t number;
+    if (state == UNSET) OGR_F_UnsetField(feature, i);
+    if (state == EMPTY) OGR_F_SetFieldNull(feature, i);
+    if (state != VALUE) return from;
+    switch (type) {
+    case OFTString: OGR_F_SetFieldString(feature, i, (const char *)from); return from + strlen((const char *)from) + 1;
+    case OFTReal:
+        memcpy(&real, from, sizeof real);
+        OGR_F_SetFieldDouble(feature, i, real);
+        return from + sizeof real;
+    default:
+        memcpy(&number, from, sizeof number);
+        OGR_F_SetFieldInteger64(feature, i, number);
+        return from + sizeof number;
+    }
+}
+
+/* Everything that the record holds. False if memory is out. */
+static bool unpack(const gis_packed *packed, const unsigned char *record, OGRFeatureH feature)
+{
+    size_t bytes;
+    const unsigned char *at = geometry_of(record, &bytes);
+    OGRGeometryH geometry = NULL;
+    OGR_F_SetFID(feature, gis_packed_fid(record));
+    if (OGR_G_CreateFromWkb(at, packed->crs, &geometry, (int)bytes) != OGRERR_NONE) return false;
+    OGR_F_SetGeometryDirectly(feature, geometry);
+    at += bytes;
+    for (int i = 0; i < packed->fields; i++) at = set_value(feature, i, packed->type[i], at);
+    return true;
+}
+
+OGRFeatureH gis_packed_feature(gis_packed *packed, const unsigned char *record)
+{
+    if (packed->made && packed->made_of == record) return packed->made;
+    if (!packed->made) packed->made = OGR_F_Create(packed->definition);
+    packed->made_of = packed->made && unpack(packed, record, packed->made) ? record : NULL;
+    return packed->made_of ? packed->made : NULL;
+}
+
+OGRFeatureH gis_packed_copy(const gis_packed *packed, const unsigned char *record)
+{
+    OGRFeatureH feature = OGR_F_Create(packed->definition);
+    if (!feature || unpack(packed, record, feature)) return feature;
+    OGR_F_Destroy(feature);
+    return NULL;
+}

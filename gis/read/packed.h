@@ -1,0 +1,43 @@
+/* packed.h: features in few bytes each, for layers of a million.
+ *
+ * A feature of GDAL is a dozen pieces of memory, some hundred bytes beside what it says. Most layers are of polygons in
+ * the plane, with fields of numbers and texts: of those a record holds the FID, the values and the geometry as
+ * well-known binary, one behind the other, and a feature of GDAL is made of it where one is asked for. */
+#ifndef GIS_PACKED_H
+#define GIS_PACKED_H
+
+#include <ogr_api.h>
+
+#include "base/error.h"
+#include "read/geometry.h"
+
+/* Where records stand, chunk behind chunk; and the feature that was made last. Zeroed: nothing is packed. */
+typedef struct gis_packed {
+    OGRFeatureDefnH definition; /* NULL: no feature of the layer can be packed */
+    OGRSpatialReferenceH crs;   /* of all geometries */
+    OGRFieldType *type;         /* [fields] */
+    int fields;
+    unsigned char **chunk;
+    size_t chunks, capacity, used, room; /* of the last chunk */
+    OGRFeatureH made;
+    const unsigned char *made_of;
+} gis_packed;
+
+/* Can features of the layer be packed? Its fields are all integers, reals or texts, and it has one geometry. */
+bool gis_packed_begin(gis_packed *packed, OGRLayerH layer, gis_error *error);
+/* The record of a feature; *record = NULL where it is one that has to be kept as it is: null, empty or curved, with a
+ * third coordinate, a style or data of its format's own. False if memory is out. */
+bool gis_packed_add(gis_packed *packed, OGRFeatureH feature, const unsigned char **record, gis_error *error);
+void gis_packed_clear(gis_packed *packed);
+
+GIntBig gis_packed_fid(const unsigned char *record);
+/* Is every coordinate finite? */
+bool gis_packed_is_finite(const unsigned char *record);
+/* As gis_geometry_polygonal_part(): a packed geometry is a Polygon or a MultiPolygon. */
+bool gis_packed_polygons(const unsigned char *record, gis_polygonal_part *part, gis_error *error);
+/* The feature as it was; it lives until another is asked for. NULL if memory is out. */
+OGRFeatureH gis_packed_feature(gis_packed *packed, const unsigned char *record);
+/* The same, the caller's own. */
+OGRFeatureH gis_packed_copy(const gis_packed *packed, const unsigned char *record);
+
+#endif
