@@ -441,6 +441,7 @@ typedef struct sunder_layer_options {
     uint64_t seed;    /* of what search is random: the better layouts that effort looks for */
     bool keep_trees;  /* for sunder_report_bound_trees(); costs memory */
     bool keep_pushes; /* for sunder_report_pushes() */
+    bool drop_proofs; /* sunder_report_proof() has none: of each only its features are kept, for blocked_by */
     /* Barriers may have been left out that no feature comes too near to, nor crosses, by a move no longer than this;
      * INFINITY (the default): none were. No less than the longest max_shift; need_shift is no more. */
     double barrier_reach;

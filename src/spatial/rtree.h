@@ -23,6 +23,11 @@ sunder_status sunder_i_rtree_build(const double *box, const bool *present, size_
 void sunder_i_rtree_free(sunder_i_rtree *tree);
 /* A present item has another box from now on. */
 void sunder_i_rtree_move(sunder_i_rtree *tree, uint32_t item, const double box[4]);
+/* The box of a present item. */
+static inline const double *sunder_i_rtree_box(const sunder_i_rtree *tree, uint32_t item)
+{
+    return tree->box + 4 * (size_t)tree->leaf[item];
+}
 /* Have so many moved so far that it should be built again? */
 bool sunder_i_rtree_is_worn(const sunder_i_rtree *tree);
 

@@ -75,14 +75,18 @@ static void check_tight_yard(void **state)
     scene_add_box(&s, 0, 5, 5, 20);
     scene_add_box(&s, 25, 5, 5, 20);
     scene_add_box(&s, 7, 10, 16, 10);
-    scene_separate(&s);
-    const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
-    assert_int_equal(scene_left(&s), 2);
-    for (size_t k = 0; k < n; k++) {
-        if (c[k].inside_block) continue;
-        assert_int_equal(c[k].reason, SUNDER_REASON_NO_ROOM);
-        assert_int_equal(c[k].n_blocked_by, 3); /* the other, and those over which it would leave */
-        assert_true(sunder_report_proof(s.report, k)->within > 0);
+    for (int dropped = 0; dropped < 2; dropped++) { /* whom a proof names is known without it, too */
+        s.options.drop_proofs = dropped;
+        scene_separate(&s);
+        const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
+        assert_int_equal(scene_left(&s), 2);
+        for (size_t k = 0; k < n; k++) {
+            if (c[k].inside_block) continue;
+            const sunder_proof *proof = sunder_report_proof(s.report, k);
+            assert_int_equal(c[k].reason, SUNDER_REASON_NO_ROOM);
+            assert_int_equal(c[k].n_blocked_by, 3); /* the other, and those over which it would leave */
+            assert_true(dropped ? !proof : proof && proof->within > 0);
+        }
     }
     scene_end(&s);
 }

@@ -18,7 +18,6 @@
 
 void sunder_i_jumps_free(sunder_i_jumps *jumps)
 {
-    sunder_i_free(jumps->way);
     sunder_i_free(jumps->pair);
     sunder_i_rtree_free(&jumps->tree);
     memset(jumps, 0, sizeof *jumps);
@@ -38,10 +37,9 @@ static bool has_moved(const sunder_i_jumps *jumps, const sunder_i_model *model, 
 }
 
 /* From home to where the feature stands, rounded outward. */
-static void set_way(sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f)
+static void find_way(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, double way[4])
 {
     const double *home = model->box + 4 * (size_t)f, *t = move_of(jumps, model, f);
-    double *way = jumps->way + 4 * (size_t)f;
     memcpy(way, home, 4 * sizeof *way);
     for (int c = 0; c < 4 && has_moved(jumps, model, f); c++) {
         const double out = c < 2 ? -INFINITY : INFINITY, there = nextafter(home[c] + t[c & 1], out);
@@ -52,25 +50,27 @@ static void set_way(sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t
 static sunder_status begin(sunder_i_jumps *jumps, const sunder_i_model *model, sunder_error *err)
 {
     const size_t n = model->features;
-    jumps->way = sunder_i_alloc(4 * n, sizeof *jumps->way);
-    if (!jumps->way) return sunder_i_no_memory(err);
+    double *way = sunder_i_alloc(4 * n, sizeof *way);
+    if (!way) return sunder_i_no_memory(err);
     for (uint32_t f = 0; f < n; f++)
-        if (model->present[f]) set_way(jumps, model, f);
-    return sunder_i_rtree_build(jumps->way, model->present, n, &jumps->tree, err);
+        if (model->present[f]) find_way(jumps, model, f, way + 4 * (size_t)f);
+    const sunder_status status = sunder_i_rtree_build(way, model->present, n, &jumps->tree, err);
+    sunder_i_free(way);
+    return status;
 }
 
 static sunder_status follow(sunder_i_jumps *jumps, const sunder_i_model *model, const uint32_t *moved, size_t n,
                             sunder_error *err)
 {
     for (size_t k = 0; k < n; k++) {
-        double *way = jumps->way + 4 * (size_t)moved[k], before[4];
-        memcpy(before, way, sizeof before);
-        set_way(jumps, model, moved[k]);
-        if (memcmp(before, way, sizeof before)) sunder_i_rtree_move(&jumps->tree, moved[k], way);
+        double way[4];
+        find_way(jumps, model, moved[k], way);
+        if (memcmp(sunder_i_rtree_box(&jumps->tree, moved[k]), way, sizeof way))
+            sunder_i_rtree_move(&jumps->tree, moved[k], way);
     }
     if (!sunder_i_rtree_is_worn(&jumps->tree)) return SUNDER_OK;
     sunder_i_rtree_free(&jumps->tree);
-    return sunder_i_rtree_build(jumps->way, model->present, model->features, &jumps->tree, err);
+    return begin(jumps, model, err);
 }
 
 /* ---- Pairs ------------------------------------------------------------------------------------------------------- */
@@ -151,7 +151,8 @@ static sunder_status find_jumped(const pair_search *s, uint32_t f, sunder_i_list
     size_t kept = 0;
     sunder_status status = SUNDER_OK;
     near->n = 0;
-    if (!sunder_i_rtree_query(&s->jumps->tree, s->jumps->way + 4 * (size_t)f, near)) return sunder_i_no_memory(err);
+    if (!sunder_i_rtree_query(&s->jumps->tree, sunder_i_rtree_box(&s->jumps->tree, f), near))
+        return sunder_i_no_memory(err);
     for (size_t i = 0; i < near->n && !status; i++) {
         const uint32_t g = near->item[i];
         bool jumps = false;
@@ -201,13 +202,13 @@ sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model 
                                     sunder_error *err)
 {
     if (!sunder_i_forbids_ways(model)) return SUNDER_OK;
-    sunder_status status = jumps->way || model->rules.jumps ? SUNDER_OK : begin(jumps, model, err);
+    sunder_status status = sunder_i_jumps_begun(jumps) || model->rules.jumps ? SUNDER_OK : begin(jumps, model, err);
     uint32_t *asked = sunder_i_alloc(model->features, sizeof *asked);
     if (!status && !asked) status = sunder_i_no_memory(err);
     size_t n = 0;
     for (uint32_t f = 0; f < model->features && !status; f++)
         if (model->present[f] && (!changed || changed[f])) asked[n++] = f;
-    if (!status && jumps->way) status = follow(jumps, model, asked, n, err);
+    if (!status && sunder_i_jumps_begun(jumps)) status = follow(jumps, model, asked, n, err);
     pair_search s = {jumps, model, changed, asked, NULL};
     const size_t present = n;
     n = 0;
@@ -228,7 +229,7 @@ sunder_status sunder_i_jumps_follow(sunder_i_jumps *jumps, const sunder_i_model 
 {
     const sunder_i_body *b = &model->body[body];
     if (model->rules.jumps) return SUNDER_OK;
-    sunder_status status = jumps->way ? SUNDER_OK : begin(jumps, model, err);
+    sunder_status status = sunder_i_jumps_begun(jumps) ? SUNDER_OK : begin(jumps, model, err);
     for (uint32_t m = 0; m < b->members && !status; m++) {
         const uint32_t f = model->member[b->member + m];
         if (model->present[f]) status = follow(jumps, model, &f, 1, err);
@@ -246,7 +247,8 @@ sunder_status sunder_i_jumps_of_body(const sunder_i_jumps *jumps, const sunder_i
         const uint32_t f = model->member[b->member + m];
         if (!model->present[f]) continue;
         near->n = 0;
-        if (jumps->way && !sunder_i_rtree_query(&jumps->tree, jumps->way + 4 * (size_t)f, near))
+        if (sunder_i_jumps_begun(jumps) &&
+            !sunder_i_rtree_query(&jumps->tree, sunder_i_rtree_box(&jumps->tree, f), near))
             return sunder_i_no_memory(err);
         for (size_t k = 0; k < near->n && !status && !*any; k++)
             status = ask_both(jumps, model, f, near->item[k], any, err);

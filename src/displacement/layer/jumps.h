@@ -7,14 +7,15 @@
 /* The pairs that break a rule as the features stand, kept up to date while they move: features of which one jumped over
  * the other, and a feature with a part of a barrier whose side it crossed. Zeroed: nothing has moved. */
 typedef struct sunder_i_jumps {
-    double *way;            /* [4 * features] boxes of where each was on its straight way from home */
-    sunder_i_rtree tree;    /* of these */
+    sunder_i_rtree tree;    /* of boxes of where each feature was on its straight way from home */
     const double *own;      /* [2 * features] lent: each feature's move; NULL: they move with their bodies */
     sunder_i_id_pair *pair; /* things, a < b, of different bodies; sorted */
     size_t n;
 } sunder_i_jumps;
 
 void sunder_i_jumps_free(sunder_i_jumps *jumps);
+/* Is there a tree, of ways? There is none while nothing has moved, and where features may jump. */
+static inline bool sunder_i_jumps_begun(const sunder_i_jumps *jumps) { return jumps->tree.levels > 0; }
 /* Things f with changed[f] (NULL: all) stand elsewhere now, by model->move. Of no effect where no way is forbidden. */
 sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model, const bool *changed,
                                     sunder_error *err);

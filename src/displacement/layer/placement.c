@@ -19,11 +19,11 @@ sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_plac
     memset(placement, 0, sizeof *placement);
     placement->translate = sunder_i_calloc(n, sizeof *placement->translate);
     placement->rounded = sunder_i_calloc(n, sizeof *placement->rounded);
-    placement->seamless = sunder_i_calloc(n, sizeof *placement->seamless);
+    placement->seamless = model->seamless ? sunder_i_calloc(n, sizeof *placement->seamless) : NULL;
     placement->was_rounded = sunder_i_calloc(n, sizeof *placement->was_rounded);
     placement->box = sunder_i_alloc(4 * n, sizeof *placement->box);
-    if (!placement->translate || !placement->rounded || !placement->seamless || !placement->was_rounded ||
-        !placement->box)
+    if (!placement->translate || !placement->rounded || (model->seamless && !placement->seamless) ||
+        !placement->was_rounded || !placement->box)
         return sunder_i_no_memory(err);
     memcpy(placement->box, model->box, 4 * n * sizeof *placement->box);
     for (uint32_t f = 0; f < n; f++)
@@ -52,7 +52,7 @@ static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *pl
     const sunder_shape *shape = model->layer->feature[f].shape;
     sunder_i_translate *stand = &placement->translate[f];
     sunder_shape_free(placement->rounded[f]);
-    sunder_i_seamless_free(&placement->seamless[f]);
+    if (placement->seamless) sunder_i_seamless_free(&placement->seamless[f]);
     placement->rounded[f] = NULL;
     *stand = sunder_i_at_home(model, (uint32_t)f);
     stand->t[0] = t[0];

@@ -71,5 +71,7 @@ bool sunder_i_may_have_slack(const sunder_i_subproblem *subproblem);
 sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, sunder_error *err);
 void sunder_i_decision_clear(sunder_i_decision *decision);
 void sunder_i_proof_free(sunder_proof *proof);
+/* Leaves nothing of it but whom it names: each two things of its inner nodes once. It proves nothing then. */
+void sunder_i_proof_strip(sunder_proof *proof);
 
 #endif

@@ -4,6 +4,8 @@
 
 #include "base/invariant.h"
 
+#include <stdlib.h>
+
 /* Adds to `sum` the nodes, ways, forces and corners of the subtree at node `at`, which tell the memory it takes. */
 static void count(const sunder_i_branching *c, size_t at, sunder_proof *sum)
 {
@@ -119,4 +121,28 @@ void sunder_i_proof_free(sunder_proof *proof)
     sunder_i_free((void *)proof->force);
     sunder_i_free((void *)proof->corner);
     sunder_i_free(proof);
+}
+
+static int by_things(const void *a, const void *b)
+{
+    const sunder_proof_node *p = a, *q = b;
+    if (p->a != q->a) return p->a < q->a ? -1 : 1;
+    return (p->b > q->b) - (p->b < q->b);
+}
+
+void sunder_i_proof_strip(sunder_proof *proof)
+{
+    if (!proof) return;
+    sunder_proof_node *node = (sunder_proof_node *)proof->node;
+    size_t inner = 0, n = 0;
+    for (size_t k = 0; k < proof->nodes; k++)
+        if (node[k].ways) node[inner++] = (sunder_proof_node){.a = node[k].a, .b = node[k].b, .ways = 1};
+    if (inner) qsort(node, inner, sizeof *node, by_things);
+    for (size_t k = 0; k < inner; k++)
+        if (k == 0 || by_things(&node[k - 1], &node[k])) node[n++] = node[k];
+    sunder_proof_node *less = sunder_i_realloc(node, n, sizeof *node);
+    sunder_i_free((void *)proof->way);
+    sunder_i_free((void *)proof->force);
+    sunder_i_free((void *)proof->corner);
+    *proof = (sunder_proof){.node = less ? less : node, .nodes = n};
 }

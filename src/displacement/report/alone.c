@@ -136,6 +136,7 @@ static sunder_status find_reasons(void *context, size_t begin, size_t end, sunde
         for (size_t m = g->first[k]; m < g->first[k + 1] && !status; m++) {
             const uint32_t at = g->matter[m].conflict;
             status = find_reason(g->model, &g->report->conflict[at], &planes, &g->report->proof[at], err);
+            if (g->model->rules.drop_proofs) sunder_i_proof_strip(g->report->proof[at]);
         }
         sunder_i_planes_clear(&planes);
     }

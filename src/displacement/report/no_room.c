@@ -185,6 +185,7 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
     sunder_i_decision_clear(&decision);
     q->no_plane = false;
     if (!status && *proof) status = reduce(q, proof, err);
+    if (!status && g->solver->model.rules.drop_proofs) sunder_i_proof_strip(*proof);
     if (!status && *proof) c->reason = SUNDER_REASON_NO_ROOM;
     return status;
 }

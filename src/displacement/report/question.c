@@ -254,7 +254,8 @@ static sunder_status find_jump(const sunder_i_questions *g, const sunder_i_surro
     sunder_i_list mover = {0};
     sunder_status status = SUNDER_OK;
     *jumps = false;
-    if (s->jumps.way && !sunder_i_rtree_query(&s->jumps.tree, a->known, &mover)) status = sunder_i_no_memory(err);
+    if (sunder_i_jumps_begun(&s->jumps) && !sunder_i_rtree_query(&s->jumps.tree, a->known, &mover))
+        status = sunder_i_no_memory(err);
     for (size_t k = 0; k < x->model.features && !status && !*jumps; k++) {
         const size_t at = x->number[k];
         if (at >= a->moving || !x->model.present[k]) continue;

@@ -10,6 +10,7 @@ sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **o
     sunder_report *r = sunder_i_calloc(1, sizeof *r);
     if (!r) return sunder_i_no_memory(err);
     r->n = n;
+    r->stripped = model->rules.drop_proofs;
     r->move = sunder_i_calloc(2 * n, sizeof *r->move);
     r->status = sunder_i_calloc(n, sizeof *r->status);
     r->block = sunder_i_calloc(n, sizeof *r->block);
@@ -148,5 +149,5 @@ const sunder_push *sunder_report_pushes(const sunder_report *report, size_t *n)
 
 const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k)
 {
-    return report->proof && k < report->conflicts ? report->proof[k] : NULL;
+    return report->proof && !report->stripped && k < report->conflicts ? report->proof[k] : NULL;
 }

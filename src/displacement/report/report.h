@@ -15,6 +15,7 @@ struct sunder_report {
     size_t conflicts;
     size_t *blocker;      /* what all blocked_by point into */
     sunder_proof **proof; /* [conflicts] NULL: there is none; the array too, in a check */
+    bool stripped;        /* of proofs no more is left than whom they name */
     sunder_bound_pair *bound_pair;
     size_t bound_pairs;
     sunder_bound_tree *bound_tree;
