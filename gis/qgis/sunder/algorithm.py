@@ -1,0 +1,369 @@
+"""What all algorithms share: parameters of the table of options, layers in, the run, layers out.
+
+A module of an algorithm says which layers go in (inputs) and come out (outputs) and what its figures mean; its options stand
+in options.py. The work has the two halves that Processing asks for: prepareAlgorithm() looks at layers, in the thread that
+owns them; processAlgorithm() copies, runs and writes, in any thread.
+"""
+import os
+import re
+import shutil
+from collections import namedtuple
+
+from processing.core.ProcessingConfig import ProcessingConfig
+from qgis.core import (QgsProcessing, QgsProcessingAlgorithm, QgsProcessingException, QgsProcessingFeatureSourceDefinition,
+                       QgsProcessingMultiStepFeedback, QgsProcessingOutputNumber, QgsProcessingParameterBoolean,
+                       QgsProcessingParameterDefinition, QgsProcessingParameterEnum, QgsProcessingParameterFeatureSource,
+                       QgsProcessingParameterFileDestination, QgsProcessingParameterString,
+                       QgsProcessingParameterVectorDestination, QgsProcessingUtils, QgsVectorLayer)
+from qgis.PyQt.QtCore import QUrl
+from qgis.PyQt.QtGui import QDesktopServices, QIcon
+
+from . import options, program, result, source
+from . import parameters as parameters_of
+from .command_line import BadValue, barrier, rows_of, unit_of, words
+from .options import BARRIERS, EXPRESSION, LENGTH, SOURCE, UNIT
+
+# shape: the parameter that takes a shape as text instead, or None. word: what the program calls it.
+Input = namedtuple("Input", "name label types shape shape_label")
+# suffix: of its layer in the program's output. flag: an option without which it is not made, or None.
+Output = namedtuple("Output", "name suffix label type wanted flag")
+# A file: flag is the option that names it.
+File = namedtuple("File", "name flag label filter")
+
+POLYGONS, LINES, POINTS = (QgsProcessing.TypeVectorPolygon, QgsProcessing.TypeVectorLine, QgsProcessing.TypeVectorPoint)
+ANY = QgsProcessing.TypeVectorAnyGeometry
+
+
+class Algorithm(QgsProcessingAlgorithm):
+    command = title = text = ""  # the program's word, the dialog's title, what it does
+    main = ""                    # what the layers of the program's output are called
+    group_name = "Layers"
+    inputs, outputs, files, numbers = (), (), (), ()  # numbers: (name, label) of what figures() gives
+    movable = False              # is there a choice of features that may move?
+
+    # ---- What Processing asks ----
+
+    def createInstance(self):
+        return type(self)()
+
+    def name(self):
+        return self.command
+
+    def displayName(self):
+        return self.title
+
+    def group(self):
+        return self.group_name
+
+    def groupId(self):
+        return self.group_name.lower()
+
+    def svgIconPath(self):
+        return os.path.join(os.path.dirname(__file__), "icons", self.command + ".svg")
+
+    def icon(self):
+        return QIcon(self.svgIconPath())
+
+    def shortDescription(self):
+        return self.text.split("\n")[0]
+
+    def shortHelpString(self):
+        parts = ["<p>%s</p>" % part for part in self.text.strip().split("\n\n")]
+        for option in options.of_command(self.command):
+            parts.append("<p><b>%s</b><br/>%s</p>" % (option.label, option.help))
+        return "".join(parts)
+
+    def canExecute(self):
+        try:
+            program.find(ProcessingConfig.getSetting("SUNDER_PROGRAM"))
+        except program.ProgramMissing as missing:
+            return False, str(missing)
+        return True, ""
+
+    # ---- Parameters ----
+
+    def initAlgorithm(self, configuration=None):
+        for each in self.inputs:
+            self._add(QgsProcessingParameterFeatureSource(each.name, each.label, list(each.types),
+                                                          optional=each.shape is not None))
+            if each.shape:
+                self._add(QgsProcessingParameterString(each.shape, each.shape_label, optional=True))
+        if self.movable:
+            self._add(QgsProcessingParameterBoolean("MOVE_SELECTED", "Move only selected features; the others are "
+                                                    "obstacles that stay", False))
+        for option in options.of_command(self.command):
+            self._add(parameters_of.parameter(option, self.inputs[0].name), option.help, option.advanced)
+            if option.kind == LENGTH and self.parameterDefinition(UNIT) is None:
+                self._add(QgsProcessingParameterEnum(UNIT, options.UNIT_LABEL, list(options.UNIT_LABELS), defaultValue=0),
+                          "Holds for all lengths of this dialog that do not name a unit of their own.")
+        for each in self.outputs:
+            self._add(QgsProcessingParameterVectorDestination(each.name, each.label, each.type, optional=True,
+                                                              createByDefault=each.wanted))
+        for each in self.files:
+            self._add(QgsProcessingParameterFileDestination(each.name, each.label, each.filter, optional=True,
+                                                            createByDefault=False), advanced=each.flag != "--report")
+        for name, label in self.numbers:
+            self.addOutput(QgsProcessingOutputNumber(name, label))
+
+    def _add(self, parameter, text="", advanced=False):
+        if text:
+            parameter.setHelp(text)
+        if advanced:
+            parameter.setFlags(parameter.flags() | QgsProcessingParameterDefinition.FlagAdvanced)
+        self.addParameter(parameter)
+
+    def checkParameterValues(self, parameters, context):
+        if options.has_lengths(self.command):
+            unit = self.parameterAsEnum(parameters, UNIT, context)
+            if unit == options.SHEET and not parameters.get("SCALE"):
+                return False, "Lengths in millimetres on the sheet need the scale of the map."
+        for each in self.inputs:
+            if each.shape and not parameters.get(each.name) and not parameters.get(each.shape):
+                return False, "%s: a layer or a shape is needed." % each.label
+        first = parameters.get(self.inputs[0].name)
+        if self.movable and self.parameterAsBoolean(parameters, "MOVE_SELECTED", context) and \
+                isinstance(first, QgsProcessingFeatureSourceDefinition) and first.selectedFeaturesOnly:
+            return False, ("Move only selected features: then the layer must be given as a whole; take away the mark "
+                           "at \"Selected features only\", which would leave the others out altogether.")
+        return super().checkParameterValues(parameters, context)
+
+    # ---- Before the work, in the thread that owns the layers ----
+
+    def prepareAlgorithm(self, parameters, context, feedback):
+        try:
+            self._prepare(parameters, context)
+        except (BadValue, program.ProgramMissing) as trouble:
+            raise QgsProcessingException(str(trouble))
+        return True
+
+    def _prepare(self, parameters, context):
+        self.sunder = program.find(ProcessingConfig.getSetting("SUNDER_PROGRAM"))
+        self.sources = {each.name: self._source(parameters, each.name, context) for each in self.inputs}
+        self.shapes = {each.name: self.parameterAsString(parameters, each.shape, context) for each in self.inputs if each.shape}
+        self.marks, self.barriers, self.values = {}, [], {}
+        for option in options.of_command(self.command):
+            self._prepare_option(option, parameters, context)
+        if options.has_lengths(self.command):
+            self.values[UNIT] = self.parameterAsEnum(parameters, UNIT, context)
+        if self.movable and self.parameterAsBoolean(parameters, "MOVE_SELECTED", context):
+            self._fix_unselected(parameters, context)
+
+    def _source(self, parameters, name, context):
+        value = parameters.get(name)
+        if value is None or value == "":
+            return None
+        found = self.parameterAsSource(parameters, name, context)
+        if found is None:
+            raise QgsProcessingException(self.invalidSourceError(parameters, name))
+        whole = not isinstance(value, QgsProcessingFeatureSourceDefinition) or not (
+            value.selectedFeaturesOnly or value.featureLimit >= 0 or getattr(value, "filterExpression", ""))
+        return source.of_processing(found, self.parameterAsVectorLayer(parameters, name, context), whole)
+
+    def _prepare_option(self, option, parameters, context):
+        name = option.name
+        if option.kind == BARRIERS:
+            self._prepare_barriers(rows_of(self.parameterAsMatrix(parameters, name, context)), context)
+        elif option.kind == SOURCE:
+            self.sources[name] = self._source(parameters, name, context)
+        elif option.kind == EXPRESSION:
+            text = self.parameterAsString(parameters, name, context)  # parameterAsExpression() drops a wrong one
+            if text:
+                asked = self.createExpressionContext(parameters, context)
+                asked.setFields(self.sources[self.inputs[0].name].fields)
+                self.marks[name] = source.expression_of(text, asked, option.label)
+        else:
+            self.values[name] = parameters_of.value(self, option, parameters, context, self.sources[self.inputs[0].name])
+
+    def _prepare_barriers(self, rows, context):
+        for row in rows:
+            layer = QgsProcessingUtils.mapLayerFromString(row[0], context)
+            if not isinstance(layer, QgsVectorLayer) or not layer.isValid():
+                raise BadValue("Barriers: there is no layer %s, neither in the project nor as a file." % row[0])
+            self.barriers.append((row, source.of_layer(layer, row[3])))
+
+    def _fix_unselected(self, parameters, context):
+        layer = self.parameterAsVectorLayer(parameters, self.inputs[0].name, context)
+        selected = set(layer.selectedFeatureIds()) if layer else set()
+        if not selected:
+            raise BadValue("Move only selected features: no feature of the layer is selected.")
+        wished = self.marks.get("FIXED_WHERE")
+        self.marks["FIXED_WHERE"] = lambda feature: feature.id() not in selected or bool(wished and wished(feature))
+
+    # ---- The work ----
+
+    def processAlgorithm(self, parameters, context, feedback):
+        folder = os.path.dirname(QgsProcessingUtils.generateTempFilename("sunder.gpkg"))
+        os.makedirs(folder, exist_ok=True)
+        steps = QgsProcessingMultiStepFeedback(2, feedback)
+        # Asked once: of a temporary one each answer is another, and is loaded.
+        self.wanted = {each: self.parameterAsOutputLayer(parameters, each.name, context)
+                       for each in self.outputs if self._is_wanted(parameters, each.name)}
+        try:
+            self._refuse_own_input()
+            return self._run(folder, parameters, context, steps)
+        except BadValue as trouble:
+            raise QgsProcessingException(str(trouble))
+        finally:
+            shutil.rmtree(os.path.join(folder, "read"), ignore_errors=True)
+
+    def _run(self, folder, parameters, context, feedback):
+        self.names, self.added = {}, None  # what the user knows paths by; a field that the plug-in added
+        self.report = None
+        os.makedirs(os.path.join(folder, "read"), exist_ok=True)
+        operands = self._operands(os.path.join(folder, "read"), feedback)
+        if feedback.isCanceled():
+            return {}
+        written, figures = os.path.join(folder, "sunder.gpkg"), os.path.join(folder, "figures.json")
+        line = [self.sunder, self.command] + words(self.command, self.values) + operands
+        line += [written, "--output-layer=" + self.main, "--stats=" + figures, "--progress=plain"]
+        line += self._words_of_outputs(self.wanted) + self._words_of_files(parameters, context)
+        feedback.pushCommandInfo(" ".join(_quoted(word) for word in line))
+        feedback.setCurrentStep(1)
+        status, told = program.run(line, feedback.setProgress, feedback.pushConsoleInfo, feedback.isCanceled)
+        if status is None:
+            feedback.pushInfo("Cancelled; nothing was written.")
+            return {}
+        self._tell(told, status, feedback)
+        results = self._deliver(written, parameters, context, feedback)
+        numbers = program.statistics(figures)
+        if status == program.UNRESOLVED:
+            feedback.pushWarning(self.unresolved(numbers))
+        results.update(self.figures(numbers))
+        return results
+
+    def _refuse_own_input(self):
+        """A file that is read cannot be the one that is written, as QGIS would replace it first."""
+        read = [layer for layer in self.sources.values() if layer] + [layer for _, layer in self.barriers]
+        files = {os.path.realpath(layer.path): layer.name for layer in read if layer.path}
+        for each, destination in self.wanted.items():
+            if os.path.realpath(destination) in files:
+                raise BadValue("%s: %s is the file of the layer %s, which is read; choose another." %
+                               (each.label, destination, files[os.path.realpath(destination)]))
+
+    def _operands(self, folder, feedback):
+        """Operands and what belongs to them: layers where they lie, or copies of them."""
+        found = []
+        for each in self.inputs:
+            layer = self.sources[each.name]
+            if layer is None:
+                found.append(self.shapes[each.name])
+            elif each is self.inputs[0] and len(self.inputs) == 1:
+                found += self._first(layer, folder, feedback)
+            else:
+                path, _ = self._copied(layer, folder, each.name, feedback)
+                found.append(path)
+        for option in options.of_command(self.command):
+            if option.kind == SOURCE and self.sources[option.name]:
+                path, _ = self._copied(self.sources[option.name], folder, option.name, feedback)
+                found.append("%s=%s" % (option.flag, path))
+        for row, layer in self.barriers:
+            found.append("--barrier=" + self._barrier(row, layer, folder, feedback))
+        return found
+
+    def _first(self, layer, folder, feedback):
+        """The one layer of a command: its path, and which layer of it; marked features, and ids."""
+        if layer.file and not self.marks:
+            path, name = layer.file
+            self.names[path] = layer.name
+            return [path, "--input-layer=" + name]
+        marks = [source.Marks("sunder_" + name.lower(), holds) for name, holds in self.marks.items()]
+        path, ids = self._copied(layer, folder, self.inputs[0].name, feedback, marks)
+        found = [path]
+        for name, mark in zip(self.marks, marks):
+            option = next(each for each in options.OPTIONS if each.name == name)
+            found.append("%s=%s" % (option.flag, mark.sql))
+        if "ID_FIELD" in {each.name for each in options.of_command(self.command)} and not self.values.get("ID_FIELD"):
+            found.append("--id-field=%s" % ids)
+        self.added = ids
+        return found
+
+    def _copied(self, layer, folder, name, feedback, marks=()):
+        path = os.path.join(folder, name.lower() + ".gpkg")
+        feedback.pushInfo("Copying %s ..." % layer.name)
+        self.names[path] = layer.name
+        ids = source.copy(layer, path, table_of(layer.name), marks, feedback)
+        return path, ids
+
+    def _barrier(self, row, layer, folder, feedback):
+        path, name = layer.file or (None, None)
+        if path is None:
+            path, _ = self._copied(layer, folder, "barrier_%d" % (len(self.names) + 1), feedback)
+            name = table_of(layer.name)
+        self.names[path] = layer.name
+        return barrier(row, unit_of(self.values), path, name, [field.name() for field in layer.fields])
+
+    def _is_wanted(self, parameters, name):
+        value = parameters.get(name)
+        sink = getattr(value, "sink", value)
+        return value is not None and getattr(sink, "staticValue", lambda: sink)() not in (None, "")
+
+    def _words_of_outputs(self, wanted):
+        return sorted({each.flag for each in wanted if each.flag})
+
+    def _words_of_files(self, parameters, context):
+        found = []
+        for each in self.files:
+            path = self.parameterAsFileOutput(parameters, each.name, context)
+            if path:
+                os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
+                found.append("%s=%s" % (each.flag, path))
+        return found
+
+    def _tell(self, told, status, feedback):
+        """What the program said: a failure as the error that it is, all else as warnings and notes."""
+        errors = [program.plain(line, self.names) for line in told if program.is_error(line)]
+        if status not in (program.DONE, program.UNRESOLVED):
+            raise QgsProcessingException("\n".join(errors) or "\n".join(told) or
+                                         "The program ended unexpectedly (%s)." % status)
+        for line in told:
+            if program.is_warning(line) or program.is_error(line):
+                feedback.pushWarning(program.plain(line, self.names))
+            else:
+                feedback.pushConsoleInfo(program.plain(line, self.names))
+
+    def _deliver(self, written, parameters, context, feedback):
+        there, results = result.layers_of(written), {}
+        for each in self.outputs:
+            name = self.main + each.suffix
+            if self.added and name in there:
+                result.drop_field(written, name, self.added)
+        for each, destination in self.wanted.items():
+            name = self.main + each.suffix
+            if name in there:
+                results[each.name] = result.deliver(written, name, parameters[each.name], destination, context, feedback)
+            else:
+                feedback.pushInfo("%s: there is none in this run." % each.label)
+                result.forget(destination, context)
+        for each in self.files:
+            path = self.parameterAsFileOutput(parameters, each.name, context)
+            if path:
+                results[each.name] = path
+                if each.flag == "--report":
+                    self.report = path
+        return results
+
+    def postProcessAlgorithm(self, context, feedback):
+        """In the window the report is opened: in the browser, since the page has a script."""
+        from qgis.utils import iface
+        if iface is not None and self.report:
+            QDesktopServices.openUrl(QUrl.fromLocalFile(self.report))
+        return {}
+
+    # ---- What an algorithm may say for itself ----
+
+    def unresolved(self, figures):
+        """Exit status 3 in words."""
+        return "%d conflicts remain." % program.conflicts_left(figures)
+
+    def figures(self, figures):
+        """Numbers of the statistics, by names of outputs."""
+        return {}
+
+
+def table_of(name):
+    """A name of a layer as the name of a table that needs no quotes."""
+    return re.sub(r"\W+", "_", name).strip("_") or "layer"
+
+
+def _quoted(word):
+    return "'%s'" % word.replace("'", "'\\''") if any(c in word for c in " '\"\\$|&;()<>*") else word

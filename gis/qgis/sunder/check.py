@@ -1,0 +1,25 @@
+"""sunder:check"""
+from . import program
+from .algorithm import LINES, POINTS, POLYGONS, Algorithm, Input, Output
+
+
+class Check(Algorithm):
+    command = "check"
+    title = "Check for overlaps and gaps"
+    text = """Lists pairs of features that overlap or stand nearer than a gap, exactly.
+
+Works on any layer, whoever made it. With the layer before it was moved, also lists what broke a rule since then."""
+    main = "conflicts"
+    inputs = (Input("INPUT", "Layer to check", (POLYGONS, POINTS), None, None),)
+    outputs = (Output("OUTPUT", "", "Conflicts", LINES, True, None),)
+    numbers = (("FEATURES", "Features"), ("PAIRS", "Pairs tested"), ("CONFLICTS", "Conflicts"))
+
+    def unresolved(self, figures):
+        found = program.conflicts_left(figures)
+        return "%d conflict%s found." % (found, " was" if found == 1 else "s were")
+
+    def figures(self, figures):
+        if not figures:
+            return {}
+        return {"FEATURES": figures["features"], "PAIRS": figures["pairs_tested"],
+                "CONFLICTS": program.conflicts_left(figures)}

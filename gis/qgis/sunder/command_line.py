@@ -1,0 +1,128 @@
+"""Values of a dialog to words for the program. No QGIS in here, no files: only text.
+
+A value is what QGIS hands over: a number, the index of a choice, True, the name of a field, text; None is not said.
+Numbers are written so that they read back as the same double.
+"""
+from .options import (BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FLAG, LENGTH, NUMBER, NUMERIC_FIELD, POINT, SCALE, SOURCE,
+                      TEXT, UNIT, UNITS, of_command)
+
+BARRIER_COLUMNS = ("Layer", "Width or field", "Gap", "Filter", "Side (yes/no)", "As (area/boundary)")
+
+
+class BadValue(Exception):
+    """A value of the dialog that means nothing, in words for its user."""
+
+
+def number(value):
+    """The shortest decimal that reads back as this double; whole numbers without a point."""
+    value = float(value)
+    return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
+
+
+def length(value, unit):
+    return number(value) + unit
+
+
+def unit_of(values):
+    return UNITS[values.get(UNIT) or 0]
+
+
+def _words_of(option, value, values):
+    """The words of one option; none where it says nothing."""
+    if option.kind == FLAG:
+        return [option.flag] if value else []
+    if option.kind == COUNT and option.flag == "--threads" and not value:
+        return []
+    if option.kind == CHOICE:
+        return [] if value == option.default else ["%s=%s" % (option.flag, option.choices[value])]
+    if option.kind == LENGTH:
+        return ["%s=%s" % (option.flag, length(value, unit_of(values)))]
+    if option.kind in (NUMBER, COUNT, SCALE):
+        return ["%s=%s" % (option.flag, number(value))]
+    if option.kind == POINT:
+        return ["%s=%s,%s" % (option.flag, number(value[0]), number(value[1]))]
+    assert option.kind in (FIELD, NUMERIC_FIELD, EXPRESSION, TEXT, BARRIERS, SOURCE), option
+    many = value if option.kind == BARRIERS else [value]
+    return ["%s=%s" % (option.flag, each) for each in many]
+
+
+def words(command, values):
+    """The options of a command. values: by parameter's name; of expressions SQL, of barriers and of the layer before the
+    texts that barrier() and the plug-in made."""
+    found = []
+    for option in of_command(command):
+        value = values.get(option.name)
+        if value is None or value == "":
+            continue
+        if option.kind in (LENGTH, NUMBER, COUNT, SCALE) and value == option.default:
+            continue
+        found += _words_of(option, value, values)
+    return found
+
+
+# ---- Barriers --------------------------------------------------------------------------------------------------------
+
+
+def _is_null(cell):
+    """None, or what QGIS has for it."""
+    return cell is None or getattr(cell, "isNull", lambda: False)()
+
+
+def rows_of(flat):
+    """The rows of a matrix of QGIS, which hands over its cells one after another; rows without a layer are none."""
+    width = len(BARRIER_COLUMNS)
+    cells = ["" if _is_null(cell) else str(cell).strip() for cell in flat or []]
+    cells += [""] * (-len(cells) % width)
+    rows = [cells[i:i + width] for i in range(0, len(cells), width)]
+    for row in rows:
+        if not row[0] and any(row):
+            raise BadValue("Barriers: a row has no layer.")
+    return [row for row in rows if row[0]]
+
+
+def _is_length(text):
+    """A decimal, with a unit or without?"""
+    for unit in sorted(UNITS, key=len, reverse=True):
+        if text.endswith(unit):
+            try:
+                float(text[:len(text) - len(unit)])
+                return True
+            except ValueError:
+                continue
+    return False
+
+
+def _length_of_cell(text, unit, column, layer):
+    if not _is_length(text):
+        raise BadValue("Barriers, %s: %s is no length (%s)." % (layer, text, column))
+    return text if not text[-1].isdigit() and text[-1] != "." else length(text, unit)
+
+
+def _escaped(text):
+    return text.replace(",", "\\,")
+
+
+def barrier(row, unit, dataset, layer, fields):
+    """The text of --barrier for a row: dataset and layer are where it was put, fields the names that it has. A width that is
+    the name of a field is that field, else a length in the unit of the dialog, or with a unit of its own. Its filter was
+    heeded when its features were copied."""
+    name, width, gap, _, side, taken_as = row
+    parts = [_escaped(dataset), "layer=" + _escaped(layer)]
+    if width in fields:
+        parts.append("width-field=" + width)
+    elif width:
+        if not _is_length(width):
+            raise BadValue("Barriers, %s: %s is neither a width nor a field; its fields: %s." %
+                           (name, width, ", ".join(fields) or "none"))
+        parts.append("width=" + _length_of_cell(width, unit, "width", name))
+    if gap:
+        parts.append("gap=" + _length_of_cell(gap, unit, "gap", name))
+    if side:
+        if side.lower() not in ("yes", "no"):
+            raise BadValue("Barriers, %s: side is yes or no, not %s." % (name, side))
+        parts.append("side=" + side.lower())
+    if taken_as:
+        if taken_as.lower() not in ("area", "boundary"):
+            raise BadValue("Barriers, %s: it is taken as area or boundary, not %s." % (name, taken_as))
+        parts.append("as=" + taken_as.lower())
+    return ",".join(parts)

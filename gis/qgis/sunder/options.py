@@ -1,0 +1,154 @@
+"""The table of what the dialogs ask, once: options of the program, in the words of a dialog. No QGIS in here.
+
+Parameters are made of it (algorithm.py), command lines (command_line.py), help texts, and the plain words in which
+messages of the program are told. A test compares it with `sunder --options-json`: every option of every command stands
+here or in LEFT_OUT, with the same choices and defaults. So the plug-in needs no program to be loaded, and its words may be
+those of a dialog.
+"""
+from collections import namedtuple
+
+LENGTH, NUMBER, COUNT, SCALE, FLAG, CHOICE = "length", "number", "count", "scale", "flag", "choice"
+FIELD, NUMERIC_FIELD, EXPRESSION, TEXT, POINT = "field", "numeric field", "expression", "text", "point"
+BARRIERS, SOURCE = "barriers", "source"
+
+LAYERS = ("separate", "check")
+EVERY = ("separate", "check", "buffer", "sum", "pair", "route")
+
+
+class Option(namedtuple("Option", "flag kind commands label help default choices labels advanced needed")):
+    """One option. labels: what the dialog shows for each of choices. default: a value of the dialog, None is not said."""
+
+    __slots__ = ()
+
+    def __new__(cls, flag, kind, commands, label, text, default=None, choices=(), labels=(), advanced=True, needed=False):
+        return super().__new__(cls, flag, kind, commands, label, text, default, choices, labels, advanced, needed)
+
+    @property
+    def name(self):
+        """The name of the parameter: --max-shift is MAX_SHIFT."""
+        return self.flag[2:].replace("-", "_").upper()
+
+
+OPTIONS = (
+    # ---- What is always asked ----
+    Option("--gap", LENGTH, ("separate", "check", "pair", "route"), "Gap (least distance between features)",
+           "Features shall be at least this far apart. With 0 only overlaps count.", 0.0, advanced=False),
+    Option("--shape", TEXT, ("buffer",), "Shape to grow or shrink by",
+           "square:6m, rectangle:4x3, disc:3m (around the true disc), inside-disc:3m (within it), or WKT of a polygon. "
+           "Lengths without a unit are in the layer's.", "disc:1", advanced=False, needed=True),
+    Option("--operation", CHOICE, ("buffer",), "Operation",
+           "Opening removes what is narrower than the shape; closing fills gaps that are.",
+           0, ("dilate", "erode", "open", "close"),
+           ("Grow (dilate)", "Shrink (erode)", "Open: shrink, then grow", "Close: grow, then shrink"), False),
+    Option("--dissolve", FLAG, ("buffer",), "Dissolve (all features as one set)",
+           "All features are grown or shrunk as one polygonal set.", False, advanced=False),
+    Option("--robot", TEXT, ("route",), "Robot (what is moved)",
+           "square:2, rectangle:4x3, disc:1.5, or WKT of a polygon around its reference point (0 0). It does not turn.",
+           "disc:1", advanced=False, needed=True),
+    Option("--from", POINT, ("route",), "Start", "Where the robot's reference point starts.", advanced=False, needed=True),
+    Option("--to", POINT, ("route",), "Goal", "Where it is to go.", advanced=False, needed=True),
+    Option("--before", SOURCE, ("check",), "The layer before it was moved",
+           "Also lists what broke a rule since then: what stands worse, moved too far, changed its side of a barrier, "
+           "jumped, or is no translate. Features are matched by the key field, else by FID.", advanced=False),
+    Option("--reflect", FLAG, ("sum",), "Sum of P and the reflected Q",
+           "The sum of P and -Q: where Q may not stand, if it is not to meet P.", False, advanced=False),
+    Option("--barrier", BARRIERS, LAYERS, "Barriers (layers that never move)",
+           "One row a layer: roads, rivers, parcels. Layer: the name of a layer of the project, or a file. Width or field: "
+           "the full drawn width, or the field that holds it. Gap: from the drawn edge, the gap above where empty. Filter: an "
+           "expression. Side: no lets features cross it. As: boundary takes a polygon's rings as lines.", advanced=False),
+    Option("--max-shift", LENGTH, LAYERS, "Longest move", "No feature is moved further. Empty: no limit.", advanced=False),
+    Option("--scale", SCALE, EVERY, "Scale of the map",
+           "For lengths in millimetres on the sheet: 25000 for a map at 1:25 000.", advanced=False),
+    # ---- Who moves how far ----
+    Option("--max-shift-field", NUMERIC_FIELD, LAYERS, "Field: longest move of each feature",
+           "In the units of the layer. 0 is fixed, null is the longest move above."),
+    Option("--weight", CHOICE, ("separate",), "What a move costs",
+           "The sum of weight times the square of each move is made least; areas are relative to their median.",
+           0, ("1", "area", "sqrt-area"), ("The same for every feature", "By area", "By the square root of the area")),
+    Option("--weight-field", NUMERIC_FIELD, ("separate",), "Field: weight of each feature",
+           "Multiplies the weight; must be above 0, null is 1."),
+    Option("--fixed-where", EXPRESSION, LAYERS, "Features that never move",
+           "An expression. Features for which it is true stay, and are obstacles."),
+    Option("--ignore-where", EXPRESSION, LAYERS, "Features to leave out of it",
+           "An expression. Features for which it is true are written unchanged, and conflict with nothing."),
+    # ---- Blocks ----
+    Option("--touch-tolerance", LENGTH, LAYERS, "Features so near are one block",
+           "Features that touch, or overlap or gape by no more than this, move as one. Empty: a tenth of the gap."),
+    Option("--block-field", FIELD, LAYERS, "Field: features of equal values are one block",
+           "Equal values that are not null move as one, besides those that touch."),
+    Option("--no-blocks", FLAG, LAYERS, "Nothing joins by touch or containment", "Each feature moves by itself.", False),
+    Option("--contained", CHOICE, LAYERS, "A feature that lies in another",
+           "A building part in its building, say. Symbols of points are always taken apart.",
+           0, ("block", "ignore", "separate"), ("Moves with it", "May overlap it", "Is taken out of it")),
+    Option("--allow-jumps", FLAG, LAYERS, "Features may jump over others, and out of yards", "Points always may.", False),
+    Option("--list-inside", FLAG, LAYERS, "List conflicts inside blocks, too",
+           "Members of one block owe each other no gap; this lists where they would.", False),
+    # ---- Symbols ----
+    Option("--symbol", TEXT, LAYERS, "Points: the symbol drawn at each",
+           "disc:4m, square:5m, rectangle:8x3, or WKT of a polygon relative to the point."),
+    Option("--symbol-field", FIELD, LAYERS, "Points: field that holds each one's symbol",
+           "As text, like the symbol above, which stands in for null."),
+    Option("--symbol-size-field", NUMERIC_FIELD, LAYERS, "Points: field that each symbol is multiplied by",
+           "Must be above 0, null is 1."),
+    # ---- Buffers ----
+    Option("--dissolve-field", FIELD, ("buffer",), "Field: features of equal values as one set each",
+           "The result has one feature for each value."),
+    Option("--align", FLAG, ("buffer",), "Turn the shape to the main direction of each feature or block",
+           "So that a square follows the walls.", False),
+    # ---- Sums ----
+    Option("--algorithm", CHOICE, ("sum", "pair"), "The road to the sum", "All give the same result.",
+           0, ("auto", "convolution", "arrangement", "incremental", "divide"),
+           ("Chosen for these", "Convolution", "Arrangement of convex subsums", "Convex subsums one after another",
+            "Convex subsums, halves joined")),
+    Option("--decomposition", CHOICE, ("sum",), "Convex pieces", "How operands are cut, on roads that cut them.",
+           0, ("angle-bisector", "vertical", "triangulation", "hertel-mehlhorn", "optimal", "mixed"),
+           ("Angle bisectors", "Vertical cuts", "Triangulation", "Hertel and Mehlhorn", "Fewest pieces", "Mixed")),
+    Option("--order", CHOICE, ("sum",), "Order of the subsums", "On roads that join one subsum after another.",
+           0, ("random", "fat", "given"), ("Random", "Fat ones first", "As they come")),
+    # ---- All ----
+    Option("--id-field", FIELD, ("separate", "check", "buffer"), "Key field, for lists and messages",
+           "Copied into the id columns. Empty: the id that QGIS shows, where the layer had to be copied."),
+    Option("--effort", NUMBER, ("separate",), "Effort", "How hard to look for better sides and for proofs: 0 not at all, "
+           "10 ten times as hard.", 1.0),
+    Option("--seed", COUNT, ("separate", "sum", "pair"), "Seed", "For what is drawn at random.", 0),
+    Option("--invalid", CHOICE, EVERY, "Invalid geometries", "Polygons that cross themselves, for example.",
+           0, ("repair", "skip", "fail"), ("Repair", "Skip", "Stop with a message")),
+    Option("--threads", COUNT, EVERY, "Threads", "Results are the same for every number. 0: all processors.", 0),
+)
+
+# Lengths are in this unit; the first is the layer's own.
+UNIT = "UNIT"
+UNIT_LABEL = "Unit of the lengths"
+UNITS = ("", "m", "km", "ft", "us-ft", "mm")
+UNIT_LABELS = ("Units of the layer", "Metres", "Kilometres", "Feet", "US survey feet", "Millimetres on the sheet of the map")
+SHEET = UNITS.index("mm")
+
+# Options that no dialog asks, and why.
+_QGIS_CHOOSES = "which features is chosen in QGIS: by the layer's filter, its selection, or a layer made before"
+_QGIS_WRITES = "the program writes a GeoPackage of the plug-in's; QGIS writes it where the dialog says"
+_OURS = "set by the plug-in"
+LEFT_OUT = {
+    "--input-layer": _OURS, "--where": _QGIS_CHOOSES, "--sql": _QGIS_CHOOSES, "--dialect": _QGIS_CHOOSES,
+    "--bbox": _QGIS_CHOOSES, "--if": _QGIS_CHOOSES, "--oo": _QGIS_CHOOSES, "--config": _QGIS_CHOOSES,
+    "--input-crs": "QGIS's own CRS of the layer is handed over with it",
+    "--output": _QGIS_WRITES, "--of": _QGIS_WRITES, "--lco": _QGIS_WRITES, "--co": _QGIS_WRITES,
+    "--overwrite": _QGIS_WRITES, "--update": _QGIS_WRITES, "--overwrite-layer": _QGIS_WRITES, "-overwrite": _QGIS_WRITES,
+    "--output-layer": _OURS, "--layers": "by the outputs that are not skipped",
+    "--planar-map": "by the outputs that are not skipped", "--free-space": "by the outputs that are not skipped",
+    "--degenerate": "by the outputs that are not skipped",
+    "--no-styles": "the styles are what QGIS loads", "--strict": _QGIS_WRITES, "--allow-inexact-output": _QGIS_WRITES,
+    "--exact": "a layer holds doubles; rationals are for the shell",
+    "--allow-conflicts": "what remains is told as a warning, not as a failure",
+    "--progress": _OURS, "--quiet": _OURS, "--stats": _OURS, "--report": "an output", "--proof": "an output",
+    "--log": _OURS, "--messages": _OURS, "--help": "the panel beside the dialog",
+}
+
+
+def of_command(command):
+    """The options that a command's dialog asks, in its order."""
+    return [option for option in OPTIONS if command in option.commands]
+
+
+def has_lengths(command):
+    """Does the dialog ask for lengths, so that it asks for their unit, too?"""
+    return any(option.kind in (LENGTH, BARRIERS) for option in of_command(command))

@@ -1,0 +1,59 @@
+"""A row of the table of options as a parameter of Processing, and its value back. Layers, expressions and barriers come back by
+algorithm.py, which knows what to do with them."""
+from qgis.core import (QgsProcessing, QgsProcessingParameterBoolean, QgsProcessingParameterEnum,
+                       QgsProcessingParameterExpression, QgsProcessingParameterFeatureSource, QgsProcessingParameterField,
+                       QgsProcessingParameterMatrix, QgsProcessingParameterNumber, QgsProcessingParameterPoint,
+                       QgsProcessingParameterScale, QgsProcessingParameterString)
+
+from .command_line import BARRIER_COLUMNS
+from .options import (BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FLAG, LENGTH, NUMBER, NUMERIC_FIELD, POINT, SCALE, SOURCE,
+                      TEXT)
+
+
+def parameter(option, layer):
+    """layer: the name of the parameter whose fields are meant."""
+    name, label, optional = option.name, option.label, not option.needed
+    if option.kind in (LENGTH, NUMBER, COUNT):
+        kind = QgsProcessingParameterNumber.Integer if option.kind == COUNT else QgsProcessingParameterNumber.Double
+        return QgsProcessingParameterNumber(name, label, kind, option.default, optional=option.default is None, minValue=0)
+    if option.kind == SCALE:
+        return QgsProcessingParameterScale(name, label, optional=True)
+    if option.kind == FLAG:
+        return QgsProcessingParameterBoolean(name, label, option.default)
+    if option.kind == CHOICE:
+        return QgsProcessingParameterEnum(name, label, list(option.labels), defaultValue=option.default)
+    if option.kind in (FIELD, NUMERIC_FIELD):
+        data = QgsProcessingParameterField.Numeric if option.kind == NUMERIC_FIELD else QgsProcessingParameterField.Any
+        return QgsProcessingParameterField(name, label, None, layer, data, optional=True)
+    if option.kind == EXPRESSION:
+        return QgsProcessingParameterExpression(name, label, "", layer, optional=True)
+    if option.kind == POINT:
+        return QgsProcessingParameterPoint(name, label, optional=optional)
+    if option.kind == BARRIERS:
+        return QgsProcessingParameterMatrix(name, label, 1, False, list(BARRIER_COLUMNS), optional=True)
+    if option.kind == SOURCE:
+        return QgsProcessingParameterFeatureSource(name, label, [QgsProcessing.TypeVectorAnyGeometry], optional=True)
+    assert option.kind == TEXT, option
+    return QgsProcessingParameterString(name, label, option.default, optional=optional)
+
+
+def value(algorithm, option, parameters, context, layer):
+    """What command_line.py takes: a number, an index, a text; None where nothing is said. layer: whose CRS a point is to be
+    in, or None."""
+    name = option.name
+    if option.kind == FLAG:
+        return algorithm.parameterAsBoolean(parameters, name, context)
+    if option.kind == CHOICE:
+        return algorithm.parameterAsEnum(parameters, name, context)
+    if option.kind in (FIELD, NUMERIC_FIELD):
+        return (algorithm.parameterAsFields(parameters, name, context) or [None])[0]
+    if option.kind == POINT:
+        point = algorithm.parameterAsPoint(parameters, name, context, *([layer.crs] if layer else []))
+        return point.x(), point.y()
+    if parameters.get(name) in (None, ""):
+        return None
+    if option.kind == COUNT:
+        return algorithm.parameterAsInt(parameters, name, context)
+    if option.kind in (LENGTH, NUMBER, SCALE):
+        return algorithm.parameterAsDouble(parameters, name, context)
+    return algorithm.parameterAsString(parameters, name, context)

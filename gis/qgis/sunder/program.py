@@ -1,0 +1,125 @@
+"""The program itself: where it is, how a run goes, and what it says in words for the user of a dialog. No QGIS in here."""
+import json
+import os
+import queue
+import re
+import shutil
+import subprocess
+import sys
+import threading
+
+from .options import OPTIONS
+
+DONE, FAILED, MISUSED, UNRESOLVED = 0, 1, 2, 3
+PATIENCE = 5  # seconds from being asked to end to being ended: the program clears away what it had begun
+
+
+class ProgramMissing(Exception):
+    """There is no program, in words for the user."""
+
+
+def find(setting):
+    """The path of the program: the setting, where there is one, else sunder on the PATH."""
+    if setting:
+        found = shutil.which(os.path.expanduser(setting))
+        if not found:
+            raise ProgramMissing("The setting of Processing says that the program sunder is %s, but there is no program. "
+                                 "Change it in Settings > Options > Processing > Providers > Sunder." % setting)
+        return found
+    found = shutil.which("sunder")
+    if not found:
+        raise ProgramMissing("The program sunder was not found. Install it, or say where it is in Settings > Options > "
+                             "Processing > Providers > Sunder.")
+    return found
+
+
+def _hidden_window():
+    """On Windows a console program would open a window."""
+    return {"creationflags": subprocess.CREATE_NO_WINDOW} if sys.platform == "win32" else {}
+
+
+def _read(pipe, name, lines):
+    """Reads a pipe to its end, so that the program never waits for us."""
+    for line in pipe:
+        lines.put((name, line.rstrip("\r\n")))
+    pipe.close()
+    lines.put((name, None))
+
+
+def _end(process):
+    process.terminate()
+    try:
+        process.wait(PATIENCE)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+
+
+def run(words, progress, say, cancelled):
+    """Runs the program to its end. progress(percent), say(line) for each line on stdout, cancelled() is asked often; all are
+    called in the thread of the caller, as signals of QGIS want it.
+
+    Returns the exit status, None if it was cancelled, and the lines of stderr that are no progress.
+    """
+    process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               encoding="utf-8", errors="replace", **_hidden_window())
+    lines, told, ended = queue.Queue(), [], False
+    reading = {"out": process.stdout, "err": process.stderr}
+    for name, pipe in reading.items():
+        threading.Thread(target=_read, args=(pipe, name, lines), daemon=True).start()
+    while reading:
+        if not ended and cancelled():
+            _end(process)
+            ended = True
+        try:
+            name, line = lines.get(timeout=0.1)
+        except queue.Empty:
+            continue
+        if line is None:
+            del reading[name]
+        elif name == "out":
+            say(line)
+        elif re.fullmatch(r"\d{1,3}", line):
+            progress(int(line))
+        elif line:
+            told.append(line)
+    status = process.wait()
+    return None if ended else status, told
+
+
+def statistics(path):
+    """What --stats wrote; empty where it wrote nothing."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+    except (OSError, ValueError):
+        return {}
+
+
+# ---- In plain words --------------------------------------------------------------------------------------------------
+
+
+def plain(line, names):
+    """A line of the program for the user of a dialog: options by the labels of their parameters, files that the plug-in
+    made by the names of their layers (names: path to name), no name of the program before it."""
+    line = re.sub(r"^sunder: (error: |warning: |note: )?", "", line)
+    for path in sorted(names, key=len, reverse=True):
+        line = line.replace(path, names[path])
+    labels = {option.flag: option.label.split(" (")[0] for option in OPTIONS}
+    return re.sub(r"(?<![\w-])--[a-z]+(-[a-z]+)*", lambda found: '"%s"' % labels[found.group()]
+                  if found.group() in labels else found.group(), line)
+
+
+def is_warning(line):
+    return line.startswith("sunder: warning:")
+
+
+def is_error(line):
+    return line.startswith("sunder: error:")
+
+
+def conflicts_left(figures):
+    """How many pairs of a statistics' conflicts stand between blocks."""
+    counts = figures.get("conflicts", {})
+    counts = counts.get("after", counts)
+    return sum(count for kind, count in counts.items() if kind != "inside_blocks")

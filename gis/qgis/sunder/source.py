@@ -1,0 +1,244 @@
+"""Layers of QGIS to what the program reads.
+
+A plain file, of which QGIS shows what lies in it, is read where it lies. All else - memory, virtual and database layers,
+filtered, edited, joined ones, selections, layers whose CRS was changed in QGIS - is copied into a GeoPackage: geometries
+as they are, doubles as doubles, FIDs kept where QGIS's ids may be FIDs, and the id in a field of its own, since ids of
+features that are not saved yet are negative.
+
+Expressions of the dialog are QGIS's and are asked while copying; the ids for which one is true go into a table of their own,
+beside the layer, which the SQL of --fixed-where and --ignore-where asks. That holds for selections of any size, where a list
+of ids on a command line would not.
+"""
+import os
+import re
+
+from osgeo import ogr, osr
+from qgis.core import (QgsExpression, QgsFeatureRequest, QgsProcessingFeatureSource, QgsProviderRegistry,
+                       QgsVectorLayerFeatureSource, QgsWkbTypes)
+from qgis.PyQt.QtCore import QVariant
+
+from .command_line import BadValue
+
+ID_FIELD = "qgis_id"
+
+_TYPES = {
+    QVariant.Int: (ogr.OFTInteger, ogr.OFSTNone), QVariant.UInt: (ogr.OFTInteger64, ogr.OFSTNone),
+    QVariant.LongLong: (ogr.OFTInteger64, ogr.OFSTNone), QVariant.ULongLong: (ogr.OFTInteger64, ogr.OFSTNone),
+    QVariant.Bool: (ogr.OFTInteger, ogr.OFSTBoolean), QVariant.Double: (ogr.OFTReal, ogr.OFSTNone),
+    QVariant.Date: (ogr.OFTDate, ogr.OFSTNone), QVariant.Time: (ogr.OFTTime, ogr.OFSTNone),
+    QVariant.DateTime: (ogr.OFTDateTime, ogr.OFSTNone), QVariant.ByteArray: (ogr.OFTBinary, ogr.OFSTNone),
+}  # all others are texts
+
+
+class Source:
+    """What is known of a layer before the work, from the thread that owns it. features(): an iterator, in any thread."""
+
+    def __init__(self, name, fields, wkb_type, crs, features, count, layer, whole):
+        self.name, self.fields, self.wkb_type, self.crs = name, fields, wkb_type, crs
+        self.features, self.count = features, count
+        self.path = _path(layer)                    # of the file that it lies in, or None
+        self.file = file_of(layer) if whole else None
+        self.keys = _keys(layer)                    # indices of fields that are the FID once more
+
+
+def file_of(layer):
+    """(path, layer's name) where the program may read the layer's own file, else None."""
+    if not layer or layer.providerType() != "ogr" or layer.subsetString() or layer.isEditable() or layer.vectorJoins():
+        return None
+    fields = layer.fields()
+    if any(fields.fieldOrigin(i) != fields.OriginProvider for i in range(fields.count())):
+        return None
+    if layer.crs() != layer.dataProvider().crs():
+        return None
+    parts = QgsProviderRegistry.instance().decodeUri("ogr", layer.source())
+    path, name = parts.get("path"), parts.get("layerName")
+    if not path or not os.path.isfile(path) or any(parts.get(key) for key in parts if key not in ("path", "layerName")):
+        return None
+    layers = [each.split(layer.dataProvider().sublayerSeparator()) for each in layer.dataProvider().subLayers()]
+    if not name and len(layers) == 1 and len(layers[0]) > 1:
+        name = layers[0][1]
+    # One of several types of geometry in one layer is shown by QGIS as a layer of its own.
+    if not name or [each[1] for each in layers if len(each) > 1].count(name) > 1:
+        return None
+    return path, name
+
+
+def _path(layer):
+    if not layer or layer.providerType() != "ogr":
+        return None
+    return QgsProviderRegistry.instance().decodeUri("ogr", layer.source()).get("path")
+
+
+def _keys(layer):
+    return layer.primaryKeyAttributes() if layer and layer.providerType() == "ogr" else ()
+
+
+def of_layer(layer, expression=""):
+    """A layer as a whole, or those features for which an expression holds."""
+    request = QgsFeatureRequest()
+    if expression:
+        if QgsExpression(expression).hasParserError():
+            raise BadValue("%s: the filter %s: %s" % (layer.name(), expression, QgsExpression(expression).parserErrorString()))
+        request.setFilterExpression(expression)
+    features = QgsVectorLayerFeatureSource(layer)
+    return Source(layer.name(), layer.fields(), layer.wkbType(), layer.crs(), lambda: features.getFeatures(request),
+                  layer.featureCount(), layer, whole=not expression)
+
+
+def of_processing(source, layer, whole):
+    """What a parameter of Processing selects; layer: whose it is, or None. whole: it is that layer with all its features."""
+    return Source(source.sourceName(), source.fields(), source.wkbType(), source.sourceCrs(),
+                  lambda: source.getFeatures(QgsFeatureRequest(), QgsProcessingFeatureSource.FlagSkipGeometryValidityChecks),
+                  source.featureCount(), layer, whole)
+
+
+# ---- Copying ---------------------------------------------------------------------------------------------------------
+
+
+def _ogr_type(wkb_type):
+    flat = QgsWkbTypes.flatType(wkb_type)
+    if flat == QgsWkbTypes.Unknown:
+        return ogr.wkbUnknown
+    if flat == QgsWkbTypes.NoGeometry:
+        return ogr.wkbNone
+    return ogr.GT_SetModifier(int(flat), QgsWkbTypes.hasZ(wkb_type), QgsWkbTypes.hasM(wkb_type))
+
+
+def _unused(name, used):
+    while name.lower() in used:
+        name += "_"
+    return name
+
+
+def _value(value):
+    """A value of a QGIS attribute as OGR's Python takes it; None for null."""
+    if value is None or (isinstance(value, QVariant) and value.isNull()):
+        return None
+    if isinstance(value, QVariant):
+        value = value.value()
+    if hasattr(value, "toString") and hasattr(value, "isValid"):
+        from qgis.PyQt.QtCore import Qt
+        return value.toString(Qt.ISODateWithMs)
+    if hasattr(value, "data") and not isinstance(value, memoryview):
+        return bytes(value)
+    return value
+
+
+def _reference(crs):
+    if not crs.isValid():
+        return None
+    reference = osr.SpatialReference()
+    reference.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
+    if re.fullmatch(r"(EPSG|ESRI|IGNF):\w+", crs.authid() or "") and reference.SetFromUserInput(crs.authid()) == 0:
+        return reference
+    reference.ImportFromWkt(crs.toWkt(crs.WKT2_2018))
+    return reference
+
+
+class _Target:
+    """A layer of a new GeoPackage that takes features of QGIS."""
+
+    def __init__(self, path, name, source):
+        self.dataset = ogr.GetDriverByName("GPKG").CreateDataSource(path)
+        self.kept = [i for i in range(source.fields.count()) if i not in source.keys]
+        used = {source.fields[i].name().lower() for i in self.kept} | {"geom"}
+        fid = _unused("fid", used)
+        self.id_field = _unused(ID_FIELD, used | {fid})
+        self.layer = self.dataset.CreateLayer(name, _reference(source.crs), _ogr_type(source.wkb_type),
+                                              ["FID=" + fid, "SPATIAL_INDEX=NO"])
+        self.fid = fid
+        for i in self.kept:
+            self._add_field(source.fields[i].name(), *_TYPES.get(source.fields[i].type(), (ogr.OFTString, ogr.OFSTNone)))
+        self._add_field(self.id_field, ogr.OFTInteger64, ogr.OFSTNone)
+        self.definition = self.layer.GetLayerDefn()
+        # Real, yet as it may come: bytes have a setter of their own.
+        self.binary = [self.definition.GetFieldDefn(k).GetType() == ogr.OFTBinary for k in range(len(self.kept))]
+
+    def _add_field(self, name, kind, subtype):
+        field = ogr.FieldDefn(name, kind)
+        field.SetSubType(subtype)
+        self.layer.CreateField(field)
+
+    def add(self, feature):
+        """The FID that it got."""
+        row = ogr.Feature(self.definition)
+        attributes = feature.attributes()
+        for k, i in enumerate(self.kept):
+            value = _value(attributes[i])
+            if value is None:
+                row.SetFieldNull(k)
+            elif self.binary[k]:
+                row.SetFieldBinaryFromHexString(k, bytes(value).hex())
+            elif isinstance(value, (int, float, str)):
+                row.SetField(k, int(value) if isinstance(value, bool) else value)
+            else:
+                row.SetField(k, str(value))
+        row.SetField(len(self.kept), feature.id())
+        if feature.id() >= 0:
+            row.SetFID(feature.id())
+        if feature.hasGeometry():
+            row.SetGeometryDirectly(ogr.CreateGeometryFromWkb(bytes(feature.geometry().asWkb())))
+        if self.layer.CreateFeature(row) != 0:
+            raise BadValue("Feature %d could not be copied: %s" % (feature.id(), _last_error()))
+        return row.GetFID()
+
+
+def _last_error():
+    from osgeo import gdal
+    return gdal.GetLastErrorMsg()
+
+
+class Marks:
+    """Features for which something is true, as a table that SQL can ask."""
+
+    def __init__(self, table, holds):
+        self.table, self.holds = table, holds
+        self.sql = "fid IN (SELECT id FROM %s)" % table
+
+
+def expression_of(text, context, label):
+    """A function of features: is the expression true of it? Null is no."""
+    expression = QgsExpression(text)
+    if expression.hasParserError() or not expression.prepare(context):
+        raise BadValue("%s: %s" % (label, expression.parserErrorString() or expression.evalErrorString()))
+
+    def holds(feature):
+        context.setFeature(feature)
+        value = expression.evaluate(context)
+        if expression.hasEvalError():
+            raise BadValue("%s, feature %d: %s" % (label, feature.id(), expression.evalErrorString()))
+        return _value(value) not in (None, False, 0, "")
+
+    return holds
+
+
+def copy(source, path, name, marks, feedback):
+    """Copies a source into a new GeoPackage. Returns the name of the field that holds QGIS's ids, or None if cancelled."""
+    target = _Target(path, name, source)
+    target.dataset.StartTransaction()
+    for mark in marks:
+        target.dataset.ExecuteSQL("CREATE TABLE %s (id INTEGER PRIMARY KEY)" % mark.table)
+        mark.sql = '"%s" IN (SELECT id FROM %s)' % (target.fid, mark.table)
+    every = max(1, (source.count or 0) // 100)
+    negative = []
+    for done, feature in enumerate(source.features()):
+        if done % every == 0:
+            if feedback.isCanceled():
+                return None
+            feedback.setProgress(100 * done / source.count if source.count and source.count > 0 else 0)
+        # Those without a FID take what the others leave.
+        if feature.id() < 0:
+            negative.append(feature)
+        else:
+            _add(target, feature, marks)
+    for feature in negative:
+        _add(target, feature, marks)
+    target.dataset.CommitTransaction()
+    return target.id_field
+
+
+def _add(target, feature, marks):
+    fid = target.add(feature)
+    for mark in marks:
+        if mark.holds(feature):
+            target.dataset.ExecuteSQL("INSERT INTO %s VALUES (%d)" % (mark.table, fid))

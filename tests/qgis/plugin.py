@@ -1,0 +1,417 @@
+"""The plug-in's algorithms in a headless QGIS, beside the program itself. Each test names what it holds of.
+
+    SUNDER=program SUNDER_SOURCE=sources python3 plugin.py     (plugin.sh sets up the profile)
+
+Geometries are compared as WKB, byte for byte, by FID.
+"""
+import faulthandler
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path[:0] = ["/usr/share/qgis/python/plugins", os.path.join(os.environ["SUNDER_SOURCE"], "gis", "qgis")]
+
+from osgeo import ogr  # noqa: E402
+from qgis.core import (QgsApplication, QgsFeature, QgsFeatureRenderer, QgsFeatureRequest, QgsGeometry, QgsProcessingContext,  # noqa: E402
+                       QgsProcessingException, QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback,
+                       QgsProcessingOutputLayerDefinition, QgsProject, QgsVectorLayer, QgsWkbTypes)
+
+SUNDER = os.environ["SUNDER"]
+# A copy: QGIS may change a GeoPackage by opening it.
+TOWN = shutil.copy(os.path.join(os.environ["SUNDER_SOURCE"], "datasets-synthetic", "town.gpkg"), tempfile.mkdtemp())
+TEMPORARY = "TEMPORARY_OUTPUT"
+
+
+class Feedback(QgsProcessingFeedback):
+    """Remembers what it is told; cancels at a percentage, if wished."""
+
+    def __init__(self, cancel_at=None):
+        super().__init__(False)
+        self.told, self.cancel_at = [], cancel_at
+        self.progressChanged.connect(self.reached)
+        self.percents = []
+
+    def reached(self, percent):
+        self.percents.append(percent)
+        if self.cancel_at is not None and percent >= self.cancel_at:
+            self.cancel()
+
+    def pushWarning(self, text):
+        self.told.append("warning: " + text)
+
+    def reportError(self, text, fatal=False):
+        self.told.append("error: " + text)
+
+    def pushInfo(self, text):
+        self.told.append(text)
+
+    pushCommandInfo = pushConsoleInfo = pushDebugInfo = pushInfo
+
+    def warnings(self):
+        return [each for each in self.told if each.startswith("warning: ")]
+
+
+def rows(dataset, layer=None):
+    """Of each feature its FID: geometry as WKB, attributes."""
+    opened = ogr.Open(dataset.split("|")[0])
+    assert opened, dataset
+    name = layer or (dataset.split("layername=")[1] if "layername=" in dataset else None)
+    found = opened.GetLayerByName(name) if name else opened.GetLayer(0)
+    assert found, (dataset, name)
+    return {row.GetFID(): (row.GetGeometryRef() and bytes(row.GetGeometryRef().ExportToIsoWkb()), row.items()) for row in found}
+
+
+def geometries(dataset, layer=None):
+    return {fid: wkb for fid, (wkb, _) in rows(dataset, layer).items()}
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.feedback = Feedback()
+
+    def file(self, name):
+        return os.path.join(self.folder, name)
+
+    def source(self, layer):
+        return layer.source() if isinstance(layer, QgsVectorLayer) else layer
+
+    def refused(self, words, name, parameters):
+        """The run is an error with these words: raised, or told before Processing raises one of its own."""
+        with self.assertRaises(QgsProcessingException) as error:
+            self.run_algorithm(name, parameters)
+        said = "\n".join([str(error.exception)] + self.feedback.told)
+        self.assertIn(words, said)
+        return said
+
+    def sunder(self, *words, status=0):
+        done = subprocess.run([SUNDER] + list(words), stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done.stdout
+
+    def run_algorithm(self, name, parameters, feedback=None):
+        import processing
+        context = QgsProcessingContext()
+        context.setProject(QgsProject.instance())
+        self.context = context
+        return processing.run("sunder:" + name, parameters, feedback=feedback or self.feedback, context=context)
+
+    def town(self, subset=""):
+        layer = QgsVectorLayer(TOWN + "|layername=buildings", "Houses", "ogr")
+        self.assertTrue(layer.isValid())
+        if subset:
+            self.assertTrue(layer.setSubsetString(subset))
+        return layer
+
+    def memory_copy(self, layer):
+        copied = layer.materialize(QgsFeatureRequest())
+        copied.setName("Copied houses")
+        return copied
+
+    def by_program(self, *words):
+        """What the program makes of the town."""
+        written = self.file("program.gpkg")
+        self.sunder("separate", "--input-layer=buildings", TOWN, written, "--quiet", "--overwrite", "--allow-conflicts", *words)
+        return written
+
+
+class SeparateTest(Case):
+    def test_a_file_is_read_where_it_lies(self):
+        done = self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 3, "MAX_SHIFT": 1, "OUTPUT": TEMPORARY,
+                                               "DISPLACEMENT": TEMPORARY, "CONFLICTS": TEMPORARY, "PUSHES": TEMPORARY})
+        theirs = self.by_program("--gap=3", "--max-shift=1")
+        # Processing hands back layers; their sources are the files.
+        for name, layer in (("OUTPUT", "buildings"), ("DISPLACEMENT", "buildings_displacement"),
+                            ("CONFLICTS", "buildings_conflicts"), ("PUSHES", "buildings_pushes")):
+            self.assertEqual(rows(self.source(done[name])), rows(theirs, layer), name)
+        self.assertFalse([line for line in self.feedback.told if line.startswith("Copying")])
+        left = [row for _, row in rows(theirs, "buildings_conflicts").values() if row["reason"] != "same_block"]
+        self.assertEqual(done["CONFLICTS_AFTER"], len(left))
+        self.assertEqual(len(self.feedback.warnings()), 1)
+        self.assertIn("%d conflicts could not be solved" % done["CONFLICTS_AFTER"], self.feedback.warnings()[0])
+        self.assertEqual(self.feedback.percents[-1], 100)
+        self.assertGreater(len(self.feedback.percents), 20)
+
+    def test_memory_layer_keeps_ids(self):
+        layer = self.memory_copy(self.town())
+        done = self.run_algorithm("separate", {"INPUT": layer, "GAP": 3, "OUTPUT": TEMPORARY, "DISPLACEMENT": TEMPORARY})
+        theirs = self.by_program("--gap=3")
+        self.assertEqual(geometries(self.source(done["OUTPUT"])), geometries(theirs, "buildings"))
+        self.assertNotIn("qgis_id", next(iter(rows(self.source(done["OUTPUT"])).values()))[1])
+        for _, (_, row) in rows(self.source(done["DISPLACEMENT"])).items():
+            self.assertEqual(str(row["id"]), str(row["fid"]) if "fid" in row else row["id"])
+
+    def test_filtered_layer_is_the_filtered_one(self):
+        done = self.run_algorithm("separate", {"INPUT": self.town("fid % 3 > 0"), "GAP": 3, "OUTPUT": TEMPORARY})
+        theirs = self.by_program("--gap=3", "--where=fid % 3 > 0")
+        self.assertEqual(geometries(self.source(done["OUTPUT"])), geometries(theirs, "buildings"))
+
+    def test_edited_layer_as_it_is_shown(self):
+        layer = self.memory_copy(self.town())
+        self.assertTrue(layer.startEditing())
+        new = QgsFeature(layer.fields())
+        new.setGeometry(QgsGeometry(next(layer.getFeatures()).geometry()))
+        self.assertTrue(layer.addFeature(new))
+        gone = min(layer.allFeatureIds()) + 5
+        self.assertTrue(layer.deleteFeature(gone))
+        ids = set(layer.allFeatureIds())
+        self.assertTrue(min(ids) < 0)
+        done = self.run_algorithm("separate", {"INPUT": layer, "CONTAINED": 2, "OUTPUT": TEMPORARY, "DISPLACEMENT": TEMPORARY})
+        found = rows(self.source(done["OUTPUT"]))
+        self.assertEqual(len(found), len(ids))
+        self.assertNotIn(gone, found)
+        named = {str(row["id"]) for _, row in rows(self.source(done["DISPLACEMENT"])).values()}
+        self.assertTrue(named <= {str(each) for each in ids}, named - {str(each) for each in ids})
+        layer.rollBack()
+
+    def test_selected_only_leaves_out_the_others(self):
+        layer = self.town()
+        layer.selectByExpression('"fid" % 3 > 0')
+        done = self.run_algorithm("separate", {"INPUT": QgsProcessingFeatureSourceDefinition(layer.id(), True)
+                                               if QgsProject.instance().addMapLayer(layer, False) else None,
+                                               "GAP": 3, "OUTPUT": TEMPORARY})
+        theirs = self.by_program("--gap=3", "--where=fid % 3 > 0")
+        self.assertEqual(geometries(self.source(done["OUTPUT"])), geometries(theirs, "buildings"))
+
+    def test_move_selected_keeps_the_others_as_obstacles(self):
+        layer = self.town()
+        layer.selectByExpression('"fid" % 2 = 0')
+        done = self.run_algorithm("separate", {"INPUT": layer, "MOVE_SELECTED": True, "GAP": 3, "OUTPUT": TEMPORARY})
+        theirs = self.by_program("--gap=3", "--fixed-where=fid % 2 <> 0")
+        self.assertEqual(geometries(self.source(done["OUTPUT"])), geometries(theirs, "buildings"))
+        states = {(fid % 2, row["sunder_st"]) for fid, (_, row) in rows(self.source(done["OUTPUT"])).items()}
+        self.assertIn((1, "fixed"), states)
+        self.assertNotIn((1, "moved"), states)
+
+    def test_move_selected_with_nothing_selected_is_told(self):
+        self.refused("no feature of the layer is selected", "separate", {"INPUT": self.town(), "MOVE_SELECTED": True, "GAP": 3, "OUTPUT": TEMPORARY})
+
+    def test_expressions_are_of_qgis(self):
+        done = self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 3, "FIXED_WHERE": "$area > 200",
+                                               "IGNORE_WHERE": "\"kind\" = 'shed'", "OUTPUT": TEMPORARY})
+        layer = self.town()
+        large = {f.id() for f in layer.getFeatures("$area > 200")}
+        sheds = {f.id() for f in layer.getFeatures("\"kind\" = 'shed'")}
+        self.assertTrue(large)
+        theirs = self.by_program("--gap=3", "--fixed-where=fid IN (%s)" % ",".join(map(str, large)),
+                                 "--ignore-where=kind = 'shed'")
+        self.assertEqual(geometries(self.source(done["OUTPUT"])), geometries(theirs, "buildings"))
+        for fid, (_, row) in rows(self.source(done["OUTPUT"])).items():
+            self.assertTrue(row["sunder_st"] == "skipped" if fid in sheds else fid not in large or row["sunder_st"] != "moved")
+
+    def test_wrong_expression_is_told(self):
+        self.refused("Features that never move", "separate", {"INPUT": self.town(), "FIXED_WHERE": "area >", "OUTPUT": TEMPORARY})
+
+    def test_barriers(self):
+        roads = QgsVectorLayer(TOWN + "|layername=roads", "Roads of the town", "ogr")
+        QgsProject.instance().addMapLayer(roads, False)
+        theirs = geometries(self.by_program("--gap=1", "--max-shift=8", "--barrier=%s,layer=roads,width=5m,gap=0.5m" % TOWN,
+                                            ), "buildings")
+        for row in (["Roads of the town", "5", "0.5", "", "", ""], [TOWN + "|layername=roads", "5m", "0.5", "", "yes", "area"]):
+            done = self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 1, "MAX_SHIFT": 8, "UNIT": 1, "BARRIER": row,
+                                                   "OUTPUT": TEMPORARY})
+            self.assertEqual(geometries(self.source(done["OUTPUT"])), theirs)
+        # A filter of the matrix is an expression, of layers in memory, too.
+        copied = roads.materialize(QgsFeatureRequest())
+        copied.setName("Copied roads")
+        QgsProject.instance().addMapLayer(copied, False)
+        theirs = geometries(self.by_program("--gap=1", "--max-shift=8", "--barrier=%s,layer=roads,width=5,where=fid > 4" % TOWN,
+                                            ), "buildings")
+        for name in ("Roads of the town", "Copied roads"):
+            done = self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 1, "MAX_SHIFT": 8, "OUTPUT": TEMPORARY,
+                                                   "BARRIER": [name, "5", "", "$id > 4", "", ""]})
+            self.assertEqual(geometries(self.source(done["OUTPUT"])), theirs, name)
+
+    def test_barriers_that_mean_nothing_are_told(self):
+        for row, said in ((["nowhere", "", "", "", "", ""], "no layer nowhere"),
+                          ([TOWN + "|layername=roads", "broad", "", "", "", ""], "neither a width nor a field"),
+                          ([TOWN + "|layername=roads", "", "", "a >", "", ""], "filter")):
+            self.refused(said, "separate", {"INPUT": self.town(), "BARRIER": row, "OUTPUT": TEMPORARY})
+
+    def test_millimetres_on_the_sheet(self):
+        done = self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 0.2, "UNIT": 5, "SCALE": 15000, "OUTPUT": TEMPORARY})
+        theirs = self.by_program("--gap=0.2mm", "--scale=15000")
+        self.assertEqual(geometries(self.source(done["OUTPUT"])), geometries(theirs, "buildings"))
+        self.refused("scale", "separate", {"INPUT": self.town(), "GAP": 0.2, "UNIT": 5, "OUTPUT": TEMPORARY})
+
+    def test_points_with_symbols(self):
+        points = self.file("points.gpkg")
+        subprocess.run(["ogr2ogr", points, TOWN, "-nln", "wells", "-dialect", "sqlite", "-sql",
+                        "SELECT fid, ST_Centroid(geom) FROM buildings"], check=True)
+        done = self.run_algorithm("separate", {"INPUT": points, "SYMBOL": "disc:3", "EFFORT": 0, "OUTPUT": TEMPORARY, "SYMBOLS": TEMPORARY})
+        self.sunder("separate", points, self.file("theirs.gpkg"), "--symbol=disc:3", "--effort=0", "--quiet")
+        self.assertEqual(geometries(self.source(done["OUTPUT"])), geometries(self.file("theirs.gpkg"), "wells"))
+        self.assertEqual(geometries(self.source(done["SYMBOLS"])), geometries(self.file("theirs.gpkg"), "wells_symbols"))
+
+    def test_cancel_ends_the_program_and_leaves_nothing(self):
+        for cancel_at in (0, 51):
+            feedback = Feedback(cancel_at)
+            target = self.file("cancelled.gpkg")
+            self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 3, "EFFORT": 1, "OUTPUT": target}, feedback)
+            self.assertFalse(os.path.exists(target))
+            self.assertTrue(any("Cancelled" in line for line in feedback.told) or cancel_at == 0, feedback.told)
+
+
+class DestinationTest(Case):
+    def separated(self, **outputs):
+        return self.run_algorithm("separate", dict({"INPUT": self.town(), "GAP": 3, "MAX_SHIFT": 1}, **outputs))
+
+    def setUp(self):
+        super().setUp()
+        self.theirs = self.by_program("--gap=3", "--max-shift=1")
+
+    def test_files(self):
+        for ending in ("gpkg", "fgb", "shp", "geojson"):
+            target = self.file("moved." + ending)
+            self.assertEqual(self.separated(OUTPUT=target)["OUTPUT"], target)
+            written = QgsVectorLayer(target, "x", "ogr")
+            self.assertTrue(written.isValid(), ending)
+            # Formats regroup rings, sort features and make multipolygons: the vertices are the same.
+            def corners(geometry):
+                return sorted({(vertex.x(), vertex.y()) for vertex in geometry.vertices()})
+            ours = sorted(corners(f.geometry()) for f in written.getFeatures())
+            theirs = sorted(corners(f.geometry())
+                            for f in QgsVectorLayer(self.theirs + "|layername=buildings", "x", "ogr").getFeatures())
+            self.assertEqual(ours, theirs, ending)
+        self.assertEqual(rows(self.file("moved.gpkg"), "moved"), rows(self.theirs, "buildings"))
+        self.assertTrue(any("may round" in line for line in self.feedback.warnings()))
+
+    def test_tables_of_one_geopackage(self):
+        target = self.file("all.gpkg")
+        named = {"OUTPUT": "houses", "CONFLICTS": "left", "DISPLACEMENT": "moves"}
+        for _ in range(2):  # the second time what is there is replaced
+            self.separated(**{name: "ogr:dbname='%s' table=\"%s\" (geom)" % (target, table) for name, table in named.items()})
+        for table, theirs in (("houses", "buildings"), ("left", "buildings_conflicts"), ("moves", "buildings_displacement")):
+            self.assertEqual(geometries(target, table), geometries(self.theirs, theirs), table)
+
+    def test_skipped_ones_are_not_there(self):
+        done = self.separated(CONFLICTS=TEMPORARY)
+        self.assertNotIn("OUTPUT", done)
+        self.assertNotIn("DISPLACEMENT", done)
+        self.assertEqual(len(geometries(self.source(done["CONFLICTS"]))), len(geometries(self.theirs, "buildings_conflicts")))
+
+    def test_styles_go_with_them(self):
+        from sunder import result
+        done = self.separated(OUTPUT=self.file("moved.gpkg"), CONFLICTS=self.file("left.fgb"))
+        for path in (done["OUTPUT"], done["CONFLICTS"]):
+            layer = QgsVectorLayer(path, "x", "ogr")
+            self.assertEqual(layer.renderer().type(), "categorizedSymbol" if path.endswith("gpkg") else "RuleRenderer", path)
+        # As QGIS loads them: the post-processor gives them their looks.
+        context = QgsProcessingContext()
+        project = QgsProject()
+        context.setProject(project)
+        definition = QgsProcessingOutputLayerDefinition(TEMPORARY, project)
+        algorithm = QgsApplication.processingRegistry().createAlgorithmById("sunder:separate")
+        results, ok = algorithm.run({"INPUT": self.town(), "GAP": 3, "OUTPUT": definition}, context, self.feedback)
+        self.assertTrue(ok)
+        loads = context.layersToLoadOnCompletion()
+        self.assertEqual(list(loads), [results["OUTPUT"]])
+        layer = QgsVectorLayer(results["OUTPUT"], "x", "ogr")
+        layer.setRenderer(QgsFeatureRenderer.defaultRenderer(QgsWkbTypes.PolygonGeometry))
+        loads[results["OUTPUT"]].postProcessor().postProcessLayer(layer, context, self.feedback)
+        self.assertEqual(layer.renderer().type(), "categorizedSymbol")
+        self.assertTrue(result.Styled.alive)
+
+    def test_the_input_is_not_written_over(self):
+        own = self.file("own.gpkg")
+        subprocess.run(["ogr2ogr", own, TOWN, "buildings"], check=True)
+        before = geometries(own)
+        self.refused("which is read", "separate", {"INPUT": own, "GAP": 3, "OUTPUT": own})
+        self.assertEqual(geometries(own), before)
+
+    def test_report_and_proof(self):
+        self.separated(OUTPUT=TEMPORARY, REPORT=self.file("r.html"), PROOF=self.file("p.jsonl"))
+        with open(self.file("r.html"), encoding="utf-8") as page:
+            self.assertIn("<html", page.read(2000))
+        with open(self.file("p.jsonl"), encoding="utf-8") as proof:
+            json.loads(proof.readline())
+
+
+class OtherCommands(Case):
+    def test_check(self):
+        done = self.run_algorithm("check", {"INPUT": self.town(), "GAP": 3, "OUTPUT": TEMPORARY})
+        self.sunder("check", "--input-layer=buildings", TOWN, self.file("c.gpkg"), "--gap=3", "--quiet", status=3)
+        self.assertEqual(rows(self.source(done["OUTPUT"])), rows(self.file("c.gpkg")))
+        self.assertEqual(done["CONFLICTS"],
+                         sum(row["reason"] != "same_block" for _, row in rows(self.file("c.gpkg")).values()))
+        self.assertIn("%d conflicts were found" % done["CONFLICTS"], self.feedback.warnings()[0])
+
+    def test_check_before(self):
+        moved = self.by_program("--gap=3", "--max-shift=2", "--effort=0")
+        done = self.run_algorithm("check", {"INPUT": moved + "|layername=buildings", "BEFORE": self.town(), "GAP": 3,
+                                            "MAX_SHIFT": 0.5, "OUTPUT": TEMPORARY})
+        kinds = {row["kind"] for _, row in rows(self.source(done["OUTPUT"])).values()}
+        self.assertIn("limit", kinds)
+
+    def test_buffer(self):
+        for words, values in ((["--shape=square:2"], {"SHAPE": "square:2"}),
+                              (["--shape=square:6", "--operation=close", "--dissolve", "--align"],
+                               {"SHAPE": "square:6", "OPERATION": 3, "DISSOLVE": True, "ALIGN": True})):
+            done = self.run_algorithm("buffer", dict(values, INPUT=self.town(), OUTPUT=TEMPORARY, SEGMENTS=TEMPORARY))
+            written = self.file("%d.gpkg" % len(words))
+            self.sunder("buffer", "--input-layer=buildings", TOWN, written, "--degenerate", "--quiet", *words)
+            self.assertEqual(geometries(self.source(done["OUTPUT"])), geometries(written, "buildings"))
+            self.assertEqual(geometries(self.source(done["SEGMENTS"])), geometries(written, "buildings_degenerate_segments"))
+
+    def test_sum(self):
+        done = self.run_algorithm("sum", {"P": self.town("fid < 20"), "Q_SHAPE": "disc:3", "REFLECT": True, "OUTPUT": TEMPORARY,
+                                          "FACES": TEMPORARY})
+        self.sunder("sum", TOWN, "disc:3", self.file("s.gpkg"), "--input-layer=buildings", "--where=fid < 20", "--reflect",
+                    "--planar-map")
+        self.assertEqual(geometries(self.source(done["OUTPUT"])), geometries(self.file("s.gpkg"), "sum"))
+        self.assertEqual(geometries(self.source(done["FACES"])), geometries(self.file("s.gpkg"), "sum_faces"))
+
+    def test_pair(self):
+        done = self.run_algorithm("pair", {"P_SHAPE": "square:4", "Q_SHAPE": "POLYGON ((1 1, 5 1, 5 2))", "GAP": 0.5,
+                                           "OUTPUT": TEMPORARY})
+        theirs = json.loads(self.sunder("pair", "square:4", "POLYGON ((1 1, 5 1, 5 2))", "--gap=0.5"))
+        self.assertEqual(done["DISTANCE"], theirs["distance"])
+        self.refused("a layer or a shape", "pair", {"P_SHAPE": "square:4", "OUTPUT": TEMPORARY})
+
+    def test_route(self):
+        block = "POLYGON ((2 -9, 4 -9, 4 3, 2 3))"
+        done = self.run_algorithm("route", {"OBSTACLES_SHAPE": block, "ROBOT": "square:2", "FROM": "0,0", "TO": "6,0",
+                                            "OUTPUT": TEMPORARY, "FREE_SPACE": TEMPORARY})
+        self.sunder("route", block, self.file("r.gpkg"), "--robot=square:2", "--from=0,0", "--to=6,0", "--free-space")
+        self.assertEqual(geometries(self.source(done["OUTPUT"])), geometries(self.file("r.gpkg"), "route"))
+        self.assertEqual(geometries(self.source(done["FREE_SPACE"])), geometries(self.file("r.gpkg"), "route_free_space"))
+        # No way is no failure.
+        done = self.run_algorithm("route", {"OBSTACLES_SHAPE": block, "ROBOT": "square:2", "FROM": "0,0", "TO": "3,0",
+                                            "OUTPUT": TEMPORARY})
+        self.assertIn("There is no route", self.feedback.warnings()[0])
+
+    def test_errors_are_in_the_words_of_the_dialog(self):
+        degrees = QgsVectorLayer("Polygon?crs=EPSG:4326", "In degrees", "memory")
+        row = QgsFeature(degrees.fields())
+        row.setGeometry(QgsGeometry.fromWkt("POLYGON ((0 0, 1 0, 1 1, 0 0))"))
+        degrees.dataProvider().addFeatures([row])
+        with self.assertRaises(QgsProcessingException) as refused:
+            self.run_algorithm("separate", {"INPUT": degrees, "GAP": 3, "OUTPUT": TEMPORARY})
+        self.assertNotIn("--", str(refused.exception))
+        self.assertNotIn("/tmp", str(refused.exception))
+        self.assertNotIn("sunder:", str(refused.exception))
+
+
+def main():
+    faulthandler.enable()
+    QgsApplication.setPrefixPath("/usr", True)
+    application = QgsApplication([], False)
+    application.initQgis()
+    from processing.core.Processing import Processing
+    Processing.initialize()
+    from sunder.provider import SunderProvider
+    provider = SunderProvider()
+    application.processingRegistry().addProvider(provider)
+    done = unittest.main(exit=False, verbosity=2).result
+    QgsProject.instance().clear()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(0 if done.wasSuccessful() else 1)  # QGIS's own end crashes now and then where Python holds its objects
+
+
+if __name__ == "__main__":
+    main()
