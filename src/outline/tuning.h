@@ -18,7 +18,7 @@
 /* Nor is it split on after so many splits in a row of which one half keeps nine tenths of the sides, and an eighth of
  * its parts more: that may be a cluster in a corner of the cell, which may be far below it in size and is worth the
  * way the more pairs it has; or sides that are truly concurrent. */
-#define STUBBORN_SPLITS 12
+#define STUBBORN_SPLITS 6
 #define STUBBORN_SHARE 8
 #define KEPT(sides, of) (10 * (sides) >= 9 * (of))
 /* A half with more sides than this, fewer than its cell had by a tenth, is halved as it is: to shrink it to what its
@@ -38,7 +38,7 @@
 /* ---- Pairs (culling_close.c) ------------------------------------------------------------------------------------- */
 
 /* What a pair costs that is pushed, and then sorted and read again for its line, in sides of a split. */
-#define PAIR_COST 8
+#define PAIR_COST 4
 
 /* ---- Contained sides --------------------------------------------------------------------------------------------- */
 
