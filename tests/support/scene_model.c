@@ -9,13 +9,13 @@
 
 #include <cmocka.h>
 
-static void make(scene_model *m, const scene *s)
+static void make(scene_model *m, const sunder_feature *feature, size_t n, const sunder_layer_options *options)
 {
     sunder_i_rules rules;
     sunder_error err;
     memset(m, 0, sizeof *m);
-    assert_int_equal(sunder_layer_new(s->feature, s->n, &m->layer, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_rules_of(&s->options, &rules, &err), SUNDER_OK);
+    assert_int_equal(sunder_layer_new(feature, n, &m->layer, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_rules_of(options, &rules, &err), SUNDER_OK);
     assert_int_equal(sunder_i_barriers_make(m->layer, rules.gap, &m->parts, &err), SUNDER_OK);
     assert_int_equal(sunder_i_order_layer(m->layer, &m->parts, true, &m->work, &m->number, &err), SUNDER_OK);
     assert_int_equal(sunder_i_model_init(&m->work, &m->parts, &rules, &m->model, &err), SUNDER_OK);
@@ -32,15 +32,21 @@ static void join(scene_model *m, const sunder_i_relations *relations)
 void scene_model_begin(scene_model *m, const scene *s)
 {
     const sunder_i_relations none = {0};
-    make(m, s);
+    make(m, s->feature, s->n, &s->options);
     join(m, &none);
     m->model.standing = &m->model.tree;
 }
 
 void scene_model_related(scene_model *m, const scene *s)
 {
+    scene_model_related_features(m, s->feature, s->n, &s->options);
+}
+
+void scene_model_related_features(scene_model *m, const sunder_feature *feature, size_t n,
+                                  const sunder_layer_options *options)
+{
     sunder_error err;
-    make(m, s);
+    make(m, feature, n, options);
     assert_int_equal(sunder_i_placement_init(&m->model, &m->placement, &err), SUNDER_OK);
     m->placed = true;
     assert_int_equal(sunder_i_placement_relate(&m->model, &m->placement, NULL, NULL, &m->start, &err), SUNDER_OK);

@@ -141,6 +141,14 @@ static bool has_no_limit(const sunder_i_model *model, const sunder_i_relaxation 
            sunder_i_limit_of(&model->body[model->body_of[t->b]]) == INFINITY;
 }
 
+/* What one question may take, after so many that ended for want of effort: in a crowd that hangs together by chains of
+ * dozens hardly any other ends otherwise, and one that does ends early. */
+static uint64_t effort_for(const sunder_i_model *model, const sunder_i_relaxation *t, unsigned in_vain)
+{
+    if (has_no_limit(model, t) || in_vain >= ALONE_IN_VAIN) return EFFORT_BRIEFLY_ALONE;
+    return EFFORT_ALONE;
+}
+
 /* What may yet be asked in vain of a cluster with these members. */
 static uint64_t left_to_ask(const asking *g, const uint32_t *member, size_t n)
 {
@@ -162,6 +170,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
         size_t members;
         const uint32_t *member = sunder_i_solver_members(g->solver, g->question[g->first[k]].root, &members);
         uint64_t left = left_to_ask(g, member, members);
+        unsigned in_vain = 0; /* ended for want of effort, one after the other */
         for (size_t q = g->first[k]; q < g->first[k + 1] && left && !status; q++) {
             const sunder_i_relaxation *t = &model->relaxations.item[g->question[q].relaxation];
             const uint32_t body[2] = {model->body_of[t->a], model->body_of[t->b]};
@@ -174,7 +183,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
                                      .required_n = g->required_n,
                                      .margin = MARGINS * cluster_of(g->solver, g->question[q].root)->margin,
                                      .no_plane = true, /* a solution is looked for, which it has none of */
-                                     .effort = has_no_limit(model, t) ? EFFORT_WITHOUT_LIMIT : EFFORT_ALONE,
+                                     .effort = effort_for(model, t, in_vain),
                                      .most = MOST_BODIES};
             p.reserve = member;
             p.reserves = members;
@@ -185,8 +194,10 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
             uint64_t work = 0;
             status = ask(&p, decision, &work, err);
             g->asked[q] = true;
-            if (status || decision->verdict == SUNDER_I_FEASIBLE) break;
+            const sunder_i_verdict verdict = decision->verdict;
+            if (status || verdict == SUNDER_I_FEASIBLE) break;
             sunder_i_decision_clear(decision);
+            in_vain = verdict == SUNDER_I_UNKNOWN ? in_vain + 1 : 0;
             g->work[model->body[body[0]].fixed ? body[1] : body[0]] += work;
             left -= work < left ? work : left;
         }

@@ -1,17 +1,34 @@
 /* What would free a conflict that was left: a longer limit, a smaller gap, one feature less. Each is asked of a small
- * layer about it (question.c). */
+ * layer about it (question.c).
+ *
+ * In a crowd that has no room hardly any small layer has a solution, and there are thousands of conflicts: the pairs
+ * of a cluster are asked about in turn until so much was asked in vain. So what is known of a pair is a matter of its
+ * cluster, never of the layer. */
 #include "displacement/report/question.h"
 #include "displacement/report/tuning.h"
 
 #include "base/parallel.h"
+#include "base/union_find.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* ---- The three needs --------------------------------------------------------------------------------------------- */
 
+/* A question; one in vain takes of what is left as many features as took part. */
+static sunder_status ask(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
+                         const sunder_i_supposition *what, uint64_t *left, bool *yes, double *longest,
+                         sunder_error *err)
+{
+    const uint64_t took = a->feature.n + a->part.n;
+    const sunder_status status = sunder_i_ask(g, a, c, what, yes, longest, err);
+    if (!status && !*yes) *left -= took < *left ? took : *left;
+    return status;
+}
+
 /* A limit of moves: what they need where they may go as far as is known, and then less, by halves. */
 static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
-                                sunder_error *err)
+                                uint64_t *left, sunder_error *err)
 {
     sunder_i_supposition what = {a->farthest, c->required, SUNDER_I_NOBODY};
     double longest, low = INFINITY;
@@ -20,7 +37,7 @@ static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surr
     for (size_t k = 0; k < a->moving; k++) low = fmin(low, a->as[k].max_shift);
     if (!(low < what.limit)) return SUNDER_OK;
     for (int k = 0; k <= g->halvings; k++) {
-        const sunder_status status = sunder_i_ask(g, a, c, &what, &yes, &longest, err);
+        const sunder_status status = ask(g, a, c, &what, left, &yes, &longest, err);
         if (status) return status;
         /* One unit above what is rounded once holds the move. */
         if (yes)
@@ -36,13 +53,13 @@ static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surr
 }
 
 static sunder_status need_gap(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
-                              sunder_error *err)
+                              uint64_t *left, sunder_error *err)
 {
     sunder_i_supposition what = {0, 0, SUNDER_I_NOBODY};
     double high = g->options->gap, longest;
     bool yes;
     for (int k = 0; k <= g->halvings && high > 0; k++) {
-        const sunder_status status = sunder_i_ask(g, a, c, &what, &yes, &longest, err);
+        const sunder_status status = ask(g, a, c, &what, left, &yes, &longest, err);
         if (status) return status;
         if (yes)
             c->need_gap = what.gap;
@@ -57,7 +74,7 @@ static sunder_status need_gap(const sunder_i_questions *g, const sunder_i_surrou
 
 /* The first of those in the way, without which all others are solved. */
 static sunder_status need_gone(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
-                               sunder_error *err)
+                               uint64_t *left, sunder_error *err)
 {
     const sunder_i_supposition none = {0, g->options->gap, SUNDER_I_NOBODY};
     double longest;
@@ -65,7 +82,7 @@ static sunder_status need_gone(const sunder_i_questions *g, const sunder_i_surro
     for (size_t k = 0; k < c->n_blocked_by && k < g->leaves && !yes; k++) {
         sunder_i_supposition what = none;
         what.gone = (uint32_t)c->blocked_by[k];
-        const sunder_status status = sunder_i_ask(g, a, c, &what, &yes, &longest, err);
+        const sunder_status status = ask(g, a, c, &what, left, &yes, &longest, err);
         if (status) return status;
         if (yes) c->need_gone = c->blocked_by[k];
     }
@@ -78,29 +95,69 @@ static size_t members_that_move(const sunder_i_model *model, size_t feature)
     return body->fixed ? 0 : body->members;
 }
 
-static sunder_status find_needs(const sunder_i_questions *g, sunder_conflict *c, sunder_error *err)
+static sunder_status find_needs(const sunder_i_questions *g, sunder_conflict *c, uint64_t *left, sunder_error *err)
 {
     const sunder_i_model *model = &g->solver->model;
     sunder_i_surroundings a = {0};
     if (members_that_move(model, c->a) + members_that_move(model, c->b) > NEED_MOST) return SUNDER_OK;
     sunder_status status = sunder_i_surround(g->solver, c, &a, err);
     a.farthest = fmin(a.farthest, g->options->barrier_reach); /* what it has not been told of may stand beyond */
-    if (!status) status = need_shift(g, &a, c, err);
-    if (!status) status = need_gap(g, &a, c, err);
-    if (!status) status = need_gone(g, &a, c, err);
+    if (!status) status = need_shift(g, &a, c, left, err);
+    if (!status) status = need_gap(g, &a, c, left, err);
+    if (!status) status = need_gone(g, &a, c, left, err);
     sunder_i_surroundings_clear(&a);
     return status;
 }
 
-static sunder_status find_some(void *context, size_t begin, size_t end, sunder_error *err)
+/* ---- The conflicts of a cluster ---------------------------------------------------------------------------------- */
+
+/* A conflict of the report, and the cluster that it belongs to. */
+typedef struct matter {
+    uint32_t root, conflict;
+} matter;
+
+typedef struct asking {
+    const sunder_i_questions *questions;
+    const matter *matter;
+    const size_t *first; /* [clusters + 1] matters, cluster after cluster */
+    uint64_t most;       /* may be asked in vain of one */
+} asking;
+
+static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
-    const sunder_i_questions *g = context;
+    const asking *g = context;
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
-        sunder_conflict *c = &g->report->conflict[k];
-        if (!c->inside_block && c->reason != SUNDER_REASON_KEPT) status = find_needs(g, c, err);
+        uint64_t left = g->most;
+        for (size_t m = g->first[k]; m < g->first[k + 1] && left && !status; m++)
+            status = find_needs(g->questions, &g->questions->report->conflict[g->matter[m].conflict], &left, err);
     }
     return status;
+}
+
+static int by_matter(const void *a, const void *b)
+{
+    const matter *p = a, *q = b;
+    if (p->root != q->root) return p->root < q->root ? -1 : 1;
+    return (p->conflict > q->conflict) - (p->conflict < q->conflict);
+}
+
+/* What is asked about, cluster after cluster; first: where each begins, and the end. Returns how many clusters. */
+static size_t group(const sunder_i_solver *s, const sunder_report *report, matter *list, size_t *first)
+{
+    const sunder_i_model *model = &s->model;
+    size_t n = 0, groups = 0;
+    for (size_t k = 0; k < report->conflicts; k++) {
+        const sunder_conflict *c = &report->conflict[k];
+        if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
+        const uint32_t i = model->body_of[c->a], j = model->body_of[c->b];
+        list[n++] = (matter){sunder_i_union_find(s->parent, model->body[i].fixed ? j : i), (uint32_t)k};
+    }
+    if (n) qsort(list, n, sizeof *list, by_matter);
+    for (size_t k = 0; k < n; k++)
+        if (k == 0 || list[k].root != list[k - 1].root) first[groups++] = k;
+    first[groups] = n;
+    return groups;
 }
 
 sunder_status sunder_i_report_needs(sunder_report *report, const sunder_i_solver *solver,
@@ -109,6 +166,15 @@ sunder_status sunder_i_report_needs(sunder_report *report, const sunder_i_solver
     const double effort = fmin(ceil(options->effort), NEED_EFFORT);
     const sunder_i_questions g = {solver, report, options, solve, (int)effort, NEED_GONE * (size_t)effort};
     if (!(effort > 0)) return SUNDER_OK;
-    return sunder_i_parallel(solver->model.rules.threads, report->conflicts, SUNDER_I_GRAIN_WHOLE, find_some,
-                             (void *)&g, err);
+    matter *list = sunder_i_alloc(report->conflicts, sizeof *list);
+    size_t *first = sunder_i_alloc(report->conflicts + 1, sizeof *first);
+    sunder_status status = list && first ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) {
+        const size_t groups = group(solver, report, list, first);
+        asking h = {&g, list, first, NEED_IN_VAIN * (uint64_t)effort};
+        status = sunder_i_parallel(solver->model.rules.threads, groups, SUNDER_I_GRAIN_WHOLE, ask_clusters, &h, err);
+    }
+    sunder_i_free(list);
+    sunder_i_free(first);
+    return status;
 }

@@ -68,6 +68,8 @@
  * those in the way are let go by turns. */
 #define NEED_EFFORT 16
 #define NEED_GONE 2
+/* For each unit of effort so many features may take part in questions about a cluster that are in vain: seconds. */
+#define NEED_IN_VAIN 200000u
 
 /* ---- What stands in the way (blockers.c) ------------------------------------------------------------------------- */
 

@@ -1,0 +1,181 @@
+/* Of a crowd in which every question is in vain there is an end of questions: what would free a pair
+ * (displacement/report/needs), and has one by itself a solution (displacement/clusters/one_by_one)? */
+#include "polyset.h"
+#include "scene_model.h"
+
+#include "displacement/clusters/stages.h"
+#include "displacement/clusters/tuning.h"
+#include "displacement/report/question.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* ---- A crowd ----------------------------------------------------------------------------------------------------- */
+
+/* A dense field of squares, too close to each other, and two far from it. */
+typedef struct crowd {
+    sunder_feature *feature;
+    size_t n;
+    sunder_layer_options options;
+    scene_model of;
+    sunder_i_solver solver;
+} crowd;
+
+static void add_square(crowd *c, double x, double y, double limit)
+{
+    char wkt[200];
+    snprintf(wkt, sizeof wkt, "POLYGON ((%g %g, %g %g, %g %g, %g %g))", x, y, x + 10, y, x + 10, y + 10, x, y + 10);
+    sunder_shape *shape = polyset_shape_of_wkt(wkt);
+    assert_non_null(shape);
+    c->feature[c->n++] = (sunder_feature){.shape = shape, .weight = 1, .max_shift = limit, .block = -1};
+}
+
+/* Who is too close hangs together. */
+static void join_all(sunder_i_solver *solver)
+{
+    for (size_t k = 0; k < solver->start.n; k++) {
+        const sunder_i_relation *r = &solver->start.pair[k];
+        if (sunder_i_is_conflict_of_bodies(&solver->model, r))
+            assert_true(sunder_i_solver_add_edge(solver, solver->model.body_of[r->a], solver->model.body_of[r->b]));
+    }
+}
+
+static void set_up(crowd *c, size_t side, double limit)
+{
+    sunder_error err;
+    memset(c, 0, sizeof *c);
+    c->feature = calloc(side * side + 2, sizeof *c->feature);
+    assert_non_null(c->feature);
+    sunder_layer_options_init(&c->options);
+    c->options.gap = 2;
+    c->options.no_blocks = c->options.allow_jumps = true;
+    for (size_t k = 0; k < side * side; k++) add_square(c, 11 * (double)(k % side), 11 * (double)(k / side), limit);
+    for (size_t k = 0; k < 2; k++) add_square(c, 11 * (double)k, 2000, limit);
+    scene_model_related_features(&c->of, c->feature, c->n, &c->options);
+    c->solver.model = c->of.model;
+    c->solver.model.standing = &c->of.placement.tree;
+    c->solver.placement = c->of.placement;
+    c->solver.start = c->of.start;
+    assert_int_equal(sunder_i_solver_init(&c->solver, &err), SUNDER_OK);
+    join_all(&c->solver);
+}
+
+static void end(crowd *c)
+{
+    c->solver.model = (sunder_i_model){0};
+    c->solver.placement = (sunder_i_placement){0};
+    c->solver.start = (sunder_i_relations){0};
+    sunder_i_solver_free(&c->solver);
+    scene_model_end(&c->of);
+    for (size_t k = 0; k < c->n; k++) sunder_shape_free((sunder_shape *)(uintptr_t)c->feature[k].shape);
+    free(c->feature);
+}
+
+/* ---- What would free it? ----------------------------------------------------------------------------------------- */
+
+/* No more features than these take part in questions about a cluster that are in vain (report/tuning.h). */
+enum { NEED_IN_VAIN = 200000 };
+
+/* Questions, by where their layer is. */
+static size_t asked_in_field, asked_apart;
+
+/* No layer has a solution. */
+static sunder_status solve_in_vain(const sunder_layer *layer, const sunder_layer_options *options,
+                                   const sunder_i_id_pair *spared, size_t n, sunder_i_solver *x, sunder_error *err)
+{
+    double box[4];
+    (void)options, (void)spared, (void)n, (void)err;
+    sunder_shape_box(layer->feature[0].shape, box);
+    (*(box[1] < 1000 ? &asked_in_field : &asked_apart))++;
+    x->hopeless = true;
+    return SUNDER_OK;
+}
+
+static void list_all(sunder_report *report, const sunder_i_solver *solver)
+{
+    report->conflict = sunder_i_alloc(solver->start.n, sizeof *report->conflict);
+    assert_non_null(report->conflict);
+    for (size_t k = 0; k < solver->start.n; k++) {
+        const sunder_i_relation *r = &solver->start.pair[k];
+        if (!sunder_i_is_conflict_of_bodies(&solver->model, r)) continue;
+        report->conflict[report->conflicts++] = (sunder_conflict){.a = r->a,
+                                                                  .b = r->b,
+                                                                  .distance = 1,
+                                                                  .required = 2,
+                                                                  .reason = SUNDER_REASON_UNRESOLVED,
+                                                                  .need_shift = NAN,
+                                                                  .need_gap = NAN,
+                                                                  .need_gone = SIZE_MAX};
+    }
+}
+
+static void test_needs(void **state)
+{
+    (void)state;
+    crowd c;
+    sunder_report *report = NULL;
+    sunder_error err;
+    set_up(&c, 40, 1);
+    assert_int_equal(sunder_i_report_new(&c.solver.model, &report, &err), SUNDER_OK);
+    list_all(report, &c.solver);
+    assert_int_equal(sunder_i_report_needs(report, &c.solver, &c.options, solve_in_vain, &err), SUNDER_OK);
+    /* Between a dozen and 200 take part in each. Of each pair it is asked what limit it needs, and what gap. */
+    assert_true(asked_in_field >= NEED_IN_VAIN / 200 && asked_in_field <= NEED_IN_VAIN / 12);
+    assert_true(asked_in_field < 2 * (report->conflicts - 1));
+    assert_true(asked_apart >= 2);
+    for (size_t k = 0; k < report->conflicts; k++) assert_true(isnan(report->conflict[k].need_shift));
+    sunder_report_free(report);
+    end(&c);
+}
+
+/* ---- Has it a solution? ------------------------------------------------------------------------------------------ */
+
+/* All pairs are given up, as they stand. Each has a solution, which takes half of the field. */
+static void test_one_by_one(void **state)
+{
+    (void)state;
+    crowd c;
+    sunder_error err;
+    bool changed;
+    set_up(&c, 20, 0.6);
+    sunder_i_model *model = &c.solver.model;
+    size_t n = 0;
+    c.solver.now.pair = sunder_i_alloc(c.solver.start.n, sizeof *c.solver.now.pair);
+    model->given_up = sunder_i_alloc(c.solver.start.n, sizeof *model->given_up);
+    assert_true(c.solver.now.pair && model->given_up);
+    for (size_t k = 0; k < c.solver.start.n; k++) {
+        const sunder_i_relation *r = &c.solver.start.pair[k];
+        sunder_i_relaxation t;
+        c.solver.now.pair[c.solver.now.n++] = *r;
+        if (!sunder_i_is_conflict_of_bodies(model, r)) continue;
+        assert_int_equal(sunder_i_relaxation_of(model, r->a, r->b, &t, &err), SUNDER_OK);
+        assert_true(sunder_i_relaxations_add(&model->relaxations, &t));
+        model->given_up[model->given_up_n++] = (sunder_i_id_pair){model->body_of[r->a], model->body_of[r->b]};
+        n++;
+    }
+    assert_true(sunder_i_relaxations_index(&model->relaxations, model));
+    assert_int_equal(sunder_i_solver_ask_one_by_one(&c.solver, &changed, &err), SUNDER_OK);
+    uint64_t work = 0;
+    for (size_t b = 0; b < model->bodies; b++) work += c.solver.alone_work[b];
+    /* The two that are far away go on from theirs. Of the field's, some were asked in full, and all the others briefly;
+     * each ends at the next look at a program after its effort. */
+    const double full = ALONE_IN_VAIN * (double)EFFORT_ALONE, brief = (double)n * EFFORT_BRIEFLY_ALONE;
+    assert_true(changed);
+    assert_true(n > 1000 && (double)work > full && (double)work < 1.25 * (full + brief));
+    c.of.model = *model;
+    end(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_needs), cmocka_unit_test(test_one_by_one)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
