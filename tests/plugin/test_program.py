@@ -1,4 +1,4 @@
-"""Finding, running and ending the program; what it says, in plain words. A stand-in plays the program where it must hang."""
+"""Finding, running, ending the program; what it says, in plain words. A stand-in plays it where it must hang."""
 import os
 import stat
 import tempfile

@@ -16,13 +16,16 @@ import unittest
 sys.path[:0] = ["/usr/share/qgis/python/plugins", os.path.join(os.environ["SUNDER_SOURCE"], "gis", "qgis")]
 
 from osgeo import ogr  # noqa: E402
-from qgis.core import (QgsApplication, QgsFeature, QgsFeatureRenderer, QgsFeatureRequest, QgsGeometry, QgsProcessingContext,  # noqa: E402
+from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsFeature, QgsFeatureRenderer,  # noqa: E402
+                       QgsFeatureRequest, QgsGeometry, QgsProcessingContext,
                        QgsProcessingException, QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback,
                        QgsProcessingOutputLayerDefinition, QgsProject, QgsVectorLayer, QgsWkbTypes)
+from qgis.PyQt.QtCore import QByteArray, QDate, QDateTime, QTime  # noqa: E402
 
 SUNDER = os.environ["SUNDER"]
 # A copy: QGIS may change a GeoPackage by opening it.
 TOWN = shutil.copy(os.path.join(os.environ["SUNDER_SOURCE"], "datasets-synthetic", "town.gpkg"), tempfile.mkdtemp())
+DATA = os.path.join(os.environ["SUNDER_SOURCE"], "..", "shared", "data")
 TEMPORARY = "TEMPORARY_OUTPUT"
 
 
@@ -254,6 +257,91 @@ class SeparateTest(Case):
             self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 3, "EFFORT": 1, "OUTPUT": target}, feedback)
             self.assertFalse(os.path.exists(target))
             self.assertTrue(any("Cancelled" in line for line in feedback.told) or cancel_at == 0, feedback.told)
+
+
+    def test_virtual_layer(self):
+        QgsProject.instance().addMapLayer(self.town(), False)
+        virtual = QgsVectorLayer("?query=SELECT * FROM Houses WHERE fid % 3 > 0", "Two thirds", "virtual")
+        self.assertTrue(virtual.isValid())
+        done = self.run_algorithm("separate", {"INPUT": virtual, "GAP": 3, "OUTPUT": TEMPORARY})
+        theirs = self.by_program("--gap=3", "--where=fid % 3 > 0")
+        self.assertEqual(sorted(geometries(self.source(done["OUTPUT"])).values()),
+                         sorted(geometries(theirs, "buildings").values()))
+
+    def test_cancelled_while_copying(self):
+        feedback = Feedback(1)
+        layer = self.memory_copy(self.town())
+        self.run_algorithm("separate", {"INPUT": layer, "GAP": 3, "OUTPUT": self.file("x.gpkg")}, feedback)
+        self.assertFalse(os.path.exists(self.file("x.gpkg")))
+        self.assertFalse([line for line in feedback.told if " separate " in line], "the program was run")
+
+    def test_attributes_of_all_kinds_survive(self):
+        layer = QgsVectorLayer("Polygon?crs=EPSG:25832&field=fid:integer&field=n:int8&field=x:double&field=t:string&"
+                               "field=d:date&field=m:datetime&field=b:bool&field=y:binary", "Kinds", "memory")
+        values = [7, 2 ** 40, 1 / 3, "Straße, 'quoted'", QDate(2020, 2, 29), QDateTime(QDate(2020, 2, 29), QTime(1, 2, 3)),
+                  True, QByteArray(b"\x00\xff")]
+        for k, row in enumerate((values, [None] * len(values))):
+            feature = QgsFeature(layer.fields())
+            feature.setAttributes(row)
+            feature.setGeometry(QgsGeometry.fromWkt("POLYGON ((%d 0, %d 0, %d 1, %d 0))" % (k, k + 1, k + 1, k)))
+            self.assertTrue(layer.dataProvider().addFeature(feature))
+        done = self.run_algorithm("separate", {"INPUT": layer, "OUTPUT": TEMPORARY})
+        found = [row for _, row in rows(self.source(done["OUTPUT"])).values()]
+        self.assertEqual([found[0][name] for name in ("fid", "n", "x", "t")], values[:4])
+        self.assertEqual((found[0]["d"], found[0]["m"][:19], found[0]["b"]), ("2020/02/29", "2020/02/29 01:02:03", True))
+        self.assertEqual(found[0]["y"], "00FF")  # as OGR says bytes
+        self.assertEqual({found[1][name] for name in ("fid", "n", "x", "t", "d", "m", "b", "y")}, {None})
+
+    def test_crs_changed_in_qgis(self):
+        layer = self.town()
+        layer.setCrs(QgsCoordinateReferenceSystem("EPSG:32632"))
+        done = self.run_algorithm("separate", {"INPUT": layer, "GAP": 3, "OUTPUT": TEMPORARY})
+        self.assertEqual(QgsVectorLayer(self.source(done["OUTPUT"]), "x", "ogr").crs().authid(), "EPSG:32632")
+
+
+@unittest.skipUnless(os.path.isdir(DATA), "there is no ../shared/data beside the sources")
+class RealLayers(Case):
+    """Layers of OpenStreetMap, read where they lie, zipped, filtered and from memory."""
+
+    def compare(self, layer, words, values, name="buildings"):
+        done = self.run_algorithm("separate", dict(values, INPUT=layer, EFFORT=0, OUTPUT=TEMPORARY, CONFLICTS=TEMPORARY))
+        written = self.file("theirs.gpkg")
+        self.sunder("separate", *words, written, "--effort=0", "--quiet", "--overwrite", "--allow-conflicts")
+        ours, theirs = geometries(self.source(done["OUTPUT"])), geometries(written, name)
+        self.assertEqual(ours, theirs)
+        self.assertEqual(geometries(self.source(done["CONFLICTS"])), geometries(written, name + "_conflicts"))
+        return len(ours)
+
+    def layer(self, file, name="buildings"):
+        layer = QgsVectorLayer(os.path.join(DATA, file) + "|layername=" + name, name, "ogr")
+        self.assertTrue(layer.isValid(), file)
+        return layer
+
+    def test_beside_all_roads(self):
+        path = os.path.join(DATA, "krems_2013.gpkg")
+        words = [path, "-l", "buildings", "--gap=1", "--max-shift=8", "--barrier=%s,layer=roads,width=4" % path,
+                 "--barrier=%s,layer=waterways,width=2,gap=3,where=waterway = 'river'" % path]
+        barriers = [path + "|layername=roads", "4", "", "", "", "",
+                    path + "|layername=waterways", "2", "3", "\"waterway\" = 'river'", "", ""]
+        values = {"GAP": 1, "MAX_SHIFT": 8, "BARRIER": barriers}
+        self.assertGreater(self.compare(self.layer("krems_2013.gpkg"), words, values), 1000)
+        self.compare(self.memory_copy(self.layer("krems_2013.gpkg")), words, values)
+
+    def test_filtered(self):
+        path = os.path.join(DATA, "saint_jean_la_poterie.gpkg")
+        layer = self.layer("saint_jean_la_poterie.gpkg")
+        layer.setSubsetString("fid % 4 > 0")
+        self.compare(layer, [path, "-l", "buildings", "--where=fid % 4 > 0", "--gap=3"], {"GAP": 3})
+
+    def test_zipped_shapefile(self):
+        path = "/vsizip/" + os.path.join(DATA, "baltimore_2015_shp.zip")
+        layer = QgsVectorLayer(path + "/buildings.shp", "Baltimore", "ogr")
+        self.assertTrue(layer.isValid())
+        # QGIS takes all polygons of a Shapefile for multipolygons: so must the program.
+        copied = self.file("copied.gpkg")
+        subprocess.run(["ogr2ogr", copied, path, "buildings", "-nlt", "PROMOTE_TO_MULTI", "-lco", "FID=ogr_fid",
+                        "-preserve_fid"], check=True)
+        self.compare(layer, [copied, "-l", "buildings", "--gap=2"], {"GAP": 2})
 
 
 class DestinationTest(Case):

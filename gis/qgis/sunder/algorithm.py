@@ -1,8 +1,8 @@
 """What all algorithms share: parameters of the table of options, layers in, the run, layers out.
 
-A module of an algorithm says which layers go in (inputs) and come out (outputs) and what its figures mean; its options stand
-in options.py. The work has the two halves that Processing asks for: prepareAlgorithm() looks at layers, in the thread that
-owns them; processAlgorithm() copies, runs and writes, in any thread.
+A module of an algorithm says which layers go in (inputs) and come out (outputs) and what its figures mean; its options
+stand in options.py. The work has the two halves that Processing asks for: prepareAlgorithm() looks at layers, in the
+thread that owns them; processAlgorithm() copies, runs and writes, in any thread.
 """
 import os
 import re
@@ -10,11 +10,12 @@ import shutil
 from collections import namedtuple
 
 from processing.core.ProcessingConfig import ProcessingConfig
-from qgis.core import (QgsProcessing, QgsProcessingAlgorithm, QgsProcessingException, QgsProcessingFeatureSourceDefinition,
-                       QgsProcessingMultiStepFeedback, QgsProcessingOutputNumber, QgsProcessingParameterBoolean,
-                       QgsProcessingParameterDefinition, QgsProcessingParameterEnum, QgsProcessingParameterFeatureSource,
-                       QgsProcessingParameterFileDestination, QgsProcessingParameterString,
-                       QgsProcessingParameterVectorDestination, QgsProcessingUtils, QgsVectorLayer)
+from qgis.core import (QgsProcessing, QgsProcessingAlgorithm, QgsProcessingException,
+                       QgsProcessingFeatureSourceDefinition, QgsProcessingMultiStepFeedback, QgsProcessingOutputNumber,
+                       QgsProcessingParameterBoolean, QgsProcessingParameterDefinition, QgsProcessingParameterEnum,
+                       QgsProcessingParameterFeatureSource, QgsProcessingParameterFileDestination,
+                       QgsProcessingParameterString, QgsProcessingParameterVectorDestination, QgsProcessingUtils,
+                       QgsVectorLayer)
 from qgis.PyQt.QtCore import QUrl
 from qgis.PyQt.QtGui import QDesktopServices, QIcon
 
@@ -22,6 +23,8 @@ from . import options, program, result, source
 from . import parameters as parameters_of
 from .command_line import BadValue, barrier, rows_of, unit_of, words
 from .options import BARRIERS, EXPRESSION, LENGTH, SOURCE, UNIT
+
+PROGRAM_SETTING = "SUNDER_PROGRAM"  # of Processing: where the program is
 
 # shape: the parameter that takes a shape as text instead, or None. word: what the program calls it.
 Input = namedtuple("Input", "name label types shape shape_label")
@@ -68,14 +71,14 @@ class Algorithm(QgsProcessingAlgorithm):
         return self.text.split("\n")[0]
 
     def shortHelpString(self):
-        parts = ["<p>%s</p>" % part for part in self.text.strip().split("\n\n")]
+        parts = ["<p>%s</p>" % part.replace("\n", " ") for part in self.text.split("\n\n")]
         for option in options.of_command(self.command):
             parts.append("<p><b>%s</b><br/>%s</p>" % (option.label, option.help))
         return "".join(parts)
 
     def canExecute(self):
         try:
-            program.find(ProcessingConfig.getSetting("SUNDER_PROGRAM"))
+            program.find(ProcessingConfig.getSetting(PROGRAM_SETTING))
         except program.ProgramMissing as missing:
             return False, str(missing)
         return True, ""
@@ -94,8 +97,8 @@ class Algorithm(QgsProcessingAlgorithm):
         for option in options.of_command(self.command):
             self._add(parameters_of.parameter(option, self.inputs[0].name), option.help, option.advanced)
             if option.kind == LENGTH and self.parameterDefinition(UNIT) is None:
-                self._add(QgsProcessingParameterEnum(UNIT, options.UNIT_LABEL, list(options.UNIT_LABELS), defaultValue=0),
-                          "Holds for all lengths of this dialog that do not name a unit of their own.")
+                units = QgsProcessingParameterEnum(UNIT, options.UNIT_LABEL, list(options.UNIT_LABELS), defaultValue=0)
+                self._add(units, "Holds for all lengths of this dialog that do not name a unit of their own.")
         for each in self.outputs:
             self._add(QgsProcessingParameterVectorDestination(each.name, each.label, each.type, optional=True,
                                                               createByDefault=each.wanted))
@@ -137,9 +140,10 @@ class Algorithm(QgsProcessingAlgorithm):
         return True
 
     def _prepare(self, parameters, context):
-        self.sunder = program.find(ProcessingConfig.getSetting("SUNDER_PROGRAM"))
+        self.sunder = program.find(ProcessingConfig.getSetting(PROGRAM_SETTING))
         self.sources = {each.name: self._source(parameters, each.name, context) for each in self.inputs}
-        self.shapes = {each.name: self.parameterAsString(parameters, each.shape, context) for each in self.inputs if each.shape}
+        self.shapes = {each.name: self.parameterAsString(parameters, each.shape, context)
+                       for each in self.inputs if each.shape}
         self.marks, self.barriers, self.values = {}, [], {}
         for option in options.of_command(self.command):
             self._prepare_option(option, parameters, context)
@@ -172,7 +176,8 @@ class Algorithm(QgsProcessingAlgorithm):
                 asked.setFields(self.sources[self.inputs[0].name].fields)
                 self.marks[name] = source.expression_of(text, asked, option.label)
         else:
-            self.values[name] = parameters_of.value(self, option, parameters, context, self.sources[self.inputs[0].name])
+            layer = self.sources[self.inputs[0].name]
+            self.values[name] = parameters_of.value(self, option, parameters, context, layer)
 
     def _prepare_barriers(self, rows, context):
         for row in rows:
@@ -330,7 +335,8 @@ class Algorithm(QgsProcessingAlgorithm):
         for each, destination in self.wanted.items():
             name = self.main + each.suffix
             if name in there:
-                results[each.name] = result.deliver(written, name, parameters[each.name], destination, context, feedback)
+                results[each.name] = result.deliver(written, name, parameters[each.name], destination, context,
+                                                    feedback)
             else:
                 feedback.pushInfo("%s: there is none in this run." % each.label)
                 result.forget(destination, context)

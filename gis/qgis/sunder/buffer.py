@@ -8,7 +8,8 @@ class Buffer(Algorithm):
     text = """Grows, shrinks, opens or closes polygons by a shape, exactly.
 
 A square keeps right angles right, where round buffers leave arcs of short segments. Closing with Dissolve merges
-buildings that are near each other into blocks. Nothing is rounded on the way; the result is rounded once and is valid."""
+buildings that are near each other into blocks. Nothing is rounded on the way; the result is rounded once and is
+valid."""
     main = "buffered"
     inputs = (Input("INPUT", "Layer", (POLYGONS,), None, None),)
     outputs = (

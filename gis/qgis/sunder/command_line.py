@@ -3,8 +3,8 @@
 A value is what QGIS hands over: a number, the index of a choice, True, the name of a field, text; None is not said.
 Numbers are written so that they read back as the same double.
 """
-from .options import (BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FLAG, LENGTH, NUMBER, NUMERIC_FIELD, POINT, SCALE, SOURCE,
-                      TEXT, UNIT, UNITS, of_command)
+from .options import (BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FLAG, LENGTH, NUMBER, NUMERIC_FIELD, POINT, SCALE,
+                      SOURCE, TEXT, UNIT, UNITS, of_command)
 
 BARRIER_COLUMNS = ("Layer", "Width or field", "Gap", "Filter", "Side (yes/no)", "As (area/boundary)")
 
@@ -47,8 +47,8 @@ def _words_of(option, value, values):
 
 
 def words(command, values):
-    """The options of a command. values: by parameter's name; of expressions SQL, of barriers and of the layer before the
-    texts that barrier() and the plug-in made."""
+    """The options of a command. values: by parameter's name, as QGIS hands them over. Layers, barriers and expressions
+    become words where they are copied (algorithm.py)."""
     found = []
     for option in of_command(command):
         value = values.get(option.name)
@@ -103,9 +103,9 @@ def _escaped(text):
 
 
 def barrier(row, unit, dataset, layer, fields):
-    """The text of --barrier for a row: dataset and layer are where it was put, fields the names that it has. A width that is
-    the name of a field is that field, else a length in the unit of the dialog, or with a unit of its own. Its filter was
-    heeded when its features were copied."""
+    """The text of --barrier for a row: dataset and layer are where it was put, fields the names that it has. A width
+    that is the name of a field is that field, else a length in the unit of the dialog, or with a unit of its own. Its
+    filter was heeded when its features were copied."""
     name, width, gap, _, side, taken_as = row
     parts = [_escaped(dataset), "layer=" + _escaped(layer)]
     if width in fields:

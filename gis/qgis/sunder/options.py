@@ -1,9 +1,9 @@
 """The table of what the dialogs ask, once: options of the program, in the words of a dialog. No QGIS in here.
 
-Parameters are made of it (algorithm.py), command lines (command_line.py), help texts, and the plain words in which
+Parameters are made of it (parameters.py), command lines (command_line.py), help texts, and the plain words in which
 messages of the program are told. A test compares it with `sunder --options-json`: every option of every command stands
-here or in LEFT_OUT, with the same choices and defaults. So the plug-in needs no program to be loaded, and its words may be
-those of a dialog.
+here or in LEFT_OUT, with the same choices and defaults. So the plug-in needs no program to be loaded, and its words may
+be those of a dialog.
 """
 from collections import namedtuple
 
@@ -16,11 +16,12 @@ EVERY = ("separate", "check", "buffer", "sum", "pair", "route")
 
 
 class Option(namedtuple("Option", "flag kind commands label help default choices labels advanced needed")):
-    """One option. labels: what the dialog shows for each of choices. default: a value of the dialog, None is not said."""
+    """One option. labels: what the dialog shows for each of choices. default: a value of the dialog; None: not said."""
 
     __slots__ = ()
 
-    def __new__(cls, flag, kind, commands, label, text, default=None, choices=(), labels=(), advanced=True, needed=False):
+    def __new__(cls, flag, kind, commands, label, text, default=None, choices=(), labels=(), advanced=True,
+                needed=False):
         return super().__new__(cls, flag, kind, commands, label, text, default, choices, labels, advanced, needed)
 
     @property
@@ -45,7 +46,8 @@ OPTIONS = (
     Option("--robot", TEXT, ("route",), "Robot (what is moved)",
            "square:2, rectangle:4x3, disc:1.5, or WKT of a polygon around its reference point (0 0). It does not turn.",
            "disc:1", advanced=False, needed=True),
-    Option("--from", POINT, ("route",), "Start", "Where the robot's reference point starts.", advanced=False, needed=True),
+    Option("--from", POINT, ("route",), "Start", "Where the robot's reference point starts.", advanced=False,
+           needed=True),
     Option("--to", POINT, ("route",), "Goal", "Where it is to go.", advanced=False, needed=True),
     Option("--before", SOURCE, ("check",), "The layer before it was moved",
            "Also lists what broke a rule since then: what stands worse, moved too far, changed its side of a barrier, "
@@ -53,10 +55,12 @@ OPTIONS = (
     Option("--reflect", FLAG, ("sum",), "Sum of P and the reflected Q",
            "The sum of P and -Q: where Q may not stand, if it is not to meet P.", False, advanced=False),
     Option("--barrier", BARRIERS, LAYERS, "Barriers (layers that never move)",
-           "One row a layer: roads, rivers, parcels. Layer: the name of a layer of the project, or a file. Width or field: "
-           "the full drawn width, or the field that holds it. Gap: from the drawn edge, the gap above where empty. Filter: an "
-           "expression. Side: no lets features cross it. As: boundary takes a polygon's rings as lines.", advanced=False),
-    Option("--max-shift", LENGTH, LAYERS, "Longest move", "No feature is moved further. Empty: no limit.", advanced=False),
+           "One row a layer: roads, rivers, parcels. Layer: the name of a layer of the project, or a file. Width or "
+           "field: the full drawn width, or the field that holds it. Gap: from the drawn edge, the gap above where "
+           "empty. Filter: an expression. Side: no lets features cross it. As: boundary takes a polygon's rings as "
+           "lines.", advanced=False),
+    Option("--max-shift", LENGTH, LAYERS, "Longest move", "No feature is moved further. Empty: no limit.",
+           advanced=False),
     Option("--scale", SCALE, EVERY, "Scale of the map",
            "For lengths in millimetres on the sheet: 25000 for a map at 1:25 000.", advanced=False),
     # ---- Who moves how far ----
@@ -76,11 +80,13 @@ OPTIONS = (
            "Features that touch, or overlap or gape by no more than this, move as one. Empty: a tenth of the gap."),
     Option("--block-field", FIELD, LAYERS, "Field: features of equal values are one block",
            "Equal values that are not null move as one, besides those that touch."),
-    Option("--no-blocks", FLAG, LAYERS, "Nothing joins by touch or containment", "Each feature moves by itself.", False),
+    Option("--no-blocks", FLAG, LAYERS, "Nothing joins by touch or containment", "Each feature moves by itself.",
+           False),
     Option("--contained", CHOICE, LAYERS, "A feature that lies in another",
            "A building part in its building, say. Symbols of points are always taken apart.",
            0, ("block", "ignore", "separate"), ("Moves with it", "May overlap it", "Is taken out of it")),
-    Option("--allow-jumps", FLAG, LAYERS, "Features may jump over others, and out of yards", "Points always may.", False),
+    Option("--allow-jumps", FLAG, LAYERS, "Features may jump over others, and out of yards", "Points always may.",
+           False),
     Option("--list-inside", FLAG, LAYERS, "List conflicts inside blocks, too",
            "Members of one block owe each other no gap; this lists where they would.", False),
     # ---- Symbols ----
@@ -108,8 +114,8 @@ OPTIONS = (
     # ---- All ----
     Option("--id-field", FIELD, ("separate", "check", "buffer"), "Key field, for lists and messages",
            "Copied into the id columns. Empty: the id that QGIS shows, where the layer had to be copied."),
-    Option("--effort", NUMBER, ("separate",), "Effort", "How hard to look for better sides and for proofs: 0 not at all, "
-           "10 ten times as hard.", 1.0),
+    Option("--effort", NUMBER, ("separate",), "Effort", "How hard to look for better sides and for proofs: 0 not at "
+           "all, 10 ten times as hard.", 1.0),
     Option("--seed", COUNT, ("separate", "sum", "pair"), "Seed", "For what is drawn at random.", 0),
     Option("--invalid", CHOICE, EVERY, "Invalid geometries", "Polygons that cross themselves, for example.",
            0, ("repair", "skip", "fail"), ("Repair", "Skip", "Stop with a message")),
@@ -120,7 +126,8 @@ OPTIONS = (
 UNIT = "UNIT"
 UNIT_LABEL = "Unit of the lengths"
 UNITS = ("", "m", "km", "ft", "us-ft", "mm")
-UNIT_LABELS = ("Units of the layer", "Metres", "Kilometres", "Feet", "US survey feet", "Millimetres on the sheet of the map")
+UNIT_LABELS = ("Units of the layer", "Metres", "Kilometres", "Feet", "US survey feet",
+               "Millimetres on the sheet of the map")
 SHEET = UNITS.index("mm")
 
 # Options that no dialog asks, and why.
@@ -132,7 +139,8 @@ LEFT_OUT = {
     "--bbox": _QGIS_CHOOSES, "--if": _QGIS_CHOOSES, "--oo": _QGIS_CHOOSES, "--config": _QGIS_CHOOSES,
     "--input-crs": "QGIS's own CRS of the layer is handed over with it",
     "--output": _QGIS_WRITES, "--of": _QGIS_WRITES, "--lco": _QGIS_WRITES, "--co": _QGIS_WRITES,
-    "--overwrite": _QGIS_WRITES, "--update": _QGIS_WRITES, "--overwrite-layer": _QGIS_WRITES, "-overwrite": _QGIS_WRITES,
+    "--overwrite": _QGIS_WRITES, "--update": _QGIS_WRITES, "--overwrite-layer": _QGIS_WRITES,
+    "-overwrite": _QGIS_WRITES,
     "--output-layer": _OURS, "--layers": "by the outputs that are not skipped",
     "--planar-map": "by the outputs that are not skipped", "--free-space": "by the outputs that are not skipped",
     "--degenerate": "by the outputs that are not skipped",

@@ -1,13 +1,13 @@
-"""A row of the table of options as a parameter of Processing, and its value back. Layers, expressions and barriers come back by
-algorithm.py, which knows what to do with them."""
+"""A row of the table of options as a parameter of Processing, and its value back. Layers, expressions and barriers come
+back by algorithm.py, which knows what to do with them."""
 from qgis.core import (QgsProcessing, QgsProcessingParameterBoolean, QgsProcessingParameterEnum,
-                       QgsProcessingParameterExpression, QgsProcessingParameterFeatureSource, QgsProcessingParameterField,
-                       QgsProcessingParameterMatrix, QgsProcessingParameterNumber, QgsProcessingParameterPoint,
-                       QgsProcessingParameterScale, QgsProcessingParameterString)
+                       QgsProcessingParameterExpression, QgsProcessingParameterFeatureSource,
+                       QgsProcessingParameterField, QgsProcessingParameterMatrix, QgsProcessingParameterNumber,
+                       QgsProcessingParameterPoint, QgsProcessingParameterScale, QgsProcessingParameterString)
 
 from .command_line import BARRIER_COLUMNS
-from .options import (BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FLAG, LENGTH, NUMBER, NUMERIC_FIELD, POINT, SCALE, SOURCE,
-                      TEXT)
+from .options import (BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FLAG, LENGTH, NUMBER, NUMERIC_FIELD, POINT, SCALE,
+                      SOURCE, TEXT)
 
 
 def parameter(option, layer):
@@ -15,7 +15,8 @@ def parameter(option, layer):
     name, label, optional = option.name, option.label, not option.needed
     if option.kind in (LENGTH, NUMBER, COUNT):
         kind = QgsProcessingParameterNumber.Integer if option.kind == COUNT else QgsProcessingParameterNumber.Double
-        return QgsProcessingParameterNumber(name, label, kind, option.default, optional=option.default is None, minValue=0)
+        return QgsProcessingParameterNumber(name, label, kind, option.default, optional=option.default is None,
+                                            minValue=0)
     if option.kind == SCALE:
         return QgsProcessingParameterScale(name, label, optional=True)
     if option.kind == FLAG:
@@ -38,8 +39,8 @@ def parameter(option, layer):
 
 
 def value(algorithm, option, parameters, context, layer):
-    """What command_line.py takes: a number, an index, a text; None where nothing is said. layer: whose CRS a point is to be
-    in, or None."""
+    """What command_line.py takes: a number, an index, a text; None where nothing is said. layer: whose CRS a point is
+    to be in, or None."""
     name = option.name
     if option.kind == FLAG:
         return algorithm.parameterAsBoolean(parameters, name, context)

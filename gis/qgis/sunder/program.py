@@ -1,4 +1,4 @@
-"""The program itself: where it is, how a run goes, and what it says in words for the user of a dialog. No QGIS in here."""
+"""The program itself: where it is, how a run goes, what it says in words for the user of a dialog. No QGIS in here."""
 import json
 import os
 import queue
@@ -23,8 +23,9 @@ def find(setting):
     if setting:
         found = shutil.which(os.path.expanduser(setting))
         if not found:
-            raise ProgramMissing("The setting of Processing says that the program sunder is %s, but there is no program. "
-                                 "Change it in Settings > Options > Processing > Providers > Sunder." % setting)
+            raise ProgramMissing("The setting of Processing says that the program sunder is %s, but there is no "
+                                 "program. Change it in Settings > Options > Processing > Providers > Sunder." %
+                                 setting)
         return found
     found = shutil.which("sunder")
     if not found:
@@ -56,8 +57,8 @@ def _end(process):
 
 
 def run(words, progress, say, cancelled):
-    """Runs the program to its end. progress(percent), say(line) for each line on stdout, cancelled() is asked often; all are
-    called in the thread of the caller, as signals of QGIS want it.
+    """Runs the program to its end. progress(percent), say(line) for each line on stdout, cancelled() is asked often;
+    all are called in the thread of the caller, as signals of QGIS want it.
 
     Returns the exit status, None if it was cancelled, and the lines of stderr that are no progress.
     """

@@ -5,6 +5,7 @@ from processing.core.ProcessingConfig import ProcessingConfig, Setting
 from qgis.core import QgsProcessingProvider
 from qgis.PyQt.QtGui import QIcon
 
+from .algorithm import PROGRAM_SETTING
 from .buffer import Buffer
 from .check import Check
 from .pair import Pair
@@ -12,7 +13,6 @@ from .route import Route
 from .separate import Separate
 from .sum import Sum
 
-PROGRAM_SETTING = "SUNDER_PROGRAM"
 ICONS = os.path.join(os.path.dirname(__file__), "icons")
 
 
@@ -34,8 +34,9 @@ class SunderProvider(QgsProcessingProvider):
 
     def load(self):
         ProcessingConfig.settingIcons[self.name()] = self.icon()
-        ProcessingConfig.addSetting(Setting(self.name(), PROGRAM_SETTING, "The program sunder (empty: as found on the PATH)",
-                                            "", valuetype=Setting.FILE))
+        ProcessingConfig.addSetting(Setting(self.name(), PROGRAM_SETTING,
+                                            "The program sunder (empty: as found on the PATH)", "",
+                                            valuetype=Setting.FILE))
         ProcessingConfig.readSettings()
         self.refreshAlgorithms()
         return True

@@ -15,10 +15,10 @@ from qgis.PyQt.QtXml import QDomDocument
 EXACT_ENDINGS = (".gpkg", ".sqlite", ".fgb", ".shp")
 
 # As QGIS itself makes it.
-_STYLES = ("CREATE TABLE IF NOT EXISTS layer_styles (id INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL, f_table_catalog TEXT(256), "
-           "f_table_schema TEXT(256), f_table_name TEXT(256), f_geometry_column TEXT(256), styleName TEXT(30), styleQML TEXT, "
-           "styleSLD TEXT, useAsDefault BOOLEAN, description TEXT, owner TEXT(30), ui TEXT(30), "
-           "update_time DATETIME DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ','now')))")
+_STYLES = ("CREATE TABLE IF NOT EXISTS layer_styles (id INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL, "
+           "f_table_catalog TEXT(256), f_table_schema TEXT(256), f_table_name TEXT(256), f_geometry_column TEXT(256), "
+           "styleName TEXT(30), styleQML TEXT, styleSLD TEXT, useAsDefault BOOLEAN, description TEXT, owner TEXT(30), "
+           "ui TEXT(30), update_time DATETIME DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ','now')))")
 
 
 class Styled(QgsProcessingLayerPostProcessorInterface):
@@ -53,8 +53,12 @@ def drop_field(path, layer, name):
 
 
 def style_of(path, layer):
+    """The QML of a layer; empty where the program stored none."""
     dataset = ogr.Open(path)
-    rows = dataset.ExecuteSQL("SELECT styleQML FROM layer_styles WHERE useAsDefault = 1 AND f_table_name = %s" % _sql(layer))
+    if dataset.GetLayerByName("layer_styles") is None:
+        return ""
+    rows = dataset.ExecuteSQL("SELECT styleQML FROM layer_styles WHERE useAsDefault = 1 AND f_table_name = %s" %
+                              _sql(layer))
     row = rows.GetNextFeature() if rows else None
     qml = row.GetFieldAsString(0) if row else ""
     if rows:
@@ -76,10 +80,12 @@ def _is_file(destination):
 
 def _write(layer, destination, context, feedback):
     """All features of a layer to a destination. Returns what QGIS loads it by."""
-    sink, final = QgsProcessingUtils.createFeatureSink(destination, context, layer.fields(), layer.wkbType(), layer.crs())
+    sink, final = QgsProcessingUtils.createFeatureSink(destination, context, layer.fields(), layer.wkbType(),
+                                                       layer.crs())
     if sink is None:
         raise QgsProcessingException("%s could not be written." % destination)
-    if not sink.addFeatures(layer.getFeatures(QgsFeatureRequest()), QgsFeatureSink.FastInsert) or not sink.flushBuffer():
+    if not (sink.addFeatures(layer.getFeatures(QgsFeatureRequest()), QgsFeatureSink.FastInsert) and
+            sink.flushBuffer()):
         raise QgsProcessingException("%s could not be written: %s" % (destination, sink.lastError()))
     del sink  # closes it
     return final
@@ -105,9 +111,10 @@ def _store_style(path, table, qml):
     column = dataset.GetLayerByName(table).GetGeometryColumn()
     dataset.ExecuteSQL(_STYLES)
     dataset.ExecuteSQL("DELETE FROM layer_styles WHERE f_table_name = %s" % _sql(table))
-    dataset.ExecuteSQL("INSERT INTO layer_styles (f_table_catalog, f_table_schema, f_table_name, f_geometry_column, styleName, "
-                       "styleQML, styleSLD, useAsDefault, description, owner) VALUES ('', '', %s, %s, 'sunder', %s, '', 1, "
-                       "'drawn for the results of sunder', 'sunder')" % (_sql(table), _sql(column), _sql(qml)))
+    dataset.ExecuteSQL("INSERT INTO layer_styles (f_table_catalog, f_table_schema, f_table_name, f_geometry_column, "
+                       "styleName, styleQML, styleSLD, useAsDefault, description, owner) VALUES ('', '', %s, %s, "
+                       "'sunder', %s, '', 1, 'drawn for the results of sunder', 'sunder')" %
+                       (_sql(table), _sql(column), _sql(qml)))
 
 
 def _sql(text):
@@ -127,8 +134,8 @@ def deliver(path, name, value, destination, context, feedback):
         final = _write(layer, destination, context, feedback)
         _keep_style(final, destination, qml)
         if _is_file(destination) and not destination.lower().endswith(EXACT_ENDINGS):
-            feedback.pushWarning("%s: this format may round coordinates. What was proved is true of the coordinates as the "
-                                 "program wrote them; a GeoPackage keeps them." % os.path.basename(destination))
+            feedback.pushWarning("%s: this format may round coordinates. What was proved is true of the coordinates as "
+                                 "the program wrote them; a GeoPackage keeps them." % os.path.basename(destination))
     loads = context.layersToLoadOnCompletion()
     if destination in loads:
         details = loads.pop(destination)

@@ -12,7 +12,8 @@ Buildings, or symbols of points, keep their shape and are only moved. Roads and 
 result is checked exactly on the coordinates as written, and a proved lower bound stands beside the cost.
 
 Layers: the features, moved, with their attributes; the moves as lines; the conflicts that remain, each with its
-reason; what presses on what; for points their symbols. The report is a page for the browser: the map before and after."""
+reason; what presses on what; for points their symbols. The report is a page for the browser: the map before and
+after."""
     main = "separated"
     movable = True
     inputs = (Input("INPUT", "Layer to separate", (POLYGONS, POINTS), None, None),)

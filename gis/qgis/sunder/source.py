@@ -1,13 +1,13 @@
 """Layers of QGIS to what the program reads.
 
-A plain file, of which QGIS shows what lies in it, is read where it lies. All else - memory, virtual and database layers,
-filtered, edited, joined ones, selections, layers whose CRS was changed in QGIS - is copied into a GeoPackage: geometries
-as they are, doubles as doubles, FIDs kept where QGIS's ids may be FIDs, and the id in a field of its own, since ids of
-features that are not saved yet are negative.
+A plain file, of which QGIS shows what lies in it, is read where it lies. All else - memory, virtual and database
+layers, filtered, edited, joined ones, selections, layers whose CRS was changed in QGIS - is copied into a GeoPackage:
+geometries as they are, doubles as doubles, FIDs kept where QGIS's ids may be FIDs, and the id in a field of its own,
+since ids of features that are not saved yet are negative.
 
-Expressions of the dialog are QGIS's and are asked while copying; the ids for which one is true go into a table of their own,
-beside the layer, which the SQL of --fixed-where and --ignore-where asks. That holds for selections of any size, where a list
-of ids on a command line would not.
+Expressions of the dialog are QGIS's and are asked while copying; the ids for which one is true go into a table of their
+own, beside the layer, which the SQL of --fixed-where and --ignore-where asks. That holds for selections of any size,
+where a list of ids on a command line would not.
 """
 import os
 import re
@@ -31,7 +31,7 @@ _TYPES = {
 
 
 class Source:
-    """What is known of a layer before the work, from the thread that owns it. features(): an iterator, in any thread."""
+    """What is known of a layer before the work, by the thread that owns it. features(): an iterator, in any thread."""
 
     def __init__(self, name, fields, wkb_type, crs, features, count, layer, whole):
         self.name, self.fields, self.wkb_type, self.crs = name, fields, wkb_type, crs
@@ -78,7 +78,8 @@ def of_layer(layer, expression=""):
     request = QgsFeatureRequest()
     if expression:
         if QgsExpression(expression).hasParserError():
-            raise BadValue("%s: the filter %s: %s" % (layer.name(), expression, QgsExpression(expression).parserErrorString()))
+            trouble = QgsExpression(expression).parserErrorString()
+            raise BadValue("%s: the filter %s: %s" % (layer.name(), expression, trouble))
         request.setFilterExpression(expression)
     features = QgsVectorLayerFeatureSource(layer)
     return Source(layer.name(), layer.fields(), layer.wkbType(), layer.crs(), lambda: features.getFeatures(request),
@@ -86,9 +87,10 @@ def of_layer(layer, expression=""):
 
 
 def of_processing(source, layer, whole):
-    """What a parameter of Processing selects; layer: whose it is, or None. whole: it is that layer with all its features."""
+    """What a parameter of Processing selects; layer: whose it is, or None. whole: that layer, with all its features."""
+    as_they_are = QgsProcessingFeatureSource.FlagSkipGeometryValidityChecks  # invalid ones are the program's business
     return Source(source.sourceName(), source.fields(), source.wkbType(), source.sourceCrs(),
-                  lambda: source.getFeatures(QgsFeatureRequest(), QgsProcessingFeatureSource.FlagSkipGeometryValidityChecks),
+                  lambda: source.getFeatures(QgsFeatureRequest(), as_they_are),
                   source.featureCount(), layer, whole)
 
 
@@ -148,10 +150,11 @@ class _Target:
                                               ["FID=" + fid, "SPATIAL_INDEX=NO"])
         self.fid = fid
         for i in self.kept:
-            self._add_field(source.fields[i].name(), *_TYPES.get(source.fields[i].type(), (ogr.OFTString, ogr.OFSTNone)))
+            field = source.fields[i]
+            self._add_field(field.name(), *_TYPES.get(field.type(), (ogr.OFTString, ogr.OFSTNone)))
         self._add_field(self.id_field, ogr.OFTInteger64, ogr.OFSTNone)
         self.definition = self.layer.GetLayerDefn()
-        # Real, yet as it may come: bytes have a setter of their own.
+        # Bytes have a setter of their own.
         self.binary = [self.definition.GetFieldDefn(k).GetType() == ogr.OFTBinary for k in range(len(self.kept))]
 
     def _add_field(self, name, kind, subtype):
@@ -213,7 +216,7 @@ def expression_of(text, context, label):
 
 
 def copy(source, path, name, marks, feedback):
-    """Copies a source into a new GeoPackage. Returns the name of the field that holds QGIS's ids, or None if cancelled."""
+    """Copies a source into a new GeoPackage. Returns the name of the field of QGIS's ids, or None if cancelled."""
     target = _Target(path, name, source)
     target.dataset.StartTransaction()
     for mark in marks:
