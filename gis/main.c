@@ -3,6 +3,7 @@
 #include "base/message.h"
 #include "base/spelling.h"
 #include "commands/commands.h"
+#include "commands/resolve.h"
 #include "sunder.h"
 
 #include <cpl_conv.h>
@@ -35,7 +36,7 @@ const size_t gis_n_commands = sizeof gis_commands / sizeof gis_commands[0];
 static void hear_gdal(CPLErr class, CPLErrorNum number, const char *words)
 {
     (void)number;
-    if (class == CE_Warning && !gis_interrupted()) gis_say_warning("%s", words);
+    if (class == CE_Warning && !gis_interrupted()) gis_say_warning(GIS_MESSAGE_GDAL, "%s", words);
 }
 
 static const gis_command *find_command(const char *name)
@@ -57,6 +58,22 @@ static void configure(const gis_options *options)
     }
 }
 
+/* Mistakes in the arguments are told before these are understood, and in the form that is asked for among them. */
+static bool wants_json(int argc, char **argv)
+{
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
+        if (strcmp(argv[i], "--messages=json") == 0 ||
+            (strcmp(argv[i], "--messages") == 0 && i + 1 < argc && strcmp(argv[i + 1], "json") == 0))
+            return true;
+    return false;
+}
+
+static bool begin_messages(const gis_options *options, gis_error *error)
+{
+    gis_messages_request request;
+    return gis_resolve_messages(options, &request, error) && gis_messages_begin(&request, error);
+}
+
 static int run(const gis_command *command, int argc, char **argv)
 {
     gis_options options;
@@ -67,6 +84,8 @@ static int run(const gis_command *command, int argc, char **argv)
     } else if (options.given[OPT_HELP]) {
         gis_help_command(command);
         status = GIS_DONE;
+    } else if (!begin_messages(&options, &error)) {
+        status = gis_say_failure(&error);
     } else {
         configure(&options);
         GDALAllRegister();
@@ -88,6 +107,12 @@ static int close_stdout(int status)
         return gis_say_failure(&error);
     }
     return status;
+}
+
+static int close_log(int status)
+{
+    gis_error error;
+    return gis_messages_end(&error) ? status : gis_say_failure(&error);
 }
 
 static int unknown_command(const char *word)
@@ -120,7 +145,9 @@ static int no_command(void)
 
 int main(int argc, char **argv)
 {
+    gis_error none;
     CPLSetErrorHandler(hear_gdal);
+    gis_messages_begin(&(gis_messages_request){.json = wants_json(argc, argv)}, &none);
     int status = GIS_DONE;
     const char *first = argc > 1 ? argv[1] : NULL;
     const gis_command *command = first ? find_command(first) : NULL;
@@ -138,5 +165,5 @@ int main(int argc, char **argv)
     } else {
         status = unknown_command(first);
     }
-    return close_stdout(status);
+    return close_log(close_stdout(status));
 }

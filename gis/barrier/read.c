@@ -37,12 +37,10 @@ typedef struct reading {
 static void name_feature(const reading *r, size_t i, char *who, size_t size)
 {
     GIntBig fid = gis_source_fid(r->source, i);
-    if (fid == OGRNullFID)
-        snprintf(who, size, "barrier %s, layer %s, feature %zu", r->request->dataset, gis_source_name(r->source),
-                 i + 1);
-    else
-        snprintf(who, size, "barrier %s, layer %s, FID " CPL_FRMT_GIB, r->request->dataset, gis_source_name(r->source),
-                 fid);
+    char within[GIS_WHO_SIZE];
+    snprintf(within, sizeof within, "barrier %s", r->request->dataset);
+    const gis_subject subject = {within, gis_source_name(r->source), fid != OGRNullFID, fid, i, NULL};
+    gis_name_subject(&subject, who, size);
 }
 
 /* ---- Reach ------------------------------------------------------------------------------------------------------- */
@@ -91,7 +89,7 @@ static bool in_layer_crs(const reading *r, OGRGeometryH geometry, const char *wh
     *out = geometry;
     if (!r->to_layer) return true;
     bool curved = OGR_G_HasCurveGeometry(geometry, TRUE);
-    if (curved) gis_say_warning("%s: its arcs are taken as polylines", who);
+    if (curved) gis_say_warning(GIS_MESSAGE_ARCS, "%s: its arcs are taken as polylines", who);
     OGRGeometryH copy = curved ? OGR_G_GetLinearGeometry(geometry, 0, NULL) : OGR_G_Clone(geometry);
     if (!copy) return gis_no_memory(error);
     OGR_G_FlattenTo2D(copy);
@@ -125,7 +123,7 @@ static bool take_geometry(reading *r, OGRGeometryH geometry, const char *who, gi
             !gis_shape_of_feature(&r->part.set, r->around->invalid, who, "invalid: ", &out->shape, &invalid, error))
             return false;
     }
-    if (arcs) gis_say_warning("%s: its arcs are taken as polylines", who);
+    if (arcs) gis_say_warning(GIS_MESSAGE_ARCS, "%s: its arcs are taken as polylines", who);
     return true;
 }
 
@@ -210,7 +208,7 @@ static bool open_source(reading *r, gis_error *error)
                  (int)(sizeof error->message - n - 16), named ? why.message : CPLSPrintf(": %s", why.message));
         return false;
     }
-    gis_say_warnings(gis_source_warnings(r->source));
+    gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(r->source));
     return true;
 }
 

@@ -12,7 +12,7 @@ bool gis_barrier_transformation(OGRSpatialReferenceH from, OGRSpatialReferenceH 
     *out = NULL;
     bool known = gis_crs_is_known(from), layer_known = gis_crs_is_known(to);
     if (known != layer_known)
-        gis_say_warning("%s: %s; its coordinates are taken as those of the layer", who,
+        gis_say_warning(GIS_MESSAGE_CRS, "%s: %s; its coordinates are taken as those of the layer", who,
                         known ? "the layer has no CRS to transform it to" : "it has no CRS");
     if (!known || !layer_known || OSRIsSame(from, to)) return true;
     gis_listener listener = {0};

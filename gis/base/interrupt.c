@@ -29,6 +29,8 @@ static atomic_int interrupted, outcome, told;
 static gis_leftover *leftovers;
 static pthread_t main_thread;
 static int held;
+static const char *volatile last_words = "";
+static volatile sig_atomic_t log_file = -1;
 
 /* ---- In the handler ---------------------------------------------------------------------------------------------- */
 
@@ -46,11 +48,13 @@ static void clear_away(void)
 /* Nobody listened. While the outcome is being decided nothing could be said of it, and then it is the new one. */
 static void lose_patience(void)
 {
-    static const char words[] = "sunder: error: " GIS_INTERRUPTED "\n";
     if (atomic_load(&outcome) == GIS_DECIDING) alarm(PATIENCE);
     if (atomic_load(&outcome) != GIS_OPEN) return;
     clear_away();
-    if (!atomic_load(&told)) (void)!write(STDERR_FILENO, words, sizeof words - 1);
+    if (!atomic_load(&told)) {
+        (void)!write(STDERR_FILENO, last_words, strlen(last_words));
+        if (log_file >= 0) (void)!write(log_file, last_words, strlen(last_words));
+    }
     _exit(atomic_load(&told) ? atomic_load(&told) : GIS_FAILED);
 }
 
@@ -175,6 +179,12 @@ void gis_leftover_forget(gis_leftover *leftover)
     CPLFree(leftover->path);
     CPLFree(leftover->back_to);
     CPLFree(leftover);
+}
+
+void gis_set_last_words(const char *words, int log)
+{
+    last_words = words;
+    log_file = log;
 }
 
 void gis_failure_told(int exit_status) { atomic_store(&told, exit_status); }

@@ -46,6 +46,9 @@ gis_leftover *gis_leftover_former(const char *path, const char *back_to);
 /* The file is gone, or in its place: the handler leaves it alone. NULL is fine. */
 void gis_leftover_forget(gis_leftover *leftover);
 
+/* The line that is said where the run is ended by force: on stderr, and in a log that is open (-1: none). The text is
+ * kept by the caller. */
+void gis_set_last_words(const char *words, int log);
 /* A failure has been told, and is the run's exit status: ending it by force says nothing more. */
 void gis_failure_told(int exit_status);
 

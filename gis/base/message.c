@@ -3,38 +3,305 @@
  * be told what to do by a file. */
 #include "base/message.h"
 
+#include "base/array.h"
 #include "base/interrupt.h"
+#include "base/json.h"
+#include "base/progress.h"
 
+#include <cpl_string.h>
+#include <ctype.h>
+#include <errno.h>
+#include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
 
-static void print_line(const char *kind, const char *text)
+/* So many warnings of a kind are said; a layer of thousands of broken features would say nothing new by the rest. */
+enum { SAID_OF_A_KIND = 10 };
+
+enum { TEXT_SIZE = 2048 }; /* longer ones are cut */
+
+#define PREFIX "sunder: "
+#define INTERRUPTED_WORDS PREFIX "error: " GIS_INTERRUPTED "\n"
+#define INTERRUPTED_JSON                                                                                               \
+    "{\"level\": \"error\", \"kind\": \"interrupted\", \"layer\": null, \"fid\": null, \"id\": null, \"count\": 1, "   \
+    "\"exit_status\": 1, \"message\": \"" GIS_INTERRUPTED "\"}\n"
+
+static const char *const kind_words[GIS_MESSAGE_N] = {
+    [GIS_MESSAGE_INVALID] = "invalid",     [GIS_MESSAGE_ARCS] = "arcs",       [GIS_MESSAGE_CRS] = "crs",
+    [GIS_MESSAGE_PASSED_BY] = "passed_by", [GIS_MESSAGE_INPUT] = "input",     [GIS_MESSAGE_OUTPUT] = "output",
+    [GIS_MESSAGE_LOSS] = "loss",           [GIS_MESSAGE_REMAINS] = "remains", [GIS_MESSAGE_GDAL] = "gdal",
+};
+
+/* Warnings that are summed up together: of one kind, and those of lists alike but for their numbers. */
+typedef struct tally {
+    gis_message_kind kind;
+    char *alike; /* "": all of the kind */
+    char *first; /* of those that were not said */
+    size_t n;
+} tally;
+
+/* What is said anywhere is said by the one process on its one stderr; threads take turns. */
+static struct {
+    pthread_mutex_t turn;
+    gis_messages_request how;
+    FILE *log;
+    tally *tallies;
+    size_t n_tallies, capacity;
+} messages = {.turn = PTHREAD_MUTEX_INITIALIZER};
+
+static _Thread_local struct {
+    char name[GIS_WHO_SIZE], layer[GIS_WHO_SIZE], id[GIS_WHO_SIZE];
+    bool has_fid, has_id;
+    int64_t fid;
+} last;
+
+/* ---- Subjects ---------------------------------------------------------------------------------------------------- */
+
+void gis_name_subject(const gis_subject *subject, char *text, size_t size)
 {
-    fflush(stdout); /* so that the order is right where both go to one terminal */
-    fprintf(stderr, "sunder: %s: ", kind);
-    for (const char *c = text; *c; c++) fputc((unsigned char)*c < ' ' || *c == 0x7f ? ' ' : *c, stderr);
-    fputc('\n', stderr);
+    char which[64], id[GIS_WHO_SIZE] = "";
+    if (subject->has_fid)
+        snprintf(which, sizeof which, "FID %lld", (long long)subject->fid);
+    else
+        snprintf(which, sizeof which, "feature %zu", subject->number + 1);
+    if (subject->id) snprintf(id, sizeof id, " (id %s)", subject->id);
+    snprintf(text, size, "%s%slayer %s, %s%s", subject->within ? subject->within : "", subject->within ? ", " : "",
+             subject->layer, which, id);
+    snprintf(last.name, sizeof last.name, "%s", text);
+    snprintf(last.layer, sizeof last.layer, "%s", subject->layer);
+    snprintf(last.id, sizeof last.id, "%s", subject->id ? subject->id : "");
+    last.has_fid = subject->has_fid;
+    last.has_id = subject->id != NULL;
+    last.fid = subject->fid;
 }
 
-void gis_say_warning(const char *format, ...)
+/* FID 1 is not named by what begins as FID 12 does. */
+static bool names_last(const char *text)
 {
-    char text[2048]; /* longer ones are cut */
+    const char *at = last.name[0] ? strstr(text, last.name) : NULL;
+    return at && !isalnum((unsigned char)at[strlen(last.name)]);
+}
+
+/* ---- A line ------------------------------------------------------------------------------------------------------ */
+
+typedef struct line {
+    const char *level, *kind, *text;
+    size_t count;
+    int exit_status; /* of an error; -1 */
+} line;
+
+static void print_words(FILE *to, const line *said) { fprintf(to, PREFIX "%s: %s\n", said->level, said->text); }
+
+static void put_subject(gis_json *out, const char *text)
+{
+    bool named = names_last(text);
+    gis_json_put_string(out, "layer", named ? last.layer : NULL);
+    gis_json_key(out, "fid");
+    if (named && last.has_fid)
+        gis_json_signed(out, last.fid);
+    else
+        gis_json_null(out);
+    gis_json_put_string(out, "id", named && last.has_id ? last.id : NULL);
+}
+
+/* Where memory is out for that, in words. */
+static void print_json(FILE *to, const line *said)
+{
+    gis_json out = {0};
+    gis_json_open(&out, '{');
+    gis_json_put_string(&out, "level", said->level);
+    gis_json_put_string(&out, "kind", said->kind);
+    put_subject(&out, said->text);
+    gis_json_put_size(&out, "count", said->count);
+    if (said->exit_status >= 0) gis_json_put_size(&out, "exit_status", (uint64_t)said->exit_status);
+    gis_json_put_string(&out, "message", said->text);
+    gis_json_close(&out, '}');
+    const char *json = gis_json_text(&out);
+    if (json)
+        fprintf(to, "%s\n", json);
+    else
+        print_words(to, said);
+    gis_json_clear(&out);
+}
+
+static void print(FILE *to, const line *said)
+{
+    if (messages.how.json)
+        print_json(to, said);
+    else
+        print_words(to, said);
+}
+
+static void print_to_stderr(const line *said)
+{
+    fflush(stdout); /* so that the order is right where both go to one terminal */
+    gis_progress_break();
+    print(stderr, said);
+}
+
+/* One line; and, where it is to be JSON, UTF-8. */
+static void cleanse(char *text)
+{
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < ' ' || *c == 0x7f) *c = ' ';
+    if (messages.how.json && !CPLIsUTF8(text, -1))
+        for (char *c = text; *c; c++)
+            if ((unsigned char)*c >= 0x80) *c = '?';
+}
+
+/* ---- Kinds ------------------------------------------------------------------------------------------------------- */
+
+/* Each number becomes a mark. */
+static void without_numbers(const char *text, char *out, size_t size)
+{
+    size_t n = 0;
+    for (const char *c = text; *c && n + 1 < size;) {
+        size_t digits = strspn(c, "0123456789");
+        out[n++] = digits ? '#' : *c;
+        c += digits ? digits : 1;
+    }
+    out[n] = '\0';
+}
+
+static tally *tally_of(gis_message_kind kind, const char *alike)
+{
+    for (size_t i = 0; i < messages.n_tallies; i++)
+        if (messages.tallies[i].kind == kind && strcmp(messages.tallies[i].alike, alike) == 0)
+            return &messages.tallies[i];
+    if (!gis_array_reserve(&messages.tallies, &messages.capacity, messages.n_tallies + 1, sizeof(tally))) return NULL;
+    tally *new = &messages.tallies[messages.n_tallies];
+    *new = (tally){.kind = kind, .alike = strdup(alike)};
+    if (!new->alike) return NULL;
+    messages.n_tallies++;
+    return new;
+}
+
+/* What could not be counted for want of memory is said. */
+static void say_warning(gis_message_kind kind, const char *alike, char *text)
+{
+    pthread_mutex_lock(&messages.turn);
+    cleanse(text);
+    const line said = {"warning", kind_words[kind], text, 1, -1};
+    if (messages.log) print(messages.log, &said);
+    if (!messages.how.quiet) {
+        tally *of_kind = tally_of(kind, alike);
+        if (!of_kind || of_kind->n++ < SAID_OF_A_KIND)
+            print_to_stderr(&said);
+        else if (!of_kind->first)
+            of_kind->first = strdup(text);
+    }
+    pthread_mutex_unlock(&messages.turn);
+}
+
+static void say_sum(const tally *of_kind)
+{
+    char text[TEXT_SIZE];
+    size_t more = of_kind->n - SAID_OF_A_KIND;
+    snprintf(text, sizeof text, "%zu more like these, the first of them: %s (%s)", more,
+             of_kind->first ? of_kind->first : "", messages.log ? "all are in the log" : "--log FILE keeps all");
+    last.name[0] = '\0';
+    print_to_stderr(&(line){"warning", kind_words[of_kind->kind], text, more, -1});
+}
+
+static void say_sums(void)
+{
+    for (size_t i = 0; i < messages.n_tallies; i++) {
+        tally *each = &messages.tallies[i];
+        if (each->n > SAID_OF_A_KIND && !gis_interrupted()) say_sum(each);
+        free(each->alike);
+        free(each->first);
+    }
+    free(messages.tallies);
+    messages.tallies = NULL;
+    messages.n_tallies = messages.capacity = 0;
+}
+
+/* ---- Said by others ---------------------------------------------------------------------------------------------- */
+
+void gis_say_warning(gis_message_kind kind, const char *format, ...)
+{
+    char text[TEXT_SIZE];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    print_line("warning", text);
+    say_warning(kind, "", text);
+}
+
+void gis_say_warnings(gis_message_kind kind, const gis_sentences *list)
+{
+    for (size_t i = 0; i < list->n && !gis_interrupted(); i++) { /* after a signal they tell of calls cut short */
+        char text[TEXT_SIZE], alike[TEXT_SIZE];
+        snprintf(text, sizeof text, "%s", list->items[i]);
+        without_numbers(text, alike, sizeof alike);
+        say_warning(kind, alike, text);
+    }
+}
+
+static const char *failure_kind(const gis_error *error)
+{
+    if (strcmp(error->message, GIS_INTERRUPTED) == 0) return "interrupted";
+    return error->no_memory ? "memory" : error->exit_status == GIS_USAGE ? "usage" : "failed";
 }
 
 int gis_say_failure(const gis_error *error)
 {
+    char text[sizeof error->message];
     gis_failure_told(error->exit_status);
-    print_line("error", error->message);
+    pthread_mutex_lock(&messages.turn);
+    say_sums();
+    snprintf(text, sizeof text, "%s", error->message);
+    cleanse(text);
+    const line said = {"error", failure_kind(error), text, 1, error->exit_status};
+    if (messages.log) print(messages.log, &said);
+    print_to_stderr(&said);
+    pthread_mutex_unlock(&messages.turn);
     return error->exit_status;
 }
 
-void gis_say_warnings(const gis_sentences *list)
+/* ---- The log ----------------------------------------------------------------------------------------------------- */
+
+/* Is it a former log, or empty, or no file at all? Anything else might be what the user has no second copy of. */
+static bool may_replace(const char *path)
 {
-    for (size_t i = 0; i < list->n && !gis_interrupted(); i++) /* once a signal has come they tell of calls cut short */
-        print_line("warning", list->items[i]);
+    struct stat info;
+    char begin[16] = "";
+    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode) || info.st_size == 0) return true;
+    FILE *file = fopen(path, "r");
+    if (!file) return true; /* then it cannot be opened below, either, or only be written */
+    size_t n = fread(begin, 1, sizeof begin - 1, file);
+    begin[n] = '\0';
+    fclose(file);
+    return strncmp(begin, PREFIX, strlen(PREFIX)) == 0 || strncmp(begin, "{\"level\": ", 10) == 0;
+}
+
+bool gis_messages_begin(const gis_messages_request *request, gis_error *error)
+{
+    messages.how = *request;
+    gis_set_last_words(request->json ? INTERRUPTED_JSON : INTERRUPTED_WORDS, -1);
+    if (!request->log) return true;
+    if (!may_replace(request->log))
+        return gis_fail_usage(error, "--log %s: there is a file of that name, which is no log; give another",
+                              request->log);
+    messages.log = fopen(request->log, "w");
+    if (!messages.log) return gis_fail(error, "--log: cannot write %s: %s", request->log, strerror(errno));
+    setvbuf(messages.log, NULL, _IOLBF, 0); /* it can be followed, and is there after a kill */
+    gis_set_last_words(request->json ? INTERRUPTED_JSON : INTERRUPTED_WORDS, fileno(messages.log));
+    return true;
+}
+
+bool gis_messages_end(gis_error *error)
+{
+    pthread_mutex_lock(&messages.turn);
+    say_sums();
+    FILE *log = messages.log;
+    messages.log = NULL;
+    gis_set_last_words(messages.how.json ? INTERRUPTED_JSON : INTERRUPTED_WORDS, -1);
+    pthread_mutex_unlock(&messages.turn);
+    if (!log) return true;
+    bool failed = ferror(log) != 0;
+    return !((fclose(log) != 0) | failed) || gis_fail(error, "--log: cannot write %s", messages.how.log);
 }

@@ -9,6 +9,9 @@
 /* GDAL's bar, 0...10...20 ... 100 - done.: a mark each 2.5 percent, every fourth a number. */
 enum { BAR_MARKS = 40, MARKS_A_NUMBER = 4, PERCENT_A_NUMBER = 10 };
 
+/* Is the cursor behind marks of a bar? */
+static bool in_bar;
+
 gis_progress gis_progress_new(gis_progress_kind kind) { return (gis_progress){.kind = kind, .to = 1, .shown = -1}; }
 
 void gis_progress_stage(gis_progress *progress, double from, double to)
@@ -27,7 +30,14 @@ static void print_bar(gis_progress *progress, double fraction)
         else
             fputc('.', stderr);
         progress->shown = mark;
+        in_bar = true;
     }
+}
+
+void gis_progress_break(void)
+{
+    if (in_bar) fputc('\n', stderr);
+    in_bar = false;
 }
 
 bool gis_progress_call(double fraction, void *user)
@@ -48,4 +58,5 @@ void gis_progress_done(gis_progress *progress)
 {
     gis_progress_stage(progress, 1, 1);
     if (progress->kind == GIS_PROGRESS_BAR) fputs(" - done.\n", stderr);
+    in_bar = false;
 }

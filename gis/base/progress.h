@@ -18,6 +18,8 @@ gis_progress gis_progress_new(gis_progress_kind kind);
 void gis_progress_stage(gis_progress *progress, double from, double to);
 /* A sunder_progress; user is a gis_progress. False when a signal asked to stop. */
 bool gis_progress_call(double fraction, void *user);
+/* Whoever has something else to say on stderr in between: it begins a line of its own. */
+void gis_progress_break(void);
 /* All is done: a bar ends with the word for it. */
 void gis_progress_done(gis_progress *progress);
 

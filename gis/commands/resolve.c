@@ -347,8 +347,38 @@ gis_destinations gis_resolve_destinations(const gis_options *options)
 
 gis_progress gis_resolve_progress(const gis_options *options)
 {
-    gis_progress_kind kind = GIS_PROGRESS_NONE;
-    if (options->given[OPT_PROGRESS] && !options->given[OPT_QUIET])
-        kind = options->text[OPT_PROGRESS] ? GIS_PROGRESS_PLAIN : GIS_PROGRESS_BAR;
-    return gis_progress_new(kind);
+    bool json = strcmp(options->text[OPT_MESSAGES], "json") == 0;
+    bool layers = (options->command->bit & (GIS_LAYERS | GIS_BUFFER)) || output_of(options);
+    gis_progress_kind kind = layers && !json && isatty(STDERR_FILENO) ? GIS_PROGRESS_BAR : GIS_PROGRESS_NONE;
+    if (options->given[OPT_PROGRESS]) kind = options->text[OPT_PROGRESS] ? GIS_PROGRESS_PLAIN : GIS_PROGRESS_BAR;
+    return gis_progress_new(options->given[OPT_QUIET] ? GIS_PROGRESS_NONE : kind);
+}
+
+/* May the log be put there? It is opened before all else, and so is looked after here: what the call names is none of
+ * its places. */
+static bool spare_named(const gis_options *options, const char *log, gis_error *error)
+{
+    bool named = false;
+    for (size_t i = 0; i < options->n_operands; i++) {
+        const char *operand = options->operand[i];
+        named = named || gis_path_lies_in(operand + (*operand == '@'), log);
+    }
+    for (int id = 0; id < OPT_N; id++) {
+        const char *text = id == OPT_LOG ? NULL : options->text[id];
+        named = named || (text && gis_path_lies_in(text + (*text == '@'), log));
+    }
+    for (const char *const *each = options->list[OPT_BARRIER]; !named && each && *each; each++) {
+        gis_barrier_request barrier = {0};
+        gis_error ignored; /* what is wrong with it is told where it is read */
+        named = gis_barrier_parse(*each, &barrier, &ignored) && gis_path_lies_in(barrier.dataset, log);
+        gis_barrier_request_clear(&barrier);
+    }
+    return !named || gis_fail_usage(error, "--log %s: that is used otherwise; give another file", log);
+}
+
+bool gis_resolve_messages(const gis_options *options, gis_messages_request *out, gis_error *error)
+{
+    const char *log = options->text[OPT_LOG];
+    *out = (gis_messages_request){strcmp(options->text[OPT_MESSAGES], "json") == 0, options->given[OPT_QUIET], log};
+    return !log || spare_named(options, log, error);
 }

@@ -4,6 +4,7 @@
 #ifndef GIS_RESOLVE_H
 #define GIS_RESOLVE_H
 
+#include "base/message.h"
 #include "base/progress.h"
 #include "buffer/buffer.h"
 #include "options/options.h"
@@ -32,6 +33,10 @@ bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_e
 /* OUTPUT; `main_layer` is the name of the main layer unless --output-layer says another. */
 gis_sink_request gis_resolve_sink(const gis_options *options, const char *path, const char *main_layer);
 gis_destinations gis_resolve_destinations(const gis_options *options);
+/* A bar where it is seen, on a terminal, if the run takes a layer or writes one; as --progress says where that is
+ * given. */
 gis_progress gis_resolve_progress(const gis_options *options);
+/* How messages are said. A log in the place of something that the call names is wrong usage. */
+bool gis_resolve_messages(const gis_options *options, gis_messages_request *out, gis_error *error);
 
 #endif

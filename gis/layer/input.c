@@ -17,15 +17,15 @@
 void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t size)
 {
     GIntBig fid = gis_source_fid(input->source, i);
-    int n = snprintf(text, size, "layer %s, ", gis_source_name(input->source));
-    if (n < 0 || (size_t)n >= size) return;
-    if (fid == OGRNullFID)
-        n += snprintf(text + n, size - (size_t)n, "feature %zu", i + 1);
-    else
-        n += snprintf(text + n, size - (size_t)n, "FID " CPL_FRMT_GIB, fid);
     OGRFeatureH feature = input->id_field >= 0 ? gis_source_feature(input->source, i) : NULL;
-    if (feature && (size_t)n < size && OGR_F_IsFieldSetAndNotNull(feature, input->id_field))
-        snprintf(text + n, size - (size_t)n, " (id %s)", OGR_F_GetFieldAsString(feature, input->id_field));
+    bool has_id = feature && OGR_F_IsFieldSetAndNotNull(feature, input->id_field);
+    const gis_subject subject = {NULL,
+                                 gis_source_name(input->source),
+                                 fid != OGRNullFID,
+                                 fid,
+                                 i,
+                                 has_id ? OGR_F_GetFieldAsString(feature, input->id_field) : NULL};
+    gis_name_subject(&subject, text, size);
 }
 
 /* Who writes OUTPUT INPUT, as with ogr2ogr, is told so. */
@@ -54,7 +54,7 @@ static bool open_source(gis_layer_input *input, bool packed, gis_error *error)
     request.takes = input->points ? GIS_TAKES_POINTS : GIS_TAKES_POLYGONS;
     if (!gis_source_open(&request, &input->source, error))
         return hint_at_order(input->request, error) || hint_at_symbol(input, error);
-    gis_say_warnings(gis_source_warnings(input->source));
+    gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(input->source));
     input->n = gis_source_count(input->source);
     return gis_field_find(input->source, "--id-field", input->request->id_field, &input->id_field, error);
 }
@@ -178,7 +178,8 @@ static void warn_of_others(const gis_layer_input *input)
     for (size_t i = 0; i < input->n && !input->points && !any_points; i++)
         any_points = gis_source_content(input->source, i) == GIS_POINTS;
     if (input->other > 0)
-        gis_say_warning("%s: %zu features are no %s; they stay as they are and conflict with nothing%s",
+        gis_say_warning(GIS_MESSAGE_PASSED_BY,
+                        "%s: %zu features are no %s; they stay as they are and conflict with nothing%s",
                         gis_source_name(input->source), input->other, input->points ? "points" : "polygons",
                         any_points ? " (for points give their --symbol, as in --symbol disc:4)" : "");
 }

@@ -104,8 +104,8 @@ static bool match(pairing *p, gis_error *error)
             m->lost[m->n_lost++] = i;
     }
     if (ok && found < now->n)
-        gis_say_warning("--before: %zu features of %s are not in %s; they are passed by", now->n - found,
-                        gis_source_name(now->source), gis_source_path(m->original.source));
+        gis_say_warning(GIS_MESSAGE_PASSED_BY, "--before: %zu features of %s are not in %s; they are passed by",
+                        now->n - found, gis_source_name(now->source), gis_source_path(m->original.source));
     free_keys(keys, now->n);
     free_keys(own, m->original.n);
     return ok;

@@ -65,7 +65,8 @@ static bool polygon_shape(gis_layer_input *input, size_t i, gis_polygonal_part *
         return false;
     input->invalid += invalid;
     if (part->linearised > 0 && input->as_chords)
-        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who, part->linearised);
+        gis_say_warning(GIS_MESSAGE_ARCS, "%s: its arcs are taken as polylines that differ from them by up to %g", who,
+                        part->linearised);
     else if (part->linearised > 0 && shape && !sunder_shape_is_empty(shape)) {
         if (!grow(shape, part->linearised, who, &grown, error)) {
             sunder_shape_free(shape);

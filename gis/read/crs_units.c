@@ -60,11 +60,13 @@ static void warn_mercator(OGRSpatialReferenceH crs, const char *layer, const dou
     double latitude = box ? middle_latitude(crs, box) : NAN;
     double factor = cos(parallel * degree) / cos(latitude * degree);
     if (isfinite(factor) && factor > 0)
-        gis_say_warning("%s: on this Mercator projection lengths are about %.4g times those on the ground (at latitude "
+        gis_say_warning(GIS_MESSAGE_CRS,
+                        "%s: on this Mercator projection lengths are about %.4g times those on the ground (at latitude "
                         "%.2f); reproject for lengths in true units",
                         layer, factor, latitude);
     else
-        gis_say_warning("%s: on a Mercator projection lengths are not those on the ground; reproject for true units",
+        gis_say_warning(GIS_MESSAGE_CRS,
+                        "%s: on a Mercator projection lengths are not those on the ground; reproject for true units",
                         layer);
 }
 
@@ -72,7 +74,8 @@ void gis_crs_units_warn(OGRSpatialReferenceH crs, const char *layer, const doubl
 {
     if (!gis_crs_is_known(crs)) return;
     if (OSRIsGeographic(crs))
-        gis_say_warning("%s: the coordinates are degrees; distances and moves are measured in them, which are no "
+        gis_say_warning(GIS_MESSAGE_CRS,
+                        "%s: the coordinates are degrees; distances and moves are measured in them, which are no "
                         "lengths on the ground",
                         layer);
     else

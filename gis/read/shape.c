@@ -19,9 +19,12 @@ static bool append_feature(const gis_source *source, size_t i, const gis_polygon
                            gis_invalid_policy policy, gis_polygons *all, bool *any_invalid, gis_error *error)
 {
     char who[GIS_WHO_SIZE];
-    snprintf(who, sizeof who, "layer %s, FID " CPL_FRMT_GIB, gis_source_name(source), gis_source_fid(source, i));
+    GIntBig fid = gis_source_fid(source, i);
+    const gis_subject subject = {NULL, gis_source_name(source), fid != OGRNullFID, fid, i, NULL};
+    gis_name_subject(&subject, who, sizeof who);
     if (part->linearised > 0)
-        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who, part->linearised);
+        gis_say_warning(GIS_MESSAGE_ARCS, "%s: its arcs are taken as polylines that differ from them by up to %g", who,
+                        part->linearised);
     sunder_shape *alone = NULL;
     bool invalid;
     if (!gis_shape_of_feature(&part->set, policy, who, "", &alone, &invalid, error)) return false;
@@ -66,7 +69,7 @@ bool gis_shape_from_source(const gis_source_request *request, gis_invalid_policy
             gis_fail(error, "%s (%s): no such file, and no shape; did you mean %s?", who, request->path, meant);
         return false;
     }
-    gis_say_warnings(gis_source_warnings(opened));
+    gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(opened));
     if (!shape_of_layer(opened, policy, who, out, building, error)) {
         gis_source_close(opened);
         return false;

@@ -5,6 +5,7 @@
 
 #include "base/array.h"
 #include "base/interrupt.h"
+#include "base/message.h"
 #include "read/packed.h"
 #include "read/source_layer.h"
 #include "sqlite/calls.h"
@@ -158,8 +159,9 @@ static bool keep(gis_source *source, OGRFeatureH feature, const unsigned char *r
 
 static bool fail_not_finite(const gis_source *source, OGRFeatureH feature, gis_error *error)
 {
-    return gis_fail(error, "layer %s, FID %" PRId64 ": a coordinate is not a finite number", source->name,
-                    (int64_t)OGR_F_GetFID(feature));
+    char who[GIS_WHO_SIZE];
+    gis_name_subject(&(gis_subject){NULL, source->name, true, OGR_F_GetFID(feature), 0, NULL}, who, sizeof who);
+    return gis_fail(error, "%s: a coordinate is not a finite number", who);
 }
 
 /* One feature, which is the source's from now on if *kept. */

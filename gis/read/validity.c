@@ -42,7 +42,7 @@ bool gis_shape_of_feature(const gis_polygons *set, gis_invalid_policy policy, co
     bool ok = gis_shape_of_polygons(set, policy, who, out, invalid, &reason, error);
     if (!ok && !(*invalid && policy == GIS_INVALID_SKIP)) return false;
     if (*invalid)
-        gis_say_warning("%s: %s%s; %s", who, said, reason.message,
+        gis_say_warning(GIS_MESSAGE_INVALID, "%s: %s%s; %s", who, said, reason.message,
                         ok ? "taken as what its rings enclose by the even-odd rule" : "skipped");
     return true;
 }

@@ -14,13 +14,13 @@
 
 void gis_route_obstacle_name(const gis_route_input *input, size_t i, char *text, size_t size)
 {
-    if (!input->source)
+    if (!input->source) {
         snprintf(text, size, "OBSTACLES");
-    else if (gis_source_fid(input->source, i) == OGRNullFID)
-        snprintf(text, size, "layer %s, feature %zu", gis_source_name(input->source), i + 1);
-    else
-        snprintf(text, size, "layer %s, FID " CPL_FRMT_GIB, gis_source_name(input->source),
-                 gis_source_fid(input->source, i));
+        return;
+    }
+    GIntBig fid = gis_source_fid(input->source, i);
+    const gis_subject subject = {NULL, gis_source_name(input->source), fid != OGRNullFID, fid, i, NULL};
+    gis_name_subject(&subject, text, size);
 }
 
 /* ---- Obstacles --------------------------------------------------------------------------------------------------- */
@@ -47,8 +47,9 @@ static bool read_feature(gis_route_input *input, size_t i, OGRGeometryH geometry
         !gis_lines_append(geometry, &input->lines[i], &arcs, error))
         return false;
     if (part->linearised > 0)
-        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who, part->linearised);
-    if (arcs) gis_say_warning("%s: the arcs of its lines are taken as polylines", who);
+        gis_say_warning(GIS_MESSAGE_ARCS, "%s: its arcs are taken as polylines that differ from them by up to %g", who,
+                        part->linearised);
+    if (arcs) gis_say_warning(GIS_MESSAGE_ARCS, "%s: the arcs of its lines are taken as polylines", who);
     return !part->set.polygons ||
            gis_shape_of_feature(&part->set, input->request->invalid, who, "", &input->shape[i], &invalid, error);
 }
@@ -64,7 +65,7 @@ static bool read_layer(gis_route_input *input, gis_error *error)
             gis_fail(error, "OBSTACLES (%s): no such file, and no shape; did you mean %s?", path, meant);
         return false;
     }
-    gis_say_warnings(gis_source_warnings(input->source));
+    gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(input->source));
     input->crs = gis_source_crs(input->source);
     if (!make_room(input, gis_source_count(input->source), error)) return false;
     gis_polygonal_part part = {0};

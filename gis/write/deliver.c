@@ -157,8 +157,8 @@ bool gis_deliver(const gis_delivery *delivery, gis_error *error)
     ok = ok && (!delivery->sink || gis_sink_publish(delivery->sink, error));
     for (size_t i = N_FILES; i-- > 0;) gis_text_file_end(&written[i], ok);
     if (ok && delivery->sink) {
-        gis_say_warnings(gis_sink_warnings(delivery->sink));
-        gis_say_warnings(gis_sink_losses(delivery->sink));
+        gis_say_warnings(GIS_MESSAGE_OUTPUT, gis_sink_warnings(delivery->sink));
+        gis_say_warnings(GIS_MESSAGE_LOSS, gis_sink_losses(delivery->sink));
     }
     return ok;
 }

@@ -100,7 +100,7 @@ static bool recover(gis_sink *sink, gis_error *error)
 {
     gis_sentences said = {0};
     bool done = sink->place != GIS_PLACE_FILE || gis_stage_recover(sink->request.path, &said, error);
-    gis_say_warnings(&said);
+    gis_say_warnings(GIS_MESSAGE_REMAINS, &said);
     gis_sentences_clear(&said);
     return done;
 }
@@ -198,7 +198,8 @@ void gis_sink_free(gis_sink *sink)
     gis_sink_drop(sink);
     if (sink->place == GIS_PLACE_DATABASE && !sink->published && sink->format.sqlite &&
         gis_sqlite_has_journal(sink->request.path) && !gis_sqlite_being_written(sink->request.path))
-        gis_say_warning("%s-journal holds what the database was; SQLite brings it back when it is next written",
+        gis_say_warning(GIS_MESSAGE_REMAINS,
+                        "%s-journal holds what the database was; SQLite brings it back when it is next written",
                         sink->request.path);
     for (size_t i = 0; i < sink->n_layers; i++) free_layer(sink->layers[i]);
     free(sink->layers);

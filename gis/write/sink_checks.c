@@ -121,7 +121,8 @@ static bool check_files(const gis_sink *sink, gis_error *error)
 static void settle_journal(const gis_sink *sink)
 {
     const char *path = sink->request.path;
-    gis_say_warning("%s-journal is left of a transaction that was interrupted; SQLite rolls it back", path);
+    gis_say_warning(GIS_MESSAGE_REMAINS,
+                    "%s-journal is left of a transaction that was interrupted; SQLite rolls it back", path);
     GDALDatasetH dataset = sink->request.update ? open_quietly(path, GDAL_OF_UPDATE, &sink->format) : NULL;
     if (dataset) GDALClose(dataset);
 }

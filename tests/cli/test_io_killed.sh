@@ -40,9 +40,9 @@ for ((place = calls - 75; place <= calls; place += 9)); do
     [ "$(files dir)" = "$(files old)" ] || fail "place $place: the old files are not brought back"
     [ -z "$(ls -d dir/.sunder-* 2>/dev/null)" ] || fail "place $place: $(ls -d dir/.sunder-*) stays"
     rm -rf dir && mv half dir
-    run "${again[@]}" --gap 1 --overwrite
+    run "${again[@]}" --gap 1 --overwrite --log said
     [ "$status" -eq 0 ] || fail "place $place: --overwrite over what is left"
-    says err 'the former ones have been brought back'
+    says said 'the former ones have been brought back'
     [ "$(files dir)" = "$new" ] || fail "place $place: --overwrite over what is left did not come to the new files"
 done
 [ "$halves" -gt 1 ] || fail "only $halves places between two renames were met: the test proves nothing"

@@ -130,7 +130,7 @@ X
 }
 interrupted
 refused 1 'o.gpkg-journal is left of a transaction that was interrupted' separate o.gpkg other.gpkg
-run separate in.gpkg o.gpkg --update --output-layer apart -q
+run separate in.gpkg o.gpkg --update --output-layer apart
 [ "$status" -eq 0 ] || fail "a database with a journal is not added to"
 says err 'o.gpkg-journal is left of a transaction that was interrupted'
 same "$(ask o.gpkg "SELECT count(*) FROM sqlite_master WHERE name = 'half'")" 0 'what was interrupted'

@@ -139,7 +139,7 @@ printf 'WKT,n\n"POLYGON ((0 0,1 0,1 1,0 0))",1\n"POLYGON ((5 0,6 0,6 1,5 0))",ab
 printf 'WKT,Integer\n' >odd.csvt
 for call in 'sum odd.csv square:1' 'pair odd.csv square:1' 'check odd.csv' 'separate odd.csv odd.gpkg --overwrite'; do
     # shellcheck disable=SC2086 # words
-    expect 0 $call --quiet
+    expect 0 $call
     same "$(grep -c '^sunder: warning: .*record 2' err)" 1 "warnings about a number that is none, $call:"
 done
 

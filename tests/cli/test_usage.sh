@@ -96,6 +96,7 @@ refused 2 'four finite numbers' check in.gpkg -spat 1 2 3
 refused 2 'greater than its maximum' check in.gpkg --bbox 5,0,1,1
 refused 2 'none of main' separate in.gpkg o.gpkg --layers main,nonsense
 refused 2 'nothing of that applies' separate in.gpkg o.gpkg --layers symbols
+refused 2 'must be one of text|json' check in.gpkg --messages xml
 refused 2 'cannot be given together' check in.gpkg --sql 'SELECT * FROM houses' --input-layer houses
 refused 2 '--dialect needs --sql' check in.gpkg --dialect sqlite
 refused 2 'needs --update' separate in.gpkg o.gpkg --overwrite-layer

@@ -93,7 +93,7 @@ judge() {
         ended_old=$((ended_old + 1))
         return
     fi
-    (cd dir && "$SUNDER" "${options[@]}" >/dev/null 2>../next)
+    (cd dir && "$SUNDER" "${options[@]}" --log ../next >/dev/null 2>&1)
     after=$(state)
     if grep -q 'brought back' next && [ "$after" = "$cleared" ] && [ -z "$(ls -d dir/.sunder-* 2>/dev/null)" ]; then
         brought_back=$((brought_back + 1))

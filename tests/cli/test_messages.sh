@@ -1,0 +1,150 @@
+# shellcheck shell=bash disable=SC1091,SC2016
+# A batch's manners: messages name layer and FID, many of one kind are summed up, a log holds all of them, JSON has their
+# parts apart; progress is for terminals, and quiet is silent.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
+
+# 25 bow ties, far apart, and one without fault.
+{
+    echo id,WKT
+    for i in $(seq 1 25); do echo "k$i,\"POLYGON(($((10 * i)) 0,$((10 * i + 4)) 4,$((10 * i + 4)) 0,$((10 * i)) 4,$((10 * i)) 0))\""; done
+    echo 'k26,"POLYGON((0 50,4 50,4 54,0 54,0 50))"'
+} | layer in.gpkg houses POLYGON
+layer sound.gpkg houses POLYGON <<'X'
+id,WKT
+1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
+X
+
+expect 0 check in.gpkg
+same "$(wc -l <err)" 11 'ten warnings and their sum:'
+same "$(grep -c '^sunder: warning: layer houses, FID [0-9]*: ' err)" 10 'warnings that name layer and FID:'
+says err 'sunder: warning: 15 more like these, the first of them: layer houses, FID 11: '
+says err '--log FILE keeps all'
+expect 0 check --where "id <> 'k1'" in.gpkg --bbox 0,0,104,99 # ten, less one
+same "$(wc -l <err)" 9 'few warnings:'
+expect 0 buffer in.gpkg out.gpkg --shape square:1
+same "$(wc -l <err)" 11 'of buffer:'
+expect 0 route in.gpkg --robot square:1 --from 0,-9 --to 400,-9
+same "$(wc -l <err)" 11 'of route:'
+expect 0 check --barrier in.gpkg,gap=20 --where "id = 'k26'" in.gpkg --ignore-where "id = 'k26'"
+expect 3 separate --barrier in.gpkg --gap 300 --max-shift 0 sound.gpkg out.gpkg --overwrite
+same "$(grep -c 'barrier in.gpkg, layer houses, FID' err)" 11 'of a barrier:'
+# An error comes last, after the sum.
+expect 1 separate in.gpkg no/such/out.gpkg
+same "$(wc -l <err)" 12 'with an error:'
+tail -n 1 err | grep -q '^sunder: error: ' || fail 'the error is not the last line'
+
+# Quiet.
+expect 0 separate in.gpkg quiet.gpkg --quiet
+[ ! -s out ] && [ ! -s err ] || fail "--quiet says: $(cat out err | head -3)"
+expect 0 separate in.gpkg quiet.gpkg --quiet --progress --overwrite --log all.log
+[ ! -s out ] && [ ! -s err ] || fail "--quiet --progress says: $(cat out err | head -3)"
+same "$(grep -c '^sunder: warning: layer houses, FID [0-9]*: ' all.log)" 25 'warnings in the log:'
+same "$(wc -l <all.log)" 25 'lines of the log:'
+expect 1 separate in.gpkg quiet.gpkg --quiet
+says err 'sunder: error: '
+
+# The log: all of it, what ended the run too; not in the place of anything else.
+expect 0 check in.gpkg --log all.log --id-field id
+says err 'all are in the log'
+same "$(wc -l <err)" 11 'with a log:'
+same "$(sed -n 12p all.log | cut -d: -f1-3)" 'sunder: warning: layer houses, FID 12 (id k12)' 'a line of the log:'
+expect 1 separate in.gpkg out.gpkg --log all.log
+same "$(tail -n 1 all.log)" "$(tail -n 1 err)" 'the error in the log:'
+tail -n 1 all.log | grep -q '^sunder: error: ' || fail 'the log does not hold the error'
+expect 0 check sound.gpkg --log all.log
+[ -f all.log ] && [ ! -s all.log ] || fail 'a log of nothing is not empty'
+echo important >notes.txt
+refused 2 'is no log' check sound.gpkg --log notes.txt
+refused 2 'is used otherwise' check sound.gpkg --log sound.gpkg
+refused 2 'is used otherwise' separate sound.gpkg new.gpkg --log ./new.gpkg
+refused 2 'is used otherwise' separate sound.gpkg new.gpkg --stats all.log --log all.log
+refused 2 'is used otherwise' separate sound.gpkg new.gpkg --barrier in.gpkg,width=2 --log in.gpkg
+refused 1 'cannot write no/such/a.log' check sound.gpkg --log no/such/a.log
+if [ -w /dev/full ]; then
+    expect 1 check in.gpkg --log /dev/full -q
+    says err '--log: cannot write /dev/full'
+fi
+expect 0 check in.gpkg --log /dev/stdout -q
+same "$(wc -l <out)" 25 'a log on standard output:'
+
+# JSON: each line an object of the same keys, features by layer and FID.
+expect 0 check in.gpkg --messages json --id-field id
+python3 - <<'X' || fail 'JSON of warnings'
+import json
+lines = [json.loads(line) for line in open("err")]
+keys = ["level", "kind", "layer", "fid", "id", "count", "message"]
+assert len(lines) == 11 and all(list(line) == keys for line in lines), lines
+for i, line in enumerate(lines[:10]):
+    assert (line["level"], line["kind"], line["layer"], line["fid"], line["id"], line["count"]) == \
+        ("warning", "invalid", "houses", i + 1, "k%d" % (i + 1), 1), line
+assert lines[10]["count"] == 15 and lines[10]["kind"] == "invalid" and lines[10]["fid"] is None, lines[10]
+X
+json_error() { # KIND STATUS WORDS ARGS: one line, an error
+    local kind=$1 wanted=$2 words=$3
+    shift 3
+    expect "$wanted" "$@"
+    same "$(json '[.level, .kind, .exit_status, .count] | join(" ")' err)" "error $kind $wanted 1" "sunder $*"
+    says err "$words"
+}
+json_error usage 2 'did you mean' chek in.gpkg --messages json
+json_error usage 2 'unknown option' check --messages=json in.gpkg --nonsense
+json_error usage 2 'must be one of' check in.gpkg --messages json --contained maybe
+json_error failed 1 'no such file' check none.gpkg --messages json
+json_error failed 1 'FID 1' check in.gpkg --invalid fail --messages json
+same "$(json '[.layer, .fid] | join(" ")' err)" 'houses 1' 'the feature of an error:'
+expect 0 check in.gpkg --messages json --log all.log -q
+[ "$(json .message all.log | wc -l)" -eq 25 ] || fail 'the log is not JSON'
+expect 0 check in.gpkg --log all.log -q # in the place of a log of the other form
+printf 'id,WKT\n1,"POLYGON((0 0,4 4,4 0,0 4,0 0))"\n' >$'a\xffb.csv'
+ogr2ogr broken.gpkg $'a\xffb.csv' -nln x -oo GEOM_POSSIBLE_NAMES=WKT -nlt POLYGON 2>/dev/null
+expect 1 check $'none\xff.gpkg' --messages json
+json .message err >said || fail 'no JSON where a name is not UTF-8'
+
+# Numbers part no kinds of what GDAL says.
+{
+    echo id,n,WKT
+    for i in $(seq 1 25); do echo "$i,12345678901234567890123$i,\"POLYGON(($((10 * i)) 0,$((10 * i + 4)) 0,$((10 * i + 4)) 4,$((10 * i)) 0))\""; done
+} >wide.csv
+echo 'Integer64,Integer64,WKT' | sed 's/[^,]*/"&"/g' >wide.csvt
+expect 0 check wide.csv --oo GEOM_POSSIBLE_NAMES=WKT
+same "$(grep -c overflow err)" 11 "of GDAL's own:"
+same "$(tail -n 1 err | cut -d' ' -f3-8)" '15 more like these, the first' "the sum of GDAL's own:"
+
+# A terminal: a bar where stderr is one, and nothing else changes.
+on_terminal() {
+    python3 - "$SUNDER" "$@" <<'X'
+import os, pty, subprocess, sys
+outer, inner = pty.openpty()
+run = subprocess.Popen(sys.argv[1:], stdout=open("out", "wb"), stderr=inner, stdin=subprocess.DEVNULL)
+os.close(inner)
+said = b""
+while True:
+    try:
+        some = os.read(outer, 65536)
+    except OSError:
+        break
+    if not some:
+        break
+    said += some
+open("err", "wb").write(said.replace(b"\r\n", b"\n"))
+sys.exit(run.wait())
+X
+}
+on_terminal check sound.gpkg || fail 'on a terminal'
+same "$(cat err)" '0...10...20...30...40...50...60...70...80...90...100 - done.' 'a bar on a terminal:'
+on_terminal check sound.gpkg -q || fail 'on a terminal'
+same "$(cat err)" '' 'quiet on a terminal:'
+on_terminal check sound.gpkg --messages json || fail 'on a terminal'
+same "$(cat err)" '' 'JSON on a terminal:'
+on_terminal check sound.gpkg --progress=plain || fail 'on a terminal'
+same "$(wc -l <err)" 101 'plain on a terminal:'
+on_terminal sum square:1 square:1 || fail 'on a terminal'
+same "$(cat err)" '' 'no layer, no bar:'
+on_terminal check in.gpkg || fail 'on a terminal'
+same "$(grep -c '^sunder: warning: ' err)" 11 'warnings begin lines on a terminal:'
+expect 0 check sound.gpkg
+[ ! -s err ] || fail 'progress where there is no terminal'
+expect 0 check sound.gpkg --progress
+same "$(cat err)" '0...10...20...30...40...50...60...70...80...90...100 - done.' 'a bar where it is asked for:'
+finish
