@@ -292,6 +292,53 @@ class SeparateTest(Case):
         self.assertEqual(found[0]["y"], "00FF")  # as OGR says bytes
         self.assertEqual({found[1][name] for name in ("fid", "n", "x", "t", "d", "m", "b", "y")}, {None})
 
+    def test_names_that_a_database_would_confuse(self):
+        layer = QgsVectorLayer("Polygon?crs=EPSG:25832&field=Name:string&field=name:string&field=geom:string&"
+                               "field=qgis_id:integer&field=sunder_dx:double", "A layer, with \"quotes\" & all", "memory")
+        feature = QgsFeature(layer.fields())
+        feature.setAttributes(["a", "b", "c", 4, 5.0])
+        feature.setGeometry(QgsGeometry.fromWkt("POLYGON ((0 0, 1 0, 1 1, 0 0))"))
+        layer.dataProvider().addFeature(feature)
+        done = self.run_algorithm("separate", {"INPUT": layer, "OUTPUT": TEMPORARY})
+        (_, row), = rows(self.source(done["OUTPUT"])).values()
+        self.assertEqual([row[name] for name in ("Name", "name_", "geom", "qgis_id", "sunder_dx")], ["a", "b", "c", 4, 0.0])
+
+    def test_three_dimensions_nulls_and_nothing(self):
+        layer = QgsVectorLayer("PolygonZ?crs=EPSG:25832", "Tall", "memory")
+        texts = ["PolygonZ ((0 0 0.1, 4 0 0.2, 4 4 0.3, 0 0 0.1))", "PolygonZ ((3 0 7, 7 0 8, 7 4 9, 3 0 7))", None]
+        for text in texts:
+            feature = QgsFeature(layer.fields())
+            if text:
+                feature.setGeometry(QgsGeometry.fromWkt(text))
+            layer.dataProvider().addFeature(feature)
+        copied = self.file("copied.gpkg")
+        import processing
+        processing.run("native:savefeatures", {"INPUT": layer, "OUTPUT": copied})
+        for given in (layer, copied):
+            done = self.run_algorithm("separate", {"INPUT": given, "GAP": 1, "OUTPUT": TEMPORARY})
+            found = geometries(self.source(done["OUTPUT"]))
+            self.sunder("separate", copied, self.file("theirs.gpkg"), "--gap=1", "--quiet", "--overwrite")
+            theirs = geometries(self.file("theirs.gpkg"), "copied")
+            if given is layer:
+                theirs[3] = None  # QGIS wrote it into the copy as an empty one
+            self.assertEqual(found, theirs)
+            self.assertEqual(QgsVectorLayer(self.source(done["OUTPUT"]), "x", "ogr").wkbType(), layer.wkbType())
+        empty = QgsVectorLayer("Polygon?crs=EPSG:25832", "Empty", "memory")
+        done = self.run_algorithm("separate", {"INPUT": empty, "GAP": 1, "OUTPUT": TEMPORARY})
+        self.assertEqual(geometries(self.source(done["OUTPUT"])), {})
+
+    def test_nothing_is_left_lying_about(self):
+        from qgis.core import QgsProcessingUtils
+        def lying():
+            return [path for path, _, files in os.walk(QgsProcessingUtils.tempFolder()) for each in files
+                    if each in ("sunder.gpkg", "figures.json", "input.gpkg")]
+        before = lying()
+        layer = self.memory_copy(self.town())
+        self.run_algorithm("separate", {"INPUT": layer, "GAP": 3, "OUTPUT": self.file("x.gpkg")})
+        self.run_algorithm("separate", {"INPUT": layer, "GAP": 3, "OUTPUT": TEMPORARY}, Feedback(60))
+        self.refused("", "separate", {"INPUT": layer, "GAP": 3, "TOUCH_TOLERANCE": 4, "OUTPUT": TEMPORARY})
+        self.assertEqual(lying(), before)
+
     def test_crs_changed_in_qgis(self):
         layer = self.town()
         layer.setCrs(QgsCoordinateReferenceSystem("EPSG:32632"))
@@ -417,6 +464,30 @@ class DestinationTest(Case):
             self.assertIn("<html", page.read(2000))
         with open(self.file("p.jsonl"), encoding="utf-8") as proof:
             json.loads(proof.readline())
+
+
+@unittest.skipUnless(os.environ.get("SUNDER_POSTGIS"), "postgis.sh starts a server for these")
+class PostGIS(Case):
+    def table(self, name, key="fid"):
+        layer = QgsVectorLayer("%s key='%s' table=\"public\".\"%s\" (geom)" % (os.environ["SUNDER_POSTGIS"], key, name),
+                               name, "postgres")
+        self.assertTrue(layer.isValid(), name)
+        return layer
+
+    def test_from_table_to_table(self):
+        database = "PG:" + os.environ["SUNDER_POSTGIS"]
+        subprocess.run(["ogr2ogr", "-f", "PostgreSQL", database, TOWN, "buildings", "-nln", "houses", "-overwrite",
+                        "-preserve_fid", "-lco", "FID=fid", "-lco", "GEOMETRY_NAME=geom"], check=True)
+        target = "postgres:%s table=\"public\".\"%%s\" (geom)" % os.environ["SUNDER_POSTGIS"]
+        theirs = self.by_program("--gap=3", "--max-shift=1")
+        for _ in range(2):  # the second time what is there is replaced
+            self.run_algorithm("separate", {"INPUT": self.table("houses"), "GAP": 3, "MAX_SHIFT": 1,
+                                            "OUTPUT": target % "moved", "CONFLICTS": target % "left"})
+        for name, layer in (("moved", "buildings"), ("left", "buildings_conflicts")):
+            ours = sorted(bytes(row.geometry().asWkb()) for row in self.table(name).getFeatures())
+            self.assertEqual(ours, sorted(geometries(theirs, layer).values()), name)
+        self.assertEqual({row["fid"]: row["sunder_st"] for row in self.table("moved").getFeatures()},
+                         {fid: row["sunder_st"] for fid, (_, row) in rows(theirs, "buildings").items()})
 
 
 class OtherCommands(Case):

@@ -200,6 +200,7 @@ class Algorithm(QgsProcessingAlgorithm):
         folder = os.path.dirname(QgsProcessingUtils.generateTempFilename("sunder.gpkg"))
         os.makedirs(folder, exist_ok=True)
         steps = QgsProcessingMultiStepFeedback(2, feedback)
+        self.stays = False  # is a layer of the program's GeoPackage loaded from where it lies?
         # Asked once: of a temporary one each answer is another, and is loaded.
         self.wanted = {each: self.parameterAsOutputLayer(parameters, each.name, context)
                        for each in self.outputs if self._is_wanted(parameters, each.name)}
@@ -209,7 +210,7 @@ class Algorithm(QgsProcessingAlgorithm):
         except BadValue as trouble:
             raise QgsProcessingException(str(trouble))
         finally:
-            shutil.rmtree(os.path.join(folder, "read"), ignore_errors=True)
+            shutil.rmtree(folder if not self.stays else os.path.join(folder, "read"), ignore_errors=True)
 
     def _run(self, folder, parameters, context, feedback):
         self.names, self.added = {}, None  # what the user knows paths by; a field that the plug-in added
@@ -335,6 +336,7 @@ class Algorithm(QgsProcessingAlgorithm):
         for each, destination in self.wanted.items():
             name = self.main + each.suffix
             if name in there:
+                self.stays = self.stays or result.is_temporary(parameters[each.name])
                 results[each.name] = result.deliver(written, name, parameters[each.name], destination, context,
                                                     feedback)
             else:

@@ -143,15 +143,18 @@ class _Target:
     def __init__(self, path, name, source):
         self.dataset = ogr.GetDriverByName("GPKG").CreateDataSource(path)
         self.kept = [i for i in range(source.fields.count()) if i not in source.keys]
-        used = {source.fields[i].name().lower() for i in self.kept} | {"geom"}
-        fid = _unused("fid", used)
-        self.id_field = _unused(ID_FIELD, used | {fid})
+        used = {source.fields[i].name().lower() for i in self.kept}
+        geometry = _unused("geom", used)
+        self.fid = _unused("fid", used | {geometry})
         self.layer = self.dataset.CreateLayer(name, _reference(source.crs), _ogr_type(source.wkb_type),
-                                              ["FID=" + fid, "SPATIAL_INDEX=NO"])
-        self.fid = fid
+                                              ["FID=" + self.fid, "GEOMETRY_NAME=" + geometry, "SPATIAL_INDEX=NO"])
+        used = {geometry, self.fid}
         for i in self.kept:
             field = source.fields[i]
-            self._add_field(field.name(), *_TYPES.get(field.type(), (ogr.OFTString, ogr.OFSTNone)))
+            unused = _unused(field.name(), used)  # names that differ in case alone are one to a database
+            used.add(unused.lower())
+            self._add_field(unused, *_TYPES.get(field.type(), (ogr.OFTString, ogr.OFSTNone)))
+        self.id_field = _unused(ID_FIELD, used)
         self._add_field(self.id_field, ogr.OFTInteger64, ogr.OFSTNone)
         self.definition = self.layer.GetLayerDefn()
         # Bytes have a setter of their own.
