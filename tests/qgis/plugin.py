@@ -292,6 +292,15 @@ class SeparateTest(Case):
         self.assertEqual(found[0]["y"], "00FF")  # as OGR says bytes
         self.assertEqual({found[1][name] for name in ("fid", "n", "x", "t", "d", "m", "b", "y")}, {None})
 
+    def test_the_key_that_qgis_shows_may_be_chosen(self):
+        done = self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 3, "WEIGHT_FIELD": "fid", "OUTPUT": TEMPORARY})
+        copied = self.file("keyed.gpkg")
+        subprocess.run(["ogr2ogr", copied, TOWN, "-nln", "buildings", "-dialect", "sqlite", "-preserve_fid", "-sql",
+                        "SELECT fid, fid AS number, geom FROM buildings"], check=True)
+        self.sunder("separate", copied, self.file("theirs.gpkg"), "--gap=3", "--weight-field=number", "--quiet",
+                    "--allow-conflicts")
+        self.assertEqual(geometries(self.source(done["OUTPUT"])), geometries(self.file("theirs.gpkg"), "buildings"))
+
     def test_names_that_a_database_would_confuse(self):
         layer = QgsVectorLayer("Polygon?crs=EPSG:25832&field=Name:string&field=name:string&field=geom:string&"
                                "field=qgis_id:integer&field=sunder_dx:double", "A layer, with \"quotes\" & all", "memory")
@@ -553,6 +562,20 @@ class OtherCommands(Case):
         self.assertNotIn("--", str(refused.exception))
         self.assertNotIn("/tmp", str(refused.exception))
         self.assertNotIn("sunder:", str(refused.exception))
+        self.assertNotIn("ogr2ogr", str(refused.exception))
+
+    def test_log(self):
+        broken = QgsVectorLayer("Polygon?crs=EPSG:25832", "Broken", "memory")
+        for k in range(12):
+            row = QgsFeature(broken.fields())
+            row.setGeometry(QgsGeometry.fromWkt("POLYGON ((%d 0, %d 2, %d 0, %d 2, %d 0))" % (9 * k, 9 * k + 2, 9 * k + 2, 9 * k,
+                                                                                          9 * k)))
+            broken.dataProvider().addFeature(row)
+        self.run_algorithm("separate", {"INPUT": broken, "OUTPUT": TEMPORARY, "LOG": self.file("all.log")})
+        with open(self.file("all.log"), encoding="utf-8") as log:
+            self.assertGreaterEqual(len(log.readlines()), 12)
+        self.assertTrue(self.feedback.warnings())
+        self.assertNotIn("--", "".join(self.feedback.warnings()))
 
 
 def main():

@@ -22,7 +22,7 @@ from qgis.PyQt.QtGui import QDesktopServices, QIcon
 from . import options, program, result, source
 from . import parameters as parameters_of
 from .command_line import BadValue, barrier, rows_of, unit_of, words
-from .options import BARRIERS, EXPRESSION, LENGTH, SOURCE, UNIT
+from .options import BARRIERS, EXPRESSION, FIELD, LENGTH, NUMERIC_FIELD, SOURCE, UNIT
 
 PROGRAM_SETTING = "SUNDER_PROGRAM"  # of Processing: where the program is
 
@@ -35,13 +35,14 @@ File = namedtuple("File", "name flag label filter")
 
 POLYGONS, LINES, POINTS = (QgsProcessing.TypeVectorPolygon, QgsProcessing.TypeVectorLine, QgsProcessing.TypeVectorPoint)
 ANY = QgsProcessing.TypeVectorAnyGeometry
+LOG = File("LOG", "--log", options.LOG_LABEL, "Log files (*.log)")
 
 
 class Algorithm(QgsProcessingAlgorithm):
     command = title = text = ""  # the program's word, the dialog's title, what it does
     main = ""                    # what the layers of the program's output are called
     group_name = "Layers"
-    inputs, outputs, files, numbers = (), (), (), ()  # numbers: (name, label) of what figures() gives
+    inputs, outputs, files, numbers = (), (), (LOG,), ()  # numbers: (name, label) of what figures() gives
     movable = False              # is there a choice of features that may move?
 
     # ---- What Processing asks ----
@@ -147,10 +148,19 @@ class Algorithm(QgsProcessingAlgorithm):
         self.marks, self.barriers, self.values = {}, [], {}
         for option in options.of_command(self.command):
             self._prepare_option(option, parameters, context)
+        self._keep_chosen_key()
         if options.has_lengths(self.command):
             self.values[UNIT] = self.parameterAsEnum(parameters, UNIT, context)
         if self.movable and self.parameterAsBoolean(parameters, "MOVE_SELECTED", context):
             self._fix_unselected(parameters, context)
+
+    def _keep_chosen_key(self):
+        """A field that is the FID once more is none to the program; where it is chosen it is copied as a field."""
+        layer = self.sources[self.inputs[0].name]
+        chosen = {self.values.get(option.name) for option in options.of_command(self.command)
+                  if option.kind in (FIELD, NUMERIC_FIELD)}
+        if layer and any(layer.fields[i].name() in chosen for i in layer.keys):
+            layer.file, layer.keys = None, ()
 
     def _source(self, parameters, name, context):
         value = parameters.get(name)

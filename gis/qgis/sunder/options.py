@@ -130,6 +130,8 @@ UNIT_LABELS = ("Units of the layer", "Metres", "Kilometres", "Feet", "US survey 
                "Millimetres on the sheet of the map")
 SHEET = UNITS.index("mm")
 
+LOG_LABEL = "Log of all errors and warnings"
+
 # Options that no dialog asks, and why.
 _QGIS_CHOOSES = "which features is chosen in QGIS: by the layer's filter, its selection, or a layer made before"
 _QGIS_WRITES = "the program writes a GeoPackage of the plug-in's; QGIS writes it where the dialog says"
@@ -148,7 +150,7 @@ LEFT_OUT = {
     "--exact": "a layer holds doubles; rationals are for the shell",
     "--allow-conflicts": "what remains is told as a warning, not as a failure",
     "--progress": _OURS, "--quiet": _OURS, "--stats": _OURS, "--report": "an output", "--proof": "an output",
-    "--log": _OURS, "--messages": _OURS, "--help": "the panel beside the dialog",
+    "--log": "an output", "--messages": _OURS, "--help": "the panel beside the dialog",
 }
 
 

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import threading
 
-from .options import OPTIONS
+from .options import LOG_LABEL, OPTIONS
 
 DONE, FAILED, MISUSED, UNRESOLVED = 0, 1, 2, 3
 PATIENCE = 5  # seconds from being asked to end to being ended: the program clears away what it had begun
@@ -104,9 +104,11 @@ def plain(line, names):
     """A line of the program for the user of a dialog: options by the labels of their parameters, files that the plug-in
     made by the names of their layers (names: path to name), no name of the program before it."""
     line = re.sub(r"^sunder: (error: |warning: |note: )?", "", line)
+    line = line.replace("(ogr2ogr -t_srs)", "(Reproject layer, in the toolbox)")
     for path in sorted(names, key=len, reverse=True):
         line = line.replace(path, names[path])
     labels = {option.flag: option.label.split(" (")[0] for option in OPTIONS}
+    labels.update({"--log": LOG_LABEL, "--report": "Report", "--proof": "Proof"})
     return re.sub(r"(?<![\w-])--[a-z]+(-[a-z]+)*", lambda found: '"%s"' % labels[found.group()]
                   if found.group() in labels else found.group(), line)
 

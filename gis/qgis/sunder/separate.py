@@ -1,6 +1,6 @@
 """sunder:separate"""
 from . import program
-from .algorithm import ANY, LINES, POINTS, POLYGONS, Algorithm, File, Input, Output
+from .algorithm import ANY, LINES, LOG, POINTS, POLYGONS, Algorithm, File, Input, Output
 
 
 class Separate(Algorithm):
@@ -27,6 +27,7 @@ after."""
     files = (
         File("REPORT", "--report", "Report (a page for the browser)", "HTML files (*.html)"),
         File("PROOF", "--proof", "Proof, for a checker", "JSON lines (*.jsonl)"),
+        LOG,
     )
     numbers = (("FEATURES", "Features"), ("MOVED", "Features moved"), ("CONFLICTS_BEFORE", "Conflicts before"),
                ("CONFLICTS_AFTER", "Conflicts that remain"), ("TOTAL", "Sum of moves"), ("LONGEST", "Longest move"),
