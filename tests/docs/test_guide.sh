@@ -1,0 +1,91 @@
+# shellcheck shell=bash
+# The pages of the guide do what they say: each is run as it is written, in an empty folder, and what it prints is compared
+# (guide.py). With --record what is printed is put into the pages instead: bash tests/docs/test_guide.sh --record [PAGE ...],
+# with SUNDER_BUILD.
+set -eu
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
+source=$(cd "$here/../.." && pwd -P)
+build=$(cd "${SUNDER_BUILD:-$source/build/release}" && pwd -P)
+for tool in python3 ogr2ogr; do
+    command -v "$tool" >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }
+done
+[ -x "$build/sunder" ] && [ -x "$build/sunder-town" ] || { echo "skipped: the program is not built"; exit 77; }
+record=
+if [ "${1-}" = --record ]; then record=--record && shift; fi
+pages=("$@")
+[ $# -gt 0 ] || pages=("$source"/docs/guide/*.md)
+
+work=$(mktemp -d)
+stop() { :; }
+trap 'stop; rm -rf "$work"' EXIT
+export PATH=$build:$PATH LC_ALL=C.UTF-8
+
+# What a page wants beyond the programs: the installed library, a database server. Status 1, and why, where it is missing.
+library() {
+    [ -z "${PKG_CONFIG_PATH-}" ] || return 0
+    command -v pkg-config >/dev/null || { echo "pkg-config is not installed"; return 1; }
+    ! grep -q '^SUNDER_SANITIZE:STRING=.' "$build/CMakeCache.txt" || { echo "the build carries a sanitizer"; return 1; }
+    cmake --install "$build" --prefix "$work/prefix" >"$work/install.log" 2>&1 || { cat "$work/install.log"; exit 1; }
+    PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name sunder.pc)")
+    LD_LIBRARY_PATH=$(PKG_CONFIG_PATH=$PKG_CONFIG_PATH pkg-config --variable=libdir sunder)
+    export PKG_CONFIG_PATH LD_LIBRARY_PATH
+}
+
+server() {
+    local bin as=()
+    bin=$(find /usr/lib/postgresql -maxdepth 2 -name bin 2>/dev/null | sort -V | tail -n 1)
+    [ -n "$bin" ] && [ -x "$bin/initdb" ] || { echo "PostgreSQL's server is not installed"; return 1; }
+    [ -n "$(find /usr/share/postgresql -name postgis.control 2>/dev/null)" ] || { echo "PostGIS is not installed"; return 1; }
+    ogrinfo --formats | grep -q PostgreSQL || { echo "GDAL has no PostgreSQL driver"; return 1; }
+    if [ "$(id -u)" = 0 ]; then # as which the server does not run
+        id postgres >/dev/null 2>&1 && command -v runuser >/dev/null || { echo "no user that may run a server"; return 1; }
+        as=(runuser -u postgres --)
+        chmod 755 "$work"
+    fi
+    mkdir -m 777 "$work/server"
+    (
+        cd "$work/server"
+        "${as[@]}" "$bin/initdb" -D data -A trust -U postgres --no-sync -E UTF8 --locale=C.UTF-8 >/dev/null
+        "${as[@]}" "$bin/pg_ctl" -D data -w -l log -o "-c listen_addresses='' -k $work/server -c fsync=off" start >/dev/null
+    ) || { echo "no server could be started"; return 1; }
+    stop() { (cd "$work/server" && "${as[@]}" "$bin/pg_ctl" -D data -m immediate stop) >/dev/null 2>&1 || true; }
+    export PGHOST=$work/server PGUSER=postgres
+}
+
+run_page() { # page, folder
+    mkdir "$2"
+    python3 "$here/guide.py" "$1" "$2" $record
+}
+
+trouble=0 ran=0
+for page in "${pages[@]}"; do
+    name=$(basename "$page" .md)
+    [ "$name" != README ] || continue
+    case $name in
+        library) library || { echo "$name: left out"; continue; } ;;
+        postgis) server || { echo "$name: left out"; continue; } ;;
+    esac
+    if run_page "$page" "$work/$name"; then echo "$name: ok"; else trouble=1; fi
+    ran=$((ran + 1))
+done
+[ "$ran" -gt 0 ] || trouble=1
+
+# A page that says something else is found out, and so are one whose command fails and one that prints more.
+if [ -z "$record" ] && [ $# -eq 0 ]; then
+    refused() { # what
+        mkdir "$work/wrong-$1"
+        if python3 "$here/guide.py" "$work/$1.md" "$work/wrong-$1" >"$work/said" 2>&1; then
+            echo "FAILED: a page with another $1 passes"
+            trouble=1
+        fi
+    }
+    page=$source/docs/guide/pipeline.md
+    awk '/^```text/ { inside = 1 } inside && !done && /[0-8]/ { done = sub(/[0-8]/, "9") } { print }' "$page" >"$work/figure.md"
+    awk '/^```sh/ { print; print "false"; next } { print }' "$page" >"$work/command.md"
+    awk '/^```sh/ { print; print "echo one line more"; next } { print }' "$page" >"$work/line.md"
+    for wrong in figure command line; do
+        ! cmp -s "$page" "$work/$wrong.md" || { echo "FAILED: the page is not changed"; trouble=1; }
+        refused "$wrong"
+    done
+fi
+exit $trouble
