@@ -1,6 +1,7 @@
 /* Shapes and sums as figures, and shapes as structuring elements: the same numbers, taken off their lattice. */
 #include "morphology/morphology.h"
 
+#include "base/sort.h"
 #include "predicate/rational_point.h"
 
 void sunder_i_figure_free(sunder_i_figure *figure)
@@ -33,6 +34,7 @@ bool sunder_i_figure_of_shape(sunder_i_lattice *lattice, const sunder_shape *sha
     if (make_room(&f, shape->vertices, shape->vertices, shape->rings)) {
         for (uint32_t v = 0; v < shape->vertices; v++) {
             f.ring[v] = v;
+            f.touches = f.touches || shape->shared[v];
             f.at[v] = read_point(&f.arena, lattice, at[v]);
         }
         for (uint32_t r = 0; r < shape->rings; r++) f.ring_end[r] = shape->ring_end[r];
@@ -60,6 +62,18 @@ static const uint32_t *count_from(sunder_i_arena *arena, size_t first, size_t n)
     return number;
 }
 
+/* Does a ring, or do two, come through one vertex twice? */
+static bool is_repeated(const uint32_t *vertex, size_t n, bool *repeated)
+{
+    uint64_t *sorted = sunder_i_alloc(n, sizeof *sorted);
+    for (size_t i = 0; sorted && i < n; i++) sorted[i] = vertex[i];
+    const bool ok = sorted && sunder_i_sort_keys(sorted, n);
+    *repeated = false;
+    for (size_t i = 1; ok && i < n && !*repeated; i++) *repeated = sorted[i] == sorted[i - 1];
+    sunder_i_free(sorted);
+    return ok;
+}
+
 bool sunder_i_figure_of_sum(const sunder_sum *sum, size_t first, size_t last, bool regular, sunder_i_figure *out)
 {
     sunder_i_figure f = {0};
@@ -76,7 +90,7 @@ bool sunder_i_figure_of_sum(const sunder_sum *sum, size_t first, size_t last, bo
         f.segment = count_from(&f.arena, f.sides, 2 * f.segments);
         f.point = count_from(&f.arena, f.sides + 2 * f.segments, f.points);
     }
-    const bool ok = !f.arena.failed;
+    const bool ok = !f.arena.failed && is_repeated(sum->ring_vertex + start, f.sides, &f.touches);
     if (ok)
         *out = f;
     else

@@ -75,7 +75,10 @@ static sunder_status one_island(islands *all, const sunder_i_figure *figure, sun
     }
     sunder_sum *eroded = sunder_i_morphology_operands_sum(all->operands, -1);
     if (!eroded) return sunder_i_no_memory(err);
-    sunder_status status = sunder_i_erode_figure(figure, &all->operands->reflected, &options, eroded, err);
+    bool done;
+    sunder_status status = sunder_i_erode_by_outline(figure, &all->operands->reflected, &options, eroded, &done, err);
+    if (status == SUNDER_OK && !done)
+        status = sunder_i_erode_figure(figure, &all->operands->reflected, &options, eroded, err);
     if (status == SUNDER_OK && !all->open) {
         *out = eroded;
         return SUNDER_OK;

@@ -2,6 +2,7 @@
  *
  * figure.c        a shape or a sum as rings, segments and points with rational corners
  * dilate_erode.c  one exact sum of such a figure and a shape, or of its complement: bands, then the cells between them
+ * erode_outline.c an erosion without a map, where all corners are integers
  * operands.c      what all stages of one operation share: the lattice, and B as a structuring element
  * bands.c         a side plus a convex piece
  * fit.c           does a convex shape fit into what two shapes have in common?
@@ -27,6 +28,7 @@ typedef struct sunder_i_figure {
     const uint32_t *segment; /* [2 * segments] */
     const uint32_t *point;   /* [points] */
     size_t segments, points;
+    bool touches; /* a corner of the rings stands where another one does */
 } sunder_i_figure;
 
 /* All members of a shape, whose vertices stand at these places of the lattice; they are disjoint. */
@@ -68,6 +70,11 @@ sunder_status sunder_i_dilate_figure(const sunder_i_figure *figure, const sunder
                                      const sunder_sum_options *options, sunder_sum *sum, sunder_error *err);
 sunder_status sunder_i_erode_figure(const sunder_i_figure *figure, const sunder_i_structuring_element *element,
                                     const sunder_sum_options *options, sunder_sum *sum, sunder_error *err);
+
+/* erode_outline.c: the same as sunder_i_erode_figure() where all is integers and the element convex; sets *done. */
+sunder_status sunder_i_erode_by_outline(const sunder_i_figure *figure, const sunder_i_structuring_element *element,
+                                        const sunder_sum_options *options, sunder_sum *sum, bool *done,
+                                        sunder_error *err);
 
 /* ---- operands.c: P and B on one lattice ---- */
 

@@ -236,7 +236,7 @@ static bool measure(maker *m)
 
 /* ---- The outline ---- */
 
-static sunder_status keep_stretches(const sunder_i_coverage *coverage, void *user, sunder_error *err)
+static sunder_status keep_stretches(sunder_i_coverage *coverage, void *user, sunder_error *err)
 {
     sunder_i_free_space *out = user;
     out->stretch = sunder_i_alloc(coverage->stretches, sizeof *out->stretch);

@@ -7,7 +7,7 @@
 typedef struct finder {
     const sunder_i_convex_pieces *parts;
     const sunder_sum_options *options;
-    sunder_status (*keep)(const sunder_i_coverage *coverage, void *user, sunder_error *err);
+    sunder_status (*keep)(sunder_i_coverage *coverage, void *user, sunder_error *err);
     void *user;
     sunder_sum *sum;
 } finder;
@@ -28,7 +28,7 @@ static sunder_status find_along(const finder *f, const sunder_i_lines *lines, su
 }
 
 sunder_status sunder_i_outline_find(const sunder_i_convex_pieces *parts, const sunder_sum_options *options,
-                                    sunder_status (*keep)(const sunder_i_coverage *coverage, void *user,
+                                    sunder_status (*keep)(sunder_i_coverage *coverage, void *user,
                                                           sunder_error *err),
                                     void *user, sunder_sum *sum, sunder_error *err)
 {

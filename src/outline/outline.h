@@ -9,7 +9,7 @@
  * keep     NULL, or is called with the coverage while there is one.
  * Fails    SUNDER_ENOMEM, SUNDER_ECANCEL; the caller frees the sum. */
 sunder_status sunder_i_outline_find(const sunder_i_convex_pieces *parts, const sunder_sum_options *options,
-                                    sunder_status (*keep)(const sunder_i_coverage *coverage, void *user,
+                                    sunder_status (*keep)(sunder_i_coverage *coverage, void *user,
                                                           sunder_error *err),
                                     void *user, sunder_sum *sum, sunder_error *err);
 

@@ -1,0 +1,299 @@
+/* An erosion by the stages of ../outline/, where all corners are integers that fit a narrow lattice.
+ *
+ * Let P be the figure, C the convex piece of what is added to its complement (-B, if B is what P is eroded by). The
+ * bands (dilate_erode.c) are the sums of P's sides and C: convex parts, of which the outline is found line by line. Of
+ * their sides the candidates are those of the reduced convolution of P's complement and C: each side of P moved by the
+ * corner of C that reaches farthest into P, and at each vertex v where P has more than half a turn those sides of v + C
+ * that the complement's angle holds (closed intervals, as in ../convex/subsums.c).
+ *
+ * Let x be a place of a candidate that no band covers. x - int C is connected and meets no side of P, so it lies inside
+ * P, and x in the erosion, or outside. Which of the two does not change from x to the next such place, so one question
+ * is enough for all stretches that hang together. Mostly it is inside, for near what x - C touches P is on its side;
+ * but the end of a moved side may touch a corner of P from outside, and so may more where a corner stands on a side.
+ * The erosion is on the side of each stretch that no band covers.
+ *
+ * Nothing is missed: a place on the boundary of the complement's sum is on a candidate, since that is what the reduced
+ * convolution is, and no band covers it. (Where two chains of P meet in a vertex of both, the complement's angles are
+ * not those of one chain: such figures are left to the map.) */
+#include "morphology/morphology.h"
+
+#include "base/union_find.h"
+#include "base/watch.h"
+#include "convex/merge.h"
+#include "convex/pieces.h"
+#include "outline/contained_sides.h"
+#include "outline/outline.h"
+#include "predicate/rational_point.h"
+#include "spatial/strips.h"
+
+#include <math.h>
+
+/* Sums of two coordinates of fewer bits are below what a narrow lattice holds. */
+enum { MOST_BITS = SUNDER_I_NARROW_BITS - 2 };
+
+typedef struct eroder {
+    const sunder_i_figure *figure;
+    const sunder_i_structuring_element *element;
+    sunder_i_convex_pieces side, piece; /* of the figure, each a segment; of the element, the only one */
+    uint32_t *before;                   /* [sides] the side that ends where each begins */
+} eroder;
+
+static bool as_integers(sunder_i_rational_point u, sunder_i_point *out)
+{
+    return sunder_i_big_is_one(u.w) && sunder_i_big_bits(u.x) <= MOST_BITS && sunder_i_big_bits(u.y) <= MOST_BITS &&
+           sunder_i_big_fits_i64(u.x, &out->x) && sunder_i_big_fits_i64(u.y, &out->y);
+}
+
+/* False where a corner is no such integer. */
+static bool list_sides(eroder *e)
+{
+    const sunder_i_figure *f = e->figure;
+    for (size_t r = 0, i = 0; r < f->rings; r++)
+        for (const size_t first = i; i < f->ring_end[r]; i++) {
+            const bool last = i + 1 == f->ring_end[r];
+            sunder_i_point a, b;
+            if (!as_integers(f->at[f->ring[i]], &a) || !as_integers(f->at[f->ring[last ? first : i + 1]], &b))
+                return false;
+            e->before[last ? first : i + 1] = (uint32_t)i;
+            sunder_i_convex_pieces_add_corner(&e->side, a, true);
+            sunder_i_convex_pieces_add_corner(&e->side, b, true);
+            e->side.end[e->side.n++] = e->side.corners;
+        }
+    return true;
+}
+
+static bool list_piece(eroder *e)
+{
+    for (size_t k = 0; k < e->element->end[0]; k++) {
+        sunder_i_point at;
+        if (!as_integers(e->element->corner[k], &at)) return false;
+        sunder_i_convex_pieces_add_corner(&e->piece, at, true);
+    }
+    e->piece.end[e->piece.n++] = e->piece.corners;
+    return true;
+}
+
+/* ---- Bands ---- */
+
+/* The rank of a side of the figure along its ring: a ranked segment starts with its lesser rank, and its corners are
+ * turned with it. */
+static uint32_t rank_along(const eroder *e, const uint32_t *start, uint32_t i)
+{
+    return e->side.rank[2 * i + start[i]];
+}
+
+static uint32_t opposite(uint32_t rank, uint32_t classes) { return rank < classes ? rank + classes : rank - classes; }
+
+/* Does the complement's exterior angle where side `in` ends and side `out` begins hold the rank r? Its own sides run
+ * the other way. */
+static bool holds(uint32_t in, uint32_t out, uint32_t r, uint32_t classes)
+{
+    const uint32_t full = 2 * classes, from = opposite(out, classes), to = opposite(in, classes);
+    const uint32_t turn = to >= from ? to - from : to + full - from;
+    const uint32_t step = r >= from ? r - from : r + full - from;
+    return turn < classes && step <= turn;
+}
+
+/* Which of the two corners of each listed segment is where its side begins: ranking may have turned it. */
+static bool find_starts(const eroder *e, const sunder_i_point *begin, uint32_t *start)
+{
+    for (uint32_t i = 0; i < e->side.n; i++) {
+        const sunder_i_point at = e->side.corner[2 * i];
+        start[i] = at.x != begin[i].x || at.y != begin[i].y;
+    }
+    return sunder_i_steps(e->side.n);
+}
+
+static void add_band(const eroder *e, const uint32_t *start, const uint32_t *after, uint32_t i,
+                     sunder_i_convex_pieces *out)
+{
+    const sunder_i_convex_pieces *a = &e->side, *b = &e->piece;
+    const uint32_t along = rank_along(e, start, i), back = opposite(along, out->classes);
+    const uint32_t in = rank_along(e, start, e->before[i]), next = rank_along(e, start, after[i]);
+    sunder_i_merge m = sunder_i_merge_of(2, b->corners);
+    while (SUNDER_I_MERGE_NEXT(&m, sunder_i_rank_cmp(a->rank[2 * i + m.next_a], b->rank[m.next_b]))) {
+        const sunder_i_point u = a->corner[2 * i + m.a], v = b->corner[m.b];
+        const uint32_t rank = m.of_a ? a->rank[2 * i + m.a] : b->rank[m.b];
+        const bool candidate = m.of_a            ? rank == back
+                               : m.a == start[i] ? holds(in, along, rank, out->classes)
+                                                 : holds(along, next, rank, out->classes);
+        out->rank[out->corners] = rank;
+        sunder_i_convex_pieces_add_corner(out, (sunder_i_point){u.x + v.x, u.y + v.y}, candidate);
+    }
+    out->end[out->n++] = out->corners;
+}
+
+static bool add_bands(const eroder *e, const sunder_i_point *begin, sunder_i_convex_pieces *out)
+{
+    const uint32_t n = e->side.n;
+    uint32_t *start = sunder_i_alloc(n, sizeof *start), *after = sunder_i_alloc(n, sizeof *after);
+    bool ok =
+        start && after && sunder_i_convex_pieces_init_sum(&e->side, &e->piece, out) && find_starts(e, begin, start);
+    for (uint32_t i = 0; ok && i < n; i++) after[e->before[i]] = i;
+    for (uint32_t i = 0; ok && i < n; i++) add_band(e, start, after, i, out);
+    sunder_i_free(start);
+    sunder_i_free(after);
+    return ok;
+}
+
+/* ---- Inside or outside ---- */
+
+/* The sides of the figure by height, for who asks whether a place is inside. */
+typedef struct locator {
+    const eroder *e;
+    sunder_i_lattice *lattice;
+    sunder_i_strips strips;
+} locator;
+
+/* Heights of points that are no integers are off by some ulps. */
+static double margin(double y) { return fabs(y) * 0x1p-47 + 1; }
+
+static bool locator_init(locator *l, const eroder *e, sunder_i_lattice *lattice)
+{
+    *l = (locator){.e = e, .lattice = lattice};
+    double(*span)[2] = sunder_i_alloc(e->side.n, sizeof *span);
+    for (uint32_t i = 0; span && i < e->side.n; i++) {
+        const double y[2] = {(double)e->side.corner[2 * i].y, (double)e->side.corner[2 * i + 1].y};
+        span[i][0] = fmin(y[0], y[1]) - margin(fmax(fabs(y[0]), fabs(y[1])));
+        span[i][1] = fmax(y[0], y[1]) + margin(fmax(fabs(y[0]), fabs(y[1])));
+    }
+    const bool ok = span && sunder_i_strips_build(&l->strips, (const double(*)[2])span, e->side.n);
+    sunder_i_free(span);
+    return ok;
+}
+
+/* Is the point p inside the figure? It is on no side. A ray to the left crosses the sides that it ends right of. */
+static bool is_inside(locator *l, const sunder_i_hpoint *p)
+{
+    bool odd = false;
+    size_t from, to;
+    sunder_i_strips_at(&l->strips, p->ay, &from, &to);
+    for (; from < to; from++) {
+        const sunder_i_point *at = l->e->side.corner + 2 * (size_t)l->strips.item[from];
+        const sunder_i_hpoint a = sunder_i_hpoint_of(l->lattice, at[0]), b = sunder_i_hpoint_of(l->lattice, at[1]);
+        const bool up = sunder_i_hpoint_cmp_y(l->lattice, &b, p) > 0;
+        if (up == (sunder_i_hpoint_cmp_y(l->lattice, &a, p) > 0)) continue;
+        const int side = sunder_i_orient_hpoint(l->lattice, at[0], at[1], p);
+        if (up ? side < 0 : side > 0) odd = !odd;
+    }
+    return odd;
+}
+
+/* Is the element, turned by half a turn and put at x, inside the figure? Its interior meets no side. */
+static bool fits_at(locator *l, const sunder_i_hpoint *x)
+{
+    const sunder_i_mark mark = sunder_i_lattice_begin(l->lattice);
+    sunder_i_arena *scratch = &l->lattice->scratch;
+    const sunder_i_rational_point at =
+        sunder_i_rational_sub(scratch, sunder_i_hpoint_read(scratch, l->lattice, x), l->e->element->inner[0]);
+    const sunder_i_hpoint p = sunder_i_hpoint_make(l->lattice, at);
+    sunder_i_lattice_end(l->lattice, mark);
+    return is_inside(l, &p);
+}
+
+/* Which vertices hang together by stretches. NULL if memory is out. */
+static uint32_t *join_stretches(const sunder_i_coverage *c)
+{
+    uint32_t *parent = sunder_i_alloc(c->vertices.n, sizeof *parent);
+    if (!parent) return NULL;
+    sunder_i_union_init(parent, c->vertices.n);
+    for (size_t i = 0; i < c->stretches; i++) sunder_i_union_join(parent, c->stretch[i].from, c->stretch[i].to);
+    return parent;
+}
+
+/* Keeps what of the uncovered places is inside, in place; number[v] is 0 where vertex v is not, else one more than its
+ * number among those kept. */
+static void keep_inside(sunder_i_coverage *c, uint32_t *parent, const uint8_t *inside, uint32_t *number)
+{
+    uint32_t n = 0;
+    size_t stretches = 0;
+    for (uint32_t v = 0; v < c->vertices.n; v++) {
+        if (!inside[sunder_i_union_find(parent, v)]) continue;
+        c->vertices.point[n] = c->vertices.point[v];
+        number[v] = ++n;
+    }
+    for (size_t i = 0; i < c->stretches; i++) {
+        sunder_i_outline_stretch s = c->stretch[i];
+        if (!number[s.from]) continue;
+        s.from = number[s.from] - 1;
+        s.to = number[s.to] - 1;
+        c->stretch[stretches++] = s;
+    }
+    c->stretches = stretches;
+    c->vertices.n = n;
+}
+
+/* Forgets what is outside: one place is asked about for all that hangs together. */
+static bool drop_outside(const eroder *e, sunder_i_coverage *c)
+{
+    locator l;
+    uint32_t *parent = join_stretches(c), *number = sunder_i_calloc(c->vertices.n, sizeof *number);
+    uint8_t *inside = sunder_i_calloc(c->vertices.n, sizeof *inside);
+    bool ok = locator_init(&l, e, c->vertices.lattice) && parent && number && inside;
+    for (uint32_t v = 0; ok && v < c->vertices.n; v++) {
+        if (sunder_i_union_find(parent, v) != v) continue;
+        inside[v] = fits_at(&l, &c->vertices.point[v]);
+        ok = sunder_i_step();
+    }
+    if (ok) keep_inside(c, parent, inside, number);
+    sunder_i_strips_free(&l.strips);
+    sunder_i_free(parent);
+    sunder_i_free(number);
+    sunder_i_free(inside);
+    return ok && !l.lattice->arena.failed;
+}
+
+/* ---- The outline ---- */
+
+/* From the side of the bands to that of the erosion. */
+static sunder_status turn_over(sunder_i_coverage *coverage, void *user, sunder_error *err)
+{
+    const uint8_t both = SUNDER_I_BANK_LEFT | SUNDER_I_BANK_RIGHT;
+    for (size_t i = 0; i < coverage->stretches; i++)
+        if (coverage->stretch[i].banks != both) coverage->stretch[i].banks ^= both;
+    return drop_outside(user, coverage) ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+static sunder_status find_outline(eroder *e, const sunder_sum_options *options, sunder_sum *sum, sunder_error *err)
+{
+    sunder_i_convex_pieces *const list[] = {&e->side, &e->piece}, bands = {0};
+    sunder_i_directions directions = {0};
+    sunder_i_point *begin = sunder_i_alloc(e->side.n, sizeof *begin);
+    for (uint32_t i = 0; begin && i < e->side.n; i++) begin[i] = e->side.corner[2 * i];
+    sunder_status status = SUNDER_OK;
+    if (begin && sunder_i_convex_pieces_rank(&sum->lattice, list, 2, &directions) && add_bands(e, begin, &bands))
+        status = sunder_i_drop_contained_sides(&bands, err);
+    else
+        status = sunder_i_no_memory(err);
+    if (status == SUNDER_OK) status = sunder_i_outline_find(&bands, options, turn_over, e, sum, err);
+    sunder_i_free(begin);
+    sunder_i_directions_free(&directions);
+    sunder_i_convex_pieces_free(&bands);
+    return status;
+}
+
+sunder_status sunder_i_erode_by_outline(const sunder_i_figure *figure, const sunder_i_structuring_element *element,
+                                        const sunder_sum_options *options, sunder_sum *sum, bool *done,
+                                        sunder_error *err)
+{
+    *done = false;
+    if (element->pieces != 1 || figure->touches || figure->segments || figure->points || figure->sides == 0 ||
+        figure->sides > UINT32_MAX / 4)
+        return SUNDER_OK;
+    eroder e = {.figure = figure, .element = element};
+    sunder_status status = SUNDER_OK;
+    e.before = sunder_i_alloc(figure->sides, sizeof *e.before);
+    if (!e.before || !sunder_i_convex_pieces_init(&e.side, figure->sides, 2 * figure->sides) ||
+        !sunder_i_convex_pieces_init(&e.piece, 1, element->end[0]))
+        status = sunder_i_no_memory(err);
+    if (status == SUNDER_OK && list_sides(&e) && list_piece(&e)) {
+        *done = true;
+        sum->lattice.narrow = sum->lattice.small = true;
+        sum->lattice.approx_shift = 0;
+        status = find_outline(&e, options, sum, err);
+    }
+    sunder_i_free(e.before);
+    sunder_i_convex_pieces_free(&e.side);
+    sunder_i_convex_pieces_free(&e.piece);
+    return status;
+}
