@@ -13,6 +13,7 @@ typedef struct gis_buffer_request {
     sunder_operation operation;
     bool dissolve;              /* into one set, or by the field */
     const char *dissolve_field; /* NULL: none */
+    bool explode;               /* each polygon of a result is a feature */
     bool align;                 /* the shape is turned to the main direction of a set or block */
     bool degenerate;            /* layers of degenerate segments and points, too */
     unsigned threads;           /* 0: as many as there are processors */

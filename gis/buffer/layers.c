@@ -1,6 +1,7 @@
 /* layers.c: the layers that sunder buffer writes. A feature keeps its FID and attributes; one that vanished, or was
  * empty, has an empty geometry; one without polygons a null one. A set of dissolved features has the value of the
- * field, if one was named, and the number of features in it. */
+ * field, if one was named, and the number of features in it. Exploded, each polygon of a set is a feature with the
+ * attributes of the set, but for the number, which tells nothing of one polygon; what has no polygon is not written. */
 #include "buffer/buffer.h"
 
 #include "base/interrupt.h"
@@ -12,6 +13,7 @@
  * polygons than one. */
 static bool is_multi(const gis_buffer *buffer)
 {
+    if (buffer->request->explode) return false;
     OGRwkbGeometryType type = wkbFlatten(gis_source_type(buffer->input.source));
     if (type == wkbMultiPolygon || type == wkbMultiSurface || buffer->request->dissolve) return true;
     for (size_t k = 0; k < buffer->sets; k++)
@@ -33,6 +35,28 @@ static OGRFieldDefnH field_of(const gis_buffer *buffer)
     return OGR_FD_GetFieldDefn(layer, buffer->field);
 }
 
+static bool write_set(gis_sink_layer *layer, const gis_buffer_set *set, OGRFeatureH feature, bool multi,
+                      gis_error *error)
+{
+    if (!gis_go_on(error)) return false;
+    OGRGeometryH geometry = set->none ? NULL : geometry_of(set, multi);
+    if (!geometry && !set->none) return gis_no_memory(error);
+    const gis_value members = {GIS_INTEGER, {.integer = (GIntBig)set->members}};
+    return gis_sink_write(layer, feature, geometry, &members, error);
+}
+
+static bool write_each(gis_sink_layer *layer, const gis_buffer_set *set, OGRFeatureH feature, gis_error *error)
+{
+    const gis_polygons *polygons = &set->result.set;
+    for (size_t p = 0; !set->none && p < polygons->polygons; p++) {
+        if (!gis_go_on(error)) return false;
+        OGRGeometryH geometry = gis_geometry_polygon(polygons, p);
+        if (!geometry) return gis_no_memory(error);
+        if (!gis_sink_write(layer, feature, geometry, NULL, error)) return false;
+    }
+    return true;
+}
+
 static bool write_main(gis_sink *sink, const gis_buffer *buffer, gis_error *error)
 {
     bool multi = is_multi(buffer);
@@ -42,9 +66,12 @@ static bool write_main(gis_sink *sink, const gis_buffer *buffer, gis_error *erro
                                       .crs = gis_source_crs(buffer->input.source),
                                       .style = GIS_STYLE_RESULT};
     request.like_source = !buffer->request->dissolve;
-    if (buffer->request->dissolve) {
+    const bool dissolve = buffer->request->dissolve, counted = dissolve && !buffer->request->explode;
+    if (counted) {
         request.fields = &number;
         request.n_fields = 1;
+    }
+    if (dissolve) {
         if (buffer->field >= 0) request.copied = field_of(buffer);
         if (request.copied && EQUAL(OGR_Fld_GetNameRef(request.copied), number.name)) number.name = "n_features";
     }
@@ -52,13 +79,11 @@ static bool write_main(gis_sink *sink, const gis_buffer *buffer, gis_error *erro
     if (!gis_sink_add(sink, &request, &layer, error)) return false;
     for (size_t k = 0; k < buffer->sets; k++) {
         const gis_buffer_set *set = &buffer->set[k];
-        if (!gis_go_on(error)) return false;
-        OGRGeometryH geometry = set->none ? NULL : geometry_of(set, multi);
-        if (!geometry && !set->none) return gis_no_memory(error);
-        const gis_value members = {GIS_INTEGER, {.integer = (GIntBig)set->members}};
-        bool of_feature = !buffer->request->dissolve || request.copied;
+        bool of_feature = !dissolve || request.copied;
         OGRFeatureH feature = of_feature ? gis_source_feature(buffer->input.source, set->member[0]) : NULL;
-        if (!gis_sink_write(layer, feature, geometry, &members, error)) return false;
+        if (!(buffer->request->explode ? write_each(layer, set, feature, error)
+                                       : write_set(layer, set, feature, multi, error)))
+            return false;
     }
     return true;
 }

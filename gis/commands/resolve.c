@@ -274,6 +274,7 @@ bool gis_resolve_buffer(const gis_options *options, gis_buffer_request *out, gis
     *out = (gis_buffer_request){
         .dissolve = options->given[OPT_DISSOLVE] || options->given[OPT_DISSOLVE_FIELD],
         .dissolve_field = options->text[OPT_DISSOLVE_FIELD],
+        .explode = options->given[OPT_EXPLODE],
         .align = options->given[OPT_ALIGN],
         .degenerate = options->given[OPT_DEGENERATE],
         .threads = thread_count(options),

@@ -39,11 +39,11 @@ bool gis_layer_marks(gis_layer_input *input, gis_error *error)
     if (!marks) return gis_no_memory(error);
     bool ok = true;
     if (rules->ignore_where) {
-        ok = gis_source_mark(input->source, rules->ignore_where, marks, error);
+        ok = gis_source_mark(input->source, "--ignore-where", rules->ignore_where, marks, error);
         for (size_t i = 0; ok && i < input->n; i++) input->feature[i].ignored = input->feature[i].ignored || marks[i];
     }
     if (ok && rules->fixed_where) {
-        ok = gis_source_mark(input->source, rules->fixed_where, marks, error);
+        ok = gis_source_mark(input->source, "--fixed-where", rules->fixed_where, marks, error);
         for (size_t i = 0; ok && i < input->n; i++) input->feature[i].fixed = marks[i];
     }
     free(marks);

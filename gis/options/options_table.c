@@ -79,6 +79,8 @@ const gis_option gis_option_table[OPT_N] = {
                       "all features as one polygonal set"},
     [OPT_DISSOLVE_FIELD] = {OPT_DISSOLVE_FIELD, "--dissolve-field", GIS_TYPE_FIELD, GIS_BUFFER, OWN, "FIELD", NULL,
                             "features of equal values as one set each"},
+    [OPT_EXPLODE] = {OPT_EXPLODE, "--explode", GIS_TYPE_FLAG, GIS_BUFFER, OWN, NULL, NULL,
+                     "each polygon of the result a feature of its own"},
     [OPT_ALIGN] = {OPT_ALIGN, "--align", GIS_TYPE_FLAG, GIS_BUFFER, OWN, NULL, NULL,
                    "turn the shape to each feature's or block's main direction"},
     [OPT_DEGENERATE] = {OPT_DEGENERATE, "--degenerate", GIS_TYPE_FLAG, GIS_BUFFER, OWN, NULL, NULL,

@@ -10,6 +10,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+void gis_field_names(OGRLayerH layer, char *text, size_t size)
+{
+    static const char more[] = ", ...";
+    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer);
+    int n = OGR_FD_GetFieldCount(definition);
+    size_t length = (size_t)snprintf(text, size, n ? "its fields are " : "it has no fields");
+    for (int i = 0; i < n; i++) {
+        const char *name = OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i));
+        if (length + strlen(name) + 2 + sizeof more > size) {
+            snprintf(text + length, size - length, "%s", i ? more : more + 2);
+            return;
+        }
+        length += (size_t)snprintf(text + length, size - length, "%s%s", i ? ", " : "", name);
+    }
+}
+
 bool gis_field_find(const gis_source *source, const char *option, const char *name, int *field, gis_error *error)
 {
     *field = name ? gis_source_field(source, name) : -1;
@@ -20,8 +36,11 @@ bool gis_field_find(const gis_source *source, const char *option, const char *na
         const char *other = OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i));
         gis_spelling_offer(&search, other, strlen(other));
     }
-    return gis_fail(error, "%s: layer %s has no field %s%s%s%s", option, gis_source_name(source), name,
-                    search.best ? "; did you mean " : "", search.best ? search.best : "", search.best ? "?" : "");
+    char fields[GIS_FIELD_NAMES_SIZE];
+    gis_field_names(gis_source_layer(source), fields, sizeof fields);
+    return gis_fail(error, "%s: layer %s has no field %s%s%s%s %s", option, gis_source_name(source), name,
+                    search.best ? "; did you mean " : ";", search.best ? search.best : "", search.best ? "?" : "",
+                    fields);
 }
 
 bool gis_field_find_numbers(const gis_source *source, const char *option, const char *name, int *field,

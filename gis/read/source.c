@@ -8,6 +8,7 @@
 #include "base/message.h"
 #include "read/packed.h"
 #include "read/source_layer.h"
+#include "read/where.h"
 #include "sqlite/calls.h"
 #include "sqlite/lock.h"
 
@@ -116,8 +117,8 @@ static bool select_features(gis_source *source, const gis_source_request *reques
     OGRErr status = OGR_L_SetAttributeFilter(source->layer, request->where);
     gis_listen_end();
     if (status != OGRERR_NONE)
-        gis_fail_usage(error, "%s \"%s\": %s", source->where_option, request->where,
-                       gis_listener_reason(&listener, "not understood"));
+        gis_fail_where(source->dataset, source->layer, source->where_option, request->where,
+                       gis_listener_reason(&listener, "not understood"), error);
     gis_listener_clear(&listener);
     return status == OGRERR_NONE;
 }
@@ -203,8 +204,8 @@ static bool read_all(gis_source *source, const gis_source_request *request, gis_
     bool done = read_features(source, request, error);
     gis_listen_end();
     if (done && listener.failures && source->where && source->n == 0)
-        done = gis_fail_usage(error, "%s \"%s\": %s", source->where_option, source->where,
-                              gis_listener_reason(&listener, "not understood"));
+        done = gis_fail_where(source->dataset, source->layer, source->where_option, source->where,
+                              gis_listener_reason(&listener, "not understood"), error);
     else if (done && listener.failures)
         done = gis_fail(error, "%s, layer %s: reading failed after %zu features: %s", source->path, source->name,
                         source->n, gis_listener_reason(&listener, "no reason given"));

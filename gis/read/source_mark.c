@@ -1,13 +1,16 @@
 /* source_mark.c: which features satisfy an expression (--fixed-where, --ignore-where). It is asked of those who know
  * the SQL: a plain layer answers for itself, as it did for --where, and its FIDs tell who is meant; where FIDs mean
  * nothing a layer of memory answers in its place. */
+#define _GNU_SOURCE /* strcasestr() */
 #include "read/source.h"
 
 #include "base/interrupt.h"
+#include "read/where.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct fid_index {
     GIntBig fid;
@@ -60,7 +63,9 @@ static bool mark_in_memory(const gis_source *source, const char *where, bool *ma
 {
     GDALDriverH driver = memory_driver();
     GDALDatasetH memory = driver ? GDALCreate(driver, "", 0, 0, 0, GDT_Unknown, NULL) : NULL;
-    OGRLayerH layer = memory ? GDALDatasetCreateLayer(memory, gis_source_name(source), NULL, wkbNone, NULL) : NULL;
+    /* Geometries come along where the condition is about them. */
+    OGRwkbGeometryType type = strcasestr(where, "OGR_GEOM") ? wkbUnknown : wkbNone;
+    OGRLayerH layer = memory ? GDALDatasetCreateLayer(memory, gis_source_name(source), NULL, type, NULL) : NULL;
     bool done = layer != NULL;
     OGRFeatureDefnH definition = OGR_L_GetLayerDefn(gis_source_layer(source));
     for (int f = 0; done && f < OGR_FD_GetFieldCount(definition); f++)
@@ -82,7 +87,7 @@ static bool mark_in_memory(const gis_source *source, const char *where, bool *ma
     return done || gis_fail(error, "not understood");
 }
 
-bool gis_source_mark(const gis_source *source, const char *where, bool *marks, gis_error *error)
+bool gis_source_mark(const gis_source *source, const char *option, const char *where, bool *marks, gis_error *error)
 {
     for (size_t i = 0; i < gis_source_count(source); i++) marks[i] = false;
     gis_listener listener = {0};
@@ -91,8 +96,8 @@ bool gis_source_mark(const gis_source *source, const char *where, bool *marks, g
     bool done = in_place ? mark_by_filter(source, where, marks, error) : mark_in_memory(source, where, marks, error);
     gis_listen_end();
     if (!done || listener.failures || gis_interrupted())
-        done =
-            gis_fail_usage(error, "the expression \"%s\": %s", where, gis_listener_reason(&listener, "not understood"));
+        done = gis_fail_where(in_place ? gis_source_dataset(source) : NULL, gis_source_layer(source), option, where,
+                              gis_listener_reason(&listener, "not understood"), error);
     gis_listener_clear(&listener);
     return done;
 }

@@ -124,7 +124,7 @@ bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gi
     sink->request = *request;
     sink->source = source;
     sink->format = format;
-    sink->fids_kept = format.keeps_fids && (!source || gis_source_fids_unique(source));
+    sink->fids_kept = format.keeps_fids && !request->new_fids && (!source || gis_source_fids_unique(source));
     choose_place(sink);
     fix_date(sink);
     if (!gis_sink_check_reprojection(sink, error) || !recover(sink, error) || !gis_sink_check_existing(sink, error) ||

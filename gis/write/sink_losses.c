@@ -53,7 +53,8 @@ static void compare_field(const gis_sink_layer *layer, OGRFieldDefnH sent, OGRFi
     int width = OGR_Fld_GetWidth(sent), width_kept = OGR_Fld_GetWidth(kept);
     if (width_kept != 0 && width > width_kept) say(&lost, "width %d instead of %d", width_kept, width);
     if (!OGR_Fld_IsNullable(sent) && OGR_Fld_IsNullable(kept)) say(&lost, "may be null");
-    if (OGR_Fld_IsUnique(sent) && !OGR_Fld_IsUnique(kept)) say(&lost, "need not be unique");
+    if (OGR_Fld_IsUnique(sent) && !OGR_Fld_IsUnique(kept) && !layer->sink->request.new_fids)
+        say(&lost, "need not be unique");
     if (!same_text(OGR_Fld_GetDefault(sent), OGR_Fld_GetDefault(kept)))
         say(&lost, "no default %s", OGR_Fld_GetDefault(sent) ? OGR_Fld_GetDefault(sent) : "");
     if (has_domain(NULL, sent) &&

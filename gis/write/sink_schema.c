@@ -183,6 +183,32 @@ static int create_field(gis_sink_layer *layer, OGRFieldDefnH field)
     return created && OGR_FD_GetFieldCount(definition) > before ? before : -1;
 }
 
+/* Without constraints, which hold within the source, not for what is made of it; NULL: memory is out. */
+static OGRFieldDefnH unconstrained_copy(OGRFieldDefnH like)
+{
+    OGRFieldDefnH field = OGR_Fld_Create(OGR_Fld_GetNameRef(like), OGR_Fld_GetType(like));
+    if (!field) return NULL;
+    OGR_Fld_SetSubType(field, OGR_Fld_GetSubType(like));
+    OGR_Fld_SetWidth(field, OGR_Fld_GetWidth(like));
+    OGR_Fld_SetPrecision(field, OGR_Fld_GetPrecision(like));
+    OGR_Fld_SetAlternativeName(field, OGR_Fld_GetAlternativeNameRef(like));
+    OGR_Fld_SetDomainName(field, OGR_Fld_GetDomainName(like));
+    return field;
+}
+
+/* A field as it is in the source; of features that are written more than once no value is unique any more. */
+static int create_field_like(gis_sink_layer *layer, OGRFieldDefnH like)
+{
+    if (!layer->sink->request.new_fids || !OGR_Fld_IsUnique(like)) return create_field(layer, like);
+    OGRFieldDefnH field = unconstrained_copy(like);
+    if (!field) return -1;
+    OGR_Fld_SetNullable(field, OGR_Fld_IsNullable(like));
+    OGR_Fld_SetDefault(field, OGR_Fld_GetDefault(like));
+    int index = create_field(layer, field);
+    OGR_Fld_Destroy(field);
+    return index;
+}
+
 static void create_source_fields(gis_sink_layer *layer)
 {
     OGRFeatureDefnH source = source_definition(layer);
@@ -198,7 +224,7 @@ static void create_source_fields(gis_sink_layer *layer)
                                   OGR_Fld_GetNameRef(field));
         } else {
             copy_domain(layer, field);
-            layer->field_map[i] = create_field(layer, field);
+            layer->field_map[i] = create_field_like(layer, field);
             if (layer->field_map[i] < 0 && gis_sink_tells(layer))
                 gis_sentences_add(&layer->sink->losses, "field %s: not written, %s cannot hold the type %s",
                                   OGR_Fld_GetNameRef(field), layer->sink->format.name,
@@ -238,13 +264,8 @@ static void create_copy(gis_sink_layer *layer)
     OGRFieldDefnH like = layer->request.copied;
     OGRFeatureDefnH source = OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source));
     int n = OGR_FD_GetFieldCount(source);
-    OGRFieldDefnH field = OGR_Fld_Create(OGR_Fld_GetNameRef(like), OGR_Fld_GetType(like));
+    OGRFieldDefnH field = unconstrained_copy(like);
     if (!field) return;
-    OGR_Fld_SetSubType(field, OGR_Fld_GetSubType(like));
-    OGR_Fld_SetWidth(field, OGR_Fld_GetWidth(like));
-    OGR_Fld_SetPrecision(field, OGR_Fld_GetPrecision(like));
-    OGR_Fld_SetAlternativeName(field, OGR_Fld_GetAlternativeNameRef(like));
-    OGR_Fld_SetDomainName(field, OGR_Fld_GetDomainName(like));
     copy_domain(layer, field);
     int index = create_field(layer, field);
     OGR_Fld_Destroy(field);

@@ -71,6 +71,34 @@ same "$(cat sets)" '2 b 1 a 1 (null) 1 (null) '
 expect 0 buffer rows.gpkg by.shp --operation open --shape square:3 --dissolve-field number
 same "$(count by.shp by)" 5
 
+# --explode: each polygon of the result by itself, the same ones that stand together otherwise.
+polygons() { ogrinfo -ro -q "$1" rows -dialect SQLite -sql "SELECT ST_AsText(geom) AS t FROM rows" | grep -oE '\(\([-0-9][^()]*(\),\([^()]*)*\)\)' | tr -d ' ' | sort; }
+expect 0 buffer rows.gpkg blocks.gpkg --operation close --shape square:2 --dissolve --explode --stats -
+[ "$(count blocks.gpkg rows)" -ge 2 ] || fail "$(count blocks.gpkg rows) blocks"
+polygons all.gpkg >whole
+polygons blocks.gpkg >pieces
+[ -s whole ] && cmp -s whole pieces || fail "--explode: other polygons"
+same "$(count blocks.gpkg rows)" "$(wc -l <whole)" 'features for polygons:'
+ogrinfo -ro -so blocks.gpkg rows | grep -q '^Geometry: Polygon$' || fail '--explode: not a layer of polygons'
+if ogrinfo -ro -so blocks.gpkg rows | grep -q '^features: '; then fail '--explode: the number of features of all blocks'; fi
+expect 0 buffer rows.gpkg by_street.gpkg --shape square:2 --dissolve-field street --explode
+same "$(ogrinfo -ro -q -geom=NO by_street.gpkg rows | sed -n 's/.*street.*= //p' | sort -u | tr '\n' ' ')" '(null) a b ' streets
+layer waist.gpkg rows POLYGON <<'CSV'
+id,WKT
+7,"POLYGON ((0 0, 4 0, 4 4, 3 4, 3 1, 1 1, 1 4, 0 4, 0 0))"
+8,"POLYGON ((10 0, 11 0, 11 1, 10 1, 10 0))"
+9,"POLYGON ((20 0, 30 0, 30 10, 20 10, 20 0))"
+CSV
+ogr2ogr -f GPKG unique.gpkg waist.gpkg -sql 'SELECT id AS key, geom FROM rows' -nln rows -lco FID=fid -nlt POLYGON
+/usr/bin/python3 - <<'X' || true
+import sqlite3
+db = sqlite3.connect("unique.gpkg")
+db.execute("CREATE UNIQUE INDEX keys ON rows(key)")
+db.commit()
+X
+expect 0 buffer unique.gpkg halves.gpkg --operation erode --shape 'POLYGON ((0 0, 0.5 0, 0.5 2, 0 2, 0 0))' --explode
+same "$(ogrinfo -ro -q -geom=NO halves.gpkg rows | sed -n 's/^  \(key\|sunder_fid\) .*= //p' | tr '\n' ' ')" '7 1 7 1 9 3 ' 'attributes of pieces:'
+
 # The field keeps its type; values that print alike are told apart, equal ones are not; its name may be that of a column.
 cat >kinds.json <<'JSON'
 {"type": "FeatureCollection", "features": [

@@ -107,7 +107,8 @@ refused 2 'neither P nor Q is one' sum square:1 square:1 --where 'a = 1'
 refused 2 'expected K=V' check in.gpkg --config NAME
 refused 2 'is empty' check in.gpkg --where ''
 refused 1 'no field idd; did you mean id?' separate in.gpkg o.gpkg --id-field idd
-refused 1 'no field wait' check in.gpkg --block-field wait
+refused 1 'no field idd; did you mean id? its fields are id' check in.gpkg --id-field idd
+refused 1 'no field wait; its fields are id' check in.gpkg --block-field wait
 refused 1 'is a directory' separate in.gpkg o.gpkg --stats .
 refused 1 '--stats' separate in.gpkg o.gpkg --stats no/such/dir.json
 

@@ -99,6 +99,8 @@ OPTIONS = (
     # ---- Buffers ----
     Option("--dissolve-field", FIELD, ("buffer",), "Field: features of equal values as one set each",
            "The result has one feature for each value."),
+    Option("--explode", FLAG, ("buffer",), "Each polygon of the result a feature of its own",
+           "Dissolved, these are the blocks.", False),
     Option("--align", FLAG, ("buffer",), "Turn the shape to the main direction of each feature or block",
            "So that a square follows the walls.", False),
     # ---- Sums ----

@@ -1,0 +1,43 @@
+/* where.c: see where.h. GDAL hands a condition to the database that holds the layer, in whose SQL it then has to be, and
+ * understands it itself for all other formats; what is right for one is unknown to the other, and neither says so. */
+#define _GNU_SOURCE /* strcasestr() */
+#include "read/where.h"
+
+#include "read/fields.h"
+
+#include <cpl_string.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The drivers whose layers are asked in a SQL of their own. */
+static bool has_own_sql(GDALDatasetH dataset)
+{
+    static const char *const drivers[] = {"GPKG", "SQLite", "PostgreSQL", "MySQL", "MSSQLSpatial", "OCI"};
+    GDALDriverH driver = dataset ? GDALGetDatasetDriver(dataset) : NULL;
+    const char *name = driver ? GDALGetDriverShortName(driver) : "";
+    for (size_t i = 0; i < sizeof drivers / sizeof *drivers; i++)
+        if (EQUAL(name, drivers[i])) return true;
+    return false;
+}
+
+static void explain_sizes(GDALDatasetH dataset, OGRLayerH layer, const char *where, char *text, size_t size)
+{
+    const char *column = OGR_L_GetGeometryColumn(layer);
+    bool own = has_own_sql(dataset);
+    if (own && strcasestr(where, "OGR_GEOM"))
+        snprintf(text, size, "; %s is asked in its own SQL, where the area is ST_Area(\"%s\")",
+                 GDALGetDriverShortName(GDALGetDatasetDriver(dataset)), column && column[0] ? column : "geom");
+    else if (!own && strcasestr(where, "ST_"))
+        snprintf(text, size, "; this format is asked in the SQL of OGR, where the area is OGR_GEOM_AREA");
+}
+
+bool gis_fail_where(GDALDatasetH dataset, OGRLayerH layer, const char *option, const char *where, const char *reason,
+                    gis_error *error)
+{
+    char sizes[256] = "", fields[GIS_FIELD_NAMES_SIZE];
+    explain_sizes(dataset, layer, where, sizes, sizeof sizes);
+    gis_field_names(layer, fields, sizeof fields);
+    size_t n = strlen(reason);
+    while (n && reason[n - 1] == '.') n--;
+    return gis_fail_usage(error, "%s \"%s\": %.*s%s; %s", option, where, (int)n, reason, sizes, fields);
+}
