@@ -1,5 +1,6 @@
-/* where.c: see where.h. GDAL hands a condition to the database that holds the layer, in whose SQL it then has to be, and
- * understands it itself for all other formats; what is right for one is unknown to the other, and neither says so. */
+/* where.c: see where.h. GDAL hands a condition to the database that holds the layer, in whose SQL it then has
+ * to be, and understands it itself for all other formats; what is right for one is unknown to the other, and neither
+ * says so. */
 #define _GNU_SOURCE /* strcasestr() */
 #include "read/where.h"
 
