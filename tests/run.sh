@@ -1,13 +1,22 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs every test.
+# Installs what is missing, builds, and runs the tests.
 #
-#   bash tests/run.sh               all of them
+#   bash tests/run.sh               those that need no server, no scheduler, no browser and no second build
+#   bash tests/run.sh --all         these, too: the labels browser, cluster, invariants, package, qgis and server
 #   bash tests/run.sh -L unit       further words go to ctest: -L LABEL, -R NAME, --output-on-failure is there already
+#   bash tests/run.sh --all -L qgis one of those labels, with what it needs installed
 #
 # SUNDER_SEED replays the random tests, SUNDER_TEST_SCALE=N makes N times as many; see tests/README.md.
 set -euo pipefail
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 build=$source/build/release
+all=
+if [ "${1:-}" = --all ]; then
+    all=yes
+    shift
+fi
+# Asked for by a label or a name of its own, a test runs.
+[ "$all" ] || [ $# -gt 0 ] || set -- -LE '^(browser|cluster|invariants|package|qgis|server)$'
 # shellcheck source=../gis/setup.sh
 . "$source/gis/setup.sh"
 
@@ -20,8 +29,10 @@ setup_want "the shell of SQLite" sqlite3 sqlite3 -version
 setup_want "valgrind" valgrind valgrind --version
 setup_want "jq" jq jq --version
 setup_want "GDAL's Python module" python3-gdal /usr/bin/python3 -c "import osgeo.ogr"
-setup_want "QGIS's Python module" "qgis python3-qgis" /usr/bin/python3 -c "import qgis.core"
-setup_want "Chromium" chromium chromium --version
+if [ "$all" ]; then
+    setup_want "QGIS's Python module" "qgis python3-qgis" /usr/bin/python3 -c "import qgis.core"
+    setup_want "Chromium" chromium chromium --version
+fi
 setup_install
 
 setup_build "$source" "$build"

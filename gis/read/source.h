@@ -85,8 +85,8 @@ OGRSpatialReferenceH gis_source_crs(const gis_source *source);
 int gis_source_field(const gis_source *source, const char *name);
 
 /* For --fixed-where and --ignore-where, as `option` calls them: marks[i] says whether feature i satisfies `where`. A
- * plain layer answers in the SQL that its --where speaks; the result of --sql, whose FIDs mean nothing, in OGR's. marks has gis_source_count()
- * entries. A bad expression is GIS_USAGE. */
+ * plain layer answers in the SQL that its --where speaks; the result of --sql, whose FIDs mean nothing, in
+ * OGR's. marks has gis_source_count() entries. A bad expression is GIS_USAGE. */
 bool gis_source_mark(const gis_source *source, const char *option, const char *where, bool *marks, gis_error *error);
 
 /* What GDAL warned of while opening and reading. */
