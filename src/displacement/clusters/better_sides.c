@@ -4,13 +4,18 @@
 
 #include "base/parallel.h"
 
-/* There is nothing to be done for it, or nobody wants it. */
+/* There is nothing to be done for it, or nobody wants it. Of clusters that came together each may have been the
+ * cheapest: then they are so together. */
 static bool is_improved(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
+    bool improved = true, cheapest = true;
     if (!sunder_i_solver_any_of(s, c->body, c->n, s->wanted)) return true;
-    for (size_t k = 0; k < c->n; k++)
-        if (!s->improved[c->body[k]] && !s->model.body[c->body[k]].fixed) return false;
-    return true;
+    for (size_t k = 0; k < c->n; k++) {
+        if (s->model.body[c->body[k]].fixed) continue;
+        improved = improved && s->improved[c->body[k]];
+        cheapest = cheapest && s->cheapest[c->body[k]];
+    }
+    return improved || cheapest;
 }
 
 sunder_status sunder_i_solver_is_improved(const sunder_i_solver *s, bool *improved, sunder_error *err)

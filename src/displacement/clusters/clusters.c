@@ -43,6 +43,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->doubtful);
     sunder_i_free(s->gave_up);
     sunder_i_free(s->improved);
+    sunder_i_free(s->cheapest);
     sunder_i_free(s->limit);
     sunder_i_free(s->aside);
     sunder_i_free(s->went);
@@ -67,12 +68,14 @@ sunder_status sunder_i_solver_init(sunder_i_solver *s, sunder_error *err)
     s->changed = sunder_i_calloc(s->model.things, sizeof *s->changed);
     s->reconsidered = sunder_i_calloc(n, sizeof *s->reconsidered);
     s->improved = sunder_i_calloc(n, sizeof *s->improved);
+    s->cheapest = sunder_i_calloc(n, sizeof *s->cheapest);
     s->carrier = sunder_i_alloc(n, sizeof *s->carrier);
     s->wanted = sunder_i_alloc(n, sizeof *s->wanted);
     s->doubtful = sunder_i_alloc(n, sizeof *s->doubtful);
     s->gave_up = sunder_i_calloc(n, sizeof *s->gave_up);
     if (!s->wanted || !s->doubtful || !s->gave_up) return sunder_i_no_memory(err);
-    if (!s->improved || !s->parent || !s->dirty || !s->widened || !s->changed || !s->reconsidered || !s->carrier)
+    if (!s->improved || !s->cheapest || !s->parent || !s->dirty || !s->widened || !s->changed || !s->reconsidered ||
+        !s->carrier)
         return sunder_i_no_memory(err);
     sunder_i_union_init(s->parent, n);
     for (size_t b = 0; b < n; b++) {

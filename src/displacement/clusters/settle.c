@@ -38,7 +38,10 @@ static void note_solved(sunder_i_solver *s)
     for (size_t k = 0; k < s->clusters; k++) {
         const sunder_i_cluster *c = &s->cluster[k];
         if (!is_dirty(s, c)) continue;
-        for (size_t m = 0; m < c->n; m++) s->improved[c->body[m]] = false;
+        for (size_t m = 0; m < c->n; m++) {
+            s->improved[c->body[m]] = false;
+            s->cheapest[c->body[m]] = c->cheapest;
+        }
     }
 }
 

@@ -59,9 +59,10 @@ typedef struct sunder_i_solver {
     bool *doubtful;       /* [bodies] and of those of such is asked again whether they have a solution */
     bool *gave_up;        /* [bodies] of pairs that were given up since this was last cleared */
     bool *improved;       /* [bodies] better sides were looked for since the body's cluster was solved */
-    double *limit;        /* [bodies] the limits, while they are lifted */
-    bool *aside;          /* [bodies] left as they are while limits are lifted; NULL: they never were */
-    double *went;         /* [2 * bodies] where those stood that were set aside because they went too far */
+    bool *cheapest; /* [bodies] there are none: it stands where a solution had it that was known to be the cheapest */
+    double *limit;  /* [bodies] the limits, while they are lifted */
+    bool *aside;    /* [bodies] left as they are while limits are lifted; NULL: they never were */
+    double *went;   /* [2 * bodies] where those stood that were set aside because they went too far */
     sunder_i_relaxations waiting;    /* of what was set aside */
     uint32_t *carrier;               /* [bodies] whose place to start from instead of its own, or SUNDER_I_NOBODY */
     sunder_i_cluster_member *member; /* cluster after cluster, bodies ascending */

@@ -12,6 +12,7 @@ typedef struct sunder_i_cluster {
     bool limited;                     /* by limits, fixed bodies, the rule against jumps: it may have no solution */
     bool brief;                       /* where none is found nothing is given up, and nobody moves */
     bool hopeless;                    /* that was so */
+    bool cheapest;                    /* its solution is known to be the cheapest, whatever stands about it */
     sunder_i_relaxations relaxations; /* of pairs that its solution gave up, or in place of older ones; owned */
     sunder_i_restored *restored;      /* [restored_n] relaxations of the model that have ended; owned */
     size_t restored_n;

@@ -203,6 +203,14 @@ static bool is_free_start(sunder_i_search *s)
     return missed <= s->tolerance || (missed <= MENDED * s->tolerance && !s->failed && sunder_i_search_descend(s));
 }
 
+/* All go down from best to the last of it. */
+static void finish(sunder_i_search *s, double *best, double cost)
+{
+    memcpy(s->t, best, 2 * s->n * sizeof *best);
+    s->settled = SETTLED_BEST;
+    if (sunder_i_search_descend(s) && sunder_i_search_cost(s, s->t) < cost) memcpy(best, s->t, 2 * s->n * sizeof *best);
+}
+
 /* From s->t, which is free, to the cheapest that is found, in best; near is scratch of the same size. */
 static void improve(sunder_i_search *s, rank *order, double *best, double *near)
 {
@@ -210,6 +218,10 @@ static void improve(sunder_i_search *s, rank *order, double *best, double *near)
     memcpy(best, s->t, size);
     double cost = sunder_i_search_cost(s, s->t);
     sunder_i_search_attempt(s, best, &cost); /* what the first solution left when it was good enough */
+    if (sunder_i_search_is_cheapest(s)) {
+        memcpy(best, s->t, size);
+        return;
+    }
     /* From here, and from a start that keeps all near: of two ways down the cheaper end. */
     memcpy(near, best, size);
     double near_cost = cost;
@@ -226,6 +238,7 @@ static void improve(sunder_i_search *s, rank *order, double *best, double *near)
     const double ordered = cost;
     sunder_i_search_reorder(s, best, &cost);
     if (cost < ordered) try_all(s, order, best, &cost);
+    if (!s->failed) finish(s, best, cost);
 }
 
 sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder_i_cluster *cluster, double *move,

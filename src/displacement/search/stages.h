@@ -88,6 +88,12 @@ void sunder_i_search_round(const sunder_i_search *search, double *move);
 /* What became of pairs in conflict goes to the cluster. */
 void sunder_i_search_hand_over(sunder_i_search *search, sunder_i_cluster *cluster);
 
+/* ---- cheapest.c: are there any better sides? --------------------------------------------------------------------- */
+
+/* Is none cheaper than s->t, a solution, with the program that it solves, whatever the sides, but for rounding? It is
+ * taken down to the last of it then; else all is as it was. That it is not the cheapest is never said. */
+bool sunder_i_search_is_cheapest(sunder_i_search *search);
+
 /* ---- improve.c, reinsert.c: better sides ------------------------------------------------------------------------- */
 
 /* Descends from what is in s->t; keeps the result if it is free and cheaper than *cost, else goes back to best. */

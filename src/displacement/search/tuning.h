@@ -219,6 +219,24 @@
 /* A start that rounding took this many tolerances from is mended. */
 #define MENDED 8
 
+/* ---- The cheapest of all (cheapest.c) ---------------------------------------------------------------------------- */
+
+/* A solution is the cheapest if none is cheaper by this share: less is rounding, or would not be looked for. */
+#define CHEAPEST 1e-7
+/* What the first descents leave is mostly less than this share: then it is worth going down to the last. */
+#define NEARLY_CHEAPEST (2 * SETTLED)
+/* Of more constraints that act it is not asked; discs shrink so often. */
+#define MOST_FORCED 48
+#define FORCED_ROUNDS 30
+/* A disc that is no smaller than this share of what it was is not asked about again. */
+#define SHRUNK 0.95
+/* Sides of a polygon about half an arc; how near to an obstacle, beside the disc, a line is told. */
+#define ARC_SIDES 3
+#define LINE_HALVINGS 32
+/* Where pieces of two bodies cover a part of the disc together: so many pairs of them, in strips, halved so often. */
+#define MOST_COVERING 24
+#define STRIP_HALVINGS 3
+
 /* ---- Other orders of putting back (reinsert.c) ------------------------------------------------------------------- */
 
 /* Sides are in doubt of what overlapped by this part of the smaller body's extent ... */
