@@ -31,6 +31,7 @@ typedef struct board {
 static void set_up(board *b)
 {
     b->scene.options.no_blocks = b->scene.options.allow_jumps = true;
+    b->scene.options.effort = 0;
     scene_model_begin(&b->of, &b->scene);
     assert_int_equal(b->of.model.bodies, b->scene.n);
     for (uint32_t k = 0; k < b->scene.n; k++) b->body[k] = k;

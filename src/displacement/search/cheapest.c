@@ -388,7 +388,8 @@ static bool is_cheapest_below(sunder_i_search *s)
 
 bool sunder_i_search_is_cheapest(sunder_i_search *s)
 {
-    const double left = find_left(s, NEARLY_CHEAPEST);
-    if (s->failed || left > NEARLY_CHEAPEST) return false;
+    const bool down = sunder_i_search_goes_down(s);
+    const double enough = down ? NEARLY_CHEAPEST : CHEAPEST, left = find_left(s, enough);
+    if (s->failed || left > enough) return false;
     return left <= CHEAPEST || is_cheapest_below(s);
 }

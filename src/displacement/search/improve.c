@@ -238,7 +238,7 @@ static void improve(sunder_i_search *s, rank *order, double *best, double *near)
     const double ordered = cost;
     sunder_i_search_reorder(s, best, &cost);
     if (cost < ordered) try_all(s, order, best, &cost);
-    if (!s->failed) finish(s, best, cost);
+    if (!s->failed && sunder_i_search_goes_down(s)) finish(s, best, cost);
 }
 
 sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder_i_cluster *cluster, double *move,

@@ -74,7 +74,8 @@ sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_clust
     if (!done && !s.failed && cluster->brief) done = find_free_but_for_margins(&s, cluster, move);
     if (!done && !s.failed) done = find_free_from_lifted(&s, cluster);
     if (!done && !s.failed) done = sunder_i_search_spread(&s);
-    cluster->cheapest = done && !s.failed && !cluster->brief && sunder_i_search_is_cheapest(&s);
+    cluster->cheapest =
+        done && !s.failed && !cluster->brief && sunder_i_search_goes_down(&s) && sunder_i_search_is_cheapest(&s);
     if (!done && !s.failed && cluster->limited && !cluster->brief) sunder_i_search_give_up(&s, move);
     cluster->hopeless = !done && cluster->brief;
     sunder_i_search_hand_over(&s, cluster);

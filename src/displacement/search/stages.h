@@ -90,6 +90,9 @@ void sunder_i_search_hand_over(sunder_i_search *search, sunder_i_cluster *cluste
 
 /* ---- cheapest.c: are there any better sides? --------------------------------------------------------------------- */
 
+/* Are solutions taken down to the last of it here? Not where proofs follow: these go down by themselves, and begin from
+ * where the search ends without this. */
+static inline bool sunder_i_search_goes_down(const sunder_i_search *s) { return !(s->model->rules.effort > 0); }
 /* Is none cheaper than s->t, a solution, with the program that it solves, whatever the sides, but for rounding? It is
  * taken down to the last of it then; else all is as it was. That it is not the cheapest is never said. */
 bool sunder_i_search_is_cheapest(sunder_i_search *search);
