@@ -251,7 +251,7 @@ class SeparateTest(Case):
         self.assertEqual(geometries(self.source(done["SYMBOLS"])), geometries(self.file("theirs.gpkg"), "wells_symbols"))
 
     def test_cancel_ends_the_program_and_leaves_nothing(self):
-        for cancel_at in (0, 51):
+        for cancel_at in (0, 40):
             feedback = Feedback(cancel_at)
             target = self.file("cancelled.gpkg")
             self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 3, "EFFORT": 1, "OUTPUT": target}, feedback)

@@ -68,6 +68,9 @@ class Algorithm(QgsProcessingAlgorithm):
     def icon(self):
         return QIcon(self.svgIconPath())
 
+    def tags(self):
+        return ["sunder", "displacement", "generalisation", "overlap", "gap", "minkowski", "exact"]
+
     def shortDescription(self):
         return self.text.split("\n")[0]
 
@@ -209,14 +212,13 @@ class Algorithm(QgsProcessingAlgorithm):
     def processAlgorithm(self, parameters, context, feedback):
         folder = os.path.dirname(QgsProcessingUtils.generateTempFilename("sunder.gpkg"))
         os.makedirs(folder, exist_ok=True)
-        steps = QgsProcessingMultiStepFeedback(2, feedback)
         self.stays = False  # is a layer of the program's GeoPackage loaded from where it lies?
         # Asked once: of a temporary one each answer is another, and is loaded.
         self.wanted = {each: self.parameterAsOutputLayer(parameters, each.name, context)
                        for each in self.outputs if self._is_wanted(parameters, each.name)}
         try:
             self._refuse_own_input()
-            return self._run(folder, parameters, context, steps)
+            return self._run(folder, parameters, context, feedback)
         except BadValue as trouble:
             raise QgsProcessingException(str(trouble))
         finally:
@@ -226,7 +228,8 @@ class Algorithm(QgsProcessingAlgorithm):
         self.names, self.added = {}, None  # what the user knows paths by; a field that the plug-in added
         self.report = None
         os.makedirs(os.path.join(folder, "read"), exist_ok=True)
-        operands = self._operands(os.path.join(folder, "read"), feedback)
+        self.copies = 0
+        operands = self._operands(os.path.join(folder, "read"), QgsProcessingMultiStepFeedback(10, feedback))
         if feedback.isCanceled():
             return {}
         written, figures = os.path.join(folder, "sunder.gpkg"), os.path.join(folder, "figures.json")
@@ -234,8 +237,9 @@ class Algorithm(QgsProcessingAlgorithm):
         line += [written, "--output-layer=" + self.main, "--stats=" + figures, "--progress=plain"]
         line += self._words_of_outputs(self.wanted) + self._words_of_files(parameters, context)
         feedback.pushCommandInfo(" ".join(_quoted(word) for word in line))
-        feedback.setCurrentStep(1)
-        status, told = program.run(line, feedback.setProgress, feedback.pushConsoleInfo, feedback.isCanceled)
+        begin = 10 * min(self.copies, 2)
+        status, told = program.run(line, lambda percent: feedback.setProgress(begin + percent * (100 - begin) / 100),
+                                   feedback.pushConsoleInfo, feedback.isCanceled)
         if status is None:
             feedback.pushInfo("Cancelled; nothing was written.")
             return {}
@@ -295,6 +299,9 @@ class Algorithm(QgsProcessingAlgorithm):
 
     def _copied(self, layer, folder, name, feedback, marks=()):
         path = os.path.join(folder, name.lower() + ".gpkg")
+        # A tenth of the progress for the first copy, another for all others.
+        feedback.setCurrentStep(min(self.copies, 1))
+        self.copies += 1
         feedback.pushInfo("Copying %s ..." % layer.name)
         self.names[path] = layer.name
         ids = source.copy(layer, path, table_of(layer.name), marks, feedback)

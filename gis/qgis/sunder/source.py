@@ -199,7 +199,15 @@ class Marks:
 
     def __init__(self, table, holds):
         self.table, self.holds = table, holds
-        self.sql = "fid IN (SELECT id FROM %s)" % table
+        self.sql, self.ids = None, []
+
+    def write(self, dataset, key):
+        """After the layer; key: the name of its FIDs."""
+        dataset.ExecuteSQL("CREATE TABLE %s (id INTEGER PRIMARY KEY)" % self.table)
+        for begin in range(0, len(self.ids), 500):  # SQLite takes some hundred rows at once
+            some = ",".join("(%d)" % each for each in self.ids[begin:begin + 500])
+            dataset.ExecuteSQL("INSERT INTO %s VALUES %s" % (self.table, some))
+        self.sql = '"%s" IN (SELECT id FROM %s)' % (key, self.table)
 
 
 def expression_of(text, context, label):
@@ -222,9 +230,6 @@ def copy(source, path, name, marks, feedback):
     """Copies a source into a new GeoPackage. Returns the name of the field of QGIS's ids, or None if cancelled."""
     target = _Target(path, name, source)
     target.dataset.StartTransaction()
-    for mark in marks:
-        target.dataset.ExecuteSQL("CREATE TABLE %s (id INTEGER PRIMARY KEY)" % mark.table)
-        mark.sql = '"%s" IN (SELECT id FROM %s)' % (target.fid, mark.table)
     every = max(1, (source.count or 0) // 100)
     negative = []
     for done, feature in enumerate(source.features()):
@@ -239,6 +244,8 @@ def copy(source, path, name, marks, feedback):
             _add(target, feature, marks)
     for feature in negative:
         _add(target, feature, marks)
+    for mark in marks:
+        mark.write(target.dataset, target.fid)
     target.dataset.CommitTransaction()
     return target.id_field
 
@@ -247,4 +254,4 @@ def _add(target, feature, marks):
     fid = target.add(feature)
     for mark in marks:
         if mark.holds(feature):
-            target.dataset.ExecuteSQL("INSERT INTO %s VALUES (%d)" % (mark.table, fid))
+            mark.ids.append(fid)
