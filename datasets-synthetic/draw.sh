@@ -15,7 +15,7 @@ town=$1 xmin=$2 ymin=$3 xmax=$4 ymax=$5 separated=${6-}
 layer() { # tag, file, layer, SQL for the class, SQL for the width
     ogr2ogr -f CSV /vsistdout/ "$2" -dialect SQLite -spat "$xmin" "$ymin" "$xmax" "$ymax" -lco GEOMETRY=AS_WKT \
         -lco SEPARATOR=TAB -lco STRING_QUOTING=IF_NEEDED -sql "SELECT $4 AS class, $5 AS width, * FROM \"$3\"" |
-        awk -F'\t' -v tag="$1" 'NR > 1 { gsub(/"/, "", $1); print tag "\t" $2 "\t" $3 "\t" $1 }'
+        awk -F'\t' -v tag="$1" 'NR > 1 { gsub(/"/, ""); print tag "\t" $2 "\t" $3 "\t" $1 }'
 }
 
 {
