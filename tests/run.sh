@@ -31,6 +31,8 @@ setup_want "jq" jq jq --version
 setup_want "GDAL's Python module" python3-gdal /usr/bin/python3 -c "import osgeo.ogr"
 if [ "$all" ]; then
     setup_want "QGIS's Python module" "qgis python3-qgis" /usr/bin/python3 -c "import qgis.core"
+    setup_want "Xvfb, for QGIS's window" "xvfb xauth" xvfb-run --help
+    setup_want "PostGIS" postgresql-postgis bash -c 'compgen -G "/usr/share/postgresql/*/extension/postgis.control"'
     setup_want "Chromium" chromium chromium --version
 fi
 setup_install
