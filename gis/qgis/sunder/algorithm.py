@@ -312,7 +312,7 @@ class Algorithm(QgsProcessingAlgorithm):
         if path is None:
             path, _ = self._copied(layer, folder, "barrier_%d" % (len(self.names) + 1), feedback)
             name = table_of(layer.name)
-        self.names[path] = layer.name
+        self.names.setdefault(path, layer.name)  # a file may hold the layer, too
         return barrier(row, unit_of(self.values), path, name, [field.name() for field in layer.fields])
 
     def _is_wanted(self, parameters, name):
