@@ -422,7 +422,11 @@ class DestinationTest(Case):
                             for f in QgsVectorLayer(self.theirs + "|layername=buildings", "x", "ogr").getFeatures())
             self.assertEqual(ours, theirs, ending)
         self.assertEqual(rows(self.file("moved.gpkg"), "moved"), rows(self.theirs, "buildings"))
-        self.assertTrue(any("may round" in line for line in self.feedback.warnings()))
+        self.assertFalse([line for line in self.feedback.warnings() if "this format" in line])
+
+    def test_a_format_that_rounds_is_told(self):
+        self.separated(OUTPUT=self.file("moved.kml"))
+        self.assertTrue([line for line in self.feedback.warnings() if "this format changed" in line], self.feedback.told)
 
     def test_tables_of_one_geopackage(self):
         target = self.file("all.gpkg")

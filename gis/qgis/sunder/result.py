@@ -11,7 +11,7 @@ from qgis.core import (QgsFeatureRequest, QgsFeatureSink, QgsProcessing, QgsProc
                        QgsProperty, QgsVectorLayer)
 from qgis.PyQt.QtXml import QDomDocument
 
-# Of these a double comes back as it was written.
+# Of these a double comes back as it was written. (Shapefiles regroup rings.)
 EXACT_ENDINGS = (".gpkg", ".sqlite", ".fgb", ".shp")
 
 # As QGIS itself makes it.
@@ -91,6 +91,22 @@ def _write(layer, destination, context, feedback):
     return final
 
 
+def _multi(feature):
+    geometry = feature.geometry()
+    geometry.convertToMultiType()
+    return bytes(geometry.asWkb())
+
+
+def _compare(layer, final, name, feedback):
+    """What a text format made of the coordinates, by reading it back."""
+    written = QgsVectorLayer(final, name, "ogr")
+    pairs = zip(layer.getFeatures(), written.getFeatures())
+    changed = sum(_multi(ours) != _multi(theirs) for ours, theirs in pairs)
+    if not written.isValid() or written.featureCount() != layer.featureCount() or changed:
+        feedback.pushWarning("%s: this format changed %d of %d geometries. What was proved is true of the coordinates "
+                             "as the program wrote them; a GeoPackage keeps them." % (name, changed, layer.featureCount()))
+
+
 def _keep_style(final, destination, qml):
     """Beside or in what was written, so that it looks so whenever it is opened. A database of others is left alone."""
     if not qml or destination.startswith(("postgres:", "postgis:", "spatialite:")):
@@ -134,8 +150,7 @@ def deliver(path, name, value, destination, context, feedback):
         final = _write(layer, destination, context, feedback)
         _keep_style(final, destination, qml)
         if _is_file(destination) and not destination.lower().endswith(EXACT_ENDINGS):
-            feedback.pushWarning("%s: this format may round coordinates. What was proved is true of the coordinates as "
-                                 "the program wrote them; a GeoPackage keeps them." % os.path.basename(destination))
+            _compare(layer, final, os.path.basename(destination), feedback)
     loads = context.layersToLoadOnCompletion()
     if destination in loads:
         details = loads.pop(destination)
