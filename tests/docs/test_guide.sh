@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# The pages of the guide do what they say: each is run as it is written, in an empty folder, and what it prints is compared
+# The tutorial and the pages of the guide do what they say: each is run as it is written, in an empty folder, and what it prints is compared
 # (guide.py). With --record what is printed is put into the pages instead: bash tests/docs/test_guide.sh --record [PAGE ...],
 # with SUNDER_BUILD.
 set -eu
@@ -13,7 +13,7 @@ done
 record=
 if [ "${1-}" = --record ]; then record=--record && shift; fi
 pages=("$@")
-[ $# -gt 0 ] || pages=("$source"/docs/guide/*.md)
+[ $# -gt 0 ] || pages=("$source"/docs/tutorial.md "$source"/docs/guide/*.md)
 
 work=$(mktemp -d)
 stop() { :; }
