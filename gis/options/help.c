@@ -93,12 +93,12 @@ void gis_help_command(const gis_command *command)
         printf("SHAPE: WKT (MULTI)POLYGON, @FILE or @- that holds it, disc:R[:N] (around the disc), "
                "inside-disc:R[:N],\nsquare:SIDE or rectangle:WxH. ");
     printf("Lengths: 3 (the layer's unit), 3m, 10ft, 10us-ft, 0.2mm (on the sheet, with --scale).\n"
-           "Exit status: 0 done, 1 failed, 2 wrong usage%s. See also man sunder.\n"
+           "Exit status: 0 done, 1 failed, 2 wrong usage%s. See also man sunder-%s.\n"
            "Example: sunder %s %s\n",
            command->bit & GIS_LAYERS  ? ", 3 conflicts"
            : command->bit & GIS_ROUTE ? ", 3 no route"
                                       : "",
-           command->name, command->example);
+           command->name, command->name, command->example);
 }
 
 void gis_help_program(void)

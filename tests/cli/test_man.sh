@@ -1,11 +1,13 @@
 # shellcheck shell=bash disable=SC1091
-# The manual page, --help and the parser know the same options, with the same values, spellings and defaults; the examples
-# of the manual page run.
+# The manual page, --help and the parser know the same options, with the same values, spellings and defaults; so do the
+# pages of the commands, which are made of it; the examples of the manual page run.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 page=$SUNDER_SOURCE/gis/sunder.1
 
-# "--gap LENGTH [0]", "--of FORMAT (-f, -of, --format) [by name]", a line each.
-sed -n '/^\.SH OPTIONS/,/^\.SH LAYERS/ s/^\.B \(\\-.*\)/\1/p' "$page" | sed 's/\\//g' | sort >page.txt
+# "--gap LENGTH [0]", "--of FORMAT (-f, -of, --format) [by name]", a line each, as they stand in a page.
+headings() { sed -n '/^\.SH OPTIONS/,/^\.SH [A-Z]/ s/^\.B \(\\-.*\)/\1/p' "$1" | sed 's/\\//g' | sort; }
+sed -n '/^\.SH OPTIONS/,$ p' "$page" | sed '1! { /^\.SH/,$ d }' >options
+headings options >page.txt
 for command in separate check sum pair buffer route; do
     "$SUNDER" $command --help >help
     # A line each, two blanks or more before the words; or several a line, with commas.
@@ -23,7 +25,8 @@ for command in separate check sum pair buffer route; do
             if (c == "," && !depth && substr($0, i + 1, 3) == " --") { print entry; entry = ""; i++ } else entry = entry c
         }
         print entry }'
-done | sort -u >help.txt
+done >all
+sort -u all >help.txt
 cmp -s page.txt help.txt || fail "manual page and --help differ: $(diff page.txt help.txt | head -8)"
 [ "$(wc -l <page.txt)" -gt 40 ] || fail "only $(wc -l <page.txt) options were compared"
 
@@ -35,6 +38,27 @@ for command in separate check sum pair buffer route; do
         run $command "$name"
         [ "$status" -eq 2 ] && ! grep -q 'unknown option' err || fail "$command does not know $name"
     done
+done
+
+# The page of each command has the options that its --help has.
+pages=$SUNDER_BUILD/gis/manual
+for command in separate check sum pair buffer route; do
+    [ -d "$pages" ] || continue # cross-compiled
+    "$SUNDER" --options-json | json ".commands[] | select(.name == \"$command\") | .options[] | select(.group != \"hidden\") |
+        .name + (if .metavar == null then \"\" elif .kind == \"flag_or_enum\" then \"[=\" + .metavar + \"]\" else \" \" + .metavar end) +
+        (if .aliases == [] then \"\" else \" (\" + (.aliases | join(\", \")) + \")\" end) +
+        (if .default_text == null then \"\" else \" [\" + .default_text + \"]\" end)" - | sort >table.txt
+    headings "$pages/sunder-$command.1" >page.txt
+    [ "$(wc -l <table.txt)" -ge 30 ] || fail "only $(wc -l <table.txt) options of $command"
+    cmp -s page.txt table.txt || fail "page of $command and table differ: $(diff page.txt table.txt | head -8)"
+    for section in NAME SYNOPSIS DESCRIPTION OPTIONS MESSAGES 'EXIT STATUS' EXAMPLES 'SEE ALSO'; do
+        grep -q "^\.SH $section" "$pages/sunder-$command.1" || fail "no section $section in the page of $command"
+    done
+    grep -q "^sunder $command " "$pages/sunder-$command.1" || fail "no example in the page of $command"
+    grep -q "^\.TH .*\"sunder $("$SUNDER" --version | sed -n 's/^sunder //p')\"" "$pages/sunder-$command.1" || fail "no version in the page of $command"
+    if command -v man >/dev/null; then
+        same "$(man --warnings -l "$pages/sunder-$command.1" 2>&1 >/dev/null)" '' "troff says of $command"
+    fi
 done
 
 for section in NAME SYNOPSIS DESCRIPTION OPTIONS 'EXIT STATUS' EXAMPLES; do

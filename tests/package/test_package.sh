@@ -30,7 +30,10 @@ expect() { # what, command...: the sum of a 4 x 4 and a 1 x 2 rectangle has the 
 # The program's completion for bash comes with it.
 if [ -x "$prefix/bin/sunder" ]; then
     bash -n "$prefix/share/bash-completion/completions/sunder"
-    echo "completion: ok"
+    for page in sunder sunder-separate sunder-check sunder-sum sunder-pair sunder-buffer sunder-route; do
+        [ -s "$prefix/share/man/man1/$page.1" ]
+    done
+    echo "completion, manual pages: ok"
 fi
 
 cc=$(sed -n 's/^CMAKE_C_COMPILER:[A-Z]*=//p' "$SUNDER_BUILD/CMakeCache.txt")
