@@ -65,7 +65,8 @@ def rows(dataset, layer=None):
     name = layer or (dataset.split("layername=")[1] if "layername=" in dataset else None)
     found = opened.GetLayerByName(name) if name else opened.GetLayer(0)
     assert found, (dataset, name)
-    return {row.GetFID(): (row.GetGeometryRef() and bytes(row.GetGeometryRef().ExportToIsoWkb()), row.items()) for row in found}
+    return {row.GetFID(): (row.GetGeometryRef() and bytes(row.GetGeometryRef().ExportToIsoWkb()), row.items())
+            for row in found}
 
 
 def geometries(dataset, layer=None):
@@ -118,7 +119,8 @@ class Case(unittest.TestCase):
     def by_program(self, *words):
         """What the program makes of the town."""
         written = self.file("program.gpkg")
-        self.sunder("separate", "--input-layer=buildings", TOWN, written, "--quiet", "--overwrite", "--allow-conflicts", *words)
+        self.sunder("separate", "--input-layer=buildings", TOWN, written, "--quiet", "--overwrite", "--allow-conflicts",
+                    *words)
         return written
 
 
@@ -191,7 +193,8 @@ class SeparateTest(Case):
         self.assertNotIn((1, "moved"), states)
 
     def test_move_selected_with_nothing_selected_is_told(self):
-        self.refused("no feature of the layer is selected", "separate", {"INPUT": self.town(), "MOVE_SELECTED": True, "GAP": 3, "OUTPUT": TEMPORARY})
+        self.refused("no feature of the layer is selected", "separate",
+                     {"INPUT": self.town(), "MOVE_SELECTED": True, "GAP": 3, "OUTPUT": TEMPORARY})
 
     def test_expressions_are_of_qgis(self):
         done = self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 3, "FIXED_WHERE": "$area > 200",
@@ -207,7 +210,8 @@ class SeparateTest(Case):
             self.assertTrue(row["sunder_st"] == "skipped" if fid in sheds else fid not in large or row["sunder_st"] != "moved")
 
     def test_wrong_expression_is_told(self):
-        self.refused("Features that never move", "separate", {"INPUT": self.town(), "FIXED_WHERE": "area >", "OUTPUT": TEMPORARY})
+        self.refused("Features that never move", "separate",
+                     {"INPUT": self.town(), "FIXED_WHERE": "area >", "OUTPUT": TEMPORARY})
 
     def test_barriers(self):
         roads = QgsVectorLayer(TOWN + "|layername=roads", "Roads of the town", "ogr")
@@ -245,7 +249,8 @@ class SeparateTest(Case):
         points = self.file("points.gpkg")
         subprocess.run(["ogr2ogr", points, TOWN, "-nln", "wells", "-dialect", "sqlite", "-sql",
                         "SELECT fid, ST_Centroid(geom) FROM buildings"], check=True)
-        done = self.run_algorithm("separate", {"INPUT": points, "SYMBOL": "disc:3", "EFFORT": 0, "OUTPUT": TEMPORARY, "SYMBOLS": TEMPORARY})
+        done = self.run_algorithm("separate", {"INPUT": points, "SYMBOL": "disc:3", "EFFORT": 0, "OUTPUT": TEMPORARY,
+                                               "SYMBOLS": TEMPORARY})
         self.sunder("separate", points, self.file("theirs.gpkg"), "--symbol=disc:3", "--effort=0", "--quiet")
         self.assertEqual(geometries(self.source(done["OUTPUT"])), geometries(self.file("theirs.gpkg"), "wells"))
         self.assertEqual(geometries(self.source(done["SYMBOLS"])), geometries(self.file("theirs.gpkg"), "wells_symbols"))
@@ -310,7 +315,8 @@ class SeparateTest(Case):
         layer.dataProvider().addFeature(feature)
         done = self.run_algorithm("separate", {"INPUT": layer, "OUTPUT": TEMPORARY})
         (_, row), = rows(self.source(done["OUTPUT"])).values()
-        self.assertEqual([row[name] for name in ("Name", "name_", "geom", "qgis_id", "sunder_dx")], ["a", "b", "c", 4, 0.0])
+        self.assertEqual([row[name] for name in ("Name", "name_", "geom", "qgis_id", "sunder_dx")],
+                         ["a", "b", "c", 4, 0.0])
 
     def test_three_dimensions_nulls_and_nothing(self):
         layer = QgsVectorLayer("PolygonZ?crs=EPSG:25832", "Tall", "memory")
