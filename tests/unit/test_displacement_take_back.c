@@ -4,6 +4,7 @@
 #include "scene_model.h"
 
 #include "displacement/search/stages.h"
+#include "displacement/search/tuning.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -15,7 +16,7 @@
 
 #include <cmocka.h>
 
-enum { MOST = 8 };
+enum { MOST = 20 };
 
 static const double margin = 0x1p-30;
 
@@ -88,6 +89,35 @@ static void test_taken_back(void **state)
     assert_true(s.patience == UINT64_MAX);
     sunder_i_search_free(&s);
     end(&b);
+}
+
+/* Pairs that overlap by 2 and may not part, as many as that; then one that overlaps by 3, and may. Is it asked? */
+static bool is_asked_after(size_t in_vain)
+{
+    board b;
+    memset(&b, 0, sizeof b);
+    scene_begin(&b.scene, 0);
+    for (size_t k = 0; k < 2 * (in_vain + 1); k++)
+        scene_add_box(&b.scene, 100 * (double)(k / 2) + (k % 2 ? k / 2 < in_vain ? 8 : 7 : 0), 0, 10, 10)->max_shift =
+            k / 2 < in_vain ? 0.5 : 2;
+    set_up(&b);
+    sunder_i_search s;
+    assert_true(sunder_i_search_init(&s, &b.of.model, b.body, b.scene.n, margin, b.move));
+    for (uint32_t k = 0; k <= in_vain; k++) relax(&b, &s.relaxations, 2 * k, 2 * k + 1);
+    sunder_i_search_take_back(&s);
+    assert_false(s.failed);
+    const bool asked = s.relaxations.n == in_vain;
+    assert_true(asked || s.relaxations.n == in_vain + 1);
+    sunder_i_search_free(&s);
+    end(&b);
+    return asked;
+}
+
+static void test_in_vain(void **state)
+{
+    (void)state;
+    assert_true(is_asked_after(TAKE_BACK_IN_VAIN - 1));
+    assert_false(is_asked_after(TAKE_BACK_IN_VAIN));
 }
 
 /* Of two that cannot both be had the one is taken back that misses less, whichever is listed first: the second is to go
@@ -165,9 +195,8 @@ static void test_no_room_for_a_margin(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_taken_back),
-        cmocka_unit_test(test_least_first),
-        cmocka_unit_test(test_eased),
+        cmocka_unit_test(test_taken_back),           cmocka_unit_test(test_in_vain),
+        cmocka_unit_test(test_least_first),          cmocka_unit_test(test_eased),
         cmocka_unit_test(test_no_room_for_a_margin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

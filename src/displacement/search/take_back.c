@@ -3,7 +3,7 @@
  * Several are given up at once (give_up.c), and of those that hang together some are given up for others: with the
  * rest out of the way they may have a solution. So bodies between which something is given up owe each other all again,
  * those that overlapped first, then by what is missing, and the search goes down from there; where it comes to no end,
- * within what one may take, all is put back as it was. */
+ * within what one may take, all is put back as it was. They are asked until so many were in vain. */
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
@@ -53,19 +53,20 @@ static bool is_between(const sunder_i_search *s, const sunder_i_relaxation *t, c
     return (p == w->i && q == w->j) || (p == w->j && q == w->i);
 }
 
-/* stand: [2 n] scratch. */
-static void ask(sunder_i_search *s, const sunder_i_relaxations *all, const wish *w, double *stand)
+/* Returns whether it was granted. stand: [2 n] scratch. */
+static bool ask(sunder_i_search *s, const sunder_i_relaxations *all, const wish *w, double *stand)
 {
     const size_t size = 2 * s->n * sizeof *stand;
     for (size_t k = 0; k < all->n; k++)
         if (is_between(s, &all->item[k], w)) sunder_i_relaxations_remove(&s->relaxations, s->model, &all->item[k]);
     memcpy(stand, s->t, size);
     s->program.n = 0;
-    if (sunder_i_search_descend(s) || s->failed) return;
+    if (sunder_i_search_descend(s)) return true;
     memcpy(s->t, stand, size);
     for (size_t k = 0; k < all->n && !s->failed; k++)
         if (is_between(s, &all->item[k], w) && !sunder_i_relaxations_insert(&s->relaxations, s->model, &all->item[k]))
             s->failed = true;
+    return false;
 }
 
 void sunder_i_search_take_back(sunder_i_search *s)
@@ -79,9 +80,11 @@ void sunder_i_search_take_back(sunder_i_search *s)
     s->failed = s->failed || !list || !stand;
     if (!s->failed) list_wishes(s, &all, list);
     const uint64_t end = sunder_i_search_work(s) + TAKE_BACK_MOST;
-    for (size_t k = 0; k < all.relaxed_n && !s->failed && sunder_i_search_work(s) < end; k++) {
+    unsigned in_vain = 0; /* one after the other */
+    for (size_t k = 0; k < all.relaxed_n && in_vain < TAKE_BACK_IN_VAIN && !s->failed && sunder_i_search_work(s) < end;
+         k++) {
         s->patience = sunder_i_search_work(s) + TAKE_BACK_EACH;
-        ask(s, &all, &list[k], stand);
+        in_vain = ask(s, &all, &list[k], stand) ? 0 : in_vain + 1;
     }
     s->patience = UINT64_MAX;
     sunder_i_relaxations_free(&all);

@@ -104,6 +104,10 @@
 #define CROWD 48
 #define TAKE_BACK_EACH 8000000u
 #define TAKE_BACK_MOST 200000000u
+/* After so many in vain, one after the other, the rest is left to retries, which ask among few: of ten crowds in a town
+ * of terraces 96 of 215 were granted for 1.4 thousand million steps, 92 for 1.1. (After 4 in vain 86 for 0.8; but 21
+ * symbols of Germany are left within 12 km then, 17 with 8.) */
+#define TAKE_BACK_IN_VAIN 8
 /* Moves no longer than this share of a body are what descents leave of none. */
 #define NEARLY_HOME 1e-7
 
