@@ -2,10 +2,11 @@
  * question about one comes no farther than limits reach from the bodies of its cluster: so most of the layer needs
  * none.
  *
- * A question is about the two bodies of a conflict, and whoever of their clusters joins them (proofs/participants.c).
- * None of these goes farther than `far`, the longest limit of all; of who has none, and is asked about within what
- * takes two apart for certain, that. Looked at is what stands within two such ways and the gap of their homes. Seams of
- * others are never looked at: nothing changes if there are more of them. */
+ * A question is about the two bodies of a conflict, and whoever of their clusters joins them, which those do that have
+ * a limit (proofs/participants.c). Each goes no farther than its limit; of the two of a conflict, where they have none,
+ * no farther than what takes them apart for certain (alone.c). Looked at is whoever is within the gap of where one may
+ * go, and, where the moves of two are asked about as one, what cannot move within the gap of where both may go
+ * (proofs/plane_obstacles.c). Seams of others are never looked at: nothing changes if there are more of them. */
 #include "displacement/report/report.h"
 
 #include "base/union_find.h"
@@ -19,59 +20,86 @@
 
 typedef struct looking {
     const sunder_i_solver *solver;
-    bool *asked, *met; /* [bodies] */
-    size_t any;        /* how many are asked about */
-    double far;
+    double *far;     /* [bodies] how far it goes, with a little to spare; negative: it is not asked about */
+    bool *met;       /* [bodies] */
+    bool *gathered;  /* [bodies] by its root: the cluster is asked about */
+    double most;     /* of these */
+    bool any, fixed; /* is one asked about? is there what cannot move? */
 } looking;
 
-static void ask(looking *l, uint32_t b)
+static void ask(looking *l, uint32_t b, double far)
 {
-    l->any += !l->asked[b];
-    l->asked[b] = true;
-    const double limit = sunder_i_limit_of(&l->solver->model.body[b]);
-    if (isfinite(limit)) l->far = fmax(l->far, limit);
+    l->any = true;
+    l->far[b] = fmax(l->far[b], far * (1 + 0x1p-10));
+    l->most = fmax(l->most, l->far[b]);
 }
 
-/* The body and its cluster; what is fixed is of none. */
-static void ask_cluster(looking *l, uint32_t b)
+/* A body of a conflict, and its cluster, as far as that has limits; what is fixed is of none. */
+static void ask_cluster(looking *l, uint32_t b, double without)
 {
-    size_t n;
+    size_t n = 0;
     const sunder_i_solver *s = l->solver;
-    ask(l, b);
-    if (s->model.body[b].fixed) return;
-    const uint32_t *member = sunder_i_solver_members(s, sunder_i_union_find(s->parent, b), &n);
-    for (size_t k = 0; k < n; k++) ask(l, member[k]);
+    const sunder_i_model *model = &s->model;
+    const double limit = sunder_i_limit_of(&model->body[b]);
+    ask(l, b, isfinite(limit) ? limit : without);
+    const uint32_t root = sunder_i_union_find(s->parent, b);
+    if (model->body[b].fixed || l->gathered[root]) return;
+    l->gathered[root] = true;
+    const uint32_t *member = sunder_i_solver_members(s, root, &n);
+    for (size_t k = 0; k < n; k++) {
+        const double own = sunder_i_limit_of(&model->body[member[k]]);
+        if (isfinite(own)) ask(l, member[k], own);
+    }
 }
 
 static void ask_all(looking *l)
 {
     const sunder_i_solver *s = l->solver;
+    const sunder_i_model *model = &s->model;
+    for (uint32_t b = 0; b < model->bodies; b++) {
+        l->far[b] = -1;
+        l->fixed = l->fixed ||
+                   (!sunder_i_is_barrier_body(model, &model->body[b]) && !(sunder_i_limit_of(&model->body[b]) > 0));
+    }
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
-        const uint32_t i = s->model.body_of[r->a], j = s->model.body_of[r->b];
+        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
         if (!r->near || i == j) continue;
-        if (!l->asked[i]) ask_cluster(l, i);
-        if (!l->asked[j]) ask_cluster(l, j);
-        l->far = fmax(l->far, 2 * sunder_i_farthest_near(&s->model, i, j));
+        const double without = 2 * sunder_i_farthest_near(model, i, j);
+        ask_cluster(l, i, without);
+        ask_cluster(l, j, without);
     }
 }
 
-/* Who stands about a body that is asked about. *left: how much may be looked up still. False if memory is out. */
-static bool meet(looking *l, uint32_t b, sunder_i_list *near, size_t *left)
+/* Who stands within reach of a feature, of those that cannot move or of all. *left: how much may be looked up still.
+ * False if memory is out. */
+static bool meet(looking *l, uint32_t f, double reach, bool all, sunder_i_list *near, size_t *left)
+{
+    const sunder_i_model *model = &l->solver->model;
+    double box[4];
+    near->n = 0;
+    sunder_i_box_grow(model->box + 4 * (size_t)f, reach, box);
+    if (!sunder_i_rtree_query(&model->tree, box, near)) return false;
+    for (size_t k = 0; k < near->n; k++) {
+        const uint32_t b = model->body_of[near->item[k]];
+        if (all || !(sunder_i_limit_of(&model->body[b]) > 0)) l->met[b] = true;
+    }
+    *left = *left > near->n ? *left - near->n : 0;
+    return true;
+}
+
+static bool meet_all(looking *l, uint32_t b, sunder_i_list *near, size_t *left)
 {
     const sunder_i_model *model = &l->solver->model;
     const sunder_i_body *body = &model->body[b];
-    for (uint32_t m = 0; m < body->members; m++) {
+    bool ok = true;
+    for (uint32_t m = 0; m < body->members && ok; m++) {
         const uint32_t f = model->member[body->member + m];
-        double box[4];
         if (!model->present[f]) continue;
-        near->n = 0;
-        sunder_i_box_grow(model->box + 4 * (size_t)f, 2 * l->far + model->rules.gap, box);
-        if (!sunder_i_rtree_query(&model->tree, box, near)) return false;
-        for (size_t k = 0; k < near->n; k++) l->met[model->body_of[near->item[k]]] = true;
-        *left = *left > near->n ? *left - near->n : 0;
+        ok = meet(l, f, l->far[b] + model->rules.gap, true, near, left);
+        if (ok && l->fixed) ok = meet(l, f, l->far[b] + l->most + model->rules.gap, false, near, left);
     }
-    return true;
+    return ok;
 }
 
 /* All that is met, ascending. */
@@ -82,10 +110,10 @@ static sunder_status find_some(looking *l, sunder_i_model *model, sunder_error *
     sunder_i_list near = {0};
     bool ok = true;
     for (uint32_t b = 0; b < model->bodies && ok && left; b++)
-        if (l->asked[b]) ok = meet(l, b, &near, &left);
+        if (l->far[b] >= 0) ok = meet_all(l, b, &near, &left);
     near.n = 0;
     for (uint32_t b = 0; b < model->bodies && ok && left; b++)
-        if (l->asked[b] || l->met[b]) ok = sunder_i_list_push(&near, b);
+        if (l->far[b] >= 0 || l->met[b]) ok = sunder_i_list_push(&near, b);
     sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
     if (ok && !left) status = sunder_i_model_find_seams(model, err);
     if (ok && left) status = sunder_i_model_find_seams_of(model, near.item, near.n, err);
@@ -96,12 +124,14 @@ static sunder_status find_some(looking *l, sunder_i_model *model, sunder_error *
 sunder_status sunder_i_report_find_seams(sunder_i_solver *s, sunder_error *err)
 {
     looking l = {.solver = s,
-                 .asked = sunder_i_calloc(s->model.bodies, sizeof *l.asked),
-                 .met = sunder_i_calloc(s->model.bodies, sizeof *l.met)};
-    sunder_status status = l.asked && l.met ? SUNDER_OK : sunder_i_no_memory(err);
+                 .far = sunder_i_alloc(s->model.bodies, sizeof *l.far),
+                 .met = sunder_i_calloc(s->model.bodies, sizeof *l.met),
+                 .gathered = sunder_i_calloc(s->model.bodies, sizeof *l.gathered)};
+    sunder_status status = l.far && l.met && l.gathered ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) ask_all(&l);
     if (l.any) status = find_some(&l, &s->model, err);
-    sunder_i_free(l.asked);
+    sunder_i_free(l.far);
     sunder_i_free(l.met);
+    sunder_i_free(l.gathered);
     return status;
 }
