@@ -43,9 +43,7 @@ bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_r
             {GIS_TEXT, {.text = sunder_feature_status_string(sunder_report_status(report, i))}},
             block_value(input, report, i),
         };
-        OGRFeatureH feature = gis_source_feature(input->source, i);
-        if (!feature) return gis_no_memory(error);
-        if (!gis_sink_write_moved(layer, feature, dx, dy, values, error)) return false;
+        if (!gis_sink_write_source(layer, i, dx, dy, values, error)) return false;
     }
     return true;
 }

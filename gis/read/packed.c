@@ -49,6 +49,7 @@ void gis_packed_clear(gis_packed *packed)
     for (size_t k = 0; k < packed->chunks; k++) free(packed->chunk[k]);
     free(packed->chunk);
     free(packed->type);
+    free(packed->moved);
     *packed = (gis_packed){0};
 }
 
@@ -92,17 +93,19 @@ static bool is_plain(const gis_packed *packed, OGRGeometryH geometry)
     return parts > 0 && type == wkbMultiPolygon;
 }
 
-static int state_of(OGRFeatureH feature, int field)
+static int state_of(const OGRField *value)
 {
-    return !OGR_F_IsFieldSet(feature, field) ? UNSET : OGR_F_IsFieldNull(feature, field) ? EMPTY : VALUE;
+    return OGR_RawField_IsUnset(value) ? UNSET : OGR_RawField_IsNull(value) ? EMPTY : VALUE;
 }
 
 static size_t size_of_values(const gis_packed *packed, OGRFeatureH feature)
 {
     size_t size = (size_t)packed->fields;
-    for (int i = 0; i < packed->fields; i++)
-        if (state_of(feature, i) == VALUE)
-            size += packed->type[i] == OFTString ? strlen(OGR_F_GetFieldAsString(feature, i)) + 1 : sizeof(int64_t);
+    for (int i = 0; i < packed->fields; i++) {
+        const OGRField *value = OGR_F_GetRawFieldRef(feature, i);
+        if (state_of(value) == VALUE)
+            size += packed->type[i] == OFTString ? strlen(value->String) + 1 : sizeof(int64_t);
+    }
     return size;
 }
 
@@ -112,19 +115,13 @@ static unsigned char *put(unsigned char *to, const void *from, size_t n)
     return to + n;
 }
 
-static unsigned char *put_value(unsigned char *to, const gis_packed *packed, OGRFeatureH feature, int i)
+static unsigned char *put_value(unsigned char *to, OGRFieldType type, const OGRField *value)
 {
-    *to = (unsigned char)state_of(feature, i);
+    *to = (unsigned char)state_of(value);
     if (*to++ != VALUE) return to;
-    if (packed->type[i] == OFTString) {
-        const char *text = OGR_F_GetFieldAsString(feature, i);
-        return put(to, text, strlen(text) + 1);
-    }
-    if (packed->type[i] == OFTReal) {
-        const double real = OGR_F_GetFieldAsDouble(feature, i);
-        return put(to, &real, sizeof real);
-    }
-    const int64_t number = OGR_F_GetFieldAsInteger64(feature, i);
+    if (type == OFTString) return put(to, value->String, strlen(value->String) + 1);
+    if (type == OFTReal) return put(to, &value->Real, sizeof value->Real);
+    const int64_t number = type == OFTInteger ? value->Integer : value->Integer64;
     return put(to, &number, sizeof number);
 }
 
@@ -145,7 +142,7 @@ bool gis_packed_add(gis_packed *packed, OGRFeatureH feature, const unsigned char
     to = put(to, &bytes, sizeof bytes);
     if (OGR_G_ExportToIsoWkb(geometry, order, to) != OGRERR_NONE) return gis_no_memory(error);
     to += bytes;
-    for (int i = 0; i < packed->fields; i++) to = put_value(to, packed, feature, i);
+    for (int i = 0; i < packed->fields; i++) to = put_value(to, packed->type[i], OGR_F_GetRawFieldRef(feature, i));
     *record = at;
     return true;
 }
@@ -196,10 +193,9 @@ static bool visit_polygon(const unsigned char **at, visit_ring *visit, void *use
     return true;
 }
 
-static bool visit_rings(const unsigned char *record, visit_ring *visit, void *user)
+static bool visit_rings(const unsigned char *at, visit_ring *visit, void *user)
 {
-    size_t bytes;
-    const unsigned char *at = geometry_of(record, &bytes), *inside = at;
+    const unsigned char *inside = at;
     if (begin_geometry(&inside) == wkbPolygon) return visit_polygon(&at, visit, user);
     for (uint32_t polygons = number_at(&inside); polygons > 0; polygons--)
         if (!visit_polygon(&inside, visit, user)) return false;
@@ -218,7 +214,11 @@ static bool visit_finite(void *user, const unsigned char *points, size_t n, bool
     return true;
 }
 
-bool gis_packed_is_finite(const unsigned char *record) { return visit_rings(record, visit_finite, NULL); }
+bool gis_packed_is_finite(const unsigned char *record)
+{
+    size_t bytes;
+    return visit_rings(geometry_of(record, &bytes), visit_finite, NULL);
+}
 
 typedef struct appending {
     gis_polygons *set;
@@ -238,9 +238,10 @@ static bool visit_appending(void *user, const unsigned char *points, size_t n, b
 bool gis_packed_polygons(const unsigned char *record, gis_polygonal_part *part, gis_error *error)
 {
     appending to = {&part->set, error};
+    size_t bytes;
     part->set.vertices = part->set.rings = part->set.polygons = 0;
     part->linearised = 0;
-    return visit_rings(record, visit_appending, &to);
+    return visit_rings(geometry_of(record, &bytes), visit_appending, &to);
 }
 
 /* ---- Features again ---------------------------------------------------------------------------------------------- */
@@ -264,6 +265,12 @@ static const unsigned char *set_value(OGRFeatureH feature, int i, OGRFieldType t
         OGR_F_SetFieldInteger64(feature, i, number);
         return from + sizeof number;
     }
+}
+
+static const unsigned char *pass_value(OGRFieldType type, const unsigned char *from)
+{
+    if (*from++ != VALUE) return from;
+    return from + (type == OFTString ? strlen((const char *)from) + 1 : sizeof(int64_t));
 }
 
 /* Everything that the record holds. False if memory is out. */
@@ -294,4 +301,40 @@ OGRFeatureH gis_packed_copy(const gis_packed *packed, const unsigned char *recor
     if (!feature || unpack(packed, record, feature)) return feature;
     OGR_F_Destroy(feature);
     return NULL;
+}
+
+/* ---- Moved ------------------------------------------------------------------------------------------------------- */
+
+/* Of a geometry that is our own. */
+static bool visit_moving(void *user, const unsigned char *points, size_t n, bool last)
+{
+    const double *move = user;
+    unsigned char *at = (unsigned char *)points;
+    (void)last;
+    for (size_t k = 0; k < 2 * n; k++, at += sizeof(double)) {
+        double x;
+        memcpy(&x, at, sizeof x);
+        x += move[k & 1];
+        memcpy(at, &x, sizeof x);
+    }
+    return true;
+}
+
+bool gis_packed_put(gis_packed *packed, const unsigned char *record, const int *map, double dx, double dy,
+                    OGRFeatureH to, gis_error *error)
+{
+    size_t bytes;
+    double move[2] = {dx, dy};
+    const unsigned char *at = geometry_of(record, &bytes);
+    OGRGeometryH geometry = NULL;
+    if (!gis_array_reserve(&packed->moved, &packed->moved_room, bytes, 1)) return gis_no_memory(error);
+    memcpy(packed->moved, at, bytes);
+    if (dx != 0 || dy != 0) visit_rings(packed->moved, visit_moving, move);
+    if (OGR_G_CreateFromWkb(packed->moved, packed->crs, &geometry, (int)bytes) != OGRERR_NONE)
+        return gis_no_memory(error);
+    OGR_F_SetGeometryDirectly(to, geometry);
+    at += bytes;
+    for (int i = 0; i < packed->fields; i++)
+        at = map[i] < 0 ? pass_value(packed->type[i], at) : set_value(to, map[i], packed->type[i], at);
+    return true;
 }

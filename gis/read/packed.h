@@ -21,6 +21,8 @@ typedef struct gis_packed {
     size_t chunks, capacity, used, room; /* of the last chunk */
     OGRFeatureH made;
     const unsigned char *made_of;
+    unsigned char *moved; /* room for a geometry */
+    size_t moved_room;
 } gis_packed;
 
 /* Can features of the layer be packed? Its fields are all integers, reals or texts, and it has one geometry. */
@@ -39,5 +41,9 @@ bool gis_packed_polygons(const unsigned char *record, gis_polygonal_part *part, 
 OGRFeatureH gis_packed_feature(gis_packed *packed, const unsigned char *record);
 /* The same, the caller's own. */
 OGRFeatureH gis_packed_copy(const gis_packed *packed, const unsigned char *record);
+/* Puts the geometry, moved as gis_geometry_translate() does, and the values into a feature of another layer: of field i
+ * into its field map[i], unless that is -1. */
+bool gis_packed_put(gis_packed *packed, const unsigned char *record, const int *map, double dx, double dy,
+                    OGRFeatureH to, gis_error *error);
 
 #endif

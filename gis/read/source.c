@@ -316,6 +316,17 @@ GIntBig gis_source_fid(const gis_source *source, size_t i)
     return read->feature ? OGR_F_GetFID(read->feature) : gis_packed_fid(read->record);
 }
 
+bool gis_source_put(const gis_source *source, size_t i, const int *map, double dx, double dy, OGRFeatureH to,
+                    gis_error *error)
+{
+    const gis_read_feature *read = &source->features[i];
+    if (!read->feature) return gis_packed_put(source->packed, read->record, map, dx, dy, to, error);
+    if (OGR_F_SetFromWithMap(to, read->feature, TRUE, map) != OGRERR_NONE)
+        return gis_fail(error, "layer %s: the attributes of FID %" PRId64 " cannot be copied", source->name,
+                        (int64_t)OGR_F_GetFID(read->feature));
+    return gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error);
+}
+
 bool gis_source_unpack(gis_source *source, gis_error *error)
 {
     for (size_t i = 0; i < source->n; i++) {

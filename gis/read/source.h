@@ -58,6 +58,10 @@ OGRFeatureH gis_source_feature(const gis_source *source, size_t i);
 OGRGeometryH gis_source_geometry(const gis_source *source, size_t i);
 /* gis_geometry_polygonal_part() of it. */
 bool gis_source_polygons(const gis_source *source, size_t i, gis_polygonal_part *part, gis_error *error);
+/* Puts it into a feature of another layer: its geometry, moved, and the value of its field i into field map[i], unless
+ * that is -1. */
+bool gis_source_put(const gis_source *source, size_t i, const int *map, double dx, double dy, OGRFeatureH to,
+                    gis_error *error);
 /* Makes features of all that is packed, for who keeps them: then they live as long as the source. */
 bool gis_source_unpack(gis_source *source, gis_error *error);
 /* Its FID as read; OGRNullFID if it has none. */

@@ -99,6 +99,9 @@ bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geo
 /* A source feature moved by (dx, dy): the translate of its own geometry (null stays null). The memory of a copy. */
 bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx, double dy, const gis_value *values,
                           gis_error *error);
+/* The same of feature i of the sink's source, into a layer like it. */
+bool gis_sink_write_source(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values,
+                           gis_error *error);
 
 typedef struct gis_sink_result {
     bool exact;       /* what reads back are the very doubles that were written: `verified` may stand */

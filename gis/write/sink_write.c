@@ -30,17 +30,16 @@ void gis_sink_forget_sent(gis_sink_layer *layer)
 
 /* ---- Attributes -------------------------------------------------------------------------------------------------- */
 
-static bool set_attributes(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, const gis_value *values,
-                           gis_error *error)
+/* The FID of a feature that is written like it was read. */
+static void set_fid(const gis_sink_layer *layer, OGRFeatureH to, GIntBig fid)
 {
-    if (feature && (layer->request.like_source || layer->request.copied)) {
-        if (OGR_F_SetFromWithMap(to, feature, TRUE, layer->field_map) != OGRERR_NONE)
-            return gis_fail(error, "layer %s: the attributes of FID %" PRId64 " cannot be copied", layer->name,
-                            (int64_t)OGR_F_GetFID(feature));
-        GIntBig fid = OGR_F_GetFID(feature);
-        if (layer->fid_field >= 0 && fid != OGRNullFID) OGR_F_SetFieldInteger64(to, layer->fid_field, fid);
-        OGR_F_SetFID(to, layer->request.like_source && layer->sink->fids_kept ? fid : OGRNullFID);
-    }
+    if (layer->fid_field >= 0 && fid != OGRNullFID) OGR_F_SetFieldInteger64(to, layer->fid_field, fid);
+    OGR_F_SetFID(to, layer->request.like_source && layer->sink->fids_kept ? fid : OGRNullFID);
+}
+
+/* The program's own. */
+static void set_values(const gis_sink_layer *layer, OGRFeatureH to, const gis_value *values)
+{
     for (size_t i = 0; i < layer->request.n_fields; i++) {
         int field = layer->own[i];
         if (field < 0) continue;
@@ -51,6 +50,18 @@ static bool set_attributes(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH fe
         case GIS_TEXT: OGR_F_SetFieldString(to, field, values[i].as.text); break;
         }
     }
+}
+
+static bool set_attributes(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, const gis_value *values,
+                           gis_error *error)
+{
+    if (feature && (layer->request.like_source || layer->request.copied)) {
+        if (OGR_F_SetFromWithMap(to, feature, TRUE, layer->field_map) != OGRERR_NONE)
+            return gis_fail(error, "layer %s: the attributes of FID %" PRId64 " cannot be copied", layer->name,
+                            (int64_t)OGR_F_GetFID(feature));
+        set_fid(layer, to, OGR_F_GetFID(feature));
+    }
+    set_values(layer, to, values);
     return true;
 }
 
@@ -84,7 +95,8 @@ static void hear_warnings(gis_sink_layer *layer, const gis_listener *listener)
         gis_sentences_add(&layer->sink->warnings, "%s", listener->warnings.items[i]);
 }
 
-static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, gis_error *error)
+/* from: the FID that it was read with; NULL: it was not read. */
+static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, const GIntBig *from, gis_error *error)
 {
     GIntBig fid = OGR_F_GetFID(to);
     gis_listener listener = {0};
@@ -93,9 +105,9 @@ static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH fe
     gis_listen_end();
     if (done)
         layer->written++;
-    else if (feature)
+    else if (from)
         gis_fail(error, "%s, layer %s: FID %" PRId64 " cannot be written: %s", layer->sink->request.path, layer->name,
-                 (int64_t)OGR_F_GetFID(feature), gis_listener_reason(&listener, "GDAL gives no reason"));
+                 (int64_t)*from, gis_listener_reason(&listener, "GDAL gives no reason"));
     else
         gis_fail(error, "%s, layer %s: feature %zu cannot be written: %s", layer->sink->request.path, layer->name,
                  layer->written + 1, gis_listener_reason(&listener, "GDAL gives no reason"));
@@ -105,12 +117,12 @@ static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH fe
 }
 
 /* The feature has all it needs; it is fitted to the format, and written. */
-static bool send(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, gis_error *error)
+static bool send(gis_sink_layer *layer, OGRFeatureH to, const GIntBig *from, gis_error *error)
 {
     if (layer->promote) promote(to);
     note_losses(layer, to);
     return (!layer->wind || gis_geometry_wind_clockwise(OGR_F_GetGeometryRef(to), error)) &&
-           create_feature(layer, to, feature, error);
+           create_feature(layer, to, from, error);
 }
 
 bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geometry, const gis_value *values,
@@ -126,7 +138,8 @@ bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geo
         done = remember(layer, (gis_sent){feature, geometry ? OGR_G_Clone(geometry) : NULL, false, 0, 0}, error) &&
                gis_sink_remember_values(layer, values, error);
     OGR_F_SetGeometryDirectly(to, geometry);
-    done = done && send(layer, to, feature, error) && gis_sink_watch_digits(layer, to, error);
+    const GIntBig from = feature ? OGR_F_GetFID(feature) : OGRNullFID;
+    done = done && send(layer, to, feature ? &from : NULL, error) && gis_sink_watch_digits(layer, to, error);
     OGR_F_Destroy(to);
     return done;
 }
@@ -140,8 +153,25 @@ bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx,
     if (done && layer->keep_sent)
         done = remember(layer, (gis_sent){feature, NULL, true, dx, dy}, error) &&
                gis_sink_remember_values(layer, values, error);
-    done = done && gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error) && send(layer, to, feature, error) &&
+    const GIntBig from = OGR_F_GetFID(feature);
+    done = done && gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error) && send(layer, to, &from, error) &&
            gis_sink_watch_digits(layer, to, error);
+    OGR_F_Destroy(to);
+    return done;
+}
+
+bool gis_sink_write_source(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values,
+                           gis_error *error)
+{
+    const gis_source *source = layer->sink->source;
+    if (layer->keep_sent) return gis_sink_write_moved(layer, gis_source_feature(source, i), dx, dy, values, error);
+    OGRFeatureH to = gis_go_on(error) ? OGR_F_Create(OGR_L_GetLayerDefn(layer->layer)) : NULL;
+    if (!to) return gis_no_memory(error);
+    const GIntBig from = gis_source_fid(source, i);
+    bool done = gis_source_put(source, i, layer->field_map, dx, dy, to, error);
+    if (done) set_fid(layer, to, from);
+    if (done) set_values(layer, to, values);
+    done = done && send(layer, to, &from, error);
     OGR_F_Destroy(to);
     return done;
 }
