@@ -90,6 +90,7 @@ static bool open_sink(separate_run *run, gis_error *error)
     if (!gis_sink_open(&request, run->input.source, &run->sink, error)) return false;
     if (gis_sink_remembers(run->sink) && !gis_source_unpack(run->input.source, error)) return false;
     if (!gis_sink_takes_more(run->sink)) run->chosen = LAYER_MAIN;
+    if (!run->to.proof) gis_layer_forget_demands(&run->input);
     run->request.rules.keep_pushes = (run->chosen & LAYER_PUSHES) != 0;
     return true;
 }

@@ -200,6 +200,12 @@ bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_inpu
            gis_layer_limits(out, error) && read_barriers(out, error) && make_layer(out, error);
 }
 
+void gis_layer_forget_demands(gis_layer_input *input)
+{
+    free(input->feature);
+    input->feature = NULL;
+}
+
 void gis_layer_input_clear(gis_layer_input *input)
 {
     sunder_layer_free(input->layer);

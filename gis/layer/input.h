@@ -58,6 +58,8 @@ void gis_layer_box(const gis_layer_input *input, double box[4]);
 /* Warns where the layer's units are no lengths on the ground; gis_layer_input_read() does. */
 void gis_layer_warn_of_crs(const gis_layer_input *input);
 void gis_layer_input_clear(gis_layer_input *input);
+/* What was asked of each feature, which the core has a copy of: for who asks no more about it. */
+void gis_layer_forget_demands(gis_layer_input *input);
 
 /* "layer buildings, FID 12", with the user's own id if there is one. */
 void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t size);
