@@ -27,6 +27,8 @@ setup_want "pkg-config" pkg-config pkg-config --version
 setup_want "clang with sanitizers, for the fuzz tests" "clang libclang-rt-dev" setup_has_fuzzer
 setup_want "the shell of SQLite" sqlite3 sqlite3 -version
 setup_want "valgrind" valgrind valgrind --version
+setup_want "pandoc" pandoc pandoc --version
+setup_want "Doxygen" doxygen doxygen --version
 setup_want "jq" jq jq --version
 setup_want "GDAL's Python module" python3-gdal /usr/bin/python3 -c "import osgeo.ogr"
 if [ "$all" ]; then
