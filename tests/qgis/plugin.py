@@ -527,8 +527,8 @@ class OtherCommands(Case):
 
     def test_buffer(self):
         for words, values in ((["--shape=square:2"], {"SHAPE": "square:2"}),
-                              (["--shape=square:6", "--operation=close", "--dissolve", "--align"],
-                               {"SHAPE": "square:6", "OPERATION": 3, "DISSOLVE": True, "ALIGN": True})):
+                              (["--shape=square:6", "--operation=close", "--dissolve", "--align", "--explode"],
+                               {"SHAPE": "square:6", "OPERATION": 3, "DISSOLVE": True, "ALIGN": True, "EXPLODE": True})):
             done = self.run_algorithm("buffer", dict(values, INPUT=self.town(), OUTPUT=TEMPORARY, SEGMENTS=TEMPORARY))
             written = self.file("%d.gpkg" % len(words))
             self.sunder("buffer", "--input-layer=buildings", TOWN, written, "--degenerate", "--quiet", *words)
