@@ -2,12 +2,13 @@
 # Makes the documentation as plain HTML pages, from the pages of this folder and the READMEs, by pandoc; the manual by
 # pandoc, too, and the reference of the C library from src/sunder.h by Doxygen.
 #
-#   site.sh FOLDER      replaces FOLDER; `cmake --build build/release --target docs` calls it
+#   site.sh FOLDER [MANUAL]      replaces FOLDER; MANUAL has the manual pages of single commands, which a build makes;
+#                                `cmake --build build/release --target docs` calls it
 #
 # Links from page to page become links to .html; what is linked to and is no page (pictures, scripts, sources) is copied to
 # the place that it has in the repository. tests/docs/test_site.sh looks for links that lead nowhere.
 set -euo pipefail
-[ $# -eq 1 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+[ $# -eq 1 ] || [ $# -eq 2 ] || { sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 missing=
 for tool in pandoc doxygen; do command -v "$tool" >/dev/null || missing="$missing $tool"; done
@@ -19,6 +20,7 @@ mkdir -p "$(dirname "$1")"
 site=$(cd "$(dirname "$1")" && pwd -P)/$(basename "$1")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+manual=${2:+$(cd "$2" && pwd -P)}
 cd "$source"
 
 # ---- What belongs to the site: the front page, docs/, and every page that one of these leads to ----
@@ -68,7 +70,7 @@ cat >"$work/page.html" <<'HTML'
 <body>
 <nav><a href="$root$index.html">Sunder</a> <a href="$root$docs/tutorial.html">Tutorial</a> <a href="$root$docs/guide/index.html">Guide</a>
 <a href="$root$docs/displacement.html">How it decides</a> <a href="$root$docs/guarantees.html">Guarantees</a>
-<a href="$root$gis/sunder.1.html">Manual</a> <a href="$root$gis/qgis/index.html">QGIS</a> <a href="$root$reference/index.html">In C</a></nav>
+<a href="$root$manual/index.html">Manual</a> <a href="$root$gis/qgis/index.html">QGIS</a> <a href="$root$reference/index.html">In C</a></nav>
 <main>
 $body$
 </main>
@@ -109,7 +111,17 @@ for path in "${!known[@]}"; do
         *) mkdir -p "$work/site/$(dirname "$path")" && cp "$path" "$work/site/$path" ;;
     esac
 done
-while IFS= read -r manual; do make_page "$manual" man "$manual.html"; done < <(find gis -name '*.1' | sort)
+make_page gis/sunder.1 man gis/sunder.1.html
+{
+    printf '# The manual\n\n- [sunder, all commands](../gis/sunder.1)\n'
+    for page in ${manual:+"$manual"/sunder-*.1}; do
+        [ -f "$page" ] || continue
+        name=$(basename "$page")
+        make_page "$page" man "manual/$name.html"
+        printf -- '- [%s](%s)\n' "${name%.1}" "$name"
+    done
+} >"$work/manual.md"
+make_page "$work/manual.md" gfm manual/index.html
 
 # ---- The reference of the library ----
 # Comments of sunder.h are plain ones: a filter has Doxygen read those before a declaration as its description.

@@ -8,7 +8,7 @@ build=$source/build/release out=$source/build/demo
 
 setup_toolchain
 setup_install
-setup_build "$source" "$build" sunder
+setup_build "$source" "$build" sunder sunder-town
 
 town=$source/datasets-synthetic/town.gpkg
 separated=$out/town_separated.gpkg

@@ -11,7 +11,9 @@ here=$SUNDER_SOURCE/tests/docs
 trouble=0
 fail() { echo "FAILED: $*"; trouble=1; }
 
-bash "$SUNDER_SOURCE/docs/site.sh" "$work/site" >/dev/null
+manual=$SUNDER_BUILD/gis/manual
+[ -d "$manual" ] || manual=
+bash "$SUNDER_SOURCE/docs/site.sh" "$work/site" ${manual:+"$manual"} >/dev/null
 site=$work/site
 python3 "$here/links.py" "$site" || fail "links that lead nowhere"
 
@@ -20,6 +22,9 @@ for page in "$SUNDER_SOURCE"/docs/*.md "$SUNDER_SOURCE"/docs/guide/*.md; do
     [ -s "$site/${made/README.html/index.html}" ] || fail "no page of $made"
 done
 grep -q -- '--max-shift-field' "$site/gis/sunder.1.html" || fail "the manual lacks an option"
+for page in ${manual:+"$manual"/sunder-*.1}; do
+    [ ! -f "$page" ] || [ -s "$site/manual/$(basename "$page").html" ] || fail "no page of $(basename "$page")"
+done
 for name in $(grep -o '\bsunder_[a-z_]*(' "$SUNDER_SOURCE/src/sunder.h" | sort -u | tr -d '(' | grep -v '^sunder_i_'); do
     grep -q "[\";>]$name</a>\|>$name<\| $name " "$site/reference/sunder_8h.html" || fail "the reference lacks $name"
 done

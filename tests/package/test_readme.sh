@@ -21,8 +21,8 @@ library=$(find "$SUNDER_BUILD" -maxdepth 2 -name libsunder.a | head -n 1)
 grep -qx 'move the shed by (1, 1)' "$work/example.out" # into the corner of the L
 
 [ -x "$SUNDER" ] || exit 0
-# Every line of the first block that runs the built program; what a line finds wrong with the town is status 3.
-sed -n '/^## From a fresh clone/,/^## On your own/p' "$readme" | grep '^build/release/sunder' | sed 's/  *#.*//' >"$work/commands"
+# Every line of "One command" that runs the built program; what a line finds wrong with the town is status 3.
+sed -n '/^## One command/,/^## The report/p' "$readme" | grep '^build/release/sunder' | sed 's/  *#.*//' >"$work/commands"
 [ "$(wc -l <"$work/commands")" -ge 3 ]
 cd "$work"
 ln -s "$SUNDER_SOURCE/datasets-synthetic" datasets-synthetic
