@@ -309,11 +309,21 @@ static double round_positive(sunder_i_arena *arena, sunder_i_big q, bool inexact
 static double ratio(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent, direction dir)
 {
     if (num.size == 0) return 0;
+    const bool negative = num.size < 0, whole = sunder_i_big_is_one(den);
+    if (whole && dir == NEAREST && limbs(num) == 1 && exponent > -1000 && exponent < 900) {
+        const double v = ldexp((double)num.limb[0], (int)exponent); /* no underflow, so rounded once */
+        return negative ? -v : v;
+    }
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
-    const bool negative = num.size < 0;
     if (negative) {
         num.size = -num.size;
         dir = dir == UP ? DOWN : dir == DOWN ? UP : NEAREST;
+    }
+    double v = 0;
+    if (whole) {
+        v = round_positive(arena, num, false, exponent, dir);
+        if (!arena->failed) sunder_i_arena_release(arena, mark);
+        return negative ? -v : v;
     }
     /* A quotient of 65 or 66 bits leaves at least eleven below the 53 kept, and the remainder settles the rest. */
     const long shift = 65 - ((long)sunder_i_big_bits(num) - (long)sunder_i_big_bits(den));
@@ -323,7 +333,6 @@ static double ratio(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, l
         den = sunder_i_big_shl(arena, den, (unsigned long)-shift);
     sunder_i_big r;
     const sunder_i_big q = sunder_i_big_divide(arena, num, den, &r);
-    double v = 0;
     if (q.size) v = round_positive(arena, q, r.size != 0, exponent - shift, dir);
     if (!arena->failed) sunder_i_arena_release(arena, mark);
     return negative ? -v : v;
