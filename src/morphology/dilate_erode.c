@@ -29,17 +29,30 @@
 
 #include "base/invariant.h"
 #include "base/random.h"
+#include "base/watch.h"
 #include "predicate/rational_point.h"
+#include "spatial/strips.h"
 #include "sum/canonical.h"
 #include "sum/from_map.h"
 
+#include <math.h>
 #include <string.h>
+
+/* The figure, to be asked where places are. */
+typedef struct solid {
+    const sunder_i_figure *figure;
+    uint32_t *next;        /* [sides] */
+    double (*xy)[2], most; /* [sides] where each begins, times 2^shift; the largest of these */
+    long shift;
+    sunder_i_strips strips;
+} solid;
 
 typedef struct stage {
     const sunder_i_figure *figure;
     const sunder_i_structuring_element *element;
     const sunder_sum_options *options;
-    sunder_i_planar_map *bands, *solid; /* solid: the figure itself; NULL where it has no area */
+    sunder_i_planar_map *bands;
+    solid solid; /* the figure itself */
     sunder_i_arena scratch;
     uint64_t random;
     bool erode;
@@ -50,7 +63,7 @@ typedef struct share {
     double from, to;
 } share;
 
-static const share of_bands = {0, 0.75}, of_figure = {0.75, 1};
+static const share of_bands = {0, 1};
 
 static bool go_on(const sunder_sum_options *options, const share *s, uint64_t done, uint64_t all)
 {
@@ -113,34 +126,77 @@ static uint32_t *successors(const sunder_i_figure *f)
 
 /* ---- The figure itself ---- */
 
-/* The sides of the figure, the interior on their left, in a map of their own, marked. Counts of vertices are not kept
- * up (rings may touch there): only faces are ever asked. */
-static sunder_status draw_figure(const sunder_i_figure *f, sunder_i_lattice *lattice, const sunder_sum_options *options,
-                                 const share *part, uint64_t *random, sunder_i_planar_map **out, sunder_error *err)
+/* Coordinates of the figure and of a place are at most this far from their doubles. */
+static double margin(double most) { return most * 0x1p-50 + 0x1p-900; }
+
+/* The figure's sides by height, corners as doubles in a power of two that all fit. */
+static bool solid_init(solid *s, const sunder_i_figure *f, const sunder_i_lattice *lattice)
 {
-    sunder_i_planar_map *map;
-    sunder_status status = sunder_i_planar_map_new(lattice, sunder_i_draw(random), &map, err);
-    if (status != SUNDER_OK) return status;
-    uint32_t *next = successors(f);
-    uint64_t *order = biased_order(random, f->sides);
-    status = next && order ? SUNDER_OK : sunder_i_no_memory(err);
-    for (size_t i = 0; i < f->sides && status == SUNDER_OK; i++) {
-        uint32_t ends[2];
-        if (!go_on(options, part, i, f->sides)) {
-            status = sunder_i_cancelled(err);
-            break;
-        }
-        ends_of(f, next, order[i], ends);
-        status = sunder_i_planar_map_insert_segment(map, f->at[ends[0]], f->at[ends[1]], 1, 0, NULL, NULL, err);
+    *s = (solid){.figure = f, .shift = -(long)lattice->approx_shift};
+    sunder_i_arena scratch = {0};
+    double(*span)[2] = sunder_i_alloc(f->sides, sizeof *span);
+    s->xy = sunder_i_alloc(f->sides, sizeof *s->xy);
+    s->next = successors(f);
+    for (size_t i = 0; span && s->xy && i < f->sides; i++) {
+        const sunder_i_mark mark = sunder_i_arena_mark(&scratch);
+        sunder_i_rational_doubles(&scratch, f->at[f->ring[i]], s->shift, &s->xy[i][0], &s->xy[i][1]);
+        s->most = fmax(s->most, fmax(fabs(s->xy[i][0]), fabs(s->xy[i][1])));
+        sunder_i_arena_release(&scratch, mark);
     }
-    if (status == SUNDER_OK) status = sunder_i_planar_map_mark(map, err);
-    sunder_i_free(next);
-    sunder_i_free(order);
-    if (status == SUNDER_OK)
-        *out = map;
-    else
-        sunder_i_planar_map_free(map);
-    return status;
+    bool ok = span && s->xy && s->next && !scratch.failed;
+    for (size_t i = 0; ok && i < f->sides; i++) {
+        const double y[2] = {s->xy[i][1], s->xy[s->next[i]][1]};
+        span[i][0] = fmin(y[0], y[1]) - 4 * margin(s->most);
+        span[i][1] = fmax(y[0], y[1]) + 4 * margin(s->most);
+    }
+    ok = ok && sunder_i_strips_build(&s->strips, (const double(*)[2])span, f->sides);
+    sunder_i_arena_free(&scratch);
+    sunder_i_free(span);
+    return ok;
+}
+
+static void solid_free(solid *s)
+{
+    sunder_i_strips_free(&s->strips);
+    sunder_i_free(s->xy);
+    sunder_i_free(s->next);
+}
+
+/* Is corner i of the rings above the place? */
+static bool is_above(const solid *s, sunder_i_arena *scratch, size_t i, const sunder_i_rational_point *at, double y)
+{
+    const double gap = s->xy[i][1] - y;
+    if (fabs(gap) > margin(s->most) + margin(y < 0 ? -y : y)) return gap > 0;
+    return sunder_i_rational_cmp(scratch, &s->figure->at[s->figure->ring[i]], at, 1) > 0;
+}
+
+/* Is a place inside the figure, which it is not on the boundary of? A ray to the left crosses the sides that it begins
+ * to the right of, of which one end is above it and the other is not. */
+static bool is_in_figure(const solid *s, sunder_i_arena *scratch, sunder_i_rational_point at)
+{
+    bool odd = false;
+    size_t from, to;
+    double x, y;
+    sunder_i_rational_doubles(scratch, at, s->shift, &x, &y);
+    const double error = margin(s->most) + margin(fabs(x));
+    sunder_i_strips_at(&s->strips, y, &from, &to);
+    for (; from < to && !scratch->failed; from++) {
+        const uint32_t a = s->strips.item[from], b = s->next[a];
+        const sunder_i_mark mark = sunder_i_arena_mark(scratch);
+        const bool up = is_above(s, scratch, b, &at, y);
+        if (up != is_above(s, scratch, a, &at, y)) {
+            const double left = fmin(s->xy[a][0], s->xy[b][0]), right = fmax(s->xy[a][0], s->xy[b][0]);
+            bool crosses = right + error < x;
+            if (!crosses && !(left - error > x)) {
+                const sunder_i_figure *f = s->figure;
+                const int side = sunder_i_rational_orient(scratch, f->at[f->ring[a]], f->at[f->ring[b]], at);
+                crosses = up ? side < 0 : side > 0;
+            }
+            odd = odd != crosses;
+        }
+        sunder_i_arena_release(scratch, mark);
+    }
+    return odd;
 }
 
 /* ---- Bands ---- */
@@ -184,20 +240,19 @@ static sunder_status unite_bands(stage *g, sunder_error *err)
  * It is not on the boundary of any. */
 static sunder_status is_inside(stage *g, uint32_t vertex, bool *in, sunder_error *err)
 {
-    sunder_status status = SUNDER_OK;
-    *in = g->solid && g->erode;
-    for (uint32_t j = 0; g->solid && j < g->element->pieces && *in == g->erode && status == SUNDER_OK; j++) {
+    const bool any = g->figure->rings > 0;
+    *in = any && g->erode;
+    if (!sunder_i_step()) return sunder_i_no_memory(err);
+    for (uint32_t j = 0; any && j < g->element->pieces && *in == g->erode; j++) {
         const sunder_i_mark mark = sunder_i_arena_mark(&g->scratch);
         sunder_i_arena *s = &g->scratch;
         const sunder_i_rational_point at =
             sunder_i_rational_sub(s, *sunder_i_planar_map_vertex_point(g->bands, vertex), g->element->inner[j]);
+        if (!s->failed) *in = is_in_figure(&g->solid, s, at);
         if (s->failed) return sunder_i_no_memory(err);
-        sunder_i_location where;
-        status = sunder_i_planar_map_locate(g->solid, at, &where, err);
-        if (status == SUNDER_OK) *in = where.covered != 0;
         sunder_i_arena_release(s, mark);
     }
-    return status;
+    return SUNDER_OK;
 }
 
 static sunder_status sort_faces(stage *g, bool *face, sunder_error *err)
@@ -253,11 +308,11 @@ static sunder_status dilate_or_erode(stage *g, sunder_sum *sum, sunder_error *er
     g->random = g->options->seed;
     sunder_status status = sunder_i_planar_map_new(&sum->lattice, sunder_i_draw(&g->random), &g->bands, err);
     if (status == SUNDER_OK) status = unite_bands(g, err);
-    if (status == SUNDER_OK && g->figure->rings)
-        status = draw_figure(g->figure, &sum->lattice, g->options, &of_figure, &g->random, &g->solid, err);
+    if (status == SUNDER_OK && g->figure->rings && !solid_init(&g->solid, g->figure, &sum->lattice))
+        status = sunder_i_no_memory(err);
     if (status == SUNDER_OK) status = read_cells(g, sum, err);
     sunder_i_planar_map_free(g->bands);
-    sunder_i_planar_map_free(g->solid);
+    solid_free(&g->solid);
     sunder_i_arena_free(&g->scratch);
     SUNDER_I_ASSERT(status != SUNDER_OK || !sunder_i_canonical_check(sum));
     return status;
