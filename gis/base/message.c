@@ -11,6 +11,7 @@
 #include <cpl_string.h>
 #include <ctype.h>
 #include <errno.h>
+#include <inttypes.h>
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -60,19 +61,24 @@ static _Thread_local struct {
 
 /* ---- Subjects ---------------------------------------------------------------------------------------------------- */
 
+/* Names are asked for by the million, for messages that are seldom said. */
+static void keep(char to[GIS_WHO_SIZE], const char *text)
+{
+    size_t n = strnlen(text, GIS_WHO_SIZE - 1);
+    memcpy(to, text, n);
+    to[n] = '\0';
+}
+
 void gis_name_subject(const gis_subject *subject, char *text, size_t size)
 {
-    char which[64], id[GIS_WHO_SIZE] = "";
-    if (subject->has_fid)
-        snprintf(which, sizeof which, "FID %lld", (long long)subject->fid);
-    else
-        snprintf(which, sizeof which, "feature %zu", subject->number + 1);
-    if (subject->id) snprintf(id, sizeof id, " (id %s)", subject->id);
-    snprintf(text, size, "%s%slayer %s, %s%s", subject->within ? subject->within : "", subject->within ? ", " : "",
-             subject->layer, which, id);
-    snprintf(last.name, sizeof last.name, "%s", text);
-    snprintf(last.layer, sizeof last.layer, "%s", subject->layer);
-    snprintf(last.id, sizeof last.id, "%s", subject->id ? subject->id : "");
+    const char *within = subject->within ? subject->within : "", *joint = subject->within ? ", " : "";
+    int n = subject->has_fid
+                ? snprintf(text, size, "%s%slayer %s, FID %" PRId64, within, joint, subject->layer, subject->fid)
+                : snprintf(text, size, "%s%slayer %s, feature %zu", within, joint, subject->layer, subject->number + 1);
+    if (subject->id && n >= 0 && (size_t)n < size) snprintf(text + n, size - (size_t)n, " (id %s)", subject->id);
+    keep(last.name, text);
+    keep(last.layer, subject->layer);
+    keep(last.id, subject->id ? subject->id : "");
     last.has_fid = subject->has_fid;
     last.has_id = subject->id != NULL;
     last.fid = subject->fid;
