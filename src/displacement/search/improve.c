@@ -203,14 +203,6 @@ static bool is_free_start(sunder_i_search *s)
     return missed <= s->tolerance || (missed <= MENDED * s->tolerance && !s->failed && sunder_i_search_descend(s));
 }
 
-/* All go down from best to the last of it. */
-static void finish(sunder_i_search *s, double *best, double cost)
-{
-    memcpy(s->t, best, 2 * s->n * sizeof *best);
-    s->settled = SETTLED_BEST;
-    if (sunder_i_search_descend(s) && sunder_i_search_cost(s, s->t) < cost) memcpy(best, s->t, 2 * s->n * sizeof *best);
-}
-
 /* From s->t, which is free, to the cheapest that is found, in best; near is scratch of the same size. */
 static void improve(sunder_i_search *s, rank *order, double *best, double *near)
 {
@@ -238,7 +230,6 @@ static void improve(sunder_i_search *s, rank *order, double *best, double *near)
     const double ordered = cost;
     sunder_i_search_reorder(s, best, &cost);
     if (cost < ordered) try_all(s, order, best, &cost);
-    if (!s->failed && sunder_i_search_goes_down(s)) finish(s, best, cost);
 }
 
 sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder_i_cluster *cluster, double *move,
