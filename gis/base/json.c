@@ -47,18 +47,33 @@ void gis_json_line(gis_json *out)
     out->need_comma = false;
 }
 
-static void quoted(gis_json *out, const char *utf8)
+/* The bytes of the character that begins here (RFC 3629); 0: it is none. */
+static size_t character_size(const unsigned char *c)
+{
+    size_t n = *c < 0x80 ? 1 : *c < 0xc2 ? 0 : *c < 0xe0 ? 2 : *c < 0xf0 ? 3 : *c < 0xf5 ? 4 : 0;
+    for (size_t k = 1; k < n; k++)
+        if ((c[k] & 0xc0) != 0x80) return 0;
+    bool too_long = (*c == 0xe0 && c[1] < 0xa0) || (*c == 0xf0 && c[1] < 0x90);
+    bool beyond = (*c == 0xed && c[1] >= 0xa0) || (*c == 0xf4 && c[1] >= 0x90); /* surrogates; above U+10FFFF */
+    return too_long || beyond ? 0 : n;
+}
+
+/* Names of files and layers may be in no or another encoding, or cut in the middle of a character; each byte that is
+ * part of none becomes U+FFFD, so that the rest can be read. */
+static void quoted(gis_json *out, const char *text)
 {
     append(out, "\"", 1);
-    for (const char *c = utf8; *c; c++) {
+    for (const char *c = text; *c;) {
         unsigned char byte = (unsigned char)*c;
+        size_t n = character_size((const unsigned char *)c);
         char escape[8];
         if (byte == '"' || byte == '\\')
             append(out, (char[]){'\\', *c}, 2);
-        else if (byte < 0x20)
-            append(out, escape, (size_t)snprintf(escape, sizeof escape, "\\u%04x", byte));
+        else if (byte < 0x20 || n == 0)
+            append(out, escape, (size_t)snprintf(escape, sizeof escape, "\\u%04x", n ? byte : 0xfffd));
         else
-            append(out, c, 1);
+            append(out, c, n);
+        c += n ? n : 1;
     }
     append(out, "\"", 1);
 }

@@ -8,7 +8,6 @@
 #include "base/json.h"
 #include "base/progress.h"
 
-#include <cpl_string.h>
 #include <ctype.h>
 #include <errno.h>
 #include <inttypes.h>
@@ -36,10 +35,10 @@ static const char *const kind_words[GIS_MESSAGE_N] = {
     [GIS_MESSAGE_LOSS] = "loss",           [GIS_MESSAGE_REMAINS] = "remains", [GIS_MESSAGE_GDAL] = "gdal",
 };
 
-/* Warnings that are summed up together: of one kind, and those of lists alike but for their numbers. */
+/* Warnings that are summed up together: of one kind and one layer, and those of lists alike but for their numbers. */
 typedef struct tally {
     gis_message_kind kind;
-    char *alike; /* "": all of the kind */
+    char *alike; /* the layer, as messages name it; "": all of the kind */
     char *first; /* of those that were not said */
     size_t n;
 } tally;
@@ -57,6 +56,7 @@ static _Thread_local struct {
     char name[GIS_WHO_SIZE], layer[GIS_WHO_SIZE], id[GIS_WHO_SIZE];
     bool has_fid, has_id;
     int64_t fid;
+    size_t before; /* so much of the name is the layer's */
 } last;
 
 /* ---- Subjects ---------------------------------------------------------------------------------------------------- */
@@ -72,6 +72,7 @@ static void keep(char to[GIS_WHO_SIZE], const char *text)
 void gis_name_subject(const gis_subject *subject, char *text, size_t size)
 {
     const char *within = subject->within ? subject->within : "", *joint = subject->within ? ", " : "";
+    last.before = strlen(within) + strlen(joint) + strlen("layer ") + strlen(subject->layer);
     int n = subject->has_fid
                 ? snprintf(text, size, "%s%slayer %s, FID %" PRId64, within, joint, subject->layer, subject->fid)
                 : snprintf(text, size, "%s%slayer %s, feature %zu", within, joint, subject->layer, subject->number + 1);
@@ -84,11 +85,21 @@ void gis_name_subject(const gis_subject *subject, char *text, size_t size)
     last.fid = subject->fid;
 }
 
-/* FID 1 is not named by what begins as FID 12 does. */
+/* One line. */
+static void cleanse(char *text)
+{
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < ' ' || *c == 0x7f) *c = ' ';
+}
+
+/* FID 1 is not named by what begins as FID 12 does. The text is cleansed, the name is not. */
 static bool names_last(const char *text)
 {
-    const char *at = last.name[0] ? strstr(text, last.name) : NULL;
-    return at && !isalnum((unsigned char)at[strlen(last.name)]);
+    char name[GIS_WHO_SIZE];
+    keep(name, last.name);
+    cleanse(name);
+    const char *at = name[0] ? strstr(text, name) : NULL;
+    return at && !isalnum((unsigned char)at[strlen(name)]);
 }
 
 /* ---- A line ------------------------------------------------------------------------------------------------------ */
@@ -148,16 +159,6 @@ static void print_to_stderr(const line *said)
     print(stderr, said);
 }
 
-/* One line; and, where it is to be JSON, UTF-8. */
-static void cleanse(char *text)
-{
-    for (char *c = text; *c; c++)
-        if ((unsigned char)*c < ' ' || *c == 0x7f) *c = ' ';
-    if (messages.how.json && !CPLIsUTF8(text, -1))
-        for (char *c = text; *c; c++)
-            if ((unsigned char)*c >= 0x80) *c = '?';
-}
-
 /* ---- Kinds ------------------------------------------------------------------------------------------------------- */
 
 /* Each number becomes a mark. */
@@ -189,7 +190,6 @@ static tally *tally_of(gis_message_kind kind, const char *alike)
 static void say_warning(gis_message_kind kind, const char *alike, char *text)
 {
     pthread_mutex_lock(&messages.turn);
-    cleanse(text);
     const line said = {"warning", kind_words[kind], text, 1, -1};
     if (messages.log) print(messages.log, &said);
     if (!messages.how.quiet) {
@@ -227,14 +227,25 @@ static void say_sums(void)
 
 /* ---- Said by others ---------------------------------------------------------------------------------------------- */
 
+/* The layer of the feature that the text names; else "". */
+static void layer_of(const char *text, char layer[GIS_WHO_SIZE])
+{
+    layer[0] = '\0';
+    if (!names_last(text)) return;
+    keep(layer, last.name);
+    if (last.before < GIS_WHO_SIZE) layer[last.before] = '\0';
+}
+
 void gis_say_warning(gis_message_kind kind, const char *format, ...)
 {
-    char text[TEXT_SIZE];
+    char text[TEXT_SIZE], alike[GIS_WHO_SIZE];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    say_warning(kind, "", text);
+    cleanse(text);
+    layer_of(text, alike);
+    say_warning(kind, alike, text);
 }
 
 void gis_say_warnings(gis_message_kind kind, const gis_sentences *list)
@@ -242,6 +253,7 @@ void gis_say_warnings(gis_message_kind kind, const gis_sentences *list)
     for (size_t i = 0; i < list->n && !gis_interrupted(); i++) { /* after a signal they tell of calls cut short */
         char text[TEXT_SIZE], alike[TEXT_SIZE];
         snprintf(text, sizeof text, "%s", list->items[i]);
+        cleanse(text);
         without_numbers(text, alike, sizeof alike);
         say_warning(kind, alike, text);
     }
@@ -270,18 +282,20 @@ int gis_say_failure(const gis_error *error)
 
 /* ---- The log ----------------------------------------------------------------------------------------------------- */
 
+static bool begins(const char *text, const char *with) { return strncmp(text, with, strlen(with)) == 0; }
+
 /* Is it a former log, or empty, or no file at all? Anything else might be what the user has no second copy of. */
 static bool may_replace(const char *path)
 {
     struct stat info;
-    char begin[16] = "";
+    char begin[32] = "";
     if (stat(path, &info) != 0 || !S_ISREG(info.st_mode) || info.st_size == 0) return true;
     FILE *file = fopen(path, "r");
     if (!file) return true; /* then it cannot be opened below, either, or only be written */
     size_t n = fread(begin, 1, sizeof begin - 1, file);
     begin[n] = '\0';
     fclose(file);
-    return strncmp(begin, PREFIX, strlen(PREFIX)) == 0 || strncmp(begin, "{\"level\": ", 10) == 0;
+    return begins(begin, PREFIX "warning: ") || begins(begin, PREFIX "error: ") || begins(begin, "{\"level\": ");
 }
 
 bool gis_messages_begin(const gis_messages_request *request, gis_error *error)

@@ -29,6 +29,13 @@ same "$(wc -l <err)" 11 'of route:'
 expect 0 check --barrier in.gpkg,gap=20 --where "id = 'k26'" in.gpkg --ignore-where "id = 'k26'"
 expect 3 separate --barrier in.gpkg --gap 300 --max-shift 0 sound.gpkg out.gpkg --overwrite
 same "$(grep -c 'barrier in.gpkg, layer houses, FID' err)" 11 'of a barrier:'
+# Those of one layer do not hide those of another.
+expect 0 separate --barrier in.gpkg,width=1 --where "id = 'k1'" in.gpkg out.gpkg --overwrite
+same "$(grep -c 'warning: layer houses' err) $(grep -c 'barrier in.gpkg, layer houses, FID' err)" '1 11' 'of a layer and a barrier:'
+expect 0 separate --barrier in.gpkg,width=1,gap=1 in.gpkg out.gpkg --overwrite --contained ignore --max-shift 0 --allow-conflicts
+same "$(grep -c 'warning: layer houses' err)" 10 'of the layer:'
+same "$(grep -c 'barrier in.gpkg, layer houses, FID' err)" 11 'of the barrier, too:'
+same "$(grep -c '15 more like these' err)" 2 'a sum each:'
 # An error comes last, after the sum.
 expect 1 separate in.gpkg no/such/out.gpkg
 same "$(wc -l <err)" 12 'with an error:'
@@ -54,7 +61,7 @@ same "$(tail -n 1 all.log)" "$(tail -n 1 err)" 'the error in the log:'
 tail -n 1 all.log | grep -q '^sunder: error: ' || fail 'the log does not hold the error'
 expect 0 check sound.gpkg --log all.log
 [ -f all.log ] && [ ! -s all.log ] || fail 'a log of nothing is not empty'
-echo important >notes.txt
+echo 'sunder: important' >notes.txt
 refused 2 'is no log' check sound.gpkg --log notes.txt
 refused 2 'is used otherwise' check sound.gpkg --log sound.gpkg
 refused 2 'is used otherwise' separate sound.gpkg new.gpkg --log ./new.gpkg
@@ -100,6 +107,38 @@ printf 'id,WKT\n1,"POLYGON((0 0,4 4,4 0,0 4,0 0))"\n' >$'a\xffb.csv'
 ogr2ogr broken.gpkg $'a\xffb.csv' -nln x -oo GEOM_POSSIBLE_NAMES=WKT -nlt POLYGON 2>/dev/null
 expect 1 check $'none\xff.gpkg' --messages json
 json .message err >said || fail 'no JSON where a name is not UTF-8'
+
+# Names of all kinds: with line breaks, cut in the middle of a character, in no encoding.
+odd_name() { # PYTHON: the layer and the key
+    python3 - "$1" <<'X' || fail "JSON with $1"
+import json, os, subprocess, sys
+name = eval(sys.argv[1])
+with open("odd.csv", "wb") as file:
+    file.write(b'id,WKT\n"' + name + b'","POLYGON((0 0,4 4,4 0,0 4,0 0))"\n')
+if os.path.exists("odd.gpkg"):
+    os.remove("odd.gpkg")
+subprocess.run(["ogr2ogr", "odd.gpkg", "odd.csv", "-oo", "GEOM_POSSIBLE_NAMES=WKT", "-nlt", "POLYGON", "-nln", b"l" + name],
+               check=True, stderr=subprocess.DEVNULL)
+call = [os.environ["SUNDER"], "check", "odd.gpkg", "--id-field", "id", "--messages", "json", "--stats", "odd.json"]
+said = subprocess.run(call, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, check=True).stderr.decode("utf-8")
+line = json.loads(said)
+whole = name.decode("utf-8")
+assert line["fid"] == 1 and (line["layer"] == "l" + whole or len(name) > 400), line
+assert line["id"] == whole or (len(name) > 400 and whole.startswith(line["id"][:200])), line
+json.load(open("odd.json", encoding="utf-8"))
+X
+}
+odd_name 'b"a\nb\tc"'
+odd_name '"\u00e9\U0001f3e0".encode()'
+odd_name '("\u00e9" * 600).encode()'
+odd_name '("a" + "\u00e9" * 600).encode()'
+printf 'id,WKT\nk\xff\xed\xa0\x80,"POLYGON((0 0,4 4,4 0,0 4,0 0))"\n' >$'odd\xfe.csv'
+expect 0 check $'odd\xfe.csv' --oo GEOM_POSSIBLE_NAMES=WKT --id-field id --messages json
+python3 - <<'X' || fail 'JSON with bytes that are no UTF-8'
+import json
+line = json.loads(open("err", encoding="utf-8").read())
+assert (line["layer"], line["fid"], line["id"]) == ("odd\ufffd", 1, "k" + 4 * "\ufffd"), line
+X
 
 # Numbers part no kinds of what GDAL says.
 {
