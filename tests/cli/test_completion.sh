@@ -54,5 +54,11 @@ same "$(offered sunder separate in.gpkg out.gpkg -l '')" 'houses main\ roads' la
 same "$(offered sunder separate in.gpkg out.gpkg -l h)" houses 'one layer'
 same "$(offered sunder separate in.gpkg out.gpkg -l houses --id-field '')" 'id width' fields
 same "$(offered sunder separate --layer = houses in.gpkg out.gpkg --id-field w)" width 'one field'
+same "$(offered sunder separate in.gpkg out.gpkg -l 'main\ roads' --id-field '')" name 'fields of a layer in quotes'
+cp in.gpkg "two \"words\" \$(touch run).gpkg"
+for typed in 'two\ \"words\"\ \$\(touch\ run\).gpkg' '"two \"words\" \$(touch run).gpkg"' "'two \"words\" \$(touch run).gpkg'"; do
+    same "$(offered sunder separate "$typed" out.gpkg -l h)" houses "layers of $typed"
+done
+[ ! -e run ] || fail 'what is typed was run'
 same "$(offered sunder separate in.gpkg --of GPK)" GPKG 'a format'
 finish
