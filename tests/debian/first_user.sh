@@ -1,0 +1,28 @@
+# Run in a clean root by test_first_user.sh, with bash -eu: each step as the README and the plug-in's page have it.
+cd /root
+echo "step: git clone, gis/demo.sh, the rest, install, the plug-in's zip (README, Install)"
+. /root/install.sh
+export PATH=/root/.local/bin:$PATH
+cd /root
+sunder --version
+
+echo "step: Install from ZIP"
+plugins=/root/.local/share/QGIS/QGIS3/profiles/default/python/plugins
+mkdir -p "$plugins"
+unzip -q /root/sunder/build/release/sunder-qgis-*.zip -d "$plugins"
+
+echo "step: Separate features, roads as barriers"
+export XDG_RUNTIME_DIR=/root/run
+mkdir -m 700 "$XDG_RUNTIME_DIR"
+qgis_process=$(command -v qgis_process.bin || command -v qgis_process)
+town=/root/sunder/datasets-synthetic/town.gpkg
+"$qgis_process" plugins enable sunder
+"$qgis_process" run sunder:separate --INPUT="$town|layername=buildings" --GAP=3 --UNIT=1 --MAX_SHIFT=5 \
+    --BARRIER="$town|layername=roads,6,,,," --OUTPUT=/root/moved.gpkg --CONFLICTS=/root/left.gpkg --REPORT=/root/moves.html
+
+moved=$(ogrinfo -q -sql "SELECT COUNT(*) AS n FROM moved WHERE sunder_st = 'moved'" /root/moved.gpkg | sed -n 's/.*n (Integer.*) = //p')
+echo "step: $moved of the town's buildings have moved"
+[ "$moved" -gt 10 ]
+[ -s /root/moves.html ]
+left=$(ogrinfo -so -q /root/left.gpkg -al | sed -n 's/^Feature Count: //p')
+echo "step: ${left:-0} conflicts are left, listed with their reasons"
