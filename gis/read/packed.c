@@ -179,10 +179,7 @@ static uint32_t begin_geometry(const unsigned char **at)
     return number_at(at);
 }
 
-/* A visit of one ring of n points, of the last one of a polygon or not; false ends it all. */
-typedef bool visit_ring(void *user, const unsigned char *points, size_t n, bool last);
-
-static bool visit_polygon(const unsigned char **at, visit_ring *visit, void *user)
+static bool visit_polygon(const unsigned char **at, gis_packed_ring *visit, void *user)
 {
     begin_geometry(at);
     for (uint32_t rings = number_at(at); rings > 0; rings--) {
@@ -193,7 +190,7 @@ static bool visit_polygon(const unsigned char **at, visit_ring *visit, void *use
     return true;
 }
 
-static bool visit_rings(const unsigned char *at, visit_ring *visit, void *user)
+bool gis_packed_visit(const unsigned char *at, gis_packed_ring *visit, void *user)
 {
     const unsigned char *inside = at;
     if (begin_geometry(&inside) == wkbPolygon) return visit_polygon(&at, visit, user);
@@ -217,7 +214,7 @@ static bool visit_finite(void *user, const unsigned char *points, size_t n, bool
 bool gis_packed_is_finite(const unsigned char *record)
 {
     size_t bytes;
-    return visit_rings(geometry_of(record, &bytes), visit_finite, NULL);
+    return gis_packed_visit(geometry_of(record, &bytes), visit_finite, NULL);
 }
 
 typedef struct appending {
@@ -241,7 +238,7 @@ bool gis_packed_polygons(const unsigned char *record, gis_polygonal_part *part, 
     size_t bytes;
     part->set.vertices = part->set.rings = part->set.polygons = 0;
     part->linearised = 0;
-    return visit_rings(geometry_of(record, &bytes), visit_appending, &to);
+    return gis_packed_visit(geometry_of(record, &bytes), visit_appending, &to);
 }
 
 /* ---- Features again ---------------------------------------------------------------------------------------------- */
@@ -320,21 +317,47 @@ static bool visit_moving(void *user, const unsigned char *points, size_t n, bool
     return true;
 }
 
+const unsigned char *gis_packed_moved(gis_packed *packed, const unsigned char *record, double dx, double dy,
+                                      size_t *bytes)
+{
+    double move[2] = {dx, dy};
+    const unsigned char *at = geometry_of(record, bytes);
+    if (!gis_array_reserve(&packed->moved, &packed->moved_room, *bytes, 1)) return NULL;
+    memcpy(packed->moved, at, *bytes);
+    if (dx != 0 || dy != 0) gis_packed_visit(packed->moved, visit_moving, move);
+    return packed->moved;
+}
+
 bool gis_packed_put(gis_packed *packed, const unsigned char *record, const int *map, double dx, double dy,
                     OGRFeatureH to, gis_error *error)
 {
     size_t bytes;
-    double move[2] = {dx, dy};
-    const unsigned char *at = geometry_of(record, &bytes);
     OGRGeometryH geometry = NULL;
-    if (!gis_array_reserve(&packed->moved, &packed->moved_room, bytes, 1)) return gis_no_memory(error);
-    memcpy(packed->moved, at, bytes);
-    if (dx != 0 || dy != 0) visit_rings(packed->moved, visit_moving, move);
-    if (OGR_G_CreateFromWkb(packed->moved, packed->crs, &geometry, (int)bytes) != OGRERR_NONE)
+    const unsigned char *moved = gis_packed_moved(packed, record, dx, dy, &bytes);
+    if (!moved || OGR_G_CreateFromWkb(moved, packed->crs, &geometry, (int)bytes) != OGRERR_NONE)
         return gis_no_memory(error);
     OGR_F_SetGeometryDirectly(to, geometry);
-    at += bytes;
+    const unsigned char *at = geometry_of(record, &bytes) + bytes;
     for (int i = 0; i < packed->fields; i++)
         at = map[i] < 0 ? pass_value(packed->type[i], at) : set_value(to, map[i], packed->type[i], at);
     return true;
+}
+
+void gis_packed_values(const gis_packed *packed, const unsigned char *record, const int *map, gis_value *to)
+{
+    size_t bytes;
+    const unsigned char *at = geometry_of(record, &bytes) + bytes;
+    for (int i = 0; i < packed->fields; i++) {
+        const unsigned char *const from = at + 1;
+        const bool there = *at == VALUE;
+        at = pass_value(packed->type[i], at);
+        if (map[i] < 0) continue;
+        gis_value *value = &to[map[i]];
+        *value = (gis_value){.kind = GIS_NULL};
+        if (!there) continue;
+        value->kind = packed->type[i] == OFTString ? GIS_TEXT : packed->type[i] == OFTReal ? GIS_REAL : GIS_INTEGER;
+        if (value->kind == GIS_TEXT) value->as.text = (const char *)from;
+        if (value->kind == GIS_REAL) memcpy(&value->as.real, from, sizeof value->as.real);
+        if (value->kind == GIS_INTEGER) memcpy(&value->as.integer, from, sizeof value->as.integer);
+    }
 }

@@ -9,6 +9,7 @@
 #include <ogr_api.h>
 
 #include "base/error.h"
+#include "base/value.h"
 #include "read/geometry.h"
 
 /* Where records stand, chunk behind chunk; and the feature that was made last. Zeroed: nothing is packed. */
@@ -41,6 +42,16 @@ bool gis_packed_polygons(const unsigned char *record, gis_polygonal_part *part, 
 OGRFeatureH gis_packed_feature(gis_packed *packed, const unsigned char *record);
 /* The same, the caller's own. */
 OGRFeatureH gis_packed_copy(const gis_packed *packed, const unsigned char *record);
+/* The geometry as well-known binary, moved as gis_geometry_translate() does; it lives until another is asked for. NULL
+ * if memory is out. */
+const unsigned char *gis_packed_moved(gis_packed *packed, const unsigned char *record, double dx, double dy,
+                                      size_t *bytes);
+/* The value of field i into to[map[i]], unless that is -1; texts are the record's. */
+void gis_packed_values(const gis_packed *packed, const unsigned char *record, const int *map, gis_value *to);
+/* A visit of one ring of n points, of the last one of a polygon or not; false ends it all. */
+typedef bool gis_packed_ring(void *user, const unsigned char *points, size_t n, bool last);
+/* Of all rings of a geometry, given as its well-known binary. */
+bool gis_packed_visit(const unsigned char *geometry, gis_packed_ring *visit, void *user);
 /* Puts the geometry, moved as gis_geometry_translate() does, and the values into a feature of another layer: of field i
  * into its field map[i], unless that is -1. */
 bool gis_packed_put(gis_packed *packed, const unsigned char *record, const int *map, double dx, double dy,

@@ -316,6 +316,16 @@ GIntBig gis_source_fid(const gis_source *source, size_t i)
     return read->feature ? OGR_F_GetFID(read->feature) : gis_packed_fid(read->record);
 }
 
+bool gis_source_plain(const gis_source *source, size_t i, double dx, double dy, const int *map, gis_value *values,
+                      const unsigned char **geometry, size_t *bytes)
+{
+    const gis_read_feature *read = &source->features[i];
+    if (read->feature) return false;
+    *geometry = gis_packed_moved(source->packed, read->record, dx, dy, bytes);
+    gis_packed_values(source->packed, read->record, map, values);
+    return true;
+}
+
 bool gis_source_put(const gis_source *source, size_t i, const int *map, double dx, double dy, OGRFeatureH to,
                     gis_error *error)
 {

@@ -9,7 +9,8 @@
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
 
-#include "base/error.h"
+#include "base//error.h"
+#include "base/value.h"
 #include "read/geometry.h"
 
 /* Kinds of layer that a command takes; combine with |. A layer of unknown type, or of collections, counts as all. */
@@ -58,6 +59,10 @@ OGRFeatureH gis_source_feature(const gis_source *source, size_t i);
 OGRGeometryH gis_source_geometry(const gis_source *source, size_t i);
 /* gis_geometry_polygonal_part() of it. */
 bool gis_source_polygons(const gis_source *source, size_t i, gis_polygonal_part *part, gis_error *error);
+/* Its geometry, moved, as well-known binary that lives until another is asked for (*geometry = NULL if memory is out),
+ * and the value of its field i in values[map[i]], unless that is -1. False if it is not packed. */
+bool gis_source_plain(const gis_source *source, size_t i, double dx, double dy, const int *map, gis_value *values,
+                      const unsigned char **geometry, size_t *bytes);
 /* Puts it into a feature of another layer: its geometry, moved, and the value of its field i into field map[i], unless
  * that is -1. */
 bool gis_source_put(const gis_source *source, size_t i, const int *map, double dx, double dy, OGRFeatureH to,

@@ -95,11 +95,16 @@ bool gis_rtree_add(gis_boxes *boxes, OGRFeatureH feature, gis_error *error)
 {
     OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
     if (!boxes->trigger || !geometry || OGR_G_IsEmpty(geometry)) return true;
-    if (!gis_array_reserve(&boxes->at, &boxes->capacity, boxes->n + 1, sizeof *boxes->at)) return gis_no_memory(error);
     OGREnvelope box;
     OGR_G_GetEnvelope(geometry, &box);
+    return gis_rtree_add_box(boxes, OGR_F_GetFID(feature), &box, error);
+}
+
+bool gis_rtree_add_box(gis_boxes *boxes, GIntBig fid, const OGREnvelope *box, gis_error *error)
+{
+    if (!gis_array_reserve(&boxes->at, &boxes->capacity, boxes->n + 1, sizeof *boxes->at)) return gis_no_memory(error);
     boxes->at[boxes->n++] =
-        (struct gis_box){OGR_F_GetFID(feature), {below(box.MinX), above(box.MaxX), below(box.MinY), above(box.MaxY)}};
+        (struct gis_box){fid, {below(box->MinX), above(box->MaxX), below(box->MinY), above(box->MaxY)}};
     return true;
 }
 

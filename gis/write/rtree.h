@@ -26,6 +26,7 @@ typedef struct gis_boxes {
 bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error);
 /* Notes a feature that was written. */
 bool gis_rtree_add(gis_boxes *boxes, OGRFeatureH feature, gis_error *error);
+bool gis_rtree_add_box(gis_boxes *boxes, GIntBig fid, const OGREnvelope *box, gis_error *error);
 /* Fills the tree and puts the trigger back. */
 bool gis_rtree_end(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error);
 void gis_boxes_clear(gis_boxes *boxes);

@@ -181,6 +181,7 @@ bool gis_sink_add(gis_sink *sink, const gis_sink_layer_request *request, gis_sin
 {
     gis_sink_layer *previous = sink->n_layers ? sink->layers[sink->n_layers - 1] : NULL;
     if (previous && sink->format.one_layer && !gis_sink_close(sink, previous, error)) return false;
+    if (previous && !gis_sink_rows_end(previous, error)) return false;
     if (!gis_sink_flush(sink, error)) return false;
     gis_sink_layer **layers = realloc(sink->layers, (sink->n_layers + 1) * sizeof *layers);
     if (layers) sink->layers = layers;

@@ -13,6 +13,7 @@
 #ifndef GIS_SINK_H
 #define GIS_SINK_H
 
+#include "base/value.h"
 #include "read/source.h"
 
 /* Where and how; zeroed members mean "not given". Strings and lists are borrowed until gis_sink_free(). */
@@ -76,16 +77,6 @@ typedef struct gis_sink_layer_request {
 
 /* The layer is owned by the sink. Fails if it exists already (without overwrite_layer), or GDAL cannot make it. */
 bool gis_sink_add(gis_sink *sink, const gis_sink_layer_request *request, gis_sink_layer **out, gis_error *error);
-
-/* One value of a field of the program's own. */
-typedef struct gis_value {
-    enum { GIS_NULL, GIS_INTEGER, GIS_REAL, GIS_TEXT } kind;
-    union {
-        GIntBig integer;
-        double real;
-        const char *text; /* UTF-8, borrowed for the call */
-    } as;
-} gis_value;
 
 /* Writes one feature.
  *

@@ -83,6 +83,8 @@ static bool inspect_layer(gis_sink_layer *layer, GDALDatasetH dataset, gis_sink_
                                 : gis_sink_compare(layer, as_written, &seen, error)) ||
         !gis_sink_check_companions(layer, as_written, error))
         return false;
+    const size_t told = layer->rows.n ? (size_t)OGR_L_GetFeatureCount(as_written, TRUE) : layer->written;
+    if (told != layer->written) return gis_sink_fail_count(layer, told, error);
     *again = gis_sink_may_rewrite(layer, &seen);
     if (*again) return true;
     if (layer->promised) {
@@ -263,7 +265,8 @@ static bool write_indexes(gis_sink *sink, gis_error *error)
 {
     for (size_t i = 0; i < sink->n_layers; i++) {
         gis_sink_layer *layer = sink->layers[i];
-        if (!gis_rtree_end(layer->dataset, layer->layer, &layer->boxes, error)) return false;
+        if (!gis_sink_rows_end(layer, error) || !gis_rtree_end(layer->dataset, layer->layer, &layer->boxes, error))
+            return false;
     }
     return true;
 }

@@ -180,6 +180,7 @@ void gis_sink_drop(gis_sink *sink)
 {
     gis_listener listener = {0};
     gis_listen_begin(&listener);
+    for (size_t i = 0; i < sink->n_layers; i++) gis_sink_rows_clear(sink->layers[i]); /* SQLite waits for statements */
     gis_sink_roll_back(sink);
     for (size_t i = 0; i < sink->n_layers; i++)
         if (sink->layers[i]->file && sink->layers[i]->dataset) {

@@ -9,6 +9,7 @@
 
 #include "base/array.h"
 #include "base/interrupt.h"
+#include "read/packed.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -170,6 +171,49 @@ bool gis_digests_add(gis_digests *all, OGRFeatureH feature, GIntBig fid, gis_err
     all->with_z += geometry && OGR_G_Is3D(geometry) && !OGR_G_IsEmpty(geometry);
     return (digest(all, feature, fid, false, &one) && append(&all->sent, &all->n, &all->capacity, one)) ||
            gis_no_memory(error);
+}
+
+typedef struct mixing {
+    uint64_t so_far;
+    bool inside; /* a polygon, after its first ring */
+} mixing;
+
+static bool mix_ring(void *user, const unsigned char *points, size_t n, bool last)
+{
+    mixing *all = user;
+    if (!all->inside) all->so_far = mix(all->so_far, POLYGON);
+    all->inside = !last;
+    all->so_far = mix(all->so_far, n);
+    for (size_t k = 0; k < 2 * n; k++) {
+        double x;
+        memcpy(&x, points + k * sizeof x, sizeof x);
+        all->so_far = mix_double(all->so_far, x);
+    }
+    return true;
+}
+
+static uint64_t mix_plain(uint64_t so_far, const gis_value *value, const gis_plain_field *as)
+{
+    switch (value->kind) {
+    case GIS_TEXT: return mix_text(so_far, value->as.text, as->width);
+    case GIS_INTEGER: return mix(so_far, (uint64_t)value->as.integer);
+    case GIS_REAL: return isnan(value->as.real) ? mix(so_far, NO_VALUE) : mix_double(so_far, value->as.real);
+    default: return mix(so_far, NO_VALUE);
+    }
+}
+
+/* As digest(). */
+bool gis_digests_add_plain(gis_digests *all, GIntBig fid, const unsigned char *geometry, const gis_value *values,
+                           gis_error *error)
+{
+    if (!all->wanted) return true;
+    mixing place = {all->with_fid ? mix(START, (uint64_t)fid) : START, false};
+    uint64_t so_far = START;
+    for (size_t i = 0; i < all->n_fields; i++)
+        so_far = mix_plain(so_far, &values[all->fields[i].sent], &all->fields[i]);
+    gis_packed_visit(geometry, mix_ring, &place);
+    const gis_digest one = {place.so_far, mix(so_far, place.so_far)};
+    return append(&all->sent, &all->n, &all->capacity, one) || gis_no_memory(error);
 }
 
 void gis_digests_clear(gis_digests *all)

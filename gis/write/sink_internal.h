@@ -7,6 +7,7 @@
  *   sink_schema.c   layers and fields made
  *   sink_losses.c   what the format dropped of them
  *   sink_write.c    features
+ *   sink_rows.c     the same past GDAL, where all is plain
  *   sink_digest.c   what reads back beside what was sent, in formats that keep every value
  *   sink_compare.c  the same where coordinates or rings may change
  *   sink_rewrite.c  a layer written again, with more digits
@@ -57,6 +58,22 @@ typedef struct gis_digests {
     size_t room;
 } gis_digests;
 
+/* Rows past GDAL (sink_rows.c). A zeroed struct has not looked whether there can be any. */
+typedef struct gis_sink_rows {
+    bool closed;  /* there are none, or no more */
+    bool offered; /* the last row is put together, whoever writes it */
+    void *database, *statement;
+    unsigned char head[8]; /* of a geometry's blob */
+    unsigned char *blob;
+    size_t size, room;
+    gis_value *value;        /* by field of the layer */
+    OGREnvelope box, around; /* of the last row; of what GDAL wrote */
+    size_t n;                /* rows so written */
+} gis_sink_rows;
+
+/* Was the row written, is it to be written by GDAL, or was there an error? */
+typedef enum gis_row { GIS_ROW_DONE, GIS_ROW_GDAL, GIS_ROW_FAILED } gis_row;
+
 struct gis_sink_layer {
     gis_sink *sink;
     gis_sink_layer_request request; /* its field list is copied */
@@ -74,6 +91,7 @@ struct gis_sink_layer {
     char **created;                 /* names of the layer's fields, by field of the source; "" where not written */
     bool can_measure, can_curve;
     size_t written;
+    gis_sink_rows rows;
     gis_boxes boxes; /* for the spatial index of a GeoPackage */
     bool promised;   /* `verified` speaks of its features */
     gis_digests digests;
@@ -179,9 +197,20 @@ bool gis_sink_fail_reading(const gis_sink_layer *layer, size_t after, const char
 void gis_digests_begin(gis_sink_layer *layer);
 /* Notes a feature that was written, with the FID that it was to get: GDAL forgets a FID of 0. */
 bool gis_digests_add(gis_digests *all, OGRFeatureH feature, GIntBig fid, gis_error *error);
+/* The same of a Polygon or MultiPolygon in the plane, as well-known binary, and of values by field of the layer. */
+bool gis_digests_add_plain(gis_digests *all, GIntBig fid, const unsigned char *geometry, const gis_value *values,
+                           gis_error *error);
 /* Reads every feature of the written layer, and fails unless all are as they were sent. */
 bool gis_digests_agree(gis_sink_layer *layer, OGRLayerH as_written, gis_error *error);
 void gis_digests_clear(gis_digests *all);
+
+/* Writes feature i of the source, moved, if that can be done past GDAL. */
+gis_row gis_sink_row(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values, gis_error *error);
+/* GDAL wrote the last one. */
+void gis_sink_row_by_gdal(gis_sink_layer *layer, GIntBig fid);
+/* All are written; to be called before GDAL notes how many. */
+bool gis_sink_rows_end(gis_sink_layer *layer, gis_error *error);
+void gis_sink_rows_clear(gis_sink_layer *layer);
 
 void gis_sink_forget_sent(gis_sink_layer *layer);
 /* For layers that can be written again: keeps the values of the feature that was remembered last. */

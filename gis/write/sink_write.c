@@ -165,7 +165,10 @@ bool gis_sink_write_source(gis_sink_layer *layer, size_t i, double dx, double dy
 {
     const gis_source *source = layer->sink->source;
     if (layer->keep_sent) return gis_sink_write_moved(layer, gis_source_feature(source, i), dx, dy, values, error);
-    OGRFeatureH to = gis_go_on(error) ? OGR_F_Create(OGR_L_GetLayerDefn(layer->layer)) : NULL;
+    if (!gis_go_on(error)) return false;
+    const gis_row row = gis_sink_row(layer, i, dx, dy, values, error);
+    if (row != GIS_ROW_GDAL) return row == GIS_ROW_DONE;
+    OGRFeatureH to = OGR_F_Create(OGR_L_GetLayerDefn(layer->layer));
     if (!to) return gis_no_memory(error);
     const GIntBig from = gis_source_fid(source, i);
     bool done = gis_source_put(source, i, layer->field_map, dx, dy, to, error);
@@ -173,5 +176,6 @@ bool gis_sink_write_source(gis_sink_layer *layer, size_t i, double dx, double dy
     if (done) set_values(layer, to, values);
     done = done && send(layer, to, &from, error);
     OGR_F_Destroy(to);
+    if (done) gis_sink_row_by_gdal(layer, from);
     return done;
 }

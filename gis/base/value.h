@@ -1,0 +1,17 @@
+/* value.h: the value of a field. */
+#ifndef GIS_VALUE_H
+#define GIS_VALUE_H
+
+#include <cpl_port.h>
+
+/* Of a field of the program's own, or of a plain one of the source. */
+typedef struct gis_value {
+    enum { GIS_NULL, GIS_INTEGER, GIS_REAL, GIS_TEXT } kind;
+    union {
+        GIntBig integer;
+        double real;
+        const char *text; /* UTF-8, borrowed */
+    } as;
+} gis_value;
+
+#endif

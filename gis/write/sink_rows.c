@@ -1,0 +1,286 @@
+/* sink_rows.c: rows of a GeoPackage's main layer past GDAL, where all is plain.
+ *
+ * GDAL makes a feature, its geometry, its blob and its binding for each row. Where the source's records (read/packed.h)
+ * hold the geometry as the blob wants it and the values as the columns do, the row is put together from the record.
+ * What GDAL keeps of a layer besides its rows stays GDAL's: features that widen the extent go through it, and the count
+ * of features, which it would write too low, is put right as it writes it. The first feature is GDAL's, too: its blob
+ * says how GDAL begins one, and unless the rest of it is byte for byte what would be put together here, nothing is. */
+#include "write/sink_internal.h"
+
+#include "base/array.h"
+#include "read/packed.h"
+#include "sqlite/insert.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A blob (GeoPackage, "GeoPackageBinary"): "GP", version, flags, SRS; the box; well-known binary. */
+enum { HEAD = 8, BOX = 4 * sizeof(double), FLAGS = 3, LITTLE_ENDIAN_WITH_BOX = 3 };
+
+/* ---- Is all plain? ----------------------------------------------------------------------------------------------- */
+
+static bool fields_are_plain(const gis_sink_layer *layer)
+{
+    OGRFeatureDefnH to = OGR_L_GetLayerDefn(layer->layer);
+    OGRFeatureDefnH from = OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source));
+    const int n = OGR_FD_GetFieldCount(to);
+    if (layer->digests.n_fields != (size_t)n) return false; /* all of plain types, without defaults */
+    for (int i = 0; i < n; i++)
+        if (EQUAL(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(to, i)), OGR_L_GetFIDColumn(layer->layer))) return false;
+    for (int i = 0; i < OGR_FD_GetFieldCount(from); i++)
+        if (layer->field_map[i] >= 0 && OGR_Fld_GetType(OGR_FD_GetFieldDefn(from, i)) !=
+                                            OGR_Fld_GetType(OGR_FD_GetFieldDefn(to, layer->field_map[i])))
+            return false;
+    for (size_t i = 0; i < layer->request.n_fields; i++)
+        if (layer->own[i] < 0 ||
+            OGR_Fld_GetType(OGR_FD_GetFieldDefn(to, layer->own[i])) != layer->request.fields[i].type)
+            return false;
+    return true;
+}
+
+/* An option may be of what GDAL does to each row. */
+static bool layer_is_plain(const gis_sink_layer *layer)
+{
+    const gis_sink *sink = layer->sink;
+    const OGRwkbGeometryType type = OGR_L_GetGeomType(layer->layer);
+    return sink->format.geopackage && sink->place == GIS_PLACE_FILE && !sink->updating && sink->fids_kept &&
+           !CSLCount((CSLConstList)sink->request.layer_options) &&
+           !CSLCount((CSLConstList)sink->request.dataset_options) && layer->request.like_source &&
+           layer->request.as_source && !layer->promote && !layer->wind && layer->boxes.trigger &&
+           (type == wkbUnknown || type == wkbPolygon || type == wkbMultiPolygon) && fields_are_plain(layer);
+}
+
+typedef struct looking {
+    OGREnvelope box;
+    bool plain;
+} looking;
+
+/* -0 and 0 are one number and two texts of bits: which of them a box has is GDAL's choice. */
+static bool look(void *user, const unsigned char *points, size_t n, bool last)
+{
+    looking *seen = user;
+    (void)last;
+    for (size_t k = 0; k < n; k++) {
+        double xy[2];
+        memcpy(xy, points + k * sizeof xy, sizeof xy);
+        if (!isfinite(xy[0]) || !isfinite(xy[1]) || xy[0] == 0 || xy[1] == 0) return seen->plain = false;
+        seen->box.MinX = fmin(seen->box.MinX, xy[0]);
+        seen->box.MaxX = fmax(seen->box.MaxX, xy[0]);
+        seen->box.MinY = fmin(seen->box.MinY, xy[1]);
+        seen->box.MaxY = fmax(seen->box.MaxY, xy[1]);
+    }
+    return true;
+}
+
+/* A text with a width is one that GDAL counts the signs of. */
+static bool value_is_plain(const gis_value *value, const gis_plain_field *field)
+{
+    if (value->kind != GIS_TEXT || field->width <= 0) return true;
+    size_t n = 0;
+    for (const char *at = value->as.text; *at; at++, n++)
+        if ((signed char)*at <= 0 || n == (size_t)field->width) return false;
+    return true;
+}
+
+/* ---- Beginning --------------------------------------------------------------------------------------------------- */
+
+static char *append(char *to, const char *more)
+{
+    char *both = CPLMalloc(strlen(to) + strlen(more) + 1);
+    strcpy(both, to);
+    strcat(both, more);
+    CPLFree(to);
+    return both;
+}
+
+/* In quotes, with its own doubled. */
+static char *append_name(char *to, const char *name)
+{
+    char *quoted = CPLMalloc(2 * strlen(name) + 3), *at = quoted;
+    *at++ = '"';
+    for (; *name; name++) {
+        if (*name == '"') *at++ = '"';
+        *at++ = *name;
+    }
+    strcpy(at, "\"");
+    to = append(to, quoted);
+    CPLFree(quoted);
+    return to;
+}
+
+static char *insert_statement(const gis_sink_layer *layer)
+{
+    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer->layer);
+    const int n = OGR_FD_GetFieldCount(definition);
+    char *sql = append_name(CPLStrdup("INSERT INTO "), OGR_L_GetName(layer->layer));
+    sql = append_name(append(sql, " ("), OGR_L_GetFIDColumn(layer->layer));
+    sql = append_name(append(sql, ", "), OGR_L_GetGeometryColumn(layer->layer));
+    for (int i = 0; i < n; i++)
+        sql = append_name(append(sql, ", "), OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i)));
+    sql = append(sql, ") VALUES (?, ?");
+    for (int i = 0; i < n; i++) sql = append(sql, ", ?");
+    return append(sql, ")");
+}
+
+/* The blob of a feature, unless a trigger waits for rows (GDAL takes those of the index and of the count away), or
+ * there is no count. */
+static char *blob_statement(const gis_sink_layer *layer, GIntBig fid)
+{
+    char *name = CPLEscapeString(OGR_L_GetName(layer->layer), -1, CPLES_SQL);
+    char *sql = append_name(CPLStrdup("SELECT "), OGR_L_GetGeometryColumn(layer->layer));
+    sql = append_name(append(sql, " FROM "), OGR_L_GetName(layer->layer));
+    sql = append_name(append(sql, " WHERE "), OGR_L_GetFIDColumn(layer->layer));
+    char *rest = CPLStrdup(CPLSPrintf(" = %" PRId64 " AND NOT EXISTS (SELECT 1 FROM sqlite_master WHERE type = "
+                                      "'trigger' AND lower(tbl_name) = lower('%s') AND sql LIKE '%%INSERT ON%%') AND "
+                                      "EXISTS (SELECT 1 FROM sqlite_master WHERE name = 'gpkg_ogr_contents')",
+                                      (int64_t)fid, name));
+    sql = append(sql, rest);
+    CPLFree(rest);
+    CPLFree(name);
+    return sql;
+}
+
+/* The feature was written by GDAL: is its blob what would be put together here? */
+static bool begin(gis_sink_layer *layer, GIntBig fid)
+{
+    gis_sink_rows *rows = &layer->rows;
+    rows->database = GDALGetInternalHandle(layer->dataset, "SQLITE_HANDLE");
+    char *ask = blob_statement(layer, fid), *insert = insert_statement(layer);
+    unsigned char *blob = rows->blob;
+    if (rows->database && gis_sqlite_says(rows->database, ask, blob, HEAD, blob + HEAD, rows->size - HEAD) &&
+        memcmp(blob, "GP", 2) == 0 && blob[FLAGS] == LITTLE_ENDIAN_WITH_BOX) {
+        memcpy(rows->head, blob, HEAD);
+        rows->statement = gis_sqlite_insert_begin(rows->database, insert);
+    }
+    CPLFree(ask);
+    CPLFree(insert);
+    return rows->statement != NULL;
+}
+
+void gis_sink_rows_clear(gis_sink_layer *layer)
+{
+    gis_sink_rows *rows = &layer->rows;
+    gis_sqlite_insert_end(rows->statement);
+    free(rows->blob);
+    CPLFree(rows->value);
+    *rows = (gis_sink_rows){.closed = true, .n = rows->n};
+}
+
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
+
+static bool put_blob(gis_sink_rows *rows, const OGREnvelope *box, const unsigned char *wkb, size_t bytes)
+{
+    const double sides[] = {box->MinX, box->MaxX, box->MinY, box->MaxY};
+    rows->size = HEAD + BOX + bytes;
+    if (!gis_array_reserve(&rows->blob, &rows->room, rows->size, 1)) return false;
+    memcpy(rows->blob, rows->head, HEAD);
+    memcpy(rows->blob + HEAD, sides, BOX);
+    memcpy(rows->blob + HEAD + BOX, wkb, bytes);
+    return true;
+}
+
+/* Puts the row together, unless it is not plain. */
+static gis_row compose(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values, OGREnvelope *box,
+                       gis_error *error)
+{
+    gis_sink_rows *rows = &layer->rows;
+    size_t bytes;
+    looking seen = {{INFINITY, -INFINITY, INFINITY, -INFINITY}, true};
+    const unsigned char *wkb;
+    if (!gis_source_plain(layer->sink->source, i, dx, dy, layer->field_map, rows->value, &wkb, &bytes))
+        return GIS_ROW_GDAL;
+    if (!wkb) return gis_no_memory(error), GIS_ROW_FAILED;
+    gis_packed_visit(wkb, look, &seen);
+    uint32_t type;
+    memcpy(&type, wkb + 1, sizeof type);
+    const OGRwkbGeometryType declared = OGR_L_GetGeomType(layer->layer);
+    if (!seen.plain || gis_source_fid(layer->sink->source, i) <= 0 || bytes > INT32_MAX / 2 ||
+        (declared != wkbUnknown && (uint32_t)declared != type))
+        return GIS_ROW_GDAL;
+    for (size_t k = 0; k < layer->request.n_fields; k++) rows->value[layer->own[k]] = values[k];
+    for (size_t k = 0; k < layer->digests.n_fields; k++)
+        if (!value_is_plain(&rows->value[k], &layer->digests.fields[k])) return GIS_ROW_GDAL;
+    *box = seen.box;
+    return put_blob(rows, box, wkb, bytes) ? GIS_ROW_DONE : (gis_no_memory(error), GIS_ROW_FAILED);
+}
+
+static bool holds(const OGREnvelope *around, const OGREnvelope *box)
+{
+    return around->MinX <= box->MinX && box->MaxX <= around->MaxX && around->MinY <= box->MinY &&
+           box->MaxY <= around->MaxY;
+}
+
+static bool insert(gis_sink_layer *layer, GIntBig fid, const OGREnvelope *box, gis_error *error)
+{
+    gis_sink_rows *rows = &layer->rows;
+    const char *reason;
+    if (!gis_sqlite_insert(rows->database, rows->statement, fid, rows->blob, rows->size, rows->value,
+                           (int)layer->digests.n_fields, &reason))
+        return gis_fail(error, "%s, layer %s: FID %" PRId64 " cannot be written: %s", layer->sink->request.path,
+                        layer->name, (int64_t)fid, reason);
+    layer->written++;
+    rows->n++;
+    return gis_rtree_add_box(&layer->boxes, fid, box, error) &&
+           gis_digests_add_plain(&layer->digests, fid, rows->blob + HEAD + BOX, rows->value, error);
+}
+
+gis_row gis_sink_row(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values, gis_error *error)
+{
+    gis_sink_rows *rows = &layer->rows;
+    if (rows->closed) return GIS_ROW_GDAL;
+    if (!rows->value) {
+        if (!layer_is_plain(layer)) return rows->closed = true, GIS_ROW_GDAL;
+        rows->value = CPLCalloc(layer->digests.n_fields + 1, sizeof *rows->value);
+        rows->around = (OGREnvelope){INFINITY, -INFINITY, INFINITY, -INFINITY};
+    }
+    OGREnvelope box = {0};
+    const gis_row row = compose(layer, i, dx, dy, values, &box, error);
+    rows->offered = row == GIS_ROW_DONE;
+    rows->box = box;
+    if (row != GIS_ROW_DONE || !rows->statement || !holds(&rows->around, &box))
+        return row == GIS_ROW_FAILED ? row : GIS_ROW_GDAL;
+    return insert(layer, gis_source_fid(layer->sink->source, i), &box, error) ? GIS_ROW_DONE : GIS_ROW_FAILED;
+}
+
+void gis_sink_row_by_gdal(gis_sink_layer *layer, GIntBig fid)
+{
+    gis_sink_rows *rows = &layer->rows;
+    if (rows->closed || !rows->offered) return;
+    if (!rows->statement && !begin(layer, fid)) {
+        gis_sink_rows_clear(layer);
+        return;
+    }
+    rows->around.MinX = fmin(rows->around.MinX, rows->box.MinX);
+    rows->around.MaxX = fmax(rows->around.MaxX, rows->box.MaxX);
+    rows->around.MinY = fmin(rows->around.MinY, rows->box.MinY);
+    rows->around.MaxY = fmax(rows->around.MaxY, rows->box.MaxY);
+}
+
+/* ---- The count --------------------------------------------------------------------------------------------------- */
+
+/* GDAL writes how many features it wrote, at a time of its own: as it does, the number becomes the right one. A
+ * trigger of the connection's own is not in the file. */
+bool gis_sink_rows_end(gis_sink_layer *layer, gis_error *error)
+{
+    gis_sink_rows *rows = &layer->rows;
+    bool done = true;
+    if (!rows->closed && rows->n) {
+        char *name = CPLEscapeString(OGR_L_GetName(layer->layer), -1, CPLES_SQL);
+        char *sql = CPLStrdup(CPLSPrintf(
+            "CREATE TEMP TRIGGER sunder_count BEFORE UPDATE OF feature_count ON main.gpkg_ogr_contents WHEN "
+            "lower(new.table_name) = lower('%s') AND new.feature_count IS NOT %zu BEGIN UPDATE gpkg_ogr_contents SET "
+            "feature_count = %zu WHERE lower(table_name) = lower('%s'); SELECT RAISE(IGNORE); END",
+            name, layer->written, layer->written, name));
+        done = gis_sqlite_run(rows->database, sql) ||
+               gis_fail(error, "%s, layer %s: the count of its features cannot be written", layer->sink->request.path,
+                        layer->name);
+        CPLFree(sql);
+        CPLFree(name);
+    }
+    gis_sink_rows_clear(layer);
+    return done;
+}
