@@ -107,6 +107,7 @@ typedef struct sunder_i_branching {
     size_t forces, force_capacity;
     sunder_i_way *scratch;
     size_t scratch_capacity;
+    struct sunder_i_ways_kept *kept; /* NULL, or ways that were asked for (ways_kept.c) */
     sunder_i_list near;
     bool closely; /* lines are made for the candidate (ways.h) */
     /* Two walls, opposite to each other, or none: the first branches. The body between them, and whether it is. */
@@ -189,6 +190,12 @@ size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_vio
 size_t sunder_i_branching_fill_ways(sunder_i_branching *branching, const sunder_i_body *p, const sunder_i_body_piece *a,
                                     const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
                                     const double *at);
+/* The same without a place, kept for who asks again: *n of them, to be read before anything else is asked. */
+const sunder_i_way *sunder_i_branching_keep_ways(sunder_i_branching *branching, const sunder_i_body *p,
+                                                 const sunder_i_body_piece *a, const sunder_i_body *q,
+                                                 const sunder_i_body_piece *b, double clearance, bool shadow,
+                                                 size_t *n);
+void sunder_i_branching_forget_ways(sunder_i_branching *branching);
 /* How far a relative move is from the first of the ways in branching->scratch; -INFINITY: there are none. */
 double sunder_i_branching_depth(const sunder_i_branching *branching, size_t ways, const double u[2]);
 /* The ways out of one, nearest to the candidate first: into branching->scratch. Returns how many. */

@@ -29,6 +29,7 @@ static void clear(sunder_i_branching *c)
     sunder_i_free(c->way);
     sunder_i_free(c->force);
     sunder_i_free(c->scratch);
+    sunder_i_branching_forget_ways(c);
     sunder_i_free(c->near.item);
 }
 

@@ -24,6 +24,11 @@
 #define DISC_SIDES 16
 #define MOST_CORNERS 96
 
+/* ---- Ways that are kept (ways_kept.c) ---------------------------------------------------------------------------- */
+
+/* Of two to the power of this many pairs of pieces: a question of a dozen houses between roads meets some hundred. */
+#define WAYS_KEPT_BITS 10
+
 /* ---- Between two lines (corridor.c) ------------------------------------------------------------------------------ */
 
 /* Parts of more corners are passed by. */

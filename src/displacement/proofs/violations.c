@@ -55,6 +55,26 @@ double sunder_i_branching_depth(const sunder_i_branching *c, size_t ways, const 
     return ways ? -at : -INFINITY;
 }
 
+/* How deep the pieces of two bodies are in each other at the relative move u, or an anchor in a shadow. */
+static double find_depth(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
+                         const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
+                         const double u[2])
+{
+    size_t n;
+    const sunder_i_way *way = sunder_i_branching_keep_ways(c, p, a, q, b, clearance, shadow, &n);
+    double at = -INFINITY;
+    for (size_t k = 0; k < n; k++) at = fmax(at, way[k].n[0] * u[0] + way[k].n[1] * u[1] - way[k].d);
+    return n ? -at : -INFINITY;
+}
+
+/* The same by ways that are made for u. */
+static double find_depth_closely(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
+                                 const sunder_i_body *q, const sunder_i_body_piece *b, double clearance,
+                                 const double u[2])
+{
+    return sunder_i_branching_depth(c, sunder_i_branching_fill_ways(c, p, a, q, b, clearance, false, u), u);
+}
+
 /* A body, and where it stands. */
 typedef struct standing {
     uint32_t number;
@@ -100,8 +120,8 @@ static void look_at(sunder_i_branching *c, const standing *s, const standing *r,
             if (!sunder_i_box_meet(box, b->box)) continue;
             if (!sunder_i_branching_owe(c, a->feature, b->feature, &clearance)) continue;
             if (has_slack(c, p, q, clearance)) continue;
-            const double depth = sunder_i_branching_depth(
-                c, sunder_i_branching_fill_ways(c, p, a, q, b, clearance, false, c->closely ? u : NULL), u);
+            const double depth = c->closely ? find_depth_closely(c, p, a, q, b, clearance, u)
+                                            : find_depth(c, p, a, q, b, clearance, false, u);
             if (depth > worst->depth)
                 *worst = (sunder_i_violation){s->number, r->number, a,     b,          clearance, depth,
                                               NULL,      false,     false, c->closely, false};
@@ -115,8 +135,7 @@ static void look_at_shadow(sunder_i_branching *c, const standing *s, const stand
                            sunder_i_violation *worst)
 {
     const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
-    const double depth =
-        sunder_i_branching_depth(c, sunder_i_branching_fill_ways(c, s->body, a, r->body, b, 0, true, NULL), u);
+    const double depth = find_depth(c, s->body, a, r->body, b, 0, true, u);
     if (depth > worst->depth)
         *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, NULL, true, false, false, false};
 }
@@ -146,8 +165,7 @@ static void look_at_part(sunder_i_branching *c, const standing *s, uint32_t f, u
         for (uint32_t l = q->piece; l < q->piece + q->pieces; l++) {
             const sunder_i_body_piece *b = &model->piece[l];
             if (!sunder_i_box_meet(box, b->box)) continue;
-            const double depth =
-                sunder_i_branching_depth(c, sunder_i_branching_fill_ways(c, p, a, q, b, 0, false, NULL), u);
+            const double depth = find_depth(c, p, a, q, b, 0, false, u);
             if (depth > worst->depth)
                 *worst = (sunder_i_violation){.p = s->number,
                                               .q = model->body_of[part],
@@ -337,13 +355,28 @@ static int by_nearness(const void *a, const void *b)
     return p->n[0] != q->n[0] ? (p->n[0] < q->n[0] ? 1 : -1) : (p->n[1] < q->n[1]) - (p->n[1] > q->n[1]);
 }
 
+/* What is kept, into c->scratch. */
+static size_t take_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
+                        const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow)
+{
+    size_t n;
+    const sunder_i_way *way = sunder_i_branching_keep_ways(c, p, a, q, b, clearance, shadow, &n);
+    if (n && !sunder_i_reserve(&c->scratch, &c->scratch_capacity, n, sizeof *c->scratch)) c->failed = true;
+    if (n && !c->failed) memcpy(c->scratch, way, n * sizeof *way);
+    return c->failed ? 0 : n;
+}
+
 size_t sunder_i_branching_ways(sunder_i_branching *c, const sunder_i_violation *o)
 {
     const standing s = stand(c, o->p), r = stand(c, o->q);
     double u[2] = {r.t[0] - s.t[0], r.t[1] - s.t[1]};
     if (o->slack) move_of_slack(c, o->slack, s.t, u);
-    const size_t n = sunder_i_branching_fill_ways(c, s.body, o->a, r.body, o->b, o->slack ? 0 : o->clearance, o->shadow,
-                                                  o->closely ? u : NULL);
+    const double clearance = o->slack ? 0 : o->clearance;
+    size_t n;
+    if (o->closely)
+        n = sunder_i_branching_fill_ways(c, s.body, o->a, r.body, o->b, clearance, o->shadow, u);
+    else
+        n = take_ways(c, s.body, o->a, r.body, o->b, clearance, o->shadow);
     sunder_i_branching_depth(c, n, u);
     if (n) qsort(c->scratch, n, sizeof *c->scratch, by_nearness);
     return n;
