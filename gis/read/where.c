@@ -25,9 +25,12 @@ static void explain_sizes(GDALDatasetH dataset, OGRLayerH layer, const char *whe
 {
     const char *column = OGR_L_GetGeometryColumn(layer);
     bool own = has_own_sql(dataset);
+    if (!column || !column[0]) column = "geom";
     if (own && strcasestr(where, "OGR_GEOM"))
         snprintf(text, size, "; %s is asked in its own SQL, where the area is ST_Area(\"%s\")",
-                 GDALGetDriverShortName(GDALGetDatasetDriver(dataset)), column && column[0] ? column : "geom");
+                 GDALGetDriverShortName(GDALGetDatasetDriver(dataset)), column);
+    else if (own && strcasestr(where, "ST_"))
+        snprintf(text, size, "; its geometry is \"%s\"", column);
     else if (!own && strcasestr(where, "ST_"))
         snprintf(text, size, "; this format is asked in the SQL of OGR, where the area is OGR_GEOM_AREA");
 }
