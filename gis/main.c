@@ -10,10 +10,12 @@
 #include <cpl_error.h>
 #include <cpl_string.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <gdal.h>
 #include <ogr_api.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 const gis_command gis_commands[] = {
     {GIS_SEPARATE, "separate", "INPUT OUTPUT", 2, 2, "Moves features apart by the least amount",
@@ -143,8 +145,17 @@ static int no_command(void)
     return gis_say_failure(&error);
 }
 
+/* A standard stream that is closed leaves its number to the next file that is opened, and what is said would go into
+ * that, a log or an output. What is opened in its place refuses, as a closed one does. */
+static void hold_standard_streams(void)
+{
+    for (int number = STDIN_FILENO; number <= STDERR_FILENO; number++)
+        if (fcntl(number, F_GETFD) < 0) (void)!open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 int main(int argc, char **argv)
 {
+    hold_standard_streams();
     gis_error none;
     CPLSetErrorHandler(hear_gdal);
     gis_messages_begin(&(gis_messages_request){.json = wants_json(argc, argv)}, &none);

@@ -72,6 +72,13 @@ if [ -w /dev/full ]; then
     expect 1 check in.gpkg --log /dev/full -q
     says err '--log: cannot write /dev/full'
 fi
+# What is said to a closed stream goes nowhere, least of all into a file that took its number.
+status=0
+"$SUNDER" check in.gpkg --log closed.log >&- 2>&- || status=$?
+same "$status $(grep -c '^sunder: ' closed.log) $(wc -l <closed.log)" '1 26 26' 'a log beside closed streams:'
+status=0
+"$SUNDER" separate in.gpkg closed.geojson --of GeoJSON --log closed.log -q <&- >&- 2>&- || status=$?
+[ $status -eq 0 ] && ogrinfo -q -al -so closed.geojson >said 2>&1 || fail "an output beside closed streams: $status"
 expect 0 check in.gpkg --log /dev/stdout -q
 same "$(wc -l <out)" 25 'a log on standard output:'
 
