@@ -163,14 +163,15 @@ CSV
 for operation in dilate erode open close; do
     expect 0 buffer turned.gpkg $operation.json --lco COORDINATE_PRECISION=9 --operation $operation --shape square:2 --align -q
 done
-ring() { jq -c ".features[$2].geometry.coordinates[0]" "$1"; }
+# Newer jq keeps the spelling of a number, 1.0, until it is reckoned with.
+ring() { jq -c ".features[$2].geometry.coordinates[0] | map(map(. + 0))" "$1"; }
 same "$(ring dilate.json 0)" '[[-1,-1],[11,-1],[11,11],[-1,11],[-1,-1]]'
 same "$(ring dilate.json 1)" '[[92.6,8.2],[99.8,-1.4],[109.4,5.8],[102.2,15.4],[92.6,8.2]]'
 same "$(ring erode.json 1)" '[[95.4,7.8],[100.2,1.4],[106.6,6.2],[101.8,12.6],[95.4,7.8]]'
 same "$(ring open.json 1)" '[[94,8],[100,0],[108,6],[102,14],[94,8]]'
 same "$(ring open.json 3)" '[[191,12],[200,0],[216,12],[213,16],[201,7],[195,15],[191,12]]'
 for feature in 0 1 2 3 4; do
-    same "$(ring close.json $feature)" "$(ogr2ogr -f GeoJSON /vsistdout/ turned.gpkg -lco COORDINATE_PRECISION=9 | jq -c "[.features[$feature].geometry.coordinates[0] | (min as \$m | index([\$m])) as \$i | (.[\$i:-1] + .[:\$i])[] ] | . + [.[0]]")"
+    same "$(ring close.json $feature)" "$(ogr2ogr -f GeoJSON /vsistdout/ turned.gpkg -lco COORDINATE_PRECISION=9 | jq -c "[.features[$feature].geometry.coordinates[0] | map(map(. + 0)) | (min as \$m | index([\$m])) as \$i | (.[\$i:-1] + .[:\$i])[] ] | . + [.[0]]")"
 done
 # Two houses of one direction, 5 apart, are merged by a square of 5.1 turned to it, and not by one of 4.9.
 expect 0 buffer turned.gpkg merged.json --lco COORDINATE_PRECISION=9 --operation close --shape square:5.1 --align --dissolve -q
