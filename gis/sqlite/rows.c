@@ -1,50 +1,22 @@
-/* rows.c: see rows.h. Types and numbers are those of SQLite's application interface, which does not change. */
+/* rows.c: see rows.h. */
 #include "sqlite/rows.h"
 
-#include "sqlite/find.h"
+#include "sqlite/statement.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { OK = 0, DONE = 101 };
-
-typedef struct calls {
-    const char *(*source_id)(void);
-    int (*prepare)(void *, const char *, int, void **, const char **);
-    int (*bind_number)(void *, int, int64_t);
-    int (*bind_bytes)(void *, int, const void *, int, void (*)(void *));
-    int (*step)(void *);
-    int (*reset)(void *);
-    int (*finalize)(void *);
-    const char *(*error_message)(void *);
-} calls;
-
-/* Looked up once; the program's libraries stay as they are. */
-static const calls *find_all(void)
-{
-    static calls sqlite;
-    static bool looked, found;
-    if (looked) return found ? &sqlite : NULL;
-    looked = true;
-    found = gis_sqlite_find("sqlite3_sourceid", &sqlite.source_id) &&
-            gis_sqlite_find("sqlite3_prepare_v2", &sqlite.prepare) &&
-            gis_sqlite_find("sqlite3_bind_int64", &sqlite.bind_number) &&
-            gis_sqlite_find("sqlite3_bind_blob", &sqlite.bind_bytes) && gis_sqlite_find("sqlite3_step", &sqlite.step) &&
-            gis_sqlite_find("sqlite3_reset", &sqlite.reset) && gis_sqlite_find("sqlite3_finalize", &sqlite.finalize) &&
-            gis_sqlite_find("sqlite3_errmsg", &sqlite.error_message);
-    return found ? &sqlite : NULL;
-}
-
 bool gis_sqlite_is_that_of(const char *source_id)
 {
-    const calls *sqlite = find_all();
+    const gis_sqlite_functions *sqlite = gis_sqlite_statement();
     return sqlite && source_id && strcmp(sqlite->source_id(), source_id) == 0;
 }
 
 static bool fail(const gis_sqlite_rows *rows, gis_error *error)
 {
-    return gis_fail(error, "%s cannot be written: %s", rows->what, find_all()->error_message(rows->database));
+    return gis_fail(error, "%s cannot be written: %s", rows->what,
+                    gis_sqlite_statement()->error_message(rows->database));
 }
 
 /* Rows of one statement: what beginning and ending one costs is a small part of them then. */
@@ -57,9 +29,9 @@ static bool prepare(const gis_sqlite_rows *rows, const char *table, size_t n, vo
     if (!sql) return gis_no_memory(error);
     int length = sprintf(sql, "%s%s%s", head, table, tail);
     for (size_t k = 1; k < n; k++) length += sprintf(sql + length, "%s", row);
-    const int result = find_all()->prepare(rows->database, sql, length + 1, statement, NULL);
+    const int result = gis_sqlite_statement()->prepare(rows->database, sql, length + 1, statement, NULL);
     free(sql);
-    return result == OK || fail(rows, error);
+    return result == GIS_SQLITE_OK || fail(rows, error);
 }
 
 bool gis_sqlite_rows_begin(gis_sqlite_rows *rows, void *database, const char *table, bool many, const char *what,
@@ -72,20 +44,20 @@ bool gis_sqlite_rows_begin(gis_sqlite_rows *rows, void *database, const char *ta
 /* bound: its parameters are. */
 static bool insert(const gis_sqlite_rows *rows, void *statement, bool bound, gis_error *error)
 {
-    const calls *sqlite = find_all();
-    const bool done = bound && sqlite->step(statement) == DONE;
-    return (sqlite->reset(statement) == OK && done) || fail(rows, error);
+    const gis_sqlite_functions *sqlite = gis_sqlite_statement();
+    const bool done = bound && sqlite->step(statement) == GIS_SQLITE_DONE;
+    return (sqlite->reset(statement) == GIS_SQLITE_OK && done) || fail(rows, error);
 }
 
 bool gis_sqlite_rows_add(gis_sqlite_rows *rows, const int64_t (*row)[2], size_t n, gis_error *error)
 {
-    const calls *sqlite = find_all();
+    const gis_sqlite_functions *sqlite = gis_sqlite_statement();
     for (size_t done = 0; done < n;) {
         const size_t now = rows->many && n - done >= AT_ONCE ? AT_ONCE : 1;
         void *statement = now > 1 ? rows->many : rows->one;
         bool bound = true;
         for (size_t k = 0; k < 2 * now && bound; k++)
-            bound = sqlite->bind_number(statement, (int)k + 1, row[done + k / 2][k % 2]) == OK;
+            bound = sqlite->bind_number(statement, (int)k + 1, row[done + k / 2][k % 2]) == GIS_SQLITE_OK;
         if (!insert(rows, statement, bound, error)) return false;
         done += now;
     }
@@ -94,16 +66,16 @@ bool gis_sqlite_rows_add(gis_sqlite_rows *rows, const int64_t (*row)[2], size_t 
 
 bool gis_sqlite_rows_add_bytes(gis_sqlite_rows *rows, int64_t key, const void *bytes, size_t n, gis_error *error)
 {
-    const calls *sqlite = find_all();
+    const gis_sqlite_functions *sqlite = gis_sqlite_statement();
     return insert(rows, rows->one,
-                  sqlite->bind_number(rows->one, 1, key) == OK &&
-                      sqlite->bind_bytes(rows->one, 2, bytes, (int)n, NULL) == OK,
+                  sqlite->bind_number(rows->one, 1, key) == GIS_SQLITE_OK &&
+                      sqlite->bind_bytes(rows->one, 2, bytes, (int)n, NULL) == GIS_SQLITE_OK,
                   error);
 }
 
 void gis_sqlite_rows_end(gis_sqlite_rows *rows)
 {
-    if (rows->one) find_all()->finalize(rows->one);
-    if (rows->many) find_all()->finalize(rows->many);
+    if (rows->one) gis_sqlite_statement()->finalize(rows->one);
+    if (rows->many) gis_sqlite_statement()->finalize(rows->many);
     *rows = (gis_sqlite_rows){0};
 }

@@ -1,0 +1,30 @@
+/* statement.h: what statements are made, filled and run with, as SQLite has it in this program. Types and numbers are
+ * those of SQLite's application interface, which does not change. */
+#ifndef GIS_SQLITE_STATEMENT_H
+#define GIS_SQLITE_STATEMENT_H
+
+#include <stdint.h>
+
+enum { GIS_SQLITE_OK = 0, GIS_SQLITE_ROW = 100, GIS_SQLITE_DONE = 101 };
+
+typedef struct gis_sqlite_functions {
+    const char *(*source_id)(void);
+    int (*prepare)(void *, const char *, int, void **, const char **);
+    int (*bind_null)(void *, int);
+    int (*bind_number)(void *, int, int64_t);
+    int (*bind_real)(void *, int, double);
+    int (*bind_text)(void *, int, const char *, int, void (*)(void *));
+    int (*bind_bytes)(void *, int, const void *, int, void (*)(void *));
+    int (*step)(void *);
+    int (*reset)(void *);
+    int (*finalize)(void *);
+    const void *(*column_bytes)(void *, int);
+    int (*column_size)(void *, int);
+    int (*run)(void *, const char *, int (*)(void *, int, char **, char **), void *, char **);
+    const char *(*error_message)(void *);
+} gis_sqlite_functions;
+
+/* Looked up once; the program's libraries stay as they are. NULL: one is missing. */
+const gis_sqlite_functions *gis_sqlite_statement(void);
+
+#endif
