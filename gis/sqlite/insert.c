@@ -8,15 +8,15 @@
 void *gis_sqlite_insert_begin(void *database, const char *sql)
 {
     void *statement = NULL;
-    return gis_sqlite_statement() &&
-                   gis_sqlite_statement()->prepare(database, sql, -1, &statement, NULL) == GIS_SQLITE_OK
+    return gis_sqlite_find_functions() &&
+                   gis_sqlite_find_functions()->prepare(database, sql, -1, &statement, NULL) == GIS_SQLITE_OK
                ? statement
                : NULL;
 }
 
 static bool bind(void *statement, int at, const gis_value *value)
 {
-    const gis_sqlite_functions *sqlite = gis_sqlite_statement();
+    const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
     switch (value->kind) {
     case GIS_INTEGER: return sqlite->bind_number(statement, at, value->as.integer) == GIS_SQLITE_OK;
     case GIS_REAL: return sqlite->bind_real(statement, at, value->as.real) == GIS_SQLITE_OK;
@@ -28,7 +28,7 @@ static bool bind(void *statement, int at, const gis_value *value)
 bool gis_sqlite_insert(void *database, void *statement, int64_t key, const void *bytes, size_t size,
                        const gis_value *values, int n, const char **reason)
 {
-    const gis_sqlite_functions *sqlite = gis_sqlite_statement();
+    const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
     bool done = sqlite->bind_number(statement, 1, key) == GIS_SQLITE_OK &&
                 sqlite->bind_bytes(statement, 2, bytes, (int)size, NULL) == GIS_SQLITE_OK;
     for (int i = 0; done && i < n; i++) done = bind(statement, i + 3, &values[i]);
@@ -40,12 +40,12 @@ bool gis_sqlite_insert(void *database, void *statement, int64_t key, const void 
 
 void gis_sqlite_insert_end(void *statement)
 {
-    if (statement) gis_sqlite_statement()->finalize(statement);
+    if (statement) gis_sqlite_find_functions()->finalize(statement);
 }
 
 bool gis_sqlite_says(void *database, const char *sql, void *head, size_t from, const void *bytes, size_t size)
 {
-    const gis_sqlite_functions *sqlite = gis_sqlite_statement();
+    const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
     void *statement = gis_sqlite_insert_begin(database, sql);
     if (!statement) return false;
     bool same = sqlite->step(statement) == GIS_SQLITE_ROW;
@@ -58,5 +58,6 @@ bool gis_sqlite_says(void *database, const char *sql, void *head, size_t from, c
 
 bool gis_sqlite_run(void *database, const char *sql)
 {
-    return gis_sqlite_statement() && gis_sqlite_statement()->run(database, sql, NULL, NULL, NULL) == GIS_SQLITE_OK;
+    return gis_sqlite_find_functions() &&
+           gis_sqlite_find_functions()->run(database, sql, NULL, NULL, NULL) == GIS_SQLITE_OK;
 }

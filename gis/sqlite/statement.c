@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-const gis_sqlite_functions *gis_sqlite_statement(void)
+const gis_sqlite_functions *gis_sqlite_find_functions(void)
 {
     static gis_sqlite_functions f;
     static bool looked, found;

@@ -25,6 +25,6 @@ typedef struct gis_sqlite_functions {
 } gis_sqlite_functions;
 
 /* Looked up once; the program's libraries stay as they are. NULL: one is missing. */
-const gis_sqlite_functions *gis_sqlite_statement(void);
+const gis_sqlite_functions *gis_sqlite_find_functions(void);
 
 #endif

@@ -1,7 +1,7 @@
 /* displacement/search/cheapest: a solution is said to be the cheapest only where no other start leads to a cheaper one,
  * and mostly where it is; where it is not said nothing is changed. */
 #include "random.h"
-#include "scene_model.h"
+#include "scene_board.h"
 
 #include "displacement/search/stages.h"
 
@@ -20,31 +20,7 @@ enum { MOST = 5, STARTS = 60 };
 
 static const double margin = 0x1p-40;
 
-/* Features, each a body by itself, in their own order. */
-typedef struct board {
-    scene scene;
-    scene_model of;
-    uint32_t body[MOST];
-    double move[2 * MOST];
-} board;
-
-static void set_up(board *b)
-{
-    b->scene.options.no_blocks = b->scene.options.allow_jumps = true;
-    b->scene.options.effort = 0;
-    scene_model_begin(&b->of, &b->scene);
-    assert_int_equal(b->of.model.bodies, b->scene.n);
-    for (uint32_t k = 0; k < b->scene.n; k++) b->body[k] = k;
-    memset(b->move, 0, sizeof b->move);
-}
-
-static void end(board *b)
-{
-    scene_model_end(&b->of);
-    scene_end(&b->scene);
-}
-
-static double cost_of(const board *b)
+static double cost_of(const scene_board *b)
 {
     double cost = 0;
     for (size_t k = 0; k < b->scene.n; k++)
@@ -53,7 +29,7 @@ static double cost_of(const board *b)
     return cost;
 }
 
-static sunder_i_cluster cluster_of(board *b)
+static sunder_i_cluster cluster_of(scene_board *b)
 {
     return (sunder_i_cluster){.body = b->body, .n = b->scene.n, .margin = margin};
 }
@@ -81,7 +57,7 @@ static void add_any(rng *r, scene *s)
 }
 
 /* Is there a start from which it goes down to less? */
-static bool is_beaten(rng *r, board *b, double cost)
+static bool is_beaten(rng *r, scene_board *b, double cost)
 {
     sunder_error err;
     sunder_i_cluster cluster = cluster_of(b);
@@ -103,12 +79,13 @@ static void test_nothing_is_cheaper(void **state)
     for (size_t k = 0; k < all; k++) {
         rng r = rng_start(test_seed(), k);
         const size_t n = (size_t)rng_int(&r, 2, MOST);
-        board b;
+        scene_board b;
         sunder_error err;
         memset(&b, 0, sizeof b);
         scene_begin(&b.scene, rng_once_in(&r, 4) ? 0 : 2 * rng_unit(&r));
         for (size_t m = 0; m < n; m++) add_any(&r, &b.scene);
-        set_up(&b);
+        b.scene.options.effort = 0;
+        scene_board_begin(&b);
         sunder_i_cluster cluster = cluster_of(&b);
         assert_int_equal(sunder_i_cluster_solve(&b.of.model, &cluster, b.move, &err), SUNDER_OK);
         const double cost = cost_of(&b);
@@ -118,7 +95,7 @@ static void test_nothing_is_cheaper(void **state)
         assert_false(cluster.cheapest && better);
         sunder_i_relaxations_free(&cluster.relaxations);
         sunder_i_free(cluster.restored);
-        end(&b);
+        scene_board_end(&b);
     }
     /* Both were asked: those that are the cheapest, and those that are not. */
     assert_true(10 * said > 3 * all && beaten > 0);
@@ -128,12 +105,13 @@ static void test_nothing_is_cheaper(void **state)
 static void test_the_wrong_side(void **state)
 {
     (void)state;
-    board b;
+    scene_board b;
     memset(&b, 0, sizeof b);
     scene_begin(&b.scene, 1);
     scene_add_box(&b.scene, 0, 0, 10, 4);
     scene_add_box(&b.scene, 9, 1, 10, 4);
-    set_up(&b);
+    b.scene.options.effort = 0;
+    scene_board_begin(&b);
     for (int side = 0; side < 2; side++) {
         sunder_i_search s;
         const double x = side ? 0 : 1, y = side ? 2 : 0;
@@ -150,7 +128,7 @@ static void test_the_wrong_side(void **state)
         }
         sunder_i_search_free(&s);
     }
-    end(&b);
+    scene_board_end(&b);
 }
 
 int main(void)

@@ -1,7 +1,7 @@
 /* displacement/search/take_back: of what a search has given up it gets back what has a solution, the least first, and
  * nothing else is changed; and displacement/search/ease: a pair that is left in conflict gets a margin where there is
  * room for one. */
-#include "scene_model.h"
+#include "scene_board.h"
 
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
@@ -16,34 +16,9 @@
 
 #include <cmocka.h>
 
-enum { MOST = 20 };
-
 static const double margin = 0x1p-30;
 
-/* Features, each a body by itself, in their own order. */
-typedef struct board {
-    scene scene;
-    scene_model of;
-    uint32_t body[MOST];
-    double move[2 * MOST];
-} board;
-
-static void set_up(board *b)
-{
-    b->scene.options.no_blocks = b->scene.options.allow_jumps = true;
-    scene_model_begin(&b->of, &b->scene);
-    assert_int_equal(b->of.model.bodies, b->scene.n);
-    for (uint32_t k = 0; k < b->scene.n; k++) b->body[k] = k;
-    memset(b->move, 0, sizeof b->move);
-}
-
-static void end(board *b)
-{
-    scene_model_end(&b->of);
-    scene_end(&b->scene);
-}
-
-static void relax(const board *b, sunder_i_relaxations *list, uint32_t p, uint32_t q)
+static void relax(const scene_board *b, sunder_i_relaxations *list, uint32_t p, uint32_t q)
 {
     sunder_i_relaxation t;
     sunder_error err;
@@ -63,7 +38,7 @@ static void test_taken_back(void **state)
     /* Two that overlap by 2 and may part; two that overlap by 3, and may not; and one between two that are fixed, which
      * cannot leave the one without going deeper into the other. */
     static const double x[] = {0, 8, 100, 107, 200, 209, 218.5};
-    board b;
+    scene_board b;
     memset(&b, 0, sizeof b);
     scene_begin(&b.scene, 0);
     for (size_t k = 0; k < sizeof x / sizeof *x; k++) {
@@ -71,7 +46,7 @@ static void test_taken_back(void **state)
         f->max_shift = k < 2 ? 1.5 : k < 4 ? 1 : 0.75;
         f->fixed = k == 4 || k == 6;
     }
-    set_up(&b);
+    scene_board_begin(&b);
     sunder_i_search s;
     assert_true(sunder_i_search_init(&s, &b.of.model, b.body, b.scene.n, margin, b.move));
     relax(&b, &s.relaxations, 0, 1);
@@ -88,19 +63,19 @@ static void test_taken_back(void **state)
     for (size_t k = 4; k < 2 * b.scene.n; k++) assert_true(s.t[k] == 0);
     assert_true(s.patience == UINT64_MAX);
     sunder_i_search_free(&s);
-    end(&b);
+    scene_board_end(&b);
 }
 
 /* Pairs that overlap by 2 and may not part, as many as that; then one that overlaps by 3, and may. Is it asked? */
 static bool is_asked_after(size_t in_vain)
 {
-    board b;
+    scene_board b;
     memset(&b, 0, sizeof b);
     scene_begin(&b.scene, 0);
     for (size_t k = 0; k < 2 * (in_vain + 1); k++)
         scene_add_box(&b.scene, 100 * (double)(k / 2) + (k % 2 ? k / 2 < in_vain ? 8 : 7 : 0), 0, 10, 10)->max_shift =
             k / 2 < in_vain ? 0.5 : 2;
-    set_up(&b);
+    scene_board_begin(&b);
     sunder_i_search s;
     assert_true(sunder_i_search_init(&s, &b.of.model, b.body, b.scene.n, margin, b.move));
     for (uint32_t k = 0; k <= in_vain; k++) relax(&b, &s.relaxations, 2 * k, 2 * k + 1);
@@ -109,7 +84,7 @@ static bool is_asked_after(size_t in_vain)
     const bool asked = s.relaxations.n == in_vain;
     assert_true(asked || s.relaxations.n == in_vain + 1);
     sunder_i_search_free(&s);
-    end(&b);
+    scene_board_end(&b);
     return asked;
 }
 
@@ -127,13 +102,13 @@ static void test_least_first(void **state)
     (void)state;
     for (int mirrored = 0; mirrored < 2; mirrored++) {
         const double right = mirrored ? 1.5 : 1, up = mirrored ? 1 : 1.5;
-        board b;
+        scene_board b;
         memset(&b, 0, sizeof b);
         scene_begin(&b.scene, 0);
         scene_add_box(&b.scene, right - 10, 0, 10, 10)->fixed = true;
         scene_add_box(&b.scene, 0, 0, 10, 10)->max_shift = 1.6;
         scene_add_box(&b.scene, 0, up - 10, 10, 10)->fixed = true;
-        set_up(&b);
+        scene_board_begin(&b);
         sunder_i_search s;
         assert_true(sunder_i_search_init(&s, &b.of.model, b.body, b.scene.n, margin, b.move));
         relax(&b, &s.relaxations, 0, 1);
@@ -144,7 +119,7 @@ static void test_least_first(void **state)
         assert_true((sunder_i_relaxations_find(&s.relaxations, 1, 2) == NULL) == mirrored);
         assert_true(s.t[2 + mirrored] >= 1 && hypot(s.t[2], s.t[3]) <= 1.6 && fabs(s.t[3 - mirrored]) < 0.5);
         sunder_i_search_free(&s);
-        end(&b);
+        scene_board_end(&b);
     }
 }
 
@@ -153,14 +128,14 @@ static void test_least_first(void **state)
 static void ask_for_margin(double room, bool others, bool expected)
 {
     const double x[] = {0, 11, 24 + room}, hair = 0x1p-40;
-    board b;
+    scene_board b;
     sunder_error err;
     bool done;
     memset(&b, 0, sizeof b);
     scene_begin(&b.scene, 3);
     for (size_t k = 0; k < 3; k++) scene_add_box(&b.scene, x[k], 0, 10, 10)->fixed = k != 1;
     b.scene.feature[1].max_shift = 1;
-    set_up(&b);
+    scene_board_begin(&b);
     relax(&b, &b.of.model.relaxations, 0, 1);
     b.move[2] = b.of.model.move[2] = -hair;
     const sunder_i_cluster c = {.body = b.body, .n = 3, .margin = margin, .limited = true};
@@ -174,7 +149,7 @@ static void ask_for_margin(double room, bool others, bool expected)
         assert_true(b.move[2] == -hair && b.move[3] == 0);
     }
     assert_true(b.move[0] == 0 && b.move[4] == 0);
-    end(&b);
+    scene_board_end(&b);
 }
 
 static void test_eased(void **state)

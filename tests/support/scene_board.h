@@ -1,0 +1,21 @@
+/* A scene of which each feature is a body by itself, in their own order, and where they are moved to. */
+#ifndef SUNDER_TESTS_SCENE_BOARD_H
+#define SUNDER_TESTS_SCENE_BOARD_H
+
+#include "scene_model.h"
+
+enum { SCENE_BOARD_MOST = 20 };
+
+typedef struct scene_board {
+    scene scene;
+    scene_model of;
+    uint32_t body[SCENE_BOARD_MOST];
+    double move[2 * SCENE_BOARD_MOST]; /* none at the beginning */
+} scene_board;
+
+/* Of a scene that has its features: no blocks, jumps allowed, its other options as they are. */
+void scene_board_begin(scene_board *b);
+/* Ends the scene, too. */
+void scene_board_end(scene_board *b);
+
+#endif
