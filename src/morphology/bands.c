@@ -3,26 +3,65 @@
 
 #include "predicate/rational_point.h"
 
-/* Does the side turn left from the direction u, or run along it? The half-open half-circle counter-clockwise from u. */
-static bool is_far(sunder_i_arena *arena, sunder_i_rational_point u, sunder_i_rational_point side)
+/* Which way a vector goes: as a plain vector where it is a positive multiple of one, which crossings of lattice lines
+ * are apart by wherever they stand on one of these. */
+typedef struct heading {
+    sunder_i_rational_point vector;
+    sunder_i_point along;
+    bool plain;
+} heading;
+
+static bool fits(sunder_i_big a, int64_t *v)
 {
-    const int turn = sunder_i_big_sign(sunder_i_rational_cross(arena, u, side));
-    return turn ? turn > 0 : sunder_i_big_sign(sunder_i_rational_dot(arena, u, side)) > 0;
+    return sunder_i_big_fits_i64(a, v) && *v < (int64_t)1 << SUNDER_I_PLAIN_BITS &&
+           *v > -((int64_t)1 << SUNDER_I_PLAIN_BITS);
+}
+
+bool sunder_i_heading(sunder_i_arena *arena, sunder_i_rational_point u, sunder_i_point *out)
+{
+    const sunder_i_mark mark = sunder_i_arena_mark(arena);
+    const sunder_i_big g = sunder_i_big_gcd(arena, u.x, u.y);
+    if (g.size && !sunder_i_big_is_one(g)) {
+        u.x = sunder_i_big_div_floor(arena, u.x, g);
+        u.y = sunder_i_big_div_floor(arena, u.y, g);
+    }
+    const bool ok = !arena->failed && fits(u.x, &out->x) && fits(u.y, &out->y);
+    sunder_i_arena_release(arena, mark);
+    return ok;
+}
+
+/* Does the side turn left from the direction u, or run along it? The half-open half-circle counter-clockwise from u. */
+static bool is_far(sunder_i_arena *arena, const heading *u, const sunder_i_structuring_element *p, size_t i)
+{
+    if (u->plain) {
+        const sunder_i_point a = u->along, b = p->along[i];
+        const sunder_i_i128 turn = (sunder_i_i128)a.x * b.y - (sunder_i_i128)a.y * b.x;
+        return turn ? turn > 0 : (sunder_i_i128)a.x * b.x + (sunder_i_i128)a.y * b.y > 0;
+    }
+    const int turn = sunder_i_big_sign(sunder_i_rational_cross(arena, u->vector, p->side[i]));
+    return turn ? turn > 0 : sunder_i_big_sign(sunder_i_rational_dot(arena, u->vector, p->side[i])) > 0;
 }
 
 /* Sides that turn left from ab are moved to b, the others stay at a. A side parallel to ab and what joins both places
  * make one straight side with a corner inside, which the map allows. Where a is b no side turns left, and the band is
  * the piece at a. */
 size_t sunder_i_band(sunder_i_arena *s, const sunder_i_structuring_element *p, size_t first, size_t end,
-                     sunder_i_rational_point a, sunder_i_rational_point b, sunder_i_rational_point *out)
+                     sunder_i_rational_point a, sunder_i_rational_point b, sunder_i_rational_point *out,
+                     sunder_i_point *along, bool *known)
 {
-    const sunder_i_rational_point u = sunder_i_rational_sub(s, b, a);
+    heading u = {.vector = sunder_i_rational_sub(s, b, a)};
+    u.plain = p->plain && sunder_i_heading(s, u.vector, &u.along);
+    *known = u.plain;
     size_t n = 0;
-    bool before = is_far(s, u, p->side[end - 1]);
+    bool before = is_far(s, &u, p, end - 1);
     for (size_t i = first; i < end; i++) {
-        const bool after = is_far(s, u, p->side[i]);
+        const bool after = is_far(s, &u, p, i);
         out[n++] = sunder_i_rational_add(s, before ? b : a, p->corner[i]);
-        if (after != before) out[n++] = sunder_i_rational_add(s, after ? b : a, p->corner[i]);
+        if (after != before) {
+            along[n - 1] = u.along;
+            out[n++] = sunder_i_rational_add(s, after ? b : a, p->corner[i]);
+        }
+        along[n - 1] = p->along[i];
         before = after;
     }
     return n;

@@ -210,12 +210,14 @@ static sunder_status add_band(stage *g, const uint32_t *next, uint64_t k, sunder
     const size_t first = piece ? p->end[piece - 1] : 0, end = p->end[piece];
     const sunder_i_mark mark = sunder_i_arena_mark(&g->scratch);
     sunder_i_rational_point *corner = sunder_i_arena_alloc(&g->scratch, end - first + 2, sizeof *corner);
-    if (!corner) return sunder_i_no_memory(err);
+    sunder_i_point *along = sunder_i_arena_alloc(&g->scratch, end - first + 2, sizeof *along);
+    if (!corner || !along) return sunder_i_no_memory(err);
     uint32_t ends[2];
+    bool known;
     ends_of(f, next, i, ends);
-    const size_t n = sunder_i_band(&g->scratch, p, first, end, f->at[ends[0]], f->at[ends[1]], corner);
+    const size_t n = sunder_i_band(&g->scratch, p, first, end, f->at[ends[0]], f->at[ends[1]], corner, along, &known);
     if (g->scratch.failed) return sunder_i_no_memory(err);
-    const sunder_status status = sunder_i_planar_map_unite_polygon(g->bands, corner, NULL, n, err);
+    const sunder_status status = sunder_i_planar_map_unite_polygon(g->bands, corner, known ? along : NULL, n, err);
     sunder_i_arena_release(&g->scratch, mark);
     return status;
 }

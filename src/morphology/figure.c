@@ -121,6 +121,8 @@ bool sunder_i_structuring_element_of_shape(sunder_i_lattice *lattice, const sund
     p.end = sunder_i_arena_alloc(arena, p.pieces + 1u, sizeof *p.end);
     p.corner = sunder_i_arena_alloc(arena, corners + 1, sizeof *p.corner);
     p.side = sunder_i_arena_alloc(arena, corners + 1, sizeof *p.side);
+    p.along = sunder_i_arena_alloc(arena, corners + 1, sizeof *p.along);
+    p.plain = true;
     p.inner = sunder_i_arena_alloc(arena, p.pieces + 1u, sizeof *p.inner);
     for (size_t i = 0; i < corners && !arena->failed; i++) {
         p.corner[i] = read_point(arena, lattice, at[shape->piece_vertex[i]]);
@@ -128,8 +130,10 @@ bool sunder_i_structuring_element_of_shape(sunder_i_lattice *lattice, const sund
     }
     for (uint32_t j = 0; j < p.pieces && !arena->failed; j++) {
         const size_t first = j ? p.end[j - 1] : 0, end = p.end[j] = shape->piece_end[j];
-        for (size_t i = first; i < end; i++)
+        for (size_t i = first; i < end && !arena->failed; i++) {
             p.side[i] = sunder_i_rational_sub(arena, p.corner[i + 1 < end ? i + 1 : first], p.corner[i]);
+            p.plain = sunder_i_heading(arena, p.side[i], &p.along[i]) && p.plain;
+        }
         p.inner[j] = inner_point(arena, p.corner + first);
     }
     const bool ok = !arena->failed && !lattice->arena.failed;

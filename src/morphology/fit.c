@@ -173,11 +173,13 @@ static sunder_status unite_bands(fit *f, const side *sides, size_t n, sunder_err
     for (size_t k = 0; k < n && status == SUNDER_OK; k++) {
         const sunder_i_mark mark = sunder_i_arena_mark(&f->scratch);
         sunder_i_rational_point *band = sunder_i_arena_alloc(&f->scratch, corners + 2, sizeof *band);
-        if (!band) return sunder_i_no_memory(err);
+        sunder_i_point *along = sunder_i_arena_alloc(&f->scratch, corners + 2, sizeof *along);
+        if (!band || !along) return sunder_i_no_memory(err);
+        bool known;
         const size_t m = sunder_i_band(&f->scratch, &f->element, 0, corners, *end_of(f, &sides[k], false),
-                                       *end_of(f, &sides[k], true), band);
+                                       *end_of(f, &sides[k], true), band, along, &known);
         if (f->scratch.failed) return sunder_i_no_memory(err);
-        status = sunder_i_planar_map_unite_polygon(f->bands, band, NULL, m, err);
+        status = sunder_i_planar_map_unite_polygon(f->bands, band, known ? along : NULL, m, err);
         sunder_i_arena_release(&f->scratch, mark);
     }
     return status;

@@ -46,7 +46,9 @@ typedef struct sunder_i_structuring_element {
     uint32_t pieces;
     size_t *end; /* [pieces] index past the last corner of each */
     sunder_i_rational_point *corner;
-    sunder_i_rational_point *side;  /* from each corner to the next of its piece */
+    sunder_i_rational_point *side; /* from each corner to the next of its piece */
+    sunder_i_point *along;         /* the directions of the sides as plain vectors, in lowest terms; if plain */
+    bool plain;
     sunder_i_rational_point *inner; /* [pieces] */
 } sunder_i_structuring_element;
 
@@ -55,11 +57,15 @@ bool sunder_i_structuring_element_of_shape(sunder_i_lattice *lattice, const sund
                                            const sunder_i_point *at, bool reflected, sunder_i_structuring_element *out);
 void sunder_i_structuring_element_free(sunder_i_structuring_element *element);
 
+/* The plain vector in lowest terms that u is a positive multiple of; false if it is none, or the arena has failed. */
+bool sunder_i_heading(sunder_i_arena *arena, sunder_i_rational_point u, sunder_i_point *out);
 /* The segment from a to b plus the corners first to end - 1 of an element, which are one of its pieces: its corners,
- * counter-clockwise, into out, which has room for two more than the piece has; returns how many. Nothing of it holds if
- * the arena has failed. */
+ * counter-clockwise, into out, which has room for two more than the piece has; returns how many. *known: along has each
+ * side's direction or its reverse as a plain vector, for the map; else it is filled with nothing of use. Nothing of all
+ * this holds if the arena has failed. */
 size_t sunder_i_band(sunder_i_arena *arena, const sunder_i_structuring_element *element, size_t first, size_t end,
-                     sunder_i_rational_point a, sunder_i_rational_point b, sunder_i_rational_point *out);
+                     sunder_i_rational_point a, sunder_i_rational_point b, sunder_i_rational_point *out,
+                     sunder_i_point *along, bool *known);
 
 /* Fills the outline of an empty sum, which owns the lattice that all stands on:
  *   dilate  the closure of F + element, without degenerate parts (that set is closed, and they are inside)

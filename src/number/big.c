@@ -73,6 +73,22 @@ sunder_i_big sunder_i_big_copy(sunder_i_arena *arena, sunder_i_big a)
     return (sunder_i_big){p, a.size};
 }
 
+void sunder_i_big_copy_3(sunder_i_arena *arena, sunder_i_big *a, sunder_i_big *b, sunder_i_big *c)
+{
+    sunder_i_big *const all[3] = {a, b, c};
+    mp_limb_t *p = room(arena, limbs(*a) + limbs(*b) + limbs(*c));
+    for (int i = 0; i < 3; i++) {
+        const mp_size_t n = limbs(*all[i]);
+        if (n == 0 || !p) {
+            *all[i] = zero;
+            continue;
+        }
+        for (mp_size_t k = 0; k < n; k++) p[k] = all[i]->limb[k];
+        all[i]->limb = p;
+        p += n;
+    }
+}
+
 sunder_i_big sunder_i_big_neg(sunder_i_big a) { return (sunder_i_big){a.limb, -a.size}; }
 
 int sunder_i_big_sign(sunder_i_big a) { return (a.size > 0) - (a.size < 0); }
@@ -306,20 +322,55 @@ static double round_positive(sunder_i_arena *arena, sunder_i_big q, bool inexact
     return isinf(v) && dir == DOWN ? 0x1.fffffffffffffp1023 : v;
 }
 
+/* m * 2^exponent, where that neither underflows nor overflows. */
+static double scaled(uint64_t m, long exponent)
+{
+    const uint64_t bits = (uint64_t)(exponent + 1023) << 52;
+    double power;
+    memcpy(&power, &bits, sizeof power);
+    return (double)m * power;
+}
+
+/* The 64 highest bits of |a| > 0, the first of them set. */
+static uint64_t highest(sunder_i_big a)
+{
+    const mp_size_t n = limbs(a);
+    const int up = __builtin_clzll(a.limb[n - 1]);
+    return a.limb[n - 1] << up | (up && n > 1 ? a.limb[n - 2] >> (64 - up) : 0);
+}
+
+/* |num / den| * 2^exponent to the nearest double, from the highest bits of both, where these tell. Let A and D be
+ * those, both at least 2^63, and num and den A + a and D + d but for powers of two, 0 <= a, d < 1. The quotient sought
+ * is Q = 2^63 (A + a) / (D + d), and q = floor(2^63 A / D) < 2^64 is at most 2 off it: the floor takes less than 1 away, a
+ * less than 2^63 / D <= 1, and d adds less than q / D < 2. So whatever is more than 2 from the middle between two
+ * doubles is rounded to the same one. */
+static bool quick_ratio(sunder_i_big num, sunder_i_big den, long exponent, double *v)
+{
+    const long e = (long)sunder_i_big_bits(num) - (long)sunder_i_big_bits(den) - 63 + exponent;
+    if (e < -1000 || e > 900) return false;
+    const uint64_t q = (uint64_t)(((sunder_i_u128)highest(num) << 63) / highest(den));
+    const int drop = q >> 63 ? 11 : 10;
+    const uint64_t half = (uint64_t)1 << (drop - 1), low = q & (2 * half - 1);
+    if (low + 2 >= half && low <= half + 2) return false;
+    *v = scaled((q >> drop) + (low > half), e + drop);
+    return true;
+}
+
 static double ratio(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent, direction dir)
 {
     if (num.size == 0) return 0;
     const bool negative = num.size < 0, whole = sunder_i_big_is_one(den);
+    double v = 0;
     if (whole && dir == NEAREST && limbs(num) == 1 && exponent > -1000 && exponent < 900) {
-        const double v = ldexp((double)num.limb[0], (int)exponent); /* no underflow, so rounded once */
+        v = scaled(num.limb[0], exponent); /* no underflow, so rounded once */
         return negative ? -v : v;
     }
+    if (dir == NEAREST && !whole && den.size && quick_ratio(num, den, exponent, &v)) return negative ? -v : v;
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
     if (negative) {
         num.size = -num.size;
         dir = dir == UP ? DOWN : dir == DOWN ? UP : NEAREST;
     }
-    double v = 0;
     if (whole) {
         v = round_positive(arena, num, false, exponent, dir);
         if (!arena->failed) sunder_i_arena_release(arena, mark);

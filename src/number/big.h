@@ -25,6 +25,8 @@ sunder_i_big sunder_i_big_i256(sunder_i_arena *arena, sunder_i_i256 v);
 sunder_i_big sunder_i_big_double(sunder_i_arena *arena, double v, int *exponent);
 /* A copy in another arena. */
 sunder_i_big sunder_i_big_copy(sunder_i_arena *arena, sunder_i_big a);
+/* The same of three that go together, in one piece of memory. */
+void sunder_i_big_copy_3(sunder_i_arena *arena, sunder_i_big *a, sunder_i_big *b, sunder_i_big *c);
 
 sunder_i_big sunder_i_big_neg(sunder_i_big a);
 sunder_i_big sunder_i_big_add(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b);

@@ -46,8 +46,8 @@ typedef struct sunder_i_site {
 } sunder_i_site;
 
 /* A x + B y + C w, 0 on the line and positive above it (left of it as it goes to the lexicographically greater): B > 0,
- * or B = 0 and A < 0. a, b are A and B to within half an ulp each but for one common power of two, |a|, |b| <= 1; rx,
- * ry the doubles of a site on it. */
+ * or B = 0 and A < 0. a, b are A and B to within half an ulp each but for one common positive factor, |a|, |b| <= 1;
+ * rx, ry the doubles of a site on it. */
 typedef struct sunder_i_map_line {
     sunder_i_big abc[3];
     double a, b, rx, ry;

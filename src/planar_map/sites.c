@@ -182,14 +182,40 @@ static sunder_i_big divided(sunder_i_arena *arena, sunder_i_big a, sunder_i_big 
     return sunder_i_big_div_floor(arena, a, by); /* by divides a, so nothing is rounded */
 }
 
-sunder_i_map_line sunder_i_line_through(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q,
-                                        const sunder_i_point *along, sunder_i_arena *arena)
+/* The line through p along a plain vector (dx, dy): A = -dy w, B = dx w, C = dy x - dx y. What p's denominator has in
+ * common with C goes; dx and dy keep what they have in common, which no later step adds to. */
+static sunder_i_map_line line_along(sunder_i_planar_map *map, const sunder_i_site *p, int64_t dx, int64_t dy)
 {
     sunder_i_arena *s = &map->scratch;
-    const sunder_i_mark mark = sunder_i_arena_mark(s);
+    if (dx < 0 || (dx == 0 && dy < 0)) {
+        dx = -dx;
+        dy = -dy;
+    }
+    sunder_i_big w = p->at.w;
+    const sunder_i_big x = sunder_i_big_i64(s, dx), y = sunder_i_big_i64(s, dy);
+    sunder_i_big c = sunder_i_big_sub(s, sunder_i_big_mul(s, y, p->at.x), sunder_i_big_mul(s, x, p->at.y));
+    if (!sunder_i_big_is_one(w)) {
+        const sunder_i_big g = sunder_i_big_gcd(s, w, c);
+        if (!s->failed && !sunder_i_big_is_one(g)) {
+            w = divided(s, w, g);
+            c = divided(s, c, g);
+        }
+    }
+    const double a = -(double)dy, b = (double)dx, scale = ldexp(1, -ilogb(fmax(fabs(a), b)) - 1);
+    return (sunder_i_map_line){.abc = {sunder_i_big_neg(sunder_i_times(s, y, w)), sunder_i_times(s, x, w), c},
+                               .a = a * scale,
+                               .b = b * scale,
+                               .rx = p->ax,
+                               .ry = p->ay};
+}
+
+/* The same along (dx, dy), or, with that NULL, through q. */
+static sunder_i_map_line line_between(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q,
+                                      const sunder_i_point *along)
+{
+    sunder_i_arena *s = &map->scratch;
     sunder_i_big abc[3];
     if (along) {
-        /* Direction (dx, dy) through p: A = -dy w, B = dx w, C = dy x - dx y. */
         const sunder_i_rational_point d = sunder_i_rational_get(s, map->lattice, *along);
         const sunder_i_big dx = d.x, dy = d.y;
         abc[0] = sunder_i_big_neg(sunder_i_big_mul(s, dy, p->at.w));
@@ -203,26 +229,37 @@ sunder_i_map_line sunder_i_line_through(sunder_i_planar_map *map, const sunder_i
     const int b = sunder_i_big_sign(abc[1]);
     if (b < 0 || (b == 0 && sunder_i_big_sign(abc[0]) > 0))
         for (int i = 0; i < 3; i++) abc[i] = sunder_i_big_neg(abc[i]);
-    if (sunder_i_big_bits(p->at.w) > 1 || (along ? !sunder_i_point_is_plain(*along) : sunder_i_big_bits(q->at.w) > 1)) {
+    if (sunder_i_big_bits(p->at.w) > 1 || along || sunder_i_big_bits(q->at.w) > 1) {
         const sunder_i_big g = sunder_i_big_gcd(s, sunder_i_big_gcd(s, abc[0], abc[1]), abc[2]);
         if (!map->scratch.failed && sunder_i_big_bits(g) > 1)
             for (int i = 0; i < 3; i++) abc[i] = divided(s, abc[i], g);
     }
-    sunder_i_map_line line = {.rx = p->ax, .ry = p->ay};
     const unsigned long bits0 = sunder_i_big_bits(abc[0]), bits1 = sunder_i_big_bits(abc[1]);
     const long bits = (long)(bits0 > bits1 ? bits0 : bits1);
     const sunder_i_big one = sunder_i_big_i64(s, 1);
-    line.a = sunder_i_big_ratio(s, abc[0], one, -bits);
-    line.b = sunder_i_big_ratio(s, abc[1], one, -bits);
-    for (int i = 0; i < 3; i++) line.abc[i] = arena == s ? abc[i] : sunder_i_big_copy(arena, abc[i]);
-    if (arena != s) sunder_i_arena_release(s, mark);
+    return (sunder_i_map_line){.abc = {abc[0], abc[1], abc[2]},
+                               .a = sunder_i_big_ratio(s, abc[0], one, -bits),
+                               .b = sunder_i_big_ratio(s, abc[1], one, -bits),
+                               .rx = p->ax,
+                               .ry = p->ay};
+}
+
+sunder_i_map_line sunder_i_line_through(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q,
+                                        const sunder_i_point *along, sunder_i_arena *arena)
+{
+    const sunder_i_mark mark = sunder_i_arena_mark(&map->scratch);
+    const bool plain = along && sunder_i_point_is_plain(*along);
+    sunder_i_map_line line = plain ? line_along(map, p, along->x, along->y) : line_between(map, p, q, along);
+    if (arena == &map->scratch) return line;
+    line = sunder_i_line_copy(&line, arena);
+    sunder_i_arena_release(&map->scratch, mark);
     return line;
 }
 
 sunder_i_map_line sunder_i_line_copy(const sunder_i_map_line *from, sunder_i_arena *arena)
 {
     sunder_i_map_line line = *from;
-    for (int i = 0; i < 3; i++) line.abc[i] = sunder_i_big_copy(arena, from->abc[i]);
+    sunder_i_big_copy_3(arena, &line.abc[0], &line.abc[1], &line.abc[2]);
     return line;
 }
 

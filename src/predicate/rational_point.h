@@ -43,8 +43,8 @@ int sunder_i_rational_orient(sunder_i_arena *arena, sunder_i_rational_point a, s
 /* A copy in another arena. */
 static inline sunder_i_rational_point sunder_i_rational_copy(sunder_i_arena *arena, sunder_i_rational_point u)
 {
-    return (sunder_i_rational_point){sunder_i_big_copy(arena, u.x), sunder_i_big_copy(arena, u.y),
-                                     sunder_i_big_copy(arena, u.w)};
+    sunder_i_big_copy_3(arena, &u.x, &u.y, &u.w);
+    return u;
 }
 
 /* Both coordinates times 2^exponent as the nearest doubles. */

@@ -266,6 +266,40 @@ static void test_ratio_edges(void **state)
     sunder_i_arena_free(&arena);
 }
 
+/* Quotients a little beside the middle between two doubles, and on it, with divisors of all lengths: the highest bits
+ * of both do not tell them apart. */
+static void test_ratio_in_the_middle(void **state)
+{
+    (void)state;
+    work w;
+    mpq_t r;
+    open_work(&w, 6);
+    mpq_init(r);
+    for (int i = 0; i < ROUNDS; i++) {
+        const sunder_i_mark mark = sunder_i_arena_mark(&w.arena);
+        random_mpz(w.b, &w.g, i % 2 ? 70 : 400);
+        mpz_abs(w.b, w.b);
+        if (mpz_cmp_ui(w.b, 3) < 0) mpz_set_ui(w.b, 3);
+        mpz_set_ui(w.a, i % 3 ? (1ul << 53) + (unsigned long)rng_int(&w.g, 0, 9) : (1ul << 54) - 1);
+        mpz_mul_ui(w.a, w.a, 2);
+        mpz_add_ui(w.a, w.a, 1);
+        mpz_mul(w.a, w.a, w.b);
+        if (i % 5) mpz_add(w.a, w.a, w.a); /* and a bit more to round */
+        const int64_t beside = rng_int(&w.g, -3, 3);
+        if (beside < 0)
+            mpz_sub_ui(w.a, w.a, (unsigned long)-beside);
+        else
+            mpz_add_ui(w.a, w.a, (unsigned long)beside);
+        exact_ratio(r, &w, 0);
+        const sunder_i_big a = big_from_mpz(&w.arena, w.a), b = big_from_mpz(&w.arena, w.b);
+        const double down = sunder_i_big_ratio_down(&w.arena, a, b, 0), up = sunder_i_big_ratio_up(&w.arena, a, b, 0);
+        expect_nearest(sunder_i_big_ratio(&w.arena, a, b, 0), down, up, r);
+        sunder_i_arena_release(&w.arena, mark);
+    }
+    mpq_clear(r);
+    close_work(&w);
+}
+
 static void test_text(void **state)
 {
     (void)state;
@@ -321,9 +355,14 @@ static void test_out_of_memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_conversions), cmocka_unit_test(test_double),
-                                       cmocka_unit_test(test_arithmetic),  cmocka_unit_test(test_division_and_root),
-                                       cmocka_unit_test(test_ratio),       cmocka_unit_test(test_ratio_edges),
-                                       cmocka_unit_test(test_text),        cmocka_unit_test(test_out_of_memory)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_conversions),
+                                       cmocka_unit_test(test_double),
+                                       cmocka_unit_test(test_arithmetic),
+                                       cmocka_unit_test(test_division_and_root),
+                                       cmocka_unit_test(test_ratio),
+                                       cmocka_unit_test(test_ratio_edges),
+                                       cmocka_unit_test(test_ratio_in_the_middle),
+                                       cmocka_unit_test(test_text),
+                                       cmocka_unit_test(test_out_of_memory)};
     return cmocka_run_group_tests_name("number/big", tests, NULL, NULL);
 }

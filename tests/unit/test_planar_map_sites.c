@@ -115,10 +115,28 @@ static void spot_near(bed *b, spot *r, const spot *p, const spot *q)
     mpq_clears(t, u, NULL);
 }
 
-static sunder_i_map_line line_of(bed *b, const spot *p, const spot *q)
+static sunder_i_map_line line_of(bed *b, const spot *p, const spot *q, const sunder_i_point *along)
 {
     const sunder_i_site s = site_of(b, p), t = site_of(b, q);
-    return sunder_i_line_through(b->map, &s, &t, NULL, &b->arena);
+    return sunder_i_line_through(b->map, &s, &t, along, &b->arena);
+}
+
+/* Moves q to somewhere on a line through p whose direction is a lattice vector, or its reverse. */
+static sunder_i_point put_along(bed *b, const spot *p, spot *q)
+{
+    const int64_t most = rng_once_in(&b->g, 2) ? 9 : (INT64_C(1) << SUNDER_I_PLAIN_BITS) - 1;
+    sunder_i_point v = {rng_int(&b->g, -most, most), rng_once_in(&b->g, 4) ? 0 : rng_int(&b->g, -most, most)};
+    if (rng_once_in(&b->g, 4) || v.x == 0) v = (sunder_i_point){v.y, v.x ? v.x : 1};
+    mpq_t far, t;
+    mpq_inits(far, t, NULL);
+    mpq_set(far, q->x); /* as it happens */
+    for (int axis = 0; axis < 2; axis++) {
+        mpq_set_si(t, axis ? v.y : v.x, 1);
+        mpq_mul(t, t, far);
+        mpq_add(axis ? q->y : q->x, axis ? p->y : p->x, t);
+    }
+    mpq_clears(far, t, NULL);
+    return v;
 }
 
 static void check_cmp(bed *b, const spot *p, const spot *q)
@@ -168,13 +186,15 @@ static void run(double reach, uint64_t seed, size_t rounds)
         spot_random(&b, &q, bits);
         if (rng_once_in(&b.g, 4)) mpq_set(q.x, p.x);
         if (rng_once_in(&b.g, 4)) mpq_set(q.y, p.y);
+        const bool known = rng_once_in(&b.g, 3);
+        const sunder_i_point along = known ? put_along(&b, &p, &q) : (sunder_i_point){0, 0};
         check_cmp(&b, &p, &q);
         if (spot_cmp(&p, &q) == 0) continue;
         if (spot_cmp(&p, &q) > 0) {
             mpq_swap(p.x, q.x);
             mpq_swap(p.y, q.y);
         }
-        const sunder_i_map_line line = line_of(&b, &p, &q);
+        const sunder_i_map_line line = line_of(&b, &p, &q, known ? &along : NULL);
         if (rng_once_in(&b.g, 3))
             spot_random(&b, &r, bits);
         else
@@ -182,7 +202,7 @@ static void run(double reach, uint64_t seed, size_t rounds)
         check_side(&b, &line, &p, &q, &r);
         spot_near(&b, &s, &p, &q);
         if (spot_cmp(&r, &s) < 0) {
-            const sunder_i_map_line other = line_of(&b, &r, &s);
+            const sunder_i_map_line other = line_of(&b, &r, &s, NULL);
             check_pair_of_lines(&b, &line, &other, cross_sign(&p, &q, &r, &s));
         }
         sunder_i_arena_free(&b.arena);
