@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# Runs one fuzz target: the inputs that once failed, then a fixed number of new ones. The number of runs is fixed, and not
-# the time, so a seed replays a run; an input that takes minutes is a failure of its own (a hang). Targets that read texts begin
-# from some in seeds/, as none would be come upon by chance.
+# Runs one fuzz target: the inputs that once failed, those on record (corpus/, of pieces.sh), then a fixed number of new ones. The number
+# of runs is fixed, and not the time, so a seed replays a run; an input that takes minutes is a failure of its own (a hang). Targets
+# that read texts begin from some in seeds/, as none would be come upon by chance.
 set -eu
 name=$1
 program=$SUNDER_BUILD/fuzz/$name
@@ -13,11 +13,15 @@ echo "SUNDER_SEED=$seed, $runs runs"
 shopt -s nullglob
 known=("$SUNDER_SOURCE/tests/fuzz/known/$name"/*)
 [ "${#known[@]}" -eq 0 ] || "$program" "${known[@]}"
-corpus=$SUNDER_BUILD/fuzz/corpus/$name
+kept=$SUNDER_SOURCE/tests/fuzz/corpus/$name.tar.gz corpus=$SUNDER_BUILD/fuzz/corpus/$name
 rm -rf "$corpus"
-mkdir -p "$corpus"
-seeds=()
-if [ -d "$SUNDER_SOURCE/tests/fuzz/seeds/$name" ]; then seeds=("$corpus" "$SUNDER_SOURCE/tests/fuzz/seeds/$name"); fi
-"$program" ${seeds[@]+"${seeds[@]}"} -seed="$seed" -runs="$runs" -max_len=400 -timeout=100 -rss_limit_mb=4096 -artifact_prefix="$work/$name-" \
+mkdir -p "$corpus/kept" "$corpus/new"
+if [ -f "$kept" ]; then
+    tar -xzf "$kept" -C "$corpus/kept"
+    "$program" "$corpus/kept" -runs=0 -max_len=600 -timeout=100 -rss_limit_mb=4096 >"$corpus/log" 2>&1 || { tail -n 60 "$corpus/log"; exit 1; }
+fi
+seeds=() longest=400
+if [ -d "$SUNDER_SOURCE/tests/fuzz/seeds/$name" ]; then seeds=("$corpus/new" "$SUNDER_SOURCE/tests/fuzz/seeds/$name") longest=600; fi
+"$program" ${seeds[@]+"${seeds[@]}"} -seed="$seed" -runs="$runs" -max_len=$longest -timeout=100 -rss_limit_mb=4096 -artifact_prefix="$work/$name-" \
     -print_final_stats=1 -verbosity=1 2>&1 | tail -n 40
 exit "${PIPESTATUS[0]}"

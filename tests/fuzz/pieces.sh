@@ -1,0 +1,115 @@
+#!/usr/bin/env bash
+# Fuzzing for long, a piece at a time. Each piece goes on from the inputs that the former ones found to lead somewhere, and adds its
+# executions and seconds to a tally; so hours can be put together of minutes, on a machine that has other work.
+#
+#   pieces.sh SECONDS [NAME ...]   a piece of so long for each of the targets (all): built if need be, one process at a time
+#   pieces.sh --keep               of what was found what is needed to cover as much, into corpus/NAME.tar.gz
+#   pieces.sh --record             RECORD.md, of the tallies
+#
+# State is in SUNDER_FUZZ_STATE (<build>/fuzz/pieces): inputs, tallies, and in found/ what went wrong. A target is done at
+# ten million executions if it makes more than 2000 of them in a second, else after eight hours of one core.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
+here=$root/tests/fuzz
+export SUNDER_SOURCE=$root SUNDER_BUILD=${SUNDER_BUILD:-$root/build/release}
+state=${SUNDER_FUZZ_STATE:-$SUNDER_BUILD/fuzz/pieces}
+quick=2000 executions_wanted=10000000 hours_wanted=8
+mkdir -p "$state/found"
+
+targets() { for file in "$here"/fuzz_*.c; do basename "$file" .c; done; }
+final() { sed -n "s/^stat::$1: *//p" "$2" | tail -n 1; }
+covered() { # of a log: the edges that were covered, and all there are
+    local all run
+    all=$(sed -n 's/^INFO: Loaded .* modules *(\([0-9]*\) inline 8-bit counters).*/\1/p' "$1" | head -n 1)
+    run=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$1" | tail -n 1)
+    echo "${run:-0} ${all:-0}"
+}
+
+begin() { # a target's inputs: those on record, and the seeds
+    local corpus=$state/$1
+    [ -d "$corpus" ] && return
+    mkdir -p "$corpus"
+    [ ! -f "$here/corpus/$1.tar.gz" ] || tar -xzf "$here/corpus/$1.tar.gz" -C "$corpus"
+    [ ! -d "$here/seeds/$1" ] || cp "$here/seeds/$1"/* "$corpus"
+}
+
+piece() { # NAME SECONDS
+    local name=$1 log=$state/$1.log status=0 spent executions
+    begin "$name"
+    local TIMEFORMAT='%U %S'
+    # Leaks are looked for at the end of each input as ever; a seed of its own for each piece.
+    spent=$( { time nice -n 19 "$SUNDER_BUILD/fuzz/$name" "$state/$name" -seed="$(date +%s)" -max_total_time="$2" -max_len=600 \
+        -timeout=100 -rss_limit_mb=4096 -artifact_prefix="$state/found/$name-" -print_final_stats=1 >"$log" 2>&1 || status=$?
+        echo "$status" >"$state/$name.status"; } 2>&1 )
+    executions=$(final number_of_executed_units "$log")
+    # shellcheck disable=SC2046 # two numbers
+    printf '%s %s %s %s %s %s\n' "$name" "${executions:-0}" "$(awk '{ print $1 + $2 }' <<<"$spent")" $(covered "$log") \
+        "$(git -C "$root" describe --always --dirty --abbrev=7)" >>"$state/tally"
+    tail -n 1 "$state/tally"
+    [ "$(cat "$state/$name.status")" -eq 0 ] || { echo "$name failed: see $log"; return 1; }
+}
+
+done_with() { # NAME: are the executions or the hours reached?
+    awk -v name="$1" -v quick=$quick -v most=$executions_wanted -v hours=$hours_wanted '
+        $1 == name { n += $2; s += $3 }
+        END { exit !(s > 0 && (n / s > quick ? n >= most : s >= 3600 * hours)) }' "$state/tally" 2>/dev/null
+}
+
+keep() {
+    local name smaller
+    mkdir -p "$here/corpus"
+    for name in $(targets); do
+        [ -d "$state/$name" ] || continue
+        smaller=$state/$name.smaller
+        rm -rf "$smaller"
+        mkdir "$smaller"
+        nice -n 19 "$SUNDER_BUILD/fuzz/$name" -merge=1 -max_len=600 -rss_limit_mb=4096 "$smaller" "$state/$name" >"$state/$name.merge" 2>&1
+        tar --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -C "$smaller" -cf - . | gzip -9n >"$here/corpus/$name.tar.gz"
+        echo "$name: $(find "$smaller" -type f | wc -l) of $(find "$state/$name" -type f | wc -l) inputs, $(wc -c <"$here/corpus/$name.tar.gz") bytes"
+    done
+}
+
+record() {
+    {
+        echo "# Fuzzing on record"
+        echo
+        echo "Written by \`bash tests/fuzz/pieces.sh --record\` on $(date +%F): all pieces of this state, on $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -n 1), with $(clang --version | head -n 1)."
+        echo "Wanted: ten million executions of a target that makes more than $quick of them in a second of a core, eight hours of a core for the others."
+        echo "Edges are of the code that is built with the sanitizers, which is more than a target can come to: the whole library, of the program the folders of the readers."
+        echo
+        echo "| target | executions | hours of a core | in a second | edges covered, of | inputs kept | commits | wanted |"
+        echo "|---|---|---|---|---|---|---|---|"
+        for name in $(targets); do
+            awk -v name="$name" -v quick=$quick -v most=$executions_wanted -v hours=$hours_wanted \
+                -v inputs="$(tar -tzf "$here/corpus/$name.tar.gz" 2>/dev/null | grep -vc '/$')" '
+                $1 == name { n += $2; s += $3; run = $4; all = $5; if (!($6 in seen)) { seen[$6]; commits = commits (commits ? ", " : "") $6 } }
+                END {
+                    if (!s) exit
+                    if (n / s > quick) wanted = n >= most ? "reached" : sprintf("%.0f %% of the executions", 100 * n / most)
+                    else wanted = s >= 3600 * hours ? "reached" : sprintf("%.0f %% of the hours", 100 * s / 3600 / hours)
+                    printf "| `%s` | %d | %.2f | %d | %d of %d | %d | %s | %s |\n", name, n, s / 3600, n / s, run, all, inputs, commits, wanted
+                }' "$state/tally"
+        done
+    } >"$here/RECORD.md"
+    cat "$here/RECORD.md"
+}
+
+case ${1:-} in
+--keep) keep ;;
+--record) record ;;
+[0-9]*)
+    seconds=$1
+    shift
+    bash "$here/build.sh" >"$state/build.log" 2>&1 || { tail -n 30 "$state/build.log"; exit 1; }
+    [ $# -gt 0 ] || set -- $(targets)
+    status=0
+    for name in "$@"; do
+        if done_with "$name"; then echo "$name is done"; else piece "$name" "$seconds" || status=1; fi
+    done
+    exit $status
+    ;;
+*)
+    sed -n '2,/^set/s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+    exit 2
+    ;;
+esac
