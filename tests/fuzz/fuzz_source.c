@@ -1,5 +1,6 @@
 /* Hostile files of layers, read by GDAL from memory. What a file says is asked twice, of features as GDAL has them and
- * of packed ones: both are refused, or both have the same. GDAL itself is not what is asked; it is taken as installed. */
+ * of packed ones: both are refused, or both have the same. GDAL itself is not what is asked; it is taken as it is
+ * installed. */
 #include "base/error.h"
 #include "read/fields.h"
 #include "read/lines.h"
