@@ -153,6 +153,11 @@ SUNDER_API size_t sunder_shape_rings(const sunder_shape *shape, size_t polygon);
 /* The corners x0 y0 x1 y1 ... of one ring, *n of them, outer rings counter-clockwise; of a repaired shape the nearest
  * doubles to them. */
 SUNDER_API const double *sunder_shape_ring(const sunder_shape *shape, size_t polygon, size_t ring, size_t *n);
+/* The rings as they were given, before cleaning, laid out as for sunder_shape_from_rings(), which makes the same shape
+ * of them again (of a repaired one by the even-odd rule); how many polygons. Of a shape moved or reflected they are
+ * moved or reflected. */
+SUNDER_API size_t sunder_shape_given(const sunder_shape *shape, const double **xy, const size_t **ring_end,
+                                     const size_t **poly_end);
 /* xmin, ymin, xmax, ymax; of a repaired shape rounded outward. The empty set: all zero. */
 SUNDER_API void sunder_shape_box(const sunder_shape *shape, double box[4]);
 /* Area, the sum over members (overlaps count twice), to the nearest double. Neither this nor the anchor can fail: what

@@ -8,6 +8,7 @@
 #include "write/rtree.h"
 
 #include "base/array.h"
+#include "base/curve.h"
 #include "base/interrupt.h"
 #include "sqlite/rows.h"
 #include "write/sql.h"
@@ -122,35 +123,8 @@ typedef struct place {
     struct gis_box box;
 } place;
 
-/* Position of a cell of the grid along the curve: at each level the quadrant in which it lies, then the quadrant's own
- * turn of the plane. */
-static uint32_t hilbert(uint32_t x, uint32_t y)
-{
-    uint32_t along = 0;
-    for (uint32_t s = 1u << 15; s; s >>= 1) {
-        uint32_t right = (x & s) != 0, up = (y & s) != 0;
-        along += s * s * ((3 * right) ^ up);
-        if (!up) {
-            if (right) {
-                x = 0xFFFF - x;
-                y = 0xFFFF - y;
-            }
-            uint32_t swap = x;
-            x = y;
-            y = swap;
-        }
-    }
-    return along;
-}
-
-/* Cells of the Hilbert curve's grid along an axis: finer than the boxes of any layer need to be told apart. */
-enum { GRID = 65536 };
-
-static uint32_t cell_of(double centre, double from, double to)
-{
-    double t = to > from ? (centre - from) / (to - from) : 0;
-    return (uint32_t)(fmin(fmax(t, 0), 1) * (GRID - 1));
-}
+/* The curve's grid is finer than the boxes of any layer need to be told apart. */
+enum { CURVE_BITS = 16 };
 
 static int compare_places(const void *a, const void *b)
 {
@@ -170,9 +144,9 @@ static bool sort_boxes(gis_boxes *boxes)
             around[k] = k % 2 ? fmax(around[k], boxes->at[i].side[k]) : fmin(around[k], boxes->at[i].side[k]);
     for (size_t i = 0; i < boxes->n; i++) {
         const float *side = boxes->at[i].side;
-        uint32_t x = cell_of(((double)side[0] + side[1]) / 2, around[0], around[1]);
-        uint32_t y = cell_of(((double)side[2] + side[3]) / 2, around[2], around[3]);
-        places[i] = (place){hilbert(x, y), boxes->at[i]};
+        const uint32_t x = gis_curve_cell(((double)side[0] + side[1]) / 2, around[0], around[1], CURVE_BITS);
+        const uint32_t y = gis_curve_cell(((double)side[2] + side[3]) / 2, around[2], around[3], CURVE_BITS);
+        places[i] = (place){(uint32_t)gis_curve_position(x, y, CURVE_BITS), boxes->at[i]};
     }
     qsort(places, boxes->n, sizeof *places, compare_places);
     for (size_t i = 0; i < boxes->n; i++) boxes->at[i] = places[i].box;

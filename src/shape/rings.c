@@ -1,4 +1,5 @@
-/* The rings of a shape: room for them while it is made, and its corners for those who draw it. */
+/* The rings of a shape: room for them while it is made, its corners for those who draw it, and its rings as
+ * given for those who keep it. */
 #include "shape/build.h"
 
 #include <string.h>
@@ -45,4 +46,13 @@ const double *sunder_shape_ring(const sunder_shape *shape, size_t polygon, size_
     const size_t begin = r ? shape->ring_end[r - 1] : 0;
     *n = shape->ring_end[r] - begin;
     return shape->xy + 2 * begin;
+}
+
+size_t sunder_shape_given(const sunder_shape *shape, const double **xy, const size_t **ring_end,
+                          const size_t **poly_end)
+{
+    *xy = shape->raw_xy;
+    *ring_end = shape->raw_ring_end;
+    *poly_end = shape->raw_poly_end;
+    return shape->raw_polygons;
 }

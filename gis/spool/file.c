@@ -1,0 +1,115 @@
+/* file.c: see file.h. A file appears by a rename, after its bytes are on the disk: so it is there whole, or not. */
+#define _GNU_SOURCE
+#include "spool/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char *inside(const char *directory, const char *name)
+{
+    const size_t size = strlen(directory) + strlen(name) + 2;
+    char *path = malloc(size);
+    if (path) snprintf(path, size, "%s/%s", directory, name);
+    return path;
+}
+
+static bool cannot_write(const char *path, gis_error *error)
+{
+    return gis_fail(error, "%s: cannot be written: %s", path, strerror(errno));
+}
+
+bool gis_spool_file_create(gis_spool_file *file, const char *directory, const char *name, gis_error *error)
+{
+    *file = (gis_spool_file){.path = inside(directory, name)};
+    if (!file->path) return gis_no_memory(error);
+    gis_hold();
+    file->stream = fopen(file->path, "w+");
+    if (file->stream) file->leftover = gis_leftover_temporary(file->path);
+    gis_release();
+    return file->stream || cannot_write(file->path, error);
+}
+
+bool gis_spool_file_write(gis_spool_file *file, const void *bytes, size_t n, gis_error *error)
+{
+    file->size += n;
+    return fwrite(bytes, 1, n, file->stream) == n || cannot_write(file->path, error);
+}
+
+bool gis_spool_file_flush(gis_spool_file *file, gis_error *error)
+{
+    return fflush(file->stream) == 0 || cannot_write(file->path, error);
+}
+
+/* That a file has a name is on the disk only once its directory is. */
+static bool sync_directory(const char *directory, gis_error *error)
+{
+    const int opened = open(directory, O_RDONLY | O_DIRECTORY);
+    const bool done = opened >= 0 && (fsync(opened) == 0 || errno == EINVAL);
+    if (!done) cannot_write(directory, error);
+    if (opened >= 0) close(opened);
+    return done;
+}
+
+bool gis_spool_file_place(gis_spool_file *file, const char *directory, const char *name, gis_error *error)
+{
+    char *path = inside(directory, name);
+    if (!path) return gis_no_memory(error);
+    bool done = fflush(file->stream) == 0 && fsync(fileno(file->stream)) == 0;
+    done = fclose(file->stream) == 0 && done;
+    file->stream = NULL;
+    gis_hold();
+    done = done && rename(file->path, path) == 0;
+    if (!done) cannot_write(path, error);
+    if (done) {
+        gis_leftover_forget(file->leftover);
+        file->leftover = NULL;
+    }
+    gis_release();
+    free(path);
+    gis_spool_file_close(file);
+    return done && sync_directory(directory, error);
+}
+
+bool gis_spool_file_open(gis_spool_file *file, const char *directory, const char *name, gis_error *error)
+{
+    *file = (gis_spool_file){.path = inside(directory, name)};
+    if (!file->path) return gis_no_memory(error);
+    struct stat status;
+    file->stream = fopen(file->path, "r");
+    if (!file->stream || fstat(fileno(file->stream), &status) != 0)
+        return gis_fail(error, "%s: cannot be read: %s", file->path, strerror(errno));
+    file->size = (uint64_t)status.st_size;
+    return true;
+}
+
+bool gis_spool_file_read(gis_spool_file *file, uint64_t from, void *to, size_t n, gis_error *error)
+{
+    char *at = to;
+    while (n > 0) {
+        const ssize_t got = pread(fileno(file->stream), at, n, (off_t)from);
+        if (got < 0 && errno == EINTR && gis_go_on(error)) continue;
+        if (got < 0) return gis_fail(error, "%s: cannot be read: %s", file->path, strerror(errno));
+        if (got == 0) return gis_fail(error, "%s: it ends too early: it was cut off", file->path);
+        at += got;
+        from += (uint64_t)got;
+        n -= (size_t)got;
+    }
+    return true;
+}
+
+void gis_spool_file_close(gis_spool_file *file)
+{
+    gis_hold();
+    if (file->stream) fclose(file->stream);
+    if (file->leftover) {
+        remove(file->path);
+        gis_leftover_forget(file->leftover);
+    }
+    gis_release();
+    free(file->path);
+    *file = (gis_spool_file){0};
+}

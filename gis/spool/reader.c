@@ -1,0 +1,97 @@
+/* reader.c: a spool read, cell by cell. */
+#include "base/array.h"
+#include "base/core.h"
+#include "spool/checksum.h"
+#include "spool/index.h"
+#include "spool/record.h"
+
+#include <stdlib.h>
+
+struct gis_spool {
+    gis_spool_index index;
+    gis_spool_file file;
+    size_t features, vertices;
+    gis_spool_room records;
+    gis_polygons rings;
+};
+
+static bool open_features(gis_spool *spool, const char *directory, gis_error *error)
+{
+    gis_spool_file *file = &spool->file;
+    gis_spool_mark mark;
+    uint64_t end = sizeof mark;
+    if (!gis_spool_file_open(file, directory, "features", error) ||
+        !gis_spool_file_read(file, 0, &mark, sizeof mark, error) ||
+        !gis_spool_mark_check(&mark, GIS_SPOOL_FEATURES, file->path, error))
+        return false;
+    for (size_t k = 0; k < spool->index.n; k++) {
+        const gis_spool_entry *entry = &spool->index.entry[k];
+        spool->features += entry->cell.features;
+        spool->vertices += entry->cell.vertices;
+        end += entry->bytes;
+    }
+    if (file->size == end) return true;
+    return gis_fail(error, "%s: it has %llu bytes, and should have %llu: it was cut off, or is of another plan",
+                    file->path, (unsigned long long)file->size, (unsigned long long)end);
+}
+
+bool gis_spool_open(const char *directory, gis_spool **out, gis_error *error)
+{
+    gis_spool *spool = calloc(1, sizeof *spool);
+    if (!spool) return gis_no_memory(error);
+    if (!gis_spool_index_read(&spool->index, directory, error) || !open_features(spool, directory, error)) {
+        gis_spool_close(spool);
+        return false;
+    }
+    *out = spool;
+    return true;
+}
+
+void gis_spool_close(gis_spool *spool)
+{
+    if (!spool) return;
+    gis_spool_index_clear(&spool->index);
+    gis_spool_file_close(&spool->file);
+    gis_polygons_clear(&spool->rings);
+    free(spool->records.at);
+    free(spool);
+}
+
+size_t gis_spool_features(const gis_spool *spool) { return spool->features; }
+size_t gis_spool_vertices(const gis_spool *spool) { return spool->vertices; }
+unsigned gis_spool_shards(const gis_spool *spool) { return spool->index.shards; }
+uint64_t gis_spool_checksum(const gis_spool *spool) { return spool->index.checksum; }
+size_t gis_spool_cells(const gis_spool *spool) { return spool->index.n; }
+const gis_spool_cell *gis_spool_cell_at(const gis_spool *spool, size_t cell) { return &spool->index.entry[cell].cell; }
+
+static bool load(gis_spool *spool, size_t cell, gis_error *error)
+{
+    const gis_spool_entry *entry = &spool->index.entry[cell];
+    gis_spool_room *records = &spool->records;
+    if (!gis_array_reserve(&records->at, &records->capacity, entry->bytes, 1)) return gis_no_memory(error);
+    if (!gis_spool_file_read(&spool->file, entry->from, records->at, entry->bytes, error)) return false;
+    records->used = entry->bytes;
+    return gis_spool_checksum_of(0, records->at, records->used) == entry->checksum ||
+           gis_fail(error, "%s: cell %zu of it is not what was written: its checksum is another", spool->file.path,
+                    cell);
+}
+
+bool gis_spool_read(gis_spool *spool, size_t cell, gis_spool_visit *visit, void *user, gis_error *error)
+{
+    if (!load(spool, cell, error)) return false;
+    for (size_t at = 0; at < spool->records.used;) {
+        unsigned char *record = spool->records.at + at;
+        gis_spool_feature feature;
+        sunder_shape *shape;
+        sunder_error why;
+        if (!gis_go_on(error)) return false;
+        if (!gis_spool_record_feature(record, spool->records.used - at, &feature))
+            return gis_fail(error, "%s: cell %zu of it is not what was written", spool->file.path, cell);
+        if (!gis_spool_record_shape(record, &spool->rings, &shape, &why))
+            return gis_core_failed(error, spool->file.path, &why);
+        feature.demands.shape = shape;
+        if (!visit(user, &feature, error)) return false;
+        at += gis_spool_record_head(record)->bytes;
+    }
+    return true;
+}

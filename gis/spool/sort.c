@@ -1,0 +1,250 @@
+/* sort.c: see sort.h. Records are read in parts that fit into memory; each part is sorted and written behind the last
+ * one, into one file; then the parts are merged by a heap of their first records. Records are ordered by their place on
+ * the curve and, where that is one, by their place in the input: so there is one order. */
+#include "spool/sort.h"
+
+#include "base/array.h"
+#include "base/curve.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A grid over a continent has cells of a tenth of a metre. */
+enum { CURVE_BITS = 26 };
+
+/* A sorted part, and what of it was read but not yet taken. */
+typedef struct run {
+    uint64_t from, end; /* in the file: what was not yet read */
+    unsigned char *at;  /* room of its own; the records in it begin at `used` and end at `filled` */
+    size_t used, filled, room;
+} run;
+
+/* Where a record of the part in memory is. */
+typedef struct place {
+    uint64_t along, index;
+    size_t offset;
+} place;
+
+typedef struct sorter {
+    const gis_spool_sorting *how;
+    gis_spool_file runs;
+    run *run;
+    size_t n, capacity;
+    unsigned char *part; /* records of one part, in the order in which they came */
+    size_t room;
+    place *place;
+    size_t places;
+} sorter;
+
+static int compare(uint64_t along_a, uint64_t index_a, uint64_t along_b, uint64_t index_b)
+{
+    if (along_a != along_b) return along_a < along_b ? -1 : 1;
+    return (index_a > index_b) - (index_a < index_b);
+}
+
+static int compare_places(const void *a, const void *b)
+{
+    const place *p = a, *q = b;
+    return compare(p->along, p->index, q->along, q->index);
+}
+
+/* ---- Parts ------------------------------------------------------------------------------------------------------- */
+
+static uint64_t place_on_curve(const double all[4], const double box[4])
+{
+    if (!(box[0] <= box[2])) return 0;
+    const uint32_t x = gis_curve_cell(box[0] / 2 + box[2] / 2, all[0], all[2], CURVE_BITS);
+    const uint32_t y = gis_curve_cell(box[1] / 2 + box[3] / 2, all[1], all[3], CURVE_BITS);
+    return gis_curve_position(x, y, CURVE_BITS);
+}
+
+static bool settle(const gis_spool_sorting *how, unsigned char *record, gis_error *error)
+{
+    gis_spool_head *head = gis_spool_record_head(record);
+    gis_spool_feature feature;
+    head->along = place_on_curve(how->box, head->box);
+    if (!how->settle) return true;
+    if (!gis_spool_record_feature(record, head->bytes, &feature))
+        return gis_fail(error, "%s: it is not what was written", how->from->path);
+    if (!how->settle(how->settle_user, &feature, error)) return false;
+    head->weight = feature.demands.weight;
+    head->max_shift = feature.demands.max_shift;
+    head->block = feature.demands.block;
+    return true;
+}
+
+static bool fail_content(const gis_spool_file *file, gis_error *error)
+{
+    return gis_fail(error, "%s: it is not what was written", file->path);
+}
+
+/* Reads as many bytes of the next part. No more room than is needed: one that doubles would be twice the bound. */
+static bool read_bytes(sorter *s, uint64_t from, size_t size, gis_error *error)
+{
+    if (s->room < size) {
+        unsigned char *larger = realloc(s->part, size);
+        if (!larger) return gis_no_memory(error);
+        s->part = larger;
+        s->room = size;
+    }
+    return gis_spool_file_read(s->how->from, from, s->part, size, error);
+}
+
+/* Reads the records that fit into a part, at least one; *n of them, as they came. */
+static bool read_part(sorter *s, uint64_t *from, size_t *n, gis_error *error)
+{
+    gis_spool_file *file = s->how->from;
+    const uint64_t left = file->size - *from;
+    size_t size = left < s->how->run ? (size_t)left : s->how->run, used = 0;
+    gis_spool_head head;
+    if (left < sizeof head || !gis_spool_file_read(file, *from, &head, sizeof head, error) || head.bytes > left)
+        return fail_content(file, error);
+    if (size < head.bytes) size = head.bytes;
+    if (!read_bytes(s, *from, size, error)) return false;
+    for (*n = 0; size - used >= sizeof head; used += gis_spool_record_head(s->part + used)->bytes) {
+        const gis_spool_head *next = gis_spool_record_head(s->part + used);
+        if (next->bytes < sizeof head || next->bytes % 8) return fail_content(file, error);
+        if (next->bytes > size - used) break;
+        if (!gis_go_on(error) || !settle(s->how, s->part + used, error)) return false;
+        if (!gis_array_reserve(&s->place, &s->places, *n + 1, sizeof *s->place)) return gis_no_memory(error);
+        s->place[(*n)++] = (place){next->along, next->index, used};
+    }
+    *from += used;
+    qsort(s->place, *n, sizeof *s->place, compare_places);
+    return true;
+}
+
+static bool write_part(sorter *s, size_t n, gis_error *error)
+{
+    if (!gis_array_reserve(&s->run, &s->capacity, s->n + 1, sizeof *s->run)) return gis_no_memory(error);
+    run *next = &s->run[s->n++];
+    *next = (run){.from = s->runs.size};
+    for (size_t k = 0; k < n; k++) {
+        unsigned char *record = s->part + s->place[k].offset;
+        if (!gis_spool_file_write(&s->runs, record, gis_spool_record_head(record)->bytes, error)) return false;
+    }
+    next->end = s->runs.size;
+    return gis_go_on(error);
+}
+
+static bool take_part(sorter *s, size_t n, gis_error *error)
+{
+    for (size_t k = 0; k < n; k++)
+        if (!s->how->take(s->how->take_user, s->part + s->place[k].offset, error)) return false;
+    return true;
+}
+
+/* ---- Merging ----------------------------------------------------------------------------------------------------- */
+
+static gis_spool_head *first_of(const run *r) { return gis_spool_record_head(r->at + r->used); }
+
+/* Has the first record of what is left whole in memory; *any = false: nothing is left. */
+static bool refill(sorter *s, run *r, size_t share, bool *any, gis_error *error)
+{
+    const size_t have = r->filled - r->used;
+    *any = have > 0 || r->from < r->end;
+    if (!*any || (have >= sizeof(gis_spool_head) && have >= first_of(r)->bytes)) return true;
+    /* The share, or what the record needs that is there in part. */
+    size_t wanted = share;
+    if (have >= sizeof(gis_spool_head) && first_of(r)->bytes > wanted) wanted = first_of(r)->bytes;
+    if (have) memmove(r->at, r->at + r->used, have);
+    if (r->room < wanted) {
+        unsigned char *larger = realloc(r->at, wanted);
+        if (!larger) return gis_no_memory(error);
+        r->at = larger;
+        r->room = wanted;
+    }
+    const size_t more = r->end - r->from < wanted - have ? (size_t)(r->end - r->from) : wanted - have;
+    if (more == 0) return fail_content(&s->runs, error);
+    if (!gis_spool_file_read(&s->runs, r->from, r->at + have, more, error)) return false;
+    r->from += more;
+    r->used = 0;
+    r->filled = have + more;
+    return refill(s, r, share, any, error); /* once more where the record is larger than its share */
+}
+
+static bool before(const run *a, const run *b)
+{
+    const gis_spool_head *p = first_of(a), *q = first_of(b);
+    return compare(p->along, p->index, q->along, q->index) < 0;
+}
+
+/* The heap's entry i sinks to where it belongs. */
+static void sink(run **heap, size_t n, size_t i)
+{
+    for (size_t child; (child = 2 * i + 1) < n; i = child) {
+        if (child + 1 < n && before(heap[child + 1], heap[child])) child++;
+        if (!before(heap[child], heap[i])) return;
+        run *lower = heap[i];
+        heap[i] = heap[child];
+        heap[child] = lower;
+    }
+}
+
+static bool merge_heap(sorter *s, run **heap, size_t share, gis_error *error)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < s->n; k++) {
+        bool any;
+        if (!refill(s, &s->run[k], share, &any, error)) return false;
+        if (any) heap[n++] = &s->run[k];
+    }
+    for (size_t i = n / 2; i-- > 0;) sink(heap, n, i);
+    while (n > 0) {
+        run *least = heap[0];
+        bool any;
+        if (!gis_go_on(error) || !s->how->take(s->how->take_user, least->at + least->used, error)) return false;
+        least->used += first_of(least)->bytes;
+        if (!refill(s, least, share, &any, error)) return false;
+        if (!any) heap[0] = heap[--n];
+        sink(heap, n, 0);
+    }
+    return true;
+}
+
+/* Reading less at once would cost a seek for every few records. */
+enum { LEAST_SHARE = 1 << 16 };
+
+static bool merge(sorter *s, gis_error *error)
+{
+    free(s->part);
+    free(s->place);
+    s->part = NULL;
+    s->place = NULL;
+    run **heap = malloc((s->n + 1) * sizeof *heap);
+    if (!heap) return gis_no_memory(error);
+    size_t share = s->how->run / (s->n + 1);
+    if (share < LEAST_SHARE) share = LEAST_SHARE;
+    const bool done = gis_spool_file_flush(&s->runs, error) && merge_heap(s, heap, share, error);
+    free(heap);
+    return done;
+}
+
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
+
+static bool sort(sorter *s, gis_error *error)
+{
+    size_t n;
+    uint64_t from = 0;
+    if (s->how->from->size == 0) return true;
+    if (!read_part(s, &from, &n, error)) return false;
+    if (from == s->how->from->size) return take_part(s, n, error);
+    if (!gis_spool_file_create(&s->runs, s->how->directory, "features.runs", error)) return false;
+    while (write_part(s, n, error)) {
+        if (from == s->how->from->size) return merge(s, error);
+        if (!read_part(s, &from, &n, error)) return false;
+    }
+    return false;
+}
+
+bool gis_spool_sort(const gis_spool_sorting *sorting, gis_error *error)
+{
+    sorter s = {.how = sorting};
+    const bool done = sort(&s, error);
+    for (size_t k = 0; k < s.n; k++) free(s.run[k].at);
+    free(s.run);
+    free(s.part);
+    free(s.place);
+    gis_spool_file_close(&s.runs);
+    return done;
+}

@@ -1,0 +1,145 @@
+/* writer.c: a spool written: features to a temporary file as they come, then sorted into cells. */
+#include "base/array.h"
+#include "spool/checksum.h"
+#include "spool/index.h"
+#include "spool/sort.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A cell is read whole: it has so many features, or so many vertices, unless one has more. */
+enum { CELL_FEATURES = 1000, CELL_VERTICES = 20000 };
+
+struct gis_spool_writer {
+    char *directory;
+    gis_spool_file input, out;
+    gis_spool_room record;
+    size_t features;
+    double box[4];
+    gis_spool_index index;
+    gis_spool_entry cell; /* the one that is being filled, and the records in it */
+    gis_spool_room records;
+};
+
+static void begin_box(double box[4])
+{
+    box[0] = box[1] = INFINITY;
+    box[2] = box[3] = -INFINITY;
+}
+
+static void join(double box[4], const double other[4])
+{
+    if (!(other[0] <= other[2])) return;
+    for (int k = 0; k < 2; k++) {
+        box[k] = fmin(box[k], other[k]);
+        box[k + 2] = fmax(box[k + 2], other[k + 2]);
+    }
+}
+
+bool gis_spool_create(const char *directory, gis_spool_writer **out, gis_error *error)
+{
+    gis_spool_writer *writer = calloc(1, sizeof *writer);
+    if (!writer) return gis_no_memory(error);
+    begin_box(writer->box);
+    writer->directory = strdup(directory);
+    if (!writer->directory || !gis_spool_file_create(&writer->input, directory, "features.input", error)) {
+        if (!writer->directory) gis_no_memory(error);
+        gis_spool_writer_free(writer);
+        return false;
+    }
+    *out = writer;
+    return true;
+}
+
+bool gis_spool_add(gis_spool_writer *writer, const gis_spool_feature *feature, gis_error *error)
+{
+    if (!gis_spool_record_make(&writer->record, feature, error)) return false;
+    join(writer->box, gis_spool_record_head(writer->record.at)->box);
+    writer->features++;
+    return gis_spool_file_write(&writer->input, writer->record.at, writer->record.used, error);
+}
+
+/* ---- Cells ------------------------------------------------------------------------------------------------------- */
+
+static void begin_cell(gis_spool_writer *writer)
+{
+    writer->cell = (gis_spool_entry){.from = writer->out.size};
+    begin_box(writer->cell.cell.box);
+    writer->records.used = 0;
+}
+
+static bool end_cell(gis_spool_writer *writer, gis_error *error)
+{
+    gis_spool_index *index = &writer->index;
+    if (writer->cell.cell.features == 0) return true;
+    writer->cell.bytes = writer->records.used;
+    writer->cell.checksum = gis_spool_checksum_of(0, writer->records.at, writer->records.used);
+    if (!gis_array_reserve(&index->entry, &index->capacity, index->n + 1, sizeof *index->entry))
+        return gis_no_memory(error);
+    index->entry[index->n++] = writer->cell;
+    if (!gis_spool_file_write(&writer->out, writer->records.at, writer->records.used, error)) return false;
+    begin_cell(writer);
+    return true;
+}
+
+static bool take(void *user, const unsigned char *record, gis_error *error)
+{
+    gis_spool_writer *writer = user;
+    gis_spool_head head;
+    memcpy(&head, record, sizeof head);
+    gis_spool_cell *cell = &writer->cell.cell;
+    const bool full = cell->features == CELL_FEATURES || cell->vertices + head.vertices > CELL_VERTICES;
+    if (full && !end_cell(writer, error)) return false;
+    gis_spool_room *records = &writer->records;
+    if (!gis_array_reserve(&records->at, &records->capacity, records->used + head.bytes, 1))
+        return gis_no_memory(error);
+    memcpy(records->at + records->used, record, head.bytes);
+    records->used += head.bytes;
+    cell->features++;
+    cell->vertices += head.vertices;
+    join(cell->box, head.box);
+    return true;
+}
+
+/* ---- Ending ------------------------------------------------------------------------------------------------------ */
+
+static bool write_features(gis_spool_writer *writer, gis_spool_settle *settle, void *user, gis_error *error)
+{
+    const gis_spool_mark mark = gis_spool_mark_of(GIS_SPOOL_FEATURES);
+    gis_spool_sorting sorting = {.from = &writer->input,
+                                 .directory = writer->directory,
+                                 .run = GIS_SPOOL_RUN,
+                                 .settle = settle,
+                                 .settle_user = user,
+                                 .take = take,
+                                 .take_user = writer};
+    memcpy(sorting.box, writer->box, sizeof sorting.box);
+    if (!gis_spool_file_flush(&writer->input, error) ||
+        !gis_spool_file_create(&writer->out, writer->directory, "features.part", error) ||
+        !gis_spool_file_write(&writer->out, &mark, sizeof mark, error))
+        return false;
+    begin_cell(writer);
+    return gis_spool_sort(&sorting, error) && end_cell(writer, error) &&
+           gis_spool_file_place(&writer->out, writer->directory, "features", error);
+}
+
+bool gis_spool_finish(gis_spool_writer *writer, unsigned shards, gis_spool_settle *settle, void *user, gis_error *error)
+{
+    if (!write_features(writer, settle, user, error)) return false;
+    gis_spool_file_close(&writer->input);
+    gis_spool_index_deal(&writer->index, shards);
+    return gis_spool_index_write(&writer->index, writer->directory, error);
+}
+
+void gis_spool_writer_free(gis_spool_writer *writer)
+{
+    if (!writer) return;
+    gis_spool_file_close(&writer->input);
+    gis_spool_file_close(&writer->out);
+    gis_spool_index_clear(&writer->index);
+    free(writer->record.at);
+    free(writer->records.at);
+    free(writer->directory);
+    free(writer);
+}

@@ -1,0 +1,479 @@
+/* Spools: what is read is what was put in, to the last bit; the order is one along the curve whatever is sorted at a
+ * time; cells have the boxes of what is in them and are dealt in order; what was changed, cut off or is of another
+ * version is told. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "base/curve.h"
+#include "random.h"
+#include "spool/index.h"
+#include "spool/sort.h"
+#include "spool/spool.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static char directory[] = "/tmp/test_spool.XXXXXX";
+
+static void path_of(const char *name, char path[256]) { snprintf(path, 256, "%s/%s", directory, name); }
+
+/* ---- Random features --------------------------------------------------------------------------------------------- */
+
+enum { MOST = 3000 };
+
+typedef struct board {
+    sunder_shape *shape[MOST];
+    gis_spool_feature feature[MOST];
+    char id[MOST][16];
+    size_t n, seen;
+} board;
+
+static void add_ring(gis_polygons *to, const double *at, double size, bool clockwise, rng *random)
+{
+    static const double corner[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (int k = 0; k < 4; k++) {
+        const double *c = corner[clockwise ? 3 - k : k], *d = corner[clockwise ? (6 - k) % 4 : (k + 1) % 4];
+        const double x = at[0] + size * c[0], y = at[1] + size * c[1];
+        const int repeated = rng_once_in(random, 4) ? 2 : 1;
+        for (int r = 0; r < repeated; r++) assert_true(gis_polygons_vertex(to, x, y, NULL));
+        if (rng_once_in(random, 3)) /* a straight corner: halves of these sizes are exact */
+            assert_true(gis_polygons_vertex(to, (x + at[0] + size * d[0]) / 2, (y + at[1] + size * d[1]) / 2, NULL));
+    }
+}
+
+/* Squares with holes, several of them; some are bow-ties. */
+static sunder_shape *draw_shape(rng *random)
+{
+    gis_polygons set = {0};
+    sunder_shape *shape = NULL;
+    sunder_error why;
+    const double size = (double)(8 * rng_int(random, 1, 20));
+    const double at[2] = {(double)rng_int(random, -100000, 100000), (double)rng_int(random, -70000, 70000)};
+    for (int64_t members = rng_int(random, 1, 3), m = 0; m < members; m++) {
+        const double here[2] = {at[0] + 2 * size * (double)m, at[1]},
+                     hole[2] = {here[0] + size / 4, here[1] + size / 4};
+        if (rng_once_in(random, 10)) {
+            const double tie[8] = {here[0],     here[1], here[0] + 3, here[1] + 7,
+                                   here[0] + 3, here[1], here[0],     here[1] + 5};
+            for (int k = 0; k < 4; k++) assert_true(gis_polygons_vertex(&set, tie[2 * k], tie[2 * k + 1], NULL));
+            assert_true(gis_polygons_end_ring(&set, NULL));
+        } else {
+            add_ring(&set, here, size, rng_once_in(random, 2), random);
+            assert_true(gis_polygons_end_ring(&set, NULL));
+            if (rng_once_in(random, 3)) {
+                add_ring(&set, hole, size / 2, rng_once_in(random, 2), random);
+                assert_true(gis_polygons_end_ring(&set, NULL));
+            }
+        }
+        assert_true(gis_polygons_end_polygon(&set, NULL));
+    }
+    if (gis_polygons_shape(&set, SUNDER_VALIDITY_STRICT, &shape, &why) != SUNDER_OK)
+        assert_int_equal(gis_polygons_shape(&set, SUNDER_VALIDITY_EVEN_ODD, &shape, &why), SUNDER_OK);
+    gis_polygons_clear(&set);
+    return shape;
+}
+
+static board *draw_board(size_t n)
+{
+    board *b = calloc(1, sizeof *b);
+    b->n = n;
+    for (size_t i = 0; i < n; i++) {
+        rng random = rng_start(test_seed(), i);
+        b->shape[i] = draw_shape(&random);
+        snprintf(b->id[i], sizeof b->id[i], "%.*s%zu", (int)(i % 7), "building", i);
+        b->feature[i] = (gis_spool_feature){
+            .index = i,
+            .fid = rng_int(&random, -1, INT32_MAX),
+            .demands = {.shape = b->shape[i],
+                        .weight = rng_unit(&random) + 0.1,
+                        .max_shift = rng_once_in(&random, 3) ? INFINITY : rng_unit(&random),
+                        .block = rng_int(&random, -1, 5),
+                        .fixed = rng_once_in(&random, 5)},
+            .start = {NAN, rng_unit(&random)},
+            .area = rng_unit(&random),
+            .id = rng_once_in(&random, 4) ? NULL : b->id[i],
+        };
+    }
+    return b;
+}
+
+static void free_board(board *b)
+{
+    for (size_t i = 0; i < b->n; i++) sunder_shape_free(b->shape[i]);
+    free(b);
+}
+
+static void write_board(const board *b, unsigned shards, gis_spool_settle *settle)
+{
+    gis_spool_writer *writer;
+    gis_error error = {0};
+    assert_true(gis_spool_create(directory, &writer, &error));
+    for (size_t i = 0; i < b->n; i++) assert_true(gis_spool_add(writer, &b->feature[i], &error));
+    assert_true(gis_spool_finish(writer, shards, settle, (void *)b, &error));
+    gis_spool_writer_free(writer);
+}
+
+/* ---- What is read ------------------------------------------------------------------------------------------------ */
+
+static void same_shape(const sunder_shape *a, const sunder_shape *b)
+{
+    const double *xy[2];
+    const size_t *ring_end[2], *poly_end[2];
+    double box[2][4];
+    const size_t polygons = sunder_shape_given(a, &xy[0], &ring_end[0], &poly_end[0]);
+    assert_int_equal(polygons, sunder_shape_given(b, &xy[1], &ring_end[1], &poly_end[1]));
+    assert_memory_equal(poly_end[0], poly_end[1], polygons * sizeof *poly_end[0]);
+    const size_t rings = poly_end[0][polygons - 1];
+    assert_memory_equal(ring_end[0], ring_end[1], rings * sizeof *ring_end[0]);
+    assert_memory_equal(xy[0], xy[1], 2 * ring_end[0][rings - 1] * sizeof *xy[0]);
+    assert_int_equal(sunder_shape_repaired(a), sunder_shape_repaired(b));
+    assert_int_equal(sunder_shape_vertices(a), sunder_shape_vertices(b));
+    sunder_shape_box(a, box[0]);
+    sunder_shape_box(b, box[1]);
+    assert_memory_equal(box[0], box[1], sizeof box[0]);
+}
+
+typedef struct reading {
+    const board *board;
+    const gis_spool_cell *cell;
+    double box[4];
+    size_t features, vertices;
+    uint64_t last;
+    bool found[MOST];
+} reading;
+
+static bool see(void *user, const gis_spool_feature *feature, gis_error *error)
+{
+    reading *r = user;
+    const gis_spool_feature *put = &r->board->feature[feature->index];
+    const double *xy;
+    const size_t *ring_end, *poly_end;
+    double box[4];
+    (void)error;
+    assert_false(r->found[feature->index]);
+    r->found[feature->index] = true;
+    same_shape(put->demands.shape, feature->demands.shape);
+    assert_int_equal(put->fid, feature->fid);
+    assert_true(put->demands.max_shift == feature->demands.max_shift);
+    assert_int_equal(put->demands.fixed, feature->demands.fixed);
+    assert_false(feature->demands.ignored);
+    assert_memory_equal(put->start, feature->start, sizeof put->start);
+    assert_true(put->area == feature->area);
+    assert_true((put->id == NULL) == (feature->id == NULL) && (!put->id || strcmp(put->id, feature->id) == 0));
+    const size_t polygons = sunder_shape_given(feature->demands.shape, &xy, &ring_end, &poly_end);
+    r->features++;
+    r->vertices += ring_end[poly_end[polygons - 1] - 1];
+    sunder_shape_box(feature->demands.shape, box);
+    for (int k = 0; k < 2; k++) {
+        r->box[k] = fmin(r->box[k], box[k]);
+        r->box[k + 2] = fmax(r->box[k + 2], box[k + 2]);
+    }
+    sunder_shape_free((sunder_shape *)feature->demands.shape);
+    return true;
+}
+
+/* Reads all, and checks what the cells say. */
+static void read_board(const board *b, unsigned shards)
+{
+    gis_spool *spool;
+    gis_error error = {0};
+    reading *r = calloc(1, sizeof *r);
+    unsigned last = 0;
+    r->board = b;
+    assert_true(gis_spool_open(directory, &spool, &error));
+    assert_int_equal(gis_spool_shards(spool), shards);
+    assert_int_equal(gis_spool_features(spool), b->n);
+    for (size_t c = 0; c < gis_spool_cells(spool); c++) {
+        const gis_spool_cell *cell = gis_spool_cell_at(spool, c);
+        r->features = r->vertices = 0;
+        r->box[0] = r->box[1] = INFINITY;
+        r->box[2] = r->box[3] = -INFINITY;
+        assert_true(gis_spool_read(spool, c, see, r, &error));
+        assert_int_equal(r->features, cell->features);
+        assert_int_equal(r->vertices, cell->vertices);
+        assert_memory_equal(r->box, cell->box, sizeof r->box);
+        assert_true(cell->features <= 1000 && cell->shard >= last && cell->shard < shards);
+        last = cell->shard;
+    }
+    for (size_t i = 0; i < b->n; i++) assert_true(r->found[i]);
+    gis_spool_close(spool);
+    free(r);
+}
+
+static void test_what_was_put_in(void **state)
+{
+    const size_t sizes[] = {0, 1, 999, 2900};
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        board *b = draw_board(sizes[k]);
+        for (unsigned shards = 1; shards < 9; shards += 3) {
+            write_board(b, shards, NULL);
+            read_board(b, shards);
+        }
+        free_board(b);
+    }
+    char path[256];
+    static const char *const left[] = {"features.input", "features.runs", "features.part", "cells.part"};
+    for (size_t k = 0; k < sizeof left / sizeof *left; k++) {
+        path_of(left[k], path);
+        assert_int_not_equal(access(path, F_OK), 0);
+    }
+}
+
+/* ---- Settling ---------------------------------------------------------------------------------------------------- */
+
+static bool settle(void *user, gis_spool_feature *feature, gis_error *error)
+{
+    board *b = user;
+    (void)error;
+    assert_int_equal(feature->index, b->seen++);
+    assert_null(feature->demands.shape);
+    assert_true(feature->id == NULL || strcmp(feature->id, b->id[feature->index]) == 0);
+    feature->demands.weight = 2 * feature->demands.weight / feature->area;
+    feature->demands.block = feature->demands.block < 0 ? -1 : 100 + feature->demands.block;
+    return true;
+}
+
+static bool see_settled(void *user, const gis_spool_feature *feature, gis_error *error)
+{
+    const board *b = user;
+    const gis_spool_feature *put = &b->feature[feature->index];
+    (void)error;
+    assert_true(feature->demands.weight == 2 * put->demands.weight / put->area);
+    assert_int_equal(feature->demands.block, put->demands.block < 0 ? -1 : 100 + put->demands.block);
+    sunder_shape_free((sunder_shape *)feature->demands.shape);
+    return true;
+}
+
+static void test_settled(void **state)
+{
+    board *b = draw_board(1500);
+    gis_spool *spool;
+    gis_error error = {0};
+    write_board(b, 2, settle);
+    assert_int_equal(b->seen, b->n);
+    assert_true(gis_spool_open(directory, &spool, &error));
+    for (size_t c = 0; c < gis_spool_cells(spool); c++) assert_true(gis_spool_read(spool, c, see_settled, b, &error));
+    gis_spool_close(spool);
+    free_board(b);
+}
+
+/* ---- Order ------------------------------------------------------------------------------------------------------- */
+
+typedef struct order {
+    uint64_t along[MOST], index[MOST];
+    size_t n;
+} order;
+
+static bool note(void *user, const unsigned char *record, gis_error *error)
+{
+    order *o = user;
+    gis_spool_head head;
+    (void)error;
+    memcpy(&head, record, sizeof head);
+    o->along[o->n] = head.along;
+    o->index[o->n++] = head.index;
+    return true;
+}
+
+/* The same order, whatever fits into memory at a time: also where not even one record does. */
+static void test_order(void **state)
+{
+    static const size_t runs[] = {1, 700, 4096, 100000, GIS_SPOOL_RUN};
+    static order o[5];
+    board *b = draw_board(2000);
+    gis_error error = {0};
+    gis_spool_file input;
+    gis_spool_room record = {0};
+    assert_true(gis_spool_file_create(&input, directory, "features.input", &error));
+    for (size_t i = 0; i < b->n; i++) {
+        assert_true(gis_spool_record_make(&record, &b->feature[i], &error));
+        assert_true(gis_spool_file_write(&input, record.at, record.used, &error));
+    }
+    assert_true(gis_spool_file_flush(&input, &error));
+    for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
+        const gis_spool_sorting sorting = {.from = &input,
+                                           .box = {-100000, -70000, 100000, 70000},
+                                           .directory = directory,
+                                           .run = runs[k],
+                                           .take = note,
+                                           .take_user = &o[k]};
+        o[k].n = 0;
+        assert_true(gis_spool_sort(&sorting, &error));
+        assert_int_equal(o[k].n, b->n);
+        for (size_t i = 1; i < b->n; i++) assert_true(o[k].along[i - 1] <= o[k].along[i]);
+        assert_memory_equal(o[0].index, o[k].index, sizeof o[k].index);
+    }
+    gis_spool_file_close(&input);
+    free(record.at);
+    free_board(b);
+}
+
+/* Each position once, and from one to the next a step to a cell beside it: that is what makes it this curve. */
+static void test_curve(void **state)
+{
+    enum { BITS = 6, SIDE = 1 << BITS };
+    static uint32_t at[SIDE * SIDE][2];
+    static bool taken[SIDE * SIDE];
+    for (uint32_t x = 0; x < SIDE; x++)
+        for (uint32_t y = 0; y < SIDE; y++) {
+            const uint64_t along = gis_curve_position(x, y, BITS);
+            assert_true(along < SIDE * SIDE && !taken[along]);
+            taken[along] = true;
+            at[along][0] = x;
+            at[along][1] = y;
+        }
+    for (size_t k = 1; k < SIDE * SIDE; k++)
+        assert_int_equal(abs((int)at[k][0] - (int)at[k - 1][0]) + abs((int)at[k][1] - (int)at[k - 1][1]), 1);
+}
+
+/* ---- Harm -------------------------------------------------------------------------------------------------------- */
+
+static long size_of(const char *path)
+{
+    FILE *file = fopen(path, "r");
+    fseek(file, 0, SEEK_END);
+    const long size = ftell(file);
+    fclose(file);
+    return size;
+}
+
+static void flip(const char *path, long at)
+{
+    FILE *file = fopen(path, "r+");
+    fseek(file, at, SEEK_SET);
+    const int byte = fgetc(file);
+    fseek(file, at, SEEK_SET);
+    fputc(byte ^ 16, file);
+    fclose(file);
+}
+
+static bool pass(void *user, const gis_spool_feature *feature, gis_error *error)
+{
+    (void)user;
+    (void)error;
+    sunder_shape_free((sunder_shape *)feature->demands.shape);
+    return true;
+}
+
+/* All of it read, or the error. */
+static bool read_all(gis_error *error)
+{
+    gis_spool *spool;
+    if (!gis_spool_open(directory, &spool, error)) return false;
+    bool done = true;
+    for (size_t c = 0; done && c < gis_spool_cells(spool); c++) done = gis_spool_read(spool, c, pass, NULL, error);
+    gis_spool_close(spool);
+    return done;
+}
+
+static void test_harm(void **state)
+{
+    static const char *const names[] = {"features", "cells"};
+    board *b = draw_board(300);
+    gis_error error = {0};
+    char path[256];
+    for (int f = 0; f < 2; f++) {
+        path_of(names[f], path);
+        write_board(b, 3, NULL);
+        assert_true(read_all(&error));
+        const long size = size_of(path), step = size > 2000 ? size / 200 : 1;
+        for (long at = 0; at < size; at += step) {
+            flip(path, at);
+            assert_false(read_all(&error));
+            assert_non_null(strstr(error.message, path));
+            flip(path, at);
+        }
+        for (long end = size - 1; end > 0; end = end * 2 / 3) {
+            assert_int_equal(truncate(path, end), 0);
+            assert_false(read_all(&error));
+            assert_non_null(strstr(error.message, path));
+        }
+        unlink(path);
+        assert_false(read_all(&error));
+        assert_non_null(strstr(error.message, path));
+    }
+    free_board(b);
+}
+
+/* The mark tells what is wrong before a checksum does. */
+static void test_marks(void **state)
+{
+    static const struct {
+        long at;
+        const char *said;
+    } cases[] = {{0, "no such file"}, {8, "version"}, {12, "order of bytes"}};
+    static const char *const names[] = {"features", "cells"};
+    board *b = draw_board(3);
+    write_board(b, 1, NULL);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        for (int f = 0; f < 2; f++) {
+            char path[256];
+            gis_error error = {0};
+            path_of(names[f], path);
+            flip(path, cases[k].at);
+            assert_false(read_all(&error));
+            assert_non_null(strstr(error.message, cases[k].said));
+            flip(path, cases[k].at);
+        }
+    free_board(b);
+}
+
+/* A spool that is not finished leaves the former one, and nothing else. */
+static void test_given_up(void **state)
+{
+    board *b = draw_board(20);
+    gis_spool_writer *writer;
+    gis_error error = {0};
+    char path[256];
+    write_board(b, 1, NULL);
+    assert_true(gis_spool_create(directory, &writer, &error));
+    assert_true(gis_spool_add(writer, &b->feature[0], &error));
+    gis_spool_writer_free(writer);
+    read_board(b, 1);
+    path_of("features.input", path);
+    assert_int_not_equal(access(path, F_OK), 0);
+    assert_false(gis_spool_create("/nowhere", &writer, &error));
+    assert_non_null(strstr(error.message, "/nowhere/features.input"));
+    free_board(b);
+}
+
+static void test_full_disk(void **state)
+{
+    gis_spool_file file = {0};
+    gis_error error = {0};
+    static char bytes[1 << 16];
+    if (access("/dev/full", W_OK) != 0) skip();
+    assert_true(gis_spool_file_create(&file, "/dev", "full", &error) || true);
+    bool done = true;
+    for (int k = 0; k < 4 && done; k++) done = gis_spool_file_write(&file, bytes, sizeof bytes, &error);
+    done = done && gis_spool_file_flush(&file, &error);
+    assert_false(done);
+    assert_non_null(strstr(error.message, "/dev/full: cannot be written: No space left"));
+    gis_leftover_forget(file.leftover); /* it is not ours to take away */
+    file.leftover = NULL;
+    gis_spool_file_close(&file);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_what_was_put_in), cmocka_unit_test(test_settled),   cmocka_unit_test(test_order),
+        cmocka_unit_test(test_curve),           cmocka_unit_test(test_harm),      cmocka_unit_test(test_marks),
+        cmocka_unit_test(test_given_up),        cmocka_unit_test(test_full_disk),
+    };
+    if (!mkdtemp(directory)) return 1;
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    char path[256];
+    path_of("features", path);
+    unlink(path);
+    path_of("cells", path);
+    unlink(path);
+    rmdir(directory);
+    return failed;
+}
