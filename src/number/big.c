@@ -340,8 +340,8 @@ static uint64_t highest(sunder_i_big a)
 }
 
 /* |num / den| * 2^exponent to the nearest double, from the highest bits of both, where these tell. Let A and D be
- * those, both at least 2^63, and num and den A + a and D + d but for powers of two, 0 <= a, d < 1. The quotient sought
- * is Q = 2^63 (A + a) / (D + d), and q = floor(2^63 A / D) < 2^64 is at most 2 off it: the floor takes less than 1 away, a
+ * those, both at least 2^63, and num and den A + a and D + d but for powers of two, 0 <= a, d < 1. The quotient is
+ * Q = 2^63 (A + a) / (D + d), and q = floor(2^63 A / D) < 2^64 is at most 2 off it: the floor takes less than 1 away, a
  * less than 2^63 / D <= 1, and d adds less than q / D < 2. So whatever is more than 2 from the middle between two
  * doubles is rounded to the same one. */
 static bool quick_ratio(sunder_i_big num, sunder_i_big den, long exponent, double *v)
