@@ -36,23 +36,44 @@ void sunder_i_extent_add(sunder_i_extent *extent, const double *xy, size_t n)
     }
 }
 
+/* The exponent e of v = m 2^e, 1/2 <= |m| < 1, as frexp() has it: without a call where v is neither zero nor tiny. */
+static inline int exponent_of(double v)
+{
+    uint64_t b;
+    memcpy(&b, &v, sizeof b);
+    const int field = (int)(b >> 52 & 0x7ff);
+    if (field) return field - 1022;
+    int e;
+    frexp(v, &e);
+    return e;
+}
+
+/* 2^e, likewise. */
+static inline double power_of_two(int e)
+{
+    if (e < -1022 || e > 1023) return ldexp(1, e);
+    const uint64_t b = (uint64_t)(e + 1023) << 52;
+    double v;
+    memcpy(&v, &b, sizeof v);
+    return v;
+}
+
 /* A double with at most 20 significant bits near the middle of [low, high], a multiple of the unit 2^bit, or zero where
  * the range reaches down to that scale anyway. */
 static double pick_origin(double low, double high, int bit)
 {
     const double middle = low / 2 + high / 2;
     if (middle == 0) return 0;
-    int e;
-    const double m = frexp(middle, &e);
+    const int e = exponent_of(middle), range = exponent_of(high - low);
     /* Keep bits down to the size of the range: a finer origin buys nothing. */
-    int range;
-    frexp(high - low, &range);
     int keep = e - range + 2;
     if (high == low || keep > 20) keep = 20;
     if (keep <= 0) return 0;
     if (e - keep < bit) keep = e - bit;
     if (keep <= 0) return 0;
-    return ldexp(trunc(ldexp(m, keep)), e - keep);
+    const double bits =
+        fabs(middle) > 0x1p-900 && fabs(middle) < 0x1p900 ? middle * power_of_two(keep - e) : ldexp(middle, keep - e);
+    return ldexp((double)(int64_t)bits, e - keep); /* truncated: below 2^20 */
 }
 
 /* Bits of a magnitude |v - o| in units of 2^bit, rounded up safely. */
@@ -61,9 +82,7 @@ static int magnitude_bits(double v, double o, int bit)
     const double d = fabs(v - o); /* rounding is relative, below one bit */
     if (d == 0) return 0;
     if (isinf(d)) return INT_MAX / 2;
-    int e;
-    frexp(d, &e);
-    return e + 1 - bit;
+    return exponent_of(d) + 1 - bit;
 }
 
 void sunder_i_lattice_init(sunder_i_lattice *lattice, const sunder_i_extent *extents, size_t n, bool relative,
@@ -75,7 +94,7 @@ void sunder_i_lattice_init(sunder_i_lattice *lattice, const sunder_i_extent *ext
         if (extents[i].any && extents[i].low_bit < bit) bit = extents[i].low_bit;
     if (bit == INT_MAX) bit = 0;
     lattice->exponent = bit;
-    lattice->scale = bit > -1000 && bit < 1000 ? ldexp(1, -bit) : 0;
+    lattice->scale = bit > -1000 && bit < 1000 ? power_of_two(-bit) : 0;
     int most = 0;
     for (size_t i = 0; i < n; i++) {
         origins[i][0] = origins[i][1] = 0;
@@ -182,6 +201,27 @@ static int64_t narrow_int(const sunder_i_lattice *lattice, double v, double o)
     /* One is above 2^122 units and they differ by less than 2^60: within a factor of two of each other, so the
      * difference is exact (Sterbenz). */
     return (int64_t)ldexp(v - o, (int)-lattice->exponent);
+}
+
+void sunder_i_lattice_points(sunder_i_lattice *lattice, const double *xy, size_t n, const double origin[2],
+                             sunder_i_point *out)
+{
+    const double scale = lattice->scale, x = origin[0] * scale, y = origin[1] * scale;
+    if (lattice->narrow && scale > 0 && fabs(x) < 0x1p62 && fabs(y) < 0x1p62) {
+        const int64_t less_x = (int64_t)x, less_y = (int64_t)y;
+        for (size_t i = 0; i < n; i++) {
+            const double sx = xy[2 * i] * scale, sy = xy[2 * i + 1] * scale;
+            if (fabs(sx) < 0x1p62 && fabs(sy) < 0x1p62)
+                out[i] = (sunder_i_point){(int64_t)sx - less_x, (int64_t)sy - less_y};
+            else
+                out[i] = (sunder_i_point){narrow_int(lattice, xy[2 * i], origin[0]),
+                                          narrow_int(lattice, xy[2 * i + 1], origin[1])};
+        }
+        return;
+    }
+    for (size_t i = 0; i < n; i++)
+        out[i] = (sunder_i_point){sunder_i_lattice_int(lattice, xy[2 * i], origin[0]),
+                                  sunder_i_lattice_int(lattice, xy[2 * i + 1], origin[1])};
 }
 
 int64_t sunder_i_lattice_int(sunder_i_lattice *lattice, double v, double o)

@@ -78,6 +78,9 @@ void sunder_i_lattice_free(sunder_i_lattice *lattice);
 
 /* The double v, a multiple of the unit, less the origin o, as a number. */
 int64_t sunder_i_lattice_int(sunder_i_lattice *lattice, double v, double o);
+/* n points x0 y0 x1 y1 ..., less that origin. */
+void sunder_i_lattice_points(sunder_i_lattice *lattice, const double *xy, size_t n, const double origin[2],
+                             sunder_i_point *out);
 /* A big integer as a number; it is kept, not copied. On a narrow lattice it must be plain. */
 int64_t sunder_i_lattice_big(sunder_i_lattice *lattice, sunder_i_big v);
 /* The same of num / den, den > 0, not on narrow lattices. */

@@ -26,6 +26,14 @@ static inline sunder_i_det sunder_i_narrow_orient(sunder_i_point a, sunder_i_poi
     return sunder_i_narrow_cross(sunder_i_narrow_sub(b, a), sunder_i_narrow_sub(c, a));
 }
 
+/* sunder_i_orient() without a call where the lattice is narrow. */
+static inline int sunder_i_orient_inline(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
+{
+    if (!l->narrow) return sunder_i_orient(l, a, b, c);
+    l->counts.orientation_tests++;
+    return sunder_i_det_sign(sunder_i_narrow_orient(a, b, c));
+}
+
 /* num / den as a double: both conversions and the division round once each, relative error below 2^-51. */
 static inline double sunder_i_narrow_value(sunder_i_det num, sunder_i_det den)
 {

@@ -12,7 +12,7 @@
 #ifndef SUNDER_I_BUILD_H
 #define SUNDER_I_BUILD_H
 
-#include "predicate/predicate.h"
+#include "predicate/narrow.h"
 #include "shape/shape.h"
 #include "spatial/box_tree.h"
 
@@ -61,7 +61,7 @@ static inline int sunder_i_rings_cmp(const sunder_i_rings *r, uint32_t i, uint32
 
 static inline int sunder_i_rings_orient(const sunder_i_rings *r, uint32_t a, uint32_t b, uint32_t c)
 {
-    return sunder_i_orient(r->lattice, r->at[a], r->at[b], r->at[c]);
+    return sunder_i_orient_inline(r->lattice, r->at[a], r->at[b], r->at[c]);
 }
 
 /* Does the direction from p to d point into the open wedge that opens counter-clockwise from p->u to p->w? Directions
@@ -185,7 +185,7 @@ void sunder_i_mesh_merge(const sunder_i_rings *r, sunder_i_mesh *mesh);
 sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
                                       const sunder_i_rings *r, const sunder_i_pieces *pieces);
 /* Box and extent from the coordinates (not for rational shapes). */
-void sunder_i_shape_measure(sunder_shape *shape);
+void sunder_i_shape_measure(sunder_shape *shape, const sunder_i_extent *known);
 /* Fills shared[] by comparing places. The arena is for scratch; false if memory is out. */
 bool sunder_i_shape_mark_shared(sunder_shape *shape, sunder_i_arena *arena);
 

@@ -43,7 +43,7 @@ uint32_t sunder_i_clean_ring(sunder_i_lattice *lattice, const double *xy, const 
         if (m && same(xy, keep[m - 1], i)) continue;
         /* The last corner may turn out to be on a straight line; then the one before it may not, so once is enough:
          * with b gone the edge a -> i has the direction of a -> b. */
-        if (m >= 2 && sunder_i_orient(lattice, at[keep[m - 2]], at[keep[m - 1]], at[i]) == 0) {
+        if (m >= 2 && sunder_i_orient_inline(lattice, at[keep[m - 2]], at[keep[m - 1]], at[i]) == 0) {
             if (!goes_on(xy, keep[m - 2], keep[m - 1], i))
                 spike = keep[m - 1];
             else
@@ -54,10 +54,10 @@ uint32_t sunder_i_clean_ring(sunder_i_lattice *lattice, const double *xy, const 
     while (m > 1 && same(xy, keep[m - 1], keep[0])) m--;
     /* The seam: the last and the first corner, in turn. */
     while (m - first >= 3 && spike == SUNDER_I_NONE) {
-        if (sunder_i_orient(lattice, at[keep[m - 2]], at[keep[m - 1]], at[keep[first]]) == 0) {
+        if (sunder_i_orient_inline(lattice, at[keep[m - 2]], at[keep[m - 1]], at[keep[first]]) == 0) {
             if (!goes_on(xy, keep[m - 2], keep[m - 1], keep[first])) spike = keep[m - 1];
             m--;
-        } else if (sunder_i_orient(lattice, at[keep[m - 1]], at[keep[first]], at[keep[first + 1]]) == 0) {
+        } else if (sunder_i_orient_inline(lattice, at[keep[m - 1]], at[keep[first]], at[keep[first + 1]]) == 0) {
             if (!goes_on(xy, keep[m - 1], keep[first], keep[first + 1])) spike = keep[first];
             first++;
         } else {

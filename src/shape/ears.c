@@ -84,6 +84,7 @@ typedef struct side {
 
 typedef struct triangle {
     uint32_t a, b, c;
+    bool sided; /* the sides are known; where nothing comes near, nobody asks for them */
     side side[3];
     double box[4];
 } triangle;
@@ -96,32 +97,44 @@ static inline bool right_of(const double box[4], const side *s)
     return l - r < -(0x1p-50 * (fabs(l) + fabs(r)) + DBL_MIN);
 }
 
+static void find_sides(const cutter *c, triangle *t)
+{
+    const double *corner[3] = {place(c, t->a), place(c, t->b), place(c, t->c)};
+    for (int k = 0; k < 3; k++) {
+        const double *p = corner[k], *q = corner[(k + 1) % 3], dx = q[0] - p[0], dy = q[1] - p[1];
+        t->side[k] = (side){p[0], p[1], dx, dy, dy > 0 ? 0 : 2, dx > 0 ? 3 : 1};
+    }
+    t->sided = true;
+}
+
 /* Is it certainly outside one of the triangle's sides? The lines of rounded corners prove nothing. */
-static inline bool is_beside(const cutter *c, const triangle *t, const double box[4])
+static inline bool is_beside(const cutter *c, triangle *t, const double box[4])
 {
     if (c->r->rounded) return false;
+    if (!t->sided) find_sides(c, t);
     for (int k = 0; k < 3; k++)
         if (right_of(box, &t->side[k])) return true;
     return false;
 }
 
-static bool misses(const cutter *c, const triangle *t, const double box[4])
+static bool misses(const cutter *c, triangle *t, const double box[4])
 {
     return !sunder_i_box_meet(box, t->box) || is_beside(c, t, box);
 }
 
 /* Does this blunt node forbid the cut? */
-static bool blocks(const cutter *c, const triangle *t, uint32_t node)
+static bool blocks(const cutter *c, triangle *t, uint32_t node)
 {
     if (node == t->a || node == t->b || node == t->c || c->state[node] != BLUNT) return false;
     const double *p = place(c, node);
     if (p[0] < t->box[0] || p[0] > t->box[2] || p[1] < t->box[1] || p[1] > t->box[3]) return false;
-    if (is_beside(c, t, (const double[4]){p[0], p[1], p[0], p[1]})) return false;
+    /* In native integers the turns themselves cost no more. */
+    if (!c->r->lattice->narrow && is_beside(c, t, (const double[4]){p[0], p[1], p[0], p[1]})) return false;
     if (turn(c, t->a, t->b, node) <= 0 || turn(c, t->b, t->c, node) <= 0) return false;
     return turn(c, t->c, t->a, node) >= 0;
 }
 
-static bool is_free(const cutter *c, const triangle *t)
+static bool is_free(const cutter *c, triangle *t)
 {
     sunder_i_box_walk walk;
     sunder_i_box_walk_start(&walk, &c->tree);
@@ -140,16 +153,15 @@ static bool is_free(const cutter *c, const triangle *t)
 
 static bool is_ear(const cutter *c, uint32_t b)
 {
-    triangle t = {.a = c->walk->prev[b], .b = b, .c = c->walk->next[b]};
-    const double *corner[3] = {place(c, t.a), place(c, t.b), place(c, t.c)};
-    for (int k = 0; k < 2; k++) {
-        t.box[k] = fmin(fmin(corner[0][k], corner[1][k]), corner[2][k]);
-        t.box[k + 2] = fmax(fmax(corner[0][k], corner[1][k]), corner[2][k]);
-    }
-    for (int k = 0; k < 3; k++) {
-        const double *p = corner[k], *q = corner[(k + 1) % 3], dx = q[0] - p[0], dy = q[1] - p[1];
-        t.side[k] = (side){p[0], p[1], dx, dy, dy > 0 ? 0 : 2, dx > 0 ? 3 : 1};
-    }
+    triangle t;
+    t.a = c->walk->prev[b];
+    t.b = b;
+    t.c = c->walk->next[b];
+    t.sided = false;
+    sunder_i_box_clear(t.box);
+    sunder_i_box_include(t.box, place(c, t.a));
+    sunder_i_box_include(t.box, place(c, t.b));
+    sunder_i_box_include(t.box, place(c, t.c));
     if (c->tree.box) return is_free(c, &t);
     for (uint32_t i = 0; i < c->listed; i++)
         if (blocks(c, &t, c->list[i])) return false;

@@ -62,9 +62,12 @@ sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, 
     return s;
 }
 
-void sunder_i_shape_measure(sunder_shape *s)
+void sunder_i_shape_measure(sunder_shape *s, const sunder_i_extent *known)
 {
-    sunder_i_extent_add(&s->extent, s->xy, s->vertices);
+    if (known)
+        s->extent = *known;
+    else
+        sunder_i_extent_add(&s->extent, s->xy, s->vertices);
     if (!s->vertices) return;
     for (int k = 0; k < 2; k++) {
         s->box[k] = s->extent.low[k];

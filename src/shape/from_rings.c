@@ -11,6 +11,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static bool finite_all(const sunder_i_input *in, sunder_error *err)
 {
@@ -162,6 +163,7 @@ typedef struct builder {
     sunder_validity validity;
     sunder_i_arena arena;
     sunder_i_lattice lattice;
+    sunder_i_extent extent; /* of the raw vertices */
     double origin[1][2];
     sunder_i_point *at; /* of the raw vertices */
     sunder_i_rings r;
@@ -169,19 +171,17 @@ typedef struct builder {
     bool repaired, touches;
 } builder;
 
+#define SMALL_BYTES 8192 /* of memory that needs no allocation */
+
 static bool place_input(builder *b)
 {
     const sunder_i_input *in = b->in;
-    sunder_i_extent extent = {0};
-    sunder_i_extent_add(&extent, in->xy, in->vertices);
-    sunder_i_lattice_init(&b->lattice, &extent, 1, true, b->origin, false);
+    sunder_i_extent_add(&b->extent, in->xy, in->vertices);
+    sunder_i_lattice_init(&b->lattice, &b->extent, 1, true, b->origin, false);
     b->at = sunder_i_arena_alloc(&b->arena, in->vertices, sizeof *b->at);
     b->r.lattice = &b->lattice;
     if (!b->at || !sunder_i_rings_grow(&b->r, &b->arena, in->vertices, in->rings, in->polygons)) return false;
-    for (size_t i = 0; i < in->vertices; i++) {
-        b->at[i].x = sunder_i_lattice_int(&b->lattice, in->xy[2 * i], b->origin[0][0]);
-        b->at[i].y = sunder_i_lattice_int(&b->lattice, in->xy[2 * i + 1], b->origin[0][1]);
-    }
+    sunder_i_lattice_points(&b->lattice, in->xy, in->vertices, b->origin[0], b->at);
     return !b->lattice.arena.failed;
 }
 
@@ -224,6 +224,18 @@ static bool set_exact(builder *b, sunder_shape *s)
     return sunder_i_shape_set_rational(s, exact);
 }
 
+/* Have all raw vertices become corners but those that close their rings? */
+static bool all_kept(const builder *b)
+{
+    size_t closings = 0;
+    if (b->repaired || b->touches) return false;
+    for (size_t ring = 0, lo = 0; ring < b->in->rings; lo = b->in->ring_end[ring++]) {
+        const double *first = b->in->xy + 2 * lo, *last = b->in->xy + 2 * (b->in->ring_end[ring] - 1);
+        closings += first[0] == last[0] && first[1] == last[1];
+    }
+    return b->r.vertices + closings == b->in->vertices;
+}
+
 /* Coordinates, box and marks of the assembled shape. False if memory is out. */
 static bool complete(builder *b, sunder_shape *s)
 {
@@ -232,7 +244,12 @@ static bool complete(builder *b, sunder_shape *s)
     if (b->made.rational) {
         if (!set_exact(b, s) || !sunder_i_shape_measure_rational(s)) return false;
     } else {
-        sunder_i_shape_measure(s);
+        sunder_i_shape_measure(s, all_kept(b) ? &b->extent : NULL);
+    }
+    /* Within a polygon corners that share a place touch, and that was looked for. */
+    if (b->in->polygons == 1 && !b->repaired && !b->touches) {
+        memset(s->shared, 0, s->vertices * sizeof *s->shared);
+        return true;
     }
     return sunder_i_shape_mark_shared(s, &b->arena);
 }
@@ -267,7 +284,9 @@ sunder_status sunder_shape_from_rings(const double *xy, const size_t *ring_end, 
     sunder_i_input in = {.xy = xy, .ring_end = ring_end, .poly_end = poly_end, .polygons = polygons};
     sunder_status status = read_input(&in, err);
     if (status) return status;
+    _Alignas(16) unsigned char memory[SMALL_BYTES]; /* enough for a building */
     builder b = {.in = &in, .validity = validity};
+    sunder_i_arena_init_on(&b.arena, memory, sizeof memory);
     status = build(&b, out, err);
     sunder_i_lattice_free(&b.lattice);
     sunder_i_free(b.made.point);

@@ -43,7 +43,7 @@ sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out
             for (int k = 0; k < 2; k++) c->exact[v].num[k] = sunder_i_big_neg(c->exact[v].num[k]);
         good = good && sunder_i_shape_measure_rational(c);
     } else {
-        sunder_i_shape_measure(c);
+        sunder_i_shape_measure(c, NULL);
     }
     if (!good) {
         sunder_shape_free(c);
@@ -108,7 +108,7 @@ static sunder_status move_exactly(const sunder_shape *shape, const double d[2], 
         }
     } else {
         for (size_t i = 0; i < 2 * (size_t)c->vertices; i++) c->xy[i] += d[i & 1];
-        sunder_i_shape_measure(c);
+        sunder_i_shape_measure(c, NULL);
     }
     *out = c;
     return SUNDER_OK;

@@ -136,6 +136,10 @@ static void place_doubles(sunder_i_lattice *l, const sunder_shape *shape, const 
     double from[2];
     const sunder_i_point add = {common_part(l, s[0], origin[0], &from[0]), common_part(l, s[1], origin[1], &from[1])};
     const bool adds = !is_zero(shift);
+    if (!adds && !shape->rational) {
+        sunder_i_lattice_points(l, shape->xy, shape->vertices, from, out);
+        return;
+    }
     for (uint32_t i = 0; i < shape->vertices; i++) {
         if (shape->rational && shape->exact[i].den.size) continue;
         out[i].x = sunder_i_lattice_int(l, shape->xy[2 * (size_t)i], from[0]);

@@ -116,9 +116,11 @@ static void plain_operand(sunder_i_operands *g, int side, const plain *u, bool r
     }
 }
 
-static bool place_plain(sunder_i_operands *g, bool reflect, const plain *u)
+static bool place_plain(sunder_i_operands *g, const sunder_i_operands_options *o, const plain *u)
 {
     sunder_i_lattice *l = &g->placed.lattice;
+    const bool reflect = o->reflect_q;
+    if (o->memory) sunder_i_arena_init_on(&l->arena, o->memory, o->memory_bytes);
     l->narrow = l->small = true;
     l->exponent = u->bit;
     sunder_i_point *points;
@@ -162,7 +164,7 @@ static sunder_status place(sunder_i_operands *g, const sunder_i_operands_options
     }
     const sunder_shape *p = g->shape[0], *q = g->shape[1];
     if (plain_unit(p, q, o, &u)) {
-        if (place_plain(g, o->reflect_q, &u)) return SUNDER_OK;
+        if (place_plain(g, o, &u)) return SUNDER_OK;
         sunder_i_placed_free(&g->placed);
         return sunder_i_no_memory(err);
     }

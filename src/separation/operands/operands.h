@@ -59,6 +59,8 @@ typedef struct sunder_i_operands_options {
     bool reflect_q, force_wide;
     const double *extra; /* further doubles for the lattice to hold */
     size_t extra_n;
+    void *memory; /* NULL, or lent for small operands: 16-byte aligned, it outlives them */
+    size_t memory_bytes;
 } sunder_i_operands_options;
 
 /* Both operands not empty. *operands is to be freed only after success. */

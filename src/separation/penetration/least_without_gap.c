@@ -6,6 +6,9 @@
 
 #include <math.h>
 
+/* Two buildings, their subsums and candidates fit in this: no allocation then but for the answer. */
+#define SMALL_BYTES 24576
+
 static sunder_status answer_without_gap(sunder_i_operands *g, const sunder_i_free_point *f, bool texts,
                                         sunder_separation *out, sunder_error *err)
 {
@@ -26,8 +29,13 @@ sunder_status sunder_i_least_without_gap(const sunder_shape *p, const sunder_sha
                                          sunder_separation *out, bool *beyond, sunder_error *err)
 {
     sunder_i_operands g;
-    const sunder_i_operands_options options = {
-        .tp = o->tp, .tq = o->tq, .reflect_q = true, .force_wide = o->force_wide};
+    _Alignas(16) unsigned char memory[SMALL_BYTES];
+    const sunder_i_operands_options options = {.tp = o->tp,
+                                               .tq = o->tq,
+                                               .reflect_q = true,
+                                               .force_wide = o->force_wide,
+                                               .memory = memory,
+                                               .memory_bytes = sizeof memory};
     sunder_status status = sunder_i_operands_init(&g, p, q, &options, err);
     if (status) return status;
     sunder_i_free_point found;
