@@ -19,12 +19,9 @@ void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t
     GIntBig fid = gis_source_fid(input->source, i);
     OGRFeatureH feature = input->id_field >= 0 ? gis_source_feature(input->source, i) : NULL;
     bool has_id = feature && OGR_F_IsFieldSetAndNotNull(feature, input->id_field);
-    const gis_subject subject = {NULL,
-                                 gis_source_name(input->source),
-                                 fid != OGRNullFID,
-                                 fid,
-                                 i,
-                                 has_id ? OGR_F_GetFieldAsString(feature, input->id_field) : NULL};
+    const gis_subject subject = {
+        NULL, gis_source_name(input->source),      fid != OGRNullFID,
+        fid,  gis_source_first(input->source) + i, has_id ? OGR_F_GetFieldAsString(feature, input->id_field) : NULL};
     gis_name_subject(&subject, text, size);
 }
 
@@ -54,7 +51,7 @@ static bool open_source(gis_layer_input *input, bool packed, gis_error *error)
     request.takes = input->points ? GIS_TAKES_POINTS : GIS_TAKES_POLYGONS;
     if (!gis_source_open(&request, &input->source, error))
         return hint_at_order(input->request, error) || hint_at_symbol(input, error);
-    gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(input->source));
+    if (!request.batch) gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(input->source));
     input->n = gis_source_count(input->source);
     return gis_field_find(input->source, "--id-field", input->request->id_field, &input->id_field, error);
 }
@@ -154,48 +151,66 @@ static bool read_barriers(gis_layer_input *input, gis_error *error)
     return ok;
 }
 
-static bool start_reading(const gis_layer_input_request *request, bool packed, gis_layer_input *out, gis_error *error)
+bool gis_layer_begin(const gis_layer_input_request *request, bool packed, gis_layer_input *out, gis_error *error)
 {
     *out = (gis_layer_input){
         .request = request, .id_field = -1, .max_shift = INFINITY, .tolerance = -1, .barrier_reach = INFINITY};
     if (!open_source(out, packed, error)) return false;
     out->units = gis_crs_units_of(gis_source_crs(out->source), request->scale);
-    out->shape = calloc(out->n + 1, sizeof *out->shape);
-    return out->shape || gis_no_memory(error);
+    return true;
+}
+
+bool gis_layer_make_room(gis_layer_input *input, bool demands, gis_error *error)
+{
+    gis_layer_drop_features(input);
+    input->n = gis_source_count(input->source);
+    input->shape = calloc(input->n + 1, sizeof *input->shape);
+    if (demands) input->feature = calloc(input->n + 1, sizeof *input->feature);
+    return (input->shape && (!demands || input->feature)) || gis_no_memory(error);
+}
+
+void gis_layer_drop_features(gis_layer_input *input)
+{
+    for (size_t i = 0; input->shape && i < input->n; i++) sunder_shape_free(input->shape[i]);
+    free(input->shape);
+    free(input->feature);
+    input->shape = NULL;
+    input->feature = NULL;
+    input->n = 0;
 }
 
 bool gis_layer_shapes_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
 {
-    if (!start_reading(request, false, out, error)) return false;
+    if (!gis_layer_begin(request, false, out, error) || !gis_layer_make_room(out, false, error)) return false;
     out->as_chords = true;
     return gis_layer_shapes(out, error);
 }
 
-/* A layer of any type may hold what the command passes by. */
-static void warn_of_others(const gis_layer_input *input)
+void gis_layer_warn_of_others(const gis_layer_input *input, bool any_points)
 {
-    bool any_points = false;
-    for (size_t i = 0; i < input->n && !input->points && !any_points; i++)
-        any_points = gis_source_content(input->source, i) == GIS_POINTS;
     if (input->other > 0)
         gis_say_warning(GIS_MESSAGE_PASSED_BY,
                         "%s: %zu features are no %s; they stay as they are and conflict with nothing%s",
                         gis_source_name(input->source), input->other, input->points ? "points" : "polygons",
-                        any_points ? " (for points give their --symbol, as in --symbol disc:4)" : "");
+                        any_points && !input->points ? " (for points give their --symbol, as in --symbol disc:4)" : "");
+}
+
+void gis_layer_default_demands(gis_layer_input *input)
+{
+    for (size_t i = 0; i < input->n; i++) {
+        const bool there = input->shape[i] && !sunder_shape_is_empty(input->shape[i]);
+        input->feature[i] =
+            (sunder_feature){.weight = 1, .max_shift = input->max_shift, .block = -1, .ignored = !there};
+    }
 }
 
 bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
 {
-    if (!start_reading(request, true, out, error)) return false;
-    out->feature = calloc(out->n + 1, sizeof *out->feature);
-    if (!out->feature) return gis_no_memory(error);
+    if (!gis_layer_begin(request, true, out, error) || !gis_layer_make_room(out, true, error)) return false;
     if (!gis_layer_lengths(out, error) || !gis_layer_shapes(out, error)) return false;
-    for (size_t i = 0; i < out->n; i++) {
-        bool there = out->shape[i] && !sunder_shape_is_empty(out->shape[i]);
-        out->feature[i] = (sunder_feature){.weight = 1, .max_shift = out->max_shift, .block = -1, .ignored = !there};
-    }
+    gis_layer_default_demands(out);
     gis_layer_warn_of_crs(out);
-    warn_of_others(out);
+    gis_layer_warn_of_others(out, gis_source_content_count(out->source, GIS_POINTS) > 0);
     return gis_layer_marks(out, error) && gis_layer_blocks(out, error) && gis_layer_weights(out, error) &&
            gis_layer_limits(out, error) && read_barriers(out, error) && make_layer(out, error);
 }
@@ -209,9 +224,8 @@ void gis_layer_forget_demands(gis_layer_input *input)
 void gis_layer_input_clear(gis_layer_input *input)
 {
     sunder_layer_free(input->layer);
-    for (size_t i = 0; input->shape && i < input->n; i++) sunder_shape_free(input->shape[i]);
-    free(input->shape);
-    free(input->feature);
+    gis_layer_drop_features(input);
+    gis_layer_shaping_free(input->shaping);
     gis_barriers_clear(&input->barriers);
     gis_source_close(input->source);
     *input = (gis_layer_input){0};

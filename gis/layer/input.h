@@ -4,6 +4,7 @@
 
 #include "barrier/barrier.h"
 #include "base/progress.h"
+#include "layer/block_keys.h"
 #include "layer/rules.h"
 #include "read/shape.h"
 
@@ -29,10 +30,12 @@ typedef struct gis_layer_input_request {
 
 void gis_layer_input_request_clear(gis_layer_input_request *request);
 
+typedef struct gis_layer_shaping gis_layer_shaping; /* shapes.c */
+
 typedef struct gis_layer_input {
     const gis_layer_input_request *request;
     gis_source *source;
-    size_t n;       /* features */
+    size_t n;       /* features; of a source that is read by batches, those of the batch (spooling.h) */
     bool points;    /* the features are points, and the shapes the symbols at them */
     bool as_chords; /* arcs are taken as their polylines, and not grown to contain the arcs */
     gis_crs_units units;
@@ -43,6 +46,7 @@ typedef struct gis_layer_input {
     gis_barriers barriers;
     double barrier_reach; /* who moves no farther comes near to none but these */
     sunder_layer *layer;
+    gis_layer_shaping *shaping;
     int id_field;         /* -1: none */
     size_t invalid, null; /* features whose geometry is invalid; that have none, or an empty one */
     size_t other;         /* features of another kind of geometry than the one that is looked at */
@@ -68,6 +72,15 @@ void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t
 bool gis_layer_wrong_number(const gis_layer_input *input, size_t i, int field, const char *what, const char *needed,
                             gis_error *error); /* rules.c */
 
+/* Opens the source; room for what is known of each feature of it, in place of what was known of others. */
+bool gis_layer_begin(const gis_layer_input_request *request, bool packed, gis_layer_input *out, gis_error *error);
+bool gis_layer_make_room(gis_layer_input *input, bool demands, gis_error *error);
+void gis_layer_drop_features(gis_layer_input *input);
+/* Demands of features of which no rule says anything. */
+void gis_layer_default_demands(gis_layer_input *input);
+void gis_layer_warn_of_others(const gis_layer_input *input, bool any_points);
+void gis_layer_shaping_free(gis_layer_shaping *shaping);
+
 /* The stages, in this order. */
 bool gis_layer_lengths(gis_layer_input *input, gis_error *error); /* rules.c */
 bool gis_layer_shapes(gis_layer_input *input, gis_error *error);  /* shapes.c */
@@ -75,6 +88,15 @@ bool gis_layer_marks(gis_layer_input *input, gis_error *error);   /* rules.c: wh
 bool gis_layer_blocks(gis_layer_input *input, gis_error *error);
 bool gis_layer_weights(gis_layer_input *input, gis_error *error);
 bool gis_layer_limits(gis_layer_input *input, gis_error *error);
+
+/* Blocks by the numbers that keys have so far, for who ranks them when all are known. */
+bool gis_layer_number_blocks(gis_layer_input *input, gis_block_keys *keys, gis_error *error);
+/* The parts of weighing that spooling.c needs apart: of an area beside the median of all (which sorts them), and the
+ * factor of a field. */
+double gis_layer_median(double *areas, size_t n);
+double gis_layer_area_weight(gis_weighting by, double area, double median);
+bool gis_layer_weigh_by_field(gis_layer_input *input, gis_error *error);
+bool gis_layer_wrong_weight(const char *who, double weight, gis_error *error);
 
 /* So thin an overlap is told of where the tolerance is 0: a hundredth of a metre, or of the unit of a layer without a
  * CRS. 0: nothing is to be told, for that is no tolerance that could be given. */

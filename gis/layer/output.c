@@ -48,8 +48,7 @@ bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_r
     return true;
 }
 
-/* Where the arrow of a feature starts: a point itself, or the anchor of a polygon. */
-static bool arrow_start(const gis_layer_input *input, size_t i, double from[2], gis_error *error)
+bool gis_arrow_start(const gis_layer_input *input, size_t i, double from[2], gis_error *error)
 {
     sunder_shape_anchor(input->shape[i], from);
     if (!input->points) return true;
@@ -65,7 +64,7 @@ static bool write_arrow(gis_sink_layer *layer, const gis_layer_input *input, con
                         const double move[2], gis_error *error)
 {
     double from[2];
-    if (!arrow_start(input, i, from, error)) return false;
+    if (!gis_arrow_start(input, i, from, error)) return false;
     gis_conflict_texts scratch = {0};
     gis_value id;
     if (!gis_id_value(input, i, &scratch.id[0], &id, error)) return false;

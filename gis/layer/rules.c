@@ -50,43 +50,28 @@ bool gis_layer_marks(gis_layer_input *input, gis_error *error)
     return ok;
 }
 
-/* A feature and the value of its block field. */
-typedef struct block_key {
-    char *key;
-    size_t feature;
-} block_key;
-
-static int by_key(const void *a, const void *b)
+bool gis_layer_number_blocks(gis_layer_input *input, gis_block_keys *keys, gis_error *error)
 {
-    const block_key *ka = a, *kb = b;
-    int order = strcmp(ka->key, kb->key);
-    return order ? order : (ka->feature > kb->feature) - (ka->feature < kb->feature);
+    int field;
+    if (!gis_field_find(input->source, "--block-field", input->request->rules.block_field, &field, error)) return false;
+    for (size_t i = 0; field >= 0 && i < input->n; i++) {
+        OGRFeatureH feature = gis_source_feature(input->source, i);
+        if (!OGR_F_IsFieldSetAndNotNull(feature, field)) continue;
+        char *key = gis_field_key(feature, field);
+        if (!key) return gis_no_memory(error);
+        if (!gis_block_keys_add(keys, key, &input->feature[i].block, error)) return false;
+    }
+    return true;
 }
 
 bool gis_layer_blocks(gis_layer_input *input, gis_error *error)
 {
-    int field;
-    if (!gis_field_find(input->source, "--block-field", input->request->rules.block_field, &field, error)) return false;
-    if (field < 0) return true;
-    block_key *keys = calloc(input->n + 1, sizeof *keys);
-    if (!keys) return gis_no_memory(error);
-    bool ok = true;
-    size_t n = 0;
-    for (size_t i = 0; ok && i < input->n; i++) {
-        OGRFeatureH feature = gis_source_feature(input->source, i);
-        if (!OGR_F_IsFieldSetAndNotNull(feature, field)) continue;
-        keys[n] = (block_key){gis_field_key(feature, field), i};
-        ok = keys[n].key || gis_no_memory(error);
-        n += ok;
-    }
-    qsort(keys, n, sizeof *keys, by_key);
-    for (size_t k = 0, block = 0; ok && k < n; k++) {
-        block += k > 0 && strcmp(keys[k].key, keys[k - 1].key) != 0;
-        input->feature[keys[k].feature].block = (int64_t)block;
-    }
-    for (size_t k = 0; k < n; k++) free(keys[k].key);
-    free(keys);
-    return ok;
+    gis_block_keys keys = {0};
+    const bool done = gis_layer_number_blocks(input, &keys, error) && gis_block_keys_rank(&keys, error);
+    for (size_t i = 0; done && i < input->n; i++)
+        if (input->feature[i].block >= 0) input->feature[i].block = keys.rank[input->feature[i].block];
+    gis_block_keys_clear(&keys);
+    return done;
 }
 
 bool gis_layer_wrong_number(const gis_layer_input *input, size_t i, int field, const char *what, const char *needed,
@@ -126,26 +111,35 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+double gis_layer_median(double *areas, size_t n)
+{
+    qsort(areas, n, sizeof *areas, by_size);
+    return n == 0 ? 1 : n % 2 ? areas[n / 2] : areas[n / 2 - 1] / 2 + areas[n / 2] / 2;
+}
+
+double gis_layer_area_weight(gis_weighting by, double area, double median)
+{
+    const double weight = area / median;
+    return by == GIS_WEIGHTING_SQRT_AREA ? sqrt(weight) : weight;
+}
+
 /* Each area (or its root) relative to the median of those that count. */
-static bool weigh_by_area(gis_layer_input *input, bool root, gis_error *error)
+static bool weigh_by_area(gis_layer_input *input, gis_weighting by, gis_error *error)
 {
     double *areas = malloc((input->n + 1) * sizeof *areas);
     if (!areas) return gis_no_memory(error);
     size_t n = 0;
     for (size_t i = 0; i < input->n; i++)
         if (!input->feature[i].ignored) areas[n++] = sunder_shape_area(input->shape[i]);
-    qsort(areas, n, sizeof *areas, by_size);
-    double median = n == 0 ? 1 : n % 2 ? areas[n / 2] : areas[n / 2 - 1] / 2 + areas[n / 2] / 2;
+    const double median = gis_layer_median(areas, n);
     free(areas);
-    for (size_t i = 0; i < input->n; i++) {
-        if (input->feature[i].ignored) continue;
-        double weight = sunder_shape_area(input->shape[i]) / median;
-        input->feature[i].weight = root ? sqrt(weight) : weight;
-    }
+    for (size_t i = 0; i < input->n; i++)
+        if (!input->feature[i].ignored)
+            input->feature[i].weight = gis_layer_area_weight(by, sunder_shape_area(input->shape[i]), median);
     return true;
 }
 
-static bool weigh_by_field(gis_layer_input *input, gis_error *error)
+bool gis_layer_weigh_by_field(gis_layer_input *input, gis_error *error)
 {
     int field;
     if (!gis_field_find_numbers(input->source, "--weight-field", input->request->rules.weight_field, &field, error))
@@ -161,11 +155,16 @@ static bool weigh_by_field(gis_layer_input *input, gis_error *error)
     return true;
 }
 
+bool gis_layer_wrong_weight(const char *who, double weight, gis_error *error)
+{
+    return gis_fail(error, "%s: its weight, %g, is not a finite number greater than 0", who, weight);
+}
+
 bool gis_layer_weights(gis_layer_input *input, gis_error *error)
 {
     gis_weighting by = input->request->rules.weighting;
-    if (by != GIS_WEIGHTING_EVEN && !weigh_by_area(input, by == GIS_WEIGHTING_SQRT_AREA, error)) return false;
-    if (!weigh_by_field(input, error)) return false;
+    if (by != GIS_WEIGHTING_EVEN && !weigh_by_area(input, by, error)) return false;
+    if (!gis_layer_weigh_by_field(input, error)) return false;
     for (size_t i = 0; i < input->n; i++) {
         double weight = input->feature[i].weight;
         if (input->feature[i].ignored) {
@@ -173,7 +172,7 @@ bool gis_layer_weights(gis_layer_input *input, gis_error *error)
         } else if (!(weight > 0) || !isfinite(weight)) {
             char who[GIS_WHO_SIZE];
             gis_feature_name(input, i, who, sizeof who);
-            return gis_fail(error, "%s: its weight, %g, is not a finite number greater than 0", who, weight);
+            return gis_layer_wrong_weight(who, weight, error);
         }
     }
     return true;

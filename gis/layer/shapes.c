@@ -11,6 +11,7 @@
 
 #include <cpl_conv.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Corners of the polygon that a shape with arcs is grown by. With 16 it reaches a fiftieth farther than the disc that
@@ -126,15 +127,15 @@ static bool read_symbol(const gis_layer_input *input, const char *text, const ch
 }
 
 /* What makes the shapes: part is room for those of one feature; the rest is for points. */
-typedef struct shaping {
+struct gis_layer_shaping {
     gis_polygonal_part part;
     sunder_shape *symbol; /* NULL: every point has its own */
     int symbol_field;     /* -1: none has */
     int size_field;       /* -1: all symbols are as large as they are */
-} shaping;
+};
 
 /* --symbol, --symbol-field and --symbol-size-field. */
-static bool read_symbols(const gis_layer_input *input, shaping *how, gis_error *error)
+static bool read_symbols(const gis_layer_input *input, gis_layer_shaping *how, gis_error *error)
 {
     const gis_layer_input_request *request = input->request;
     const char *symbol = request->symbol;
@@ -148,8 +149,8 @@ static bool read_symbols(const gis_layer_input *input, shaping *how, gis_error *
 }
 
 /* The feature's own symbol, from --symbol-field; *own stays NULL where it has none and the common one holds. */
-static bool own_symbol(const gis_layer_input *input, size_t i, const shaping *how, const char *who, sunder_shape **own,
-                       gis_error *error)
+static bool own_symbol(const gis_layer_input *input, size_t i, const gis_layer_shaping *how, const char *who,
+                       sunder_shape **own, gis_error *error)
 {
     OGRFeatureH feature = gis_source_feature(input->source, i);
     if (how->symbol_field < 0 || gis_field_is_blank(feature, how->symbol_field))
@@ -196,7 +197,7 @@ static bool place_enlarged(gis_layer_input *input, size_t i, int size_field, con
     return ok;
 }
 
-static bool point_shape(gis_layer_input *input, size_t i, const shaping *how, gis_error *error)
+static bool point_shape(gis_layer_input *input, size_t i, const gis_layer_shaping *how, gis_error *error)
 {
     char who[GIS_WHO_SIZE];
     sunder_shape *own = NULL;
@@ -207,20 +208,36 @@ static bool point_shape(gis_layer_input *input, size_t i, const shaping *how, gi
     return ok;
 }
 
+void gis_layer_shaping_free(gis_layer_shaping *shaping)
+{
+    if (!shaping) return;
+    sunder_shape_free(shaping->symbol);
+    gis_polygonal_part_clear(&shaping->part);
+    free(shaping);
+}
+
+/* What symbols are asked for is read once, whatever the number of batches. */
+static bool begin_shaping(gis_layer_input *input, gis_error *error)
+{
+    if (input->shaping) return true;
+    input->shaping = calloc(1, sizeof *input->shaping);
+    if (!input->shaping) return gis_no_memory(error);
+    input->shaping->symbol_field = input->shaping->size_field = -1;
+    return !input->points || read_symbols(input, input->shaping, error);
+}
+
 bool gis_layer_shapes(gis_layer_input *input, gis_error *error)
 {
-    shaping how = {.symbol_field = -1, .size_field = -1};
     gis_content wanted = input->points ? GIS_POINTS : GIS_POLYGONS;
-    bool ok = !input->points || read_symbols(input, &how, error);
+    bool ok = begin_shaping(input, error);
     for (size_t i = 0; ok && i < input->n; i++) {
         gis_content content = gis_source_content(input->source, i);
         input->null += content == GIS_NOTHING;
         input->other += content != GIS_NOTHING && content != wanted;
         ok = gis_go_on(error);
         if (ok && content == wanted)
-            ok = input->points ? point_shape(input, i, &how, error) : polygon_shape(input, i, &how.part, error);
+            ok = input->points ? point_shape(input, i, input->shaping, error)
+                               : polygon_shape(input, i, &input->shaping->part, error);
     }
-    sunder_shape_free(how.symbol);
-    gis_polygonal_part_clear(&how.part);
     return ok;
 }

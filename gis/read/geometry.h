@@ -22,6 +22,7 @@ typedef enum gis_content {
     GIS_POINTS,   /* points, and no polygon and no line */
     GIS_OTHER     /* lines, or a mixture without polygons */
 } gis_content;
+enum { GIS_CONTENTS = GIS_OTHER + 1 };
 
 /* What a geometry (NULL is fine) holds. */
 gis_content gis_geometry_content(OGRGeometryH geometry);

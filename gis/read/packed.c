@@ -179,6 +179,13 @@ static uint32_t begin_geometry(const unsigned char **at)
     return number_at(at);
 }
 
+bool gis_packed_is_multi(const unsigned char *record)
+{
+    size_t bytes;
+    const unsigned char *at = geometry_of(record, &bytes);
+    return begin_geometry(&at) == wkbMultiPolygon;
+}
+
 static bool visit_polygon(const unsigned char **at, gis_packed_ring *visit, void *user)
 {
     begin_geometry(at);

@@ -34,6 +34,8 @@ bool gis_packed_add(gis_packed *packed, OGRFeatureH feature, const unsigned char
 void gis_packed_clear(gis_packed *packed);
 
 GIntBig gis_packed_fid(const unsigned char *record);
+/* Is it a MultiPolygon? Else it is a Polygon. */
+bool gis_packed_is_multi(const unsigned char *record);
 /* Is every coordinate finite? */
 bool gis_packed_is_finite(const unsigned char *record);
 /* As gis_geometry_polygonal_part(): a packed geometry is a Polygon or a MultiPolygon. */

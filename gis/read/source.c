@@ -8,6 +8,7 @@
 #include "base/message.h"
 #include "read/packed.h"
 #include "read/source_layer.h"
+#include "read/source_mark.h"
 #include "read/where.h"
 #include "sqlite/calls.h"
 #include "sqlite/lock.h"
@@ -36,7 +37,13 @@ struct gis_source {
     unsigned char *contents;
     size_t n, capacity, contents_capacity;
     gis_packed *packed; /* what records are of */
-    bool fids_unique;
+    gis_source_facts facts;
+    bool fids_missing, fids_rising; /* of all that was read so far: not set; each greater than the one before */
+    GIntBig last_fid;
+    size_t batch, first, bytes; /* bytes: of geometries in the batch; see gis_source_request */
+    bool may_pack, ended;       /* ended: the last feature was read */
+    bool facts_given, fids_mean_nothing;
+    gis_source_marks marks;
     gis_sentences warnings;
 };
 
@@ -145,6 +152,26 @@ static bool choose_crs(gis_source *source, const gis_source_request *request, gi
 
 /* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
+/* Batches end where their geometries take so many bytes. */
+enum { BATCH_BYTES = 32 << 20 };
+
+static void note_facts(gis_source *source, OGRFeatureH feature, const unsigned char *record, gis_content content)
+{
+    gis_source_facts *facts = &source->facts;
+    const GIntBig fid = OGR_F_GetFID(feature);
+    source->fids_missing = source->fids_missing || fid == OGRNullFID;
+    source->fids_rising = source->fids_rising && (facts->features == 0 || source->last_fid < fid);
+    source->last_fid = fid;
+    facts->features++;
+    facts->content[content]++;
+    if (facts->multipolygons) return;
+    const OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
+    facts->multipolygons = record ? gis_packed_is_multi(record)
+                                  : geometry && wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbMultiPolygon;
+}
+
+static size_t bytes_of(OGRGeometryH geometry) { return geometry ? (size_t)OGR_G_WkbSize(geometry) : 0; }
+
 /* Takes the feature over, packed if it can be. */
 static bool keep(gis_source *source, OGRFeatureH feature, const unsigned char *record)
 {
@@ -152,6 +179,8 @@ static bool keep(gis_source *source, OGRFeatureH feature, const unsigned char *r
     if (!gis_array_reserve(&source->features, &source->capacity, source->n + 1, sizeof *source->features) ||
         !gis_array_reserve(&source->contents, &source->contents_capacity, source->n + 1, sizeof *source->contents))
         return false;
+    if (!source->facts_given) note_facts(source, feature, record, content);
+    if (source->batch) source->bytes += bytes_of(OGR_F_GetGeometryRef(feature));
     source->contents[source->n] = (unsigned char)content;
     source->features[source->n++] = record ? (gis_read_feature){.record = record} : (gis_read_feature){feature, NULL};
     if (record) OGR_F_Destroy(feature);
@@ -170,19 +199,27 @@ static bool take(gis_source *source, const gis_source_request *request, OGRFeatu
                  gis_error *error)
 {
     const unsigned char *record = NULL;
-    const bool pack = source->packed && !request->wants;
+    const bool pack = source->may_pack && !(request && request->wants);
     if (pack && !gis_packed_add(source->packed, feature, &record, error)) return false;
     if (record ? !gis_packed_is_finite(record) : !gis_geometry_is_finite(OGR_F_GetGeometryRef(feature)))
         return fail_not_finite(source, feature, error);
-    if (request->wants && !request->wants(request->user, source->crs, feature)) return true;
+    if (request && request->wants && !request->wants(request->user, source->crs, feature)) return true;
     *kept = keep(source, feature, record);
     return *kept || gis_no_memory(error);
 }
 
+static bool is_full(const gis_source *source)
+{
+    return source->batch && (source->n >= source->batch || source->bytes >= BATCH_BYTES);
+}
+
+/* request: NULL: nobody wants some alone. */
 static bool read_features(gis_source *source, const gis_source_request *request, gis_error *error)
 {
-    OGR_L_ResetReading(source->layer);
-    for (OGRFeatureH feature; (feature = OGR_L_GetNextFeature(source->layer)) != NULL;) {
+    while (!is_full(source)) {
+        OGRFeatureH feature = OGR_L_GetNextFeature(source->layer);
+        source->ended = feature == NULL;
+        if (source->ended) break;
         bool kept = false;
         const bool taken = take(source, request, feature, &kept, error);
         if (!kept) OGR_F_Destroy(feature);
@@ -193,26 +230,58 @@ static bool read_features(gis_source *source, const gis_source_request *request,
 
 static bool begin_packing(gis_source *source, gis_error *error)
 {
-    source->packed = calloc(1, sizeof *source->packed);
+    if (!source->packed) source->packed = calloc(1, sizeof *source->packed);
     return source->packed ? gis_packed_begin(source->packed, source->layer, error) : gis_no_memory(error);
 }
 
-static bool read_all(gis_source *source, const gis_source_request *request, gis_error *error)
+/* The batch, or all there is. */
+static bool read_batch(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     bool done = read_features(source, request, error);
     gis_listen_end();
-    if (done && listener.failures && source->where && source->n == 0)
+    const size_t read = source->first + source->n;
+    if (done && listener.failures && source->where && read == 0)
         done = gis_fail_where(source->dataset, source->layer, source->where_option, source->where,
                               gis_listener_reason(&listener, "not understood"), error);
     else if (done && listener.failures)
-        done = gis_fail(error, "%s, layer %s: reading failed after %zu features: %s", source->path, source->name,
-                        source->n, gis_listener_reason(&listener, "no reason given"));
+        done = gis_fail(error, "%s, layer %s: reading failed after %zu features: %s", source->path, source->name, read,
+                        gis_listener_reason(&listener, "no reason given"));
     keep_warnings(source, &listener);
     gis_listener_clear(&listener);
     return done;
 }
+
+/* What was known before still has to be true. */
+static bool ends_as_known(const gis_source *source, gis_error *error)
+{
+    const size_t read = source->first + source->n;
+    return !source->facts_given || read == source->facts.features ||
+           gis_fail(error, "%s, layer %s: it has %zu features, and had %zu when it was read before", source->path,
+                    source->name, read, source->facts.features);
+}
+
+static void drop_features(gis_source *source)
+{
+    for (size_t i = 0; i < source->n; i++)
+        if (source->features[i].feature) OGR_F_Destroy(source->features[i].feature);
+    if (source->packed) gis_packed_clear(source->packed);
+    source->n = source->bytes = 0;
+}
+
+bool gis_source_next(gis_source *source, bool *any, gis_error *error)
+{
+    source->first += source->n;
+    drop_features(source);
+    *any = false;
+    if (source->ended) return ends_as_known(source, error);
+    if ((source->may_pack && !begin_packing(source, error)) || !read_batch(source, NULL, error)) return false;
+    *any = source->n > 0;
+    return *any || ends_as_known(source, error);
+}
+
+/* ---- FIDs -------------------------------------------------------------------------------------------------------- */
 
 static int compare_fids(const void *a, const void *b)
 {
@@ -220,23 +289,81 @@ static int compare_fids(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
+/* Of all features again: those in memory, or, where these are a batch, those of the layer. */
+static bool list_fids(gis_source *source, GIntBig *fids, size_t *n)
+{
+    *n = source->facts.features;
+    for (size_t i = 0; !source->batch && i < source->n; i++) fids[i] = gis_source_fid(source, i);
+    if (!source->batch) return true;
+    size_t k = 0;
+    OGR_L_ResetReading(source->layer);
+    for (OGRFeatureH feature; k < *n && (feature = OGR_L_GetNextFeature(source->layer)); OGR_F_Destroy(feature))
+        fids[k++] = OGR_F_GetFID(feature);
+    return k == *n;
+}
+
+/* Only where they do not rise are they all looked at together. */
 static bool look_at_fids(gis_source *source, gis_error *error)
 {
-    bool rising = true, missing = false;
-    for (size_t i = 0; i < source->n; i++) {
-        missing = missing || gis_source_fid(source, i) == OGRNullFID;
-        rising = rising && (i == 0 || gis_source_fid(source, i - 1) < gis_source_fid(source, i));
-    }
-    source->fids_unique = !missing && rising;
-    if (missing || rising) return true;
-    GIntBig *fids = malloc(source->n * sizeof *fids);
+    bool *unique = &source->facts.fids_unique;
+    *unique = !source->fids_missing && source->fids_rising;
+    if (source->fids_missing || source->fids_rising) return true;
+    GIntBig *fids = malloc((source->facts.features + 1) * sizeof *fids);
+    size_t n;
     if (!fids) return gis_no_memory(error);
-    for (size_t i = 0; i < source->n; i++) fids[i] = gis_source_fid(source, i);
-    qsort(fids, source->n, sizeof *fids, compare_fids);
-    source->fids_unique = true;
-    for (size_t i = 1; i < source->n; i++) source->fids_unique = source->fids_unique && fids[i - 1] != fids[i];
+    bool done =
+        list_fids(source, fids, &n) ||
+        gis_fail(error, "%s, layer %s: it has fewer features when it is read again", source->path, source->name);
+    if (done) qsort(fids, n, sizeof *fids, compare_fids);
+    *unique = done;
+    for (size_t i = 1; *unique && i < n; i++) *unique = fids[i - 1] != fids[i];
     free(fids);
+    return done;
+}
+
+bool gis_source_find_facts(gis_source *source, gis_source_facts *facts, gis_error *error)
+{
+    if (source->batch && !source->facts_given && !look_at_fids(source, error)) return false;
+    *facts = source->facts;
     return true;
+}
+
+/* Marking reads the layer anew (source_mark.c); then what follows the batch comes next again. */
+bool gis_source_resume(gis_source *source, gis_error *error)
+{
+    OGR_L_ResetReading(source->layer);
+    for (size_t k = source->ended ? SIZE_MAX : 0; k < source->first + source->n; k++) {
+        OGRFeatureH feature = OGR_L_GetNextFeature(source->layer);
+        if (!feature)
+            return gis_fail(error, "%s, layer %s: it has fewer features when it is read again", source->path,
+                            source->name);
+        OGR_F_Destroy(feature);
+        if (!gis_go_on(error)) return false;
+    }
+    return true;
+}
+
+gis_source_marks *gis_source_marks_of(gis_source *source) { return source->batch ? &source->marks : NULL; }
+
+bool gis_source_goes_by_fids(const gis_source *source)
+{
+    if (source->is_result || source->fids_mean_nothing) return false;
+    return source->batch && !source->facts_given ? !source->fids_missing : source->facts.fids_unique;
+}
+
+/* ---- Opening a source -------------------------------------------------------------------------------------------- */
+
+static bool begin_reading(gis_source *source, const gis_source_request *request, gis_error *error)
+{
+    source->batch = request->batch;
+    source->may_pack = request->packed;
+    source->fids_mean_nothing = request->fids_mean_nothing;
+    source->fids_rising = true;
+    source->facts_given = request->facts != NULL;
+    if (source->facts_given) source->facts = *request->facts;
+    if (source->may_pack && !begin_packing(source, error)) return false;
+    OGR_L_ResetReading(source->layer);
+    return read_batch(source, request, error) && (source->batch || source->facts_given || look_at_fids(source, error));
 }
 
 static bool fill(gis_source *source, const gis_source_request *request, gis_error *error)
@@ -253,8 +380,7 @@ static bool fill(gis_source *source, const gis_source_request *request, gis_erro
         source->name = CPLStrdup(OGR_L_GetName(source->layer));
     }
     return gis_layer_fits(source->layer, source->name, request->takes, error) && choose_crs(source, request, error) &&
-           select_features(source, request, error) && (!request->packed || begin_packing(source, error)) &&
-           read_all(source, request, error) && look_at_fids(source, error);
+           select_features(source, request, error) && begin_reading(source, request, error);
 }
 
 bool gis_source_open(const gis_source_request *request, gis_source **out, gis_error *error)
@@ -272,9 +398,8 @@ bool gis_source_open(const gis_source_request *request, gis_source **out, gis_er
 void gis_source_close(gis_source *source)
 {
     if (!source) return;
-    for (size_t i = 0; i < source->n; i++)
-        if (source->features[i].feature) OGR_F_Destroy(source->features[i].feature);
-    if (source->packed) gis_packed_clear(source->packed);
+    drop_features(source);
+    gis_source_marks_clear(&source->marks);
     free(source->packed);
     free(source->features);
     free(source->contents);
@@ -348,15 +473,16 @@ bool gis_source_unpack(gis_source *source, gis_error *error)
     return true;
 }
 
-bool gis_source_fids_unique(const gis_source *source) { return source->fids_unique; }
+size_t gis_source_first(const gis_source *source) { return source->first; }
+bool gis_source_fids_unique(const gis_source *source) { return source->facts.fids_unique; }
 gis_content gis_source_content(const gis_source *source, size_t i) { return (gis_content)source->contents[i]; }
 
 size_t gis_source_content_count(const gis_source *source, gis_content content)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < source->n; i++) count += source->contents[i] == (unsigned char)content;
-    return count;
+    return source->facts.content[content];
 }
+
+bool gis_source_has_multipolygons(const gis_source *source) { return source->facts.multipolygons; }
 
 const char *gis_source_name(const gis_source *source) { return source->name; }
 const char *gis_source_path(const gis_source *source) { return source->path; }

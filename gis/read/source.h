@@ -1,7 +1,8 @@
-/* source.h: reading one layer, whole, as ogr2ogr would select it.
+/* source.h: reading one layer, as ogr2ogr would select it.
  *
  * All selected features are read and kept, attributes and all, so that they can be written back with nothing lost: as
- * OGR features, or packed (packed.h). The dataset stays open until gis_source_close(). */
+ * OGR features, or packed (packed.h). Or they are read a batch at a time, for layers that memory does not hold: then
+ * feature i is the i-th of the batch. The dataset stays open until gis_source_close(). */
 #ifndef GIS_SOURCE_H
 #define GIS_SOURCE_H
 
@@ -15,6 +16,13 @@
 
 /* Kinds of layer that a command takes; combine with |. A layer of unknown type, or of collections, counts as all. */
 enum { GIS_TAKES_POLYGONS = 1, GIS_TAKES_POINTS = 2, GIS_TAKES_LINES = 4 };
+
+/* What is known of a layer only when all of it was read. */
+typedef struct gis_source_facts {
+    size_t features, content[GIS_CONTENTS]; /* how many are of each content */
+    bool fids_unique;                       /* all FIDs are set and different */
+    bool multipolygons;                     /* there is a MultiPolygon */
+} gis_source_facts;
 
 /* What to read: which features of which layer of what is at `path`; zeroed members mean "not given". Strings are
  * borrowed for the call. Lists end with NULL. */
@@ -36,8 +44,11 @@ typedef struct gis_source_request {
     bool (*within)(void *user, OGRLayerH layer, OGRSpatialReferenceH crs, double box[4]);
     /* NULL, or says of each feature as it is read whether it is to be kept. */
     bool (*wants)(void *user, OGRSpatialReferenceH crs, OGRFeatureH feature);
-    void *user;  /* of these two */
-    bool packed; /* features are packed where they can be: one at a time is asked for, and by one thread */
+    void *user;   /* of these two */
+    bool packed;  /* features are packed where they can be: one at a time is asked for, and by one thread */
+    size_t batch; /* so many features are read at a time, or fewer that are large; 0: all. Not together with wants */
+    const gis_source_facts *facts; /* NULL, or what was found when the same was read before */
+    bool fids_mean_nothing;        /* FIDs are known not to be unique: gis_source_mark() does not go by them */
 } gis_source_request;
 
 typedef struct gis_source gis_source;
@@ -51,6 +62,16 @@ typedef struct gis_source gis_source;
 bool gis_source_open(const gis_source_request *request, gis_source **out, gis_error *error);
 void gis_source_close(gis_source *source);
 
+/* Reads the next batch in place of the one before it, of which nothing stays; *any = false: there is none, and that
+ * batch is empty. */
+bool gis_source_next(gis_source *source, bool *any, gis_error *error);
+/* The place of the batch's first feature among all, from 0. */
+size_t gis_source_first(const gis_source *source);
+/* What is known of the whole layer. Of a source that is read by batches: once they were all read, and no other can be
+ * read after this. */
+bool gis_source_find_facts(gis_source *source, gis_source_facts *facts, gis_error *error);
+
+/* How many features there are, or in the batch. */
 size_t gis_source_count(const gis_source *source);
 /* Feature i, in the order read; its geometry and attributes are the source's own. Borrowed, do not change; of a source
  * that is packed until another one is asked for. */
@@ -71,11 +92,14 @@ bool gis_source_put(const gis_source *source, size_t i, const int *map, double d
 bool gis_source_unpack(gis_source *source, gis_error *error);
 /* Its FID as read; OGRNullFID if it has none. */
 GIntBig gis_source_fid(const gis_source *source, size_t i);
-/* Are all FIDs set and different? False may happen with --sql. */
+/* Are all FIDs set and different? False may happen with --sql. Of a source that is read by batches it has to be known
+ * from before (facts), as the next two. */
 bool gis_source_fids_unique(const gis_source *source);
 gis_content gis_source_content(const gis_source *source, size_t i);
 /* How many features are of this content. */
 size_t gis_source_content_count(const gis_source *source, gis_content content);
+/* Is there a MultiPolygon? */
+bool gis_source_has_multipolygons(const gis_source *source);
 
 /* Name for messages and for the output layer: the layer's name; with --sql, the stem of the source's file. */
 const char *gis_source_name(const gis_source *source);
@@ -95,8 +119,9 @@ int gis_source_field(const gis_source *source, const char *name);
 
 /* For --fixed-where and --ignore-where, as `option` calls them: marks[i] says whether feature i satisfies `where`. A
  * plain layer answers in the SQL that its --where speaks; the result of --sql, whose FIDs mean nothing, in
- * OGR's. marks has gis_source_count() entries. A bad expression is GIS_USAGE. */
-bool gis_source_mark(const gis_source *source, const char *option, const char *where, bool *marks, gis_error *error);
+ * OGR's. marks has gis_source_count() entries. A bad expression is GIS_USAGE. Of a source that is read by batches a
+ * plain layer is asked once, and by FIDs that are unique as far as is known then. */
+bool gis_source_mark(gis_source *source, const char *option, const char *where, bool *marks, gis_error *error);
 
 /* What GDAL warned of while opening and reading. */
 const gis_sentences *gis_source_warnings(const gis_source *source);

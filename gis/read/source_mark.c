@@ -2,8 +2,9 @@
  * the SQL: a plain layer answers for itself, as it did for --where, and its FIDs tell who is meant; where FIDs mean
  * nothing a layer of memory answers in its place. */
 #define _GNU_SOURCE /* strcasestr() */
-#include "read/source.h"
+#include "read/source_mark.h"
 
+#include "base/array.h"
 #include "base/interrupt.h"
 #include "read/where.h"
 
@@ -11,6 +12,28 @@
 #include <cpl_string.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- By the layer itself ----------------------------------------------------------------------------------------- */
+
+/* Takes the FID of a feature that satisfies the condition. */
+typedef bool take_fid(void *user, GIntBig fid);
+
+/* Asks the layer again with both filters. */
+static bool ask_layer(const gis_source *source, const char *where, take_fid *take, void *user, gis_error *error)
+{
+    OGRLayerH layer = gis_source_layer(source);
+    const char *selected = gis_source_where(source);
+    char *both = CPLStrdup(selected ? CPLSPrintf("(%s) AND (%s)", selected, where) : where);
+    bool done = OGR_L_SetAttributeFilter(layer, both) == OGRERR_NONE;
+    CPLFree(both);
+    if (done) {
+        OGR_L_ResetReading(layer);
+        for (OGRFeatureH feature; done && (feature = OGR_L_GetNextFeature(layer)); OGR_F_Destroy(feature))
+            done = (take(user, OGR_F_GetFID(feature)) || gis_no_memory(error)) && gis_go_on(error);
+    }
+    OGR_L_SetAttributeFilter(layer, selected);
+    return done;
+}
 
 typedef struct fid_index {
     GIntBig fid;
@@ -23,32 +46,100 @@ static int compare_fid_index(const void *a, const void *b)
     return (p->fid > q->fid) - (p->fid < q->fid);
 }
 
-/* Marks by asking the layer again with both filters; FIDs tell which features came. */
+typedef struct marking {
+    fid_index *table;
+    size_t n;
+    bool *marks;
+} marking;
+
+static bool take_mark(void *user, GIntBig fid)
+{
+    const marking *m = user;
+    const fid_index key = {fid, 0}, *found = bsearch(&key, m->table, m->n, sizeof *m->table, compare_fid_index);
+    if (found) m->marks[found->index] = true;
+    return true;
+}
+
+/* FIDs tell which features came. */
 static bool mark_by_filter(const gis_source *source, const char *where, bool *marks, gis_error *error)
 {
-    OGRLayerH layer = gis_source_layer(source);
-    const char *selected = gis_source_where(source);
-    size_t n = gis_source_count(source);
-    fid_index *table = malloc((n + 1) * sizeof *table);
-    if (!table) return gis_no_memory(error);
-    for (size_t i = 0; i < n; i++) table[i] = (fid_index){gis_source_fid(source, i), i};
-    qsort(table, n, sizeof *table, compare_fid_index);
-    char *both = CPLStrdup(selected ? CPLSPrintf("(%s) AND (%s)", selected, where) : where);
-    bool done = OGR_L_SetAttributeFilter(layer, both) == OGRERR_NONE;
-    CPLFree(both);
-    if (done) {
-        OGR_L_ResetReading(layer);
-        for (OGRFeatureH feature; done && (feature = OGR_L_GetNextFeature(layer)); OGR_F_Destroy(feature)) {
-            fid_index key = {OGR_F_GetFID(feature), 0};
-            fid_index *found = bsearch(&key, table, n, sizeof *table, compare_fid_index);
-            if (found) marks[found->index] = true;
-            done = gis_go_on(error);
-        }
-    }
-    OGR_L_SetAttributeFilter(layer, selected);
-    free(table);
+    marking m = {.n = gis_source_count(source), .marks = marks};
+    m.table = malloc((m.n + 1) * sizeof *m.table);
+    if (!m.table) return gis_no_memory(error);
+    for (size_t i = 0; i < m.n; i++) m.table[i] = (fid_index){gis_source_fid(source, i), i};
+    qsort(m.table, m.n, sizeof *m.table, compare_fid_index);
+    const bool done = ask_layer(source, where, take_mark, &m, error);
+    free(m.table);
     return done;
 }
+
+/* ---- The same for batches ---------------------------------------------------------------------------------------- */
+
+void gis_source_marks_clear(gis_source_marks *marks)
+{
+    for (size_t k = 0; k < marks->n; k++) {
+        CPLFree(marks->marked[k].where);
+        free(marks->marked[k].range);
+    }
+    free(marks->marked);
+    *marks = (gis_source_marks){0};
+}
+
+static bool take_range(void *user, GIntBig fid)
+{
+    gis_marked *marked = user;
+    if (marked->n > 0 && marked->range[marked->n - 1][1] == fid - 1) {
+        marked->range[marked->n - 1][1] = fid;
+        return true;
+    }
+    if (!gis_array_reserve(&marked->range, &marked->capacity, marked->n + 1, sizeof *marked->range)) return false;
+    marked->range[marked->n][0] = marked->range[marked->n][1] = fid;
+    marked->n++;
+    return true;
+}
+
+static int compare_ranges(const void *a, const void *b)
+{
+    const GIntBig *p = a, *q = b;
+    return (p[0] > q[0]) - (p[0] < q[0]);
+}
+
+/* What the layer said of the condition; it is asked where it was not yet. NULL: the error says why. */
+static const gis_marked *find_marked(gis_source *source, const char *where, gis_error *error)
+{
+    gis_source_marks *all = gis_source_marks_of(source);
+    for (size_t k = 0; k < all->n; k++)
+        if (strcmp(all->marked[k].where, where) == 0) return &all->marked[k];
+    if (!gis_array_reserve(&all->marked, &all->capacity, all->n + 1, sizeof *all->marked)) {
+        gis_no_memory(error);
+        return NULL;
+    }
+    gis_marked *marked = &all->marked[all->n++];
+    *marked = (gis_marked){.where = CPLStrdup(where)};
+    const bool done = ask_layer(source, where, take_range, marked, error);
+    if (!gis_source_resume(source, error) || !done) return NULL;
+    qsort(marked->range, marked->n, sizeof *marked->range, compare_ranges);
+    return marked;
+}
+
+/* Is it in the range, before it, or behind it? */
+static int compare_with_range(const void *fid, const void *range)
+{
+    const GIntBig key = *(const GIntBig *)fid, *r = range;
+    return key < r[0] ? -1 : key > r[1];
+}
+
+static bool mark_batch(gis_source *source, const char *where, bool *marks, gis_error *error)
+{
+    const gis_marked *marked = find_marked(source, where, error);
+    for (size_t i = 0; marked && i < gis_source_count(source); i++) {
+        const GIntBig fid = gis_source_fid(source, i);
+        marks[i] = bsearch(&fid, marked->range, marked->n, sizeof *marked->range, compare_with_range) != NULL;
+    }
+    return marked != NULL;
+}
+
+/* ---- In memory --------------------------------------------------------------------------------------------------- */
 
 static GDALDriverH memory_driver(void)
 {
@@ -61,6 +152,7 @@ static GDALDriverH memory_driver(void)
  * layer of memory whose FIDs are our own numbers, and that is asked, in OGR's SQL. */
 static bool mark_in_memory(const gis_source *source, const char *where, bool *marks, gis_error *error)
 {
+    const size_t first = gis_source_first(source);
     GDALDriverH driver = memory_driver();
     GDALDatasetH memory = driver ? GDALCreate(driver, "", 0, 0, 0, GDT_Unknown, NULL) : NULL;
     /* Geometries come along where the condition is about them. */
@@ -73,7 +165,7 @@ static bool mark_in_memory(const gis_source *source, const char *where, bool *ma
     for (size_t i = 0; done && i < gis_source_count(source) && (done = gis_go_on(error)); i++) {
         OGRFeatureH copy = OGR_F_Create(OGR_L_GetLayerDefn(layer));
         OGR_F_SetFrom(copy, gis_source_feature(source, i), TRUE);
-        OGR_F_SetFID(copy, (GIntBig)i);
+        OGR_F_SetFID(copy, (GIntBig)(first + i));
         done = OGR_L_CreateFeature(layer, copy) == OGRERR_NONE;
         OGR_F_Destroy(copy);
     }
@@ -81,19 +173,21 @@ static bool mark_in_memory(const gis_source *source, const char *where, bool *ma
     if (done) {
         OGR_L_ResetReading(layer);
         for (OGRFeatureH feature; (feature = OGR_L_GetNextFeature(layer)) != NULL; OGR_F_Destroy(feature))
-            marks[OGR_F_GetFID(feature)] = true;
+            marks[(size_t)OGR_F_GetFID(feature) - first] = true;
     }
     if (memory) GDALClose(memory);
     return done || gis_fail(error, "not understood");
 }
 
-bool gis_source_mark(const gis_source *source, const char *option, const char *where, bool *marks, gis_error *error)
+bool gis_source_mark(gis_source *source, const char *option, const char *where, bool *marks, gis_error *error)
 {
     for (size_t i = 0; i < gis_source_count(source); i++) marks[i] = false;
     gis_listener listener = {0};
     gis_listen_begin(&listener);
-    bool in_place = !gis_source_is_result(source) && gis_source_fids_unique(source);
-    bool done = in_place ? mark_by_filter(source, where, marks, error) : mark_in_memory(source, where, marks, error);
+    const bool in_place = gis_source_goes_by_fids(source);
+    bool done = !in_place                     ? mark_in_memory(source, where, marks, error)
+                : gis_source_marks_of(source) ? mark_batch(source, where, marks, error)
+                                              : mark_by_filter(source, where, marks, error);
     gis_listen_end();
     if (!done || listener.failures || gis_interrupted())
         done = gis_fail_where(in_place ? gis_source_dataset(source) : NULL, gis_source_layer(source), option, where,

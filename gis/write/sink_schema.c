@@ -148,11 +148,7 @@ static bool must_promote(const gis_sink_layer *layer, OGRwkbGeometryType type)
     if (!layer->request.as_source || layer->sink->format.shapefile || wkbFlatten(type) != wkbPolygon) return false;
     GDALDriverH driver = GDALGetDatasetDriver(gis_source_dataset(source));
     if (!driver || !EQUAL(GDALGetDescription(driver), "ESRI Shapefile")) return false;
-    for (size_t i = 0; i < gis_source_count(source); i++) {
-        OGRGeometryH geometry = gis_source_geometry(source, i);
-        if (geometry && wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbMultiPolygon) return true;
-    }
-    return false;
+    return gis_source_has_multipolygons(source);
 }
 
 static void copy_metadata(const gis_sink_layer *layer)
