@@ -199,17 +199,31 @@ static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_
     return status;
 }
 
-/* Relations once more from nothing, so that the verdict leans on no earlier one; and what is proved of them. */
+/* Relations once more of all that does not stand as it was given, so that the verdict leans on none that was found on
+ * the way; two that do stand so are what they were found to be when nothing had moved. */
+static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_i_relations last = {0};
+    bool *elsewhere = sunder_i_calloc(s->model.things, sizeof *elsewhere);
+    if (!elsewhere) return sunder_i_no_memory(err);
+    for (size_t f = 0; f < s->model.features; f++) {
+        const double *t = s->placement.translate[f].t;
+        elsewhere[f] = t[0] != 0 || t[1] != 0 || s->placement.was_rounded[f];
+    }
+    const sunder_status status = sunder_i_placement_relate(&s->model, &s->placement, elsewhere, &s->start, &last, err);
+    sunder_i_free(elsewhere);
+    if (status) return status;
+    sunder_i_free(s->now.pair);
+    s->now = last;
+    return sunder_i_jumps_update(&s->jumps, &s->model, NULL, err);
+}
+
+/* What remains, and what is proved of it. */
 static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
                               double began, sunder_error *err)
 {
     const double solved = sunder_i_now();
-    sunder_i_relations last = {0};
-    sunder_status status = sunder_i_placement_relate(&s->model, &s->placement, NULL, NULL, &last, err);
-    if (status) return status;
-    sunder_i_free(s->now.pair);
-    s->now = last;
-    status = sunder_i_jumps_update(&s->jumps, &s->model, NULL, err);
+    sunder_status status = relate_last(s, err);
     if (status) return status;
     report->summary.seconds_solve = solved - began;
     sunder_i_count_relations(&s->model, &s->now, &report->summary.after);

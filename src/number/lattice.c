@@ -58,9 +58,7 @@ static inline double power_of_two(int e)
     return v;
 }
 
-/* A double with at most 20 significant bits near the middle of [low, high], a multiple of the unit 2^bit, or zero where
- * the range reaches down to that scale anyway. */
-static double pick_origin(double low, double high, int bit)
+double sunder_i_lattice_origin(double low, double high, int bit)
 {
     const double middle = low / 2 + high / 2;
     if (middle == 0) return 0;
@@ -101,7 +99,7 @@ void sunder_i_lattice_init(sunder_i_lattice *lattice, const sunder_i_extent *ext
         if (!extents[i].any) continue;
         for (int k = 0; k < 2; k++) {
             const double low = extents[i].low[k], high = extents[i].high[k];
-            if (relative) origins[i][k] = pick_origin(low, high, bit);
+            if (relative) origins[i][k] = sunder_i_lattice_origin(low, high, bit);
             const int a = magnitude_bits(low, origins[i][k], bit), b = magnitude_bits(high, origins[i][k], bit);
             if (a > most) most = a;
             if (b > most) most = b;

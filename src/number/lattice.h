@@ -67,6 +67,9 @@ void sunder_i_extent_add(sunder_i_extent *extent, const double *xy, size_t n);
 /* The exponent of the lowest set bit of v (finite); INT_MAX for zero. */
 int sunder_i_low_bit(double v);
 
+/* The origin for coordinates in [low, high]: a double with at most 20 significant bits near the middle, a multiple of
+ * the unit 2^bit, or zero where the range reaches down to that scale anyway. */
+double sunder_i_lattice_origin(double low, double high, int bit);
 /* A lattice that holds the given extents, each taken from an origin of its own if relative is true: the origin is in
  * origins[i], a multiple of the unit near the middle of extent i (zeroes if relative is false). Small if sums of one
  * coordinate of each extent stay below 2^60, and then narrow; with `force_wide` all numbers are pooled (for tests). */

@@ -23,7 +23,7 @@ sunder_status sunder_i_least(const sunder_shape *p, const sunder_shape *q, const
     else
         status = sunder_i_least_without_gap(p, q, o, &result, &far, err);
     if (status) return status;
-    SUNDER_I_ASSERT(result.lower_bound <= result.distance || far);
+    SUNDER_I_ASSERT(result.lower_bound <= result.distance || far || o->bound_only);
     *out = result;
     if (beyond) *beyond = far;
     return SUNDER_OK;
@@ -34,6 +34,18 @@ sunder_status sunder_i_separate(const sunder_shape *p, const double tp[2], const
 {
     const sunder_i_least_options options = {.tp = tp, .tq = tq, .gap = gap, .upper = upper};
     return sunder_i_least(p, q, &options, out, beyond, err);
+}
+
+sunder_status sunder_i_least_bound(const sunder_shape *p, const sunder_shape *q, double gap, double upper,
+                                   double *lower_bound, bool *beyond, sunder_error *err)
+{
+    const sunder_i_least_options options = {.gap = gap, .upper = upper, .bound_only = true};
+    sunder_separation least;
+    const sunder_status status = sunder_i_least(p, q, &options, &least, beyond, err);
+    if (status) return status;
+    *lower_bound = least.lower_bound;
+    sunder_separation_clear(&least);
+    return SUNDER_OK;
 }
 
 sunder_status sunder_pair_separate(const sunder_shape *p, const sunder_shape *q, double gap, sunder_separation *out,

@@ -157,8 +157,15 @@ void sunder_i_rtree_free(sunder_i_rtree *tree)
 /* The leaves of a node of the lowest level that meet the box: appended. */
 static bool take_leaves(const sunder_i_rtree *tree, size_t first, size_t end, const double box[4], sunder_i_list *hits)
 {
-    for (size_t c = first; c < end; c++)
-        if (sunder_i_box_meet(tree->box + 4 * c, box) && !sunder_i_list_push(hits, tree->item[c])) return false;
+    if (hits->capacity - hits->n < end - first &&
+        !sunder_i_reserve(&hits->item, &hits->capacity, hits->n + (end - first), sizeof *hits->item))
+        return false;
+    size_t n = hits->n;
+    for (size_t c = first; c < end; c++) {
+        hits->item[n] = tree->item[c];
+        n += sunder_i_box_meet_any(tree->box + 4 * c, box);
+    }
+    hits->n = n;
     return true;
 }
 
@@ -167,11 +174,11 @@ bool sunder_i_rtree_query(const sunder_i_rtree *tree, const double box[4], sunde
 {
     if (tree->leaves == 0) return true;
     if (tree->levels == 1) return take_leaves(tree, 0, 1, box, hits);
-    /* At most 16 siblings wait on each of at most 16 levels. */
+    /* At most 16 siblings wait on each of at most 16 levels; what is not to wait is written behind them. */
     struct {
         size_t node;
         unsigned level;
-    } stack[16 * FANOUT];
+    } stack[16 * FANOUT + 1];
     size_t depth = 0, end;
     stack[depth].node = tree->level[tree->levels] - 1;
     stack[depth++].level = tree->levels - 1;
@@ -184,9 +191,9 @@ bool sunder_i_rtree_query(const sunder_i_rtree *tree, const double box[4], sunde
             continue;
         }
         for (size_t c = end; c-- > first;) {
-            if (!sunder_i_box_meet(tree->box + 4 * c, box)) continue;
             stack[depth].node = c;
-            stack[depth++].level = l - 1;
+            stack[depth].level = l - 1;
+            depth += sunder_i_box_meet_any(tree->box + 4 * c, box);
         }
     }
     return true;

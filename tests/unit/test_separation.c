@@ -413,6 +413,42 @@ static void memory_runs_out(void **state)
     sunder_set_allocator(NULL, NULL, NULL);
 }
 
+/* A bound that is asked for without the translation is the one that comes with it; and it matters to neither whether
+ * coordinates are short, or as long as those of a map, whose numbers go another way onto the lattice. */
+static void bound_alone(void **state)
+{
+    static const double gaps[] = {0, 0.1, 1, 3.7};
+    const double far[][2] = {{0, 0}, {0x1p19 + 0x1p-20, 0x1p22 + 0x1p-12}, {0x1p30, -0x1p9}, {1e-3, 0}};
+    for (size_t i = 0; i < sizeof KNOWN / sizeof *KNOWN; i++)
+        for (size_t k = 0; k < sizeof far / sizeof *far; k++) {
+            sunder_shape *given[2] = {shape(KNOWN[i].p), shape(KNOWN[i].q)}, *p, *q;
+            bool exact, same;
+            assert_int_equal(sunder_shape_translate(given[0], far[k][0], far[k][1], &p, &exact, NULL), SUNDER_OK);
+            assert_int_equal(sunder_shape_translate(given[1], far[k][0], far[k][1], &q, &same, NULL), SUNDER_OK);
+            for (size_t g = 0; exact && same && g < sizeof gaps / sizeof *gaps; g++) {
+                sunder_separation wide, plain;
+                sunder_i_least_options options = {.gap = gaps[g], .upper = INFINITY, .texts = true};
+                assert_int_equal(sunder_i_least(p, q, &options, &plain, NULL, NULL), SUNDER_OK);
+                options.force_wide = true;
+                assert_int_equal(sunder_i_least(p, q, &options, &wide, NULL, NULL), SUNDER_OK);
+                double bound;
+                bool beyond;
+                assert_int_equal(sunder_i_least_bound(p, q, gaps[g], INFINITY, &bound, &beyond, NULL), SUNDER_OK);
+                assert_true(bound == plain.lower_bound && !beyond);
+                assert_string_equal(plain.distance_squared_text, wide.distance_squared_text);
+                if (bound > 0) {
+                    assert_int_equal(sunder_i_least_bound(p, q, gaps[g], bound / 2, &bound, &beyond, NULL), SUNDER_OK);
+                    assert_true(beyond && bound == plain.lower_bound / 2);
+                }
+                sunder_separation_clear(&plain);
+                sunder_separation_clear(&wide);
+            }
+            for (int side = 0; side < 2; side++) sunder_shape_free(given[side]);
+            sunder_shape_free(p);
+            sunder_shape_free(q);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -420,6 +456,7 @@ int main(void)
         cmocka_unit_test(beyond_doubles), cmocka_unit_test(rounded_or_not),   cmocka_unit_test(upper_limit),
         cmocka_unit_test(bad_arguments),  cmocka_unit_test(empty_operands),   cmocka_unit_test(containment),
         cmocka_unit_test(distances),      cmocka_unit_test(memory_runs_out),  cmocka_unit_test(repaired_operands),
+        cmocka_unit_test(bound_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -131,14 +131,12 @@ static sunder_status least_inside(const sunder_shape *inner, const sunder_shape 
 sunder_status sunder_i_resolve(const sunder_i_rules *rules, const sunder_shape *a, const sunder_shape *b, double upper,
                                sunder_i_resolution *out, sunder_error *err)
 {
-    const double none[2] = {0, 0};
     *out = (sunder_i_resolution){0};
-    sunder_separation apart;
-    sunder_status status = sunder_i_separate(a, none, b, none, rules->gap, upper, &apart, &out->beyond, err);
+    double apart;
+    sunder_status status = sunder_i_least_bound(a, b, rules->gap, upper, &apart, &out->beyond, err);
     if (status) return status;
-    out->least = fmax(0, apart.lower_bound);
+    out->least = fmax(0, apart);
     out->apart_beyond = out->beyond = out->beyond || out->least > upper;
-    sunder_separation_clear(&apart);
     if (!sunder_i_may_be_inside(rules)) return SUNDER_OK;
     double box[2][4];
     sunder_shape_box(a, box[0]);

@@ -10,6 +10,7 @@ typedef struct sunder_i_least_options {
     double gap;                     /* >= 0, finite */
     double upper;                   /* a length past which the answer no longer matters; INFINITY for none */
     bool texts;                     /* make the three texts */
+    bool bound_only;                /* of the answer nothing is wanted but overlap and lower_bound */
     bool force_wide, force_squares; /* for tests */
 } sunder_i_least_options;
 

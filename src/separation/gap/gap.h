@@ -52,6 +52,7 @@ typedef struct sunder_i_gap_problem {
     const sunder_i_point *center; /* corners that arcs may go round */
     size_t centers;
     const sunder_i_gap_quadtree *quadtree; /* NULL: all subsums matter everywhere */
+    bool bound_only;                       /* of the answer `at` is not wanted */
 } sunder_i_gap_problem;
 
 /* Many pairs of pieces: the operands' subsums become those that matter within the limit, which comes down, the segments

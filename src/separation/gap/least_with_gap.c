@@ -62,15 +62,18 @@ static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
         }
         uint32_t side;
         bool flat;
-        /* In doubles first: inside; or on the far side of a side's line by more than the gap. */
-        bool far = false, inside = true;
+        /* In doubles first: inside; nearer to a side than the gap; or on the far side of its line by more. */
+        bool far = false, inside = true, near = false;
         for (uint32_t i = 0; i < s->sides && !far; i++) {
             const double turn = s->sy[i] * s->cx[i] - s->sx[i] * s->cy[i];
             const double length = sqrt(s->sx[i] * s->sx[i] + s->sy[i] * s->sy[i]);
             far = length > SUNDER_I_SHORTEST && turn < -s->bound[i] - r * SUNDER_I_GAP_MORE * length;
             inside = inside && turn > s->bound[i];
+            const double square =
+                sunder_i_segment_square(s->cx[i], s->cy[i], s->sx[i], s->sy[i], 1 / (length * length));
+            near = near || sqrt(square) + 16 * g->error < p->gap_units * (1 - 0x1p-50);
         }
-        if (inside || (!far && sunder_i_gap_cmp(p, s, &origin, &side, &flat) < 0)) return false;
+        if (inside || near || (!far && sunder_i_gap_cmp(p, s, &origin, &side, &flat) < 0)) return false;
     }
     return true;
 }
@@ -99,6 +102,11 @@ static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a,
                           sunder_error *err)
 {
     sunder_i_operands *g = p->operands;
+    if (p->bound_only) {
+        out->overlap = true;
+        out->lower_bound = a->bound * g->unit * (1 - 0x1p-50);
+        return SUNDER_OK;
+    }
     const sunder_i_exact_translation v = {.big = sunder_i_surd_point_of(&a->at)};
     sunder_i_answer_numbers(g, &v, out);
     const double bound = a->bound * g->unit * (1 - 0x1p-50);
@@ -140,6 +148,8 @@ static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options
 {
     sunder_i_operands *g = p->operands;
     const double upper = o->upper / g->unit;
+    /* At the ends of the range of doubles the bound is that of the exact answer. */
+    p->bound_only = o->bound_only && g->unit > 0x1p-400 && g->unit < 0x1p400;
     p->limit = way_out(g, p->gap_units);
     if (upper < p->limit) p->limit = upper * SUNDER_I_GAP_MORE + 8 * g->error;
     if (are_many(p, o) && !take_squares(p, quadtree)) return sunder_i_no_memory(err);

@@ -127,6 +127,7 @@ static sunder_status conclude(sunder_i_gap_state *s, sunder_i_gap_answer *out, s
     sunder_i_big xy[2];
     const unsigned long bits = sunder_i_surd_point_digits(s->g, &f->exact, sunder_i_gap_length(f->x, f->y), xy);
     out->bound = sunder_i_surd_point_length_down(s->g, xy, bits);
+    if (s->p->bound_only) return SUNDER_OK;
     if (sunder_i_surd_point_is_rational(&f->exact))
         out->at = f->exact;
     else if (!sunder_i_gap_rational_beside(s, f, &way, xy, bits, &out->at))

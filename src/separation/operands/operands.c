@@ -1,8 +1,8 @@
 /* Two operands on one lattice, and doubles for all that is on it.
  *
- * Mostly the coordinates of both, and the vectors that they stand moved by, are integers below 2^53 in one unit, a
- * power of two: then no general lattice has to be chosen, and a pair of buildings takes no longer to set up than to
- * ask. Everything else goes the general way (shape/place.c). */
+ * Mostly the coordinates of both, and the vectors that they stand moved by, are integers below 2^62 in one unit, a
+ * power of two, and near each other: then no general lattice has to be chosen, and a pair of buildings takes no longer
+ * to set up than to ask. Everything else goes the general way (shape/place.c). */
 #include "separation/operands/operands.h"
 
 #include "spatial/box.h"
@@ -60,7 +60,7 @@ static bool make_room(sunder_i_operands *g, sunder_i_point **points)
     return true;
 }
 
-/* ---- The common case, without detours: doubles that are all below 2^53 units in magnitude ---- */
+/* ---- The common case, without detours: doubles that are all below 2^62 units in magnitude ---- */
 
 typedef struct plain {
     int bit;            /* the unit is 2^bit */
@@ -78,29 +78,56 @@ static void hold(plain *u, const double *v, size_t n, double *most)
     }
 }
 
-/* The unit, if everything is an integer below 2^53 in it; false if not. */
+/* Is the operand as it stands less than 2^58 units from the origin, in a coordinate? */
+static bool is_near(const sunder_shape *s, int k, const plain *u, const double *shift)
+{
+    const double by = shift ? shift[k] : 0;
+    return fabs((s->box[k] + by) * u->scale - u->origin[k]) < 0x1p58 &&
+           fabs((s->box[k + 2] + by) * u->scale - u->origin[k]) < 0x1p58;
+}
+
+/* The origin of numbers that are too long for doubles: the same as the general way takes. */
+static double shared_origin(const sunder_shape *p, const sunder_shape *q, int k, int bit,
+                            const sunder_i_operands_options *o)
+{
+    double low[2] = {p->box[k], q->box[k]}, high[2] = {p->box[k + 2], q->box[k + 2]};
+    const double *const shift[2] = {o->tp, o->tq};
+    for (int i = 0; i < 2; i++) {
+        if (!shift[i] || shift[i][k] == 0) continue;
+        low[i] = nextafter(low[i] + shift[i][k], -INFINITY);
+        high[i] = nextafter(high[i] + shift[i][k], INFINITY);
+    }
+    return sunder_i_lattice_origin(fmin(low[0], low[1]), fmax(high[0], high[1]), bit);
+}
+
+/* The unit, if everything is an integer below 2^62 in it, and the operands are below 2^58 less the origin, which keeps
+ * their sums on a narrow lattice; false if not. */
 static bool plain_unit(const sunder_shape *p, const sunder_shape *q, const sunder_i_operands_options *o, plain *u)
 {
     if (p->rational || q->rational || o->force_wide) return false;
-    double most = 0;
+    double most = 0, added = 0;
     u->bit = p->extent.low_bit < q->extent.low_bit ? p->extent.low_bit : q->extent.low_bit;
     for (int k = 0; k < 4; k++) most = fmax(most, fmax(fabs(p->box[k]), fabs(q->box[k])));
-    hold(u, o->extra, o->extra_n, &most);
-    if (o->tp) hold(u, o->tp, 2, &most);
-    if (o->tq) hold(u, o->tq, 2, &most);
-    if (u->bit <= -900 || u->bit >= 900 || most >= ldexp(1, u->bit + 53)) return false;
+    hold(u, o->extra, o->extra_n, &added);
+    if (o->tp) hold(u, o->tp, 2, &added);
+    if (o->tq) hold(u, o->tq, 2, &added);
+    if (u->bit <= -900 || u->bit >= 900 || most >= ldexp(1, u->bit + 62) || added >= ldexp(1, u->bit + 58))
+        return false;
     u->scale = ldexp(1, -u->bit);
     u->back = ldexp(1, u->bit);
+    const bool shorter = fmax(most, added) < ldexp(1, u->bit + 53);
     for (int k = 0; k < 2; k++) {
         u->shift[0][k] = o->tp ? o->tp[k] * u->scale : 0;
         u->shift[1][k] = o->tq ? o->tq[k] * u->scale : 0;
-        u->origin[k] = floor((p->box[k] / 2 + p->box[k + 2] / 2) * u->scale);
+        u->origin[k] = shorter ? floor((p->box[k] / 2 + p->box[k + 2] / 2) * u->scale)
+                               : shared_origin(p, q, k, u->bit, o) * u->scale;
+        if (!shorter && (!is_near(p, k, u, o->tp) || !is_near(q, k, u, o->tq))) return false;
     }
     return true;
 }
 
-/* Integers below 2^53 each, so below 2^55 together: exact on the lattice, and exact as doubles unless the magnitude
- * says that they are not. */
+/* Integers below 2^62 each, so their differences are exact; as doubles these are exact, too, unless the magnitude says
+ * that they are not. */
 static void plain_operand(sunder_i_operands *g, int side, const plain *u, bool reflect, sunder_i_point *out)
 {
     const sunder_shape *s = g->shape[side];
