@@ -25,10 +25,11 @@ bool sunder_i_maker_init(sunder_i_maker *m, sunder_i_lattice *lattice, const sun
     r->vertices = shape->vertices;
     r->rings = shape->rings;
     r->polygons = shape->polygons;
-    r->ring_end = shape->ring_end;
-    r->poly_end = shape->poly_end;
-    r->next = shape->next;
-    r->prev = shape->prev;
+    /* Lent by the shape, and only read. */
+    r->ring_end = (uint32_t *)shape->ring_end;
+    r->poly_end = (uint32_t *)shape->poly_end;
+    r->next = (uint32_t *)shape->next;
+    r->prev = (uint32_t *)shape->prev;
     r->at = sunder_i_alloc(shape->vertices, sizeof *r->at);
     r->xy = sunder_i_alloc(2 * (size_t)shape->vertices, sizeof *r->xy);
     if (!r->at || !r->xy) return false;

@@ -80,16 +80,17 @@ static void choose_lattice(maker *m)
     for (size_t i = 0; i < m->n; i++) {
         const sunder_obstacle *o = &m->obstacle[i];
         if (o->shape) {
-            join_extent(&extent[0], &o->shape->extent);
+            const sunder_i_extent one = sunder_i_shape_extent(o->shape);
+            join_extent(&extent[0], &one);
             rational = rational || o->shape->rational;
         }
         for (size_t k = 0, from = 0; k < o->lines; from = o->line_end[k++])
             sunder_i_extent_add(&extent[0], o->xy + 2 * from, o->line_end[k] - from);
     }
-    extent[1] = m->robot->extent;
+    extent[1] = sunder_i_shape_extent(m->robot);
     extent[1].low_bit -= (int)m->diagonals.bits;
     if (m->disc) {
-        extent[2] = m->disc->extent;
+        extent[2] = sunder_i_shape_extent(m->disc);
         grow_extent(&extent[1], &extent[2]);
     }
     const bool inside = clamp(&extent[1]);

@@ -100,7 +100,7 @@ static uint32_t asked(const uint32_t *which, uint32_t i) { return which ? which[
 static bool put(rationals *r, const sunder_i_passage *way, const sunder_shape *p, const uint32_t *which, uint32_t n)
 {
     const double given[6] = {way->from[0], way->from[1], way->t[0], way->t[1], way->s[0], way->s[1]};
-    long unit = p->extent.low_bit;
+    long unit = p->low_bit;
     for (uint32_t i = 0; i < n; i++) unit = lower_unit(p, asked(which, i), unit);
     for (size_t k = 0; k < 6; k++)
         if (sunder_i_low_bit(given[k]) < unit) unit = sunder_i_low_bit(given[k]);

@@ -104,7 +104,7 @@ void sunder_i_anchor_exactly(const sunder_shape *shape, const uint32_t *corner, 
     _Alignas(16) mp_limb_t memory[SCRATCH_LIMBS];
     sunder_i_arena arena;
     sunder_i_arena_init_on(&arena, memory, sizeof memory);
-    const int unit = shape->extent.low_bit;
+    const int unit = shape->low_bit;
     const double *o = shape->xy + 2 * (size_t)corner[0];
     kept weight, moment[2];
     keep(&weight, (sunder_i_big){NULL, 0});

@@ -8,7 +8,8 @@
  * nesting.c        orientation; holes inside outer rings, and not inside each other
  * repair.c         the even-odd set of a polygon in its place, by the arrangement of arcs.c and even_odd.c
  * pieces.c         holes bridged (bridge.c), ears cut off (ears.c), triangles merged (merge_triangles.c)
- * finish.c         everything into one block of memory */
+ * finish.c         everything into one block of memory
+ * few_corners.c    what is the same for all rings of few corners */
 #ifndef SUNDER_I_BUILD_H
 #define SUNDER_I_BUILD_H
 
@@ -186,6 +187,10 @@ sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, 
                                       const sunder_i_rings *r, const sunder_i_pieces *pieces);
 /* Box and extent from the coordinates (not for rational shapes). */
 void sunder_i_shape_measure(sunder_shape *shape, const sunder_i_extent *known);
+/* Of another shape whose places are as much alike. */
+void sunder_i_shape_copy_shared(sunder_shape *shape, const bool *shared);
+/* Where it is known that no two places are alike. */
+void sunder_i_shape_mark_none_shared(sunder_shape *shape);
 /* Fills shared[] by comparing places. The arena is for scratch; false if memory is out. */
 bool sunder_i_shape_mark_shared(sunder_shape *shape, sunder_i_arena *arena);
 

@@ -1,5 +1,8 @@
-/* A finished shape in one block of memory: the struct and its arrays behind it, those of wider types first. */
+/* A finished shape in one block of memory: the struct and its arrays behind it, those of wider types first; but for
+ * those that all rings of few corners have in common. */
 #include "shape/build.h"
+
+#include "shape/few_corners.h"
 
 #include <string.h>
 
@@ -11,67 +14,148 @@ static void *carve(unsigned char *block, size_t *used, size_t n, size_t size)
     return at;
 }
 
-static size_t lay_out(sunder_shape *s, unsigned char *block, size_t raw_vertices, size_t raw_rings,
-                      const sunder_shape *n, uint32_t corners)
+/* Which arrays a shape has of its own. */
+typedef struct layout {
+    size_t raw_vertices, raw_rings;
+    uint32_t corners; /* of pieces */
+    bool few;         /* its rings are one of few corners: links and ends are those of all such */
+    bool whole;       /* and it is its only piece, from its first corner on */
+    bool clean;       /* and the ring as given begins with its corners */
+    bool unshared;    /* and they all stand in different places */
+} layout;
+
+static bool have_places_of_their_own(const sunder_i_rings *r)
+{
+    for (uint32_t i = 0; i < r->vertices; i++)
+        for (uint32_t j = i + 1; j < r->vertices; j++)
+            if (r->xy[2 * i] == r->xy[2 * j] && r->xy[2 * i + 1] == r->xy[2 * j + 1]) return false;
+    return true;
+}
+
+static bool is_identity(const uint32_t *number, uint32_t n)
+{
+    for (uint32_t k = 0; k < n; k++)
+        if (number[k] != k) return false;
+    return true;
+}
+
+static layout plan(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
+                   const sunder_i_rings *r, const sunder_i_pieces *pieces)
+{
+    layout l = {.raw_rings = polygons ? poly_end[polygons - 1] : 0, .corners = pieces->corners};
+    l.raw_vertices = l.raw_rings ? ring_end[l.raw_rings - 1] : 0;
+    l.few = r->rings == 1 && r->polygons == 1 && r->vertices >= 3 && r->vertices <= SUNDER_I_FEW_CORNERS &&
+            polygons == 1 && l.raw_rings == 1 && l.raw_vertices <= SUNDER_I_FEW_CORNERS + 1;
+    if (!l.few) return l;
+    l.whole = pieces->pieces == 1 && pieces->corners == r->vertices && is_identity(pieces->piece_vertex, r->vertices);
+    l.clean =
+        !r->rounded && l.raw_vertices >= r->vertices && memcmp(xy, r->xy, 2 * (size_t)r->vertices * sizeof *xy) == 0;
+    l.unshared = have_places_of_their_own(r);
+    return l;
+}
+
+static size_t lay_out(sunder_shape *s, unsigned char *block, const sunder_shape *n, const layout *l)
 {
     size_t used = (sizeof *s + 15) & ~(size_t)15;
-    s->raw_xy = carve(block, &used, 2 * raw_vertices, sizeof *s->raw_xy);
-    s->xy = carve(block, &used, 2 * (size_t)n->vertices, sizeof *s->xy);
-    s->raw_ring_end = carve(block, &used, raw_rings, sizeof *s->raw_ring_end);
-    s->raw_poly_end = carve(block, &used, n->raw_polygons, sizeof *s->raw_poly_end);
-    s->ring_end = carve(block, &used, n->rings, sizeof *s->ring_end);
-    s->poly_end = carve(block, &used, n->polygons, sizeof *s->poly_end);
-    s->next = carve(block, &used, n->vertices, sizeof *s->next);
-    s->prev = carve(block, &used, n->vertices, sizeof *s->prev);
-    s->piece_end = carve(block, &used, n->pieces, sizeof *s->piece_end);
-    s->piece_vertex = carve(block, &used, corners, sizeof *s->piece_vertex);
-    s->shared = carve(block, &used, n->vertices, sizeof *s->shared);
+    s->raw_xy = carve(block, &used, 2 * l->raw_vertices, sizeof *s->raw_xy);
+    s->xy = l->clean ? s->raw_xy : carve(block, &used, 2 * (size_t)n->vertices, sizeof *s->xy);
+    if (l->few) {
+        const sunder_i_few_corners few = sunder_i_few_corners_of(n->vertices);
+        s->raw_ring_end = sunder_i_few_long(l->raw_vertices);
+        s->raw_poly_end = sunder_i_few_long(1);
+        s->ring_end = sunder_i_few(n->vertices);
+        s->poly_end = sunder_i_few(1);
+        s->next = few.next;
+        s->prev = few.prev;
+        s->piece_end = sunder_i_few(n->vertices);
+        s->piece_vertex = few.corner;
+        s->shared = few.unshared;
+    } else {
+        s->raw_ring_end = carve(block, &used, l->raw_rings, sizeof *s->raw_ring_end);
+        s->raw_poly_end = carve(block, &used, n->raw_polygons, sizeof *s->raw_poly_end);
+        s->ring_end = carve(block, &used, n->rings, sizeof *s->ring_end);
+        s->poly_end = carve(block, &used, n->polygons, sizeof *s->poly_end);
+        s->next = carve(block, &used, n->vertices, sizeof *s->next);
+        s->prev = carve(block, &used, n->vertices, sizeof *s->prev);
+    }
+    if (!l->whole) {
+        s->piece_end = carve(block, &used, n->pieces, sizeof *s->piece_end);
+        s->piece_vertex = carve(block, &used, l->corners, sizeof *s->piece_vertex);
+    }
+    if (!l->unshared) s->shared = carve(block, &used, n->vertices, sizeof *s->shared);
     return used;
 }
 
-static void copy(void *to, const void *from, size_t n, size_t size)
+/* `to` is an array of the shape's own block, so it may be written. */
+static void copy(const void *to, const void *from, size_t n, size_t size)
 {
-    if (n) memcpy(to, from, n * size);
+    if (n) memcpy((void *)to, from, n * size);
 }
 
 sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
                                       const sunder_i_rings *r, const sunder_i_pieces *pieces)
 {
-    const size_t raw_rings = polygons ? poly_end[polygons - 1] : 0,
-                 raw_vertices = raw_rings ? ring_end[raw_rings - 1] : 0;
+    const layout l = plan(xy, ring_end, poly_end, polygons, r, pieces);
     sunder_shape head = {.raw_polygons = polygons,
                          .vertices = r->vertices,
                          .rings = r->rings,
                          .polygons = r->polygons,
                          .pieces = pieces->pieces};
-    const size_t bytes = lay_out(&head, NULL, raw_vertices, raw_rings, &head, pieces->corners);
+    const size_t bytes = lay_out(&head, NULL, &head, &l);
     sunder_shape *s = sunder_i_alloc(bytes, 1);
     if (!s) return NULL;
     *s = head;
-    lay_out(s, (unsigned char *)s, raw_vertices, raw_rings, &head, pieces->corners);
-    copy(s->raw_xy, xy, 2 * raw_vertices, sizeof *xy);
-    copy(s->raw_ring_end, ring_end, raw_rings, sizeof *ring_end);
-    copy(s->raw_poly_end, poly_end, polygons, sizeof *poly_end);
-    copy(s->xy, r->xy, 2 * (size_t)r->vertices, sizeof *r->xy);
-    copy(s->ring_end, r->ring_end, r->rings, sizeof *r->ring_end);
-    copy(s->poly_end, r->poly_end, r->polygons, sizeof *r->poly_end);
-    copy(s->next, r->next, r->vertices, sizeof *r->next);
-    copy(s->prev, r->prev, r->vertices, sizeof *r->prev);
-    copy(s->piece_end, pieces->piece_end, pieces->pieces, sizeof *pieces->piece_end);
-    copy(s->piece_vertex, pieces->piece_vertex, pieces->corners, sizeof *pieces->piece_vertex);
+    lay_out(s, (unsigned char *)s, &head, &l);
+    copy(s->raw_xy, xy, 2 * l.raw_vertices, sizeof *xy);
+    if (!l.clean) copy(s->xy, r->xy, 2 * (size_t)r->vertices, sizeof *r->xy);
+    if (!l.few) {
+        copy(s->raw_ring_end, ring_end, l.raw_rings, sizeof *ring_end);
+        copy(s->raw_poly_end, poly_end, polygons, sizeof *poly_end);
+        copy(s->ring_end, r->ring_end, r->rings, sizeof *r->ring_end);
+        copy(s->poly_end, r->poly_end, r->polygons, sizeof *r->poly_end);
+        copy(s->next, r->next, r->vertices, sizeof *r->next);
+        copy(s->prev, r->prev, r->vertices, sizeof *r->prev);
+    }
+    if (!l.whole) {
+        copy(s->piece_end, pieces->piece_end, pieces->pieces, sizeof *pieces->piece_end);
+        copy(s->piece_vertex, pieces->piece_vertex, pieces->corners, sizeof *pieces->piece_vertex);
+    }
     return s;
+}
+
+/* The marks of a shape of which some corners may share their places; NULL where it is known that none do, since even
+ * the nearest doubles differ. */
+static bool *own_marks(sunder_shape *s)
+{
+    const bool few = s->vertices >= 3 && s->vertices <= SUNDER_I_FEW_CORNERS &&
+                     s->shared == sunder_i_few_corners_of(s->vertices).unshared;
+    return few ? NULL : (bool *)s->shared;
+}
+
+void sunder_i_shape_copy_shared(sunder_shape *s, const bool *shared)
+{
+    bool *own = own_marks(s);
+    if (own) copy(own, shared, s->vertices, sizeof *own);
+}
+
+void sunder_i_shape_mark_none_shared(sunder_shape *s)
+{
+    bool *own = own_marks(s);
+    if (own && s->vertices) memset(own, 0, s->vertices * sizeof *own);
 }
 
 void sunder_i_shape_measure(sunder_shape *s, const sunder_i_extent *known)
 {
+    sunder_i_extent extent = {0};
     if (known)
-        s->extent = *known;
+        extent = *known;
     else
-        sunder_i_extent_add(&s->extent, s->xy, s->vertices);
+        sunder_i_extent_add(&extent, s->xy, s->vertices);
+    s->low_bit = extent.low_bit;
     if (!s->vertices) return;
     for (int k = 0; k < 2; k++) {
-        s->box[k] = s->extent.low[k];
-        s->box[k + 2] = s->extent.high[k];
+        s->box[k] = extent.low[k];
+        s->box[k + 2] = extent.high[k];
     }
 }
 
@@ -99,12 +183,13 @@ static uint32_t place_hash(const double *xy)
 
 bool sunder_i_shape_mark_shared(sunder_shape *s, sunder_i_arena *arena)
 {
-    if (!s->vertices) return true;
-    memset(s->shared, 0, s->vertices * sizeof *s->shared);
+    bool *const shared = own_marks(s);
+    if (!s->vertices || !shared) return true;
+    memset(shared, 0, s->vertices * sizeof *shared);
     if (s->vertices <= 16) {
         for (uint32_t i = 0; i < s->vertices; i++)
             for (uint32_t j = i + 1; j < s->vertices; j++)
-                if (same_place(s, i, j)) s->shared[i] = s->shared[j] = true;
+                if (same_place(s, i, j)) shared[i] = shared[j] = true;
         return true;
     }
     /* Open addressing, at most half full; the first vertex of each place stands in the table. */
@@ -119,7 +204,7 @@ bool sunder_i_shape_mark_shared(sunder_shape *s, sunder_i_arena *arena)
         if (table[slot] == SUNDER_I_NONE)
             table[slot] = i;
         else
-            s->shared[i] = s->shared[table[slot]] = true;
+            shared[i] = shared[table[slot]] = true;
     }
     return true;
 }

@@ -11,7 +11,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static bool finite_all(const sunder_i_input *in, sunder_error *err)
 {
@@ -248,7 +247,7 @@ static bool complete(builder *b, sunder_shape *s)
     }
     /* Within a polygon corners that share a place touch, and that was looked for. */
     if (b->in->polygons == 1 && !b->repaired && !b->touches) {
-        memset(s->shared, 0, s->vertices * sizeof *s->shared);
+        sunder_i_shape_mark_none_shared(s);
         return true;
     }
     return sunder_i_shape_mark_shared(s, &b->arena);

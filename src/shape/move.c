@@ -10,20 +10,22 @@
 /* An exact copy, but for the rational numbers. */
 static sunder_shape *copy_shape(const sunder_shape *s)
 {
+    /* Which is only read. */
     const sunder_i_rings r = {.vertices = s->vertices,
                               .rings = s->rings,
                               .polygons = s->polygons,
                               .xy = s->xy,
-                              .ring_end = s->ring_end,
-                              .poly_end = s->poly_end,
-                              .next = s->next,
-                              .prev = s->prev};
-    const sunder_i_pieces pieces = {s->pieces, s->pieces ? s->piece_end[s->pieces - 1] : 0, s->piece_end,
-                                    s->piece_vertex};
+                              .rounded = s->rational,
+                              .ring_end = (uint32_t *)s->ring_end,
+                              .poly_end = (uint32_t *)s->poly_end,
+                              .next = (uint32_t *)s->next,
+                              .prev = (uint32_t *)s->prev};
+    const sunder_i_pieces pieces = {s->pieces, s->pieces ? s->piece_end[s->pieces - 1] : 0, (uint32_t *)s->piece_end,
+                                    (uint32_t *)s->piece_vertex};
     sunder_shape *c =
         sunder_i_shape_assemble(s->raw_xy, s->raw_ring_end, s->raw_poly_end, s->raw_polygons, &r, &pieces);
     if (!c) return NULL;
-    if (s->vertices) memcpy(c->shared, s->shared, s->vertices * sizeof *s->shared);
+    sunder_i_shape_copy_shared(c, s->shared);
     c->repaired = s->repaired;
     c->touches = s->touches;
     return c;
@@ -36,7 +38,7 @@ sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out
     /* Half a turn: orientations stay. 0 - v has no negative zero. */
     for (size_t i = 0; i < 2 * sunder_i_shape_raw_vertices(c); i++) c->raw_xy[i] = 0 - c->raw_xy[i];
     bool good = true;
-    for (size_t i = 0; i < 2 * (size_t)c->vertices; i++) c->xy[i] = 0 - c->xy[i];
+    for (size_t i = 0; c->xy != c->raw_xy && i < 2 * (size_t)c->vertices; i++) c->xy[i] = 0 - c->xy[i];
     if (shape->rational) {
         good = sunder_i_shape_set_rational(c, shape->exact);
         for (uint32_t v = 0; good && v < c->vertices; v++)
@@ -107,7 +109,7 @@ static sunder_status move_exactly(const sunder_shape *shape, const double d[2], 
             return sunder_i_no_memory(err);
         }
     } else {
-        for (size_t i = 0; i < 2 * (size_t)c->vertices; i++) c->xy[i] += d[i & 1];
+        for (size_t i = 0; c->xy != c->raw_xy && i < 2 * (size_t)c->vertices; i++) c->xy[i] += d[i & 1];
         sunder_i_shape_measure(c, NULL);
     }
     *out = c;

@@ -38,23 +38,28 @@ void sunder_i_piece_box(const sunder_i_piece_of *p, double box[4])
     if (p->shape && p->shape->rational) sunder_i_box_grow(box, 0, box);
 }
 
+/* The arrays that are filled here. */
+typedef struct arrays {
+    uint32_t *ring_end, *poly_end, *next, *prev, *corner;
+    bool *shared;
+} arrays;
+
 /* Room for all arrays, in the shape's arena. */
-static bool make_room(sunder_shape *s)
+static bool make_room(sunder_shape *s, arrays *to)
 {
     sunder_i_arena *a = &s->arena;
     s->xy = sunder_i_arena_alloc(a, s->vertices, 2 * sizeof *s->xy);
-    s->ring_end = sunder_i_arena_alloc(a, s->pieces, sizeof *s->ring_end);
-    s->poly_end = sunder_i_arena_alloc(a, s->pieces, sizeof *s->poly_end);
-    s->piece_end = s->ring_end;
-    s->next = sunder_i_arena_alloc(a, s->vertices, sizeof *s->next);
-    s->prev = sunder_i_arena_alloc(a, s->vertices, sizeof *s->prev);
-    s->piece_vertex = sunder_i_arena_alloc(a, s->vertices, sizeof *s->piece_vertex);
-    s->shared = sunder_i_arena_alloc(a, s->vertices, sizeof *s->shared);
+    s->ring_end = s->piece_end = to->ring_end = sunder_i_arena_alloc(a, s->pieces, sizeof *to->ring_end);
+    s->poly_end = to->poly_end = sunder_i_arena_alloc(a, s->pieces, sizeof *to->poly_end);
+    s->next = to->next = sunder_i_arena_alloc(a, s->vertices, sizeof *to->next);
+    s->prev = to->prev = sunder_i_arena_alloc(a, s->vertices, sizeof *to->prev);
+    s->piece_vertex = to->corner = sunder_i_arena_alloc(a, s->vertices, sizeof *to->corner);
+    s->shared = to->shared = sunder_i_arena_alloc(a, s->vertices, sizeof *to->shared);
     if (s->rational) s->exact = sunder_i_arena_alloc(a, s->vertices, sizeof *s->exact);
     return !a->failed;
 }
 
-static void fill(sunder_shape *s, const sunder_i_piece_of *piece)
+static void fill(sunder_shape *s, const arrays *to, const sunder_i_piece_of *piece)
 {
     uint32_t at = 0;
     for (uint32_t i = 0; i < s->pieces; i++) {
@@ -62,35 +67,32 @@ static void fill(sunder_shape *s, const sunder_i_piece_of *piece)
         for (uint32_t k = 0; k < n; k++, at++) {
             const sunder_i_exact *exact;
             memcpy(s->xy + 2 * (size_t)at, corner_of(&piece[i], k, &exact), 2 * sizeof *s->xy);
-            s->next[at] = k + 1 < n ? at + 1 : first;
-            s->prev[at] = k ? at - 1 : first + n - 1;
-            s->piece_vertex[at] = at;
-            s->shared[at] = true;
+            to->next[at] = k + 1 < n ? at + 1 : first;
+            to->prev[at] = k ? at - 1 : first + n - 1;
+            to->corner[at] = at;
+            to->shared[at] = true;
             if (s->rational) s->exact[at] = exact ? *exact : (sunder_i_exact){.den = {NULL, 0}};
         }
-        s->ring_end[i] = at;
-        s->poly_end[i] = i + 1;
+        to->ring_end[i] = at;
+        to->poly_end[i] = i + 1;
     }
 }
 
 /* The box, and bits low enough for all corners: of crossings those of what they were crossings of. */
 static void measure(sunder_shape *s, const sunder_i_piece_of *piece)
 {
-    sunder_i_extent_add(&s->extent, s->xy, s->vertices);
+    sunder_i_extent extent = {0};
+    sunder_i_extent_add(&extent, s->xy, s->vertices);
     for (uint32_t i = 0; i < s->pieces; i++) {
         const sunder_shape *of = piece[i].shape;
-        if (of && of->rational && of->extent.low_bit < s->extent.low_bit) s->extent.low_bit = of->extent.low_bit;
+        if (of && of->rational && of->low_bit < extent.low_bit) extent.low_bit = of->low_bit;
     }
+    s->low_bit = extent.low_bit;
     for (int k = 0; k < 2; k++) {
-        s->box[k] = s->extent.low[k];
-        s->box[k + 2] = s->extent.high[k];
+        s->box[k] = extent.low[k];
+        s->box[k + 2] = extent.high[k];
     }
-    if (!s->rational) return;
-    sunder_i_box_grow(s->box, 0, s->box);
-    for (int k = 0; k < 2; k++) {
-        s->extent.low[k] = s->box[k];
-        s->extent.high[k] = s->box[k + 2];
-    }
+    if (s->rational) sunder_i_box_grow(s->box, 0, s->box);
 }
 
 sunder_status sunder_i_shape_of_pieces(const sunder_i_piece_of *piece, size_t n, sunder_shape **out, sunder_error *err)
@@ -107,11 +109,12 @@ sunder_status sunder_i_shape_of_pieces(const sunder_i_piece_of *piece, size_t n,
         s->flat = s->flat || corners_of(&piece[i]) < 3;
         s->rational = s->rational || (piece[i].shape && piece[i].shape->rational);
     }
-    if (!make_room(s)) {
+    arrays to;
+    if (!make_room(s, &to)) {
         sunder_shape_free(s);
         return sunder_i_no_memory(err);
     }
-    fill(s, piece);
+    fill(s, &to, piece);
     measure(s, piece);
     *out = s;
     return SUNDER_OK;

@@ -17,7 +17,7 @@
 /* Extent of the shape moved by s; bounds stay bounds. */
 static sunder_i_extent shifted_extent(const sunder_shape *shape, const double *s)
 {
-    sunder_i_extent e = shape->extent;
+    sunder_i_extent e = sunder_i_shape_extent(shape);
     if (!s || !e.any) return e;
     for (int k = 0; k < 2; k++) {
         if (s[k] == 0) continue;

@@ -97,14 +97,11 @@ bool sunder_i_shape_measure_rational(sunder_shape *s)
         }
     }
     /* Crossings do not make the unit finer unless they are doubles: they have denominators. */
-    s->extent = (sunder_i_extent){0};
-    sunder_i_extent_add(&s->extent, s->raw_xy, sunder_i_shape_raw_vertices(s));
+    sunder_i_extent extent = {0};
+    sunder_i_extent_add(&extent, s->raw_xy, sunder_i_shape_raw_vertices(s));
     for (uint32_t v = 0; v < s->vertices; v++)
-        if (!s->exact[v].den.size) sunder_i_extent_add(&s->extent, s->xy + 2 * (size_t)v, 1);
-    for (int k = 0; k < 2; k++) {
-        s->extent.low[k] = s->box[k];
-        s->extent.high[k] = s->box[k + 2];
-    }
+        if (!s->exact[v].den.size) sunder_i_extent_add(&extent, s->xy + 2 * (size_t)v, 1);
+    s->low_bit = extent.low_bit;
     const bool good = !scratch.failed;
     sunder_i_arena_free(&scratch);
     return good && sunder_i_shape_measure_pieces(s);

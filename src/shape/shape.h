@@ -27,34 +27,43 @@ typedef struct sunder_i_exact {
     long exponent;
 } sunder_i_exact;
 
+/* Layers have millions of them, most with one ring of few corners: what is the same for all of these they share
+ * (few_corners.h), and a ring that was clean as it was given is kept once. */
 struct sunder_shape {
     /* as given */
     double *raw_xy;
-    size_t *raw_ring_end, *raw_poly_end;
+    const size_t *raw_ring_end, *raw_poly_end;
     size_t raw_polygons;
 
     /* cleaned */
     uint32_t vertices, rings, polygons;
-    uint32_t *ring_end;     /* [rings] index past the last vertex of each ring */
-    uint32_t *poly_end;     /* [polygons] index past the last ring of each polygon; its first ring is the outer one */
-    uint32_t *next, *prev;  /* [vertices] along the ring */
-    bool *shared;           /* [vertices] another vertex stands at the same place */
-    bool touches;           /* as given, rings of one polygon meet somewhere, or a ring meets itself */
-    double *xy;             /* [2 * vertices] the coordinates; of corners that are no doubles the nearest ones */
-    sunder_i_extent extent; /* of a rational shape: the box, and the low bit of what was given */
-    double box[4];          /* rounded outward if rational */
+    uint32_t pieces;
+    double *xy;                  /* [2 * vertices] the coordinates; of corners that are no doubles the nearest ones; may
+                                  * be raw_xy */
+    double box[4];               /* rounded outward if rational */
+    const uint32_t *ring_end;    /* [rings] index past the last vertex of each ring */
+    const uint32_t *poly_end;    /* [polygons] index past the last ring of each; its first ring is the outer one */
+    const uint32_t *next, *prev; /* [vertices] along the ring */
+    const bool *shared;          /* [vertices] another vertex stands at the same place */
 
+    /* convex pieces */
+    const uint32_t *piece_end;    /* [pieces] index past the last corner of each */
+    const uint32_t *piece_vertex; /* corners, counter-clockwise */
+
+    int low_bit;             /* coordinates are multiples of 2^low_bit; if rational, those that were given */
+    bool touches;            /* as given, rings of one polygon meet somewhere, or a ring meets itself */
     bool flat;               /* made of convex pieces, with or without area (of_pieces.c) */
     bool repaired, rational; /* rational: some corner is no pair of doubles */
     sunder_i_arena arena;    /* of the numbers of those */
     sunder_i_exact *exact;   /* [vertices] of rational shapes, else NULL */
     double area, anchor[2];  /* worked out when made, while failing was possible (measure_rational.c) */
-
-    /* convex pieces */
-    uint32_t pieces;
-    uint32_t *piece_end;    /* [pieces] index past the last corner of each */
-    uint32_t *piece_vertex; /* corners, counter-clockwise */
 };
+
+/* What a lattice has to hold for the shape; of a rational one the box, and the low bit of what was given. */
+static inline sunder_i_extent sunder_i_shape_extent(const sunder_shape *s)
+{
+    return (sunder_i_extent){s->vertices > 0, {s->box[0], s->box[1]}, {s->box[2], s->box[3]}, s->low_bit};
+}
 
 /* Two shapes on one lattice; q reflected (-Q) if asked. */
 typedef struct sunder_i_placed {

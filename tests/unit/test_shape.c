@@ -200,30 +200,80 @@ static void test_check_finds(void **state)
     (void)state;
     sunder_shape *s = sound("POLYGON((0 0,9 0,9 9,4 4,0 9),(4 0,5 1,4 2))");
     double *const xy = s->xy;
+    bool *const shared = (bool *)s->shared; /* arrays of its own: it has two rings */
+    uint32_t *const piece_vertex = (uint32_t *)s->piece_vertex, *const along = (uint32_t *)s->next;
     const double keep = xy[1];
     xy[1] = -1;
     assert_non_null(sunder_i_shape_check(s)); /* out of its box, no longer at a shared place */
     xy[1] = keep;
-    s->shared[1] = !s->shared[1];
+    shared[1] = !shared[1];
     assert_non_null(sunder_i_shape_check(s));
-    s->shared[1] = !s->shared[1];
+    shared[1] = !shared[1];
     const uint32_t corner = s->piece_vertex[0];
-    s->piece_vertex[0] = s->piece_vertex[1];
+    piece_vertex[0] = piece_vertex[1];
     assert_non_null(sunder_i_shape_check(s));
-    s->piece_vertex[0] = corner;
+    piece_vertex[0] = corner;
     const uint32_t pieces = s->pieces;
     s->pieces--;
     assert_non_null(sunder_i_shape_check(s));
     s->pieces = pieces;
     const uint32_t next = s->next[0];
-    s->next[0] = s->next[next];
+    along[0] = along[next];
     assert_non_null(sunder_i_shape_check(s));
-    s->next[0] = next;
+    along[0] = next;
     s->box[2] = 8;
     assert_non_null(sunder_i_shape_check(s));
     s->box[2] = 9;
     assert_null(sunder_i_shape_check(s));
     sunder_shape_free(s);
+}
+
+/* Rings of few corners share what is the same for all of them, and one that is clean as given is kept once: that has to
+ * show nowhere, whether the first corner is repeated, a corner is no corner, or the ring runs clockwise. */
+static void test_few_corners(void **state)
+{
+    (void)state;
+    for (uint32_t n = 3; n <= 20; n++)
+        for (int kind = 0; kind < 8; kind++) {
+            double xy[2 * 24];
+            size_t m = 0;
+            for (uint32_t k = 0; k < n; k++, m++) { /* on a parabola, so strictly convex */
+                const double x = kind & 1 ? (double)n - 1 - k : k;
+                xy[2 * m] = 4 * x;
+                xy[2 * m + 1] = 4 * x * x;
+                if (!(kind & 2) || k) continue;
+                xy[2 * ++m] = kind & 1 ? 4 * x - 2 : 2; /* on the way to the next */
+                xy[2 * m + 1] = kind & 1 ? 4 * x * x - 2 * (2 * x - 1) : 2;
+            }
+            if (kind & 4) {
+                xy[2 * m] = xy[0];
+                xy[2 * m++ + 1] = xy[1];
+            }
+            const size_t ring_end[] = {m}, poly_end[] = {1};
+            sunder_shape *s, *moved, *turned;
+            bool exact;
+            assert_int_equal(sunder_shape_from_rings(xy, ring_end, poly_end, 1, SUNDER_VALIDITY_STRICT, &s, NULL),
+                             SUNDER_OK);
+            assert_int_equal(sunder_shape_translate(s, 3, -5, &moved, &exact, NULL), SUNDER_OK);
+            assert_int_equal(sunder_shape_reflect(s, &turned, NULL), SUNDER_OK);
+            assert_int_equal(sunder_shape_vertices(s), n);
+            assert_int_equal(sunder_i_shape_raw_vertices(s), m);
+            for (size_t k = 0; k < 2 * m; k++) {
+                assert_true(s->raw_xy[k] == xy[k]);
+                assert_true(moved->raw_xy[k] == xy[k] + (k & 1 ? -5 : 3));
+                assert_true(turned->raw_xy[k] == -xy[k]);
+            }
+            for (uint32_t k = 0; k < 2 * n; k++) {
+                assert_true(moved->xy[k] == s->xy[k] + (k & 1 ? -5 : 3));
+                assert_true(turned->xy[k] == -s->xy[k]);
+            }
+            assert_null(sunder_i_shape_check(s));
+            assert_null(sunder_i_shape_check(moved));
+            assert_null(sunder_i_shape_check(turned));
+            sunder_shape_free(s);
+            sunder_shape_free(moved);
+            sunder_shape_free(turned);
+        }
 }
 
 static void repaired_to(const char *wkt, size_t polygons, size_t vertices, double area, bool rational)
@@ -436,6 +486,7 @@ int main(void)
         cmocka_unit_test(test_refusals),    cmocka_unit_test(test_empty_rings), cmocka_unit_test(test_not_finite),
         cmocka_unit_test(test_cleaning),    cmocka_unit_test(test_touching),    cmocka_unit_test(test_repairs),
         cmocka_unit_test(test_empty),       cmocka_unit_test(test_disc),        cmocka_unit_test(test_rectangle),
-        cmocka_unit_test(test_check_finds), cmocka_unit_test(test_reflect),     cmocka_unit_test(test_translate)};
+        cmocka_unit_test(test_check_finds), cmocka_unit_test(test_few_corners), cmocka_unit_test(test_reflect),
+        cmocka_unit_test(test_translate)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,12 +31,12 @@ static void add_extent(sunder_i_extent *all, const sunder_i_side *side)
             all->high[k] = fmax(all->high[k], nextafter(at[k], DBL_MAX));
         }
     }
-    if (rational && side->area->extent.low_bit < all->low_bit) all->low_bit = side->area->extent.low_bit;
+    if (rational && side->area->low_bit < all->low_bit) all->low_bit = side->area->low_bit;
 }
 
 static void begin(sunder_i_side_cut *c)
 {
-    sunder_i_extent all = c->shape->extent;
+    sunder_i_extent all = sunder_i_shape_extent(c->shape);
     bool rational = c->shape->rational;
     for (size_t k = 0; k < c->sides; k++) {
         add_extent(&all, c->side[k]);

@@ -9,18 +9,17 @@
 #define MOST 16 /* corners of a part; by measurement on discs and stars */
 
 typedef struct cutting {
-    sunder_shape *out;
-    const uint32_t *corner; /* of the piece */
-    uint32_t corners;       /* of all parts so far */
+    const uint32_t *corner;  /* of the piece */
+    uint32_t *end, *vertex;  /* of the parts */
+    uint32_t parts, corners; /* so far */
 } cutting;
 
 /* Corners first to last of a piece, which is closed by the side back. */
 static void cut(cutting *c, uint32_t first, uint32_t last)
 {
     const uint32_t span = last - first, n = span < MOST ? span + 1 : MOST;
-    for (uint32_t k = 0; k < n; k++)
-        c->out->piece_vertex[c->corners++] = c->corner[first + (uint64_t)k * span / (n - 1)];
-    c->out->piece_end[c->out->pieces++] = c->corners;
+    for (uint32_t k = 0; k < n; k++) c->vertex[c->corners++] = c->corner[first + (uint64_t)k * span / (n - 1)];
+    c->end[c->parts++] = c->corners;
     for (uint32_t k = 0; k + 1 < n; k++) {
         const uint32_t from = first + (uint32_t)((uint64_t)k * span / (n - 1));
         const uint32_t to = first + (uint32_t)((uint64_t)(k + 1) * span / (n - 1));
@@ -39,15 +38,15 @@ static bool cut_operand(sunder_i_operands *g, int side)
     uint32_t *vertex = sunder_i_arena_alloc(arena, 3 * corners, sizeof *vertex);
     if (!vertex) return false;
     *out = *s;
-    out->pieces = 0;
     out->piece_end = end;
     out->piece_vertex = vertex;
-    cutting c = {.out = out};
+    cutting c = {.end = end, .vertex = vertex};
     for (uint32_t i = 0, first = 0; i < s->pieces; first = s->piece_end[i++]) {
         if (!sunder_i_steps(s->piece_end[i] - first)) return false;
         c.corner = s->piece_vertex + first;
         cut(&c, 0, s->piece_end[i] - first - 1);
     }
+    out->pieces = c.parts;
     g->shape[side] = out;
     g->piece_box[side] = sunder_i_arena_alloc(arena, 4 * (size_t)out->pieces, sizeof(double));
     g->turned[side] = sunder_i_arena_alloc(arena, out->pieces, sizeof *g->turned[side]);

@@ -106,7 +106,7 @@ static bool plain_unit(const sunder_shape *p, const sunder_shape *q, const sunde
 {
     if (p->rational || q->rational || o->force_wide) return false;
     double most = 0, added = 0;
-    u->bit = p->extent.low_bit < q->extent.low_bit ? p->extent.low_bit : q->extent.low_bit;
+    u->bit = p->low_bit < q->low_bit ? p->low_bit : q->low_bit;
     for (int k = 0; k < 4; k++) most = fmax(most, fmax(fabs(p->box[k]), fabs(q->box[k])));
     hold(u, o->extra, o->extra_n, &added);
     if (o->tp) hold(u, o->tp, 2, &added);
