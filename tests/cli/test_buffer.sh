@@ -245,5 +245,16 @@ refused 2 'give one of them' buffer halls.gpkg n.gpkg --shape square:1 --dissolv
 refused 1 'no field nam' buffer halls.gpkg n.gpkg --shape square:1 --dissolve-field nam
 refused 1 'exists' buffer halls.gpkg open.gpkg --shape square:1
 refused 1 'input' buffer halls.gpkg halls.gpkg --shape square:1 --overwrite
+# What cannot be made ends all, of several features as of one, and it is said which.
+cat >far.csv <<'CSV'
+WKT,name
+"POLYGON((0 0,2 0,2 2,0 0))",near
+"POLYGON((1.7e308 0,1.79e308 0,1.79e308 1e307,1.7e308 0))",far
+"POLYGON((0 0,2 0,2 2,0 0))",near
+CSV
+for threads in 1 3; do
+    refused 1 'layer far, FID 2: the sum leaves the range of doubles' buffer far.csv n.gpkg --shape square:1e308 --threads $threads
+done
+refused 1 'the sum leaves the range of doubles' buffer far.csv n.gpkg --shape square:1e308 --dissolve
 refused 1 'degrees' buffer "$town" n.gpkg -l buildings --input-crs EPSG:4326 --shape square:1
 finish

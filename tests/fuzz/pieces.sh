@@ -25,6 +25,12 @@ covered() { # of a log: the edges that were covered, and all there are
     echo "${run:-0} ${all:-0}"
 }
 
+built_of() { # the commit, "-dirty" where what is built here differs from it
+    local dirty=
+    git -C "$root" diff --quiet HEAD -- src gis tests/fuzz || dirty=-dirty
+    echo "$(git -C "$root" rev-parse --short=7 HEAD)$dirty"
+}
+
 begin() { # a target's inputs: those on record, and the seeds
     local corpus=$state/$1
     [ -d "$corpus" ] && return
@@ -38,13 +44,12 @@ piece() { # NAME SECONDS
     begin "$name"
     local TIMEFORMAT='%U %S'
     # Leaks are looked for at the end of each input as ever; a seed of its own for each piece.
-    spent=$( { time nice -n 19 "$SUNDER_BUILD/fuzz/$name" "$state/$name" -seed="$(date +%s)" -max_total_time="$2" -max_len=600 \
+    spent=$( { time nice -n "${SUNDER_FUZZ_NICE:-19}" "$SUNDER_BUILD/fuzz/$name" "$state/$name" -seed="$(date +%s)" -max_total_time="$2" -max_len=600 \
         -timeout=100 -rss_limit_mb=4096 -artifact_prefix="$state/found/$name-" -print_final_stats=1 >"$log" 2>&1 || status=$?
         echo "$status" >"$state/$name.status"; } 2>&1 )
     executions=$(final number_of_executed_units "$log")
     # shellcheck disable=SC2046 # two numbers
-    printf '%s %s %s %s %s %s\n' "$name" "${executions:-0}" "$(awk '{ print $1 + $2 }' <<<"$spent")" $(covered "$log") \
-        "$(git -C "$root" describe --always --dirty --abbrev=7)" >>"$state/tally"
+    printf '%s %s %s %s %s %s\n' "$name" "${executions:-0}" "$(awk '{ print $1 + $2 }' <<<"$spent")" $(covered "$log") "$(built_of)" >>"$state/tally"
     tail -n 1 "$state/tally"
     [ "$(cat "$state/$name.status")" -eq 0 ] || { echo "$name failed: see $log"; return 1; }
 }
@@ -63,7 +68,7 @@ keep() {
         smaller=$state/$name.smaller
         rm -rf "$smaller"
         mkdir "$smaller"
-        nice -n 19 "$SUNDER_BUILD/fuzz/$name" -merge=1 -max_len=600 -rss_limit_mb=4096 "$smaller" "$state/$name" >"$state/$name.merge" 2>&1
+        nice -n "${SUNDER_FUZZ_NICE:-19}" "$SUNDER_BUILD/fuzz/$name" -merge=1 -max_len=600 -rss_limit_mb=4096 "$smaller" "$state/$name" >"$state/$name.merge" 2>&1
         tar --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -C "$smaller" -cf - . | gzip -9n >"$here/corpus/$name.tar.gz"
         echo "$name: $(find "$smaller" -type f | wc -l) of $(find "$state/$name" -type f | wc -l) inputs, $(wc -c <"$here/corpus/$name.tar.gz") bytes"
     done

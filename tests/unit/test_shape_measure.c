@@ -187,6 +187,44 @@ static void test_repaired_area_and_anchor(void **state)
     failing_end();
 }
 
+/* Corners with denominators whose area is the very middle of two doubles: no precision of a rounded sum tells to which
+ * side it goes, only the exact one. Three bows with crossings at thirds have 5/6 each, the square 2^52, and another
+ * `square` of area 1 turns the even neighbour from below to above. */
+static void test_area_between_two_doubles(void **state)
+{
+    (void)state;
+    static const double bow[] = {0, 0, 1, 1, 1, 0, 0, 2};
+    for (int square = 0; square < 2; square++) {
+        double xy[2 * 20] = {0};
+        size_t ring_end[5], poly_end[5], n = 0;
+        for (size_t k = 0; k < 3; k++)
+            for (size_t i = 0; i < 4; i++, n++) {
+                xy[2 * n] = bow[2 * i] - 4 * (double)k - 4;
+                xy[2 * n + 1] = bow[2 * i + 1];
+            }
+        for (int k = 0; k < 1 + square; k++) {
+            const double side = k ? 1 : 0x1p26, at = k ? -20 : 0;
+            const double corners[] = {at, 0, at + side, 0, at + side, side, at, side};
+            memcpy(xy + 2 * n, corners, sizeof corners);
+            n += 4;
+        }
+        const size_t rings = n / 4;
+        for (size_t r = 0; r < rings; r++) {
+            ring_end[r] = 4 * (r + 1);
+            poly_end[r] = r + 1;
+        }
+        sunder_shape *s, *turned;
+        assert_int_equal(sunder_shape_from_rings(xy, ring_end, poly_end, rings, SUNDER_VALIDITY_EVEN_ODD, &s, NULL),
+                         SUNDER_OK);
+        const double area = square ? 0x1p52 + 4 : 0x1p52 + 2; /* 2^52 + 3.5 and 2^52 + 2.5, ties to even */
+        assert_true(sunder_shape_area(s) == area);
+        assert_int_equal(sunder_shape_reflect(s, &turned, NULL), SUNDER_OK);
+        assert_true(sunder_shape_area(turned) == area);
+        sunder_shape_free(turned);
+        sunder_shape_free(s);
+    }
+}
+
 /* A ring that meets itself still does so reflected and moved. */
 static void test_copies_keep_touches(void **state)
 {
@@ -215,8 +253,8 @@ static void test_copies_keep_touches(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_area_and_anchor_without_memory),
-                                       cmocka_unit_test(test_repaired_area_and_anchor),
-                                       cmocka_unit_test(test_copies_keep_touches)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_area_and_anchor_without_memory), cmocka_unit_test(test_repaired_area_and_anchor),
+        cmocka_unit_test(test_area_between_two_doubles), cmocka_unit_test(test_copies_keep_touches)};
     return cmocka_run_group_tests_name("shape/measure", tests, NULL, NULL);
 }
