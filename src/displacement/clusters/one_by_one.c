@@ -146,7 +146,7 @@ static bool has_no_limit(const sunder_i_model *model, const sunder_i_relaxation 
 static uint64_t effort_for(const sunder_i_model *model, const sunder_i_relaxation *t, unsigned in_vain)
 {
     if (has_no_limit(model, t) || in_vain >= ALONE_IN_VAIN) return EFFORT_BRIEFLY_ALONE;
-    return EFFORT_ALONE;
+    return EFFORT_ALONE * (1 + (uint64_t)(MORE_EFFORT_ALONE * fmin(model->rules.effort, MORE_ALONE_UP_TO)));
 }
 
 /* What may yet be asked in vain of a cluster with these members. */
