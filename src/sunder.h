@@ -564,7 +564,7 @@ typedef struct sunder_layer_summary {
     size_t thin;                          /* pairs between blocks that overlap by no more than options.thin, before */
     size_t moved, blocked, skipped, rounded;
     double total, mean, max; /* of the lengths of moves; mean over the moved */
-    size_t max_feature;      /* whose move is longest; SIZE_MAX if nothing moved */
+    size_t max_feature;      /* the first whose move is longest; SIZE_MAX if nothing moved */
     /* Sum of weight * length^2; no placement costs less that solves every pair not listed, leaves none that is listed
      * worse than it stood, and none in overlap that is listed as too close. */
     double cost, lower_bound;
@@ -792,6 +792,22 @@ typedef struct sunder_proof {
  * shaded there was shaded before; with SUNDER_REASON_NO_ROOM all nodes are about members of the two blocks then. With
  * SUNDER_REASON_MAX_SHIFT, if keep_trees was asked for and one was found, they are about the pair. */
 SUNDER_API const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k);
+
+/* ---- Sums of many doubles --------------------------------------------------------------------------------- */
+
+/* What was added to it, exactly: so a sum over parts, in any order, is the whole's. It holds 2^60 addends of any size.
+ * Zeroed: 0. Source: the long accumulator of [Kul13, section 8]. */
+typedef struct sunder_total {
+    uint64_t limb[67]; /* two's complement, in units of 2^-2148, lowest first */
+    double beyond;     /* the sum of those that were not finite */
+} sunder_total;
+
+SUNDER_API void sunder_total_add(sunder_total *total, double value);
+/* All that was added to `part`. */
+SUNDER_API void sunder_total_join(sunder_total *total, const sunder_total *part);
+/* The nearest double, and the greatest that is no more. Infinite past the range, or where an addend was. */
+SUNDER_API double sunder_total_nearest(const sunder_total *total);
+SUNDER_API double sunder_total_below(const sunder_total *total);
 
 /* ---- Routes ----------------------------------------------------------------------------------------------- */
 

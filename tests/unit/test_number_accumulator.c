@@ -1,5 +1,6 @@
 /* number/accumulator: sums of products of doubles of every size against GMP's rationals. */
 #include "number/accumulator.h"
+#include "sunder.h"
 #include "random.h"
 
 #include <float.h>
@@ -100,8 +101,48 @@ static void test_ends(void **state)
     assert_true(sunder_i_accumulator_double(&t, 1074) == -0x1p-1074);
 }
 
+/* Totals of any doubles, some of them joined from parts: nearest, and never above. */
+static void test_totals(void **state)
+{
+    (void)state;
+    rng g = rng_start(test_seed(), 46);
+    mpq_t sum, a;
+    mpq_inits(sum, a, NULL);
+    for (int i = 0; i < 2000; i++) {
+        sunder_total whole = {0}, part = {0};
+        mpq_set_ui(sum, 0, 1);
+        for (int k = (int)rng_int(&g, 0, 9); k > 0; k--) {
+            const double x = any_double(&g);
+            sunder_total_add(rng_int(&g, 0, 1) ? &whole : &part, x);
+            mpq_set_d(a, x);
+            mpq_add(sum, sum, a);
+        }
+        sunder_total_join(&whole, &part);
+        demand_nearest(sum, sunder_total_nearest(&whole));
+        const double below = sunder_total_below(&whole), above = nextafter(below, INFINITY);
+        mpq_set_d(a, below);
+        assert_true(mpq_cmp(a, sum) <= 0);
+        mpq_set_d(a, above);
+        assert_true(mpq_cmp(a, sum) > 0);
+    }
+    mpq_clears(sum, a, NULL);
+}
+
+static void test_totals_past_the_range(void **state)
+{
+    (void)state;
+    sunder_total t = {0};
+    sunder_total_add(&t, DBL_MAX);
+    sunder_total_add(&t, DBL_MAX);
+    assert_true(sunder_total_nearest(&t) == INFINITY && sunder_total_below(&t) == DBL_MAX);
+    sunder_total_add(&t, INFINITY);
+    assert_true(sunder_total_nearest(&t) == INFINITY && sunder_total_below(&t) == INFINITY);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_sums), cmocka_unit_test(test_ends)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_sums),
+        cmocka_unit_test(test_totals),
+        cmocka_unit_test(test_totals_past_the_range), cmocka_unit_test(test_ends)};
     return cmocka_run_group_tests_name("number/accumulator", tests, NULL, NULL);
 }

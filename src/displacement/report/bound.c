@@ -76,37 +76,49 @@ static void ascend_all(const sunder_i_model *model, sunder_bound_pair *pairs, su
         if (!(pairs[k].multiplier > 0) || !isfinite(pairs[k].multiplier)) pairs[k].multiplier = 0;
 }
 
-/* What the pairs prove of each part of the layer, at its root; downwards. root: NULL, and all is one part. load:
- * [bodies], all 0. */
+/* What the pairs prove of each part of the layer, at its root; downwards. load: [bodies], all 0. */
 static void add_up(const sunder_i_model *model, const sunder_bound_pair *pairs, size_t n, uint32_t *root, double *load,
                    double *value)
 {
     for (size_t k = 0; k < n; k++) {
         const uint32_t i = model->body_of[pairs[k].a], j = model->body_of[pairs[k].b];
         if (!(pairs[k].multiplier > 0)) continue;
-        const uint32_t at = root ? sunder_i_union_find(root, model->body[i].fixed ? j : i) : 0;
+        const uint32_t at = sunder_i_union_find(root, model->body[i].fixed ? j : i);
         value[at] = down(value[at] + down(pairs[k].multiplier * pairs[k].least));
         load[i] = up(load[i] + pairs[k].multiplier);
         load[j] = up(load[j] + pairs[k].multiplier);
     }
     for (uint32_t b = 0; b < model->bodies; b++) {
         if (!(load[b] > 0) || model->body[b].fixed) continue;
-        const uint32_t at = root ? sunder_i_union_find(root, b) : 0;
+        const uint32_t at = sunder_i_union_find(root, b);
         value[at] = down(value[at] - up(up(load[b] * load[b]) / (4 * weight_below(model, &model->body[b]))));
     }
 }
 
 static double positive(double value) { return value > 0 && isfinite(value) ? value : 0; }
 
+/* A component that proves nothing gets no multipliers. value: what each proves, at its root. */
+static double bound_of(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, uint32_t *root,
+                       const double *value)
+{
+    sunder_total total = {0};
+    for (size_t k = 0; k < n; k++) {
+        const uint32_t i = model->body_of[pairs[k].a], j = model->body_of[pairs[k].b];
+        if (!(value[sunder_i_union_find(root, model->body[i].fixed ? j : i)] > 0)) pairs[k].multiplier = 0;
+    }
+    for (size_t b = 0; b < model->bodies; b++) sunder_total_add(&total, positive(value[b]));
+    return sunder_total_below(&total);
+}
+
 sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, double *bound,
                              sunder_error *err)
 {
     *bound = 0;
     if (n == 0) return SUNDER_OK;
-    double *load = sunder_i_calloc(model->bodies, sizeof *load);
+    double *load = sunder_i_calloc(model->bodies, sizeof *load), *value = sunder_i_calloc(model->bodies, sizeof *value);
     uint32_t *root = sunder_i_alloc(model->bodies, sizeof *root);
     sunder_i_id_pair *which = sunder_i_alloc(n, sizeof *which);
-    const bool ok = load && root && which;
+    const bool ok = load && value && root && which;
     if (ok) {
         ascend_all(model, pairs, which, n, root, load);
         /* Two fixed bodies have no solution at all, and prove nothing. */
@@ -114,10 +126,11 @@ sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pai
             if (model->body[model->body_of[pairs[k].a]].fixed && model->body[model->body_of[pairs[k].b]].fixed)
                 pairs[k].multiplier = 0;
         for (size_t b = 0; b < model->bodies; b++) load[b] = 0;
-        add_up(model, pairs, n, NULL, load, bound);
-        *bound = positive(*bound);
+        add_up(model, pairs, n, root, load, value);
+        *bound = bound_of(model, pairs, n, root, value);
     }
     sunder_i_free(load);
+    sunder_i_free(value);
     sunder_i_free(root);
     sunder_i_free(which);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);

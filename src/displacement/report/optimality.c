@@ -120,7 +120,10 @@ sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver 
     sunder_i_parts parts = {0};
     sunder_status status = proved ? count_groups(summary, s, err) : SUNDER_OK;
     if (!status) status = sunder_i_parts_find(&parts, report, s, err);
-    if (!status) summary->lower_bound = fmax(summary->pair_bound, sunder_i_parts_bound(&parts, s->model.bodies));
+    if (!status) {
+        summary->pair_bound = sunder_i_parts_by_pairs(&parts, s->model.bodies);
+        summary->lower_bound = sunder_i_parts_bound(&parts, s->model.bodies);
+    }
     if (!status && s->model.rules.keep_trees) status = keep_trees(report, s, &parts, err);
     sunder_i_parts_free(&parts);
     return status;

@@ -140,6 +140,14 @@ static sunder_status number_blocks(int64_t *block, size_t n, sunder_error *err)
     return SUNDER_OK;
 }
 
+/* Of several moves that are the longest the first feature's. */
+static void find_longest(sunder_report *report)
+{
+    const double most = report->summary.max;
+    for (size_t f = report->n; f-- > 0 && most > 0;)
+        if (hypot(report->move[2 * f], report->move[2 * f + 1]) == most) report->summary.max_feature = f;
+}
+
 sunder_status sunder_i_report_renumber(sunder_report *report, const size_t *number, sunder_error *err)
 {
     const size_t n = report->n;
@@ -167,8 +175,7 @@ sunder_status sunder_i_report_renumber(sunder_report *report, const size_t *numb
     }
     for (size_t k = 0; !status && k < report->bound_trees; k++) number_tree(&report->bound_tree[k], number);
     if (!status) number_pushes(report, number);
-    if (!status && report->summary.max_feature != SIZE_MAX)
-        report->summary.max_feature = number[report->summary.max_feature];
+    if (!status) find_longest(report);
     sunder_i_free(move);
     sunder_i_free(standing);
     sunder_i_free(block);

@@ -43,6 +43,7 @@ sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **o
 void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
 {
     sunder_layer_summary *s = &report->summary;
+    sunder_total total = {0}, cost = {0};
     for (size_t f = 0; f < model->features; f++) {
         const double *t = model->move + 2 * (size_t)model->body_of[f];
         if (t[0] == 0 && t[1] == 0) continue;
@@ -51,14 +52,16 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
         const double length = hypot(t[0], t[1]);
         report->status[f] = SUNDER_FEATURE_MOVED;
         s->moved++;
-        s->total += length;
-        s->cost += model->layer->feature[f].weight * (t[0] * t[0] + t[1] * t[1]);
+        sunder_total_add(&total, length);
+        sunder_total_add(&cost, model->layer->feature[f].weight * (t[0] * t[0] + t[1] * t[1]));
         if (length > s->max) {
             s->max = length;
             s->max_feature = f;
         }
         if (model->inexact[f]) s->rounded++;
     }
+    s->total = sunder_total_nearest(&total);
+    s->cost = sunder_total_nearest(&cost);
     if (s->moved) s->mean = s->total / (double)s->moved;
     for (size_t k = 0; k < report->conflicts; k++) {
         const sunder_conflict *c = &report->conflict[k];

@@ -26,8 +26,8 @@ struct sunder_report {
 };
 
 sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **out, sunder_error *err);
-/* Moves, statuses and their sums; in the order of work, so that they are the same however it was shared out and however
- * features were listed. */
+/* Moves, statuses and their sums, which are exact until they are rounded once: so they are the same however the work
+ * was shared out and however features were listed. */
 void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model);
 /* Adds one to the count of the conflict's kind. */
 void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *conflict);
@@ -97,8 +97,11 @@ sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *re
 void sunder_i_parts_free(sunder_i_parts *parts);
 /* Do its pairs prove more than its groups? */
 bool sunder_i_part_is_by_pairs(const sunder_i_parts *parts, uint32_t body);
-/* The sum of the better bounds; downwards. */
+/* The better bound of the part whose root the body is; of any other body 0. */
+double sunder_i_part_bound(const sunder_i_parts *parts, uint32_t body);
+/* The sum of these, rounded down once: whatever the order. And of what pairs prove of each, which is no more. */
 double sunder_i_parts_bound(const sunder_i_parts *parts, size_t bodies);
+double sunder_i_parts_by_pairs(const sunder_i_parts *parts, size_t bodies);
 
 /* ---- optimality.c ------------------------------------------------------------------------------------------------ */
 
