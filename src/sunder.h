@@ -416,6 +416,22 @@ typedef struct sunder_obstacle {
     size_t lines;
 } sunder_obstacle;
 
+/* ---- Sums of many doubles --------------------------------------------------------------------------------- */
+
+/* What was added to it, exactly: so a sum over parts, in any order, is the whole's. It holds 2^60 addends of any size.
+ * Zeroed: 0. Source: the long accumulator of [Kul13, section 8]. */
+typedef struct sunder_total {
+    uint64_t limb[67]; /* two's complement, in units of 2^-2148, lowest first */
+    double beyond;     /* the sum of those that were not finite */
+} sunder_total;
+
+SUNDER_API void sunder_total_add(sunder_total *total, double value);
+/* All that was added to `part`. */
+SUNDER_API void sunder_total_join(sunder_total *total, const sunder_total *part);
+/* The nearest double, and the greatest that is no more. Infinite past the range, or where an addend was. */
+SUNDER_API double sunder_total_nearest(const sunder_total *total);
+SUNDER_API double sunder_total_below(const sunder_total *total);
+
 /* ---- A whole layer ---------------------------------------------------------------------------------------- */
 
 typedef struct sunder_layer sunder_layer;
@@ -446,6 +462,7 @@ typedef struct sunder_layer_options {
     uint64_t seed;    /* of what search is random: the better layouts that effort looks for */
     bool keep_trees;  /* for sunder_report_bound_trees(); costs memory */
     bool keep_pushes; /* for sunder_report_pushes() */
+    bool keep_worlds; /* for sunder_report_worlds() */
     bool drop_proofs; /* sunder_report_proof() has none: of each only its features are kept, for blocked_by */
     /* Barriers may have been left out that no feature comes too near to, nor crosses, by a move no longer than this;
      * INFINITY (the default): none were. No less than the longest max_shift; need_shift is no more. */
@@ -629,6 +646,44 @@ typedef struct sunder_bound_pair {
 } sunder_bound_pair;
 SUNDER_API const sunder_bound_pair *sunder_report_bound_pairs(const sunder_report *report, size_t *n);
 
+/* ---- Parts of a layer, where keep_worlds was asked for.
+ *
+ * A world is a set of features that had to do with each other: they were solved together, are in conflict or in contact,
+ * or it was looked on behalf of some of them where others stood at some time. Its footprints say where it was looked
+ * (read), what it has to be known of what is there (seen: blocks that reach there, whole), and where its features stood
+ * from the first to the last (wrote), in boxes.
+ *
+ * Of a layer that is a part of a larger one, with the same options and barriers, and of features with the same block all
+ * or none: if it has all features of the larger one that meet what one of its worlds saw, and no other world of the
+ * larger one wrote where that one read, then all that is reported of the world's features, of the conflicts between them
+ * or with others, and of its proofs, is what is reported of them in the larger layer, to the last bit. */
+typedef struct sunder_footprint {
+    size_t world;
+    double read[4], seen[4], wrote[4]; /* xmin ymin xmax ymax; all of what was read was seen */
+} sunder_footprint;
+
+typedef struct sunder_world {
+    size_t first;                 /* the first of its features */
+    size_t footprint, footprints; /* of those of the report */
+    sunder_conflict_counts before, after;
+    size_t thin, clusters, clusters_optimal;
+    size_t bound, bounds; /* of those of the report */
+} sunder_world;
+
+/* By their first features. */
+SUNDER_API const sunder_world *sunder_report_worlds(const sunder_report *report, size_t *n);
+/* By worlds. */
+SUNDER_API const sunder_footprint *sunder_report_footprints(const sunder_report *report, size_t *n);
+/* What is proved of parts of worlds, by worlds; the lower bound is the sum of all, rounded down. */
+SUNDER_API const double *sunder_report_world_bounds(const sunder_report *report, size_t *n);
+/* The number of the feature's world; SIZE_MAX: it is of none. */
+SUNDER_API size_t sunder_report_world(const sunder_report *report, size_t feature);
+/* How many pairs inside its block, of which it is the first, are not the gap apart; 0 where the block is of a world,
+ * which has counted them. */
+SUNDER_API size_t sunder_report_inside(const sunder_report *report, size_t feature);
+/* Could its translate not be held in doubles? */
+SUNDER_API bool sunder_report_rounded(const sunder_report *report, size_t feature);
+
 /* How hard two that are in contact in the result press on each other, where keep_pushes was asked for: a multiplier of
  * the program whose least the result is. The sum of force * n over the pushes on a block is twice its weight times its
  * move, where it is at an optimum and not at its limit. In doubles, for people; sorted by (a, b). */
@@ -792,22 +847,6 @@ typedef struct sunder_proof {
  * shaded there was shaded before; with SUNDER_REASON_NO_ROOM all nodes are about members of the two blocks then. With
  * SUNDER_REASON_MAX_SHIFT, if keep_trees was asked for and one was found, they are about the pair. */
 SUNDER_API const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k);
-
-/* ---- Sums of many doubles --------------------------------------------------------------------------------- */
-
-/* What was added to it, exactly: so a sum over parts, in any order, is the whole's. It holds 2^60 addends of any size.
- * Zeroed: 0. Source: the long accumulator of [Kul13, section 8]. */
-typedef struct sunder_total {
-    uint64_t limb[67]; /* two's complement, in units of 2^-2148, lowest first */
-    double beyond;     /* the sum of those that were not finite */
-} sunder_total;
-
-SUNDER_API void sunder_total_add(sunder_total *total, double value);
-/* All that was added to `part`. */
-SUNDER_API void sunder_total_join(sunder_total *total, const sunder_total *part);
-/* The nearest double, and the greatest that is no more. Infinite past the range, or where an addend was. */
-SUNDER_API double sunder_total_nearest(const sunder_total *total);
-SUNDER_API double sunder_total_below(const sunder_total *total);
 
 /* ---- Routes ----------------------------------------------------------------------------------------------- */
 

@@ -47,7 +47,7 @@ static sunder_status start(sunder_i_solver *s, const sunder_layer *layer, const 
     if (status) return status;
     (*report)->summary.pairs_tested = s->start.tested;
     sunder_i_count_relations(&s->model, &s->start, &(*report)->summary.before);
-    return sunder_i_count_thin_overlaps(&s->model, &s->placement, &s->start, &(*report)->summary.thin, err);
+    return sunder_i_count_thin_overlaps(&s->model, &s->placement, &s->start, *report, err);
 }
 
 /* Most layers leave nothing to be proved. */
@@ -238,6 +238,8 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
     if (!status) status = sunder_i_solver_is_upheld(s, &report->summary.verified, err);
     if (status) return status;
     sunder_i_report_moves(report, &s->model);
+    status = sunder_i_report_worlds(report, s, err);
+    if (status) return status;
     report->summary.seconds_verify = sunder_i_now() - solved;
     return sunder_i_report_renumber(report, s->number, err);
 }

@@ -38,7 +38,10 @@ static sunder_status improve_clusters(void *context, size_t begin, size_t end, s
         const sunder_i_cluster *c = &s->cluster[k];
         double *move = sunder_i_solver_load_moves(s, c);
         if (is_improved(s, c)) continue;
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
         const sunder_status status = sunder_i_cluster_improve(&s->model, c, move, err);
+        sunder_i_reads_end(&reading);
         if (status) return status;
     }
     return SUNDER_OK;
@@ -50,7 +53,12 @@ static sunder_status invite_to_clusters(void *context, size_t begin, size_t end,
     for (size_t k = begin; k < end; k++) {
         sunder_i_cluster *c = &s->cluster[k];
         double *move = sunder_i_solver_load_moves(s, c);
-        if (!is_improved(s, c) && !sunder_i_cluster_invite(&s->model, c, move)) return sunder_i_no_memory(err);
+        if (is_improved(s, c)) continue;
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
+        const bool ok = sunder_i_cluster_invite(&s->model, c, move);
+        sunder_i_reads_end(&reading);
+        if (!ok) return sunder_i_no_memory(err);
     }
     return SUNDER_OK;
 }

@@ -6,6 +6,7 @@
  * change from one round to the next keeps its proof. */
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
+#include "displacement/layer/reads.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/optimum/contact.h"
 
@@ -75,7 +76,11 @@ static bool join_contacts(gathering *g, uint32_t b)
     g->near.n = 0;
     if (body->pieces == 0) return true;
     sunder_i_body_box(body, t, model->rules.gap + sunder_i_contact_hair(model, body, body), box);
-    if (!sunder_i_rtree_query(model->standing, box, &g->near)) return false;
+    sunder_i_reading reading;
+    sunder_i_reads_begin(&reading, model, b);
+    const bool ok = sunder_i_look_about(model, model->standing, box, &g->near);
+    sunder_i_reads_end(&reading);
+    if (!ok) return false;
     for (size_t k = 0; k < g->near.n; k++) g->near.item[k] = model->body_of[g->near.item[k]];
     g->near.n = sunder_i_set_make(g->near.item, g->near.n);
     for (size_t k = 0; k < g->near.n; k++) {

@@ -192,7 +192,10 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
                 if (isfinite(sunder_i_limit_of(&model->body[p.reserve[m]])))
                     p.farthest = fmax(p.farthest, sunder_i_limit_of(&model->body[p.reserve[m]]));
             uint64_t work = 0;
+            sunder_i_reading reading;
+            sunder_i_reads_begin(&reading, model, g->question[q].root);
             status = ask(&p, decision, &work, err);
+            sunder_i_reads_end(&reading);
             g->asked[q] = true;
             const sunder_i_verdict verdict = decision->verdict;
             if (status || verdict == SUNDER_I_FEASIBLE) break;
@@ -346,8 +349,11 @@ static sunder_status resume_clusters(void *context, size_t begin, size_t end, su
         sunder_i_cluster *c = &g->solver->cluster[k];
         double *move = sunder_i_solver_load_moves(g->solver, c);
         const uint32_t root = g->solver->member[c->body - g->solver->body].root;
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, &g->solver->model, root);
         for (size_t p = 0; p < g->n && !status; p++)
             if (g->proposal[p].root == root) status = resume(g, &g->proposal[p], c, move, err);
+        sunder_i_reads_end(&reading);
     }
     return status;
 }

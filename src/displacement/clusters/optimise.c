@@ -129,7 +129,10 @@ static sunder_status prove_groups(void *context, size_t begin, size_t end, sunde
     for (size_t k = begin; k < end; k++) {
         sunder_i_group *g = &s->groups.group[k];
         if (g->done || !is_wanted(s, g)) continue;
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, &s->model, g->number);
         const sunder_status status = sunder_i_group_prove(&s->model, &waived, s->groups.of, g, allowance(s, g), err);
+        sunder_i_reads_end(&reading);
         if (status) return status;
     }
     return SUNDER_OK;

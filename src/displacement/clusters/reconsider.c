@@ -142,7 +142,10 @@ static sunder_status decide_some(void *context, size_t begin, size_t end, sunder
                                                 .no_plane = true, /* a solution is looked for, which it has none of */
                                                 .effort = EFFORT * (uint64_t)n,
                                                 .most = MOST_BODIES};
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, subproblem.model, c->root);
         if (!status) status = sunder_i_decide(&subproblem, &g->decision[k], err);
+        sunder_i_reads_end(&reading);
         sunder_i_free(body);
     }
     return status;

@@ -1,5 +1,6 @@
 /* Whom to ask once more: the relaxed pairs of bodies that might have a solution, by the clusters they are of. */
 #include "displacement/clusters/stages.h"
+#include "displacement/layer/reads.h"
 
 #include "base/parallel.h"
 #include "base/union_find.h"
@@ -134,11 +135,14 @@ static sunder_status retry_clusters(void *context, size_t begin, size_t end, sun
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
         sunder_i_cluster *c = &s->cluster[k];
+        sunder_i_reading reading;
         double *move = sunder_i_solver_load_moves(s, c);
         const uint32_t root = s->member[c->body - s->body].root;
         const size_t first = first_of(g->retries, root), last = first_of(g->retries, root + 1);
+        sunder_i_reads_begin(&reading, &s->model, root);
         if (first < last && sunder_i_solver_any_of(s, c->body, c->n, s->gave_up))
             status = sunder_i_cluster_retry(&s->model, c, g->retries->retry + first, last - first, move, err);
+        sunder_i_reads_end(&reading);
     }
     return status;
 }
@@ -168,7 +172,11 @@ static bool join_about(sunder_i_solver *s, bool *alone, uint32_t b, double far, 
     if (!sunder_i_may_move(p) || p->pieces == 0) return true;
     sunder_i_body_box(p, t, reach, box);
     near->n = 0;
-    if (!sunder_i_rtree_query(model->standing, box, near)) return false;
+    sunder_i_reading reading;
+    sunder_i_reads_begin(&reading, model, b);
+    const bool ok = sunder_i_look_about(model, model->standing, box, near);
+    sunder_i_reads_end(&reading);
+    if (!ok) return false;
     for (size_t k = 0; k < near->n; k++) {
         const uint32_t other = model->body_of[near->item[k]];
         if (!alone[other] || other == b) continue;

@@ -26,7 +26,10 @@ static sunder_status solve_clusters(void *context, size_t begin, size_t end, sun
         sunder_i_cluster *c = &s->cluster[k];
         double *move = sunder_i_solver_load_moves(s, c);
         if (!is_dirty(s, c)) continue;
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
         const sunder_status status = sunder_i_cluster_solve(&s->model, c, move, err);
+        sunder_i_reads_end(&reading);
         if (status) return status;
     }
     return SUNDER_OK;

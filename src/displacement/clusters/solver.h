@@ -5,6 +5,7 @@
 
 #include "displacement/layer/jumps.h"
 #include "displacement/layer/placement.h"
+#include "displacement/layer/reads.h"
 #include "displacement/optimum/optimum.h"
 #include "displacement/search/cluster.h"
 
@@ -99,6 +100,11 @@ bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body,
 bool *sunder_i_solver_who_hang_with(const sunder_i_solver *solver, const bool *flag);
 /* What is asked of these bodies beyond the gap. */
 double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *body, size_t n);
+/* Who stands for the cluster where it is noted what was looked at for it: one that is of no other. */
+static inline uint32_t sunder_i_reader_for(const sunder_i_solver *solver, const sunder_i_cluster *cluster)
+{
+    return solver->member[cluster->body - solver->body].root;
+}
 /* Clusters from the edges, afresh. */
 sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err);
 /* Unites the blocks that clusters are made of. A fixed one may be a member of several clusters: each body once, so that

@@ -18,6 +18,7 @@
 #include "displacement/clusters/trial.h"
 #include "displacement/clusters/tuning.h"
 #include "displacement/layer/barrier_pairs.h"
+#include "displacement/layer/reads.h"
 #include "displacement/layer/rounding.h"
 
 #include "base/union_find.h"
@@ -141,7 +142,11 @@ static sunder_status take_alike(sunder_i_trial *t, uint32_t b, double hair, sund
         if (!model->present[f]) continue;
         sunder_i_box_grow(t->solver->placement.box + 4 * (size_t)f, model->rules.gap, box);
         t->near.n = 0;
-        if (!sunder_i_rtree_query(&t->solver->placement.tree, box, &t->near)) return sunder_i_no_memory(err);
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, model, b);
+        const bool ok = sunder_i_look_about(model, &t->solver->placement.tree, box, &t->near);
+        sunder_i_reads_end(&reading);
+        if (!ok) return sunder_i_no_memory(err);
         for (size_t k = 0; k < t->near.n; k++) {
             const uint32_t other = model->body_of[t->near.item[k]];
             if (t->taken[other] || !sunder_i_may_move(&t->solver->model.body[other]) || !is_alike(t, b, other, hair))

@@ -9,6 +9,7 @@
 
 #include "base/invariant.h"
 #include "base/parallel.h"
+#include "displacement/layer/reads.h"
 #include "displacement/layer/sides.h"
 #include "separation/separation.h"
 
@@ -105,7 +106,7 @@ static bool find_parts(const sunder_i_jumps *jumps, const sunder_i_model *model,
     double box[4];
     if (t[0] == 0 && t[1] == 0) return true;
     sunder_i_passage_box(&way, box);
-    if (!sunder_i_rtree_query(&model->tree, box, near)) return false;
+    if (!sunder_i_look_about(model, &model->tree, box, near)) return false;
     size_t kept = before;
     for (size_t k = before; k < near->n; k++)
         if (model->body[model->body_of[near->item[k]]].sides) near->item[kept++] = near->item[k];
@@ -151,8 +152,11 @@ static sunder_status find_jumped(const pair_search *s, uint32_t f, sunder_i_list
     size_t kept = 0;
     sunder_status status = SUNDER_OK;
     near->n = 0;
-    if (!sunder_i_rtree_query(&s->jumps->tree, sunder_i_rtree_box(&s->jumps->tree, f), near))
-        return sunder_i_no_memory(err);
+    sunder_i_reading reading;
+    sunder_i_reads_begin(&reading, s->model, s->model->body_of[f]);
+    const bool ok = sunder_i_look_about(s->model, &s->jumps->tree, sunder_i_rtree_box(&s->jumps->tree, f), near);
+    sunder_i_reads_end(&reading);
+    if (!ok) return sunder_i_no_memory(err);
     for (size_t i = 0; i < near->n && !status; i++) {
         const uint32_t g = near->item[i];
         bool jumps = false;
@@ -248,7 +252,7 @@ sunder_status sunder_i_jumps_of_body(const sunder_i_jumps *jumps, const sunder_i
         if (!model->present[f]) continue;
         near->n = 0;
         if (sunder_i_jumps_begun(jumps) &&
-            !sunder_i_rtree_query(&jumps->tree, sunder_i_rtree_box(&jumps->tree, f), near))
+            !sunder_i_look_about(model, &jumps->tree, sunder_i_rtree_box(&jumps->tree, f), near))
             return sunder_i_no_memory(err);
         for (size_t k = 0; k < near->n && !status && !*any; k++)
             status = ask_both(jumps, model, f, near->item[k], any, err);

@@ -34,7 +34,7 @@ typedef struct sunder_i_rules {
     unsigned threads;
     double effort; /* >= 0 */
     uint64_t seed;
-    bool keep_trees, keep_pushes, drop_proofs;
+    bool keep_trees, keep_pushes, keep_worlds, drop_proofs;
     sunder_progress progress; /* NULL: nobody asks how far it is */
     void *progress_user;
 } sunder_i_rules;

@@ -12,6 +12,8 @@
 void sunder_i_model_free(sunder_i_model *model)
 {
     sunder_shape_free(model->disc);
+    sunder_i_free(model->read);
+    sunder_i_free(model->went);
     sunder_i_free(model->body_of);
     sunder_i_free(model->member);
     sunder_i_free(model->body);
@@ -186,6 +188,18 @@ static const char *check(const sunder_i_model *model)
 }
 #endif
 
+/* Where each will look, and where it will go. */
+static bool keep_reads(sunder_i_model *model)
+{
+    model->read = sunder_i_alloc(model->bodies, sizeof *model->read);
+    model->went = sunder_i_calloc(4 * model->bodies, sizeof *model->went);
+    for (size_t b = 0; b < model->bodies && model->read; b++) {
+        sunder_i_box_clear(model->read[b].place);
+        sunder_i_box_clear(model->read[b].seen);
+    }
+    return model->read && model->went;
+}
+
 sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relations *relations, sunder_error *err)
 {
     const size_t n = model->things;
@@ -197,9 +211,10 @@ sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relation
         if ((r->touch && model->rules.touch_joins) || (r->contained && model->rules.containment_joins))
             sunder_i_union_join(parent, r->a, r->b);
     }
-    const sunder_status status = unite_labelled(model->layer, parent) ? sunder_i_inclusions_init(model, relations, err)
-                                                                      : sunder_i_no_memory(err);
+    sunder_status status = unite_labelled(model->layer, parent) ? sunder_i_inclusions_init(model, relations, err)
+                                                                : sunder_i_no_memory(err);
     if (!status) number_bodies(model, parent);
+    if (!status && model->rules.keep_worlds && !keep_reads(model)) status = sunder_i_no_memory(err);
     SUNDER_I_CHECK(status ? NULL : check(model), model->things);
     sunder_i_free(parent);
     return status;

@@ -71,6 +71,12 @@ static inline void sunder_i_body_box(const sunder_i_body *body, const double t[2
     for (size_t c = 0; c < 4; c++) box[c] = body->box[c] + body->origin[c & 1] + t[c & 1] + (c < 2 ? -reach : reach);
 }
 
+/* Where it was looked on behalf of a body: the box of the places, and that of the bodies that stood there at the start,
+ * whole. */
+typedef struct sunder_i_read {
+    double place[4], seen[4];
+} sunder_i_read;
+
 /* Everything that the search looks at, in doubles. It decides nothing: what it finds is checked exactly afterwards. */
 struct sunder_i_model {
     const sunder_layer *layer;
@@ -109,6 +115,8 @@ struct sunder_i_model {
     bool *present;               /* [things] */
     sunder_i_seamless *seamless; /* [features] where there are barriers without area; else NULL */
     sunder_i_rtree tree;         /* as they stood at the start */
+    sunder_i_read *read;         /* [bodies] (layer/reads.h); NULL: nobody notes it */
+    double *went;                /* [4 * bodies] the box of all moves that each ever had, likewise */
     const sunder_i_rtree *standing; /* as they stand now: the placement's; lent */
     sunder_i_body_piece *wall;      /* edges of features that hold others; see inclusion.c */
     size_t walls;

@@ -58,6 +58,7 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *o, sunder_i_rules *r
     rules->seed = o->seed;
     rules->keep_trees = o->keep_trees;
     rules->keep_pushes = o->keep_pushes;
+    rules->keep_worlds = o->keep_worlds;
     rules->drop_proofs = o->drop_proofs;
     rules->threads = o->threads ? o->threads > MOST_THREADS ? MOST_THREADS : o->threads : processors();
     rules->progress = o->progress;

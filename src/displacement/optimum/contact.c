@@ -6,6 +6,7 @@
  * boundary is bridged by a hair: a share of the gap or, where that is 0, of the smaller body, so that a layer on
  * another scale has the same contacts. */
 #include "displacement/optimum/contact.h"
+#include "displacement/layer/reads.h"
 #include "displacement/optimum/tuning.h"
 
 #include <math.h>
@@ -68,7 +69,7 @@ bool sunder_i_who_is_about(const sunder_i_model *model, uint32_t body, const dou
     sunder_i_body_box(&model->body[body], t, reach, box);
     sunder_i_body_box(&model->body[body], home, reach, start);
     if (sunder_i_forbids_ways(model)) sunder_i_box_join(box, start);
-    if (!sunder_i_rtree_query(model->standing, box, out)) return false;
+    if (!sunder_i_look_about(model, model->standing, box, out)) return false;
     for (size_t k = 0; k < out->n; k++) out->item[k] = model->body_of[out->item[k]];
     out->n = sunder_i_set_make(out->item, out->n);
     return true;

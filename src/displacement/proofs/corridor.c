@@ -29,6 +29,7 @@
  * Of two such lines of one body, one opposite to the other, the first two branches are made;
  * between them its limit is 0 (branches.c). */
 #include "displacement/layer/barrier_pairs.h"
+#include "displacement/layer/reads.h"
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
 
@@ -380,7 +381,7 @@ static void look_at_requirement(looking *g, const sunder_i_requirement *r)
     const uint32_t end = (uint32_t)model->features + model->barriers->part_end[sunder_i_barrier_of(model, other)];
     sunder_i_box_grow(model->box + 4 * (size_t)f, fabs(clearance) + c->hair, box);
     c->near.n = 0;
-    if (!sunder_i_rtree_query(&model->tree, box, &c->near)) g->status = sunder_i_no_memory(g->err);
+    if (!sunder_i_look_about(model, &model->tree, box, &c->near)) g->status = sunder_i_no_memory(g->err);
     if (c->near.n) qsort(c->near.item, c->near.n, sizeof *c->near.item, sunder_i_by_number);
     size_t out = 0;
     for (size_t k = 0; k < c->near.n; k++)

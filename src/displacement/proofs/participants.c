@@ -1,4 +1,5 @@
 /* Who takes part in a branch and bound, and what they owe each other. */
+#include "displacement/layer/reads.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/proofs/branching.h"
 
@@ -119,7 +120,7 @@ static bool find_in_reach(sunder_i_branching *c, uint32_t of)
     size_t out = before;
     for (uint32_t x = 0; x < 4; x++) box[x] = p->box[x] + p->origin[x & 1];
     sunder_i_box_grow(box, reach, box);
-    if (!sunder_i_rtree_query(&model->tree, box, &c->near)) return false;
+    if (!sunder_i_look_about(model, &model->tree, box, &c->near)) return false;
     c->looked += c->near.n - before;
     for (size_t k = before; k < c->near.n; k++) {
         const uint32_t b = model->body_of[c->near.item[k]];

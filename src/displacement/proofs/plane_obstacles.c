@@ -1,6 +1,7 @@
 /* What is forbidden in the plane of one relative move: pieces that are nearer than they owe, and what anchors may not
  * pass. Which could be is a matter of the model alone, and is listed once for all questions about the two bodies; what
  * they owe each other is the question's. The ways of each are made once, as in violations.c. */
+#include "displacement/layer/reads.h"
 #include "displacement/proofs/plane.h"
 
 #include "displacement/layer/barriers.h"
@@ -128,7 +129,7 @@ static bool find_on_ground(const finding *w)
         if (!model->present[f]) continue;
         sunder_i_box_grow(model->box + 4 * (size_t)f, w->reach + model->rules.gap, box);
         w->kept->looked[PIECES] += LOOK_WORK;
-        ok = sunder_i_rtree_query(&model->tree, box, &near);
+        ok = sunder_i_look_about(model, &model->tree, box, &near);
     }
     for (size_t k = 0; k < near.n; k++) near.item[k] = model->body_of[near.item[k]];
     near.n = sunder_i_set_make(near.item, near.n);

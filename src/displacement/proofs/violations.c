@@ -1,6 +1,7 @@
 /* What a candidate runs into: pairs of convex pieces that are nearer than they owe, anchors that jumped over a piece or
  * crossed a side, and the ways out. */
 #include "displacement/layer/barriers.h"
+#include "displacement/layer/reads.h"
 #include "displacement/layer/sides.h"
 #include "displacement/obstacles/shadow.h"
 #include "displacement/proofs/branching.h"
@@ -192,7 +193,7 @@ static void look_at_slack(sunder_i_branching *c, const standing *s, const sunder
     for (uint32_t x = 0; x < 4; x++) box[x] = model->box[4 * (size_t)f + x] - u[x & 1];
     c->looked += LOOK_WORK;
     c->near.n = 0;
-    if (!sunder_i_rtree_query(&model->tree, box, &c->near)) c->failed = true;
+    if (!sunder_i_look_about(model, &model->tree, box, &c->near)) c->failed = true;
     for (size_t k = 0; k < c->near.n && !c->failed; k++)
         if (c->near.item[k] >= required->b && c->near.item[k] < end)
             look_at_part(c, s, f, c->near.item[k], u, required, worst);
@@ -278,7 +279,7 @@ static bool find_near(sunder_i_branching *c, const standing *s)
             sunder_i_box_join(box, model->box + 4 * (size_t)f); /* what it passed on its way, too */
         sunder_i_box_grow(box, model->rules.gap, grown);
         c->looked += LOOK_WORK;
-        if (!sunder_i_rtree_query(&model->tree, grown, &c->near)) return false;
+        if (!sunder_i_look_about(model, &model->tree, grown, &c->near)) return false;
     }
     for (size_t k = 0; k < c->near.n; k++) c->near.item[k] = model->body_of[c->near.item[k]];
     c->near.n = sunder_i_set_make(c->near.item, c->near.n);

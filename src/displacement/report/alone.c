@@ -135,7 +135,11 @@ static sunder_status find_reasons(void *context, size_t begin, size_t end, sunde
         sunder_i_planes planes = {0};
         for (size_t m = g->first[k]; m < g->first[k + 1] && !status; m++) {
             const uint32_t at = g->matter[m].conflict;
-            status = find_reason(g->model, &g->report->conflict[at], &planes, &g->report->proof[at], err);
+            sunder_conflict *c = &g->report->conflict[at];
+            sunder_i_reading reading;
+            sunder_i_reads_begin(&reading, g->model, sunder_i_reader_of(g->model, c->a, c->b));
+            status = find_reason(g->model, c, &planes, &g->report->proof[at], err);
+            sunder_i_reads_end(&reading);
             if (g->model->rules.drop_proofs) sunder_i_proof_strip(g->report->proof[at]);
         }
         sunder_i_planes_clear(&planes);

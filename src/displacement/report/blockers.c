@@ -1,5 +1,6 @@
 /* What stands in the way of a conflict: the features of the proof that it has no room; where there is no proof, those
  * that the two rest against, as they stand. */
+#include "displacement/layer/reads.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
@@ -18,7 +19,11 @@ static sunder_status find_around(const sunder_i_solver *s, const sunder_conflict
     double box[4];
     sunder_i_box_grow(own, reach, box);
     near->n = 0;
-    if (!sunder_i_rtree_query(&placement->tree, box, near)) return sunder_i_no_memory(err);
+    sunder_i_reading reading;
+    sunder_i_reads_begin(&reading, model, sunder_i_reader_of(model, c->a, c->b));
+    const bool ok = sunder_i_look_about(model, &placement->tree, box, near);
+    sunder_i_reads_end(&reading);
+    if (!ok) return sunder_i_no_memory(err);
     for (size_t k = 0; k < near->n; k++) {
         const uint32_t g = near->item[k], other = model->body_of[g];
         if (other == model->body_of[c->a] || sunder_i_whole_of(model, g) == c->b || other == model->body_of[c->b] ||

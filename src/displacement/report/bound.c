@@ -98,22 +98,22 @@ static void add_up(const sunder_i_model *model, const sunder_bound_pair *pairs, 
 static double positive(double value) { return value > 0 && isfinite(value) ? value : 0; }
 
 /* A component that proves nothing gets no multipliers. value: what each proves, at its root. */
-static double bound_of(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, uint32_t *root,
-                       const double *value)
+static double bound_of(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, uint32_t *root, double *value)
 {
     sunder_total total = {0};
     for (size_t k = 0; k < n; k++) {
         const uint32_t i = model->body_of[pairs[k].a], j = model->body_of[pairs[k].b];
         if (!(value[sunder_i_union_find(root, model->body[i].fixed ? j : i)] > 0)) pairs[k].multiplier = 0;
     }
-    for (size_t b = 0; b < model->bodies; b++) sunder_total_add(&total, positive(value[b]));
+    for (size_t b = 0; b < model->bodies; b++) sunder_total_add(&total, value[b] = positive(value[b]));
     return sunder_total_below(&total);
 }
 
 sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, double *bound,
-                             sunder_error *err)
+                             double **proved, sunder_error *err)
 {
     *bound = 0;
+    *proved = NULL;
     if (n == 0) return SUNDER_OK;
     double *load = sunder_i_calloc(model->bodies, sizeof *load), *value = sunder_i_calloc(model->bodies, sizeof *value);
     uint32_t *root = sunder_i_alloc(model->bodies, sizeof *root);
@@ -129,8 +129,11 @@ sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pai
         add_up(model, pairs, n, root, load, value);
         *bound = bound_of(model, pairs, n, root, value);
     }
+    if (ok && model->rules.keep_worlds)
+        *proved = value;
+    else
+        sunder_i_free(value);
     sunder_i_free(load);
-    sunder_i_free(value);
     sunder_i_free(root);
     sunder_i_free(which);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);

@@ -93,7 +93,7 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
         for (size_t k = 0; k < n; k++)
             if (report->bound_pair[k].least > 0) report->bound_pair[out++] = report->bound_pair[k];
         report->bound_pairs = out;
-        status = sunder_i_bound(model, report->bound_pair, out, &report->summary.pair_bound, err);
+        status = sunder_i_bound(model, report->bound_pair, out, &report->summary.pair_bound, &report->proved, err);
         report->summary.lower_bound = report->summary.pair_bound;
     }
     sunder_i_free(key);

@@ -50,17 +50,26 @@ static bool is_listed(const sunder_i_model *model, const sunder_i_relation *r)
     return sunder_i_is_conflict(r) && (!is_inside(model, r) || model->rules.list_inside || (r->overlap && !r->touch));
 }
 
+bool sunder_i_next_conflict(const sunder_i_model *model, const sunder_i_relations *relations, size_t *k, uint32_t *a,
+                            uint32_t *b, sunder_conflict *conflict)
+{
+    sunder_i_relation r;
+    *k = take_pair(model, relations, *k, &r);
+    *a = r.a;
+    *b = r.b;
+    if (!sunder_i_is_conflict(&r)) return false;
+    *conflict = (sunder_conflict){.kind = kind_of(model, &r), .inside_block = is_inside(model, &r)};
+    return true;
+}
+
 void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relations *relations,
                               sunder_conflict_counts *counts)
 {
+    sunder_conflict c;
+    uint32_t a, b;
     memset(counts, 0, sizeof *counts);
-    for (size_t k = 0; k < relations->n;) {
-        sunder_i_relation r;
-        k = take_pair(model, relations, k, &r);
-        if (!sunder_i_is_conflict(&r)) continue;
-        const sunder_conflict c = {.kind = kind_of(model, &r), .inside_block = is_inside(model, &r)};
-        sunder_i_count(counts, &c);
-    }
+    for (size_t k = 0; k < relations->n;)
+        if (sunder_i_next_conflict(model, relations, &k, &a, &b, &c)) sunder_i_count(counts, &c);
 }
 
 /* ---- How bad ----------------------------------------------------------------------------------------------------- */

@@ -4,6 +4,7 @@
  * In a crowd that has no room hardly any small layer has a solution, and there are thousands of conflicts: the pairs
  * of a cluster are asked about in turn until so much was asked in vain. So what is known of a pair is a matter of its
  * cluster, never of the layer. */
+#include "displacement/layer/reads.h"
 #include "displacement/report/question.h"
 #include "displacement/report/tuning.h"
 
@@ -129,8 +130,11 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
         uint64_t left = g->most;
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, &g->questions->solver->model, g->matter[g->first[k]].root);
         for (size_t m = g->first[k]; m < g->first[k + 1] && left && !status; m++)
             status = find_needs(g->questions, &g->questions->report->conflict[g->matter[m].conflict], &left, err);
+        sunder_i_reads_end(&reading);
     }
     return status;
 }

@@ -261,9 +261,12 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
                                  .planes = &planes};
         q.reserve = sunder_i_solver_members(g->solver, first->root, &q.reserves);
         q.farthest = farthest_of(q.model, q.reserve, q.reserves);
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, q.model, first->root);
         status = ask_cluster(g, first, last, &q, err);
         for (matter *m = first; m < last; m++) m->open = m->still;
         if (!status) status = ask_cluster(g, first, last, &q, err);
+        sunder_i_reads_end(&reading);
         sunder_i_planes_clear(&planes);
         if (status) return status;
     }

@@ -111,6 +111,16 @@ static sunder_status keep_trees(sunder_report *report, sunder_i_solver *s, sunde
     return SUNDER_OK;
 }
 
+/* What is proved of each part, for worlds to be told apart. */
+static sunder_status keep_proved(sunder_report *report, const sunder_i_parts *parts, size_t bodies, sunder_error *err)
+{
+    sunder_i_free(report->proved);
+    report->proved = sunder_i_alloc(bodies, sizeof *report->proved);
+    if (!report->proved) return sunder_i_no_memory(err);
+    for (uint32_t b = 0; b < bodies; b++) report->proved[b] = sunder_i_part_bound(parts, b);
+    return SUNDER_OK;
+}
+
 sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver *s, sunder_error *err)
 {
     sunder_layer_summary *summary = &report->summary;
@@ -124,6 +134,7 @@ sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver 
         summary->pair_bound = sunder_i_parts_by_pairs(&parts, s->model.bodies);
         summary->lower_bound = sunder_i_parts_bound(&parts, s->model.bodies);
     }
+    if (!status && s->model.rules.keep_worlds) status = keep_proved(report, &parts, s->model.bodies, err);
     if (!status && s->model.rules.keep_trees) status = keep_trees(report, s, &parts, err);
     sunder_i_parts_free(&parts);
     return status;

@@ -10,6 +10,7 @@
  * What such trees prove is less by what counts as free in them, a share of some 2^-31. A pair that may get one inside
  * the other is nothing to them. */
 #include "displacement/clusters/stages.h"
+#include "displacement/layer/reads.h"
 #include "displacement/optimum/tree.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
@@ -30,7 +31,11 @@ static bool find_bodies(const sunder_i_model *model, const sunder_bound_pair *pa
     const double home[2] = {0, 0};
     double box[4];
     sunder_i_body_box(&model->body[a], home, 2 * pair->least + sunder_i_owed_above(model, (uint32_t)pair->a, b), box);
-    if (!sunder_i_rtree_query(&model->tree, box, body)) return false;
+    sunder_i_reading reading;
+    sunder_i_reads_begin(&reading, model, a);
+    const bool ok = sunder_i_look_about(model, &model->tree, box, body);
+    sunder_i_reads_end(&reading);
+    if (!ok) return false;
     const uint32_t end = (uint32_t)model->features + model->barriers->part_end[sunder_i_barrier_of(model, b)];
     size_t out = 1;
     for (size_t k = 1; k < body->n; k++)

@@ -9,6 +9,7 @@
  *   a feature at its limit        the limit pushes too, and is nobody's pair
  *   a pair left in conflict       is held to the distance, or to the depth, that it had */
 #include "displacement/clusters/stages.h"
+#include "displacement/layer/reads.h"
 #include "displacement/optimum/contact.h"
 #include "displacement/programs/quadratic.h"
 #include "displacement/report/report.h"
@@ -86,7 +87,11 @@ static bool add_pairs_of(pressing *p, size_t i)
     sunder_i_body_box(body, model->move + 2 * (size_t)b, model->rules.gap + hair_of(p, body, body), box);
     sunder_i_body_box(body, home, model->rules.gap, start);
     if (sunder_i_forbids_ways(model)) sunder_i_box_join(box, start);
-    if (!sunder_i_rtree_query(model->standing, box, &p->near)) return false;
+    sunder_i_reading reading;
+    sunder_i_reads_begin(&reading, model, b);
+    const bool ok = sunder_i_look_about(model, model->standing, box, &p->near);
+    sunder_i_reads_end(&reading);
+    if (!ok) return false;
     for (size_t k = 0; k < p->near.n; k++) p->near.item[k] = model->body_of[p->near.item[k]];
     p->near.n = sunder_i_set_make(p->near.item, p->near.n);
     for (size_t k = 0; k < p->near.n; k++) {

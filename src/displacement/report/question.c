@@ -11,6 +11,7 @@
  * answers depend on what stands about it alone. */
 #include "displacement/report/question.h"
 #include "displacement/layer/barrier_pairs.h"
+#include "displacement/layer/reads.h"
 #include "displacement/layer/sides.h"
 #include "displacement/report/tuning.h"
 
@@ -51,7 +52,8 @@ static bool look_about(const sunder_i_solver *s, uint32_t feature, double reach,
     double box[4];
     sunder_i_box_grow(s->model.box + 4 * (size_t)feature, reach, box);
     near->n = 0;
-    if (!sunder_i_rtree_query(&s->placement.tree, box, near) || !sunder_i_rtree_query(&s->model.tree, box, near))
+    if (!sunder_i_look_about(&s->model, &s->placement.tree, box, near) ||
+        !sunder_i_look_about(&s->model, &s->model.tree, box, near))
         return false;
     for (size_t k = 0; k < near->n; k++)
         if (!sunder_i_list_push(body, s->model.body_of[near->item[k]])) return false;
@@ -123,7 +125,7 @@ sunder_status sunder_i_surround(const sunder_i_solver *s, const sunder_conflict 
     for (size_t k = 0; k < a->moving; k++) sunder_i_box_join(a->known, model->box + 4 * (size_t)a->feature.item[k]);
     a->farthest = NEED_GAPS * c->required + NEED_MISSING * missing(c);
     sunder_i_box_grow(a->known, a->farthest + reach, a->known);
-    ok = ok && sunder_i_rtree_query(&s->placement.tree, a->known, &near);
+    ok = ok && sunder_i_look_about(&s->model, &s->placement.tree, a->known, &near);
     moving.n = sunder_i_set_make(moving.item, moving.n);
     near.n = sunder_i_set_make(near.item, near.n);
     for (size_t k = 0; k < near.n && ok; k++)
@@ -254,7 +256,7 @@ static sunder_status find_jump(const sunder_i_questions *g, const sunder_i_surro
     sunder_i_list mover = {0};
     sunder_status status = SUNDER_OK;
     *jumps = false;
-    if (sunder_i_jumps_begun(&s->jumps) && !sunder_i_rtree_query(&s->jumps.tree, a->known, &mover))
+    if (sunder_i_jumps_begun(&s->jumps) && !sunder_i_look_about(&s->model, &s->jumps.tree, a->known, &mover))
         status = sunder_i_no_memory(err);
     for (size_t k = 0; k < x->model.features && !status && !*jumps; k++) {
         const size_t at = x->number[k];

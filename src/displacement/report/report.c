@@ -87,6 +87,14 @@ void sunder_report_free(sunder_report *r)
     for (size_t k = 0; k < r->bound_trees; k++) sunder_i_bound_tree_free(&r->bound_tree[k]);
     sunder_i_free(r->bound_tree);
     sunder_i_free(r->push);
+    sunder_i_free(r->world);
+    sunder_i_free(r->world_of);
+    sunder_i_free(r->inside);
+    sunder_i_free(r->inexact);
+    sunder_i_free(r->footprint);
+    sunder_i_free(r->world_bound);
+    sunder_i_free(r->thin);
+    sunder_i_free(r->proved);
     sunder_i_free(r);
 }
 

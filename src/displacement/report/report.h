@@ -22,6 +22,18 @@ struct sunder_report {
     size_t bound_trees;
     sunder_push *push;
     size_t pushes;
+    /* Where worlds are kept; else NULL: */
+    sunder_world *world;
+    size_t worlds, world_room;
+    size_t *world_of; /* [n] as the caller numbers features, like the two that follow */
+    size_t *inside;   /* [n] */
+    bool *inexact;    /* [n] */
+    sunder_footprint *footprint;
+    size_t footprints;
+    double *world_bound;
+    size_t world_bounds;
+    bool *thin;     /* [relations at the start] */
+    double *proved; /* [bodies] what is proved of a part; at its root */
     sunder_layer_summary summary;
 };
 
@@ -45,6 +57,10 @@ sunder_status sunder_i_report_renumber(sunder_report *report, const size_t *numb
 sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_model *model,
                                         const sunder_i_placement *placement, const sunder_i_relations *relations,
                                         bool reasons, sunder_error *err);
+/* The conflict that relation *k is, of a feature and a thing, and which relation comes next; false: it is none. Of the
+ * conflict only what is needed to count it. */
+bool sunder_i_next_conflict(const sunder_i_model *model, const sunder_i_relations *relations, size_t *k, uint32_t *a,
+                            uint32_t *b, sunder_conflict *conflict);
 /* Counts what the relations amount to, without listing it. */
 void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relations *relations,
                               sunder_conflict_counts *counts);
@@ -63,16 +79,18 @@ sunder_status sunder_i_report_reasons(sunder_report *report, const sunder_i_mode
 
 /* ---- thin_overlaps.c --------------------------------------------------------------------------------------------- */
 
-/* Pairs between blocks that overlap by no more than the rules' `thin`; 0 where that is 0. */
+/* Counts, in the summary, the pairs between blocks that overlap by no more than the rules' `thin`; 0 where that is
+ * 0. */
 sunder_status sunder_i_count_thin_overlaps(const sunder_i_model *model, const sunder_i_placement *placement,
-                                           const sunder_i_relations *relations, size_t *n, sunder_error *err);
+                                           const sunder_i_relations *relations, sunder_report *report,
+                                           sunder_error *err);
 
 /* ---- bound.c, bound_pairs.c -------------------------------------------------------------------------------------- */
 
-/* Multipliers for the pairs (blocks by number in body_of), and the bound proved by them. Pairs with least = 0
- * get none. */
+/* Multipliers for the pairs (blocks by number in body_of), and the bound proved by them. Pairs with least = 0 get
+ * none. *proved: where worlds are kept, [bodies] what is proved of each part, at its root; the caller's; else NULL. */
 sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, double *bound,
-                             sunder_error *err);
+                             double **proved, sunder_error *err);
 /* What they prove of each part of the layer: value[], [bodies] and 0, at its root in the union-find root[]. What is
  * fixed is of no part. False if memory is out. */
 bool sunder_i_bound_parts(const sunder_i_model *model, const sunder_bound_pair *pairs, size_t n, uint32_t *root,
@@ -135,6 +153,11 @@ typedef sunder_status (*sunder_i_solve_layer)(const sunder_layer *layer, const s
 /* Fills the conflicts' need_shift, need_gap and need_gone; after what blocks them is known. */
 sunder_status sunder_i_report_needs(sunder_report *report, const sunder_i_solver *solver,
                                     const sunder_layer_options *options, sunder_i_solve_layer solve, sunder_error *err);
+
+/* ---- worlds.c ---------------------------------------------------------------------------------------------------- */
+
+/* Which parts of the layer had nothing to do with each other, where that is wanted; last of all. */
+sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
 
 /* ---- blockers.c -------------------------------------------------------------------------------------------------- */
 

@@ -29,8 +29,10 @@ static sunder_status look_at(void *context, size_t begin, size_t end, sunder_err
 }
 
 sunder_status sunder_i_count_thin_overlaps(const sunder_i_model *model, const sunder_i_placement *placement,
-                                           const sunder_i_relations *relations, size_t *n, sunder_error *err)
+                                           const sunder_i_relations *relations, sunder_report *report,
+                                           sunder_error *err)
 {
+    size_t *n = &report->summary.thin;
     *n = 0;
     if (!(model->rules.thin > 0)) return SUNDER_OK;
     sunder_shape *disc;
@@ -39,7 +41,10 @@ sunder_status sunder_i_count_thin_overlaps(const sunder_i_model *model, const su
     if (!status && !s.thin) status = sunder_i_no_memory(err);
     if (!status) status = sunder_i_parallel(model->rules.threads, relations->n, SUNDER_I_GRAIN_PAIRS, look_at, &s, err);
     for (size_t k = 0; k < relations->n && !status; k++) *n += s.thin[k];
-    sunder_i_free(s.thin);
+    if (model->rules.keep_worlds)
+        report->thin = s.thin;
+    else
+        sunder_i_free(s.thin);
     sunder_shape_free(disc);
     return status;
 }

@@ -1,4 +1,5 @@
 /* Where there is room in a cluster as it stands: for one of a pair beside the other, for a body among all. */
+#include "displacement/layer/reads.h"
 #include "displacement/obstacles/free_places.h"
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
@@ -248,7 +249,7 @@ static bool find_others(sunder_i_search *s, const sunder_i_body *p, const double
     const sunder_i_model *model = s->model;
     double where[4];
     for (int c = 0; c < 4; c++) where[c] = box[c] + p->origin[c & 1];
-    if (!sunder_i_rtree_query(model->standing, where, hits)) return false;
+    if (!sunder_i_look_about(model, model->standing, where, hits)) return false;
     for (size_t k = 0; k < hits->n; k++) hits->item[k] = model->body_of[hits->item[k]];
     hits->n = sunder_i_set_make(hits->item, hits->n);
     size_t out = 0;

@@ -1,4 +1,5 @@
 /* Neighbours of a cluster that stay where they stand, for searches that must not run into them. */
+#include "displacement/layer/reads.h"
 #include "displacement/search/search.h"
 #include "displacement/search/tuning.h"
 
@@ -34,7 +35,7 @@ static bool find_surroundings(const sunder_i_model *model, const sunder_i_cluste
             model->rules.gap + cluster->margin + MOVES_ABOUT * fmax(fmax(farthest(own + 2 * k), mean), cluster->about);
         double box[4];
         sunder_i_body_box(b, none, reach, box);
-        if (!sunder_i_rtree_query(model->standing, box, hits)) return false;
+        if (!sunder_i_look_about(model, model->standing, box, hits)) return false;
     }
     for (size_t k = 0; k < hits->n; k++) hits->item[k] = model->body_of[hits->item[k]];
     hits->n = sunder_i_set_make(hits->item, hits->n);

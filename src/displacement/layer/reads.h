@@ -1,0 +1,42 @@
+/* What was looked at: of a layer in parts, how far does a result depend on what stands about?
+ *
+ * Between begin and end every question of the thread to a tree of things about what is where is noted for a body, if
+ * the model keeps such notes: the place that was asked about, and the bodies that stand there, whole. That is state of
+ * the thread, as what asks stands ten calls above what looks. Within a question that is a layer of its own, whose model
+ * keeps no notes, places go on being noted. */
+#ifndef SUNDER_I_READS_H
+#define SUNDER_I_READS_H
+
+#include "displacement/layer/model.h"
+
+typedef struct sunder_i_reading {
+    sunder_i_read box;
+    const sunder_i_model *model;
+    sunder_i_read *body; /* whose it is; NULL: nobody's */
+    struct sunder_i_reading *outer;
+} sunder_i_reading;
+
+extern _Thread_local sunder_i_reading *sunder_i_reads __attribute__((tls_model("initial-exec"), visibility("hidden")));
+
+void sunder_i_reads_begin(sunder_i_reading *reading, const sunder_i_model *model, uint32_t body);
+void sunder_i_reads_end(sunder_i_reading *reading);
+void sunder_i_reads_note(const sunder_i_model *model, const double box[4], const uint32_t *thing, size_t n);
+
+/* Whose notes they are, of two, one of which may not move, or be a part of a barrier: the features a and b. */
+static inline uint32_t sunder_i_reader_of(const sunder_i_model *model, size_t a, size_t b)
+{
+    const uint32_t i = model->body_of[a];
+    return model->body[i].fixed && b < model->features && !model->body[model->body_of[b]].fixed ? model->body_of[b] : i;
+}
+
+/* sunder_i_rtree_query() of a tree of the model's things, noted. */
+static inline bool sunder_i_look_about(const sunder_i_model *model, const sunder_i_rtree *tree, const double box[4],
+                                       sunder_i_list *hits)
+{
+    const size_t before = hits->n;
+    const bool ok = sunder_i_rtree_query(tree, box, hits);
+    if (sunder_i_reads && ok) sunder_i_reads_note(model, box, hits->item + before, hits->n - before);
+    return ok;
+}
+
+#endif

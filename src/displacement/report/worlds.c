@@ -1,0 +1,351 @@
+/* Worlds: parts of the layer that had nothing to do with each other.
+ *
+ * Two bodies are of one world if they were ever solved together, if they are in conflict or in contact, or if what
+ * was looked at on behalf of the one was a place where the other stood at any time. So had a world's bodies, and
+ * what stands still about them, been all there is, every question would have had the same answer, and each of them
+ * would stand where it does. What was looked at is told in boxes (layer/reads.h): whoever has a part of a layer, and
+ * in it everything that meets a world's boxes, has that world as the whole layer has it. A block is looked at as a
+ * whole, whatever of it was met: by its other end it may be fixed. */
+#include "displacement/layer/resolution.h"
+#include "displacement/report/report.h"
+
+#include "base/union_find.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Beyond what is owed: contact is told up to a hair. */
+#define HAIR 0x1p-16
+
+typedef struct gathering {
+    const sunder_i_solver *solver;
+    const sunder_i_model *model;
+    double reach;
+    uint32_t *root; /* [bodies] union-find */
+    bool *active;   /* [bodies] it had something to do with another */
+    /* [bodies] of a set before worlds look into each other; at its root: */
+    double (*read)[4], (*seen)[4], (*wrote)[4];
+} gathering;
+
+static bool stands(const sunder_i_model *model, uint32_t body) { return model->body[body].fixed; }
+
+/* From where the body stood to wherever it went. */
+static void box_of(const sunder_i_model *model, uint32_t body, double box[4])
+{
+    const sunder_i_body *b = &model->body[body];
+    const double *went = model->went + 4 * (size_t)body;
+    sunder_i_box_clear(box);
+    for (uint32_t m = 0; m < b->members; m++) {
+        const uint32_t f = model->member[b->member + m];
+        if (model->present[f]) sunder_i_box_join(box, model->box + 4 * (size_t)f);
+    }
+    for (int c = 0; c < 4; c++) box[c] += went[c];
+}
+
+/* Two that have to do with each other. What is fixed holds no two together, but two that are fixed, and in conflict for
+ * ever, are of a world too. */
+static void meet(gathering *g, uint32_t i, uint32_t j)
+{
+    const sunder_i_model *model = g->model;
+    if (stands(model, i) && !stands(model, j)) {
+        meet(g, j, i);
+        return;
+    }
+    g->active[i] = true;
+    if (sunder_i_is_barrier_body(model, &model->body[j])) return;
+    if (stands(model, j) && !stands(model, i)) {
+        /* That it is fixed may be a member's affair, at the other end of its block. */
+        double box[4];
+        box_of(model, j, box);
+        sunder_i_box_join(g->model->read[i].seen, box);
+        return;
+    }
+    g->active[j] = true;
+    sunder_i_union_join(g->root, i, j);
+}
+
+static void meet_conflicts(gathering *g, const sunder_i_relations *relations)
+{
+    for (size_t k = 0; k < relations->n; k++) {
+        const sunder_i_relation *r = &relations->pair[k];
+        const uint32_t i = g->model->body_of[r->a], j = g->model->body_of[r->b];
+        if (i != j && (sunder_i_is_conflict(r) || r->kept)) meet(g, i, j);
+    }
+}
+
+static void meet_groups(gathering *g)
+{
+    const sunder_i_groups *groups = &g->solver->groups;
+    for (size_t k = 0; k < groups->n; k++) {
+        const sunder_i_group *group = &groups->group[k];
+        for (size_t m = 0; m < group->n + group->guests.n; m++) {
+            const uint32_t b = m < group->n ? group->body[m] : group->guests.item[m - group->n];
+            if (!stands(g->model, b)) meet(g, group->number, b);
+        }
+    }
+    for (size_t k = 0; k < groups->joins; k++) meet(g, groups->joined[k].a, groups->joined[k].b);
+}
+
+/* ---- Where it looked, and where it stood ------------------------------------------------------------------------- */
+
+static void find_boxes(gathering *g)
+{
+    for (uint32_t b = 0; b < g->model->bodies; b++) {
+        sunder_i_box_clear(g->read[b]);
+        sunder_i_box_clear(g->seen[b]);
+        sunder_i_box_clear(g->wrote[b]);
+    }
+    for (uint32_t b = 0; b < g->model->bodies; b++) {
+        if (!g->active[b]) continue;
+        const uint32_t at = sunder_i_union_find(g->root, b);
+        double box[4], about[4];
+        box_of(g->model, b, box);
+        sunder_i_box_grow(box, g->reach, about);
+        sunder_i_box_join(g->wrote[at], box);
+        sunder_i_box_join(g->read[at], about);
+        sunder_i_box_join(g->read[at], g->model->read[b].place);
+        sunder_i_box_join(g->seen[at], g->model->read[b].seen);
+    }
+    for (uint32_t b = 0; b < g->model->bodies; b++) {
+        if (!g->active[b] || sunder_i_union_find(g->root, b) != b) continue;
+        /* Whether a block ends there is told by what stands next to it. */
+        sunder_i_box_grow(g->seen[b], g->reach, g->seen[b]);
+        sunder_i_box_join(g->seen[b], g->read[b]);
+    }
+}
+
+/* Who looked where another stood is of one world with it. */
+static sunder_status meet_readers(gathering *g, uint32_t *world, sunder_error *err)
+{
+    const size_t n = g->model->bodies;
+    bool *there = sunder_i_calloc(n, sizeof *there);
+    sunder_i_rtree tree = {0};
+    sunder_i_list hits = {0};
+    sunder_status status = there ? SUNDER_OK : sunder_i_no_memory(err);
+    for (size_t b = 0; b < n && !status; b++) there[b] = g->wrote[b][0] <= g->wrote[b][2];
+    if (!status) status = sunder_i_rtree_build(g->wrote[0], there, n, &tree, err);
+    memcpy(world, g->root, n * sizeof *world);
+    for (uint32_t b = 0; b < n && !status; b++) {
+        if (!there[b]) continue;
+        hits.n = 0;
+        if (!sunder_i_rtree_query(&tree, g->read[b], &hits)) status = sunder_i_no_memory(err);
+        for (size_t k = 0; k < hits.n && !status; k++)
+            if (!stands(g->model, b) && !stands(g->model, hits.item[k])) sunder_i_union_join(world, b, hits.item[k]);
+    }
+    sunder_i_rtree_free(&tree);
+    sunder_i_free(hits.item);
+    sunder_i_free(there);
+    return status;
+}
+
+/* ---- What is told of them ---------------------------------------------------------------------------------------- */
+
+/* Worlds by their first features; feature by feature whose it is. */
+static sunder_status number_worlds(sunder_report *report, const gathering *g, uint32_t *world, sunder_error *err)
+{
+    const sunder_i_model *model = g->model;
+    const size_t *number = g->solver->number;
+    size_t *named = sunder_i_alloc(model->bodies, sizeof *named),
+           *thing = sunder_i_alloc(model->features, sizeof *thing);
+    report->world_of = sunder_i_alloc(model->features, sizeof *report->world_of);
+    sunder_status status = named && thing && report->world_of ? SUNDER_OK : sunder_i_no_memory(err);
+    for (size_t b = 0; b < model->bodies && !status; b++) named[b] = SIZE_MAX;
+    for (size_t f = 0; f < model->features && !status; f++) thing[number[f]] = f;
+    for (size_t k = 0; k < model->features && !status; k++) {
+        const uint32_t body = model->body_of[thing[k]];
+        report->world_of[k] = SIZE_MAX;
+        if (!g->active[body]) continue;
+        size_t *name = &named[sunder_i_union_find(world, body)];
+        if (*name == SIZE_MAX) {
+            if (!sunder_i_reserve(&report->world, &report->world_room, report->worlds + 1, sizeof *report->world)) {
+                status = sunder_i_no_memory(err);
+                break;
+            }
+            report->world[ *name = report->worlds++] = (sunder_world){.first = k};
+        }
+        report->world_of[k] = *name;
+    }
+    sunder_i_free(named);
+    sunder_i_free(thing);
+    return status;
+}
+
+static size_t world_of_body(const sunder_report *report, const gathering *g, uint32_t body)
+{
+    const sunder_i_body *b = &g->model->body[body];
+    if (sunder_i_is_barrier_body(g->model, b)) return SIZE_MAX;
+    return report->world_of[g->solver->number[g->model->member[b->member]]];
+}
+
+/* Whose pair is it? SIZE_MAX: it is inside a block that nothing happened to. */
+static size_t world_of_pair(const sunder_report *report, const gathering *g, uint32_t a, uint32_t b)
+{
+    const uint32_t i = g->model->body_of[a], j = g->model->body_of[b];
+    const size_t one = world_of_body(report, g, i), other = world_of_body(report, g, j);
+    if (other == SIZE_MAX || (one != SIZE_MAX && !stands(g->model, i))) return one;
+    return other;
+}
+
+static int by_world(const void *a, const void *b)
+{
+    const sunder_footprint *p = a, *q = b;
+    if (p->world != q->world) return p->world < q->world ? -1 : 1;
+    return memcmp(p->read, q->read, sizeof p->read);
+}
+
+static sunder_status list_footprints(sunder_report *report, const gathering *g, sunder_error *err)
+{
+    size_t n = 0;
+    for (uint32_t b = 0; b < g->model->bodies; b++) n += g->active[b] && sunder_i_union_find(g->root, b) == b;
+    report->footprint = sunder_i_alloc(n, sizeof *report->footprint);
+    if (!report->footprint) return sunder_i_no_memory(err);
+    for (uint32_t b = 0; b < g->model->bodies; b++) {
+        if (!g->active[b] || sunder_i_union_find(g->root, b) != b) continue;
+        sunder_footprint *p = &report->footprint[report->footprints++];
+        p->world = world_of_body(report, g, b);
+        memcpy(p->read, g->read[b], sizeof p->read);
+        memcpy(p->seen, g->seen[b], sizeof p->seen);
+        memcpy(p->wrote, g->wrote[b], sizeof p->wrote);
+    }
+    if (n) qsort(report->footprint, n, sizeof *report->footprint, by_world);
+    for (size_t k = n; k-- > 0;) {
+        sunder_world *w = &report->world[report->footprint[k].world];
+        w->footprint = k;
+        w->footprints++;
+    }
+    return SUNDER_OK;
+}
+
+/* Counts each conflict in its world; those inside a block that nothing happened to with the first of the two. */
+static sunder_status count_pairs(sunder_report *report, const gathering *g, sunder_error *err)
+{
+    const sunder_i_relations *const list[2] = {&g->solver->start, &g->solver->now};
+    report->inside = sunder_i_calloc(g->model->features, sizeof *report->inside);
+    if (!report->inside) return sunder_i_no_memory(err);
+    for (int now = 0; now < 2; now++) {
+        for (size_t k = 0; k < list[now]->n;) {
+            sunder_conflict c;
+            uint32_t a, b;
+            if (!sunder_i_next_conflict(g->model, list[now], &k, &a, &b, &c)) continue;
+            const size_t w = world_of_pair(report, g, a, b);
+            if (w != SIZE_MAX) {
+                sunder_i_count(now ? &report->world[w].after : &report->world[w].before, &c);
+            } else if (!now) {
+                const size_t p = g->solver->number[a], q = g->solver->number[b];
+                report->inside[p < q ? p : q]++;
+            }
+        }
+    }
+    for (size_t k = 0; k < g->solver->start.n && report->thin; k++) {
+        const sunder_i_relation *r = &g->solver->start.pair[k];
+        if (report->thin[k]) report->world[world_of_pair(report, g, r->a, r->b)].thin++;
+    }
+    return SUNDER_OK;
+}
+
+/* Contact groups, and what is proved of the parts of each world. */
+static sunder_status count_proved(sunder_report *report, const gathering *g, sunder_error *err)
+{
+    const sunder_i_groups *groups = &g->solver->groups;
+    for (size_t k = 0; k < groups->n; k++) {
+        sunder_world *w = &report->world[world_of_body(report, g, groups->group[k].number)];
+        w->clusters++;
+        w->clusters_optimal += g->model->rules.effort > 0 && sunder_i_group_is_optimal(&groups->group[k]);
+    }
+    for (uint32_t b = 0; b < g->model->bodies && report->proved; b++)
+        if (report->proved[b] > 0) report->world[world_of_body(report, g, b)].bounds++;
+    for (size_t k = 0; k < report->worlds; k++) {
+        report->world[k].bound = report->world_bounds;
+        report->world_bounds += report->world[k].bounds;
+        report->world[k].bounds = 0;
+    }
+    report->world_bound = sunder_i_alloc(report->world_bounds, sizeof *report->world_bound);
+    if (!report->world_bound) return sunder_i_no_memory(err);
+    for (uint32_t b = 0; b < g->model->bodies && report->proved; b++) {
+        if (!(report->proved[b] > 0)) continue;
+        sunder_world *w = &report->world[world_of_body(report, g, b)];
+        report->world_bound[w->bound + w->bounds++] = report->proved[b];
+    }
+    return SUNDER_OK;
+}
+
+/* As the caller numbers features. */
+static sunder_status keep_rounded(sunder_report *report, const gathering *g, sunder_error *err)
+{
+    report->inexact = sunder_i_calloc(g->model->features, sizeof *report->inexact);
+    if (!report->inexact) return sunder_i_no_memory(err);
+    for (size_t f = 0; f < g->model->features; f++) report->inexact[g->solver->number[f]] = g->model->inexact[f];
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solver *s, sunder_error *err)
+{
+    const sunder_i_model *model = &s->model;
+    if (!model->rules.keep_worlds) return SUNDER_OK;
+    const size_t n = model->bodies;
+    gathering g = {.solver = s,
+                   .model = model,
+                   .reach = (model->rules.gap + model->rules.tolerance + model->rules.thin) * (1 + HAIR),
+                   .root = sunder_i_alloc(n, sizeof *g.root),
+                   .active = sunder_i_calloc(n, sizeof *g.active),
+                   .read = sunder_i_alloc(n, sizeof *g.read),
+                   .seen = sunder_i_alloc(n, sizeof *g.seen),
+                   .wrote = sunder_i_alloc(n, sizeof *g.wrote)};
+    uint32_t *world = sunder_i_alloc(n, sizeof *world);
+    sunder_status status =
+        g.root && g.active && g.read && g.seen && g.wrote && world ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) {
+        sunder_i_union_init(g.root, n);
+        for (size_t e = 0; e < s->edges; e++) meet(&g, s->edge[e].a, s->edge[e].b);
+        meet_conflicts(&g, &s->start);
+        meet_conflicts(&g, &s->now);
+        meet_groups(&g);
+        find_boxes(&g);
+        status = meet_readers(&g, world, err);
+    }
+    if (!status) status = number_worlds(report, &g, world, err);
+    if (!status) status = list_footprints(report, &g, err);
+    if (!status) status = count_pairs(report, &g, err);
+    if (!status) status = count_proved(report, &g, err);
+    if (!status) status = keep_rounded(report, &g, err);
+    sunder_i_free(g.root);
+    sunder_i_free(g.active);
+    sunder_i_free(g.read);
+    sunder_i_free(g.seen);
+    sunder_i_free(g.wrote);
+    sunder_i_free(world);
+    return status;
+}
+
+size_t sunder_report_world(const sunder_report *report, size_t feature)
+{
+    return report->world_of ? report->world_of[feature] : SIZE_MAX;
+}
+
+const sunder_world *sunder_report_worlds(const sunder_report *report, size_t *n)
+{
+    *n = report->worlds;
+    return report->world;
+}
+
+const sunder_footprint *sunder_report_footprints(const sunder_report *report, size_t *n)
+{
+    *n = report->footprints;
+    return report->footprint;
+}
+
+const double *sunder_report_world_bounds(const sunder_report *report, size_t *n)
+{
+    *n = report->world_bounds;
+    return report->world_bound;
+}
+
+size_t sunder_report_inside(const sunder_report *report, size_t feature)
+{
+    return report->inside ? report->inside[feature] : 0;
+}
+
+bool sunder_report_rounded(const sunder_report *report, size_t feature)
+{
+    return report->inexact && report->inexact[feature];
+}

@@ -1,0 +1,317 @@
+/* Worlds are all there is to their bodies: a part of a layer that holds everything that a world of it saw tells of
+ * it what the whole layer tells, to the last bit, if no other world of that wrote there; and what is told of worlds,
+ * of blocks that nothing happened to and of moves adds up to what is told of the layer.
+ *
+ * Layers are fields of slanted boxes, most of them apart, some with fixed ones, limits, blocks and a barrier across. */
+#include "polyset.h"
+#include "random.h"
+#include "run_layer.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { MOST = 160, FIELDS = 14 };
+
+typedef struct field {
+    sunder_feature feature[MOST];
+    size_t n;
+    sunder_layer_options options;
+    double width;
+} field;
+
+static sunder_shape *slanted_box(rng *r, double x, double y)
+{
+    polyset box = {0};
+    const double a = rng_once_in(r, 2) ? 0 : 0.8 * rng_unit(r), w = 3 + 5 * rng_unit(r), h = 3 + 3 * rng_unit(r);
+    const double e[2] = {cos(a), sin(a)};
+    polyset_polygon(&box,
+                    (double[]){x, y, x + w * e[0], y + w * e[1], x + w * e[0] - h * e[1], y + w * e[1] + h * e[0],
+                               x - h * e[1], y + h * e[0]},
+                    4);
+    sunder_shape *shape = polyset_shape(&box);
+    assert_non_null(shape);
+    polyset_free(&box);
+    return shape;
+}
+
+static void draw_options(field *f, rng *r)
+{
+    sunder_layer_options_init(&f->options);
+    f->options.touch_tolerance = rng_once_in(r, 2) ? 0 : -1;
+    f->options.no_blocks = rng_once_in(r, 3);
+    f->options.allow_jumps = rng_once_in(r, 3);
+    f->options.contained = (sunder_containment)rng_int(r, 0, 2);
+    f->options.gap = rng_once_in(r, 4) ? 0 : 0.5 + 2 * rng_unit(r);
+    f->options.effort = rng_once_in(r, 2) ? 0 : 0.02;
+    f->options.keep_pushes = f->options.keep_worlds = true;
+    f->options.threads = (unsigned)rng_int(r, 1, 2);
+}
+
+/* On a grid with rather more room than they need, shaken; their places in the list are drawn. */
+static void lay_out(field *f, rng *r)
+{
+    const bool limited = rng_once_in(r, 2);
+    const double pitch = 9 + 6 * rng_unit(r);
+    const size_t row = (size_t)rng_int(r, 3, 12), n = (size_t)rng_int(r, 20, MOST);
+    f->width = pitch * (double)row;
+    for (f->n = 0; f->n < n; f->n++) {
+        const double x = 1000.25 + pitch * (double)(f->n % row) + 4 * rng_unit(r),
+                     y = 2000 + pitch * (double)(f->n / row) + 4 * rng_unit(r);
+        f->feature[f->n] = (sunder_feature){.shape = slanted_box(r, x, y),
+                                            .weight = rng_once_in(r, 3) ? 1 + 3 * rng_unit(r) : 1,
+                                            .max_shift = limited ? 4 * rng_unit(r) : INFINITY,
+                                            .fixed = rng_once_in(r, 12),
+                                            .block = rng_once_in(r, 20) ? rng_int(r, 0, 9) : -1};
+    }
+    for (size_t k = n; k-- > 1;) {
+        const size_t other = (size_t)rng_int(r, 0, (int64_t)k);
+        const sunder_feature swap = f->feature[k];
+        f->feature[k] = f->feature[other];
+        f->feature[other] = swap;
+    }
+}
+
+static void clear(field *f)
+{
+    for (size_t k = 0; k < f->n; k++) sunder_shape_free((sunder_shape *)f->feature[k].shape);
+}
+
+static bool meets(const double a[4], const double b[4])
+{
+    return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
+}
+
+/* ---- What is told of a world ------------------------------------------------------------------------------------- */
+
+static void demand_same_counts(const sunder_conflict_counts *a, const sunder_conflict_counts *b)
+{
+    assert_memory_equal(a, b, sizeof *a);
+}
+
+static double or_none(double length) { return isnan(length) ? -1 : length; }
+
+/* Conflicts of the world's features, k-th and k-th; from: the whole's number of each of the part's. */
+static void demand_same_conflicts(const sunder_report *whole, const sunder_report *part, size_t world, size_t of_part,
+                                  const size_t *from)
+{
+    size_t n, m, j = 0;
+    const sunder_conflict *c = sunder_report_conflicts(whole, &n), *d = sunder_report_conflicts(part, &m);
+    for (size_t k = 0; k < n; k++) {
+        if (sunder_report_world(whole, c[k].a) != world) continue;
+        while (j < m && sunder_report_world(part, d[j].a) != of_part) j++;
+        assert_true(j < m);
+        assert_int_equal(c[k].a, from[d[j].a]);
+        assert_int_equal(c[k].b, from[d[j].b]);
+        assert_int_equal(c[k].kind, d[j].kind);
+        assert_int_equal(c[k].reason, d[j].reason);
+        assert_true(c[k].distance == d[j].distance && c[k].depth == d[j].depth && c[k].before == d[j].before);
+        assert_true(or_none(c[k].need_shift) == or_none(d[j].need_shift));
+        assert_true(or_none(c[k].need_gap) == or_none(d[j].need_gap));
+        assert_int_equal(c[k].n_blocked_by, d[j].n_blocked_by);
+        for (size_t i = 0; i < c[k].n_blocked_by; i++) assert_int_equal(c[k].blocked_by[i], from[d[j].blocked_by[i]]);
+        j++;
+    }
+    while (j < m && sunder_report_world(part, d[j].a) != of_part) j++;
+    assert_int_equal(j, m);
+}
+
+static void demand_same_world(const sunder_report *whole, const sunder_report *part, size_t world, const size_t *from,
+                              size_t parts)
+{
+    size_t n, m, bounds;
+    const sunder_world *all = sunder_report_worlds(whole, &n), *w = &all[world];
+    size_t first = 0, of_part;
+    while (first < parts && from[first] != w->first) first++;
+    assert_true(first < parts);
+    of_part = sunder_report_world(part, first);
+    assert_true(of_part != SIZE_MAX);
+    const sunder_world *v = &sunder_report_worlds(part, &m)[of_part];
+    demand_same_counts(&w->before, &v->before);
+    demand_same_counts(&w->after, &v->after);
+    assert_int_equal(w->clusters, v->clusters);
+    assert_int_equal(w->clusters_optimal, v->clusters_optimal);
+    assert_int_equal(w->bounds, v->bounds);
+    sunder_total a = {0}, b = {0};
+    const double *bound = sunder_report_world_bounds(whole, &bounds);
+    for (size_t k = 0; k < w->bounds; k++) sunder_total_add(&a, bound[w->bound + k]);
+    bound = sunder_report_world_bounds(part, &bounds);
+    for (size_t k = 0; k < v->bounds; k++) sunder_total_add(&b, bound[v->bound + k]);
+    assert_true(sunder_total_below(&a) == sunder_total_below(&b));
+    for (size_t k = 0; k < parts; k++) {
+        double t[2], u[2];
+        assert_int_equal(sunder_report_world(part, k) == of_part, sunder_report_world(whole, from[k]) == world);
+        if (sunder_report_world(part, k) != of_part) continue;
+        sunder_report_move(whole, from[k], &t[0], &t[1]);
+        sunder_report_move(part, k, &u[0], &u[1]);
+        assert_true(t[0] == u[0] && t[1] == u[1]);
+        assert_int_equal(sunder_report_status(whole, from[k]), sunder_report_status(part, k));
+        assert_int_equal(sunder_report_rounded(whole, from[k]), sunder_report_rounded(part, k));
+    }
+    demand_same_conflicts(whole, part, world, of_part, from);
+}
+
+/* Does all of the field that meets what the part's world saw belong to the part? */
+static bool is_complete(const field *f, const bool *there, const sunder_report *part, size_t of_part)
+{
+    size_t n, footprints;
+    const sunder_world *w = &sunder_report_worlds(part, &n)[of_part];
+    const sunder_footprint *p = sunder_report_footprints(part, &footprints);
+    for (size_t k = 0; k < f->n; k++) {
+        double box[4];
+        sunder_shape_box(f->feature[k].shape, box);
+        for (size_t i = 0; i < w->footprints && !there[k]; i++)
+            if (meets(box, p[w->footprint + i].seen)) return false;
+    }
+    return true;
+}
+
+/* Did others, that are not in the part or are cut by it, come where the part's world looked? Then they are of one world
+ * in the whole. */
+static bool is_joined(const sunder_report *whole, const sunder_report *part, size_t of_part, const size_t *from,
+                      size_t parts)
+{
+    size_t n, in_part = 0, in_whole = 0;
+    sunder_report_worlds(part, &n);
+    size_t world = SIZE_MAX;
+    for (size_t k = 0; k < parts; k++) {
+        if (sunder_report_world(part, k) != of_part) continue;
+        in_part++;
+        world = sunder_report_world(whole, from[k]);
+    }
+    sunder_layer_summary s;
+    sunder_report_summary(whole, &s);
+    for (size_t k = 0; k < s.features; k++) in_whole += sunder_report_world(whole, k) == world;
+    return world == SIZE_MAX || in_whole > in_part;
+}
+
+/* What a part of the field tells of the worlds that are complete in it. Returns how many those are. */
+static size_t look_at_part(const field *f, const sunder_report *whole, const bool *there)
+{
+    static sunder_feature chosen[MOST];
+    size_t from[MOST], n = 0, worlds, same = 0;
+    for (size_t k = 0; k < f->n; k++) {
+        if (!there[k]) continue;
+        chosen[n] = f->feature[k];
+        from[n++] = k;
+    }
+    if (n == f->n) return 0; /* it tells nothing */
+    sunder_report *part = run_separate(chosen, n, &f->options);
+    const sunder_world *w = sunder_report_worlds(part, &worlds);
+    for (size_t k = 0; k < worlds; k++) {
+        if (!is_complete(f, there, part, k) || is_joined(whole, part, k, from, n)) continue;
+        demand_same_world(whole, part, sunder_report_world(whole, from[w[k].first]), from, n);
+        same++;
+    }
+    sunder_report_free(part);
+    return same;
+}
+
+/* Who says that it is of a block brings all who say so. */
+static void add_blocks(const field *f, bool *there)
+{
+    for (size_t k = 0; k < f->n; k++)
+        for (size_t m = 0; m < f->n && !there[k] && f->feature[k].block >= 0; m++)
+            there[k] = there[m] && f->feature[m].block == f->feature[k].block;
+}
+
+/* All that meets what a world saw; what meets a box drawn at random. */
+static size_t look_at_parts(const field *f, rng *r, const sunder_report *whole)
+{
+    size_t worlds, footprints, same = 0;
+    const sunder_world *w = sunder_report_worlds(whole, &worlds);
+    const sunder_footprint *p = sunder_report_footprints(whole, &footprints);
+    for (size_t k = 0; k < worlds + 3; k++) {
+        const double x = 1000 + f->width * rng_unit(r), y = 2000 + f->width * rng_unit(r),
+                     drawn[4] = {x - 40, y - 40, x + 40, y + 40};
+        bool there[MOST] = {false};
+        for (size_t i = 0; i < f->n; i++) {
+            double box[4];
+            sunder_shape_box(f->feature[i].shape, box);
+            if (k >= worlds) there[i] = meets(box, drawn);
+            for (size_t m = 0; k < worlds && m < w[k].footprints && !there[i]; m++)
+                there[i] = meets(box, p[w[k].footprint + m].seen);
+        }
+        add_blocks(f, there);
+        same += look_at_part(f, whole, there);
+    }
+    return same;
+}
+
+/* ---- What they add up to ----------------------------------------------------------------------------------------- */
+
+static void demand_sums(const field *f, const sunder_report *report)
+{
+    sunder_layer_summary s;
+    size_t worlds, bounds, inside = 0, clusters = 0, optimal = 0;
+    sunder_total bound = {0}, cost = {0};
+    sunder_conflict_counts before = {0}, after = {0};
+    sunder_report_summary(report, &s);
+    const sunder_world *w = sunder_report_worlds(report, &worlds);
+    const double *value = sunder_report_world_bounds(report, &bounds);
+    for (size_t k = 0; k < bounds; k++) sunder_total_add(&bound, value[k]);
+    for (size_t k = 0; k < worlds; k++) {
+        clusters += w[k].clusters;
+        optimal += w[k].clusters_optimal;
+        before.overlap += w[k].before.overlap;
+        before.too_close += w[k].before.too_close;
+        before.inside_blocks += w[k].before.inside_blocks;
+        after.overlap += w[k].after.overlap;
+        after.too_close += w[k].after.too_close;
+        after.contained += w[k].after.contained;
+        after.inside_blocks += w[k].after.inside_blocks;
+        assert_int_equal(sunder_report_world(report, w[k].first), k);
+    }
+    for (size_t k = 0; k < f->n; k++) {
+        double t[2];
+        inside += sunder_report_inside(report, k);
+        sunder_report_move(report, k, &t[0], &t[1]);
+        sunder_total_add(&cost, f->feature[k].weight * (t[0] * t[0] + t[1] * t[1]));
+        if (t[0] != 0 || t[1] != 0) assert_true(sunder_report_world(report, k) != SIZE_MAX);
+    }
+    assert_int_equal(before.inside_blocks + inside, s.before.inside_blocks);
+    assert_int_equal(after.inside_blocks + inside, s.after.inside_blocks);
+    assert_int_equal(before.overlap, s.before.overlap);
+    assert_int_equal(before.too_close, s.before.too_close);
+    assert_int_equal(after.overlap, s.after.overlap);
+    assert_int_equal(after.too_close, s.after.too_close);
+    assert_int_equal(after.contained, s.after.contained);
+    assert_int_equal(clusters, s.clusters);
+    assert_int_equal(optimal, s.clusters_optimal);
+    assert_true(sunder_total_below(&bound) == s.lower_bound);
+    assert_true(sunder_total_nearest(&cost) == s.cost);
+}
+
+static void test_worlds(void **state)
+{
+    (void)state;
+    static field f;
+    size_t seen = 0, asked = 0;
+    for (size_t number = 0; number < test_count(FIELDS); number++) {
+        rng r = rng_start(test_seed(), 7100 + number);
+        size_t worlds;
+        draw_options(&f, &r);
+        lay_out(&f, &r);
+        sunder_report *whole = run_separate(f.feature, f.n, &f.options);
+        demand_sums(&f, whole);
+        sunder_report_worlds(whole, &worlds);
+        asked += look_at_parts(&f, &r, whole);
+        seen += worlds;
+        sunder_report_free(whole);
+        clear(&f);
+    }
+    print_message("%zu worlds, found %zu times in parts of their layers\n", seen, asked);
+    assert_true(asked > 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_worlds)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
