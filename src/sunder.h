@@ -646,17 +646,20 @@ typedef struct sunder_bound_pair {
 } sunder_bound_pair;
 SUNDER_API const sunder_bound_pair *sunder_report_bound_pairs(const sunder_report *report, size_t *n);
 
-/* ---- Parts of a layer, where keep_worlds was asked for.
+/* ---- Parts of a layer ----------------------------------------------------------------------------------------- */
+
+/* Where keep_worlds was asked for.
  *
- * A world is a set of features that had to do with each other: they were solved together, are in conflict or in contact,
- * or it was looked on behalf of some of them where others stood at some time. Its footprints say where it was looked
- * (read), what it has to be known of what is there (seen: blocks that reach there, whole), and where its features stood
- * from the first to the last (wrote), in boxes.
+ * A world is a set of features that had to do with each other: they were solved together, are in conflict or in
+ * contact, or it was looked on behalf of some of them where others stood at some time. Its footprints say where it
+ * was looked (read), what it has to be known of what is there (seen: blocks that reach there, whole), and where its
+ * features stood from the first to the last (wrote), in boxes.
  *
- * Of a layer that is a part of a larger one, with the same options and barriers, and of features with the same block all
- * or none: if it has all features of the larger one that meet what one of its worlds saw, and no other world of the
- * larger one wrote where that one read, then all that is reported of the world's features, of the conflicts between them
- * or with others, and of its proofs, is what is reported of them in the larger layer, to the last bit. */
+ * Of a layer that is a part of a larger one, with the same options and barriers, and of features with the same
+ * block all or none: if it has all features of the larger one that meet what one of its worlds saw, and no other
+ * world of the larger one wrote where that one read, then all that is reported of the world's features, of the
+ * conflicts between them or with others, and of its proofs, is what is reported of them in the larger layer, to the
+ * last bit. */
 typedef struct sunder_footprint {
     size_t world;
     double read[4], seen[4], wrote[4]; /* xmin ymin xmax ymax; all of what was read was seen */
