@@ -20,6 +20,10 @@ typedef struct gis_sqlite_functions {
     int (*finalize)(void *);
     const void *(*column_bytes)(void *, int);
     int (*column_size)(void *, int);
+    int (*column_type)(void *, int);
+    int64_t (*column_number)(void *, int);
+    double (*column_real)(void *, int);
+    const unsigned char *(*column_text)(void *, int);
     int (*run)(void *, const char *, int (*)(void *, int, char **, char **), void *, char **);
     const char *(*error_message)(void *);
 } gis_sqlite_functions;

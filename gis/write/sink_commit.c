@@ -79,7 +79,7 @@ static bool inspect_layer(gis_sink_layer *layer, GDALDatasetH dataset, gis_sink_
     OGRLayerH as_written = dataset ? find_layer(layer, dataset) : NULL;
     *again = false;
     if (!as_written) return leave_unread(layer, result, error);
-    if (!(layer->digests.wanted ? gis_digests_agree(layer, as_written, error)
+    if (!(layer->digests.wanted ? gis_digests_agree(layer, dataset, as_written, error)
                                 : gis_sink_compare(layer, as_written, &seen, error)) ||
         !gis_sink_check_companions(layer, as_written, error))
         return false;
@@ -149,7 +149,7 @@ static bool inspect_database(gis_sink *sink, gis_sink_result *result, gis_error 
 {
     for (size_t i = 0; i < sink->n_layers; i++) {
         gis_sink_find_losses(sink->layers[i], sink->layers[i]->layer);
-        if (!gis_digests_agree(sink->layers[i], sink->layers[i]->layer, error)) return false;
+        if (!gis_digests_agree(sink->layers[i], NULL, sink->layers[i]->layer, error)) return false;
     }
     if (!sink->format.keeps_doubles) {
         result->exact = false;

@@ -5,7 +5,7 @@
  * when it is read, and both lists are sorted and compared. No header's count is believed, no copy of the geometries is
  * kept. The numbers are no secret and meet no adversary: that a damaged feature has those of another one is as likely
  * as 2^-64 for each pair. */
-#include "write/sink_internal.h"
+#include "write/digest.h"
 
 #include "base/array.h"
 #include "base/interrupt.h"
@@ -17,40 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct gis_digest {
-    uint64_t place, values;
-};
-
 /* ---- Numbers of a feature ---------------------------------------------------------------------------------------- */
-
-enum { START = 1, NOTHING, POLYGON, NO_VALUE, TEXT };
-
-static uint64_t mix(uint64_t so_far, uint64_t word)
-{
-    uint64_t h = (so_far ^ word) * 0x9E3779B97F4A7C15u; /* odd, its bits without pattern: 2^64 over the golden ratio */
-    return h ^ h >> 29;
-}
-
-/* -0 counts as 0, as some formats keep it; so do all NaNs as one. */
-static uint64_t mix_double(uint64_t so_far, double x)
-{
-    uint64_t word;
-    x = isnan(x) ? NAN : x + 0.0;
-    memcpy(&word, &x, sizeof word);
-    return mix(so_far, word);
-}
-
-static uint64_t mix_bytes(uint64_t so_far, const char *bytes, size_t n)
-{
-    for (; n >= 8; bytes += 8, n -= 8) {
-        uint64_t word;
-        memcpy(&word, bytes, 8);
-        so_far = mix(so_far, word);
-    }
-    uint64_t rest = 0;
-    memcpy(&rest, bytes, n);
-    return mix(mix(so_far, rest), n);
-}
 
 static bool mix_points(OGRGeometryH geometry, gis_digests *all, uint64_t *so_far)
 {
@@ -63,8 +30,8 @@ static bool mix_points(OGRGeometryH geometry, gis_digests *all, uint64_t *so_far
     }
     int stride = 2 * sizeof(double);
     if (n) OGR_G_GetPoints(geometry, all->xy, stride, all->xy + 1, stride, NULL, 0);
-    *so_far = mix(*so_far, n);
-    for (size_t i = 0; i < 2 * n; i++) *so_far = mix_double(*so_far, all->xy[i]);
+    *so_far = gis_mix(*so_far, n);
+    for (size_t i = 0; i < 2 * n; i++) *so_far = gis_mix_double(*so_far, all->xy[i]);
     return true;
 }
 
@@ -73,44 +40,36 @@ static bool mix_points(OGRGeometryH geometry, gis_digests *all, uint64_t *so_far
 static bool mix_geometry(OGRGeometryH geometry, gis_digests *all, uint64_t *so_far)
 {
     if (!geometry || OGR_G_IsEmpty(geometry)) {
-        *so_far = mix(*so_far, NOTHING);
+        *so_far = gis_mix(*so_far, GIS_MIX_NOTHING);
         return true;
     }
     OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(geometry));
-    if (type == wkbPolygon || type == wkbCurvePolygon) *so_far = mix(*so_far, POLYGON);
+    if (type == wkbPolygon || type == wkbCurvePolygon) *so_far = gis_mix(*so_far, GIS_MIX_POLYGON);
     int parts = OGR_G_GetGeometryCount(geometry);
     for (int i = 0; i < parts; i++)
         if (!mix_geometry(OGR_G_GetGeometryRef(geometry, i), all, so_far)) return false;
     return parts > 0 || mix_points(geometry, all, so_far);
 }
 
-static uint64_t mix_text(uint64_t so_far, const char *text, int width)
-{
-    size_t n = strlen(text);
-    if (width > 0 && n > (size_t)width) /* a format may cut it there: width counts signs, and none is under a byte */
-        n = (size_t)width;
-    return mix_bytes(mix(so_far, TEXT), text, n);
-}
-
 static uint64_t mix_value(uint64_t so_far, OGRFeatureH feature, int field, const gis_plain_field *as)
 {
-    if (field < 0 || !OGR_F_IsFieldSetAndNotNull(feature, field)) return mix(so_far, NO_VALUE);
-    if (as->type == OFTString) return mix_text(so_far, OGR_F_GetFieldAsString(feature, field), as->width);
-    if (as->type != OFTReal) return mix(so_far, (uint64_t)OGR_F_GetFieldAsInteger64(feature, field));
+    if (field < 0 || !OGR_F_IsFieldSetAndNotNull(feature, field)) return gis_mix(so_far, GIS_MIX_NO_VALUE);
+    if (as->type == OFTString) return gis_mix_text(so_far, OGR_F_GetFieldAsString(feature, field), as->width);
+    if (as->type != OFTReal) return gis_mix(so_far, (uint64_t)OGR_F_GetFieldAsInteger64(feature, field));
     double x = OGR_F_GetFieldAsDouble(feature, field);
-    return isnan(x) ? mix(so_far, NO_VALUE) : mix_double(so_far, x); /* databases store a NaN as null */
+    return isnan(x) ? gis_mix(so_far, GIS_MIX_NO_VALUE) : gis_mix_double(so_far, x); /* databases store a NaN as null */
 }
 
 static bool digest(gis_digests *all, OGRFeatureH feature, GIntBig fid, bool as_written, gis_digest *out)
 {
-    *out = (gis_digest){START, START};
-    if (all->with_fid) out->place = mix(out->place, (uint64_t)fid);
+    *out = (gis_digest){GIS_MIX_START, GIS_MIX_START};
+    if (all->with_fid) out->place = gis_mix(out->place, (uint64_t)fid);
     for (size_t i = 0; i < all->n_fields; i++)
         out->values =
             mix_value(out->values, feature, as_written ? all->fields[i].read : all->fields[i].sent, &all->fields[i]);
     /* What value stood where is told, too: the values of two features that changed places are not as they were. */
     bool done = mix_geometry(OGR_F_GetGeometryRef(feature), all, &out->place);
-    out->values = mix(out->values, out->place);
+    out->values = gis_mix(out->values, out->place);
     return done;
 }
 
@@ -181,25 +140,15 @@ typedef struct mixing {
 static bool mix_ring(void *user, const unsigned char *points, size_t n, bool last)
 {
     mixing *all = user;
-    if (!all->inside) all->so_far = mix(all->so_far, POLYGON);
+    if (!all->inside) all->so_far = gis_mix(all->so_far, GIS_MIX_POLYGON);
     all->inside = !last;
-    all->so_far = mix(all->so_far, n);
+    all->so_far = gis_mix(all->so_far, n);
     for (size_t k = 0; k < 2 * n; k++) {
         double x;
         memcpy(&x, points + k * sizeof x, sizeof x);
-        all->so_far = mix_double(all->so_far, x);
+        all->so_far = gis_mix_double(all->so_far, x);
     }
     return true;
-}
-
-static uint64_t mix_plain(uint64_t so_far, const gis_value *value, const gis_plain_field *as)
-{
-    switch (value->kind) {
-    case GIS_TEXT: return mix_text(so_far, value->as.text, as->width);
-    case GIS_INTEGER: return mix(so_far, (uint64_t)value->as.integer);
-    case GIS_REAL: return isnan(value->as.real) ? mix(so_far, NO_VALUE) : mix_double(so_far, value->as.real);
-    default: return mix(so_far, NO_VALUE);
-    }
 }
 
 /* As digest(). */
@@ -207,12 +156,12 @@ bool gis_digests_add_plain(gis_digests *all, GIntBig fid, const unsigned char *g
                            gis_error *error)
 {
     if (!all->wanted) return true;
-    mixing place = {all->with_fid ? mix(START, (uint64_t)fid) : START, false};
-    uint64_t so_far = START;
+    mixing place = {all->with_fid ? gis_mix(GIS_MIX_START, (uint64_t)fid) : GIS_MIX_START, false};
+    uint64_t so_far = GIS_MIX_START;
     for (size_t i = 0; i < all->n_fields; i++)
-        so_far = mix_plain(so_far, &values[all->fields[i].sent], &all->fields[i]);
+        so_far = gis_mix_plain(so_far, &values[all->fields[i].sent], &all->fields[i]);
     gis_packed_visit(geometry, mix_ring, &place);
-    const gis_digest one = {place.so_far, mix(so_far, place.so_far)};
+    const gis_digest one = {place.so_far, gis_mix(so_far, place.so_far)};
     return append(&all->sent, &all->n, &all->capacity, one) || gis_no_memory(error);
 }
 
@@ -309,12 +258,13 @@ static bool read_back(gis_sink_layer *layer, OGRLayerH as_written, gis_digest **
     return done;
 }
 
-bool gis_digests_agree(gis_sink_layer *layer, OGRLayerH as_written, gis_error *error)
+bool gis_digests_agree(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written, gis_error *error)
 {
     gis_digest *read = NULL;
     layer->digests.values_comparable = true;
     find_fields(&layer->digests, as_written);
-    bool done = read_back(layer, as_written, &read, error) && (layer->written == 0 || compare(layer, read, error));
+    bool done = (gis_read_rows(layer, dataset, as_written, &read) || read_back(layer, as_written, &read, error)) &&
+                (layer->written == 0 || compare(layer, read, error));
     free(read);
     return done;
 }

@@ -8,6 +8,7 @@
  *   sink_losses.c   what the format dropped of them
  *   sink_write.c    features
  *   sink_rows.c     the same past GDAL, where all is plain
+ *   sink_read_rows.c rows of a GeoPackage read back past GDAL, where all is plain
  *   sink_digest.c   what reads back beside what was sent, in formats that keep every value
  *   sink_compare.c  the same where coordinates or rings may change
  *   sink_rewrite.c  a layer written again, with more digits
@@ -200,8 +201,9 @@ bool gis_digests_add(gis_digests *all, OGRFeatureH feature, GIntBig fid, gis_err
 /* The same of a Polygon or MultiPolygon in the plane, as well-known binary, and of values by field of the layer. */
 bool gis_digests_add_plain(gis_digests *all, GIntBig fid, const unsigned char *geometry, const gis_value *values,
                            gis_error *error);
-/* Reads every feature of the written layer, and fails unless all are as they were sent. */
-bool gis_digests_agree(gis_sink_layer *layer, OGRLayerH as_written, gis_error *error);
+/* Reads every feature of the written layer, and fails unless all are as they were sent. dataset: the one that it is in,
+ * opened to be read; NULL: it is the one that was written, in its transaction. */
+bool gis_digests_agree(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written, gis_error *error);
 void gis_digests_clear(gis_digests *all);
 
 /* Writes feature i of the source, moved, if that can be done past GDAL. */

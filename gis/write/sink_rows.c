@@ -10,6 +10,7 @@
 #include "base/array.h"
 #include "read/packed.h"
 #include "sqlite/insert.h"
+#include "write/sql.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -88,42 +89,18 @@ static bool value_is_plain(const gis_value *value, const gis_plain_field *field)
 
 /* ---- Beginning --------------------------------------------------------------------------------------------------- */
 
-static char *append(char *to, const char *more)
-{
-    char *both = CPLMalloc(strlen(to) + strlen(more) + 1);
-    strcpy(both, to);
-    strcat(both, more);
-    CPLFree(to);
-    return both;
-}
-
-/* In quotes, with its own doubled. */
-static char *append_name(char *to, const char *name)
-{
-    char *quoted = CPLMalloc(2 * strlen(name) + 3), *at = quoted;
-    *at++ = '"';
-    for (; *name; name++) {
-        if (*name == '"') *at++ = '"';
-        *at++ = *name;
-    }
-    strcpy(at, "\"");
-    to = append(to, quoted);
-    CPLFree(quoted);
-    return to;
-}
-
 static char *insert_statement(const gis_sink_layer *layer)
 {
     OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer->layer);
     const int n = OGR_FD_GetFieldCount(definition);
-    char *sql = append_name(CPLStrdup("INSERT INTO "), OGR_L_GetName(layer->layer));
-    sql = append_name(append(sql, " ("), OGR_L_GetFIDColumn(layer->layer));
-    sql = append_name(append(sql, ", "), OGR_L_GetGeometryColumn(layer->layer));
+    char *sql = gis_sql_append_name(CPLStrdup("INSERT INTO "), OGR_L_GetName(layer->layer));
+    sql = gis_sql_append_name(gis_sql_append(sql, " ("), OGR_L_GetFIDColumn(layer->layer));
+    sql = gis_sql_append_name(gis_sql_append(sql, ", "), OGR_L_GetGeometryColumn(layer->layer));
     for (int i = 0; i < n; i++)
-        sql = append_name(append(sql, ", "), OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i)));
-    sql = append(sql, ") VALUES (?, ?");
-    for (int i = 0; i < n; i++) sql = append(sql, ", ?");
-    return append(sql, ")");
+        sql = gis_sql_append_name(gis_sql_append(sql, ", "), OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i)));
+    sql = gis_sql_append(sql, ") VALUES (?, ?");
+    for (int i = 0; i < n; i++) sql = gis_sql_append(sql, ", ?");
+    return gis_sql_append(sql, ")");
 }
 
 /* The blob of a feature, unless a trigger waits for rows (GDAL takes those of the index and of the count away), or
@@ -131,14 +108,14 @@ static char *insert_statement(const gis_sink_layer *layer)
 static char *blob_statement(const gis_sink_layer *layer, GIntBig fid)
 {
     char *name = CPLEscapeString(OGR_L_GetName(layer->layer), -1, CPLES_SQL);
-    char *sql = append_name(CPLStrdup("SELECT "), OGR_L_GetGeometryColumn(layer->layer));
-    sql = append_name(append(sql, " FROM "), OGR_L_GetName(layer->layer));
-    sql = append_name(append(sql, " WHERE "), OGR_L_GetFIDColumn(layer->layer));
+    char *sql = gis_sql_append_name(CPLStrdup("SELECT "), OGR_L_GetGeometryColumn(layer->layer));
+    sql = gis_sql_append_name(gis_sql_append(sql, " FROM "), OGR_L_GetName(layer->layer));
+    sql = gis_sql_append_name(gis_sql_append(sql, " WHERE "), OGR_L_GetFIDColumn(layer->layer));
     char *rest = CPLStrdup(CPLSPrintf(" = %" PRId64 " AND NOT EXISTS (SELECT 1 FROM sqlite_master WHERE type = "
                                       "'trigger' AND lower(tbl_name) = lower('%s') AND sql LIKE '%%INSERT ON%%') AND "
                                       "EXISTS (SELECT 1 FROM sqlite_master WHERE name = 'gpkg_ogr_contents')",
                                       (int64_t)fid, name));
-    sql = append(sql, rest);
+    sql = gis_sql_append(sql, rest);
     CPLFree(rest);
     CPLFree(name);
     return sql;

@@ -14,4 +14,8 @@ bool gis_sql_run(GDALDatasetH dataset, const char *sql, const char *what, gis_er
  * none. */
 char *gis_sql_ask(GDALDatasetH dataset, const char *sql);
 
+/* A statement, put together: `to` with more behind it, or with a name in quotes, its own doubled; CPLFree(). */
+char *gis_sql_append(char *to, const char *more);
+char *gis_sql_append_name(char *to, const char *name);
+
 #endif

@@ -1,0 +1,161 @@
+/* sink_read_rows.c: a GeoPackage's layer read back row by row, past GDAL.
+ *
+ * What is asked is whether every row is what was sent: its bytes are looked at where SQLite holds them, without a
+ * feature being made of each. Anything that is not as plain as what is written here mostly is left to GDAL, which then
+ * reads the whole layer: another type of geometry or of a value, a header with extensions, bytes that end too soon, an
+ * error. */
+#include "write/digest.h"
+
+#include "base/array.h"
+#include "sqlite/select.h"
+#include "write/sql.h"
+
+#include <cpl_conv.h>
+#include <stdlib.h>
+
+/* Of a blob: "GP", version, flags, SRS, and as many bytes of a box as the flags say; well-known binary. */
+enum { HEAD = 8, FLAGS = 3, BOX_KINDS = 0x0e, EXTENDED = 0x20, POINT_BYTES = 16 };
+
+/* The machine's order of bytes: doubles can be taken as they stand. */
+#ifdef CPL_LSB
+static const unsigned char order = wkbNDR;
+#else
+static const unsigned char order = wkbXDR;
+#endif
+
+/* What is left of a blob. */
+typedef struct reading {
+    const unsigned char *at, *end;
+    uint64_t so_far;
+} reading;
+
+static bool number(reading *r, uint32_t *n)
+{
+    if (r->end - r->at < (ptrdiff_t)sizeof *n) return false;
+    memcpy(n, r->at, sizeof *n);
+    r->at += sizeof *n;
+    return true;
+}
+
+/* n points, at least one. */
+static bool points(reading *r, size_t n)
+{
+    if (n == 0 || (size_t)(r->end - r->at) / POINT_BYTES < n) return false;
+    r->so_far = gis_mix(r->so_far, n);
+    for (size_t k = 0; k < 2 * n; k++, r->at += sizeof(double)) {
+        double x;
+        memcpy(&x, r->at, sizeof x);
+        r->so_far = gis_mix_double(r->so_far, x);
+    }
+    return true;
+}
+
+static bool ring_or_line(reading *r)
+{
+    uint32_t n;
+    return number(r, &n) && points(r, n);
+}
+
+/* As mix_geometry() of sink_digest.c does it; false if that is not known here, or something is empty. */
+static bool geometry(reading *r, bool part)
+{
+    uint32_t type, n;
+    if (r->at == r->end || *r->at++ != order || !number(r, &type)) return false;
+    if (type == wkbLineString) return ring_or_line(r);
+    if (type == wkbPolygon)
+        r->so_far = gis_mix(r->so_far, GIS_MIX_POLYGON);
+    else if (part || (type != wkbMultiPolygon && type != wkbMultiLineString))
+        return false;
+    bool good = number(r, &n) && n > 0;
+    for (; good && n > 0; n--) good = type == wkbPolygon ? ring_or_line(r) : geometry(r, true);
+    return good;
+}
+
+static bool blob(const unsigned char *bytes, size_t size, uint64_t *so_far)
+{
+    static const size_t box[] = {0, 32, 48, 48, 64};
+    if (size < HEAD || memcmp(bytes, "GP", 2) != 0 || bytes[2] != 0 || bytes[FLAGS] & EXTENDED) return false;
+    const size_t kind = (bytes[FLAGS] & BOX_KINDS) >> 1;
+    if (kind >= sizeof box / sizeof *box || size < HEAD + box[kind]) return false;
+    reading r = {bytes + HEAD + box[kind], bytes + size, *so_far};
+    if (!geometry(&r, false) || r.at != r.end) return false;
+    *so_far = r.so_far;
+    return true;
+}
+
+/* Is it of the type that GDAL would give it in such a field? */
+static bool suits(const gis_value *value, const gis_plain_field *field)
+{
+    switch (value->kind) {
+    case GIS_TEXT: return field->type == OFTString;
+    case GIS_REAL: return field->type == OFTReal;
+    case GIS_INTEGER:
+        return field->type == OFTInteger64 ||
+               (field->type == OFTInteger && value->as.integer >= INT32_MIN && value->as.integer <= INT32_MAX);
+    default: return true;
+    }
+}
+
+/* Columns: the FID, the geometry, the fields. */
+static bool row(const gis_digests *all, void *statement, gis_digest *out)
+{
+    gis_value value;
+    size_t size;
+    bool null;
+    *out = (gis_digest){GIS_MIX_START, GIS_MIX_START};
+    if (!gis_sqlite_select_value(statement, 0, &value) || value.kind != GIS_INTEGER) return false;
+    if (all->with_fid) out->place = gis_mix(out->place, (uint64_t)value.as.integer);
+    for (size_t i = 0; i < all->n_fields; i++) {
+        if (!gis_sqlite_select_value(statement, (int)i + 2, &value) || !suits(&value, &all->fields[i])) return false;
+        out->values = gis_mix_plain(out->values, &value, &all->fields[i]);
+    }
+    const unsigned char *bytes = gis_sqlite_select_bytes(statement, 1, &size, &null);
+    if (null)
+        out->place = gis_mix(out->place, GIS_MIX_NOTHING);
+    else if (!bytes || !blob(bytes, size, &out->place))
+        return false;
+    out->values = gis_mix(out->values, out->place);
+    return true;
+}
+
+static char *select_statement(const gis_digests *all, OGRLayerH layer)
+{
+    char *sql = gis_sql_append_name(CPLStrdup("SELECT "), OGR_L_GetFIDColumn(layer));
+    sql = gis_sql_append_name(gis_sql_append(sql, ", "), OGR_L_GetGeometryColumn(layer));
+    for (size_t i = 0; i < all->n_fields; i++)
+        sql = gis_sql_append_name(gis_sql_append(sql, ", "), all->fields[i].name);
+    return gis_sql_append_name(gis_sql_append(sql, " FROM "), OGR_L_GetName(layer));
+}
+
+static bool may_be_plain(const gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written)
+{
+    const gis_digests *all = &layer->digests;
+    for (size_t i = 0; i < all->n_fields; i++)
+        if (all->fields[i].read < 0) return false;
+    return dataset && layer->sink->format.geopackage && all->wanted && all->values_comparable && all->with_z == 0 &&
+           OGR_L_GetFIDColumn(as_written)[0] && OGR_L_GetGeometryColumn(as_written)[0];
+}
+
+bool gis_read_rows(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written, gis_digest **read)
+{
+    gis_digests *all = &layer->digests;
+    void *database = may_be_plain(layer, dataset, as_written) ? GDALGetInternalHandle(dataset, "SQLITE_HANDLE") : NULL;
+    if (!database) return false;
+    char *sql = select_statement(all, as_written);
+    void *statement = gis_sqlite_select_begin(database, sql);
+    CPLFree(sql);
+    size_t n = 0, capacity = 0;
+    gis_sqlite_next next = GIS_SQLITE_BROKEN;
+    bool done = statement;
+    while (done && (next = gis_sqlite_select_next(statement)) == GIS_SQLITE_HAS_ROW) {
+        gis_digest one;
+        done =
+            !gis_interrupted() && row(all, statement, &one) && gis_array_reserve(read, &capacity, n + 1, sizeof **read);
+        if (done) (*read)[n++] = one;
+    }
+    gis_sqlite_select_end(statement);
+    if (done && next == GIS_SQLITE_AT_END && n == layer->written) return true;
+    free(*read);
+    *read = NULL;
+    return false;
+}
