@@ -7,16 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static gis_value fid_value(GIntBig fid)
-{
-    return fid == OGRNullFID ? (gis_value){.kind = GIS_NULL} : (gis_value){GIS_INTEGER, {.integer = fid}};
-}
-
-gis_value gis_barrier_fid_value(const gis_barrier_feature *barrier) { return fid_value(barrier->fid); }
-
 gis_value gis_fid_value(const gis_layer_input *input, size_t feature)
 {
-    return fid_value(gis_source_fid(input->source, feature));
+    return gis_fid_as_value(gis_source_fid(input->source, feature));
 }
 
 bool gis_id_value(const gis_layer_input *input, size_t i, char **copy, gis_value *value, gis_error *error)
@@ -43,9 +36,37 @@ bool gis_id_value(const gis_layer_input *input, size_t i, char **copy, gis_value
     return true;
 }
 
+static GIntBig input_fid(const void *of, size_t feature)
+{
+    const gis_layer_input *input = of;
+    return gis_source_fid(input->source, feature);
+}
+
+static bool input_id(const void *of, size_t feature, char **copy, gis_value *value, gis_error *error)
+{
+    return gis_id_value(of, feature, copy, value, error);
+}
+
+gis_things gis_things_of(const gis_layer_input *input)
+{
+    return (gis_things){input, input->n, input_fid, input_id, &input->barriers};
+}
+
+const gis_barrier_feature *gis_things_barrier(const gis_things *things, size_t thing)
+{
+    const bool none = thing < things->features || thing == SIZE_MAX;
+    return none ? NULL : &things->barriers->feature[thing - things->features];
+}
+
 const gis_barrier_feature *gis_barrier_of(const gis_layer_input *input, size_t thing)
 {
-    return thing < input->n || thing == SIZE_MAX ? NULL : &input->barriers.feature[thing - input->n];
+    const gis_things things = gis_things_of(input);
+    return gis_things_barrier(&things, thing);
+}
+
+static const char *layer_of(const gis_things *things, const gis_barrier_feature *barrier)
+{
+    return things->barriers->layer[barrier->request];
 }
 
 const char *gis_barrier_layer(const gis_layer_input *input, const gis_barrier_feature *barrier)
@@ -54,23 +75,23 @@ const char *gis_barrier_layer(const gis_layer_input *input, const gis_barrier_fe
 }
 
 /* Things by their numbers, with commas: FIDs, of barriers LAYER:FID. */
-static bool things_value(const gis_layer_input *input, const size_t *thing, size_t n, char **copy, gis_value *value,
+static bool things_value(const gis_things *things, const size_t *thing, size_t n, char **copy, gis_value *value,
                          gis_error *error)
 {
     *value = (gis_value){.kind = GIS_NULL};
     if (n == 0) return true;
     size_t size = n * 22 + 1, length = 0;
     for (size_t k = 0; k < n; k++) {
-        const gis_barrier_feature *barrier = gis_barrier_of(input, thing[k]);
-        if (barrier) size += strlen(gis_barrier_layer(input, barrier)) + 1;
+        const gis_barrier_feature *barrier = gis_things_barrier(things, thing[k]);
+        if (barrier) size += strlen(layer_of(things, barrier)) + 1;
     }
     char *text = malloc(size);
     if (!text) return gis_no_memory(error);
     for (size_t k = 0; k < n; k++) {
-        const gis_barrier_feature *barrier = gis_barrier_of(input, thing[k]);
+        const gis_barrier_feature *barrier = gis_things_barrier(things, thing[k]);
         length += (size_t)snprintf(text + length, size - length, "%s%s%s" CPL_FRMT_GIB, k ? "," : "",
-                                   barrier ? gis_barrier_layer(input, barrier) : "", barrier ? ":" : "",
-                                   barrier ? barrier->fid : gis_source_fid(input->source, thing[k]));
+                                   barrier ? layer_of(things, barrier) : "", barrier ? ":" : "",
+                                   barrier ? barrier->fid : things->fid(things->of, thing[k]));
     }
     free(*copy);
     *copy = text;
@@ -96,18 +117,18 @@ OGRFieldType gis_id_type(const gis_layer_input *input)
     }
 }
 
-bool gis_conflict_values(const gis_layer_input *input, const sunder_conflict *conflict, gis_conflict_texts *scratch,
+bool gis_things_conflict(const gis_things *things, const sunder_conflict *conflict, gis_conflict_texts *scratch,
                          gis_value values[N_CONFLICT_COLUMNS], gis_error *error)
 {
     const char *reason = sunder_reason_string(conflict->reason);
-    const gis_barrier_feature *barrier = gis_barrier_of(input, conflict->b);
+    const gis_barrier_feature *barrier = gis_things_barrier(things, conflict->b);
     const bool alone = conflict->b == SIZE_MAX;
     const gis_value none = {.kind = GIS_NULL};
     values[COLUMN_ID_B] = none;
-    values[COLUMN_FID_A] = gis_fid_value(input, conflict->a);
-    values[COLUMN_FID_B] = barrier || alone ? none : gis_fid_value(input, conflict->b);
-    values[COLUMN_BARRIER] = barrier ? (gis_value){GIS_TEXT, {.text = gis_barrier_layer(input, barrier)}} : none;
-    values[COLUMN_BARR_FID] = barrier ? gis_barrier_fid_value(barrier) : none;
+    values[COLUMN_FID_A] = gis_fid_as_value(things->fid(things->of, conflict->a));
+    values[COLUMN_FID_B] = barrier || alone ? none : gis_fid_as_value(things->fid(things->of, conflict->b));
+    values[COLUMN_BARRIER] = barrier ? (gis_value){GIS_TEXT, {.text = layer_of(things, barrier)}} : none;
+    values[COLUMN_BARR_FID] = barrier ? gis_fid_as_value(barrier->fid) : none;
     values[COLUMN_KIND] = (gis_value){GIS_TEXT, {.text = sunder_conflict_kind_string(conflict->kind)}};
     values[COLUMN_REASON] = *reason ? (gis_value){GIS_TEXT, {.text = reason}} : (gis_value){.kind = GIS_NULL};
     values[COLUMN_DISTANCE] = (gis_value){GIS_REAL, {.real = conflict->distance}};
@@ -116,12 +137,19 @@ bool gis_conflict_values(const gis_layer_input *input, const sunder_conflict *co
     values[COLUMN_REQUIRED] = (gis_value){GIS_REAL, {.real = conflict->required}};
     values[COLUMN_NEED_SHIFT] = length_value(conflict->need_shift);
     values[COLUMN_NEED_GAP] = length_value(conflict->need_gap);
-    return gis_id_value(input, conflict->a, &scratch->id[0], &values[COLUMN_ID_A], error) &&
-           (barrier || alone || gis_id_value(input, conflict->b, &scratch->id[1], &values[COLUMN_ID_B], error)) &&
-           things_value(input, &conflict->need_gone, conflict->need_gone != SIZE_MAX, &scratch->need_gone,
+    return things->id(things->of, conflict->a, &scratch->id[0], &values[COLUMN_ID_A], error) &&
+           (barrier || alone || things->id(things->of, conflict->b, &scratch->id[1], &values[COLUMN_ID_B], error)) &&
+           things_value(things, &conflict->need_gone, conflict->need_gone != SIZE_MAX, &scratch->need_gone,
                         &values[COLUMN_NEED_GONE], error) &&
-           things_value(input, conflict->blocked_by, conflict->n_blocked_by, &scratch->blocked_by,
+           things_value(things, conflict->blocked_by, conflict->n_blocked_by, &scratch->blocked_by,
                         &values[COLUMN_BLOCKED_BY], error);
+}
+
+bool gis_conflict_values(const gis_layer_input *input, const sunder_conflict *conflict, gis_conflict_texts *scratch,
+                         gis_value values[N_CONFLICT_COLUMNS], gis_error *error)
+{
+    const gis_things things = gis_things_of(input);
+    return gis_things_conflict(&things, conflict, scratch, values, error);
 }
 
 void gis_conflict_texts_clear(gis_conflict_texts *scratch)
@@ -133,10 +161,9 @@ void gis_conflict_texts_clear(gis_conflict_texts *scratch)
     *scratch = (gis_conflict_texts){0};
 }
 
-bool gis_conflicts_begin(gis_sink *sink, const gis_layer_input *input, const char *suffix, gis_sink_layer **layer,
-                         gis_error *error)
+bool gis_conflicts_begin(gis_sink *sink, const char *suffix, OGRFieldType id, OGRSpatialReferenceH crs,
+                         gis_sink_layer **layer, gis_error *error)
 {
-    OGRFieldType id = gis_id_type(input);
     const gis_field fields[N_CONFLICT_COLUMNS] = {
         [COLUMN_FID_A] = {"fid_a", OFTInteger64, 0},
         [COLUMN_ID_A] = {"id_a", id, 0},
@@ -157,18 +184,11 @@ bool gis_conflicts_begin(gis_sink *sink, const gis_layer_input *input, const cha
     };
     const gis_sink_layer_request request = {.suffix = suffix,
                                             .type = wkbLineString,
-                                            .crs = gis_source_crs(input->source),
+                                            .crs = crs,
                                             .fields = fields,
                                             .n_fields = N_CONFLICT_COLUMNS,
                                             .style = GIS_STYLE_CONFLICTS};
     return gis_sink_add(sink, &request, layer, error);
-}
-
-bool gis_write_conflict_row(gis_sink_layer *layer, const gis_value *values, const double from[2], const double to[2],
-                            gis_error *error)
-{
-    OGRGeometryH line = gis_geometry_line(from, to);
-    return line ? gis_sink_write(layer, NULL, line, values, error) : gis_no_memory(error);
 }
 
 bool gis_write_report_conflicts(gis_sink_layer *layer, const gis_layer_input *input, const sunder_report *report,
@@ -181,7 +201,7 @@ bool gis_write_report_conflicts(gis_sink_layer *layer, const gis_layer_input *in
     for (size_t k = 0; ok && k < n; k++) {
         gis_value values[N_CONFLICT_COLUMNS];
         ok = gis_conflict_values(input, &conflicts[k], &scratch, values, error) &&
-             gis_write_conflict_row(layer, values, conflicts[k].from, conflicts[k].to, error);
+             gis_line_row(layer, values, conflicts[k].from, conflicts[k].to, error);
     }
     gis_conflict_texts_clear(&scratch);
     return ok;
@@ -190,6 +210,6 @@ bool gis_write_report_conflicts(gis_sink_layer *layer, const gis_layer_input *in
 bool gis_write_conflicts(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error)
 {
     gis_sink_layer *layer;
-    return gis_conflicts_begin(sink, input, "conflicts", &layer, error) &&
+    return gis_conflicts_begin(sink, "conflicts", gis_id_type(input), gis_source_crs(input->source), &layer, error) &&
            gis_write_report_conflicts(layer, input, report, error);
 }

@@ -221,8 +221,7 @@ bool gis_write_moves(gis_sink_layer *layer, const gis_moves *moves, gis_error *e
     for (size_t k = 0; ok && k < gis_moves_rows(moves); k++) {
         gis_value values[N_CONFLICT_COLUMNS];
         double from[2], to[2];
-        ok = gis_moves_row(moves, k, &scratch, values, from, to, error) &&
-             gis_write_conflict_row(layer, values, from, to, error);
+        ok = gis_moves_row(moves, k, &scratch, values, from, to, error) && gis_line_row(layer, values, from, to, error);
     }
     gis_conflict_texts_clear(&scratch);
     return ok;

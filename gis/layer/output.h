@@ -1,9 +1,9 @@
-/* output.h: the layers that separate and check write. */
+/* output.h: the layers that separate and check write, of a report. Their rows are rows.h's. */
 #ifndef GIS_LAYER_OUTPUT_H
 #define GIS_LAYER_OUTPUT_H
 
 #include "layer/input.h"
-#include "write/sink.h"
+#include "layer/rows.h"
 
 /* LAYER: every feature, moved, with sunder_dx, sunder_dy, sunder_len, sunder_st, sunder_blk. */
 bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
@@ -14,13 +14,9 @@ bool gis_write_displacement(gis_sink *sink, const gis_layer_input *input, const 
 bool gis_arrow_start(const gis_layer_input *input, size_t i, double from[2], gis_error *error);
 /* LAYER_conflicts. */
 bool gis_write_conflicts(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
-/* The parts of that: the layer is called MAIN_suffix, or MAIN if suffix is "". */
-bool gis_conflicts_begin(gis_sink *sink, const gis_layer_input *input, const char *suffix, gis_sink_layer **layer,
-                         gis_error *error);
+/* Its rows alone. */
 bool gis_write_report_conflicts(gis_sink_layer *layer, const gis_layer_input *input, const sunder_report *report,
                                 gis_error *error);
-bool gis_write_conflict_row(gis_sink_layer *layer, const gis_value *values, const double from[2], const double to[2],
-                            gis_error *error);
 /* LAYER_pushes: a line for each pair that presses on each other. */
 bool gis_write_pushes(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
 /* LAYER_symbols: the symbols of points where they stand now. */
@@ -31,41 +27,14 @@ gis_value gis_fid_value(const gis_layer_input *input, size_t feature);
 /* Of a thing by its number in the core's report the barrier that it is; NULL: a feature, or SIZE_MAX, nothing. */
 const gis_barrier_feature *gis_barrier_of(const gis_layer_input *input, size_t thing);
 const char *gis_barrier_layer(const gis_layer_input *input, const gis_barrier_feature *barrier);
-gis_value gis_barrier_fid_value(const gis_barrier_feature *barrier);
 /* The type of the id columns, and the user's own key in it; null without --id-field. *copy keeps a text (start with
  * NULL, free at the end). */
 OGRFieldType gis_id_type(const gis_layer_input *input);
 bool gis_id_value(const gis_layer_input *input, size_t feature, char **copy, gis_value *value, gis_error *error);
 
-/* The columns of LAYER_conflicts, as the values of one conflict. Texts in them stay valid until the next call with the
- * same scratch, which starts zeroed and is cleared at the end. */
-enum {
-    COLUMN_FID_A,
-    COLUMN_ID_A,
-    COLUMN_FID_B,
-    COLUMN_ID_B,
-    COLUMN_BARRIER,
-    COLUMN_BARR_FID,
-    COLUMN_KIND,
-    COLUMN_REASON,
-    COLUMN_DISTANCE,
-    COLUMN_BEFORE,
-    COLUMN_DEPTH,
-    COLUMN_REQUIRED,
-    COLUMN_BLOCKED_BY,
-    COLUMN_NEED_SHIFT,
-    COLUMN_NEED_GAP,
-    COLUMN_NEED_GONE,
-    N_CONFLICT_COLUMNS
-};
-
-typedef struct gis_conflict_texts {
-    char *id[2]; /* OGR lends a text only until the next one is asked for: these are copies */
-    char *blocked_by, *need_gone;
-} gis_conflict_texts;
-
+/* The input's features and barriers, for rows about them. */
+gis_things gis_things_of(const gis_layer_input *input);
 bool gis_conflict_values(const gis_layer_input *input, const sunder_conflict *conflict, gis_conflict_texts *scratch,
                          gis_value values[N_CONFLICT_COLUMNS], gis_error *error);
-void gis_conflict_texts_clear(gis_conflict_texts *scratch);
 
 #endif

@@ -281,6 +281,18 @@ bool gis_source_next(gis_source *source, bool *any, gis_error *error)
     return *any || ends_as_known(source, error);
 }
 
+bool gis_source_again(gis_source *source, bool *any, gis_error *error)
+{
+    drop_features(source);
+    source->first = 0;
+    source->ended = false;
+    source->fids_rising = true;
+    source->fids_missing = false;
+    if (!source->facts_given) source->facts = (gis_source_facts){0};
+    OGR_L_ResetReading(source->layer);
+    return gis_source_next(source, any, error);
+}
+
 /* ---- FIDs -------------------------------------------------------------------------------------------------------- */
 
 static int compare_fids(const void *a, const void *b)

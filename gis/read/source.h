@@ -65,6 +65,8 @@ void gis_source_close(gis_source *source);
 /* Reads the next batch in place of the one before it, of which nothing stays; *any = false: there is none, and that
  * batch is empty. */
 bool gis_source_next(gis_source *source, bool *any, gis_error *error);
+/* Begins anew, with the first batch. */
+bool gis_source_again(gis_source *source, bool *any, gis_error *error);
 /* The place of the batch's first feature among all, from 0. */
 size_t gis_source_first(const gis_source *source);
 /* What is known of the whole layer. Of a source that is read by batches: once they were all read, and no other can be

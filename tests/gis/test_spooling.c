@@ -333,6 +333,13 @@ static void test_batches(void **state)
                 assert_true(gis_source_next(source, &any, &error));
             }
             assert_int_equal(seen, FEATURES);
+            bool any = false;
+            if (again) {
+                assert_true(gis_source_again(source, &any, &error));
+                assert_true(any && gis_source_first(source) == 0);
+                assert_int_equal(gis_source_fid(source, 0), gis_source_fid(whole, 0));
+                while (any) assert_true(gis_source_next(source, &any, &error));
+            }
             assert_true(gis_source_find_facts(source, &facts, &error));
             assert_true(facts.fids_unique && facts.multipolygons && facts.features == FEATURES);
             gis_source_close(source);

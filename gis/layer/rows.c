@@ -1,0 +1,110 @@
+/* rows.c: the rows of the layers of separate but conflicts.c's and pushes.c's. What is written of a feature is what the
+ * core says of it: its move and the place that this leads to are the doubles that were proved. */
+#include "layer/rows.h"
+
+#include "base/interrupt.h"
+
+#include <math.h>
+
+gis_value gis_fid_as_value(GIntBig fid)
+{
+    return fid == OGRNullFID ? (gis_value){.kind = GIS_NULL} : (gis_value){GIS_INTEGER, {.integer = fid}};
+}
+
+gis_value gis_block_as_value(bool fids_unique, int64_t first, GIntBig fid)
+{
+    if (first < 0) return (gis_value){.kind = GIS_NULL};
+    return fids_unique ? gis_fid_as_value(fid) : (gis_value){GIS_INTEGER, {.integer = first}};
+}
+
+bool gis_main_begin(gis_sink *sink, gis_sink_layer **layer, gis_error *error)
+{
+    static const gis_field fields[] = {{"sunder_dx", OFTReal, 0},
+                                       {"sunder_dy", OFTReal, 0},
+                                       {"sunder_len", OFTReal, 0},
+                                       {"sunder_st", OFTString, 7},
+                                       {"sunder_blk", OFTInteger64, 0}};
+    const gis_sink_layer_request request = {.suffix = "",
+                                            .like_source = true,
+                                            .as_source = true,
+                                            .fields = fields,
+                                            .n_fields = sizeof fields / sizeof *fields,
+                                            .style = GIS_STYLE_STATUS};
+    return gis_sink_add(sink, &request, layer, error);
+}
+
+bool gis_main_row(gis_sink_layer *layer, size_t i, const gis_feature_row *row, gis_error *error)
+{
+    const gis_value values[] = {
+        {GIS_REAL, {.real = row->dx}},
+        {GIS_REAL, {.real = row->dy}},
+        {GIS_REAL, {.real = hypot(row->dx, row->dy)}},
+        {GIS_TEXT, {.text = sunder_feature_status_string(row->status)}},
+        row->block,
+    };
+    return gis_go_on(error) && gis_sink_write_source(layer, i, row->dx, row->dy, values, error);
+}
+
+bool gis_displacement_begin(gis_sink *sink, OGRFieldType id, OGRSpatialReferenceH crs, gis_sink_layer **layer,
+                            gis_error *error)
+{
+    const gis_field fields[] = {{"fid", OFTInteger64, 0}, {"id", id, 0},       {"dx", OFTReal, 0},
+                                {"dy", OFTReal, 0},       {"len", OFTReal, 0}, {"block", OFTInteger64, 0}};
+    const gis_sink_layer_request request = {.suffix = "displacement",
+                                            .type = wkbLineString,
+                                            .crs = crs,
+                                            .fields = fields,
+                                            .n_fields = sizeof fields / sizeof *fields,
+                                            .style = GIS_STYLE_DISPLACEMENT};
+    return gis_sink_add(sink, &request, layer, error);
+}
+
+bool gis_displacement_row(gis_sink_layer *layer, const gis_arrow_row *row, gis_error *error)
+{
+    const gis_value values[] = {row->fid,
+                                row->id,
+                                {GIS_REAL, {.real = row->move[0]}},
+                                {GIS_REAL, {.real = row->move[1]}},
+                                {GIS_REAL, {.real = hypot(row->move[0], row->move[1])}},
+                                row->block};
+    const double to[2] = {row->from[0] + row->move[0], row->from[1] + row->move[1]};
+    return gis_line_row(layer, values, row->from, to, error);
+}
+
+bool gis_line_row(gis_sink_layer *layer, const gis_value *values, const double from[2], const double to[2],
+                  gis_error *error)
+{
+    OGRGeometryH line = gis_geometry_line(from, to);
+    return line ? gis_sink_write(layer, NULL, line, values, error) : gis_no_memory(error);
+}
+
+bool gis_symbols_begin(gis_sink *sink, bool multi, OGRSpatialReferenceH crs, gis_sink_layer **layer, gis_error *error)
+{
+    const gis_sink_layer_request request = {.suffix = "symbols",
+                                            .like_source = true,
+                                            .type = multi ? wkbMultiPolygon : wkbPolygon,
+                                            .crs = crs,
+                                            .style = GIS_STYLE_SYMBOLS};
+    return gis_sink_add(sink, &request, layer, error);
+}
+
+static OGRGeometryH symbol_geometry(const sunder_shape *shape, double dx, double dy, bool multi, gis_error *error)
+{
+    gis_polygons all = {0};
+    bool ok = gis_polygons_append_shape(&all, shape, dx, dy, error);
+    OGRGeometryH geometry = ok ? gis_geometry_polygons(&all, multi) : NULL;
+    if (ok && !geometry) gis_no_memory(error);
+    gis_polygons_clear(&all);
+    return geometry;
+}
+
+bool gis_symbols_row(gis_sink_layer *layer, OGRFeatureH feature, const sunder_shape *shape, double dx, double dy,
+                     bool multi, gis_error *error)
+{
+    OGRGeometryH symbol = NULL;
+    if (shape && !sunder_shape_is_empty(shape)) {
+        symbol = symbol_geometry(shape, dx, dy, multi, error);
+        if (!symbol) return false;
+    }
+    return gis_sink_write(layer, feature, symbol, NULL, error);
+}
