@@ -36,26 +36,16 @@ void sunder_i_extent_add(sunder_i_extent *extent, const double *xy, size_t n)
     }
 }
 
-/* The exponent e of v = m 2^e, 1/2 <= |m| < 1, as frexp() has it: without a call where v is neither zero nor tiny. */
+/* The exponent e of v = m 2^e, 1/2 <= |m| < 1, as frexp() has it, without a call where v is a normal double. */
 static inline int exponent_of(double v)
 {
     uint64_t b;
     memcpy(&b, &v, sizeof b);
     const int field = (int)(b >> 52 & 0x7ff);
-    if (field) return field - 1022;
+    if (field && field < 0x7ff) return field - 1022;
     int e;
     frexp(v, &e);
     return e;
-}
-
-/* 2^e, likewise. */
-static inline double power_of_two(int e)
-{
-    if (e < -1022 || e > 1023) return ldexp(1, e);
-    const uint64_t b = (uint64_t)(e + 1023) << 52;
-    double v;
-    memcpy(&v, &b, sizeof v);
-    return v;
 }
 
 double sunder_i_lattice_origin(double low, double high, int bit)
@@ -69,8 +59,8 @@ double sunder_i_lattice_origin(double low, double high, int bit)
     if (keep <= 0) return 0;
     if (e - keep < bit) keep = e - bit;
     if (keep <= 0) return 0;
-    const double bits =
-        fabs(middle) > 0x1p-900 && fabs(middle) < 0x1p900 ? middle * power_of_two(keep - e) : ldexp(middle, keep - e);
+    const double bits = fabs(middle) > 0x1p-900 && fabs(middle) < 0x1p900 ? middle * sunder_i_power_of_two(keep - e)
+                                                                          : ldexp(middle, keep - e);
     return ldexp((double)(int64_t)bits, e - keep); /* truncated: below 2^20 */
 }
 
@@ -92,7 +82,7 @@ void sunder_i_lattice_init(sunder_i_lattice *lattice, const sunder_i_extent *ext
         if (extents[i].any && extents[i].low_bit < bit) bit = extents[i].low_bit;
     if (bit == INT_MAX) bit = 0;
     lattice->exponent = bit;
-    lattice->scale = bit > -1000 && bit < 1000 ? power_of_two(-bit) : 0;
+    lattice->scale = bit > -1000 && bit < 1000 ? sunder_i_power_of_two(-bit) : 0;
     int most = 0;
     for (size_t i = 0; i < n; i++) {
         origins[i][0] = origins[i][1] = 0;

@@ -23,6 +23,9 @@
 #include "number/ratio.h"
 #include "sunder.h"
 
+#include <math.h>
+#include <string.h>
+
 #define SUNDER_I_NARROW_BITS 60 /* |coordinate| and |sum of two operands' coordinates| < 2^60 on a narrow lattice */
 #define SUNDER_I_PLAIN_BITS 61  /* |plain number| < 2^61: differences of such coordinates are plain too */
 
@@ -66,6 +69,15 @@ typedef struct sunder_i_extent {
 void sunder_i_extent_add(sunder_i_extent *extent, const double *xy, size_t n);
 /* The exponent of the lowest set bit of v (finite); INT_MAX for zero. */
 int sunder_i_low_bit(double v);
+/* ldexp(1, e), without a call where that is a normal double. */
+static inline double sunder_i_power_of_two(long e)
+{
+    if (e < -1022 || e > 1023) return ldexp(1, e < -2000 ? -2000 : e > 2000 ? 2000 : (int)e);
+    const uint64_t bits = (uint64_t)(e + 1023) << 52;
+    double v;
+    memcpy(&v, &bits, sizeof v);
+    return v;
+}
 
 /* The origin for coordinates in [low, high]: a double with at most 20 significant bits near the middle, a multiple of
  * the unit 2^bit, or zero where the range reaches down to that scale anyway. */

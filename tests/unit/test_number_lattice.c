@@ -25,6 +25,13 @@ static void test_low_bit(void **state)
     assert_int_equal(sunder_i_low_bit(0x1p1023), 1023);
 }
 
+static void test_power_of_two(void **state)
+{
+    (void)state;
+    static const int e[] = {0, 1, -1, 52, 971, 1023, 1024, 5000, -1022, -1023, -1074, -1075, -5000};
+    for (size_t i = 0; i < sizeof e / sizeof *e; i++) assert_true(sunder_i_power_of_two(e[i]) == ldexp(1, e[i]));
+}
+
 static void test_extent(void **state)
 {
     (void)state;
@@ -78,6 +85,11 @@ static void check_lattice(const double *p, size_t n, const double *q, size_t m, 
             assert_true(isfinite(sunder_i_approx(&l, v)));
             largest = fmax(largest, fabs(sunder_i_approx(&l, v)));
         }
+        sunder_i_point at[8];
+        assert_true(n <= 8 && m <= 8);
+        sunder_i_lattice_points(&l, xy, set ? m : n, origin[set], at);
+        for (size_t i = 0; i < 2 * (set ? m : n); i++)
+            check_value(&l, i & 1 ? at[i / 2].y : at[i / 2].x, origin[set][i & 1], xy[i]);
     }
     /* The approximation against the exact number, in ulps of the largest magnitude. */
     mpq_t x, y;
@@ -204,8 +216,9 @@ static void test_out_of_memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_low_bit),    cmocka_unit_test(test_extent),
-                                       cmocka_unit_test(test_values),     cmocka_unit_test(test_random_values),
-                                       cmocka_unit_test(test_arithmetic), cmocka_unit_test(test_out_of_memory)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_low_bit),       cmocka_unit_test(test_power_of_two),
+                                       cmocka_unit_test(test_extent),        cmocka_unit_test(test_values),
+                                       cmocka_unit_test(test_random_values), cmocka_unit_test(test_arithmetic),
+                                       cmocka_unit_test(test_out_of_memory)};
     return cmocka_run_group_tests_name("number/lattice", tests, NULL, NULL);
 }

@@ -160,6 +160,25 @@ static void test_cleaning(void **state)
     sunder_shape_free(s);
 }
 
+/* The extent is that of the corners, whether a vertex went or none did. */
+static void test_extent(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *wkt;
+        int low_bit;
+    } cases[] = {{"POLYGON((0 0,8 0,8 8,0 8,0 0))", 3},
+                 {"POLYGON((0 0,8 0,8 8,0 8,0 0),(2 2,2 4.5,4 4,2 2))", -1},
+                 {"POLYGON((0 0,4.5 0,8 0,8 8,0 8,0 0))", 3},
+                 {"POLYGON((0 0,8 0,8 0,8 8,0 8,0 4.25,0 0))", 3}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        sunder_shape *s = sound(cases[i].wkt);
+        assert_int_equal(s->low_bit, cases[i].low_bit);
+        assert_true(s->box[0] == 0 && s->box[1] == 0 && s->box[2] == 8 && s->box[3] == 8);
+        sunder_shape_free(s);
+    }
+}
+
 static void test_touching(void **state)
 {
     (void)state;
@@ -483,10 +502,10 @@ static void test_translate(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refusals),    cmocka_unit_test(test_empty_rings), cmocka_unit_test(test_not_finite),
-        cmocka_unit_test(test_cleaning),    cmocka_unit_test(test_touching),    cmocka_unit_test(test_repairs),
-        cmocka_unit_test(test_empty),       cmocka_unit_test(test_disc),        cmocka_unit_test(test_rectangle),
-        cmocka_unit_test(test_check_finds), cmocka_unit_test(test_few_corners), cmocka_unit_test(test_reflect),
-        cmocka_unit_test(test_translate)};
+        cmocka_unit_test(test_refusals),  cmocka_unit_test(test_empty_rings), cmocka_unit_test(test_not_finite),
+        cmocka_unit_test(test_cleaning),  cmocka_unit_test(test_touching),    cmocka_unit_test(test_extent),
+        cmocka_unit_test(test_repairs),   cmocka_unit_test(test_empty),       cmocka_unit_test(test_disc),
+        cmocka_unit_test(test_rectangle), cmocka_unit_test(test_check_finds), cmocka_unit_test(test_few_corners),
+        cmocka_unit_test(test_reflect),   cmocka_unit_test(test_translate)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

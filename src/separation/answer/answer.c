@@ -43,7 +43,7 @@ static bool quick_ratio(sunder_i_i128 num, sunder_i_i128 den, long exponent, dou
 {
     const sunder_i_i128 most = (sunder_i_i128)1 << 53;
     if (num > most || num < -most || den > most || exponent < -800 || exponent > 800) return false;
-    *out = ldexp((double)(int64_t)num / (double)(int64_t)den, (int)exponent);
+    *out = (double)(int64_t)num / (double)(int64_t)den * sunder_i_power_of_two(exponent);
     return true; /* the quotient lies between 2^-53 and 2^53: scaling is exact */
 }
 
@@ -66,8 +66,9 @@ static bool quick_root(sunder_i_u128 n, sunder_i_i128 w, long exponent, double *
     const long double half_ulp = (long double)(nextafter(d, INFINITY) - d) / 2;
     const long double half_below = (long double)(d - nextafter(d, 0)) / 2;
     if (off > half_ulp - doubt || off < doubt - half_below) return false;
-    *nearest = ldexp(d, (int)exponent);
-    *down = ldexp(off > doubt ? d : nextafter(d, 0), (int)exponent);
+    /* Roots are above 2^-64 or zero and below 2^64: scaling is exact. */
+    *nearest = d * sunder_i_power_of_two(exponent);
+    *down = (off > doubt ? d : nextafter(d, 0)) * sunder_i_power_of_two(exponent);
     return true;
 }
 
@@ -138,9 +139,10 @@ bool sunder_i_answer_exact(sunder_i_operands *g, const sunder_i_exact_translatio
         /* A product with one rounding, against an integer that a double holds. */
         const sunder_i_i128 most = (sunder_i_i128)1 << 53;
         const double w = (double)(int64_t)v->w;
-        if (v->w < most && v->x < most && v->x > -most && v->y < most && v->y > -most)
-            return fma(ldexp(dx, (int)-l->exponent), w, -(double)(int64_t)v->x) == 0 &&
-                   fma(ldexp(dy, (int)-l->exponent), w, -(double)(int64_t)v->y) == 0;
+        if (v->w < most && v->x < most && v->x > -most && v->y < most && v->y > -most) {
+            const double scale = sunder_i_power_of_two(-l->exponent);
+            return fma(dx * scale, w, -(double)(int64_t)v->x) == 0 && fma(dy * scale, w, -(double)(int64_t)v->y) == 0;
+        }
     }
     const sunder_i_rational_point big = sunder_i_exact_translation_point(g, v);
     const double d[2] = {dx, dy};

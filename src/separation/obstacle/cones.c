@@ -15,7 +15,7 @@
  * by more asks them all. */
 #define TURN_SLACK 0x1p-20
 
-bool sunder_i_cone_of(const sunder_i_operands *g, int side, uint32_t v, sunder_i_cone *out)
+static inline bool cone_of(const sunder_i_operands *g, int side, uint32_t v, sunder_i_cone *out)
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side], *a = xy + 2 * s->prev[v], *b = xy + 2 * v, *d = xy + 2 * s->next[v];
@@ -25,6 +25,11 @@ bool sunder_i_cone_of(const sunder_i_operands *g, int side, uint32_t v, sunder_i
     if (in_x * out_y - in_y * out_x <= -bound && s->next[v] != v) return false;
     *out = (sunder_i_cone){b[0], b[1], in_x, in_y, out_x, out_y};
     return true;
+}
+
+bool sunder_i_cone_of(const sunder_i_operands *g, int side, uint32_t vertex, sunder_i_cone *out)
+{
+    return cone_of(g, side, vertex, out);
 }
 
 static bool make_room(sunder_i_operands *g, uint32_t n, sunder_i_cones *c)
@@ -111,7 +116,7 @@ bool sunder_i_cones_find(sunder_i_operands *g, int side, sunder_i_cones *c)
     for (uint32_t v = 0; v < s->vertices; v++) {
         if (!sunder_i_step()) return false;
         sunder_i_cone at;
-        if (!sunder_i_cone_of(g, side, v, &at)) continue;
+        if (!cone_of(g, side, v, &at)) continue;
         const uint32_t k = c->n++;
         c->vertex[k] = v;
         c->x[k] = at.x;

@@ -29,7 +29,8 @@ void sunder_i_operands_fill_boxes(sunder_i_operands *g, int side)
         sunder_i_box_join(all, box);
         g->turned[side][i].n = 0;
     }
-    for (int k = 0; k < 4; k++) g->magnitude = fmax(g->magnitude, fabs(all[k]));
+    for (int k = 0; k < 4; k++)
+        if (fabs(all[k]) > g->magnitude) g->magnitude = fabs(all[k]);
 }
 
 static void fill_doubles(sunder_i_operands *g, int side)
@@ -111,11 +112,12 @@ static bool plain_unit(const sunder_shape *p, const sunder_shape *q, const sunde
     hold(u, o->extra, o->extra_n, &added);
     if (o->tp) hold(u, o->tp, 2, &added);
     if (o->tq) hold(u, o->tq, 2, &added);
-    if (u->bit <= -900 || u->bit >= 900 || most >= ldexp(1, u->bit + 62) || added >= ldexp(1, u->bit + 58))
+    if (u->bit <= -900 || u->bit >= 900 || most >= sunder_i_power_of_two(u->bit + 62) ||
+        added >= sunder_i_power_of_two(u->bit + 58))
         return false;
-    u->scale = ldexp(1, -u->bit);
-    u->back = ldexp(1, u->bit);
-    const bool shorter = fmax(most, added) < ldexp(1, u->bit + 53);
+    u->scale = sunder_i_power_of_two(-u->bit);
+    u->back = sunder_i_power_of_two(u->bit);
+    const bool shorter = fmax(most, added) < sunder_i_power_of_two(u->bit + 53);
     for (int k = 0; k < 2; k++) {
         u->shift[0][k] = o->tp ? o->tp[k] * u->scale : 0;
         u->shift[1][k] = o->tq ? o->tq[k] * u->scale : 0;
@@ -236,7 +238,7 @@ sunder_status sunder_i_operands_init(sunder_i_operands *g, const sunder_shape *p
     /* Doubles of differences are the nearest ones, but for what a scaled lattice loses below all doubles. */
     g->rough = l->approx_shift == 0 ? 0 : 0x1p-1000;
     g->coarse = l->narrow && g->magnitude < 0x1p52 ? 0 : g->error;
-    g->unit = ldexp(1, (int)(l->exponent + l->approx_shift));
+    g->unit = sunder_i_power_of_two(l->exponent + l->approx_shift);
     return SUNDER_OK;
 }
 
@@ -252,7 +254,10 @@ sunder_status sunder_i_operands_end(sunder_i_operands *g, sunder_error *err)
 double sunder_i_operands_way_out(const sunder_i_operands *g)
 {
     double d = INFINITY;
-    for (int k = 0; k < 4; k++) d = fmin(d, fabs(g->box[0][k] + g->box[1][k]));
+    for (int k = 0; k < 4; k++) {
+        const double way = fabs(g->box[0][k] + g->box[1][k]);
+        if (way < d) d = way;
+    }
     return d;
 }
 

@@ -149,6 +149,29 @@ static uint32_t merge(sunder_i_operands *g, const sunder_i_turned_piece *a, cons
     return n;
 }
 
+/* The same on a narrow lattice, with the doubles. */
+static uint32_t narrow_merge(const sunder_i_turned_piece *a, const sunder_i_turned_piece *b, double per_length,
+                             double fixed, sunder_i_subsum *s)
+{
+    uint32_t n = 0;
+    sunder_i_merge m = sunder_i_merge_of(a->n, b->n);
+    while (SUNDER_I_MERGE_NEXT(&m, -sunder_i_i128_sign(sunder_i_narrow_cross(a->side[m.next_a], b->side[m.next_b])))) {
+        const sunder_i_point p = a->corner[m.a], q = b->corner[m.b], c = {p.x + q.x, p.y + q.y};
+        sunder_i_point d = {0, 0};
+        if (m.of_a) d = a->side[m.a];
+        if (m.of_b) d = (sunder_i_point){d.x + b->side[m.b].x, d.y + b->side[m.b].y};
+        s->corner[n] = c;
+        s->side[n] = d;
+        s->cx[n] = (double)c.x;
+        s->cy[n] = (double)c.y;
+        s->sx[n] = (double)d.x;
+        s->sy[n] = (double)d.y;
+        s->bound[n] = (fabs(s->sx[n]) + fabs(s->sy[n])) * per_length + fixed;
+        n++;
+    }
+    return n;
+}
+
 #ifndef NDEBUG
 /* NULL, or what is wrong: a subsum is strictly convex, closed, and begins at its lowest corner. */
 static const char *check(sunder_i_operands *g, const sunder_i_subsum *s)
@@ -180,16 +203,16 @@ bool sunder_i_subsum_make(sunder_i_operands *g, sunder_i_subsum *s)
     s->sx = s->cy + most;
     s->sy = s->sx + most;
     s->bound = s->sy + most;
-    const uint32_t n = merge(g, a, b, s->corner, s->side);
     const double per_length = 2 * g->error, fixed = 16 * g->magnitude * g->rough;
+    const uint32_t n = l->narrow ? narrow_merge(a, b, per_length, fixed, s) : merge(g, a, b, s->corner, s->side);
     s->plain = true;
-    for (uint32_t k = 0; k < n; k++) {
+    for (uint32_t k = 0; k < n && !l->narrow; k++) {
         const sunder_i_point c = s->corner[k], d = s->side[k];
         s->plain = s->plain && sunder_i_point_is_plain(c) && sunder_i_point_is_plain(d);
-        s->cx[k] = l->narrow ? (double)c.x : sunder_i_approx(l, c.x);
-        s->cy[k] = l->narrow ? (double)c.y : sunder_i_approx(l, c.y);
-        s->sx[k] = l->narrow ? (double)d.x : sunder_i_approx(l, d.x);
-        s->sy[k] = l->narrow ? (double)d.y : sunder_i_approx(l, d.y);
+        s->cx[k] = sunder_i_approx(l, c.x);
+        s->cy[k] = sunder_i_approx(l, c.y);
+        s->sx[k] = sunder_i_approx(l, d.x);
+        s->sy[k] = sunder_i_approx(l, d.y);
         s->bound[k] = (fabs(s->sx[k]) + fabs(s->sy[k])) * per_length + fixed;
     }
     s->sides = n;
