@@ -113,8 +113,9 @@ static int by_size(const void *a, const void *b)
 
 double gis_layer_median(double *areas, size_t n)
 {
+    if (n == 0) return 1;
     qsort(areas, n, sizeof *areas, by_size);
-    return n == 0 ? 1 : n % 2 ? areas[n / 2] : areas[n / 2 - 1] / 2 + areas[n / 2] / 2;
+    return n % 2 ? areas[n / 2] : areas[n / 2 - 1] / 2 + areas[n / 2] / 2;
 }
 
 double gis_layer_area_weight(gis_weighting by, double area, double median)

@@ -65,7 +65,7 @@ void gis_source_close(gis_source *source);
 /* Reads the next batch in place of the one before it, of which nothing stays; *any = false: there is none, and that
  * batch is empty. */
 bool gis_source_next(gis_source *source, bool *any, gis_error *error);
-/* Begins anew, with the first batch. */
+/* Begins anew, with the first batch, of a source that is read by batches. */
 bool gis_source_again(gis_source *source, bool *any, gis_error *error);
 /* The place of the batch's first feature among all, from 0. */
 size_t gis_source_first(const gis_source *source);

@@ -118,7 +118,7 @@ static const gis_marked *find_marked(gis_source *source, const char *where, gis_
     *marked = (gis_marked){.where = CPLStrdup(where)};
     const bool done = ask_layer(source, where, take_range, marked, error);
     if (!gis_source_resume(source, error) || !done) return NULL;
-    qsort(marked->range, marked->n, sizeof *marked->range, compare_ranges);
+    if (marked->n > 0) qsort(marked->range, marked->n, sizeof *marked->range, compare_ranges);
     return marked;
 }
 
@@ -132,7 +132,7 @@ static int compare_with_range(const void *fid, const void *range)
 static bool mark_batch(gis_source *source, const char *where, bool *marks, gis_error *error)
 {
     const gis_marked *marked = find_marked(source, where, error);
-    for (size_t i = 0; marked && i < gis_source_count(source); i++) {
+    for (size_t i = 0; marked && marked->n > 0 && i < gis_source_count(source); i++) {
         const GIntBig fid = gis_source_fid(source, i);
         marks[i] = bsearch(&fid, marked->range, marked->n, sizeof *marked->range, compare_with_range) != NULL;
     }
