@@ -5,7 +5,7 @@
 
 #include "sunder.h"
 
-enum { SCENE_MOST = 30 };
+enum { SCENE_MOST = 80 };
 
 typedef struct scene {
     sunder_feature feature[SCENE_MOST];

@@ -4,7 +4,7 @@
 
 #include "scene_model.h"
 
-enum { SCENE_BOARD_MOST = 20 };
+enum { SCENE_BOARD_MOST = SCENE_MOST };
 
 typedef struct scene_board {
     scene scene;

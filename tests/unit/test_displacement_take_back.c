@@ -88,11 +88,40 @@ static bool is_asked_after(size_t in_vain)
     return asked;
 }
 
+/* The same, but that the last is to push a row of so many, of which none has any other place to go to. */
+static bool is_whole_asked_after(size_t in_vain, size_t row)
+{
+    scene_board b;
+    memset(&b, 0, sizeof b);
+    scene_begin(&b.scene, 0);
+    for (size_t k = 0; k < 2 * in_vain; k++)
+        scene_add_box(&b.scene, 100 * (double)(k / 2) + (k % 2 ? 8 : 0), 100, 10, 10)->max_shift = 0.5;
+    for (size_t k = 0; k < row; k++) {
+        sunder_feature *f = scene_add_box(&b.scene, k ? 10.001 * (double)k - 3 : 0, 0, 10, 10);
+        f->max_shift = 4;
+        f->fixed = k == 0;
+    }
+    scene_board_begin(&b);
+    sunder_i_search s;
+    assert_true(sunder_i_search_init(&s, &b.of.model, b.body, b.scene.n, margin, b.move));
+    for (uint32_t k = 0; k < in_vain; k++) relax(&b, &s.relaxations, 2 * k, 2 * k + 1);
+    relax(&b, &s.relaxations, (uint32_t)(2 * in_vain), (uint32_t)(2 * in_vain + 1));
+    sunder_i_search_take_back(&s);
+    assert_false(s.failed);
+    const bool asked = s.relaxations.n == in_vain;
+    sunder_i_search_free(&s);
+    scene_board_end(&b);
+    return asked;
+}
+
 static void test_in_vain(void **state)
 {
     (void)state;
-    assert_true(is_asked_after(TAKE_BACK_IN_VAIN - 1));
-    assert_false(is_asked_after(TAKE_BACK_IN_VAIN));
+    assert_true(is_asked_after(TAKE_BACK_FEW_IN_VAIN - 1));
+    assert_false(is_asked_after(TAKE_BACK_FEW_IN_VAIN));
+    assert_true(is_whole_asked_after(TAKE_BACK_IN_VAIN - 1, TAKE_BACK_FEW + 4));
+    assert_false(is_whole_asked_after(TAKE_BACK_IN_VAIN, TAKE_BACK_FEW + 4));
+    assert_true(is_whole_asked_after(TAKE_BACK_IN_VAIN, TAKE_BACK_FEW - 4)); /* few will do */
 }
 
 /* Of two that cannot both be had the one is taken back that misses less, whichever is listed first: the second is to go

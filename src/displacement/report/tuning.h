@@ -15,6 +15,9 @@
 #define FIRST_EFFORT 10000u
 #define GROWTH 8
 #define MOST_EFFORT 8000000u
+/* After so many of a cluster, one after the other, of which more than the first effort tells nothing, no more are asked
+ * about. */
+#define PROOFS_IN_VAIN 32
 /* For each unit of --effort, up to so many, a cluster and one conflict are allowed so many times as much more. */
 #define MORE_EFFORT 5
 #define MORE_UP_TO 1000

@@ -2,8 +2,11 @@
  *
  * Several are given up at once (give_up.c), and of those that hang together some are given up for others: with the
  * rest out of the way they may have a solution. So bodies between which something is given up owe each other all again,
- * those that overlapped first, then by what is missing, and the search goes down from there; where it comes to no end,
- * within what one may take, all is put back as it was. They are asked until so many were in vain. */
+ * those that overlapped first, then by what is missing: first with a few of those about them, everybody else standing
+ * (neighbourhood.c), which finds most of what there is and costs little; what is left after that is asked of the whole,
+ * which goes down from there. Where that comes to no end, within what one may take, all is put back as it was. Both end
+ * when so many were in vain. */
+#include "displacement/search/neighbourhood.h"
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
@@ -53,20 +56,67 @@ static bool is_between(const sunder_i_search *s, const sunder_i_relaxation *t, c
     return (p == w->i && q == w->j) || (p == w->j && q == w->i);
 }
 
-/* Returns whether it was granted. stand: [2 n] scratch. */
-static bool ask(sunder_i_search *s, const sunder_i_relaxations *all, const wish *w, double *stand)
+/* What is given up between the two does not count from now on; or it does again. */
+static void claim(sunder_i_search *s, const sunder_i_relaxations *all, const wish *w)
 {
-    const size_t size = 2 * s->n * sizeof *stand;
     for (size_t k = 0; k < all->n; k++)
         if (is_between(s, &all->item[k], w)) sunder_i_relaxations_remove(&s->relaxations, s->model, &all->item[k]);
-    memcpy(stand, s->t, size);
-    s->program.n = 0;
-    if (sunder_i_search_descend(s)) return true;
-    memcpy(s->t, stand, size);
+}
+
+static void waive(sunder_i_search *s, const sunder_i_relaxations *all, const wish *w)
+{
     for (size_t k = 0; k < all->n && !s->failed; k++)
         if (is_between(s, &all->item[k], w) && !sunder_i_relaxations_insert(&s->relaxations, s->model, &all->item[k]))
             s->failed = true;
-    return false;
+}
+
+/* All go down from where they stand. stand: [2 n] scratch. */
+static bool settle_whole(sunder_i_search *s, double *stand)
+{
+    const size_t size = 2 * s->n * sizeof *stand;
+    memcpy(stand, s->t, size);
+    s->program.n = 0;
+    s->patience = sunder_i_search_work(s) + TAKE_BACK_EACH;
+    const bool done = sunder_i_search_descend(s);
+    s->patience = UINT64_MAX;
+    if (!done) memcpy(s->t, stand, size);
+    return done;
+}
+
+/* With a few about them. Returns how many are left: the first of the list, in order. */
+static size_t ask_few(sunder_i_search *s, const sunder_i_relaxations *all, wish *list, size_t n)
+{
+    sunder_i_neighbourhood about;
+    size_t left = 0;
+    unsigned in_vain = 0; /* one after the other */
+    if (!sunder_i_neighbourhood_init(&about, s)) s->failed = true;
+    for (size_t k = 0; k < n; k++) {
+        const wish w = list[k];
+        bool granted = false;
+        if (in_vain < TAKE_BACK_FEW_IN_VAIN && !s->failed) {
+            claim(s, all, &w);
+            granted =
+                sunder_i_neighbourhood_settle(&about, sunder_i_search_place_of(s, w.i),
+                                              sunder_i_search_place_of(s, w.j), TAKE_BACK_FEW, s->gap + 2 * w.missing);
+            if (!granted) waive(s, all, &w);
+            in_vain = granted ? 0 : in_vain + 1;
+        }
+        if (!granted) list[left++] = w;
+    }
+    sunder_i_neighbourhood_free(&about);
+    return left;
+}
+
+static void ask_whole(sunder_i_search *s, const sunder_i_relaxations *all, const wish *list, size_t n, double *stand)
+{
+    const uint64_t end = sunder_i_search_work(s) + TAKE_BACK_MOST;
+    unsigned in_vain = 0; /* one after the other */
+    for (size_t k = 0; k < n && in_vain < TAKE_BACK_IN_VAIN && !s->failed && sunder_i_search_work(s) < end; k++) {
+        claim(s, all, &list[k]);
+        const bool granted = settle_whole(s, stand);
+        if (!granted) waive(s, all, &list[k]);
+        in_vain = granted ? 0 : in_vain + 1;
+    }
 }
 
 void sunder_i_search_take_back(sunder_i_search *s)
@@ -78,15 +128,12 @@ void sunder_i_search_take_back(sunder_i_search *s)
     wish *list = sunder_i_alloc(all.relaxed_n, sizeof *list);
     double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
     s->failed = s->failed || !list || !stand;
-    if (!s->failed) list_wishes(s, &all, list);
-    const uint64_t end = sunder_i_search_work(s) + TAKE_BACK_MOST;
-    unsigned in_vain = 0; /* one after the other */
-    for (size_t k = 0; k < all.relaxed_n && in_vain < TAKE_BACK_IN_VAIN && !s->failed && sunder_i_search_work(s) < end;
-         k++) {
-        s->patience = sunder_i_search_work(s) + TAKE_BACK_EACH;
-        in_vain = ask(s, &all, &list[k], stand) ? 0 : in_vain + 1;
-    }
     s->patience = UINT64_MAX;
+    if (!s->failed) {
+        list_wishes(s, &all, list);
+        const size_t left = ask_few(s, &all, list, all.relaxed_n);
+        ask_whole(s, &all, list, left, stand);
+    }
     sunder_i_relaxations_free(&all);
     sunder_i_free(list);
     sunder_i_free(stand);
