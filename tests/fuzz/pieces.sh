@@ -6,6 +6,7 @@
 #   pieces.sh --keep               of what was found what is needed to cover as much, into corpus/NAME.tar.gz
 #   pieces.sh --record             RECORD.md, of the tallies
 #
+# SUNDER_FUZZ_AS_BUILT=yes takes the targets as they were built last; SUNDER_FUZZ_NICE is how nice they are to other work (19).
 # State is in SUNDER_FUZZ_STATE (<build>/fuzz/pieces): inputs, tallies, and in found/ what went wrong. A target is done at
 # ten million executions if it makes more than 2000 of them in a second, else after eight hours of one core.
 set -euo pipefail
@@ -25,10 +26,11 @@ covered() { # of a log: the edges that were covered, and all there are
     echo "${run:-0} ${all:-0}"
 }
 
-built_of() { # the commit, "-dirty" where what is built here differs from it
+build() { # and says of what: the commit, "-dirty" where the sources differ from it
     local dirty=
+    bash "$here/build.sh" >"$state/build.log" 2>&1 || { tail -n 30 "$state/build.log"; exit 1; }
     git -C "$root" diff --quiet HEAD -- src gis tests/fuzz || dirty=-dirty
-    echo "$(git -C "$root" rev-parse --short=7 HEAD)$dirty"
+    echo "$(git -C "$root" rev-parse --short=7 HEAD)$dirty" >"$SUNDER_BUILD/fuzz/built_of"
 }
 
 begin() { # a target's inputs: those on record, and the seeds
@@ -49,7 +51,7 @@ piece() { # NAME SECONDS
         echo "$status" >"$state/$name.status"; } 2>&1 )
     executions=$(final number_of_executed_units "$log")
     # shellcheck disable=SC2046 # two numbers
-    printf '%s %s %s %s %s %s\n' "$name" "${executions:-0}" "$(awk '{ print $1 + $2 }' <<<"$spent")" $(covered "$log") "$(built_of)" >>"$state/tally"
+    printf '%s %s %s %s %s %s\n' "$name" "${executions:-0}" "$(awk '{ print $1 + $2 }' <<<"$spent")" $(covered "$log") "$(cat "$SUNDER_BUILD/fuzz/built_of")" >>"$state/tally"
     tail -n 1 "$state/tally"
     [ "$(cat "$state/$name.status")" -eq 0 ] || { echo "$name failed: see $log"; return 1; }
 }
@@ -92,7 +94,7 @@ record() {
                     if (!s) exit
                     if (n / s > quick) wanted = n >= most ? "reached" : sprintf("%.0f %% of the executions", 100 * n / most)
                     else wanted = s >= 3600 * hours ? "reached" : sprintf("%.0f %% of the hours", 100 * s / 3600 / hours)
-                    printf "| `%s` | %d | %.2f | %d | %d of %d | %d | %s | %s |\n", name, n, s / 3600, n / s, run, all, inputs, commits, wanted
+                    printf "| `%s` | %d | %.3f | %d | %d of %d | %d | %s | %s |\n", name, n, s / 3600, n / s, run, all, inputs, commits, wanted
                 }' "$state/tally"
         done
     } >"$here/RECORD.md"
@@ -105,7 +107,7 @@ case ${1:-} in
 [0-9]*)
     seconds=$1
     shift
-    bash "$here/build.sh" >"$state/build.log" 2>&1 || { tail -n 30 "$state/build.log"; exit 1; }
+    [ -n "${SUNDER_FUZZ_AS_BUILT:-}" ] || build
     [ $# -gt 0 ] || set -- $(targets)
     status=0
     for name in "$@"; do
