@@ -1,0 +1,265 @@
+/* join.c: see join.h. */
+#include "parts/join.h"
+
+#include "base/array.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Shards ------------------------------------------------------------------------------------------------------ */
+
+/* So many gaps, and features as large as they are in the mean. */
+static const double gaps_about = 6, features_about = 2;
+
+double gis_parts_halo(const gis_spool *spool, const sunder_layer_options *how)
+{
+    double size = 0;
+    size_t n = 0;
+    for (size_t k = 0; k < gis_spool_cells(spool); k++) {
+        const gis_spool_cell *c = gis_spool_cell_at(spool, k);
+        if (c->features == 0 || c->box[0] > c->box[2]) continue;
+        size += (double)c->features * sqrt((c->box[2] - c->box[0]) * (c->box[3] - c->box[1]) / (double)c->features);
+        n += c->features;
+    }
+    return gaps_about * how->gap + (n ? features_about * size / (double)n : 0);
+}
+
+typedef struct of_shard {
+    const gis_spool *spool;
+    unsigned shard;
+} of_shard;
+
+static bool is_of_shard(const void *user, size_t cell, size_t index)
+{
+    const of_shard *s = user;
+    (void)index;
+    return gis_spool_cell_at(s->spool, cell)->shard == s->shard;
+}
+
+bool gis_parts_shard(gis_spool *spool, unsigned shard, double halo, const sunder_layer_options *how,
+                     gis_part_result *result, gis_error *error)
+{
+    gis_boxes_list boxes = {0};
+    const of_shard which = {spool, shard};
+    bool done = true;
+    for (size_t k = 0; k < gis_spool_cells(spool) && done; k++) {
+        const gis_spool_cell *c = gis_spool_cell_at(spool, k);
+        if (c->shard == shard && c->box[0] <= c->box[2]) done = gis_boxes_add(&boxes, c->box, halo, error);
+    }
+    done = done && (boxes.n == 0 || gis_part_separate(spool, &boxes, is_of_shard, &which, how, shard, result, error));
+    free(boxes.box);
+    return done;
+}
+
+/* ---- Which worlds stand ------------------------------------------------------------------------------------------ */
+
+/* A feature, and a world that has it. */
+typedef struct holding {
+    size_t index, world;
+} holding;
+
+static int by_holding(const void *a, const void *b)
+{
+    const holding *p = a, *q = b;
+    if (p->index != q->index) return p->index < q->index ? -1 : 1;
+    return (p->world > q->world) - (p->world < q->world);
+}
+
+typedef struct joining {
+    gis_spool *spool;
+    double halo;
+    const sunder_layer_options *how;
+    gis_part_result *r;
+    size_t *parent; /* [worlds] of those that are separated again, in lumps */
+    bool *again;    /* [worlds] */
+    unsigned run;
+} joining;
+
+static size_t root_of(size_t *parent, size_t x)
+{
+    while (parent[x] != x) x = parent[x] = parent[parent[x]];
+    return x;
+}
+
+static void lump(joining *j, size_t a, size_t b)
+{
+    const size_t x = root_of(j->parent, a), y = root_of(j->parent, b);
+    j->again[a] = j->again[b] = true;
+    j->parent[x > y ? x : y] = x > y ? y : x;
+}
+
+static bool stands(const gis_part_world *w) { return !w->gone && !w->loose; }
+
+/* All features of worlds that stand, sorted. */
+static holding *list_holdings(const gis_part_result *r, size_t *n)
+{
+    holding *list = malloc((r->rows + 1) * sizeof *list);
+    *n = 0;
+    for (size_t w = 0; list && w < r->worlds; w++)
+        for (size_t k = 0; k < r->world[w].rows && stands(&r->world[w]); k++)
+            list[(*n)++] = (holding){r->row[r->world[w].row + k].index, w};
+    if (list && *n) qsort(list, *n, sizeof *list, by_holding);
+    return list;
+}
+
+static bool are_alike(const gis_part_result *r, const gis_part_world *a, const gis_part_world *b)
+{
+    if (a->rows != b->rows) return false;
+    for (size_t k = 0; k < a->rows; k++)
+        if (r->row[a->row + k].index != r->row[b->row + k].index) return false;
+    return true;
+}
+
+/* Worlds that have a feature in common: one, found in two parts; else they are separated together. */
+static bool compare_holdings(joining *j, gis_error *error)
+{
+    size_t n;
+    gis_part_result *r = j->r;
+    holding *list = list_holdings(r, &n);
+    if (!list) return gis_no_memory(error);
+    for (size_t k = 1; k < n; k++) {
+        if (list[k].index != list[k - 1].index) continue;
+        gis_part_world *a = &r->world[list[k - 1].world], *b = &r->world[list[k].world];
+        if (a->gone || b->gone) continue;
+        if (a->complete && b->complete && are_alike(r, a, b)) {
+            b->gone = true;
+            list[k].world = list[k - 1].world;
+        } else {
+            lump(j, list[k - 1].world, list[k].world);
+        }
+    }
+    free(list);
+    return true;
+}
+
+/* What a world read, or wrote, from left to right. */
+typedef struct span {
+    double from, box[4];
+    size_t world;
+    bool wrote;
+} span;
+
+static int by_from(const void *a, const void *b)
+{
+    const span *p = a, *q = b;
+    return (p->from > q->from) - (p->from < q->from);
+}
+
+/* Worlds of different runs of which one wrote where the other read. Swept from left to right. */
+static bool compare_footprints(joining *j, gis_error *error)
+{
+    gis_part_result *r = j->r;
+    size_t n = 0, open = 0;
+    span *list = malloc((2 * r->footprints + 1) * sizeof *list), *now = malloc((2 * r->footprints + 1) * sizeof *now);
+    if (!list || !now) {
+        free(list);
+        free(now);
+        return gis_no_memory(error);
+    }
+    for (size_t w = 0; w < r->worlds; w++)
+        for (size_t k = 0; k < r->world[w].footprints && stands(&r->world[w]); k++) {
+            const sunder_footprint *f = &r->footprint[r->world[w].footprint + k];
+            for (int wrote = 0; wrote < 2; wrote++) {
+                span *s = &list[n++];
+                memcpy(s->box, wrote ? f->wrote : f->read, sizeof s->box);
+                s->from = s->box[0];
+                s->world = w;
+                s->wrote = wrote;
+            }
+        }
+    if (n) qsort(list, n, sizeof *list, by_from);
+    for (size_t k = 0; k < n; k++) {
+        size_t kept = 0;
+        for (size_t i = 0; i < open; i++) {
+            if (now[i].box[2] < list[k].from) continue;
+            now[kept++] = now[i];
+            if (now[i].wrote != list[k].wrote && r->world[now[i].world].run != r->world[list[k].world].run &&
+                gis_boxes_meet(now[i].box, list[k].box))
+                lump(j, now[i].world, list[k].world);
+        }
+        open = kept;
+        now[open++] = list[k];
+    }
+    free(list);
+    free(now);
+    return true;
+}
+
+/* ---- Once more --------------------------------------------------------------------------------------------------- */
+
+typedef struct of_lump {
+    size_t *index, n; /* sorted */
+} of_lump;
+
+static int by_size(const void *a, const void *b)
+{
+    const size_t *p = a, *q = b;
+    return (*p > *q) - (*p < *q);
+}
+
+static bool is_of_lump(const void *user, size_t cell, size_t index)
+{
+    const of_lump *l = user;
+    (void)cell;
+    return l->n && bsearch(&index, l->index, l->n, sizeof index, by_size);
+}
+
+/* The worlds of a lump, as one part: they are gone, and what is found of their features takes their place. */
+static bool separate_lump(joining *j, size_t root, size_t worlds, gis_error *error)
+{
+    gis_part_result *r = j->r;
+    of_lump which = {0};
+    gis_boxes_list boxes = {0};
+    size_t room = 0;
+    bool done = true;
+    for (size_t w = root; w < worlds && done; w++) {
+        gis_part_world *world = &r->world[w];
+        if (!j->again[w] || world->gone || root_of(j->parent, w) != root) continue;
+        for (size_t k = 0; k < world->footprints && done; k++)
+            done = gis_boxes_add(&boxes, r->footprint[world->footprint + k].seen, j->halo, error);
+        done = done && (gis_array_reserve(&which.index, &room, which.n + world->rows, sizeof *which.index) ||
+                        gis_no_memory(error));
+        for (size_t k = 0; k < world->rows && done; k++) which.index[which.n++] = r->row[world->row + k].index;
+        world->gone = true;
+    }
+    if (done && which.n) qsort(which.index, which.n, sizeof *which.index, by_size);
+    done = done && gis_part_separate(j->spool, &boxes, is_of_lump, &which, j->how, j->run++, r, error);
+    free(which.index);
+    free(boxes.box);
+    return done;
+}
+
+/* *any: there was something to be separated again. */
+static bool settle(joining *j, bool *any, gis_error *error)
+{
+    const size_t n = j->r->worlds;
+    bool done = true;
+    *any = false;
+    j->parent = malloc((n + 1) * sizeof *j->parent);
+    j->again = calloc(n + 1, sizeof *j->again);
+    if (!j->parent || !j->again) done = gis_no_memory(error);
+    for (size_t w = 0; w < n && done; w++) j->parent[w] = w;
+    done = done && compare_holdings(j, error) && compare_footprints(j, error);
+    for (size_t w = 0; w < n && done; w++)
+        if (stands(&j->r->world[w]) && !j->r->world[w].complete) j->again[w] = true;
+    for (size_t w = 0; w < n && done; w++) {
+        if (!j->again[w] || j->r->world[w].gone || root_of(j->parent, w) != w) continue;
+        *any = true;
+        done = separate_lump(j, w, n, error);
+    }
+    free(j->parent);
+    free(j->again);
+    return done;
+}
+
+bool gis_parts_join(gis_spool *spool, double halo, const sunder_layer_options *how, gis_part_result *result,
+                    gis_joined *out, gis_error *error)
+{
+    joining j = {.spool = spool, .halo = halo, .how = how, .r = result, .run = gis_spool_shards(spool)};
+    bool any = true, done = true;
+    *out = (gis_joined){.parts = result};
+    while (any && done) done = settle(&j, &any, error);
+    out->runs = j.run;
+    return done && gis_joined_gather(out, error);
+}

@@ -1,0 +1,41 @@
+/* join.h: what parts tell, as the whole layer's.
+ *
+ * Worlds that are not complete, or of which one wrote where another read that was found in another run, are separated
+ * again, with all that they saw and each other, until there are none: then what is left are the worlds of the whole
+ * layer. A block is whoever is linked in some part. */
+#ifndef GIS_PARTS_JOIN_H
+#define GIS_PARTS_JOIN_H
+
+#include "parts/part.h"
+
+typedef struct gis_joined {
+    gis_part_result *parts;
+    size_t *row; /* [rows] places in parts->row, by features; only of worlds that stand */
+    size_t rows;
+    size_t *conflict; /* places in parts->conflict, by their features */
+    size_t conflicts;
+    size_t *push;
+    size_t pushes;
+    gis_part_link *block; /* a: a feature of a block, b: the block's first; by features */
+    size_t blocks;
+    gis_part_still *still; /* of no world, and not as they are alone: by features */
+    size_t stills;
+    sunder_layer_summary summary; /* but for features, vertices and skipped, which are the layer's */
+    unsigned runs;
+} gis_joined;
+
+/* result: of all shards of the spool, each separated with the boxes of its own cells grown by `halo`; more is added to
+ * it. It has to live as long as *out. */
+bool gis_parts_join(gis_spool *spool, double halo, const sunder_layer_options *how, gis_part_result *result,
+                    gis_joined *out, gis_error *error);
+void gis_joined_clear(gis_joined *joined);
+/* gather.c: the lists and sums of the worlds that stand in out->parts. */
+bool gis_joined_gather(gis_joined *out, gis_error *error);
+
+/* One shard of the spool, from 0. */
+bool gis_parts_shard(gis_spool *spool, unsigned shard, double halo, const sunder_layer_options *how,
+                     gis_part_result *result, gis_error *error);
+/* How far about a shard it is looked at first: a guess. */
+double gis_parts_halo(const gis_spool *spool, const sunder_layer_options *how);
+
+#endif

@@ -1,0 +1,419 @@
+/* part.c: see part.h. */
+#include "parts/part.h"
+
+#include "base/array.h"
+#include "base/core.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A feature as it was read, at its place in the order of the input. */
+typedef struct loaded {
+    gis_spool_feature feature; /* its id owned */
+    bool wanted;
+} loaded;
+
+typedef struct part {
+    gis_spool *spool;
+    const gis_boxes_list *boxes;
+    gis_part_wants *wants;
+    const void *user;
+    size_t cell; /* that is being read */
+    loaded *item;
+    size_t n, capacity;
+    sunder_layer *layer;
+    sunder_report *report;
+    unsigned run;
+    gis_part_result *out;
+} part;
+
+bool gis_boxes_meet(const double a[4], const double b[4])
+{
+    return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
+}
+
+bool gis_boxes_add(gis_boxes_list *list, const double box[4], double reach, gis_error *error)
+{
+    if (!gis_array_reserve(&list->box, &list->capacity, list->n + 1, sizeof *list->box)) return gis_no_memory(error);
+    for (int c = 0; c < 4; c++) list->box[list->n][c] = box[c] + (c < 2 ? -reach : reach);
+    list->n++;
+    return true;
+}
+
+static char *copy_of(const char *text)
+{
+    char *copy = text ? malloc(strlen(text) + 1) : NULL;
+    return copy ? strcpy(copy, text) : NULL;
+}
+
+/* ---- Reading ----------------------------------------------------------------------------------------------------- */
+
+static bool is_near(const part *p, const double box[4])
+{
+    for (size_t k = 0; k < p->boxes->n; k++)
+        if (gis_boxes_meet(p->boxes->box[k], box)) return true;
+    return false;
+}
+
+static bool take(void *user, const gis_spool_feature *feature, gis_error *error)
+{
+    part *p = user;
+    double box[4];
+    sunder_shape_box(feature->demands.shape, box);
+    const bool there = is_near(p, box);
+    if (there && gis_array_reserve(&p->item, &p->capacity, p->n + 1, sizeof *p->item)) {
+        loaded *to = &p->item[p->n++];
+        *to = (loaded){*feature, p->wants(p->user, p->cell, feature->index)};
+        to->feature.id = copy_of(feature->id);
+        return !feature->id || to->feature.id || gis_no_memory(error);
+    }
+    sunder_shape_free((sunder_shape *)feature->demands.shape);
+    return !there || gis_no_memory(error);
+}
+
+static int by_index(const void *a, const void *b)
+{
+    const loaded *p = a, *q = b;
+    return (p->feature.index > q->feature.index) - (p->feature.index < q->feature.index);
+}
+
+static bool load(part *p, gis_error *error)
+{
+    for (p->cell = 0; p->cell < gis_spool_cells(p->spool); p->cell++)
+        if (is_near(p, gis_spool_cell_at(p->spool, p->cell)->box) && !gis_spool_read(p->spool, p->cell, take, p, error))
+            return false;
+    if (p->n) qsort(p->item, p->n, sizeof *p->item, by_index);
+    return true;
+}
+
+static bool separate(part *p, const sunder_layer_options *how, gis_error *error)
+{
+    sunder_layer_options options = *how;
+    sunder_error why;
+    options.keep_worlds = true;
+    sunder_feature *feature = malloc((p->n + 1) * sizeof *feature);
+    if (!feature) return gis_no_memory(error);
+    for (size_t k = 0; k < p->n; k++) feature[k] = p->item[k].feature.demands;
+    const bool made = sunder_layer_new(feature, p->n, &p->layer, &why) == SUNDER_OK;
+    free(feature);
+    if (!made || sunder_layer_separate(p->layer, &options, &p->report, &why) != SUNDER_OK)
+        return gis_core_failed(error, "a part of the layer", &why);
+    sunder_layer_summary summary;
+    sunder_report_summary(p->report, &summary);
+    p->out->unverified = p->out->unverified || !summary.verified;
+    return true;
+}
+
+/* ---- Completeness ------------------------------------------------------------------------------------------------ */
+
+/* Quarters of quarters: finer than that a box is not cut. */
+enum { DEPTH = 7 };
+
+static bool is_within(const double box[4], const double of[4])
+{
+    return of[0] <= box[0] && of[1] <= box[1] && box[2] <= of[2] && box[3] <= of[3];
+}
+
+/* Is everything of the layer that meets the box in the part? */
+static bool is_known(const part *p, const double box[4], int depth)
+{
+    bool any = false;
+    for (size_t k = 0; k < p->boxes->n; k++) {
+        if (is_within(box, p->boxes->box[k])) return true;
+        any = any || gis_boxes_meet(box, p->boxes->box[k]);
+    }
+    bool empty = true;
+    for (size_t k = 0; k < gis_spool_cells(p->spool) && empty; k++)
+        empty = !gis_boxes_meet(box, gis_spool_cell_at(p->spool, k)->box);
+    if (empty || !any || depth == 0) return empty;
+    const double x = box[0] / 2 + box[2] / 2, y = box[1] / 2 + box[3] / 2;
+    const double quarter[4][4] = {
+        {box[0], box[1], x, y}, {x, box[1], box[2], y}, {box[0], y, x, box[3]}, {x, y, box[2], box[3]}};
+    for (int k = 0; k < 4; k++)
+        if (!is_known(p, quarter[k], depth - 1)) return false;
+    return true;
+}
+
+/* ---- What is told ------------------------------------------------------------------------------------------------ */
+
+/* Room for n more of one of the result's lists; `list` is its number in room[]. */
+#define MORE(out, array, count, list, n, error)                                                                        \
+    (gis_array_reserve(&(out)->array, &(out)->room[list], (out)->count + (n), sizeof *(out)->array) ||                 \
+     gis_no_memory(error))
+
+static size_t index_of(const part *p, size_t thing) { return thing < p->n ? p->item[thing].feature.index : SIZE_MAX; }
+
+static bool add_name(part *p, size_t thing, gis_error *error)
+{
+    if (thing >= p->n) return true;
+    const gis_spool_feature *f = &p->item[thing].feature;
+    if (!MORE(p->out, name, names, 8, 1, error)) return false;
+    gis_part_name *to = &p->out->name[p->out->names++];
+    *to = (gis_part_name){f->index, f->fid, copy_of(f->id)};
+    return !f->id || to->id || gis_no_memory(error);
+}
+
+static bool add_row(part *p, size_t k, gis_error *error)
+{
+    const gis_spool_feature *f = &p->item[k].feature;
+    if (!MORE(p->out, row, rows, 1, 1, error)) return false;
+    gis_part_row *row = &p->out->row[p->out->rows++];
+    *row = (gis_part_row){.index = f->index,
+                          .fid = f->fid,
+                          .id = copy_of(f->id),
+                          .from = {f->start[0], f->start[1]},
+                          .weight = f->demands.weight,
+                          .status = sunder_report_status(p->report, k),
+                          .rounded = sunder_report_rounded(p->report, k)};
+    sunder_report_move(p->report, k, &row->move[0], &row->move[1]);
+    if (isnan(row->from[0])) sunder_shape_anchor(f->demands.shape, row->from);
+    return !f->id || row->id || gis_no_memory(error);
+}
+
+static bool add_conflict(part *p, const sunder_conflict *c, gis_error *error)
+{
+    gis_part_result *out = p->out;
+    if (!MORE(out, conflict, conflicts, 4, 1, error) || !MORE(out, blocker, blockers, 5, c->n_blocked_by, error) ||
+        !MORE(out, blocked, conflicts, 9, 1, error))
+        return false;
+    sunder_conflict *to = &out->conflict[out->conflicts];
+    out->blocked[out->conflicts++] = out->blockers;
+    *to = *c;
+    to->a = index_of(p, c->a);
+    to->b = index_of(p, c->b);
+    to->need_gone = index_of(p, c->need_gone);
+    to->blocked_by = NULL;
+    bool done = add_name(p, c->a, error) && add_name(p, c->b, error) && add_name(p, c->need_gone, error);
+    for (size_t k = 0; k < c->n_blocked_by && done; k++) {
+        out->blocker[out->blockers++] = index_of(p, c->blocked_by[k]);
+        done = add_name(p, c->blocked_by[k], error);
+    }
+    return done;
+}
+
+static bool add_push(part *p, const sunder_push *push, gis_error *error)
+{
+    if (!MORE(p->out, push, pushes, 6, 1, error)) return false;
+    sunder_push *to = &p->out->push[p->out->pushes++];
+    *to = *push;
+    to->a = index_of(p, push->a);
+    to->b = index_of(p, push->b);
+    return add_name(p, push->a, error) && add_name(p, push->b, error);
+}
+
+/* Whose a pair is: that of the first of its features which has a world. */
+static size_t world_of(const part *p, size_t a, size_t b)
+{
+    const size_t world = a < p->n ? sunder_report_world(p->report, a) : SIZE_MAX;
+    return world == SIZE_MAX && b < p->n ? sunder_report_world(p->report, b) : world;
+}
+
+static bool add_footprints(part *p, const sunder_world *w, gis_part_world *to, gis_error *error)
+{
+    size_t n;
+    const sunder_footprint *all = sunder_report_footprints(p->report, &n);
+    if (!MORE(p->out, footprint, footprints, 2, w->footprints, error)) return false;
+    to->complete = true;
+    for (size_t k = 0; k < w->footprints; k++) {
+        const sunder_footprint *f = &all[w->footprint + k];
+        p->out->footprint[p->out->footprints++] = *f;
+        to->complete = to->complete && is_known(p, f->seen, DEPTH);
+    }
+    return true;
+}
+
+/* What belongs to a world: features, conflicts or pushes by their numbers. */
+typedef struct belonging {
+    size_t world, at;
+} belonging;
+
+static int by_world(const void *a, const void *b)
+{
+    const belonging *p = a, *q = b;
+    if (p->world != q->world) return p->world < q->world ? -1 : 1;
+    return (p->at > q->at) - (p->at < q->at);
+}
+
+/* Of all worlds, one behind the other, and how far each list is used up. */
+typedef struct belongings {
+    belonging *feature, *conflict, *push;
+    size_t features, conflicts, pushes, f, c, p;
+} belongings;
+
+static bool list_belongings(const part *p, belongings *all, gis_error *error)
+{
+    const sunder_conflict *conflict = sunder_report_conflicts(p->report, &all->conflicts);
+    const sunder_push *push = sunder_report_pushes(p->report, &all->pushes);
+    all->features = p->n;
+    all->feature = malloc((p->n + 1) * sizeof *all->feature);
+    all->conflict = malloc((all->conflicts + 1) * sizeof *all->conflict);
+    all->push = malloc((all->pushes + 1) * sizeof *all->push);
+    if (!all->feature || !all->conflict || !all->push) return gis_no_memory(error);
+    for (size_t k = 0; k < p->n; k++) all->feature[k] = (belonging){sunder_report_world(p->report, k), k};
+    for (size_t k = 0; k < all->conflicts; k++)
+        all->conflict[k] = (belonging){world_of(p, conflict[k].a, conflict[k].b), k};
+    for (size_t k = 0; k < all->pushes; k++) all->push[k] = (belonging){world_of(p, push[k].a, push[k].b), k};
+    qsort(all->feature, all->features, sizeof *all->feature, by_world);
+    qsort(all->conflict, all->conflicts, sizeof *all->conflict, by_world);
+    qsort(all->push, all->pushes, sizeof *all->push, by_world);
+    return true;
+}
+
+static bool is_wanted(const part *p, const belongings *all, size_t number)
+{
+    for (size_t k = all->f; k < all->features && all->feature[k].world == number; k++)
+        if (p->item[all->feature[k].at].wanted) return true;
+    return false;
+}
+
+static bool add_members(part *p, belongings *all, size_t number, gis_error *error)
+{
+    size_t n;
+    const sunder_conflict *conflict = sunder_report_conflicts(p->report, &n);
+    const sunder_push *push = sunder_report_pushes(p->report, &n);
+    for (size_t k = all->f; k < all->features && all->feature[k].world == number; k++)
+        if (!add_row(p, all->feature[k].at, error)) return false;
+    for (size_t k = all->c; k < all->conflicts && all->conflict[k].world == number; k++)
+        if (!add_conflict(p, &conflict[all->conflict[k].at], error)) return false;
+    for (size_t k = all->p; k < all->pushes && all->push[k].world == number; k++)
+        if (!add_push(p, &push[all->push[k].at], error)) return false;
+    return true;
+}
+
+static void pass_by(belongings *all, size_t number)
+{
+    while (all->f < all->features && all->feature[all->f].world == number) all->f++;
+    while (all->c < all->conflicts && all->conflict[all->c].world == number) all->c++;
+    while (all->p < all->pushes && all->push[all->p].world == number) all->p++;
+}
+
+static bool add_world(part *p, size_t number, belongings *all, gis_error *error)
+{
+    size_t n;
+    gis_part_result *out = p->out;
+    const sunder_world *w = &sunder_report_worlds(p->report, &n)[number];
+    const double *bound = sunder_report_world_bounds(p->report, &n);
+    gis_part_world to = {.first = index_of(p, w->first),
+                         .run = p->run,
+                         .row = out->rows,
+                         .footprint = out->footprints,
+                         .footprints = w->footprints,
+                         .bound = out->bounds,
+                         .bounds = w->bounds,
+                         .conflict = out->conflicts,
+                         .push = out->pushes,
+                         .before = w->before,
+                         .after = w->after,
+                         .thin = w->thin,
+                         .clusters = w->clusters,
+                         .clusters_optimal = w->clusters_optimal};
+    if (!MORE(out, bound, bounds, 3, w->bounds, error) || !add_footprints(p, w, &to, error)) return false;
+    for (size_t k = 0; k < w->bounds; k++) out->bound[out->bounds++] = bound[w->bound + k];
+    if (!add_members(p, all, number, error)) return false;
+    to.rows = out->rows - to.row;
+    to.conflicts = out->conflicts - to.conflict;
+    to.pushes = out->pushes - to.push;
+    if (!MORE(out, world, worlds, 0, 1, error)) return false;
+    out->world[out->worlds++] = to;
+    return true;
+}
+
+/* Conflicts inside blocks that nothing happened to. */
+static bool add_loose(part *p, const belongings *all, gis_error *error)
+{
+    size_t n;
+    gis_part_result *out = p->out;
+    const sunder_conflict *conflict = sunder_report_conflicts(p->report, &n);
+    for (size_t k = all->c; k < all->conflicts; k++) {
+        const sunder_conflict *c = &conflict[all->conflict[k].at];
+        if (!p->item[c->a].wanted) continue;
+        if (!MORE(out, world, worlds, 0, 1, error)) return false;
+        out->world[out->worlds++] = (gis_part_world){.first = index_of(p, c->a),
+                                                     .run = p->run,
+                                                     .complete = true,
+                                                     .loose = true,
+                                                     .row = out->rows,
+                                                     .footprint = out->footprints,
+                                                     .bound = out->bounds,
+                                                     .push = out->pushes,
+                                                     .conflict = out->conflicts,
+                                                     .conflicts = 1};
+        if (!add_conflict(p, c, error)) return false;
+    }
+    return true;
+}
+
+static bool add_worlds(part *p, gis_error *error)
+{
+    size_t n;
+    belongings all = {0};
+    sunder_report_worlds(p->report, &n);
+    bool done = list_belongings(p, &all, error);
+    for (size_t k = 0; k < n && done; k++) {
+        if (is_wanted(p, &all, k)) done = add_world(p, k, &all, error);
+        pass_by(&all, k);
+    }
+    done = done && add_loose(p, &all, error);
+    free(all.feature);
+    free(all.conflict);
+    free(all.push);
+    return done;
+}
+
+/* Who was asked for and is of no world; and whose block it is, by pairs with the block's first. */
+static bool add_others(part *p, gis_error *error)
+{
+    gis_part_result *out = p->out;
+    for (size_t k = 0; k < p->n; k++) {
+        const int64_t block = sunder_report_block(p->report, k);
+        if (block >= 0 && (size_t)block != k) {
+            if (!MORE(out, link, links, 10, 1, error)) return false;
+            out->link[out->links++] = (gis_part_link){index_of(p, (size_t)block), index_of(p, k)};
+        }
+        if (!p->item[k].wanted || sunder_report_world(p->report, k) != SIZE_MAX) continue;
+        const gis_part_still still = {index_of(p, k), sunder_report_inside(p->report, k),
+                                      sunder_report_status(p->report, k)};
+        if (!MORE(out, still, stills, 7, 1, error)) return false;
+        out->still[out->stills++] = still;
+    }
+    return true;
+}
+
+static void clear(part *p)
+{
+    for (size_t k = 0; k < p->n; k++) {
+        sunder_shape_free((sunder_shape *)p->item[k].feature.demands.shape);
+        free((char *)p->item[k].feature.id);
+    }
+    free(p->item);
+    sunder_layer_free(p->layer);
+    sunder_report_free(p->report);
+}
+
+bool gis_part_separate(gis_spool *spool, const gis_boxes_list *boxes, gis_part_wants *wants, const void *user,
+                       const sunder_layer_options *how, unsigned run, gis_part_result *result, gis_error *error)
+{
+    part p = {.spool = spool, .boxes = boxes, .wants = wants, .user = user, .run = run, .out = result};
+    const bool done = load(&p, error) && separate(&p, how, error) && add_worlds(&p, error) && add_others(&p, error);
+    clear(&p);
+    return done;
+}
+
+void gis_part_result_clear(gis_part_result *r)
+{
+    for (size_t k = 0; k < r->rows; k++) free(r->row[k].id);
+    for (size_t k = 0; k < r->names; k++) free(r->name[k].id);
+    free(r->world);
+    free(r->row);
+    free(r->footprint);
+    free(r->bound);
+    free(r->conflict);
+    free(r->blocker);
+    free(r->blocked);
+    free(r->push);
+    free(r->name);
+    free(r->still);
+    free(r->link);
+    *r = (gis_part_result){0};
+}
