@@ -212,6 +212,25 @@ bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out,
            check_before(options, error) && resolve_barriers(options, out, error);
 }
 
+bool gis_resolve_memory(const gis_options *options, double *bytes, gis_error *error)
+{
+    static const char units[] = "KMGT";
+    const char *text = options->text[OPT_MAX_MEMORY];
+    *bytes = 0;
+    if (!text) return true;
+    const size_t digits = strspn(text, "0123456789.");
+    const char *unit = text[digits] ? strchr(units, text[digits]) : NULL;
+    double size;
+    if (!gis_length_parse_number(text, digits, &size) || !(size > 0) || (text[digits] && !unit) ||
+        (unit && text[digits + 1]))
+        return gis_fail_usage(error,
+                              "--max-memory %s: not a size; expected bytes, or a number with K, M, G or T, as in "
+                              "--max-memory 2G",
+                              text);
+    *bytes = size * (unit ? pow(1000, (double)(unit - units) + 1) : 1);
+    return true;
+}
+
 /* What selects from a data source selects from nothing where both operands are texts. */
 static bool check_selection(const gis_options *options, gis_error *error)
 {

@@ -30,6 +30,8 @@ bool gis_resolve_buffer(const gis_options *options, gis_buffer_request *out, gis
 /* Route, likewise; to be cleared with gis_route_request_clear() in any case. */
 bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_error *error);
 
+/* --max-memory in bytes; 0: not given. */
+bool gis_resolve_memory(const gis_options *options, double *bytes, gis_error *error);
 /* OUTPUT; `main_layer` is the name of the main layer unless --output-layer says another. */
 gis_sink_request gis_resolve_sink(const gis_options *options, const char *path, const char *main_layer);
 gis_destinations gis_resolve_destinations(const gis_options *options);

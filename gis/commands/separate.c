@@ -6,6 +6,7 @@
 #include "commands/progress_shares.h"
 #include "commands/report.h"
 #include "commands/resolve.h"
+#include "layer/in_parts.h"
 #include "layer/output.h"
 #include "layer/proof.h"
 #include "read/crs_units.h"
@@ -39,6 +40,9 @@ typedef struct separate_run {
     bool taken;      /* standard output is */
     bool verified;
     double start, read, write;
+    double memory; /* --max-memory; 0: the layer is held whole */
+    bool whole;    /* ... but for its source, which is compared with what was written */
+    gis_in_parts parts;
 } separate_run;
 
 static bool write_layers(const separate_run *run, gis_error *error)
@@ -73,6 +77,14 @@ static bool choose_layers(const char *list, bool points, unsigned *chosen, gis_e
     return *chosen || gis_fail_usage(error, "--layers %s: nothing of that applies to this layer", list);
 }
 
+/* Whose move is the longest; OGRNullFID: nobody's, or it has no FID. */
+static GIntBig longest_fid(const separate_run *run)
+{
+    const size_t feature = run->summary.max_feature;
+    if (feature >= run->input.n) return OGRNullFID;
+    return run->memory > 0 ? gis_in_parts_fid(&run->parts, feature) : gis_source_fid(run->input.source, feature);
+}
+
 /* Is the summary printed? */
 static bool is_summarised(const separate_run *run) { return !run->taken && !run->options->given[OPT_QUIET]; }
 
@@ -88,10 +100,53 @@ static bool open_sink(separate_run *run, gis_error *error)
     gis_sink_request request = gis_resolve_sink(run->options, run->to.output, gis_source_name(run->input.source));
     request.suffixes = run->suffixes;
     if (!gis_sink_open(&request, run->input.source, &run->sink, error)) return false;
-    if (gis_sink_remembers(run->sink) && !gis_source_unpack(run->input.source, error)) return false;
+    if (gis_sink_remembers(run->sink) && (run->memory == 0 || run->whole) &&
+        !gis_source_unpack(run->input.source, error))
+        return false;
     if (!gis_sink_takes_more(run->sink)) run->chosen = LAYER_MAIN;
     if (!run->to.proof) gis_layer_forget_demands(&run->input);
     run->request.rules.keep_pushes = (run->chosen & LAYER_PUSHES) != 0;
+    return true;
+}
+
+/* The layer onto the disk; the source once more, to be written from, by batches unless the format compares features in
+ * the end. */
+static bool read_in_parts(separate_run *run, gis_error *error)
+{
+    if (run->to.report || run->to.proof)
+        return gis_fail_usage(error, "--max-memory: a layer is not separated in parts with %s",
+                              run->to.report ? "--report" : "--proof");
+    return gis_in_parts_begin(&run->request, run->memory, &run->parts, error) &&
+           gis_in_parts_open(&run->parts, false, &run->input, error);
+}
+
+static bool open_sink_in_parts(separate_run *run, gis_error *error)
+{
+    if (!open_sink(run, error)) return false;
+    if (!gis_sink_remembers(run->sink)) return true;
+    gis_sink_free(run->sink);
+    run->sink = NULL;
+    gis_layer_input_clear(&run->input);
+    run->whole = true;
+    return gis_in_parts_open(&run->parts, true, &run->input, error) && open_sink(run, error);
+}
+
+static bool solve_and_write_in_parts(separate_run *run, gis_error *error)
+{
+    gis_sink_result result;
+    if (!open_sink_in_parts(run, error)) return false;
+    gis_progress_stage(&run->progress, GIS_SEPARATE_READ, GIS_SEPARATE_SOLVED);
+    if (!gis_in_parts_solve(&run->parts, &run->input, &run->progress, &run->summary, error)) return false;
+    gis_progress_stage(&run->progress, GIS_SEPARATE_SOLVED, 1);
+    const double begin = gis_clock();
+    const gis_in_parts_layers layers = {(run->chosen & LAYER_MAIN) != 0, (run->chosen & LAYER_DISPLACEMENT) != 0,
+                                        (run->chosen & LAYER_CONFLICTS) != 0, (run->chosen & LAYER_PUSHES) != 0};
+    if (!gis_in_parts_write(&run->parts, &run->input, &layers, run->sink, error) ||
+        !gis_sink_finish(run->sink, &result, error))
+        return false;
+    run->write = gis_clock() - begin;
+    run->verified = run->summary.verified && result.exact;
+    gis_progress_done(&run->progress);
     return true;
 }
 
@@ -128,8 +183,8 @@ static void json_displacement(gis_json *out, const separate_run *run)
     gis_json_put_double(out, "mean", summary->mean);
     gis_json_put_double(out, "max", summary->max);
     gis_json_key(out, "max_fid");
-    if (summary->max_feature < run->input.n && gis_source_fid(run->input.source, summary->max_feature) != OGRNullFID)
-        gis_json_signed(out, gis_source_fid(run->input.source, summary->max_feature));
+    if (longest_fid(run) != OGRNullFID)
+        gis_json_signed(out, longest_fid(run));
     else
         gis_json_null(out);
     gis_json_put_double(out, "cost", summary->cost);
@@ -242,8 +297,7 @@ static bool print_summary(const void *separated, gis_error *error)
            summary->blocked, summary->skipped, run->input.invalid, run->input.null, summary->rounded);
     printf("displacement (%s): total %.6g, mean %.6g, max %.6g", unit_name(run), summary->total, summary->mean,
            summary->max);
-    if (summary->max_feature < run->input.n)
-        printf(" (FID " CPL_FRMT_GIB ")", gis_source_fid(run->input.source, summary->max_feature));
+    if (summary->max_feature < run->input.n) printf(" (FID " CPL_FRMT_GIB ")", longest_fid(run));
     printf("\ncost %.6g, at least %.6g is needed (optimality gap %.3g)\n", summary->cost, summary->lower_bound,
            optimality_gap(summary));
     if (gis_any_conflict(after) && (run->chosen & LAYER_CONFLICTS))
@@ -303,14 +357,18 @@ int gis_command_separate(const gis_options *options)
     gis_progress_stage(&run.progress, 0, GIS_SEPARATE_READ);
     ok = ok && gis_resolve_layer(options, &run.request, &error);
     run.request.rules.count_thin = is_summarised(&run);
-    ok = ok && gis_layer_input_read(&run.request, &run.input, &error) &&
+    ok = ok && gis_resolve_memory(options, &run.memory, &error);
+    ok = ok &&
+         (run.memory > 0 ? read_in_parts(&run, &error) : gis_layer_input_read(&run.request, &run.input, &error)) &&
          gis_destinations_spare(&run.to, run.input.source, &error);
     run.read = gis_clock() - run.start;
-    ok = ok && solve_and_write(&run, &error) && deliver(&run, &error);
+    ok = ok && (run.memory > 0 ? solve_and_write_in_parts(&run, &error) : solve_and_write(&run, &error)) &&
+         deliver(&run, &error);
     int status = ok ? gis_complete_status(options, gis_any_conflict(&run.summary.after)) : gis_say_failure(&error);
     gis_sink_free(run.sink);
     sunder_report_free(run.report);
     gis_layer_input_clear(&run.input);
+    gis_in_parts_clear(&run.parts);
     gis_layer_input_request_clear(&run.request);
     return status;
 }

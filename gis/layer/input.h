@@ -102,6 +102,9 @@ bool gis_layer_wrong_weight(const char *who, double weight, gis_error *error);
  * CRS. 0: nothing is to be told, for that is no tolerance that could be given. */
 double gis_layer_thin(const gis_layer_input *input); /* run.c */
 
+/* What the rules ask of the core, without anybody to tell how far it is (run.c). */
+sunder_layer_options gis_layer_core_options(const gis_layer_input *input);
+
 /* sunder_layer_separate or sunder_layer_check. */
 typedef sunder_status gis_layer_work(const sunder_layer *layer, const sunder_layer_options *options,
                                      sunder_report **out, sunder_error *err);

@@ -12,7 +12,7 @@ double gis_layer_thin(const gis_layer_input *input)
 }
 
 /* Symbols join by touch where a tolerance is asked for, and not else: they are meant to be told apart. */
-static sunder_layer_options core_options(const gis_layer_input *input)
+sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
 {
     const gis_layer_rules *rules = &input->request->rules;
     sunder_layer_options core;
@@ -37,7 +37,7 @@ static sunder_layer_options core_options(const gis_layer_input *input)
 
 static sunder_layer_options watched_options(const gis_layer_input *input, gis_progress *progress)
 {
-    sunder_layer_options how = core_options(input);
+    sunder_layer_options how = gis_layer_core_options(input);
     how.progress = gis_progress_call;
     how.progress_user = progress;
     return how;

@@ -137,6 +137,8 @@ const gis_option gis_option_table[OPT_N] = {
 
     [OPT_THREADS] = {OPT_THREADS, "--threads", GIS_TYPE_COUNT, GIS_ALL, GIS_GROUP_RUNNING, "N", "all processors",
                      "results are the same for every number"},
+    [OPT_MAX_MEMORY] = {OPT_MAX_MEMORY, "--max-memory", GIS_TYPE_TEXT, GIS_SEPARATE, GIS_GROUP_RUNNING, "SIZE", NULL,
+                        "in parts, by way of the disk: 700M, 2G; the same result"},
     [OPT_PROGRESS] = {OPT_PROGRESS, "--progress -progress", GIS_TYPE_OPTIONAL, GIS_ALL, GIS_GROUP_RUNNING, "plain",
                       "on a terminal", "progress on stderr; plain: 0 to 100, a line each"},
     [OPT_QUIET] = {OPT_QUIET, "--quiet -quiet -q", GIS_TYPE_FLAG, GIS_ALL, GIS_GROUP_RUNNING, NULL, NULL,

@@ -27,27 +27,29 @@ double gis_parts_halo(const gis_spool *spool, const sunder_layer_options *how)
 
 typedef struct of_shard {
     const gis_spool *spool;
-    unsigned shard;
+    unsigned first, end;
 } of_shard;
 
 static bool is_of_shard(const void *user, size_t cell, size_t index)
 {
     const of_shard *s = user;
     (void)index;
-    return gis_spool_cell_at(s->spool, cell)->shard == s->shard;
+    const unsigned shard = gis_spool_cell_at(s->spool, cell)->shard;
+    return s->first <= shard && shard < s->end;
 }
 
-bool gis_parts_shard(gis_spool *spool, unsigned shard, double halo, const sunder_layer_options *how,
-                     gis_part_result *result, gis_error *error)
+bool gis_parts_shards(gis_spool *spool, unsigned first, unsigned end, double halo, const sunder_layer_options *how,
+                      gis_part_result *result, gis_error *error)
 {
     gis_boxes_list boxes = {0};
-    const of_shard which = {spool, shard};
+    const of_shard which = {spool, first, end};
     bool done = true;
     for (size_t k = 0; k < gis_spool_cells(spool) && done; k++) {
         const gis_spool_cell *c = gis_spool_cell_at(spool, k);
-        if (c->shard == shard && c->box[0] <= c->box[2]) done = gis_boxes_add(&boxes, c->box, halo, error);
+        if (first <= c->shard && c->shard < end && c->box[0] <= c->box[2])
+            done = gis_boxes_add(&boxes, c->box, halo, error);
     }
-    done = done && (boxes.n == 0 || gis_part_separate(spool, &boxes, is_of_shard, &which, how, shard, result, error));
+    done = done && (boxes.n == 0 || gis_part_separate(spool, &boxes, is_of_shard, &which, how, first, result, error));
     free(boxes.box);
     return done;
 }

@@ -32,9 +32,9 @@ void gis_joined_clear(gis_joined *joined);
 /* gather.c: the lists and sums of the worlds that stand in out->parts. */
 bool gis_joined_gather(gis_joined *out, gis_error *error);
 
-/* One shard of the spool, from 0. */
-bool gis_parts_shard(gis_spool *spool, unsigned shard, double halo, const sunder_layer_options *how,
-                     gis_part_result *result, gis_error *error);
+/* Shards first to end - 1 of the spool, as one part. */
+bool gis_parts_shards(gis_spool *spool, unsigned first, unsigned end, double halo, const sunder_layer_options *how,
+                      gis_part_result *result, gis_error *error);
 /* How far about a shard it is looked at first: a guess. */
 double gis_parts_halo(const gis_spool *spool, const sunder_layer_options *how);
 

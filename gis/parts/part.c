@@ -150,7 +150,8 @@ static bool add_name(part *p, size_t thing, gis_error *error)
     const gis_spool_feature *f = &p->item[thing].feature;
     if (!MORE(p->out, name, names, 8, 1, error)) return false;
     gis_part_name *to = &p->out->name[p->out->names++];
-    *to = (gis_part_name){f->index, f->fid, copy_of(f->id)};
+    *to = (gis_part_name){.index = f->index, .fid = f->fid, .id = copy_of(f->id)};
+    sunder_shape_anchor(f->demands.shape, to->anchor);
     return !f->id || to->id || gis_no_memory(error);
 }
 

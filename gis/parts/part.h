@@ -36,11 +36,12 @@ typedef struct gis_part_world {
     size_t thin, clusters, clusters_optimal;
 } gis_part_world;
 
-/* A feature that is named by a conflict. */
+/* A feature that is named by a conflict or a push. */
 typedef struct gis_part_name {
     size_t index;
     int64_t fid;
-    char *id; /* owned */
+    char *id;         /* owned */
+    double anchor[2]; /* before it moved */
 } gis_part_name;
 
 /* A feature that was asked for and is of no world. */

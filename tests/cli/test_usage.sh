@@ -23,11 +23,7 @@ for words in '--gap LENGTH' '[gap / 10]' '[repair]' '[0]' 'units of the layer' '
     says out "$words"
 done
 rm commands
-# What comes later is neither there nor known.
-for option in --max-memory; do
-    if grep -qF -- "$option" out; then fail "$option is in --help"; fi
-    refused 2 "unknown option $option" separate a b $option 1
-done
+for size in 0 -3 2X 2GB G; do refused 2 'not a size' separate a b "--max-memory=$size"; done
 for option in --decomposition --order --planar-map; do refused 2 "unknown option" pair square:1 square:1 $option; done
 refused 2 'must be one of' sum square:1 square:1 --algorithm quickest
 refused 2 'unknown command' dissolve a b

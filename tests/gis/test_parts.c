@@ -162,7 +162,7 @@ static unsigned compare(const town *t, const sunder_report *whole, unsigned shar
     gis_error error;
     if (halo < 0) halo = gis_parts_halo(spool, &t->how);
     for (unsigned k = 0; k < shards; k++)
-        if (!gis_parts_shard(spool, k, halo, &t->how, &result, &error)) fail_msg("%s", error.message);
+        if (!gis_parts_shards(spool, k, k + 1, halo, &t->how, &result, &error)) fail_msg("%s", error.message);
     if (!gis_parts_join(spool, halo, &t->how, &result, &joined, &error)) fail_msg("%s", error.message);
     demand_same_features(t, whole, &joined);
     demand_same_conflicts(whole, &joined);

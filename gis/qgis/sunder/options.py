@@ -151,7 +151,7 @@ LEFT_OUT = {
     "--no-styles": "the styles are what QGIS loads", "--strict": _QGIS_WRITES, "--allow-inexact-output": _QGIS_WRITES,
     "--exact": "a layer holds doubles; rationals are for the shell",
     "--allow-conflicts": "what remains is told as a warning, not as a failure",
-    "--progress": _OURS, "--quiet": _OURS, "--stats": _OURS, "--report": "an output", "--proof": "an output",
+    "--progress": _OURS, "--max-memory": "layers that memory does not hold are for the shell", "--quiet": _OURS, "--stats": _OURS, "--report": "an output", "--proof": "an output",
     "--log": "an output", "--messages": _OURS, "--help": "the panel beside the dialog",
 }
 
