@@ -30,9 +30,7 @@ static bool refuse(const gis_layer_input_request *request, gis_error *error)
     const struct {
         bool given;
         const char *option;
-    } asked[] = {{request->barriers > 0, "--barrier"},
-                 {request->rules.block_field != NULL, "--block-field"},
-                 {request->symbol || request->symbol_field, "--symbol"}};
+    } asked[] = {{request->barriers > 0, "--barrier"}, {request->symbol || request->symbol_field, "--symbol"}};
     for (size_t k = 0; k < sizeof asked / sizeof *asked; k++)
         if (asked[k].given)
             return gis_fail_usage(error, "--max-memory: a layer is not separated in parts with %s", asked[k].option);
@@ -100,15 +98,15 @@ bool gis_in_parts_solve(gis_in_parts *p, const gis_layer_input *input, gis_progr
                         sunder_layer_summary *summary, gis_error *error)
 {
     const sunder_layer_options how = gis_layer_core_options(input);
-    const double halo = gis_parts_halo(p->spool, &how);
     const double began = gis_clock();
+    if (!gis_layout_make(p->spool, &how, p->request->rules.block_field != NULL, &p->layout, error)) return false;
     for (unsigned k = 0; k < SHARDS; k += p->at_once) {
         const unsigned end = k + p->at_once < SHARDS ? k + p->at_once : SHARDS;
-        if (!gis_parts_shards(p->spool, k, end, halo, &how, &p->result, error)) return false;
+        if (!gis_parts_shards(&p->layout, k, end, &p->result, error)) return false;
         gis_progress_call(0.9 * end / SHARDS, progress);
         if (!gis_go_on(error)) return false;
     }
-    if (!gis_parts_join(p->spool, halo, &how, &p->result, &p->joined, error)) return false;
+    if (!gis_parts_join(&p->layout, &p->result, &p->joined, error)) return false;
     *summary = p->joined.summary;
     summary->features = p->facts.source.features;
     summary->vertices = p->facts.vertices;
@@ -309,6 +307,7 @@ void gis_in_parts_clear(gis_in_parts *p)
 {
     gis_joined_clear(&p->joined);
     gis_part_result_clear(&p->result);
+    gis_layout_clear(&p->layout);
     gis_spool_close(p->spool);
     gis_layer_facts_clear(&p->facts);
     free(p->first_fid);

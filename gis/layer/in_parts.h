@@ -20,8 +20,9 @@ typedef struct gis_in_parts {
     gis_leftover *leftover;
     gis_layer_facts facts;
     gis_spool *spool;
-    bool whole; /* the source was opened to be held whole */
+    bool whole;       /* the source was opened to be held whole */
     unsigned at_once; /* so many shards of the spool are a part */
+    gis_layout layout;
     gis_part_result result;
     gis_joined joined;
     GIntBig *first_fid; /* [joined.blocks] of those that are the first of their block */

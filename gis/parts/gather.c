@@ -138,10 +138,40 @@ static size_t place_in(const size_t *sorted, size_t n, size_t index)
     return (size_t)((const size_t *)bsearch(&index, sorted, n, sizeof index, by_number) - sorted);
 }
 
+static size_t place_of_block(const gis_joined *j, size_t index)
+{
+    size_t low = 0, high = j->blocks;
+    while (low + 1 < high) {
+        const size_t middle = (low + high) / 2;
+        if (j->block[middle].a <= index)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
 static size_t root_of(size_t *parent, size_t x)
 {
     while (parent[x] != x) x = parent[x] = parent[parent[x]];
     return x;
+}
+
+/* One that is fixed fixes its block, of which no part may know both ends. j->block is complete. */
+static bool fix_blocks(gis_joined *j, gis_error *error)
+{
+    bool *fixed = calloc(j->blocks + 1, sizeof *fixed); /* by the places of blocks' firsts */
+    if (!fixed) return gis_no_memory(error);
+    for (int again = 0; again < 2; again++)
+        for (size_t k = 0, b = 0; k < j->stills; k++) {
+            while (b < j->blocks && j->block[b].a < j->still[k].index) b++;
+            if (b == j->blocks || j->block[b].a != j->still[k].index) continue;
+            bool *own = &fixed[place_of_block(j, j->block[b].b)];
+            *own = *own || j->still[k].status == SUNDER_FEATURE_FIXED;
+            if (*own && j->still[k].status == SUNDER_FEATURE_UNMOVED) j->still[k].status = SUNDER_FEATURE_FIXED;
+        }
+    free(fixed);
+    return true;
 }
 
 /* Whoever is linked is of one block, which is called by its first. */
@@ -236,7 +266,7 @@ static void sum_rows(gis_joined *j)
 bool gis_joined_gather(gis_joined *j, gis_error *error)
 {
     if (!gather_rows(j, error) || !gather_pairs(j, false, error) || !gather_pairs(j, true, error) ||
-        !gather_stills(j, error) || !gather_blocks(j, error))
+        !gather_stills(j, error) || !gather_blocks(j, error) || !fix_blocks(j, error))
         return false;
     sum_worlds(j);
     sum_rows(j);

@@ -3,27 +3,10 @@
 
 #include "base/array.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* ---- Shards ------------------------------------------------------------------------------------------------------ */
-
-/* So many gaps, and features as large as they are in the mean. */
-static const double gaps_about = 6, features_about = 2;
-
-double gis_parts_halo(const gis_spool *spool, const sunder_layer_options *how)
-{
-    double size = 0;
-    size_t n = 0;
-    for (size_t k = 0; k < gis_spool_cells(spool); k++) {
-        const gis_spool_cell *c = gis_spool_cell_at(spool, k);
-        if (c->features == 0 || c->box[0] > c->box[2]) continue;
-        size += (double)c->features * sqrt((c->box[2] - c->box[0]) * (c->box[3] - c->box[1]) / (double)c->features);
-        n += c->features;
-    }
-    return gaps_about * how->gap + (n ? features_about * size / (double)n : 0);
-}
 
 typedef struct of_shard {
     const gis_spool *spool;
@@ -38,18 +21,18 @@ static bool is_of_shard(const void *user, size_t cell, size_t index)
     return s->first <= shard && shard < s->end;
 }
 
-bool gis_parts_shards(gis_spool *spool, unsigned first, unsigned end, double halo, const sunder_layer_options *how,
-                      gis_part_result *result, gis_error *error)
+bool gis_parts_shards(const gis_layout *layout, unsigned first, unsigned end, gis_part_result *result, gis_error *error)
 {
+    const gis_spool *spool = layout->spool;
     gis_boxes_list boxes = {0};
     const of_shard which = {spool, first, end};
     bool done = true;
     for (size_t k = 0; k < gis_spool_cells(spool) && done; k++) {
         const gis_spool_cell *c = gis_spool_cell_at(spool, k);
         if (first <= c->shard && c->shard < end && c->box[0] <= c->box[2])
-            done = gis_boxes_add(&boxes, c->box, halo, error);
+            done = gis_boxes_add(&boxes, c->box, layout->halo, error);
     }
-    done = done && (boxes.n == 0 || gis_part_separate(spool, &boxes, is_of_shard, &which, how, first, result, error));
+    done = done && (boxes.n == 0 || gis_part_separate(layout, &boxes, is_of_shard, &which, first, result, error));
     free(boxes.box);
     return done;
 }
@@ -69,9 +52,7 @@ static int by_holding(const void *a, const void *b)
 }
 
 typedef struct joining {
-    gis_spool *spool;
-    double halo;
-    const sunder_layer_options *how;
+    const gis_layout *layout;
     gis_part_result *r;
     size_t *parent; /* [worlds] of those that are separated again, in lumps */
     bool *again;    /* [worlds] */
@@ -219,14 +200,14 @@ static bool separate_lump(joining *j, size_t root, size_t worlds, gis_error *err
         gis_part_world *world = &r->world[w];
         if (!j->again[w] || world->gone || root_of(j->parent, w) != root) continue;
         for (size_t k = 0; k < world->footprints && done; k++)
-            done = gis_boxes_add(&boxes, r->footprint[world->footprint + k].seen, j->halo, error);
+            done = gis_boxes_add(&boxes, r->footprint[world->footprint + k].seen, j->layout->halo, error);
         done = done && (gis_array_reserve(&which.index, &room, which.n + world->rows, sizeof *which.index) ||
                         gis_no_memory(error));
         for (size_t k = 0; k < world->rows && done; k++) which.index[which.n++] = r->row[world->row + k].index;
         world->gone = true;
     }
     if (done && which.n) qsort(which.index, which.n, sizeof *which.index, by_size);
-    done = done && gis_part_separate(j->spool, &boxes, is_of_lump, &which, j->how, j->run++, r, error);
+    done = done && gis_part_separate(j->layout, &boxes, is_of_lump, &which, j->run++, r, error);
     free(which.index);
     free(boxes.box);
     return done;
@@ -255,10 +236,9 @@ static bool settle(joining *j, bool *any, gis_error *error)
     return done;
 }
 
-bool gis_parts_join(gis_spool *spool, double halo, const sunder_layer_options *how, gis_part_result *result,
-                    gis_joined *out, gis_error *error)
+bool gis_parts_join(const gis_layout *layout, gis_part_result *result, gis_joined *out, gis_error *error)
 {
-    joining j = {.spool = spool, .halo = halo, .how = how, .r = result, .run = gis_spool_shards(spool)};
+    joining j = {.layout = layout, .r = result, .run = gis_spool_shards(layout->spool)};
     bool any = true, done = true;
     *out = (gis_joined){.parts = result};
     while (any && done) done = settle(&j, &any, error);

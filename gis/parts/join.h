@@ -24,18 +24,14 @@ typedef struct gis_joined {
     unsigned runs;
 } gis_joined;
 
-/* result: of all shards of the spool, each separated with the boxes of its own cells grown by `halo`; more is added to
- * it. It has to live as long as *out. */
-bool gis_parts_join(gis_spool *spool, double halo, const sunder_layer_options *how, gis_part_result *result,
-                    gis_joined *out, gis_error *error);
+/* result: of all shards; more is added to it. It has to live as long as *out. */
+bool gis_parts_join(const gis_layout *layout, gis_part_result *result, gis_joined *out, gis_error *error);
 void gis_joined_clear(gis_joined *joined);
 /* gather.c: the lists and sums of the worlds that stand in out->parts. */
 bool gis_joined_gather(gis_joined *out, gis_error *error);
 
-/* Shards first to end - 1 of the spool, as one part. */
-bool gis_parts_shards(gis_spool *spool, unsigned first, unsigned end, double halo, const sunder_layer_options *how,
-                      gis_part_result *result, gis_error *error);
-/* How far about a shard it is looked at first: a guess. */
-double gis_parts_halo(const gis_spool *spool, const sunder_layer_options *how);
+/* Shards first to end - 1 of the spool, as one part, with what is about their cells. */
+bool gis_parts_shards(const gis_layout *layout, unsigned first, unsigned end, gis_part_result *result,
+                      gis_error *error);
 
 #endif

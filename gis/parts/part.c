@@ -15,11 +15,14 @@ typedef struct loaded {
 } loaded;
 
 typedef struct part {
+    const gis_layout *layout;
     gis_spool *spool;
     const gis_boxes_list *boxes;
     gis_part_wants *wants;
     const void *user;
     size_t cell; /* that is being read */
+    bool others; /* ... for those of blocks alone */
+    bool *block; /* [layout->blocks] one of it is there */
     loaded *item;
     size_t n, capacity;
     sunder_layer *layer;
@@ -56,12 +59,29 @@ static bool is_near(const part *p, const double box[4])
     return false;
 }
 
+/* Among the layout's blocks; SIZE_MAX: it is none. */
+static size_t place_of(const part *p, int64_t block)
+{
+    size_t low = 0, high = p->layout->blocks;
+    while (low < high) {
+        const size_t middle = (low + high) / 2;
+        if (p->layout->block[middle].block == block) return middle;
+        if (p->layout->block[middle].block < block)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return SIZE_MAX;
+}
+
 static bool take(void *user, const gis_spool_feature *feature, gis_error *error)
 {
     part *p = user;
     double box[4];
     sunder_shape_box(feature->demands.shape, box);
-    const bool there = is_near(p, box);
+    const size_t block = place_of(p, feature->demands.block);
+    const bool near = is_near(p, box), there = p->others ? !near && block != SIZE_MAX && p->block[block] : near;
+    if (there && block != SIZE_MAX) p->block[block] = true;
     if (there && gis_array_reserve(&p->item, &p->capacity, p->n + 1, sizeof *p->item)) {
         loaded *to = &p->item[p->n++];
         *to = (loaded){*feature, p->wants(p->user, p->cell, feature->index)};
@@ -78,18 +98,33 @@ static int by_index(const void *a, const void *b)
     return (p->feature.index > q->feature.index) - (p->feature.index < q->feature.index);
 }
 
+/* Can there be one in the cell that is of a block with one that is there? */
+static bool has_others(const part *p, const double box[4])
+{
+    for (size_t b = 0; b < p->layout->blocks; b++)
+        if (p->block[b] && gis_boxes_meet(p->layout->block[b].box, box)) return true;
+    return false;
+}
+
 static bool load(part *p, gis_error *error)
 {
-    for (p->cell = 0; p->cell < gis_spool_cells(p->spool); p->cell++)
-        if (is_near(p, gis_spool_cell_at(p->spool, p->cell)->box) && !gis_spool_read(p->spool, p->cell, take, p, error))
-            return false;
+    p->block = calloc(p->layout->blocks + 1, sizeof *p->block);
+    if (!p->block) return gis_no_memory(error);
+    for (int others = 0; others < (p->layout->blocks ? 2 : 1); others++) {
+        p->others = others;
+        for (p->cell = 0; p->cell < gis_spool_cells(p->spool); p->cell++) {
+            const double *box = gis_spool_cell_at(p->spool, p->cell)->box;
+            if ((others ? has_others(p, box) : is_near(p, box)) && !gis_spool_read(p->spool, p->cell, take, p, error))
+                return false;
+        }
+    }
     if (p->n) qsort(p->item, p->n, sizeof *p->item, by_index);
     return true;
 }
 
-static bool separate(part *p, const sunder_layer_options *how, gis_error *error)
+static bool separate(part *p, gis_error *error)
 {
-    sunder_layer_options options = *how;
+    sunder_layer_options options = p->layout->how;
     sunder_error why;
     options.keep_worlds = true;
     sunder_feature *feature = malloc((p->n + 1) * sizeof *feature);
@@ -388,15 +423,22 @@ static void clear(part *p)
         free((char *)p->item[k].feature.id);
     }
     free(p->item);
+    free(p->block);
     sunder_layer_free(p->layer);
     sunder_report_free(p->report);
 }
 
-bool gis_part_separate(gis_spool *spool, const gis_boxes_list *boxes, gis_part_wants *wants, const void *user,
-                       const sunder_layer_options *how, unsigned run, gis_part_result *result, gis_error *error)
+bool gis_part_separate(const gis_layout *layout, const gis_boxes_list *boxes, gis_part_wants *wants, const void *user,
+                       unsigned run, gis_part_result *result, gis_error *error)
 {
-    part p = {.spool = spool, .boxes = boxes, .wants = wants, .user = user, .run = run, .out = result};
-    const bool done = load(&p, error) && separate(&p, how, error) && add_worlds(&p, error) && add_others(&p, error);
+    part p = {.layout = layout,
+              .spool = layout->spool,
+              .boxes = boxes,
+              .wants = wants,
+              .user = user,
+              .run = run,
+              .out = result};
+    const bool done = load(&p, error) && separate(&p, error) && add_worlds(&p, error) && add_others(&p, error);
     clear(&p);
     return done;
 }

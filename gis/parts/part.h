@@ -75,13 +75,33 @@ typedef struct gis_part_result {
 
 void gis_part_result_clear(gis_part_result *result);
 
+/* Where the features are that have the same block in their demands; by blocks. */
+typedef struct gis_part_block {
+    int64_t block;
+    double box[4];
+} gis_part_block;
+
+/* What all parts of a layer have in common. Zeroed: none. */
+typedef struct gis_layout {
+    gis_spool *spool; /* borrowed */
+    sunder_layer_options how;
+    double halo; /* so far about a shard it is looked at first: a guess */
+    gis_part_block *block;
+    size_t blocks;
+} gis_layout;
+
+/* how: without keep_worlds. numbered: some features have a block in their demands, and all are looked through. */
+bool gis_layout_make(gis_spool *spool, const sunder_layer_options *how, bool numbered, gis_layout *out,
+                     gis_error *error);
+void gis_layout_clear(gis_layout *layout);
+
 /* Is the feature, of that cell, asked for? */
 typedef bool gis_part_wants(const void *user, size_t cell, size_t index);
 
-/* Separates what meets the boxes, and adds what is told of it to the result. how: without keep_worlds. run: a number
- * for it. Fails as gis_layer_run(). */
-bool gis_part_separate(gis_spool *spool, const gis_boxes_list *boxes, gis_part_wants *wants, const void *user,
-                       const sunder_layer_options *how, unsigned run, gis_part_result *result, gis_error *error);
+/* Separates what meets the boxes, and who is of a block by number with such, and adds what is told of it to the result.
+ * run: a number for it. Fails as gis_layer_run(). */
+bool gis_part_separate(const gis_layout *layout, const gis_boxes_list *boxes, gis_part_wants *wants, const void *user,
+                       unsigned run, gis_part_result *result, gis_error *error);
 
 bool gis_boxes_add(gis_boxes_list *list, const double box[4], double reach, gis_error *error);
 bool gis_boxes_meet(const double a[4], const double b[4]);

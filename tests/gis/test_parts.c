@@ -1,7 +1,8 @@
 /* A layer separated in parts and joined again is what it is when separated whole, to the last bit, in however many
  * shards: moves, statuses, blocks, conflicts, pushes, sums.
  *
- * Layers are towns of slanted boxes, some of them crowded, some in rows that touch, some fixed or limited. */
+ * Layers are towns of slanted boxes, some of them crowded, some in rows that touch, some fixed or limited, some
+ * of blocks whose members are far from each other. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -49,18 +50,19 @@ static void lay_out(town *t, rng *r)
     t->how.keep_pushes = true;
     t->how.drop_proofs = true;
     t->how.threads = (unsigned)rng_int(r, 1, 2);
-    const bool limited = rng_once_in(r, 2);
+    const bool limited = rng_once_in(r, 2), numbered = rng_once_in(r, 2);
     const double pitch = 15 + 4 * rng_unit(r), crowded = 0.01 + 0.02 * rng_unit(r);
     const size_t row = 40 + (size_t)rng_int(r, 0, 60);
     for (t->n = 0; t->n < MOST; t->n++) {
-        const bool crowd = rng_unit(r) < crowded, terrace = rng_once_in(r, 12);
+        const bool street = t->n / row % 7 == 3 && t->n % row < 50; /* fixed by its first */
+        const bool crowd = rng_unit(r) < crowded, terrace = street || rng_once_in(r, 12);
         const double x = 4000.25 + pitch * (double)(t->n % row), y = 9000 + pitch * (double)(t->n / row);
         const double w = terrace ? pitch : crowd ? pitch - 1 + 3 * rng_unit(r) : 4 + 6 * rng_unit(r);
         t->feature[t->n] = (sunder_feature){.shape = box_at(r, x, y, w, 5 + 3 * rng_unit(r), !terrace),
                                             .weight = rng_once_in(r, 3) ? 1 + 3 * rng_unit(r) : 1,
                                             .max_shift = limited ? 4 * rng_unit(r) : INFINITY,
-                                            .fixed = rng_once_in(r, 15),
-                                            .block = -1};
+                                            .fixed = street ? t->n % row == 0 : rng_once_in(r, 40),
+                                            .block = numbered && rng_once_in(r, 200) ? rng_int(r, 0, 9) : -1};
     }
     for (size_t k = t->n; k-- > 1;) {
         const size_t other = (size_t)rng_int(r, 0, (int64_t)k);
@@ -160,16 +162,19 @@ static unsigned compare(const town *t, const sunder_report *whole, unsigned shar
     gis_part_result result = {0};
     gis_joined joined;
     gis_error error;
-    if (halo < 0) halo = gis_parts_halo(spool, &t->how);
+    gis_layout layout;
+    if (!gis_layout_make(spool, &t->how, true, &layout, &error)) fail_msg("%s", error.message);
+    if (halo >= 0) layout.halo = halo;
     for (unsigned k = 0; k < shards; k++)
-        if (!gis_parts_shards(spool, k, k + 1, halo, &t->how, &result, &error)) fail_msg("%s", error.message);
-    if (!gis_parts_join(spool, halo, &t->how, &result, &joined, &error)) fail_msg("%s", error.message);
+        if (!gis_parts_shards(&layout, k, k + 1, &result, &error)) fail_msg("%s", error.message);
+    if (!gis_parts_join(&layout, &result, &joined, &error)) fail_msg("%s", error.message);
     demand_same_features(t, whole, &joined);
     demand_same_conflicts(whole, &joined);
     demand_same_sums(whole, &joined);
     const unsigned more = joined.runs - shards;
     gis_joined_clear(&joined);
     gis_part_result_clear(&result);
+    gis_layout_clear(&layout);
     gis_spool_close(spool);
     return more;
 }
