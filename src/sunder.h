@@ -662,7 +662,8 @@ SUNDER_API const sunder_bound_pair *sunder_report_bound_pairs(const sunder_repor
  * last bit. */
 typedef struct sunder_footprint {
     size_t world;
-    double read[4], seen[4], wrote[4]; /* xmin ymin xmax ymax; all of what was read was seen */
+    /* xmin ymin xmax ymax; all of what was read was seen; what is fixed wrote nothing: xmin > xmax. */
+    double read[4], seen[4], wrote[4];
 } sunder_footprint;
 
 typedef struct sunder_world {

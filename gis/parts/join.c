@@ -213,8 +213,23 @@ static bool separate_lump(joining *j, size_t root, size_t worlds, gis_error *err
     return done;
 }
 
+/* So many rounds go by lumps of their own. After them all that was ever separated again is separated again together:
+ * then no two of it are of different runs, and each round takes in others, or is the last. */
+enum { APART = 12 };
+
+/* All that were separated again become one lump, if there is anything to be done. */
+static void lump_all(joining *j)
+{
+    size_t first = SIZE_MAX;
+    for (size_t w = 0; w < j->r->worlds && first == SIZE_MAX; w++)
+        if (j->again[w]) first = w;
+    for (size_t w = 0; w < j->r->worlds && first != SIZE_MAX; w++)
+        if (stands(&j->r->world[w]) && (j->again[w] || j->r->world[w].run >= gis_spool_shards(j->layout->spool)))
+            lump(j, first, w);
+}
+
 /* *any: there was something to be separated again. */
-static bool settle(joining *j, bool *any, gis_error *error)
+static bool settle(joining *j, unsigned round, bool *any, gis_error *error)
 {
     const size_t n = j->r->worlds;
     bool done = true;
@@ -226,6 +241,7 @@ static bool settle(joining *j, bool *any, gis_error *error)
     done = done && compare_holdings(j, error) && compare_footprints(j, error);
     for (size_t w = 0; w < n && done; w++)
         if (stands(&j->r->world[w]) && !j->r->world[w].complete) j->again[w] = true;
+    if (done && round >= APART) lump_all(j);
     for (size_t w = 0; w < n && done; w++) {
         if (!j->again[w] || j->r->world[w].gone || root_of(j->parent, w) != w) continue;
         *any = true;
@@ -241,7 +257,7 @@ bool gis_parts_join(const gis_layout *layout, gis_part_result *result, gis_joine
     joining j = {.layout = layout, .r = result, .run = gis_spool_shards(layout->spool)};
     bool any = true, done = true;
     *out = (gis_joined){.parts = result};
-    while (any && done) done = settle(&j, &any, error);
+    for (unsigned round = 0; any && done; round++) done = settle(&j, round, &any, error);
     out->runs = j.run;
     return done && gis_joined_gather(out, error);
 }

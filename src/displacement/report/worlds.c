@@ -101,7 +101,7 @@ static void find_boxes(gathering *g)
         double box[4], about[4];
         box_of(g->model, b, box);
         sunder_i_box_grow(box, g->reach, about);
-        sunder_i_box_join(g->wrote[at], box);
+        if (!stands(g->model, b)) sunder_i_box_join(g->wrote[at], box);
         sunder_i_box_join(g->read[at], about);
         sunder_i_box_join(g->read[at], g->model->read[b].place);
         sunder_i_box_join(g->seen[at], g->model->read[b].seen);
