@@ -18,6 +18,8 @@
 /* The spool is dealt to so many shards, of which a part is as many as memory allows. */
 enum { SHARDS = 4096 };
 enum { BATCH = 16384 };
+/* The share of them in all the work, what borders cut being the rest; roughly. */
+#define MOSTLY_SHARDS 0.9
 
 /* Bytes that a feature and a vertex of a part take, at most on towns; of what is kept besides, for each of the
  * layer. */
@@ -97,16 +99,21 @@ bool gis_in_parts_open(gis_in_parts *p, bool whole, gis_layer_input *out, gis_er
 bool gis_in_parts_solve(gis_in_parts *p, const gis_layer_input *input, gis_progress *progress,
                         sunder_layer_summary *summary, gis_error *error)
 {
-    const sunder_layer_options how = gis_layer_core_options(input);
+    /* How far the core is with a part tells nobody anything; but it hears of signals that way. */
+    gis_progress silent = gis_progress_new(GIS_PROGRESS_NONE);
+    sunder_layer_options how = gis_layer_core_options(input);
+    how.progress = gis_progress_call;
+    how.progress_user = &silent;
     const double began = gis_clock();
     if (!gis_layout_make(p->spool, &how, p->request->rules.block_field != NULL, &p->layout, error)) return false;
     for (unsigned k = 0; k < SHARDS; k += p->at_once) {
         const unsigned end = k + p->at_once < SHARDS ? k + p->at_once : SHARDS;
         if (!gis_parts_shards(&p->layout, k, end, &p->result, error)) return false;
-        gis_progress_call(0.9 * end / SHARDS, progress);
+        gis_progress_call(MOSTLY_SHARDS * end / SHARDS, progress);
         if (!gis_go_on(error)) return false;
     }
     if (!gis_parts_join(&p->layout, &p->result, &p->joined, error)) return false;
+    gis_layout_clear(&p->layout); /* which borrows `silent` */
     *summary = p->joined.summary;
     summary->features = p->facts.source.features;
     summary->vertices = p->facts.vertices;
@@ -115,25 +122,9 @@ bool gis_in_parts_solve(gis_in_parts *p, const gis_layer_input *input, gis_progr
     return true;
 }
 
-/* NULL: it did nothing. */
-static const gis_part_row *row_of(const gis_in_parts *p, size_t feature)
-{
-    size_t low = 0, high = p->joined.rows;
-    while (low < high) {
-        const size_t middle = (low + high) / 2;
-        const gis_part_row *row = &p->result.row[p->joined.row[middle]];
-        if (row->index == feature) return row;
-        if (row->index < feature)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return NULL;
-}
-
 GIntBig gis_in_parts_fid(const gis_in_parts *p, size_t feature)
 {
-    const gis_part_row *row = row_of(p, feature);
+    const gis_part_row *row = gis_joined_row(&p->joined, feature);
     return row ? row->fid : OGRNullFID;
 }
 
@@ -146,22 +137,14 @@ typedef struct passing {
     size_t row, still, block;
 } passing;
 
-static int by_feature(const void *a, const void *b)
-{
-    const gis_part_link *p = a, *q = b;
-    return (p->a > q->a) - (p->a < q->a);
-}
-
-/* The FID of the first of the block that is entry `block`; it has gone by. */
+/* Of a feature that went by, or goes: so the first of its block did. */
 static gis_value block_value(const gis_in_parts *p, size_t feature)
 {
-    const gis_part_link key = {feature, 0};
-    const gis_part_link *own =
-        p->joined.blocks ? bsearch(&key, p->joined.block, p->joined.blocks, sizeof key, by_feature) : NULL;
+    const gis_joined *j = &p->joined;
+    const gis_part_link *own = gis_joined_block(j, feature);
     if (!own) return gis_block_as_value(p->facts.source.fids_unique, -1, OGRNullFID);
-    const gis_part_link first_key = {own->b, 0};
-    const gis_part_link *first = bsearch(&first_key, p->joined.block, p->joined.blocks, sizeof key, by_feature);
-    return gis_block_as_value(p->facts.source.fids_unique, (int64_t)own->b, p->first_fid[first - p->joined.block]);
+    return gis_block_as_value(p->facts.source.fids_unique, (int64_t)own->b,
+                              p->first_fid[gis_joined_block(j, own->b) - j->block]);
 }
 
 static bool pass(passing *at, const gis_source *source, size_t i, gis_sink_layer *layer, gis_error *error)
@@ -266,7 +249,7 @@ static bool write_conflicts(const gis_in_parts *p, const gis_things *things, gis
 
 static void anchor_now(const gis_in_parts *p, size_t feature, double at[2])
 {
-    const gis_part_row *row = row_of(p, feature);
+    const gis_part_row *row = gis_joined_row(&p->joined, feature);
     for (int c = 0; c < 2; c++) at[c] = name_of(p, feature)->anchor[c] + (row ? row->move[c] : 0);
 }
 

@@ -1,5 +1,6 @@
 /* gather.c: what worlds tell, as lists by features, and as sums. Sums are exact until they are rounded once. */
 #include "parts/join.h"
+#include "parts/sets.h"
 
 #include "base/array.h"
 
@@ -38,18 +39,19 @@ static size_t *places_of(keyed *list, size_t *n)
     return place;
 }
 
-static bool is_in_world(const gis_joined *j, size_t index)
+const gis_part_row *gis_joined_row(const gis_joined *j, size_t feature)
 {
     size_t low = 0, high = j->rows;
     while (low < high) {
-        const size_t middle = (low + high) / 2, at = j->parts->row[j->row[middle]].index;
-        if (at == index) return true;
-        if (at < index)
+        const size_t middle = (low + high) / 2;
+        const gis_part_row *row = &j->parts->row[j->row[middle]];
+        if (row->index == feature) return row;
+        if (row->index < feature)
             low = middle + 1;
         else
             high = middle;
     }
-    return false;
+    return NULL;
 }
 
 static bool gather_rows(gis_joined *j, gis_error *error)
@@ -75,7 +77,7 @@ static bool gather_pairs(gis_joined *j, bool pushes, gis_error *error)
     const gis_part_result *r = j->parts;
     for (size_t w = 0; w < r->worlds && done; w++) {
         const gis_part_world *world = &r->world[w];
-        if (world->gone || (world->loose && is_in_world(j, world->first))) continue;
+        if (world->gone || (world->loose && gis_joined_row(j, world->first))) continue;
         const size_t first = pushes ? world->push : world->conflict, count = pushes ? world->pushes : world->conflicts;
         for (size_t k = first; k < first + count && done; k++)
             done =
@@ -111,7 +113,8 @@ static bool gather_stills(gis_joined *j, gis_error *error)
     bool done = true;
     const gis_part_result *r = j->parts;
     for (size_t k = 0; k < r->stills && done; k++)
-        if (!is_in_world(j, r->still[k].index)) done = push(&list, &n, &room, (keyed){r->still[k].index, 0, k}, error);
+        if (!gis_joined_row(j, r->still[k].index))
+            done = push(&list, &n, &room, (keyed){r->still[k].index, 0, k}, error);
     size_t *place = done ? places_of(list, &n) : NULL;
     free(list);
     j->still = place ? malloc((n + 1) * sizeof *j->still) : NULL;
@@ -138,23 +141,16 @@ static size_t place_in(const size_t *sorted, size_t n, size_t index)
     return (size_t)((const size_t *)bsearch(&index, sorted, n, sizeof index, by_number) - sorted);
 }
 
-static size_t place_of_block(const gis_joined *j, size_t index)
+static int by_feature(const void *a, const void *b)
 {
-    size_t low = 0, high = j->blocks;
-    while (low + 1 < high) {
-        const size_t middle = (low + high) / 2;
-        if (j->block[middle].a <= index)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    const gis_part_link *p = a, *q = b;
+    return (p->a > q->a) - (p->a < q->a);
 }
 
-static size_t root_of(size_t *parent, size_t x)
+const gis_part_link *gis_joined_block(const gis_joined *j, size_t feature)
 {
-    while (parent[x] != x) x = parent[x] = parent[parent[x]];
-    return x;
+    const gis_part_link key = {feature, 0};
+    return j->blocks ? bsearch(&key, j->block, j->blocks, sizeof key, by_feature) : NULL;
 }
 
 /* One that is fixed fixes its block, of which no part may know both ends. j->block is complete. */
@@ -166,7 +162,7 @@ static bool fix_blocks(gis_joined *j, gis_error *error)
         for (size_t k = 0, b = 0; k < j->stills; k++) {
             while (b < j->blocks && j->block[b].a < j->still[k].index) b++;
             if (b == j->blocks || j->block[b].a != j->still[k].index) continue;
-            bool *own = &fixed[place_of_block(j, j->block[b].b)];
+            bool *own = &fixed[gis_joined_block(j, j->block[b].b) - j->block];
             *own = *own || j->still[k].status == SUNDER_FEATURE_FIXED;
             if (*own && j->still[k].status == SUNDER_FEATURE_UNMOVED) j->still[k].status = SUNDER_FEATURE_FIXED;
         }
@@ -192,13 +188,10 @@ static bool gather_blocks(gis_joined *j, gis_error *error)
     parent = malloc((n + 1) * sizeof *parent);
     j->block = malloc((n + 1) * sizeof *j->block);
     for (size_t k = 0; k < n && parent && j->block; k++) parent[k] = k;
-    for (size_t k = 0; k < r->links && parent && j->block; k++) {
-        const size_t a = root_of(parent, place_in(index, n, r->link[k].a)),
-                     b = root_of(parent, place_in(index, n, r->link[k].b));
-        parent[a > b ? a : b] = a > b ? b : a;
-    }
+    for (size_t k = 0; k < r->links && parent && j->block; k++)
+        gis_set_join(parent, place_in(index, n, r->link[k].a), place_in(index, n, r->link[k].b));
     for (size_t k = 0; k < n && parent && j->block; k++) {
-        const size_t root = root_of(parent, k);
+        const size_t root = gis_set_root(parent, k);
         j->block[j->blocks++] = (gis_part_link){index[k], index[root]};
         j->summary.blocks += root == k;
     }

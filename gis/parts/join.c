@@ -1,5 +1,6 @@
 /* join.c: see join.h. */
 #include "parts/join.h"
+#include "parts/sets.h"
 
 #include "base/array.h"
 
@@ -59,17 +60,10 @@ typedef struct joining {
     unsigned run;
 } joining;
 
-static size_t root_of(size_t *parent, size_t x)
-{
-    while (parent[x] != x) x = parent[x] = parent[parent[x]];
-    return x;
-}
-
 static void lump(joining *j, size_t a, size_t b)
 {
-    const size_t x = root_of(j->parent, a), y = root_of(j->parent, b);
     j->again[a] = j->again[b] = true;
-    j->parent[x > y ? x : y] = x > y ? y : x;
+    gis_set_join(j->parent, a, b);
 }
 
 static bool stands(const gis_part_world *w) { return !w->gone && !w->loose; }
@@ -198,7 +192,7 @@ static bool separate_lump(joining *j, size_t root, size_t worlds, gis_error *err
     bool done = true;
     for (size_t w = root; w < worlds && done; w++) {
         gis_part_world *world = &r->world[w];
-        if (!j->again[w] || world->gone || root_of(j->parent, w) != root) continue;
+        if (!j->again[w] || world->gone || gis_set_root(j->parent, w) != root) continue;
         for (size_t k = 0; k < world->footprints && done; k++)
             done = gis_boxes_add(&boxes, r->footprint[world->footprint + k].seen, j->layout->halo, error);
         done = done && (gis_array_reserve(&which.index, &room, which.n + world->rows, sizeof *which.index) ||
@@ -243,7 +237,7 @@ static bool settle(joining *j, unsigned round, bool *any, gis_error *error)
         if (stands(&j->r->world[w]) && !j->r->world[w].complete) j->again[w] = true;
     if (done && round >= APART) lump_all(j);
     for (size_t w = 0; w < n && done; w++) {
-        if (!j->again[w] || j->r->world[w].gone || root_of(j->parent, w) != w) continue;
+        if (!j->again[w] || j->r->world[w].gone || gis_set_root(j->parent, w) != w) continue;
         *any = true;
         done = separate_lump(j, w, n, error);
     }

@@ -27,8 +27,12 @@ typedef struct gis_joined {
 /* result: of all shards; more is added to it. It has to live as long as *out. */
 bool gis_parts_join(const gis_layout *layout, gis_part_result *result, gis_joined *out, gis_error *error);
 void gis_joined_clear(gis_joined *joined);
+
 /* gather.c: the lists and sums of the worlds that stand in out->parts. */
 bool gis_joined_gather(gis_joined *out, gis_error *error);
+/* What became of a feature; NULL: it is of no world. Its entry in block[]; NULL: it is of no block. */
+const gis_part_row *gis_joined_row(const gis_joined *joined, size_t feature);
+const gis_part_link *gis_joined_block(const gis_joined *joined, size_t feature);
 
 /* Shards first to end - 1 of the spool, as one part, with what is about their cells. */
 bool gis_parts_shards(const gis_layout *layout, unsigned first, unsigned end, gis_part_result *result,

@@ -172,9 +172,9 @@ static bool is_known(const part *p, const double box[4], int depth)
 
 /* ---- What is told ------------------------------------------------------------------------------------------------ */
 
-/* Room for n more of one of the result's lists; `list` is its number in room[]. */
-#define MORE(out, array, count, list, n, error)                                                                        \
-    (gis_array_reserve(&(out)->array, &(out)->room[list], (out)->count + (n), sizeof *(out)->array) ||                 \
+/* Room for n more of one of the result's lists. */
+#define MORE(out, array, count, n, error)                                                                              \
+    (gis_array_reserve(&(out)->array, &(out)->room.array, (out)->count + (n), sizeof *(out)->array) ||                 \
      gis_no_memory(error))
 
 static size_t index_of(const part *p, size_t thing) { return thing < p->n ? p->item[thing].feature.index : SIZE_MAX; }
@@ -183,7 +183,7 @@ static bool add_name(part *p, size_t thing, gis_error *error)
 {
     if (thing >= p->n) return true;
     const gis_spool_feature *f = &p->item[thing].feature;
-    if (!MORE(p->out, name, names, 8, 1, error)) return false;
+    if (!MORE(p->out, name, names, 1, error)) return false;
     gis_part_name *to = &p->out->name[p->out->names++];
     *to = (gis_part_name){.index = f->index, .fid = f->fid, .id = copy_of(f->id)};
     sunder_shape_anchor(f->demands.shape, to->anchor);
@@ -193,7 +193,7 @@ static bool add_name(part *p, size_t thing, gis_error *error)
 static bool add_row(part *p, size_t k, gis_error *error)
 {
     const gis_spool_feature *f = &p->item[k].feature;
-    if (!MORE(p->out, row, rows, 1, 1, error)) return false;
+    if (!MORE(p->out, row, rows, 1, error)) return false;
     gis_part_row *row = &p->out->row[p->out->rows++];
     *row = (gis_part_row){.index = f->index,
                           .fid = f->fid,
@@ -210,8 +210,8 @@ static bool add_row(part *p, size_t k, gis_error *error)
 static bool add_conflict(part *p, const sunder_conflict *c, gis_error *error)
 {
     gis_part_result *out = p->out;
-    if (!MORE(out, conflict, conflicts, 4, 1, error) || !MORE(out, blocker, blockers, 5, c->n_blocked_by, error) ||
-        !MORE(out, blocked, conflicts, 9, 1, error))
+    if (!MORE(out, conflict, conflicts, 1, error) || !MORE(out, blocker, blockers, c->n_blocked_by, error) ||
+        !MORE(out, blocked, conflicts, 1, error))
         return false;
     sunder_conflict *to = &out->conflict[out->conflicts];
     out->blocked[out->conflicts++] = out->blockers;
@@ -230,7 +230,7 @@ static bool add_conflict(part *p, const sunder_conflict *c, gis_error *error)
 
 static bool add_push(part *p, const sunder_push *push, gis_error *error)
 {
-    if (!MORE(p->out, push, pushes, 6, 1, error)) return false;
+    if (!MORE(p->out, push, pushes, 1, error)) return false;
     sunder_push *to = &p->out->push[p->out->pushes++];
     *to = *push;
     to->a = index_of(p, push->a);
@@ -249,7 +249,7 @@ static bool add_footprints(part *p, const sunder_world *w, gis_part_world *to, g
 {
     size_t n;
     const sunder_footprint *all = sunder_report_footprints(p->report, &n);
-    if (!MORE(p->out, footprint, footprints, 2, w->footprints, error)) return false;
+    if (!MORE(p->out, footprint, footprints, w->footprints, error)) return false;
     to->complete = true;
     for (size_t k = 0; k < w->footprints; k++) {
         const sunder_footprint *f = &all[w->footprint + k];
@@ -344,13 +344,13 @@ static bool add_world(part *p, size_t number, belongings *all, gis_error *error)
                          .thin = w->thin,
                          .clusters = w->clusters,
                          .clusters_optimal = w->clusters_optimal};
-    if (!MORE(out, bound, bounds, 3, w->bounds, error) || !add_footprints(p, w, &to, error)) return false;
+    if (!MORE(out, bound, bounds, w->bounds, error) || !add_footprints(p, w, &to, error)) return false;
     for (size_t k = 0; k < w->bounds; k++) out->bound[out->bounds++] = bound[w->bound + k];
     if (!add_members(p, all, number, error)) return false;
     to.rows = out->rows - to.row;
     to.conflicts = out->conflicts - to.conflict;
     to.pushes = out->pushes - to.push;
-    if (!MORE(out, world, worlds, 0, 1, error)) return false;
+    if (!MORE(out, world, worlds, 1, error)) return false;
     out->world[out->worlds++] = to;
     return true;
 }
@@ -364,7 +364,7 @@ static bool add_loose(part *p, const belongings *all, gis_error *error)
     for (size_t k = all->c; k < all->conflicts; k++) {
         const sunder_conflict *c = &conflict[all->conflict[k].at];
         if (!p->item[c->a].wanted) continue;
-        if (!MORE(out, world, worlds, 0, 1, error)) return false;
+        if (!MORE(out, world, worlds, 1, error)) return false;
         out->world[out->worlds++] = (gis_part_world){.first = index_of(p, c->a),
                                                      .run = p->run,
                                                      .complete = true,
@@ -404,13 +404,13 @@ static bool add_others(part *p, gis_error *error)
     for (size_t k = 0; k < p->n; k++) {
         const int64_t block = sunder_report_block(p->report, k);
         if (block >= 0 && (size_t)block != k) {
-            if (!MORE(out, link, links, 10, 1, error)) return false;
+            if (!MORE(out, link, links, 1, error)) return false;
             out->link[out->links++] = (gis_part_link){index_of(p, (size_t)block), index_of(p, k)};
         }
         if (!p->item[k].wanted || sunder_report_world(p->report, k) != SIZE_MAX) continue;
         const gis_part_still still = {index_of(p, k), sunder_report_inside(p->report, k),
                                       sunder_report_status(p->report, k)};
-        if (!MORE(out, still, stills, 7, 1, error)) return false;
+        if (!MORE(out, still, stills, 1, error)) return false;
         out->still[out->stills++] = still;
     }
     return true;

@@ -61,15 +61,17 @@ typedef struct gis_part_result {
     gis_part_row *row;
     sunder_footprint *footprint;
     double *bound;
-    sunder_conflict *conflict; /* blocked_by is the place in blocker[] + 1, as a pointer, until they are joined */
+    sunder_conflict *conflict; /* without blocked_by, until they are joined (join.h) */
     size_t *blocker;
-    size_t *blocked; /* [conflicts] where in blocker[] */
+    size_t *blocked; /* [conflicts] where its blocked_by begins in blocker[] */
     sunder_push *push;
     gis_part_name *name;
     gis_part_still *still;
     gis_part_link *link;
     size_t worlds, rows, footprints, bounds, conflicts, blockers, pushes, names, stills, links;
-    size_t room[11];
+    struct {
+        size_t world, row, footprint, bound, conflict, blocker, blocked, push, name, still, link;
+    } room;
     bool unverified; /* the core did not verify some part */
 } gis_part_result;
 
