@@ -789,6 +789,11 @@ SUNDER_API const sunder_bound_tree *sunder_report_bound_trees(const sunder_repor
  * anchor on its right. Any u at which the straight way of the anchor, as the other part sees it, does not meet the
  * interior of that part, or that segment, has n.u >= d for at least one of the node's ways: no clearance is asked.
  *
+ * Where `chord`, such a side of barrier b and one of barrier c (which may be b) have one end in common, and the other
+ * ends on either side of the straight way from the anchor through it. The second part is a segment, one end of which is
+ * strictly in the shadow of either side, and which the way passes beyond that common end; so what it shadows is in the
+ * shadows of the two sides together.
+ *
  * Where `slack`, the clearance is negative, and the pair not the conflict itself. All its parts have one translation
  * v, no longer than minus the clearance, that leaves them disjoint interiors: it is the same at all such nodes of the
  * pair, and their ways are about u = t_B + v - t_A, of which it is asked to leave the parts disjoint interiors.
@@ -832,6 +837,9 @@ typedef struct sunder_proof_node {
     size_t force, forces;
     bool still; /* a leaf: a block that is between the lines of two ways stays where it is: see above */
     size_t line_node[2], line_way[2];
+    bool
+        chord; /* a shadow: the second part is a chord across a corner that a side of b and one of c share: see above */
+    size_t c, sides; /* then: of these two sides the first corner of four, two of b's and two of c's */
 } sunder_proof_node;
 
 typedef struct sunder_proof {
@@ -890,8 +898,8 @@ typedef struct sunder_route sunder_route;
  *            without area alone: where members cross in places that no doubles hold, walls that two share are no part
  *            of the interior.)
  * out        on success, also where there is no route: see sunder_route_reason().
- * Fails      SUNDER_EARG for an argument out of its range, SUNDER_ENOMEM, SUNDER_ECANCEL; SUNDER_ERANGE for a place too
- *            far away to be compared.
+ * Fails      SUNDER_EARG for an argument out of its range, SUNDER_ENOMEM, SUNDER_ECANCEL; SUNDER_EINVALID for an
+ *            obstacle with a coordinate that is not finite, SUNDER_ERANGE for a place too far away to be compared.
  * Source     [LW79] for the graph, [HNR68] for the search; see src/motion/README.
  * Cost       the outline of the union as of a sum; then A* over the corners, of which only edges that may belong to a
  *            shortest path are looked at. */

@@ -8,6 +8,7 @@
  * That is one run of rounds (clusters/settle.c). Here is the order of such runs, and of what comes before, between and
  * after them. */
 #include "displacement/clusters/stages.h"
+#include "displacement/proofs/feasibility.h"
 #include "displacement/report/report.h"
 
 #include "base/clock.h"
@@ -232,7 +233,7 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
     if (!status) status = sunder_i_report_bound(report, s, err);
     if (!status) status = sunder_i_report_optimality(report, s, err);
     if (!status) status = sunder_i_report_pushes(report, s, err);
-    if (!status) status = sunder_i_report_proofs(report, s, err);
+    if (!status) status = sunder_i_report_proofs(report, s, sunder_i_decide, err);
     if (!status) status = sunder_i_report_blockers(report, s, err);
     if (!status) status = sunder_i_report_needs(report, s, options, work_briefly, err);
     if (!status) status = sunder_i_solver_is_upheld(s, &report->summary.verified, err);

@@ -188,7 +188,7 @@ static bool fits_at(locator *l, const sunder_i_hpoint *x)
         sunder_i_rational_sub(scratch, sunder_i_hpoint_read(scratch, l->lattice, x), l->e->element->inner[0]);
     const sunder_i_hpoint p = sunder_i_hpoint_make(l->lattice, at);
     sunder_i_lattice_end(l->lattice, mark);
-    return is_inside(l, &p);
+    return !l->lattice->arena.failed && is_inside(l, &p); /* where memory is out, the place is none */
 }
 
 /* Which vertices hang together by stretches. NULL if memory is out. */

@@ -95,12 +95,13 @@ typedef struct ray {
 static bool box_near(const double box[4], const ray *r)
 {
     if (box[0] > r->high[0] || box[2] < r->low[0] || box[1] > r->high[1] || box[3] < r->low[1]) return false;
-    /* The line passes it by: all corners clearly on one side. */
+    /* The line passes it by: all corners clearly on one side. Products that are beyond all doubles leave it open. */
     const double mx = box[0] / 2 + box[2] / 2 - r->x, my = box[1] / 2 + box[3] / 2 - r->y;
     const double hx = (box[2] - box[0]) / 2, hy = (box[3] - box[1]) / 2;
     const double off = fabs(r->dx * my - r->dy * mx), reach = fabs(r->dx) * hy + fabs(r->dy) * hx;
-    return off <=
-           reach + r->slack * (fabs(r->dx) + fabs(r->dy)) + 4 * DBL_EPSILON * (fabs(r->dx * my) + fabs(r->dy * mx));
+    const double error =
+        r->slack * (fabs(r->dx) + fabs(r->dy)) + 4 * DBL_EPSILON * (fabs(r->dx * my) + fabs(r->dy * mx));
+    return !(off > reach + error);
 }
 
 static ray ray_of(const sunder_i_free_space *s, const sunder_i_filtered_point *p, const sunder_i_filtered_point *q)

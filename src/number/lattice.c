@@ -7,16 +7,17 @@
 #include <math.h>
 #include <string.h>
 
-int sunder_i_low_bit(double v)
+static inline int low_bit_of(double v)
 {
-    if (v == 0) return INT_MAX;
     uint64_t b;
     memcpy(&b, &v, sizeof b);
     const int field = (int)(b >> 52 & 0x7ff);
     const uint64_t fraction = b & (((uint64_t)1 << 52) - 1);
-    if (field == 0) return -1074 + __builtin_ctzll(fraction);
-    return field - 1075 + __builtin_ctzll(fraction | (uint64_t)1 << 52);
+    if (field) return field - 1075 + __builtin_ctzll(fraction | (uint64_t)1 << 52);
+    return fraction ? -1074 + __builtin_ctzll(fraction) : INT_MAX; /* of the smallest doubles, and of zero */
 }
+
+int sunder_i_low_bit(double v) { return low_bit_of(v); }
 
 void sunder_i_extent_add(sunder_i_extent *extent, const double *xy, size_t n)
 {
@@ -26,14 +27,19 @@ void sunder_i_extent_add(sunder_i_extent *extent, const double *xy, size_t n)
         extent->low_bit = INT_MAX;
         for (int k = 0; k < 2; k++) extent->low[k] = extent->high[k] = xy[k];
     }
-    for (size_t i = 0; i < 2 * n; i++) {
-        const int k = (int)(i & 1);
-        const double v = xy[i];
-        if (v < extent->low[k]) extent->low[k] = v;
-        if (v > extent->high[k]) extent->high[k] = v;
-        const int b = sunder_i_low_bit(v);
-        if (b < extent->low_bit) extent->low_bit = b;
-    }
+    double low[2] = {extent->low[0], extent->low[1]}, high[2] = {extent->high[0], extent->high[1]};
+    int bit = extent->low_bit;
+    for (size_t i = 0; i < n; i++)
+        for (int k = 0; k < 2; k++) {
+            const double v = xy[2 * i + (size_t)k];
+            low[k] = v < low[k] ? v : low[k];
+            high[k] = v > high[k] ? v : high[k];
+            const int b = low_bit_of(v);
+            bit = b < bit ? b : bit;
+        }
+    memcpy(extent->low, low, sizeof low);
+    memcpy(extent->high, high, sizeof high);
+    extent->low_bit = bit;
 }
 
 /* The exponent e of v = m 2^e, 1/2 <= |m| < 1, as frexp() has it, without a call where v is a normal double. */

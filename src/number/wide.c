@@ -1,4 +1,5 @@
-/* Sums of two products of 64 by 128 bits, and the order of products of 128 by 128 and of 256 by 128 bits. */
+/* Sums of two products of 64 by 128 bits, the order of products of 128 by 128 and of 256 by 128 bits, and greatest
+ * common divisors. */
 #include "number/wide.h"
 
 #include <math.h>
@@ -103,4 +104,37 @@ double sunder_i_i256_double_long(const sunder_i_i256 *a)
         v = ldexp((double)two, 64 * (top - 1));
     }
     return a->sign < 0 ? -v : v;
+}
+
+/* Binary: of two odd numbers the difference is even, and its odd part has the same divisors in common with the lesser
+ * one. */
+sunder_i_u128 sunder_i_u128_odd_gcd(sunder_i_u128 a, sunder_i_u128 b)
+{
+    while (a != b && (a >> 64 || b >> 64)) {
+        if (a > b) {
+            a -= b;
+            a >>= sunder_i_u128_twos(a);
+        } else {
+            b -= a;
+            b >>= sunder_i_u128_twos(b);
+        }
+    }
+    uint64_t c = (uint64_t)a, d = (uint64_t)b;
+    if (a == b) return a;
+    while (c != d) {
+        if (c > d) {
+            c -= d;
+            c >>= __builtin_ctzll(c);
+        } else {
+            d -= c;
+            d >>= __builtin_ctzll(d);
+        }
+    }
+    return c;
+}
+
+sunder_i_u128 sunder_i_u128_gcd(sunder_i_u128 a, sunder_i_u128 b)
+{
+    const unsigned i = sunder_i_u128_twos(a), j = sunder_i_u128_twos(b);
+    return sunder_i_u128_odd_gcd(a >> i, b >> j) << (i < j ? i : j);
 }

@@ -44,6 +44,17 @@ static inline void sunder_i_u128_mul(sunder_i_u128 a, sunder_i_u128 b, uint64_t 
     r[3] = (uint64_t)(high >> 64);
 }
 
+/* How many zero bits it ends in; not of zero. */
+static inline unsigned sunder_i_u128_twos(sunder_i_u128 v)
+{
+    const uint64_t low = (uint64_t)v;
+    return low ? (unsigned)__builtin_ctzll(low) : 64 + (unsigned)__builtin_ctzll((uint64_t)(v >> 64));
+}
+
+/* The greatest common divisor: of odd numbers, and of any two that are not zero. */
+sunder_i_u128 sunder_i_u128_odd_gcd(sunder_i_u128 a, sunder_i_u128 b);
+sunder_i_u128 sunder_i_u128_gcd(sunder_i_u128 a, sunder_i_u128 b);
+
 static inline int sunder_i_limbs_cmp(const uint64_t *a, const uint64_t *b, int n)
 {
     for (int i = n - 1; i >= 0; i--)

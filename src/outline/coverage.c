@@ -271,6 +271,7 @@ static void sweep_line(finder *f, uint32_t number, const uint64_t *pair, size_t 
         if (i == 0 || pair[i] != pair[i - 1]) meet(f, &f->lines->line[number], (uint32_t)pair[i]);
     }
     if (!f->no_memory && !sunder_i_events_sort(&f->events, f->parts->lattice)) f->no_memory = true;
+    if (f->parts->lattice->arena.failed) f->no_memory = true; /* the events' order may be any */
     if (!f->no_memory) sweep(f, number);
 }
 

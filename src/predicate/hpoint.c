@@ -106,7 +106,7 @@ static bool is_native(const sunder_i_lattice *l, sunder_i_rational_point p)
 
 sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *l, sunder_i_rational_point v)
 {
-    SUNDER_I_ASSERT(l->arena.failed || sunder_i_big_sign(v.w) > 0);
+    SUNDER_I_ASSERT(l->arena.failed || l->scratch.failed || sunder_i_big_sign(v.w) > 0);
     if (is_native(l, v)) {
         const sunder_i_i256 d = big_i256(v.w);
         return native(l, big_i256(v.x), big_i256(v.y), (sunder_i_i128)((sunder_i_u128)d.limb[1] << 64 | d.limb[0]));

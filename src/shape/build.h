@@ -9,6 +9,7 @@
  * repair.c         the even-odd set of a polygon in its place, by the arrangement of arcs.c and even_odd.c
  * pieces.c         holes bridged (bridge.c), ears cut off (ears.c), triangles merged (merge_triangles.c)
  * finish.c         everything into one block of memory
+ * small_ring.c     all of that for one small ring that is sound as it is
  * few_corners.c    what is the same for all rings of few corners */
 #ifndef SUNDER_I_BUILD_H
 #define SUNDER_I_BUILD_H
@@ -185,6 +186,10 @@ void sunder_i_mesh_merge(const sunder_i_rings *r, sunder_i_mesh *mesh);
 /* One block for the shape and its arrays; the raw input is copied in, the cleaned form and the pieces too. */
 sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
                                       const sunder_i_rings *r, const sunder_i_pieces *pieces);
+/* The same of one ring of n corners, at most SUNDER_I_FEW_CORNERS, that is sound as it was given: all `raw` vertices
+ * but perhaps the closing one are corners, run the other way if turned. */
+sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32_t n, bool turned,
+                                            const sunder_i_pieces *pieces);
 /* Box and extent from the coordinates (not for rational shapes). */
 void sunder_i_shape_measure(sunder_shape *shape, const sunder_i_extent *known);
 /* Of another shape whose places are as much alike. */

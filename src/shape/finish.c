@@ -92,6 +92,17 @@ static void copy(const void *to, const void *from, size_t n, size_t size)
     if (n) memcpy((void *)to, from, n * size);
 }
 
+/* The shape with its arrays, which are to be filled; NULL if memory is out. */
+static sunder_shape *allocate(const sunder_shape *head, const layout *l)
+{
+    sunder_shape counted = *head;
+    sunder_shape *s = sunder_i_alloc(lay_out(&counted, NULL, head, l), 1);
+    if (!s) return NULL;
+    *s = *head;
+    lay_out(s, (unsigned char *)s, head, l);
+    return s;
+}
+
 sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
                                       const sunder_i_rings *r, const sunder_i_pieces *pieces)
 {
@@ -101,11 +112,8 @@ sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, 
                          .rings = r->rings,
                          .polygons = r->polygons,
                          .pieces = pieces->pieces};
-    const size_t bytes = lay_out(&head, NULL, &head, &l);
-    sunder_shape *s = sunder_i_alloc(bytes, 1);
+    sunder_shape *s = allocate(&head, &l);
     if (!s) return NULL;
-    *s = head;
-    lay_out(s, (unsigned char *)s, &head, &l);
     copy(s->raw_xy, xy, 2 * l.raw_vertices, sizeof *xy);
     if (!l.clean) copy(s->xy, r->xy, 2 * (size_t)r->vertices, sizeof *r->xy);
     if (!l.few) {
@@ -116,6 +124,28 @@ sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, 
         copy(s->next, r->next, r->vertices, sizeof *r->next);
         copy(s->prev, r->prev, r->vertices, sizeof *r->prev);
     }
+    if (!l.whole) {
+        copy(s->piece_end, pieces->piece_end, pieces->pieces, sizeof *pieces->piece_end);
+        copy(s->piece_vertex, pieces->piece_vertex, pieces->corners, sizeof *pieces->piece_vertex);
+    }
+    return s;
+}
+
+sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32_t n, bool turned,
+                                            const sunder_i_pieces *pieces)
+{
+    const layout l = {.raw_vertices = raw,
+                      .raw_rings = 1,
+                      .corners = pieces->corners,
+                      .few = true,
+                      .whole = pieces->pieces == 1,
+                      .clean = !turned,
+                      .unshared = true};
+    const sunder_shape head = {.raw_polygons = 1, .vertices = n, .rings = 1, .polygons = 1, .pieces = pieces->pieces};
+    sunder_shape *s = allocate(&head, &l);
+    if (!s) return NULL;
+    copy(s->raw_xy, xy, 2 * raw, sizeof *xy);
+    for (uint32_t i = 0; turned && i < n; i++) memcpy(s->xy + 2 * i, xy + 2 * (n - 1 - i), 2 * sizeof *xy);
     if (!l.whole) {
         copy(s->piece_end, pieces->piece_end, pieces->pieces, sizeof *pieces->piece_end);
         copy(s->piece_vertex, pieces->piece_vertex, pieces->corners, sizeof *pieces->piece_vertex);

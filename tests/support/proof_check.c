@@ -142,7 +142,10 @@ static const char *check_blockers(const checking *c)
     const sunder_conflict *own = &c->listed[c->conflict];
     bool *used = calloc(c->things, sizeof *used);
     for (size_t k = 0; k < c->proof->nodes; k++)
-        if (c->proof->node[k].ways) used[c->proof->node[k].a] = used[c->proof->node[k].b] = true;
+        if (c->proof->node[k].ways) {
+            used[c->proof->node[k].a] = used[c->proof->node[k].b] = true;
+            if (c->proof->node[k].chord) used[c->proof->node[k].c] = true;
+        }
     used[own->a] = used[own->b] = false;
     size_t n = 0;
     bool same = true;

@@ -163,16 +163,85 @@ static bool is_outer_side(const proof_feature *area, const double side[4], const
     return outer;
 }
 
-static const char *check_side(const checking *c, const sunder_proof_node *node)
+static const char *check_side_of(const checking *c, const sunder_proof_node *node, size_t of, const double side[4])
 {
-    const double *anchor = c->proof->corner + 2 * node->part_a, *side = c->proof->corner + 2 * node->part_b;
-    const proof_feature *barrier = &c->feature[node->b];
-    if (!barrier->sides) return "a barrier without sides";
+    const double *anchor = c->proof->corner + 2 * node->part_a;
+    const proof_feature *barrier = &c->feature[of];
+    if (of < c->n || !barrier->sides) return "a barrier without sides";
     if (node->corners_a != 1 || node->corners_b != 2) return "a side is a segment, and has an anchor";
     if (barrier->line ? !is_part_of_line(side, 2, barrier) : !is_outer_side(barrier, side, anchor))
         return "a side is not of its barrier, or faces away";
     if (barrier->line && is_part_of_line(anchor, 1, barrier)) return "a side anchor lies on its barrier";
     return check_side_anchor(c, node->a, anchor);
+}
+
+/* Is the end of a chord in the shadow of the side from `corner` to `other`, and off the way through the corner? */
+static bool is_shaded_end(const vec *anchor, const vec *corner, const vec *other, const vec *end)
+{
+    const int turn = vec_side(anchor, corner, other), far = vec_side(corner, other, anchor);
+    return turn != 0 && vec_side(anchor, corner, end) == turn && vec_side(anchor, other, end) != turn && far != 0 &&
+           vec_side(corner, other, end) != far;
+}
+
+/* Does the way from the anchor through the corner meet the line of the chord, and not before the corner? */
+static bool is_passed_beyond(const vec chord[2], const vec *anchor, const vec *corner)
+{
+    vec e, to;
+    mpq_t of_anchor, of_corner;
+    vec_init(&e), vec_init(&to);
+    mpq_inits(of_anchor, of_corner, NULL);
+    vec_sub(&e, &chord[1], &chord[0]);
+    vec_sub(&to, anchor, &chord[0]);
+    vec_cross(of_anchor, &e, &to);
+    vec_sub(&to, corner, &chord[0]);
+    vec_cross(of_corner, &e, &to);
+    bool beyond = mpq_sgn(of_anchor) != 0;
+    if (beyond) {
+        mpq_div(of_corner, of_corner, of_anchor);
+        beyond = mpq_sgn(of_corner) >= 0 && mpq_cmp_ui(of_corner, 1, 1) < 0;
+    }
+    vec_clear(&e), vec_clear(&to);
+    mpq_clears(of_anchor, of_corner, NULL);
+    return beyond;
+}
+
+/* A side of each barrier, with one end in common, and a chord from the shadow of the one to that of the other. */
+static const char *check_chord(const checking *c, const sunder_proof_node *node)
+{
+    const double *side = c->proof->corner + 2 * node->sides;
+    const char *wrong = check_side_of(c, node, node->b, side);
+    if (!wrong) wrong = check_side_of(c, node, node->c, side + 4);
+    if (wrong) return wrong;
+    size_t i = 0, j = 0; /* the ends in common */
+    for (size_t k = 0; k < 4; k++)
+        if (side[2 * (k / 2)] == side[4 + 2 * (k % 2)] && side[2 * (k / 2) + 1] == side[5 + 2 * (k % 2)]) {
+            i = k / 2;
+            j = k % 2;
+        }
+    vec anchor, corner, other[2], chord[2];
+    vec_init(&anchor), vec_init(&corner);
+    vec_set_d(&anchor, c->proof->corner + 2 * node->part_a), vec_set_d(&corner, side + 2 * i);
+    for (size_t k = 0; k < 2; k++) {
+        vec_init(&other[k]), vec_init(&chord[k]);
+        vec_set_d(&other[k], side + 4 * k + 2 * (1 - (k ? j : i)));
+        vec_set_d(&chord[k], c->proof->corner + 2 * (node->part_b + k));
+    }
+    if (side[2 * i] != side[4 + 2 * j] || side[2 * i + 1] != side[5 + 2 * j])
+        wrong = "sides that share no corner";
+    else if (vec_side(&anchor, &corner, &other[0]) != -vec_side(&anchor, &corner, &other[1]))
+        wrong = "two sides on one side of the way through their corner";
+    for (size_t k = 0; k < 2 && !wrong; k++)
+        if (!is_shaded_end(&anchor, &corner, &other[k], &chord[k])) wrong = "an end of a chord that no side shadows";
+    if (!wrong && !is_passed_beyond(chord, &anchor, &corner)) wrong = "a chord before the corner";
+    vec_clear(&anchor), vec_clear(&corner);
+    for (size_t k = 0; k < 2; k++) vec_clear(&other[k]), vec_clear(&chord[k]);
+    return wrong;
+}
+
+static const char *check_side(const checking *c, const sunder_proof_node *node)
+{
+    if (node->chord) return check_chord(c, node);
+    return check_side_of(c, node, node->b, c->proof->corner + 2 * node->part_b);
 }
 
 /* A part of a feature, and the anchor of another. */

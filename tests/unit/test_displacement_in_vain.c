@@ -1,10 +1,12 @@
 /* Of a crowd in which every question is in vain there is an end of questions: what would free a pair
- * (displacement/report/needs), and has one by itself a solution (displacement/clusters/one_by_one)? */
+ * (displacement/report/needs), is there a proof that it has no room (displacement/report/no_room), and has one by
+ * itself a solution (displacement/clusters/one_by_one)? */
 #include "polyset.h"
 #include "scene_model.h"
 
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
+#include "displacement/proofs/feasibility.h"
 #include "displacement/report/question.h"
 
 #include <math.h>
@@ -79,10 +81,11 @@ static void end(crowd *c)
     free(c->feature);
 }
 
-/* ---- What would free it? ----------------------------------------------------------------------------------------- */
+/* Of report/tuning.h: no more features than these take part in questions about a cluster that are in vain; the least
+ * effort for a proof; and so many of a cluster, one after the other, are not proved by more. */
+enum { NEED_IN_VAIN = 200000, FIRST_EFFORT = 10000, PROOFS_IN_VAIN = 32 };
 
-/* No more features than these take part in questions about a cluster that are in vain (report/tuning.h). */
-enum { NEED_IN_VAIN = 200000 };
+/* ---- What would free it? ----------------------------------------------------------------------------------------- */
 
 /* Questions, by where their layer is. */
 static size_t asked_in_field, asked_apart;
@@ -136,6 +139,58 @@ static void test_needs(void **state)
     end(&c);
 }
 
+/* ---- Is there a proof? ------------------------------------------------------------------------------------------- */
+
+/* Questions of the first effort, and of greater ones; by where they are asked. told: so many of the field's, at the
+ * second effort, are told something of before nothing is. */
+static size_t asked_first[2], asked_again[2], told;
+
+/* Whatever the effort, it is too little; or the pair has a solution, and is asked about no more. */
+static sunder_status decide_in_vain(const sunder_i_subproblem *q, sunder_i_decision *decision, sunder_error *err)
+{
+    (void)err;
+    const bool apart = q->model->body[q->body[0]].box[1] + q->model->body[q->body[0]].origin[1] > 1000;
+    (*(q->effort == FIRST_EFFORT ? &asked_first : &asked_again))[apart]++;
+    const bool tells = q->effort > FIRST_EFFORT && !apart && asked_again[0] <= told;
+    memset(decision, 0, sizeof *decision);
+    decision->verdict = SUNDER_I_UNKNOWN;
+    decision->work = tells ? 0 : q->effort + 1;
+    return SUNDER_OK;
+}
+
+/* Asks about all pairs. */
+static void ask_for_proofs(size_t tell)
+{
+    crowd c;
+    sunder_report *report = NULL;
+    sunder_error err;
+    set_up(&c, 12, 1);
+    assert_int_equal(sunder_i_report_new(&c.solver.model, &report, &err), SUNDER_OK);
+    list_all(report, &c.solver);
+    report->proof = sunder_i_calloc(report->conflicts, sizeof *report->proof);
+    assert_non_null(report->proof);
+    memset(asked_first, 0, sizeof asked_first);
+    memset(asked_again, 0, sizeof asked_again);
+    told = tell;
+    assert_int_equal(sunder_i_report_proofs(report, &c.solver, decide_in_vain, &err), SUNDER_OK);
+    assert_int_equal(asked_first[0], report->conflicts - 1);
+    assert_int_equal(asked_first[1], 1);
+    sunder_report_free(report);
+    end(&c);
+}
+
+/* All are asked about once. Those of the field that more effort tells nothing of are as many as that, in succession,
+ * wherever they begin; and the two that are far away go on to the most. */
+static void test_proofs(void **state)
+{
+    (void)state;
+    for (size_t tell = 0; tell <= 2 * PROOFS_IN_VAIN; tell += PROOFS_IN_VAIN / 2) {
+        ask_for_proofs(tell);
+        assert_int_equal(asked_again[0], tell + PROOFS_IN_VAIN);
+        assert_true(asked_again[1] >= 3);
+    }
+}
+
 /* ---- Has it a solution? ------------------------------------------------------------------------------------------ */
 
 /* All pairs are given up, as they stand. Each has a solution, which takes half of the field. */
@@ -176,6 +231,7 @@ static void test_one_by_one(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_needs), cmocka_unit_test(test_one_by_one)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_needs), cmocka_unit_test(test_proofs),
+                                       cmocka_unit_test(test_one_by_one)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

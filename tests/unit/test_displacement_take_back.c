@@ -66,6 +66,29 @@ static void test_taken_back(void **state)
     scene_board_end(&b);
 }
 
+/* What is given up with somebody who stands far from all of the search, and so is none of it: like a far part of a
+ * barrier that a feature was near to before. */
+static void test_stranger(void **state)
+{
+    (void)state;
+    scene_board b;
+    memset(&b, 0, sizeof b);
+    scene_begin(&b.scene, 0);
+    scene_add_box(&b.scene, 0, 0, 10, 10)->max_shift = 1.5;
+    scene_add_box(&b.scene, 8, 0, 10, 10)->max_shift = 1.5;
+    scene_add_box(&b.scene, 300, 0, 10, 10)->fixed = true;
+    scene_board_begin(&b);
+    sunder_i_search s;
+    assert_true(sunder_i_search_init(&s, &b.of.model, b.body, 2, margin, b.move));
+    relax(&b, &s.relaxations, 0, 1);
+    relax(&b, &s.relaxations, 1, 2);
+    sunder_i_search_take_back(&s);
+    assert_false(s.failed);
+    assert_int_equal(s.relaxations.n, 0);
+    sunder_i_search_free(&s);
+    scene_board_end(&b);
+}
+
 /* Pairs that overlap by 2 and may not part, as many as that; then one that overlaps by 3, and may. Is it asked? */
 static bool is_asked_after(size_t in_vain)
 {
@@ -199,9 +222,9 @@ static void test_no_room_for_a_margin(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_taken_back),           cmocka_unit_test(test_in_vain),
-        cmocka_unit_test(test_least_first),          cmocka_unit_test(test_eased),
-        cmocka_unit_test(test_no_room_for_a_margin),
+        cmocka_unit_test(test_taken_back), cmocka_unit_test(test_stranger),
+        cmocka_unit_test(test_in_vain),    cmocka_unit_test(test_least_first),
+        cmocka_unit_test(test_eased),      cmocka_unit_test(test_no_room_for_a_margin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

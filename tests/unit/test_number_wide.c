@@ -232,6 +232,28 @@ static void test_cmp_products_256(void **state)
     close_numbers(&n);
 }
 
+/* With a divisor of any length in common, as fractions of crossings have. */
+static void test_gcd(void **state)
+{
+    (void)state;
+    numbers n;
+    open_numbers(&n);
+    rng g = rng_start(test_seed(), 6);
+    for (int i = 0; i < ROUNDS; i++) {
+        const unsigned bits = (unsigned)rng_int(&g, 1, 62);
+        sunder_i_i128 common = random_i128(&g, bits), a = random_i128(&g, 63) * common,
+                      b = random_i128(&g, 63) * common;
+        if (i % 8 == 0) b = a;
+        if (a == 0 || b == 0) continue;
+        mpz_from_i128(n.a, a);
+        mpz_from_i128(n.b, b);
+        mpz_gcd(n.s, n.a, n.b);
+        mpz_from_i128(n.t, (sunder_i_i128)sunder_i_u128_gcd(sunder_i_i128_abs(a), sunder_i_i128_abs(b)));
+        assert_int_equal(mpz_cmp(n.s, n.t), 0);
+    }
+    close_numbers(&n);
+}
+
 static void test_i256_double(void **state)
 {
     (void)state;
@@ -269,6 +291,7 @@ int main(void)
                                        cmocka_unit_test(test_mul_add_short),
                                        cmocka_unit_test(test_low_bits),
                                        cmocka_unit_test(test_cmp_products_256),
+                                       cmocka_unit_test(test_gcd),
                                        cmocka_unit_test(test_i256_double)};
     return cmocka_run_group_tests_name("number/wide", tests, NULL, NULL);
 }

@@ -116,6 +116,33 @@ static void check_known(const known *k, const sunder_i_least_options *options)
     sunder_shape_free(q);
 }
 
+/* Long numbers on the way, a short vector at the end, whose length is a double, and so the
+ * lower bound, too. */
+static void long_fractions(void **state)
+{
+    (void)state;
+    const known k = {"long numbers on the way",
+                     "POLYGON((2199023255559 4398046511103,3298534883336 4398046511103,3298534883336 5497558138880,"
+                     "5 5497558138880,5 3298534883326,2199023255559 3298534883326,2199023255559 4398046511103))",
+                     "POLYGON((1099511627781 2199023255550,3298534883335 2199023255550,3298534883335 3298534883327,"
+                     "1099511627781 3298534883327,1099511627781 2199023255550))",
+                     0,
+                     "0",
+                     "-1",
+                     "1",
+                     "edge",
+                     true};
+    const sunder_i_least_options options = {.upper = INFINITY, .texts = true};
+    check_known(&k, &options);
+    sunder_shape *p = shape(k.p), *q = shape(k.q);
+    sunder_separation s;
+    assert_int_equal(sunder_pair_separate(p, q, 0, &s, NULL), SUNDER_OK);
+    assert_true(s.lower_bound == s.distance && s.distance == fabs(s.dx) + fabs(s.dy));
+    sunder_separation_clear(&s);
+    sunder_shape_free(p);
+    sunder_shape_free(q);
+}
+
 static void known_answers(void **state)
 {
     for (size_t i = 0; i < sizeof KNOWN / sizeof *KNOWN; i++)
@@ -456,7 +483,7 @@ int main(void)
         cmocka_unit_test(beyond_doubles), cmocka_unit_test(rounded_or_not),   cmocka_unit_test(upper_limit),
         cmocka_unit_test(bad_arguments),  cmocka_unit_test(empty_operands),   cmocka_unit_test(containment),
         cmocka_unit_test(distances),      cmocka_unit_test(memory_runs_out),  cmocka_unit_test(repaired_operands),
-        cmocka_unit_test(bound_alone),
+        cmocka_unit_test(bound_alone),    cmocka_unit_test(long_fractions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -102,7 +102,7 @@ static sunder_i_node *add_node(sunder_i_branching *c)
 {
     if (!sunder_i_reserve(&c->node, &c->node_capacity, c->nodes + 1, sizeof *c->node)) return NULL;
     sunder_i_node *node = &c->node[c->nodes++];
-    *node = (sunder_i_node){.way = c->ways, .force = c->forces};
+    *node = (sunder_i_node){.way = c->ways, .force = c->forces, .chord = SIZE_MAX};
     return node;
 }
 
@@ -137,6 +137,11 @@ bool sunder_i_branching_add_branch(sunder_i_branching *c, const sunder_i_violati
     *root = c->nodes;
     sunder_i_node *node = add_node(c);
     if (!node || !sunder_i_reserve(&c->way, &c->way_capacity, c->ways + ways, sizeof *c->way)) return false;
+    if (o->chord) {
+        if (!sunder_i_reserve(&c->chord, &c->chord_capacity, c->chords + 1, sizeof *c->chord)) return false;
+        node->chord = c->chords;
+        c->chord[c->chords++] = *o->chord;
+    }
     node->a = o->a->feature;
     node->b = o->b->feature;
     node->part_a = o->a;

@@ -57,6 +57,12 @@ typedef struct sunder_i_claim {
     unsigned level; /* of the branch that says so */
 } sunder_i_claim;
 
+/* A chord across the corner that two sides share, in the shadows of both (chord.c). */
+typedef struct sunder_i_chord {
+    double at[4]; /* its ends, beyond side[0] and side[1] */
+    const sunder_i_side *side[2];
+} sunder_i_chord;
+
 /* A node of the tree, as of sunder_proof_node; its parts are pieces of the model. */
 typedef struct sunder_i_node {
     uint32_t a, b; /* features */
@@ -68,6 +74,7 @@ typedef struct sunder_i_node {
     size_t way, ways, force, forces;
     bool still; /* a leaf: between the lines of two ways a body stays where it is */
     size_t line_node[2], line_way[2];
+    size_t chord; /* which stands for the second part, which is its first side; SIZE_MAX: none */
 } sunder_i_node;
 
 /* A listed pair of who may move and what stands, and a line that it may not cross, exactly: n.u >= 0, n of doubles and
@@ -105,6 +112,8 @@ typedef struct sunder_i_branching {
     size_t ways, way_capacity;
     sunder_proof_force *force;
     size_t forces, force_capacity;
+    sunder_i_chord *chord;
+    size_t chords, chord_capacity;
     sunder_i_way *scratch;
     size_t scratch_capacity;
     struct sunder_i_ways_kept *kept; /* NULL, or ways that were asked for (ways_kept.c) */
@@ -181,6 +190,7 @@ typedef struct sunder_i_violation {
     bool known;                        /* nobody joins for it: both take part already, or one of them never moves */
     bool closely;                      /* as of sunder_i_branching */
     bool held;                         /* it is a wall */
+    const sunder_i_chord *chord;       /* NULL, or what stands for b */
 } sunder_i_violation;
 
 /* The deepest of the candidate's, one of each pair of bodies: known ones first, the deepest first. Returns how many. */
@@ -214,6 +224,17 @@ bool sunder_i_branching_add_branch(sunder_i_branching *branching, const sunder_i
                                    size_t *root);
 bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t j, size_t node, size_t way,
                              bool behind, unsigned level);
+
+/* ---- chord.c ----------------------------------------------------------------------------------------------------- */
+
+/* The side that has that piece. */
+const sunder_i_side *sunder_i_branching_side_of(const sunder_i_model *model, const sunder_i_body_piece *piece);
+/* A chord for the sides from b to p and from b to q, as the anchor a sees them; false: there is none. */
+bool sunder_i_branching_make_chord(const double a[2], const double b[2], const double p[2], const double q[2],
+                                   double chord[4]);
+/* The ways past a chord whose first side is of body q: into branching->scratch. Returns how many. */
+size_t sunder_i_branching_chord_ways(sunder_i_branching *branching, const sunder_i_body *p,
+                                     const sunder_i_body_piece *anchor, const sunder_i_body *q, const double chord[4]);
 
 /* ---- corridor.c -------------------------------------------------------------------------------------------------- */
 

@@ -27,6 +27,7 @@ static void clear(sunder_i_branching *c)
     sunder_i_nearest_free(&c->nearest);
     sunder_i_free(c->node);
     sunder_i_free(c->way);
+    sunder_i_free(c->chord);
     sunder_i_free(c->force);
     sunder_i_free(c->scratch);
     sunder_i_branching_forget_ways(c);

@@ -231,10 +231,14 @@ static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, s
     sunder_i_plane_middle(r, nearest, g->reach, middle);
     size_t ways = 0, node;
     const sunder_i_plane_obstacle *o = choose(g, r, middle, listed, &ways);
+    sunder_i_chord chord;
+    bool across = false;
+    if (!o && !c->failed) across = (o = sunder_i_plane_find_chord(g, middle, &chord, &ways)) != NULL;
     if (!o && !c->failed && !(c->subproblem->coarse > 0)) o = choose_closely(g, middle, &ways);
     sunder_status status = SUNDER_OK;
     if (o && !c->failed) {
-        const sunder_i_violation v = {.a = o->a, .b = o->b, .clearance = o->clearance, .shadow = o->shadow};
+        const sunder_i_violation v = {
+            .a = o->a, .b = o->b, .clearance = o->clearance, .shadow = o->shadow, .chord = across ? &chord : NULL};
         if (sunder_i_branching_add_branch(c, &v, ways, &node))
             status = divide_all(g, r, node, listed, level, verdict, levels, root, err);
         else

@@ -85,6 +85,13 @@ bool sunder_i_plane_find(const sunder_i_plane *plane, struct sunder_i_plane_kept
 /* Makes obstacles of what does so in the question at hand. False if memory is out. */
 bool sunder_i_plane_add_obstacles(sunder_i_plane *plane);
 
+/* ---- chord.c ----------------------------------------------------------------------------------------------------- */
+
+/* A chord across a corner that leaves that move out, which none of the obstacles does: its ways are in c->scratch then.
+ * The obstacle of its first side; NULL: there is none. */
+const sunder_i_plane_obstacle *sunder_i_plane_find_chord(sunder_i_plane *plane, const double u[2],
+                                                         sunder_i_chord *chord, size_t *ways);
+
 /* ---- plane_kept.c ------------------------------------------------------------------------------------------------ */
 
 /* What was kept of that plane, or is from now on. NULL if memory is out. */

@@ -5,6 +5,10 @@
 #include "base/invariant.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+/* Of the two sides. */
+enum { CHORD_CORNERS = 4 };
 
 /* Adds to `sum` the nodes, ways, forces and corners of the subtree at node `at`, which tell the memory it takes. */
 static void count(const sunder_i_branching *c, size_t at, sunder_proof *sum)
@@ -14,6 +18,7 @@ static void count(const sunder_i_branching *c, size_t at, sunder_proof *sum)
     sum->ways += node->ways;
     sum->forces += node->forces;
     if (node->ways) sum->corners += node->part_a->corners + node->part_b->corners;
+    if (node->chord != SIZE_MAX) sum->corners += CHORD_CORNERS;
     for (size_t k = 0; k < node->ways; k++) count(c, c->way[node->way + k].next, sum);
 }
 
@@ -33,6 +38,26 @@ static size_t copy_part(copying *g, const sunder_i_body_piece *piece)
     const size_t at = g->proof->corners;
     sunder_i_piece_as_given(g->branching->model, piece, g->corner + 2 * at);
     g->proof->corners += piece->corners;
+    return at;
+}
+
+static size_t copy_chord(copying *g, const sunder_i_chord *chord)
+{
+    const size_t at = g->proof->corners;
+    memcpy(g->corner + 2 * at, chord->at, sizeof chord->at);
+    g->proof->corners += 2;
+    return at;
+}
+
+/* The sides of a chord, each from one of its ends to the other. */
+static size_t copy_sides(copying *g, const sunder_i_chord *chord)
+{
+    const size_t at = g->proof->corners;
+    for (size_t k = 0; k < 2; k++) {
+        memcpy(g->corner + 2 * at + 4 * k, chord->side[k]->from, 2 * sizeof *g->corner);
+        memcpy(g->corner + 2 * at + 4 * k + 2, chord->side[k]->to, 2 * sizeof *g->corner);
+    }
+    g->proof->corners += CHORD_CORNERS;
     return at;
 }
 
@@ -75,7 +100,12 @@ static size_t copy(copying *g, size_t at, size_t depth)
     to->corners_a = from->part_a->corners;
     to->corners_b = from->part_b->corners;
     to->part_a = copy_part(g, from->part_a);
-    to->part_b = copy_part(g, from->part_b);
+    to->part_b = from->chord == SIZE_MAX ? copy_part(g, from->part_b) : copy_chord(g, &c->chord[from->chord]);
+    if (from->chord != SIZE_MAX) {
+        to->chord = true;
+        to->c = c->chord[from->chord].side[1]->piece.feature;
+        to->sides = copy_sides(g, &c->chord[from->chord]);
+    }
     g->path[depth] = at;
     g->path_copy[depth] = number;
     for (size_t k = 0; k < from->ways; k++) {
@@ -127,7 +157,9 @@ static int by_things(const void *a, const void *b)
 {
     const sunder_proof_node *p = a, *q = b;
     if (p->a != q->a) return p->a < q->a ? -1 : 1;
-    return (p->b > q->b) - (p->b < q->b);
+    if (p->b != q->b) return p->b < q->b ? -1 : 1;
+    if (p->chord != q->chord) return p->chord ? 1 : -1;
+    return (p->c > q->c) - (p->c < q->c);
 }
 
 void sunder_i_proof_strip(sunder_proof *proof)
@@ -136,7 +168,9 @@ void sunder_i_proof_strip(sunder_proof *proof)
     sunder_proof_node *node = (sunder_proof_node *)proof->node;
     size_t inner = 0, n = 0;
     for (size_t k = 0; k < proof->nodes; k++)
-        if (node[k].ways) node[inner++] = (sunder_proof_node){.a = node[k].a, .b = node[k].b, .ways = 1};
+        if (node[k].ways)
+            node[inner++] =
+                (sunder_proof_node){.a = node[k].a, .b = node[k].b, .ways = 1, .chord = node[k].chord, .c = node[k].c};
     if (inner) qsort(node, inner, sizeof *node, by_things);
     for (size_t k = 0; k < inner; k++)
         if (k == 0 || by_things(&node[k - 1], &node[k])) node[n++] = node[k];

@@ -29,6 +29,17 @@
 /* Of two to the power of this many pairs of pieces: a question of a dozen houses between roads meets some hundred. */
 #define WAYS_KEPT_BITS 10
 
+/* ---- Corners that two sides share (chord.c) ---------------------------------------------------------------------- */
+
+/* A chord cuts off so much of the sides, and passes beyond the corner by so much of the way to it: far more than the
+ * cracks between their shadows are wide, and rounding, and less than anything that matters. */
+#define CHORD 0x1p-16
+#define BEYOND 0x1p-24
+/* How far from the way through the corner, as a share of it, a move may be that a chord is looked for. */
+#define BESIDE 0x1p-20
+/* So many sides with an end there are looked at. */
+#define SPOKES 32
+
 /* ---- Between two lines (corridor.c) ------------------------------------------------------------------------------ */
 
 /* Parts of more corners are passed by. */

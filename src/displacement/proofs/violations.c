@@ -125,7 +125,7 @@ static void look_at(sunder_i_branching *c, const standing *s, const standing *r,
                                             : find_depth(c, p, a, q, b, clearance, false, u);
             if (depth > worst->depth)
                 *worst = (sunder_i_violation){s->number, r->number, a,     b,          clearance, depth,
-                                              NULL,      false,     false, c->closely, false};
+                                              NULL,      false,     false, c->closely, false,     NULL};
         }
     }
 }
@@ -138,7 +138,7 @@ static void look_at_shadow(sunder_i_branching *c, const standing *s, const stand
     const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
     const double depth = find_depth(c, s->body, a, r->body, b, 0, true, u);
     if (depth > worst->depth)
-        *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, NULL, true, false, false, false};
+        *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, NULL, true, false, false, false, NULL};
 }
 
 /* The move of the barrier, as the feature's body sees it, that is to part the two. */

@@ -61,9 +61,9 @@ static bool take_from_proof(const sunder_i_model *model, const sunder_conflict *
 {
     for (size_t k = 0; k < proof->nodes; k++) {
         const sunder_proof_node *node = &proof->node[k];
-        const size_t pair[2] = {node->a, node->b};
-        for (int e = 0; e < 2 && node->ways; e++) {
-            const uint32_t thing = sunder_i_whole_of(model, (uint32_t)pair[e]);
+        const size_t thing_of[3] = {node->a, node->b, node->chord ? node->c : node->b};
+        for (int e = 0; e < 3 && node->ways; e++) {
+            const uint32_t thing = sunder_i_whole_of(model, (uint32_t)thing_of[e]);
             if (thing != c->a && thing != c->b && !sunder_i_list_push(blockers, thing)) return false;
         }
     }

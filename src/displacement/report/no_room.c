@@ -39,8 +39,8 @@ static sunder_status find_some_requirements(void *context, size_t begin, size_t 
 
 /* ---- A proof that needs all it says ------------------------------------------------------------------------------ */
 
-/* The features of a proof, and its barriers by their first parts, ascending: into set, which has room for two a
- * node. */
+/* The features of a proof, and its barriers by their first parts, ascending: into set, which has room for three
+ * a node. */
 static size_t features_of(const sunder_i_model *model, const sunder_proof *proof, uint32_t *set)
 {
     size_t n = 0;
@@ -48,6 +48,7 @@ static size_t features_of(const sunder_i_model *model, const sunder_proof *proof
         if (proof->node[k].ways) {
             set[n++] = sunder_i_whole_of(model, (uint32_t)proof->node[k].a);
             set[n++] = sunder_i_whole_of(model, (uint32_t)proof->node[k].b);
+            if (proof->node[k].chord) set[n++] = sunder_i_whole_of(model, (uint32_t)proof->node[k].c);
         }
     return sunder_i_set_make(set, n);
 }
@@ -56,7 +57,7 @@ static size_t features_of(const sunder_i_model *model, const sunder_proof *proof
  * memory is out. */
 static bool take_features(const sunder_i_model *model, const sunder_proof *proof, uint32_t *set, size_t *n)
 {
-    uint32_t *all = sunder_i_alloc(2 * proof->nodes, sizeof *all);
+    uint32_t *all = sunder_i_alloc(3 * proof->nodes, sizeof *all);
     if (!all) return false;
     *n = features_of(model, proof, all);
     memcpy(set, all, *n * sizeof *set);
@@ -66,10 +67,11 @@ static bool take_features(const sunder_i_model *model, const sunder_proof *proof
 
 /* Leaves out what the proof can do without, in order of number, while the effort lasts: the feature at hand, and what a
  * proof without it has no more use for. */
-static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_proof **proof, sunder_error *err)
+static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_i_decide_subproblem decide,
+                            sunder_proof **proof, sunder_error *err)
 {
     sunder_i_subproblem q = *subproblem;
-    const size_t room = 2 * (*proof)->nodes;
+    const size_t room = 3 * (*proof)->nodes;
     uint32_t *all = sunder_i_alloc(room, sizeof *all), *set = sunder_i_alloc(room, sizeof *set);
     uint32_t *body = sunder_i_alloc(room, sizeof *body);
     sunder_status status = all && set && body ? SUNDER_OK : sunder_i_no_memory(err);
@@ -92,7 +94,7 @@ static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_proof 
         q.feature = set;
         q.features = out;
         sunder_i_decision decision;
-        status = sunder_i_decide(&q, &decision, err);
+        status = decide(&q, &decision, err);
         if (decision.proof) {
             sunder_i_proof_free(*proof);
             *proof = decision.proof;
@@ -127,6 +129,7 @@ typedef struct matter {
 typedef struct asking {
     const sunder_i_solver *solver;
     sunder_report *report;
+    sunder_i_decide_subproblem decide;
     matter *matter;
     const size_t *first; /* [clusters + 1] matters, cluster after cluster */
     const sunder_i_requirement *required;
@@ -173,7 +176,7 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
         q->slack = m->slack && !m->still;
         q->still = m->still;
         q->no_plane = m->no_plane;
-        status = sunder_i_decide(q, &decision, err);
+        status = g->decide(q, &decision, err);
         m->no_plane = m->no_plane || (!q->no_plane && decision.no_plane);
     } while (!status && decision.verdict == SUNDER_I_FEASIBLE && !m->still && ask_closer(q, m));
     sunder_proof **proof = &report->proof[m->conflict];
@@ -184,7 +187,7 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
     if (!*proof && !later) *pool = *pool > decision.work ? *pool - decision.work : 0;
     sunder_i_decision_clear(&decision);
     q->no_plane = false;
-    if (!status && *proof) status = reduce(q, proof, err);
+    if (!status && *proof) status = reduce(q, g->decide, proof, err);
     if (!status && g->solver->model.rules.drop_proofs) sunder_i_proof_strip(*proof);
     if (!status && *proof) c->reason = SUNDER_REASON_NO_ROOM;
     return status;
@@ -302,7 +305,8 @@ static size_t group(const sunder_i_solver *s, const sunder_report *report, const
     return groups;
 }
 
-sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *s, sunder_i_decide_subproblem decide,
+                                     sunder_error *err)
 {
     const unsigned threads = s->model.rules.threads;
     const size_t most = report->conflicts;
@@ -319,7 +323,7 @@ sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solve
         requiring h = {s, report, listed, required};
         status = sunder_i_parallel(threads, n, SUNDER_I_GRAIN_PAIRS, find_some_requirements, &h, err);
         const uint64_t times = 1 + (uint64_t)(MORE_EFFORT * fmin(s->model.rules.effort, MORE_UP_TO));
-        asking g = {s, report, list, first, required, n, times};
+        asking g = {s, report, decide, list, first, required, n, times};
         if (!status) status = sunder_i_parallel(threads, groups, SUNDER_I_GRAIN_WHOLE, ask_clusters, &g, err);
     }
     sunder_i_free(listed);

@@ -48,6 +48,7 @@ static void number_proof(sunder_proof *proof, const size_t *number)
         if (node[k].ways == 0) continue;
         node[k].a = number[node[k].a];
         node[k].b = number[node[k].b];
+        if (node[k].chord) node[k].c = number[node[k].c];
     }
 }
 

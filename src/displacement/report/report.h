@@ -140,8 +140,14 @@ sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *sol
 
 /* ---- no_room.c --------------------------------------------------------------------------------------------------- */
 
+/* Answers a question about a few bodies: sunder_i_decide() (proofs/feasibility.h). */
+struct sunder_i_subproblem;
+struct sunder_i_decision;
+typedef sunder_status (*sunder_i_decide_subproblem)(const struct sunder_i_subproblem *subproblem,
+                                                    struct sunder_i_decision *decision, sunder_error *err);
 /* Tells what cannot be resolved from what was not: of the report's conflicts, those with a proof have "no_room". */
-sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
+sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *solver,
+                                     sunder_i_decide_subproblem decide, sunder_error *err);
 
 /* ---- needs.c ----------------------------------------------------------------------------------------------------- */
 

@@ -60,9 +60,10 @@ static bool look_about(sunder_i_neighbourhood *v, uint32_t i, double reach)
     return true;
 }
 
+/* What stands far from all of the search has no place in it, and does not move. */
 static void take_in(sunder_i_neighbourhood *v, uint32_t i)
 {
-    if (v->moves[i] || !(v->all->mass[i] > 0)) return;
+    if (i == SUNDER_I_NOBODY || v->moves[i] || !(v->all->mass[i] > 0)) return;
     v->moves[i] = true;
     v->place[v->n++] = i;
 }

@@ -12,12 +12,17 @@
 
 static bool fits(const sunder_i_i256 *v) { return !(v->limb[1] | v->limb[2] | v->limb[3]) && v->limb[0] >> 63 == 0; }
 
+bool sunder_i_hpoint_is_short(const sunder_i_hpoint *p)
+{
+    return p->w != 0 && fits(&p->x) && fits(&p->y) && p->w >> 63 == 0;
+}
+
 sunder_i_exact_translation sunder_i_exact_translation_of(sunder_i_operands *g, const sunder_i_hpoint *p)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     sunder_i_exact_translation v;
     memset(&v, 0, sizeof v);
-    if (p->w != 0 && fits(&p->x) && fits(&p->y) && p->w >> 63 == 0) {
+    if (sunder_i_hpoint_is_short(p)) {
         v.small = true;
         v.x = (sunder_i_i128)p->x.sign * (int64_t)p->x.limb[0];
         v.y = (sunder_i_i128)p->y.sign * (int64_t)p->y.limb[0];
@@ -98,7 +103,7 @@ void sunder_i_answer_numbers(sunder_i_operands *g, const sunder_i_exact_translat
     const long e = l->exponent;
     if (v->small && quick_ratio(v->x, v->w, e, &out->dx) && quick_ratio(v->y, v->w, e, &out->dy)) {
         const sunder_i_u128 n = (sunder_i_u128)(v->x * v->x) + (sunder_i_u128)(v->y * v->y);
-        if (quick_root(n, v->w, e, &out->distance, &out->lower_bound)) return;
+        if (!v->long_root && quick_root(n, v->w, e, &out->distance, &out->lower_bound)) return;
     }
     const sunder_i_rational_point big = sunder_i_exact_translation_point(g, v);
     sunder_i_rational_doubles(&l->arena, big, e, &out->dx, &out->dy);

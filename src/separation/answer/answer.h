@@ -22,10 +22,13 @@ void sunder_i_too_far(double upper, sunder_separation *out, bool *beyond);
  * ones. */
 typedef struct sunder_i_exact_translation {
     bool small;
+    bool long_root; /* the length is to be taken the long way, by which a lower bound is not below an exact root */
     sunder_i_i128 x, y, w;
     sunder_i_rational_point big;
 } sunder_i_exact_translation;
 
+/* Is it `small`? */
+bool sunder_i_hpoint_is_short(const sunder_i_hpoint *point);
 sunder_i_exact_translation sunder_i_exact_translation_of(sunder_i_operands *operands, const sunder_i_hpoint *point);
 /* As big integers. */
 sunder_i_rational_point sunder_i_exact_translation_point(sunder_i_operands *operands,

@@ -4,57 +4,34 @@
 
 #include <string.h>
 
-static unsigned twos(sunder_i_u128 v)
+/* Decimal digits of v, below 10^19, before `end`, and no fewer than so many; returns the first. */
+static char *put_low_digits(char *end, uint64_t v, int least)
 {
-    const uint64_t low = (uint64_t)v;
-    return low ? (unsigned)__builtin_ctzll(low) : 64 + (unsigned)__builtin_ctzll((uint64_t)(v >> 64));
-}
-
-/* Binary greatest common divisor of odd numbers. */
-static sunder_i_u128 odd_gcd(sunder_i_u128 a, sunder_i_u128 b)
-{
-    while (a != b && (a >> 64 || b >> 64)) {
-        if (a > b) {
-            a -= b;
-            a >>= twos(a);
-        } else {
-            b -= a;
-            b >>= twos(b);
-        }
+    char *at = end;
+    while (v >= 100) {
+        const unsigned two = (unsigned)(v % 100);
+        v /= 100;
+        *--at = (char)('0' + two % 10);
+        *--at = (char)('0' + two / 10);
     }
-    uint64_t c = (uint64_t)a, d = (uint64_t)b;
-    if (a == b) return a;
-    while (c != d) {
-        if (c > d) {
-            c -= d;
-            c >>= __builtin_ctzll(c);
-        } else {
-            d -= c;
-            d >>= __builtin_ctzll(d);
-        }
+    if (v >= 10) {
+        *--at = (char)('0' + v % 10);
+        v /= 10;
     }
-    return c;
+    *--at = (char)('0' + v);
+    while (end - at < least) *--at = '0';
+    return at;
 }
 
 /* Decimal digits of v at `at`; returns past the last one. */
 static char *put_digits(char *at, sunder_i_u128 v)
 {
-    char buffer[40];
-    int n = 0;
+    char buffer[3 * 19], *const end = buffer + sizeof buffer, *first = end;
     const uint64_t chunk = 10000000000000000000u;
-    do {
-        const bool more = v >= chunk;
-        uint64_t low = more ? (uint64_t)(v % chunk) : (uint64_t)v;
-        v = more ? v / chunk : 0;
-        const int end = n + 19;
-        do {
-            buffer[n++] = (char)('0' + low % 10);
-            low /= 10;
-        } while (low);
-        while (v && n < end) buffer[n++] = '0';
-    } while (v);
-    while (n > 0) *at++ = buffer[--n];
-    return at;
+    for (; v >= chunk; v /= chunk) first = put_low_digits(first, (uint64_t)(v % chunk), 19);
+    first = put_low_digits(first, (uint64_t)v, 1);
+    memcpy(at, first, (size_t)(end - first));
+    return at + (end - first);
 }
 
 /* The text of num / den * 2^exponent; NULL if the fraction does not fit (then *fits is false) or memory is out. */
@@ -65,12 +42,12 @@ static char *quick_text(bool negative, sunder_i_u128 num, sunder_i_u128 den, lon
     if (num == 0) {
         *end++ = '0';
     } else {
-        const unsigned a = twos(num), b = twos(den);
+        const unsigned a = sunder_i_u128_twos(num), b = sunder_i_u128_twos(den);
         exponent += (long)a - (long)b;
         num >>= a;
         den >>= b;
         if (den != 1) {
-            const sunder_i_u128 common = odd_gcd(num, den);
+            const sunder_i_u128 common = sunder_i_u128_odd_gcd(num, den);
             if (common != 1) {
                 num /= common;
                 den /= common;

@@ -257,6 +257,32 @@ static void take_first(sunder_i_operands *g, const sunder_i_fraction *t, bool fo
     *any = true;
 }
 
+/* How far the corner is to the left of the line, of plain numbers, times its length: exactly. */
+static inline sunder_i_i128 narrow_height(const sunder_i_carrier *line, const sunder_i_subsum *s, uint32_t k)
+{
+    return sunder_i_narrow_cross(line->d, sunder_i_narrow_sub(s->corner[k], line->a));
+}
+
+/* Of plain numbers. Whoever meets the interior of a bounded convex set leaves it by one side, or by one corner, which
+ * is taken for the end of the side that comes first: forwards that side begins on the right of the line and ends on its
+ * left or on it, backwards the other way round. So there is a turn to be told for each corner, and one fraction. */
+static sunder_i_fraction narrow_exit(const sunder_i_carrier *line, const sunder_i_subsum *s, stretch near,
+                                     bool forwards)
+{
+    uint32_t k = near.first;
+    bool before = false;
+    for (uint32_t i = 0; i <= near.n; i++) {
+        const sunder_i_i128 height = narrow_height(line, s, k);
+        if (before && (forwards ? height >= 0 : height <= 0)) break;
+        before = forwards ? height < 0 : height > 0;
+        k = k + 1 < s->sides ? k + 1 : 0;
+    }
+    sunder_i_i128 a, b;
+    narrow_linear(line, s, k ? k - 1 : s->sides - 1, &a, &b);
+    SUNDER_I_ASSERT(forwards ? b < 0 : b > 0);
+    return b < 0 ? narrow_fraction(a, -b) : narrow_fraction(-a, b);
+}
+
 sunder_i_fraction sunder_i_carrier_exit(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_subsum *s,
                                         bool forwards)
 {
@@ -264,24 +290,16 @@ sunder_i_fraction sunder_i_carrier_exit(sunder_i_operands *g, const sunder_i_car
     sunder_i_fraction best = {0, 1, 0};
     bool any = false;
     const stretch near = leaving(g, line, s, forwards);
-    const bool plain = line->plain && s->plain;
+    l->counts.segment_intersections++;
+    if (line->plain && s->plain) return narrow_exit(line, s, near, forwards);
     for (uint32_t i = 0; i < near.n; i++) {
         const uint32_t k = (near.first + i) % s->sides;
-        if (plain) {
-            sunder_i_i128 a, b;
-            narrow_linear(line, s, k, &a, &b);
-            if (forwards ? b >= 0 : b <= 0) continue;
-            const sunder_i_fraction t = b < 0 ? narrow_fraction(a, -b) : narrow_fraction(-a, b);
-            take_first(g, &t, forwards, &best, &any);
-            continue;
-        }
         const int turn = sunder_i_cross_sign(l, s->side[k], line->d);
         if (forwards ? turn >= 0 : turn <= 0) continue;
         const sunder_i_fraction t =
             sunder_i_crossing(l, line->a, line->b, s->corner[k], s->corner[k + 1 < s->sides ? k + 1 : 0]);
         take_first(g, &t, forwards, &best, &any);
     }
-    l->counts.segment_intersections++;
     SUNDER_I_ASSERT(any || l->arena.failed); /* whoever meets the interior of a bounded set leaves it */
     return best;
 }

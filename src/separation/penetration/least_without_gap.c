@@ -9,12 +9,30 @@
 /* Two buildings, their subsums and candidates fit in this: no allocation then but for the answer. */
 #define SMALL_BYTES 24576
 
+/* The point found as a vector. Where its numbers are long the fraction along the line is brought to lowest terms: exact
+ * fits are mostly at sums of corners, which are short. What is said of its length is that of the long numbers. */
+static sunder_i_exact_translation translation_of(sunder_i_operands *g, const sunder_i_free_point *f)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    const sunder_i_hpoint point = sunder_i_hpoint_at(l, f->line.a, f->line.b, &f->t);
+    if (l->narrow && f->t.den != 0 && !sunder_i_hpoint_is_short(&point)) {
+        const sunder_i_i128 num = sunder_i_det_i128(f->t.num), den = sunder_i_det_i128(f->t.den);
+        const sunder_i_u128 size = sunder_i_i128_abs(num);
+        const sunder_i_i128 common = size ? (sunder_i_i128)sunder_i_u128_gcd(size, (sunder_i_u128)den) : den;
+        const sunder_i_fraction t = {num / common, den / common, f->t.value};
+        const sunder_i_hpoint reduced = sunder_i_hpoint_at(l, f->line.a, f->line.b, &t);
+        sunder_i_exact_translation v = sunder_i_exact_translation_of(g, &reduced);
+        v.long_root = true;
+        return v;
+    }
+    return sunder_i_exact_translation_of(g, &point);
+}
+
 static sunder_status answer_without_gap(sunder_i_operands *g, const sunder_i_free_point *f, bool texts,
                                         sunder_separation *out, sunder_error *err)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    const sunder_i_hpoint point = sunder_i_hpoint_at(l, f->line.a, f->line.b, &f->t);
-    const sunder_i_exact_translation v = sunder_i_exact_translation_of(g, &point);
+    const sunder_i_exact_translation v = translation_of(g, f);
     out->overlap = out->attained = true;
     out->contact = sunder_i_free_point_contact(g, f);
     sunder_i_answer_numbers(g, &v, out);
