@@ -3,12 +3,11 @@
 #include "base/message.h"
 #include "base/spelling.h"
 #include "commands/commands.h"
+#include "commands/config.h"
 #include "commands/resolve.h"
 #include "sunder.h"
 
-#include <cpl_conv.h>
 #include <cpl_error.h>
-#include <cpl_string.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <gdal.h>
@@ -30,6 +29,10 @@ const gis_command gis_commands[] = {
      "--operation close --shape square:6m --dissolve houses.gpkg blocks.gpkg", gis_command_buffer},
     {GIS_ROUTE, "route", "OBSTACLES [OUTPUT]", 1, 2, "Shortest way for a robot among obstacles, contact allowed",
      "\"POLYGON ((2 -9, 4 -9, 4 3, 2 3))\" --robot square:2 --from 0,0 --to 6,0", gis_command_route},
+    {GIS_PLAN, "plan", "INPUT PLAN", 2, 2, "Cuts a layer into shards, for many machines",
+     "--gap 3m --shards 16 houses.gpkg houses.plan", gis_command_plan},
+    {GIS_MERGE, "merge", "PLAN OUTPUT", 2, 2, "Joins the shards of a plan, and writes what separate writes",
+     "houses.plan separated.gpkg", gis_command_merge},
 };
 const size_t gis_n_commands = sizeof gis_commands / sizeof gis_commands[0];
 
@@ -46,18 +49,6 @@ static const gis_command *find_command(const char *name)
     for (size_t i = 0; i < gis_n_commands; i++)
         if (strcmp(gis_commands[i].name, name) == 0) return &gis_commands[i];
     return NULL;
-}
-
-/* The K=V of --config; they must be known before drivers are registered. */
-static void configure(const gis_options *options)
-{
-    const char **pairs = options->list[OPT_CONFIG];
-    for (size_t i = 0; pairs && pairs[i]; i++) {
-        char *key = NULL;
-        const char *value = CPLParseNameValue(pairs[i], &key);
-        if (key) CPLSetConfigOption(key, value);
-        CPLFree(key);
-    }
 }
 
 /* Mistakes in the arguments are told before these are understood, and in the form that is asked for among them. */
@@ -89,7 +80,7 @@ static int run(const gis_command *command, int argc, char **argv)
     } else if (!begin_messages(&options, &error)) {
         status = gis_say_failure(&error);
     } else {
-        configure(&options);
+        gis_configure(&options);
         GDALAllRegister();
         gis_catch_signals();
         status = command->run(&options);

@@ -10,6 +10,7 @@
 #include "read/lines.h"
 #include "read/source.h"
 #include "read/validity.h"
+#include "spool/spool.h"
 #include "sunder.h"
 
 /* One --barrier, taken apart. */
@@ -27,6 +28,10 @@ void gis_barrier_request_clear(gis_barrier_request *request);
 /* Boxes of what barriers may be in the way of. NULL: memory is out. */
 typedef struct gis_barrier_targets gis_barrier_targets;
 gis_barrier_targets *gis_barrier_targets_new(const double (*box)[4], size_t n);
+/* The boxes of all features of a spool, which is borrowed: looked up there, a cell at a time. */
+gis_barrier_targets *gis_barrier_targets_of_spool(gis_spool *spool);
+/* Could all be looked up so far? */
+bool gis_barrier_targets_sound(const gis_barrier_targets *targets, gis_error *error);
 void gis_barrier_targets_free(gis_barrier_targets *targets);
 
 /* The layer that barriers stand around. */
@@ -62,6 +67,26 @@ typedef struct gis_barriers {
 bool gis_barriers_read(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
                        gis_barriers *out, gis_error *error);
 void gis_barriers_clear(gis_barriers *barriers);
+/* The same onto the disk, in bounded memory (parts/barriers.h). */
+bool gis_barriers_spool(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
+                        const char *directory, gis_error *error);
+
+/* ---- read.c, for itself and for spooling.c ----------------------------------------------------------------------- */
+
+/* What is known of all features of one request, but for its layer's name once all is read. */
+typedef struct gis_barrier_common {
+    char *layer;     /* its name */
+    double distance; /* that is kept from its edges */
+} gis_barrier_common;
+
+/* The feature is whoever takes it's to clear, whatever comes of it. */
+typedef bool gis_barrier_take(void *user, const gis_barrier_common *common, gis_barrier_feature *feature,
+                              gis_error *error);
+/* Those of one request that are within reach, in their order. batch: so many of the source are held at a time; 0: all.
+ * *common: its name is owned, and NULL if it was not opened. */
+bool gis_barrier_visit(const gis_barrier_request *request, const gis_barrier_surroundings *around, size_t batch,
+                       gis_barrier_take *take, void *user, gis_barrier_common *common, gis_error *error);
+void gis_barrier_feature_clear(gis_barrier_feature *feature);
 
 /* ---- reach.c, for read.c ----------------------------------------------------------------------------------------- */
 

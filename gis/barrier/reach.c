@@ -1,6 +1,7 @@
 /* reach.c: what of a barrier layer may be in the way of anything. A barrier is within reach if some feature that goes
  * as far as any may comes as near to it as half its width and its distance. That is asked of boxes in a tree, so that
- * what lies between features far from each other is not read for both. */
+ * what lies between features far from each other is not read for both. Of a spool the tree is that of its cells, and
+ * the boxes of a cell's features are read when they are asked for; some thousand cells are kept. */
 #include "barrier/barrier.h"
 
 #include "base/interrupt.h"
@@ -11,11 +12,26 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+enum { CELLS_HELD = 2048 };
+
+/* Cells that were looked up: [CELLS_HELD] of them, the oldest of which goes first. */
+typedef struct looked_up {
+    gis_spool *spool;
+    double (**box)[4]; /* [cells of the spool] NULL: not held */
+    size_t *n;
+    size_t *number; /* [boxes of the tree] which cells they are */
+    size_t held[CELLS_HELD], at;
+    bool failed;
+    gis_error error;
+} looked_up;
 
 struct gis_barrier_targets {
     double (*box)[4];
     size_t n;
     CPLQuadTree *tree; /* of the boxes; NULL: there are none */
+    looked_up *cells;  /* NULL: these are the features' */
 };
 
 static void bounds_of(const void *box, CPLRectObj *out)
@@ -47,9 +63,97 @@ gis_barrier_targets *gis_barrier_targets_new(const double (*box)[4], size_t n)
     return targets;
 }
 
+/* ---- Of a spool -------------------------------------------------------------------------------------------------- */
+
+static void free_cells(looked_up *cells)
+{
+    for (size_t k = 0; cells->box && k < gis_spool_cells(cells->spool); k++) free(cells->box[k]);
+    free(cells->box);
+    free(cells->n);
+    free(cells->number);
+    free(cells);
+}
+
+/* Those that hold anything. *box: their boxes. */
+static looked_up *list_cells(gis_spool *spool, double (*box)[4], size_t *n)
+{
+    const size_t cells = gis_spool_cells(spool);
+    looked_up *out = calloc(1, sizeof *out);
+    if (!out) return NULL;
+    *out = (looked_up){.spool = spool,
+                       .box = calloc(cells + 1, sizeof *out->box),
+                       .n = calloc(cells + 1, sizeof *out->n),
+                       .number = calloc(cells + 1, sizeof *out->number)};
+    if (!out->box || !out->n || !out->number) {
+        free_cells(out);
+        return NULL;
+    }
+    for (size_t k = 0; k < CELLS_HELD; k++) out->held[k] = SIZE_MAX;
+    *n = 0;
+    for (size_t k = 0; k < cells; k++) {
+        const double *own = gis_spool_cell_at(spool, k)->box;
+        if (!(own[0] <= own[2])) continue;
+        memcpy(box[*n], own, sizeof *box);
+        out->number[(*n)++] = k;
+    }
+    return out;
+}
+
+gis_barrier_targets *gis_barrier_targets_of_spool(gis_spool *spool)
+{
+    size_t n;
+    double(*box)[4] = calloc(gis_spool_cells(spool) + 1, sizeof *box);
+    looked_up *cells = box ? list_cells(spool, box, &n) : NULL;
+    gis_barrier_targets *targets = cells ? gis_barrier_targets_new((const double(*)[4])box, n) : NULL;
+    free(box);
+    if (targets)
+        targets->cells = cells;
+    else if (cells)
+        free_cells(cells);
+    return targets;
+}
+
+bool gis_barrier_targets_sound(const gis_barrier_targets *targets, gis_error *error)
+{
+    if (!targets->cells || !targets->cells->failed) return true;
+    *error = targets->cells->error;
+    return false;
+}
+
+static bool look_up(looked_up *cells, size_t cell)
+{
+    size_t *place = &cells->held[cells->at];
+    if (cells->box[cell]) return true;
+    if (*place != SIZE_MAX) {
+        free(cells->box[*place]);
+        cells->box[*place] = NULL;
+    }
+    cells->at = (cells->at + 1) % CELLS_HELD;
+    *place = cell;
+    cells->box[cell] = malloc((gis_spool_cell_at(cells->spool, cell)->features + 1) * sizeof **cells->box);
+    if (!cells->box[cell])
+        gis_no_memory(&cells->error);
+    else if (gis_spool_boxes(cells->spool, cell, cells->box[cell], &cells->n[cell], &cells->error))
+        return true;
+    cells->failed = true;
+    return false;
+}
+
+/* Does some feature of the cell meet the box? */
+static bool cell_meets(looked_up *cells, size_t cell, const double box[4])
+{
+    if (cells->failed || !look_up(cells, cell)) return false;
+    for (size_t k = 0; k < cells->n[cell]; k++) {
+        const double *own = cells->box[cell][k];
+        if (own[0] <= box[2] && box[0] <= own[2] && own[1] <= box[3] && box[1] <= own[3]) return true;
+    }
+    return false;
+}
+
 void gis_barrier_targets_free(gis_barrier_targets *targets)
 {
     if (!targets) return;
+    if (targets->cells) free_cells(targets->cells);
     if (targets->tree) CPLQuadTreeDestroy(targets->tree);
     free(targets->box);
     free(targets);
@@ -72,8 +176,15 @@ bool gis_barrier_is_near(const gis_barrier_surroundings *around, const double bo
     grow(box, around->reach + distance, grown);
     if (!isfinite(around->reach + distance)) return true;
     const CPLRectObj asked = {grown[0], grown[1], grown[2], grown[3]};
-    CPLFree(CPLQuadTreeSearch(around->targets->tree, &asked, &n));
-    return n > 0;
+    looked_up *cells = around->targets->cells;
+    void **found = CPLQuadTreeSearch(around->targets->tree, &asked, &n);
+    bool near = n > 0 && !cells;
+    for (int k = 0; k < n && cells && !near; k++) {
+        const double(*own)[4] = found[k];
+        near = cell_meets(cells, cells->number[own - (const double(*)[4])around->targets->box], grown);
+    }
+    CPLFree(found);
+    return near;
 }
 
 bool gis_barrier_reach_box(const gis_barrier_surroundings *around, double distance, double box[4])

@@ -31,7 +31,10 @@ typedef struct reading {
     double widest;                         /* no feature is wider */
     int width_field;
     gis_polygonal_part part;
-    gis_barriers *out;
+    size_t batch; /* features of the source that are held at a time; 0: all */
+    gis_barrier_take *take;
+    void *user;
+    gis_barrier_common *common;
 } reading;
 
 static void name_feature(const reading *r, size_t i, char *who, size_t size)
@@ -127,7 +130,7 @@ static bool take_geometry(reading *r, OGRGeometryH geometry, const char *who, gi
     return true;
 }
 
-static void clear_feature(gis_barrier_feature *feature)
+void gis_barrier_feature_clear(gis_barrier_feature *feature)
 {
     sunder_shape_free(feature->shape);
     gis_lines_clear(&feature->lines);
@@ -137,20 +140,16 @@ static bool take_feature(reading *r, size_t i, gis_error *error)
 {
     char who[GIS_WHO_SIZE];
     OGRGeometryH own = gis_source_geometry(r->source, i), geometry;
-    gis_barriers *out = r->out;
-    gis_barrier_feature feature = {.request = out->requests, .fid = gis_source_fid(r->source, i)};
+    gis_barrier_feature feature = {.fid = gis_source_fid(r->source, i)};
     if (gis_source_content(r->source, i) == GIS_NOTHING) return true;
     name_feature(r, i, who, sizeof who);
     if (!read_width(r, i, who, &feature.width, error) || !in_layer_crs(r, own, who, &geometry, error)) return false;
     const bool near = is_within_reach(r, geometry, feature.width);
     bool ok = !near || take_geometry(r, geometry, who, &feature, error);
     if (geometry != own) OGR_G_DestroyGeometry(geometry);
-    ok = ok && (gis_array_reserve(&out->feature, &out->capacity, out->n + 1, sizeof feature) || gis_no_memory(error));
-    if (ok && (feature.shape || any_is_within_reach(r, &feature)))
-        out->feature[out->n++] = feature;
-    else
-        clear_feature(&feature);
-    return ok;
+    if (ok && (feature.shape || any_is_within_reach(r, &feature))) return r->take(r->user, r->common, &feature, error);
+    gis_barrier_feature_clear(&feature);
+    return ok && gis_barrier_targets_sound(r->around->targets, error);
 }
 
 /* ---- One layer --------------------------------------------------------------------------------------------------- */
@@ -196,8 +195,9 @@ static bool open_source(reading *r, gis_error *error)
         .layer_option = "layer=",
         .where_option = "where=",
         .within = within,
-        .wants = wants,
+        .wants = r->batch ? NULL : wants, /* of a batch nothing stays anyway */
         .user = r,
+        .batch = r->batch,
     };
     gis_error why;
     if (!gis_source_open(&source, &r->source, &why)) {
@@ -208,7 +208,7 @@ static bool open_source(reading *r, gis_error *error)
                  (int)(sizeof error->message - n - 16), named ? why.message : CPLSPrintf(": %s", why.message));
         return false;
     }
-    gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(r->source));
+    if (!r->batch) gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(r->source));
     return true;
 }
 
@@ -232,20 +232,34 @@ static bool read_features(reading *r, gis_error *error)
     if (!gis_field_find_numbers(r->source, field, r->request->width_field, &r->width_field, error) ||
         !gis_barrier_transformation(gis_source_crs(r->source), r->around->crs, who, &r->to_layer, error))
         return false;
-    for (size_t i = 0; ok && i < gis_source_count(r->source); i++) ok = gis_go_on(error) && take_feature(r, i, error);
+    for (bool any = true; ok && any;) {
+        for (size_t i = 0; ok && i < gis_source_count(r->source); i++)
+            ok = gis_go_on(error) && take_feature(r, i, error);
+        any = r->batch > 0;
+        if (ok && any) ok = gis_source_next(r->source, &any, error);
+    }
+    if (ok && r->batch) gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(r->source));
     return ok;
 }
 
-static bool read_layer(reading *r, gis_error *error)
+bool gis_barrier_visit(const gis_barrier_request *request, const gis_barrier_surroundings *around, size_t batch,
+                       gis_barrier_take *take, void *user, gis_barrier_common *common, gis_error *error)
 {
-    bool ok = read_lengths(r, error) && open_source(r, error) && read_features(r, error);
-    if (ok) {
-        r->out->layer[r->out->requests] = CPLStrdup(gis_source_name(r->source));
-        r->out->requests++;
-    }
-    if (r->to_layer) OCTDestroyCoordinateTransformation(r->to_layer);
-    gis_polygonal_part_clear(&r->part);
-    gis_source_close(r->source);
+    reading r = {.request = request,
+                 .around = around,
+                 .width_field = -1,
+                 .batch = batch,
+                 .take = take,
+                 .user = user,
+                 .common = common};
+    *common = (gis_barrier_common){0};
+    bool ok = read_lengths(&r, error) && open_source(&r, error);
+    common->distance = r.distance;
+    if (ok) common->layer = CPLStrdup(gis_source_name(r.source));
+    ok = ok && read_features(&r, error);
+    if (r.to_layer) OCTDestroyCoordinateTransformation(r.to_layer);
+    gis_polygonal_part_clear(&r.part);
+    gis_source_close(r.source);
     return ok;
 }
 
@@ -269,6 +283,19 @@ static bool make_barriers(const gis_barrier_request *requests, const double *dis
     return true;
 }
 
+static bool append(void *user, const gis_barrier_common *common, gis_barrier_feature *feature, gis_error *error)
+{
+    gis_barriers *out = user;
+    (void)common;
+    if (!gis_array_reserve(&out->feature, &out->capacity, out->n + 1, sizeof *feature)) {
+        gis_barrier_feature_clear(feature);
+        return gis_no_memory(error);
+    }
+    feature->request = out->requests;
+    out->feature[out->n++] = *feature;
+    return true;
+}
+
 bool gis_barriers_read(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
                        gis_barriers *out, gis_error *error)
 {
@@ -276,9 +303,11 @@ bool gis_barriers_read(const gis_barrier_request *requests, size_t n, const gis_
     *out = (gis_barriers){.layer = calloc(n + 1, sizeof *out->layer)};
     bool ok = (distance && out->layer) || gis_no_memory(error);
     for (size_t k = 0; ok && k < n; k++) {
-        reading r = {.request = &requests[k], .around = around, .width_field = -1, .out = out};
-        ok = read_layer(&r, error);
-        distance[k] = r.distance;
+        gis_barrier_common common;
+        ok = gis_barrier_visit(&requests[k], around, 0, append, out, &common, error);
+        distance[k] = common.distance;
+        out->layer[k] = common.layer;
+        out->requests++;
     }
     ok = ok && make_barriers(requests, distance, out, error);
     free(distance);
@@ -287,7 +316,7 @@ bool gis_barriers_read(const gis_barrier_request *requests, size_t n, const gis_
 
 void gis_barriers_clear(gis_barriers *barriers)
 {
-    for (size_t k = 0; k < barriers->n; k++) clear_feature(&barriers->feature[k]);
+    for (size_t k = 0; k < barriers->n; k++) gis_barrier_feature_clear(&barriers->feature[k]);
     for (size_t k = 0; barriers->layer && k < barriers->requests; k++) CPLFree(barriers->layer[k]);
     free(barriers->layer);
     free(barriers->feature);

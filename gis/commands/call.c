@@ -48,14 +48,20 @@ static bool add_option(gis_call *call, const gis_options *options, const gis_opt
     }
 }
 
-bool gis_call_list(const gis_options *options, gis_call *call, gis_error *error)
+bool gis_call_list_of(const gis_options *options, bool (*wanted)(const gis_option *), gis_call *call, gis_error *error)
 {
     for (int id = 0; id < OPT_N; id++) {
         const gis_option *option = &gis_option_table[id];
-        if (options->given[id] && option->group != GIS_GROUP_RUNNING && !add_option(call, options, option, error))
-            return false;
+        if (options->given[id] && wanted(option) && !add_option(call, options, option, error)) return false;
     }
     return true;
+}
+
+static bool is_about_results(const gis_option *option) { return option->group != GIS_GROUP_RUNNING; }
+
+bool gis_call_list(const gis_options *options, gis_call *call, gis_error *error)
+{
+    return gis_call_list_of(options, is_about_results, call, error);
 }
 
 void gis_call_clear(gis_call *call)

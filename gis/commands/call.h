@@ -1,4 +1,4 @@
-/* call.h: what a command was asked to do, in words, for reports. */
+/* call.h: what a command was asked to do, in words: for reports, and for a plan. */
 #ifndef GIS_CALL_H
 #define GIS_CALL_H
 
@@ -11,6 +11,8 @@ typedef struct gis_call {
     size_t n, capacity;
 } gis_call;
 
+/* All that are wanted. */
+bool gis_call_list_of(const gis_options *options, bool (*wanted)(const gis_option *), gis_call *call, gis_error *error);
 /* All but those of the section "Running", which change no result. */
 bool gis_call_list(const gis_options *options, gis_call *call, gis_error *error);
 void gis_call_clear(gis_call *call);

@@ -10,5 +10,9 @@ int gis_command_sum(const gis_options *options);
 int gis_command_pair(const gis_options *options);
 int gis_command_buffer(const gis_options *options);
 int gis_command_route(const gis_options *options);
+int gis_command_plan(const gis_options *options);
+int gis_command_merge(const gis_options *options);
+/* separate --shard K PLAN */
+int gis_command_shard(const gis_options *options);
 
 #endif

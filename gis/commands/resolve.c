@@ -368,7 +368,7 @@ gis_destinations gis_resolve_destinations(const gis_options *options)
 gis_progress gis_resolve_progress(const gis_options *options)
 {
     bool json = strcmp(options->text[OPT_MESSAGES], "json") == 0;
-    bool layers = (options->command->bit & (GIS_LAYERS | GIS_BUFFER)) || output_of(options);
+    bool layers = (options->command->bit & (GIS_LAYERS | GIS_BUFFER | GIS_MERGE)) || output_of(options);
     gis_progress_kind kind = layers && !json && isatty(STDERR_FILENO) ? GIS_PROGRESS_BAR : GIS_PROGRESS_NONE;
     if (options->given[OPT_PROGRESS]) kind = options->text[OPT_PROGRESS] ? GIS_PROGRESS_PLAIN : GIS_PROGRESS_BAR;
     return gis_progress_new(options->given[OPT_QUIET] ? GIS_PROGRESS_NONE : kind);

@@ -47,26 +47,28 @@ static bool input_id(const void *of, size_t feature, char **copy, gis_value *val
     return gis_id_value(of, feature, copy, value, error);
 }
 
-gis_things gis_things_of(const gis_layer_input *input)
+static GIntBig input_barrier(const void *of, size_t thing, const char **layer)
 {
-    return (gis_things){input, input->n, input_fid, input_id, &input->barriers};
+    const gis_layer_input *input = of;
+    const gis_barrier_feature *barrier = gis_barrier_of(input, thing);
+    *layer = gis_barrier_layer(input, barrier);
+    return barrier->fid;
 }
 
-const gis_barrier_feature *gis_things_barrier(const gis_things *things, size_t thing)
+gis_things gis_things_of(const gis_layer_input *input)
 {
-    const bool none = thing < things->features || thing == SIZE_MAX;
-    return none ? NULL : &things->barriers->feature[thing - things->features];
+    return (gis_things){input, input->n, input_fid, input_id, input_barrier};
+}
+
+bool gis_things_is_barrier(const gis_things *things, size_t thing)
+{
+    return thing >= things->features && thing != SIZE_MAX;
 }
 
 const gis_barrier_feature *gis_barrier_of(const gis_layer_input *input, size_t thing)
 {
-    const gis_things things = gis_things_of(input);
-    return gis_things_barrier(&things, thing);
-}
-
-static const char *layer_of(const gis_things *things, const gis_barrier_feature *barrier)
-{
-    return things->barriers->layer[barrier->request];
+    const bool none = thing < input->n || thing == SIZE_MAX;
+    return none ? NULL : &input->barriers.feature[thing - input->n];
 }
 
 const char *gis_barrier_layer(const gis_layer_input *input, const gis_barrier_feature *barrier)
@@ -81,17 +83,20 @@ static bool things_value(const gis_things *things, const size_t *thing, size_t n
     *value = (gis_value){.kind = GIS_NULL};
     if (n == 0) return true;
     size_t size = n * 22 + 1, length = 0;
+    const char *layer;
     for (size_t k = 0; k < n; k++) {
-        const gis_barrier_feature *barrier = gis_things_barrier(things, thing[k]);
-        if (barrier) size += strlen(layer_of(things, barrier)) + 1;
+        if (!gis_things_is_barrier(things, thing[k])) continue;
+        things->barrier(things->of, thing[k], &layer);
+        size += strlen(layer) + 1;
     }
     char *text = malloc(size);
     if (!text) return gis_no_memory(error);
     for (size_t k = 0; k < n; k++) {
-        const gis_barrier_feature *barrier = gis_things_barrier(things, thing[k]);
-        length += (size_t)snprintf(text + length, size - length, "%s%s%s" CPL_FRMT_GIB, k ? "," : "",
-                                   barrier ? layer_of(things, barrier) : "", barrier ? ":" : "",
-                                   barrier ? barrier->fid : things->fid(things->of, thing[k]));
+        const bool barrier = gis_things_is_barrier(things, thing[k]);
+        layer = "";
+        const GIntBig fid = barrier ? things->barrier(things->of, thing[k], &layer) : things->fid(things->of, thing[k]);
+        length += (size_t)snprintf(text + length, size - length, "%s%s%s" CPL_FRMT_GIB, k ? "," : "", layer,
+                                   barrier ? ":" : "", fid);
     }
     free(*copy);
     *copy = text;
@@ -121,14 +126,16 @@ bool gis_things_conflict(const gis_things *things, const sunder_conflict *confli
                          gis_value values[N_CONFLICT_COLUMNS], gis_error *error)
 {
     const char *reason = sunder_reason_string(conflict->reason);
-    const gis_barrier_feature *barrier = gis_things_barrier(things, conflict->b);
+    const char *layer = NULL;
+    const bool barrier = gis_things_is_barrier(things, conflict->b);
+    const GIntBig barrier_fid = barrier ? things->barrier(things->of, conflict->b, &layer) : OGRNullFID;
     const bool alone = conflict->b == SIZE_MAX;
     const gis_value none = {.kind = GIS_NULL};
     values[COLUMN_ID_B] = none;
     values[COLUMN_FID_A] = gis_fid_as_value(things->fid(things->of, conflict->a));
     values[COLUMN_FID_B] = barrier || alone ? none : gis_fid_as_value(things->fid(things->of, conflict->b));
-    values[COLUMN_BARRIER] = barrier ? (gis_value){GIS_TEXT, {.text = layer_of(things, barrier)}} : none;
-    values[COLUMN_BARR_FID] = barrier ? gis_fid_as_value(barrier->fid) : none;
+    values[COLUMN_BARRIER] = barrier ? (gis_value){GIS_TEXT, {.text = layer}} : none;
+    values[COLUMN_BARR_FID] = barrier ? gis_fid_as_value(barrier_fid) : none;
     values[COLUMN_KIND] = (gis_value){GIS_TEXT, {.text = sunder_conflict_kind_string(conflict->kind)}};
     values[COLUMN_REASON] = *reason ? (gis_value){GIS_TEXT, {.text = reason}} : (gis_value){.kind = GIS_NULL};
     values[COLUMN_DISTANCE] = (gis_value){GIS_REAL, {.real = conflict->distance}};

@@ -5,7 +5,6 @@
 #include "base/interrupt.h"
 #include "base/remove_tree.h"
 #include "base/resources.h"
-#include "spool/file.h"
 
 #include <cpl_conv.h>
 #include <errno.h>
@@ -15,65 +14,104 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The spool is dealt to so many shards, of which a part is as many as memory allows. */
-enum { SHARDS = 4096 };
+/* The spool is dealt to so many units, or some more: a part is as many as memory allows. */
+enum { UNITS = 4096 };
 enum { BATCH = 16384 };
-/* The share of them in all the work, what borders cut being the rest; roughly. */
-#define MOSTLY_SHARDS 0.9
 
-/* Bytes that a feature and a vertex of a part take, at most on towns; of what is kept besides, for each of the
- * layer. */
-static const double bytes_a_feature = 2000, bytes_a_vertex = 120, bytes_kept = 160, bytes_anyway = 96e6;
-
-/* ---- What cannot be done ----------------------------------------------------------------------------------------- */
-
-static bool refuse(const gis_layer_input_request *request, gis_error *error)
-{
-    const struct {
-        bool given;
-        const char *option;
-    } asked[] = {{request->barriers > 0, "--barrier"}, {request->symbol || request->symbol_field, "--symbol"}};
-    for (size_t k = 0; k < sizeof asked / sizeof *asked; k++)
-        if (asked[k].given)
-            return gis_fail_usage(error, "--max-memory: a layer is not separated in parts with %s", asked[k].option);
-    return true;
-}
+/* On towns, at most. */
+static const double bytes_a_feature = 2000, bytes_a_vertex = 120, bytes_written = 90, bytes_anyway = 96e6;
+/* Of barriers: their pieces, and the shapes of their parts. */
+static const double bytes_a_barrier = 1000, bytes_a_barrier_vertex = 300;
 
 /* ---- Onto the disk ----------------------------------------------------------------------------------------------- */
 
-static bool make_directory(gis_in_parts *p, gis_error *error)
+static unsigned units_of(unsigned shards) { return shards * ((UNITS + shards - 1) / shards); }
+
+static bool make_directory(gis_in_parts *p, const char *where, gis_error *error)
 {
-    const char *where = getenv("TMPDIR");
-    p->directory = CPLStrdup(CPLFormFilename(where && *where ? where : "/tmp", "sunder.XXXXXX", NULL));
-    if (!mkdtemp(p->directory)) {
-        gis_fail(error, "%s: a directory for the parts of the layer cannot be made: %s", p->directory, strerror(errno));
-        CPLFree(p->directory);
-        p->directory = NULL;
+    p->scratch = CPLStrdup(CPLFormFilename(where, "sunder.XXXXXX", NULL));
+    if (!mkdtemp(p->scratch)) {
+        gis_fail(error, "%s: a directory for the parts of the layer cannot be made: %s", p->scratch, strerror(errno));
+        CPLFree(p->scratch);
+        p->scratch = NULL;
         return false;
     }
-    p->leftover = gis_leftover_temporary(p->directory);
+    p->leftover = gis_leftover_temporary(p->scratch);
     return true;
 }
 
-/* How many shards fit into what is left of the memory. */
+static double bytes_of_barriers(const gis_spooled_barriers *b)
+{
+    if (!b->all) return 0;
+    return bytes_a_barrier * (double)gis_spool_features(b->all) +
+           bytes_a_barrier_vertex * (double)gis_spool_vertices(b->all);
+}
+
+double gis_in_parts_bytes(double features, double vertices)
+{
+    return bytes_anyway + bytes_a_feature * features + bytes_a_vertex * vertices;
+}
+
+double gis_in_parts_bytes_written(double features) { return bytes_anyway + bytes_written * features; }
+
+/* How many units fit into what is left of the memory. */
 static bool choose_parts(gis_in_parts *p, double memory, gis_error *error)
 {
+    const unsigned units = gis_spool_shards(p->spool);
     const double features = (double)gis_spool_features(p->spool), vertices = (double)gis_spool_vertices(p->spool),
-                 all = bytes_a_feature * features + bytes_a_vertex * vertices,
-                 left = memory - bytes_anyway - bytes_kept * (double)p->facts.source.features;
-    if (!(left > all / SHARDS))
+                 all = gis_in_parts_bytes(features, vertices) - bytes_anyway + bytes_of_barriers(&p->barriers),
+                 written = gis_in_parts_bytes_written((double)p->facts.source.features),
+                 least = fmax(bytes_anyway + all / units, written);
+    if (!(memory > least))
         return gis_fail(error, "--max-memory: %zu features need %.0f MB at least", p->facts.source.features,
-                        ceil((memory - left + all / SHARDS) / 1e6) + 1);
-    p->at_once = (unsigned)fmin(SHARDS, fmax(1, floor(SHARDS * left / fmax(all, 1))));
+                        ceil(least / 1e6) + 1);
+    const double left = memory - bytes_anyway;
+    p->at_once = (unsigned)fmin(units, fmax(1, floor(units * left / fmax(all, 1))));
     return true;
 }
 
-bool gis_in_parts_begin(const gis_layer_input_request *request, double memory, gis_in_parts *out, gis_error *error)
+/* What the core is asked for; as gis_layer_core_options() of a layer that is read. */
+static void choose_options(gis_in_parts *p)
 {
-    *out = (gis_in_parts){.request = request};
-    return refuse(request, error) && make_directory(out, error) &&
-           gis_layer_spool(request, SHARDS, out->directory, &out->facts, error) &&
-           gis_spool_open(out->directory, &out->spool, error) && choose_parts(out, memory, error);
+    const gis_layer_input input = {.request = p->request,
+                                   .points = p->facts.points,
+                                   .units = p->facts.units,
+                                   .gap = p->facts.gap,
+                                   .max_shift = p->facts.max_shift,
+                                   .tolerance = p->facts.tolerance,
+                                   .barrier_reach = p->facts.barrier_reach};
+    p->layout.how = gis_layer_core_options(&input);
+}
+
+static bool open_spool(gis_in_parts *p, double memory, gis_error *error)
+{
+    const bool done = gis_spool_open(p->directory, &p->spool, error) &&
+                      (p->request->barriers == 0 || gis_barriers_open(p->directory, &p->barriers, error)) &&
+                      choose_parts(p, memory, error) &&
+                      gis_layout_make(p->spool, p->facts.gap, p->request->rules.block_field != NULL, &p->layout, error);
+    p->layout.barriers = p->barriers;
+    p->layout.features = p->facts.source.features;
+    return done;
+}
+
+bool gis_in_parts_begin(const gis_layer_input_request *request, const char *directory, unsigned shards, double memory,
+                        gis_in_parts *out, gis_error *error)
+{
+    const char *where = getenv("TMPDIR");
+    *out = (gis_in_parts){.request = request, .shards = shards};
+    if (!directory && !make_directory(out, where && *where ? where : "/tmp", error)) return false;
+    out->directory = CPLStrdup(directory ? directory : out->scratch);
+    return gis_layer_spool(request, units_of(shards), out->directory, &out->facts, error) &&
+           open_spool(out, memory, error);
+}
+
+bool gis_in_parts_resume(const gis_layer_input_request *request, const char *directory, const gis_layer_facts *facts,
+                         unsigned shards, double memory, gis_in_parts *out, gis_error *error)
+{
+    *out = (gis_in_parts){.request = request, .shards = shards, .facts = *facts};
+    out->facts.name = CPLStrdup(facts->name);
+    out->directory = CPLStrdup(directory);
+    return open_spool(out, memory, error);
 }
 
 bool gis_in_parts_open(gis_in_parts *p, bool whole, gis_layer_input *out, gis_error *error)
@@ -88,214 +126,126 @@ bool gis_in_parts_open(gis_in_parts *p, bool whole, gis_layer_input *out, gis_er
     out->gap = p->facts.gap;
     out->max_shift = p->facts.max_shift;
     out->tolerance = p->facts.tolerance;
+    out->barrier_reach = p->facts.barrier_reach;
     out->invalid = p->facts.invalid;
     out->null = p->facts.null;
     out->other = p->facts.other;
     return done;
 }
 
-/* ---- Solving ----------------------------------------------------------------------------------------------------- */
+/* ---- Shards ------------------------------------------------------------------------------------------------------ */
 
-bool gis_in_parts_solve(gis_in_parts *p, const gis_layer_input *input, gis_progress *progress,
-                        sunder_layer_summary *summary, gis_error *error)
+static gis_part_stamp stamp_of(const gis_in_parts *p, unsigned k, uint64_t options)
 {
-    /* How far the core is with a part tells nobody anything; but it hears of signals that way. */
-    gis_progress silent = gis_progress_new(GIS_PROGRESS_NONE);
-    sunder_layer_options how = gis_layer_core_options(input);
-    how.progress = gis_progress_call;
-    how.progress_user = &silent;
-    const double began = gis_clock();
-    if (!gis_layout_make(p->spool, &how, p->request->rules.block_field != NULL, &p->layout, error)) return false;
-    for (unsigned k = 0; k < SHARDS; k += p->at_once) {
-        const unsigned end = k + p->at_once < SHARDS ? k + p->at_once : SHARDS;
-        if (!gis_parts_shards(&p->layout, k, end, &p->result, error)) return false;
-        gis_progress_call(MOSTLY_SHARDS * end / SHARDS, progress);
-        if (!gis_go_on(error)) return false;
+    gis_part_stamp stamp = {.options = options, .spool = gis_spool_checksum(p->spool), .shard = k, .shards = p->shards};
+    if (p->barriers.all) stamp.spool = stamp.spool * 31 + gis_spool_checksum(p->barriers.all);
+    snprintf(stamp.version, sizeof stamp.version, "%s", sunder_version());
+    return stamp;
+}
+
+/* How far the core is with a part tells nobody anything; but it hears of signals that way. */
+static void listen(gis_in_parts *p, gis_progress *silent)
+{
+    choose_options(p);
+    *silent = gis_progress_new(GIS_PROGRESS_NONE);
+    p->layout.how.progress = gis_progress_call;
+    p->layout.how.progress_user = silent;
+}
+
+static bool separate_parts(gis_in_parts *p, unsigned k, gis_part_file *file, gis_progress *progress, gis_error *error)
+{
+    const unsigned units = gis_spool_shards(p->spool) / p->shards, last = k * units;
+    gis_part_result result = {0};
+    bool done = true;
+    for (unsigned u = last - units; u < last && done; u += p->at_once) {
+        const unsigned end = u + p->at_once < last ? u + p->at_once : last;
+        gis_part_result_empty(&result);
+        done = gis_parts_shards(&p->layout, u, end, &result, error) && gis_part_file_add(file, &result, error);
+        gis_progress_call((double)(end + units - last) / units, progress);
+        done = done && gis_go_on(error);
     }
-    if (!gis_parts_join(&p->layout, &p->result, &p->joined, error)) return false;
+    gis_part_result_clear(&result);
+    return done;
+}
+
+bool gis_in_parts_shard(gis_in_parts *p, unsigned k, uint64_t options, gis_progress *progress, gis_error *error)
+{
+    gis_progress silent;
+    gis_part_file file;
+    const gis_part_stamp stamp = stamp_of(p, k, options);
+    listen(p, &silent);
+    const bool done = gis_part_file_create(&file, p->directory, &stamp, error) &&
+                      separate_parts(p, k, &file, progress, error) && gis_part_file_place(&file, p->directory, error);
+    gis_part_file_close(&file);
+    return done;
+}
+
+static bool is_sound(gis_part_file *file, gis_error *error)
+{
+    gis_part_result one = {0};
+    bool done = true;
+    for (size_t k = 0; k < file->chunks && done; k++) done = gis_part_file_read(file, k, &one, error);
+    gis_part_result_clear(&one);
+    return done;
+}
+
+bool gis_in_parts_state(const gis_in_parts *p, unsigned k, uint64_t options, gis_shard_state *state, gis_error *why,
+                        gis_error *error)
+{
+    char name[GIS_PART_FILE_NAME];
+    gis_part_file file;
+    const gis_part_stamp stamp = stamp_of(p, k, options);
+    gis_part_file_name(k, name);
+    *state = GIS_SHARD_MISSING;
+    if (access(CPLFormFilename(p->directory, name, NULL), F_OK) != 0 && errno == ENOENT) return true;
+    *state =
+        gis_part_file_open(&file, p->directory, &stamp, why) && is_sound(&file, why) ? GIS_SHARD_DONE : GIS_SHARD_WRONG;
+    gis_part_file_close(&file);
+    return gis_go_on(error);
+}
+
+/* ---- Joining ----------------------------------------------------------------------------------------------------- */
+
+static bool join_files(gis_in_parts *p, gis_part_file *file, uint64_t options, gis_error *error)
+{
+    for (unsigned k = 0; k < p->shards; k++) {
+        const gis_part_stamp stamp = stamp_of(p, k + 1, options);
+        if (!gis_part_file_open(&file[k], p->directory, &stamp, error)) return false;
+    }
+    return gis_parts_join(&p->layout, file, p->shards, p->scratch, &p->joined, error);
+}
+
+bool gis_in_parts_solve(gis_in_parts *p, uint64_t options, sunder_layer_summary *summary, gis_error *error)
+{
+    gis_progress silent;
+    const double began = gis_clock();
+    listen(p, &silent);
+    if (!p->scratch && !make_directory(p, p->directory, error)) return false;
+    gis_part_file *file = calloc(p->shards, sizeof *file);
+    if (!file) return gis_no_memory(error);
+    const bool done = join_files(p, file, options, error);
+    for (unsigned k = 0; k < p->shards; k++) gis_part_file_close(&file[k]);
+    free(file);
     gis_layout_clear(&p->layout); /* which borrows `silent` */
     *summary = p->joined.summary;
     summary->features = p->facts.source.features;
     summary->vertices = p->facts.vertices;
     summary->skipped = p->facts.skipped;
     summary->seconds_solve = gis_clock() - began;
-    return true;
-}
-
-GIntBig gis_in_parts_fid(const gis_in_parts *p, size_t feature)
-{
-    const gis_part_row *row = gis_joined_row(&p->joined, feature);
-    return row ? row->fid : OGRNullFID;
-}
-
-/* ---- The main layer ---------------------------------------------------------------------------------------------- */
-
-/* Where each list is, while features go by in their order. */
-typedef struct passing {
-    gis_in_parts *parts;
-    gis_spool_file status;
-    size_t row, still, block;
-} passing;
-
-/* Of a feature that went by, or goes: so the first of its block did. */
-static gis_value block_value(const gis_in_parts *p, size_t feature)
-{
-    const gis_joined *j = &p->joined;
-    const gis_part_link *own = gis_joined_block(j, feature);
-    if (!own) return gis_block_as_value(p->facts.source.fids_unique, -1, OGRNullFID);
-    return gis_block_as_value(p->facts.source.fids_unique, (int64_t)own->b,
-                              p->first_fid[gis_joined_block(j, own->b) - j->block]);
-}
-
-static bool pass(passing *at, const gis_source *source, size_t i, gis_sink_layer *layer, gis_error *error)
-{
-    gis_in_parts *p = at->parts;
-    const gis_joined *j = &p->joined;
-    const size_t feature = gis_source_first(source) + i;
-    unsigned char alone;
-    if (!gis_spool_file_read(&at->status, feature, &alone, 1, error)) return false;
-    gis_feature_row row = {.status = (sunder_feature_status)alone};
-    if (at->still < j->stills && j->still[at->still].index == feature) row.status = j->still[at->still++].status;
-    if (at->row < j->rows && p->result.row[j->row[at->row]].index == feature) {
-        const gis_part_row *own = &p->result.row[j->row[at->row++]];
-        row.dx = own->move[0];
-        row.dy = own->move[1];
-        row.status = own->status;
-    }
-    if (at->block < j->blocks && j->block[at->block].a == feature)
-        p->first_fid[at->block++] = gis_source_fid(source, i);
-    row.block = block_value(p, feature);
-    return !layer || gis_main_row(layer, i, &row, error);
-}
-
-/* All features go by, as blocks are called by FIDs that are known then; and are written, if layer is not NULL. */
-static bool write_main(gis_in_parts *p, gis_source *source, gis_sink_layer *layer, gis_error *error)
-{
-    passing at = {.parts = p};
-    bool any = true;
-    p->first_fid = malloc((p->joined.blocks + 1) * sizeof *p->first_fid);
-    if (!p->first_fid) return gis_no_memory(error);
-    bool done = gis_spool_file_open(&at.status, p->directory, "status", error);
-    while (done && any) {
-        for (size_t i = 0; i < gis_source_count(source) && done; i++) done = pass(&at, source, i, layer, error);
-        any = !p->whole;
-        if (any) done = done && gis_source_next(source, &any, error);
-    }
-    gis_spool_file_close(&at.status);
     return done;
-}
-
-/* ---- The others -------------------------------------------------------------------------------------------------- */
-
-static gis_value id_value(const gis_in_parts *p, const char *text)
-{
-    if (!text || !p->facts.has_id) return (gis_value){.kind = GIS_NULL};
-    if (p->facts.id_type == OFTInteger64) return (gis_value){GIS_INTEGER, {.integer = strtoll(text, NULL, 10)}};
-    if (p->facts.id_type == OFTReal) return (gis_value){GIS_REAL, {.real = CPLAtof(text)}};
-    return (gis_value){GIS_TEXT, {.text = text}};
-}
-
-static bool write_displacement(const gis_in_parts *p, gis_sink_layer *layer, gis_error *error)
-{
-    for (size_t k = 0; k < p->joined.rows; k++) {
-        const gis_part_row *own = &p->result.row[p->joined.row[k]];
-        if (own->move[0] == 0 && own->move[1] == 0) continue;
-        const gis_arrow_row row = {.fid = gis_fid_as_value(own->fid),
-                                   .id = id_value(p, own->id),
-                                   .block = block_value(p, own->index),
-                                   .from = {own->from[0], own->from[1]},
-                                   .move = {own->move[0], own->move[1]}};
-        if (!gis_go_on(error) || !gis_displacement_row(layer, &row, error)) return false;
-    }
-    return true;
-}
-
-static const gis_part_name *name_of(const gis_in_parts *p, size_t feature)
-{
-    size_t low = 0, high = p->result.names;
-    while (low + 1 < high) {
-        const size_t middle = (low + high) / 2;
-        if (p->result.name[middle].index <= feature)
-            low = middle;
-        else
-            high = middle;
-    }
-    return &p->result.name[low];
-}
-
-static GIntBig part_fid(const void *of, size_t feature) { return name_of(of, feature)->fid; }
-
-static bool part_id(const void *of, size_t feature, char **copy, gis_value *value, gis_error *error)
-{
-    (void)copy;
-    (void)error;
-    *value = id_value(of, name_of(of, feature)->id);
-    return true;
-}
-
-static bool write_conflicts(const gis_in_parts *p, const gis_things *things, gis_sink_layer *layer, gis_error *error)
-{
-    gis_conflict_texts scratch = {0};
-    bool done = true;
-    for (size_t k = 0; k < p->joined.conflicts && done; k++) {
-        const sunder_conflict *c = &p->result.conflict[p->joined.conflict[k]];
-        gis_value values[N_CONFLICT_COLUMNS];
-        done = gis_go_on(error) && gis_things_conflict(things, c, &scratch, values, error) &&
-               gis_line_row(layer, values, c->from, c->to, error);
-    }
-    gis_conflict_texts_clear(&scratch);
-    return done;
-}
-
-static void anchor_now(const gis_in_parts *p, size_t feature, double at[2])
-{
-    const gis_part_row *row = gis_joined_row(&p->joined, feature);
-    for (int c = 0; c < 2; c++) at[c] = name_of(p, feature)->anchor[c] + (row ? row->move[c] : 0);
-}
-
-static bool write_pushes(const gis_in_parts *p, const gis_things *things, gis_sink_layer *layer, gis_error *error)
-{
-    for (size_t k = 0; k < p->joined.pushes; k++) {
-        const sunder_push *push = &p->result.push[p->joined.push[k]];
-        gis_value values[N_PUSH_COLUMNS];
-        double from[2], to[2];
-        gis_things_push(things, push, values);
-        anchor_now(p, push->a, from);
-        anchor_now(p, push->b, to);
-        if (!gis_go_on(error) || !gis_line_row(layer, values, from, to, error)) return false;
-    }
-    return true;
-}
-
-bool gis_in_parts_write(gis_in_parts *p, const gis_layer_input *input, const gis_in_parts_layers *layers,
-                        gis_sink *sink, gis_error *error)
-{
-    const gis_barriers none = {0};
-    const gis_things things = {p, p->facts.source.features, part_fid, part_id, &none};
-    OGRSpatialReferenceH crs = gis_source_crs(input->source);
-    gis_sink_layer *layer = NULL;
-    const OGRFieldType id = p->facts.id_type;
-    if (layers->main && !gis_main_begin(sink, &layer, error)) return false;
-    if (!write_main(p, input->source, layer, error)) return false;
-    if (layers->displacement &&
-        (!gis_displacement_begin(sink, id, crs, &layer, error) || !write_displacement(p, layer, error)))
-        return false;
-    if (layers->conflicts &&
-        (!gis_conflicts_begin(sink, "conflicts", id, crs, &layer, error) || !write_conflicts(p, &things, layer, error)))
-        return false;
-    return !layers->pushes || (gis_pushes_begin(sink, crs, &layer, error) && write_pushes(p, &things, layer, error));
 }
 
 void gis_in_parts_clear(gis_in_parts *p)
 {
     gis_joined_clear(&p->joined);
-    gis_part_result_clear(&p->result);
     gis_layout_clear(&p->layout);
     gis_spool_close(p->spool);
+    gis_barriers_close(&p->barriers);
     gis_layer_facts_clear(&p->facts);
     free(p->first_fid);
-    if (p->directory) gis_remove_tree(p->directory);
+    if (p->scratch) gis_remove_tree(p->scratch);
     gis_leftover_forget(p->leftover);
     CPLFree(p->directory);
+    CPLFree(p->scratch);
     *p = (gis_in_parts){0};
 }

@@ -1,8 +1,9 @@
-/* in_parts.h: a layer that memory does not hold, separated a part at a time (parts/), for --max-memory.
+/* in_parts.h: a layer that memory does not hold, separated a part at a time (parts/), by one process or by many.
  *
- *   gis_in_parts_begin   reads the layer onto the disk, in a directory of its own
- *   gis_in_parts_open    opens it again, to be read by batches as it is written
- *   gis_in_parts_solve   all parts, and what borders cut
+ *   gis_in_parts_begin   reads the layer onto the disk, into a directory; or gis_in_parts_resume: it is there
+ *   gis_in_parts_shard   one of the shards to which it is dealt, part by part; what is told of it, to a file there
+ *   gis_in_parts_open    opens the layer again, to be read by batches as it is written
+ *   gis_in_parts_solve   joins all shards, with what borders cut
  *   gis_in_parts_write   the layers: the same bytes as of a layer that is separated whole */
 #ifndef GIS_LAYER_IN_PARTS_H
 #define GIS_LAYER_IN_PARTS_H
@@ -17,32 +18,50 @@
 typedef struct gis_in_parts {
     const gis_layer_input_request *request;
     char *directory;
+    char *scratch; /* within it, or itself: what goes in the end */
     gis_leftover *leftover;
     gis_layer_facts facts;
     gis_spool *spool;
+    gis_spooled_barriers barriers;
+    unsigned shards;  /* of the layer; the spool has a multiple of them, its units */
     bool whole;       /* the source was opened to be held whole */
-    unsigned at_once; /* so many shards of the spool are a part */
+    unsigned at_once; /* so many units are a part */
     gis_layout layout;
-    gis_part_result result;
     gis_joined joined;
     GIntBig *first_fid; /* [joined.blocks] of those that are the first of their block */
 } gis_in_parts;
 
 /* Which layers are written. */
 typedef struct gis_in_parts_layers {
-    bool main, displacement, conflicts, pushes;
+    bool main, displacement, conflicts, pushes, symbols;
 } gis_in_parts_layers;
 
-/* memory: bytes that the work on a part may take, about. Refuses what cannot be done in parts. */
-bool gis_in_parts_begin(const gis_layer_input_request *request, double memory, gis_in_parts *out, gis_error *error);
+/* Bytes that a process takes, about: for a part of so much; for a layer while it is written, when no part is there. */
+double gis_in_parts_bytes(double features, double vertices);
+double gis_in_parts_bytes_written(double features);
+
+/* directory: NULL: one of its own, which goes in the end. memory: bytes that a process may take, about. */
+bool gis_in_parts_begin(const gis_layer_input_request *request, const char *directory, unsigned shards, double memory,
+                        gis_in_parts *out, gis_error *error);
+/* As after gis_in_parts_begin() with a directory, which is as that left it; facts are copied. */
+bool gis_in_parts_resume(const gis_layer_input_request *request, const char *directory, const gis_layer_facts *facts,
+                         unsigned shards, double memory, gis_in_parts *out, gis_error *error);
+
+/* Shard k, 1 to shards, to its file in the directory, in place of one that is there. options: of the call, for the
+ * file's stamp. */
+bool gis_in_parts_shard(gis_in_parts *parts, unsigned k, uint64_t options, gis_progress *progress, gis_error *error);
+/* Is its file there? Sound, and of this plan? *why says what is wrong, if it is there and not that. */
+typedef enum gis_shard_state { GIS_SHARD_MISSING, GIS_SHARD_DONE, GIS_SHARD_WRONG } gis_shard_state;
+bool gis_in_parts_state(const gis_in_parts *parts, unsigned k, uint64_t options, gis_shard_state *state, gis_error *why,
+                        gis_error *error);
+
 /* As gis_layer_input_read(), but for shapes, demands and the layer. whole: the source is not read by batches. */
 bool gis_in_parts_open(gis_in_parts *parts, bool whole, gis_layer_input *out, gis_error *error);
-bool gis_in_parts_solve(gis_in_parts *parts, const gis_layer_input *input, gis_progress *progress,
-                        sunder_layer_summary *summary, gis_error *error);
+/* Of all shards, whose files are there. */
+bool gis_in_parts_solve(gis_in_parts *parts, uint64_t options, sunder_layer_summary *summary, gis_error *error);
+/* in_parts_layers.c */
 bool gis_in_parts_write(gis_in_parts *parts, const gis_layer_input *input, const gis_in_parts_layers *layers,
                         gis_sink *sink, gis_error *error);
-/* The FID of a feature that moved. */
-GIntBig gis_in_parts_fid(const gis_in_parts *parts, size_t feature);
 void gis_in_parts_clear(gis_in_parts *parts);
 
 #endif

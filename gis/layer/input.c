@@ -101,6 +101,8 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
  * too. */
 static const double limits_known = 4;
 
+double gis_layer_barrier_reach(double longest_limit) { return limits_known * longest_limit; }
+
 /* The longest way that any feature may go. */
 static double longest_limit(const gis_layer_input *input)
 {
@@ -135,7 +137,7 @@ static bool read_barriers(gis_layer_input *input, gis_error *error)
     if (request->barriers == 0) return true;
     gis_barrier_targets *targets = find_targets(input);
     if (!targets) return gis_no_memory(error);
-    input->barrier_reach = limits_known * longest_limit(input);
+    input->barrier_reach = gis_layer_barrier_reach(longest_limit(input));
     const gis_barrier_surroundings around = {
         .crs = gis_source_crs(input->source),
         .units = &input->units,

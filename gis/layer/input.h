@@ -56,6 +56,8 @@ typedef struct gis_layer_input {
 bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
 /* The source and the shapes alone, arcs as chords: for a command that asks for no conflicts. */
 bool gis_layer_shapes_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
+/* How far about features barriers are known, where that is the longest limit. */
+double gis_layer_barrier_reach(double longest_limit);
 /* Around all shapes; around those that conflict with something, once features are made. box[0] > box[2]: there is
  * none. */
 void gis_layer_box(const gis_layer_input *input, double box[4]);

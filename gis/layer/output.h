@@ -19,6 +19,12 @@ bool gis_write_report_conflicts(gis_sink_layer *layer, const gis_layer_input *in
                                 gis_error *error);
 /* LAYER_pushes: a line for each pair that presses on each other. */
 bool gis_write_pushes(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
+/* How a feature by its place in the input moved; asked of each once, in their order. */
+typedef bool gis_move_of(void *user, size_t feature, double move[2], gis_error *error);
+/* LAYER_symbols of a source that is read anew, with its shapes: a batch at a time, if it was opened so. multi: some
+ * symbol has several members (symbols_anew.c). */
+bool gis_write_symbols_anew(gis_sink *sink, const gis_layer_input *input, bool multi, bool batches, gis_move_of *move,
+                            void *user, gis_error *error);
 /* LAYER_symbols: the symbols of points where they stand now. */
 bool gis_write_symbols(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
 

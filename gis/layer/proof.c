@@ -139,6 +139,11 @@ static void put_ways(proof_writer *w, const sunder_proof *proof, const sunder_pr
     put_thing(w, "b", node->b);
     put_corners(w, "A", proof->corner + 2 * node->part_a, node->corners_a);
     put_corners(w, "B", proof->corner + 2 * node->part_b, node->corners_b);
+    if (node->chord) {
+        put_thing(w, "c", node->c);
+        put_corners(w, "side_b", proof->corner + 2 * node->sides, 2);
+        put_corners(w, "side_c", proof->corner + 2 * node->sides + 4, 2);
+    }
     if (node->slack) gis_json_put_bool(&w->json, "slack", true);
     if (node->held) gis_json_put_bool(&w->json, "held", true);
     if (node->shadow)

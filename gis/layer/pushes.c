@@ -4,31 +4,7 @@
 
 #include "base/interrupt.h"
 
-#include <math.h>
 #include <string.h>
-
-static void take_nearer(const double *xy, size_t n, const double at[2], double *square, double nearest[2])
-{
-    for (size_t k = 0; k < n; k++) {
-        double dx = xy[2 * k] - at[0], dy = xy[2 * k + 1] - at[1], s = dx * dx + dy * dy;
-        if (s >= *square) continue;
-        *square = s;
-        memcpy(nearest, xy + 2 * k, 2 * sizeof *xy);
-    }
-}
-
-void gis_barrier_corner(const gis_barrier_feature *barrier, const double at[2], double nearest[2])
-{
-    double square = INFINITY;
-    memcpy(nearest, at, 2 * sizeof *nearest);
-    take_nearer(barrier->lines.xy, barrier->lines.points, at, &square, nearest);
-    for (size_t p = 0; barrier->shape && p < sunder_shape_polygons(barrier->shape); p++)
-        for (size_t r = 0; r < sunder_shape_rings(barrier->shape, p); r++) {
-            size_t n;
-            const double *xy = sunder_shape_ring(barrier->shape, p, r, &n);
-            take_nearer(xy, n, at, &square, nearest);
-        }
-}
 
 static void anchor_now(const gis_layer_input *input, const sunder_report *report, size_t feature, double at[2])
 {
@@ -41,13 +17,15 @@ static void anchor_now(const gis_layer_input *input, const sunder_report *report
 
 void gis_things_push(const gis_things *things, const sunder_push *push, gis_value values[N_PUSH_COLUMNS])
 {
-    const gis_barrier_feature *barrier = gis_things_barrier(things, push->b);
+    const char *layer = NULL;
+    const bool barrier = gis_things_is_barrier(things, push->b);
+    const GIntBig barrier_fid = barrier ? things->barrier(things->of, push->b, &layer) : OGRNullFID;
     const gis_value none = {.kind = GIS_NULL};
     const gis_value row[N_PUSH_COLUMNS] = {
         gis_fid_as_value(things->fid(things->of, push->a)),
         barrier ? none : gis_fid_as_value(things->fid(things->of, push->b)),
-        barrier ? (gis_value){GIS_TEXT, {.text = things->barriers->layer[barrier->request]}} : none,
-        barrier ? gis_fid_as_value(barrier->fid) : none,
+        barrier ? (gis_value){GIS_TEXT, {.text = layer}} : none,
+        barrier ? gis_fid_as_value(barrier_fid) : none,
         {GIS_REAL, {.real = push->force}},
         {GIS_REAL, {.real = push->n[0]}},
         {GIS_REAL, {.real = push->n[1]}},
@@ -59,12 +37,11 @@ static bool write_push(gis_sink_layer *layer, const gis_layer_input *input, cons
                        const sunder_push *push, gis_error *error)
 {
     const gis_things things = gis_things_of(input);
-    const gis_barrier_feature *barrier = gis_things_barrier(&things, push->b);
     double from[2], to[2];
     gis_value values[N_PUSH_COLUMNS];
     anchor_now(input, report, push->a, from);
-    if (barrier)
-        gis_barrier_corner(barrier, from, to);
+    if (gis_things_is_barrier(&things, push->b))
+        gis_barrier_corner(&input->barriers.barrier[push->b - input->n].geometry, from, to);
     else
         anchor_now(input, report, push->b, to);
     gis_things_push(&things, push, values);

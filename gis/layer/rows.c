@@ -74,8 +74,7 @@ bool gis_displacement_row(gis_sink_layer *layer, const gis_arrow_row *row, gis_e
 bool gis_line_row(gis_sink_layer *layer, const gis_value *values, const double from[2], const double to[2],
                   gis_error *error)
 {
-    OGRGeometryH line = gis_geometry_line(from, to);
-    return line ? gis_sink_write(layer, NULL, line, values, error) : gis_no_memory(error);
+    return gis_sink_write_line(layer, from, to, values, error);
 }
 
 bool gis_symbols_begin(gis_sink *sink, bool multi, OGRSpatialReferenceH crs, gis_sink_layer **layer, gis_error *error)

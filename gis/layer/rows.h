@@ -3,7 +3,7 @@
 #ifndef GIS_LAYER_ROWS_H
 #define GIS_LAYER_ROWS_H
 
-#include "barrier/barrier.h"
+#include "parts/barriers.h"
 #include "write/sink.h"
 
 /* A FID as a value; null if there is none. */
@@ -47,7 +47,8 @@ typedef struct gis_things {
     GIntBig (*fid)(const void *of, size_t feature);
     /* The user's own key; null without one. *copy keeps a text (start with NULL, free at the end). */
     bool (*id)(const void *of, size_t feature, char **copy, gis_value *value, gis_error *error);
-    const gis_barriers *barriers;
+    /* Of a barrier the FID, and the name of its layer, which lives as long as `of`. */
+    GIntBig (*barrier)(const void *of, size_t thing, const char **layer);
 } gis_things;
 
 /* The columns of LAYER_conflicts, as the values of one conflict. Texts in them stay valid until the next call with the
@@ -77,8 +78,8 @@ typedef struct gis_conflict_texts {
     char *blocked_by, *need_gone;
 } gis_conflict_texts;
 
-/* The barrier that a thing is; NULL: a feature, or SIZE_MAX, nothing. */
-const gis_barrier_feature *gis_things_barrier(const gis_things *things, size_t thing);
+/* Is the thing a barrier, and no feature, nor SIZE_MAX, nothing? */
+bool gis_things_is_barrier(const gis_things *things, size_t thing);
 bool gis_things_conflict(const gis_things *things, const sunder_conflict *conflict, gis_conflict_texts *scratch,
                          gis_value values[N_CONFLICT_COLUMNS], gis_error *error);
 void gis_conflict_texts_clear(gis_conflict_texts *scratch);
@@ -86,8 +87,6 @@ void gis_conflict_texts_clear(gis_conflict_texts *scratch);
 /* The columns of LAYER_pushes; all texts are the barriers'. */
 enum { N_PUSH_COLUMNS = 7 };
 void gis_things_push(const gis_things *things, const sunder_push *push, gis_value values[N_PUSH_COLUMNS]);
-/* Of a barrier the corner that is nearest to a place: there a push on it ends. */
-void gis_barrier_corner(const gis_barrier_feature *barrier, const double at[2], double nearest[2]);
 
 /* The layer is called MAIN_suffix, or MAIN if suffix is "". */
 bool gis_conflicts_begin(gis_sink *sink, const char *suffix, OGRFieldType id, OGRSpatialReferenceH crs,

@@ -4,9 +4,11 @@
 #include "layer/spooling.h"
 
 #include "base/array.h"
+#include "base/box.h"
 #include "base/message.h"
 #include "layer/output.h"
 #include "read/crs_units.h"
+#include "read/source_checksum.h"
 #include "spool/file.h"
 
 #include <cpl_conv.h>
@@ -28,20 +30,6 @@ typedef struct spooling {
     size_t n_areas, room;
     double shapes[4]; /* box of all shapes */
 } spooling;
-
-static void begin_box(double box[4])
-{
-    box[0] = box[1] = INFINITY;
-    box[2] = box[3] = -INFINITY;
-}
-
-static void join(double box[4], const double other[4])
-{
-    for (int k = 0; k < 2; k++) {
-        box[k] = fmin(box[k], other[k]);
-        box[k + 2] = fmax(box[k + 2], other[k + 2]);
-    }
-}
 
 /* ---- One batch --------------------------------------------------------------------------------------------------- */
 
@@ -65,12 +53,12 @@ static bool take_demands(spooling *s, gis_error *error)
     if (!gis_layer_make_room(input, true, error) || !gis_layer_shapes(input, error)) return false;
     gis_layer_default_demands(input);
     gis_layer_box(input, box);
-    join(s->shapes, box);
+    gis_box_join(s->shapes, box);
     if (!gis_layer_marks(input, error) || !gis_layer_number_blocks(input, &s->keys, error) || !weigh(s, error) ||
         !gis_layer_limits(input, error))
         return false;
     gis_layer_box(input, box);
-    join(s->facts->box, box);
+    gis_box_join(s->facts->box, box);
     return true;
 }
 
@@ -185,12 +173,40 @@ static bool read_batches(spooling *s, const gis_layer_input_request *request, co
         !gis_spool_file_create(&s->status, directory, "status.part", error))
         return false;
     for (bool any = true; any;)
-        if (!take_demands(s, error) || !add_batch(s, error) || !gis_source_next(input->source, &any, error))
+        if (!gis_source_checksum(input->source, &s->facts->checksum, error) || !take_demands(s, error) ||
+            !add_batch(s, error) || !gis_source_next(input->source, &any, error))
             return false;
     if (!gis_source_find_facts(input->source, &s->facts->source, error)) return false;
     *again = (request->rules.ignore_where || request->rules.fixed_where) && !s->facts->source.fids_unique &&
              !request->source.fids_mean_nothing && !gis_source_is_result(input->source);
     return true;
+}
+
+/* Those within reach of what is in the spool now. */
+static bool spool_barriers(spooling *s, const char *directory, gis_error *error)
+{
+    const gis_layer_input_request *request = s->input.request;
+    gis_spool *spool = NULL;
+    s->facts->barrier_reach = INFINITY;
+    if (request->barriers == 0) return true;
+    if (!gis_spool_open(directory, &spool, error)) return false;
+    s->facts->barrier_reach = gis_layer_barrier_reach(request->moves ? s->facts->longest_limit : 0);
+    gis_barrier_targets *targets = gis_barrier_targets_of_spool(spool);
+    const gis_barrier_surroundings around = {
+        .crs = gis_source_crs(s->input.source),
+        .units = &s->input.units,
+        .targets = targets,
+        .reach = s->facts->barrier_reach,
+        .gap = s->input.gap,
+        .invalid = request->invalid,
+        .output = request->output,
+        .update = request->update,
+    };
+    const bool done = (targets || gis_no_memory(error)) &&
+                      gis_barriers_spool(request->barrier, request->barriers, &around, directory, error);
+    gis_barrier_targets_free(targets);
+    gis_spool_close(spool);
+    return done;
 }
 
 static bool finish(spooling *s, unsigned shards, const char *directory, gis_error *error)
@@ -204,7 +220,7 @@ static bool finish(spooling *s, unsigned shards, const char *directory, gis_erro
     fill_facts(s);
     say_what_is_known(s);
     return gis_spool_finish(s->writer, shards, settles ? settle : NULL, s, error) &&
-           gis_spool_file_place(&s->status, directory, "status", error);
+           gis_spool_file_place(&s->status, directory, "status", error) && spool_barriers(s, directory, error);
 }
 
 static void clear(spooling *s)
@@ -222,8 +238,8 @@ static bool spool_once(const gis_layer_input_request *request, unsigned shards, 
     spooling s = {.facts = facts};
     *facts = (gis_layer_facts){0};
     *again = false;
-    begin_box(facts->box);
-    begin_box(s.shapes);
+    gis_box_clear(facts->box);
+    gis_box_clear(s.shapes);
     const bool done =
         read_batches(&s, request, directory, again, error) && (*again || finish(&s, shards, directory, error));
     clear(&s);
@@ -246,4 +262,17 @@ void gis_layer_facts_clear(gis_layer_facts *facts)
 {
     CPLFree(facts->name);
     facts->name = NULL;
+}
+
+bool gis_layer_checksum(const gis_layer_input_request *request, uint64_t *checksum, gis_error *error)
+{
+    gis_layer_input_request by_batches = *request;
+    gis_layer_input input = {0};
+    by_batches.source.batch = BATCH;
+    *checksum = 0;
+    bool done = gis_layer_begin(&by_batches, true, &input, error), any = true;
+    while (done && any)
+        done = gis_source_checksum(input.source, checksum, error) && gis_source_next(input.source, &any, error);
+    gis_layer_input_clear(&input);
+    return done;
 }

@@ -13,23 +13,28 @@ typedef struct gis_layer_facts {
     gis_crs_units units;
     double gap, max_shift, tolerance;
     double longest_limit; /* the longest way that any feature may go; 0: none may */
+    double barrier_reach;
     bool points;
     bool has_id; /* there is an --id-field, and its values are of this type: OFTInteger64, OFTReal, OFTString */
     OGRFieldType id_type;
     size_t invalid, null, other;
-    size_t skipped;  /* conflict with nothing: they are not in the spool */
-    size_t vertices; /* of all shapes, cleaned: as sunder_layer_summary counts them */
-    double box[4];   /* of all that conflicts with anything; box[0] > box[2]: nothing does */
-    bool multi;      /* a shape has several members: symbols are written as MultiPolygons */
+    size_t skipped;    /* conflict with nothing: they are not in the spool */
+    size_t vertices;   /* of all shapes, cleaned: as sunder_layer_summary counts them */
+    double box[4];     /* of all that conflicts with anything; box[0] > box[2]: nothing does */
+    bool multi;        /* a shape has several members: symbols are written as MultiPolygons */
+    uint64_t checksum; /* of all FIDs and geometries that were read (gis_source_checksum()) */
 } gis_layer_facts;
 
 /* Reads the layer, with all that it warns of, into `features` and `cells` of the directory, which is there, dealt to so
  * many shards; and into `status` a byte for each feature, in the order of the input: the sunder_feature_status that it
  * has alone, if it does not move (of a block with a fixed member all are fixed, which is not known here). The ids in
- * the spool are the texts of integers, or of reals with 17 digits. Barriers are not read. Memory is that of a batch, of
- * a part of the spool, of the distinct values of --block-field and, with --weight, of 8 bytes a feature. */
+ * the spool are the texts of integers, or of reals with 17 digits. Barriers go into `barriers` (parts/barriers.h).
+ * Memory is that of a batch, of a part of the spool, of the distinct values of --block-field and, with --weight, of 8
+ * bytes a feature. */
 bool gis_layer_spool(const gis_layer_input_request *request, unsigned shards, const char *directory,
                      gis_layer_facts *facts, gis_error *error);
 void gis_layer_facts_clear(gis_layer_facts *facts);
+/* The checksum alone, as it is now: the layer is read, and that is all. */
+bool gis_layer_checksum(const gis_layer_input_request *request, uint64_t *checksum, gis_error *error);
 
 #endif

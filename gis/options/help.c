@@ -72,11 +72,20 @@ static void print_packed(unsigned command, gis_option_group group)
     printf("\n");
 }
 
+static bool has_any(unsigned command, int group)
+{
+    for (int i = 0; i < OPT_N; i++) {
+        const int of = gis_option_table[i].group == GIS_GROUP_IDENTITY ? GIS_GROUP_OWN : (int)gis_option_table[i].group;
+        if (of == group && (gis_option_table[i].commands & command)) return true;
+    }
+    return false;
+}
+
 void gis_help_command(const gis_command *command)
 {
     printf("Usage: sunder %s [options] %s\n%s.\n\n", command->name, command->operands, command->summary);
     for (int group = 0; group < GIS_GROUP_HIDDEN; group++) {
-        if (group == GIS_GROUP_IDENTITY) continue;
+        if (group == GIS_GROUP_IDENTITY || !has_any(command->bit, group)) continue;
         printf("%s\n", group_titles[group]);
         if (group == GIS_GROUP_OWN)
             print_own(command->bit);
@@ -92,12 +101,13 @@ void gis_help_command(const gis_command *command)
     if (command->bit & GIS_BUFFER)
         printf("SHAPE: WKT (MULTI)POLYGON, @FILE or @- that holds it, disc:R[:N] (around the disc), "
                "inside-disc:R[:N],\nsquare:SIDE or rectangle:WxH. ");
-    printf("Lengths: 3 (the layer's unit), 3m, 10ft, 10us-ft, 0.2mm (on the sheet, with --scale).\n"
-           "Exit status: 0 done, 1 failed, 2 wrong usage%s. See also man sunder-%s.\n"
+    if (command->bit & GIS_ALL)
+        printf("Lengths: 3 (the layer's unit), 3m, 10ft, 10us-ft, 0.2mm (on the sheet, with --scale).\n");
+    printf("Exit status: 0 done, 1 failed, 2 wrong usage%s. See also man sunder-%s.\n"
            "Example: sunder %s %s\n",
-           command->bit & GIS_LAYERS  ? ", 3 conflicts"
-           : command->bit & GIS_ROUTE ? ", 3 no route"
-                                      : "",
+           command->bit & (GIS_SEPARATE | GIS_CHECK | GIS_MERGE) ? ", 3 conflicts"
+           : command->bit & GIS_ROUTE                            ? ", 3 no route"
+                                                                 : "",
            command->name, command->name, command->example);
 }
 

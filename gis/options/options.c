@@ -141,7 +141,7 @@ bool gis_option_is_list(const gis_option *option) { return option->type >= GIS_T
 bool gis_option_is_needed(const gis_option *option)
 {
     gis_option_id id = option->id;
-    return id == OPT_SHAPE || id == OPT_ROBOT || id == OPT_FROM || id == OPT_TO;
+    return id == OPT_SHAPE || id == OPT_ROBOT || id == OPT_FROM || id == OPT_TO || id == OPT_SHARDS;
 }
 
 /* Takes one value of the option; `value` is NULL for a flag. */
@@ -196,7 +196,7 @@ static size_t dashes(const char *word, size_t n)
 /* The nearest spelling, if one is near, and whether another command knows the option. */
 static bool unknown_option(const gis_command *command, const char *word, size_t n, gis_error *error)
 {
-    const gis_option *elsewhere = find_option(GIS_ALL, word, n);
+    const gis_option *elsewhere = find_option(GIS_EVERY, word, n);
     gis_spelling search = gis_spelling_of(word + dashes(word, n), n - dashes(word, n));
     const char *spelling = NULL;
     for (int i = 0; i < OPT_N; i++) {
@@ -240,6 +240,19 @@ static bool parse_option(const char *word, arguments *in, gis_options *out, gis_
     return set_value(option, in, value, out, error);
 }
 
+/* Of a shard of a plan all is said by that, but for what every command knows. */
+static bool check_shard(const gis_options *out, gis_error *error)
+{
+    for (int i = 0; i < OPT_N; i++) {
+        const gis_option *option = &gis_option_table[i];
+        if (out->given[i] && i != OPT_SHARD && !(option->commands & GIS_MERGE))
+            return gis_fail_usage(error, "%.*s: with --shard the plan says that; give it to sunder plan",
+                                  name_length(option), option->names);
+    }
+    return out->n_operands == 1 ||
+           gis_fail_usage(error, "sunder separate --shard K takes one operand, PLAN; `sunder plan` makes one");
+}
+
 /* What the options say together. */
 static bool finish(gis_options *out, gis_error *error)
 {
@@ -253,6 +266,7 @@ static bool finish(gis_options *out, gis_error *error)
             return gis_fail_usage(error, "OUTPUT is given twice, as an operand and by --output");
         if (out->n_operands + 1 == command->most) out->operand[out->n_operands++] = out->text[OPT_OUTPUT];
     }
+    if (out->given[OPT_SHARD]) return check_shard(out, error);
     if (out->n_operands < command->least)
         return gis_fail_usage(error, "sunder %s needs %s; `sunder %s --help` tells more", command->name,
                               command->operands, command->name);

@@ -1,131 +1,110 @@
 /* gather.c: what worlds tell, as lists by features, and as sums. Sums are exact until they are rounded once. */
+#include "parts/hold.h"
 #include "parts/join.h"
 #include "parts/sets.h"
 
 #include "base/array.h"
+#include "base/interrupt.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Something of one or two features, and its place in a list. */
-typedef struct keyed {
-    size_t a, b, at;
-} keyed;
+typedef struct gathering {
+    gis_joined *out;
+    gis_part_result one;   /* a thing by itself */
+    gis_part_result links; /* of all */
+    sunder_total bound, total, cost;
+    size_t block;     /* how far features of blocks are, while rows go by */
+    uint64_t last[2]; /* keys of what was kept last */
+    bool any, more;   /* something was; there is a row at which rows are, while conflicts go by */
+} gathering;
 
-static int by_key(const void *x, const void *y)
+/* ---- Things of a result, one by one ------------------------------------------------------------------------------ */
+
+/* Of a feature that has both, the row comes first. */
+enum { ROW, STILL };
+
+static bool put_row(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
 {
-    const keyed *p = x, *q = y;
-    if (p->a != q->a) return p->a < q->a ? -1 : 1;
-    if (p->b != q->b) return p->b < q->b ? -1 : 1;
-    return (p->at > q->at) - (p->at < q->at);
+    gis_part_result_empty(&g->one);
+    return gis_part_copy_row(&g->one, r, k, error) &&
+           gis_sorted_add(&g->out->rows, r->row[k].index, ROW, &g->one, error);
 }
 
-static bool push(keyed **list, size_t *n, size_t *room, keyed item, gis_error *error)
+static bool put_still(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
 {
-    if (!gis_array_reserve(list, room, *n + 1, sizeof **list)) return gis_no_memory(error);
-    (*list)[(*n)++] = item;
-    return true;
+    gis_part_result_empty(&g->one);
+    return gis_part_copy_still(&g->one, r, k, error) &&
+           gis_sorted_add(&g->out->rows, r->still[k].index, STILL, &g->one, error);
 }
 
-/* Sorted, and of several with the same key, found in several runs, the last. */
-static size_t *places_of(keyed *list, size_t *n)
+static bool put_conflict(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
 {
-    size_t kept = 0, *place = malloc((*n + 1) * sizeof *place);
-    if (*n) qsort(list, *n, sizeof *list, by_key);
-    for (size_t k = 0; place && k < *n; k++)
-        if (k + 1 == *n || list[k].a != list[k + 1].a || list[k].b != list[k + 1].b) place[kept++] = list[k].at;
-    *n = kept;
-    return place;
+    const sunder_conflict *c = &r->conflict[k].is;
+    gis_part_result_empty(&g->one);
+    return gis_part_copy_conflict(&g->one, r, k, error) &&
+           gis_sorted_add(&g->out->conflicts, c->a, c->b, &g->one, error);
 }
 
-const gis_part_row *gis_joined_row(const gis_joined *j, size_t feature)
+static bool put_push(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
 {
-    size_t low = 0, high = j->rows;
-    while (low < high) {
-        const size_t middle = (low + high) / 2;
-        const gis_part_row *row = &j->parts->row[j->row[middle]];
-        if (row->index == feature) return row;
-        if (row->index < feature)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return NULL;
+    const sunder_push *p = &r->push[k].is;
+    gis_part_result_empty(&g->one);
+    return gis_part_copy_push(&g->one, r, k, error) && gis_sorted_add(&g->out->pushes, p->a, p->b, &g->one, error);
 }
 
-static bool gather_rows(gis_joined *j, gis_error *error)
+static void add_counts(sunder_conflict_counts *to, const sunder_conflict_counts *from)
 {
-    keyed *list = NULL;
-    size_t n = 0, room = 0;
+    to->overlap += from->overlap;
+    to->too_close += from->too_close;
+    to->barrier += from->barrier;
+    to->barrier_near += from->barrier_near;
+    to->contained += from->contained;
+    to->duplicate += from->duplicate;
+    to->inside_blocks += from->inside_blocks;
+}
+
+static bool put_world(gathering *g, const gis_part_result *r, const gis_part_world *w, gis_error *error)
+{
+    sunder_layer_summary *s = &g->out->summary;
     bool done = true;
-    const gis_part_result *r = j->parts;
-    for (size_t w = 0; w < r->worlds && done; w++)
-        for (size_t k = 0; k < r->world[w].rows && !r->world[w].gone && done; k++)
-            done = push(&list, &n, &room, (keyed){r->row[r->world[w].row + k].index, 0, r->world[w].row + k}, error);
-    if (done) j->row = places_of(list, &n);
-    j->rows = n;
-    free(list);
-    return done && (j->row || gis_no_memory(error));
+    if (w->gone) return true;
+    for (size_t k = 0; k < w->rows && done; k++) done = put_row(g, r, w->row + k, error);
+    for (size_t k = 0; k < w->conflicts && done; k++) done = put_conflict(g, r, w->conflict + k, error);
+    for (size_t k = 0; k < w->pushes && done; k++) done = put_push(g, r, w->push + k, error);
+    if (w->loose) return done;
+    add_counts(&s->before, &w->before);
+    add_counts(&s->after, &w->after);
+    s->thin += w->thin;
+    s->clusters += w->clusters;
+    s->clusters_optimal += w->clusters_optimal;
+    for (size_t k = 0; k < w->bounds; k++) sunder_total_add(&g->bound, r->bound[w->bound + k]);
+    return done;
 }
 
-static bool gather_pairs(gis_joined *j, bool pushes, gis_error *error)
+static bool put_result(gathering *g, const gis_part_result *r, gis_error *error)
 {
-    keyed *list = NULL;
-    size_t n = 0, room = 0;
     bool done = true;
-    const gis_part_result *r = j->parts;
-    for (size_t w = 0; w < r->worlds && done; w++) {
-        const gis_part_world *world = &r->world[w];
-        if (world->gone || (world->loose && gis_joined_row(j, world->first))) continue;
-        const size_t first = pushes ? world->push : world->conflict, count = pushes ? world->pushes : world->conflicts;
-        for (size_t k = first; k < first + count && done; k++)
+    for (size_t w = 0; w < r->worlds && done; w++) done = put_world(g, r, &r->world[w], error);
+    for (size_t k = 0; k < r->stills && done; k++) done = put_still(g, r, k, error);
+    for (size_t k = 0; k < r->links && done; k++) done = gis_part_copy_link(&g->links, r, k, error);
+    g->out->summary.verified = g->out->summary.verified && !r->unverified;
+    return done && gis_go_on(error);
+}
+
+static bool put_everything(gathering *g, const gis_holding *h, gis_part_result *held, gis_error *error)
+{
+    gis_part_result chunk = {0};
+    bool done = true;
+    for (size_t k = 0; k < h->chunks && done; k++)
+        if (!h->chunk[k].held)
             done =
-                push(&list, &n, &room,
-                     pushes ? (keyed){r->push[k].a, r->push[k].b, k} : (keyed){r->conflict[k].a, r->conflict[k].b, k},
-                     error);
-    }
-    size_t *place = done ? places_of(list, &n) : NULL;
-    free(list);
-    if (!place) return done ? gis_no_memory(error) : false;
-    if (pushes) {
-        j->push = place;
-        j->pushes = n;
-        return true;
-    }
-    j->conflict = place;
-    j->conflicts = n;
-    for (size_t k = 0; k < n; k++)
-        j->parts->conflict[place[k]].blocked_by = j->parts->blocker + j->parts->blocked[place[k]];
-    return true;
-}
-
-static int by_name(const void *a, const void *b)
-{
-    const gis_part_name *p = a, *q = b;
-    return (p->index > q->index) - (p->index < q->index);
-}
-
-static bool gather_stills(gis_joined *j, gis_error *error)
-{
-    keyed *list = NULL;
-    size_t n = 0, room = 0;
-    bool done = true;
-    const gis_part_result *r = j->parts;
-    for (size_t k = 0; k < r->stills && done; k++)
-        if (!gis_joined_row(j, r->still[k].index))
-            done = push(&list, &n, &room, (keyed){r->still[k].index, 0, k}, error);
-    size_t *place = done ? places_of(list, &n) : NULL;
-    free(list);
-    j->still = place ? malloc((n + 1) * sizeof *j->still) : NULL;
-    for (size_t k = 0; j->still && k < n; k++) {
-        const gis_part_still *s = &r->still[place[k]];
-        j->summary.before.inside_blocks += s->inside;
-        j->summary.after.inside_blocks += s->inside;
-        j->still[j->stills++] = *s;
-    }
-    free(place);
-    return done && (j->still || gis_no_memory(error));
+                gis_part_file_read(h->chunk[k].file, h->chunk[k].chunk, &chunk, error) && put_result(g, &chunk, error);
+    gis_part_result_clear(&chunk);
+    done = done && put_result(g, held, error);
+    gis_part_result_clear(held); /* sorting needs the room */
+    return done;
 }
 
 /* ---- Blocks ------------------------------------------------------------------------------------------------------ */
@@ -153,27 +132,9 @@ const gis_part_link *gis_joined_block(const gis_joined *j, size_t feature)
     return j->blocks ? bsearch(&key, j->block, j->blocks, sizeof key, by_feature) : NULL;
 }
 
-/* One that is fixed fixes its block, of which no part may know both ends. j->block is complete. */
-static bool fix_blocks(gis_joined *j, gis_error *error)
-{
-    bool *fixed = calloc(j->blocks + 1, sizeof *fixed); /* by the places of blocks' firsts */
-    if (!fixed) return gis_no_memory(error);
-    for (int again = 0; again < 2; again++)
-        for (size_t k = 0, b = 0; k < j->stills; k++) {
-            while (b < j->blocks && j->block[b].a < j->still[k].index) b++;
-            if (b == j->blocks || j->block[b].a != j->still[k].index) continue;
-            bool *own = &fixed[gis_joined_block(j, j->block[b].b) - j->block];
-            *own = *own || j->still[k].status == SUNDER_FEATURE_FIXED;
-            if (*own && j->still[k].status == SUNDER_FEATURE_UNMOVED) j->still[k].status = SUNDER_FEATURE_FIXED;
-        }
-    free(fixed);
-    return true;
-}
-
 /* Whoever is linked is of one block, which is called by its first. */
-static bool gather_blocks(gis_joined *j, gis_error *error)
+static bool gather_blocks(gis_joined *j, const gis_part_result *r, gis_error *error)
 {
-    const gis_part_result *r = j->parts;
     size_t n = 0, *index = malloc((2 * r->links + 1) * sizeof *index), *parent;
     if (!index) return gis_no_memory(error);
     for (size_t k = 0; k < r->links; k++) {
@@ -187,6 +148,7 @@ static bool gather_blocks(gis_joined *j, gis_error *error)
     n = out;
     parent = malloc((n + 1) * sizeof *parent);
     j->block = malloc((n + 1) * sizeof *j->block);
+    j->fixed = calloc(n + 1, sizeof *j->fixed);
     for (size_t k = 0; k < n && parent && j->block; k++) parent[k] = k;
     for (size_t k = 0; k < r->links && parent && j->block; k++)
         gis_set_join(parent, place_in(index, n, r->link[k].a), place_in(index, n, r->link[k].b));
@@ -195,84 +157,136 @@ static bool gather_blocks(gis_joined *j, gis_error *error)
         j->block[j->blocks++] = (gis_part_link){index[k], index[root]};
         j->summary.blocks += root == k;
     }
-    const bool done = parent && j->block;
+    const bool done = parent && j->block && j->fixed;
     free(index);
     free(parent);
     return done || gis_no_memory(error);
 }
 
-/* ---- Sums -------------------------------------------------------------------------------------------------------- */
+/* ---- In order ---------------------------------------------------------------------------------------------------- */
 
-static void add_counts(sunder_conflict_counts *to, const sunder_conflict_counts *from)
+/* Was one with the same keys kept? */
+static bool is_again(gathering *g, uint64_t first, uint64_t second)
 {
-    to->overlap += from->overlap;
-    to->too_close += from->too_close;
-    to->barrier += from->barrier;
-    to->barrier_near += from->barrier_near;
-    to->contained += from->contained;
-    to->duplicate += from->duplicate;
-    to->inside_blocks += from->inside_blocks;
+    const bool again = g->any && g->last[0] == first && g->last[1] == second;
+    g->last[0] = first;
+    g->last[1] = second;
+    g->any = true;
+    return again;
 }
 
-static void sum_worlds(gis_joined *j)
+static void sum_row(gathering *g, const gis_part_row *row)
 {
-    sunder_total bound = {0};
-    const gis_part_result *r = j->parts;
-    for (size_t w = 0; w < r->worlds; w++) {
-        const gis_part_world *world = &r->world[w];
-        if (world->gone || world->loose) continue;
-        add_counts(&j->summary.before, &world->before);
-        add_counts(&j->summary.after, &world->after);
-        j->summary.thin += world->thin;
-        j->summary.clusters += world->clusters;
-        j->summary.clusters_optimal += world->clusters_optimal;
-        for (size_t k = 0; k < world->bounds; k++) sunder_total_add(&bound, r->bound[world->bound + k]);
-    }
-    j->summary.lower_bound = sunder_total_below(&bound);
-    j->summary.verified = !r->unverified;
+    sunder_layer_summary *s = &g->out->summary;
+    const double *t = row->move, length = hypot(t[0], t[1]);
+    s->blocked += row->status == SUNDER_FEATURE_BLOCKED;
+    if (t[0] == 0 && t[1] == 0) return;
+    s->moved++;
+    s->rounded += row->rounded;
+    sunder_total_add(&g->total, length);
+    sunder_total_add(&g->cost, row->weight * (t[0] * t[0] + t[1] * t[1]));
+    if (!(length > s->max)) return;
+    s->max = length;
+    s->max_feature = row->index;
+    g->out->longest_fid = row->fid;
 }
 
-static void sum_rows(gis_joined *j)
+/* One that is fixed fixes its block, of which no part may know both ends. */
+static void sum_still(gathering *g, const gis_part_still *still)
 {
-    sunder_total total = {0}, cost = {0};
-    sunder_layer_summary *s = &j->summary;
-    s->max_feature = SIZE_MAX;
-    for (size_t k = 0; k < j->rows; k++) {
-        const gis_part_row *row = &j->parts->row[j->row[k]];
-        const double *t = row->move, length = hypot(t[0], t[1]);
-        s->blocked += row->status == SUNDER_FEATURE_BLOCKED;
-        if (t[0] == 0 && t[1] == 0) continue;
-        s->moved++;
-        s->rounded += row->rounded;
-        sunder_total_add(&total, length);
-        sunder_total_add(&cost, row->weight * (t[0] * t[0] + t[1] * t[1]));
-        if (length > s->max) {
-            s->max = length;
-            s->max_feature = row->index;
-        }
-    }
-    s->total = sunder_total_nearest(&total);
-    s->cost = sunder_total_nearest(&cost);
-    if (s->moved) s->mean = s->total / (double)s->moved;
+    gis_joined *j = g->out;
+    j->summary.before.inside_blocks += still->inside;
+    j->summary.after.inside_blocks += still->inside;
+    while (g->block < j->blocks && j->block[g->block].a < still->index) g->block++;
+    if (still->status == SUNDER_FEATURE_FIXED && g->block < j->blocks && j->block[g->block].a == still->index)
+        j->fixed[gis_joined_block(j, j->block[g->block].b) - j->block] = true;
 }
 
-bool gis_joined_gather(gis_joined *j, gis_error *error)
+static bool keep_feature(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep,
+                         gis_error *error)
 {
-    if (!gather_rows(j, error) || !gather_pairs(j, false, error) || !gather_pairs(j, true, error) ||
-        !gather_stills(j, error) || !gather_blocks(j, error) || !fix_blocks(j, error))
-        return false;
-    sum_worlds(j);
-    sum_rows(j);
-    if (j->parts->names) qsort(j->parts->name, j->parts->names, sizeof *j->parts->name, by_name);
+    gathering *g = user;
+    (void)error;
+    *keep = !is_again(g, head->first, 0);
+    if (*keep && one->rows) sum_row(g, one->row);
+    if (*keep && one->stills) sum_still(g, one->still);
     return true;
+}
+
+static bool keep_push(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep, gis_error *error)
+{
+    (void)one;
+    (void)error;
+    *keep = !is_again(user, head->first, head->second);
+    return true;
+}
+
+/* What was found inside a block to which something happened in another part, that part tells. */
+static bool keep_conflict(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep,
+                          gis_error *error)
+{
+    gathering *g = user;
+    gis_sorted *rows = &g->out->rows;
+    *keep = false;
+    if (one->conflict[0].loose) {
+        while (g->more && (rows->head.first < head->first))
+            if (!gis_sorted_next(rows, &g->more, error)) return false;
+        if (g->more && rows->head.first == head->first && rows->one.rows) return true;
+    }
+    *keep = !is_again(g, head->first, head->second);
+    return true;
+}
+
+static bool sort_everything(gathering *g, gis_error *error)
+{
+    gis_joined *j = g->out;
+    if (!gis_sorted_sort(&j->rows, keep_feature, g, error) || !gis_sorted_next(&j->rows, &g->more, error)) return false;
+    g->any = false;
+    if (!gis_sorted_sort(&j->conflicts, keep_conflict, g, error)) return false;
+    g->any = false;
+    return gis_sorted_sort(&j->pushes, keep_push, g, error);
+}
+
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
+
+static bool begin(gis_joined *j, const char *directory, gis_error *error)
+{
+    j->longest_fid = -1;
+    j->summary.max_feature = SIZE_MAX;
+    j->summary.verified = true;
+    return gis_sorted_begin(&j->rows, directory, "rows", error) &&
+           gis_sorted_begin(&j->conflicts, directory, "conflicts", error) &&
+           gis_sorted_begin(&j->pushes, directory, "pushes", error);
+}
+
+bool gis_joined_gather(gis_joined *j, gis_holding *holding, gis_part_result *held, const char *directory,
+                       gis_error *error)
+{
+    gathering g = {.out = j};
+    const bool done = begin(j, directory, error) && put_everything(&g, holding, held, error) &&
+                      gather_blocks(j, &g.links, error) && sort_everything(&g, error);
+    gis_part_result_clear(&g.one);
+    gis_part_result_clear(&g.links);
+    sunder_layer_summary *s = &j->summary;
+    s->lower_bound = sunder_total_below(&g.bound);
+    s->total = sunder_total_nearest(&g.total);
+    s->cost = sunder_total_nearest(&g.cost);
+    if (s->moved) s->mean = s->total / (double)s->moved;
+    return done;
+}
+
+sunder_feature_status gis_joined_status(const gis_joined *j, const gis_part_still *still)
+{
+    const gis_part_link *own = still->status == SUNDER_FEATURE_UNMOVED ? gis_joined_block(j, still->index) : NULL;
+    return own && j->fixed[gis_joined_block(j, own->b) - j->block] ? SUNDER_FEATURE_FIXED : still->status;
 }
 
 void gis_joined_clear(gis_joined *j)
 {
-    free(j->row);
-    free(j->conflict);
-    free(j->push);
+    gis_sorted_clear(&j->rows);
+    gis_sorted_clear(&j->conflicts);
+    gis_sorted_clear(&j->pushes);
     free(j->block);
-    free(j->still);
+    free(j->fixed);
     *j = (gis_joined){0};
 }

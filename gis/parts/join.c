@@ -1,42 +1,13 @@
 /* join.c: see join.h. */
 #include "parts/join.h"
+#include "parts/hold.h"
 #include "parts/sets.h"
+#include "parts/sweep.h"
 
 #include "base/array.h"
+#include "base/interrupt.h"
 
 #include <stdlib.h>
-#include <string.h>
-
-/* ---- Shards ------------------------------------------------------------------------------------------------------ */
-
-typedef struct of_shard {
-    const gis_spool *spool;
-    unsigned first, end;
-} of_shard;
-
-static bool is_of_shard(const void *user, size_t cell, size_t index)
-{
-    const of_shard *s = user;
-    (void)index;
-    const unsigned shard = gis_spool_cell_at(s->spool, cell)->shard;
-    return s->first <= shard && shard < s->end;
-}
-
-bool gis_parts_shards(const gis_layout *layout, unsigned first, unsigned end, gis_part_result *result, gis_error *error)
-{
-    const gis_spool *spool = layout->spool;
-    gis_boxes_list boxes = {0};
-    const of_shard which = {spool, first, end};
-    bool done = true;
-    for (size_t k = 0; k < gis_spool_cells(spool) && done; k++) {
-        const gis_spool_cell *c = gis_spool_cell_at(spool, k);
-        if (first <= c->shard && c->shard < end && c->box[0] <= c->box[2])
-            done = gis_boxes_add(&boxes, c->box, layout->halo, error);
-    }
-    done = done && (boxes.n == 0 || gis_part_separate(layout, &boxes, is_of_shard, &which, first, result, error));
-    free(boxes.box);
-    return done;
-}
 
 /* ---- Which worlds stand ------------------------------------------------------------------------------------------ */
 
@@ -54,9 +25,9 @@ static int by_holding(const void *a, const void *b)
 
 typedef struct joining {
     const gis_layout *layout;
-    gis_part_result *r;
-    size_t *parent; /* [worlds] of those that are separated again, in lumps */
-    bool *again;    /* [worlds] */
+    gis_part_result *r; /* what is held */
+    size_t *parent;     /* [worlds] of those that are separated again, in lumps */
+    bool *again;        /* [worlds] */
     unsigned run;
 } joining;
 
@@ -110,57 +81,27 @@ static bool compare_holdings(joining *j, gis_error *error)
     return true;
 }
 
-/* What a world read, or wrote, from left to right. */
-typedef struct span {
-    double from, box[4];
-    size_t world;
-    bool wrote;
-} span;
-
-static int by_from(const void *a, const void *b)
+static void lump_if_met(void *user, const gis_swept *a, const gis_swept *b)
 {
-    const span *p = a, *q = b;
-    return (p->from > q->from) - (p->from < q->from);
+    joining *j = user;
+    const gis_part_world *world = j->r->world;
+    if (a->kind != b->kind && world[a->of].run != world[b->of].run) lump(j, a->of, b->of);
 }
 
-/* Worlds of different runs of which one wrote where the other read. Swept from left to right. */
+/* Worlds of different runs of which one wrote where the other read. */
 static bool compare_footprints(joining *j, gis_error *error)
 {
-    gis_part_result *r = j->r;
-    size_t n = 0, open = 0;
-    span *list = malloc((2 * r->footprints + 1) * sizeof *list), *now = malloc((2 * r->footprints + 1) * sizeof *now);
-    if (!list || !now) {
-        free(list);
-        free(now);
-        return gis_no_memory(error);
-    }
-    for (size_t w = 0; w < r->worlds; w++)
-        for (size_t k = 0; k < r->world[w].footprints && stands(&r->world[w]); k++) {
+    gis_sweep sweep = {0};
+    const gis_part_result *r = j->r;
+    bool done = true;
+    for (size_t w = 0; w < r->worlds && done; w++)
+        for (size_t k = 0; k < r->world[w].footprints && stands(&r->world[w]) && done; k++) {
             const sunder_footprint *f = &r->footprint[r->world[w].footprint + k];
-            for (int wrote = 0; wrote < 2; wrote++) {
-                span *s = &list[n++];
-                memcpy(s->box, wrote ? f->wrote : f->read, sizeof s->box);
-                s->from = s->box[0];
-                s->world = w;
-                s->wrote = wrote;
-            }
+            done = gis_sweep_add(&sweep, f->read, w, 0, error) && gis_sweep_add(&sweep, f->wrote, w, 1, error);
         }
-    if (n) qsort(list, n, sizeof *list, by_from);
-    for (size_t k = 0; k < n; k++) {
-        size_t kept = 0;
-        for (size_t i = 0; i < open; i++) {
-            if (now[i].box[2] < list[k].from) continue;
-            now[kept++] = now[i];
-            if (now[i].wrote != list[k].wrote && r->world[now[i].world].run != r->world[list[k].world].run &&
-                gis_boxes_meet(now[i].box, list[k].box))
-                lump(j, now[i].world, list[k].world);
-        }
-        open = kept;
-        now[open++] = list[k];
-    }
-    free(list);
-    free(now);
-    return true;
+    if (done) gis_sweep_run(&sweep, lump_if_met, j);
+    gis_sweep_clear(&sweep);
+    return done;
 }
 
 /* ---- Once more --------------------------------------------------------------------------------------------------- */
@@ -246,12 +187,20 @@ static bool settle(joining *j, unsigned round, bool *any, gis_error *error)
     return done;
 }
 
-bool gis_parts_join(const gis_layout *layout, gis_part_result *result, gis_joined *out, gis_error *error)
+bool gis_parts_join(const gis_layout *layout, gis_part_file *file, size_t files, const char *directory, gis_joined *out,
+                    gis_error *error)
 {
-    joining j = {.layout = layout, .r = result, .run = gis_spool_shards(layout->spool)};
-    bool any = true, done = true;
-    *out = (gis_joined){.parts = result};
-    for (unsigned round = 0; any && done; round++) done = settle(&j, round, &any, error);
+    gis_part_result held = {0};
+    gis_holding chunks = {.file = file, .files = files, .runs = gis_spool_shards(layout->spool)};
+    joining j = {.layout = layout, .r = &held, .run = gis_spool_shards(layout->spool)};
+    bool any = true;
+    *out = (gis_joined){0};
+    bool done = gis_hold_at_borders(&chunks, &held, error);
+    for (unsigned round = 0; any && done; round++)
+        done = gis_go_on(error) && settle(&j, round, &any, error) && gis_hold_what_met(&chunks, &held, error);
     out->runs = j.run;
-    return done && gis_joined_gather(out, error);
+    done = done && gis_joined_gather(out, &chunks, &held, directory, error);
+    gis_holding_clear(&chunks);
+    gis_part_result_clear(&held);
+    return done;
 }

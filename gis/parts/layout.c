@@ -62,12 +62,11 @@ static size_t unite(gis_part_block *block, size_t n)
     return out;
 }
 
-bool gis_layout_make(gis_spool *spool, const sunder_layer_options *how, bool numbered, gis_layout *out,
-                     gis_error *error)
+bool gis_layout_make(gis_spool *spool, double gap, bool numbered, gis_layout *out, gis_error *error)
 {
     looking l = {0};
     bool done = true;
-    *out = (gis_layout){.spool = spool, .how = *how, .halo = halo_of(spool, how->gap)};
+    *out = (gis_layout){.spool = spool, .halo = halo_of(spool, gap)};
     for (size_t k = 0; numbered && k < gis_spool_cells(spool) && done; k++) {
         done = gis_spool_read(spool, k, look, &l, error);
         l.n = unite(l.block, l.n);

@@ -2,6 +2,7 @@
 #include "parts/part.h"
 
 #include "base/array.h"
+#include "base/box.h"
 #include "base/core.h"
 
 #include <math.h>
@@ -25,16 +26,12 @@ typedef struct part {
     bool *block; /* [layout->blocks] one of it is there */
     loaded *item;
     size_t n, capacity;
+    gis_barriers_list barriers;
     sunder_layer *layer;
     sunder_report *report;
     unsigned run;
     gis_part_result *out;
 } part;
-
-bool gis_boxes_meet(const double a[4], const double b[4])
-{
-    return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
-}
 
 bool gis_boxes_add(gis_boxes_list *list, const double box[4], double reach, gis_error *error)
 {
@@ -55,7 +52,7 @@ static char *copy_of(const char *text)
 static bool is_near(const part *p, const double box[4])
 {
     for (size_t k = 0; k < p->boxes->n; k++)
-        if (gis_boxes_meet(p->boxes->box[k], box)) return true;
+        if (gis_box_meets(p->boxes->box[k], box)) return true;
     return false;
 }
 
@@ -102,7 +99,7 @@ static int by_index(const void *a, const void *b)
 static bool has_others(const part *p, const double box[4])
 {
     for (size_t b = 0; b < p->layout->blocks; b++)
-        if (p->block[b] && gis_boxes_meet(p->layout->block[b].box, box)) return true;
+        if (p->block[b] && gis_box_meets(p->layout->block[b].box, box)) return true;
     return false;
 }
 
@@ -119,7 +116,7 @@ static bool load(part *p, gis_error *error)
         }
     }
     if (p->n) qsort(p->item, p->n, sizeof *p->item, by_index);
-    return true;
+    return gis_barriers_load(&p->layout->barriers, (const double(*)[4])p->boxes->box, p->boxes->n, &p->barriers, error);
 }
 
 static bool separate(part *p, gis_error *error)
@@ -132,6 +129,7 @@ static bool separate(part *p, gis_error *error)
     for (size_t k = 0; k < p->n; k++) feature[k] = p->item[k].feature.demands;
     const bool made = sunder_layer_new(feature, p->n, &p->layer, &why) == SUNDER_OK;
     free(feature);
+    if (made && !gis_barriers_set(&p->barriers, p->layer, error)) return false;
     if (!made || sunder_layer_separate(p->layer, &options, &p->report, &why) != SUNDER_OK)
         return gis_core_failed(error, "a part of the layer", &why);
     sunder_layer_summary summary;
@@ -156,11 +154,12 @@ static bool is_known(const part *p, const double box[4], int depth)
     bool any = false;
     for (size_t k = 0; k < p->boxes->n; k++) {
         if (is_within(box, p->boxes->box[k])) return true;
-        any = any || gis_boxes_meet(box, p->boxes->box[k]);
+        any = any || gis_box_meets(box, p->boxes->box[k]);
     }
     bool empty = true;
     for (size_t k = 0; k < gis_spool_cells(p->spool) && empty; k++)
-        empty = !gis_boxes_meet(box, gis_spool_cell_at(p->spool, k)->box);
+        empty = !gis_box_meets(box, gis_spool_cell_at(p->spool, k)->box);
+    empty = empty && !gis_barriers_may_meet(&p->layout->barriers, box);
     if (empty || !any || depth == 0) return empty;
     const double x = box[0] / 2 + box[2] / 2, y = box[1] / 2 + box[3] / 2;
     const double quarter[4][4] = {
@@ -172,70 +171,95 @@ static bool is_known(const part *p, const double box[4], int depth)
 
 /* ---- What is told ------------------------------------------------------------------------------------------------ */
 
-/* Room for n more of one of the result's lists. */
-#define MORE(out, array, count, n, error)                                                                              \
-    (gis_array_reserve(&(out)->array, &(out)->room.array, (out)->count + (n), sizeof *(out)->array) ||                 \
-     gis_no_memory(error))
-
-static size_t index_of(const part *p, size_t thing) { return thing < p->n ? p->item[thing].feature.index : SIZE_MAX; }
-
-static bool add_name(part *p, size_t thing, gis_error *error)
+static const gis_part_barrier *barrier_of(const part *p, size_t thing)
 {
-    if (thing >= p->n) return true;
-    const gis_spool_feature *f = &p->item[thing].feature;
-    if (!MORE(p->out, name, names, 1, error)) return false;
-    gis_part_name *to = &p->out->name[p->out->names++];
-    *to = (gis_part_name){.index = f->index, .fid = f->fid, .id = copy_of(f->id)};
-    sunder_shape_anchor(f->demands.shape, to->anchor);
-    return !f->id || to->id || gis_no_memory(error);
+    return thing >= p->n && thing != SIZE_MAX ? &p->barriers.item[thing - p->n] : NULL;
+}
+
+static size_t index_of(const part *p, size_t thing)
+{
+    const gis_part_barrier *barrier = barrier_of(p, thing);
+    if (barrier) return p->layout->features + barrier->number;
+    return thing < p->n ? p->item[thing].feature.index : SIZE_MAX;
+}
+
+static bool add_name(part *p, gis_part_conflict *to, size_t thing, gis_error *error)
+{
+    gis_part_name name = {.index = index_of(p, thing)};
+    if (name.index == SIZE_MAX) return true;
+    const gis_part_barrier *barrier = barrier_of(p, thing);
+    name.fid = barrier ? barrier->fid : p->item[thing].feature.fid;
+    const char *text = barrier ? barrier->layer : p->item[thing].feature.id;
+    if (!gis_part_add_text(p->out, text, &name.id, error) || !GIS_PART_MORE(p->out, name, names, 1, error))
+        return false;
+    p->out->name[p->out->names++] = name;
+    to->names++;
+    return true;
 }
 
 static bool add_row(part *p, size_t k, gis_error *error)
 {
     const gis_spool_feature *f = &p->item[k].feature;
-    if (!MORE(p->out, row, rows, 1, error)) return false;
-    gis_part_row *row = &p->out->row[p->out->rows++];
-    *row = (gis_part_row){.index = f->index,
-                          .fid = f->fid,
-                          .id = copy_of(f->id),
-                          .from = {f->start[0], f->start[1]},
-                          .weight = f->demands.weight,
-                          .status = sunder_report_status(p->report, k),
-                          .rounded = sunder_report_rounded(p->report, k)};
-    sunder_report_move(p->report, k, &row->move[0], &row->move[1]);
-    if (isnan(row->from[0])) sunder_shape_anchor(f->demands.shape, row->from);
-    return !f->id || row->id || gis_no_memory(error);
+    gis_part_row row = {.index = f->index,
+                        .fid = f->fid,
+                        .from = {f->start[0], f->start[1]},
+                        .weight = f->demands.weight,
+                        .status = sunder_report_status(p->report, k),
+                        .rounded = sunder_report_rounded(p->report, k)};
+    sunder_report_move(p->report, k, &row.move[0], &row.move[1]);
+    if (isnan(row.from[0])) sunder_shape_anchor(f->demands.shape, row.from);
+    if (!gis_part_add_text(p->out, f->id, &row.id, error) || !GIS_PART_MORE(p->out, row, rows, 1, error)) return false;
+    p->out->row[p->out->rows++] = row;
+    return true;
 }
 
-static bool add_conflict(part *p, const sunder_conflict *c, gis_error *error)
+static bool add_conflict(part *p, const sunder_conflict *c, bool loose, gis_error *error)
 {
     gis_part_result *out = p->out;
-    if (!MORE(out, conflict, conflicts, 1, error) || !MORE(out, blocker, blockers, c->n_blocked_by, error) ||
-        !MORE(out, blocked, conflicts, 1, error))
+    gis_part_conflict to = {.is = *c, .blocker = out->blockers, .name = out->names, .loose = loose};
+    if (!GIS_PART_MORE(out, conflict, conflicts, 1, error) ||
+        !GIS_PART_MORE(out, blocker, blockers, c->n_blocked_by, error))
         return false;
-    sunder_conflict *to = &out->conflict[out->conflicts];
-    out->blocked[out->conflicts++] = out->blockers;
-    *to = *c;
-    to->a = index_of(p, c->a);
-    to->b = index_of(p, c->b);
-    to->need_gone = index_of(p, c->need_gone);
-    to->blocked_by = NULL;
-    bool done = add_name(p, c->a, error) && add_name(p, c->b, error) && add_name(p, c->need_gone, error);
+    to.is.a = index_of(p, c->a);
+    to.is.b = index_of(p, c->b);
+    to.is.need_gone = index_of(p, c->need_gone);
+    to.is.blocked_by = NULL;
+    bool done = add_name(p, &to, c->a, error) && add_name(p, &to, c->b, error) && add_name(p, &to, c->need_gone, error);
     for (size_t k = 0; k < c->n_blocked_by && done; k++) {
         out->blocker[out->blockers++] = index_of(p, c->blocked_by[k]);
-        done = add_name(p, c->blocked_by[k], error);
+        done = add_name(p, &to, c->blocked_by[k], error);
     }
+    out->conflict[out->conflicts++] = to;
     return done;
+}
+
+/* Where a feature stands at the end, and its FID. */
+static int64_t stand(const part *p, size_t thing, double at[2])
+{
+    double move[2];
+    sunder_report_move(p->report, thing, &move[0], &move[1]);
+    sunder_shape_anchor(p->item[thing].feature.demands.shape, at);
+    for (int c = 0; c < 2; c++) at[c] += move[c];
+    return p->item[thing].feature.fid;
 }
 
 static bool add_push(part *p, const sunder_push *push, gis_error *error)
 {
-    if (!MORE(p->out, push, pushes, 1, error)) return false;
-    sunder_push *to = &p->out->push[p->out->pushes++];
-    *to = *push;
-    to->a = index_of(p, push->a);
-    to->b = index_of(p, push->b);
-    return add_name(p, push->a, error) && add_name(p, push->b, error);
+    const gis_part_barrier *barrier = barrier_of(p, push->b);
+    gis_part_push to = {.is = *push};
+    to.fid[0] = stand(p, push->a, to.from);
+    if (barrier)
+        gis_barrier_corner(&barrier->demands.geometry, to.from, to.to);
+    else
+        to.fid[1] = stand(p, push->b, to.to);
+    if (barrier) to.fid[1] = barrier->fid;
+    to.is.a = index_of(p, push->a);
+    to.is.b = index_of(p, push->b);
+    if (!gis_part_add_text(p->out, barrier ? barrier->layer : NULL, &to.layer, error) ||
+        !GIS_PART_MORE(p->out, push, pushes, 1, error))
+        return false;
+    p->out->push[p->out->pushes++] = to;
+    return true;
 }
 
 /* Whose a pair is: that of the first of its features which has a world. */
@@ -249,7 +273,7 @@ static bool add_footprints(part *p, const sunder_world *w, gis_part_world *to, g
 {
     size_t n;
     const sunder_footprint *all = sunder_report_footprints(p->report, &n);
-    if (!MORE(p->out, footprint, footprints, w->footprints, error)) return false;
+    if (!GIS_PART_MORE(p->out, footprint, footprints, w->footprints, error)) return false;
     to->complete = true;
     for (size_t k = 0; k < w->footprints; k++) {
         const sunder_footprint *f = &all[w->footprint + k];
@@ -311,7 +335,7 @@ static bool add_members(part *p, belongings *all, size_t number, gis_error *erro
     for (size_t k = all->f; k < all->features && all->feature[k].world == number; k++)
         if (!add_row(p, all->feature[k].at, error)) return false;
     for (size_t k = all->c; k < all->conflicts && all->conflict[k].world == number; k++)
-        if (!add_conflict(p, &conflict[all->conflict[k].at], error)) return false;
+        if (!add_conflict(p, &conflict[all->conflict[k].at], false, error)) return false;
     for (size_t k = all->p; k < all->pushes && all->push[k].world == number; k++)
         if (!add_push(p, &push[all->push[k].at], error)) return false;
     return true;
@@ -344,13 +368,13 @@ static bool add_world(part *p, size_t number, belongings *all, gis_error *error)
                          .thin = w->thin,
                          .clusters = w->clusters,
                          .clusters_optimal = w->clusters_optimal};
-    if (!MORE(out, bound, bounds, w->bounds, error) || !add_footprints(p, w, &to, error)) return false;
+    if (!GIS_PART_MORE(out, bound, bounds, w->bounds, error) || !add_footprints(p, w, &to, error)) return false;
     for (size_t k = 0; k < w->bounds; k++) out->bound[out->bounds++] = bound[w->bound + k];
     if (!add_members(p, all, number, error)) return false;
     to.rows = out->rows - to.row;
     to.conflicts = out->conflicts - to.conflict;
     to.pushes = out->pushes - to.push;
-    if (!MORE(out, world, worlds, 1, error)) return false;
+    if (!GIS_PART_MORE(out, world, worlds, 1, error)) return false;
     out->world[out->worlds++] = to;
     return true;
 }
@@ -364,7 +388,7 @@ static bool add_loose(part *p, const belongings *all, gis_error *error)
     for (size_t k = all->c; k < all->conflicts; k++) {
         const sunder_conflict *c = &conflict[all->conflict[k].at];
         if (!p->item[c->a].wanted) continue;
-        if (!MORE(out, world, worlds, 1, error)) return false;
+        if (!GIS_PART_MORE(out, world, worlds, 1, error)) return false;
         out->world[out->worlds++] = (gis_part_world){.first = index_of(p, c->a),
                                                      .run = p->run,
                                                      .complete = true,
@@ -375,7 +399,7 @@ static bool add_loose(part *p, const belongings *all, gis_error *error)
                                                      .push = out->pushes,
                                                      .conflict = out->conflicts,
                                                      .conflicts = 1};
-        if (!add_conflict(p, c, error)) return false;
+        if (!add_conflict(p, c, true, error)) return false;
     }
     return true;
 }
@@ -397,20 +421,28 @@ static bool add_worlds(part *p, gis_error *error)
     return done;
 }
 
-/* Who was asked for and is of no world; and whose block it is, by pairs with the block's first. */
+static sunder_feature_status status_alone(const part *p, size_t k)
+{
+    const sunder_feature *demands = &p->item[k].feature.demands;
+    return demands->fixed || demands->max_shift == 0 ? SUNDER_FEATURE_FIXED : SUNDER_FEATURE_UNMOVED;
+}
+
+/* Who was asked for and is of no world, if that is not all there is to say; and whose block it is, by pairs with the
+ * block's first. */
 static bool add_others(part *p, gis_error *error)
 {
     gis_part_result *out = p->out;
     for (size_t k = 0; k < p->n; k++) {
         const int64_t block = sunder_report_block(p->report, k);
         if (block >= 0 && (size_t)block != k) {
-            if (!MORE(out, link, links, 1, error)) return false;
+            if (!GIS_PART_MORE(out, link, links, 1, error)) return false;
             out->link[out->links++] = (gis_part_link){index_of(p, (size_t)block), index_of(p, k)};
         }
         if (!p->item[k].wanted || sunder_report_world(p->report, k) != SIZE_MAX) continue;
         const gis_part_still still = {index_of(p, k), sunder_report_inside(p->report, k),
                                       sunder_report_status(p->report, k)};
-        if (!MORE(out, still, stills, 1, error)) return false;
+        if (block < 0 && !still.inside && still.status == status_alone(p, k)) continue;
+        if (!GIS_PART_MORE(out, still, stills, 1, error)) return false;
         out->still[out->stills++] = still;
     }
     return true;
@@ -424,6 +456,7 @@ static void clear(part *p)
     }
     free(p->item);
     free(p->block);
+    gis_barriers_list_clear(&p->barriers);
     sunder_layer_free(p->layer);
     sunder_report_free(p->report);
 }
@@ -441,22 +474,4 @@ bool gis_part_separate(const gis_layout *layout, const gis_boxes_list *boxes, gi
     const bool done = load(&p, error) && separate(&p, error) && add_worlds(&p, error) && add_others(&p, error);
     clear(&p);
     return done;
-}
-
-void gis_part_result_clear(gis_part_result *r)
-{
-    for (size_t k = 0; k < r->rows; k++) free(r->row[k].id);
-    for (size_t k = 0; k < r->names; k++) free(r->name[k].id);
-    free(r->world);
-    free(r->row);
-    free(r->footprint);
-    free(r->bound);
-    free(r->conflict);
-    free(r->blocker);
-    free(r->blocked);
-    free(r->push);
-    free(r->name);
-    free(r->still);
-    free(r->link);
-    *r = (gis_part_result){0};
 }

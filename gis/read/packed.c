@@ -147,6 +147,30 @@ bool gis_packed_add(gis_packed *packed, OGRFeatureH feature, const unsigned char
     return true;
 }
 
+static size_t size_of(const gis_value *value)
+{
+    return value->kind == GIS_TEXT ? strlen(value->as.text) + 1 : value->kind == GIS_NULL ? 0 : sizeof(int64_t);
+}
+
+const unsigned char *gis_packed_add_row(gis_packed *packed, GIntBig fid, const unsigned char *geometry, size_t bytes,
+                                        const gis_value *values)
+{
+    const int geometry_bytes = (int)bytes;
+    size_t size = (size_t)packed->fields;
+    for (int i = 0; i < packed->fields; i++) size += size_of(&values[i]);
+    unsigned char *const at = take(packed, sizeof fid + sizeof geometry_bytes + bytes + size), *to = at;
+    if (!at) return NULL;
+    to = put(to, &fid, sizeof fid);
+    to = put(to, &geometry_bytes, sizeof geometry_bytes);
+    to = put(to, geometry, bytes);
+    for (int i = 0; i < packed->fields; i++) {
+        const gis_value *value = &values[i];
+        *to++ = value->kind == GIS_NULL ? EMPTY : VALUE;
+        to = put(to, value->kind == GIS_TEXT ? (const void *)value->as.text : &value->as, size_of(value));
+    }
+    return at;
+}
+
 /* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
 GIntBig gis_packed_fid(const unsigned char *record)

@@ -31,6 +31,11 @@ bool gis_packed_begin(gis_packed *packed, OGRLayerH layer, gis_error *error);
 /* The record of a feature; *record = NULL where it is one that has to be kept as it is: null, empty or curved, with a
  * third coordinate, a style or data of its format's own. False if memory is out. */
 bool gis_packed_add(gis_packed *packed, OGRFeatureH feature, const unsigned char **record, gis_error *error);
+/* The same of a feature that is not one of GDAL's yet: a Polygon or MultiPolygon as that function takes it, as
+ * well-known binary in the machine's own order, and a value of each field, of its type or null. NULL if memory is
+ * out. */
+const unsigned char *gis_packed_add_row(gis_packed *packed, GIntBig fid, const unsigned char *geometry, size_t bytes,
+                                        const gis_value *values);
 void gis_packed_clear(gis_packed *packed);
 
 GIntBig gis_packed_fid(const unsigned char *record);

@@ -9,6 +9,7 @@
 #include "read/packed.h"
 #include "read/source_layer.h"
 #include "read/source_mark.h"
+#include "read/table.h"
 #include "read/where.h"
 #include "sqlite/calls.h"
 #include "sqlite/lock.h"
@@ -155,17 +156,18 @@ static bool choose_crs(gis_source *source, const gis_source_request *request, gi
 /* Batches end where their geometries take so many bytes. */
 enum { BATCH_BYTES = 32 << 20 };
 
+/* feature: NULL: there is but its record. */
 static void note_facts(gis_source *source, OGRFeatureH feature, const unsigned char *record, gis_content content)
 {
     gis_source_facts *facts = &source->facts;
-    const GIntBig fid = OGR_F_GetFID(feature);
+    const GIntBig fid = feature ? OGR_F_GetFID(feature) : gis_packed_fid(record);
     source->fids_missing = source->fids_missing || fid == OGRNullFID;
     source->fids_rising = source->fids_rising && (facts->features == 0 || source->last_fid < fid);
     source->last_fid = fid;
     facts->features++;
     facts->content[content]++;
     if (facts->multipolygons) return;
-    const OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
+    const OGRGeometryH geometry = feature ? OGR_F_GetGeometryRef(feature) : NULL;
     facts->multipolygons = record ? gis_packed_is_multi(record)
                                   : geometry && wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbMultiPolygon;
 }
@@ -183,8 +185,13 @@ static bool keep(gis_source *source, OGRFeatureH feature, const unsigned char *r
     if (source->batch) source->bytes += bytes_of(OGR_F_GetGeometryRef(feature));
     source->contents[source->n] = (unsigned char)content;
     source->features[source->n++] = record ? (gis_read_feature){.record = record} : (gis_read_feature){feature, NULL};
-    if (record) OGR_F_Destroy(feature);
+    if (record && feature) OGR_F_Destroy(feature);
     return true;
+}
+
+static bool keep_record(void *user, const unsigned char *record, gis_error *error)
+{
+    return keep(user, NULL, record) || gis_no_memory(error);
 }
 
 static bool fail_not_finite(const gis_source *source, OGRFeatureH feature, gis_error *error)
@@ -213,10 +220,46 @@ static bool is_full(const gis_source *source)
     return source->batch && (source->n >= source->batch || source->bytes >= BATCH_BYTES);
 }
 
+static bool begin_packing(gis_source *source, gis_error *error)
+{
+    if (!source->packed) source->packed = calloc(1, sizeof *source->packed);
+    return source->packed ? gis_packed_begin(source->packed, source->layer, error) : gis_no_memory(error);
+}
+
+static void drop_features(gis_source *source)
+{
+    for (size_t i = 0; i < source->n; i++)
+        if (source->features[i].feature) OGR_F_Destroy(source->features[i].feature);
+    if (source->packed) gis_packed_clear(source->packed);
+    source->n = source->bytes = 0;
+}
+
+static void forget_facts(gis_source *source)
+{
+    source->fids_rising = true;
+    source->fids_missing = false;
+    if (!source->facts_given) source->facts = (gis_source_facts){0};
+}
+
+/* Reads the whole layer past GDAL, if it is one whole table and all of that is plain; else nothing. */
+static bool read_table(gis_source *source, const gis_source_request *request, gis_error *error)
+{
+    const bool whole = request && !source->batch && !request->sql && !request->bbox && !request->within &&
+                       !request->where && !request->wants;
+    if (!whole || !source->may_pack) return true;
+    if (!gis_table_read(source->dataset, source->layer, source->packed, keep_record, source, &source->ended, error))
+        return false;
+    if (source->ended) return true;
+    drop_features(source);
+    forget_facts(source);
+    return begin_packing(source, error);
+}
+
 /* request: NULL: nobody wants some alone. */
 static bool read_features(gis_source *source, const gis_source_request *request, gis_error *error)
 {
-    while (!is_full(source)) {
+    if (!read_table(source, request, error)) return false;
+    while (!source->ended && !is_full(source)) {
         OGRFeatureH feature = OGR_L_GetNextFeature(source->layer);
         source->ended = feature == NULL;
         if (source->ended) break;
@@ -226,12 +269,6 @@ static bool read_features(gis_source *source, const gis_source_request *request,
         if (!taken || !gis_go_on(error)) return false;
     }
     return gis_go_on(error); /* a statement that is cut short may look like the last feature */
-}
-
-static bool begin_packing(gis_source *source, gis_error *error)
-{
-    if (!source->packed) source->packed = calloc(1, sizeof *source->packed);
-    return source->packed ? gis_packed_begin(source->packed, source->layer, error) : gis_no_memory(error);
 }
 
 /* The batch, or all there is. */
@@ -262,14 +299,6 @@ static bool ends_as_known(const gis_source *source, gis_error *error)
                     source->name, read, source->facts.features);
 }
 
-static void drop_features(gis_source *source)
-{
-    for (size_t i = 0; i < source->n; i++)
-        if (source->features[i].feature) OGR_F_Destroy(source->features[i].feature);
-    if (source->packed) gis_packed_clear(source->packed);
-    source->n = source->bytes = 0;
-}
-
 bool gis_source_next(gis_source *source, bool *any, gis_error *error)
 {
     source->first += source->n;
@@ -286,9 +315,7 @@ bool gis_source_again(gis_source *source, bool *any, gis_error *error)
     drop_features(source);
     source->first = 0;
     source->ended = false;
-    source->fids_rising = true;
-    source->fids_missing = false;
-    if (!source->facts_given) source->facts = (gis_source_facts){0};
+    forget_facts(source);
     OGR_L_ResetReading(source->layer);
     return gis_source_next(source, any, error);
 }

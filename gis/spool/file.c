@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static char *inside(const char *directory, const char *name)
+char *gis_spool_inside(const char *directory, const char *name)
 {
     const size_t size = strlen(directory) + strlen(name) + 2;
     char *path = malloc(size);
@@ -22,12 +22,28 @@ static bool cannot_write(const char *path, gis_error *error)
     return gis_fail(error, "%s: cannot be written: %s", path, strerror(errno));
 }
 
+/* mkstemp() makes files for their owner alone; these are as any other. */
+static FILE *open_unique(char *path)
+{
+    const int opened = mkstemp(path);
+    if (opened < 0) return NULL;
+    const mode_t mask = umask(0);
+    umask(mask);
+    (void)fchmod(opened, 0666 & ~mask);
+    FILE *stream = fdopen(opened, "w+");
+    if (!stream) close(opened);
+    return stream;
+}
+
 bool gis_spool_file_create(gis_spool_file *file, const char *directory, const char *name, gis_error *error)
 {
-    *file = (gis_spool_file){.path = inside(directory, name)};
+    static const char unique[] = "XXXXXX";
+    const size_t n = strlen(name), of_these = sizeof unique - 1;
+    *file = (gis_spool_file){.path = gis_spool_inside(directory, name)};
     if (!file->path) return gis_no_memory(error);
     gis_hold();
-    file->stream = fopen(file->path, "w+");
+    file->stream =
+        n > of_these && strcmp(name + n - of_these, unique) == 0 ? open_unique(file->path) : fopen(file->path, "w+");
     if (file->stream) file->leftover = gis_leftover_temporary(file->path);
     gis_release();
     return file->stream || cannot_write(file->path, error);
@@ -56,7 +72,7 @@ static bool sync_directory(const char *directory, gis_error *error)
 
 bool gis_spool_file_place(gis_spool_file *file, const char *directory, const char *name, gis_error *error)
 {
-    char *path = inside(directory, name);
+    char *path = gis_spool_inside(directory, name);
     if (!path) return gis_no_memory(error);
     bool done = fflush(file->stream) == 0 && fsync(fileno(file->stream)) == 0;
     done = fclose(file->stream) == 0 && done;
@@ -76,7 +92,7 @@ bool gis_spool_file_place(gis_spool_file *file, const char *directory, const cha
 
 bool gis_spool_file_open(gis_spool_file *file, const char *directory, const char *name, gis_error *error)
 {
-    *file = (gis_spool_file){.path = inside(directory, name)};
+    *file = (gis_spool_file){.path = gis_spool_inside(directory, name)};
     if (!file->path) return gis_no_memory(error);
     struct stat status;
     file->stream = fopen(file->path, "r");

@@ -6,6 +6,7 @@
 #include "spool/record.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 struct gis_spool {
     gis_spool_index index;
@@ -13,6 +14,7 @@ struct gis_spool {
     size_t features, vertices;
     gis_spool_room records;
     gis_polygons rings;
+    size_t *line_end, line_room;
 };
 
 static bool open_features(gis_spool *spool, const char *directory, gis_error *error)
@@ -53,6 +55,7 @@ void gis_spool_close(gis_spool *spool)
     gis_spool_index_clear(&spool->index);
     gis_spool_file_close(&spool->file);
     gis_polygons_clear(&spool->rings);
+    free(spool->line_end);
     free(spool->records.at);
     free(spool);
 }
@@ -90,8 +93,27 @@ bool gis_spool_read(gis_spool *spool, size_t cell, gis_spool_visit *visit, void 
         if (!gis_spool_record_shape(record, &spool->rings, &shape, &why))
             return gis_core_failed(error, spool->file.path, &why);
         feature.demands.shape = shape;
+        if (!gis_spool_record_lines(record, &spool->line_end, &spool->line_room, &feature.lines, error)) {
+            sunder_shape_free(shape);
+            return false;
+        }
         if (!visit(user, &feature, error)) return false;
         at += gis_spool_record_head(record)->bytes;
+    }
+    return true;
+}
+
+bool gis_spool_boxes(gis_spool *spool, size_t cell, double (*box)[4], size_t *n, gis_error *error)
+{
+    *n = 0;
+    if (!load(spool, cell, error)) return false;
+    for (size_t at = 0; at < spool->records.used;) {
+        gis_spool_feature feature;
+        const gis_spool_head *head = gis_spool_record_head(spool->records.at + at);
+        if (!gis_spool_record_feature(spool->records.at + at, spool->records.used - at, &feature))
+            return gis_fail(error, "%s: cell %zu of it is not what was written", spool->file.path, cell);
+        if (head->box[0] <= head->box[2]) memcpy(box[(*n)++], head->box, sizeof *box);
+        at += head->bytes;
     }
     return true;
 }

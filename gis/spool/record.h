@@ -1,5 +1,6 @@
 /* record.h: a feature as bytes. A record begins with its head, at a multiple of 8, and takes a multiple of 8 bytes:
- * then come the coordinates, the ends of rings and of polygons, and the text of the id. */
+ * then come the coordinates, those of lines behind them, the ends of rings, of polygons and of lines, and the text of
+ * the id. */
 #ifndef GIS_SPOOL_RECORD_H
 #define GIS_SPOOL_RECORD_H
 
@@ -7,14 +8,15 @@
 #include "spool/spool.h"
 
 typedef struct gis_spool_head {
+    /* As a gis_sort_head: */
     uint64_t bytes; /* of the whole record */
     uint64_t along; /* where its box is on the curve, once that is known */
     uint64_t index;
     int64_t fid, block;
-    double weight, max_shift, area, start[2];
+    double weight, max_shift, area, start[2], reach;
     double box[4];                                /* of an empty shape box[0] > box[2] */
     uint32_t polygons, rings, vertices, id_bytes; /* with the NUL; 0: there is none */
-    uint32_t fixed, repaired;
+    uint32_t fixed, repaired, lines, points;
 } gis_spool_head;
 
 /* A record in room that grows; *bytes of it. */
@@ -25,9 +27,14 @@ typedef struct gis_spool_room {
 
 bool gis_spool_record_make(gis_spool_room *room, const gis_spool_feature *feature, gis_error *error);
 gis_spool_head *gis_spool_record_head(unsigned char *record);
-/* The feature of a record that is whole: `left` bytes are there from it on; its shape stays NULL. False: it is no
- * record. */
+/* Where the middle of a box is on a curve through `all`; 0 where it is empty (writer.c). */
+uint64_t gis_spool_along(const double all[4], const double box[4]);
+/* The feature of a record that is whole: `left` bytes are there from it on; its shape stays NULL, and it has no lines.
+ * False: it is no record. */
 bool gis_spool_record_feature(unsigned char *record, size_t left, gis_spool_feature *feature);
+/* Its lines, which live as long as the record and *end, which is room. */
+bool gis_spool_record_lines(const unsigned char *record, size_t **end, size_t *capacity, sunder_obstacle *out,
+                            gis_error *error);
 /* Its shape; rings is room. */
 bool gis_spool_record_shape(const unsigned char *record, gis_polygons *rings, sunder_shape **out, sunder_error *why);
 

@@ -1,16 +1,11 @@
 /* sort.c: see sort.h. Records are read in parts that fit into memory; each part is sorted and written behind the last
- * one, into one file; then the parts are merged by a heap of their first records. Records are ordered by their place on
- * the curve and, where that is one, by their place in the input: so there is one order. */
+ * one, into one file; then the parts are merged by a heap of their first records. */
 #include "spool/sort.h"
 
 #include "base/array.h"
-#include "base/curve.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-/* A grid over a continent has cells of a tenth of a metre. */
-enum { CURVE_BITS = 26 };
 
 /* A sorted part, and what of it was read but not yet taken. */
 typedef struct run {
@@ -21,7 +16,7 @@ typedef struct run {
 
 /* Where a record of the part in memory is. */
 typedef struct place {
-    uint64_t along, index;
+    uint64_t first, second;
     size_t offset;
 } place;
 
@@ -36,42 +31,22 @@ typedef struct sorter {
     size_t places;
 } sorter;
 
-static int compare(uint64_t along_a, uint64_t index_a, uint64_t along_b, uint64_t index_b)
+static int compare(uint64_t first_a, uint64_t second_a, uint64_t first_b, uint64_t second_b)
 {
-    if (along_a != along_b) return along_a < along_b ? -1 : 1;
-    return (index_a > index_b) - (index_a < index_b);
+    if (first_a != first_b) return first_a < first_b ? -1 : 1;
+    return (second_a > second_b) - (second_a < second_b);
 }
 
 static int compare_places(const void *a, const void *b)
 {
     const place *p = a, *q = b;
-    return compare(p->along, p->index, q->along, q->index);
+    const int by_keys = compare(p->first, p->second, q->first, q->second);
+    return by_keys ? by_keys : (p->offset > q->offset) - (p->offset < q->offset);
 }
+
+static gis_sort_head *head_of(unsigned char *record) { return (void *)record; }
 
 /* ---- Parts ------------------------------------------------------------------------------------------------------- */
-
-static uint64_t place_on_curve(const double all[4], const double box[4])
-{
-    if (!(box[0] <= box[2])) return 0;
-    const uint32_t x = gis_curve_cell(box[0] / 2 + box[2] / 2, all[0], all[2], CURVE_BITS);
-    const uint32_t y = gis_curve_cell(box[1] / 2 + box[3] / 2, all[1], all[3], CURVE_BITS);
-    return gis_curve_position(x, y, CURVE_BITS);
-}
-
-static bool settle(const gis_spool_sorting *how, unsigned char *record, gis_error *error)
-{
-    gis_spool_head *head = gis_spool_record_head(record);
-    gis_spool_feature feature;
-    head->along = place_on_curve(how->box, head->box);
-    if (!how->settle) return true;
-    if (!gis_spool_record_feature(record, head->bytes, &feature))
-        return gis_fail(error, "%s: it is not what was written", how->from->path);
-    if (!how->settle(how->settle_user, &feature, error)) return false;
-    head->weight = feature.demands.weight;
-    head->max_shift = feature.demands.max_shift;
-    head->block = feature.demands.block;
-    return true;
-}
 
 static bool fail_content(const gis_spool_file *file, gis_error *error)
 {
@@ -96,18 +71,19 @@ static bool read_part(sorter *s, uint64_t *from, size_t *n, gis_error *error)
     gis_spool_file *file = s->how->from;
     const uint64_t left = file->size - *from;
     size_t size = left < s->how->run ? (size_t)left : s->how->run, used = 0;
-    gis_spool_head head;
+    gis_sort_head head;
     if (left < sizeof head || !gis_spool_file_read(file, *from, &head, sizeof head, error) || head.bytes > left)
         return fail_content(file, error);
     if (size < head.bytes) size = head.bytes;
     if (!read_bytes(s, *from, size, error)) return false;
-    for (*n = 0; size - used >= sizeof head; used += gis_spool_record_head(s->part + used)->bytes) {
-        const gis_spool_head *next = gis_spool_record_head(s->part + used);
+    for (*n = 0; size - used >= sizeof head; used += head_of(s->part + used)->bytes) {
+        const gis_sort_head *next = head_of(s->part + used);
         if (next->bytes < sizeof head || next->bytes % 8) return fail_content(file, error);
         if (next->bytes > size - used) break;
-        if (!gis_go_on(error) || !settle(s->how, s->part + used, error)) return false;
+        if (!gis_go_on(error) || (s->how->prepare && !s->how->prepare(s->how->user, s->part + used, error)))
+            return false;
         if (!gis_array_reserve(&s->place, &s->places, *n + 1, sizeof *s->place)) return gis_no_memory(error);
-        s->place[(*n)++] = (place){next->along, next->index, used};
+        s->place[(*n)++] = (place){next->first, next->second, used};
     }
     *from += used;
     qsort(s->place, *n, sizeof *s->place, compare_places);
@@ -121,7 +97,7 @@ static bool write_part(sorter *s, size_t n, gis_error *error)
     *next = (run){.from = s->runs.size};
     for (size_t k = 0; k < n; k++) {
         unsigned char *record = s->part + s->place[k].offset;
-        if (!gis_spool_file_write(&s->runs, record, gis_spool_record_head(record)->bytes, error)) return false;
+        if (!gis_spool_file_write(&s->runs, record, head_of(record)->bytes, error)) return false;
     }
     next->end = s->runs.size;
     return gis_go_on(error);
@@ -130,23 +106,23 @@ static bool write_part(sorter *s, size_t n, gis_error *error)
 static bool take_part(sorter *s, size_t n, gis_error *error)
 {
     for (size_t k = 0; k < n; k++)
-        if (!s->how->take(s->how->take_user, s->part + s->place[k].offset, error)) return false;
+        if (!s->how->take(s->how->user, s->part + s->place[k].offset, error)) return false;
     return true;
 }
 
 /* ---- Merging ----------------------------------------------------------------------------------------------------- */
 
-static gis_spool_head *first_of(const run *r) { return gis_spool_record_head(r->at + r->used); }
+static gis_sort_head *first_of(const run *r) { return head_of(r->at + r->used); }
 
 /* Has the first record of what is left whole in memory; *any = false: nothing is left. */
 static bool refill(sorter *s, run *r, size_t share, bool *any, gis_error *error)
 {
     const size_t have = r->filled - r->used;
     *any = have > 0 || r->from < r->end;
-    if (!*any || (have >= sizeof(gis_spool_head) && have >= first_of(r)->bytes)) return true;
+    if (!*any || (have >= sizeof(gis_sort_head) && have >= first_of(r)->bytes)) return true;
     /* The share, or what the record needs that is there in part. */
     size_t wanted = share;
-    if (have >= sizeof(gis_spool_head) && first_of(r)->bytes > wanted) wanted = first_of(r)->bytes;
+    if (have >= sizeof(gis_sort_head) && first_of(r)->bytes > wanted) wanted = first_of(r)->bytes;
     if (have) memmove(r->at, r->at + r->used, have);
     if (r->room < wanted) {
         unsigned char *larger = realloc(r->at, wanted);
@@ -163,10 +139,12 @@ static bool refill(sorter *s, run *r, size_t share, bool *any, gis_error *error)
     return refill(s, r, share, any, error); /* once more where the record is larger than its share */
 }
 
+/* Runs lie in the order in which their records came. */
 static bool before(const run *a, const run *b)
 {
-    const gis_spool_head *p = first_of(a), *q = first_of(b);
-    return compare(p->along, p->index, q->along, q->index) < 0;
+    const gis_sort_head *p = first_of(a), *q = first_of(b);
+    const int by_keys = compare(p->first, p->second, q->first, q->second);
+    return by_keys ? by_keys < 0 : a < b;
 }
 
 /* The heap's entry i sinks to where it belongs. */
@@ -193,7 +171,7 @@ static bool merge_heap(sorter *s, run **heap, size_t share, gis_error *error)
     while (n > 0) {
         run *least = heap[0];
         bool any;
-        if (!gis_go_on(error) || !s->how->take(s->how->take_user, least->at + least->used, error)) return false;
+        if (!gis_go_on(error) || !s->how->take(s->how->user, least->at + least->used, error)) return false;
         least->used += first_of(least)->bytes;
         if (!refill(s, least, share, &any, error)) return false;
         if (!any) heap[0] = heap[--n];
@@ -229,7 +207,7 @@ static bool sort(sorter *s, gis_error *error)
     if (s->how->from->size == 0) return true;
     if (!read_part(s, &from, &n, error)) return false;
     if (from == s->how->from->size) return take_part(s, n, error);
-    if (!gis_spool_file_create(&s->runs, s->how->directory, "features.runs", error)) return false;
+    if (!gis_spool_file_create(&s->runs, s->how->directory, s->how->parts, error)) return false;
     while (write_part(s, n, error)) {
         if (from == s->how->from->size) return merge(s, error);
         if (!read_part(s, &from, &n, error)) return false;

@@ -24,6 +24,8 @@ typedef struct gis_spool_feature {
     double start[2];        /* of a point feature: where its arrow starts; NAN otherwise */
     double area;            /* of the shape, where weights ask for it; else 0 */
     const char *id;         /* the user's own key as text; NULL: null */
+    sunder_obstacle lines;  /* of a barrier (parts/barriers.h), lent; its shape is not asked for */
+    double reach;           /* its box is so much larger on all sides; 0, but of a barrier */
 } gis_spool_feature;
 
 typedef struct gis_spool_cell {
@@ -72,5 +74,7 @@ const gis_spool_cell *gis_spool_cell_at(const gis_spool *spool, size_t cell);
 typedef bool gis_spool_visit(void *user, const gis_spool_feature *feature, gis_error *error);
 /* Visits each feature of a cell, once all of it is known to be what was written. */
 bool gis_spool_read(gis_spool *spool, size_t cell, gis_spool_visit *visit, void *user, gis_error *error);
+/* The boxes of the features of a cell that cover anything, without the rest: box[] has room for all of them. */
+bool gis_spool_boxes(gis_spool *spool, size_t cell, double (*box)[4], size_t *n, gis_error *error);
 
 #endif

@@ -1,15 +1,22 @@
 /* writer.c: a spool written: features to a temporary file as they come, then sorted into cells. */
 #include "base/array.h"
+#include "base/box.h"
+#include "base/curve.h"
 #include "spool/checksum.h"
 #include "spool/index.h"
+#include "spool/record.h"
 #include "spool/sort.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* A cell is read whole: it has so many features, or so many vertices, unless one has more. */
 enum { CELL_FEATURES = 1000, CELL_VERTICES = 20000 };
+
+/* A grid over a continent has cells of a tenth of a metre. */
+enum { CURVE_BITS = 26 };
 
 struct gis_spool_writer {
     char *directory;
@@ -20,28 +27,15 @@ struct gis_spool_writer {
     gis_spool_index index;
     gis_spool_entry cell; /* the one that is being filled, and the records in it */
     gis_spool_room records;
+    gis_spool_settle *settle;
+    void *settle_user;
 };
-
-static void begin_box(double box[4])
-{
-    box[0] = box[1] = INFINITY;
-    box[2] = box[3] = -INFINITY;
-}
-
-static void join(double box[4], const double other[4])
-{
-    if (!(other[0] <= other[2])) return;
-    for (int k = 0; k < 2; k++) {
-        box[k] = fmin(box[k], other[k]);
-        box[k + 2] = fmax(box[k + 2], other[k + 2]);
-    }
-}
 
 bool gis_spool_create(const char *directory, gis_spool_writer **out, gis_error *error)
 {
     gis_spool_writer *writer = calloc(1, sizeof *writer);
     if (!writer) return gis_no_memory(error);
-    begin_box(writer->box);
+    gis_box_clear(writer->box);
     writer->directory = strdup(directory);
     if (!writer->directory || !gis_spool_file_create(&writer->input, directory, "features.input", error)) {
         if (!writer->directory) gis_no_memory(error);
@@ -55,7 +49,7 @@ bool gis_spool_create(const char *directory, gis_spool_writer **out, gis_error *
 bool gis_spool_add(gis_spool_writer *writer, const gis_spool_feature *feature, gis_error *error)
 {
     if (!gis_spool_record_make(&writer->record, feature, error)) return false;
-    join(writer->box, gis_spool_record_head(writer->record.at)->box);
+    gis_box_join(writer->box, gis_spool_record_head(writer->record.at)->box);
     writer->features++;
     return gis_spool_file_write(&writer->input, writer->record.at, writer->record.used, error);
 }
@@ -65,7 +59,7 @@ bool gis_spool_add(gis_spool_writer *writer, const gis_spool_feature *feature, g
 static void begin_cell(gis_spool_writer *writer)
 {
     writer->cell = (gis_spool_entry){.from = writer->out.size};
-    begin_box(writer->cell.cell.box);
+    gis_box_clear(writer->cell.cell.box);
     writer->records.used = 0;
 }
 
@@ -89,7 +83,7 @@ static bool take(void *user, const unsigned char *record, gis_error *error)
     gis_spool_head head;
     memcpy(&head, record, sizeof head);
     gis_spool_cell *cell = &writer->cell.cell;
-    const bool full = cell->features == CELL_FEATURES || cell->vertices + head.vertices > CELL_VERTICES;
+    const bool full = cell->features == CELL_FEATURES || cell->vertices + head.vertices + head.points > CELL_VERTICES;
     if (full && !end_cell(writer, error)) return false;
     gis_spool_room *records = &writer->records;
     if (!gis_array_reserve(&records->at, &records->capacity, records->used + head.bytes, 1))
@@ -97,8 +91,38 @@ static bool take(void *user, const unsigned char *record, gis_error *error)
     memcpy(records->at + records->used, record, head.bytes);
     records->used += head.bytes;
     cell->features++;
-    cell->vertices += head.vertices;
-    join(cell->box, head.box);
+    cell->vertices += head.vertices + head.points;
+    gis_box_join(cell->box, head.box);
+    return true;
+}
+
+/* ---- Order ------------------------------------------------------------------------------------------------------- */
+
+uint64_t gis_spool_along(const double all[4], const double box[4])
+{
+    if (!(box[0] <= box[2])) return 0;
+    const uint32_t x = gis_curve_cell(box[0] / 2 + box[2] / 2, all[0], all[2], CURVE_BITS);
+    const uint32_t y = gis_curve_cell(box[1] / 2 + box[3] / 2, all[1], all[3], CURVE_BITS);
+    return gis_curve_position(x, y, CURVE_BITS);
+}
+
+_Static_assert(offsetof(gis_spool_head, along) == offsetof(gis_sort_head, first) &&
+                   offsetof(gis_spool_head, index) == offsetof(gis_sort_head, second),
+               "records are sorted by their place on the curve and, where that is one, by their place in the input");
+
+static bool prepare(void *user, unsigned char *record, gis_error *error)
+{
+    const gis_spool_writer *writer = user;
+    gis_spool_head *head = gis_spool_record_head(record);
+    gis_spool_feature feature;
+    head->along = gis_spool_along(writer->box, head->box);
+    if (!writer->settle) return true;
+    if (!gis_spool_record_feature(record, head->bytes, &feature))
+        return gis_fail(error, "%s: it is not what was written", writer->input.path);
+    if (!writer->settle(writer->settle_user, &feature, error)) return false;
+    head->weight = feature.demands.weight;
+    head->max_shift = feature.demands.max_shift;
+    head->block = feature.demands.block;
     return true;
 }
 
@@ -107,14 +131,15 @@ static bool take(void *user, const unsigned char *record, gis_error *error)
 static bool write_features(gis_spool_writer *writer, gis_spool_settle *settle, void *user, gis_error *error)
 {
     const gis_spool_mark mark = gis_spool_mark_of(GIS_SPOOL_FEATURES);
-    gis_spool_sorting sorting = {.from = &writer->input,
-                                 .directory = writer->directory,
-                                 .run = GIS_SPOOL_RUN,
-                                 .settle = settle,
-                                 .settle_user = user,
-                                 .take = take,
-                                 .take_user = writer};
-    memcpy(sorting.box, writer->box, sizeof sorting.box);
+    const gis_spool_sorting sorting = {.from = &writer->input,
+                                       .directory = writer->directory,
+                                       .parts = "features.runs",
+                                       .run = GIS_SPOOL_RUN,
+                                       .prepare = prepare,
+                                       .take = take,
+                                       .user = writer};
+    writer->settle = settle;
+    writer->settle_user = user;
     if (!gis_spool_file_flush(&writer->input, error) ||
         !gis_spool_file_create(&writer->out, writer->directory, "features.part", error) ||
         !gis_spool_file_write(&writer->out, &mark, sizeof mark, error))

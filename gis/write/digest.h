@@ -61,8 +61,19 @@ static inline uint64_t gis_mix_plain(uint64_t so_far, const gis_value *value, co
     }
 }
 
-/* The numbers of all rows of the layer, read past GDAL. False, and *read is NULL, if a row is not plain, or SQLite
+/* What is read, as it comes, beside what was sent: the list is kept only from where the two differ, as before that it
+ * is the other. Zeroed: nothing yet. */
+typedef struct gis_digests_read {
+    gis_digest *at; /* all that was read, if they differ */
+    size_t n, capacity;
+    bool differ;
+} gis_digests_read;
+
+/* False if memory is out. */
+bool gis_digests_read_add(gis_digests_read *read, const gis_digests *all, gis_digest one);
+
+/* The numbers of all rows of the layer, read past GDAL. False, and *read is zeroed, if a row is not plain, or SQLite
  * cannot be had, or anything at all is amiss: then it is for GDAL to read, and to say what it is. */
-bool gis_read_rows(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written, gis_digest **read);
+bool gis_read_rows(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written, gis_digests_read *read);
 
 #endif

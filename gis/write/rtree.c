@@ -120,7 +120,7 @@ void gis_boxes_clear(gis_boxes *boxes)
 
 typedef struct place {
     uint32_t along; /* position of the centre on the Hilbert curve of a 65536 x 65536 grid */
-    struct gis_box box;
+    uint32_t at;    /* which box */
 } place;
 
 /* The curve's grid is finer than the boxes of any layer need to be told apart. */
@@ -130,13 +130,28 @@ static int compare_places(const void *a, const void *b)
 {
     const place *p = a, *q = b;
     if (p->along != q->along) return p->along < q->along ? -1 : 1;
-    return (p->box.fid > q->box.fid) - (p->box.fid < q->box.fid);
+    return (p->at > q->at) - (p->at < q->at);
+}
+
+/* Puts box places[i].at at i, cycle by cycle. */
+static void arrange(struct gis_box *box, place *places, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        const struct gis_box first = box[i];
+        size_t to = i;
+        for (size_t from; (from = places[to].at) != i; to = from) {
+            box[to] = box[from];
+            places[to].at = (uint32_t)to;
+        }
+        box[to] = first;
+        places[to].at = (uint32_t)to;
+    }
 }
 
 /* Sorts the boxes along the curve; false if memory is out. */
 static bool sort_boxes(gis_boxes *boxes)
 {
-    place *places = malloc(boxes->n * sizeof *places);
+    place *places = boxes->n <= UINT32_MAX ? malloc(boxes->n * sizeof *places) : NULL;
     if (!places) return false;
     double around[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
     for (size_t i = 0; i < boxes->n; i++)
@@ -146,10 +161,10 @@ static bool sort_boxes(gis_boxes *boxes)
         const float *side = boxes->at[i].side;
         const uint32_t x = gis_curve_cell(((double)side[0] + side[1]) / 2, around[0], around[1], CURVE_BITS);
         const uint32_t y = gis_curve_cell(((double)side[2] + side[3]) / 2, around[2], around[3], CURVE_BITS);
-        places[i] = (place){(uint32_t)gis_curve_position(x, y, CURVE_BITS), boxes->at[i]};
+        places[i] = (place){(uint32_t)gis_curve_position(x, y, CURVE_BITS), (uint32_t)i};
     }
     qsort(places, boxes->n, sizeof *places, compare_places);
-    for (size_t i = 0; i < boxes->n; i++) boxes->at[i] = places[i].box;
+    arrange(boxes->at, places, boxes->n);
     free(places);
     return true;
 }
@@ -299,6 +314,8 @@ static bool fill(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_er
     done = done && empty_tables(dataset, layer, error) &&
            begin_rows(&all.nodes, dataset, layer, "_node", false, error) && write_levels(&all, boxes, error);
     gis_sqlite_rows_end(&all.nodes);
+    free(boxes->at); /* sorting needs as much */
+    boxes->at = NULL;
     done = done && write_rows(dataset, layer, "_parent", all.parent, all.parents, error) &&
            write_rows(dataset, layer, "_rowid", all.leaf, all.leaves, error);
     CPLFree(all.node);

@@ -87,6 +87,10 @@ bool gis_sink_add(gis_sink *sink, const gis_sink_layer_request *request, gis_sin
 bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geometry, const gis_value *values,
                     gis_error *error);
 
+/* The same of a line from one place to another, into a layer that is not like the source. */
+bool gis_sink_write_line(gis_sink_layer *layer, const double from[2], const double to[2], const gis_value *values,
+                         gis_error *error);
+
 /* A source feature moved by (dx, dy): the translate of its own geometry (null stays null). The memory of a copy. */
 bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx, double dy, const gis_value *values,
                           gis_error *error);

@@ -261,14 +261,16 @@ static bool write_styles(gis_sink *sink, gis_error *error)
     return true;
 }
 
+/* A statement about one layer has GDAL note how many features each of them has: so all rows end before any index. */
 static bool write_indexes(gis_sink *sink, gis_error *error)
 {
-    for (size_t i = 0; i < sink->n_layers; i++) {
+    bool done = true;
+    for (size_t i = 0; done && i < sink->n_layers; i++) done = gis_sink_rows_end(sink->layers[i], error);
+    for (size_t i = 0; done && i < sink->n_layers; i++) {
         gis_sink_layer *layer = sink->layers[i];
-        if (!gis_sink_rows_end(layer, error) || !gis_rtree_end(layer->dataset, layer->layer, &layer->boxes, error))
-            return false;
+        done = gis_rtree_end(layer->dataset, layer->layer, &layer->boxes, error);
     }
-    return true;
+    return done;
 }
 
 static bool close_all(gis_sink *sink, gis_error *error)

@@ -151,7 +151,7 @@ static bool mix_ring(void *user, const unsigned char *points, size_t n, bool las
     return true;
 }
 
-/* As digest(). */
+/* As digest(); of polygons, or a line. */
 bool gis_digests_add_plain(gis_digests *all, GIntBig fid, const unsigned char *geometry, const gis_value *values,
                            gis_error *error)
 {
@@ -160,7 +160,14 @@ bool gis_digests_add_plain(gis_digests *all, GIntBig fid, const unsigned char *g
     uint64_t so_far = GIS_MIX_START;
     for (size_t i = 0; i < all->n_fields; i++)
         so_far = gis_mix_plain(so_far, &values[all->fields[i].sent], &all->fields[i]);
-    gis_packed_visit(geometry, mix_ring, &place);
+    uint32_t type, points;
+    memcpy(&type, geometry + 1, sizeof type);
+    memcpy(&points, geometry + 1 + sizeof type, sizeof points);
+    place.inside = type == wkbLineString;
+    if (place.inside)
+        mix_ring(&place, geometry + 1 + sizeof type + sizeof points, points, true);
+    else
+        gis_packed_visit(geometry, mix_ring, &place);
     const gis_digest one = {place.so_far, gis_mix(so_far, place.so_far)};
     return append(&all->sent, &all->n, &all->capacity, one) || gis_no_memory(error);
 }
@@ -197,22 +204,34 @@ static size_t missing(const gis_digest *sent, const gis_digest *read, size_t n, 
     return count;
 }
 
-/* Mostly what was sent first reads first, and nothing has to be sorted. */
-static bool same_in_order(const gis_digests *all, const gis_digest *read)
+static bool is_next(const gis_digests_read *read, const gis_digests *all, gis_digest one)
 {
-    for (size_t i = 0; i < all->n; i++)
-        if (all->sent[i].place != read[i].place || (all->values_comparable && all->sent[i].values != read[i].values))
-            return false;
+    return read->n < all->n && all->sent[read->n].place == one.place &&
+           (!all->values_comparable || all->sent[read->n].values == one.values);
+}
+
+/* Mostly what was sent first reads first, and nothing has to be kept or sorted. */
+bool gis_digests_read_add(gis_digests_read *read, const gis_digests *all, gis_digest one)
+{
+    if (!read->differ && is_next(read, all, one)) {
+        read->n++;
+        return true;
+    }
+    if (!gis_array_reserve(&read->at, &read->capacity, read->n + 1, sizeof *read->at)) return false;
+    if (!read->differ && read->n) memcpy(read->at, all->sent, read->n * sizeof *read->at);
+    read->differ = true;
+    read->at[read->n++] = one;
     return true;
 }
 
-static bool compare(gis_sink_layer *layer, gis_digest *read, gis_error *error)
+static bool compare(gis_sink_layer *layer, const gis_digests_read *as_read, gis_error *error)
 {
     gis_sink *sink = layer->sink;
     gis_digests *all = &layer->digests;
     if (!all->wanted) /* a format that keeps nothing as it is: all features were there to be read */
         return true;
-    if (same_in_order(all, read)) return true;
+    if (!as_read->differ) return true;
+    gis_digest *read = as_read->at;
     if (all->n) { /* else there are no lists */
         qsort(all->sent, all->n, sizeof *all->sent, order);
         qsort(read, all->n, sizeof *read, order);
@@ -230,10 +249,10 @@ static bool compare(gis_sink_layer *layer, gis_digest *read, gis_error *error)
 }
 
 /* Every feature of the layer, decoded; what the driver reports meanwhile is a failure. */
-static bool read_back(gis_sink_layer *layer, OGRLayerH as_written, gis_digest **read, gis_error *error)
+static bool read_back(gis_sink_layer *layer, OGRLayerH as_written, gis_digests_read *read, gis_error *error)
 {
     gis_digests *all = &layer->digests;
-    size_t n = 0, capacity = 0, with_z = 0;
+    size_t with_z = 0;
     bool done = true;
     gis_listener listener = {0};
     gis_listen_begin(&listener);
@@ -243,15 +262,15 @@ static bool read_back(gis_sink_layer *layer, OGRLayerH as_written, gis_digest **
         OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
         with_z += geometry && OGR_G_Is3D(geometry);
         done = gis_go_on(error) &&
-               ((digest(all, feature, OGR_F_GetFID(feature), true, &one) && append(read, &n, &capacity, one)) ||
+               ((digest(all, feature, OGR_F_GetFID(feature), true, &one) && gis_digests_read_add(read, all, one)) ||
                 gis_no_memory(error));
     }
     OGR_L_ResetReading(as_written); /* a database would keep the table open */
     gis_listen_end();
     if (done && listener.failures)
-        done = gis_sink_fail_reading(layer, n, gis_listener_reason(&listener, "no reason given"), error);
-    else if (done && n != layer->written)
-        done = gis_sink_fail_count(layer, n, error);
+        done = gis_sink_fail_reading(layer, read->n, gis_listener_reason(&listener, "no reason given"), error);
+    else if (done && read->n != layer->written)
+        done = gis_sink_fail_count(layer, read->n, error);
     if (done && with_z < all->with_z && gis_sink_tells(layer))
         gis_sentences_add(&layer->sink->losses, "Z values are not written: %s has none", layer->sink->format.name);
     gis_listener_clear(&listener);
@@ -260,11 +279,11 @@ static bool read_back(gis_sink_layer *layer, OGRLayerH as_written, gis_digest **
 
 bool gis_digests_agree(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written, gis_error *error)
 {
-    gis_digest *read = NULL;
+    gis_digests_read read = {0};
     layer->digests.values_comparable = true;
     find_fields(&layer->digests, as_written);
     bool done = (gis_read_rows(layer, dataset, as_written, &read) || read_back(layer, as_written, &read, error)) &&
-                (layer->written == 0 || compare(layer, read, error));
-    free(read);
+                (layer->written == 0 || compare(layer, &read, error));
+    free(read.at);
     return done;
 }

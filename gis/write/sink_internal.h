@@ -208,6 +208,9 @@ void gis_digests_clear(gis_digests *all);
 
 /* Writes feature i of the source, moved, if that can be done past GDAL. */
 gis_row gis_sink_row(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values, gis_error *error);
+/* The same of a line (gis_sink_write_line()). */
+gis_row gis_sink_line(gis_sink_layer *layer, const double from[2], const double to[2], const gis_value *values,
+                      gis_error *error);
 /* GDAL wrote the last one. */
 void gis_sink_row_by_gdal(gis_sink_layer *layer, GIntBig fid);
 /* All are written; to be called before GDAL notes how many. */

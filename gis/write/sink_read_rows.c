@@ -7,14 +7,14 @@
 #include "write/digest.h"
 
 #include "base/array.h"
+#include "read/blob.h"
 #include "sqlite/select.h"
 #include "write/sql.h"
 
 #include <cpl_conv.h>
 #include <stdlib.h>
 
-/* Of a blob: "GP", version, flags, SRS, and as many bytes of a box as the flags say; well-known binary. */
-enum { HEAD = 8, FLAGS = 3, BOX_KINDS = 0x0e, EXTENDED = 0x20, POINT_BYTES = 16 };
+enum { POINT_BYTES = 16 };
 
 /* The machine's order of bytes: doubles can be taken as they stand. */
 #ifdef CPL_LSB
@@ -73,11 +73,10 @@ static bool geometry(reading *r, bool part)
 
 static bool blob(const unsigned char *bytes, size_t size, uint64_t *so_far)
 {
-    static const size_t box[] = {0, 32, 48, 48, 64};
-    if (size < HEAD || memcmp(bytes, "GP", 2) != 0 || bytes[2] != 0 || bytes[FLAGS] & EXTENDED) return false;
-    const size_t kind = (bytes[FLAGS] & BOX_KINDS) >> 1;
-    if (kind >= sizeof box / sizeof *box || size < HEAD + box[kind]) return false;
-    reading r = {bytes + HEAD + box[kind], bytes + size, *so_far};
+    size_t rest;
+    const unsigned char *at = gis_blob_geometry(bytes, size, &rest);
+    if (!at) return false;
+    reading r = {at, at + rest, *so_far};
     if (!geometry(&r, false) || r.at != r.end) return false;
     *so_far = r.so_far;
     return true;
@@ -136,7 +135,7 @@ static bool may_be_plain(const gis_sink_layer *layer, GDALDatasetH dataset, OGRL
            OGR_L_GetFIDColumn(as_written)[0] && OGR_L_GetGeometryColumn(as_written)[0];
 }
 
-bool gis_read_rows(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written, gis_digest **read)
+bool gis_read_rows(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written, gis_digests_read *read)
 {
     gis_digests *all = &layer->digests;
     void *database = may_be_plain(layer, dataset, as_written) ? GDALGetInternalHandle(dataset, "SQLITE_HANDLE") : NULL;
@@ -144,18 +143,15 @@ bool gis_read_rows(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_wri
     char *sql = select_statement(all, as_written);
     void *statement = gis_sqlite_select_begin(database, sql);
     CPLFree(sql);
-    size_t n = 0, capacity = 0;
     gis_sqlite_next next = GIS_SQLITE_BROKEN;
     bool done = statement;
     while (done && (next = gis_sqlite_select_next(statement)) == GIS_SQLITE_HAS_ROW) {
         gis_digest one;
-        done =
-            !gis_interrupted() && row(all, statement, &one) && gis_array_reserve(read, &capacity, n + 1, sizeof **read);
-        if (done) (*read)[n++] = one;
+        done = !gis_interrupted() && row(all, statement, &one) && gis_digests_read_add(read, all, one);
     }
     gis_sqlite_select_end(statement);
-    if (done && next == GIS_SQLITE_AT_END && n == layer->written) return true;
-    free(*read);
-    *read = NULL;
+    if (done && next == GIS_SQLITE_AT_END && read->n == layer->written) return true;
+    free(read->at);
+    *read = (gis_digests_read){0};
     return false;
 }

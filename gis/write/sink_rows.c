@@ -1,4 +1,4 @@
-/* sink_rows.c: rows of a GeoPackage's main layer past GDAL, where all is plain.
+/* sink_rows.c: rows of a GeoPackage's main layer, and of its layers of lines, past GDAL, where all is plain.
  *
  * GDAL makes a feature, its geometry, its blob and its binding for each row. Where the source's records (read/packed.h)
  * hold the geometry as the blob wants it and the values as the columns do, the row is put together from the record.
@@ -22,17 +22,21 @@
 /* A blob (GeoPackage, "GeoPackageBinary"): "GP", version, flags, SRS; the box; well-known binary. */
 enum { HEAD = 8, BOX = 4 * sizeof(double), FLAGS = 3, LITTLE_ENDIAN_WITH_BOX = 3 };
 
+/* A line of two points as well-known binary: order of bytes, type, count, points. */
+enum { LINE_POINTS = 1 + 2 * sizeof(uint32_t), LINE_BYTES = LINE_POINTS + 4 * sizeof(double) };
+
 /* ---- Is all plain? ----------------------------------------------------------------------------------------------- */
 
 static bool fields_are_plain(const gis_sink_layer *layer)
 {
     OGRFeatureDefnH to = OGR_L_GetLayerDefn(layer->layer);
-    OGRFeatureDefnH from = OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source));
+    const gis_source *source = layer->request.like_source ? layer->sink->source : NULL;
+    OGRFeatureDefnH from = source ? OGR_L_GetLayerDefn(gis_source_layer(source)) : NULL;
     const int n = OGR_FD_GetFieldCount(to);
     if (layer->digests.n_fields != (size_t)n) return false; /* all of plain types, without defaults */
     for (int i = 0; i < n; i++)
         if (EQUAL(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(to, i)), OGR_L_GetFIDColumn(layer->layer))) return false;
-    for (int i = 0; i < OGR_FD_GetFieldCount(from); i++)
+    for (int i = 0; from && i < OGR_FD_GetFieldCount(from); i++)
         if (layer->field_map[i] >= 0 && OGR_Fld_GetType(OGR_FD_GetFieldDefn(from, i)) !=
                                             OGR_Fld_GetType(OGR_FD_GetFieldDefn(to, layer->field_map[i])))
             return false;
@@ -44,15 +48,30 @@ static bool fields_are_plain(const gis_sink_layer *layer)
 }
 
 /* An option may be of what GDAL does to each row. */
-static bool layer_is_plain(const gis_sink_layer *layer)
+static bool sink_is_plain(const gis_sink *sink)
 {
-    const gis_sink *sink = layer->sink;
-    const OGRwkbGeometryType type = OGR_L_GetGeomType(layer->layer);
-    return sink->format.geopackage && sink->place == GIS_PLACE_FILE && !sink->updating && sink->fids_kept &&
+    return sink->format.geopackage && sink->place == GIS_PLACE_FILE && !sink->updating &&
            !CSLCount((CSLConstList)sink->request.layer_options) &&
-           !CSLCount((CSLConstList)sink->request.dataset_options) && layer->request.like_source &&
-           layer->request.as_source && !layer->promote && !layer->wind && layer->boxes.trigger &&
-           (type == wkbUnknown || type == wkbPolygon || type == wkbMultiPolygon) && fields_are_plain(layer);
+           !CSLCount((CSLConstList)sink->request.dataset_options);
+}
+
+static bool main_is_plain(const gis_sink_layer *layer)
+{
+    const OGRwkbGeometryType type = OGR_L_GetGeomType(layer->layer);
+    return layer->request.like_source && layer->request.as_source && layer->sink->fids_kept &&
+           (type == wkbUnknown || type == wkbPolygon || type == wkbMultiPolygon);
+}
+
+/* Its FIDs are those that SQLite gives: 1, 2, 3. */
+static bool lines_are_plain(const gis_sink_layer *layer)
+{
+    return !layer->request.like_source && !layer->request.copied && OGR_L_GetGeomType(layer->layer) == wkbLineString;
+}
+
+static bool layer_is_plain(const gis_sink_layer *layer, bool lines)
+{
+    return sink_is_plain(layer->sink) && !layer->promote && !layer->wind && layer->boxes.trigger &&
+           (lines ? lines_are_plain(layer) : main_is_plain(layer)) && fields_are_plain(layer);
 }
 
 typedef struct looking {
@@ -75,6 +94,17 @@ static bool look(void *user, const unsigned char *points, size_t n, bool last)
         seen->box.MaxY = fmax(seen->box.MaxY, xy[1]);
     }
     return true;
+}
+
+/* Is it what its field holds, so that nothing is made of it on the way? */
+static bool suits(const gis_value *value, const gis_plain_field *field)
+{
+    switch (value->kind) {
+    case GIS_TEXT: return field->type == OFTString;
+    case GIS_REAL: return field->type == OFTReal;
+    case GIS_INTEGER: return field->type == OFTInteger64;
+    default: return true;
+    }
 }
 
 /* A text with a width is one that GDAL counts the signs of. */
@@ -160,6 +190,13 @@ static bool put_blob(gis_sink_rows *rows, const OGREnvelope *box, const unsigned
     return true;
 }
 
+static bool values_are_plain(const gis_sink_layer *layer)
+{
+    for (size_t k = 0; k < layer->digests.n_fields; k++)
+        if (!value_is_plain(&layer->rows.value[k], &layer->digests.fields[k])) return false;
+    return true;
+}
+
 /* Puts the row together, unless it is not plain. */
 static gis_row compose(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values, OGREnvelope *box,
                        gis_error *error)
@@ -179,10 +216,31 @@ static gis_row compose(gis_sink_layer *layer, size_t i, double dx, double dy, co
         (declared != wkbUnknown && (uint32_t)declared != type))
         return GIS_ROW_GDAL;
     for (size_t k = 0; k < layer->request.n_fields; k++) rows->value[layer->own[k]] = values[k];
-    for (size_t k = 0; k < layer->digests.n_fields; k++)
-        if (!value_is_plain(&rows->value[k], &layer->digests.fields[k])) return GIS_ROW_GDAL;
+    if (!values_are_plain(layer)) return GIS_ROW_GDAL;
     *box = seen.box;
     return put_blob(rows, box, wkb, bytes) ? GIS_ROW_DONE : (gis_no_memory(error), GIS_ROW_FAILED);
+}
+
+static gis_row compose_line(gis_sink_layer *layer, const double from[2], const double to[2], const gis_value *values,
+                            OGREnvelope *box, gis_error *error)
+{
+    gis_sink_rows *rows = &layer->rows;
+    const uint32_t type = wkbLineString, n = 2;
+    looking seen = {{INFINITY, -INFINITY, INFINITY, -INFINITY}, true};
+    unsigned char wkb[LINE_BYTES] = {wkbNDR}; /* a blob of another order is not GDAL's, and nothing begins */
+    memcpy(wkb + 1, &type, sizeof type);
+    memcpy(wkb + 1 + sizeof type, &n, sizeof n);
+    memcpy(wkb + LINE_POINTS, from, 2 * sizeof *from);
+    memcpy(wkb + LINE_POINTS + 2 * sizeof *from, to, 2 * sizeof *to);
+    look(&seen, wkb + LINE_POINTS, n, true);
+    for (size_t k = 0; k < layer->digests.n_fields; k++) rows->value[k] = (gis_value){.kind = GIS_NULL};
+    for (size_t k = 0; k < layer->request.n_fields; k++) {
+        if (!suits(&values[k], &layer->digests.fields[layer->own[k]])) return GIS_ROW_GDAL;
+        rows->value[layer->own[k]] = values[k];
+    }
+    if (!seen.plain || !values_are_plain(layer)) return GIS_ROW_GDAL;
+    *box = seen.box;
+    return put_blob(rows, box, wkb, sizeof wkb) ? GIS_ROW_DONE : (gis_no_memory(error), GIS_ROW_FAILED);
 }
 
 static bool holds(const OGREnvelope *around, const OGREnvelope *box)
@@ -205,22 +263,44 @@ static bool insert(gis_sink_layer *layer, GIntBig fid, const OGREnvelope *box, g
            gis_digests_add_plain(&layer->digests, fid, rows->blob + HEAD + BOX, rows->value, error);
 }
 
-gis_row gis_sink_row(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values, gis_error *error)
+/* False: there are no such rows. */
+static bool may_compose(gis_sink_layer *layer, bool lines)
 {
     gis_sink_rows *rows = &layer->rows;
-    if (rows->closed) return GIS_ROW_GDAL;
-    if (!rows->value) {
-        if (!layer_is_plain(layer)) return rows->closed = true, GIS_ROW_GDAL;
-        rows->value = CPLCalloc(layer->digests.n_fields + 1, sizeof *rows->value);
-        rows->around = (OGREnvelope){INFINITY, -INFINITY, INFINITY, -INFINITY};
-    }
-    OGREnvelope box = {0};
-    const gis_row row = compose(layer, i, dx, dy, values, &box, error);
+    if (rows->closed || rows->value) return !rows->closed;
+    rows->closed = !layer_is_plain(layer, lines);
+    if (rows->closed) return false;
+    rows->value = CPLCalloc(layer->digests.n_fields + 1, sizeof *rows->value);
+    rows->around = (OGREnvelope){INFINITY, -INFINITY, INFINITY, -INFINITY};
+    return true;
+}
+
+/* Writes what was put together, unless it is GDAL's. */
+static gis_row settle(gis_sink_layer *layer, gis_row row, GIntBig fid, const OGREnvelope *box, gis_error *error)
+{
+    gis_sink_rows *rows = &layer->rows;
     rows->offered = row == GIS_ROW_DONE;
-    rows->box = box;
-    if (row != GIS_ROW_DONE || !rows->statement || !holds(&rows->around, &box))
+    rows->box = *box;
+    if (row != GIS_ROW_DONE || !rows->statement || !holds(&rows->around, box))
         return row == GIS_ROW_FAILED ? row : GIS_ROW_GDAL;
-    return insert(layer, gis_source_fid(layer->sink->source, i), &box, error) ? GIS_ROW_DONE : GIS_ROW_FAILED;
+    return insert(layer, fid, box, error) ? GIS_ROW_DONE : GIS_ROW_FAILED;
+}
+
+gis_row gis_sink_row(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values, gis_error *error)
+{
+    OGREnvelope box = {0};
+    if (!may_compose(layer, false)) return GIS_ROW_GDAL;
+    const gis_row row = compose(layer, i, dx, dy, values, &box, error);
+    return settle(layer, row, gis_source_fid(layer->sink->source, i), &box, error);
+}
+
+gis_row gis_sink_line(gis_sink_layer *layer, const double from[2], const double to[2], const gis_value *values,
+                      gis_error *error)
+{
+    OGREnvelope box = {0};
+    if (!may_compose(layer, true)) return GIS_ROW_GDAL;
+    const gis_row row = compose_line(layer, from, to, values, &box, error);
+    return settle(layer, row, (GIntBig)layer->written + 1, &box, error);
 }
 
 void gis_sink_row_by_gdal(gis_sink_layer *layer, GIntBig fid)
@@ -240,7 +320,7 @@ void gis_sink_row_by_gdal(gis_sink_layer *layer, GIntBig fid)
 /* ---- The count --------------------------------------------------------------------------------------------------- */
 
 /* GDAL writes how many features it wrote, at a time of its own: as it does, the number becomes the right one. A
- * trigger of the connection's own is not in the file. */
+ * trigger of the connection's own is not in the file. One layer ends before the next is added. */
 bool gis_sink_rows_end(gis_sink_layer *layer, gis_error *error)
 {
     gis_sink_rows *rows = &layer->rows;
@@ -248,10 +328,10 @@ bool gis_sink_rows_end(gis_sink_layer *layer, gis_error *error)
     if (!rows->closed && rows->n) {
         char *name = CPLEscapeString(OGR_L_GetName(layer->layer), -1, CPLES_SQL);
         char *sql = CPLStrdup(CPLSPrintf(
-            "CREATE TEMP TRIGGER sunder_count BEFORE UPDATE OF feature_count ON main.gpkg_ogr_contents WHEN "
+            "CREATE TEMP TRIGGER sunder_count_%zu BEFORE UPDATE OF feature_count ON main.gpkg_ogr_contents WHEN "
             "lower(new.table_name) = lower('%s') AND new.feature_count IS NOT %zu BEGIN UPDATE gpkg_ogr_contents SET "
             "feature_count = %zu WHERE lower(table_name) = lower('%s'); SELECT RAISE(IGNORE); END",
-            name, layer->written, layer->written, name));
+            layer->sink->n_layers, name, layer->written, layer->written, name));
         done = gis_sqlite_run(rows->database, sql) ||
                gis_fail(error, "%s, layer %s: the count of its features cannot be written", layer->sink->request.path,
                         layer->name);

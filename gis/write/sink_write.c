@@ -144,6 +144,19 @@ bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geo
     return done;
 }
 
+bool gis_sink_write_line(gis_sink_layer *layer, const double from[2], const double to[2], const gis_value *values,
+                         gis_error *error)
+{
+    if (!gis_go_on(error)) return false;
+    const gis_row row = layer->keep_sent ? GIS_ROW_GDAL : gis_sink_line(layer, from, to, values, error);
+    if (row != GIS_ROW_GDAL) return row == GIS_ROW_DONE;
+    OGRGeometryH line = gis_geometry_line(from, to);
+    if (!line) return gis_no_memory(error);
+    const bool done = gis_sink_write(layer, NULL, line, values, error);
+    if (done) gis_sink_row_by_gdal(layer, (GIntBig)layer->written);
+    return done;
+}
+
 bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx, double dy, const gis_value *values,
                           gis_error *error)
 {

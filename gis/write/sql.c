@@ -4,7 +4,6 @@
 
 #include <cpl_conv.h>
 #include <ogr_api.h>
-#include <string.h>
 
 bool gis_sql_run(GDALDatasetH dataset, const char *sql, const char *what, gis_error *error)
 {
@@ -32,27 +31,4 @@ char *gis_sql_ask(GDALDatasetH dataset, const char *sql)
     gis_listen_end();
     gis_listener_clear(&listener);
     return text;
-}
-
-char *gis_sql_append(char *to, const char *more)
-{
-    char *both = CPLMalloc(strlen(to) + strlen(more) + 1);
-    strcpy(both, to);
-    strcat(both, more);
-    CPLFree(to);
-    return both;
-}
-
-char *gis_sql_append_name(char *to, const char *name)
-{
-    char *quoted = CPLMalloc(2 * strlen(name) + 3), *at = quoted;
-    *at++ = '"';
-    for (; *name; name++) {
-        if (*name == '"') *at++ = '"';
-        *at++ = *name;
-    }
-    strcpy(at, "\"");
-    to = gis_sql_append(to, quoted);
-    CPLFree(quoted);
-    return to;
 }

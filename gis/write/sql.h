@@ -3,6 +3,7 @@
 #define GIS_SQL_H
 
 #include "base/error.h"
+#include "sqlite/names.h"
 
 #include <gdal.h>
 #include <stdbool.h>
@@ -13,9 +14,5 @@ bool gis_sql_run(GDALDatasetH dataset, const char *sql, const char *what, gis_er
 /* The text in the first column of the first row that a query gives, to be freed with CPLFree(); NULL if there is
  * none. */
 char *gis_sql_ask(GDALDatasetH dataset, const char *sql);
-
-/* A statement, put together: `to` with more behind it, or with a name in quotes, its own doubled; CPLFree(). */
-char *gis_sql_append(char *to, const char *more);
-char *gis_sql_append_name(char *to, const char *name);
 
 #endif

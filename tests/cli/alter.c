@@ -29,8 +29,10 @@ int sqlite3_bind_blob(void *statement, int at, const void *bytes, int size, void
         (int (*)(void *, int, const void *, int, void (*)(void *)))dlsym(RTLD_NEXT, "sqlite3_bind_blob");
     if (size < 9 || memcmp(bytes, "GP", 2) != 0 || !its_turn("geometry"))
         return bind(statement, at, bytes, size, destroy);
-    char *other = malloc((size_t)size); /* never freed: one */
+    char *other = malloc((size_t)size);
+    if (!other) abort();
     memcpy(other, bytes, (size_t)size);
     other[size - 9] ^= 1;
-    return bind(statement, at, other, size, NULL);
+    if (destroy && destroy != (void (*)(void *))-1) destroy((void *)bytes); /* neither static nor SQLite's to copy */
+    return bind(statement, at, other, size, free);
 }

@@ -100,6 +100,9 @@ layer() {
     rm layer.csv
 }
 
+# A layer made of a text that says nan may hold none: GDAL 3.10 keeps null for it. Is that so? is_null FILE LAYER FID FIELD
+is_null() { [ "$(value "$@")" = '(null)' ]; }
+
 # The value of one field of one feature: value FILE LAYER FID FIELD
 value() { ogrinfo -q -ro "$1" "$2" -fid "$3" | sed -n "s/^  $4 (.*) = //p"; }
 geometry() { ogrinfo -q -ro "$1" "$2" -fid "$3" | grep -E '^  [A-Z]+ .*\('; }

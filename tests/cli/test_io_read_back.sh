@@ -15,14 +15,13 @@ X
 expect 0 separate in.gpkg plain.gpkg --gap 1 --allow-jumps
 LD_PRELOAD=$alter "$SUNDER" --version >/dev/null 2>err && [ ! -s err ] || { echo "skipped: $(head -1 err)"; exit 77; }
 
-# struck WHAT INPUT OPTION...: each of the numbers or geometries that are bound is altered in turn.
+# struck WHAT "WHICH..." INPUT LAYERS: each of these numbers or geometries that are bound is altered in turn.
 struck() {
-    local what=$1 in=$2 at status
-    shift 2
-    for at in 1 2 3 4; do
+    local what=$1 in=$3 at status
+    for at in $2; do
         rm -f out.gpkg
         status=0
-        ALTER=$what ALTER_AT=$at LD_PRELOAD=$alter "$SUNDER" separate "$in" out.gpkg --gap 1 --allow-jumps --layers main "$@" -q >said 2>&1 ||
+        ALTER=$what ALTER_AT=$at LD_PRELOAD=$alter "$SUNDER" separate "$in" out.gpkg --gap 1 --allow-jumps --layers "$4" -q >said 2>&1 ||
             status=$?
         [ "$status" -eq 1 ] && [ ! -e out.gpkg ] && grep -q 'do not read back as they were written' said ||
             fail "$what $at of $in altered: status $status, $(head -1 said)"
@@ -31,7 +30,27 @@ struck() {
 
 ogr2ogr -f GPKG high.gpkg in.gpkg -dim XYZ -nlt POLYGON25D 2>/dev/null
 for in in in.gpkg high.gpkg; do
-    struck geometry "$in"
-    struck real "$in"
+    struck geometry "1 2 3 4" "$in" main
+    struck real "1 2 3 4" "$in" main
 done
+
+# Four pairs, of which the last two lie within what the first two span: their lines go past GDAL, too. There are eight
+# features with three numbers each, then eight lines with as many.
+layer pairs.gpkg houses POLYGON <<'X'
+id,WKT
+1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
+2,"POLYGON((3 1,8 1,8 5,3 5,3 1))"
+3,"POLYGON((100 100,104 100,104 104,100 104,100 100))"
+4,"POLYGON((103 101,108 101,108 105,103 105,103 101))"
+5,"POLYGON((50 50,54 50,54 54,50 54,50 50))"
+6,"POLYGON((53 51,58 51,58 55,53 55,53 51))"
+7,"POLYGON((70 40,74 40,74 44,70 44,70 40))"
+8,"POLYGON((73 41,78 41,78 45,73 45,73 41))"
+X
+for layers in main,displacement main,displacement,pushes main,pushes; do
+    rm -f out.gpkg
+    expect 0 separate pairs.gpkg out.gpkg --gap 1 --layers "$layers"
+done
+struck geometry "8 9 13 16" pairs.gpkg main,displacement
+struck real "24 25 37 48" pairs.gpkg main,displacement
 finish

@@ -93,6 +93,7 @@ id,k,WKT
 1,1,POINT(0 0)
 2,$bad,POINT(9 0)
 X
+    [ "$bad" = nan ] && is_null wrong.gpkg dots 2 k && continue
     refused 1 "FID 2: the size of the symbol in k is $bad" separate wrong.gpkg never.gpkg --symbol disc:1 \
         --symbol-size-field k
 done

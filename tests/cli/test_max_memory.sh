@@ -38,8 +38,52 @@ alike o.gpkg 98.5M --gap 3 --effort 0 --block-field blk
 alike o.geojson 99M --gap 3 --effort 0 --layers main,conflicts
 alike o.fgb 2G --gap 3 --effort 0
 
+# Barriers: roads through all of it with widths of their own, meadows, one that is far from everything but for one end,
+# and one that none comes near.
+python3 - <<'PYTHON' || fail "no barriers are made"
+import json, random, re, subprocess
+random.seed(3)
+told = subprocess.run(['ogrinfo', '-so', 'town.gpkg', 'buildings'], capture_output=True, text=True).stdout
+x, y, X, Y = map(float, re.search(r'Extent: \((.*), (.*)\) - \((.*), (.*)\)', told).groups())
+def write(name, features):
+    json.dump({'type': 'FeatureCollection', 'name': name, 'features': features}, open(name + '.geojson', 'w'))
+def feature(kind, at, **fields):
+    return {'type': 'Feature', 'properties': fields, 'geometry': {'type': kind, 'coordinates': at}}
+roads = [feature('LineString', [[x + (X - x) * t / 40, y + (Y - y) * ((t / 40 * k) % 1)] for t in range(41)], w=k * 2.0)
+         for k in range(1, 4)]
+for k in range(300):
+    a, b = random.uniform(x, X), random.uniform(y, Y)
+    roads.append(feature('LineString', [[a, b], [a + random.uniform(-30, 30), b + random.uniform(-30, 30)]], w=None if k % 3 else 1.5))
+roads.append(feature('LineString', [[x + 50, y + 50], [x - 1e5, y - 1e5]], w=1.0))
+roads.append(feature('LineString', [[x - 1e5, y - 2e5], [x - 2e5, y - 2e5]], w=70.0))
+write('roads', roads)
+meadows = []
+for k in range(40):
+    a, b, s = random.uniform(x, X), random.uniform(y, Y), random.uniform(5, 60)
+    meadows.append(feature('Polygon', [[[a, b], [a + s, b], [a + s, b + s], [a, b + s], [a, b]]]))
+write('meadows', meadows)
+PYTHON
+for name in roads meadows; do
+    ogr2ogr -q -nln $name -a_srs EPSG:25832 $name.gpkg $name.geojson || fail "$name.gpkg is not made"
+done
+alike o.gpkg 99M --gap 3 --effort 0 --max-shift 4 --barrier roads.gpkg,width-field=w
+alike o.gpkg 99M --gap 3 --effort 0 --max-shift 4 --barrier roads.gpkg,width=5,gap=0,side=no \
+    --barrier meadows.gpkg,gap=1 --barrier "roads.gpkg,where=w > 3" --id-field id
+alike o.gpkg 99M --gap 1 --effort 0 --max-shift 2 --barrier meadows.gpkg,as=boundary,gap=0 --touch-tolerance 0.01
+alike o.gpkg 99M --gap 1 --effort 0 --max-shift 2 --barrier "roads.gpkg,where=w > 60"
+
+# Points, whose symbols have a layer of their own: squares; of each its own kind and size; discs.
+ogr2ogr -q points.gpkg town.gpkg -nln buildings -nlt POINT -dialect SQLite -sql "select st_centroid(geom) as geom,
+        case when fid % 3 then 'square:6' else 'disc:4' end as drawn, 1 + (fid % 4) / 4.0 as larger, fid % 17 as kind
+        from buildings" && mv points.gpkg town.gpkg || fail "no points are made"
+alike o.gpkg 99M --symbol square:9 --effort 0
+alike o.gpkg 99M --symbol-field drawn --symbol-size-field larger --effort 0 --max-shift 5 \
+    --barrier roads.gpkg,width=2,gap=0 --where 'kind < 9' --weight-field larger
+alike o.geojson 99M --symbol disc:4 --effort 0 --layers symbols
+alike o.shp 99M --symbol disc:4 --effort 0 --layers main,symbols
+
 # What is not done in parts, and too little memory.
-for words in '--barrier town.gpkg,layer=buildings' '--report r.html' '--proof p.txt'; do
+for words in '--report r.html' '--proof p.txt'; do
     # shellcheck disable=SC2086
     refused 2 "in parts with ${words%% *}" separate town.gpkg o.gpkg -l buildings --max-memory 1G $words
 done

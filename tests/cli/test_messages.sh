@@ -147,15 +147,17 @@ line = json.loads(open("err", encoding="utf-8").read())
 assert (line["layer"], line["fid"], line["id"]) == ("odd\ufffd", 1, "k" + 4 * "\ufffd"), line
 X
 
-# Numbers part no kinds of what GDAL says.
+# Numbers part no kinds of what GDAL says; where it says it at all, which 3.10 does not of these.
 {
     echo id,n,WKT
     for i in $(seq 1 25); do echo "$i,12345678901234567890123$i,\"POLYGON(($((10 * i)) 0,$((10 * i + 4)) 0,$((10 * i + 4)) 4,$((10 * i)) 0))\""; done
 } >wide.csv
 echo 'Integer64,Integer64,WKT' | sed 's/[^,]*/"&"/g' >wide.csvt
 expect 0 check wide.csv --oo GEOM_POSSIBLE_NAMES=WKT
-same "$(grep -c overflow err)" 11 "of GDAL's own:"
-same "$(tail -n 1 err | cut -d' ' -f3-8)" '15 more like these, the first' "the sum of GDAL's own:"
+if ogrinfo -ro -al -q wide.csv -oo GEOM_POSSIBLE_NAMES=WKT 2>&1 | grep -q overflow; then
+    same "$(grep -c overflow err)" 11 "of GDAL's own:"
+    same "$(tail -n 1 err | cut -d' ' -f3-8)" '15 more like these, the first' "the sum of GDAL's own:"
+fi
 
 # A terminal: a bar where stderr is one, and nothing else changes.
 on_terminal() {
@@ -177,18 +179,21 @@ open("err", "wb").write(said.replace(b"\r\n", b"\n"))
 sys.exit(run.wait())
 X
 }
-on_terminal check sound.gpkg || fail 'on a terminal'
-same "$(cat err)" '0...10...20...30...40...50...60...70...80...90...100 - done.' 'a bar on a terminal:'
-on_terminal check sound.gpkg -q || fail 'on a terminal'
-same "$(cat err)" '' 'quiet on a terminal:'
-on_terminal check sound.gpkg --messages json || fail 'on a terminal'
-same "$(cat err)" '' 'JSON on a terminal:'
-on_terminal check sound.gpkg --progress=plain || fail 'on a terminal'
-same "$(wc -l <err)" 101 'plain on a terminal:'
-on_terminal sum square:1 square:1 || fail 'on a terminal'
-same "$(cat err)" '' 'no layer, no bar:'
-on_terminal check in.gpkg || fail 'on a terminal'
-same "$(grep -c '^sunder: warning: ' err)" 11 'warnings begin lines on a terminal:'
+# A root without devices has no terminal to give.
+if python3 -c 'import pty; pty.openpty()' 2>/dev/null; then
+    on_terminal check sound.gpkg || fail 'on a terminal'
+    same "$(cat err)" '0...10...20...30...40...50...60...70...80...90...100 - done.' 'a bar on a terminal:'
+    on_terminal check sound.gpkg -q || fail 'on a terminal'
+    same "$(cat err)" '' 'quiet on a terminal:'
+    on_terminal check sound.gpkg --messages json || fail 'on a terminal'
+    same "$(cat err)" '' 'JSON on a terminal:'
+    on_terminal check sound.gpkg --progress=plain || fail 'on a terminal'
+    same "$(wc -l <err)" 101 'plain on a terminal:'
+    on_terminal sum square:1 square:1 || fail 'on a terminal'
+    same "$(cat err)" '' 'no layer, no bar:'
+    on_terminal check in.gpkg || fail 'on a terminal'
+    same "$(grep -c '^sunder: warning: ' err)" 11 'warnings begin lines on a terminal:'
+fi
 expect 0 check sound.gpkg
 [ ! -s err ] || fail 'progress where there is no terminal'
 expect 0 check sound.gpkg --progress

@@ -8,7 +8,7 @@ expect 0 --options-json
 mv out options.json
 refused 2 'unknown option' separate --options-json a b
 
-for command in separate check sum pair buffer route; do "$SUNDER" $command --help >help.$command; done
+for command in separate check sum pair buffer route plan merge; do "$SUNDER" $command --help >help.$command; done
 python3 "$SUNDER_SOURCE/tests/cli/options.py" help <options.json >said || fail "$(cat said)"
 
 # Each option by itself, in all of its spellings, is asked of the parser: is there a value to it, may it come twice?
@@ -27,14 +27,15 @@ id,WKT
 1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
 X
 refused 2 'needs INPUT OUTPUT' separate in.gpkg
+refused 2 '--shards N is missing' plan in.gpkg in.plan
 refused 2 '--shape is missing' buffer in.gpkg out.gpkg
 refused 2 '--robot SHAPE is missing' route square:1 --from 5,5 --to 6,6
 refused 2 '--from X,Y is missing' route square:1 --robot square:1 --to 6,6
 refused 2 '--to X,Y is missing' route square:1 --robot square:1 --from 5,5
 same "$(json '[.commands[].options[] | select(.needed) | .name] | sort | join(" ")' options.json)" \
-    '--from --robot --shape --to' 'needed:'
+    '--from --robot --shape --shards --to' 'needed:'
 same "$(json '[.commands[] | .name + ":" + ([.operands[] | select(.needed) | .name] | join(","))] | join(" ")' options.json)" \
-    'separate:INPUT,OUTPUT check:INPUT sum:P,Q pair:P,Q buffer:INPUT,OUTPUT route:OBSTACLES' 'operands:'
+    'separate:INPUT,OUTPUT check:INPUT sum:P,Q pair:P,Q buffer:INPUT,OUTPUT route:OBSTACLES plan:INPUT,PLAN merge:PLAN,OUTPUT' 'operands:'
 
 # A default that can be typed is what holds without it.
 expect 0 separate in.gpkg plain.gpkg --quiet

@@ -9,7 +9,7 @@ sed -n '3p' out | grep -qE '^GMP [0-9]+\.[0-9]+\.[0-9]+$' || fail "--version say
 same "$(wc -l <out)" 3 'lines of --version'
 expect 0 --help
 mv out commands
-for command in separate check sum pair buffer route; do
+for command in separate check sum pair buffer route plan merge; do
     says commands "  $command "
     expect 0 $command --help
     [ ! -s err ] || fail "$command --help writes to stderr"
@@ -47,12 +47,14 @@ id,WKT
 X
 # Every word of every choice that --help lists is known to the enumeration that it is of.
 words_tried=0
-for command in separate check sum pair buffer route; do
+for command in separate check sum pair buffer route plan merge; do
     case $command in
     check) operands=(in.gpkg) ;;
     sum | pair) operands=(square:1 square:1) ;;
     buffer) operands=(in.gpkg o.gpkg --shape square:1) ;;
     route) operands=(square:1 --robot square:1 --from '5,5' --to '6,6') ;;
+    plan) operands=(in.gpkg in.plan --shards 2) ;;
+    merge) continue ;; # it has no choices of its own
     *) operands=(in.gpkg o.gpkg) ;;
     esac
     "$SUNDER" $command --help | grep -oE -- '--[a-z-]+ [a-z0-9-]+(\|[a-z0-9-]+)+' >choices
@@ -60,6 +62,7 @@ for command in separate check sum pair buffer route; do
         for word in ${words//|/ }; do
             run $command "${operands[@]}" "$option" "$word" --overwrite </dev/null
             [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || fail "$command $option $word: $status"
+            rm -rf in.plan
             words_tried=$((words_tried + 1))
         done
     done <choices

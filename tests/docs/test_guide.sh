@@ -18,7 +18,7 @@ pages=("$@")
 work=$(mktemp -d)
 stop() { :; }
 trap 'stop; rm -rf "$work"' EXIT
-export PATH=$build:$PATH LC_ALL=C.UTF-8
+export PATH=$build:$source/gis/cluster:$PATH LC_ALL=C.UTF-8
 
 # What a page wants beyond the programs: the installed library, a database server. Status 1, and why, where it is missing.
 library() {

@@ -2,7 +2,8 @@
  * shards: moves, statuses, blocks, conflicts, pushes, sums.
  *
  * Layers are towns of slanted boxes, some of them crowded, some in rows that touch, some fixed or limited, some
- * of blocks whose members are far from each other. */
+ * of blocks whose members are far from each other; some with barriers: roads through all of it or of a few metres,
+ * meadows, many in one place, some far away. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +19,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST = 4000 };
+enum { MOST = 4000, BARRIERS = 1500 };
 
 static char directory[] = "/tmp/test_parts.XXXXXX";
 
@@ -26,6 +27,8 @@ typedef struct town {
     sunder_feature feature[MOST];
     size_t n;
     sunder_layer_options how;
+    sunder_barrier barrier[BARRIERS];
+    size_t barriers;
 } town;
 
 static const sunder_shape *box_at(rng *r, double x, double y, double w, double h, bool slanted)
@@ -40,7 +43,7 @@ static const sunder_shape *box_at(rng *r, double x, double y, double w, double h
     return shape;
 }
 
-static void lay_out(town *t, rng *r)
+static void lay_out(town *t, rng *r, size_t n)
 {
     sunder_layer_options_init(&t->how);
     t->how.gap = rng_once_in(r, 4) ? 0 : 1 + rng_unit(r);
@@ -53,7 +56,7 @@ static void lay_out(town *t, rng *r)
     const bool limited = rng_once_in(r, 2), numbered = rng_once_in(r, 2);
     const double pitch = 15 + 4 * rng_unit(r), crowded = 0.01 + 0.02 * rng_unit(r);
     const size_t row = 40 + (size_t)rng_int(r, 0, 60);
-    for (t->n = 0; t->n < MOST; t->n++) {
+    for (t->n = 0; t->n < n; t->n++) {
         const bool street = t->n / row % 7 == 3 && t->n % row < 50; /* fixed by its first */
         const bool crowd = rng_unit(r) < crowded, terrace = street || rng_once_in(r, 12);
         const double x = 4000.25 + pitch * (double)(t->n % row), y = 9000 + pitch * (double)(t->n / row);
@@ -70,6 +73,104 @@ static void lay_out(town *t, rng *r)
         t->feature[k] = t->feature[other];
         t->feature[other] = swap;
     }
+}
+
+/* ---- Barriers ---------------------------------------------------------------------------------------------------- */
+
+static double *line_of(rng *r, double x, double y, double dx, double dy, size_t n, double shaken)
+{
+    double *xy = malloc(2 * n * sizeof *xy);
+    assert_non_null(xy);
+    for (size_t k = 0; k < n; k++) {
+        xy[2 * k] = x + dx * (double)k + shaken * rng_unit(r);
+        xy[2 * k + 1] = y + dy * (double)k + shaken * rng_unit(r);
+    }
+    return xy;
+}
+
+static void add_line(town *t, rng *r, const double from[2], const double step[2], size_t n)
+{
+    if (t->barriers == BARRIERS) return;
+    size_t *end = malloc(sizeof *end);
+    assert_non_null(end);
+    *end = n;
+    t->barrier[t->barriers++] = (sunder_barrier){
+        .geometry = {.xy = line_of(r, from[0], from[1], step[0], step[1], n, 1), .line_end = end, .lines = 1},
+        .width = rng_once_in(r, 3) ? 0 : 2 + 3 * rng_unit(r),
+        .gap = rng_once_in(r, 2) ? -1 : 2 * rng_unit(r),
+        .side = rng_once_in(r, 2)};
+}
+
+static void add_meadow(town *t, rng *r, double x, double y, double size)
+{
+    if (t->barriers == BARRIERS) return;
+    t->barrier[t->barriers++] = (sunder_barrier){.geometry = {.shape = box_at(r, x, y, size, size / 2, true)},
+                                                 .gap = rng_once_in(r, 2) ? -1 : rng_unit(r),
+                                                 .side = rng_once_in(r, 3)};
+}
+
+static void lay_barriers(town *t, rng *r, bool any)
+{
+    double all[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    t->barriers = 0;
+    if (!any) return;
+    for (size_t k = 0; k < t->n; k++) {
+        double box[4];
+        sunder_shape_box(t->feature[k].shape, box);
+        for (int c = 0; c < 4; c++) all[c] = c < 2 ? fmin(all[c], box[c]) : fmax(all[c], box[c]);
+    }
+    const double w = all[2] - all[0], h = all[3] - all[1];
+    for (int k = 0; k < 6; k++) /* through all parts */
+        add_line(t, r, (double[]){all[0] + w * rng_unit(r), all[1] - 20}, (double[]){w / 900, h / 60}, 64);
+    for (int k = 0; k < 6; k++)
+        add_line(t, r, (double[]){all[0] - 20, all[1] + h * rng_unit(r)}, (double[]){w / 60, -h / 2000}, 64);
+    for (int k = 0; k < 60; k++)
+        add_line(t, r, (double[]){all[0] + w * rng_unit(r), all[1] + h * rng_unit(r)},
+                 (double[]){20 * rng_unit(r) - 10, 20 * rng_unit(r) - 10}, (size_t)rng_int(r, 1, 6));
+    for (int k = 0; k < 30; k++)
+        add_meadow(t, r, all[0] + w * rng_unit(r), all[1] + h * rng_unit(r), 3 + 9 * rng_unit(r));
+    if (rng_once_in(r, 2)) /* nearly all in one place */
+        for (int k = 0; k < 300; k++)
+            add_line(t, r, (double[]){all[0] + w / 2, all[1] + h / 2}, (double[]){3 * rng_unit(r), 3 * rng_unit(r)}, 2);
+    add_line(t, r, (double[]){all[0] - 9 * w, all[1] - 9 * h}, (double[]){1, 1}, 9);
+    /* What is given up is asked about everything in reach, so this is kept small. */
+    for (size_t k = 0; k < t->n; k++) t->feature[k].max_shift = fmin(t->feature[k].max_shift, 2);
+    t->how.barrier_reach = INFINITY;
+    t->how.effort = 0;
+}
+
+static void clear_barriers(town *t)
+{
+    for (size_t k = 0; k < t->barriers; k++) {
+        const sunder_obstacle *o = &t->barrier[k].geometry;
+        sunder_shape_free((sunder_shape *)o->shape);
+        free((double *)o->xy);
+        free((size_t *)o->line_end);
+    }
+    t->barriers = 0;
+}
+
+/* Numbers may have holes; here these are between all of them. */
+static size_t number_of(const town *t, size_t thing)
+{
+    return thing < t->n || thing == SIZE_MAX ? thing : t->n + 2 * (thing - t->n);
+}
+
+static gis_spooled_barriers barriers_of(const town *t)
+{
+    gis_barriers_writer *writer;
+    gis_spooled_barriers spool = {0};
+    gis_error error;
+    if (t->barriers == 0) return spool;
+    assert_true(gis_barriers_create(directory, t->how.gap, &writer, &error));
+    for (size_t k = 0; k < t->barriers; k++) {
+        const gis_part_barrier barrier = {2 * k, (int64_t)k, "roads", t->barrier[k]};
+        assert_true(gis_barriers_add(writer, &barrier, &error));
+    }
+    if (!gis_barriers_finish(writer, &error)) fail_msg("%s", error.message);
+    gis_barriers_writer_free(writer);
+    assert_true(gis_barriers_open(directory, &spool, &error));
+    return spool;
 }
 
 static gis_spool *spool_of(const town *t, unsigned shards)
@@ -90,21 +191,25 @@ static gis_spool *spool_of(const town *t, unsigned shards)
 
 /* ---- Comparing --------------------------------------------------------------------------------------------------- */
 
-static void demand_same_features(const town *t, const sunder_report *whole, const gis_joined *j)
+static void demand_same_features(const town *t, const sunder_report *whole, gis_joined *j)
 {
-    size_t row = 0, block = 0, still = 0;
+    size_t block = 0, rows = 0;
+    bool any;
+    gis_error error;
+    gis_sorted_again(&j->rows);
+    assert_true(gis_sorted_next(&j->rows, &any, &error));
     for (size_t k = 0; k < t->n; k++) {
-        double move[2], none[2] = {0, 0};
-        const double *got = none;
+        double move[2], got[2] = {0, 0};
         sunder_feature_status status =
             t->feature[k].fixed || t->feature[k].max_shift == 0 ? SUNDER_FEATURE_FIXED : SUNDER_FEATURE_UNMOVED;
         int64_t of = -1;
         sunder_report_move(whole, k, &move[0], &move[1]);
-        while (still < j->stills && j->still[still].index < k) still++;
-        if (still < j->stills && j->still[still].index == k) status = j->still[still].status;
-        if (row < j->rows && j->parts->row[j->row[row]].index == k) {
-            got = j->parts->row[j->row[row]].move;
-            status = j->parts->row[j->row[row++]].status;
+        if (any && j->rows.head.first == k) {
+            const gis_part_result *one = &j->rows.one;
+            status = one->rows ? one->row->status : gis_joined_status(j, one->still);
+            if (one->rows) memcpy(got, one->row->move, sizeof got);
+            rows++;
+            assert_true(gis_sorted_next(&j->rows, &any, &error));
         }
         if (block < j->blocks && j->block[block].a == k) of = (int64_t)j->block[block++].b;
         if (move[0] != got[0] || move[1] != got[1] || status != sunder_report_status(whole, k) ||
@@ -113,31 +218,36 @@ static void demand_same_features(const town *t, const sunder_report *whole, cons
                      (unsigned long long)test_seed(), k, move[0], move[1], (int)sunder_report_status(whole, k),
                      (long long)sunder_report_block(whole, k), got[0], got[1], (int)status, (long long)of);
     }
-    assert_int_equal(row, j->rows);
+    assert_true(!any && rows == j->rows.n);
     assert_int_equal(block, j->blocks);
 }
 
 static double or_none(double length) { return isnan(length) ? -1 : length; }
 
-static void demand_same_conflicts(const sunder_report *whole, const gis_joined *j)
+static void demand_same_conflicts(const town *t, const sunder_report *whole, gis_joined *j)
 {
     size_t n;
+    bool any;
+    gis_error error;
     const sunder_conflict *c = sunder_report_conflicts(whole, &n);
-    assert_int_equal(n, j->conflicts);
+    assert_int_equal(n, j->conflicts.n);
     for (size_t k = 0; k < n; k++) {
-        const sunder_conflict *d = &j->parts->conflict[j->conflict[k]];
-        assert_true(c[k].a == d->a && c[k].b == d->b && c[k].kind == d->kind && c[k].reason == d->reason);
+        assert_true(gis_sorted_next(&j->conflicts, &any, &error) && any);
+        const sunder_conflict *d = &j->conflicts.one.conflict->is;
+        assert_true(c[k].a == d->a && number_of(t, c[k].b) == d->b && c[k].kind == d->kind && c[k].reason == d->reason);
         assert_true(c[k].distance == d->distance && c[k].before == d->before && c[k].depth == d->depth);
         assert_true(or_none(c[k].need_shift) == or_none(d->need_shift));
-        assert_true(or_none(c[k].need_gap) == or_none(d->need_gap) && c[k].need_gone == d->need_gone);
+        assert_true(or_none(c[k].need_gap) == or_none(d->need_gap) && number_of(t, c[k].need_gone) == d->need_gone);
         assert_int_equal(c[k].n_blocked_by, d->n_blocked_by);
-        for (size_t i = 0; i < d->n_blocked_by; i++) assert_int_equal(c[k].blocked_by[i], d->blocked_by[i]);
+        for (size_t i = 0; i < d->n_blocked_by; i++)
+            assert_int_equal(number_of(t, c[k].blocked_by[i]), j->conflicts.one.blocker[i]);
     }
     const sunder_push *p = sunder_report_pushes(whole, &n);
-    assert_int_equal(n, j->pushes);
+    assert_int_equal(n, j->pushes.n);
     for (size_t k = 0; k < n; k++) {
-        const sunder_push *q = &j->parts->push[j->push[k]];
-        assert_true(p[k].a == q->a && p[k].b == q->b && p[k].force == q->force && p[k].n[0] == q->n[0]);
+        assert_true(gis_sorted_next(&j->pushes, &any, &error) && any);
+        const sunder_push *q = &j->pushes.one.push->is;
+        assert_true(p[k].a == q->a && number_of(t, p[k].b) == q->b && p[k].force == q->force && p[k].n[0] == q->n[0]);
     }
 }
 
@@ -156,43 +266,71 @@ static void demand_same_sums(const sunder_report *whole, const gis_joined *j)
     assert_true(s.cost == t->cost && s.lower_bound == t->lower_bound && s.verified == t->verified);
 }
 
+/* Each part in a file of its own, or all of them in one. */
+static void separate_parts(gis_layout *layout, unsigned shards, bool apart)
+{
+    gis_part_file file = {0};
+    gis_part_result result = {0};
+    gis_error error;
+    for (unsigned k = 0; k < shards; k++) {
+        const gis_part_stamp stamp = {.version = "1", .shard = k + 1, .shards = apart ? shards : 1};
+        const bool opens = apart || k == 0, ends = apart || k + 1 == shards;
+        gis_part_result_empty(&result);
+        if (!gis_parts_shards(layout, k, k + 1, &result, &error) ||
+            (opens && !gis_part_file_create(&file, directory, &stamp, &error)) ||
+            !gis_part_file_add(&file, &result, &error) || (ends && !gis_part_file_place(&file, directory, &error)))
+            fail_msg("%s", error.message);
+    }
+    gis_part_result_clear(&result);
+}
+
 static unsigned compare(const town *t, const sunder_report *whole, unsigned shards, double halo)
 {
     gis_spool *spool = spool_of(t, shards);
-    gis_part_result result = {0};
+    gis_part_file file[7];
     gis_joined joined;
     gis_error error;
     gis_layout layout;
-    if (!gis_layout_make(spool, &t->how, true, &layout, &error)) fail_msg("%s", error.message);
+    const bool apart = halo < 0;
+    const unsigned files = apart ? shards : 1;
+    if (!gis_layout_make(spool, t->how.gap, true, &layout, &error)) fail_msg("%s", error.message);
+    layout.how = t->how;
     if (halo >= 0) layout.halo = halo;
-    for (unsigned k = 0; k < shards; k++)
-        if (!gis_parts_shards(&layout, k, k + 1, &result, &error)) fail_msg("%s", error.message);
-    if (!gis_parts_join(&layout, &result, &joined, &error)) fail_msg("%s", error.message);
+    layout.barriers = barriers_of(t);
+    layout.features = t->n;
+    separate_parts(&layout, shards, apart);
+    for (unsigned k = 0; k < files; k++) {
+        const gis_part_stamp stamp = {.version = "1", .shard = k + 1, .shards = files};
+        if (!gis_part_file_open(&file[k], directory, &stamp, &error)) fail_msg("%s", error.message);
+    }
+    if (!gis_parts_join(&layout, file, files, directory, &joined, &error)) fail_msg("%s", error.message);
     demand_same_features(t, whole, &joined);
-    demand_same_conflicts(whole, &joined);
+    demand_same_conflicts(t, whole, &joined);
     demand_same_sums(whole, &joined);
     const unsigned more = joined.runs - shards;
     gis_joined_clear(&joined);
-    gis_part_result_clear(&result);
+    for (unsigned k = 0; k < files; k++) gis_part_file_close(&file[k]);
+    gis_barriers_close(&layout.barriers);
     gis_layout_clear(&layout);
     gis_spool_close(spool);
     return more;
 }
 
-static void test_towns_in_parts(void **state)
+static void separate_towns(bool barriers)
 {
-    (void)state;
     static town t;
     unsigned more = 0;
     size_t moved = 0;
     for (size_t number = 0; number < test_count(4); number++) {
-        rng r = rng_start(test_seed(), 8200 + number);
-        lay_out(&t, &r);
+        rng r = rng_start(test_seed(), (barriers ? 8300 : 8200) + number);
+        lay_out(&t, &r, barriers ? MOST / 8 : MOST);
+        lay_barriers(&t, &r, barriers);
         sunder_layer *layer;
         sunder_report *whole;
         sunder_error why;
         sunder_layer_summary s;
         assert_int_equal(sunder_layer_new(t.feature, t.n, &layer, &why), SUNDER_OK);
+        assert_int_equal(sunder_layer_set_barriers(layer, t.barrier, t.barriers, &why), SUNDER_OK);
         assert_int_equal(sunder_layer_separate(layer, &t.how, &whole, &why), SUNDER_OK);
         sunder_report_summary(whole, &s);
         moved += s.moved;
@@ -200,10 +338,23 @@ static void test_towns_in_parts(void **state)
         more += compare(&t, whole, 7, t.how.gap); /* hardly a halo */
         sunder_report_free(whole);
         sunder_layer_free(layer);
+        clear_barriers(&t);
         for (size_t k = 0; k < t.n; k++) sunder_shape_free((sunder_shape *)t.feature[k].shape);
     }
     print_message("%zu features moved; %u parts were separated once more\n", moved, more);
     assert_true(moved > 0 && more > 0);
+}
+
+static void test_towns_in_parts(void **state)
+{
+    (void)state;
+    separate_towns(false);
+}
+
+static void test_barriers_in_parts(void **state)
+{
+    (void)state;
+    separate_towns(true);
 }
 
 static int set_up(void **state)
@@ -222,6 +373,6 @@ static int tear_down(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_towns_in_parts)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_towns_in_parts), cmocka_unit_test(test_barriers_in_parts)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

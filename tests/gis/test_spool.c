@@ -10,6 +10,7 @@
 #include "base/curve.h"
 #include "random.h"
 #include "spool/index.h"
+#include "spool/record.h"
 #include "spool/sort.h"
 #include "spool/spool.h"
 
@@ -281,6 +282,16 @@ static bool note(void *user, const unsigned char *record, gis_error *error)
     return true;
 }
 
+static bool find_place(void *user, unsigned char *record, gis_error *error)
+{
+    static const double all[] = {-100000, -70000, 100000, 70000};
+    gis_spool_head *head = gis_spool_record_head(record);
+    (void)user;
+    (void)error;
+    head->along = gis_spool_along(all, head->box);
+    return true;
+}
+
 /* The same order, whatever fits into memory at a time: also where not even one record does. */
 static void test_order(void **state)
 {
@@ -298,11 +309,12 @@ static void test_order(void **state)
     assert_true(gis_spool_file_flush(&input, &error));
     for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
         const gis_spool_sorting sorting = {.from = &input,
-                                           .box = {-100000, -70000, 100000, 70000},
                                            .directory = directory,
+                                           .parts = "features.runs",
                                            .run = runs[k],
+                                           .prepare = find_place,
                                            .take = note,
-                                           .take_user = &o[k]};
+                                           .user = &o[k]};
         o[k].n = 0;
         assert_true(gis_spool_sort(&sorting, &error));
         assert_int_equal(o[k].n, b->n);

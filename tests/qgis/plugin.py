@@ -342,6 +342,31 @@ class SeparateTest(Case):
         done = self.run_algorithm("separate", {"INPUT": empty, "GAP": 1, "OUTPUT": TEMPORARY})
         self.assertEqual(geometries(self.source(done["OUTPUT"])), {})
 
+    def test_arcs_and_measures(self):
+        arc = "CurvePolygon (CompoundCurve (CircularString (%d 0, %d 4, %d 0), (%d 0, %d 0)))"
+        square = "((%d 0 1.5, %d 0 2.5, %d 4 3.5, %d 0 1.5))"
+        for kind, texts in (("CurvePolygon", [arc % (x, x + 4, x + 8, x + 8, x) for x in (0, 6)]),
+                            ("PolygonM", ["PolygonM " + square % (x, x + 4, x + 4, x) for x in (0, 3)]),
+                            ("MultiPolygonZM", ["MultiPolygonZM (((%d 0 1 5, %d 0 2 6, %d 4 3 7, %d 0 1 5)))"
+                                                % (x, x + 4, x + 4, x) for x in (0, 3)])):
+            layer = QgsVectorLayer(kind + "?crs=EPSG:25832", kind, "memory")
+            for text in texts:
+                feature = QgsFeature(layer.fields())
+                feature.setGeometry(QgsGeometry.fromWkt(text))
+                self.assertFalse(feature.geometry().isNull(), text)
+                layer.dataProvider().addFeature(feature)
+            copied = self.file(kind + ".gpkg")
+            import processing
+            processing.run("native:savefeatures", {"INPUT": layer, "OUTPUT": copied})
+            self.sunder("separate", copied, self.file("theirs.gpkg"), "--gap=1", "--quiet", "--overwrite")
+            theirs = geometries(self.file("theirs.gpkg"), kind)
+            self.assertEqual(len(theirs), 2)
+            self.assertNotEqual(theirs, geometries(copied))
+            for given in (layer, copied):
+                done = self.run_algorithm("separate", {"INPUT": given, "GAP": 1, "OUTPUT": TEMPORARY})
+                self.assertEqual(geometries(self.source(done["OUTPUT"])), theirs, kind)
+                self.assertEqual(QgsVectorLayer(self.source(done["OUTPUT"]), "x", "ogr").wkbType(), layer.wkbType())
+
     def test_nothing_is_left_lying_about(self):
         from qgis.core import QgsProcessingUtils
         def lying():

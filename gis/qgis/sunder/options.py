@@ -138,6 +138,9 @@ LOG_LABEL = "Log of all errors and warnings"
 _QGIS_CHOOSES = "which features is chosen in QGIS: by the layer's filter, its selection, or a layer made before"
 _QGIS_WRITES = "the program writes a GeoPackage of the plug-in's; QGIS writes it where the dialog says"
 _OURS = "set by the plug-in"
+_SHARDS = "a layer in shards is for clusters, which have no dialogs"
+# Commands that no dialog runs, and why.
+LEFT_OUT_COMMANDS = {"plan": _SHARDS, "merge": _SHARDS}
 LEFT_OUT = {
     "--input-layer": _OURS, "--where": _QGIS_CHOOSES, "--sql": _QGIS_CHOOSES, "--dialect": _QGIS_CHOOSES,
     "--bbox": _QGIS_CHOOSES, "--if": _QGIS_CHOOSES, "--oo": _QGIS_CHOOSES, "--config": _QGIS_CHOOSES,
@@ -151,6 +154,7 @@ LEFT_OUT = {
     "--no-styles": "the styles are what QGIS loads", "--strict": _QGIS_WRITES, "--allow-inexact-output": _QGIS_WRITES,
     "--exact": "a layer holds doubles; rationals are for the shell",
     "--allow-conflicts": "what remains is told as a warning, not as a failure",
+    "--shard": _SHARDS,
     "--progress": _OURS, "--max-memory": "layers that memory does not hold are for the shell", "--quiet": _OURS, "--stats": _OURS, "--report": "an output", "--proof": "an output",
     "--log": "an output", "--messages": _OURS, "--help": "the panel beside the dialog",
 }

@@ -1,0 +1,117 @@
+/* plan.c: sunder plan. The layer onto the disk, cut, with all that its shards and their merge want to know. */
+#include "base/exit_status.h"
+#include "base/message.h"
+#include "commands/commands.h"
+#include "commands/planned.h"
+#include "commands/resolve.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+/* A process takes no more unless --max-memory says so; and more shards than this want their files another way. */
+static const double usual_memory = 1e9;
+enum { MOST_SHARDS = 100000 };
+
+typedef struct plan_run {
+    const char *directory;
+    gis_planned planned;
+    gis_layer_input_request request;
+    gis_plan_place place;
+    gis_in_parts parts;
+    bool quiet, there; /* there: nothing was to be done */
+} plan_run;
+
+static bool refuse(const gis_options *options, gis_error *error)
+{
+    static const gis_option_id never[] = {OPT_REPORT, OPT_PROOF};
+    for (size_t k = 0; k < sizeof never / sizeof *never; k++)
+        if (options->given[never[k]])
+            return gis_fail_usage(error, "%s: a layer is not separated in shards with it",
+                                  gis_option_table[never[k]].names);
+    return true;
+}
+
+static bool read_call(plan_run *run, const gis_options *options, gis_error *error)
+{
+    gis_plan *plan = &run->planned.plan;
+    if (!options->given[OPT_SHARDS])
+        return gis_fail_usage(error, "--shards N is missing: into how many the layer is to be cut");
+    if (!(options->number[OPT_SHARDS] >= 1 && options->number[OPT_SHARDS] <= MOST_SHARDS))
+        return gis_fail_usage(error, "--shards: 1 to %d", MOST_SHARDS);
+    plan->shards = (unsigned)options->number[OPT_SHARDS];
+    if (!refuse(options, error) || !gis_resolve_memory(options, &plan->memory, error)) return false;
+    if (plan->memory == 0) plan->memory = usual_memory;
+    const gis_options nothing = {0};
+    return gis_planned_arguments(options, plan, error) &&
+           gis_planned_parse(&run->planned, &nothing, run->directory, error) &&
+           gis_resolve_layer(&run->planned.options, &run->request, error) &&
+           gis_planned_rules(&run->planned.options, &run->request.rules, error);
+}
+
+/* What is there already may be this very plan; then all is done. */
+static bool compare_with_former(plan_run *run, gis_error *error)
+{
+    gis_plan former;
+    uint64_t checksum;
+    bool done = gis_plan_read(run->directory, &former, error);
+    if (done && !gis_plan_same_call(&former, &run->planned.plan))
+        done = gis_fail(error, "%s: there is a plan of another call already; remove it, or give another name",
+                        run->directory);
+    if (done && (done = gis_layer_checksum(&run->request, &checksum, error)) && checksum != former.facts.checksum)
+        done = gis_fail(error,
+                        "%s: there is a plan already, of %s as it was before it changed; remove it, or give "
+                        "another name",
+                        run->directory, run->request.source.path);
+    gis_plan_clear(&former);
+    run->there = done;
+    return done;
+}
+
+static bool make_plan(plan_run *run, gis_error *error)
+{
+    gis_plan *plan = &run->planned.plan;
+    gis_layer_facts *facts = &run->parts.facts;
+    bool taken = false;
+    if (!gis_plan_place_begin(run->directory, &run->place, error)) return false;
+    const char *place = run->place.path;
+    if (!gis_in_parts_begin(&run->request, place, plan->shards, plan->memory, &run->parts, error)) return false;
+    plan->facts = *facts; /* which are the parts' still */
+    plan->spool = gis_spool_checksum(run->parts.spool);
+    const bool written = gis_plan_status_checksum(place, &plan->status, error) &&
+                         gis_plan_describe(plan, &run->parts, place, error) && gis_plan_write(plan, place, error);
+    plan->facts = (gis_layer_facts){0};
+    if (!written || !gis_go_on(error) || !gis_plan_place_end(&run->place, run->directory, &taken, error)) return false;
+    return !taken || compare_with_former(run, error);
+}
+
+static void print(const plan_run *run)
+{
+    if (run->quiet) return;
+    if (run->there) {
+        printf("%s: done already\n", run->directory);
+        return;
+    }
+    printf("%s: %zu features in %u shard%s\n", run->directory, run->parts.facts.source.features,
+           run->planned.plan.shards, run->planned.plan.shards == 1 ? "" : "s");
+    printf("next: sunder separate --shard K %s for K from 1 to %u, then sunder merge %s OUTPUT\n", run->directory,
+           run->planned.plan.shards, run->directory);
+}
+
+int gis_command_plan(const gis_options *options)
+{
+    gis_error error;
+    plan_run run = {.directory = options->operand[1], .quiet = options->given[OPT_QUIET]};
+    gis_progress progress = gis_resolve_progress(options);
+    bool ok = read_call(&run, options, &error);
+    ok = ok && (access(run.directory, F_OK) == 0 ? compare_with_former(&run, &error) : make_plan(&run, &error));
+    if (ok) {
+        gis_progress_done(&progress);
+        print(&run);
+    }
+    const int status = ok ? GIS_DONE : gis_say_failure(&error);
+    gis_in_parts_clear(&run.parts);
+    gis_plan_place_clear(&run.place);
+    gis_layer_input_request_clear(&run.request);
+    gis_planned_clear(&run.planned);
+    return status;
+}

@@ -1,0 +1,147 @@
+/* planned.c: see planned.h. */
+#include "commands/planned.h"
+
+#include "commands/call.h"
+#include "commands/config.h"
+#include "commands/separate_run.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- The arguments of a plan ------------------------------------------------------------------------------------- */
+
+/* How a run of plan is watched is its own affair, and so is what it is about. */
+static bool is_planned(const gis_option *option)
+{
+    switch (option->id) {
+    case OPT_SHARDS:
+    case OPT_MAX_MEMORY: /* the plan has these as numbers */
+    case OPT_PROGRESS:
+    case OPT_QUIET:
+    case OPT_LOG:
+    case OPT_MESSAGES: return false;
+    default: return true;
+    }
+}
+
+static const gis_option *option_of(const char *name)
+{
+    for (int id = 0; id < OPT_N; id++)
+        if (strncmp(gis_option_table[id].names, name, strlen(name)) == 0 &&
+            strchr(" ", gis_option_table[id].names[strlen(name)]))
+            return &gis_option_table[id];
+    return NULL;
+}
+
+/* NULL: memory is out. */
+static char *absolute(const gis_option *option, const char *value)
+{
+    switch (option ? option->type : GIS_TYPE_TEXT) {
+    case GIS_TYPE_BARRIERS: return gis_plan_absolute_barrier(value);
+    case GIS_TYPE_SHAPE: return gis_plan_absolute_shape(value);
+    case GIS_TYPE_FILE: return gis_plan_absolute_output(value);
+    default: return CPLStrdup(value);
+    }
+}
+
+bool gis_planned_arguments(const gis_options *options, gis_plan *plan, gis_error *error)
+{
+    gis_call call = {0};
+    bool done = gis_call_list_of(options, is_planned, &call, error);
+    for (size_t k = 0; k < call.n && done; k++) {
+        char *value = absolute(option_of(call.option[k].name), call.option[k].value);
+        done = gis_plan_add_argument(plan, call.option[k].name, *value ? value : NULL, error);
+        CPLFree(value);
+    }
+    gis_call_clear(&call);
+    char *input = gis_plan_absolute_source(options->operand[0]);
+    done = done && gis_plan_add_argument(plan, "--", NULL, error) && gis_plan_add_argument(plan, input, NULL, error);
+    CPLFree(input);
+    return done;
+}
+
+/* ---- Parsed again ------------------------------------------------------------------------------------------------ */
+
+static const gis_command *find_separate(void)
+{
+    for (size_t k = 0; k < gis_n_commands; k++)
+        if (gis_commands[k].bit == GIS_SEPARATE) return &gis_commands[k];
+    return NULL;
+}
+
+static bool add_word(gis_planned *planned, const char *text, gis_error *error)
+{
+    char **more = realloc(planned->word, (planned->words + 1) * sizeof *more);
+    if (!more) return gis_no_memory(error);
+    planned->word = more;
+    planned->word[planned->words] = strdup(text);
+    return planned->word[planned->words++] || gis_no_memory(error);
+}
+
+static bool is_watching(const gis_option *option) { return (option->commands & GIS_MERGE) != 0; }
+
+static bool add_now(gis_planned *planned, const gis_options *now, gis_error *error)
+{
+    gis_call call = {0};
+    bool done = gis_call_list_of(now, is_watching, &call, error);
+    for (size_t k = 0; k < call.n && done; k++) {
+        const char *value = call.option[k].value;
+        char *word = CPLStrdup(*value ? CPLSPrintf("%s=%s", call.option[k].name, value) : call.option[k].name);
+        done = add_word(planned, word, error);
+        CPLFree(word);
+    }
+    gis_call_clear(&call);
+    return done;
+}
+
+/* Is this one of the plan's given now, too? */
+static bool is_overridden(const gis_options *now, const char *argument)
+{
+    for (int id = 0; id < OPT_N; id++) {
+        const size_t n = strcspn(gis_option_table[id].names, " ");
+        if (now->given[id] && is_watching(&gis_option_table[id]) &&
+            strncmp(gis_option_table[id].names, argument, n) == 0 && (argument[n] == '\0' || argument[n] == '='))
+            return true;
+    }
+    return false;
+}
+
+bool gis_planned_parse(gis_planned *planned, const gis_options *now, const char *output, gis_error *error)
+{
+    bool done = add_now(planned, now, error);
+    for (size_t k = 0; k < planned->plan.arguments && done; k++)
+        if (!is_overridden(now, planned->plan.argument[k])) done = add_word(planned, planned->plan.argument[k], error);
+    if (!done || !add_word(planned, output, error) ||
+        !gis_options_parse(find_separate(), (int)planned->words, planned->word, &planned->options, error))
+        return false;
+    gis_configure(&planned->options);
+    return true;
+}
+
+bool gis_planned_open(const char *directory, const gis_options *now, const char *output, gis_planned *planned,
+                      gis_error *error)
+{
+    *planned = (gis_planned){0};
+    return gis_plan_read(directory, &planned->plan, error) && gis_planned_parse(planned, now, output, error);
+}
+
+void gis_planned_clear(gis_planned *planned)
+{
+    gis_options_clear(&planned->options);
+    gis_plan_clear(&planned->plan);
+    for (size_t k = 0; k < planned->words; k++) free(planned->word[k]);
+    free(planned->word);
+    *planned = (gis_planned){0};
+}
+
+bool gis_planned_rules(const gis_options *options, gis_layer_rules *rules, gis_error *error)
+{
+    unsigned chosen;
+    const bool points = options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD];
+    if (!gis_separate_choose_layers(options->text[OPT_LAYERS], points, &chosen, error)) return false;
+    rules->keep_pushes = (chosen & GIS_SEPARATE_PUSHES) != 0;
+    rules->count_thin = true; /* whether a summary is printed is not known before the end */
+    return true;
+}

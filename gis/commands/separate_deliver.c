@@ -1,0 +1,48 @@
+/* separate_deliver.c: the end of a separation: its output, --stats, --report, --proof and the summary, all of them or
+ * none. */
+#include "commands/call.h"
+#include "commands/report.h"
+#include "commands/resolve.h"
+#include "commands/separate_run.h"
+
+#include "layer/proof.h"
+
+bool gis_separate_is_summarised(const gis_separate_run *run) { return !run->taken && !run->options->given[OPT_QUIET]; }
+
+static bool write_page(const gis_separate_run *run, gis_text *page, gis_error *error)
+{
+    gis_call call = {0};
+    bool ok = gis_call_list(run->options, &call, error);
+    const gis_page_request request = {
+        .input = &run->input,
+        .report = run->report,
+        .summary = &run->summary,
+        .unit = gis_separate_unit(run),
+        .output = run->to.output,
+        .main_layer = gis_resolve_sink(run->options, NULL, gis_source_name(run->input.source)).main_layer,
+        .verified = run->verified,
+        .optimality_gap = gis_separate_optimality_gap(&run->summary),
+        .losses = gis_sink_losses(run->sink),
+        .options = call.option,
+        .n_options = call.n,
+    };
+    ok = ok && gis_page_write(&request, page, error);
+    gis_call_clear(&call);
+    return ok;
+}
+
+bool gis_separate_deliver(const gis_separate_run *run, gis_error *error)
+{
+    gis_json stats = {0};
+    gis_text page = {0}, proof = {0};
+    bool ok = (!run->to.report || write_page(run, &page, error)) &&
+              (!run->to.proof || gis_proof_write(&run->input, run->report, &proof, error));
+    if (run->to.stats) gis_separate_stats(&stats, run);
+    const gis_delivery delivery = {
+        &run->to, run->sink, &stats, &page, &proof, gis_separate_is_summarised(run) ? gis_separate_print : NULL, run};
+    ok = ok && gis_deliver(&delivery, error);
+    gis_json_clear(&stats);
+    gis_text_clear(&page);
+    gis_text_clear(&proof);
+    return ok;
+}

@@ -1,0 +1,159 @@
+/* separate_figures.c: what came of a separation, in figures: for --stats, and in words on standard output. Keys stand
+ * in the order in which the interface lists them; scripts may rely on the keys. */
+#include "base/resources.h"
+#include "commands/report.h"
+#include "commands/resolve.h"
+#include "commands/separate_run.h"
+#include "read/crs_units.h"
+
+#include <cpl_conv.h>
+#include <math.h>
+#include <stdio.h>
+
+/* Whose move is the longest; OGRNullFID: nobody's, or it has no FID. */
+static GIntBig longest_fid(const gis_separate_run *run)
+{
+    const size_t feature = run->summary.max_feature;
+    if (feature >= run->input.n) return OGRNullFID;
+    return run->in_parts ? run->parts.joined.longest_fid : gis_source_fid(run->input.source, feature);
+}
+
+double gis_separate_optimality_gap(const sunder_layer_summary *summary)
+{
+    if (isinf(summary->cost)) return 1;
+    return summary->cost > 0 ? (summary->cost - summary->lower_bound) / summary->cost : 0;
+}
+
+static void json_displacement(gis_json *out, const gis_separate_run *run)
+{
+    const sunder_layer_summary *summary = &run->summary;
+    gis_json_key(out, "displacement");
+    gis_json_open(out, '{');
+    gis_json_put_double(out, "total", summary->total);
+    gis_json_put_double(out, "mean", summary->mean);
+    gis_json_put_double(out, "max", summary->max);
+    gis_json_key(out, "max_fid");
+    if (longest_fid(run) != OGRNullFID)
+        gis_json_signed(out, longest_fid(run));
+    else
+        gis_json_null(out);
+    gis_json_put_double(out, "cost", summary->cost);
+    gis_json_put_double(out, "lower_bound", summary->lower_bound);
+    gis_json_put_double(out, "optimality_gap", gis_separate_optimality_gap(summary));
+    gis_json_close(out, '}');
+}
+
+const char *gis_separate_unit(const gis_separate_run *run)
+{
+    OGRSpatialReferenceH crs = gis_source_crs(run->input.source);
+    char *name = NULL;
+    if (!gis_crs_is_known(crs)) return "unknown";
+    if (run->input.units.geographic)
+        OSRGetAngularUnits(crs, &name);
+    else
+        OSRGetLinearUnits(crs, &name);
+    return name ? name : "unknown"; /* the CRS owns it */
+}
+
+static void json_losses(gis_json *out, const gis_sentences *losses)
+{
+    gis_json_open(out, '[');
+    for (size_t i = 0; i < losses->n; i++) gis_json_string(out, losses->items[i]);
+    gis_json_close(out, ']');
+}
+
+void gis_separate_stats(gis_json *out, const gis_separate_run *run)
+{
+    const sunder_layer_summary *summary = &run->summary;
+    gis_json_open(out, '{');
+    gis_json_put_string(out, "command", "separate");
+    gis_json_put_string(out, "layer", gis_source_name(run->input.source));
+    gis_json_put_string(out, "unit", gis_separate_unit(run));
+    gis_json_put_size(out, "features", run->input.n);
+    gis_json_put_size(out, "vertices", summary->vertices);
+    gis_json_put_size(out, "blocks", summary->blocks);
+    gis_json_put_size(out, "clusters", summary->clusters);
+    gis_json_put_size(out, "clusters_optimal", summary->clusters_optimal);
+    gis_json_line(out);
+    gis_json_key(out, "conflicts");
+    gis_json_open(out, '{');
+    gis_json_key(out, "before");
+    gis_json_conflict_counts(out, &summary->before);
+    gis_json_key(out, "after");
+    gis_json_conflict_counts(out, &summary->after);
+    gis_json_close(out, '}');
+    gis_json_line(out);
+    gis_json_put_size(out, "moved", summary->moved);
+    gis_json_put_size(out, "blocked", summary->blocked);
+    gis_json_put_size(out, "skipped", summary->skipped);
+    gis_json_put_size(out, "invalid", run->input.invalid);
+    gis_json_put_size(out, "null", run->input.null);
+    gis_json_put_size(out, "rounded", summary->rounded);
+    gis_json_line(out);
+    json_displacement(out, run);
+    gis_json_line(out);
+    gis_json_put_bool(out, "verified", run->verified);
+    gis_json_key(out, "losses");
+    json_losses(out, gis_sink_losses(run->sink));
+    gis_json_line(out);
+    gis_json_key(out, "seconds");
+    gis_json_open(out, '{');
+    gis_json_seconds(out, "read", run->read);
+    gis_json_seconds(out, "solve", summary->seconds_solve);
+    gis_json_seconds(out, "verify", summary->seconds_verify);
+    gis_json_seconds(out, "write", run->write);
+    gis_json_seconds(out, "total", gis_clock() - run->start);
+    gis_json_close(out, '}');
+    gis_json_put_size(out, "peak_rss_bytes", gis_peak_rss());
+    gis_json_close(out, '}');
+    gis_json_raw(out, "\n");
+}
+
+/* A tolerance of 0 is the default where the gap is, and joins no walls that were drawn twice. */
+static void print_thin(const gis_separate_run *run)
+{
+    size_t thin = run->summary.thin;
+    if (thin == 0) return;
+    const char *unit = gis_crs_is_known(gis_source_crs(run->input.source)) ? gis_separate_unit(run) : "units";
+    double length = gis_layer_thin(&run->input);
+    printf("%zu %s by no more than %.6g %s; --touch-tolerance %.6g would join %s\n", thin,
+           thin == 1 ? "pair overlaps" : "pairs overlap", length, unit, length,
+           thin == 1 ? "it into one block" : "them into blocks");
+}
+
+bool gis_separate_print(const void *separated, gis_error *error)
+{
+    const gis_separate_run *run = separated;
+    (void)error; /* what stdio refuses shows when it is flushed */
+    const sunder_layer_summary *summary = &run->summary;
+    const sunder_conflict_counts *before = &summary->before, *after = &summary->after;
+    const struct {
+        const char *name;
+        size_t before, after;
+    } rows[] = {{"overlap", before->overlap, after->overlap},
+                {"too close", before->too_close, after->too_close},
+                {"barrier", before->barrier, after->barrier},
+                {"barrier near", before->barrier_near, after->barrier_near},
+                {"contained", before->contained, after->contained},
+                {"duplicate", before->duplicate, after->duplicate},
+                {"inside blocks", before->inside_blocks, after->inside_blocks}};
+    printf("%s: %zu features, %zu vertices, %zu blocks, %zu clusters\n", gis_source_name(run->input.source),
+           run->input.n, summary->vertices, summary->blocks, summary->clusters);
+    printf("conflicts           before      after\n");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        printf("  %-13s %10zu %10zu\n", rows[i].name, rows[i].before, rows[i].after);
+    print_thin(run);
+    printf("moved %zu, blocked %zu, skipped %zu, invalid %zu, null %zu, rounded %zu\n", summary->moved,
+           summary->blocked, summary->skipped, run->input.invalid, run->input.null, summary->rounded);
+    printf("displacement (%s): total %.6g, mean %.6g, max %.6g", gis_separate_unit(run), summary->total, summary->mean,
+           summary->max);
+    if (summary->max_feature < run->input.n) printf(" (FID " CPL_FRMT_GIB ")", longest_fid(run));
+    printf("\ncost %.6g, at least %.6g is needed (optimality gap %.3g)\n", summary->cost, summary->lower_bound,
+           gis_separate_optimality_gap(summary));
+    if (gis_any_conflict(after) && (run->chosen & GIS_SEPARATE_CONFLICTS))
+        printf("what remains in conflict is listed, each pair with its reason, in %s_conflicts\n",
+               gis_resolve_sink(run->options, NULL, gis_source_name(run->input.source)).main_layer);
+    printf("%s; %.3g s\n", run->verified ? "verified on the coordinates as written" : "not verified",
+           gis_clock() - run->start);
+    return true;
+}

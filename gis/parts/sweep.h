@@ -1,0 +1,28 @@
+/* sweep.h: which boxes meet, swept from left to right. */
+#ifndef GIS_PARTS_SWEEP_H
+#define GIS_PARTS_SWEEP_H
+
+#include "base/error.h"
+
+#include <stddef.h>
+
+typedef struct gis_swept {
+    double box[4];
+    size_t of; /* what the user knows it by; likewise: */
+    int kind;
+} gis_swept;
+
+/* Zeroed: none. */
+typedef struct gis_sweep {
+    gis_swept *box;
+    size_t n, room;
+} gis_sweep;
+
+/* An empty box (xmin > xmax) meets nothing. */
+bool gis_sweep_add(gis_sweep *sweep, const double box[4], size_t of, int kind, gis_error *error);
+/* Each pair once that has a point in common, in no order that would matter; changes the order of what was added. */
+typedef void gis_sweep_meets(void *user, const gis_swept *a, const gis_swept *b);
+void gis_sweep_run(gis_sweep *sweep, gis_sweep_meets *meets, void *user);
+void gis_sweep_clear(gis_sweep *sweep);
+
+#endif

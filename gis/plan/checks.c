@@ -1,0 +1,34 @@
+/* checks.c: see plan.h. The spool looks after its own files, cell by cell; but each might be one of another plan. */
+#include "plan/plan.h"
+
+#include "spool/checksum.h"
+#include "spool/file.h"
+
+#include <stdlib.h>
+
+enum { PIECE = 1 << 16 };
+
+bool gis_plan_status_checksum(const char *directory, uint64_t *checksum, gis_error *error)
+{
+    gis_spool_file file = {0};
+    unsigned char piece[PIECE];
+    *checksum = 0;
+    bool done = gis_spool_file_open(&file, directory, "status", error);
+    for (uint64_t at = 0; done && at < file.size; at += PIECE) {
+        const size_t n = file.size - at < PIECE ? (size_t)(file.size - at) : PIECE;
+        done = gis_spool_file_read(&file, at, piece, n, error) && gis_go_on(error);
+        if (done) *checksum = gis_spool_checksum_of(*checksum, piece, n);
+    }
+    gis_spool_file_close(&file);
+    return done;
+}
+
+bool gis_plan_check(const gis_plan *plan, const gis_in_parts *parts, bool status, gis_error *error)
+{
+    uint64_t now;
+    if (gis_spool_checksum(parts->spool) != plan->spool)
+        return gis_fail(error, "%s: features and cells are not those of this plan; make it anew", parts->directory);
+    if (!status) return true;
+    if (!gis_plan_status_checksum(parts->directory, &now, error)) return false;
+    return now == plan->status || gis_fail(error, "%s/status: it was altered; make the plan anew", parts->directory);
+}

@@ -1,0 +1,79 @@
+/* place.c: see plan.h. */
+#define _GNU_SOURCE /* mkdtemp() */
+#include "plan/plan.h"
+
+#include "base/remove_tree.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* How a directory is made, for whoever may look into it: mkdtemp() makes it for its owner alone. */
+static void open_to_others(const char *path)
+{
+    const mode_t mask = umask(0);
+    umask(mask);
+    (void)chmod(path, 0777 & ~mask);
+}
+
+bool gis_plan_place_begin(const char *directory, gis_plan_place *place, gis_error *error)
+{
+    size_t n = strlen(directory);
+    while (n > 1 && directory[n - 1] == '/') n--;
+    size_t name = n;
+    while (name > 0 && directory[name - 1] != '/') name--;
+    place->path = CPLStrdup(CPLSPrintf("%.*s.%.*s.XXXXXX", (int)name, directory, (int)(n - name), directory + name));
+    gis_hold();
+    const bool made = mkdtemp(place->path) != NULL;
+    const int why = errno;
+    if (made) place->leftover = gis_leftover_temporary(place->path);
+    gis_release();
+    if (made) {
+        open_to_others(place->path);
+        return true;
+    }
+    gis_fail(error, "%s: a directory cannot be made there: %s", directory, strerror(why));
+    CPLFree(place->path);
+    place->path = NULL;
+    return false;
+}
+
+/* That a directory has a name is on the disk only once the one that it is in is. */
+static void sync_parent(const char *directory)
+{
+    const int opened = open(CPLFormFilename(directory, "..", NULL), O_RDONLY | O_DIRECTORY);
+    if (opened < 0) return;
+    (void)fsync(opened);
+    close(opened);
+}
+
+bool gis_plan_place_end(gis_plan_place *place, const char *directory, bool *taken, gis_error *error)
+{
+    gis_hold();
+    const bool done = rename(place->path, directory) == 0;
+    const int why = errno;
+    if (done) {
+        gis_leftover_forget(place->leftover);
+        CPLFree(place->path);
+        *place = (gis_plan_place){0};
+    }
+    gis_release();
+    *taken = !done && (why == ENOTEMPTY || why == EEXIST || why == ENOTDIR);
+    if (done) sync_parent(directory);
+    return done || *taken || gis_fail(error, "%s: the plan cannot be put there: %s", directory, strerror(why));
+}
+
+void gis_plan_place_clear(gis_plan_place *place)
+{
+    if (!place->path) return;
+    gis_remove_tree(place->path);
+    gis_leftover_forget(place->leftover);
+    CPLFree(place->path);
+    *place = (gis_plan_place){0};
+}

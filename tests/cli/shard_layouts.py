@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Layers that are hard on whoever cuts them: shard_layouts.py FOLDER writes NAME.geojson for each of the names below.
+
+Coordinates are multiples of an eighth, so that walls and overlaps are what they look like.
+"""
+import json
+import random
+import sys
+
+
+def box(x, y, width, height):
+    return [[x, y], [x + width, y], [x + width, y + height], [x, y + height], [x, y]]
+
+
+def scattered(count, seed, size):
+    """Pairs of houses that overlap by a metre or two, all over a square of that size."""
+    dice = random.Random(seed)
+    rings = []
+    for _ in range(count):
+        x, y = dice.randrange(size * 8) / 8, dice.randrange(size * 8) / 8
+        rings += [box(x, y, 10, 8), box(x + 9 - dice.randrange(8) / 8, y + dice.randrange(16) / 8, 9, 9)]
+    return rings
+
+
+def chain():
+    """Each overlaps the next: from one end of the layer to the other, there and back, with a bend at each end."""
+    east = [box(100 + 9 * i, 100 + i / 8, 10, 10) for i in range(90)]
+    north = [box(901 + i / 8, 121 + 9 * i, 10, 10) for i in range(90)]
+    return east + north
+
+
+def block():
+    """A wall of houses that touch, around everything and across it, and pairs within that it is in the way of."""
+    wall = [box(20 * i, 0, 20, 10) for i in range(50)] + [box(20 * i, 990, 20, 10) for i in range(50)]
+    wall += [box(0, 10 + 20 * i, 10, 20) for i in range(49)] + [box(990, 10 + 20 * i, 10, 20) for i in range(49)]
+    wall += [box(10 + 20 * i, 500, 20, 10) for i in range(49)]
+    return wall + scattered(60, 3, 960)
+
+
+def one_place():
+    """All in one place of the curve, but for one far away."""
+    return [box(i % 5, i % 7, 10, 10) for i in range(24)] + [box(100000, 100000, 10, 10)]
+
+
+def few():
+    """Fewer features than shards."""
+    return [box(0, 0, 10, 10), box(9, 0, 10, 10), box(5000, 5000, 10, 10)]
+
+
+def duplicates():
+    """Twins and triplets on a grid whose step is a power of two: as a curve's borders are."""
+    rings = []
+    for i in range(8):
+        for j in range(8):
+            rings += [box(128 * i - 8, 128 * j - 8, 16, 16)] * (2 + (i + j) % 2)
+    return rings
+
+
+def great():
+    """Pairs all over, and a feature that holds them all, one that crosses them all."""
+    return [box(-100, -100, 1300, 1300)] + scattered(80, 5, 1000) + [box(-500, 512, 2000, 1)]
+
+
+def clusters():
+    """Crowds of seven to nine, which ask for rounds, wherever a border may be."""
+    dice = random.Random(11)
+    rings = []
+    for i in range(6):
+        for j in range(6):
+            for _ in range(7 + (i + j) % 3):
+                rings.append(box(64 * i + dice.randrange(120) / 8, 64 * j + dice.randrange(120) / 8, 10, 9))
+    return rings
+
+
+def main():
+    for make in (chain, block, one_place, few, duplicates, great, clusters):
+        features = []
+        for number, ring in enumerate(make()):
+            # Block 1: its members stand far from each other.
+            properties = {"id": f"f{number}", "blk": 1 if number % 29 == 0 else None, "height": 3 + number % 5}
+            features.append({"type": "Feature", "properties": properties,
+                             "geometry": {"type": "Polygon", "coordinates": [ring]}})
+        with open(f"{sys.argv[1]}/{make.__name__}.geojson", "w", encoding="utf-8") as file:
+            json.dump({"type": "FeatureCollection", "features": features,
+                       "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}}}, file)
+    with open(f"{sys.argv[1]}/line.geojson", "w", encoding="utf-8") as file:
+        # A road and a river through all of them.
+        json.dump({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}},
+                   "features": [{"type": "Feature", "properties": {"width": width},
+                                 "geometry": {"type": "LineString", "coordinates": points}}
+                                for width, points in ((6, [[-600, -600], [480, 505], [1600, 1600]]),
+                                                      (3, [[-600, 506], [1600, 507]]), (4, [[512, -600], [515, 1600]]))]}, file)
+
+
+main()

@@ -1,0 +1,42 @@
+# shellcheck shell=bash disable=SC1091
+# Layers that are hard to cut (shard_layouts.py), in 1, 2, 7 and 64 shards, worked on in no order and some twice: the bytes and
+# figures of one process.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+for tool in python3 jq; do command -v $tool >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }; done
+export SOURCE_DATE_EPOCH=1700000000
+python3 "$SUNDER_SOURCE/tests/cli/shard_layouts.py" . || fail "no layouts"
+figures() { jq -c 'del(.seconds, .peak_rss_bytes)' "$1"; }
+
+# All of 1 .. n, the odd ones backwards first.
+order() { seq 1 2 "$1" | tac; seq 2 2 "$1"; }
+
+# alike LAYOUT "SHARDS..." OPTIONS
+alike() {
+    local name=$1 shards=$2 n k wanted=0
+    shift 2
+    [ -e "$name.gpkg" ] || ogr2ogr -q "$name.gpkg" "$name.geojson" -nln houses || fail "$name.gpkg"
+    rm -rf whole parts plan-*
+    mkdir whole parts
+    "$SUNDER" separate "$name.gpkg" whole/o.gpkg "$@" --stats whole.json -q 2>err || wanted=$?
+    for n in $shards; do
+        expect 0 plan "$name.gpkg" "plan-$n" "$@" --stats parts.json -q --shards "$n"
+        for k in $(order "$n"); do expect 0 separate --shard "$k" "plan-$n"; done
+        expect 0 separate --shard 1 "plan-$n"
+        rm -f parts/o.gpkg parts.json
+        expect "$wanted" merge "plan-$n" parts/o.gpkg
+        cmp whole/o.gpkg parts/o.gpkg || fail "$name in $n shards, $*: another output"
+        same "$(figures parts.json)" "$(figures whole.json)" "$name in $n shards, $*: figures"
+    done
+}
+
+for layout in chain block one_place few duplicates great clusters; do
+    alike $layout '2 7' --gap 2 --effort 0.05
+    alike $layout '3' --gap 1 --effort 0 --block-field blk --contained separate --max-shift 20
+done
+alike block '1 64' --gap 2 --effort 0.05
+# Roads and a river through all of them.
+for layout in chain block great; do
+    alike $layout '5' --gap 1 --effort 0 --max-shift 15 --barrier line.geojson,width-field=width,gap=0.5
+done
+alike clusters '4' --gap 1 --effort 0 --max-shift 15 --no-blocks --allow-jumps --barrier line.geojson,side=no
+finish

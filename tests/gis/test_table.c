@@ -1,0 +1,231 @@
+/* A GeoPackage's table that is read past GDAL is, feature by feature, what GDAL reads; and a row that is not plain has
+ * GDAL read all of it. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "base/message.h"
+#include "read/source.h"
+#include "read/table.h"
+
+#include <cpl_conv.h>
+#include <cpl_vsi.h>
+#include <gdal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static char directory[] = "/tmp/test_table.XXXXXX";
+
+static char *path_of(const char *name)
+{
+    static char path[256];
+    snprintf(path, sizeof path, "%s/%s", directory, name);
+    return path;
+}
+
+/* ---- Layers ------------------------------------------------------------------------------------------------------ */
+
+static const char *const wkt[] = {
+    "POLYGON((0.1 0,7 0,7 7.3,0 7,0.1 0))",
+    "POLYGON((10 0,19 0,19 9,10 9,10 0),(12 2,12 3,13 3,12 2))",
+    "POLYGON((20 0,29 0,29 9))", /* not closed */
+    "MULTIPOLYGON(((30 0,34 0,34 4,30 0)),((36 0,39 0,39 3,36 0),(37 0.1,38 0.1,38 0.2,37 0.1)))",
+    "POLYGON((40 0,49 0,49 9,40 9,40 0))",
+};
+enum { FEATURES = sizeof wkt / sizeof *wkt };
+
+/* The layer, after a statement that changes it; NULL: none does. */
+static void make_layer(const char *name, const char *statement)
+{
+    static const struct {
+        const char *name;
+        OGRFieldType type;
+    } fields[] = {{"say \"so\"", OFTString}, {"small", OFTInteger}, {"large", OFTInteger64}, {"real", OFTReal}};
+    GDALDatasetH dataset = GDALCreate(GDALGetDriverByName("GPKG"), path_of(name), 0, 0, 0, GDT_Unknown, NULL);
+    OGRLayerH layer = GDALDatasetCreateLayer(dataset, "a \"layer\"", NULL, wkbUnknown, NULL);
+    assert_non_null(layer);
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
+        OGRFieldDefnH field = OGR_Fld_Create(fields[i].name, fields[i].type);
+        assert_int_equal(OGR_L_CreateField(layer, field, TRUE), OGRERR_NONE);
+        OGR_Fld_Destroy(field);
+    }
+    for (int i = 0; i < FEATURES; i++) {
+        OGRFeatureH feature = OGR_F_Create(OGR_L_GetLayerDefn(layer));
+        char text[200], *at = strcpy(text, wkt[i]);
+        OGRGeometryH geometry = NULL;
+        assert_int_equal(OGR_G_CreateFromWkt(&at, NULL, &geometry), OGRERR_NONE);
+        OGR_F_SetGeometryDirectly(feature, geometry);
+        OGR_F_SetFID(feature, 7 * (FEATURES - i)); /* written in another order than they are read in */
+        if (i != 1) OGR_F_SetFieldString(feature, 0, i == 2 ? "" : "gr\xc3\xbc\xc3\x9f");
+        if (i != 2) OGR_F_SetFieldInteger(feature, 1, -i);
+        if (i != 3) OGR_F_SetFieldInteger64(feature, 2, (GIntBig)1 << 40);
+        if (i != 4) OGR_F_SetFieldDouble(feature, 3, 0.1 * i);
+        assert_int_equal(OGR_L_CreateFeature(layer, feature), OGRERR_NONE);
+        OGR_F_Destroy(feature);
+    }
+    GDALClose(dataset);
+    if (!statement) return;
+    char *const drivers[] = {"GPKG", NULL};
+    dataset = GDALOpenEx(path_of(name), GDAL_OF_VECTOR | GDAL_OF_UPDATE, (const char *const *)drivers, NULL, NULL);
+    assert_non_null(dataset);
+    OGRLayerH result = GDALDatasetExecuteSQL(dataset, statement, NULL, NULL);
+    if (result) GDALDatasetReleaseResultSet(dataset, result);
+    GDALClose(dataset);
+}
+
+/* ---- Reading ----------------------------------------------------------------------------------------------------- */
+
+static bool count(void *user, const unsigned char *record, gis_error *error)
+{
+    (void)record;
+    (void)error;
+    ++*(size_t *)user;
+    return true;
+}
+
+static bool is_read_past_gdal(const char *name)
+{
+    gis_error error = {0};
+    GDALDatasetH dataset = GDALOpenEx(path_of(name), GDAL_OF_VECTOR, NULL, NULL, NULL);
+    OGRLayerH layer = GDALDatasetGetLayer(dataset, 0);
+    gis_packed packed = {0};
+    size_t n = 0;
+    bool all;
+    assert_true(gis_packed_begin(&packed, layer, &error));
+    assert_true(gis_table_read(dataset, layer, &packed, count, &n, &all, &error));
+    if (all) assert_int_equal(n, FEATURES);
+    gis_packed_clear(&packed);
+    GDALClose(dataset);
+    return all;
+}
+
+static bool open_source(const char *name, bool packed, gis_source **source, gis_error *error)
+{
+    const gis_source_request request = {.path = path_of(name), .takes = GIS_TAKES_POLYGONS, .packed = packed};
+    return gis_source_open(&request, source, error);
+}
+
+static bool same_bytes(OGRGeometryH a, OGRGeometryH b)
+{
+    if (!a || !b) return !a && !b;
+    const int n = OGR_G_WkbSize(a);
+    if (n != OGR_G_WkbSize(b)) return false;
+    unsigned char *p = malloc((size_t)n + 1), *q = malloc((size_t)n + 1);
+    OGR_G_ExportToIsoWkb(a, wkbNDR, p);
+    OGR_G_ExportToIsoWkb(b, wkbNDR, q);
+    const bool same = memcmp(p, q, (size_t)n) == 0;
+    free(p);
+    free(q);
+    return same;
+}
+
+static void assert_same_features(gis_source *a, gis_source *b)
+{
+    assert_int_equal(gis_source_count(a), gis_source_count(b));
+    assert_int_equal(gis_source_fids_unique(a), gis_source_fids_unique(b));
+    assert_int_equal(gis_source_has_multipolygons(a), gis_source_has_multipolygons(b));
+    for (size_t i = 0; i < gis_source_count(a); i++) {
+        OGRFeatureH p = gis_source_feature(a, i), q = gis_source_feature(b, i);
+        assert_int_equal(OGR_F_GetFID(p), OGR_F_GetFID(q));
+        assert_int_equal(gis_source_content(a, i), gis_source_content(b, i));
+        assert_true(same_bytes(OGR_F_GetGeometryRef(p), OGR_F_GetGeometryRef(q)));
+        for (int f = 0; f < OGR_F_GetFieldCount(p); f++) {
+            assert_int_equal(OGR_F_IsFieldSet(p, f), OGR_F_IsFieldSet(q, f));
+            assert_int_equal(OGR_F_IsFieldNull(p, f), OGR_F_IsFieldNull(q, f));
+            assert_string_equal(OGR_F_GetFieldAsString(p, f), OGR_F_GetFieldAsString(q, f));
+        }
+    }
+    for (int c = 0; c < GIS_CONTENTS; c++)
+        assert_int_equal(gis_source_content_count(a, (gis_content)c), gis_source_content_count(b, (gis_content)c));
+}
+
+static void assert_read_alike(const char *name)
+{
+    gis_source *a = NULL, *b = NULL;
+    gis_error why_a = {0}, why_b = {0};
+    const bool read = open_source(name, true, &a, &why_a);
+    assert_int_equal(open_source(name, false, &b, &why_b), read);
+    if (read)
+        assert_same_features(a, b);
+    else
+        assert_string_equal(why_a.message, why_b.message);
+    gis_source_close(a);
+    gis_source_close(b);
+}
+
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
+
+static void test_plain(void **state)
+{
+    (void)state;
+    make_layer("plain.gpkg", NULL);
+    assert_true(is_read_past_gdal("plain.gpkg"));
+    assert_read_alike("plain.gpkg");
+}
+
+/* The last row that is read. */
+#define LAST " WHERE fid = 35"
+#define UPDATE "UPDATE \"a \"\"layer\"\"\" SET "
+
+static void test_not_plain(void **state)
+{
+    static const char *const statement[] = {
+        UPDATE "geom = NULL" LAST,
+        UPDATE "geom = 'text'" LAST,
+        UPDATE "geom = substr(geom, 1, length(geom) - 8)" LAST,                                  /* cut short */
+        UPDATE "geom = CAST(geom || x'00' AS BLOB)" LAST,                                        /* and too long */
+        UPDATE "geom = CAST(x'475000010000000001060000000000000000' AS BLOB)" LAST,              /* empty */
+        UPDATE "geom = CAST(x'4750000100000000010300000001000000' || x'00000000' AS BLOB)" LAST, /* a ring is */
+        UPDATE "geom = CAST(x'47500001000000000000000003000000010000000400000000000000000000000000000000000000003ff"
+               "000000000000000000000000000003ff00000000000003ff000000000000000000000000000000000000000000000' AS "
+               "BLOB)" LAST, /* the other order of bytes */
+        UPDATE "geom = CAST(x'4750000100000000010100000000000000000000000000000000000000' AS BLOB)" LAST, /* a point */
+        UPDATE "geom = CAST(x'475000010000000001030000000100000003000000000000000000f07f000000000000000000000000000000"
+               "000000000000000000000000000000000000000000000000000000' AS BLOB)" LAST, /* not finite, and short */
+        UPDATE "small = 'many'" LAST,
+        UPDATE "small = 1.5" LAST,
+        UPDATE "small = 5000000000" LAST,
+        UPDATE "large = 'many'" LAST,
+        UPDATE "large = x'00'" LAST,
+        UPDATE "real = 'many'" LAST,
+        UPDATE "\"say \"\"so\"\"\" = x'41'" LAST,
+        UPDATE "\"say \"\"so\"\"\" = CAST(x'41ff' AS TEXT)" LAST,
+        UPDATE "\"say \"\"so\"\"\" = CAST(x'410041' AS TEXT)" LAST,
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof statement / sizeof *statement; k++) {
+        char name[32];
+        snprintf(name, sizeof name, "odd%zu.gpkg", k);
+        make_layer(name, statement[k]);
+        if (is_read_past_gdal(name)) fail_msg("read past GDAL after %s", statement[k]);
+        assert_read_alike(name);
+    }
+}
+
+/* A field of another kind than records hold. */
+static void test_other_fields(void **state)
+{
+    (void)state;
+    make_layer("date.gpkg", "ALTER TABLE \"a \"\"layer\"\"\" ADD COLUMN day DATE");
+    assert_false(is_read_past_gdal("date.gpkg"));
+    assert_read_alike("date.gpkg");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_plain),
+        cmocka_unit_test(test_not_plain),
+        cmocka_unit_test(test_other_fields),
+    };
+    if (!mkdtemp(directory)) return 1;
+    GDALAllRegister();
+    gis_messages_begin(&(gis_messages_request){.quiet = true}, NULL);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    VSIRmdirRecursive(directory);
+    return failed;
+}
