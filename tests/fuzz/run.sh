@@ -18,7 +18,7 @@ rm -rf "$corpus"
 mkdir -p "$corpus/kept" "$corpus/new"
 if [ -f "$kept" ]; then
     tar -xzf "$kept" -C "$corpus/kept"
-    "$program" "$corpus/kept" -runs=0 -max_len=600 -timeout=100 -rss_limit_mb=4096 >"$corpus/log" 2>&1 || { tail -n 60 "$corpus/log"; exit 1; }
+    "$program" "$corpus/kept" -runs=0 -max_len=600 -entropic=0 -timeout=100 -rss_limit_mb=4096 >"$corpus/log" 2>&1 || { tail -n 60 "$corpus/log"; exit 1; }
 fi
 seeds=() longest=400
 if [ -d "$SUNDER_SOURCE/tests/fuzz/seeds/$name" ]; then seeds=("$corpus/new" "$SUNDER_SOURCE/tests/fuzz/seeds/$name") longest=600; fi

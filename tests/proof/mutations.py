@@ -260,6 +260,53 @@ def ask_more(told):
     return False
 
 
+def chords(told):
+    return [n for n in told["proof"] if "c" in n]
+
+
+def pull_chord(told):
+    """A chord that passes the way through the corner before the corner."""
+    for node in chords(told):
+        at = node["A"][0]
+        node["B"] = [[a + 0.9 * (x - a) for x, a in zip(p, at)] for p in node["B"]]
+        return ("no side shadows", "before the corner")
+    return False
+
+
+def halve_chord(told):
+    """A chord with both ends in the shadow of one side."""
+    for node in chords(told):
+        node["B"] = [node["B"][0], node["B"][0]]
+        return ("no side shadows",)
+    return False
+
+
+def part_sides(told):
+    """A side that ends elsewhere."""
+    for node in chords(told):
+        shared = next(p for p in node["side_b"] if p in node["side_c"])
+        other = next(p for p in node["side_c"] if p != shared)
+        node["side_c"][node["side_c"].index(shared)] = [(x + y) / 2 for x, y in zip(shared, other)]
+        return ("share no corner", "is not of", "none of the input")
+    return False
+
+
+def same_side_twice(told):
+    for node in chords(told):
+        node["side_c"], node["c"] = node["side_b"], node["b"]
+        return ("share no corner",)
+    return False
+
+
+def drop_sides(told):
+    """A chord that is told to be a side."""
+    for node in chords(told):
+        for key in ("c", "side_b", "side_c"):
+            del node[key]
+        return ("a side is not of", "none of the input")
+    return False
+
+
 def drop_slack(told):
     for node in told["proof"]:
         if node.pop("slack", False):
@@ -377,7 +424,8 @@ VERDICTS = {"way": drop_way, "leaf": weaken_leaves, "clearance": ask_more, "slac
             "claimed slack": claim_slack, "short slack": shorten_slack, "blamed": blame,
             "let go": let_go, "one line": one_line, "pushed line": push_line, "turned lines": turn_lines, "reached line": reach_line,
             "held roughly": hold_roughly, "held itself": hold_own,
-            "within": shorten_within, "reason": other_reason}
+            "pulled chord": pull_chord, "half a chord": halve_chord, "parted sides": part_sides,
+            "side twice": same_side_twice, "chord as side": drop_sides, "within": shorten_within, "reason": other_reason}
 
 
 # ---- Mutations of the whole

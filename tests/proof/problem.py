@@ -418,6 +418,29 @@ class Problem:
                "a side of", key, "faces away from", feature)
         return p, q
 
+    def demand_chord(self, node):
+        """Of sides of two barriers (or one) that share a corner, on either side of the anchor's way through it: a segment from the
+        shadow of the one to that of the other, which that way passes no nearer than the corner."""
+        a, b, c, anchor = node["a"], node["b"], node["c"], node["A"]
+        demand(all(self.is_barrier(k) for k in (b, c)) and not self.is_barrier(a), "a chord of what are no barriers")
+        self.demand_owed(a, c)
+        place, = self.demand_side_anchor(a, anchor)
+        sides = self.demand_side(b, node["side_b"], a, anchor), self.demand_side(c, node["side_c"], a, anchor)
+        shared = set(sides[0]) & set(sides[1])
+        demand(len(shared) == 1 and len(node["B"]) == 2, "sides that share no corner")
+        corner, = shared
+        chord = tuple(tuple(Fraction(x) * self.lattice.unit for x in p) for p in node["B"])
+        others = [next(p for p in side if p != corner) for side in sides]
+        turns = [turn(place, corner, p) for p in others]
+        demand(turns[0] * turns[1] < 0, "two sides on one side of the way through their corner")
+        for t, p, end in zip(turns, others, chord):
+            far = turn(corner, p, place)
+            demand(t * turn(place, corner, end) > 0 and t * turn(place, p, end) <= 0 and
+                   far != 0 and far * turn(corner, p, end) <= 0, "an end of a chord that no side shadows")
+        of_anchor, of_corner = turn(*chord, place), turn(*chord, corner)
+        demand(of_anchor != 0 and 0 <= Fraction(of_corner) / of_anchor < 1, "a chord before the corner")
+        return (place,), chord
+
     def note_anchor(self, key, anchor):
         known = self.anchors.setdefault(key, tuple(anchor))
         demand(known == tuple(anchor), "two anchors of", key)
@@ -430,6 +453,11 @@ class Problem:
                    x[c + 2] <= y[c + 2] + t + reach for c in (0, 1)):
                 return True
         return False
+
+
+def turn(p, q, u):
+    """Greater than 0 where it turns left at q."""
+    return (q[0] - p[0]) * (u[1] - p[1]) - (q[1] - p[1]) * (u[0] - p[0])
 
 
 def root_above(value):

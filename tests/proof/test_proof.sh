@@ -92,6 +92,22 @@ proved side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier si
 grep -q 'bound 16[89]' said || fail "through the line: $(cat said)"
 refuted side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier side.gpkg --need side --need "side anchor"
 
+# A house between two walls that want all of the room between them, each of two lines, or of one, with a corner where
+# the house would have to pass: no line of either side shuts it, a chord across both does.
+corners() { # NAME FILE
+    proved "$1" held.gpkg --gap 3 --max-shift 10 --barrier "$2"
+    grep -q '"reason": "no_room".*"side_c"' "$1.jsonl" || fail "a corner of $2 has no chord: $(cat "$1.jsonl")"
+    refuted "$1" held.gpkg --gap 3 --max-shift 10 --barrier "$2" --need "pulled chord" --need "half a chord" --need "parted sides" \
+        --need "side twice" --need "chord as side"
+}
+printf 'WKT,w\n"POLYGON((1000.1 2000.2,1002.3 2000.4,1002.1 2002.6,999.9 2002.4))",1\n' | layer held.gpkg buildings POLYGON
+printf 'WKT,w\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n' '940.3 2005.2,1001.37 2004.61' \
+    '1001.37 2004.61,1060.4 2003.9' '940.3 1997.7,1000.83 1998.17' '1000.83 1998.17,1060.4 1998.9' | layer corners.gpkg corners LINESTRING
+printf 'WKT,w\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n' '940.3 2005.2,1001.37 2004.61,1060.4 2003.9' \
+    '940.3 1997.7,1000.83 1998.17,1060.4 1998.9' | layer bends.gpkg bends LINESTRING
+corners corners corners.gpkg
+corners bends bends.gpkg
+
 # A house on the bend of a road, by an edge that wants it to go east: either leg of the road lets it, but no one
 # translation as long as what parted it from the road at the start would part it from both.
 printf 'WKT,w\n"LINESTRING(-20 8,8 8,8 -20)",1\n' | layer bend.gpkg bend LINESTRING

@@ -34,7 +34,7 @@ class Verdict:
                 self.check_leaf(node, way_here)
                 continue
             self.check_question(node)
-            named |= {node["a"], node["b"]}
+            named |= {node["a"], node["b"], node.get("c", node["b"])}
             todo += [(w["next"], (*way_here, (at, k))) for k, w in enumerate(node["ways"])]
         named -= {self.told["a"], self.told["b"]}
         demand(named == set(self.told["blocked_by"]), "blocked_by is not what the proof is about")
@@ -48,7 +48,7 @@ class Verdict:
         if self.alone:
             self.check_alone(node)
         if node.get("shadow"):
-            parts = problem.demand_shadow(a, node["A"], b, node["B"])
+            parts = problem.demand_chord(node) if "c" in node else problem.demand_shadow(a, node["A"], b, node["B"])
             self.check_shadow(difference(*parts), ways)
             return
         parts = problem.demand_part(a, node["A"]), problem.demand_part(b, node["B"])
@@ -88,7 +88,7 @@ class Verdict:
             demand(not self.problem.is_barrier(a) and not self.problem.is_barrier(b), "a barrier, where there is no limit")
             bodies = {self.body_of(a), self.body_of(b)}
             for node in self.nodes:
-                for k in (node["a"], node["b"]) if "ways" in node else ():
+                for k in (node["a"], node["b"], node.get("c", node["b"])) if "ways" in node else ():
                     demand(not self.problem.is_barrier(k) and self.body_of(k) in bodies,
                            "a bystander, where there is no limit:", k)
             pairs = [(k, l) for k in self.body_of(a) for l in self.body_of(b)]
