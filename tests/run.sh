@@ -36,6 +36,9 @@ if [ "$all" ]; then
     setup_want "Xvfb, for QGIS's window" "xvfb xauth" xvfb-run --help
     setup_want "PostGIS" postgresql-postgis bash -c 'compgen -G "/usr/share/postgresql/*/extension/postgis.control"'
     setup_want "PostGIS" postgresql-postgis compgen -G '/usr/lib/postgresql/*/lib/postgis-3.so'
+    setup_want "Slurm" "slurm-wlm munge" test -x /usr/sbin/slurmctld -a -x /usr/sbin/slurmd -a -x /usr/sbin/munged
+    setup_want "GNU parallel" parallel parallel --version
+    setup_want "ShellCheck" shellcheck shellcheck --version
     setup_want "Chromium" chromium chromium --version
 fi
 setup_install
