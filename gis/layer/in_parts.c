@@ -144,12 +144,18 @@ static gis_part_stamp stamp_of(const gis_in_parts *p, unsigned k, uint64_t optio
 }
 
 /* How far the core is with a part tells nobody anything; but it hears of signals that way. */
-static void listen(gis_in_parts *p, gis_progress *silent)
+static void begin_listening(gis_in_parts *p, gis_progress *silent)
 {
     choose_options(p);
     *silent = gis_progress_new(GIS_PROGRESS_NONE);
     p->layout.how.progress = gis_progress_call;
     p->layout.how.progress_user = silent;
+}
+
+static void end_listening(gis_in_parts *p)
+{
+    p->layout.how.progress = NULL;
+    p->layout.how.progress_user = NULL;
 }
 
 static bool separate_parts(gis_in_parts *p, unsigned k, gis_part_file *file, gis_progress *progress, gis_error *error)
@@ -173,10 +179,11 @@ bool gis_in_parts_shard(gis_in_parts *p, unsigned k, uint64_t options, gis_progr
     gis_progress silent;
     gis_part_file file;
     const gis_part_stamp stamp = stamp_of(p, k, options);
-    listen(p, &silent);
+    begin_listening(p, &silent);
     const bool done = gis_part_file_create(&file, p->directory, &stamp, error) &&
                       separate_parts(p, k, &file, progress, error) && gis_part_file_place(&file, p->directory, error);
     gis_part_file_close(&file);
+    end_listening(p);
     return done;
 }
 
@@ -206,27 +213,33 @@ bool gis_in_parts_state(const gis_in_parts *p, unsigned k, uint64_t options, gis
 
 /* ---- Joining ----------------------------------------------------------------------------------------------------- */
 
-static bool join_files(gis_in_parts *p, gis_part_file *file, uint64_t options, gis_error *error)
+static bool join_files(gis_in_parts *p, uint64_t options, gis_error *error)
 {
-    for (unsigned k = 0; k < p->shards; k++) {
+    gis_part_file *file = calloc(p->shards, sizeof *file);
+    bool done = file || gis_no_memory(error);
+    for (unsigned k = 0; k < p->shards && done; k++) {
         const gis_part_stamp stamp = stamp_of(p, k + 1, options);
-        if (!gis_part_file_open(&file[k], p->directory, &stamp, error)) return false;
+        done = gis_part_file_open(&file[k], p->directory, &stamp, error);
     }
-    return gis_parts_join(&p->layout, file, p->shards, p->scratch, &p->joined, error);
+    done = done && gis_parts_join(&p->layout, file, p->shards, p->scratch, &p->joined, error);
+    for (unsigned k = 0; k < p->shards && file; k++) gis_part_file_close(&file[k]);
+    free(file);
+    return done;
+}
+
+const char *gis_in_parts_scratch(gis_in_parts *p, gis_error *error)
+{
+    return p->scratch || make_directory(p, p->directory, error) ? p->scratch : NULL;
 }
 
 bool gis_in_parts_solve(gis_in_parts *p, uint64_t options, sunder_layer_summary *summary, gis_error *error)
 {
     gis_progress silent;
     const double began = gis_clock();
-    listen(p, &silent);
-    if (!p->scratch && !make_directory(p, p->directory, error)) return false;
-    gis_part_file *file = calloc(p->shards, sizeof *file);
-    if (!file) return gis_no_memory(error);
-    const bool done = join_files(p, file, options, error);
-    for (unsigned k = 0; k < p->shards; k++) gis_part_file_close(&file[k]);
-    free(file);
-    gis_layout_clear(&p->layout); /* which borrows `silent` */
+    begin_listening(p, &silent);
+    const bool done = gis_in_parts_scratch(p, error) && join_files(p, options, error);
+    end_listening(p);
+    gis_layout_clear(&p->layout); /* what is written needs memory, too */
     *summary = p->joined.summary;
     summary->features = p->facts.source.features;
     summary->vertices = p->facts.vertices;

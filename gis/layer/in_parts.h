@@ -57,6 +57,8 @@ bool gis_in_parts_state(const gis_in_parts *parts, unsigned k, uint64_t options,
 
 /* As gis_layer_input_read(), but for shapes, demands and the layer. whole: the source is not read by batches. */
 bool gis_in_parts_open(gis_in_parts *parts, bool whole, gis_layer_input *out, gis_error *error);
+/* The directory for what goes in the end, made if it is not there; NULL: it cannot be. */
+const char *gis_in_parts_scratch(gis_in_parts *parts, gis_error *error);
 /* Of all shards, whose files are there. */
 bool gis_in_parts_solve(gis_in_parts *parts, uint64_t options, sunder_layer_summary *summary, gis_error *error);
 /* in_parts_layers.c */

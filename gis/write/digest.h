@@ -9,10 +9,6 @@
 #include <stdint.h>
 #include <string.h>
 
-struct gis_digest {
-    uint64_t place, values;
-};
-
 enum { GIS_MIX_START = 1, GIS_MIX_NOTHING, GIS_MIX_POLYGON, GIS_MIX_NO_VALUE, GIS_MIX_TEXT };
 
 static inline uint64_t gis_mix(uint64_t so_far, uint64_t word)
@@ -69,8 +65,7 @@ typedef struct gis_digests_read {
     bool differ;
 } gis_digests_read;
 
-/* False if memory is out. */
-bool gis_digests_read_add(gis_digests_read *read, const gis_digests *all, gis_digest one);
+bool gis_digests_read_add(gis_digests_read *read, gis_digests *all, gis_digest one, gis_error *error);
 
 /* The numbers of all rows of the layer, read past GDAL. False, and *read is zeroed, if a row is not plain, or SQLite
  * cannot be had, or anything at all is amiss: then it is for GDAL to read, and to say what it is. */

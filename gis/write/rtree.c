@@ -8,8 +8,8 @@
 #include "write/rtree.h"
 
 #include "base/array.h"
-#include "base/curve.h"
 #include "base/interrupt.h"
+#include "spool/sort.h"
 #include "sqlite/rows.h"
 #include "write/sql.h"
 
@@ -59,7 +59,7 @@ static char *tree_name(OGRLayerH layer, const char *suffix, char quote)
 
 /* ---- Gathering --------------------------------------------------------------------------------------------------- */
 
-bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error)
+bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_rtree *tree, gis_error *error)
 {
     const char *column = OGR_L_GetGeometryColumn(layer);
     if (!column || !column[0]) return true;
@@ -67,11 +67,11 @@ bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gi
         return false;
     char *literal = tree_name(layer, "_insert", '\'');
     char *find = CPLStrdup(CPLSPrintf("SELECT sql FROM sqlite_master WHERE type = 'trigger' AND name = %s", literal));
-    boxes->trigger = gis_sql_ask(dataset, find);
+    tree->trigger = gis_sql_ask(dataset, find);
     CPLFree(find);
     CPLFree(literal);
-    if (boxes->trigger && !handle_of(dataset)) gis_boxes_clear(boxes); /* GDAL fills it */
-    if (!boxes->trigger) return true;
+    if (tree->trigger && !handle_of(dataset)) gis_rtree_clear(tree); /* GDAL fills it */
+    if (!tree->trigger) return true;
     char *name = tree_name(layer, "_insert", '"');
     char *drop = CPLStrdup(CPLSPrintf("DROP TRIGGER %s", name));
     bool done = run(dataset, drop, error);
@@ -80,93 +80,25 @@ bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gi
     return done;
 }
 
-static float below(double x)
-{
-    float f = (float)x;
-    return (double)f > x ? nextafterf(f, -INFINITY) : f;
-}
-
-static float above(double x)
-{
-    float f = (float)x;
-    return (double)f < x ? nextafterf(f, INFINITY) : f;
-}
-
-bool gis_rtree_add(gis_boxes *boxes, OGRFeatureH feature, gis_error *error)
+bool gis_rtree_add(gis_rtree *tree, OGRFeatureH feature, gis_error *error)
 {
     OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
-    if (!boxes->trigger || !geometry || OGR_G_IsEmpty(geometry)) return true;
+    if (!tree->trigger || !geometry || OGR_G_IsEmpty(geometry)) return true;
     OGREnvelope box;
     OGR_G_GetEnvelope(geometry, &box);
-    return gis_rtree_add_box(boxes, OGR_F_GetFID(feature), &box, error);
+    return gis_rtree_add_box(tree, OGR_F_GetFID(feature), &box, error);
 }
 
-bool gis_rtree_add_box(gis_boxes *boxes, GIntBig fid, const OGREnvelope *box, gis_error *error)
+bool gis_rtree_add_box(gis_rtree *tree, GIntBig fid, const OGREnvelope *box, gis_error *error)
 {
-    if (!gis_array_reserve(&boxes->at, &boxes->capacity, boxes->n + 1, sizeof *boxes->at)) return gis_no_memory(error);
-    boxes->at[boxes->n++] =
-        (struct gis_box){fid, {below(box->MinX), above(box->MaxX), below(box->MinY), above(box->MaxY)}};
-    return true;
+    return gis_index_boxes_add(&tree->boxes, fid, box, error);
 }
 
-void gis_boxes_clear(gis_boxes *boxes)
+void gis_rtree_clear(gis_rtree *tree)
 {
-    free(boxes->at);
-    CPLFree(boxes->trigger);
-    *boxes = (gis_boxes){0};
-}
-
-/* ---- Order ------------------------------------------------------------------------------------------------------- */
-
-typedef struct place {
-    uint32_t along; /* position of the centre on the Hilbert curve of a 65536 x 65536 grid */
-    uint32_t at;    /* which box */
-} place;
-
-/* The curve's grid is finer than the boxes of any layer need to be told apart. */
-enum { CURVE_BITS = 16 };
-
-static int compare_places(const void *a, const void *b)
-{
-    const place *p = a, *q = b;
-    if (p->along != q->along) return p->along < q->along ? -1 : 1;
-    return (p->at > q->at) - (p->at < q->at);
-}
-
-/* Puts box places[i].at at i, cycle by cycle. */
-static void arrange(struct gis_box *box, place *places, size_t n)
-{
-    for (size_t i = 0; i < n; i++) {
-        const struct gis_box first = box[i];
-        size_t to = i;
-        for (size_t from; (from = places[to].at) != i; to = from) {
-            box[to] = box[from];
-            places[to].at = (uint32_t)to;
-        }
-        box[to] = first;
-        places[to].at = (uint32_t)to;
-    }
-}
-
-/* Sorts the boxes along the curve; false if memory is out. */
-static bool sort_boxes(gis_boxes *boxes)
-{
-    place *places = boxes->n <= UINT32_MAX ? malloc(boxes->n * sizeof *places) : NULL;
-    if (!places) return false;
-    double around[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
-    for (size_t i = 0; i < boxes->n; i++)
-        for (int k = 0; k < 4; k++)
-            around[k] = k % 2 ? fmax(around[k], boxes->at[i].side[k]) : fmin(around[k], boxes->at[i].side[k]);
-    for (size_t i = 0; i < boxes->n; i++) {
-        const float *side = boxes->at[i].side;
-        const uint32_t x = gis_curve_cell(((double)side[0] + side[1]) / 2, around[0], around[1], CURVE_BITS);
-        const uint32_t y = gis_curve_cell(((double)side[2] + side[3]) / 2, around[2], around[3], CURVE_BITS);
-        places[i] = (place){(uint32_t)gis_curve_position(x, y, CURVE_BITS), (uint32_t)i};
-    }
-    qsort(places, boxes->n, sizeof *places, compare_places);
-    arrange(boxes->at, places, boxes->n);
-    free(places);
-    return true;
+    gis_index_boxes_clear(&tree->boxes);
+    CPLFree(tree->trigger);
+    tree->trigger = NULL;
 }
 
 /* ---- Nodes ------------------------------------------------------------------------------------------------------- */
@@ -189,61 +121,110 @@ static unsigned char *put_float(unsigned char *to, float value)
 typedef int64_t row_of[2];
 
 typedef struct packing {
+    const char *scratch; /* where rows of features are sorted; NULL: in memory */
     gis_sqlite_rows nodes;
-    size_t capacity;       /* cells in a node */
-    unsigned char *node;   /* room for one */
-    row_of *leaf, *parent; /* of all features, and of all nodes but the root */
-    size_t leaves, parents;
+    size_t capacity;     /* cells in a node */
+    unsigned char *node; /* room for one */
+    gis_index_box *cell; /* [capacity] of the leaf that is being filled */
+    size_t cells, features, taken;
+    row_of *leaf; /* of all features, in memory */
+    size_t leaves, leaf_room;
+    gis_spool_file leaf_file; /* ... or on the disk */
+    row_of *parent;           /* of all nodes but the root, by their numbers */
+    size_t parents, parent_room;
+    gis_index_box *level; /* the nodes of one level */
+    size_t in_level, level_room;
     GIntBig next; /* number of the next node */
 } packing;
+
+/* As a number without sign, in the same order. */
+static uint64_t key_of(int64_t fid) { return (uint64_t)fid ^ UINT64_C(1) << 63; }
+static int64_t fid_of(uint64_t key) { return (int64_t)(key ^ UINT64_C(1) << 63); }
+
+static bool note_leaf(packing *all, int64_t fid, int64_t node, gis_error *error)
+{
+    if (all->scratch) {
+        const gis_sort_head one = {sizeof one, key_of(fid), (uint64_t)node};
+        return gis_spool_file_write(&all->leaf_file, &one, sizeof one, error);
+    }
+    if (!gis_array_reserve(&all->leaf, &all->leaf_room, all->leaves + 1, sizeof *all->leaf))
+        return gis_no_memory(error);
+    all->leaf[all->leaves][0] = fid;
+    all->leaf[all->leaves++][1] = node;
+    return true;
+}
+
+static bool note_parent(packing *all, int64_t child, int64_t node, gis_error *error)
+{
+    if (!gis_array_reserve(&all->parent, &all->parent_room, all->parents + 1, sizeof *all->parent))
+        return gis_no_memory(error);
+    all->parent[all->parents][0] = child;
+    all->parent[all->parents++][1] = node;
+    return true;
+}
+
+/* One node of consecutive cells; gives its number and box in *made. root_depth < 0: it is not the root, which is
+ * node 1. */
+static bool write_node(packing *all, const gis_index_box *cells, size_t n, bool leaf, int root_depth,
+                       gis_index_box *made, gis_error *error)
+{
+    const bool root = root_depth >= 0;
+    bool done = gis_go_on(error);
+    gis_index_box node = {.fid = root ? 1 : all->next++};
+    memcpy(node.side, cells[0].side, sizeof node.side);
+    memset(all->node, 0, HEADER + CELL * all->capacity);
+    unsigned char *to = put_number(all->node, root ? (uint64_t)root_depth : 0, 2);
+    to = put_number(to, n, 2);
+    for (size_t i = 0; i < n && done; i++) {
+        done = leaf ? note_leaf(all, cells[i].fid, node.fid, error) : note_parent(all, cells[i].fid, node.fid, error);
+        to = put_number(to, (uint64_t)cells[i].fid, 8);
+        for (int k = 0; k < 4; k++) {
+            to = put_float(to, cells[i].side[k]);
+            node.side[k] = k % 2 ? fmaxf(node.side[k], cells[i].side[k]) : fminf(node.side[k], cells[i].side[k]);
+        }
+    }
+    *made = node; /* which may be one of the cells */
+    return done && gis_sqlite_rows_add_bytes(&all->nodes, node.fid, all->node, HEADER + CELL * all->capacity, error);
+}
+
+/* The next box along the curve: a leaf that is full, or the last one, is written. */
+static bool take_box(void *user, const gis_index_box *box, gis_error *error)
+{
+    packing *all = user;
+    all->cell[all->cells++] = *box;
+    all->taken++;
+    if (all->cells < all->capacity && all->taken < all->features) return true;
+    if (!gis_array_reserve(&all->level, &all->level_room, all->in_level + 1, sizeof *all->level))
+        return gis_no_memory(error);
+    const size_t n = all->cells;
+    all->cells = 0;
+    return write_node(all, all->cell, n, true, all->features <= all->capacity ? 0 : -1, &all->level[all->in_level++],
+                      error);
+}
+
+/* Level upon level above the leaves, in place: the boxes of a level's nodes become the cells of the next. */
+static bool write_levels(packing *all, gis_error *error)
+{
+    if (all->features <= all->capacity) return true;
+    size_t n = all->in_level;
+    for (int depth = 1;; depth++) {
+        const bool top = n <= all->capacity;
+        size_t made = 0;
+        for (size_t first = 0; first < n; first += all->capacity) {
+            const size_t count = n - first < all->capacity ? n - first : all->capacity;
+            /* made <= first: these cells are written already. */
+            if (!write_node(all, all->level + first, count, false, top ? depth : -1, &all->level[made++], error))
+                return false;
+        }
+        if (top) return true;
+        n = made;
+    }
+}
 
 static int compare_rows(const void *a, const void *b)
 {
     const row_of *p = a, *q = b;
     return ((*p)[0] > (*q)[0]) - ((*p)[0] < (*q)[0]);
-}
-
-/* One node of consecutive cells; gives its number and box in *made. root_depth < 0: it is not the root, which is
- * node 1. */
-static bool write_node(packing *all, const struct gis_box *cells, size_t n, bool leaf, int root_depth,
-                       struct gis_box *made, gis_error *error)
-{
-    bool root = root_depth >= 0;
-    if (!gis_go_on(error)) return false;
-    made->fid = root ? 1 : all->next++;
-    memcpy(made->side, cells[0].side, sizeof made->side);
-    memset(all->node, 0, HEADER + CELL * all->capacity);
-    unsigned char *to = put_number(all->node, root ? (uint64_t)root_depth : 0, 2);
-    to = put_number(to, n, 2);
-    for (size_t i = 0; i < n; i++) {
-        int64_t *row = leaf ? all->leaf[all->leaves++] : all->parent[all->parents++];
-        row[0] = cells[i].fid;
-        row[1] = made->fid;
-        to = put_number(to, (uint64_t)cells[i].fid, 8);
-        for (int k = 0; k < 4; k++) {
-            to = put_float(to, cells[i].side[k]);
-            made->side[k] = k % 2 ? fmaxf(made->side[k], cells[i].side[k]) : fminf(made->side[k], cells[i].side[k]);
-        }
-    }
-    return gis_sqlite_rows_add_bytes(&all->nodes, made->fid, all->node, HEADER + CELL * all->capacity, error);
-}
-
-/* Level upon level, in place: the boxes of a level's nodes become the cells of the next. */
-static bool write_levels(packing *all, gis_boxes *boxes, gis_error *error)
-{
-    size_t n = boxes->n;
-    for (int depth = 0;; depth++) {
-        bool top = n <= all->capacity;
-        size_t made = 0;
-        for (size_t first = 0; first < n; first += all->capacity) {
-            size_t count = n - first < all->capacity ? n - first : all->capacity;
-            struct gis_box node;
-            if (!write_node(all, boxes->at + first, count, depth == 0, top ? depth : -1, &node, error)) return false;
-            boxes->at[made++] = node; /* made <= first: these cells are written already */
-        }
-        if (top) return true;
-        n = made;
-    }
 }
 
 static bool empty_tables(GDALDatasetH dataset, OGRLayerH layer, gis_error *error)
@@ -286,48 +267,114 @@ static bool begin_rows(gis_sqlite_rows *rows, GDALDatasetH dataset, OGRLayerH la
 /* Rows at a time, between which the user may stop; and how many are many. */
 enum { STRETCH = 10000, MANY_ROWS = 100 };
 
-/* By rising keys, though the tree has them along the curve. */
-static bool write_rows(GDALDatasetH dataset, OGRLayerH layer, const char *table, row_of *row, size_t n,
-                       gis_error *error)
+/* Of rising keys. */
+static bool write_rows(gis_sqlite_rows *rows, row_of *row, size_t n, gis_error *error)
 {
-    gis_sqlite_rows rows = {0};
-    if (n) qsort(row, n, sizeof *row, compare_rows);
-    bool done = begin_rows(&rows, dataset, layer, table, n >= MANY_ROWS, error);
+    bool done = true;
     for (size_t i = 0; done && i < n; i += STRETCH)
         done = gis_go_on(error) &&
-               gis_sqlite_rows_add(&rows, (const int64_t(*)[2])row + i, n - i < STRETCH ? n - i : STRETCH, error);
+               gis_sqlite_rows_add(rows, (const int64_t(*)[2])row + i, n - i < STRETCH ? n - i : STRETCH, error);
+    return done;
+}
+
+static bool write_parents(GDALDatasetH dataset, OGRLayerH layer, packing *all, gis_error *error)
+{
+    gis_sqlite_rows rows = {0};
+    const bool done = begin_rows(&rows, dataset, layer, "_parent", all->parents >= MANY_ROWS, error) &&
+                      write_rows(&rows, all->parent, all->parents, error);
     gis_sqlite_rows_end(&rows);
     return done;
 }
 
-static bool fill(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error)
+/* Rows from the disk, as many as are written at a time. */
+typedef struct stretch {
+    gis_sqlite_rows *rows;
+    row_of row[STRETCH];
+    size_t n;
+} stretch;
+
+static bool take_row(void *user, const unsigned char *bytes, gis_error *error)
 {
-    size_t capacity = node_capacity(dataset, layer);
-    if (!capacity) return gis_fail(error, "the spatial index of layer %s is not as expected", OGR_L_GetName(layer));
-    if (!sort_boxes(boxes)) return gis_no_memory(error);
-    packing all = {.capacity = capacity,
-                   .node = CPLMalloc(HEADER + CELL * capacity),
-                   .leaf = malloc(boxes->n * sizeof *all.leaf),
-                   .parent = malloc(boxes->n * sizeof *all.parent), /* fewer than that */
-                   .next = 2};
-    bool done = (all.leaf && all.parent) || gis_no_memory(error);
-    done = done && empty_tables(dataset, layer, error) &&
-           begin_rows(&all.nodes, dataset, layer, "_node", false, error) && write_levels(&all, boxes, error);
-    gis_sqlite_rows_end(&all.nodes);
-    free(boxes->at); /* sorting needs as much */
-    boxes->at = NULL;
-    done = done && write_rows(dataset, layer, "_parent", all.parent, all.parents, error) &&
-           write_rows(dataset, layer, "_rowid", all.leaf, all.leaves, error);
-    CPLFree(all.node);
-    free(all.leaf);
-    free(all.parent);
+    stretch *s = user;
+    const gis_sort_head *one = (const void *)bytes;
+    s->row[s->n][0] = fid_of(one->first);
+    s->row[s->n++][1] = (int64_t)one->second;
+    if (s->n < STRETCH) return true;
+    s->n = 0;
+    return write_rows(s->rows, s->row, STRETCH, error);
+}
+
+static bool write_from_disk(packing *all, gis_sqlite_rows *rows, gis_error *error)
+{
+    stretch *s = malloc(sizeof *s);
+    if (!s) return gis_no_memory(error);
+    s->rows = rows;
+    s->n = 0;
+    const gis_spool_sorting sorting = {.from = &all->leaf_file,
+                                       .directory = all->scratch,
+                                       .parts = "rows-sorted.XXXXXX",
+                                       .run = GIS_SPOOL_RUN / 4,
+                                       .take = take_row,
+                                       .user = s};
+    const bool done = gis_spool_file_flush(&all->leaf_file, error) && gis_spool_sort(&sorting, error) &&
+                      write_rows(rows, s->row, s->n, error);
+    free(s);
     return done;
 }
 
-bool gis_rtree_end(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error)
+/* By rising keys, though the tree has them along the curve. */
+static bool write_leaves(GDALDatasetH dataset, OGRLayerH layer, packing *all, gis_error *error)
 {
-    if (!boxes->trigger) return true;
-    bool done = (boxes->n == 0 || fill(dataset, layer, boxes, error)) && run(dataset, boxes->trigger, error);
-    gis_boxes_clear(boxes);
+    gis_sqlite_rows rows = {0};
+    bool done = begin_rows(&rows, dataset, layer, "_rowid", all->features >= MANY_ROWS, error);
+    if (all->leaves) qsort(all->leaf, all->leaves, sizeof *all->leaf, compare_rows);
+    done =
+        done && (all->scratch ? write_from_disk(all, &rows, error) : write_rows(&rows, all->leaf, all->leaves, error));
+    gis_sqlite_rows_end(&rows);
+    return done;
+}
+
+static void clear_packing(packing *all)
+{
+    CPLFree(all->node);
+    free(all->cell);
+    free(all->leaf);
+    free(all->parent);
+    free(all->level);
+    gis_spool_file_close(&all->leaf_file);
+}
+
+static bool write_nodes(GDALDatasetH dataset, OGRLayerH layer, packing *all, gis_index_boxes *boxes, gis_error *error)
+{
+    const bool done = empty_tables(dataset, layer, error) &&
+                      begin_rows(&all->nodes, dataset, layer, "_node", false, error) &&
+                      gis_index_boxes_in_order(boxes, take_box, all, error) && write_levels(all, error);
+    gis_sqlite_rows_end(&all->nodes);
+    return done;
+}
+
+static bool fill(GDALDatasetH dataset, OGRLayerH layer, gis_index_boxes *boxes, gis_error *error)
+{
+    const size_t capacity = node_capacity(dataset, layer);
+    if (!capacity) return gis_fail(error, "the spatial index of layer %s is not as expected", OGR_L_GetName(layer));
+    packing all = {.scratch = boxes->scratch,
+                   .capacity = capacity,
+                   .node = CPLMalloc(HEADER + CELL * capacity),
+                   .cell = malloc(capacity * sizeof *all.cell),
+                   .features = boxes->n,
+                   .next = 2};
+    bool done = all.cell || gis_no_memory(error);
+    done = done && (!all.scratch || gis_spool_file_create(&all.leaf_file, all.scratch, "rows.XXXXXX", error)) &&
+           write_nodes(dataset, layer, &all, boxes, error) && write_parents(dataset, layer, &all, error) &&
+           write_leaves(dataset, layer, &all, error);
+    clear_packing(&all);
+    return done;
+}
+
+bool gis_rtree_end(GDALDatasetH dataset, OGRLayerH layer, gis_rtree *tree, gis_error *error)
+{
+    if (!tree->trigger) return true;
+    bool done = (tree->boxes.n == 0 || fill(dataset, layer, &tree->boxes, error)) && run(dataset, tree->trigger, error);
+    gis_rtree_clear(tree);
     return done;
 }

@@ -9,26 +9,22 @@
 #include <gdal.h>
 #include <ogr_api.h>
 
-#include "base/error.h"
+#include "write/index_boxes.h"
 
-/* The boxes of the features of one layer. A zeroed struct is empty. */
-typedef struct gis_boxes {
-    struct gis_box {
-        GIntBig fid;
-        float side[4]; /* min x, max x, min y, max y, rounded outward */
-    } * at;
-    size_t n, capacity;
-    char *trigger; /* the trigger that fills the tree at each INSERT, taken away meanwhile; NULL: the tree is GDAL's */
-} gis_boxes;
+/* Zeroed, but for boxes.scratch: none. */
+typedef struct gis_rtree {
+    gis_index_boxes boxes;
+    char *trigger; /* which fills the tree at each INSERT, taken away meanwhile; NULL: the tree is GDAL's */
+} gis_rtree;
 
 /* To be called when the layer and its fields are made and it has no features yet: makes GDAL create its (empty) index
  * now, and takes away the trigger that would fill it. Does nothing where GDAL makes no index, or another than known. */
-bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error);
+bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_rtree *tree, gis_error *error);
 /* Notes a feature that was written. */
-bool gis_rtree_add(gis_boxes *boxes, OGRFeatureH feature, gis_error *error);
-bool gis_rtree_add_box(gis_boxes *boxes, GIntBig fid, const OGREnvelope *box, gis_error *error);
+bool gis_rtree_add(gis_rtree *tree, OGRFeatureH feature, gis_error *error);
+bool gis_rtree_add_box(gis_rtree *tree, GIntBig fid, const OGREnvelope *box, gis_error *error);
 /* Fills the tree and puts the trigger back. */
-bool gis_rtree_end(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error);
-void gis_boxes_clear(gis_boxes *boxes);
+bool gis_rtree_end(GDALDatasetH dataset, OGRLayerH layer, gis_rtree *tree, gis_error *error);
+void gis_rtree_clear(gis_rtree *tree);
 
 #endif

@@ -147,7 +147,7 @@ static void free_layer(gis_sink_layer *layer)
 {
     gis_sink_forget_sent(layer);
     gis_digests_clear(&layer->digests);
-    gis_boxes_clear(&layer->boxes);
+    gis_rtree_clear(&layer->tree);
     CPLFree(layer->name);
     CPLFree(layer->file);
     free(layer->changes);
@@ -173,6 +173,7 @@ static gis_sink_layer *new_layer(gis_sink *sink, const gis_sink_layer_request *r
     if (sink->format.one_layer)
         layer->file = sink->to_stdout || !request->suffix[0] ? CPLStrdup(sink->main_file)
                                                              : gis_sink_file_for(sink, request->suffix);
+    layer->tree.boxes.scratch = layer->digests.sent.scratch = sink->request.scratch;
     layer->fid_field = -1;
     return layer;
 }

@@ -268,7 +268,7 @@ static bool write_indexes(gis_sink *sink, gis_error *error)
     for (size_t i = 0; done && i < sink->n_layers; i++) done = gis_sink_rows_end(sink->layers[i], error);
     for (size_t i = 0; done && i < sink->n_layers; i++) {
         gis_sink_layer *layer = sink->layers[i];
-        done = gis_rtree_end(layer->dataset, layer->layer, &layer->boxes, error);
+        done = gis_rtree_end(layer->dataset, layer->layer, &layer->tree, error);
     }
     return done;
 }

@@ -115,21 +115,13 @@ static void find_fields(gis_digests *all, OGRLayerH as_written)
 
 /* ---- Both lists -------------------------------------------------------------------------------------------------- */
 
-static bool append(gis_digest **at, size_t *n, size_t *capacity, gis_digest one)
-{
-    if (!gis_array_reserve(at, capacity, *n + 1, sizeof **at)) return false;
-    (*at)[(*n)++] = one;
-    return true;
-}
-
 bool gis_digests_add(gis_digests *all, OGRFeatureH feature, GIntBig fid, gis_error *error)
 {
     gis_digest one;
     if (!all->wanted) return true;
     OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
     all->with_z += geometry && OGR_G_Is3D(geometry) && !OGR_G_IsEmpty(geometry);
-    return (digest(all, feature, fid, false, &one) && append(&all->sent, &all->n, &all->capacity, one)) ||
-           gis_no_memory(error);
+    return digest(all, feature, fid, false, &one) ? gis_digest_list_add(&all->sent, one, error) : gis_no_memory(error);
 }
 
 typedef struct mixing {
@@ -169,16 +161,16 @@ bool gis_digests_add_plain(gis_digests *all, GIntBig fid, const unsigned char *g
     else
         gis_packed_visit(geometry, mix_ring, &place);
     const gis_digest one = {place.so_far, gis_mix(so_far, place.so_far)};
-    return append(&all->sent, &all->n, &all->capacity, one) || gis_no_memory(error);
+    return gis_digest_list_add(&all->sent, one, error);
 }
 
 void gis_digests_clear(gis_digests *all)
 {
     for (size_t i = 0; i < all->n_fields; i++) CPLFree(all->fields[i].name);
     CPLFree(all->fields);
-    free(all->sent);
+    gis_digest_list_clear(&all->sent);
     free(all->xy);
-    *all = (gis_digests){0};
+    *all = (gis_digests){.sent.scratch = all->sent.scratch};
 }
 
 static int order(const void *a, const void *b)
@@ -204,23 +196,37 @@ static size_t missing(const gis_digest *sent, const gis_digest *read, size_t n, 
     return count;
 }
 
-static bool is_next(const gis_digests_read *read, const gis_digests *all, gis_digest one)
+static bool is_next(const gis_digests_read *read, gis_digests *all, gis_digest one, bool *same, gis_error *error)
 {
-    return read->n < all->n && all->sent[read->n].place == one.place &&
-           (!all->values_comparable || all->sent[read->n].values == one.values);
+    gis_digest sent;
+    *same = read->n < all->sent.n;
+    if (!*same) return true;
+    if (!gis_digest_list_get(&all->sent, read->n, &sent, error)) return false;
+    *same = sent.place == one.place && (!all->values_comparable || sent.values == one.values);
+    return true;
+}
+
+/* What was read so far is what was sent first. */
+static bool part_ways(gis_digests_read *read, gis_digests *all, gis_error *error)
+{
+    if (!gis_digest_list_hold(&all->sent, read->n, error)) return false;
+    if (!gis_array_reserve(&read->at, &read->capacity, read->n + 1, sizeof *read->at)) return gis_no_memory(error);
+    if (read->n) memcpy(read->at, all->sent.at, read->n * sizeof *read->at);
+    read->differ = true;
+    return true;
 }
 
 /* Mostly what was sent first reads first, and nothing has to be kept or sorted. */
-bool gis_digests_read_add(gis_digests_read *read, const gis_digests *all, gis_digest one)
+bool gis_digests_read_add(gis_digests_read *read, gis_digests *all, gis_digest one, gis_error *error)
 {
-    if (!read->differ && is_next(read, all, one)) {
-        read->n++;
-        return true;
+    bool same = false;
+    if (!read->differ && !is_next(read, all, one, &same, error)) return false;
+    if (!read->differ && !same && !part_ways(read, all, error)) return false;
+    if (read->differ) {
+        if (!gis_array_reserve(&read->at, &read->capacity, read->n + 1, sizeof *read->at)) return gis_no_memory(error);
+        read->at[read->n] = one;
     }
-    if (!gis_array_reserve(&read->at, &read->capacity, read->n + 1, sizeof *read->at)) return false;
-    if (!read->differ && read->n) memcpy(read->at, all->sent, read->n * sizeof *read->at);
-    read->differ = true;
-    read->at[read->n++] = one;
+    read->n++;
     return true;
 }
 
@@ -231,13 +237,15 @@ static bool compare(gis_sink_layer *layer, const gis_digests_read *as_read, gis_
     if (!all->wanted) /* a format that keeps nothing as it is: all features were there to be read */
         return true;
     if (!as_read->differ) return true;
+    const size_t n = all->sent.n;
     gis_digest *read = as_read->at;
-    if (all->n) { /* else there are no lists */
-        qsort(all->sent, all->n, sizeof *all->sent, order);
-        qsort(read, all->n, sizeof *read, order);
+    if (!gis_digest_list_hold(&all->sent, n, error)) return false;
+    if (n) { /* else there are no lists */
+        qsort(all->sent.at, n, sizeof *read, order);
+        qsort(read, n, sizeof *read, order);
     }
-    size_t lost = missing(all->sent, read, all->n, false);
-    size_t changed = lost || !all->values_comparable ? 0 : missing(all->sent, read, all->n, true);
+    size_t lost = missing(all->sent.at, read, n, false);
+    size_t changed = lost || !all->values_comparable ? 0 : missing(all->sent.at, read, n, true);
     if (!lost && changed && !sink->format.keeps_values) {
         gis_sentences_add(&sink->losses, "layer %s: the values of %zu features do not read back as they were written",
                           layer->name, changed);
@@ -245,7 +253,7 @@ static bool compare(gis_sink_layer *layer, const gis_digests_read *as_read, gis_
     }
     return !(lost || changed) ||
            gis_fail(error, "%s, layer %s: %zu of %zu features do not read back as they were written; is the disk full?",
-                    sink->request.path, layer->name, lost ? lost : changed, all->n);
+                    sink->request.path, layer->name, lost ? lost : changed, n);
 }
 
 /* Every feature of the layer, decoded; what the driver reports meanwhile is a failure. */
@@ -261,9 +269,8 @@ static bool read_back(gis_sink_layer *layer, OGRLayerH as_written, gis_digests_r
         gis_digest one;
         OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
         with_z += geometry && OGR_G_Is3D(geometry);
-        done = gis_go_on(error) &&
-               ((digest(all, feature, OGR_F_GetFID(feature), true, &one) && gis_digests_read_add(read, all, one)) ||
-                gis_no_memory(error));
+        done = gis_go_on(error) && (digest(all, feature, OGR_F_GetFID(feature), true, &one) || gis_no_memory(error)) &&
+               gis_digests_read_add(read, all, one, error);
     }
     OGR_L_ResetReading(as_written); /* a database would keep the table open */
     gis_listen_end();

@@ -18,6 +18,7 @@
 
 #include "base/interrupt.h"
 #include "stage/stage.h"
+#include "write/digest_list.h"
 #include "write/format.h"
 #include "write/rtree.h"
 #include "write/sink.h"
@@ -45,15 +46,12 @@ typedef struct gis_plain_field {
     int width; /* of a text; 0: any */
 } gis_plain_field;
 
-typedef struct gis_digest gis_digest;
-
 /* The features of a layer as numbers (sink_digest.c). A zeroed struct is empty, and notes nothing. */
 typedef struct gis_digests {
     bool wanted, with_fid, values_comparable;
     gis_plain_field *fields;
     size_t n_fields;
-    gis_digest *sent;
-    size_t n, capacity;
+    gis_digest_list sent;
     size_t with_z; /* features with a third coordinate */
     double *xy;    /* room for the points of one ring */
     size_t room;
@@ -93,8 +91,8 @@ struct gis_sink_layer {
     bool can_measure, can_curve;
     size_t written;
     gis_sink_rows rows;
-    gis_boxes boxes; /* for the spatial index of a GeoPackage */
-    bool promised;   /* `verified` speaks of its features */
+    gis_rtree tree; /* the spatial index of a GeoPackage */
+    bool promised;  /* `verified` speaks of its features */
     gis_digests digests;
     bool keep_sent;
     gis_sent *sent;

@@ -144,10 +144,11 @@ bool gis_read_rows(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_wri
     void *statement = gis_sqlite_select_begin(database, sql);
     CPLFree(sql);
     gis_sqlite_next next = GIS_SQLITE_BROKEN;
+    gis_error unheard; /* GDAL comes to it, too */
     bool done = statement;
     while (done && (next = gis_sqlite_select_next(statement)) == GIS_SQLITE_HAS_ROW) {
         gis_digest one;
-        done = !gis_interrupted() && row(all, statement, &one) && gis_digests_read_add(read, all, one);
+        done = !gis_interrupted() && row(all, statement, &one) && gis_digests_read_add(read, all, one, &unheard);
     }
     gis_sqlite_select_end(statement);
     if (done && next == GIS_SQLITE_AT_END && read->n == layer->written) return true;

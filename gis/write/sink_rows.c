@@ -70,7 +70,7 @@ static bool lines_are_plain(const gis_sink_layer *layer)
 
 static bool layer_is_plain(const gis_sink_layer *layer, bool lines)
 {
-    return sink_is_plain(layer->sink) && !layer->promote && !layer->wind && layer->boxes.trigger &&
+    return sink_is_plain(layer->sink) && !layer->promote && !layer->wind && layer->tree.trigger &&
            (lines ? lines_are_plain(layer) : main_is_plain(layer)) && fields_are_plain(layer);
 }
 
@@ -259,7 +259,7 @@ static bool insert(gis_sink_layer *layer, GIntBig fid, const OGREnvelope *box, g
                         layer->name, (int64_t)fid, reason);
     layer->written++;
     rows->n++;
-    return gis_rtree_add_box(&layer->boxes, fid, box, error) &&
+    return gis_rtree_add_box(&layer->tree, fid, box, error) &&
            gis_digests_add_plain(&layer->digests, fid, rows->blob + HEAD + BOX, rows->value, error);
 }
 

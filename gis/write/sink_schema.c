@@ -339,7 +339,7 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
         if (layer->request.as_source) copy_metadata(layer);
         create_source_fields(layer);
         create_own_fields(layer);
-        done = !sink->format.geopackage || gis_rtree_begin(layer->dataset, layer->layer, &layer->boxes, error);
+        done = !sink->format.geopackage || gis_rtree_begin(layer->dataset, layer->layer, &layer->tree, error);
         layer->can_measure = OGR_L_TestCapability(layer->layer, OLCMeasuredGeometries);
         layer->can_curve = OGR_L_TestCapability(layer->layer, OLCCurveGeometries);
     }

@@ -113,7 +113,7 @@ static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, const GIntBig 
                  layer->written + 1, gis_listener_reason(&listener, "GDAL gives no reason"));
     hear_warnings(layer, &listener);
     gis_listener_clear(&listener);
-    return done && gis_rtree_add(&layer->boxes, to, error) && gis_digests_add(&layer->digests, to, fid, error);
+    return done && gis_rtree_add(&layer->tree, to, error) && gis_digests_add(&layer->digests, to, fid, error);
 }
 
 /* The feature has all it needs; it is fitted to the format, and written. */

@@ -1,0 +1,139 @@
+/* index_boxes.c: see index_boxes.h. */
+#include "write/index_boxes.h"
+
+#include "base/array.h"
+#include "base/curve.h"
+#include "spool/sort.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Noting ------------------------------------------------------------------------------------------------------ */
+
+/* A box as it lies on the disk. */
+typedef struct record {
+    gis_sort_head head;
+    gis_index_box box;
+} record;
+
+static float below(double x)
+{
+    float f = (float)x;
+    return (double)f > x ? nextafterf(f, -INFINITY) : f;
+}
+
+static float above(double x)
+{
+    float f = (float)x;
+    return (double)f < x ? nextafterf(f, INFINITY) : f;
+}
+
+static bool store(gis_index_boxes *boxes, const gis_index_box *box, gis_error *error)
+{
+    record one = {.head.bytes = sizeof one, .box = *box};
+    return (boxes->file.stream || gis_spool_file_create(&boxes->file, boxes->scratch, "boxes.XXXXXX", error)) &&
+           gis_spool_file_write(&boxes->file, &one, sizeof one, error);
+}
+
+bool gis_index_boxes_add(gis_index_boxes *boxes, GIntBig fid, const OGREnvelope *box, gis_error *error)
+{
+    const gis_index_box one = {fid, {below(box->MinX), above(box->MaxX), below(box->MinY), above(box->MaxY)}};
+    if (boxes->scratch) {
+        if (!store(boxes, &one, error)) return false;
+    } else {
+        if (!gis_array_reserve(&boxes->at, &boxes->capacity, boxes->n + 1, sizeof *boxes->at))
+            return gis_no_memory(error);
+        boxes->at[boxes->n] = one;
+    }
+    if (boxes->n++ == 0) memcpy(boxes->around, one.side, sizeof one.side);
+    for (int k = 0; k < 4; k++)
+        boxes->around[k] = k % 2 ? fmaxf(boxes->around[k], one.side[k]) : fminf(boxes->around[k], one.side[k]);
+    return true;
+}
+
+void gis_index_boxes_clear(gis_index_boxes *boxes)
+{
+    free(boxes->at);
+    gis_spool_file_close(&boxes->file);
+    *boxes = (gis_index_boxes){.scratch = boxes->scratch};
+}
+
+/* ---- Order ------------------------------------------------------------------------------------------------------- */
+
+/* The curve's grid is finer than the boxes of any layer need to be told apart. */
+enum { CURVE_BITS = 16 };
+
+/* Where the centre lies along the curve. Boxes at the same place keep the order in which they came. */
+static uint32_t along(const gis_index_boxes *boxes, const gis_index_box *box)
+{
+    const float *around = boxes->around, *side = box->side;
+    const uint32_t x = gis_curve_cell(((double)side[0] + side[1]) / 2, around[0], around[1], CURVE_BITS);
+    const uint32_t y = gis_curve_cell(((double)side[2] + side[3]) / 2, around[2], around[3], CURVE_BITS);
+    return (uint32_t)gis_curve_position(x, y, CURVE_BITS);
+}
+
+typedef struct place {
+    uint32_t along, at; /* which box */
+} place;
+
+static int compare_places(const void *a, const void *b)
+{
+    const place *p = a, *q = b;
+    if (p->along != q->along) return p->along < q->along ? -1 : 1;
+    return (p->at > q->at) - (p->at < q->at);
+}
+
+static bool take_from_memory(gis_index_boxes *boxes, gis_index_boxes_take *take, void *user, gis_error *error)
+{
+    place *places = boxes->n <= UINT32_MAX ? malloc((boxes->n + 1) * sizeof *places) : NULL;
+    bool done = places || gis_no_memory(error);
+    for (size_t i = 0; done && i < boxes->n; i++) places[i] = (place){along(boxes, &boxes->at[i]), (uint32_t)i};
+    if (done && boxes->n) qsort(places, boxes->n, sizeof *places, compare_places);
+    for (size_t i = 0; done && i < boxes->n; i++) done = take(user, &boxes->at[places[i].at], error);
+    free(places);
+    return done;
+}
+
+typedef struct taking {
+    const gis_index_boxes *boxes;
+    gis_index_boxes_take *take;
+    void *user;
+} taking;
+
+static bool prepare_record(void *user, unsigned char *bytes, gis_error *error)
+{
+    const taking *t = user;
+    record *one = (void *)bytes;
+    (void)error;
+    one->head.first = along(t->boxes, &one->box);
+    return true;
+}
+
+static bool take_record(void *user, const unsigned char *bytes, gis_error *error)
+{
+    const taking *t = user;
+    const record *one = (const void *)bytes;
+    return t->take(t->user, &one->box, error);
+}
+
+static bool take_from_disk(gis_index_boxes *boxes, gis_index_boxes_take *take, void *user, gis_error *error)
+{
+    taking t = {boxes, take, user};
+    const gis_spool_sorting sorting = {.from = &boxes->file,
+                                       .directory = boxes->scratch,
+                                       .parts = "boxes-sorted.XXXXXX",
+                                       .run = GIS_SPOOL_RUN / 4,
+                                       .prepare = prepare_record,
+                                       .take = take_record,
+                                       .user = &t};
+    return boxes->n == 0 || (gis_spool_file_flush(&boxes->file, error) && gis_spool_sort(&sorting, error));
+}
+
+bool gis_index_boxes_in_order(gis_index_boxes *boxes, gis_index_boxes_take *take, void *user, gis_error *error)
+{
+    const bool done =
+        boxes->scratch ? take_from_disk(boxes, take, user, error) : take_from_memory(boxes, take, user, error);
+    gis_index_boxes_clear(boxes);
+    return done;
+}
