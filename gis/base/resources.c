@@ -2,8 +2,12 @@
  * account of the process, the same that `time -v` prints. */
 #include "base/resources.h"
 
+#include <stdlib.h> /* __GLIBC__ */
 #include <sys/resource.h>
 #include <time.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 double gis_clock(void)
 {
@@ -20,5 +24,12 @@ uint64_t gis_peak_rss(void)
     return (uint64_t)usage.ru_maxrss;
 #else
     return (uint64_t)usage.ru_maxrss * 1024; /* Linux and the BSDs count in KiB */
+#endif
+}
+
+void gis_memory_back(void)
+{
+#ifdef __GLIBC__
+    malloc_trim(0);
 #endif
 }

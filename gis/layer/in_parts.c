@@ -19,7 +19,9 @@ enum { UNITS = 4096 };
 enum { BATCH = 16384 };
 
 /* On towns, at most. */
-static const double bytes_a_feature = 2000, bytes_a_vertex = 120, bytes_written = 90, bytes_anyway = 96e6;
+static const double bytes_a_feature = 2000, bytes_a_vertex = 120, bytes_written = 32, bytes_anyway = 96e6;
+/* While a layer is written: what is sorted and written at a time, which fills up with the first million. */
+static const double bytes_filled = 30, bytes_full = 30e6;
 /* Of barriers: their pieces, and the shapes of their parts. */
 static const double bytes_a_barrier = 1000, bytes_a_barrier_vertex = 300;
 
@@ -52,7 +54,10 @@ double gis_in_parts_bytes(double features, double vertices)
     return bytes_anyway + bytes_a_feature * features + bytes_a_vertex * vertices;
 }
 
-double gis_in_parts_bytes_written(double features) { return bytes_anyway + bytes_written * features; }
+double gis_in_parts_bytes_written(double features)
+{
+    return bytes_anyway + fmin(bytes_full, bytes_filled * features) + bytes_written * features;
+}
 
 /* How many units fit into what is left of the memory. */
 static bool choose_parts(gis_in_parts *p, double memory, gis_error *error)
@@ -171,6 +176,7 @@ static bool separate_parts(gis_in_parts *p, unsigned k, gis_part_file *file, gis
         done = done && gis_go_on(error);
     }
     gis_part_result_clear(&result);
+    gis_memory_back();
     return done;
 }
 
@@ -240,6 +246,7 @@ bool gis_in_parts_solve(gis_in_parts *p, uint64_t options, sunder_layer_summary 
     const bool done = gis_in_parts_scratch(p, error) && join_files(p, options, error);
     end_listening(p);
     gis_layout_clear(&p->layout); /* what is written needs memory, too */
+    gis_memory_back();
     *summary = p->joined.summary;
     summary->features = p->facts.source.features;
     summary->vertices = p->facts.vertices;

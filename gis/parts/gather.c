@@ -5,6 +5,7 @@
 
 #include "base/array.h"
 #include "base/interrupt.h"
+#include "base/resources.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -104,6 +105,7 @@ static bool put_everything(gathering *g, const gis_holding *h, gis_part_result *
     gis_part_result_clear(&chunk);
     done = done && put_result(g, held, error);
     gis_part_result_clear(held); /* sorting needs the room */
+    gis_memory_back();
     return done;
 }
 

@@ -7,7 +7,7 @@
 
 /* So many bytes of records are sorted at a time, and no more are held while parts are merged, but for one that is
  * larger. */
-#define GIS_SPOOL_RUN ((size_t)64 << 20)
+#define GIS_SPOOL_RUN ((size_t)16 << 20)
 
 typedef struct gis_sort_head {
     uint64_t bytes; /* of the whole record */

@@ -123,7 +123,7 @@ static bool take_from_disk(gis_index_boxes *boxes, gis_index_boxes_take *take, v
     const gis_spool_sorting sorting = {.from = &boxes->file,
                                        .directory = boxes->scratch,
                                        .parts = "boxes-sorted.XXXXXX",
-                                       .run = GIS_SPOOL_RUN / 4,
+                                       .run = GIS_SPOOL_RUN,
                                        .prepare = prepare_record,
                                        .take = take_record,
                                        .user = &t};

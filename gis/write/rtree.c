@@ -313,7 +313,7 @@ static bool write_from_disk(packing *all, gis_sqlite_rows *rows, gis_error *erro
     const gis_spool_sorting sorting = {.from = &all->leaf_file,
                                        .directory = all->scratch,
                                        .parts = "rows-sorted.XXXXXX",
-                                       .run = GIS_SPOOL_RUN / 4,
+                                       .run = GIS_SPOOL_RUN,
                                        .take = take_row,
                                        .user = s};
     const bool done = gis_spool_file_flush(&all->leaf_file, error) && gis_spool_sort(&sorting, error) &&
