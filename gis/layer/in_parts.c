@@ -2,6 +2,7 @@
 #define _GNU_SOURCE /* mkdtemp() */
 #include "layer/in_parts.h"
 
+#include "base/abandoned.h"
 #include "base/interrupt.h"
 #include "base/remove_tree.h"
 #include "base/resources.h"
@@ -31,8 +32,13 @@ static unsigned units_of(unsigned shards) { return shards * ((UNITS + shards - 1
 
 static bool make_directory(gis_in_parts *p, const char *where, gis_error *error)
 {
-    p->scratch = CPLStrdup(CPLFormFilename(where, "sunder.XXXXXX", NULL));
-    if (!mkdtemp(p->scratch)) {
+    bool made;
+    do {
+        CPLFree(p->scratch);
+        p->scratch = CPLStrdup(CPLFormFilename(where, "sunder.XXXXXX", NULL));
+        made = mkdtemp(p->scratch) != NULL;
+    } while (made && (p->scratch_lock = gis_directory_not_abandoned(p->scratch)) == -2);
+    if (!made) {
         gis_fail(error, "%s: a directory for the parts of the layer cannot be made: %s", p->scratch, strerror(errno));
         CPLFree(p->scratch);
         p->scratch = NULL;
@@ -235,7 +241,10 @@ static bool join_files(gis_in_parts *p, uint64_t options, gis_error *error)
 
 const char *gis_in_parts_scratch(gis_in_parts *p, gis_error *error)
 {
-    return p->scratch || make_directory(p, p->directory, error) ? p->scratch : NULL;
+    if (p->scratch) return p->scratch;
+    gis_remove_abandoned(p->directory, "sunder.");
+    gis_remove_abandoned(p->directory, "shard-");
+    return make_directory(p, p->directory, error) ? p->scratch : NULL;
 }
 
 bool gis_in_parts_solve(gis_in_parts *p, uint64_t options, sunder_layer_summary *summary, gis_error *error)
@@ -263,7 +272,10 @@ void gis_in_parts_clear(gis_in_parts *p)
     gis_barriers_close(&p->barriers);
     gis_layer_facts_clear(&p->facts);
     free(p->first_fid);
-    if (p->scratch) gis_remove_tree(p->scratch);
+    if (p->scratch) {
+        gis_remove_tree(p->scratch);
+        if (p->scratch_lock >= 0) close(p->scratch_lock);
+    }
     gis_leftover_forget(p->leftover);
     CPLFree(p->directory);
     CPLFree(p->scratch);

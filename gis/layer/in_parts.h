@@ -18,7 +18,8 @@
 typedef struct gis_in_parts {
     const gis_layer_input_request *request;
     char *directory;
-    char *scratch; /* within it, or itself: what goes in the end */
+    char *scratch;    /* within it, or itself: what goes in the end */
+    int scratch_lock; /* while there is scratch: base/abandoned.h */
     gis_leftover *leftover;
     gis_layer_facts facts;
     gis_spool *spool;

@@ -2,6 +2,7 @@
  * list of them; how many they are, where the list begins, and a checksum of stamp and list. */
 #include "parts/part_file.h"
 
+#include "base/abandoned.h"
 #include "base/array.h"
 #include "base/box.h"
 #include "spool/checksum.h"
@@ -42,7 +43,9 @@ bool gis_part_file_create(gis_part_file *file, const char *directory, const gis_
     char name[GIS_PART_FILE_NAME + 8];
     *file = (gis_part_file){.stamp = *stamp};
     gis_part_file_name(stamp->shard, name);
-    strcat(name, ".XXXXXX"); /* several may be at the same one */
+    strcat(name, "."); /* several may be at the same one */
+    gis_remove_abandoned(directory, name);
+    strcat(name, "XXXXXX");
     return gis_spool_file_create(&file->file, directory, name, error) &&
            gis_spool_file_write(&file->file, &mark, sizeof mark, error) &&
            gis_spool_file_write(&file->file, &head, sizeof head, error);

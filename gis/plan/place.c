@@ -2,6 +2,7 @@
 #define _GNU_SOURCE /* mkdtemp() */
 #include "plan/plan.h"
 
+#include "base/abandoned.h"
 #include "base/remove_tree.h"
 
 #include <cpl_conv.h>
@@ -22,18 +23,40 @@ static void open_to_others(const char *path)
     (void)chmod(path, 0777 & ~mask);
 }
 
-bool gis_plan_place_begin(const char *directory, gis_plan_place *place, gis_error *error)
+/* "DIR/.NAME." of DIR/NAME, and "XXXXXX" */
+static char *hidden_beside(const char *directory, size_t *beside)
 {
     size_t n = strlen(directory);
     while (n > 1 && directory[n - 1] == '/') n--;
-    size_t name = n;
-    while (name > 0 && directory[name - 1] != '/') name--;
-    place->path = CPLStrdup(CPLSPrintf("%.*s.%.*s.XXXXXX", (int)name, directory, (int)(n - name), directory + name));
+    *beside = n;
+    while (*beside > 0 && directory[*beside - 1] != '/') --*beside;
+    return CPLStrdup(CPLSPrintf("%.*s.%.*s.XXXXXX", (int)*beside, directory, (int)(n - *beside), directory + *beside));
+}
+
+static void remove_abandoned(const char *hidden, size_t beside)
+{
+    char *directory = CPLStrdup(beside ? CPLSPrintf("%.*s", (int)beside, hidden) : ".");
+    char *prefix = CPLStrdup(hidden + beside);
+    prefix[strlen(prefix) - strlen("XXXXXX")] = '\0';
+    gis_remove_abandoned(directory, prefix);
+    CPLFree(directory);
+    CPLFree(prefix);
+}
+
+bool gis_plan_place_begin(const char *directory, gis_plan_place *place, gis_error *error)
+{
+    size_t beside;
+    bool made;
+    char *hidden = hidden_beside(directory, &beside);
+    remove_abandoned(hidden, beside);
+    place->path = CPLStrdup(hidden);
     gis_hold();
-    const bool made = mkdtemp(place->path) != NULL;
+    while ((made = mkdtemp(place->path) != NULL) && (place->lock = gis_directory_not_abandoned(place->path)) == -2)
+        strcpy(place->path, hidden);
     const int why = errno;
     if (made) place->leftover = gis_leftover_temporary(place->path);
     gis_release();
+    CPLFree(hidden);
     if (made) {
         open_to_others(place->path);
         return true;
@@ -53,15 +76,21 @@ static void sync_parent(const char *directory)
     close(opened);
 }
 
+static void forget(gis_plan_place *place)
+{
+    gis_leftover_forget(place->leftover);
+    CPLFree(place->path);
+    if (place->lock >= 0) close(place->lock);
+    *place = (gis_plan_place){0};
+}
+
 bool gis_plan_place_end(gis_plan_place *place, const char *directory, bool *taken, gis_error *error)
 {
     gis_hold();
     const bool done = rename(place->path, directory) == 0;
     const int why = errno;
     if (done) {
-        gis_leftover_forget(place->leftover);
-        CPLFree(place->path);
-        *place = (gis_plan_place){0};
+        forget(place);
     }
     gis_release();
     *taken = !done && (why == ENOTEMPTY || why == EEXIST || why == ENOTDIR);
@@ -73,7 +102,5 @@ void gis_plan_place_clear(gis_plan_place *place)
 {
     if (!place->path) return;
     gis_remove_tree(place->path);
-    gis_leftover_forget(place->leftover);
-    CPLFree(place->path);
-    *place = (gis_plan_place){0};
+    forget(place);
 }

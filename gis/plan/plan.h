@@ -54,6 +54,7 @@ gis_plan_estimate gis_plan_of_merge(const gis_plan *plan);
 
 typedef struct gis_plan_place {
     char *path; /* hidden, beside the directory */
+    int lock;   /* of that: base/abandoned.h */
     gis_leftover *leftover;
 } gis_plan_place;
 

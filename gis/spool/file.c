@@ -2,6 +2,8 @@
 #define _GNU_SOURCE
 #include "spool/file.h"
 
+#include "base/abandoned.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -22,10 +24,17 @@ static bool cannot_write(const char *path, gis_error *error)
     return gis_fail(error, "%s: cannot be written: %s", path, strerror(errno));
 }
 
+#define UNIQUE "XXXXXX"
+
 /* mkstemp() makes files for their owner alone; these are as any other. */
 static FILE *open_unique(char *path)
 {
-    const int opened = mkstemp(path);
+    int opened;
+    const size_t letters = strlen(path) - strlen(UNIQUE);
+    while ((opened = mkstemp(path)) >= 0 && !gis_not_abandoned(opened)) {
+        close(opened);
+        strcpy(path + letters, UNIQUE);
+    }
     if (opened < 0) return NULL;
     const mode_t mask = umask(0);
     umask(mask);
@@ -37,13 +46,12 @@ static FILE *open_unique(char *path)
 
 bool gis_spool_file_create(gis_spool_file *file, const char *directory, const char *name, gis_error *error)
 {
-    static const char unique[] = "XXXXXX";
-    const size_t n = strlen(name), of_these = sizeof unique - 1;
+    const size_t n = strlen(name), of_these = strlen(UNIQUE);
     *file = (gis_spool_file){.path = gis_spool_inside(directory, name)};
     if (!file->path) return gis_no_memory(error);
     gis_hold();
     file->stream =
-        n > of_these && strcmp(name + n - of_these, unique) == 0 ? open_unique(file->path) : fopen(file->path, "w+");
+        n > of_these && strcmp(name + n - of_these, UNIQUE) == 0 ? open_unique(file->path) : fopen(file->path, "w+");
     if (file->stream) file->leftover = gis_leftover_temporary(file->path);
     gis_release();
     return file->stream || cannot_write(file->path, error);

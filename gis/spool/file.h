@@ -19,7 +19,8 @@ typedef struct gis_spool_file {
 char *gis_spool_inside(const char *directory, const char *name);
 
 /* A new one; what an earlier run left of that name is replaced. It goes when closed, unless it was placed. A name that
- * ends with XXXXXX gets other letters there, so that it is no file's: for what several processes make at once. */
+ * ends with XXXXXX gets other letters there, so that it is no file's: for what several processes make at once
+ * (base/abandoned.h). */
 bool gis_spool_file_create(gis_spool_file *file, const char *directory, const char *name, gis_error *error);
 bool gis_spool_file_write(gis_spool_file *file, const void *bytes, size_t n, gis_error *error);
 /* All that was written can be read from now on, and is not written on. */

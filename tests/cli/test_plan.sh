@@ -60,8 +60,8 @@ for delay in 0.03 0.1; do
     sleep $delay
     kill -9 $process 2>/dev/null
     wait $process 2>/dev/null
-    rm -rf .killed.??????
     expect 0 plan town.gpkg killed "${call[@]}" --shards 3 -q
+    same "$(find . -maxdepth 1 -name '.killed.*')" '' "left of a plan that was killed after $delay s, when it was made again:"
     for k in 1 2 3; do
         "$SUNDER" separate --shard $k killed -q 2>err &
         process=$!
@@ -77,7 +77,23 @@ for delay in 0.03 0.1; do
     kill -9 $process 2>/dev/null
     wait $process 2>/dev/null
     merged killed
+    same "$(find killed -name '*.??????')" '' "left in a plan whose steps were killed after $delay s, when all was done:"
 done
+# What a process left that was killed goes; what one still holds stays, and so does what others keep there.
+mkdir killed/sunder.abcdef .held.abcdef
+touch killed/sunder.abcdef/rows killed/shard-2.abcdef killed/shard-3.held12 killed/notes.abcdef
+flock -x killed/shard-3.held12 sleep 60 &
+holder=$!
+flock -x .held.abcdef sleep 60 &
+other=$!
+while flock -n killed/shard-3.held12 true || flock -n .held.abcdef true; do sleep 0.01; done
+merged killed
+expect 0 plan town.gpkg held "${call[@]}" --shards 3 -q
+same "$(find killed -name '*.??????' | sort | tr '\n' ' ')" 'killed/notes.abcdef killed/shard-3.held12 ' "who holds and who does not:"
+[ -d .held.abcdef ] || fail "a plan that is being made by another was removed"
+kill $holder $other
+wait $holder $other 2>/dev/null
+rm -rf killed .held.abcdef held
 # A signal that asks leaves nothing.
 for delay in 0.02 0.06; do
     rm -rf asked
