@@ -33,9 +33,10 @@ int gis_directory_not_abandoned(const char *path)
 
 static bool is_called(const char *name, const char *prefix)
 {
-    enum { LETTERS = 6 };
-    const char *point = strrchr(name, '.');
-    return strncmp(name, prefix, strlen(prefix)) == 0 && point && strlen(point + 1) == LETTERS;
+    static const char end[] = GIS_OWN_LETTERS;
+    const size_t n = strlen(name), of_end = strlen(end), fixed = strcspn(end, "X");
+    return n >= strlen(prefix) + of_end && strncmp(name, prefix, strlen(prefix)) == 0 &&
+           strncmp(name + n - of_end, end, fixed) == 0;
 }
 
 static void remove_if_abandoned(const char *directory, const char *name)

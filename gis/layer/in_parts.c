@@ -35,7 +35,7 @@ static bool make_directory(gis_in_parts *p, const char *where, gis_error *error)
     bool made;
     do {
         CPLFree(p->scratch);
-        p->scratch = CPLStrdup(CPLFormFilename(where, "sunder.XXXXXX", NULL));
+        p->scratch = CPLStrdup(CPLFormFilename(where, "parts" GIS_OWN_LETTERS, NULL));
         made = mkdtemp(p->scratch) != NULL;
     } while (made && (p->scratch_lock = gis_directory_not_abandoned(p->scratch)) == -2);
     if (!made) {
@@ -242,7 +242,7 @@ static bool join_files(gis_in_parts *p, uint64_t options, gis_error *error)
 const char *gis_in_parts_scratch(gis_in_parts *p, gis_error *error)
 {
     if (p->scratch) return p->scratch;
-    gis_remove_abandoned(p->directory, "sunder.");
+    gis_remove_abandoned(p->directory, "parts");
     gis_remove_abandoned(p->directory, "shard-");
     return make_directory(p, p->directory, error) ? p->scratch : NULL;
 }

@@ -40,12 +40,11 @@ bool gis_part_file_create(gis_part_file *file, const char *directory, const gis_
 {
     const gis_spool_mark mark = gis_spool_mark_of(WHAT);
     const stored_stamp head = {*stamp, gis_part_result_form()};
-    char name[GIS_PART_FILE_NAME + 8];
+    char name[GIS_PART_FILE_NAME + sizeof GIS_OWN_LETTERS];
     *file = (gis_part_file){.stamp = *stamp};
     gis_part_file_name(stamp->shard, name);
-    strcat(name, "."); /* several may be at the same one */
     gis_remove_abandoned(directory, name);
-    strcat(name, "XXXXXX");
+    strcat(name, GIS_OWN_LETTERS); /* several may be at the same one */
     return gis_spool_file_create(&file->file, directory, name, error) &&
            gis_spool_file_write(&file->file, &mark, sizeof mark, error) &&
            gis_spool_file_write(&file->file, &head, sizeof head, error);

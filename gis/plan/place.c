@@ -23,21 +23,22 @@ static void open_to_others(const char *path)
     (void)chmod(path, 0777 & ~mask);
 }
 
-/* "DIR/.NAME." of DIR/NAME, and "XXXXXX" */
+/* "DIR/.NAME" of DIR/NAME, and letters of its own. */
 static char *hidden_beside(const char *directory, size_t *beside)
 {
     size_t n = strlen(directory);
     while (n > 1 && directory[n - 1] == '/') n--;
     *beside = n;
     while (*beside > 0 && directory[*beside - 1] != '/') --*beside;
-    return CPLStrdup(CPLSPrintf("%.*s.%.*s.XXXXXX", (int)*beside, directory, (int)(n - *beside), directory + *beside));
+    return CPLStrdup(
+        CPLSPrintf("%.*s.%.*s" GIS_OWN_LETTERS, (int)*beside, directory, (int)(n - *beside), directory + *beside));
 }
 
 static void remove_abandoned(const char *hidden, size_t beside)
 {
     char *directory = CPLStrdup(beside ? CPLSPrintf("%.*s", (int)beside, hidden) : ".");
     char *prefix = CPLStrdup(hidden + beside);
-    prefix[strlen(prefix) - strlen("XXXXXX")] = '\0';
+    prefix[strlen(prefix) - strlen(GIS_OWN_LETTERS)] = '\0';
     gis_remove_abandoned(directory, prefix);
     CPLFree(directory);
     CPLFree(prefix);

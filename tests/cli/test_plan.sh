@@ -77,23 +77,25 @@ for delay in 0.03 0.1; do
     kill -9 $process 2>/dev/null
     wait $process 2>/dev/null
     merged killed
-    same "$(find killed -name '*.??????')" '' "left in a plan whose steps were killed after $delay s, when all was done:"
+    same "$(find killed -name '*.sunder-*')" '' "left in a plan whose steps were killed after $delay s, when all was done:"
 done
 # What a process left that was killed goes; what one still holds stays, and so does what others keep there.
-mkdir killed/sunder.abcdef .held.abcdef
-touch killed/sunder.abcdef/rows killed/shard-2.abcdef killed/shard-3.held12 killed/notes.abcdef
-flock -x killed/shard-3.held12 sleep 60 &
+mkdir killed/parts.sunder-abcdef .held.sunder-abcdef
+touch killed/parts.sunder-abcdef/rows killed/shard-2.sunder-abcdef killed/shard-3.sunder-held12 killed/shard-3.backup .held.config
+(flock -x 9 && exec sleep 60) 9<killed/shard-3.sunder-held12 &
 holder=$!
-flock -x .held.abcdef sleep 60 &
+(flock -x 9 && exec sleep 60) 9<.held.sunder-abcdef &
 other=$!
-while flock -n killed/shard-3.held12 true || flock -n .held.abcdef true; do sleep 0.01; done
+while flock -n killed/shard-3.sunder-held12 true || flock -n .held.sunder-abcdef true; do sleep 0.01; done
 merged killed
 expect 0 plan town.gpkg held "${call[@]}" --shards 3 -q
-same "$(find killed -name '*.??????' | sort | tr '\n' ' ')" 'killed/notes.abcdef killed/shard-3.held12 ' "who holds and who does not:"
-[ -d .held.abcdef ] || fail "a plan that is being made by another was removed"
+same "$(find killed -name '*.*' ! -name plan.json | sort | tr '\n' ' ')" 'killed/shard-3.backup killed/shard-3.sunder-held12 ' \
+    "who holds and who does not:"
+[ -d .held.sunder-abcdef ] || fail "a plan that is being made by another was removed"
+[ -e .held.config ] || fail "a file of somebody else's was removed"
 kill $holder $other
 wait $holder $other 2>/dev/null
-rm -rf killed .held.abcdef held
+rm -rf killed held .held.*
 # A signal that asks leaves nothing.
 for delay in 0.02 0.06; do
     rm -rf asked
