@@ -431,6 +431,9 @@ SUNDER_API void sunder_total_join(sunder_total *total, const sunder_total *part)
 /* The nearest double, and the greatest that is no more. Infinite past the range, or where an addend was. */
 SUNDER_API double sunder_total_nearest(const sunder_total *total);
 SUNDER_API double sunder_total_below(const sunder_total *total);
+/* The lower bound of a layer, from the sums over its parts of what is proved of each, and of what pairs prove: the
+ * latter if it is more, and not only by what trees prove less of a pair than is so (2^-17 of it). */
+SUNDER_API double sunder_total_bound(const sunder_total *proved, const sunder_total *by_pairs);
 
 /* ---- A whole layer ---------------------------------------------------------------------------------------- */
 
@@ -678,8 +681,12 @@ typedef struct sunder_world {
 SUNDER_API const sunder_world *sunder_report_worlds(const sunder_report *report, size_t *n);
 /* By worlds. */
 SUNDER_API const sunder_footprint *sunder_report_footprints(const sunder_report *report, size_t *n);
-/* What is proved of parts of worlds, by worlds; the lower bound is the sum of all, rounded down. */
-SUNDER_API const double *sunder_report_world_bounds(const sunder_report *report, size_t *n);
+/* What is proved of a part of a world, with trees by these where they are kept; and what its pairs prove. */
+typedef struct sunder_world_bound {
+    double proved, by_pairs;
+} sunder_world_bound;
+/* By worlds; lower_bound and pair_bound are made of the sums of all. */
+SUNDER_API const sunder_world_bound *sunder_report_world_bounds(const sunder_report *report, size_t *n);
 /* The number of the feature's world; SIZE_MAX: it is of none. */
 SUNDER_API size_t sunder_report_world(const sunder_report *report, size_t feature);
 /* How many pairs inside its block, of which it is the first, are not the gap apart; 0 where the block is of a world,

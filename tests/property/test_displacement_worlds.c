@@ -51,6 +51,7 @@ static void draw_options(field *f, rng *r)
     f->options.gap = rng_once_in(r, 4) ? 0 : 0.5 + 2 * rng_unit(r);
     f->options.effort = rng_once_in(r, 2) ? 0 : 0.02;
     f->options.keep_pushes = f->options.keep_worlds = true;
+    f->options.keep_trees = rng_once_in(r, 2);
     f->options.threads = (unsigned)rng_int(r, 1, 2);
 }
 
@@ -122,6 +123,19 @@ static void demand_same_conflicts(const sunder_report *whole, const sunder_repor
     assert_int_equal(j, m);
 }
 
+/* Of the parts of a world, in any order. */
+static void demand_same_bounds(const sunder_world_bound *one, const sunder_world_bound *other, size_t n)
+{
+    sunder_total a[2] = {{.beyond = 0}}, b[2] = {{.beyond = 0}};
+    for (size_t k = 0; k < n; k++) {
+        sunder_total_add(&a[0], one[k].proved);
+        sunder_total_add(&a[1], one[k].by_pairs);
+        sunder_total_add(&b[0], other[k].proved);
+        sunder_total_add(&b[1], other[k].by_pairs);
+    }
+    for (int k = 0; k < 2; k++) assert_true(sunder_total_below(&a[k]) == sunder_total_below(&b[k]));
+}
+
 static void demand_same_world(const sunder_report *whole, const sunder_report *part, size_t world, const size_t *from,
                               size_t parts)
 {
@@ -138,12 +152,8 @@ static void demand_same_world(const sunder_report *whole, const sunder_report *p
     assert_int_equal(w->clusters, v->clusters);
     assert_int_equal(w->clusters_optimal, v->clusters_optimal);
     assert_int_equal(w->bounds, v->bounds);
-    sunder_total a = {0}, b = {0};
-    const double *bound = sunder_report_world_bounds(whole, &bounds);
-    for (size_t k = 0; k < w->bounds; k++) sunder_total_add(&a, bound[w->bound + k]);
-    bound = sunder_report_world_bounds(part, &bounds);
-    for (size_t k = 0; k < v->bounds; k++) sunder_total_add(&b, bound[v->bound + k]);
-    assert_true(sunder_total_below(&a) == sunder_total_below(&b));
+    demand_same_bounds(sunder_report_world_bounds(whole, &bounds) + w->bound,
+                       sunder_report_world_bounds(part, &bounds) + v->bound, w->bounds);
     for (size_t k = 0; k < parts; k++) {
         double t[2], u[2];
         assert_int_equal(sunder_report_world(part, k) == of_part, sunder_report_world(whole, from[k]) == world);
@@ -250,12 +260,15 @@ static void demand_sums(const field *f, const sunder_report *report)
 {
     sunder_layer_summary s;
     size_t worlds, bounds, inside = 0, clusters = 0, optimal = 0;
-    sunder_total bound = {0}, cost = {0};
+    sunder_total proved = {0}, by_pairs = {0}, cost = {0};
     sunder_conflict_counts before = {0}, after = {0};
     sunder_report_summary(report, &s);
     const sunder_world *w = sunder_report_worlds(report, &worlds);
-    const double *value = sunder_report_world_bounds(report, &bounds);
-    for (size_t k = 0; k < bounds; k++) sunder_total_add(&bound, value[k]);
+    const sunder_world_bound *bound = sunder_report_world_bounds(report, &bounds);
+    for (size_t k = 0; k < bounds; k++) {
+        sunder_total_add(&proved, bound[k].proved);
+        sunder_total_add(&by_pairs, bound[k].by_pairs);
+    }
     for (size_t k = 0; k < worlds; k++) {
         clusters += w[k].clusters;
         optimal += w[k].clusters_optimal;
@@ -284,7 +297,8 @@ static void demand_sums(const field *f, const sunder_report *report)
     assert_int_equal(after.contained, s.after.contained);
     assert_int_equal(clusters, s.clusters);
     assert_int_equal(optimal, s.clusters_optimal);
-    assert_true(sunder_total_below(&bound) == s.lower_bound);
+    assert_true(sunder_total_bound(&proved, &by_pairs) == s.lower_bound);
+    assert_true(sunder_total_below(&by_pairs) == s.pair_bound);
     assert_true(sunder_total_nearest(&cost) == s.cost);
 }
 

@@ -6,7 +6,6 @@
  * them overlaps that did not, and no body of it that may move was counted with another group. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
-#include "displacement/report/tuning.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -76,9 +75,9 @@ static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* The trees of the groups that a bound stands on become the report's. *sum: what these groups prove. */
+/* The trees of the groups that a bound stands on become the report's. */
 static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, const sunder_i_parts *parts,
-                                double *sum, sunder_error *err)
+                                sunder_error *err)
 {
     size_t n = report->bound_pairs; /* and room for those of pairs */
     for (size_t k = 0; k < groups->n; k++) n += groups->group[k].trees.n;
@@ -87,7 +86,6 @@ static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, 
     for (size_t k = 0; k < groups->n; k++) {
         sunder_i_group *g = &groups->group[k];
         if (!(g->bound > 0) || sunder_i_part_is_by_pairs(parts, g->number)) continue;
-        *sum = nextafter(*sum + g->bound, -INFINITY);
         for (size_t m = 0; m < g->trees.n; m++) {
             g->trees.tree[m].group = k;
             report->bound_tree[report->bound_trees++] = g->trees.tree[m];
@@ -97,45 +95,53 @@ static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, 
     return SUNDER_OK;
 }
 
-/* Trees for all that the bound stands on. What they prove of pairs is a little less, and where one may get inside the
- * other nothing: the bound is what the trees prove then, or what all pairs prove by themselves. */
-static sunder_status keep_trees(sunder_report *report, sunder_i_solver *s, sunder_i_parts *parts, sunder_error *err)
+/* What is proved of each part, at its root. With trees for all that this stands on: what they prove of pairs is a
+ * little less, and where one may get inside the other nothing. */
+static sunder_status prove_parts(sunder_report *report, sunder_i_solver *s, sunder_i_parts *parts, double *proved,
+                                 sunder_error *err)
 {
-    sunder_layer_summary *summary = &report->summary;
-    double groups = 0, pairs = 0;
-    sunder_status status = take_trees(report, &s->groups, parts, &groups, err);
-    if (!status) status = sunder_i_report_pair_trees(report, s, parts, &pairs, err);
-    if (status) return status;
-    const double sum = groups > 0 ? nextafter(groups + pairs, -INFINITY) : pairs;
-    summary->lower_bound = sum >= summary->pair_bound * (1 - NEARLY_AS_MUCH) ? sum : summary->pair_bound;
-    return SUNDER_OK;
+    for (uint32_t b = 0; b < s->model.bodies; b++) proved[b] = sunder_i_part_bound(parts, b);
+    if (!s->model.rules.keep_trees) return SUNDER_OK;
+    sunder_status status = take_trees(report, &s->groups, parts, err);
+    return status ? status : sunder_i_report_pair_trees(report, s, parts, proved, err);
 }
 
-/* What is proved of each part, for worlds to be told apart. */
-static sunder_status keep_proved(sunder_report *report, const sunder_i_parts *parts, size_t bodies, sunder_error *err)
+/* Sums are exact until they are rounded, once: whatever the order. */
+static void add_up(sunder_layer_summary *summary, const double *proved, const double *by_pairs, size_t bodies)
+{
+    sunder_total all = {0}, pairs = {0};
+    for (size_t b = 0; b < bodies; b++) {
+        sunder_total_add(&all, proved[b]);
+        sunder_total_add(&pairs, by_pairs[b]);
+    }
+    summary->pair_bound = sunder_total_below(&pairs);
+    summary->lower_bound = sunder_total_bound(&all, &pairs);
+}
+
+/* For worlds to be told apart; the arrays are the report's from here on. */
+static void keep_proved(sunder_report *report, double **proved, sunder_i_parts *parts)
 {
     sunder_i_free(report->proved);
-    report->proved = sunder_i_alloc(bodies, sizeof *report->proved);
-    if (!report->proved) return sunder_i_no_memory(err);
-    for (uint32_t b = 0; b < bodies; b++) report->proved[b] = sunder_i_part_bound(parts, b);
-    return SUNDER_OK;
+    report->proved = *proved;
+    report->by_pairs = parts->by_pairs;
+    *proved = parts->by_pairs = NULL;
 }
 
 sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver *s, sunder_error *err)
 {
     sunder_layer_summary *summary = &report->summary;
-    const bool proved = s->groups.n && s->model.rules.effort > 0;
+    const bool any = s->groups.n && s->model.rules.effort > 0;
     summary->clusters = s->groups.n;
-    if (!proved && !s->model.rules.keep_trees) return SUNDER_OK;
+    if (!any && !s->model.rules.keep_trees) return SUNDER_OK;
     sunder_i_parts parts = {0};
-    sunder_status status = proved ? count_groups(summary, s, err) : SUNDER_OK;
+    double *proved = sunder_i_alloc(s->model.bodies, sizeof *proved);
+    sunder_status status = proved ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status && any) status = count_groups(summary, s, err);
     if (!status) status = sunder_i_parts_find(&parts, report, s, err);
-    if (!status) {
-        summary->pair_bound = sunder_i_parts_by_pairs(&parts, s->model.bodies);
-        summary->lower_bound = sunder_i_parts_bound(&parts, s->model.bodies);
-    }
-    if (!status && s->model.rules.keep_worlds) status = keep_proved(report, &parts, s->model.bodies, err);
-    if (!status && s->model.rules.keep_trees) status = keep_trees(report, s, &parts, err);
+    if (!status) status = prove_parts(report, s, &parts, proved, err);
+    if (!status) add_up(summary, proved, parts.by_pairs, s->model.bodies);
+    if (!status && s->model.rules.keep_worlds) keep_proved(report, &proved, &parts);
+    sunder_i_free(proved);
     sunder_i_parts_free(&parts);
     return status;
 }

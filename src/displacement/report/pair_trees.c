@@ -97,7 +97,7 @@ static size_t list_pairs(const sunder_report *report, const sunder_i_model *mode
 }
 
 static sunder_status prove_all(sunder_report *report, const sunder_i_solver *s, const sunder_i_id_pair *which, size_t n,
-                               double *load, double *sum, sunder_error *err)
+                               double *load, double *proved, sunder_error *err)
 {
     sunder_i_list body = {0};
     sunder_status status = SUNDER_OK;
@@ -105,6 +105,7 @@ static sunder_status prove_all(sunder_report *report, const sunder_i_solver *s, 
         const sunder_bound_pair *p = &report->bound_pair[which[k].b];
         load[s->model.body_of[p->a]] += p->multiplier;
         load[s->model.body_of[p->b]] += p->multiplier;
+        proved[which[k].a] = 0;
     }
     for (size_t k = 0; k < n && !status; k++) {
         sunder_bound_tree *tree = &report->bound_tree[report->bound_trees];
@@ -112,7 +113,8 @@ static sunder_status prove_all(sunder_report *report, const sunder_i_solver *s, 
         if (status) break;
         tree->group = s->groups.n + which[k].a;
         if (tree->bound > 0) {
-            *sum = nextafter(*sum + tree->bound, -INFINITY);
+            double *sum = &proved[which[k].a];
+            *sum = *sum > 0 ? nextafter(*sum + tree->bound, -INFINITY) : tree->bound;
             report->bound_trees++;
         } else {
             sunder_i_bound_tree_free(tree);
@@ -122,15 +124,15 @@ static sunder_status prove_all(sunder_report *report, const sunder_i_solver *s, 
     return status;
 }
 
-sunder_status sunder_i_report_pair_trees(sunder_report *report, sunder_i_solver *s, sunder_i_parts *parts, double *sum,
-                                         sunder_error *err)
+sunder_status sunder_i_report_pair_trees(sunder_report *report, sunder_i_solver *s, sunder_i_parts *parts,
+                                         double *proved, sunder_error *err)
 {
     sunder_i_id_pair *which = sunder_i_alloc(report->bound_pairs, sizeof *which);
     double *load = sunder_i_calloc(s->model.bodies, sizeof *load);
     sunder_status status = which && load ? SUNDER_OK : sunder_i_no_memory(err);
     const size_t n = status ? 0 : list_pairs(report, &s->model, parts, which);
     if (!status && n) status = sunder_i_solver_waive(s, err);
-    if (!status && n) status = prove_all(report, s, which, n, load, sum, err);
+    if (!status && n) status = prove_all(report, s, which, n, load, proved, err);
     sunder_i_free(which);
     sunder_i_free(load);
     return status;

@@ -71,17 +71,3 @@ double sunder_i_part_bound(const sunder_i_parts *parts, uint32_t body)
     const double most = fmax(parts->by_pairs[body], parts->by_groups[body]);
     return most > 0 && isfinite(most) ? most : 0;
 }
-
-double sunder_i_parts_by_pairs(const sunder_i_parts *parts, size_t bodies)
-{
-    sunder_total sum = {0};
-    for (size_t b = 0; b < bodies; b++) sunder_total_add(&sum, parts->by_pairs[b]);
-    return sunder_total_below(&sum);
-}
-
-double sunder_i_parts_bound(const sunder_i_parts *parts, size_t bodies)
-{
-    sunder_total sum = {0};
-    for (uint32_t b = 0; b < bodies; b++) sunder_total_add(&sum, sunder_i_part_bound(parts, b));
-    return sunder_total_below(&sum);
-}

@@ -95,6 +95,7 @@ void sunder_report_free(sunder_report *r)
     sunder_i_free(r->world_bound);
     sunder_i_free(r->thin);
     sunder_i_free(r->proved);
+    sunder_i_free(r->by_pairs);
     sunder_i_free(r);
 }
 

@@ -30,10 +30,10 @@ struct sunder_report {
     bool *inexact;    /* [n] */
     sunder_footprint *footprint;
     size_t footprints;
-    double *world_bound;
+    sunder_world_bound *world_bound;
     size_t world_bounds;
-    bool *thin;     /* [relations at the start] */
-    double *proved; /* [bodies] what is proved of a part; at its root */
+    bool *thin;                /* [relations at the start] */
+    double *proved, *by_pairs; /* [bodies] what is proved of a part, at its root; by_pairs NULL: all by pairs */
     sunder_layer_summary summary;
 };
 
@@ -117,9 +117,6 @@ void sunder_i_parts_free(sunder_i_parts *parts);
 bool sunder_i_part_is_by_pairs(const sunder_i_parts *parts, uint32_t body);
 /* The better bound of the part whose root the body is; of any other body 0. */
 double sunder_i_part_bound(const sunder_i_parts *parts, uint32_t body);
-/* The sum of these, rounded down once: whatever the order. And of what pairs prove of each, which is no more. */
-double sunder_i_parts_bound(const sunder_i_parts *parts, size_t bodies);
-double sunder_i_parts_by_pairs(const sunder_i_parts *parts, size_t bodies);
 
 /* ---- optimality.c ------------------------------------------------------------------------------------------------ */
 
@@ -129,9 +126,10 @@ sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver 
 
 /* ---- pair_trees.c ------------------------------------------------------------------------------------------------ */
 
-/* Adds trees for the pairs of those parts of which they prove more than groups do. *sum: what these trees prove. */
+/* Adds trees for the pairs of those parts of which they prove more than groups do. proved: [bodies] at the roots of
+ * these parts, what their trees prove. */
 sunder_status sunder_i_report_pair_trees(sunder_report *report, sunder_i_solver *solver, sunder_i_parts *parts,
-                                         double *sum, sunder_error *err);
+                                         double *proved, sunder_error *err);
 
 /* ---- pushes.c ---------------------------------------------------------------------------------------------------- */
 

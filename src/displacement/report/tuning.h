@@ -44,11 +44,9 @@
 
 /* ---- Trees for the bound of pairs (pair_trees.c) ----------------------------------------------------------------- */
 
-/* So much of the weights is left over, for rounding; steps for each pair; and a bound that is this share less is still
- * the same one. */
+/* So much of the weights is left over, for rounding; steps for each pair. */
 #define SHARED 0x1p-40
 #define PAIR_STEPS 1000000u
-#define NEARLY_AS_MUCH 0x1p-17
 
 /* ---- What holds the features where they are (pushes.c) ----------------------------------------------------------- */
 

@@ -243,6 +243,15 @@ static sunder_status count_pairs(sunder_report *report, const gathering *g, sund
     return SUNDER_OK;
 }
 
+/* What is proved of the part of which the body is the root. */
+static sunder_world_bound bound_of(const sunder_report *report, uint32_t body)
+{
+    if (!report->proved) return (sunder_world_bound){0, 0};
+    return (sunder_world_bound){report->proved[body], (report->by_pairs ? report->by_pairs : report->proved)[body]};
+}
+
+static bool is_any(sunder_world_bound bound) { return bound.proved > 0 || bound.by_pairs > 0; }
+
 /* Contact groups, and what is proved of the parts of each world. */
 static sunder_status count_proved(sunder_report *report, const gathering *g, sunder_error *err)
 {
@@ -252,8 +261,8 @@ static sunder_status count_proved(sunder_report *report, const gathering *g, sun
         w->clusters++;
         w->clusters_optimal += g->model->rules.effort > 0 && sunder_i_group_is_optimal(&groups->group[k]);
     }
-    for (uint32_t b = 0; b < g->model->bodies && report->proved; b++)
-        if (report->proved[b] > 0) report->world[world_of_body(report, g, b)].bounds++;
+    for (uint32_t b = 0; b < g->model->bodies; b++)
+        if (is_any(bound_of(report, b))) report->world[world_of_body(report, g, b)].bounds++;
     for (size_t k = 0; k < report->worlds; k++) {
         report->world[k].bound = report->world_bounds;
         report->world_bounds += report->world[k].bounds;
@@ -261,10 +270,10 @@ static sunder_status count_proved(sunder_report *report, const gathering *g, sun
     }
     report->world_bound = sunder_i_alloc(report->world_bounds, sizeof *report->world_bound);
     if (!report->world_bound) return sunder_i_no_memory(err);
-    for (uint32_t b = 0; b < g->model->bodies && report->proved; b++) {
-        if (!(report->proved[b] > 0)) continue;
+    for (uint32_t b = 0; b < g->model->bodies; b++) {
+        if (!is_any(bound_of(report, b))) continue;
         sunder_world *w = &report->world[world_of_body(report, g, b)];
-        report->world_bound[w->bound + w->bounds++] = report->proved[b];
+        report->world_bound[w->bound + w->bounds++] = bound_of(report, b);
     }
     return SUNDER_OK;
 }
@@ -334,7 +343,7 @@ const sunder_footprint *sunder_report_footprints(const sunder_report *report, si
     return report->footprint;
 }
 
-const double *sunder_report_world_bounds(const sunder_report *report, size_t *n)
+const sunder_world_bound *sunder_report_world_bounds(const sunder_report *report, size_t *n)
 {
     *n = report->world_bounds;
     return report->world_bound;
