@@ -12,6 +12,12 @@ void gis_text_clear(gis_text *text)
     *text = (gis_text){0};
 }
 
+void gis_text_empty(gis_text *text)
+{
+    if (text->at) text->at[0] = '\0';
+    text->length = 0;
+}
+
 const char *gis_text_get(const gis_text *text) { return text->failed ? NULL : text->at ? text->at : ""; }
 
 /* Room for n bytes more and the NUL. */

@@ -13,6 +13,8 @@ typedef struct gis_text {
 } gis_text;
 
 void gis_text_clear(gis_text *text);
+/* "" again, with its room. */
+void gis_text_empty(gis_text *text);
 /* What was added, "" if nothing; NULL after a failed allocation. */
 const char *gis_text_get(const gis_text *text);
 

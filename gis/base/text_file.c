@@ -20,34 +20,38 @@ static char *beside(const char *path, const char *ending)
     return name;
 }
 
-static bool write_bytes(const char *name, const char *mode, const char *text, size_t length, int *reason)
+/* Not there before: another's is not ours to remove. */
+static FILE *open_temporary(gis_text_file *file)
 {
-    FILE *file = fopen(name, mode);
-    bool done = file && fwrite(text, 1, length, file) == length && fflush(file) == 0;
-    *reason = errno;
-    if (file && fclose(file) != 0 && done) {
+    gis_hold();
+    FILE *opened = fopen(file->temporary, "wx");
+    const int reason = errno;
+    if (opened) {
+        file->leftover = gis_leftover_temporary(file->temporary);
+    } else {
+        free(file->temporary);
+        file->temporary = NULL;
+    }
+    gis_release();
+    errno = reason;
+    return opened;
+}
+
+/* *reason: why the file could not be written; 0: an error says what else went wrong. */
+static bool write_all(FILE *to, gis_text_writer *write, const void *of, int *reason, gis_error *error)
+{
+    errno = 0;
+    bool done = write(of, to, error) && fflush(to) == 0;
+    *reason = done || ferror(to) ? errno : 0;
+    if (fclose(to) != 0 && done) {
         done = false;
         *reason = errno;
     }
     return done;
 }
 
-static bool write_temporary(gis_text_file *file, const char *text, size_t length, int *reason)
-{
-    gis_hold();
-    bool done = write_bytes(file->temporary, "wx", text, length, reason);
-    if (!done && *reason == EEXIST) { /* not ours to remove */
-        free(file->temporary);
-        file->temporary = NULL;
-    } else {
-        file->leftover = gis_leftover_temporary(file->temporary);
-    }
-    gis_release();
-    return done;
-}
-
-bool gis_text_file_write(gis_text_file *file, const char *path, const char *text, size_t length, const char *what,
-                         gis_error *error)
+bool gis_text_file_write(gis_text_file *file, const char *path, gis_text_writer *write, const void *of,
+                         const char *what, gis_error *error)
 {
     struct stat info;
     char *resolved = lstat(path, &info) == 0 && S_ISLNK(info.st_mode) ? realpath(path, NULL) : NULL;
@@ -55,10 +59,10 @@ bool gis_text_file_write(gis_text_file *file, const char *path, const char *text
     if (!file->path) return gis_no_memory(error);
     bool special = stat(file->path, &info) == 0 && !S_ISREG(info.st_mode);
     if (!special && !(file->temporary = beside(file->path, "part"))) return gis_no_memory(error);
-    int reason;
-    if (special ? write_bytes(file->path, "w", text, length, &reason) : write_temporary(file, text, length, &reason))
-        return true;
-    return gis_fail(error, "%s: cannot write %s: %s", what, path, strerror(reason));
+    FILE *to = special ? fopen(file->path, "w") : open_temporary(file);
+    int reason = errno;
+    if (to && write_all(to, write, of, &reason, error)) return true;
+    return (to && reason == 0) ? false : gis_fail(error, "%s: cannot write %s: %s", what, path, strerror(reason));
 }
 
 static bool step_aside(gis_text_file *file, const char *what, gis_error *error)

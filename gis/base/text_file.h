@@ -8,6 +8,8 @@
 
 #include "base/interrupt.h"
 
+#include <stdio.h>
+
 typedef struct gis_text_file {
     char *path;      /* with links resolved: the link stays, and its target is replaced */
     char *temporary; /* NULL: there is none (yet, any more, or since the file is a pipe or a device) */
@@ -16,10 +18,13 @@ typedef struct gis_text_file {
     gis_leftover *leftover, *former_leftover; /* the same, for a signal */
 } gis_text_file;
 
+/* Writes all of it. False: with an error, or because the file could not be written, which that knows. */
+typedef bool gis_text_writer(const void *of, FILE *to, gis_error *error);
+
 /* Start from a zeroed struct. A pipe or a device (/dev/stdout, /dev/null) cannot be renamed over: it is written at
  * once. `what` names the file's role in the messages. */
-bool gis_text_file_write(gis_text_file *file, const char *path, const char *text, size_t length, const char *what,
-                         gis_error *error);
+bool gis_text_file_write(gis_text_file *file, const char *path, gis_text_writer *write, const void *of,
+                         const char *what, gis_error *error);
 bool gis_text_file_place(gis_text_file *file, const char *what, gis_error *error);
 void gis_text_file_end(gis_text_file *file, bool keep);
 

@@ -23,12 +23,7 @@ typedef struct plan_run {
 
 static bool refuse(const gis_options *options, gis_error *error)
 {
-    static const gis_option_id never[] = {OPT_REPORT, OPT_PROOF};
-    for (size_t k = 0; k < sizeof never / sizeof *never; k++)
-        if (options->given[never[k]])
-            return gis_fail_usage(error, "%s: a layer is not separated in shards with it",
-                                  gis_option_table[never[k]].names);
-    return true;
+    return !options->given[OPT_REPORT] || gis_fail_usage(error, "--report: a layer is not separated in shards with it");
 }
 
 static bool read_call(plan_run *run, const gis_options *options, gis_error *error)

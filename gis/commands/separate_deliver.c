@@ -31,18 +31,24 @@ static bool write_page(const gis_separate_run *run, gis_text *page, gis_error *e
     return ok;
 }
 
+static bool write_proof(const void *of, FILE *to, gis_error *error)
+{
+    const gis_separate_run *run = of;
+    if (!run->in_parts) return gis_proof_write(&run->input, run->report, to, error);
+    return gis_in_parts_proof((gis_in_parts *)&run->parts, &run->input, &run->summary, to, error);
+}
+
 bool gis_separate_deliver(const gis_separate_run *run, gis_error *error)
 {
     gis_json stats = {0};
-    gis_text page = {0}, proof = {0};
-    bool ok = (!run->to.report || write_page(run, &page, error)) &&
-              (!run->to.proof || gis_proof_write(&run->input, run->report, &proof, error));
+    gis_text page = {0};
+    bool ok = !run->to.report || write_page(run, &page, error);
     if (run->to.stats) gis_separate_stats(&stats, run);
-    const gis_delivery delivery = {
-        &run->to, run->sink, &stats, &page, &proof, gis_separate_is_summarised(run) ? gis_separate_print : NULL, run};
+    const gis_delivery delivery = {&run->to, run->sink,   &stats,
+                                   &page,    write_proof, gis_separate_is_summarised(run) ? gis_separate_print : NULL,
+                                   run};
     ok = ok && gis_deliver(&delivery, error);
     gis_json_clear(&stats);
     gis_text_clear(&page);
-    gis_text_clear(&proof);
     return ok;
 }

@@ -21,6 +21,8 @@ enum { BATCH = 16384 };
 
 /* On towns, at most. */
 static const double bytes_a_feature = 2000, bytes_a_vertex = 120, bytes_written = 32, bytes_anyway = 96e6;
+/* Of proofs, without search, and more with --effort 1; with more than that it was not measured. */
+static const double bytes_a_proof = 3000, bytes_of_effort = 8000;
 /* While a layer is written: what is sorted and written at a time, which fills up with the first million. */
 static const double bytes_filled = 30, bytes_full = 30e6;
 /* Of barriers: their pieces, and the shapes of their parts. */
@@ -55,9 +57,10 @@ static double bytes_of_barriers(const gis_spooled_barriers *b)
            bytes_a_barrier_vertex * (double)gis_spool_vertices(b->all);
 }
 
-double gis_in_parts_bytes(double features, double vertices)
+double gis_in_parts_bytes(const gis_layer_rules *rules, double features, double vertices)
 {
-    return bytes_anyway + bytes_a_feature * features + bytes_a_vertex * vertices;
+    const double proofs = rules->keep_trees ? bytes_a_proof + bytes_of_effort * fmin(1, rules->effort) : 0;
+    return bytes_anyway + (bytes_a_feature + proofs) * features + bytes_a_vertex * vertices;
 }
 
 double gis_in_parts_bytes_written(double features)
@@ -70,7 +73,8 @@ static bool choose_parts(gis_in_parts *p, double memory, gis_error *error)
 {
     const unsigned units = gis_spool_shards(p->spool);
     const double features = (double)gis_spool_features(p->spool), vertices = (double)gis_spool_vertices(p->spool),
-                 all = gis_in_parts_bytes(features, vertices) - bytes_anyway + bytes_of_barriers(&p->barriers),
+                 all = gis_in_parts_bytes(&p->request->rules, features, vertices) - bytes_anyway +
+                       bytes_of_barriers(&p->barriers),
                  written = gis_in_parts_bytes_written((double)p->facts.source.features),
                  least = fmax(bytes_anyway + all / units, written);
     if (!(memory > least))
@@ -102,6 +106,7 @@ static bool open_spool(gis_in_parts *p, double memory, gis_error *error)
                       gis_layout_make(p->spool, p->facts.gap, p->request->rules.block_field != NULL, &p->layout, error);
     p->layout.barriers = p->barriers;
     p->layout.features = p->facts.source.features;
+    p->layout.by_places = !p->facts.source.fids_unique;
     return done;
 }
 
@@ -203,7 +208,7 @@ static bool is_sound(gis_part_file *file, gis_error *error)
 {
     gis_part_result one = {0};
     bool done = true;
-    for (size_t k = 0; k < file->chunks && done; k++) done = gis_part_file_read(file, k, &one, error);
+    for (size_t k = 0; k < file->chunks && done; k++) done = gis_part_file_check(file, k, &one, error);
     gis_part_result_clear(&one);
     return done;
 }
@@ -271,7 +276,7 @@ void gis_in_parts_clear(gis_in_parts *p)
     gis_spool_close(p->spool);
     gis_barriers_close(&p->barriers);
     gis_layer_facts_clear(&p->facts);
-    free(p->first_fid);
+    free(p->block_fid);
     if (p->scratch) {
         gis_remove_tree(p->scratch);
         if (p->scratch_lock >= 0) close(p->scratch_lock);

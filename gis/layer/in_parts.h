@@ -29,7 +29,7 @@ typedef struct gis_in_parts {
     unsigned at_once; /* so many units are a part */
     gis_layout layout;
     gis_joined joined;
-    GIntBig *first_fid; /* [joined.blocks] of those that are the first of their block */
+    GIntBig *block_fid; /* [joined.blocks] of the features there, from when they are written */
 } gis_in_parts;
 
 /* Which layers are written. */
@@ -38,7 +38,7 @@ typedef struct gis_in_parts_layers {
 } gis_in_parts_layers;
 
 /* Bytes that a process takes, about: for a part of so much; for a layer while it is written, when no part is there. */
-double gis_in_parts_bytes(double features, double vertices);
+double gis_in_parts_bytes(const gis_layer_rules *rules, double features, double vertices);
 double gis_in_parts_bytes_written(double features);
 
 /* directory: NULL: one of its own, which goes in the end. memory: bytes that a process may take, about. */
@@ -65,6 +65,9 @@ bool gis_in_parts_solve(gis_in_parts *parts, uint64_t options, sunder_layer_summ
 /* in_parts_layers.c */
 bool gis_in_parts_write(gis_in_parts *parts, const gis_layer_input *input, const gis_in_parts_layers *layers,
                         gis_sink *sink, gis_error *error);
+/* in_parts_proof.c: of what was written, the file of --proof. False: see gis_proof_print(). */
+bool gis_in_parts_proof(gis_in_parts *parts, const gis_layer_input *input, const sunder_layer_summary *summary,
+                        FILE *to, gis_error *error);
 void gis_in_parts_clear(gis_in_parts *parts);
 
 #endif

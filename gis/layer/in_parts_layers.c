@@ -28,7 +28,7 @@ static gis_value block_value(const gis_in_parts *p, size_t feature)
     const gis_part_link *own = gis_joined_block(j, feature);
     if (!own) return gis_block_as_value(p->facts.source.fids_unique, -1, OGRNullFID);
     return gis_block_as_value(p->facts.source.fids_unique, (int64_t)own->b,
-                              p->first_fid[gis_joined_block(j, own->b) - j->block]);
+                              p->block_fid[gis_joined_block(j, own->b) - j->block]);
 }
 
 static bool pass(passing *at, const gis_source *source, size_t i, gis_sink_layer *layer, gis_error *error)
@@ -51,7 +51,7 @@ static bool pass(passing *at, const gis_source *source, size_t i, gis_sink_layer
         if (!gis_sorted_next(rows, &at->any, error)) return false;
     }
     if (at->block < j->blocks && j->block[at->block].a == feature)
-        p->first_fid[at->block++] = gis_source_fid(source, i);
+        p->block_fid[at->block++] = gis_source_fid(source, i);
     row.block = block_value(p, feature);
     return !layer || gis_main_row(layer, i, &row, error);
 }
@@ -76,8 +76,8 @@ static bool write_main(gis_in_parts *p, gis_source *source, gis_sink_layer *laye
     passing at = {.parts = p};
     bool any = true;
     uint64_t checksum = 0;
-    p->first_fid = malloc((p->joined.blocks + 1) * sizeof *p->first_fid);
-    if (!p->first_fid) return gis_no_memory(error);
+    p->block_fid = malloc((p->joined.blocks + 1) * sizeof *p->block_fid);
+    if (!p->block_fid) return gis_no_memory(error);
     gis_sorted_again(&p->joined.rows);
     bool done = gis_spool_file_open(&at.status, p->directory, "status", error) &&
                 gis_sorted_next(&p->joined.rows, &at.any, error);
@@ -159,6 +159,7 @@ static bool write_conflicts(gis_in_parts *p, gis_sink_layer *layer, gis_error *e
     gis_conflict_texts scratch = {0};
     gis_sorted *conflicts = &p->joined.conflicts;
     bool any = true, done = true;
+    gis_sorted_again(conflicts);
     while (done && (done = gis_sorted_next(conflicts, &any, error)) && any) {
         gis_part_conflict *c = conflicts->one.conflict;
         gis_value values[N_CONFLICT_COLUMNS];

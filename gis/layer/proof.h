@@ -1,12 +1,14 @@
-/* proof.h: what the lower bound and the verdicts stand on, as text for a checker: JSON lines, as docs/PROOF.md has
- * them. */
+/* proof.h: the file of --proof, of a layer that is held. */
 #ifndef GIS_LAYER_PROOF_H
 #define GIS_LAYER_PROOF_H
 
-#include "base/text.h"
 #include "layer/input.h"
+#include "proof/lines.h"
 
-/* The report's trees were kept (sunder_layer_options.keep_trees). */
-bool gis_proof_write(const gis_layer_input *input, const sunder_report *report, gis_text *out, gis_error *error);
+/* The first line, but for the counts. */
+gis_proof_head gis_proof_head_of(const gis_layer_input *input, const sunder_layer_summary *summary);
+
+/* False: see gis_proof_print(). */
+bool gis_proof_write(const gis_layer_input *input, const sunder_report *report, FILE *to, gis_error *error);
 
 #endif

@@ -15,7 +15,9 @@ typedef struct gathering {
     gis_joined *out;
     gis_part_result one;   /* a thing by itself */
     gis_part_result links; /* of all */
-    sunder_total bound, total, cost;
+    gis_part_file *file;   /* of all shards */
+    size_t files;
+    sunder_total proved, by_pairs, total, cost;
     size_t block;     /* how far features of blocks are, while rows go by */
     uint64_t last[2]; /* keys of what was kept last */
     bool any, more;   /* something was; there is a row at which rows are, while conflicts go by */
@@ -45,6 +47,7 @@ static bool put_conflict(gathering *g, const gis_part_result *r, size_t k, gis_e
     const sunder_conflict *c = &r->conflict[k].is;
     gis_part_result_empty(&g->one);
     return gis_part_copy_conflict(&g->one, r, k, error) &&
+           gis_part_file_fetch(g->file, g->files, &g->one, &g->one.conflict->line, error) &&
            gis_sorted_add(&g->out->conflicts, c->a, c->b, &g->one, error);
 }
 
@@ -53,6 +56,14 @@ static bool put_push(gathering *g, const gis_part_result *r, size_t k, gis_error
     const sunder_push *p = &r->push[k].is;
     gis_part_result_empty(&g->one);
     return gis_part_copy_push(&g->one, r, k, error) && gis_sorted_add(&g->out->pushes, p->a, p->b, &g->one, error);
+}
+
+static bool put_tree(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
+{
+    gis_part_result_empty(&g->one);
+    return gis_part_copy_tree(&g->one, r, k, error) &&
+           gis_part_file_fetch(g->file, g->files, &g->one, &g->one.tree->line, error) &&
+           gis_sorted_add(&g->out->trees, r->tree[k].first, r->tree[k].among, &g->one, error);
 }
 
 static void add_counts(sunder_conflict_counts *to, const sunder_conflict_counts *from)
@@ -74,13 +85,17 @@ static bool put_world(gathering *g, const gis_part_result *r, const gis_part_wor
     for (size_t k = 0; k < w->rows && done; k++) done = put_row(g, r, w->row + k, error);
     for (size_t k = 0; k < w->conflicts && done; k++) done = put_conflict(g, r, w->conflict + k, error);
     for (size_t k = 0; k < w->pushes && done; k++) done = put_push(g, r, w->push + k, error);
+    for (size_t k = 0; k < w->trees && done; k++) done = put_tree(g, r, w->tree + k, error);
     if (w->loose) return done;
     add_counts(&s->before, &w->before);
     add_counts(&s->after, &w->after);
     s->thin += w->thin;
     s->clusters += w->clusters;
     s->clusters_optimal += w->clusters_optimal;
-    for (size_t k = 0; k < w->bounds; k++) sunder_total_add(&g->bound, r->bound[w->bound + k]);
+    for (size_t k = w->bound; k < w->bound + w->bounds; k++) {
+        sunder_total_add(&g->proved, r->bound[k].proved);
+        sunder_total_add(&g->by_pairs, r->bound[k].by_pairs);
+    }
     return done;
 }
 
@@ -215,7 +230,8 @@ static bool keep_feature(void *user, const gis_sort_head *head, const gis_part_r
     return true;
 }
 
-static bool keep_push(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep, gis_error *error)
+/* Of pushes, and of trees. */
+static bool keep_once(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep, gis_error *error)
 {
     (void)one;
     (void)error;
@@ -246,7 +262,9 @@ static bool sort_everything(gathering *g, gis_error *error)
     g->any = false;
     if (!gis_sorted_sort(&j->conflicts, keep_conflict, g, error)) return false;
     g->any = false;
-    return gis_sorted_sort(&j->pushes, keep_push, g, error);
+    if (!gis_sorted_sort(&j->pushes, keep_once, g, error)) return false;
+    g->any = false;
+    return gis_sorted_sort(&j->trees, keep_once, g, error);
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
@@ -258,19 +276,21 @@ static bool begin(gis_joined *j, const char *directory, gis_error *error)
     j->summary.verified = true;
     return gis_sorted_begin(&j->rows, directory, "rows", error) &&
            gis_sorted_begin(&j->conflicts, directory, "conflicts", error) &&
-           gis_sorted_begin(&j->pushes, directory, "pushes", error);
+           gis_sorted_begin(&j->pushes, directory, "pushes", error) &&
+           gis_sorted_begin(&j->trees, directory, "trees", error);
 }
 
 bool gis_joined_gather(gis_joined *j, gis_holding *holding, gis_part_result *held, const char *directory,
                        gis_error *error)
 {
-    gathering g = {.out = j};
+    gathering g = {.out = j, .file = holding->file, .files = holding->files};
     const bool done = begin(j, directory, error) && put_everything(&g, holding, held, error) &&
                       gather_blocks(j, &g.links, error) && sort_everything(&g, error);
     gis_part_result_clear(&g.one);
     gis_part_result_clear(&g.links);
     sunder_layer_summary *s = &j->summary;
-    s->lower_bound = sunder_total_below(&g.bound);
+    s->lower_bound = sunder_total_bound(&g.proved, &g.by_pairs);
+    s->pair_bound = sunder_total_below(&g.by_pairs);
     s->total = sunder_total_nearest(&g.total);
     s->cost = sunder_total_nearest(&g.cost);
     if (s->moved) s->mean = s->total / (double)s->moved;
@@ -288,6 +308,7 @@ void gis_joined_clear(gis_joined *j)
     gis_sorted_clear(&j->rows);
     gis_sorted_clear(&j->conflicts);
     gis_sorted_clear(&j->pushes);
+    gis_sorted_clear(&j->trees);
     free(j->block);
     free(j->fixed);
     *j = (gis_joined){0};

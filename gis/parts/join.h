@@ -18,6 +18,7 @@ typedef struct gis_joined {
     gis_sorted rows;      /* by features: of each one row, or one still; other features are as they are alone */
     gis_sorted conflicts; /* by (a, b): one conflict each */
     gis_sorted pushes;    /* likewise */
+    gis_sorted trees;     /* by groups, each by its first feature that moves */
     gis_part_link *block; /* a: a feature of a block, b: the block's first; by features */
     bool *fixed;          /* [blocks] at the block's first: someone of it is fixed, and so all are */
     size_t blocks;

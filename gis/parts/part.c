@@ -4,6 +4,7 @@
 #include "base/array.h"
 #include "base/box.h"
 #include "base/core.h"
+#include "proof/lines.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,6 +30,7 @@ typedef struct part {
     gis_barriers_list barriers;
     sunder_layer *layer;
     sunder_report *report;
+    gis_proof_lines lines; /* where trees are kept */
     unsigned run;
     gis_part_result *out;
 } part;
@@ -119,6 +121,47 @@ static bool load(part *p, gis_error *error)
     return gis_barriers_load(&p->layout->barriers, (const double(*)[4])p->boxes->box, p->boxes->n, &p->barriers, error);
 }
 
+/* ---- Names in lines of proofs ------------------------------------------------------------------------------------ */
+
+static int64_t call_feature(const void *of, size_t feature)
+{
+    const part *p = of;
+    const gis_spool_feature *f = &p->item[feature].feature;
+    return p->layout->by_places ? (int64_t)f->index : f->fid;
+}
+
+static int64_t call_barrier(const void *of, size_t thing, const char **layer)
+{
+    const part *p = of;
+    const gis_part_barrier *barrier = &p->barriers.item[thing - p->n];
+    *layer = barrier->layer;
+    return barrier->fid;
+}
+
+static const sunder_feature *demands_of(const void *of, size_t feature)
+{
+    return &((const part *)of)->item[feature].feature.demands;
+}
+
+static bool begin_lines(part *p, gis_error *error)
+{
+    const gis_proof_things things = {p, p->n, call_feature, call_barrier, demands_of};
+    return gis_proof_lines_begin(&p->lines, &things, p->report, error);
+}
+
+/* The line that was made becomes the result's. */
+static bool take_line(part *p, gis_part_line *to, gis_error *error)
+{
+    gis_text *made = &p->lines.json.text;
+    const char *line = gis_text_get(made);
+    const bool done = line ? gis_part_add_line(p->out, line, made->length + 1, to, error) : gis_no_memory(error);
+    gis_text_empty(made);
+    p->lines.json.need_comma = false;
+    return done;
+}
+
+/* ---- Separating -------------------------------------------------------------------------------------------------- */
+
 static bool separate(part *p, gis_error *error)
 {
     sunder_layer_options options = p->layout->how;
@@ -135,7 +178,7 @@ static bool separate(part *p, gis_error *error)
     sunder_layer_summary summary;
     sunder_report_summary(p->report, &summary);
     p->out->unverified = p->out->unverified || !summary.verified;
-    return true;
+    return !options.keep_trees || begin_lines(p, error);
 }
 
 /* ---- Completeness ------------------------------------------------------------------------------------------------ */
@@ -213,10 +256,17 @@ static bool add_row(part *p, size_t k, gis_error *error)
     return true;
 }
 
-static bool add_conflict(part *p, const sunder_conflict *c, bool loose, gis_error *error)
+/* number: among those of the report. */
+static bool add_conflict(part *p, size_t number, bool loose, gis_error *error)
 {
+    size_t n;
     gis_part_result *out = p->out;
+    const sunder_conflict *c = &sunder_report_conflicts(p->report, &n)[number];
     gis_part_conflict to = {.is = *c, .blocker = out->blockers, .name = out->names, .loose = loose};
+    if (p->lines.report) {
+        gis_proof_conflict(&p->lines, number);
+        if (!take_line(p, &to.line, error)) return false;
+    }
     if (!GIS_PART_MORE(out, conflict, conflicts, 1, error) ||
         !GIS_PART_MORE(out, blocker, blockers, c->n_blocked_by, error))
         return false;
@@ -297,23 +347,28 @@ static int by_world(const void *a, const void *b)
 
 /* Of all worlds, one behind the other, and how far each list is used up. */
 typedef struct belongings {
-    belonging *feature, *conflict, *push;
-    size_t features, conflicts, pushes, f, c, p;
+    belonging *feature, *conflict, *push, *tree;
+    gis_proof_place *place; /* [trees]; NULL: there are none */
+    size_t features, conflicts, pushes, trees, f, c, p, t;
 } belongings;
 
 static bool list_belongings(const part *p, belongings *all, gis_error *error)
 {
     const sunder_conflict *conflict = sunder_report_conflicts(p->report, &all->conflicts);
     const sunder_push *push = sunder_report_pushes(p->report, &all->pushes);
+    if (p->lines.report && !gis_proof_order(&p->lines, &all->place, &all->trees, error)) return false;
     all->features = p->n;
+    all->tree = malloc((all->trees + 1) * sizeof *all->tree);
     all->feature = malloc((p->n + 1) * sizeof *all->feature);
     all->conflict = malloc((all->conflicts + 1) * sizeof *all->conflict);
     all->push = malloc((all->pushes + 1) * sizeof *all->push);
-    if (!all->feature || !all->conflict || !all->push) return gis_no_memory(error);
+    if (!all->feature || !all->conflict || !all->push || !all->tree) return gis_no_memory(error);
     for (size_t k = 0; k < p->n; k++) all->feature[k] = (belonging){sunder_report_world(p->report, k), k};
     for (size_t k = 0; k < all->conflicts; k++)
         all->conflict[k] = (belonging){world_of(p, conflict[k].a, conflict[k].b), k};
     for (size_t k = 0; k < all->pushes; k++) all->push[k] = (belonging){world_of(p, push[k].a, push[k].b), k};
+    for (size_t k = 0; k < all->trees; k++) all->tree[k] = (belonging){world_of(p, all->place[k].first, SIZE_MAX), k};
+    qsort(all->tree, all->trees, sizeof *all->tree, by_world);
     qsort(all->feature, all->features, sizeof *all->feature, by_world);
     qsort(all->conflict, all->conflicts, sizeof *all->conflict, by_world);
     qsort(all->push, all->pushes, sizeof *all->push, by_world);
@@ -327,17 +382,29 @@ static bool is_wanted(const part *p, const belongings *all, size_t number)
     return false;
 }
 
+static bool add_tree(part *p, const gis_proof_place *place, gis_error *error)
+{
+    size_t n;
+    gis_part_tree to = {index_of(p, place->first), place->among, {0}};
+    if (!gis_proof_tree(&p->lines, &sunder_report_bound_trees(p->report, &n)[place->tree], error) ||
+        !take_line(p, &to.line, error) || !GIS_PART_MORE(p->out, tree, trees, 1, error))
+        return false;
+    p->out->tree[p->out->trees++] = to;
+    return true;
+}
+
 static bool add_members(part *p, belongings *all, size_t number, gis_error *error)
 {
     size_t n;
-    const sunder_conflict *conflict = sunder_report_conflicts(p->report, &n);
     const sunder_push *push = sunder_report_pushes(p->report, &n);
     for (size_t k = all->f; k < all->features && all->feature[k].world == number; k++)
         if (!add_row(p, all->feature[k].at, error)) return false;
     for (size_t k = all->c; k < all->conflicts && all->conflict[k].world == number; k++)
-        if (!add_conflict(p, &conflict[all->conflict[k].at], false, error)) return false;
+        if (!add_conflict(p, all->conflict[k].at, false, error)) return false;
     for (size_t k = all->p; k < all->pushes && all->push[k].world == number; k++)
         if (!add_push(p, &push[all->push[k].at], error)) return false;
+    for (size_t k = all->t; k < all->trees && all->tree[k].world == number; k++)
+        if (!add_tree(p, &all->place[all->tree[k].at], error)) return false;
     return true;
 }
 
@@ -346,6 +413,7 @@ static void pass_by(belongings *all, size_t number)
     while (all->f < all->features && all->feature[all->f].world == number) all->f++;
     while (all->c < all->conflicts && all->conflict[all->c].world == number) all->c++;
     while (all->p < all->pushes && all->push[all->p].world == number) all->p++;
+    while (all->t < all->trees && all->tree[all->t].world == number) all->t++;
 }
 
 static bool add_world(part *p, size_t number, belongings *all, gis_error *error)
@@ -353,7 +421,7 @@ static bool add_world(part *p, size_t number, belongings *all, gis_error *error)
     size_t n;
     gis_part_result *out = p->out;
     const sunder_world *w = &sunder_report_worlds(p->report, &n)[number];
-    const double *bound = sunder_report_world_bounds(p->report, &n);
+    const sunder_world_bound *bound = sunder_report_world_bounds(p->report, &n);
     gis_part_world to = {.first = index_of(p, w->first),
                          .run = p->run,
                          .row = out->rows,
@@ -363,6 +431,7 @@ static bool add_world(part *p, size_t number, belongings *all, gis_error *error)
                          .bounds = w->bounds,
                          .conflict = out->conflicts,
                          .push = out->pushes,
+                         .tree = out->trees,
                          .before = w->before,
                          .after = w->after,
                          .thin = w->thin,
@@ -374,6 +443,7 @@ static bool add_world(part *p, size_t number, belongings *all, gis_error *error)
     to.rows = out->rows - to.row;
     to.conflicts = out->conflicts - to.conflict;
     to.pushes = out->pushes - to.push;
+    to.trees = out->trees - to.tree;
     if (!GIS_PART_MORE(out, world, worlds, 1, error)) return false;
     out->world[out->worlds++] = to;
     return true;
@@ -397,9 +467,10 @@ static bool add_loose(part *p, const belongings *all, gis_error *error)
                                                      .footprint = out->footprints,
                                                      .bound = out->bounds,
                                                      .push = out->pushes,
+                                                     .tree = out->trees,
                                                      .conflict = out->conflicts,
                                                      .conflicts = 1};
-        if (!add_conflict(p, c, true, error)) return false;
+        if (!add_conflict(p, all->conflict[k].at, true, error)) return false;
     }
     return true;
 }
@@ -418,6 +489,8 @@ static bool add_worlds(part *p, gis_error *error)
     free(all.feature);
     free(all.conflict);
     free(all.push);
+    free(all.tree);
+    free(all.place);
     return done;
 }
 
@@ -457,6 +530,7 @@ static void clear(part *p)
     free(p->item);
     free(p->block);
     gis_barriers_list_clear(&p->barriers);
+    gis_proof_lines_clear(&p->lines);
     sunder_layer_free(p->layer);
     sunder_report_free(p->report);
 }

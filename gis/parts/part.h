@@ -32,10 +32,11 @@ typedef struct gis_layout {
     double halo; /* so far about a shard it is looked at first: a guess */
     gis_part_block *block;
     size_t blocks;
+    bool by_places; /* in proofs features are called by their places in the input: FIDs tell nobody apart */
 } gis_layout;
 
 /* numbered: some features have a block in their demands, and all are looked through. `how` is left to be filled in,
- * without keep_worlds. */
+ * without keep_worlds; with keep_trees, results have lines of proofs. */
 bool gis_layout_make(gis_spool *spool, double gap, bool numbered, gis_layout *out, gis_error *error);
 void gis_layout_clear(gis_layout *layout);
 

@@ -55,9 +55,29 @@ static bool room_for(gis_part_file *file, size_t bytes, gis_error *error)
     return gis_array_reserve(&file->bytes, &file->size, bytes, 1) || gis_no_memory(error);
 }
 
-static bool write_chunk(gis_part_file *file, const gis_part_result *r, gis_error *error)
+static void lies_in(gis_part_line *line, const gis_part_file *file, uint64_t from)
 {
-    gis_part_chunk chunk = {.from = file->file.size, .bytes = gis_part_result_size(r)};
+    if (line->bytes) *line = (gis_part_line){from + line->from, line->bytes, file->stamp.shard};
+}
+
+/* Lines go ahead of the chunk, which tells where they are from then on. */
+static bool write_lines(gis_part_file *file, gis_part_result *r, gis_part_chunk *chunk, gis_error *error)
+{
+    const uint64_t from = file->file.size;
+    chunk->lines = r->lines;
+    chunk->lines_checksum = gis_spool_checksum_of(0, r->line, r->lines);
+    for (size_t k = 0; k < r->conflicts; k++) lies_in(&r->conflict[k].line, file, from);
+    for (size_t k = 0; k < r->trees; k++) lies_in(&r->tree[k].line, file, from);
+    r->lines = 0;
+    return gis_spool_file_write(&file->file, r->line, (size_t)chunk->lines, error);
+}
+
+static bool write_chunk(gis_part_file *file, gis_part_result *r, gis_error *error)
+{
+    gis_part_chunk chunk = {.lines = 0};
+    if (r->lines && !write_lines(file, r, &chunk, error)) return false;
+    chunk.from = file->file.size;
+    chunk.bytes = gis_part_result_size(r);
     gis_box_clear(chunk.box);
     for (size_t k = 0; k < r->footprints; k++) {
         gis_box_join(chunk.box, r->footprint[k].read);
@@ -203,6 +223,11 @@ bool gis_part_file_open(gis_part_file *file, const char *directory, const gis_pa
            read_list(file, &head, error);
 }
 
+static bool altered(const gis_part_file *file, gis_error *error)
+{
+    return gis_fail(error, "%s: it is not what was written: a checksum is another", file->file.path);
+}
+
 bool gis_part_file_read(gis_part_file *file, size_t k, gis_part_result *to, gis_error *error)
 {
     const gis_part_chunk *chunk = &file->chunk[k];
@@ -214,7 +239,37 @@ bool gis_part_file_read(gis_part_file *file, size_t k, gis_part_result *to, gis_
     if (gis_spool_checksum_of(0, file->bytes, (size_t)chunk->bytes) == chunk->checksum &&
         !gis_part_result_load(to, file->bytes, (size_t)chunk->bytes, &sound, error))
         return false;
-    return sound || gis_fail(error, "%s: it is not what was written: a checksum is another", file->file.path);
+    return sound || altered(file, error);
+}
+
+static bool check_lines(gis_part_file *file, const gis_part_chunk *chunk, gis_error *error)
+{
+    if (!room_for(file, (size_t)chunk->lines, error)) return false;
+    if (chunk->lines > chunk->from) return altered(file, error);
+    if (!gis_spool_file_read(&file->file, chunk->from - chunk->lines, file->bytes, (size_t)chunk->lines, error))
+        return false;
+    return gis_spool_checksum_of(0, file->bytes, (size_t)chunk->lines) == chunk->lines_checksum || altered(file, error);
+}
+
+bool gis_part_file_check(gis_part_file *file, size_t k, gis_part_result *scratch, gis_error *error)
+{
+    return gis_part_file_read(file, k, scratch, error) &&
+           (file->chunk[k].lines == 0 || check_lines(file, &file->chunk[k], error));
+}
+
+bool gis_part_file_fetch(gis_part_file *file, size_t n, gis_part_result *to, gis_part_line *line, gis_error *error)
+{
+    if (line->file == 0 || line->bytes == 0) return true;
+    if (line->file > n)
+        return gis_fail(error, "a line of the proof is of shard %" PRIu64 ", which is none", line->file);
+    const size_t bytes = (size_t)line->bytes;
+    if (!GIS_PART_MORE(to, line, lines, bytes, error) ||
+        !gis_spool_file_read(&file[line->file - 1].file, line->from, (unsigned char *)to->line + to->lines, bytes,
+                             error))
+        return false;
+    *line = (gis_part_line){to->lines, bytes, 0};
+    to->lines += bytes;
+    return true;
 }
 
 void gis_part_file_close(gis_part_file *file)

@@ -2,7 +2,8 @@
  * read or wrote. A file is there whole, or not at all.
  *
  * A chunk holds some dozen worlds of one run that are near each other, so that most chunks have to do with none of
- * another run, and can stay where they are. What is of no world, is in a chunk of its own, without a box. */
+ * another run, and can stay where they are. What is of no world, is in a chunk of its own, without a box. Lines of
+ * proofs, which are long, stay in the file until they are asked for. */
 #ifndef GIS_PARTS_PART_FILE_H
 #define GIS_PARTS_PART_FILE_H
 
@@ -20,6 +21,7 @@ typedef struct gis_part_stamp {
 typedef struct gis_part_chunk {
     double box[4]; /* xmin ymin xmax ymax; box[0] > box[2]: no world of it read or wrote anything */
     uint64_t from, bytes, checksum;
+    uint64_t lines, lines_checksum; /* so many bytes of lines of proofs, ahead of it */
     uint32_t run;
     uint32_t incomplete; /* some world of it is */
 } gis_part_chunk;
@@ -48,6 +50,10 @@ bool gis_part_file_place(gis_part_file *file, const char *directory, gis_error *
 bool gis_part_file_open(gis_part_file *file, const char *directory, const gis_part_stamp *stamp, gis_error *error);
 /* In place of what `to` held. */
 bool gis_part_file_read(gis_part_file *file, size_t chunk, gis_part_result *to, gis_error *error);
+/* Is the chunk as it was written, and are the lines that go with it? */
+bool gis_part_file_check(gis_part_file *file, size_t chunk, gis_part_result *scratch, gis_error *error);
+/* A line that lies in one of n files, which are those of all shards, in their order, becomes the result's own. */
+bool gis_part_file_fetch(gis_part_file *file, size_t n, gis_part_result *to, gis_part_line *line, gis_error *error);
 void gis_part_file_close(gis_part_file *file);
 
 #endif

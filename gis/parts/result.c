@@ -17,10 +17,10 @@
 
 static const struct list {
     size_t at, count, room, size;
-} lists[] = {LIST(world, worlds), LIST(row, rows),           LIST(footprint, footprints),
-             LIST(bound, bounds), LIST(conflict, conflicts), LIST(blocker, blockers),
-             LIST(push, pushes),  LIST(name, names),         LIST(still, stills),
-             LIST(link, links),   LIST(text, texts)};
+} lists[] = {LIST(world, worlds),       LIST(row, rows),         LIST(footprint, footprints), LIST(bound, bounds),
+             LIST(conflict, conflicts), LIST(blocker, blockers), LIST(push, pushes),          LIST(tree, trees),
+             LIST(name, names),         LIST(still, stills),     LIST(link, links),           LIST(text, texts),
+             LIST(line, lines)};
 
 enum { LISTS = sizeof lists / sizeof *lists };
 
@@ -53,6 +53,25 @@ bool gis_part_add_text(gis_part_result *to, const char *text, size_t *at, gis_er
 
 const char *gis_part_text(const gis_part_result *r, size_t at) { return at == GIS_NO_TEXT ? NULL : r->text + at; }
 
+bool gis_part_add_line(gis_part_result *to, const char *line, size_t bytes, gis_part_line *at, gis_error *error)
+{
+    if (bytes > UINT32_MAX) return gis_fail(error, "a line of the proof is longer than 4 GB");
+    if (!GIS_PART_MORE(to, line, lines, bytes, error)) return false;
+    memcpy(to->line + to->lines, line, bytes);
+    *at = (gis_part_line){to->lines, bytes, 0};
+    to->lines += bytes;
+    return true;
+}
+
+const char *gis_part_line_of(const gis_part_result *r, const gis_part_line *line) { return r->line + line->from; }
+
+/* One that lies in a file stays there. */
+static bool copy_line(gis_part_result *to, const gis_part_result *from, gis_part_line *line, gis_error *error)
+{
+    if (line->file || line->bytes == 0) return true;
+    return gis_part_add_line(to, gis_part_line_of(from, line), (size_t)line->bytes, line, error);
+}
+
 /* ---- Copies ------------------------------------------------------------------------------------------------------ */
 
 bool gis_part_copy_row(gis_part_result *to, const gis_part_result *from, size_t row, gis_error *error)
@@ -80,6 +99,7 @@ bool gis_part_copy_conflict(gis_part_result *to, const gis_part_result *from, si
         if (!gis_part_add_text(to, gis_part_text(from, name.id), &name.id, error)) return false;
         to->name[to->names++] = name;
     }
+    if (!copy_line(to, from, &new.line, error)) return false;
     to->conflict[to->conflicts++] = new;
     return true;
 }
@@ -91,6 +111,14 @@ bool gis_part_copy_push(gis_part_result *to, const gis_part_result *from, size_t
         !GIS_PART_MORE(to, push, pushes, 1, error))
         return false;
     to->push[to->pushes++] = new;
+    return true;
+}
+
+bool gis_part_copy_tree(gis_part_result *to, const gis_part_result *from, size_t tree, gis_error *error)
+{
+    gis_part_tree new = from->tree[tree];
+    if (!copy_line(to, from, &new.line, error) || !GIS_PART_MORE(to, tree, trees, 1, error)) return false;
+    to->tree[to->trees++] = new;
     return true;
 }
 
@@ -118,9 +146,11 @@ bool gis_part_copy_world(gis_part_result *to, const gis_part_result *from, size_
     new.bound = to->bounds;
     new.conflict = to->conflicts;
     new.push = to->pushes;
+    new.tree = to->trees;
     for (size_t k = 0; k < w->rows && done; k++) done = gis_part_copy_row(to, from, w->row + k, error);
     for (size_t k = 0; k < w->conflicts && done; k++) done = gis_part_copy_conflict(to, from, w->conflict + k, error);
     for (size_t k = 0; k < w->pushes && done; k++) done = gis_part_copy_push(to, from, w->push + k, error);
+    for (size_t k = 0; k < w->trees && done; k++) done = gis_part_copy_tree(to, from, w->tree + k, error);
     if (!done || !GIS_PART_MORE(to, footprint, footprints, w->footprints, error) ||
         !GIS_PART_MORE(to, bound, bounds, w->bounds, error) || !GIS_PART_MORE(to, world, worlds, 1, error))
         return false;
@@ -200,7 +230,7 @@ bool gis_part_result_load(gis_part_result *to, const unsigned char *from, size_t
 
 uint64_t gis_part_result_form(void)
 {
-    uint64_t form = 1; /* the version, for who changes what members mean */
+    uint64_t form = 3; /* the version, for who changes what members mean */
     for (int k = 0; k < LISTS; k++) form = gis_spool_checksum_of(form, &lists[k].size, sizeof lists[k].size);
     return form;
 }

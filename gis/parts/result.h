@@ -11,6 +11,12 @@
 /* Where a text begins among those of the result; this: there is none. */
 #define GIS_NO_TEXT SIZE_MAX
 
+/* What --proof says of a thing, as proof/lines.h makes it, with its NUL. */
+typedef struct gis_part_line {
+    uint64_t from, bytes; /* bytes 0: nothing is wanted */
+    uint64_t file;        /* 0: it is among the result's own; else in the file of that shard */
+} gis_part_line;
+
 /* A feature of a world. */
 typedef struct gis_part_row {
     size_t index;
@@ -27,7 +33,7 @@ typedef struct gis_part_world {
     bool loose;          /* no world: conflicts inside a block that nothing happened to, of which `first` is one */
     unsigned run;        /* of which run */
     size_t row, rows;    /* in those of the result; likewise: */
-    size_t footprint, footprints, bound, bounds, conflict, conflicts, push, pushes;
+    size_t footprint, footprints, bound, bounds, conflict, conflicts, push, pushes, tree, trees;
     sunder_conflict_counts before, after;
     size_t thin, clusters, clusters_optimal;
 } gis_part_world;
@@ -43,8 +49,15 @@ typedef struct gis_part_conflict {
     sunder_conflict is; /* blocked_by: not here, but so many numbers, from this one on: */
     size_t blocker;
     size_t name, names; /* of all features that it names */
+    gis_part_line line;
     bool loose;
 } gis_part_conflict;
+
+/* A tree of the bound, where --proof is wanted. */
+typedef struct gis_part_tree {
+    size_t first, among; /* of its group the first feature that moves; its place in that */
+    gis_part_line line;
+} gis_part_tree;
 
 typedef struct gis_part_push {
     sunder_push is;
@@ -70,17 +83,19 @@ typedef struct gis_part_result {
     gis_part_world *world;
     gis_part_row *row;
     sunder_footprint *footprint;
-    double *bound;
+    sunder_world_bound *bound;
     gis_part_conflict *conflict;
     size_t *blocker;
     gis_part_push *push;
+    gis_part_tree *tree;
     gis_part_name *name;
     gis_part_still *still;
     gis_part_link *link;
     char *text;
-    size_t worlds, rows, footprints, bounds, conflicts, blockers, pushes, names, stills, links, texts;
+    char *line; /* bytes of lines */
+    size_t worlds, rows, footprints, bounds, conflicts, blockers, pushes, trees, names, stills, links, texts, lines;
     struct {
-        size_t world, row, footprint, bound, conflict, blocker, push, name, still, link, text;
+        size_t world, row, footprint, bound, conflict, blocker, push, tree, name, still, link, text, line;
     } room;
     bool unverified; /* the core did not verify some part */
 } gis_part_result;
@@ -98,10 +113,16 @@ void gis_part_result_empty(gis_part_result *result);
 bool gis_part_add_text(gis_part_result *to, const char *text, size_t *at, gis_error *error);
 const char *gis_part_text(const gis_part_result *result, size_t at);
 
+/* A line at the end of those that are there. */
+bool gis_part_add_line(gis_part_result *to, const char *line, size_t bytes, gis_part_line *at, gis_error *error);
+/* Of one that is the result's own. */
+const char *gis_part_line_of(const gis_part_result *result, const gis_part_line *line);
+
 /* Copies of one thing of another result, at the end of what is there. */
 bool gis_part_copy_row(gis_part_result *to, const gis_part_result *from, size_t row, gis_error *error);
 bool gis_part_copy_conflict(gis_part_result *to, const gis_part_result *from, size_t conflict, gis_error *error);
 bool gis_part_copy_push(gis_part_result *to, const gis_part_result *from, size_t push, gis_error *error);
+bool gis_part_copy_tree(gis_part_result *to, const gis_part_result *from, size_t tree, gis_error *error);
 bool gis_part_copy_still(gis_part_result *to, const gis_part_result *from, size_t still, gis_error *error);
 bool gis_part_copy_link(gis_part_result *to, const gis_part_result *from, size_t link, gis_error *error);
 /* ... of a world with all that is of it. */

@@ -11,7 +11,7 @@ static void put_estimate(gis_json *out, gis_plan_estimate estimate)
     gis_json_put_size(out, "seconds", (uint64_t)estimate.seconds);
 }
 
-static void put_shards(gis_json *out, const gis_plan *plan, const gis_plan_load *load, double effort)
+static void put_shards(gis_json *out, const gis_plan *plan, const gis_plan_load *load, const gis_layer_rules *rules)
 {
     gis_json_key(out, "shards");
     gis_json_open(out, '[');
@@ -21,18 +21,18 @@ static void put_shards(gis_json *out, const gis_plan *plan, const gis_plan_load 
         gis_json_put_size(out, "shard", k + 1);
         gis_json_put_size(out, "features", load[k].features);
         gis_json_put_size(out, "vertices", load[k].vertices);
-        put_estimate(out, gis_plan_of_shard(plan, &load[k], effort));
+        put_estimate(out, gis_plan_of_shard(plan, &load[k], rules));
         gis_json_close(out, '}');
     }
     gis_json_close(out, ']');
 }
 
 /* The most that a shard may want: for whoever asks for all of them at once. */
-static void put_most(gis_json *out, const gis_plan *plan, const gis_plan_load *load, double effort)
+static void put_most(gis_json *out, const gis_plan *plan, const gis_plan_load *load, const gis_layer_rules *rules)
 {
     gis_plan_estimate most = {0, 0};
     for (unsigned k = 0; k < plan->shards; k++) {
-        const gis_plan_estimate one = gis_plan_of_shard(plan, &load[k], effort);
+        const gis_plan_estimate one = gis_plan_of_shard(plan, &load[k], rules);
         if (one.bytes > most.bytes) most.bytes = one.bytes;
         if (one.seconds > most.seconds) most.seconds = one.seconds;
     }
@@ -43,7 +43,7 @@ static void put_most(gis_json *out, const gis_plan *plan, const gis_plan_load *l
     gis_json_line(out);
 }
 
-static void describe(gis_json *out, const gis_plan *plan, const gis_plan_load *load, double effort)
+static void describe(gis_json *out, const gis_plan *plan, const gis_plan_load *load, const gis_layer_rules *rules)
 {
     gis_json_open(out, '{');
     gis_json_put_string(out, "command", "plan");
@@ -60,13 +60,13 @@ static void describe(gis_json *out, const gis_plan *plan, const gis_plan_load *l
     gis_json_put_size(out, "max_memory_bytes", (uint64_t)plan->memory);
     gis_json_put_size(out, "shard_count", plan->shards);
     gis_json_line(out);
-    put_most(out, plan, load, effort);
+    put_most(out, plan, load, rules);
     gis_json_key(out, "merge");
     gis_json_open(out, '{');
     put_estimate(out, gis_plan_of_merge(plan));
     gis_json_close(out, '}');
     gis_json_line(out);
-    put_shards(out, plan, load, effort);
+    put_shards(out, plan, load, rules);
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");
 }
@@ -89,7 +89,7 @@ bool gis_plan_describe(const gis_plan *plan, const gis_in_parts *parts, const ch
     gis_plan_load *load = calloc(plan->shards, sizeof *load);
     if (!load) return gis_no_memory(error);
     weigh_shards(plan, parts->spool, load);
-    describe(&json, plan, load, parts->request->rules.effort);
+    describe(&json, plan, load, &parts->request->rules);
     free(load);
     const bool done = (gis_json_text(&json) || gis_no_memory(error)) &&
                       gis_spool_file_create(&file, directory, "plan.json.part", error) &&

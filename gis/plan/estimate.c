@@ -9,12 +9,12 @@
  * search; and for each feature with --effort 1, where one in four is in conflict. */
 static const double seconds_anyway = 2, seconds_a_feature = 2e-4, seconds_of_effort = 1e-3, seconds_merged = 1e-4;
 
-gis_plan_estimate gis_plan_of_shard(const gis_plan *plan, const gis_plan_load *shard, double effort)
+gis_plan_estimate gis_plan_of_shard(const gis_plan *plan, const gis_plan_load *shard, const gis_layer_rules *rules)
 {
     const double features = (double)shard->features, vertices = (double)shard->vertices;
-    return (gis_plan_estimate){.bytes = fmin(plan->memory, gis_in_parts_bytes(features, vertices)),
-                               .seconds =
-                                   ceil(seconds_anyway + (seconds_a_feature + seconds_of_effort * effort) * features)};
+    return (gis_plan_estimate){
+        .bytes = fmin(plan->memory, gis_in_parts_bytes(rules, features, vertices)),
+        .seconds = ceil(seconds_anyway + (seconds_a_feature + seconds_of_effort * rules->effort) * features)};
 }
 
 gis_plan_estimate gis_plan_of_merge(const gis_plan *plan)

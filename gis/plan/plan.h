@@ -47,7 +47,7 @@ typedef struct gis_plan_estimate {
     double bytes, seconds; /* of memory; on one core */
 } gis_plan_estimate;
 
-gis_plan_estimate gis_plan_of_shard(const gis_plan *plan, const gis_plan_load *shard, double effort);
+gis_plan_estimate gis_plan_of_shard(const gis_plan *plan, const gis_plan_load *shard, const gis_layer_rules *rules);
 gis_plan_estimate gis_plan_of_merge(const gis_plan *plan);
 
 /* ---- place.c: the directory appears whole, or not at all --------------------------------------------------------- */

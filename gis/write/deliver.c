@@ -4,7 +4,6 @@
 
 #include "base/interrupt.h"
 #include "base/message.h"
-#include "base/text_file.h"
 #include "read/source_files.h"
 
 #include <errno.h>
@@ -129,17 +128,22 @@ static bool flush_stdout(gis_error *error)
     return gis_fail(error, "cannot write to standard output: %s", strerror(errno));
 }
 
+static bool write_text(const void *of, FILE *to, gis_error *error)
+{
+    const gis_text *text = of;
+    const char *bytes = gis_text_get(text);
+    return bytes ? fwrite(bytes, 1, text->length, to) == text->length : gis_no_memory(error);
+}
+
 static bool write_files(const gis_delivery *delivery, const file_of files[N_FILES], gis_text_file written[N_FILES],
                         gis_error *error)
 {
-    const gis_text *texts[N_FILES] = {[OF_REPORT] = delivery->report,
-                                      [OF_PROOF] = delivery->proof,
-                                      [OF_STATS] = delivery->stats ? &delivery->stats->text : NULL};
+    const gis_text *texts[N_FILES] = {
+        [OF_REPORT] = delivery->report, [OF_STATS] = delivery->stats ? &delivery->stats->text : NULL};
     for (size_t i = 0; i < N_FILES; i++) {
-        if (!files[i].path) continue;
-        if (!gis_text_get(texts[i])) return gis_no_memory(error);
-        if (!gis_text_file_write(&written[i], files[i].path, gis_text_get(texts[i]), texts[i]->length, files[i].option,
-                                 error))
+        const bool runs = i == OF_PROOF;
+        if (files[i].path && !gis_text_file_write(&written[i], files[i].path, runs ? delivery->proof : write_text,
+                                                  runs ? delivery->run : texts[i], files[i].option, error))
             return false;
     }
     if (!is_stdout(delivery->to->stats)) return true;

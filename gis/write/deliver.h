@@ -4,6 +4,7 @@
 #define GIS_DELIVER_H
 
 #include "base/json.h"
+#include "base/text_file.h"
 #include "write/sink.h"
 
 /* Where results go, and what is read besides, lest one replace the other. Strings are borrowed. */
@@ -31,7 +32,7 @@ typedef struct gis_delivery {
     gis_sink *sink;                                   /* finished (gis_sink_finish); NULL: there is no output */
     const gis_json *stats;                            /* what goes to to->stats, if that is given */
     const gis_text *report;                           /* and to to->report */
-    const gis_text *proof;                            /* and to to->proof */
+    gis_text_writer *proof;                           /* and to to->proof; of the run */
     bool (*print)(const void *run, gis_error *error); /* what else goes to standard output, by stdio; NULL: nothing */
     const void *run;
 } gis_delivery;

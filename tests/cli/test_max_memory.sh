@@ -18,9 +18,10 @@ alike() {
     shift 2
     rm -rf whole parts
     mkdir whole parts
-    run separate town.gpkg "whole/$output" -l buildings "$@" --stats whole.json -q
+    run separate town.gpkg "whole/$output" -l buildings "$@" --stats whole.json -q --proof whole/proof.jsonl
     first=$status
-    run separate town.gpkg "parts/$output" -l buildings "$@" --stats parts.json -q --max-memory "$memory"
+    run separate town.gpkg "parts/$output" -l buildings "$@" --stats parts.json -q --proof parts/proof.jsonl \
+        --max-memory "$memory"
     second=$status
     same "$second" "$first" "$output in parts: status"
     diff -rq whole parts || fail "$output of $* in parts is another"
@@ -83,10 +84,7 @@ alike o.geojson 99M --symbol disc:4 --effort 0 --layers symbols
 alike o.shp 99M --symbol disc:4 --effort 0 --layers main,symbols
 
 # What is not done in parts, and too little memory.
-for words in '--report r.html' '--proof p.txt'; do
-    # shellcheck disable=SC2086
-    refused 2 "in parts with ${words%% *}" separate town.gpkg o.gpkg -l buildings --max-memory 1G $words
-done
+refused 2 'in parts with --report' separate town.gpkg o.gpkg -l buildings --max-memory 1G --report r.html
 refused 1 'need' separate town.gpkg o.gpkg -l buildings --gap 3 --max-memory 20M
 same "$(ls -A scratch)" '' "left of what was refused:"
 TMPDIR=$work/nowhere refused 1 'cannot be made' separate town.gpkg o.gpkg -l buildings --max-memory 1G

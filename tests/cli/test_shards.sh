@@ -17,14 +17,15 @@ alike() {
     [ -e "$name.gpkg" ] || ogr2ogr -q "$name.gpkg" "$name.geojson" -nln houses || fail "$name.gpkg"
     rm -rf whole parts plan-*
     mkdir whole parts
-    "$SUNDER" separate "$name.gpkg" whole/o.gpkg "$@" --stats whole.json -q 2>err || wanted=$?
+    "$SUNDER" separate "$name.gpkg" whole/o.gpkg "$@" --stats whole.json --proof whole.jsonl -q 2>err || wanted=$?
     for n in $shards; do
-        expect 0 plan "$name.gpkg" "plan-$n" "$@" --stats parts.json -q --shards "$n"
+        expect 0 plan "$name.gpkg" "plan-$n" "$@" --stats parts.json --proof parts.jsonl -q --shards "$n"
         for k in $(order "$n"); do expect 0 separate --shard "$k" "plan-$n"; done
         expect 0 separate --shard 1 "plan-$n"
-        rm -f parts/o.gpkg parts.json
+        rm -f parts/o.gpkg parts.json parts.jsonl
         expect "$wanted" merge "plan-$n" parts/o.gpkg
         cmp whole/o.gpkg parts/o.gpkg || fail "$name in $n shards, $*: another output"
+        cmp whole.jsonl parts.jsonl || fail "$name in $n shards, $*: another proof"
         same "$(figures parts.json)" "$(figures whole.json)" "$name in $n shards, $*: figures"
     done
 }
