@@ -312,13 +312,6 @@ static bool add_push(part *p, const sunder_push *push, gis_error *error)
     return true;
 }
 
-/* Whose a pair is: that of the first of its features which has a world. */
-static size_t world_of(const part *p, size_t a, size_t b)
-{
-    const size_t world = a < p->n ? sunder_report_world(p->report, a) : SIZE_MAX;
-    return world == SIZE_MAX && b < p->n ? sunder_report_world(p->report, b) : world;
-}
-
 static bool add_footprints(part *p, const sunder_world *w, gis_part_world *to, gis_error *error)
 {
     size_t n;
@@ -365,9 +358,11 @@ static bool list_belongings(const part *p, belongings *all, gis_error *error)
     if (!all->feature || !all->conflict || !all->push || !all->tree) return gis_no_memory(error);
     for (size_t k = 0; k < p->n; k++) all->feature[k] = (belonging){sunder_report_world(p->report, k), k};
     for (size_t k = 0; k < all->conflicts; k++)
-        all->conflict[k] = (belonging){world_of(p, conflict[k].a, conflict[k].b), k};
-    for (size_t k = 0; k < all->pushes; k++) all->push[k] = (belonging){world_of(p, push[k].a, push[k].b), k};
-    for (size_t k = 0; k < all->trees; k++) all->tree[k] = (belonging){world_of(p, all->place[k].first, SIZE_MAX), k};
+        all->conflict[k] = (belonging){sunder_report_world_of_pair(p->report, conflict[k].a, conflict[k].b), k};
+    for (size_t k = 0; k < all->pushes; k++)
+        all->push[k] = (belonging){sunder_report_world_of_pair(p->report, push[k].a, push[k].b), k};
+    for (size_t k = 0; k < all->trees; k++)
+        all->tree[k] = (belonging){sunder_report_world(p->report, all->place[k].first), k};
     qsort(all->tree, all->trees, sizeof *all->tree, by_world);
     qsort(all->feature, all->features, sizeof *all->feature, by_world);
     qsort(all->conflict, all->conflicts, sizeof *all->conflict, by_world);

@@ -2,7 +2,8 @@
  * it what the whole layer tells, to the last bit, if no other world of that wrote there; and what is told of worlds,
  * of blocks that nothing happened to and of moves adds up to what is told of the layer.
  *
- * Layers are fields of slanted boxes, most of them apart, some with fixed ones, limits, blocks and a barrier across. */
+ * Layers are fields of slanted boxes, most of them apart, some with fixed ones, limits, blocks, and barriers: roads
+ * across all of it, and ponds. */
 #include "polyset.h"
 #include "random.h"
 #include "run_layer.h"
@@ -17,11 +18,14 @@
 
 #include <cmocka.h>
 
-enum { MOST = 160, FIELDS = 14 };
+enum { MOST = 160, FIELDS = 200, BARRIERS = 4, BENDS = 5 };
 
 typedef struct field {
     sunder_feature feature[MOST];
     size_t n;
+    sunder_barrier barrier[BARRIERS]; /* all of them are of each part, too */
+    double road[BARRIERS][2 * BENDS];
+    size_t bends, barriers;
     sunder_layer_options options;
     double width;
 } field;
@@ -79,8 +83,49 @@ static void lay_out(field *f, rng *r)
     }
 }
 
+/* A way from one side to the other, with a width; or a pond. */
+static void add_barrier(field *f, rng *r)
+{
+    const size_t k = f->barriers++;
+    sunder_barrier *b = &f->barrier[k];
+    *b = (sunder_barrier){.width = rng_once_in(r, 2) ? 0 : 3 * rng_unit(r),
+                          .gap = rng_once_in(r, 2) ? -1 : rng_unit(r),
+                          .side = rng_once_in(r, 2)};
+    f->bends = BENDS;
+    if (rng_once_in(r, 3)) {
+        b->geometry.shape = slanted_box(r, 1000 + f->width * rng_unit(r), 2000 + f->width * rng_unit(r));
+        return;
+    }
+    for (size_t m = 0; m < BENDS; m++) {
+        f->road[k][2 * m] = 990 + (f->width + 20) * (double)m / (BENDS - 1);
+        f->road[k][2 * m + 1] = 2000 + f->width * rng_unit(r);
+    }
+    b->geometry = (sunder_obstacle){.xy = f->road[k], .line_end = &f->bends, .lines = 1};
+}
+
+static void add_barriers(field *f, rng *r)
+{
+    const size_t n = rng_once_in(r, 2) ? (size_t)rng_int(r, 1, BARRIERS) : 0;
+    f->barriers = 0;
+    while (f->barriers < n) add_barrier(f, r);
+}
+
+static sunder_report *separate_beside(const field *f, const sunder_feature *feature, size_t n)
+{
+    if (!f->barriers) return run_separate(feature, n, &f->options);
+    sunder_layer *layer = NULL;
+    sunder_report *report = NULL;
+    sunder_error err;
+    if (sunder_layer_new(feature, n, &layer, &err) || sunder_layer_set_barriers(layer, f->barrier, f->barriers, &err) ||
+        sunder_layer_separate(layer, &f->options, &report, &err))
+        fail_msg("%s", err.message);
+    sunder_layer_free(layer);
+    return report;
+}
+
 static void clear(field *f)
 {
+    for (size_t k = 0; k < f->barriers; k++) sunder_shape_free((sunder_shape *)f->barrier[k].geometry.shape);
     for (size_t k = 0; k < f->n; k++) sunder_shape_free((sunder_shape *)f->feature[k].shape);
 }
 
@@ -98,28 +143,30 @@ static void demand_same_counts(const sunder_conflict_counts *a, const sunder_con
 
 static double or_none(double length) { return isnan(length) ? -1 : length; }
 
-/* Conflicts of the world's features, k-th and k-th; from: the whole's number of each of the part's. */
+/* Conflicts of the world's features, k-th and k-th; from: the whole's number of each of the part's things. */
 static void demand_same_conflicts(const sunder_report *whole, const sunder_report *part, size_t world, size_t of_part,
                                   const size_t *from)
 {
     size_t n, m, j = 0;
     const sunder_conflict *c = sunder_report_conflicts(whole, &n), *d = sunder_report_conflicts(part, &m);
     for (size_t k = 0; k < n; k++) {
-        if (sunder_report_world(whole, c[k].a) != world) continue;
-        while (j < m && sunder_report_world(part, d[j].a) != of_part) j++;
+        if (sunder_report_world_of_pair(whole, c[k].a, c[k].b) != world) continue;
+        while (j < m && sunder_report_world_of_pair(part, d[j].a, d[j].b) != of_part) j++;
         assert_true(j < m);
         assert_int_equal(c[k].a, from[d[j].a]);
         assert_int_equal(c[k].b, from[d[j].b]);
         assert_int_equal(c[k].kind, d[j].kind);
         assert_int_equal(c[k].reason, d[j].reason);
-        assert_true(c[k].distance == d[j].distance && c[k].depth == d[j].depth && c[k].before == d[j].before);
+        assert_true(or_none(c[k].distance) == or_none(d[j].distance));
+        assert_true(or_none(c[k].depth) == or_none(d[j].depth));
+        assert_true(or_none(c[k].before) == or_none(d[j].before));
         assert_true(or_none(c[k].need_shift) == or_none(d[j].need_shift));
         assert_true(or_none(c[k].need_gap) == or_none(d[j].need_gap));
         assert_int_equal(c[k].n_blocked_by, d[j].n_blocked_by);
         for (size_t i = 0; i < c[k].n_blocked_by; i++) assert_int_equal(c[k].blocked_by[i], from[d[j].blocked_by[i]]);
         j++;
     }
-    while (j < m && sunder_report_world(part, d[j].a) != of_part) j++;
+    while (j < m && sunder_report_world_of_pair(part, d[j].a, d[j].b) != of_part) j++;
     assert_int_equal(j, m);
 }
 
@@ -205,14 +252,15 @@ static bool is_joined(const sunder_report *whole, const sunder_report *part, siz
 static size_t look_at_part(const field *f, const sunder_report *whole, const bool *there)
 {
     static sunder_feature chosen[MOST];
-    size_t from[MOST], n = 0, worlds, same = 0;
+    size_t from[MOST + BARRIERS], n = 0, worlds, same = 0;
     for (size_t k = 0; k < f->n; k++) {
         if (!there[k]) continue;
         chosen[n] = f->feature[k];
         from[n++] = k;
     }
     if (n == f->n) return 0; /* it tells nothing */
-    sunder_report *part = run_separate(chosen, n, &f->options);
+    for (size_t k = 0; k < f->barriers; k++) from[n + k] = f->n + k;
+    sunder_report *part = separate_beside(f, chosen, n);
     const sunder_world *w = sunder_report_worlds(part, &worlds);
     for (size_t k = 0; k < worlds; k++) {
         if (!is_complete(f, there, part, k) || is_joined(whole, part, k, from, n)) continue;
@@ -274,9 +322,11 @@ static void demand_sums(const field *f, const sunder_report *report)
         optimal += w[k].clusters_optimal;
         before.overlap += w[k].before.overlap;
         before.too_close += w[k].before.too_close;
+        before.barrier += w[k].before.barrier;
         before.inside_blocks += w[k].before.inside_blocks;
         after.overlap += w[k].after.overlap;
         after.too_close += w[k].after.too_close;
+        after.barrier += w[k].after.barrier;
         after.contained += w[k].after.contained;
         after.inside_blocks += w[k].after.inside_blocks;
         assert_int_equal(sunder_report_world(report, w[k].first), k);
@@ -292,6 +342,8 @@ static void demand_sums(const field *f, const sunder_report *report)
     assert_int_equal(after.inside_blocks + inside, s.after.inside_blocks);
     assert_int_equal(before.overlap, s.before.overlap);
     assert_int_equal(before.too_close, s.before.too_close);
+    assert_int_equal(before.barrier, s.before.barrier);
+    assert_int_equal(after.barrier, s.after.barrier);
     assert_int_equal(after.overlap, s.after.overlap);
     assert_int_equal(after.too_close, s.after.too_close);
     assert_int_equal(after.contained, s.after.contained);
@@ -312,7 +364,8 @@ static void test_worlds(void **state)
         size_t worlds;
         draw_options(&f, &r);
         lay_out(&f, &r);
-        sunder_report *whole = run_separate(f.feature, f.n, &f.options);
+        add_barriers(&f, &r);
+        sunder_report *whole = separate_beside(&f, f.feature, f.n);
         demand_sums(&f, whole);
         sunder_report_worlds(whole, &worlds);
         asked += look_at_parts(&f, &r, whole);

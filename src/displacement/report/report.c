@@ -89,6 +89,7 @@ void sunder_report_free(sunder_report *r)
     sunder_i_free(r->push);
     sunder_i_free(r->world);
     sunder_i_free(r->world_of);
+    sunder_i_free(r->stands);
     sunder_i_free(r->inside);
     sunder_i_free(r->inexact);
     sunder_i_free(r->footprint);

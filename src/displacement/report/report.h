@@ -28,6 +28,7 @@ struct sunder_report {
     size_t *world_of; /* [n] as the caller numbers features, like the two that follow */
     size_t *inside;   /* [n] */
     bool *inexact;    /* [n] */
+    bool *stands;     /* [n] its block may not move */
     sunder_footprint *footprint;
     size_t footprints;
     sunder_world_bound *world_bound;

@@ -177,13 +177,11 @@ static size_t world_of_body(const sunder_report *report, const gathering *g, uin
     return report->world_of[g->solver->number[g->model->member[b->member]]];
 }
 
-/* Whose pair is it? SIZE_MAX: it is inside a block that nothing happened to. */
+/* Whose pair of the model's is it? SIZE_MAX: it is inside a block that nothing happened to. */
 static size_t world_of_pair(const sunder_report *report, const gathering *g, uint32_t a, uint32_t b)
 {
-    const uint32_t i = g->model->body_of[a], j = g->model->body_of[b];
-    const size_t one = world_of_body(report, g, i), other = world_of_body(report, g, j);
-    if (other == SIZE_MAX || (one != SIZE_MAX && !stands(g->model, i))) return one;
-    return other;
+    const size_t n = g->model->features, *number = g->solver->number;
+    return sunder_report_world_of_pair(report, number[a], b < n ? number[b] : n);
 }
 
 static int by_world(const void *a, const void *b)
@@ -279,11 +277,16 @@ static sunder_status count_proved(sunder_report *report, const gathering *g, sun
 }
 
 /* As the caller numbers features. */
-static sunder_status keep_rounded(sunder_report *report, const gathering *g, sunder_error *err)
+static sunder_status keep_each(sunder_report *report, const gathering *g, sunder_error *err)
 {
-    report->inexact = sunder_i_calloc(g->model->features, sizeof *report->inexact);
-    if (!report->inexact) return sunder_i_no_memory(err);
-    for (size_t f = 0; f < g->model->features; f++) report->inexact[g->solver->number[f]] = g->model->inexact[f];
+    const sunder_i_model *model = g->model;
+    report->inexact = sunder_i_calloc(model->features, sizeof *report->inexact);
+    report->stands = sunder_i_calloc(model->features, sizeof *report->stands);
+    if (!report->inexact || !report->stands) return sunder_i_no_memory(err);
+    for (size_t f = 0; f < model->features; f++) {
+        report->inexact[g->solver->number[f]] = model->inexact[f];
+        report->stands[g->solver->number[f]] = stands(model, model->body_of[f]);
+    }
     return SUNDER_OK;
 }
 
@@ -313,10 +316,10 @@ sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solve
         status = meet_readers(&g, world, err);
     }
     if (!status) status = number_worlds(report, &g, world, err);
+    if (!status) status = keep_each(report, &g, err);
     if (!status) status = list_footprints(report, &g, err);
     if (!status) status = count_pairs(report, &g, err);
     if (!status) status = count_proved(report, &g, err);
-    if (!status) status = keep_rounded(report, &g, err);
     sunder_i_free(g.root);
     sunder_i_free(g.active);
     sunder_i_free(g.read);
@@ -329,6 +332,13 @@ sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solve
 size_t sunder_report_world(const sunder_report *report, size_t feature)
 {
     return report->world_of ? report->world_of[feature] : SIZE_MAX;
+}
+
+size_t sunder_report_world_of_pair(const sunder_report *report, size_t a, size_t b)
+{
+    const size_t one = a < report->n ? sunder_report_world(report, a) : SIZE_MAX,
+                 other = b < report->n ? sunder_report_world(report, b) : SIZE_MAX;
+    return other == SIZE_MAX || (one != SIZE_MAX && !report->stands[a]) ? one : other;
 }
 
 const sunder_world *sunder_report_worlds(const sunder_report *report, size_t *n)
