@@ -689,8 +689,8 @@ typedef struct sunder_world_bound {
 SUNDER_API const sunder_world_bound *sunder_report_world_bounds(const sunder_report *report, size_t *n);
 /* The number of the feature's world; SIZE_MAX: it is of none. */
 SUNDER_API size_t sunder_report_world(const sunder_report *report, size_t feature);
-/* Of which world a conflict or a push is, of a feature and a feature or a barrier: of the one that may move, if the other
- * may not; of what is fixed only where nothing of the pair is another's. SIZE_MAX: of none. */
+/* Of which world a conflict or a push is, of a feature and a feature or a barrier: of the one that may move, if the
+ * other may not. SIZE_MAX: of none. */
 SUNDER_API size_t sunder_report_world_of_pair(const sunder_report *report, size_t a, size_t b);
 /* How many pairs inside its block, of which it is the first, are not the gap apart; 0 where the block is of a world,
  * which has counted them. */
