@@ -244,8 +244,8 @@ bool gis_part_file_read(gis_part_file *file, size_t k, gis_part_result *to, gis_
 
 static bool check_lines(gis_part_file *file, const gis_part_chunk *chunk, gis_error *error)
 {
-    if (!room_for(file, (size_t)chunk->lines, error)) return false;
     if (chunk->lines > chunk->from) return altered(file, error);
+    if (!room_for(file, (size_t)chunk->lines, error)) return false;
     if (!gis_spool_file_read(&file->file, chunk->from - chunk->lines, file->bytes, (size_t)chunk->lines, error))
         return false;
     return gis_spool_checksum_of(0, file->bytes, (size_t)chunk->lines) == chunk->lines_checksum || altered(file, error);
