@@ -24,6 +24,8 @@
 #define MOST_BODIES 64
 /* What lines may be short by at first, as a share of how far two features may go. Tried at this value only. */
 #define COARSE 0x1p-8
+/* Chains of up to so many links are made irreducible as other proofs are. */
+#define REDUCED_LINKS 12
 /* Making a proof irreducible takes no more than this many times what finding it was allowed, or a little. */
 #define REDUCING 4
 #define LITTLE_EFFORT 1000000u
