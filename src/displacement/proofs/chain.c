@@ -151,7 +151,7 @@ static bool shorten(const half of[2], double most, size_t keep[2])
     return false;
 }
 
-static bool append(sunder_i_chain *chain, const half of[2], const size_t keep[2])
+static bool append(sunder_i_pushing *chain, const half of[2], const size_t keep[2])
 {
     chain->link = sunder_i_alloc(keep[0] + keep[1] + 1, sizeof *chain->link);
     if (!chain->link) return false;
@@ -164,7 +164,7 @@ static bool append(sunder_i_chain *chain, const half of[2], const size_t keep[2]
 
 /* A chain for a way of the pair's pieces; *found. False if memory is out. */
 static bool find_chain(sunder_i_chains *g, const sunder_i_subproblem *q, const sunder_i_chain_link *pair,
-                       const sunder_i_way *way, half of[2], sunder_i_chain *chain, bool *found)
+                       const sunder_i_way *way, half of[2], sunder_i_pushing *chain, bool *found)
 {
     double s[2], t[2];
     sunder_i_chains_stand(g, pair->i, s);
@@ -197,7 +197,7 @@ typedef struct finding {
     size_t *links;
     half half[2];
     sunder_i_way *way;
-    sunder_i_chain *chain;
+    sunder_i_pushing *chain;
     size_t way_capacity, chain_capacity;
 } finding;
 
@@ -229,12 +229,12 @@ static bool ask_pieces(finding *f, const sunder_i_chain_link *pair)
     for (size_t k = 0; k < n && ok && found; k++) {
         open[k] = is_open(f->way, k, open, reach);
         if (!open[k]) continue;
-        f->chain[chains] = (sunder_i_chain){.way = k};
+        f->chain[chains] = (sunder_i_pushing){.way = k};
         ok = find_chain(g, f->q, pair, &f->way[k], f->half, &f->chain[chains], &found);
         if (ok && found) chains++;
     }
     bool failed = false;
-    f->chain[chains] = (sunder_i_chain){.way = SIZE_MAX};
+    f->chain[chains] = (sunder_i_pushing){.way = SIZE_MAX};
     if (ok && found) f->decision->proof = sunder_i_chain_prove(g, f->q, pair, f->way, n, f->chain, chains, &failed);
     for (size_t k = 0; k < chains; k++) {
         if (f->decision->proof && f->chain[k].n > *f->links) *f->links = f->chain[k].n;

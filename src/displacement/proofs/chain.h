@@ -4,7 +4,8 @@
 
 #include "displacement/proofs/branching.h"
 
-/* What the limits of two bodies leave of two of their pieces: one way past each other. */
+/* What the limits of two bodies leave of two of their pieces: one way past each other, or what all ways have in
+ * common. */
 typedef struct sunder_i_chain_link {
     uint32_t i, j; /* bodies: i may move; what does not is j */
     const sunder_i_body_piece *a, *b;
@@ -48,11 +49,11 @@ struct sunder_i_chains {
 };
 
 /* The links of one way of the pair that is asked about, from either end of it. */
-typedef struct sunder_i_chain {
+typedef struct sunder_i_pushing {
     size_t way;      /* among those of the pair's pieces */
     uint32_t *link;  /* those that the pair's j pushes, one after the other, then those that its i does */
     size_t right, n; /* so many of the former; all */
-} sunder_i_chain;
+} sunder_i_pushing;
 
 /* ---- chain_links.c ----------------------------------------------------------------------------------------------- */
 
@@ -63,6 +64,9 @@ const sunder_i_chain_links *sunder_i_chains_find(sunder_i_chains *chains, uint32
 /* Which ways are to be told of first, so that the others are none? A way among n that the limits leave is put first,
  * and with it out of the question no other is left: then true. */
 bool sunder_i_chain_only_way(sunder_i_way *way, size_t n, double reach);
+/* The same of n ways in scratch, of which a line that several have in common may become the first of one more. Returns
+ * how many there are then; 0: neither, or memory is out (branching->failed). */
+size_t sunder_i_chain_ways(sunder_i_branching *branching, size_t n, double reach);
 /* May the two, no farther from each other's places than reach, go this way? And if they do not go the other way? */
 bool sunder_i_chain_is_open(const sunder_i_way *way, double reach);
 bool sunder_i_chain_is_open_behind(const sunder_i_way *way, const sunder_i_way *behind, double reach);
@@ -73,6 +77,6 @@ bool sunder_i_chain_is_open_behind(const sunder_i_way *way, const sunder_i_way *
  * one more of no way behind them. NULL: it is none, by a hair, or memory is out (*failed). */
 sunder_proof *sunder_i_chain_prove(sunder_i_chains *chains, const sunder_i_subproblem *subproblem,
                                    const sunder_i_chain_link *pair, const sunder_i_way *way, size_t ways,
-                                   const sunder_i_chain *chain, size_t n, bool *failed);
+                                   const sunder_i_pushing *chain, size_t n, bool *failed);
 
 #endif

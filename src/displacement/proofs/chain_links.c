@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define TURN 6.28318530717958647692
+
 static double at(const double n[2], const double *u) { return n[0] * u[0] + n[1] * u[1]; }
 
 /* ---- Ways that are left ------------------------------------------------------------------------------------------ */
@@ -41,6 +43,51 @@ bool sunder_i_chain_only_way(sunder_i_way *way, size_t n, double reach)
         return true;
     }
     return false;
+}
+
+/* What all ways that are open have in common, whichever it is: beyond what the ends of their arcs, on the circle of all
+ * that is within reach, leave between them. False: that says too little, or nothing.
+ *
+ *         , - ~ - ,
+ *      ,'     w1   \',     The moves within reach and beyond a line are the hull of an arc. So those beyond any of
+ *     /          \  | \    several are in the hull of all their arcs, which has one line, the chord: a hair less, so
+ *    |     o      \ |  |   that with no move beyond that each of them contradicts the limits.
+ *     \         w2/\| /
+ *      ',       /  ,|'
+ *         ' - ~ - '                                                                                                 */
+static bool make_chord(const sunder_i_way *way, size_t n, double reach, sunder_i_way *out)
+{
+    double middle = 0, low = 0, high = 0;
+    bool any = false;
+    for (size_t k = 0; k < n; k++) {
+        if (!sunder_i_chain_is_open(&way[k], reach)) continue;
+        if (way[k].d <= -reach) return false;
+        const double direction = atan2(way[k].n[1], way[k].n[0]), half = acos(fmin(1, way[k].d / reach));
+        if (!any) middle = direction;
+        const double turn = any ? remainder(direction - middle, TURN) : 0;
+        low = any ? fmin(low, turn - half) : -half;
+        high = any ? fmax(high, turn + half) : half;
+        any = true;
+    }
+    const double half = (high - low) / 2, along = middle + (low + high) / 2;
+    if (!any || half > CHAIN_WIDEST) return false;
+    const double c = cos(along), s = sin(along), length = sqrt(c * c + s * s);
+    *out = (sunder_i_way){.n = {c / length, s / length}, .d = reach * (cos(half) - CHAIN_CHORD)};
+    return true;
+}
+
+size_t sunder_i_chain_ways(sunder_i_branching *c, size_t n, double reach)
+{
+    sunder_i_way chord;
+    if (sunder_i_chain_only_way(c->scratch, n, reach)) return n;
+    if (!make_chord(c->scratch, n, reach, &chord)) return 0;
+    if (!sunder_i_reserve(&c->scratch, &c->scratch_capacity, n + 1, sizeof *c->scratch)) {
+        c->failed = true;
+        return 0;
+    }
+    memmove(c->scratch + 1, c->scratch, n * sizeof *c->scratch);
+    c->scratch[0] = chord;
+    return n + 1;
 }
 
 /* ---- Who is linked to whom --------------------------------------------------------------------------------------- */
@@ -89,9 +136,10 @@ static bool link_pieces(sunder_i_chains *g, uint32_t i, const sunder_i_body_piec
     double clearance, s[2], t[2];
     if (!sunder_i_branching_owe(c, a->feature, b->feature, &clearance)) return true;
     const size_t n = sunder_i_branching_fill_ways(c, p, a, q, b, clearance, false, NULL);
+    const size_t ways = c->failed ? 0 : sunder_i_chain_ways(c, n, reach);
     g->work += n;
     if (c->failed) return false;
-    if (!sunder_i_chain_only_way(c->scratch, n, reach)) return true;
+    if (ways == 0) return true;
     if (!sunder_i_reserve(&g->link, &g->link_capacity, g->links + 1, sizeof *g->link) ||
         !sunder_i_reserve(&g->step, &g->step_capacity, g->links + 1, sizeof *g->step))
         return false;

@@ -42,8 +42,8 @@ typedef struct between {
     size_t node;
 } between;
 
-/* A leaf for a way that contradicts the limits of its two, or with one of those before it out of the question. False: it
- * does not, by a hair, or memory is out. */
+/* A leaf for a way that contradicts the limits of its two, or with one of those before it out of the question. False:
+ * it does not, by a hair, or memory is out. */
 static bool add_dead_end(builder *b, const between *at, size_t way, const size_t *behind, size_t n)
 {
     sunder_i_branching *c = b->c;
@@ -77,8 +77,9 @@ static bool add_link(builder *b, const sunder_i_chain_link *l)
     sunder_i_branching *c = b->c;
     const sunder_i_body *p = &c->model->body[l->i], *q = &c->model->body[l->j];
     const double reach = sunder_i_branching_limit(c, p) + sunder_i_branching_limit(c, q);
-    const size_t n = sunder_i_branching_fill_ways(c, p, l->a, q, l->b, l->clearance, false, NULL);
-    if (c->failed || !sunder_i_chain_only_way(c->scratch, n, reach)) return false;
+    size_t n = sunder_i_branching_fill_ways(c, p, l->a, q, l->b, l->clearance, false, NULL);
+    if (!c->failed) n = sunder_i_chain_ways(c, n, reach);
+    if (c->failed || n == 0) return false;
     between at = {sunder_i_branching_join(c, l->i), sunder_i_branching_join(c, l->j), 0};
     if (c->failed || !add_node(b, l, n, &at.node)) return false;
     const size_t first = c->node[at.node].way;
@@ -105,7 +106,7 @@ static bool add_end(builder *b)
 
 /* The pair's node, below which each of its ways has its chain, or a dead end. */
 static bool build(builder *b, const sunder_i_chains *g, const sunder_i_chain_link *pair, const sunder_i_way *way,
-                  size_t ways, const sunder_i_chain *chain, size_t *behind)
+                  size_t ways, const sunder_i_pushing *chain, size_t *behind)
 {
     sunder_i_branching *c = b->c;
     between at = {sunder_i_branching_join(c, pair->i), sunder_i_branching_join(c, pair->j), 0};
@@ -147,7 +148,7 @@ static void clear(sunder_i_branching *c)
 
 sunder_proof *sunder_i_chain_prove(sunder_i_chains *g, const sunder_i_subproblem *subproblem,
                                    const sunder_i_chain_link *pair, const sunder_i_way *way, size_t ways,
-                                   const sunder_i_chain *chain, size_t n, bool *failed)
+                                   const sunder_i_pushing *chain, size_t n, bool *failed)
 {
     sunder_i_subproblem of = *subproblem;
     sunder_i_branching c = {.subproblem = &of, .model = of.model};

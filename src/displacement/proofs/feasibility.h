@@ -72,8 +72,8 @@ typedef struct sunder_i_chains sunder_i_chains;
 /* Of the cluster whose bodies are the reserve, and what is required in it. NULL if memory is out. */
 sunder_i_chains *sunder_i_chains_new(const sunder_i_subproblem *cluster);
 void sunder_i_chains_free(sunder_i_chains *chains);
-/* Is there a proof that the things a and b of the subproblem push others to their limits, one after the other? Infeasible,
- * or unknown. *links: of the longest chain. The answer is to be cleared, also on failure. */
+/* Is there a proof that the things a and b of the subproblem push others to their limits, one after the other?
+ * Infeasible, or unknown. *links: of the longest chain. The answer is to be cleared, also on failure. */
 sunder_status sunder_i_chains_decide(sunder_i_chains *chains, const sunder_i_subproblem *subproblem,
                                      sunder_i_decision *decision, size_t *links, sunder_error *err);
 

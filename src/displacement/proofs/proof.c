@@ -10,8 +10,8 @@
 /* Of the two sides. */
 enum { CHORD_CORNERS = 4 };
 
-/* Adds to `sum` the nodes, ways, forces and corners of the subtree at node `at`, which tell the memory it takes; *deepest:
- * of its nodes. */
+/* Adds to `sum` the nodes, ways, forces and corners of the subtree at node `at`, which tell the memory it takes;
+ * *deepest: of its nodes. */
 static void count(const sunder_i_branching *c, size_t at, size_t depth, sunder_proof *sum, size_t *deepest)
 {
     const sunder_i_node *node = &c->node[at];

@@ -33,6 +33,10 @@
  * more than is added for rounding to a sum of a thousand forces. */
 #define CHAIN_HAIR 0x1p-36
 #define CHAIN_MARGIN 0x1p-20
+/* So much less than the chord of all that is open is told, as a share of reach; and half the arc, as an angle, of which
+ * one is: that of more tells little. */
+#define CHAIN_CHORD 0x1p-30
+#define CHAIN_WIDEST 2.1
 /* What it costs to look about a body, in links looked at; the most for one conflict, and links of one chain. */
 #define CHAIN_LOOK 16
 #define CHAIN_EFFORT 400000u
