@@ -270,8 +270,8 @@ static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_
     return status;
 }
 
-/* All conflicts of a cluster that are open at one effort, before any is asked about at the next. Where more of it tells
- * nothing of so many, one after the other, they hang together by chains too long for any, and it is the last. */
+/* All conflicts of a cluster that are open at one effort, before any is asked about at the next. Where it tells nothing
+ * of so many, one after the other, they hang together by more than any proof could hold, and it is the last. */
 static sunder_status ask_cluster(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
                                  sunder_error *err)
 {
@@ -286,7 +286,7 @@ static sunder_status ask_cluster(const asking *g, matter *first, const matter *l
             q->effort = effort < pool ? effort : pool;
             status = has_no_limit(g, m) ? ask_without_limit(g, m, q, &pool, err) : ask(g, m, q, &pool, err);
             open = m->open ? open + 1 : 0;
-            in_vain = effort > FIRST_EFFORT && open >= PROOFS_IN_VAIN;
+            in_vain = open >= (effort > FIRST_EFFORT ? PROOFS_IN_VAIN : PROOFS_IN_VAIN_AT_FIRST);
         }
     }
     return status;
