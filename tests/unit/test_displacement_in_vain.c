@@ -82,8 +82,8 @@ static void end(crowd *c)
 }
 
 /* Of report/tuning.h: no more features than these take part in questions about a cluster that are in vain; the least
- * effort for a proof; and so many of a cluster, one after the other, are not proved by more. */
-enum { NEED_IN_VAIN = 200000, FIRST_EFFORT = 10000, PROOFS_IN_VAIN = 32 };
+ * effort for a proof; and so many of a cluster, one after the other, are not proved by more, or by that. */
+enum { NEED_IN_VAIN = 200000, FIRST_EFFORT = 10000, PROOFS_IN_VAIN = 32, PROOFS_IN_VAIN_AT_FIRST = 1024 };
 
 /* ---- What would free it? ----------------------------------------------------------------------------------------- */
 
@@ -158,13 +158,13 @@ static sunder_status decide_in_vain(const sunder_i_subproblem *q, sunder_i_decis
     return SUNDER_OK;
 }
 
-/* Asks about all pairs. */
-static void ask_for_proofs(size_t tell)
+/* Asks about all pairs. Returns how many there are in the field. */
+static size_t ask_for_proofs(size_t side, size_t tell)
 {
     crowd c;
     sunder_report *report = NULL;
     sunder_error err;
-    set_up(&c, 12, 1);
+    set_up(&c, side, 1);
     assert_int_equal(sunder_i_report_new(&c.solver.model, &report, &err), SUNDER_OK);
     list_all(report, &c.solver);
     report->proof = sunder_i_calloc(report->conflicts, sizeof *report->proof);
@@ -173,22 +173,27 @@ static void ask_for_proofs(size_t tell)
     memset(asked_again, 0, sizeof asked_again);
     told = tell;
     assert_int_equal(sunder_i_report_proofs(report, &c.solver, decide_in_vain, &err), SUNDER_OK);
-    assert_int_equal(asked_first[0], report->conflicts - 1);
+    const size_t pairs = report->conflicts - 1;
     assert_int_equal(asked_first[1], 1);
+    assert_true(asked_again[1] >= 3);
     sunder_report_free(report);
     end(&c);
+    return pairs;
 }
 
 /* All are asked about once. Those of the field that more effort tells nothing of are as many as that, in succession,
- * wherever they begin; and the two that are far away go on to the most. */
+ * wherever they begin; and the two that are far away go on to the most. Of a larger field not all are asked about. */
 static void test_proofs(void **state)
 {
     (void)state;
     for (size_t tell = 0; tell <= 2 * PROOFS_IN_VAIN; tell += PROOFS_IN_VAIN / 2) {
-        ask_for_proofs(tell);
+        const size_t pairs = ask_for_proofs(12, tell);
+        assert_int_equal(asked_first[0], pairs);
         assert_int_equal(asked_again[0], tell + PROOFS_IN_VAIN);
-        assert_true(asked_again[1] >= 3);
     }
+    assert_true(ask_for_proofs(24, 0) > PROOFS_IN_VAIN_AT_FIRST);
+    assert_int_equal(asked_first[0], PROOFS_IN_VAIN_AT_FIRST);
+    assert_int_equal(asked_again[0], 0);
 }
 
 /* ---- Has it a solution? ------------------------------------------------------------------------------------------ */

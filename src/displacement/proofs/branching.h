@@ -175,6 +175,9 @@ sunder_status sunder_i_branching_solve(sunder_i_branching *branching, sunder_i_n
  * so. */
 bool sunder_i_branching_is_dead_end(sunder_i_branching *branching);
 
+/* Do the claims contradict the limits, by the forces that they have? Proved, with all rounding. */
+bool sunder_i_branching_is_contradiction(sunder_i_branching *branching);
+
 /* Do these claims of one pair, at most three, contradict the limits? Then the forces are set to say so. */
 bool sunder_i_branching_contradict(sunder_i_branching *branching, const uint32_t *claim, size_t n);
 

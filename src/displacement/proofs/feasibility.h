@@ -65,6 +65,18 @@ typedef struct sunder_i_decision {
     bool no_plane; /* as above, for who asks again */
 } sunder_i_decision;
 
+/* Who pushes whom in a cluster, kept for all questions about its conflicts; of one thread, and of one model, which does
+ * not change (chain.c). */
+typedef struct sunder_i_chains sunder_i_chains;
+
+/* Of the cluster whose bodies are the reserve, and what is required in it. NULL if memory is out. */
+sunder_i_chains *sunder_i_chains_new(const sunder_i_subproblem *cluster);
+void sunder_i_chains_free(sunder_i_chains *chains);
+/* Is there a proof that the things a and b of the subproblem push others to their limits, one after the other?
+ * Infeasible, or unknown. *links: of the longest chain. The answer is to be cleared, also on failure. */
+sunder_status sunder_i_chains_decide(sunder_i_chains *chains, const sunder_i_subproblem *subproblem,
+                                     sunder_i_decision *decision, size_t *links, sunder_error *err);
+
 /* Is anything held to an overlap with a barrier? */
 bool sunder_i_may_have_slack(const sunder_i_subproblem *subproblem);
 /* The answer is to be cleared, also on failure. */

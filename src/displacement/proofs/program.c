@@ -21,14 +21,30 @@
 
 /* ---- The sum ----------------------------------------------------------------------------------------------------- */
 
+/* No force on either body of a claim so far. A sum is of those that claims are about, however many take part. */
+static void begin(sunder_i_branching *c, const sunder_i_claim *s)
+{
+    c->net[2 * s->i] = c->net[2 * s->i + 1] = c->weight[s->i] = 0;
+    if (s->j != SUNDER_I_GROUND) c->net[2 * s->j] = c->net[2 * s->j + 1] = c->weight[s->j] = 0;
+}
+
+/* What the limit of a body loses; told once. */
+static double take_lost(sunder_i_branching *c, uint32_t b, double share)
+{
+    const double *net = c->net + 2 * (size_t)b;
+    const double lost = c->limit[b] * (sqrt(net[0] * net[0] + net[1] * net[1]) + share * c->weight[b]);
+    begin(c, &(sunder_i_claim){.i = b, .j = SUNDER_I_GROUND});
+    return lost;
+}
+
 /* Rounding, with e = 2^-53 and N claims, |n| <= 1 + 4 e: a sum of N products is off by (N + 1) e of the sum of their
  * magnitudes, and that by as much of itself. A body's net force is so off by 2 (N + 2) e of its weight, the sum of the
  * forces on it, each way. What follows takes four times that, and 2^-1000 for what falls below the normal numbers. */
-static bool is_contradiction(sunder_i_branching *c)
+bool sunder_i_branching_is_contradiction(sunder_i_branching *c)
 {
     const double share = (double)(c->claims + c->bodies + 8) * 0x1p-50;
     double won = 0, all = 0, lost = 0;
-    for (size_t b = 0; b < c->bodies; b++) c->net[2 * b] = c->net[2 * b + 1] = c->weight[b] = 0;
+    for (size_t k = 0; k < c->claims; k++) begin(c, &c->claim[k]);
     for (size_t k = 0; k < c->claims; k++) {
         const sunder_i_claim *s = &c->claim[k];
         if (!(s->force > 0)) continue;
@@ -40,9 +56,11 @@ static bool is_contradiction(sunder_i_branching *c)
         for (size_t x = 0; x < 2; x++) c->net[2 * s->j + x] += s->force * s->n[x];
         c->weight[s->j] += s->force;
     }
-    for (size_t b = 0; b < c->bodies; b++) {
-        const double *net = c->net + 2 * b;
-        lost += c->limit[b] * (sqrt(net[0] * net[0] + net[1] * net[1]) + share * c->weight[b]);
+    for (size_t k = 0; k < c->claims; k++) {
+        const sunder_i_claim *s = &c->claim[k];
+        if (!(s->force > 0)) continue;
+        lost += take_lost(c, s->i, share);
+        if (s->j != SUNDER_I_GROUND) lost += take_lost(c, s->j, share);
     }
     return isfinite(all) && won - share * all - 0x1p-1000 > lost * (1 + share);
 }
@@ -67,11 +85,11 @@ bool sunder_i_branching_is_dead_end(sunder_i_branching *c)
     const double reach = c->limit[last->i] + (last->j == SUNDER_I_GROUND ? 0 : c->limit[last->j]);
     for (size_t k = 0; k < c->claims; k++) c->claim[k].force = 0;
     last->force = 1;
-    if (last->d > reach && is_contradiction(c)) return true;
+    if (last->d > reach && sunder_i_branching_is_contradiction(c)) return true;
     for (size_t k = 0; k + 1 < c->claims; k++) {
         sunder_i_claim *other = &c->claim[k];
         if (!(other->i == last->i && other->j == last->j) && !(other->i == last->j && other->j == last->i)) continue;
-        if (balance(last, other) && is_contradiction(c)) return true;
+        if (balance(last, other) && sunder_i_branching_is_contradiction(c)) return true;
         other->force = 0;
     }
     return false;
@@ -95,7 +113,7 @@ bool sunder_i_branching_contradict(sunder_i_branching *c, const uint32_t *of, si
     if (n == 1) c->claim[of[0]].force = 1;
     if (n == 2) is_set = balance(&c->claim[of[0]], &c->claim[of[1]]);
     if (n == 3) is_set = balance_three(&c->claim[of[0]], &c->claim[of[1]], &c->claim[of[2]]);
-    return is_set && is_contradiction(c);
+    return is_set && sunder_i_branching_is_contradiction(c);
 }
 
 /* ---- The program ------------------------------------------------------------------------------------------------- */
@@ -175,7 +193,7 @@ static sunder_i_node_outcome solve(sunder_i_branching *c)
         if (outcome != SUNDER_I_NEAREST_FOUND || !add_tangents(c)) break;
     }
     for (size_t k = 0; k < c->claims; k++) c->claim[k].force = p->constraint[k].force;
-    if (outcome == SUNDER_I_NEAREST_NONE && is_contradiction(c)) return SUNDER_I_NODE_INFEASIBLE;
+    if (outcome == SUNDER_I_NEAREST_NONE && sunder_i_branching_is_contradiction(c)) return SUNDER_I_NODE_INFEASIBLE;
     return outcome == SUNDER_I_NEAREST_FOUND && is_candidate(c) ? SUNDER_I_NODE_CANDIDATE : SUNDER_I_NODE_UNDECIDED;
 }
 

@@ -10,16 +10,18 @@
 /* Of the two sides. */
 enum { CHORD_CORNERS = 4 };
 
-/* Adds to `sum` the nodes, ways, forces and corners of the subtree at node `at`, which tell the memory it takes. */
-static void count(const sunder_i_branching *c, size_t at, sunder_proof *sum)
+/* Adds to `sum` the nodes, ways, forces and corners of the subtree at node `at`, which tell the memory it takes;
+ * *deepest: of its nodes. */
+static void count(const sunder_i_branching *c, size_t at, size_t depth, sunder_proof *sum, size_t *deepest)
 {
     const sunder_i_node *node = &c->node[at];
     sum->nodes++;
+    if (depth > *deepest) *deepest = depth;
     sum->ways += node->ways;
     sum->forces += node->forces;
     if (node->ways) sum->corners += node->part_a->corners + node->part_b->corners;
     if (node->chord != SIZE_MAX) sum->corners += CHORD_CORNERS;
-    for (size_t k = 0; k < node->ways; k++) count(c, c->way[node->way + k].next, sum);
+    for (size_t k = 0; k < node->ways; k++) count(c, c->way[node->way + k].next, depth + 1, sum, deepest);
 }
 
 typedef struct copying {
@@ -29,8 +31,8 @@ typedef struct copying {
     sunder_proof_way *way;
     sunder_proof_force *force;
     double *corner;
-    size_t path[SUNDER_I_LEVELS + 1];      /* nodes of the record on the way down ... */
-    size_t path_copy[SUNDER_I_LEVELS + 1]; /* ... and of the proof */
+    size_t *path;      /* nodes of the record on the way down ... */
+    size_t *path_copy; /* ... and of the proof */
 } copying;
 
 static size_t copy_part(copying *g, const sunder_i_body_piece *piece)
@@ -118,7 +120,8 @@ static size_t copy(copying *g, size_t at, size_t depth)
 sunder_proof *sunder_i_proof_of(const sunder_i_branching *c, size_t root)
 {
     sunder_proof size = {0};
-    count(c, root, &size);
+    size_t deepest = 0;
+    count(c, root, 0, &size, &deepest);
     sunder_proof *proof = sunder_i_calloc(1, sizeof *proof);
     if (!proof) return NULL;
     copying g = {c,
@@ -127,18 +130,21 @@ sunder_proof *sunder_i_proof_of(const sunder_i_branching *c, size_t root)
                  sunder_i_alloc(size.ways, sizeof *g.way),
                  sunder_i_alloc(size.forces, sizeof *g.force),
                  sunder_i_alloc(2 * size.corners, sizeof *g.corner),
-                 {0},
-                 {0}};
+                 sunder_i_alloc(deepest + 1, sizeof *g.path),
+                 sunder_i_alloc(deepest + 1, sizeof *g.path_copy)};
     proof->node = g.node;
     proof->way = g.way;
     proof->force = g.force;
     proof->corner = g.corner;
     proof->within = c->subproblem->instead;
-    if (g.node && g.way && g.force && g.corner) {
+    const bool ok = g.node && g.way && g.force && g.corner && g.path && g.path_copy;
+    if (ok) {
         copy(&g, root, 0);
         SUNDER_I_ASSERT(proof->nodes == size.nodes && proof->ways == size.ways && proof->forces == size.forces);
-        return proof;
     }
+    sunder_i_free(g.path);
+    sunder_i_free(g.path_copy);
+    if (ok) return proof;
     sunder_i_proof_free(proof);
     return NULL;
 }

@@ -24,6 +24,24 @@
 #define DISC_SIDES 16
 #define MOST_CORNERS 96
 
+/* ---- Chains (chain.c, chain_links.c) ----------------------------------------------------------------------------- */
+
+/* Lines may be short by so much of how far two may go, which is lost at each link; else walls that are straight but for
+ * little had a way for each part of them. */
+#define CHAIN_COARSE 0x1p-14
+/* Ways that miss by less than this share are open; and what a chain has to win, as a share of what its pair misses: far
+ * more than is added for rounding to a sum of a thousand forces. */
+#define CHAIN_HAIR 0x1p-36
+#define CHAIN_MARGIN 0x1p-20
+/* So much less than the chord of all that is open is told, as a share of reach; and half the arc, as an angle, of which
+ * one is: that of more tells little. */
+#define CHAIN_CHORD 0x1p-30
+#define CHAIN_WIDEST 2.1
+/* What it costs to look about a body, in links looked at; the most for one conflict, and links of one chain. */
+#define CHAIN_LOOK 16
+#define CHAIN_EFFORT 400000u
+#define CHAIN_MOST 1024
+
 /* ---- Ways that are kept (ways_kept.c) ---------------------------------------------------------------------------- */
 
 /* Of two to the power of this many pairs of pieces: a question of a dozen houses between roads meets some hundred. */

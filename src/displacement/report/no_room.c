@@ -193,6 +193,53 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
     return status;
 }
 
+/* Are they two that move, and one of them without a limit? */
+static bool has_no_limit(const asking *g, const matter *m)
+{
+    const sunder_i_model *model = &g->solver->model;
+    const sunder_conflict *c = &g->report->conflict[m->conflict];
+    const double p = sunder_i_limit_of(&model->body[model->body_of[c->a]]),
+                 r = sunder_i_limit_of(&model->body[model->body_of[c->b]]);
+    return p > 0 && r > 0 && p + r == INFINITY;
+}
+
+/* Does the pair push others to their limits, one after the other? What is longer than a few links is irreducible as it
+ * comes, as far as such chains tell. */
+static sunder_status ask_chain(const asking *g, matter *m, sunder_i_subproblem *q, sunder_i_chains *chains,
+                               sunder_error *err)
+{
+    sunder_report *report = g->report;
+    sunder_conflict *c = &report->conflict[m->conflict];
+    const uint32_t body[2] = {q->model->body_of[c->a], q->model->body_of[c->b]};
+    sunder_i_decision decision;
+    size_t links;
+    q->body = body;
+    q->bodies = 2;
+    q->a = (uint32_t)c->a;
+    q->b = (uint32_t)c->b;
+    sunder_status status = sunder_i_chains_decide(chains, q, &decision, &links, err);
+    sunder_proof **proof = &report->proof[m->conflict];
+    *proof = decision.proof;
+    decision.proof = NULL;
+    sunder_i_decision_clear(&decision);
+    m->open = !*proof;
+    if (!status && *proof && links <= REDUCED_LINKS) status = reduce(q, g->decide, proof, err);
+    if (!status && g->solver->model.rules.drop_proofs) sunder_i_proof_strip(*proof);
+    if (!status && *proof) c->reason = SUNDER_REASON_NO_ROOM;
+    return status;
+}
+
+static sunder_status ask_chains(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
+                                sunder_error *err)
+{
+    sunder_i_chains *chains = sunder_i_chains_new(q);
+    sunder_status status = chains ? SUNDER_OK : sunder_i_no_memory(err);
+    for (matter *m = first; m < last && !status; m++)
+        if (!has_no_limit(g, m)) status = ask_chain(g, m, q, chains, err);
+    sunder_i_chains_free(chains);
+    return status;
+}
+
 /* Those of the two bodies, ascending; *n of them. NULL if memory is out. */
 static uint32_t *members_of(const sunder_i_model *model, const uint32_t body[2], size_t *n)
 {
@@ -223,18 +270,8 @@ static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_
     return status;
 }
 
-/* Are they two that move, and one of them without a limit? */
-static bool has_no_limit(const asking *g, const matter *m)
-{
-    const sunder_i_model *model = &g->solver->model;
-    const sunder_conflict *c = &g->report->conflict[m->conflict];
-    const double p = sunder_i_limit_of(&model->body[model->body_of[c->a]]),
-                 r = sunder_i_limit_of(&model->body[model->body_of[c->b]]);
-    return p > 0 && r > 0 && p + r == INFINITY;
-}
-
-/* All conflicts of a cluster that are open at one effort, before any is asked about at the next. Where more of it tells
- * nothing of so many, one after the other, they hang together by chains too long for any, and it is the last. */
+/* All conflicts of a cluster that are open at one effort, before any is asked about at the next. Where it tells nothing
+ * of so many, one after the other, they hang together by more than any proof could hold, and it is the last. */
 static sunder_status ask_cluster(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
                                  sunder_error *err)
 {
@@ -249,7 +286,7 @@ static sunder_status ask_cluster(const asking *g, matter *first, const matter *l
             q->effort = effort < pool ? effort : pool;
             status = has_no_limit(g, m) ? ask_without_limit(g, m, q, &pool, err) : ask(g, m, q, &pool, err);
             open = m->open ? open + 1 : 0;
-            in_vain = effort > FIRST_EFFORT && open >= PROOFS_IN_VAIN;
+            in_vain = open >= (effort > FIRST_EFFORT ? PROOFS_IN_VAIN : PROOFS_IN_VAIN_AT_FIRST);
         }
     }
     return status;
@@ -273,7 +310,8 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
         q.farthest = farthest_of(q.model, q.reserve, q.reserves);
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, q.model, first->root);
-        status = ask_cluster(g, first, last, &q, err);
+        status = ask_chains(g, first, last, &q, err);
+        if (!status) status = ask_cluster(g, first, last, &q, err);
         for (matter *m = first; m < last; m++) m->open = m->still;
         if (!status) status = ask_cluster(g, first, last, &q, err);
         sunder_i_reads_end(&reading);
