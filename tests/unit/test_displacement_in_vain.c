@@ -161,13 +161,13 @@ static sunder_status decide_in_vain(const sunder_i_subproblem *q, sunder_i_decis
     return SUNDER_OK;
 }
 
-/* Asks about all pairs. */
-static void ask_for_proofs(size_t tell)
+/* Asks about all pairs of a field of so many squares each way; how many it has. */
+static size_t ask_for_proofs(size_t side, size_t tell)
 {
     crowd c;
     sunder_report *report = NULL;
     sunder_error err;
-    set_up(&c, 12, 1);
+    set_up(&c, side, 1);
     assert_int_equal(sunder_i_report_new(&c.solver.model, &report, &err), SUNDER_OK);
     list_all(report, &c.solver);
     report->proof = sunder_i_calloc(report->conflicts, sizeof *report->proof);
@@ -176,10 +176,12 @@ static void ask_for_proofs(size_t tell)
     memset(asked_again, 0, sizeof asked_again);
     told = tell;
     assert_int_equal(sunder_i_report_proofs(report, &c.solver, decide_in_vain, &err), SUNDER_OK);
-    assert_int_equal(asked_first[0], report->conflicts - 1);
+    const size_t pairs = report->conflicts - 1;
+    assert_int_equal(asked_first[0], pairs);
     assert_int_equal(asked_first[1], 1);
     sunder_report_free(report);
     end(&c);
+    return pairs;
 }
 
 /* All are asked about once. Those of the field that more effort tells nothing of are as many as that, in succession,
@@ -188,10 +190,20 @@ static void test_proofs(void **state)
 {
     (void)state;
     for (size_t tell = 0; tell <= 2 * PROOFS_IN_VAIN; tell += PROOFS_IN_VAIN / 2) {
-        ask_for_proofs(tell);
+        ask_for_proofs(12, tell);
         assert_int_equal(asked_again[0], tell + PROOFS_IN_VAIN);
         assert_true(asked_again[1] >= 3);
     }
+}
+
+/* Of a field of fewer pairs than that all are asked about at the second effort, and half as many at the third. */
+static void test_proofs_of_few(void **state)
+{
+    (void)state;
+    const size_t pairs = ask_for_proofs(3, 0);
+    assert_true(pairs > PROOFS_IN_VAIN / 2 && pairs < PROOFS_IN_VAIN);
+    assert_int_equal(asked_again[0], pairs + PROOFS_IN_VAIN / 2);
+    assert_true(asked_again[1] >= 3);
 }
 
 /* ---- Has it a solution? ------------------------------------------------------------------------------------------ */
@@ -236,6 +248,6 @@ static void test_one_by_one(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_needs), cmocka_unit_test(test_proofs),
-                                       cmocka_unit_test(test_one_by_one)};
+                                       cmocka_unit_test(test_proofs_of_few), cmocka_unit_test(test_one_by_one)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -234,12 +234,14 @@ static bool has_no_limit(const asking *g, const matter *m)
 }
 
 /* All conflicts of a cluster that are open at one effort, before any is asked about at the next. Where more of it tells
- * nothing of so many, one after the other, they hang together by chains too long for any, and it is the last. */
+ * nothing of so many, one after the other, they hang together by chains too long for any, and it is the last; of fewer
+ * each time, since each costs more. */
 static sunder_status ask_cluster(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
                                  sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     bool in_vain = false;
+    unsigned patience = 2 * PROOFS_IN_VAIN;
     uint64_t pool = EFFORT * g->times + EFFORT_EACH * (uint64_t)(q->reserves + 2);
     for (uint64_t effort = FIRST_EFFORT; effort <= MOST_EFFORT * g->times && pool && !in_vain && !status;
          effort *= GROWTH) {
@@ -249,8 +251,9 @@ static sunder_status ask_cluster(const asking *g, matter *first, const matter *l
             q->effort = effort < pool ? effort : pool;
             status = has_no_limit(g, m) ? ask_without_limit(g, m, q, &pool, err) : ask(g, m, q, &pool, err);
             open = m->open ? open + 1 : 0;
-            in_vain = effort > FIRST_EFFORT && open >= PROOFS_IN_VAIN;
+            in_vain = effort > FIRST_EFFORT && open >= patience;
         }
+        if (patience > 2) patience /= 2;
     }
     return status;
 }

@@ -16,7 +16,8 @@
 #define GROWTH 8
 #define MOST_EFFORT 8000000u
 /* After so many of a cluster, one after the other, of which more than the first effort tells nothing, no more are asked
- * about. */
+ * about; after half as many, where that is eight times as much again, and so on. Terraces of 32 houses that have no
+ * room for 18 of their pairs, each pair asked to the end of all effort, took a second each. */
 #define PROOFS_IN_VAIN 32
 /* For each unit of --effort, up to so many, a cluster and one conflict are allowed so many times as much more. */
 #define MORE_EFFORT 5
