@@ -56,7 +56,7 @@
 #define MOST_TOGETHER 192
 #define PART 96
 /* A part is looked at with one in so many of its steps first; with all of them if that proves this share of what it
- * costs. */
+ * costs; a crowd if it does not. */
 #define QUICK_LOOK 16
 #define QUICK_SHARE 0.1
 #define QUICK_AS_MUCH 0.75
