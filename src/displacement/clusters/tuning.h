@@ -38,7 +38,7 @@
  * of effort, that of the next is halved, and so on, down to this: of 624 pairs of a town of terraces five had an answer,
  * and one of these was of use. Of 26 that had one on real layers with roads none came after more than 3 in vain. */
 #define EFFORT_BRIEFLY_ALONE 50000u
-#define ALONE_IN_VAIN 4
+#define ALONE_IN_VAIN 2
 #define MARGINS 4
 
 /* ---- Questions about one conflict (spared.c) --------------------------------------------------------------------- */
