@@ -259,7 +259,7 @@ static void test_crowded(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_never_dearer), cmocka_unit_test(test_same_seed),
-                                       cmocka_unit_test(test_patience), cmocka_unit_test(test_ends),
-                                       cmocka_unit_test(test_asked_once), cmocka_unit_test(test_crowded)};
+                                       cmocka_unit_test(test_patience),     cmocka_unit_test(test_ends),
+                                       cmocka_unit_test(test_asked_once),   cmocka_unit_test(test_crowded)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,8 +56,7 @@ typedef struct budget {
 
 /* A question; one in vain takes of what is left as many features as took part. */
 static sunder_status ask(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
-                         const sunder_i_supposition *what, budget *left, bool *yes, double *longest,
-                         sunder_error *err)
+                         const sunder_i_supposition *what, budget *left, bool *yes, double *longest, sunder_error *err)
 {
     const uint64_t took = a->feature.n + a->part.n;
     const sunder_status status = sunder_i_ask(g, a, c, what, yes, longest, err);
