@@ -81,9 +81,9 @@ static void end(crowd *c)
     free(c->feature);
 }
 
-/* Of report/tuning.h: no more features than these take part in questions about a cluster that are in vain; so many pairs
- * are asked a question in vain before fewer are; the least effort for a proof; and so many of a cluster, one after the
- * other, are not proved by more. */
+/* Of report/tuning.h: no more features than these take part in questions about a cluster that are in vain; so many
+ * pairs are asked a question in vain before fewer are; the least effort for a proof; and so many of a cluster, one
+ * after the other, are not proved by more. */
 enum { NEED_IN_VAIN = 200000, NEED_PATIENCE = 32, FIRST_EFFORT = 10000, PROOFS_IN_VAIN = 32 };
 
 /* ---- What would free it? ----------------------------------------------------------------------------------------- */
@@ -131,8 +131,8 @@ static void test_needs(void **state)
     assert_int_equal(sunder_i_report_new(&c.solver.model, &report, &err), SUNDER_OK);
     list_all(report, &c.solver);
     assert_int_equal(sunder_i_report_needs(report, &c.solver, &c.options, solve_in_vain, &err), SUNDER_OK);
-    /* Between a dozen and 200 take part in each, and gaps are asked of all pairs until that is spent; limits of so many,
-     * and then of as many as there are powers of two. */
+    /* Between a dozen and 200 take part in each, and gaps are asked of all pairs until that is spent; limits of so
+     * many, and then of as many as there are powers of two. */
     assert_true(asked_gap[0] >= NEED_IN_VAIN / 200 && asked_gap[0] <= NEED_IN_VAIN / 12);
     assert_true(asked_gap[0] < report->conflicts - 1);
     assert_true(asked_limit[0] >= NEED_PATIENCE && asked_limit[0] <= NEED_PATIENCE + 12);
@@ -235,9 +235,9 @@ static void test_one_by_one(void **state)
     assert_int_equal(sunder_i_solver_ask_one_by_one(&c.solver, &changed, &err), SUNDER_OK);
     uint64_t work = 0;
     for (size_t b = 0; b < model->bodies; b++) work += c.solver.alone_work[b];
-    /* The two that are far away go on from theirs. Of the field's a few were asked in full, then some with less and less,
-     * and all the others briefly; each ends at the next look at a program after its effort, or where too many bodies
-     * take part. */
+    /* The two that are far away go on from theirs. Of the field's a few were asked in full, then some with less and
+     * less, and all the others briefly; each ends at the next look at a program after its effort, or where too many
+     * bodies take part. */
     const double brief = (double)n * EFFORT_BRIEFLY_ALONE;
     assert_true(changed);
     assert_true(n > 1000 && (double)work > brief && (double)work < 1.15 * brief);

@@ -142,8 +142,8 @@ static bool has_no_limit(const sunder_i_model *model, const sunder_i_relaxation 
 }
 
 /* What one question may take, after so many, one after the other, that ended for want of effort: in a crowd that hangs
- * together by chains of dozens hardly any other ends otherwise, and one that does ends early. So each takes half of what
- * the one before it did then. */
+ * together by chains of dozens hardly any other ends otherwise, and one that does ends early. So each takes half of
+ * what the one before it did then. */
 static uint64_t effort_for(const sunder_i_model *model, const sunder_i_relaxation *t, unsigned in_vain)
 {
     if (has_no_limit(model, t)) return EFFORT_BRIEFLY_ALONE;

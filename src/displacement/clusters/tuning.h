@@ -35,8 +35,9 @@
 #define POOL_ALONE_EACH 10000u
 /* The same where neither of the two has a limit: then it is the rule against jumps that stands in the way, and beside a
  * yard of dozens of houses all effort is in vain. Where so many of a cluster, one after the other, have ended for want
- * of effort, that of the next is halved, and so on, down to this: of 624 pairs of a town of terraces five had an answer,
- * and one of these was of use. Of 26 that had one on real layers with roads none came after more than 3 in vain. */
+ * of effort, that of the next is halved, and so on, down to this: of 624 pairs of a town of terraces five had an
+ * answer, and one of these was of use. Of 26 that had one on real layers with roads none came after more than 3 in
+ * vain. */
 #define EFFORT_BRIEFLY_ALONE 50000u
 #define ALONE_IN_VAIN 2
 #define MARGINS 4
