@@ -183,16 +183,21 @@ static bool count_look(void *looks)
 }
 
 /* How often a proof looks up. */
-static size_t prove(grid *g)
+static size_t prove_waived(grid *g, const sunder_i_waived *waived)
 {
-    const sunder_i_waived none = {0};
     size_t looks = 0;
     uint32_t of[MOST] = {0};
     sunder_error err;
     sunder_watch(count_look, &looks);
-    assert_int_equal(sunder_i_group_prove(&g->of.model, &none, of, &g->group, 8000000, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_group_prove(&g->of.model, waived, of, &g->group, 8000000, &err), SUNDER_OK);
     sunder_watch(NULL, NULL);
     return looks;
+}
+
+static size_t prove(grid *g)
+{
+    const sunder_i_waived none = {0};
+    return prove_waived(g, &none);
 }
 
 /* A group too large for its tree, that costs what it cost when it was asked, or nearly, keeps what is proved of it, at
@@ -216,10 +221,45 @@ static void test_asked_once(void **state)
     end(&g);
 }
 
+/* A group too large for a tree of whose own pairs one for every four bodies is listed is a crowd: it is not shaken, and
+ * bounded at a fraction of the work. */
+static void test_crowded(void **state)
+{
+    (void)state;
+    sunder_i_waiver listed[WIDE];
+    for (uint32_t k = 0; k < WIDE; k++) listed[k] = (sunder_i_waiver){k, k + WIDE, 1, false};
+    const sunder_i_waived crowd = {.pair = listed, .n = WIDE}, fewer = {.pair = listed, .n = WIDE - 1};
+    size_t looks[2];
+    for (int k = 0; k < 2; k++) {
+        grid g;
+        begin(&g, WIDE, HIGH, 0, 1);
+        assert_int_equal(sunder_i_group_is_crowded(&g.of.model, k ? &crowd : &fewer, &g.group), k);
+        looks[k] = prove_waived(&g, k ? &crowd : &fewer);
+        assert_true(g.group.bound > 0 && g.group.bound < g.group.cost);
+        end(&g);
+    }
+    assert_true(looks[1] < looks[0] / 4);
+    /* Pairs that are not all its own do not count, nor does a group that a tree may do. */
+    grid g;
+    begin(&g, WIDE, HIGH, 0, 1);
+    for (uint32_t k = 0; k < MOST - 3; k++) g.group.body[k] = k + 3;
+    g.group.n = MOST - 3;
+    assert_false(sunder_i_group_is_crowded(&g.of.model, &crowd, &g.group));
+    for (uint32_t k = 0; k < 16; k++) g.group.body[k] = k;
+    g.group.n = 16;
+    assert_false(sunder_i_group_is_crowded(&g.of.model, &crowd, &g.group));
+    g.group.body[16] = 16;
+    g.group.n = 17;
+    assert_true(sunder_i_group_is_crowded(&g.of.model, &crowd, &g.group));
+    g.of.model.body[0].fixed = true;
+    assert_false(sunder_i_group_is_crowded(&g.of.model, &crowd, &g.group));
+    end(&g);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_never_dearer), cmocka_unit_test(test_same_seed),
-                                       cmocka_unit_test(test_patience), cmocka_unit_test(test_ends),
-                                       cmocka_unit_test(test_asked_once)};
+                                       cmocka_unit_test(test_patience),     cmocka_unit_test(test_ends),
+                                       cmocka_unit_test(test_asked_once),   cmocka_unit_test(test_crowded)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -141,12 +141,15 @@ static bool has_no_limit(const sunder_i_model *model, const sunder_i_relaxation 
            sunder_i_limit_of(&model->body[model->body_of[t->b]]) == INFINITY;
 }
 
-/* What one question may take, after so many that ended for want of effort: in a crowd that hangs together by chains of
- * dozens hardly any other ends otherwise, and one that does ends early. */
+/* What one question may take, after so many, one after the other, that ended for want of effort: in a crowd that hangs
+ * together by chains of dozens hardly any other ends otherwise, and one that does ends early. So each takes half of
+ * what the one before it did then. */
 static uint64_t effort_for(const sunder_i_model *model, const sunder_i_relaxation *t, unsigned in_vain)
 {
-    if (has_no_limit(model, t) || in_vain >= ALONE_IN_VAIN) return EFFORT_BRIEFLY_ALONE;
-    return EFFORT_ALONE * (1 + (uint64_t)(MORE_EFFORT_ALONE * fmin(model->rules.effort, MORE_ALONE_UP_TO)));
+    if (has_no_limit(model, t)) return EFFORT_BRIEFLY_ALONE;
+    uint64_t effort = EFFORT_ALONE * (1 + (uint64_t)(MORE_EFFORT_ALONE * fmin(model->rules.effort, MORE_ALONE_UP_TO)));
+    for (unsigned k = ALONE_IN_VAIN; k <= in_vain && effort > EFFORT_BRIEFLY_ALONE; k++) effort /= 2;
+    return effort > EFFORT_BRIEFLY_ALONE ? effort : EFFORT_BRIEFLY_ALONE;
 }
 
 /* What may yet be asked in vain of a cluster with these members. */

@@ -70,7 +70,8 @@ static sunder_status prove(const sunder_i_solver *s, const sunder_i_spared *list
     const sunder_i_model *model = &s->model;
     sunder_i_id_pair last = {SUNDER_I_NOBODY, SUNDER_I_NOBODY};
     sunder_status status = SUNDER_OK;
-    for (size_t k = 0; k < s->start.n && !*proved && !status; k++) {
+    uint64_t left = EFFORT_BRIEFLY;
+    for (size_t k = 0; k < s->start.n && left && !*proved && !status; k++) {
         const sunder_i_relation *r = &s->start.pair[k];
         const uint32_t body[2] = {model->body_of[r->a], model->body_of[r->b]};
         const bool barrier = sunder_i_is_barrier(model, r->b);
@@ -80,10 +81,12 @@ static sunder_status prove(const sunder_i_solver *s, const sunder_i_spared *list
             sunder_i_by_id_pair(&asked, &last) == 0)
             continue;
         last = asked;
+        q->effort = left;
         q->body = body;
         q->bodies = barrier ? 1 : 2;
         status = sunder_i_decide(q, &decision, err);
         *proved = decision.verdict == SUNDER_I_INFEASIBLE;
+        left -= decision.work < left ? decision.work : left;
         sunder_i_decision_clear(&decision);
     }
     return status;
@@ -104,7 +107,6 @@ sunder_status sunder_i_solver_is_proved_hopeless(const sunder_i_solver *s, const
                                  .required = required,
                                  .required_n = n,
                                  .planes = &planes,
-                                 .effort = EFFORT_BRIEFLY,
                                  .most = MOST_BODIES};
         status = prove(s, list, &q, proved, err);
     }

@@ -210,6 +210,16 @@ static sunder_status prove_blocks(const sunder_i_model *model, const sunder_i_wa
     return status;
 }
 
+/* Blocks of a crowd: a look at them proves most of what they can; where it proves little, it was too short for as many
+ * pieces as they have. */
+static sunder_status prove_crowd(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                                 uint64_t steps, sunder_error *err)
+{
+    const sunder_status status = prove_blocks(model, waived, g, steps / CROWD_LOOK, err);
+    if (status || g->bound >= QUICK_SHARE * g->cost) return status;
+    return prove_blocks(model, waived, g, steps, err);
+}
+
 /* Blocks of a part, in earnest only where a quick look at them proves a good share of what it costs: where all have
  * come far, since everybody pushes, what few of them cannot do without is next to nothing, however long they are
  * asked. */
@@ -245,7 +255,7 @@ static sunder_status prove_parts(const sunder_i_model *model, const sunder_i_wai
 
 /* known: what is proved already. If no more is to be proved, nothing is. Of a group that costs little more than when
  * all was asked of it (it was put back by a rounding error, or has lost or won a few bodies) neither blocks nor parts
- * are asked again. */
+ * are asked again. Of a crowd nothing but these is asked. */
 static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
                                   sunder_i_group *g, double known, uint64_t steps, sunder_error *err)
 {
@@ -258,9 +268,15 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     const double before = g->cost; /* what is found to be cheaper may be put back */
     const bool asked = g->asked >= ASKED_SHARE * before;
     if (!asked) g->asked = movers > MOST_TOGETHER ? before : 0;
-    if (movers > MOST_TOGETHER) return asked ? SUNDER_OK : prove_parts(model, waived, g, steps, err);
+    const bool crowded = sunder_i_group_is_crowded(model, waived, g);
+    if (movers > MOST_TOGETHER)
+        return asked ? SUNDER_OK : prove_parts(model, waived, g, crowded ? steps / CROWD_LOOK : steps, err);
     const sunder_status polished = attempt(model, waived, g, g->body, g->move, g->n, false, &better, err);
     if (polished || known >= goal_of(model, g)) return polished;
+    if (crowded) {
+        g->asked = asked ? g->asked : before;
+        return asked ? SUNDER_OK : prove_crowd(model, waived, g, steps, err);
+    }
     if (movers > BRANCHED) {
         const sunder_status status = sunder_i_group_shake(model, waived, g, steps / (asked ? 2 * AGAIN : 2), err);
         /* Whoever patience has sent to another side stands among others now: the next round knows whom to ask. */

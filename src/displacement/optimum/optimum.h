@@ -44,6 +44,8 @@ bool sunder_i_tight_place(const sunder_i_model *model, const sunder_i_waived *wa
                           double margin, double *move, bool *found);
 /* *may: their coordinates have a common step, so that there may be such places. False if memory is out. */
 bool sunder_i_may_be_tight(const sunder_i_model *model, const uint32_t *body, size_t n, bool *may);
+/* crowded.c: are so many pairs of its bodies left in conflict that neither shaking nor a tree is of any use? */
+bool sunder_i_group_is_crowded(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *group);
 /* Is its cost proved to be the least, up to what the program prints of it? */
 bool sunder_i_group_is_optimal(const sunder_i_group *group);
 /* Goes down from where the group's bodies are put; takes what is cheaper. */

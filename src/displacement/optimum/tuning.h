@@ -56,7 +56,7 @@
 #define MOST_TOGETHER 192
 #define PART 96
 /* A part is looked at with one in so many of its steps first; with all of them if that proves this share of what it
- * costs. */
+ * costs; a crowd if it does not. */
 #define QUICK_LOOK 16
 #define QUICK_SHARE 0.1
 #define QUICK_AS_MUCH 0.75
@@ -64,6 +64,12 @@
  * shaken with one in so many of the steps. */
 #define ASKED_SHARE 0.9
 #define AGAIN 4
+/* A group too large for a tree is crowded that leaves a pair in conflict for every so many of its bodies: of the large
+ * groups of real layers within limits none leaves one for ten. It gets one in so many of its steps, and those for
+ * blocks alone. A town of terraces of 1,200 houses, of whose conflicts a quarter is left, has a bound of 27 % of its
+ * cost then, in 2 s, for 37 % in 54 s; pairs alone prove 11 %. */
+#define CROWDED 4
+#define CROWD_LOOK 16
 /* So many bodies that stand in the way may take part besides. */
 #define MOST_GUESTS 24
 

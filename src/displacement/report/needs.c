@@ -2,8 +2,9 @@
  * layer about it (question.c).
  *
  * In a crowd that has no room hardly any small layer has a solution, and there are thousands of conflicts: the pairs
- * of a cluster are asked about in turn until so much was asked in vain. So what is known of a pair is a matter of its
- * cluster, never of the layer. */
+ * of a cluster are asked about in turn until so much was asked in vain. And a question that is mostly in vain, of a
+ * limit or of who is gone, is put to fewer and fewer of them. (One of a gap is answered soon, since without one pairs
+ * mostly have a solution.) So what is known of a pair is a matter of its cluster, never of the layer. */
 #include "displacement/layer/reads.h"
 #include "displacement/report/question.h"
 #include "displacement/report/tuning.h"
@@ -14,32 +15,69 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* ---- Questions in vain ------------------------------------------------------------------------------------------- */
+
+/* What is left of a cluster's patience with one question: so many pairs may be asked it in vain yet, and each that has
+ * an answer makes good some. Where none is left, ever more pairs pass between two that are asked. */
+typedef struct patience {
+    unsigned left, stride, passed;
+} patience;
+
+static const patience fresh = {NEED_PATIENCE, 1, 0};
+
+/* Is the next pair to be asked? */
+static bool is_asked(patience *p)
+{
+    if (p->left) return true;
+    if (++p->passed < p->stride) return false;
+    p->passed = 0;
+    return true;
+}
+
+static void note_answer(patience *p, bool yes)
+{
+    if (yes) {
+        p->left = p->left + NEED_REGAINED < NEED_PATIENCE ? p->left + NEED_REGAINED : NEED_PATIENCE;
+        p->stride = 1;
+    } else if (p->left) {
+        p->left--;
+    } else {
+        p->stride *= 2;
+    }
+}
+
+/* What may be asked in vain of a cluster yet: of which so many features take part, and each question by itself. */
+typedef struct budget {
+    uint64_t left;
+    patience shift, gone;
+} budget;
+
 /* ---- The three needs --------------------------------------------------------------------------------------------- */
 
 /* A question; one in vain takes of what is left as many features as took part. */
 static sunder_status ask(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
-                         const sunder_i_supposition *what, uint64_t *left, bool *yes, double *longest,
-                         sunder_error *err)
+                         const sunder_i_supposition *what, budget *left, bool *yes, double *longest, sunder_error *err)
 {
     const uint64_t took = a->feature.n + a->part.n;
     const sunder_status status = sunder_i_ask(g, a, c, what, yes, longest, err);
-    if (!status && !*yes) *left -= took < *left ? took : *left;
+    if (!status && !*yes) left->left -= took < left->left ? took : left->left;
     return status;
 }
 
 /* A limit of moves: what they need where they may go as far as is known, and then less, by halves. */
 static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
-                                uint64_t *left, sunder_error *err)
+                                budget *left, sunder_error *err)
 {
     sunder_i_supposition what = {a->farthest, c->required, SUNDER_I_NOBODY};
     double longest, low = INFINITY;
     bool yes;
     what.gap = g->options->gap;
     for (size_t k = 0; k < a->moving; k++) low = fmin(low, a->as[k].max_shift);
-    if (!(low < what.limit)) return SUNDER_OK;
+    if (!(low < what.limit) || !is_asked(&left->shift)) return SUNDER_OK;
     for (int k = 0; k <= g->halvings; k++) {
         const sunder_status status = ask(g, a, c, &what, left, &yes, &longest, err);
         if (status) return status;
+        if (k == 0) note_answer(&left->shift, yes);
         /* One unit above what is rounded once holds the move. */
         if (yes)
             c->need_shift = nextafter(longest, INFINITY);
@@ -54,7 +92,7 @@ static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surr
 }
 
 static sunder_status need_gap(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
-                              uint64_t *left, sunder_error *err)
+                              budget *left, sunder_error *err)
 {
     sunder_i_supposition what = {0, 0, SUNDER_I_NOBODY};
     double high = g->options->gap, longest;
@@ -75,11 +113,12 @@ static sunder_status need_gap(const sunder_i_questions *g, const sunder_i_surrou
 
 /* The first of those in the way, without which all others are solved. */
 static sunder_status need_gone(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
-                               uint64_t *left, sunder_error *err)
+                               budget *left, sunder_error *err)
 {
     const sunder_i_supposition none = {0, g->options->gap, SUNDER_I_NOBODY};
     double longest;
     bool yes = false;
+    if (c->n_blocked_by == 0 || !is_asked(&left->gone)) return SUNDER_OK;
     for (size_t k = 0; k < c->n_blocked_by && k < g->leaves && !yes; k++) {
         sunder_i_supposition what = none;
         what.gone = (uint32_t)c->blocked_by[k];
@@ -87,6 +126,7 @@ static sunder_status need_gone(const sunder_i_questions *g, const sunder_i_surro
         if (status) return status;
         if (yes) c->need_gone = c->blocked_by[k];
     }
+    note_answer(&left->gone, yes);
     return SUNDER_OK;
 }
 
@@ -96,7 +136,7 @@ static size_t members_that_move(const sunder_i_model *model, size_t feature)
     return body->fixed ? 0 : body->members;
 }
 
-static sunder_status find_needs(const sunder_i_questions *g, sunder_conflict *c, uint64_t *left, sunder_error *err)
+static sunder_status find_needs(const sunder_i_questions *g, sunder_conflict *c, budget *left, sunder_error *err)
 {
     const sunder_i_model *model = &g->solver->model;
     sunder_i_surroundings a = {0};
@@ -129,10 +169,10 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
     const asking *g = context;
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
-        uint64_t left = g->most;
+        budget left = {g->most, fresh, fresh};
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &g->questions->solver->model, g->matter[g->first[k]].root);
-        for (size_t m = g->first[k]; m < g->first[k + 1] && left && !status; m++)
+        for (size_t m = g->first[k]; m < g->first[k + 1] && left.left && !status; m++)
             status = find_needs(g->questions, &g->questions->report->conflict[g->matter[m].conflict], &left, err);
         sunder_i_reads_end(&reading);
     }

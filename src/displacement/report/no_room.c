@@ -271,12 +271,14 @@ static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_
 }
 
 /* All conflicts of a cluster that are open at one effort, before any is asked about at the next. Where it tells nothing
- * of so many, one after the other, they hang together by more than any proof could hold, and it is the last. */
+ * of so many, one after the other, they hang together by more than any proof could hold, and it is the last; of fewer
+ * each time, since each costs more. */
 static sunder_status ask_cluster(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
                                  sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     bool in_vain = false;
+    unsigned patience = PROOFS_IN_VAIN_AT_FIRST;
     uint64_t pool = EFFORT * g->times + EFFORT_EACH * (uint64_t)(q->reserves + 2);
     for (uint64_t effort = FIRST_EFFORT; effort <= MOST_EFFORT * g->times && pool && !in_vain && !status;
          effort *= GROWTH) {
@@ -286,8 +288,9 @@ static sunder_status ask_cluster(const asking *g, matter *first, const matter *l
             q->effort = effort < pool ? effort : pool;
             status = has_no_limit(g, m) ? ask_without_limit(g, m, q, &pool, err) : ask(g, m, q, &pool, err);
             open = m->open ? open + 1 : 0;
-            in_vain = open >= (effort > FIRST_EFFORT ? PROOFS_IN_VAIN : PROOFS_IN_VAIN_AT_FIRST);
+            in_vain = open >= patience;
         }
+        patience = effort == FIRST_EFFORT ? PROOFS_IN_VAIN : patience > 2 ? patience / 2 : patience;
     }
     return status;
 }
