@@ -131,6 +131,8 @@
 #define MANY_PIECES 96
 #define PIECES_IN_LEAF 4
 #define MOST_GAPS 24
+/* The disc in a piece is smaller than it could be by this share, far more than rounding. */
+#define WITHIN_HAIR 0x1p-20
 
 /* ---- Shares of the size of a pair's forbidden set ---------------------------------------------------------------- */
 
@@ -152,6 +154,8 @@
 
 /* Cuts that are brought into a program one after the other. */
 #define MOST_ADDED 4000
+/* Regions of open nodes that are kept together, in bytes: of blocks of six symbols all. */
+#define MOST_KEPT_BYTES (1u << 22)
 /* Rounds of cuts at one node; a cut by a disc that takes away less than this share of its radius is not made. */
 #define MOST_REFINED 12
 #define DISC_SHARE 0.05
