@@ -41,6 +41,9 @@
 #define SHAKE_PATIENCE_EACH 6000u
 #define SHAKE_SETTLED 1e-5
 #define SHAKEN 16
+/* It ends where so great a share of the work was done since it last gained this share of the cost. */
+#define SHAKE_VAIN 0.5
+#define SHAKE_GAIN 3e-4
 #define PAIRS_A_SHAKE 8
 /* A group of more bodies that no descent came to an end for is shaken with patience, which grows so many times after so
  * many descents without an end: until so many came to one and gained less than this share, or so much work is done. One
@@ -114,6 +117,8 @@
 #define PROMISED_NOTHING 0.001
 /* So many looks that together prove less than this share of what is missing are the last. */
 #define LOOKS 3
+/* Where blocks prove no more than this share of the cost at first they get half of the steps that are left. */
+#define CROWDED_SHARE 0.3
 #define PROVED_LITTLE 0x1p-6
 
 /* ---- What cuts promise (bundle.c) -------------------------------------------------------------------------------- */
