@@ -238,7 +238,6 @@ static bool improve(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *c
     size_t in_vain = 0;
     for (size_t m = 0; m < d->items; m++)
         for (size_t e = 0; e < 2; e++) centre[2 * m + e] = best[m].share * best[m].anchor[e];
-    if (now < CROWDED_SHARE * cost && d->steps < d->most) d->most -= (d->most - d->steps) / 2;
     for (uint64_t each = d->each; d->steps < d->most && cost - now > BLOCKS_NEAR * cost;) {
         double value, promise;
         *ok = sunder_i_bundle_propose(&d->bundle, centre, stride, x, &promise);

@@ -117,8 +117,6 @@
 #define PROMISED_NOTHING 0.001
 /* So many looks that together prove less than this share of what is missing are the last. */
 #define LOOKS 3
-/* Where blocks prove no more than this share of the cost at first they get half of the steps that are left. */
-#define CROWDED_SHARE 0.3
 #define PROVED_LITTLE 0x1p-6
 
 /* ---- What cuts promise (bundle.c) -------------------------------------------------------------------------------- */
