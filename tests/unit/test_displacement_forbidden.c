@@ -33,6 +33,8 @@ static void add(set *s, const double box[4], double radius)
     p->edges = (uint32_t)sunder_i_obstacle_edges(corner, 4, s->edge + f->edges);
     f->edges += p->edges;
     sunder_i_box_grow(box, radius, p->box);
+    for (int c = 0; c < 2; c++) p->middle[c] = (box[c] + box[c + 2]) / 2;
+    p->within = (fmin(box[2] - box[0], box[3] - box[1]) / 2 + radius) * (1 - WITHIN_HAIR);
     memcpy(s->box[s->n], box, sizeof s->box[0]);
     s->radius[s->n++] = radius;
     for (int c = 0; c < 4; c++) f->size = fmax(f->size, fabs(p->box[c]));
@@ -81,6 +83,11 @@ static void check_places(rng *r, const set *s)
         assert_true(depth_of(s, u[0] + way * dir[0], u[1] + way * dir[1]) <= hair);
         const double half = sunder_i_forbidden_exit(&s->forbidden, u, dir, way / 2);
         assert_true(way == 0 || (half >= way / 2 && half <= way));
+        /* Whoever asks for no more than some way gets no less, or where it ends. */
+        for (int e = 1; e < 16; e++) {
+            const double most = way * e / 12, some = sunder_i_forbidden_exit(&s->forbidden, u, dir, most);
+            assert_true(most > way ? some == way : some >= most && some <= way);
+        }
         for (int e = 1; e < 8 && way > 1; e++) {
             /* On the way out all is forbidden, but for seams of pieces that touch. */
             const double on = way * e / 8, off = on + 0x1p-10;

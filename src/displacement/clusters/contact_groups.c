@@ -183,21 +183,21 @@ static void keep_proof(sunder_i_group *old, sunder_i_group *now)
     *now = kept;
 }
 
-/* The number of the group that all bodies of an old one are of, and no guest of another's; SUNDER_I_NOBODY: there is
- * none. */
+/* The number of the group that all bodies of an old one are of, but for such as stand alone now, and no guest of
+ * another's; SUNDER_I_NOBODY: there is none. */
 static uint32_t heir_of(const sunder_i_model *model, const sunder_i_group *old, const uint32_t *of)
 {
     const uint32_t heir = of[old->number];
     for (size_t m = 0; m < old->n + old->guests.n; m++) {
         const uint32_t b = m < old->n ? old->body[m] : old->guests.item[m - old->n];
-        const bool guest = m >= old->n && of[b] == SUNDER_I_NOBODY;
-        if (!model->body[b].fixed && of[b] != heir && !guest) return SUNDER_I_NOBODY;
+        if (!model->body[b].fixed && of[b] != heir && of[b] != SUNDER_I_NOBODY) return SUNDER_I_NOBODY;
     }
     return heir;
 }
 
 /* What was proved of bodies holds wherever they stand. So a group knows what was proved of all those that went into
- * it, until more is proved of it. at: the places of the groups by number. */
+ * it, until more is proved of it; one of them that stands alone now is its guest. at: the places of the groups by
+ * number. */
 static bool hand_on(const sunder_i_model *model, sunder_i_groups *old, sunder_i_groups *now, const uint32_t *at)
 {
     bool ok = true;
@@ -209,6 +209,9 @@ static bool hand_on(const sunder_i_model *model, sunder_i_groups *old, sunder_i_
         if (to->done) continue;
         to->bound = to->bound > 0 ? nextafter(to->bound + g->bound, -INFINITY) : g->bound;
         to->asked += g->asked;
+        for (size_t m = 0; m < g->n && ok; m++)
+            if (!model->body[g->body[m]].fixed && now->of[g->body[m]] == SUNDER_I_NOBODY)
+                ok = sunder_i_list_push(&to->guests, g->body[m]);
         for (size_t m = 0; m < g->guests.n && ok; m++) ok = sunder_i_list_push(&to->guests, g->guests.item[m]);
         to->guests.n = sunder_i_set_make(to->guests.item, to->guests.n);
         ok = ok && sunder_i_bound_trees_take(&to->trees, &g->trees);

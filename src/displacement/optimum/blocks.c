@@ -117,14 +117,15 @@ static bool note_cut(sunder_i_lagrangian *d, size_t block, double value)
     return sunder_i_bundle_add(&d->bundle, block, value, x, t);
 }
 
-/* The bound of one block; where its bodies want to be goes to their copies. trees: NULL, or those that are kept. */
-static bool ask_block(sunder_i_lagrangian *d, size_t block, sunder_i_bound_trees *trees, double *value)
+/* The bound of one block, and what it would be at most; where its bodies want to be goes to their copies. trees: NULL,
+ * or those that are kept. */
+static bool ask_block(sunder_i_lagrangian *d, size_t block, sunder_i_bound_trees *trees, double *value, double *most)
 {
     const size_t n = d->first[block + 1] - d->first[block];
     sunder_i_block_copy *item = d->item + d->first[block];
     uint32_t body[MOST_IN_BLOCK];
     double weight[MOST_IN_BLOCK], anchor[2 * MOST_IN_BLOCK], cost = 0, least = INFINITY;
-    *value = 0;
+    *value = *most = 0;
     if (n > MOST_IN_BLOCK) return true;
     for (size_t k = 0; k < n; k++) {
         const double *t = d->group->move + 2 * (size_t)item[k].at;
@@ -136,6 +137,7 @@ static bool ask_block(sunder_i_lagrangian *d, size_t block, sunder_i_bound_trees
             item[k].t[e] = t[e];
         }
     }
+    *most = cost;
     const sunder_i_task task = {.model = d->model,
                                 .waived = d->waived,
                                 .body = body,
@@ -165,14 +167,19 @@ static bool ask_block(sunder_i_lagrangian *d, size_t block, sunder_i_bound_trees
     return ok;
 }
 
-static bool evaluate(sunder_i_lagrangian *d, sunder_i_bound_trees *trees, double *bound)
+/* enough: what is less is of no use, -INFINITY as good; no block proves more than the layout costs it, so that may be
+ * known before all are asked. */
+static bool evaluate(sunder_i_lagrangian *d, sunder_i_bound_trees *trees, double enough, double *bound)
 {
-    double sum = 0;
+    double sum = 0, missed = 0;
     balance(d);
+    *bound = -INFINITY;
     for (size_t k = 0; k < d->blocks; k++) {
-        double value;
-        if (!ask_block(d, k, trees, &value)) return false;
+        double value, most;
+        if (!ask_block(d, k, trees, &value, &most)) return false;
         sum = nextafter(sum + value, -INFINITY);
+        missed += most - value;
+        if (d->group->cost - missed < enough) return true;
     }
     *bound = nextafter(sum - taken(d), -INFINITY);
     return true;
@@ -186,7 +193,7 @@ static bool begin(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *bou
     for (size_t k = 0; k < sizeof part / sizeof *part; k++) {
         double value;
         draw(d, part[k]);
-        if (!evaluate(d, NULL, &value)) return false;
+        if (!evaluate(d, NULL, *bound, &value)) return false;
         if (value <= *bound) continue;
         *bound = value;
         memcpy(best, d->item, d->items * sizeof *best);
@@ -211,6 +218,9 @@ static double first_stride(const sunder_i_lagrangian *d, const sunder_i_block_co
     return square > 0 ? FIRST_STRIDE * missing / (4 * square) : 1;
 }
 
+/* What is missing; in a crowd, of which blocks prove a small part, no more than they prove as yet. */
+static double hoped_for(double cost, double now) { return now > 0 ? fmin(cost - now, now) : cost - now; }
+
 static void put_anchors(sunder_i_lagrangian *d, const double *x)
 {
     for (size_t m = 0; m < d->items; m++)
@@ -224,7 +234,7 @@ static bool improve(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *c
                     bool *ok)
 {
     const double cost = d->group->cost;
-    double now = *bound, stride = first_stride(d, best, cost - now), past = now;
+    double now = *bound, stride = first_stride(d, best, hoped_for(cost, now)), past = now;
     size_t in_vain = 0;
     for (size_t m = 0; m < d->items; m++)
         for (size_t e = 0; e < 2; e++) centre[2 * m + e] = best[m].share * best[m].anchor[e];
@@ -239,7 +249,7 @@ static bool improve(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *c
         if (promise <= PROMISED_LITTLE * (cost - now) && each <= d->each / 3) return true;
         if (promise <= PROMISED_NOTHING * (cost - now)) break;
         put_anchors(d, x);
-        *ok = evaluate(d, NULL, &value);
+        *ok = evaluate(d, NULL, -INFINITY, &value);
         if (!*ok) break;
         each = (d->steps - before) / d->blocks;
         if (value > *bound) {
@@ -331,7 +341,7 @@ static bool ask_blocks(sunder_i_lagrangian *d, double *bound, sunder_i_bound_tre
     if (ok && value > *bound && d->model->rules.keep_trees) {
         sunder_i_bound_trees made = {0};
         memcpy(d->item, best, d->items * sizeof *best);
-        ok = evaluate(d, &made, &value);
+        ok = evaluate(d, &made, -INFINITY, &value);
         if (ok && value > *bound) {
             const sunder_i_bound_trees before = *trees;
             *trees = made;

@@ -101,6 +101,19 @@ static bool begin_piece(listing *l, const sunder_i_body_piece *a, const sunder_i
     return true;
 }
 
+/* A disc about the middle of the piece's box that lies in it: of symbols nearly all of it. */
+static void find_disc_within(const sunder_i_forbidden *f, sunder_i_forbidden_piece *piece)
+{
+    for (size_t c = 0; c < 2; c++) piece->middle[c] = piece->box[c] / 2 + piece->box[c + 2] / 2;
+    double nearest = INFINITY;
+    for (uint32_t k = 0; k < piece->edges; k++) {
+        const sunder_i_obstacle_edge *e = &f->edge[piece->edge + k];
+        const double far = e->n[0] * (e->from[0] - piece->middle[0]) + e->n[1] * (e->from[1] - piece->middle[1]);
+        nearest = far < nearest ? far : nearest;
+    }
+    piece->within = nearest >= 0 ? (nearest + piece->radius) * (1 - WITHIN_HAIR) : 0;
+}
+
 static void keep_piece(sunder_i_forbidden *f, sunder_i_forbidden_piece *piece, const double *xy, size_t n)
 {
     sunder_i_box_clear(piece->box);
@@ -108,6 +121,7 @@ static void keep_piece(sunder_i_forbidden *f, sunder_i_forbidden_piece *piece, c
     sunder_i_box_grow(piece->box, piece->radius, piece->box);
     const uint32_t least = piece->radius > 0 ? 2 : 3; /* with fewer edges it has no interior */
     if (piece->edges < least) return;
+    find_disc_within(f, piece);
     f->edges += piece->edges;
     f->piece[f->pieces++] = *piece;
 }

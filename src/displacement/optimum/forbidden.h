@@ -14,7 +14,8 @@ typedef struct sunder_i_forbidden_piece {
     bool shadow;
     double clearance; /* NAN: all that is owed; else what its pair is held to instead (layer/requirement.h) */
     double radius, vague;
-    double box[4]; /* of K grown */
+    double box[4];            /* of K grown */
+    double middle[2], within; /* a disc that lies in it, up to rounding; of no radius, or none, if within <= 0 */
 } sunder_i_forbidden_piece;
 
 typedef struct sunder_i_forbidden {

@@ -144,36 +144,64 @@ static void widen(double span[2], double from, double to)
 
 /* What is crossed may be a grain beyond an edge's ends, and every length in the question is off by less than one. */
 #define CLEAR_GRAINS 8
+/* Edges that are passed over together, where the line is near none of them. */
+#define EDGES_AT_ONCE 8
 
+typedef struct crossing {
+    const double *from, *dir;
+    double radius, grain, clear;
+} crossing;
+
+/* How far the first corners of n edges, and the end of the last, lie to the right of the line: off[n + 1]. False: all
+ * lie on one side, and clear of it. */
+static bool look_across(const crossing *c, const sunder_i_obstacle_edge *edge, const sunder_i_obstacle_edge *after,
+                        size_t n, double *off)
+{
+    const double x = c->from[0], y = c->from[1], dx = c->dir[0], dy = c->dir[1];
+    double least = off[n] = (after->from[0] - x) * dy - (after->from[1] - y) * dx, most = least;
+    for (size_t k = 0; k < n; k++) {
+        const double o = off[k] = (edge[k].from[0] - x) * dy - (edge[k].from[1] - y) * dx;
+        least = o < least ? o : least;
+        most = o > most ? o : most;
+    }
+    return least <= c->clear && most >= -c->clear;
+}
+
+/* Where the line is in the disc about the edge's first corner, and where it crosses the edge moved out. */
+static void cross(const crossing *c, const sunder_i_obstacle_edge *e, double off, double span[2])
+{
+    const double wx = e->from[0] - c->from[0], wy = e->from[1] - c->from[1], under = c->radius * c->radius - off * off;
+    if (under >= 0 && c->radius > 0) {
+        const double mid = wx * c->dir[0] + wy * c->dir[1], half = sqrt(under);
+        widen(span, mid - half, mid + half);
+    }
+    /* The edge moved out is crossed so far along it as `out` is to `across`, of which the signs are made alike. */
+    const double across = e->n[0] * c->dir[0] + e->n[1] * c->dir[1],
+                 out = off + c->radius * (e->n[0] * c->dir[1] - e->n[1] * c->dir[0]), along = across < 0 ? -out : out,
+                 speed = fabs(across);
+    if (speed < 1e-14 || along < -c->grain * speed || along > (e->length + c->grain) * speed) return;
+    const double s = (e->n[0] * wx + e->n[1] * wy + c->radius) / across;
+    widen(span, s, s);
+}
+
+/* The line meets the piece grown, if at all, in a segment; its ends are on edges moved out, or on discs about corners,
+ * and all that is there is in the piece. Most edges lie on one side of the line, with both corners and the discs about
+ * them: nothing else is to be asked of those. */
 bool sunder_i_forbidden_span(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece, const double from[2],
                              const double dir[2], double span[2])
 {
-    const sunder_i_obstacle_edge *edge = f->edge + piece->edge, *first = edge;
-    const double radius = piece->radius, clear = radius + CLEAR_GRAINS * f->grain;
+    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
+    const crossing c = {from, dir, piece->radius, f->grain, piece->radius + CLEAR_GRAINS * f->grain};
     span[0] = INFINITY;
     span[1] = -INFINITY;
-    if (piece->edges == 0) return false;
-    /* The line meets the piece grown, if at all, in a segment; its ends are on edges moved out, or on discs about
-     * corners, and all that is there is in the piece. Most edges lie on one side of the line, with both corners and the
-     * discs about them: nothing else is to be asked of those. */
-    double next = (first->from[0] - from[0]) * dir[1] - (first->from[1] - from[1]) * dir[0];
-    for (uint32_t k = 0; k < piece->edges; k++) {
-        const sunder_i_obstacle_edge *e = &edge[k], *after = k + 1 < piece->edges ? e + 1 : first;
-        const double off = next;
-        next = (after->from[0] - from[0]) * dir[1] - (after->from[1] - from[1]) * dir[0];
-        if ((off > clear && next > clear) || (off < -clear && next < -clear)) continue;
-        const double wx = e->from[0] - from[0], wy = e->from[1] - from[1], under = radius * radius - off * off;
-        if (under >= 0 && radius > 0) {
-            const double mid = wx * dir[0] + wy * dir[1], half = sqrt(under);
-            widen(span, mid - half, mid + half);
+    for (size_t at = 0; at < piece->edges; at += EDGES_AT_ONCE) {
+        const size_t left = piece->edges - at, n = left < EDGES_AT_ONCE ? left : EDGES_AT_ONCE;
+        double off[EDGES_AT_ONCE + 1];
+        if (!look_across(&c, edge + at, n < left ? edge + at + n : edge, n, off)) continue;
+        for (size_t k = 0; k < n; k++) {
+            if ((off[k] > c.clear && off[k + 1] > c.clear) || (off[k] < -c.clear && off[k + 1] < -c.clear)) continue;
+            cross(&c, edge + at + k, off[k], span);
         }
-        /* The edge moved out is crossed so far along it as `out` is to `across`, of which the signs are made alike. */
-        const double across = e->n[0] * dir[0] + e->n[1] * dir[1],
-                     out = off + radius * (e->n[0] * dir[1] - e->n[1] * dir[0]), along = across < 0 ? -out : out,
-                     speed = fabs(across);
-        if (speed < 1e-14 || along < -f->grain * speed || along > (e->length + f->grain) * speed) continue;
-        const double s = (e->n[0] * wx + e->n[1] * wy + radius) / across;
-        widen(span, s, s);
     }
     return span[0] < span[1];
 }
@@ -202,9 +230,24 @@ bool sunder_i_forbidden_is_near(const sunder_i_forbidden *f, const double u[2], 
     return false;
 }
 
+/* Is all between two places in one of the pieces, as the discs in them tell? */
+static bool is_within(const sunder_i_forbidden *f, const double u[2], const double v[2])
+{
+    for (size_t k = 0; k < f->pieces && !sunder_i_forbidden_is_many(f); k++) {
+        const sunder_i_forbidden_piece *p = &f->piece[k];
+        const double ux = u[0] - p->middle[0], uy = u[1] - p->middle[1], vx = v[0] - p->middle[0],
+                     vy = v[1] - p->middle[1], square = p->within * p->within;
+        if (p->within > 0 && ux * ux + uy * uy <= square && vx * vx + vy * vy <= square) return true;
+    }
+    return false;
+}
+
 double sunder_i_forbidden_exit(const sunder_i_forbidden *f, const double u[2], const double dir[2], double most)
 {
+    const double to[2] = {u[0] + most * dir[0], u[1] + most * dir[1]};
+    if (most < INFINITY && is_within(f, u, to)) return most;
     double s = 0;
+    const sunder_i_forbidden_piece *left = NULL; /* the last one: it is left for good */
     for (bool again = true; again && s < most;) {
         again = false;
         const double x = u[0] + s * dir[0], y = u[1] + s * dir[1], at[4] = {x, y, x, y};
@@ -212,9 +255,11 @@ double sunder_i_forbidden_exit(const sunder_i_forbidden *f, const double u[2], c
         sunder_i_forbidden_start(&walk, f);
         for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, at));) {
             double span[2];
-            if (!sunder_i_forbidden_span(f, p, u, dir, span) || span[0] > s + f->grain || span[1] <= s) continue;
+            if (p == left || !sunder_i_forbidden_span(f, p, u, dir, span) || span[0] > s + f->grain || span[1] <= s)
+                continue;
             if (span[1] > s + f->grain) again = true;
             s = span[1];
+            left = p;
         }
     }
     return s;

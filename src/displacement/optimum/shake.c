@@ -171,13 +171,21 @@ static bool shake_about(shaking *k, uint32_t middle, bool turned)
 
 static uint64_t work_of(uint64_t steps, uint64_t each) { return steps < UINT64_MAX / each ? each * steps : UINT64_MAX; }
 
-/* Until so much work is done; as long again where no descent came to an end by then. */
+/* Until so much work is done, or a good part of it in vain; as long again where no descent came to an end by then. */
 static void shake(shaking *k, uint64_t work)
 {
     sunder_i_search *s = &k->search;
-    for (size_t n = 0;
-         n < k->times && sunder_i_search_work(s) < (k->ended ? work : work_of(work, SHAKE_AGAIN)) && !s->failed; n++)
+    double cost = k->cost;
+    uint64_t gained = sunder_i_search_work(s);
+    const uint64_t vain = (uint64_t)(SHAKE_VAIN * (double)work);
+    for (size_t n = 0; n < k->times && !s->failed; n++) {
+        const uint64_t now = sunder_i_search_work(s);
+        if (now >= (k->ended ? work : work_of(work, SHAKE_AGAIN)) || (k->ended && now - gained >= vain)) break;
         shake_about(k, (uint32_t)(sunder_i_draw(&k->random) % k->n), false);
+        if (k->cost > cost * (1 - SHAKE_GAIN)) continue;
+        cost = k->cost;
+        gained = sunder_i_search_work(s);
+    }
 }
 
 /* With patience; until it was in vain so often, or so much work is done. */

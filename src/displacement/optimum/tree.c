@@ -98,6 +98,7 @@ void sunder_i_tree_free(sunder_i_tree *t)
         sunder_i_free(t->pair[k].reflex.place);
         sunder_i_free(t->pair[k].sides.place);
     }
+    for (size_t k = 0; k < t->nodes; k++) sunder_i_free(t->node[k].regions);
     sunder_i_free(t->body);
     sunder_i_free(t->weight);
     sunder_i_free(t->anchor);

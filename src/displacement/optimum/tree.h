@@ -51,6 +51,8 @@ typedef struct sunder_i_tree_node {
     uint32_t pair; /* which it was divided by, or has no room left */
     /* Where it is kept: the forces that its discs stand on, of cuts above it, and the pieces that leave no room. */
     uint32_t by, bys, named, names;
+    char *regions; /* NULL, or the regions of its pairs, while it is open: tree_regions.c */
+    size_t regions_size;
 } sunder_i_tree_node;
 
 #define SUNDER_I_NO_NODE UINT32_MAX
@@ -117,6 +119,7 @@ typedef struct sunder_i_tree {
     sunder_i_cut_force *kept; /* the program's state, while something else is tried */
     double *kept_factor;
     size_t kept_n, kept_capacity, kept_factor_capacity;
+    size_t kept_bytes; /* of regions, of all open nodes */
     double ray[SUNDER_I_TREE_RAYS][2];
     double leaf;                /* the least value of a leaf */
     uint64_t steps, pair_steps; /* pair_steps: of these, for making pairs */
@@ -169,6 +172,14 @@ double sunder_i_tree_solve(sunder_i_tree *tree);
 /* Sets the program aside, and takes it back. */
 void sunder_i_tree_keep_program(sunder_i_tree *tree);
 void sunder_i_tree_restore_program(sunder_i_tree *tree);
+
+/* ---- tree_regions.c ---------------------------------------------------------------------------------------------- */
+
+/* Keeps the regions at hand for a node that is opened, if there is room. */
+void sunder_i_tree_keep_regions(sunder_i_tree *tree, uint32_t node);
+/* Regions of pairs that the node's path touches become what was kept; it is kept no longer. */
+void sunder_i_tree_take_regions(sunder_i_tree *tree, uint32_t node);
+void sunder_i_tree_drop_regions(sunder_i_tree *tree, uint32_t node);
 
 /* ---- tree_cuts.c ------------------------------------------------------------------------------------------------- */
 

@@ -181,6 +181,7 @@ void sunder_i_tree_divide(sunder_i_tree *t, uint32_t node)
                 t->failed = true;
             else
                 sunder_i_heap_push(t->open, &t->opens, sizeof *t->open, &open, sunder_i_opens_first);
+            sunder_i_tree_keep_regions(t, child);
         }
         t->pair[c.pair].region = region;
         sunder_i_tree_restore_program(t);

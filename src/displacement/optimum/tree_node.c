@@ -16,12 +16,14 @@ static void touch(sunder_i_tree *t, uint32_t pair)
     if (!sunder_i_list_push(&t->touched, pair)) t->failed = true;
 }
 
-static void apply(sunder_i_tree *t, uint32_t cut)
+/* kept: the region will be what was kept of it. */
+static void apply(sunder_i_tree *t, uint32_t cut, bool kept)
 {
     const sunder_i_cut_note *note = &t->note[cut];
     if (note->kind == SUNDER_I_CUT_LIMIT) return;
     sunder_i_tree_pair *p = &t->pair[note->pair];
     touch(t, note->pair);
+    if (kept) return;
     sunder_i_region_clip(&p->region, t->cut[cut].n, t->cut[cut].d, cut, p->forbidden.grain);
 }
 
@@ -39,7 +41,7 @@ uint32_t sunder_i_tree_cut(sunder_i_tree *t, sunder_i_cut_kind kind, uint32_t pa
     t->note[cut] = (sunder_i_cut_note){.kind = kind, .pair = pair};
     t->program.cut = t->cut;
     if (t->nodes) t->node[t->nodes - 1].cuts++;
-    apply(t, cut);
+    apply(t, cut, false);
     return cut;
 }
 
@@ -81,11 +83,13 @@ void sunder_i_tree_load(sunder_i_tree *t, uint32_t node)
     t->touched.n = t->path.n = 0;
     for (uint32_t at = node; at != SUNDER_I_NO_NODE; at = t->node[at].parent)
         if (!sunder_i_list_push(&t->path, at)) t->failed = true;
+    const bool kept = t->node[node].regions;
     for (size_t k = t->path.n; k-- > 0 && !t->failed;) {
         const sunder_i_tree_node *n = &t->node[t->path.item[k]];
-        for (uint32_t c = n->cut; c < n->cut + n->cuts; c++) apply(t, c);
+        for (uint32_t c = n->cut; c < n->cut + n->cuts; c++) apply(t, c, kept);
         t->steps += 2 * n->cuts;
     }
+    if (kept && !t->failed) sunder_i_tree_take_regions(t, node);
     const sunder_i_tree_node *n = &t->node[node];
     const sunder_i_cut_force *force = n->forces ? t->force + n->force : NULL; /* the list may be empty */
     if (!t->failed && !sunder_i_dual_load(&t->program, force, n->forces)) t->failed = true;

@@ -41,6 +41,9 @@
 #define SHAKE_PATIENCE_EACH 6000u
 #define SHAKE_SETTLED 1e-5
 #define SHAKEN 16
+/* It ends where so great a share of the work was done since it last gained this share of the cost. */
+#define SHAKE_VAIN 0.5
+#define SHAKE_GAIN 3e-4
 #define PAIRS_A_SHAKE 8
 /* A group of more bodies that no descent came to an end for is shaken with patience, which grows so many times after so
  * many descents without an end: until so many came to one and gained less than this share, or so much work is done. One
@@ -137,6 +140,8 @@
 #define MANY_PIECES 96
 #define PIECES_IN_LEAF 4
 #define MOST_GAPS 24
+/* The disc in a piece is smaller than it could be by this share, far more than rounding. */
+#define WITHIN_HAIR 0x1p-20
 
 /* ---- Shares of the size of a pair's forbidden set ---------------------------------------------------------------- */
 
@@ -158,6 +163,8 @@
 
 /* Cuts that are brought into a program one after the other. */
 #define MOST_ADDED 4000
+/* Regions of open nodes that are kept together, in bytes: of blocks of six symbols all. */
+#define MOST_KEPT_BYTES (1u << 22)
 /* Rounds of cuts at one node; a cut by a disc that takes away less than this share of its radius is not made. */
 #define MOST_REFINED 12
 #define DISC_SHARE 0.05

@@ -36,6 +36,17 @@ static bool is_crowd(const sunder_i_search *s)
     return movers > LARGE_CROWD;
 }
 
+/* Have more than half of those that may move done so? */
+static bool is_under_way(const sunder_i_search *s)
+{
+    size_t movers = 0, moved = 0;
+    for (size_t k = 0; k < s->n; k++) {
+        movers += s->mass[k] > 0;
+        moved += s->mass[k] > 0 && (s->t[2 * k] != 0 || s->t[2 * k + 1] != 0);
+    }
+    return 2 * moved > movers;
+}
+
 static double longest_move(const sunder_i_search *s)
 {
     double longest = 0;
@@ -175,9 +186,12 @@ static double most_cost(const sunder_i_search *s)
 bool sunder_i_search_descend(sunder_i_search *s)
 {
     s->program.most_cost = most_cost(s);
-    /* At least a margin: who was put in a free place stands beside its pieces, a hair farther than is asked. */
-    double reach = fmax(s->gap, 4 * s->tolerance), cost = INFINITY, softness = SOFT;
-    const double longest_reach = fmax(s->gap / 2, s->extent / (is_crowd(s) ? PART_OF_CROWD : SMALL_PART));
+    const bool crowd = is_crowd(s);
+    const double longest_reach = fmax(s->gap / 2, s->extent / (crowd ? PART_OF_CROWD : SMALL_PART));
+    /* At least a margin: who was put in a free place stands beside its pieces, a hair farther than is asked. A crowd
+     * that is no longer at home is in contact all over. */
+    double reach = fmax(crowd && is_under_way(s) ? longest_reach : s->gap, 4 * s->tolerance), cost = INFINITY,
+           softness = SOFT;
     bool free_now = false;
     int clashing_rounds = 0, idle = 0;
     double least_missed = INFINITY, least_left = INFINITY;
