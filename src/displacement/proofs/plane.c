@@ -293,7 +293,8 @@ static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, s
 
 /* ---- The question ------------------------------------------------------------------------------------------------ */
 
-/* Which two bodies it is about: the one that may move, or the two. False: there are more. */
+/* Which two bodies it is about: the one that may move, or the two, in whichever order they are asked about. False: there
+ * are more. */
 static bool find_bodies(const sunder_i_branching *c, sunder_i_plane *g)
 {
     const sunder_i_subproblem *asked = c->subproblem;
@@ -303,6 +304,11 @@ static bool find_bodies(const sunder_i_branching *c, sunder_i_plane *g)
         if (!(sunder_i_limit_of(&c->model->body[asked->body[k]]) > 0)) continue;
         moving++;
         *(g->p == SUNDER_I_GROUND ? &g->p : &g->q) = asked->body[k];
+    }
+    if (moving == 2 && g->p > g->q) {
+        const uint32_t p = g->p;
+        g->p = g->q;
+        g->q = p;
     }
     return moving == 1 || moving == 2;
 }
