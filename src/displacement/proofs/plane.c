@@ -20,15 +20,20 @@
 
 /* ---- Dividing ---------------------------------------------------------------------------------------------------- */
 
-/* Does it, and all about it as far as that? */
-static bool holds(const sunder_i_plane *g, uint32_t k, const double u[2], double about)
+/* Does it hold the place, in its box, and all about it as far as that? */
+static bool holds(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, const double u[2], double about)
 {
-    const double *box = g->kept->box + 4 * (size_t)k;
-    if (u[0] < box[0] || u[0] > box[2] || u[1] < box[1] || u[1] > box[3]) return false;
-    const sunder_i_plane_obstacle *o = &g->kept->obstacle[k];
     for (const sunder_i_way *w = g->kept->way + o->way, *end = w + o->ways; w < end; w++)
         if (!(sunder_i_plane_at(w->n, u) < w->d - about)) return false;
     return true;
+}
+
+/* No more of what is in the box is in that one. */
+static double most_shared(const double box[4], const double of[4])
+{
+    const double x = (box[2] < of[2] ? box[2] : of[2]) - (box[0] > of[0] ? box[0] : of[0]),
+                 y = (box[3] < of[3] ? box[3] : of[3]) - (box[1] > of[1] ? box[1] : of[1]);
+    return x * y * (1 + 0x1p-30);
 }
 
 static double shared(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, const sunder_i_plane_region *r)
@@ -43,25 +48,26 @@ static double shared(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, 
     return sunder_i_plane_area(&part);
 }
 
-/* Of those from `first` on in the list that hold the place, the one that takes most of the region; its ways are in
- * c->scratch then. NULL: none does. */
-static const sunder_i_plane_obstacle *choose(sunder_i_plane *g, const sunder_i_plane_region *r, const double u[2],
-                                             size_t first, size_t *ways)
+/* Of those in whose boxes the place is, the one that holds it and takes most of the region; its ways are in c->scratch
+ * then. NULL: none does. */
+static const sunder_i_plane_obstacle *choose(sunder_i_plane *g, const sunder_i_plane_region *r, const double box[4],
+                                             const double u[2], size_t *ways)
 {
     const sunder_i_plane_obstacle *best = NULL;
     const double whole = sunder_i_plane_area(r) * (1 - 0x1p-30);
     const double about = g->thin ? 2 * SLIVER * g->reach : 0; /* what begins in a seam does not cover it */
     double most = -1;
-    for (size_t k = first; k < g->listed && most < whole; k++) {
-        if (!holds(g, g->list[k], u, about)) continue;
-        const sunder_i_plane_obstacle *o = &g->kept->obstacle[g->list[k]];
+    for (size_t k = 0; k < g->about_place && most < whole; k++) {
+        const uint32_t at = g->place[k];
+        const sunder_i_plane_obstacle *o = &g->kept->obstacle[at];
+        if (most_shared(box, g->kept->box + 4 * (size_t)at) <= most || !holds(g, o, u, about)) continue;
         g->c->looked += o->ways;
         const double share = shared(g, o, r);
         if (share <= most) continue;
         most = share;
         best = o;
     }
-    g->c->looked += (g->listed - first) / BOXES_A_STEP;
+    g->c->looked += g->about_place / BOXES_A_STEP;
     if (!best) return NULL;
     if (!sunder_i_reserve(&g->c->scratch, &g->c->scratch_capacity, best->ways, sizeof *g->c->scratch)) {
         g->c->failed = true;
@@ -238,17 +244,24 @@ static sunder_status divide_all(sunder_i_plane *g, const sunder_i_plane_region *
     return status;
 }
 
-/* Lists those of the list from `first` on that meet the region, behind it, by their boxes: to ask more of tens of
- * thousands takes longer than to look at them once more. False if memory is out. */
-static bool list_meeting(sunder_i_plane *g, const sunder_i_plane_region *r, size_t first)
+/* Lists those of the list from `first` on that meet the region, behind it, by their boxes, and in whose boxes the place
+ * is: to ask more of tens of thousands takes longer than to look at them once more. False if memory is out. */
+static bool list_meeting(sunder_i_plane *g, const double box[4], const double u[2], size_t first)
 {
     const size_t end = g->listed;
-    double box[4];
-    sunder_i_box_clear(box);
-    for (uint32_t k = 0; k < r->n; k++) sunder_i_box_include(box, r->xy + 2 * k);
-    if (!sunder_i_reserve(&g->list, &g->list_capacity, 2 * end - first, sizeof *g->list)) return false;
-    for (size_t k = first; k < end; k++)
-        if (sunder_i_box_meet(box, g->kept->box + 4 * (size_t)g->list[k])) g->list[g->listed++] = g->list[k];
+    if (!sunder_i_reserve(&g->list, &g->list_capacity, 2 * end - first + 1, sizeof *g->list) ||
+        !sunder_i_reserve(&g->place, &g->place_capacity, end - first + 1, sizeof *g->place))
+        return false;
+    size_t n = 0;
+    /* No branches: they would be guessed wrong half of the time. */
+    for (size_t k = first; k < end; k++) {
+        const uint32_t at = g->list[k];
+        const double *b = g->kept->box + 4 * (size_t)at;
+        g->list[g->listed] = g->place[n] = at;
+        g->listed += (size_t)((b[0] <= box[2]) & (b[2] >= box[0]) & (b[1] <= box[3]) & (b[3] >= box[1]));
+        n += (size_t)((b[0] <= u[0]) & (b[2] >= u[0]) & (b[1] <= u[1]) & (b[3] >= u[1]));
+    }
+    g->about_place = n;
     g->c->looked += (end - first) / BOXES_A_STEP;
     return true;
 }
@@ -267,10 +280,13 @@ static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, s
         return sunder_i_branching_add_leaf(c, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
     }
     const size_t listed = g->listed;
-    if (!list_meeting(g, r, first)) return sunder_i_no_memory(err);
+    double box[4];
+    sunder_i_box_clear(box);
+    for (uint32_t k = 0; k < r->n; k++) sunder_i_box_include(box, r->xy + 2 * k);
     sunder_i_plane_middle(r, nearest, g->reach, middle);
+    if (!list_meeting(g, box, middle, first)) return sunder_i_no_memory(err);
     size_t ways = 0, node;
-    const sunder_i_plane_obstacle *o = choose(g, r, middle, listed, &ways);
+    const sunder_i_plane_obstacle *o = choose(g, r, box, middle, &ways);
     sunder_i_chord chord;
     bool across = false;
     if (!o && !c->failed) across = (o = sunder_i_plane_find_chord(g, middle, &chord, &ways)) != NULL;
@@ -351,5 +367,6 @@ sunder_status sunder_i_branching_plane(sunder_i_branching *c, sunder_i_plane_ans
     if (answer->free && !is_all(c, &g)) answer->verdict = SUNDER_I_UNKNOWN;
     sunder_i_planes_clear(&own);
     sunder_i_free(g.list);
+    sunder_i_free(g.place);
     return status;
 }

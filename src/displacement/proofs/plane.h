@@ -59,6 +59,8 @@ typedef struct sunder_i_plane {
     /* Its obstacles that may meet the region at hand, behind those above it: first all that are forbidden. */
     uint32_t *list;
     size_t obstacles, listed, list_capacity;
+    uint32_t *place; /* those of the region above in whose boxes the place is that is looked at */
+    size_t about_place, place_capacity;
     unsigned thin;  /* how often the region at hand was nothing but a sliver */
     double free[2]; /* where nothing is in the way, if that is the answer */
 } sunder_i_plane;

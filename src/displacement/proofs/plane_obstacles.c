@@ -11,6 +11,7 @@
 
 #include "base/list.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 enum { PIECES, JUMPS, SIDES }; /* of sunder_i_plane_kept.looked */
@@ -150,10 +151,45 @@ static bool find_on_ground(const finding *w)
     return ok;
 }
 
+static int by_things(const void *a, const void *b)
+{
+    const sunder_i_plane_run *p = a, *q = b;
+    if (p->f != q->f) return p->f < q->f ? -1 : 1;
+    if (p->g != q->g) return p->g < q->g ? -1 : 1;
+    if (p->shadow != q->shadow) return p->shadow ? 1 : -1;
+    if (p->side != q->side) return p->side ? 1 : -1;
+    return (p->first > q->first) - (p->first < q->first);
+}
+
+/* Makes one run of all between the same two things, so that what they owe is asked once. */
+static bool join_runs(struct sunder_i_plane_kept *kept)
+{
+    sunder_i_plane_obstacle *all = sunder_i_alloc(kept->n, sizeof *all);
+    size_t runs = 0, n = 0;
+    if (!all) return false;
+    if (kept->runs) qsort(kept->run, kept->runs, sizeof *kept->run, by_things);
+    for (size_t k = 0; k < kept->runs; k++) {
+        sunder_i_plane_run run = kept->run[k], *last = runs ? &kept->run[runs - 1] : NULL;
+        const size_t size = run.end - run.first;
+        memcpy(all + n, kept->obstacle + run.first, size * sizeof *all);
+        run.first = n;
+        n = run.end = n + size;
+        if (last && last->f == run.f && last->g == run.g && last->shadow == run.shadow && last->side == run.side)
+            last->end = n;
+        else
+            kept->run[runs++] = run;
+    }
+    kept->runs = runs;
+    sunder_i_free(kept->obstacle);
+    kept->obstacle = all;
+    kept->capacity = kept->n;
+    return true;
+}
+
 bool sunder_i_plane_find(const sunder_i_plane *g, struct sunder_i_plane_kept *kept)
 {
     const finding w = {g->c->model, g->p, g->reach, kept};
-    return (g->q == SUNDER_I_GROUND ? find_on_ground(&w) : find_beside(&w, g->q)) &&
+    return (g->q == SUNDER_I_GROUND ? find_on_ground(&w) : find_beside(&w, g->q)) && join_runs(kept) &&
            sunder_i_reserve(&kept->box, &kept->box_capacity, 4 * kept->n, sizeof *kept->box);
 }
 
