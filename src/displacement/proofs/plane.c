@@ -132,28 +132,14 @@ typedef struct cases {
     unsigned thin; /* how often it was nothing but a sliver */
 } cases;
 
-/* The same where by are the sides next to a corner of the region, the farthest along n. Where many lines meet they may
- * be the wrong two of several: then *by becomes two that do. */
-static bool contradict_there(sunder_i_plane *g, const sunder_i_plane_region *r, const double n[2], uint32_t claim,
-                             uint32_t by[2])
+/* The same where by are the sides that bound what was there. Where many lines meet in a corner they may be the wrong two:
+ * then any others are taken that do. */
+static bool any_contradict(sunder_i_plane *g, uint32_t claim, uint32_t by[2])
 {
     if (contradict(g, claim, by)) return true;
-    double farthest = -INFINITY;
-    uint32_t side[SIDES_THERE], sides = 0;
-    for (uint32_t k = 0; k < r->n; k++) farthest = fmax(farthest, sunder_i_plane_at(n, r->xy + 2 * k));
-    for (uint32_t k = 0; k < 2 * r->n && sides < SIDES_THERE; k++) {
-        const uint32_t corner = k / 2, next = k % 2 ? corner : corner ? corner - 1 : r->n - 1, found = r->claim[next];
-        bool known = found == SUNDER_I_NO_CLAIM || found == claim ||
-                     sunder_i_plane_at(n, r->xy + 2 * corner) < farthest - SLIVER * g->reach;
-        for (uint32_t l = 0; l < sides; l++) known = known || side[l] == found;
-        if (!known) side[sides++] = found;
-    }
-    for (uint32_t k = 0; k < sides; k++)
-        for (uint32_t l = 0; l < k; l++) {
-            by[0] = side[l];
-            by[1] = side[k];
+    for (by[1] = 0; by[1] < g->c->claims; by[1]++)
+        for (by[0] = 0; by[0] < by[1]; by[0]++)
             if (contradict(g, claim, by)) return true;
-        }
     return false;
 }
 
@@ -166,7 +152,7 @@ static bool keep(sunder_i_plane *g, sunder_i_plane_region *r, const double n[2],
                  uint32_t by[2], unsigned *thin)
 {
     if (sunder_i_plane_clip(r, n, d, claim, by)) return true;
-    if (contradict_there(g, r, n, claim, by) || g->thin + *thin >= MOST_SLIVERS) return false;
+    if (any_contradict(g, claim, by) || g->thin + *thin >= MOST_SLIVERS) return false;
     if (!sunder_i_plane_clip(r, n, d - ldexp(SLIVER * g->reach, -(int)(g->thin + *thin)), claim, by)) return false;
     ++*thin;
     return true;

@@ -59,7 +59,5 @@
  * found in another: wider than rounding, narrower than what covers it. So often. */
 #define SLIVER 0x1p-24
 #define MOST_SLIVERS 4
-/* Where more lines than two meet so near to each other, two of so many are looked for that contradict another. */
-#define SIDES_THERE 8
 
 #endif
