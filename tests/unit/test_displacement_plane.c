@@ -1,5 +1,5 @@
-/* displacement/proofs/plane: what stands in a yard that is too small for it has no solution, though walls touch, so that
- * what claims leave of the plane is a line or a point, which contradicts nothing by itself. */
+/* displacement/proofs/plane: what stands in a yard that is too small for it has no solution, though walls touch, so
+ * that what claims leave of the plane is a line or a point, which contradicts nothing by itself. */
 #include "random.h"
 #include "scene_model.h"
 

@@ -2,9 +2,9 @@
  *
  * A crowd of obstacles lies many deep over most of what is near the target, so a cell somewhat smaller than an obstacle
  * is mostly held by one: whatever is in it is not free. An obstacle is convex: it is beside a cell if the cell lies
- * beyond one of its walls, and holds it if the cell lies within all of them; of one that is neither it is not asked
- * whether they really meet. Cells are taken a little larger than they are, so that rounding of where a point is makes
- * no difference. */
+ * beyond one of its walls, and holds it if the cell lies within all of them, which each wall says of a row of cells at
+ * once; of one that is neither it is not asked whether they really meet. Cells are taken a little larger than they are,
+ * so that rounding of where a point is makes no difference. */
 #include "displacement/obstacles/cells.h"
 #include "displacement/obstacles/tuning.h"
 
@@ -90,7 +90,8 @@ static bool enter_obstacle(const sunder_i_obstacles *o, uint32_t k, sunder_i_cel
         for (uint32_t x = first; x < first + n; x++) {
             const double centre = cells->low[0] + (x + 0.5) * cells->side;
             if (centre < meets[0] || centre > meets[1]) continue;
-            if (!enter(cells, &cells->cell[(size_t)y * cells->across[0] + x], k, centre > holds[0] && centre < holds[1]))
+            if (!enter(cells, &cells->cell[(size_t)y * cells->across[0] + x], k,
+                       centre > holds[0] && centre < holds[1]))
                 return false;
         }
     }

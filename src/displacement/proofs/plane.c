@@ -132,14 +132,15 @@ typedef struct cases {
     unsigned thin; /* how often it was nothing but a sliver */
 } cases;
 
-/* The same where by are the sides that bound what was there. Where many lines meet in a corner they may be the wrong two:
- * then any others are taken that do. */
+/* The same where by are the sides that bound what was there. Where many lines meet in a corner they may be the wrong
+ * two: then any others are taken that do, or none. */
 static bool any_contradict(sunder_i_plane *g, uint32_t claim, uint32_t by[2])
 {
     if (contradict(g, claim, by)) return true;
     for (by[1] = 0; by[1] < g->c->claims; by[1]++)
         for (by[0] = 0; by[0] < by[1]; by[0]++)
             if (contradict(g, claim, by)) return true;
+    by[0] = by[1] = SUNDER_I_NO_CLAIM;
     return false;
 }
 
@@ -295,8 +296,8 @@ static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, s
 
 /* ---- The question ------------------------------------------------------------------------------------------------ */
 
-/* Which two bodies it is about: the one that may move, or the two, in whichever order they are asked about. False: there
- * are more. */
+/* Which two bodies it is about: the one that may move, or the two, in whichever order they are asked about. False:
+ * there are more. */
 static bool find_bodies(const sunder_i_branching *c, sunder_i_plane *g)
 {
     const sunder_i_subproblem *asked = c->subproblem;

@@ -1,7 +1,7 @@
 /* What is forbidden in the plane of one relative move: pieces that are nearer than they owe, and what anchors may not
  * pass. Which could be is a matter of the model alone, and is found once for all questions about the two bodies; what
- * they owe each other is the question's, of which most ask for the same of nearly all. The ways of each are made once, as
- * in violations.c. */
+ * they owe each other is the question's, of which most ask for the same of nearly all. The ways of each are made once,
+ * as in violations.c. */
 #include "displacement/layer/reads.h"
 #include "displacement/proofs/plane.h"
 
