@@ -2,9 +2,9 @@
  *
  * A crowd of obstacles lies many deep over most of what is near the target, so a cell somewhat smaller than an obstacle
  * is mostly held by one: whatever is in it is not free. An obstacle is convex: it is beside a cell if the cell lies
- * beyond one of its walls, and holds it if the cell lies within all of them; of one that is neither it is not asked
- * whether they really meet. Cells are taken a little larger than they are, so that rounding of where a point is makes
- * no difference. */
+ * beyond one of its walls, and holds it if the cell lies within all of them, which each wall says of a row of cells at
+ * once; of one that is neither it is not asked whether they really meet. Cells are taken a little larger than they are,
+ * so that rounding of where a point is makes no difference. */
 #include "displacement/obstacles/cells.h"
 #include "displacement/obstacles/tuning.h"
 
@@ -32,22 +32,6 @@ static double find_extent(const sunder_i_obstacles *o, const double target[2], d
     return sum / (double)o->n;
 }
 
-typedef enum stance { BESIDE, MEETS, HOLDS } stance;
-
-static stance stand(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacle, const double centre[2], double half)
-{
-    const double slack = sunder_i_obstacle_slack(obstacle);
-    stance found = HOLDS;
-    for (uint32_t k = 0; k < obstacle->walls; k++) {
-        const sunder_i_obstacle_side *w = &o->wall[obstacle->wall + k];
-        const double at = w->n[0] * centre[0] + w->n[1] * centre[1] - w->h,
-                     reach = half * (fabs(w->n[0]) + fabs(w->n[1]));
-        if (at - reach > 0) return BESIDE;
-        if (!(at + reach < -2 * slack)) found = MEETS;
-    }
-    return found;
-}
-
 static bool enter(sunder_i_cells *cells, sunder_i_cell *cell, uint32_t obstacle, bool holds)
 {
     if (!sunder_i_reserve(&cells->entry, &cells->capacity, cells->entries + 1, sizeof *cells->entry)) return false;
@@ -68,20 +52,49 @@ static uint32_t range(const sunder_i_cells *cells, int c, double a, double b, ui
     return (to < most - 1 ? (uint32_t)to : cells->across[c] - 1) - *first + 1;
 }
 
+/* Of a row of cells, about y: those whose centres lie in (meets[0], meets[1]) may meet the obstacle, and those between
+ * holds[0] and holds[1] it holds. False: none meets. */
+static bool cut_row(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacle, double y, double half,
+                    double meets[2], double holds[2])
+{
+    const double margin = 2 * sunder_i_obstacle_slack(obstacle);
+    meets[0] = holds[0] = -INFINITY;
+    meets[1] = holds[1] = INFINITY;
+    for (uint32_t k = obstacle->wall; k < obstacle->wall + obstacle->walls; k++) {
+        const double *n = o->wall[k].n, reach = half * (fabs(n[0]) + fabs(n[1])), left = o->wall[k].h - n[1] * y;
+        if (n[0] == 0) {
+            if (left + reach < 0) return false;
+            if (!(left - reach > margin)) holds[1] = -INFINITY;
+            continue;
+        }
+        const int c = n[0] > 0;
+        const double each = 1 / n[0], far = (left + reach) * each, near = (left - reach - margin) * each;
+        if (c ? far < meets[1] : far > meets[0]) meets[c] = far;
+        if (c ? near < holds[1] : near > holds[0]) holds[c] = near;
+    }
+    return meets[0] <= meets[1];
+}
+
 static bool enter_obstacle(const sunder_i_obstacles *o, uint32_t k, sunder_i_cells *cells)
 {
     const sunder_i_obstacle *obstacle = &o->obstacle[k];
-    const double half = cells->side * (0.5 + CELL_MARGIN);
+    const double half = cells->side * (0.5 + CELL_MARGIN), *box = obstacle->box;
     uint32_t i, j;
-    const uint32_t columns = range(cells, 0, obstacle->box[0], obstacle->box[2], &i),
-                   rows = range(cells, 1, obstacle->box[1], obstacle->box[3], &j);
-    for (uint32_t y = j; columns && y < j + rows; y++)
-        for (uint32_t x = i; x < i + columns; x++) {
-            const double centre[2] = {cells->low[0] + (x + 0.5) * cells->side, cells->low[1] + (y + 0.5) * cells->side};
-            const stance found = stand(o, obstacle, centre, half);
-            if (found == BESIDE) continue;
-            if (!enter(cells, &cells->cell[(size_t)y * cells->across[0] + x], k, found == HOLDS)) return false;
+    const uint32_t columns = range(cells, 0, box[0], box[2], &i), rows = range(cells, 1, box[1], box[3], &j);
+    for (uint32_t y = j; columns && y < j + rows; y++) {
+        double meets[2], holds[2];
+        uint32_t first;
+        if (!cut_row(o, obstacle, cells->low[1] + (y + 0.5) * cells->side, half, meets, holds)) continue;
+        /* The centres of those that meet, and no others. */
+        const uint32_t n = range(cells, 0, fmax(meets[0] - half, box[0]), fmin(meets[1] + half, box[2]), &first);
+        for (uint32_t x = first; x < first + n; x++) {
+            const double centre = cells->low[0] + (x + 0.5) * cells->side;
+            if (centre < meets[0] || centre > meets[1]) continue;
+            if (!enter(cells, &cells->cell[(size_t)y * cells->across[0] + x], k,
+                       centre > holds[0] && centre < holds[1]))
+                return false;
         }
+    }
     return sunder_i_steps(1 + rows);
 }
 

@@ -15,154 +15,12 @@
 
 #include "base/heap.h"
 #include "base/invariant.h"
-#include "base/list.h"
+#include "base/memory.h"
 #include "base/watch.h"
-#include "spatial/box.h"
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
-
-void sunder_i_obstacles_free(sunder_i_obstacles *obstacles)
-{
-    sunder_i_free(obstacles->obstacle);
-    sunder_i_free(obstacles->wall);
-    memset(obstacles, 0, sizeof *obstacles);
-}
-
-void sunder_i_obstacles_clear(sunder_i_obstacles *obstacles)
-{
-    obstacles->n = obstacles->walls = 0;
-    obstacles->failed = false;
-}
-
-/* ---- Building ---------------------------------------------------------------------------------------------------- */
-
-/* A wall with normal n through the corner c, ends to be filled in: for now it starts at that corner, which
- * close_walls() moves out. */
-static inline void add_normal(sunder_i_obstacles *o, const double n[2], const double c[2], double gap)
-{
-    if (o->failed || (o->walls == o->wall_capacity &&
-                      !sunder_i_reserve(&o->wall, &o->wall_capacity, o->walls + 1, sizeof *o->wall))) {
-        o->failed = true;
-        return;
-    }
-    o->wall[o->walls++] = (sunder_i_obstacle_side){
-        .n = {n[0], n[1]}, .h = n[0] * c[0] + n[1] * c[1] + gap, .from = {c[0], c[1]}, .obstacle = (uint32_t)o->n};
-}
-
-/* By how much normals may turn at a round corner, and the cosine of that. */
-typedef struct roundness {
-    double turn, cosine;
-} roundness;
-
-/* Where the gap is next to nothing beside the polygon (the margin of a
- * search whose gap is 0, all shadows) so is what a corner holds too much. */
-static roundness find_roundness(const double *d, size_t n, double gap)
-{
-    double box[4];
-    sunder_i_box_clear(box);
-    for (size_t k = 0; k < n; k++) sunder_i_box_include(box, d + 2 * k);
-    const bool next_to_nothing = gap < NEXT_TO_NOTHING * (box[2] - box[0] + box[3] - box[1]);
-    const double turn = next_to_nothing ? CORNER_TURN_AT_MOST : CORNER_TURN;
-    return (roundness){turn, cos(turn)};
-}
-
-/* The normals between those of two edges that meet in c. */
-static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2], const double c[2], double gap,
-                      const roundness *most)
-{
-    const double sine = n[0] * m[1] - n[1] * m[0], cosine = n[0] * m[0] + n[1] * m[1];
-    if (sine >= 0 && cosine > most->cosine) return;
-    const double turn = atan2(sine, cosine);
-    const double angle = turn < -FLAT ? turn + 2 * PI : turn; /* a flat piece turns by half a circle */
-    const int steps = (int)ceil(angle / most->turn);
-    for (int k = 1; k < steps; k++) {
-        const double a = angle * k / steps, t[2] = {n[0] * cos(a) - n[1] * sin(a), n[0] * sin(a) + n[1] * cos(a)};
-        add_normal(o, t, c, gap);
-    }
-}
-
-/* Consecutive walls meet: at the corner itself without a gap, else where their lines cross, the corner moved out along
- * the bisector of the normals. */
-static void close_walls(sunder_i_obstacles *o, size_t first, double gap)
-{
-    const size_t n = o->walls - first;
-    sunder_i_obstacle *obstacle = &o->obstacle[o->n];
-    obstacle->wall = (uint32_t)first;
-    obstacle->walls = (uint32_t)n;
-    sunder_i_box_clear(obstacle->box);
-    for (size_t k = 0; k < n; k++) {
-        sunder_i_obstacle_side *w = &o->wall[first + k], *before = &o->wall[first + (k ? k - 1 : n - 1)];
-        const double s = gap / (1 + w->n[0] * before->n[0] + w->n[1] * before->n[1]);
-        const double c[2] = {w->from[0] + s * (w->n[0] + before->n[0]), w->from[1] + s * (w->n[1] + before->n[1])};
-        for (int i = 0; i < 2; i++) w->from[i] = before->to[i] = c[i];
-        sunder_i_box_include(obstacle->box, c);
-    }
-    o->n++;
-}
-
-void sunder_i_obstacles_add(sunder_i_obstacles *o, const double *d, size_t n, double gap)
-{
-    const size_t first = o->walls;
-    if (o->failed || !sunder_i_reserve(&o->obstacle, &o->obstacle_capacity, o->n + 1, sizeof *o->obstacle)) {
-        o->failed = true;
-        return;
-    }
-    double before[2] = {0, 0}, first_normal[2] = {0, 0};
-    const double *first_corner = d;
-    const roundness most = find_roundness(d, n, gap);
-    bool any = false;
-    for (size_t k = 0; k < n; k++) {
-        const double *p = d + 2 * k, *q = d + 2 * (k + 1 < n ? k + 1 : 0);
-        const double ex = q[0] - p[0], ey = q[1] - p[1], length = sqrt(ex * ex + ey * ey);
-        if (!(length > 0)) continue;
-        const double m[2] = {ey / length, -ex / length};
-        if (any && gap > 0) add_round(o, before, m, p, gap, &most);
-        add_normal(o, m, p, gap);
-        if (!any) {
-            memcpy(first_normal, m, sizeof m);
-            first_corner = p;
-        }
-        memcpy(before, m, sizeof m);
-        any = true;
-    }
-    if (any && gap > 0) add_round(o, before, first_normal, first_corner, gap, &most);
-    if (o->failed) return;
-    if (o->walls - first < 3) {
-        o->walls = first; /* no area, no gap: no obstacle */
-        return;
-    }
-    close_walls(o, first, gap);
-}
-
-/* ---- Searching --------------------------------------------------------------------------------------------------- */
-
-double sunder_i_obstacle_slack(const sunder_i_obstacle *obstacle)
-{
-    const double *b = obstacle->box;
-    return ON_A_SIDE * (b[2] - b[0] + b[3] - b[1]);
-}
-
-static inline bool in_box(const sunder_i_obstacle *obstacle, const double x[2])
-{
-    const double *b = obstacle->box;
-    return !(x[0] <= b[0] || x[0] >= b[2] || x[1] <= b[1] || x[1] >= b[3]);
-}
-
-static bool inside(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacle, const double x[2])
-{
-    if (!in_box(obstacle, x)) return false;
-    const double slack = sunder_i_obstacle_slack(obstacle);
-    for (uint32_t k = 0; k < obstacle->walls; k++) {
-        const sunder_i_obstacle_side *w = &o->wall[obstacle->wall + k];
-        if (w->n[0] * x[0] + w->n[1] * x[1] >= w->h - slack) return false;
-    }
-    return true;
-}
 
 /* A wall, by how far it is from the target. */
 typedef struct near_wall {
@@ -203,34 +61,55 @@ typedef struct harvest {
     uint64_t work; /* done so far, in constraints looked at */
 } harvest;
 
-/* Does that obstacle? */
-static bool holds_all(const sunder_i_obstacles *o, uint32_t obstacle, const double middle[2], const double (*point)[2],
-                      size_t n)
+/* A segment, or a point, with its box. */
+typedef struct span {
+    double end[2][2], box[4];
+} span;
+
+static inline span span_of(const double a[2], const double b[2])
 {
-    const sunder_i_obstacle *it = &o->obstacle[obstacle];
-    bool holds = inside(o, it, middle);
-    for (size_t k = 0; k < n && holds; k++) holds = inside(o, it, point[k]);
-    return holds;
+    return (span){
+        {{a[0], a[1]}, {b[0], b[1]}},
+        {a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1], a[0] < b[0] ? b[0] : a[0], a[1] < b[1] ? b[1] : a[1]}};
 }
 
-/* Does one obstacle, but for `own`, hold all of these points, middle among them? Mostly it is one that holds the whole
- * cell. */
-static bool is_held(const harvest *h, const double middle[2], const double (*point)[2], size_t n, uint32_t own)
+/* Does that obstacle hold it? */
+static inline bool holds(const harvest *h, uint32_t obstacle, const span *of)
+{
+    const sunder_i_obstacle *it = &h->obstacles->obstacle[obstacle];
+    if (of->box[0] <= it->box[0] || of->box[2] >= it->box[2] || of->box[1] <= it->box[1] || of->box[3] >= it->box[3])
+        return false;
+    const sunder_i_obstacle_line *line = h->obstacles->line + it->wall, *end = line + it->walls;
+    for (; line < end; line++)
+        if (line->n[0] * of->end[0][0] + line->n[1] * of->end[0][1] >= line->h ||
+            line->n[0] * of->end[1][0] + line->n[1] * of->end[1][1] >= line->h)
+            return false;
+    return true;
+}
+
+/* Does one obstacle, but for `own`, hold all of it? It is asked of those about x, a point of it; first of one that held
+ * another thing there. */
+static bool is_held(harvest *h, const span *of, const double x[2], uint32_t own)
 {
     const sunder_i_obstacles *o = h->obstacles;
     uint32_t cell;
-    if (sunder_i_cells_find(&h->cells, middle, &cell)) {
-        const uint32_t holder = h->cells.cell[cell].holder;
-        if (holder != SUNDER_I_NO_ENTRY && holds_all(o, holder, middle, point, n)) return true;
-        for (uint32_t e = h->cells.cell[cell].first; e != SUNDER_I_NO_ENTRY; e = h->cells.entry[e].next) {
-            const uint32_t obstacle = h->cells.entry[e].obstacle;
-            if (obstacle != own && holds_all(o, obstacle, middle, point, n)) return true;
+    if (sunder_i_cells_find(&h->cells, x, &cell)) {
+        sunder_i_cell *c = &h->cells.cell[cell];
+        uint32_t before = SUNDER_I_NO_ENTRY;
+        for (uint32_t e = c->first; e != SUNDER_I_NO_ENTRY; before = e, e = h->cells.entry[e].next) {
+            sunder_i_cell_entry *entry = &h->cells.entry[e];
+            if (entry->obstacle == own || !holds(h, entry->obstacle, of)) continue;
+            if (before == SUNDER_I_NO_ENTRY) return true;
+            h->cells.entry[before].next = entry->next;
+            entry->next = c->first;
+            c->first = e;
+            return true;
         }
         return false;
     }
     for (size_t k = 0; k < o->n; k++) {
         const uint32_t hit = h->order[k];
-        if (hit == own || !in_box(&o->obstacle[hit], middle) || !holds_all(o, hit, middle, point, n)) continue;
+        if (hit == own || !holds(h, hit, of)) continue;
         h->order[k] = h->order[k / 2];
         h->order[k / 2] = hit;
         return true;
@@ -256,7 +135,8 @@ static void offer(harvest *h, const double x[2])
     if (!work(h, h->obstacles->n)) return;
     for (size_t k = 0; k < h->n && h->distance[k] <= d; k++)
         if (hypot(x[0] - h->place[k][0], x[1] - h->place[k][1]) <= h->spread) return;
-    if (is_held(h, x, NULL, 0, SUNDER_I_NO_ENTRY)) return;
+    const span point = span_of(x, x);
+    if (is_held(h, &point, x, SUNDER_I_NO_ENTRY)) return;
     size_t k = 0;
     while (k < h->n && h->distance[k] <= d) k++;
     /* Those behind that are too near the new one go. */
@@ -301,11 +181,10 @@ static void offer_crossings(harvest *h, const sunder_i_obstacle_side *wall, size
 }
 
 /* Does one obstacle hold the whole wall? Most walls are deep inside the union. Its own does not. */
-static bool is_covered(const harvest *h, const sunder_i_obstacle_side *w)
+static bool is_covered(harvest *h, const sunder_i_obstacle_side *w, const double foot[2])
 {
-    const double middle[2] = {(w->from[0] + w->to[0]) / 2, (w->from[1] + w->to[1]) / 2},
-                 end[2][2] = {{w->from[0], w->from[1]}, {w->to[0], w->to[1]}};
-    return is_held(h, middle, end, 2, w->obstacle);
+    const span all = span_of(w->from, w->to);
+    return is_held(h, &all, foot, w->obstacle);
 }
 
 /* The same by cells alone: one obstacle holds those of both ends, and what is between them. */
@@ -328,8 +207,8 @@ static void search(harvest *h, near_wall *near, size_t n, sunder_i_obstacle_side
         double x[2];
         sunder_i_heap_pop(near, &n, sizeof *near, &nearest, comes_before);
         if (!work(h, h->obstacles->n)) return;
-        if (is_covered(h, nearest.wall)) continue;
         nearest_on(nearest.wall, h->target, x);
+        if (is_covered(h, nearest.wall, x)) continue;
         offer(h, x);
         bare[bares] = *nearest.wall;
         bare[bares++].distance = nearest.distance;
@@ -349,6 +228,17 @@ static const char *check(const harvest *h)
 }
 #endif
 
+/* Is all of the obstacle farther than that from the target, by squares? */
+static bool is_beyond(const sunder_i_obstacle *obstacle, const double target[2], double square)
+{
+    double sum = 0;
+    for (int c = 0; c < 2; c++) {
+        const double low = obstacle->box[c] - target[c], high = target[c] - obstacle->box[c + 2];
+        sum += low > 0 ? low * low : high > 0 ? high * high : 0;
+    }
+    return sum > square;
+}
+
 /* Walls that may matter, of those within the limit. Most are farther off, by squares, which are told apart from the
  * limit's by more than rounding makes of them. */
 static void gather(harvest *h, near_wall *near, sunder_i_obstacle_side *bare, double *covered)
@@ -356,18 +246,22 @@ static void gather(harvest *h, near_wall *near, sunder_i_obstacle_side *bare, do
     const sunder_i_obstacles *o = h->obstacles;
     const double beyond = h->limit * h->limit * (1 + 0x1p-40) + DBL_MIN;
     size_t n = 0, left_out = 0;
-    for (size_t k = 0; k < o->walls; k++) {
-        const sunder_i_obstacle_side *w = &o->wall[k];
-        double x[2];
-        nearest_on(w, h->target, x);
-        const double dx = x[0] - h->target[0], dy = x[1] - h->target[1];
-        if (dx * dx + dy * dy > beyond) continue;
-        const double distance = hypot(dx, dy);
-        if (!(distance <= h->limit)) continue;
-        if (is_covered_by_cells(h, w))
-            covered[left_out++] = distance;
-        else
-            near[n++] = (near_wall){distance, w};
+    for (size_t i = 0; i < o->n; i++) {
+        const sunder_i_obstacle *obstacle = &o->obstacle[i];
+        if (is_beyond(obstacle, h->target, beyond)) continue;
+        for (size_t k = obstacle->wall; k < obstacle->wall + obstacle->walls; k++) {
+            const sunder_i_obstacle_side *w = &o->wall[k];
+            double x[2];
+            nearest_on(w, h->target, x);
+            const double dx = x[0] - h->target[0], dy = x[1] - h->target[1];
+            if (dx * dx + dy * dy > beyond) continue;
+            const double distance = hypot(dx, dy);
+            if (!(distance <= h->limit)) continue;
+            if (is_covered_by_cells(h, w))
+                covered[left_out++] = distance;
+            else
+                near[n++] = (near_wall){distance, w};
+        }
     }
     near_wall scratch;
     sunder_i_heap_make(near, n, sizeof *near, &scratch, comes_before);

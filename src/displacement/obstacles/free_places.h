@@ -18,12 +18,19 @@ typedef struct sunder_i_obstacle {
     double box[4];
 } sunder_i_obstacle;
 
+/* What of a wall tells whether a point lies within it, and not on it: n.x < h. */
+typedef struct sunder_i_obstacle_line {
+    double n[2], h;
+} sunder_i_obstacle_line;
+
 /* A union of open convex polygons. */
 typedef struct sunder_i_obstacles {
     sunder_i_obstacle *obstacle;
     size_t n, obstacle_capacity;
     sunder_i_obstacle_side *wall;
     size_t walls, wall_capacity;
+    sunder_i_obstacle_line *line; /* of each wall */
+    size_t line_capacity;
     bool failed;
 } sunder_i_obstacles;
 

@@ -23,7 +23,7 @@
 /* Among fewer obstacles cells are not worth making. A cell is this part of the mean obstacle, and there are no more
  * than so many for each. */
 #define FEW_OBSTACLES 64
-#define CELLS_ACROSS 4
+#define CELLS_ACROSS 2
 #define CELLS_EACH 8
 /* Cells are grown by this share, far above rounding, so that a point need not know in which of two it is. */
 #define CELL_MARGIN 1e-6

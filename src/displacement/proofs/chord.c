@@ -154,7 +154,7 @@ const sunder_i_plane_obstacle *sunder_i_plane_find_chord(sunder_i_plane *g, cons
     size_t n = 0;
     g->c->looked += g->obstacles;
     for (size_t k = 0; k < g->obstacles && n < SPOKES; k++) {
-        if (!find_spoke(g, &g->obstacle[k], u, &spokes[n])) continue;
+        if (!find_spoke(g, &g->kept->obstacle[g->list[k]], u, &spokes[n])) continue;
         for (size_t i = 0; i < n && !g->c->failed; i++)
             if (shuts(g, &spokes[i], &spokes[n], u, chord, ways)) return spokes[i].of;
         n++;

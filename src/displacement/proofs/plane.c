@@ -20,63 +20,60 @@
 
 /* ---- Dividing ---------------------------------------------------------------------------------------------------- */
 
-static bool holds(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, const double u[2])
+/* Does it hold the place, in its box, and all about it as far as that? */
+static bool holds(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, const double u[2], double about)
 {
-    if (u[0] < o->box[0] || u[0] > o->box[2] || u[1] < o->box[1] || u[1] > o->box[3]) return false;
-    for (size_t k = o->way; k < o->way + o->ways; k++)
-        if (!(sunder_i_plane_at(g->way[k].n, u) < g->way[k].d)) return false;
+    for (const sunder_i_way *w = g->kept->way + o->way, *end = w + o->ways; w < end; w++)
+        if (!(sunder_i_plane_at(w->n, u) < w->d - about)) return false;
     return true;
 }
 
-/* Is there no way between the two, or one that all of the region has taken? */
-static bool meets(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, const sunder_i_plane_region *r,
-                  const double box[4])
+/* No more of what is in the box is in that one. */
+static double most_shared(const double box[4], const double of[4])
 {
-    if (!sunder_i_box_meet(box, o->box)) return false;
-    for (size_t k = o->way; k < o->way + o->ways; k++) {
-        bool beyond = true;
-        for (uint32_t v = 0; v < r->n && beyond; v++)
-            beyond = sunder_i_plane_at(g->way[k].n, r->xy + 2 * v) >= g->way[k].d;
-        if (beyond) return false;
-    }
-    return true;
+    const double x = (box[2] < of[2] ? box[2] : of[2]) - (box[0] > of[0] ? box[0] : of[0]),
+                 y = (box[3] < of[3] ? box[3] : of[3]) - (box[1] > of[1] ? box[1] : of[1]);
+    return x * y * (1 + 0x1p-30);
 }
 
 static double shared(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, const sunder_i_plane_region *r)
 {
+    const sunder_i_way *way = g->kept->way;
     sunder_i_plane_region part = *r;
     uint32_t by[2];
     for (size_t k = o->way; k < o->way + o->ways; k++) {
-        const double back[2] = {-g->way[k].n[0], -g->way[k].n[1]};
-        if (!sunder_i_plane_clip(&part, back, -g->way[k].d, SUNDER_I_NO_CLAIM, by)) return 0;
+        const double back[2] = {-way[k].n[0], -way[k].n[1]};
+        if (!sunder_i_plane_clip(&part, back, -way[k].d, SUNDER_I_NO_CLAIM, by)) return 0;
     }
     return sunder_i_plane_area(&part);
 }
 
-/* Of those from `first` on in the list that hold the place, the one that takes most of the region; its ways are in
- * c->scratch then. NULL: none does. */
-static const sunder_i_plane_obstacle *choose(sunder_i_plane *g, const sunder_i_plane_region *r, const double u[2],
-                                             size_t first, size_t *ways)
+/* Of those in whose boxes the place is, the one that holds it and takes most of the region; its ways are in c->scratch
+ * then. NULL: none does. */
+static const sunder_i_plane_obstacle *choose(sunder_i_plane *g, const sunder_i_plane_region *r, const double box[4],
+                                             const double u[2], size_t *ways)
 {
     const sunder_i_plane_obstacle *best = NULL;
     const double whole = sunder_i_plane_area(r) * (1 - 0x1p-30);
+    const double about = g->thin ? 2 * SLIVER * g->reach : 0; /* what begins in a seam does not cover it */
     double most = -1;
-    for (size_t k = first; k < g->listed && most < whole; k++) {
-        const sunder_i_plane_obstacle *o = &g->obstacle[g->list[k]];
-        if (!holds(g, o, u)) continue;
+    for (size_t k = 0; k < g->about_place && most < whole; k++) {
+        const uint32_t at = g->place[k];
+        const sunder_i_plane_obstacle *o = &g->kept->obstacle[at];
+        if (most_shared(box, g->kept->box + 4 * (size_t)at) <= most || !holds(g, o, u, about)) continue;
         g->c->looked += o->ways;
         const double share = shared(g, o, r);
         if (share <= most) continue;
         most = share;
         best = o;
     }
-    g->c->looked += g->listed - first;
+    g->c->looked += g->about_place / BOXES_A_STEP;
     if (!best) return NULL;
     if (!sunder_i_reserve(&g->c->scratch, &g->c->scratch_capacity, best->ways, sizeof *g->c->scratch)) {
         g->c->failed = true;
         return NULL;
     }
-    memcpy(g->c->scratch, g->way + best->way, best->ways * sizeof *g->way);
+    memcpy(g->c->scratch, g->kept->way + best->way, best->ways * sizeof *g->c->scratch);
     *ways = best->ways;
     return best;
 }
@@ -86,9 +83,9 @@ static const sunder_i_plane_obstacle *choose_closely(sunder_i_plane *g, const do
 {
     sunder_i_branching *c = g->c;
     for (size_t k = 0; k < g->obstacles; k++) {
-        const sunder_i_plane_obstacle *o = &g->obstacle[k];
+        const sunder_i_plane_obstacle *o = &g->kept->obstacle[g->list[k]];
         double box[4];
-        sunder_i_box_grow(o->box, fmax(o->clearance, 0), box);
+        sunder_i_box_grow(g->kept->box + 4 * (size_t)g->list[k], fmax(o->clearance, 0), box);
         c->looked++;
         if (o->shadow || !(o->clearance > 0) || u[0] < box[0] || u[0] > box[2] || u[1] < box[1] || u[1] > box[3])
             continue;
@@ -132,7 +129,35 @@ typedef struct cases {
     sunder_i_plane_region rest; /* behind the ways so far */
     bool none;                  /* that is nothing, by what this claim and sides say */
     uint32_t claim, by[2];
+    unsigned thin; /* how often it was nothing but a sliver */
 } cases;
+
+/* The same where by are the sides that bound what was there. Where many lines meet in a corner they may be the wrong
+ * two: then any others are taken that do, or none. */
+static bool any_contradict(sunder_i_plane *g, uint32_t claim, uint32_t by[2])
+{
+    if (contradict(g, claim, by)) return true;
+    for (by[1] = 0; by[1] < g->c->claims; by[1]++)
+        for (by[0] = 0; by[0] < by[1]; by[0]++)
+            if (contradict(g, claim, by)) return true;
+    by[0] = by[1] = SUNDER_I_NO_CLAIM;
+    return false;
+}
+
+/* Keeps what has n.u >= d. False: that is nothing, which the claim and sides prove, if anything does.
+ *
+ * Where pieces touch, as the parts of a house do, what two claims leave is a line, or a point: no area, and no
+ * contradiction. What covers the seam shows it, if the claims are taken for a little less than they say, here and in
+ * no proof. */
+static bool keep(sunder_i_plane *g, sunder_i_plane_region *r, const double n[2], double d, uint32_t claim,
+                 uint32_t by[2], unsigned *thin)
+{
+    if (sunder_i_plane_clip(r, n, d, claim, by)) return true;
+    if (any_contradict(g, claim, by) || g->thin + *thin >= MOST_SLIVERS) return false;
+    if (!sunder_i_plane_clip(r, n, d - ldexp(SLIVER * g->reach, -(int)(g->thin + *thin)), claim, by)) return false;
+    ++*thin;
+    return true;
+}
 
 /* One case: beyond this way, and behind those before it. *dead: it is void by itself. */
 static sunder_status divide_case(sunder_i_plane *g, cases *s, size_t node, size_t way, size_t first, unsigned level,
@@ -144,9 +169,15 @@ static sunder_status divide_case(sunder_i_plane *g, cases *s, size_t node, size_
     if (!sunder_i_branching_push(c, g->i, g->j, node, way, false, level)) return sunder_i_no_memory(err);
     const uint32_t last = (uint32_t)c->claims - 1;
     uint32_t by[2];
+    unsigned thin = s->thin;
     sunder_i_plane_region part = s->rest;
-    *dead = s->none || !sunder_i_plane_clip(&part, w->n, w->d, last, by);
-    if (!*dead) return divide(g, &part, first, level + 1, verdict, levels, root, err);
+    *dead = s->none || !keep(g, &part, w->n, w->d, last, by, &thin);
+    if (!*dead) {
+        g->thin += thin;
+        const sunder_status status = divide(g, &part, first, level + 1, verdict, levels, root, err);
+        g->thin -= thin;
+        return status;
+    }
     *verdict =
         (s->none ? contradict(g, s->claim, s->by) : contradict(g, last, by)) ? SUNDER_I_INFEASIBLE : SUNDER_I_UNKNOWN;
     if (*verdict == SUNDER_I_INFEASIBLE && !sunder_i_branching_add_leaf(c, levels, root))
@@ -160,8 +191,9 @@ static bool go_behind(sunder_i_plane *g, cases *s, size_t node, size_t way, unsi
     const sunder_i_way *w = &g->c->way[way];
     const double back[2] = {-w->n[0], -w->n[1]};
     if (!sunder_i_branching_push(g->c, g->i, g->j, node, way, true, level)) return false;
+    if (s->none) return true;
     s->claim = (uint32_t)g->c->claims - 1;
-    s->none = s->none || !sunder_i_plane_clip(&s->rest, back, -w->d, s->claim, s->by);
+    s->none = !keep(g, &s->rest, back, -w->d, s->claim, s->by, &s->thin);
     return true;
 }
 
@@ -199,17 +231,25 @@ static sunder_status divide_all(sunder_i_plane *g, const sunder_i_plane_region *
     return status;
 }
 
-/* Lists those of the list from `first` on that meet the region, behind it. False if memory is out. */
-static bool list_meeting(sunder_i_plane *g, const sunder_i_plane_region *r, size_t first)
+/* Lists those of the list from `first` on that meet the region, behind it, by their boxes, and in whose boxes the place
+ * is: to ask more of tens of thousands takes longer than to look at them once more. False if memory is out. */
+static bool list_meeting(sunder_i_plane *g, const double box[4], const double u[2], size_t first)
 {
     const size_t end = g->listed;
-    double box[4];
-    sunder_i_box_clear(box);
-    for (uint32_t k = 0; k < r->n; k++) sunder_i_box_include(box, r->xy + 2 * k);
-    if (!sunder_i_reserve(&g->list, &g->list_capacity, 2 * end - first, sizeof *g->list)) return false;
-    for (size_t k = first; k < end; k++)
-        if (meets(g, &g->obstacle[g->list[k]], r, box)) g->list[g->listed++] = g->list[k];
-    g->c->looked += 2 * (end - first);
+    if (!sunder_i_reserve(&g->list, &g->list_capacity, 2 * end - first + 1, sizeof *g->list) ||
+        !sunder_i_reserve(&g->place, &g->place_capacity, end - first + 1, sizeof *g->place))
+        return false;
+    size_t n = 0;
+    /* No branches: they would be guessed wrong half of the time. */
+    for (size_t k = first; k < end; k++) {
+        const uint32_t at = g->list[k];
+        const double *b = g->kept->box + 4 * (size_t)at;
+        g->list[g->listed] = g->place[n] = at;
+        g->listed += (size_t)((b[0] <= box[2]) & (b[2] >= box[0]) & (b[1] <= box[3]) & (b[3] >= box[1]));
+        n += (size_t)((b[0] <= u[0]) & (b[2] >= u[0]) & (b[1] <= u[1]) & (b[3] >= u[1]));
+    }
+    g->about_place = n;
+    g->c->looked += (end - first) / BOXES_A_STEP;
     return true;
 }
 
@@ -227,10 +267,13 @@ static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, s
         return sunder_i_branching_add_leaf(c, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
     }
     const size_t listed = g->listed;
-    if (!list_meeting(g, r, first)) return sunder_i_no_memory(err);
+    double box[4];
+    sunder_i_box_clear(box);
+    for (uint32_t k = 0; k < r->n; k++) sunder_i_box_include(box, r->xy + 2 * k);
     sunder_i_plane_middle(r, nearest, g->reach, middle);
+    if (!list_meeting(g, box, middle, first)) return sunder_i_no_memory(err);
     size_t ways = 0, node;
-    const sunder_i_plane_obstacle *o = choose(g, r, middle, listed, &ways);
+    const sunder_i_plane_obstacle *o = choose(g, r, box, middle, &ways);
     sunder_i_chord chord;
     bool across = false;
     if (!o && !c->failed) across = (o = sunder_i_plane_find_chord(g, middle, &chord, &ways)) != NULL;
@@ -243,7 +286,7 @@ static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, s
             status = divide_all(g, r, node, listed, level, verdict, levels, root, err);
         else
             c->failed = true;
-    } else {
+    } else if (!g->thin) { /* a sliver is forbidden, by a hair */
         *verdict = SUNDER_I_FEASIBLE;
         memcpy(g->free, middle, sizeof middle);
     }
@@ -253,7 +296,8 @@ static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, s
 
 /* ---- The question ------------------------------------------------------------------------------------------------ */
 
-/* Which two bodies it is about: the one that may move, or the two. False: there are more. */
+/* Which two bodies it is about: the one that may move, or the two, in whichever order they are asked about. False:
+ * there are more. */
 static bool find_bodies(const sunder_i_branching *c, sunder_i_plane *g)
 {
     const sunder_i_subproblem *asked = c->subproblem;
@@ -263,6 +307,11 @@ static bool find_bodies(const sunder_i_branching *c, sunder_i_plane *g)
         if (!(sunder_i_limit_of(&c->model->body[asked->body[k]]) > 0)) continue;
         moving++;
         *(g->p == SUNDER_I_GROUND ? &g->p : &g->q) = asked->body[k];
+    }
+    if (moving == 2 && g->p > g->q) {
+        const uint32_t p = g->p;
+        g->p = g->q;
+        g->q = p;
     }
     return moving == 1 || moving == 2;
 }
@@ -292,10 +341,8 @@ sunder_status sunder_i_branching_plane(sunder_i_branching *c, sunder_i_plane_ans
     for (size_t k = 0; k < c->bodies && !c->failed; k++) g.reach += c->limit[k];
     sunder_i_plane_disc(&g.disc, g.reach);
     sunder_i_planes own = {0}, *planes = c->subproblem->planes ? c->subproblem->planes : &own;
-    bool ok = !c->failed && (g.kept = sunder_i_planes_take(planes, &g)) != NULL && sunder_i_plane_add_obstacles(&g);
-    ok = ok && sunder_i_reserve(&g.list, &g.list_capacity, g.obstacles, sizeof *g.list);
+    const bool ok = !c->failed && (g.kept = sunder_i_planes_take(planes, &g)) != NULL && sunder_i_plane_list(&g);
     sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
-    for (uint32_t k = 0; ok && k < g.obstacles; k++) g.list[g.listed++] = k;
     if (ok) {
         sunder_i_levels levels;
         status = divide(&g, &g.disc, 0, 0, &answer->verdict, &levels, &answer->root, err);
@@ -306,7 +353,7 @@ sunder_status sunder_i_branching_plane(sunder_i_branching *c, sunder_i_plane_ans
     answer->free = answer->verdict == SUNDER_I_FEASIBLE;
     if (answer->free && !is_all(c, &g)) answer->verdict = SUNDER_I_UNKNOWN;
     sunder_i_planes_clear(&own);
-    sunder_i_free(g.obstacle);
     sunder_i_free(g.list);
+    sunder_i_free(g.place);
     return status;
 }

@@ -14,39 +14,40 @@ typedef struct sunder_i_plane_region {
     uint32_t claim[PLANE_CORNERS];
 } sunder_i_plane_region;
 
-/* Two pieces whose ways may matter within reach: what the model says, whoever asks. */
-typedef struct sunder_i_plane_pieces {
+/* A convex set that is forbidden: what is behind all its ways. */
+typedef struct sunder_i_plane_obstacle {
     const sunder_i_body_piece *a, *b;
-    uint32_t q;        /* the body of b */
-    uint32_t f, g;     /* features or parts of barriers that owe each other; or f may not pass g */
-    bool shadow, side; /* of an anchor, of a side anchor */
-    bool made, none;   /* its ways are, for this clearance; they leave it nothing within reach */
+    uint32_t q;  /* the body of b */
+    bool shadow; /* of an anchor, of a side anchor */
     double clearance;
     size_t way, ways, room;
-    double box[4]; /* of what limits leave of it */
-} sunder_i_plane_pieces;
+} sunder_i_plane_obstacle;
+
+/* Obstacles one after the other between the same two features or parts of barriers, which owe each other or of which f
+ * may not pass g: all are forbidden, or none. */
+typedef struct sunder_i_plane_run {
+    uint32_t f, g;
+    bool shadow, side;
+    bool made; /* its ways are, for this clearance */
+    double clearance;
+    size_t first, end;
+    uint64_t cost; /* of making them, in constraints looked at */
+} sunder_i_plane_run;
 
 /* What may be forbidden in the plane of one relative move, kept from question to question: ways are made for the first
  * that asks. */
 struct sunder_i_plane_kept {
     uint32_t p, q; /* bodies; q: SUNDER_I_GROUND: all that stands */
     double reach, coarse;
-    sunder_i_plane_pieces *pieces;
-    size_t n, capacity;
+    sunder_i_plane_obstacle *obstacle;
+    double *box; /* [4 obstacles] of what limits leave of them; empty: nothing */
+    size_t n, capacity, box_capacity;
+    sunder_i_plane_run *run;
+    size_t runs, run_capacity;
     sunder_i_way *way;
     size_t ways, way_capacity;
     uint64_t looked[3]; /* what finding pieces, anchors and sides costs who asks, be it done before */
 };
-
-/* A convex set that is forbidden: what is behind all its ways. */
-typedef struct sunder_i_plane_obstacle {
-    const sunder_i_body_piece *a, *b;
-    uint32_t q; /* the body of b */
-    double clearance;
-    bool shadow;
-    size_t way, ways;
-    double box[4]; /* of what limits leave of it */
-} sunder_i_plane_obstacle;
 
 typedef struct sunder_i_plane {
     sunder_i_branching *c;
@@ -55,11 +56,12 @@ typedef struct sunder_i_plane {
     double reach;
     sunder_i_plane_region disc; /* the polygon around that */
     struct sunder_i_plane_kept *kept;
-    const sunder_i_way *way; /* its */
-    sunder_i_plane_obstacle *obstacle;
-    size_t obstacles, obstacle_capacity;
-    uint32_t *list; /* of obstacles that meet the region at hand, and those above it */
-    size_t listed, list_capacity;
+    /* Its obstacles that may meet the region at hand, behind those above it: first all that are forbidden. */
+    uint32_t *list;
+    size_t obstacles, listed, list_capacity;
+    uint32_t *place; /* those of the region above in whose boxes the place is that is looked at */
+    size_t about_place, place_capacity;
+    unsigned thin;  /* how often the region at hand was nothing but a sliver */
     double free[2]; /* where nothing is in the way, if that is the answer */
 } sunder_i_plane;
 
@@ -82,8 +84,8 @@ void sunder_i_plane_middle(const sunder_i_plane_region *region, const double nea
 
 /* Lists what may forbid moves of p beside q, or beside all that stands within reach. False if memory is out. */
 bool sunder_i_plane_find(const sunder_i_plane *plane, struct sunder_i_plane_kept *kept);
-/* Makes obstacles of what does so in the question at hand. False if memory is out. */
-bool sunder_i_plane_add_obstacles(sunder_i_plane *plane);
+/* Lists what does so in the question at hand. False if memory is out. */
+bool sunder_i_plane_list(sunder_i_plane *plane);
 
 /* ---- chord.c ----------------------------------------------------------------------------------------------------- */
 

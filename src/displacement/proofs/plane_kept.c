@@ -10,7 +10,9 @@
 static void free_kept(struct sunder_i_plane_kept *kept)
 {
     if (!kept) return;
-    sunder_i_free(kept->pieces);
+    sunder_i_free(kept->obstacle);
+    sunder_i_free(kept->box);
+    sunder_i_free(kept->run);
     sunder_i_free(kept->way);
     sunder_i_free(kept);
 }

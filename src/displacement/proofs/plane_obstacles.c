@@ -1,6 +1,7 @@
 /* What is forbidden in the plane of one relative move: pieces that are nearer than they owe, and what anchors may not
- * pass. Which could be is a matter of the model alone, and is listed once for all questions about the two bodies; what
- * they owe each other is the question's. The ways of each are made once, as in violations.c. */
+ * pass. Which could be is a matter of the model alone, and is found once for all questions about the two bodies; what
+ * they owe each other is the question's, of which most ask for the same of nearly all. The ways of each are made once,
+ * as in violations.c. */
 #include "displacement/layer/reads.h"
 #include "displacement/proofs/plane.h"
 
@@ -10,6 +11,7 @@
 
 #include "base/list.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 enum { PIECES, JUMPS, SIDES }; /* of sunder_i_plane_kept.looked */
@@ -23,11 +25,20 @@ typedef struct finding {
 
 /* ---- What there is ----------------------------------------------------------------------------------------------- */
 
-static bool append(const finding *w, const sunder_i_plane_pieces *pieces)
+/* One more obstacle between those two, of the last run or of a new one. */
+static bool append(const finding *w, const sunder_i_plane_obstacle *obstacle, uint32_t f, uint32_t g, bool side)
 {
     struct sunder_i_plane_kept *kept = w->kept;
-    if (!sunder_i_reserve(&kept->pieces, &kept->capacity, kept->n + 1, sizeof *kept->pieces)) return false;
-    kept->pieces[kept->n++] = *pieces;
+    const sunder_i_plane_run *last = kept->runs ? &kept->run[kept->runs - 1] : NULL;
+    const bool more = last && last->f == f && last->g == g && last->shadow == obstacle->shadow && last->side == side;
+    if (!sunder_i_reserve(&kept->obstacle, &kept->capacity, kept->n + 1, sizeof *kept->obstacle) ||
+        (!more && !sunder_i_reserve(&kept->run, &kept->run_capacity, kept->runs + 1, sizeof *kept->run)))
+        return false;
+    if (!more)
+        kept->run[kept->runs++] = (sunder_i_plane_run){
+            .f = f, .g = g, .shadow = obstacle->shadow, .side = side, .first = kept->n, .end = kept->n};
+    kept->run[kept->runs - 1].end++;
+    kept->obstacle[kept->n++] = *obstacle;
     return true;
 }
 
@@ -53,7 +64,7 @@ static bool find_pieces(const finding *w, uint32_t other)
         for (uint32_t l = q->piece; l < q->piece + q->pieces; l++) {
             const sunder_i_body_piece *b = &model->piece[l];
             if (sunder_i_box_meet(box, b->box) &&
-                !append(w, &(sunder_i_plane_pieces){.a = a, .b = b, .q = other, .f = a->feature, .g = b->feature}))
+                !append(w, &(sunder_i_plane_obstacle){.a = a, .b = b, .q = other}, a->feature, b->feature, false))
                 return false;
         }
     }
@@ -68,9 +79,8 @@ static bool find_shadow(const finding *w, uint32_t q, const sunder_i_body_piece 
     const sunder_i_body *body = w->model->body;
     const double offset[2] = {body[q].origin[0] - body[w->p].origin[0], body[q].origin[1] - body[w->p].origin[1]},
                  way[4] = {-w->reach, -w->reach, w->reach, w->reach};
-    const sunder_i_plane_pieces pieces = {
-        .a = a, .b = b, .q = q, .f = f, .g = piece->feature, .shadow = true, .side = side};
-    return !sunder_i_shadow_may_reach(a->box, b->box, offset, way) || append(w, &pieces);
+    const sunder_i_plane_obstacle obstacle = {.a = a, .b = b, .q = q, .shadow = true};
+    return !sunder_i_shadow_may_reach(a->box, b->box, offset, way) || append(w, &obstacle, f, piece->feature, side);
 }
 
 /* Over which pieces of one could anchors of the other jump? swapped: the anchors are those of q. */
@@ -141,10 +151,46 @@ static bool find_on_ground(const finding *w)
     return ok;
 }
 
+static int by_things(const void *a, const void *b)
+{
+    const sunder_i_plane_run *p = a, *q = b;
+    if (p->f != q->f) return p->f < q->f ? -1 : 1;
+    if (p->g != q->g) return p->g < q->g ? -1 : 1;
+    if (p->shadow != q->shadow) return p->shadow ? 1 : -1;
+    if (p->side != q->side) return p->side ? 1 : -1;
+    return (p->first > q->first) - (p->first < q->first);
+}
+
+/* Makes one run of all between the same two things, so that what they owe is asked once. */
+static bool join_runs(struct sunder_i_plane_kept *kept)
+{
+    sunder_i_plane_obstacle *all = sunder_i_alloc(kept->n, sizeof *all);
+    size_t runs = 0, n = 0;
+    if (!all) return false;
+    if (kept->runs) qsort(kept->run, kept->runs, sizeof *kept->run, by_things);
+    for (size_t k = 0; k < kept->runs; k++) {
+        sunder_i_plane_run run = kept->run[k], *last = runs ? &kept->run[runs - 1] : NULL;
+        const size_t size = run.end - run.first;
+        memcpy(all + n, kept->obstacle + run.first, size * sizeof *all);
+        run.first = n;
+        n = run.end = n + size;
+        if (last && last->f == run.f && last->g == run.g && last->shadow == run.shadow && last->side == run.side)
+            last->end = n;
+        else
+            kept->run[runs++] = run;
+    }
+    kept->runs = runs;
+    sunder_i_free(kept->obstacle);
+    kept->obstacle = all;
+    kept->capacity = kept->n;
+    return true;
+}
+
 bool sunder_i_plane_find(const sunder_i_plane *g, struct sunder_i_plane_kept *kept)
 {
     const finding w = {g->c->model, g->p, g->reach, kept};
-    return g->q == SUNDER_I_GROUND ? find_on_ground(&w) : find_beside(&w, g->q);
+    return (g->q == SUNDER_I_GROUND ? find_on_ground(&w) : find_beside(&w, g->q)) && join_runs(kept) &&
+           sunder_i_reserve(&kept->box, &kept->box_capacity, 4 * kept->n, sizeof *kept->box);
 }
 
 /* ---- What is forbidden ------------------------------------------------------------------------------------------- */
@@ -168,18 +214,19 @@ static bool is_within_reach(const sunder_i_plane *g, size_t ways, double box[4])
     return ways > 0;
 }
 
-/* Makes the ways of two pieces. False if memory is out. */
-static bool make_ways(sunder_i_plane *g, sunder_i_plane_pieces *o, double clearance)
+/* Makes the ways of an obstacle. False if memory is out. */
+static bool make_ways(sunder_i_plane *g, sunder_i_plane_obstacle *o, double clearance, double box[4])
 {
     struct sunder_i_plane_kept *kept = g->kept;
     const sunder_i_model *model = g->c->model;
     const size_t ways = sunder_i_branching_fill_ways(g->c, &model->body[g->p], o->a, &model->body[o->q], o->b,
                                                      clearance, o->shadow, NULL);
     if (g->c->failed) return false;
-    o->made = true;
     o->clearance = clearance;
-    o->none = !is_within_reach(g, ways, o->box);
-    if (o->none) return true;
+    if (!is_within_reach(g, ways, box)) {
+        sunder_i_box_clear(box);
+        return true;
+    }
     if (ways > o->room) {
         if (!sunder_i_reserve(&kept->way, &kept->way_capacity, kept->ways + ways, sizeof *kept->way)) return false;
         o->way = kept->ways;
@@ -191,42 +238,46 @@ static bool make_ways(sunder_i_plane *g, sunder_i_plane_pieces *o, double cleara
     return true;
 }
 
-static bool add(sunder_i_plane *g, sunder_i_plane_pieces *o, double clearance)
+static bool make_run(sunder_i_plane *g, sunder_i_plane_run *run, double clearance)
 {
-    if (o->made && o->clearance == clearance)
-        g->c->looked += o->a->corners + o->b->corners; /* it costs who asks as much as the first */
-    else if (!make_ways(g, o, clearance))
-        return false;
-    if (o->none) return true;
-    if (!sunder_i_reserve(&g->obstacle, &g->obstacle_capacity, g->obstacles + 1, sizeof *g->obstacle)) return false;
-    sunder_i_plane_obstacle *to = &g->obstacle[g->obstacles++];
-    *to = (sunder_i_plane_obstacle){
-        .a = o->a, .b = o->b, .q = o->q, .clearance = clearance, .shadow = o->shadow, .way = o->way, .ways = o->ways};
-    memcpy(to->box, o->box, sizeof to->box);
+    struct sunder_i_plane_kept *kept = g->kept;
+    const uint64_t before = g->c->looked;
+    for (size_t k = run->first; k < run->end; k++)
+        if (!make_ways(g, &kept->obstacle[k], clearance, kept->box + 4 * k)) return false;
+    run->made = true;
+    run->clearance = clearance;
+    run->cost = g->c->looked - before;
     return true;
 }
 
-bool sunder_i_plane_add_obstacles(sunder_i_plane *g)
+static bool list_run(sunder_i_plane *g, sunder_i_plane_run *run, double clearance)
+{
+    if (run->made && run->clearance == clearance)
+        g->c->looked += run->cost; /* it costs who asks as much as the first */
+    else if (!make_run(g, run, clearance))
+        return false;
+    const size_t most = g->listed + run->end - run->first;
+    if (!sunder_i_reserve(&g->list, &g->list_capacity, most, sizeof *g->list)) return false;
+    for (size_t k = run->first; k < run->end; k++)
+        if (g->kept->box[4 * k] <= g->kept->box[4 * k + 2]) g->list[g->listed++] = (uint32_t)k;
+    return true;
+}
+
+bool sunder_i_plane_list(sunder_i_plane *g)
 {
     sunder_i_branching *c = g->c;
     const sunder_i_subproblem *asked = c->subproblem;
     const bool sides = !asked->any_way, jumps = sides && !asked->any_jump;
-    const sunder_i_plane_pieces *last = NULL;
-    double clearance = 0;
-    bool forbids = false, ok = true;
+    bool ok = true;
     c->looked += g->kept->looked[PIECES] + (jumps ? g->kept->looked[JUMPS] : 0) + (sides ? g->kept->looked[SIDES] : 0);
-    for (size_t k = 0; k < g->kept->n && ok; k++) {
-        sunder_i_plane_pieces *o = &g->kept->pieces[k];
-        if (o->shadow && !(o->side ? sides : jumps)) continue;
-        /* Most stand behind another of the same two things. */
-        if (!last || last->f != o->f || last->g != o->g || last->shadow != o->shadow) {
-            clearance = 0;
-            forbids = o->shadow ? sunder_i_branching_shades(c, o->f, o->g)
-                                : sunder_i_branching_owe(c, o->f, o->g, &clearance);
-        }
-        last = o;
-        if (forbids) ok = add(g, o, clearance);
+    for (size_t k = 0; k < g->kept->runs && ok; k++) {
+        sunder_i_plane_run *run = &g->kept->run[k];
+        double clearance = 0;
+        if (run->shadow && !(run->side ? sides : jumps)) continue;
+        if (run->shadow ? sunder_i_branching_shades(c, run->f, run->g)
+                        : sunder_i_branching_owe(c, run->f, run->g, &clearance))
+            ok = list_run(g, run, clearance);
     }
-    g->way = g->kept->way;
+    g->obstacles = g->listed;
     return ok;
 }

@@ -70,7 +70,12 @@
 /* Sides of the polygon around the limits, and the most corners of a region. */
 #define PLANE_SIDES 24
 #define PLANE_CORNERS 48
-/* It ends after so much: some ten milliseconds. */
+/* It ends after so much: some ten milliseconds. A box that is looked at counts as this part of a constraint. */
 #define PLANE_EFFORT 4000000u
+#define BOXES_A_STEP 4
+/* How wide the seam between two claims is taken to be, as a share of the limits, and half of that each time that one is
+ * found in another: wider than rounding, narrower than what covers it. So often. */
+#define SLIVER 0x1p-24
+#define MOST_SLIVERS 4
 
 #endif

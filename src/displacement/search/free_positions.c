@@ -182,8 +182,15 @@ static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const s
         from[c] = unit > 0 ? unit * rint(target[c] / unit) : target[c];
     }
     sunder_separation least;
-    bool beyond;
-    const sunder_status status = sunder_i_separate(p, none, q, from, 0, limit, &least, &beyond, NULL);
+    bool beyond = false, overlap = true;
+    sunder_status status = SUNDER_OK;
+    /* Most of those that are too near do not overlap, which is told much sooner. */
+    if (s->model->rules.gap > 0) status = sunder_i_overlap(p, none, q, from, &overlap, NULL);
+    if (!status && !overlap) {
+        memcpy(place, from, sizeof from);
+        return true;
+    }
+    if (!status) status = sunder_i_separate(p, none, q, from, 0, limit, &least, &beyond, NULL);
     if (status == SUNDER_ENOMEM || status == SUNDER_ECANCEL) s->failed = true;
     if (status) return false;
     place[0] = from[0] + least.dx;
