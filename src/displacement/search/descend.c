@@ -234,7 +234,7 @@ bool sunder_i_search_descend(sunder_i_search *s)
         if (free_now) continue;
         idle = v > least_missed / 2 ? idle + 1 : 0;
         least_missed = fmin(least_missed, v);
-        if (++clashing_rounds >= MOST_CLASHING || idle >= MOST_IDLE) break;
+        if (++clashing_rounds >= s->clashing || idle >= MOST_IDLE) break;
     }
     if (!free_now && least_left < INFINITY && !s->failed) {
         memcpy(s->t, best, 2 * s->n * sizeof *best);

@@ -280,11 +280,19 @@ static void trade(retrying *p)
     }
 }
 
-/* Does nothing clash to begin with? Those who joined the cluster may ask for a wider margin than the others kept. */
+/* Does nothing clash to begin with? Those who joined the cluster may ask for a wider margin than the others kept. What
+ * is missed by a hair, less than half the margin, is none the worse for what is asked here: else one pair that rounding
+ * left so would keep a crowd of hundreds from being asked. */
 static bool is_in_order(sunder_i_search *s)
 {
+    const double hair = 2 * s->tolerance, missed = sunder_i_search_look(s, s->t);
+    if (s->failed || missed <= s->tolerance) return !s->failed;
+    if (missed <= hair) {
+        s->tolerance = hair;
+        return true;
+    }
     s->patience = sunder_i_search_work(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
-    const bool ok = sunder_i_search_look(s, s->t) <= s->tolerance || (!s->failed && sunder_i_search_descend(s));
+    const bool ok = sunder_i_search_descend(s);
     s->patience = UINT64_MAX;
     return ok && !s->failed;
 }

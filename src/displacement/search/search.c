@@ -31,6 +31,7 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_model *model, const
     s->gap = model->rules.gap + margin;
     s->tolerance = margin / 4;
     s->settled = SETTLED;
+    s->clashing = MOST_CLASHING;
     s->cap = INFINITY;
     s->patience = UINT64_MAX;
     s->hope = INFINITY;

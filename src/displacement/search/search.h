@@ -57,6 +57,7 @@ typedef struct sunder_i_search {
     double extent;          /* the mean size of the bodies */
     double settled;         /* a round that gains less of the cost is the last */
     uint64_t steps, effort; /* work done, in constraints looked at; how much may be done for better sides */
+    int clashing;           /* rounds that end in a clash before a descent gives up */
     uint64_t patience;      /* a descent gives up when so much has been done ... */
     double hope;            /* ... or, from a free position, when it is not going to cost less than this; INFINITY */
     bool failed;            /* memory is out */
