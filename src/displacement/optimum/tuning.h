@@ -71,7 +71,7 @@
  * groups of real layers within limits none leaves one for ten. It gets one in so many of its steps, and those for
  * blocks alone. A town of terraces of 1,200 houses, of whose conflicts a quarter is left, has a bound of 27 % of its
  * cost then, in 2 s, for 37 % in 54 s; pairs alone prove 11 %. */
-#define CROWDED 4
+#define CROWDED 2
 #define CROWD_LOOK 16
 /* So many bodies that stand in the way may take part besides. */
 #define MOST_GUESTS 24
