@@ -172,9 +172,10 @@ static void try_once(sunder_i_search *s, rank *order, double *best, double *cost
     for (size_t k = 0; k < s->n; k++) moving += s->mass[k] > 0;
     if (moving > MANY) s->neighbourhood = &about;
     if (s->neighbourhood && !sunder_i_neighbourhood_init(&about, s)) s->failed = true;
+    const double start = *cost;
     if (!s->failed) try_places(s, order, best, cost);
-    /* All go down, which tells the forces too. */
-    if (s->neighbourhood && !s->failed) sunder_i_search_attempt(s, best, cost);
+    /* All go down, which tells the forces too; unless they are known from when all did, and nobody has moved since. */
+    if (s->neighbourhood && !s->failed && (*cost < start || s->program.n == 0)) sunder_i_search_attempt(s, best, cost);
     if (!s->neighbourhood && !s->failed) {
         sunder_i_search_descend(s);
         memcpy(s->t, best, 2 * s->n * sizeof *best);
