@@ -206,6 +206,21 @@ static bool is_in_balance(dual *q, double tolerance)
     return true;
 }
 
+/* What has been found goes to the program. */
+static void store(const dual *q)
+{
+    for (size_t k = 0; k < q->n; k++)
+        if (q->scale[k] > 0) q->p->constraint[k].force = q->f[k] / q->scale[k];
+}
+
+/* Do the forces, as they are, prove that no solution is of any use? Without one they grow until they do. */
+static bool is_beyond(const dual *q)
+{
+    if (q->softness > 0 || !(q->p->most_cost > 0)) return false;
+    store(q);
+    return sunder_i_quadratic_is_beyond(q->p, q->softness);
+}
+
 static void iterate(dual *q, double tolerance, unsigned steps)
 {
     gradient(q);
@@ -220,6 +235,7 @@ static void iterate(dual *q, double tolerance, unsigned steps)
         const bool somewhere = i.zero <= i.cut ? step_within(q, short_step) : step_in(q);
         nowhere = somewhere ? 0 : nowhere + 1;
         if (k % REFRESH != REFRESH - 1) continue;
+        if (is_beyond(q)) break;
         gradient(q);
         q->is_seen = false;
     }
@@ -254,8 +270,7 @@ bool sunder_i_quadratic_gradient(sunder_i_quadratic *p, double softness, double 
         q.f[k] = q.scale[k] * c->force;
     }
     iterate(&q, tolerance / 2, steps);
-    for (size_t k = 0; k < p->n; k++)
-        if (q.scale[k] > 0) p->constraint[k].force = q.f[k] / q.scale[k];
+    store(&q);
     sunder_i_free(memory);
     sunder_i_free(link);
     return true;
