@@ -86,6 +86,13 @@ static void try_near(sunder_i_search *s, double *best, double *cost)
     memcpy(s->t, best, 2 * s->n * sizeof *best);
 }
 
+/* Is there any use in going on? Of a small cluster all is tried; those of a crowd that stand much alike have no better
+ * place either, where so many before them had none. */
+static bool is_hopeful(const sunder_i_search *s, size_t in_vain)
+{
+    return !s->neighbourhood || in_vain < BETTER_IN_VAIN + s->n / BETTER_SHARE;
+}
+
 /* Each body in turn, the costliest first, to the free place nearest to where it came from, the others standing. */
 static void try_places(sunder_i_search *s, rank *order, double *best, double *cost)
 {
@@ -96,13 +103,15 @@ static void try_places(sunder_i_search *s, rank *order, double *best, double *co
         if (c > 0) order[n++] = (rank){c, k, 0};
     }
     qsort(order, n, sizeof *order, by_cost);
-    for (size_t k = 0; k < n && has_time(s) && !s->failed; k++) {
+    size_t in_vain = 0; /* one after the other */
+    for (size_t k = 0; k < n && is_hopeful(s, in_vain) && has_time(s) && !s->failed; k++) {
         const uint32_t i = order[k].index;
         const double length = hypot(s->t[2 * i], s->t[2 * i + 1]);
         double place[2];
+        in_vain++;
         if (!sunder_i_search_free_body(s, i, NEARER_PLACE * length, place)) continue;
         memcpy(s->t + 2 * i, place, sizeof place);
-        attempt_about(s, i, i, best, cost);
+        if (attempt_about(s, i, i, best, cost)) in_vain = 0;
     }
 }
 
@@ -143,12 +152,14 @@ static void try_sides(sunder_i_search *s, double *best, double *cost)
     size_t n;
     rank *order = rank_contacts(&s->program, &n);
     s->failed = s->failed || !order;
-    for (size_t k = 0; k < n && has_time(s) && !s->failed; k++) {
+    size_t in_vain = 0;
+    for (size_t k = 0; k < n && is_hopeful(s, in_vain) && has_time(s) && !s->failed; k++) {
         const uint32_t i = order[k].index, j = order[k].other;
         const double home[2] = {0, 0}, u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
         const double length = hypot(u[0], u[1]);
         double places[MOST_SIDES][2];
         const size_t found = sunder_i_search_free_pair(s, i, j, home, OTHER_SIDE * length, MOST_SIDES, places);
+        in_vain++;
         for (size_t p = 0; p < found && has_time(s) && !s->failed; p++) {
             if (hypot(places[p][0] - u[0], places[p][1] - u[1]) < OTHER_SIDE * length) continue;
             /* The lighter goes farther. */
@@ -158,7 +169,9 @@ static void try_sides(sunder_i_search *s, double *best, double *cost)
                 s->t[2 * j + (uint32_t)c] += share * change;
                 s->t[2 * i + (uint32_t)c] -= (1 - share) * change;
             }
-            if (attempt_about(s, i, j, best, cost)) break;
+            if (!attempt_about(s, i, j, best, cost)) continue;
+            in_vain = 0;
+            break;
         }
     }
     sunder_i_free(order);
