@@ -208,7 +208,7 @@
 /* And for all of a crowd, of which the costliest come first. 4,200 places of Italy with all of theirs: 17 s for 0.2 %
  * of the cost. */
 #define BETTER_MOST 600000000u
-/* In a crowd, so many in vain, one after the other, and this share of all, and no more are tried. */
+/* In a crowd within limits so many in vain, one after the other, and this share of all, and no more are tried. */
 #define BETTER_IN_VAIN 64
 #define BETTER_SHARE 16
 /* Rounds of places and sides in turn; one that gains less than this share of the cost is the last. */
