@@ -11,6 +11,7 @@ import json
 import math
 import sys
 import tempfile
+from collections import Counter
 from contextlib import redirect_stdout
 
 import check_proof
@@ -526,7 +527,9 @@ class Asker:
             return
 
     def run(self):
-        trees = sorted((t for t in self.lines if "group" in t), key=lambda t: len(json.dumps(t)))
+        # Of several trees of a group, which share the weights of its bodies, none need prove its part without the others.
+        of = Counter(t["group"] for t in self.lines if "group" in t)
+        trees = sorted((t for t in self.lines if "group" in t and of[t["group"]] == 1), key=lambda t: len(json.dumps(t)))
         alone = [(self.alone(tree=t), -1) for t in trees]
         for name, mutate in TREES.items():
             self.ask(name, alone, lambda lines, at, m=mutate: m(lines[at]))

@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-enum { WIDE = 5, HIGH = 4, MOST = WIDE * HIGH };
+enum { WIDE = 5, HIGH = 4, MOST = WIDE * HIGH, HALF = MOST / 2 };
 
 static const double size = 10, pitch = 11, gap = 3;
 
@@ -221,14 +221,14 @@ static void test_asked_once(void **state)
     end(&g);
 }
 
-/* A group too large for a tree of whose own pairs one for every four bodies is listed is a crowd: it is not shaken, and
+/* A group too large for a tree of whose own pairs one for every two bodies is listed is a crowd: it is not shaken, and
  * bounded at a fraction of the work. */
 static void test_crowded(void **state)
 {
     (void)state;
-    sunder_i_waiver listed[WIDE];
-    for (uint32_t k = 0; k < WIDE; k++) listed[k] = (sunder_i_waiver){k, k + WIDE, 1, false};
-    const sunder_i_waived crowd = {.pair = listed, .n = WIDE}, fewer = {.pair = listed, .n = WIDE - 1};
+    sunder_i_waiver listed[HALF];
+    for (uint32_t k = 0; k < HALF; k++) listed[k] = (sunder_i_waiver){k, k + WIDE, 1, false};
+    const sunder_i_waived crowd = {.pair = listed, .n = HALF}, fewer = {.pair = listed, .n = HALF - 1};
     size_t looks[2];
     for (int k = 0; k < 2; k++) {
         grid g;
