@@ -62,9 +62,17 @@ static double longest_move(const sunder_i_search *s, double *below)
     return longest;
 }
 
+static bool is_crowd(const sunder_i_search *s)
+{
+    size_t moving = 0;
+    for (size_t k = 0; k < s->n; k++) moving += s->mass[k] > 0;
+    return moving > LARGE_CROWD;
+}
+
 /* Once more from where everything came from, with no move longer than the power of two below the longest. Where sides
  * contradict each other the search ends elsewhere then: bodies that were sent far are kept near if that is possible.
- * Only where one has gone much farther than any pair was in conflict by is there anything to be gained. */
+ * Only where one has gone much farther than any pair was in conflict by is there anything to be gained; and not by a
+ * crowd, of which nobody has room nearer by. */
 static void try_near(sunder_i_search *s, double *best, double *cost)
 {
     double below;
@@ -235,7 +243,7 @@ static void improve(sunder_i_search *s, rank *order, double *best, double *near)
     const double start = cost;
     try_all(s, order, best, &cost);
     memcpy(s->t, near, size);
-    try_near(s, near, &near_cost);
+    if (!is_crowd(s)) try_near(s, near, &near_cost);
     if (near_cost < start) try_all(s, order, near, &near_cost);
     if (near_cost < cost) {
         memcpy(best, near, size);
