@@ -94,9 +94,9 @@ static void try_near(sunder_i_search *s, double *best, double *cost)
     memcpy(s->t, best, 2 * s->n * sizeof *best);
 }
 
-/* Is there any use in going on? Of a small cluster all is tried, and of one that may go as far as it likes: 53,000 places
- * of Europe cost 2.6 % more otherwise. Those of a crowd within limits that stand much alike have no better place either,
- * where so many before them had none. */
+/* Is there any use in going on? Of a small cluster all is tried, and of one that may go as far as it likes: 53,000
+ * places of Europe cost 2.6 % more otherwise. Those of a crowd within limits that stand much alike have no better place
+ * either, where so many before them had none. */
 static bool is_hopeful(const sunder_i_search *s, size_t in_vain)
 {
     return !s->neighbourhood || !(s->program.most_cost > 0) || in_vain < BETTER_IN_VAIN + s->n / BETTER_SHARE;
