@@ -8,11 +8,11 @@
 /* Programs with more constraints go to the interior point method at once: the dual methods are quick for the dozens of
  * contacts of almost every cluster, and had not ended after minutes for one of 300 blocks of a dense old town. */
 #define MOST_QUICK 1500
-/* Of soft programs with more than the one and no more than the other, where all that moves has a limit, sweeps alone
- * are tried before that. These contradict each other, mostly, and a compromise of many is what the dual methods are
- * slow to find: blocks of 32 houses with some 200 constraints took 0.75 ms by them, and take 0.2. It counts as work
- * what they took, for each constraint: what may be done to give up pairs is reckoned from that (769 pairs of symbols
- * were left for 387 when it was not). */
+/* Of soft programs with more constraints than the first and no more bodies than the second, where all that moves has a
+ * limit, sweeps alone are tried before that. These contradict each other, mostly, and a compromise of many is what the
+ * dual methods are slow to find: blocks of 32 houses with some 200 constraints took 0.75 ms by them, and take 0.2. They
+ * count as work, for each constraint, about half of what the dual methods did: what may be done to give up pairs is
+ * reckoned from that. (Of crowds, too: 503 to 769 pairs of symbols left for 387, whatever they count.) */
 #define MOST_SOFT_QUICK 128
 #define FEW_SOFT 40
 #define SOFT_WORK 800

@@ -182,7 +182,7 @@
     }
 #define FEW 8
 /* Effort, in constraints looked at: for a cluster, for each of its bodies, and for each pair that is asked, of no more
- * than so many. */
+ * than so many. (With 50 of these 1,200 houses in terraces end with 1,094 pairs left for 753.) */
 #define RETRY_EFFORT 2000000u
 #define RETRY_EFFORT_EACH 5000u
 #define RETRY_EFFORT_PAIR 200000u
