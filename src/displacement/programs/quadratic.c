@@ -199,8 +199,10 @@ double sunder_i_quadratic_solve(sunder_i_quadratic *p, double softness, double t
         const bool contradicts =
             softness > 0 && p->most_cost > 0 && p->n > MOST_SOFT_QUICK && p->bodies <= FEW_SOFT;
         if (!(contradicts ? sweep(p, softness, tolerance) : solve_quickly(p, softness, tolerance))) return -1;
-        sunder_i_quadratic_place(p);
-        if (contradicts) p->work += SOFT_WORK * p->n;
+        if (contradicts) {
+            sunder_i_quadratic_place(p);
+            p->work += SOFT_WORK * p->n;
+        }
         if (sunder_i_quadratic_worst(p, softness) <= tolerance) return finish(p);
     }
     sunder_i_quadratic_place(p);

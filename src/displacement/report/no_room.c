@@ -158,11 +158,27 @@ static bool ask_closer(const sunder_i_subproblem *q, matter *m)
     return !m->still;
 }
 
+/* The conflict has the decision's proof from now on, if there is one; what it can do without is left out, if it is to be
+ * reduced. Clears the decision. */
+static sunder_status keep_proof(const asking *g, const matter *m, const sunder_i_subproblem *q,
+                                sunder_i_decision *decision, bool reducible, sunder_error *err)
+{
+    sunder_proof **proof = &g->report->proof[m->conflict];
+    *proof = decision->proof;
+    decision->proof = NULL;
+    sunder_i_decision_clear(decision);
+    if (!*proof) return SUNDER_OK;
+    const sunder_status status = reducible ? reduce(q, g->decide, proof, err) : SUNDER_OK;
+    if (status) return status;
+    if (g->solver->model.rules.drop_proofs) sunder_i_proof_strip(*proof);
+    g->report->conflict[m->conflict].reason = SUNDER_REASON_NO_ROOM;
+    return SUNDER_OK;
+}
+
 /* Asks about one conflict: is there a proof? It is open as long as more effort might tell. */
 static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uint64_t *pool, sunder_error *err)
 {
-    sunder_report *report = g->report;
-    sunder_conflict *c = &report->conflict[m->conflict];
+    const sunder_conflict *c = &g->report->conflict[m->conflict];
     const uint32_t body[2] = {g->solver->model.body_of[c->a], g->solver->model.body_of[c->b]};
     q->body = body;
     q->bodies = sunder_i_is_barrier(q->model, (uint32_t)c->b) ? 1 : 2; /* it is met where it is near */
@@ -179,17 +195,12 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
         status = g->decide(q, &decision, err);
         m->no_plane = m->no_plane || (!q->no_plane && decision.no_plane);
     } while (!status && decision.verdict == SUNDER_I_FEASIBLE && !m->still && ask_closer(q, m));
-    sunder_proof **proof = &report->proof[m->conflict];
-    *proof = decision.proof;
-    decision.proof = NULL;
-    m->open = !*proof && decision.verdict == SUNDER_I_UNKNOWN && decision.work > q->effort;
+    m->open = !decision.proof && decision.verdict == SUNDER_I_UNKNOWN && decision.work > q->effort;
     const bool later = m->still && !q->still; /* it has a solution of reals, and is not asked for one again */
-    if (!*proof && !later) *pool = *pool > decision.work ? *pool - decision.work : 0;
-    sunder_i_decision_clear(&decision);
+    if (!decision.proof && !later) *pool = *pool > decision.work ? *pool - decision.work : 0;
     q->no_plane = false;
-    if (!status && *proof) status = reduce(q, g->decide, proof, err);
-    if (!status && g->solver->model.rules.drop_proofs) sunder_i_proof_strip(*proof);
-    if (!status && *proof) c->reason = SUNDER_REASON_NO_ROOM;
+    if (!status) return keep_proof(g, m, q, &decision, true, err);
+    sunder_i_decision_clear(&decision);
     return status;
 }
 
@@ -208,8 +219,7 @@ static bool has_no_limit(const asking *g, const matter *m)
 static sunder_status ask_chain(const asking *g, matter *m, sunder_i_subproblem *q, sunder_i_chains *chains,
                                sunder_error *err)
 {
-    sunder_report *report = g->report;
-    sunder_conflict *c = &report->conflict[m->conflict];
+    const sunder_conflict *c = &g->report->conflict[m->conflict];
     const uint32_t body[2] = {q->model->body_of[c->a], q->model->body_of[c->b]};
     sunder_i_decision decision;
     size_t links;
@@ -217,15 +227,10 @@ static sunder_status ask_chain(const asking *g, matter *m, sunder_i_subproblem *
     q->bodies = 2;
     q->a = (uint32_t)c->a;
     q->b = (uint32_t)c->b;
-    sunder_status status = sunder_i_chains_decide(chains, q, &decision, &links, err);
-    sunder_proof **proof = &report->proof[m->conflict];
-    *proof = decision.proof;
-    decision.proof = NULL;
+    const sunder_status status = sunder_i_chains_decide(chains, q, &decision, &links, err);
+    m->open = !decision.proof;
+    if (!status) return keep_proof(g, m, q, &decision, links <= REDUCED_LINKS, err);
     sunder_i_decision_clear(&decision);
-    m->open = !*proof;
-    if (!status && *proof && links <= REDUCED_LINKS) status = reduce(q, g->decide, proof, err);
-    if (!status && g->solver->model.rules.drop_proofs) sunder_i_proof_strip(*proof);
-    if (!status && *proof) c->reason = SUNDER_REASON_NO_ROOM;
     return status;
 }
 

@@ -29,22 +29,12 @@ static double longest_step(const sunder_i_search *s)
     return longest;
 }
 
-static bool is_crowd(const sunder_i_search *s)
-{
-    size_t movers = 0;
-    for (size_t k = 0; k < s->n; k++) movers += s->mass[k] > 0;
-    return movers > LARGE_CROWD;
-}
-
 /* Have more than half of those that may move done so? */
 static bool is_under_way(const sunder_i_search *s)
 {
-    size_t movers = 0, moved = 0;
-    for (size_t k = 0; k < s->n; k++) {
-        movers += s->mass[k] > 0;
-        moved += s->mass[k] > 0 && (s->t[2 * k] != 0 || s->t[2 * k + 1] != 0);
-    }
-    return 2 * moved > movers;
+    size_t moved = 0;
+    for (size_t k = 0; k < s->n; k++) moved += s->mass[k] > 0 && (s->t[2 * k] != 0 || s->t[2 * k + 1] != 0);
+    return 2 * moved > sunder_i_search_movers(s);
 }
 
 static double longest_move(const sunder_i_search *s)
@@ -186,7 +176,7 @@ static double most_cost(const sunder_i_search *s)
 bool sunder_i_search_descend(sunder_i_search *s)
 {
     s->program.most_cost = most_cost(s);
-    const bool crowd = is_crowd(s);
+    const bool crowd = sunder_i_search_movers(s) > LARGE_CROWD;
     const double longest_reach = fmax(s->gap / 2, s->extent / (crowd ? PART_OF_CROWD : SMALL_PART));
     /* At least a margin: who was put in a free place stands beside its pieces, a hair farther than is asked. A crowd
      * that is no longer at home is in contact all over. */

@@ -46,9 +46,7 @@ static bool fit_about(sunder_i_search *s, uint32_t i, uint32_t j)
 /* All from where they came from, if they are few: what they had to do for others does not matter there. */
 static bool fit_from_home(sunder_i_search *s)
 {
-    size_t movers = 0;
-    for (size_t k = 0; k < s->n; k++) movers += s->mass[k] > 0;
-    if (movers > stage[sizeof stage / sizeof *stage - 1]) return false;
+    if (sunder_i_search_movers(s) > stage[sizeof stage / sizeof *stage - 1]) return false;
     for (size_t k = 0; k < s->n; k++)
         if (s->mass[k] > 0) s->t[2 * k] = s->t[2 * k + 1] = 0;
     s->patience = PATIENCE + PATIENCE_EACH * (uint64_t)s->n;

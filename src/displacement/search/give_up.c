@@ -146,8 +146,10 @@ static bool give_up_gradually(sunder_i_search *s, const sunder_i_clash *at_home,
         if (!s->failed) sunder_i_search_look(s, s->t);
         if (s->failed || !relax_cheapest(s, at_home, n, share)) break;
         s->patience = end;
-        if (is_crowd(s)) send_all_home(s);
-        if (!is_crowd(s)) s->clashing = CLASHING_AGAIN;
+        if (is_crowd(s))
+            send_all_home(s);
+        else
+            s->clashing = CLASHING_AGAIN;
         done = sunder_i_search_descend(s);
         s->clashing = MOST_CLASHING;
     }

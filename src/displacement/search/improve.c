@@ -62,13 +62,6 @@ static double longest_move(const sunder_i_search *s, double *below)
     return longest;
 }
 
-static bool is_crowd(const sunder_i_search *s)
-{
-    size_t moving = 0;
-    for (size_t k = 0; k < s->n; k++) moving += s->mass[k] > 0;
-    return moving > LARGE_CROWD;
-}
-
 /* Once more from where everything came from, with no move longer than the power of two below the longest. Where sides
  * contradict each other the search ends elsewhere then: bodies that were sent far are kept near if that is possible.
  * Only where one has gone much farther than any pair was in conflict by is there anything to be gained; and not by a
@@ -190,9 +183,7 @@ static void try_sides(sunder_i_search *s, double *best, double *cost)
 static void try_once(sunder_i_search *s, rank *order, double *best, double *cost)
 {
     sunder_i_neighbourhood about = {0};
-    size_t moving = 0;
-    for (size_t k = 0; k < s->n; k++) moving += s->mass[k] > 0;
-    if (moving > MANY) s->neighbourhood = &about;
+    if (sunder_i_search_movers(s) > MANY) s->neighbourhood = &about;
     if (s->neighbourhood && !sunder_i_neighbourhood_init(&about, s)) s->failed = true;
     const double start = *cost;
     if (!s->failed) try_places(s, order, best, cost);
@@ -243,7 +234,7 @@ static void improve(sunder_i_search *s, rank *order, double *best, double *near)
     const double start = cost;
     try_all(s, order, best, &cost);
     memcpy(s->t, near, size);
-    if (!is_crowd(s)) try_near(s, near, &near_cost);
+    if (sunder_i_search_movers(s) <= LARGE_CROWD) try_near(s, near, &near_cost);
     if (near_cost < start) try_all(s, order, near, &near_cost);
     if (near_cost < cost) {
         memcpy(best, near, size);

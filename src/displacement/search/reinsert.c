@@ -176,9 +176,8 @@ static void try_orders(reordering *r, size_t n, size_t most_useless, uint64_t mo
 
 void sunder_i_search_reorder(sunder_i_search *s, double *best, double *cost)
 {
-    reordering r = {.search = s, .best = best, .cost = *cost};
+    reordering r = {.search = s, .best = best, .cost = *cost, .moving = sunder_i_search_movers(s)};
     const uint64_t work = sunder_i_search_work(s);
-    for (size_t k = 0; k < s->n; k++) r.moving += s->mass[k] > 0;
     if (r.moving < 3 || r.moving > MOST_MOVING) return; /* pairs were tried on all sides */
     r.doubtful = sunder_i_alloc(r.moving, sizeof *r.doubtful);
     r.near = sunder_i_alloc(r.moving, sizeof *r.near);

@@ -303,10 +303,10 @@ static void retry_all(sunder_i_search *s, const sunder_i_retry *retry, size_t n)
     retrying p = {.search = s,
                   .retry = retry,
                   .n = n,
+                  .moving = sunder_i_search_movers(s),
                   .settled = sunder_i_calloc(n, sizeof *p.settled),
                   .in_vain = sunder_i_alloc(n, sizeof *p.in_vain),
                   .stand = sunder_i_alloc(2 * s->n, sizeof *p.stand)};
-    for (size_t k = 0; k < s->n; k++) p.moving += s->mass[k] > 0;
     if (!p.settled || !p.in_vain || !p.stand || (p.moving > FEW && !sunder_i_neighbourhood_init(&p.neighbourhood, s)))
         s->failed = true;
     const uint64_t pairs = n < MOST_RETRIES ? n : MOST_RETRIES;

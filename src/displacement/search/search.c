@@ -105,6 +105,13 @@ double sunder_i_search_cost(const sunder_i_search *s, const double *t)
     return cost;
 }
 
+size_t sunder_i_search_movers(const sunder_i_search *s)
+{
+    size_t movers = 0;
+    for (size_t k = 0; k < s->n; k++) movers += s->mass[k] > 0;
+    return movers;
+}
+
 uint32_t sunder_i_search_place_of(const sunder_i_search *s, uint32_t body)
 {
     for (size_t part = 0; part < 2; part++) {

@@ -76,6 +76,8 @@ static inline uint64_t sunder_i_search_work(const sunder_i_search *s) { return s
 double sunder_i_search_limit(const sunder_i_search *search, uint32_t i);
 /* By how much it is farther at t, by more than a hair; else 0 (limits.c). */
 double sunder_i_search_overstep(const sunder_i_search *search, uint32_t i, const double *t);
+/* How many of its bodies may move. */
+size_t sunder_i_search_movers(const sunder_i_search *search);
 /* The place of a body of the model in the search, or SUNDER_I_NOBODY. */
 uint32_t sunder_i_search_place_of(const sunder_i_search *search, uint32_t body);
 /* sum w |t|^2 */
