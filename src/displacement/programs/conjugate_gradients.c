@@ -24,8 +24,7 @@ typedef struct dual {
     sunder_i_quadratic *p;
     size_t n;
     double softness;
-    double *scale;             /* [n] sqrt(mass_i + mass_j); 0 for what cannot move ... */
-    double *divisor;           /* [n] ... and what is divided by: for that INFINITY */
+    double *scale;             /* [n] sqrt(mass_i + mass_j); 0 for what cannot move */
     double *f, *g, *step, *gs; /* [n] forces, gradient Gf - d, direction, G times it */
     double *t;                 /* [2 * (bodies + 1)] */
     sunder_i_link *link;       /* [n] */
@@ -38,24 +37,26 @@ static void push_all(dual *q, const double *v)
 {
     const sunder_i_quadratic *p = q->p;
     const sunder_i_link *link = q->link;
-    const double *divisor = q->divisor;
+    const double *scale = q->scale;
     double *t = q->t;
     memset(t, 0, 2 * p->bodies * sizeof *t);
     for (size_t k = 0; k < q->n; k++)
-        if (v[k] != 0) sunder_i_link_push(&link[k], v[k] / divisor[k], t);
+        if (v[k] != 0) sunder_i_link_push(&link[k], v[k] / scale[k], t);
     t[2 * p->bodies] = t[2 * p->bodies + 1] = 0; /* the ground */
     q->p->work += 2 * q->n;
 }
 
-/* out = G v. Divisions are the dearest of it: all at once they go by twos. What cannot move has no v. */
-static void multiply(dual *q, const double *v, double *restrict out)
+/* (G v)_k, after v was pushed. */
+static inline double product_of(const dual *q, const double *v, size_t k)
 {
-    const double *divisor = q->divisor, *t = q->t, softness = q->softness;
-    const sunder_i_link *link = q->link;
-    const size_t n = q->n;
+    return q->scale[k] > 0 ? sunder_i_link_stretch(&q->link[k], q->t) / q->scale[k] + q->softness * v[k] : 0;
+}
+
+/* out = G v */
+static void multiply(dual *q, const double *v, double *out)
+{
     push_all(q, v);
-    for (size_t k = 0; k < n; k++) out[k] = sunder_i_link_stretch(&link[k], t);
-    for (size_t k = 0; k < n; k++) out[k] = out[k] / divisor[k] + softness * v[k];
+    for (size_t k = 0; k < q->n; k++) out[k] = product_of(q, v, k);
 }
 
 /* As fmin() and fmax(), of which the first is a number: what is no number is passed over. Inline. */
@@ -98,17 +99,18 @@ typedef struct direction {
 } direction;
 
 /* G times the step to q->gs, and on the same way all sums along it: each is added up by itself, in its order, and none
- * waits for another. A quotient is taken only where it may be the least so far, rounding and all. */
+ * waits for another. */
 static direction look_along(dual *q)
 {
-    const double *step = q->step, *f = q->f, *g = q->g, *gs = q->gs;
+    const double *step = q->step, *f = q->f, *g = q->g;
     double curvature = 0, square = 0, slope = 0, feasible = INFINITY;
-    multiply(q, step, q->gs);
+    push_all(q, step);
     for (size_t k = 0; k < q->n; k++) {
-        curvature += step[k] * gs[k];
+        const double product = q->gs[k] = product_of(q, step, k);
+        curvature += step[k] * product;
         square += step[k] * step[k];
         slope += g[k] * step[k];
-        if (step[k] > 0 && f[k] <= feasible * step[k] * (1 + 0x1p-40)) feasible = least(feasible, f[k] / step[k]);
+        if (step[k] > 0) feasible = least(feasible, f[k] / step[k]);
     }
     return (direction){curvature > 0x1p-44 * square ? curvature : 0, slope, feasible};
 }
@@ -122,8 +124,7 @@ static void restart(dual *q)
 static inline void note_imbalance(imbalance *i, double f, double g, double scale, double short_step)
 {
     if (f > 0) {
-        /* Mostly the gradient is far less than what a short step would need to reach zero: no quotient tells that. */
-        i->cut += (g * short_step < f * (1 - 0x1p-40) ? g : least(f / short_step, g)) * g;
+        i->cut += least(f / short_step, g) * g;
         i->worst = most(i->worst, fabs(g) * scale);
     } else if (g < 0) {
         i->zero += g * g;
@@ -244,7 +245,7 @@ static void iterate(dual *q, double tolerance, unsigned steps)
 bool sunder_i_quadratic_gradient(sunder_i_quadratic *p, double softness, double tolerance, unsigned steps)
 {
     if (p->n == 0) return true;
-    double *memory = sunder_i_calloc(6 * p->n + 2 * (p->bodies + 1), sizeof *memory);
+    double *memory = sunder_i_calloc(5 * p->n + 2 * (p->bodies + 1), sizeof *memory);
     sunder_i_link *link = sunder_i_alloc(p->n, sizeof *link);
     if (!memory || !link) {
         sunder_i_free(memory);
@@ -260,13 +261,11 @@ bool sunder_i_quadratic_gradient(sunder_i_quadratic *p, double softness, double 
               .g = memory + 2 * p->n,
               .step = memory + 3 * p->n,
               .gs = memory + 4 * p->n,
-              .divisor = memory + 5 * p->n,
-              .t = memory + 6 * p->n,
+              .t = memory + 5 * p->n,
               .link = link};
     for (size_t k = 0; k < p->n; k++) {
         const sunder_i_constraint *c = &p->constraint[k];
         q.scale[k] = sqrt(sunder_i_mass(p, c->i) + sunder_i_mass(p, c->j));
-        q.divisor[k] = q.scale[k] > 0 ? q.scale[k] : INFINITY;
         q.f[k] = q.scale[k] * c->force;
     }
     iterate(&q, tolerance / 2, steps);

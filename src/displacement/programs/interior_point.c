@@ -63,8 +63,8 @@ static bool shape_matrix(interior *q)
 static void add_outer(double *block, double v, const double n[2])
 {
     block[0] += v * n[0] * n[0];
-    block[1] += v * n[1] * n[0];
-    block[2] += v * n[0] * n[1];
+    block[1] += v * n[0] * n[1];
+    block[2] += v * n[1] * n[0];
     block[3] += v * n[1] * n[1];
 }
 

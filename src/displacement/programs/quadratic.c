@@ -90,9 +90,7 @@ static inline double relax(const sweeping *s, uint32_t k)
     sunder_i_constraint *c = &s->p->constraint[k];
     const double m = link->mass[0] + link->mass[1];
     if (!(m > 0)) return 0;
-    const double missed = c->d - sunder_i_link_stretch(link, s->t) - s->softness * m * c->force;
-    if (c->force == 0 && missed <= 0) return 0; /* as most, without a quotient */
-    double change = missed / (m * (1 + s->softness));
+    double change = (c->d - sunder_i_link_stretch(link, s->t) - s->softness * m * c->force) / (m * (1 + s->softness));
     if (change < -c->force) change = -c->force;
     if (change == 0) return 0;
     c->force += change;

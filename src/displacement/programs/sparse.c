@@ -236,7 +236,7 @@ bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_id_pair *
     m->at = sunder_i_alloc(2 * n, sizeof *m->at);
     m->y = sunder_i_alloc(2 * n, sizeof *m->y);
     m->panel = sunder_i_alloc(n, sizeof *m->panel);
-    m->across = sunder_i_alloc(8 * n, sizeof *m->across);
+    m->across = sunder_i_alloc(4 * n, sizeof *m->across);
     if (!m->rank || !m->column || !m->diagonal || !m->first || !m->link || !m->at || !m->y || !m->panel || !m->across)
         return false;
     graph g;
@@ -262,7 +262,7 @@ double *sunder_i_sparse_block(sunder_i_sparse *m, uint32_t a, uint32_t b, bool *
     const uint32_t ra = m->rank[a], rb = m->rank[b], low = ra < rb ? ra : rb, high = ra < rb ? rb : ra;
     const uint32_t *row = m->row + m->column[low];
     const uint32_t *found = bsearch(&high, row, m->column[low + 1] - m->column[low], sizeof *row, sunder_i_by_number);
-    *transposed = rb < ra; /* they lie column by column */
+    *transposed = ra < rb;
     return m->block + 4 * (size_t)(found - m->row);
 }
 
@@ -275,44 +275,33 @@ static inline size_t entry_of(const sunder_i_sparse *m, uint32_t k, uint32_t las
     return m->column[k] + (last - k) + q;
 }
 
-/* c -= sum of a_k b_k' over n columns of a panel: entry `at` of the first of them, in the next `far` entries farther
- * on, and so on, each time one less. Blocks lie column by column, and m->across has each number of b_k twice: so all
- * goes by twos. */
-static inline void subtract_products(const sunder_i_sparse *m, double *c, size_t at, size_t n, size_t far)
+/* c -= sum of a_k b_k' over columns from..last of a panel, where a_k is row q, and b_k lies in m->across. */
+static inline void subtract_products(const sunder_i_sparse *m, double *c, uint32_t from, uint32_t last, size_t q)
 {
-    double sum[4] = {c[0], c[1], c[2], c[3]};
-    for (size_t k = 0; k < n; k++, at += far--) {
-        const double *a = m->block + 4 * at, *b = m->across + 8 * k;
-        for (int e = 0; e < 2; e++) {
-            sum[e] -= a[e] * b[e] + a[2 + e] * b[2 + e];
-            sum[2 + e] -= a[e] * b[4 + e] + a[2 + e] * b[6 + e];
-        }
+    const double *b = m->across;
+    double c0 = c[0], c1 = c[1], c2 = c[2], c3 = c[3];
+    for (uint32_t k = from; k <= last; k++, b += 4) {
+        const double *a = m->block + 4 * entry_of(m, k, last, q);
+        c0 -= a[0] * b[0] + a[1] * b[1];
+        c1 -= a[0] * b[2] + a[1] * b[3];
+        c2 -= a[2] * b[0] + a[3] * b[1];
+        c3 -= a[2] * b[2] + a[3] * b[3];
     }
-    memcpy(c, sum, sizeof sum);
-}
-
-/* b_k, which lies column by column, as it is used: first what goes with the first column of the product. */
-static inline void spread_out(const double *b, double *out)
-{
-    for (int e = 0; e < 2; e++) {
-        out[e] = b[0];
-        out[2 + e] = b[2];
-        out[4 + e] = b[1];
-        out[6 + e] = b[3];
-    }
+    c[0] = c0;
+    c[1] = c1;
+    c[2] = c2;
+    c[3] = c3;
 }
 
 /* Column j, whose entries m->at tells, less what columns from..last, of one panel, make of their row q, which is j. */
 static void update_column(sunder_i_sparse *m, uint32_t j, uint32_t from, uint32_t last, size_t q)
 {
-    const size_t rows = m->column[last + 1] - m->column[last], n = last - from + 1,
-                 far = m->column[from + 1] - m->column[from] - 1;
+    const size_t rows = m->column[last + 1] - m->column[last];
     const uint32_t *row = m->row + m->column[last];
     for (uint32_t k = from; k <= last; k++)
-        spread_out(m->block + 4 * entry_of(m, k, last, q), m->across + 8 * (size_t)(k - from));
-    size_t at = entry_of(m, from, last, q);
-    subtract_products(m, m->diagonal + 4 * (size_t)j, at, n, far);
-    for (q++; q < rows; q++) subtract_products(m, m->block + 4 * m->at[row[q]], ++at, n, far);
+        memcpy(m->across + 4 * (size_t)(k - from), m->block + 4 * entry_of(m, k, last, q), 4 * sizeof *m->across);
+    subtract_products(m, m->diagonal + 4 * (size_t)j, from, last, q);
+    for (q++; q < rows; q++) subtract_products(m, m->block + 4 * m->at[row[q]], from, last, q);
 }
 
 /* A panel waits, in the list of its last column, for the next row in which it has an entry, if there is one from q
@@ -331,15 +320,15 @@ static bool finish_column(sunder_i_sparse *m, uint32_t j)
     double *d = m->diagonal + 4 * (size_t)j;
     if (!(d[0] > 0)) return false;
     d[0] = sqrt(d[0]);
-    d[1] /= d[0];
-    d[3] -= d[1] * d[1];
+    d[2] /= d[0];
+    d[3] -= d[2] * d[2];
     if (!(d[3] > 0)) return false;
     d[3] = sqrt(d[3]);
     for (size_t p = m->column[j]; p < m->column[j + 1]; p++) {
         double *b = m->block + 4 * p;
-        for (int r = 0; r < 2; r++) {
+        for (int r = 0; r < 4; r += 2) {
             b[r] /= d[0];
-            b[2 + r] = (b[2 + r] - b[r] * d[1]) / d[3];
+            b[r + 1] = (b[r + 1] - b[r] * d[2]) / d[3];
         }
     }
     return true;
@@ -372,12 +361,12 @@ void sunder_i_sparse_solve(sunder_i_sparse *m, double *x)
         const double *d = m->diagonal + 4 * j;
         double *s = y + 2 * j;
         s[0] /= d[0];
-        s[1] = (s[1] - d[1] * s[0]) / d[3];
+        s[1] = (s[1] - d[2] * s[0]) / d[3];
         for (size_t p = m->column[j]; p < m->column[j + 1]; p++) {
             const double *b = m->block + 4 * p;
             double *t = y + 2 * (size_t)m->row[p];
-            t[0] -= b[0] * s[0] + b[2] * s[1];
-            t[1] -= b[1] * s[0] + b[3] * s[1];
+            t[0] -= b[0] * s[0] + b[1] * s[1];
+            t[1] -= b[2] * s[0] + b[3] * s[1];
         }
     }
     for (size_t j = m->n; j-- > 0;) {
@@ -385,11 +374,11 @@ void sunder_i_sparse_solve(sunder_i_sparse *m, double *x)
         double *s = y + 2 * j;
         for (size_t p = m->column[j]; p < m->column[j + 1]; p++) {
             const double *b = m->block + 4 * p, *t = y + 2 * (size_t)m->row[p];
-            s[0] -= b[0] * t[0] + b[1] * t[1];
-            s[1] -= b[2] * t[0] + b[3] * t[1];
+            s[0] -= b[0] * t[0] + b[2] * t[1];
+            s[1] -= b[1] * t[0] + b[3] * t[1];
         }
         s[1] /= d[3];
-        s[0] = (s[0] - d[1] * s[1]) / d[0];
+        s[0] = (s[0] - d[2] * s[1]) / d[0];
     }
     for (size_t v = 0; v < m->n; v++) memcpy(x + 2 * v, y + 2 * (size_t)m->rank[v], 2 * sizeof *y);
 }

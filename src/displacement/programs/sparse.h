@@ -9,12 +9,12 @@ typedef struct sunder_i_sparse {
     uint32_t *rank;         /* [n] when each is eliminated */
     size_t *column;         /* [n + 1] by rank: where the entries below the diagonal start */
     uint32_t *row;          /* ranks, ascending in each column; fill-in included */
-    double *diagonal;       /* [4 * n] by rank, blocks column by column */
-    double *block;          /* [4 * column[n]] the same */
+    double *diagonal;       /* [4 * n] by rank, row by row */
+    double *block;          /* [4 * column[n]] */
     uint32_t *panel;        /* [n] by rank: the first of consecutive columns that have the same rows below them */
     uint32_t *first, *link; /* [n] of the factorisation: panels by the row that they come to next */
     size_t *at;             /* [2 * n] */
-    double *across;         /* [8 * n] what a panel has in the row at hand */
+    double *across;         /* [4 * n] what a panel has in the row at hand */
     double *y;              /* [2 * n] */
     uint64_t work;          /* products of blocks in one factorisation */
 } sunder_i_sparse;
