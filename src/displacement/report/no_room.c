@@ -158,8 +158,8 @@ static bool ask_closer(const sunder_i_subproblem *q, matter *m)
     return !m->still;
 }
 
-/* The conflict has the decision's proof from now on, if there is one; what it can do without is left out, if it is to be
- * reduced. Clears the decision. */
+/* The conflict has the decision's proof from now on, if there is one; what it can do without is left out, if it is to
+ * be reduced. Clears the decision. */
 static sunder_status keep_proof(const asking *g, const matter *m, const sunder_i_subproblem *q,
                                 sunder_i_decision *decision, bool reducible, sunder_error *err)
 {
