@@ -292,40 +292,11 @@ static void check_terraces(void **state)
     for (size_t k = 0; k < TOWN; k++) sunder_shape_free((sunder_shape *)feature[k].shape);
 }
 
-enum { GRID = 23 }; /* more than a crowd that gives up gradually */
-
-/* A grid of squares of which nothing has room, but that rows can be moved as a whole, a little: some of it is got. */
-static void check_grid(void **state)
-{
-    (void)state;
-    static sunder_feature feature[GRID * GRID];
-    size_t before, left;
-    for (size_t k = 0; k < GRID * GRID; k++) {
-        add_box(&feature[k], 12 * (double)(k % GRID) + (double)(k * k % 7) / 16, 12 * (double)(k / GRID), 10, 10,
-                false);
-        feature[k].max_shift = 2;
-    }
-    sunder_layer_options options;
-    sunder_layer_options_init(&options);
-    options.no_blocks = true;
-    options.gap = 3;
-    options.effort = 0;
-    sunder_report *report = run_separate(feature, GRID * GRID, &options);
-    sunder_report_conflicts(report, &left);
-    sunder_layer_summary summary;
-    sunder_report_summary(report, &summary);
-    before = summary.before.too_close;
-    printf("%zu of %zu left\n", left, before);
-    assert_true(10 * left <= 9 * before);
-    sunder_report_free(report);
-    for (size_t k = 0; k < GRID * GRID; k++) sunder_shape_free((sunder_shape *)feature[k].shape);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(check_list),    cmocka_unit_test(check_rows),
                                        cmocka_unit_test(check_inside),  cmocka_unit_test(check_symbols),
                                        cmocka_unit_test(check_heap),    cmocka_unit_test(check_last_hair),
-                                       cmocka_unit_test(check_terraces), cmocka_unit_test(check_grid)};
+                                       cmocka_unit_test(check_terraces)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -362,31 +362,6 @@ static void yield(sunder_i_search *s, neighbours *near, const sunder_i_clash *at
     sunder_i_free(changed);
 }
 
-/* All that clashed at home is given up, and asked for again from there: where next to nothing has room what can be had
- * is a matter of rows that are moved as a whole, and no compromise tells of these. Where that leaves no less than what
- * is given up already, all are put back. */
-static void try_giving_up_all(sunder_i_search *s, const sunder_i_clash *at_home, size_t n)
-{
-    const size_t size = 2 * s->n * sizeof *s->t;
-    sunder_i_relaxations before = s->relaxations;
-    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
-    memset(&s->relaxations, 0, sizeof s->relaxations);
-    s->failed = s->failed || !stand;
-    if (!s->failed) memcpy(stand, s->t, size);
-    for (size_t k = 0; k < n && !s->failed; k++) relax(s, at_home[k].i, at_home[k].j);
-    if (!s->failed && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
-    if (!s->failed) send_all_home(s);
-    if (!s->failed) sunder_i_search_take_back(s);
-    if (!s->failed && s->relaxations.relaxed_n >= before.relaxed_n) {
-        const sunder_i_relaxations in_vain = s->relaxations;
-        s->relaxations = before;
-        before = in_vain;
-        memcpy(s->t, stand, size);
-    }
-    sunder_i_relaxations_free(&before);
-    sunder_i_free(stand);
-}
-
 void sunder_i_search_give_up(sunder_i_search *s, const double *start)
 {
     size_t n = 0;
@@ -409,7 +384,6 @@ void sunder_i_search_give_up(sunder_i_search *s, const double *start)
         if (!s->failed) sunder_i_search_make_good(s);
     }
     if (!s->failed) yield(s, &near, at_home, n, 0);
-    if (!s->failed && !done && !parts && s->n >= CROWD) try_giving_up_all(s, at_home, n);
     free_neighbours(&near);
     sunder_i_free(at_home);
     sunder_i_search_lower(s);

@@ -88,12 +88,12 @@ static size_t ask_few(sunder_i_search *s, const sunder_i_relaxations *all, wish 
 {
     sunder_i_neighbourhood about;
     size_t left = 0;
-    size_t in_vain = 0; /* one after the other */
+    unsigned in_vain = 0; /* one after the other */
     if (!sunder_i_neighbourhood_init(&about, s)) s->failed = true;
     for (size_t k = 0; k < n; k++) {
         const wish w = list[k];
         bool granted = false;
-        if (in_vain < TAKE_BACK_FEW_IN_VAIN + n / TAKE_BACK_SHARE && !s->failed) {
+        if (in_vain < TAKE_BACK_FEW_IN_VAIN && !s->failed) {
             claim(s, all, &w);
             granted =
                 sunder_i_neighbourhood_settle(&about, sunder_i_search_place_of(s, w.i),

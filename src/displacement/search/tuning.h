@@ -114,8 +114,6 @@
  * third more of all time.) */
 #define TAKE_BACK_FEW 32
 #define TAKE_BACK_FEW_IN_VAIN 32
-/* ... and this share of all. */
-#define TAKE_BACK_SHARE 64
 #define TAKE_BACK_IN_VAIN 2
 /* Moves no longer than this share of a body are what descents leave of none. */
 #define NEARLY_HOME 1e-7
