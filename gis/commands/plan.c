@@ -21,11 +21,6 @@ typedef struct plan_run {
     bool quiet, there; /* there: nothing was to be done */
 } plan_run;
 
-static bool refuse(const gis_options *options, gis_error *error)
-{
-    return !options->given[OPT_REPORT] || gis_fail_usage(error, "--report: a layer is not separated in shards with it");
-}
-
 static bool read_call(plan_run *run, const gis_options *options, gis_error *error)
 {
     gis_plan *plan = &run->planned.plan;
@@ -34,7 +29,7 @@ static bool read_call(plan_run *run, const gis_options *options, gis_error *erro
     if (!(options->number[OPT_SHARDS] >= 1 && options->number[OPT_SHARDS] <= MOST_SHARDS))
         return gis_fail_usage(error, "--shards: 1 to %d", MOST_SHARDS);
     plan->shards = (unsigned)options->number[OPT_SHARDS];
-    if (!refuse(options, error) || !gis_resolve_memory(options, &plan->memory, error)) return false;
+    if (!gis_resolve_memory(options, &plan->memory, error)) return false;
     if (plan->memory == 0) plan->memory = usual_memory;
     const gis_options nothing = {0};
     return gis_planned_arguments(options, plan, error) &&

@@ -204,6 +204,7 @@ bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out,
         .symbol_size_field = options->text[OPT_SYMBOL_SIZE_FIELD],
         .wound = options->given[OPT_BEFORE],
         .moves = options->command->bit == GIS_SEPARATE,
+        .drawn = options->given[OPT_REPORT],
         .may_have_symbols = (gis_option_table[OPT_SYMBOL].commands & options->command->bit) != 0,
     };
     if (out->symbol_size_field && !out->symbol && !out->symbol_field)

@@ -11,7 +11,6 @@
  * the end. */
 static bool read_in_parts(gis_separate_run *run, double memory, gis_error *error)
 {
-    if (run->to.report) return gis_fail_usage(error, "--max-memory: a layer is not separated in parts with --report");
     return gis_in_parts_begin(&run->request, NULL, 1, memory, &run->parts, error) &&
            gis_in_parts_open(&run->parts, false, &run->input, error);
 }

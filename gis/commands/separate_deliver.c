@@ -12,10 +12,14 @@ bool gis_separate_is_summarised(const gis_separate_run *run) { return !run->take
 static bool write_page(const gis_separate_run *run, gis_text *page, gis_error *error)
 {
     gis_call call = {0};
-    bool ok = gis_call_list(run->options, &call, error);
+    gis_page_held held = {&run->input, run->report};
+    gis_page_spooled *spooled = NULL;
+    bool ok = gis_call_list(run->options, &call, error) &&
+              (!run->in_parts || gis_page_spooled_open((gis_in_parts *)&run->parts, &spooled, error));
+    const gis_page_contents contents = spooled ? gis_page_contents_of_spool(spooled) : gis_page_contents_of(&held);
     const gis_page_request request = {
         .input = &run->input,
-        .report = run->report,
+        .contents = &contents,
         .summary = &run->summary,
         .unit = gis_separate_unit(run),
         .output = run->to.output,
@@ -27,6 +31,7 @@ static bool write_page(const gis_separate_run *run, gis_text *page, gis_error *e
         .n_options = call.n,
     };
     ok = ok && gis_page_write(&request, page, error);
+    gis_page_spooled_close(spooled);
     gis_call_clear(&call);
     return ok;
 }

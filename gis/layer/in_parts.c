@@ -25,6 +25,8 @@ static const double bytes_a_feature = 2000, bytes_a_vertex = 120, bytes_written 
 static const double bytes_a_proof = 3000, bytes_of_effort = 8000;
 /* While a layer is written: what is sorted and written at a time, which fills up with the first million. */
 static const double bytes_filled = 30, bytes_full = 30e6;
+/* While it is drawn, when it is written: where each stands, and what the page holds at most. */
+static const double bytes_drawn = 66, bytes_of_page = 60e6;
 /* Of barriers: their pieces, and the shapes of their parts. */
 static const double bytes_a_barrier = 1000, bytes_a_barrier_vertex = 300;
 
@@ -63,9 +65,11 @@ double gis_in_parts_bytes(const gis_layer_rules *rules, double features, double 
     return bytes_anyway + (bytes_a_feature + proofs) * features + bytes_a_vertex * vertices;
 }
 
-double gis_in_parts_bytes_written(double features)
+double gis_in_parts_bytes_written(double features, bool drawn)
 {
-    return bytes_anyway + fmin(bytes_full, bytes_filled * features) + bytes_written * features;
+    const double written = fmin(bytes_full, bytes_filled * features) + bytes_written * features,
+                 page = drawn ? fmin(bytes_of_page, bytes_of_page / 1e5 * features) + bytes_drawn * features : 0;
+    return bytes_anyway + fmax(written, page);
 }
 
 /* How many units fit into what is left of the memory. */
@@ -75,7 +79,7 @@ static bool choose_parts(gis_in_parts *p, double memory, gis_error *error)
     const double features = (double)gis_spool_features(p->spool), vertices = (double)gis_spool_vertices(p->spool),
                  all = gis_in_parts_bytes(&p->request->rules, features, vertices) - bytes_anyway +
                        bytes_of_barriers(&p->barriers),
-                 written = gis_in_parts_bytes_written((double)p->facts.source.features),
+                 written = gis_in_parts_bytes_written((double)p->facts.source.features, p->request->drawn),
                  least = fmax(bytes_anyway + all / units, written);
     if (!(memory > least))
         return gis_fail(error, "--max-memory: %zu features need %.0f MB at least", p->facts.source.features,

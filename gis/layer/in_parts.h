@@ -37,9 +37,10 @@ typedef struct gis_in_parts_layers {
     bool main, displacement, conflicts, pushes, symbols;
 } gis_in_parts_layers;
 
-/* Bytes that a process takes, about: for a part of so much; for a layer while it is written, when no part is there. */
+/* Bytes that a process takes, about: for a part of so much; for a layer while it is written, or drawn, when no part is
+ * there. */
 double gis_in_parts_bytes(const gis_layer_rules *rules, double features, double vertices);
-double gis_in_parts_bytes_written(double features);
+double gis_in_parts_bytes_written(double features, bool drawn);
 
 /* directory: NULL: one of its own, which goes in the end. memory: bytes that a process may take, about. */
 bool gis_in_parts_begin(const gis_layer_input_request *request, const char *directory, unsigned shards, double memory,

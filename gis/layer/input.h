@@ -25,6 +25,7 @@ typedef struct gis_layer_input_request {
     const double *also; /* a box that barriers can be in the way of, besides that of the features; NULL: none */
     bool wound;         /* rings are to run one way in all formats: places of vertices are to be compared */
     bool moves;         /* features are to be moved: what is within reach of their limits counts */
+    bool drawn;         /* all is to be drawn, what conflicts with nothing, too */
     gis_layer_rules rules;
 } gis_layer_input_request;
 

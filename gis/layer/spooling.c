@@ -12,10 +12,12 @@
 #include "spool/file.h"
 
 #include <cpl_conv.h>
+#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* Features of a batch: enough that beginning one costs nothing. */
 enum { BATCH = 8192 };
@@ -23,7 +25,9 @@ enum { BATCH = 8192 };
 typedef struct spooling {
     gis_layer_input input;
     gis_layer_facts *facts;
+    const char *directory;
     gis_spool_writer *writer;
+    gis_spool_writer *aside; /* NULL: nothing lies there yet */
     gis_spool_file status;
     gis_block_keys keys;
     double *areas, median; /* of those that count, where weights ask for it */
@@ -77,9 +81,26 @@ static bool id_text(const gis_layer_input *input, size_t i, char **copy, char nu
     return true;
 }
 
+/* Begun with the first feature that lies there. */
+static gis_spool_writer *open_aside(spooling *s, gis_error *error)
+{
+    if (s->aside) return s->aside;
+    char *path = gis_spool_inside(s->directory, GIS_SPOOL_ASIDE);
+    if (!path)
+        gis_no_memory(error);
+    else if (mkdir(path, 0777) != 0 && errno != EEXIST)
+        gis_fail(error, "%s: it cannot be made: %s", path, strerror(errno));
+    else
+        gis_spool_create(path, &s->aside, error);
+    free(path);
+    return s->aside;
+}
+
 static bool add_feature(spooling *s, size_t i, char **copy, gis_error *error)
 {
     const gis_layer_input *input = &s->input;
+    const bool aside = input->feature[i].ignored;
+    gis_spool_writer *to = aside ? open_aside(s, error) : s->writer;
     char number[64];
     gis_spool_feature feature = {.index = gis_source_first(input->source) + i,
                                  .fid = gis_source_fid(input->source, i),
@@ -87,8 +108,17 @@ static bool add_feature(spooling *s, size_t i, char **copy, gis_error *error)
                                  .start = {NAN, NAN},
                                  .area = by_area(s) ? sunder_shape_area(input->shape[i]) : 0};
     feature.demands.shape = input->shape[i];
-    return (!input->points || gis_arrow_start(input, i, feature.start, error)) &&
-           id_text(input, i, copy, number, &feature.id, error) && gis_spool_add(s->writer, &feature, error);
+    s->facts->aside += aside;
+    return to && (!input->points || gis_arrow_start(input, i, feature.start, error)) &&
+           id_text(input, i, copy, number, &feature.id, error) && gis_spool_add(to, &feature, error);
+}
+
+/* What conflicts with nothing lies aside, if it is seen, and nowhere otherwise. */
+static bool is_spooled(const spooling *s, size_t i)
+{
+    const gis_layer_input *input = &s->input;
+    return !input->feature[i].ignored ||
+           (input->request->drawn && input->shape[i] && !sunder_shape_is_empty(input->shape[i]));
 }
 
 static void note_feature(gis_layer_facts *facts, const gis_layer_input *input, size_t i, unsigned char *status)
@@ -112,7 +142,7 @@ static bool add_batch(spooling *s, gis_error *error)
         unsigned char status;
         note_feature(s->facts, &s->input, i, &status);
         done = gis_spool_file_write(&s->status, &status, sizeof status, error) &&
-               (s->input.feature[i].ignored || add_feature(s, i, &copy, error)) && gis_go_on(error);
+               (!is_spooled(s, i) || add_feature(s, i, &copy, error)) && gis_go_on(error);
     }
     free(copy);
     return done;
@@ -220,12 +250,14 @@ static bool finish(spooling *s, unsigned shards, const char *directory, gis_erro
     fill_facts(s);
     say_what_is_known(s);
     return gis_spool_finish(s->writer, shards, settles ? settle : NULL, s, error) &&
+           (!s->aside || gis_spool_finish(s->aside, 1, NULL, NULL, error)) &&
            gis_spool_file_place(&s->status, directory, "status", error) && spool_barriers(s, directory, error);
 }
 
 static void clear(spooling *s)
 {
     gis_spool_writer_free(s->writer);
+    gis_spool_writer_free(s->aside);
     gis_spool_file_close(&s->status);
     gis_block_keys_clear(&s->keys);
     free(s->areas);
@@ -235,7 +267,7 @@ static void clear(spooling *s)
 static bool spool_once(const gis_layer_input_request *request, unsigned shards, const char *directory,
                        gis_layer_facts *facts, bool *again, gis_error *error)
 {
-    spooling s = {.facts = facts};
+    spooling s = {.directory = directory, .facts = facts};
     *facts = (gis_layer_facts){0};
     *again = false;
     gis_box_clear(facts->box);

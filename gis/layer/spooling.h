@@ -19,11 +19,16 @@ typedef struct gis_layer_facts {
     OGRFieldType id_type;
     size_t invalid, null, other;
     size_t skipped;    /* conflict with nothing: they are not in the spool */
+    size_t aside;      /* of these, so many lie in GIS_SPOOL_ASIDE */
     size_t vertices;   /* of all shapes, cleaned: as sunder_layer_summary counts them */
     double box[4];     /* of all that conflicts with anything; box[0] > box[2]: nothing does */
     bool multi;        /* a shape has several members: symbols are written as MultiPolygons */
     uint64_t checksum; /* of all FIDs and geometries that were read (gis_source_checksum()) */
 } gis_layer_facts;
+
+/* Where in the directory what conflicts with nothing lies, and has a shape, if it is to be drawn: a spool of its own,
+ * which is there if there is any. */
+#define GIS_SPOOL_ASIDE "aside"
 
 /* Reads the layer, with all that it warns of, into `features` and `cells` of the directory, which is there, dealt to so
  * many shards; and into `status` a byte for each feature, in the order of the input: the sunder_feature_status that it

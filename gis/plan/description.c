@@ -43,7 +43,8 @@ static void put_most(gis_json *out, const gis_plan *plan, const gis_plan_load *l
     gis_json_line(out);
 }
 
-static void describe(gis_json *out, const gis_plan *plan, const gis_plan_load *load, const gis_layer_rules *rules)
+static void describe(gis_json *out, const gis_plan *plan, const gis_plan_load *load, const gis_layer_rules *rules,
+                     bool drawn)
 {
     gis_json_open(out, '{');
     gis_json_put_string(out, "command", "plan");
@@ -63,7 +64,7 @@ static void describe(gis_json *out, const gis_plan *plan, const gis_plan_load *l
     put_most(out, plan, load, rules);
     gis_json_key(out, "merge");
     gis_json_open(out, '{');
-    put_estimate(out, gis_plan_of_merge(plan));
+    put_estimate(out, gis_plan_of_merge(plan, drawn));
     gis_json_close(out, '}');
     gis_json_line(out);
     put_shards(out, plan, load, rules);
@@ -89,7 +90,7 @@ bool gis_plan_describe(const gis_plan *plan, const gis_in_parts *parts, const ch
     gis_plan_load *load = calloc(plan->shards, sizeof *load);
     if (!load) return gis_no_memory(error);
     weigh_shards(plan, parts->spool, load);
-    describe(&json, plan, load, &parts->request->rules);
+    describe(&json, plan, load, &parts->request->rules, parts->request->drawn);
     free(load);
     const bool done = (gis_json_text(&json) || gis_no_memory(error)) &&
                       gis_spool_file_create(&file, directory, "plan.json.part", error) &&

@@ -17,9 +17,9 @@ gis_plan_estimate gis_plan_of_shard(const gis_plan *plan, const gis_plan_load *s
         .seconds = ceil(seconds_anyway + (seconds_a_feature + seconds_of_effort * rules->effort) * features)};
 }
 
-gis_plan_estimate gis_plan_of_merge(const gis_plan *plan)
+gis_plan_estimate gis_plan_of_merge(const gis_plan *plan, bool drawn)
 {
     const double features = (double)plan->facts.source.features;
-    return (gis_plan_estimate){.bytes = gis_in_parts_bytes_written(features),
+    return (gis_plan_estimate){.bytes = gis_in_parts_bytes_written(features, drawn),
                                .seconds = ceil(seconds_anyway + seconds_merged * features)};
 }

@@ -48,7 +48,7 @@ typedef struct gis_plan_estimate {
 } gis_plan_estimate;
 
 gis_plan_estimate gis_plan_of_shard(const gis_plan *plan, const gis_plan_load *shard, const gis_layer_rules *rules);
-gis_plan_estimate gis_plan_of_merge(const gis_plan *plan);
+gis_plan_estimate gis_plan_of_merge(const gis_plan *plan, bool drawn);
 
 /* ---- place.c: the directory appears whole, or not at all --------------------------------------------------------- */
 

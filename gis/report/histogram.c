@@ -33,13 +33,14 @@ static double round_up(double value)
 static bars count_bars(const gis_page_model *model)
 {
     bars all = {0};
-    double longest = model->feature[model->moved[0]].length;
-    double usual = model->feature[model->moved[(size_t)((1 - seen_part) * (double)model->n_moved)]].length;
+    double longest = gis_page_length(&model->feature[model->moved[0]]);
+    const size_t last_seen = (size_t)((1 - seen_part) * (double)model->n_moved);
+    double usual = gis_page_length(&model->feature[model->moved[last_seen]]);
     all.open = longest > 2 * usual;
     all.width = round_up((all.open ? usual : longest) / (BARS - 1));
     if (!(all.width > 0) || isinf(all.width)) all.width = longest; /* beyond what can be counted in */
     for (size_t k = 0; k < model->n_moved; k++) {
-        double at = floor(model->feature[model->moved[k]].length / all.width);
+        double at = floor(gis_page_length(&model->feature[model->moved[k]]) / all.width);
         size_t bar = at < BARS ? (size_t)at : BARS;
         all.count[bar]++;
         if (bar + 1 > all.n) all.n = bar + 1;

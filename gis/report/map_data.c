@@ -113,11 +113,12 @@ static bool add_move(data_writer *writer, size_t i, gis_error *error)
 
 static bool add_anchor(data_writer *writer, size_t i, gis_error *error)
 {
-    (void)error;
     const gis_page_feature *feature = &writer->model->feature[i];
+    const sunder_shape *shape;
     double at[2];
     if (length_steps(writer, feature->move[0]) == 0 && length_steps(writer, feature->move[1]) == 0) return true;
-    sunder_shape_anchor(feature->shape, at);
+    if (!gis_page_shape(writer->model, i, &shape, error)) return false;
+    sunder_shape_anchor(shape, at);
     add_corner(writer, at[0], at[1]);
     return true;
 }
@@ -125,10 +126,10 @@ static bool add_anchor(data_writer *writer, size_t i, gis_error *error)
 /* The rings of a feature as they are drawn: those that are left, one after the other. */
 static bool add_shape(data_writer *writer, size_t i, gis_error *error)
 {
-    const sunder_shape *shape = writer->model->feature[i].shape;
+    const sunder_shape *shape;
     double tolerance = writer->thinning->drawn[i] == GIS_DRAWN_SIMPLER ? writer->thinning->tolerance : 0;
     gis_corners scratch = {0};
-    bool ok = true;
+    bool ok = gis_page_shape(writer->model, i, &shape, error);
     for (size_t p = 0; ok && p < sunder_shape_polygons(shape); p++)
         for (size_t r = 0; ok && r < sunder_shape_rings(shape, p); r++) {
             size_t n;
@@ -151,18 +152,18 @@ static bool add_labels(data_writer *writer, gis_error *error)
 {
     gis_text name = {0};
     const char *separator = "";
+    bool ok = true;
     gis_text_add(writer->to, ",\n\"label\": [");
-    for (size_t i = 0; i < writer->model->n; i++) {
+    for (size_t i = 0; i < writer->model->n && ok; i++) {
         if (writer->thinning->drawn[i] == GIS_DRAWN_NOT) continue;
         name.length = 0;
-        gis_page_name(writer->model, i, &name);
-        if (!gis_text_get(&name)) break;
+        ok = gis_page_name(writer->model, i, &name, error) && (gis_text_get(&name) || gis_no_memory(error));
+        if (!ok) break;
         gis_text_add(writer->to, separator);
         gis_escape_script(writer->to, gis_text_get(&name));
         separator = ",";
     }
     gis_text_add(writer->to, "]");
-    bool ok = !name.failed || gis_no_memory(error);
     gis_text_clear(&name);
     return ok;
 }
@@ -184,17 +185,18 @@ static bool add_line(data_writer *writer, const double *xy, size_t n, bool close
 
 static bool add_barrier(data_writer *writer, const gis_page_barrier *barrier, gis_corners *scratch, gis_error *error)
 {
-    const sunder_obstacle *geometry = &barrier->given->geometry;
+    sunder_obstacle geometry;
     size_t begin = 0;
-    bool ok = true;
-    add_integer(writer->to, length_steps(writer, barrier->given->width));
-    for (size_t line = 0; ok && line < geometry->lines; begin = geometry->line_end[line++])
-        ok = add_line(writer, geometry->xy + 2 * begin, geometry->line_end[line] - begin, false, scratch, error);
+    bool ok = gis_page_geometry(writer->model, barrier, &geometry, error);
+    if (!ok) return false;
+    add_integer(writer->to, length_steps(writer, barrier->width));
+    for (size_t line = 0; ok && line < geometry.lines; begin = geometry.line_end[line++])
+        ok = add_line(writer, geometry.xy + 2 * begin, geometry.line_end[line] - begin, false, scratch, error);
     add_integer(writer->to, 0);
-    for (size_t p = 0; ok && geometry->shape && p < sunder_shape_polygons(geometry->shape); p++)
-        for (size_t r = 0; ok && r < sunder_shape_rings(geometry->shape, p); r++) {
+    for (size_t p = 0; ok && geometry.shape && p < sunder_shape_polygons(geometry.shape); p++)
+        for (size_t r = 0; ok && r < sunder_shape_rings(geometry.shape, p); r++) {
             size_t n;
-            const double *ring = sunder_shape_ring(geometry->shape, p, r, &n);
+            const double *ring = sunder_shape_ring(geometry.shape, p, r, &n);
             ok = add_line(writer, ring, n, true, scratch, error);
         }
     add_integer(writer->to, 0);

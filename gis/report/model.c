@@ -5,9 +5,6 @@
  * numbers, so that the order is one. */
 #include "report/model.h"
 
-#include "base/interrupt.h"
-#include "layer/output.h"
-
 #include <cpl_conv.h>
 #include <math.h>
 #include <stdlib.h>
@@ -15,98 +12,64 @@
 
 /* ---- Boxes ------------------------------------------------------------------------------------------------------- */
 
-void gis_box_clear(double box[4])
-{
-    box[0] = box[1] = INFINITY;
-    box[2] = box[3] = -INFINITY;
-}
-
-void gis_box_add(double box[4], const double other[4])
-{
-    for (int k = 0; k < 2; k++) {
-        box[k] = fmin(box[k], other[k]);
-        box[k + 2] = fmax(box[k + 2], other[k + 2]);
-    }
-}
-
-bool gis_box_meets(const double a[4], const double b[4])
-{
-    return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
-}
-
 void gis_page_box(const gis_page_feature *feature, double part, double box[4])
 {
     for (int k = 0; k < 4; k++) box[k] = feature->box[k] + part * feature->move[k % 2];
 }
 
-/* ---- Features ---------------------------------------------------------------------------------------------------- */
+double gis_page_length(const gis_page_feature *feature) { return hypot(feature->move[0], feature->move[1]); }
 
-static void take_feature(gis_page_model *model, size_t i)
-{
-    const gis_page_request *request = model->request;
-    gis_page_feature *feature = &model->feature[i];
-    const sunder_shape *shape = request->input->shape[i];
-    sunder_report_move(request->report, i, &feature->move[0], &feature->move[1]);
-    feature->length = hypot(feature->move[0], feature->move[1]);
-    feature->status = sunder_report_status(request->report, i);
-    if (!shape || sunder_shape_is_empty(shape)) return;
-    feature->shape = shape;
-    sunder_shape_box(shape, feature->box);
-    double after[4];
-    gis_page_box(feature, 1, after);
-    gis_box_add(model->extent, feature->box);
-    gis_box_add(model->extent, after);
-}
+/* ---- Features ---------------------------------------------------------------------------------------------------- */
 
 static bool take_features(gis_page_model *model, gis_error *error)
 {
+    const gis_page_contents *contents = model->request->contents;
     model->feature = calloc(model->n + 1, sizeof *model->feature);
     if (!model->feature) return gis_no_memory(error);
+    if (!contents->fill(contents->of, model->feature, error)) return false;
     gis_box_clear(model->extent);
     for (size_t i = 0; i < model->n; i++) {
-        if (!gis_go_on(error)) return false;
-        take_feature(model, i);
+        double after[4];
+        if (!model->feature[i].vertices) continue;
+        gis_page_box(&model->feature[i], 1, after);
+        gis_box_join(model->extent, model->feature[i].box);
+        gis_box_join(model->extent, after);
     }
-    model->empty = !(model->extent[0] <= model->extent[2]);
+    model->empty = gis_box_is_empty(model->extent);
     if (model->empty) memset(model->extent, 0, sizeof model->extent);
     return true;
 }
 
-/* ---- Barriers ---------------------------------------------------------------------------------------------------- */
-
-static void barrier_box(const sunder_barrier *barrier, double box[4])
+bool gis_page_shape(const gis_page_model *model, size_t feature, const sunder_shape **shape, gis_error *error)
 {
-    const sunder_obstacle *geometry = &barrier->geometry;
-    size_t n = geometry->lines ? geometry->line_end[geometry->lines - 1] : 0;
-    gis_box_clear(box);
-    for (size_t i = 0; i < n; i++) {
-        const double *at = geometry->xy + 2 * i, point[4] = {at[0], at[1], at[0], at[1]};
-        gis_box_add(box, point);
-    }
-    if (geometry->shape && !sunder_shape_is_empty(geometry->shape)) {
-        double of_shape[4];
-        sunder_shape_box(geometry->shape, of_shape);
-        gis_box_add(box, of_shape);
-    }
-    for (int k = 0; k < 4; k++) box[k] += (k < 2 ? -0.5 : 0.5) * barrier->width;
+    const gis_page_contents *contents = model->request->contents;
+    return contents->shape(contents->of, feature, model->feature[feature].place, shape, error);
 }
+
+/* ---- Barriers ---------------------------------------------------------------------------------------------------- */
 
 /* Of a network that goes on beyond the layer only what lies about the layer is of interest. */
 static bool take_barriers(gis_page_model *model, gis_error *error)
 {
     static const double beyond = 0.1;
-    const gis_barriers *barriers = &model->request->input->barriers;
+    const gis_page_contents *contents = model->request->contents;
     double seen[4];
-    model->barrier = malloc((barriers->n + 1) * sizeof *model->barrier);
+    model->barrier = malloc((contents->barriers + 1) * sizeof *model->barrier);
     if (!model->barrier) return gis_no_memory(error);
+    if (!contents->fill_barriers(contents->of, model->barrier, error)) return false;
     double rim = beyond * fmax(model->extent[2] - model->extent[0], model->extent[3] - model->extent[1]);
     for (int k = 0; k < 4; k++) seen[k] = model->extent[k] + (k < 2 ? -rim : rim);
-    for (size_t k = 0; k < barriers->n; k++) {
-        gis_page_barrier each = {.given = &barriers->barrier[k]};
-        barrier_box(each.given, each.box);
-        if (!model->empty && gis_box_meets(each.box, seen)) model->barrier[model->n_barriers++] = each;
-    }
+    for (size_t k = 0; k < contents->barriers; k++)
+        if (!model->empty && gis_box_meets(model->barrier[k].box, seen))
+            model->barrier[model->n_barriers++] = model->barrier[k];
     return true;
+}
+
+bool gis_page_geometry(const gis_page_model *model, const gis_page_barrier *barrier, sunder_obstacle *geometry,
+                       gis_error *error)
+{
+    const gis_page_contents *contents = model->request->contents;
+    return contents->geometry(contents->of, barrier->place, geometry, error);
 }
 
 /* ---- Orders ------------------------------------------------------------------------------------------------------ */
@@ -131,8 +94,10 @@ static void involve(gis_page_model *model, size_t thing)
 
 static bool take_conflicts(gis_page_model *model, gis_error *error)
 {
+    const gis_page_contents *contents = model->request->contents;
+    const sunder_conflict *conflicts;
     size_t n;
-    const sunder_conflict *conflicts = sunder_report_conflicts(model->request->report, &n);
+    if (!contents->conflicts(contents->of, &conflicts, &n, error)) return false;
     model->conflict = malloc((n + 1) * sizeof *model->conflict);
     if (!model->conflict) return gis_no_memory(error);
     for (size_t k = 0; k < n; k++) {
@@ -167,8 +132,10 @@ static bool take_moves(gis_page_model *model, gis_error *error)
         free(order);
         return gis_no_memory(error);
     }
-    for (size_t i = 0; i < model->n; i++)
-        if (model->feature[i].length > 0) order[model->n_moved++] = (move_order){model->feature[i].length, i};
+    for (size_t i = 0; i < model->n; i++) {
+        const double length = gis_page_length(&model->feature[i]);
+        if (length > 0) order[model->n_moved++] = (move_order){length, i};
+    }
     qsort(order, model->n_moved, sizeof *order, longer_first);
     for (size_t k = 0; k < model->n_moved; k++) model->moved[k] = order[k].feature;
     free(order);
@@ -199,12 +166,12 @@ static void add_near(double box[4], const gis_page_feature *feature, const doubl
     double wide[4] = {about[0] - reach, about[1] - reach, about[2] + reach, about[3] + reach}, there[4];
     for (int after = 0; after < 2; after++) {
         gis_page_box(feature, after, there);
-        if (!feature->shape || !gis_box_meets(there, wide)) continue;
+        if (!feature->vertices || !gis_box_meets(there, wide)) continue;
         for (int k = 0; k < 2; k++) {
             there[k] = fmax(there[k], wide[k]);
             there[k + 2] = fmin(there[k + 2], wide[k + 2]);
         }
-        gis_box_add(box, there);
+        gis_box_join(box, there);
     }
 }
 
@@ -228,7 +195,7 @@ static void move_window(const gis_page_feature *feature, double window[4])
 {
     double box[4];
     gis_page_box(feature, 1, box);
-    gis_box_add(box, feature->box);
+    gis_box_join(box, feature->box);
     frame(box, window);
 }
 
@@ -270,7 +237,8 @@ static void choose_places(gis_page_model *model)
 
 bool gis_page_model_make(const gis_page_request *request, gis_page_model *model, gis_error *error)
 {
-    *model = (gis_page_model){.request = request, .n = request->input->n, .unit = gis_report_unit_of(request->unit)};
+    *model = (gis_page_model){
+        .request = request, .n = request->contents->features, .unit = gis_report_unit_of(request->unit)};
     if (!take_features(model, error) || !take_barriers(model, error) || !take_conflicts(model, error) ||
         !take_moves(model, error))
         return false;
@@ -287,21 +255,22 @@ void gis_page_model_clear(gis_page_model *model)
     *model = (gis_page_model){0};
 }
 
-void gis_page_name(const gis_page_model *model, size_t thing, gis_text *to)
+bool gis_page_name(const gis_page_model *model, size_t thing, gis_text *to, gis_error *error)
 {
-    const gis_layer_input *input = model->request->input;
+    const gis_page_contents *contents = model->request->contents;
+    const char *text;
+    GIntBig fid;
     if (thing >= model->n) {
-        const gis_barrier_feature *barrier = &input->barriers.feature[thing - model->n];
-        gis_text_print(to, "%s:" CPL_FRMT_GIB, input->barriers.layer[barrier->request], barrier->fid);
-        return;
+        if (!contents->barrier_name(contents->of, thing - model->n, &fid, &text, error)) return false;
+        gis_text_print(to, "%s:" CPL_FRMT_GIB, text, fid);
+        return true;
     }
-    GIntBig fid = gis_source_fid(input->source, thing);
-    OGRFeatureH feature = gis_source_feature(input->source, thing);
-    if (input->id_field >= 0 && OGR_F_IsFieldSetAndNotNull(feature, input->id_field))
-        gis_text_print(to, "%s (", OGR_F_GetFieldAsString(feature, input->id_field));
+    if (!contents->name(contents->of, thing, model->feature[thing].place, &fid, &text, error)) return false;
+    if (text) gis_text_print(to, "%s (", text);
     if (fid == OGRNullFID)
         gis_text_print(to, "feature %zu", thing + 1);
     else
         gis_text_print(to, "FID " CPL_FRMT_GIB, fid);
-    if (input->id_field >= 0 && OGR_F_IsFieldSetAndNotNull(feature, input->id_field)) gis_text_add(to, ")");
+    if (text) gis_text_add(to, ")");
+    return true;
 }

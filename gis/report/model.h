@@ -1,25 +1,11 @@
 /* model.h: what the page shows, before any of it is drawn or written: features, barriers and conflicts as the core
- * reports them, brought into the order in which a reader wants them. */
+ * reports them, brought into the order in which a reader wants them. Shapes stay where they are (contents.h). */
 #ifndef GIS_REPORT_MODEL_H
 #define GIS_REPORT_MODEL_H
 
+#include "base/box.h"
 #include "report/number.h"
 #include "report/page.h"
-
-/* A box is xmin, ymin, xmax, ymax. */
-typedef struct gis_page_feature {
-    const sunder_shape *shape; /* NULL: there is nothing to draw */
-    double box[4];             /* where it stood */
-    double move[2];
-    double length; /* of the move */
-    sunder_feature_status status;
-    bool involved; /* is in a conflict that remains, or in the way of one */
-} gis_page_feature;
-
-typedef struct gis_page_barrier {
-    const sunder_barrier *given;
-    double box[4]; /* as it is drawn, with its width */
-} gis_page_barrier;
 
 /* A piece of the map that deserves a closer look. */
 typedef struct gis_page_place {
@@ -52,16 +38,19 @@ typedef struct gis_page_model {
 bool gis_page_model_make(const gis_page_request *request, gis_page_model *model, gis_error *error);
 void gis_page_model_clear(gis_page_model *model);
 
+/* A feature's shape, which there is; a barrier's geometry: until another of the kind is asked for. */
+bool gis_page_shape(const gis_page_model *model, size_t feature, const sunder_shape **shape, gis_error *error);
+bool gis_page_geometry(const gis_page_model *model, const gis_page_barrier *barrier, sunder_obstacle *geometry,
+                       gis_error *error);
 /* By which name a reader knows a feature: "FID 12", with the user's own id if there is one; or a barrier: "roads:12".
  * Plain text, not escaped. */
-void gis_page_name(const gis_page_model *model, size_t thing, gis_text *to);
+bool gis_page_name(const gis_page_model *model, size_t thing, gis_text *to, gis_error *error);
 
 /* ---- Boxes ------------------------------------------------------------------------------------------------------- */
 
-void gis_box_clear(double box[4]); /* holds nothing */
-void gis_box_add(double box[4], const double other[4]);
-bool gis_box_meets(const double a[4], const double b[4]);
 /* A feature's box, moved by a part of its move: 0 before, 1 after. */
 void gis_page_box(const gis_page_feature *feature, double part, double box[4]);
+/* How long its move is. */
+double gis_page_length(const gis_page_feature *feature);
 
 #endif

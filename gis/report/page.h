@@ -2,8 +2,7 @@
 #ifndef GIS_REPORT_PAGE_H
 #define GIS_REPORT_PAGE_H
 
-#include "base/text.h"
-#include "layer/input.h"
+#include "report/contents.h"
 
 /* An option of the run, as it was given; value "": it takes none. */
 typedef struct gis_page_option {
@@ -12,8 +11,8 @@ typedef struct gis_page_option {
 
 /* What the page is about. All of it is borrowed. */
 typedef struct gis_page_request {
-    const gis_layer_input *input;
-    const sunder_report *report;
+    const gis_layer_input *input; /* of which the rules and the source's names are asked for alone */
+    const gis_page_contents *contents;
     const sunder_layer_summary *summary;
     const char *unit;   /* of coordinates: the name that the CRS has for it */
     const char *output; /* where the layers went */

@@ -34,16 +34,19 @@ static void begin_svg(picture_writer *writer, const char *class, const char *lab
 }
 
 /* One feature, if any of it is in the picture. */
-static bool add_feature(picture_writer *writer, const gis_page_feature *feature, double part, gis_error *error)
+static bool add_feature(picture_writer *writer, size_t i, double part, gis_error *error)
 {
+    const gis_page_feature *feature = &writer->model->feature[i];
+    const sunder_shape *shape;
     const double move[2] = {part * feature->move[0], part * feature->move[1]};
     double box[4];
     gis_page_box(feature, part, box);
-    if (!feature->shape || !gis_box_meets(box, writer->picture.window)) return true;
-    return gis_picture_add_shape(&writer->picture, feature->shape, move, &writer->scratch, writer->to, error);
+    if (!feature->vertices || !gis_box_meets(box, writer->picture.window)) return true;
+    return gis_page_shape(writer->model, i, &shape, error) &&
+           gis_picture_add_shape(&writer->picture, shape, move, &writer->scratch, writer->to, error);
 }
 
-typedef bool add_one(picture_writer *writer, const gis_page_feature *feature, double part, gis_error *error);
+typedef bool add_one(picture_writer *writer, size_t feature, double part, gis_error *error);
 
 /* A path of all of one status; none if nothing of them is seen. */
 static bool add_path(picture_writer *writer, const char *class, double part, add_one *add, sunder_feature_status status,
@@ -54,9 +57,8 @@ static bool add_path(picture_writer *writer, const char *class, double part, add
     gis_text_print(writer->to, "<path class=\"%s\" d=\"", class);
     size_t begin = writer->to->length;
     for (size_t i = 0; i < model->n; i++) {
-        const gis_page_feature *feature = &model->feature[i];
-        if (feature->status != status) continue;
-        if (!gis_go_on(error) || !add(writer, feature, part, error)) return false;
+        if (model->feature[i].status != status) continue;
+        if (!gis_go_on(error) || !add(writer, i, part, error)) return false;
     }
     if (writer->to->length == begin)
         writer->to->length = before;
@@ -72,16 +74,17 @@ static bool add_barrier(picture_writer *writer, const gis_page_barrier *barrier,
                         gis_error *error)
 {
     static const double still[2] = {0, 0};
-    const sunder_obstacle *geometry = &barrier->given->geometry;
+    sunder_obstacle geometry;
     size_t before = writer->to->length, begin = 0;
-    double width = gis_picture_length(&writer->picture, barrier->given->width) + more;
+    double width = gis_picture_length(&writer->picture, barrier->width) + more;
+    if (!gis_page_geometry(writer->model, barrier, &geometry, error)) return false;
     gis_text_print(writer->to, "<path class=\"%s %s\" stroke-width=\"%.0f\" d=\"", class,
-                   geometry->shape ? "area" : "line", width);
+                   geometry.shape ? "area" : "line", width);
     size_t empty = writer->to->length;
-    for (size_t line = 0; line < geometry->lines; begin = geometry->line_end[line++])
-        gis_picture_add_line(&writer->picture, geometry->xy + 2 * begin, geometry->line_end[line] - begin, writer->to);
-    if (geometry->shape &&
-        !gis_picture_add_shape(&writer->picture, geometry->shape, still, &writer->scratch, writer->to, error))
+    for (size_t line = 0; line < geometry.lines; begin = geometry.line_end[line++])
+        gis_picture_add_line(&writer->picture, geometry.xy + 2 * begin, geometry.line_end[line] - begin, writer->to);
+    if (geometry.shape &&
+        !gis_picture_add_shape(&writer->picture, geometry.shape, still, &writer->scratch, writer->to, error))
         return false;
     if (writer->to->length == empty)
         writer->to->length = before;
@@ -115,8 +118,7 @@ static bool add_underpasses(picture_writer *writer, gis_error *error)
     const gis_page_model *model = writer->model;
     for (size_t k = 0; k < model->n_barriers; k++) {
         const gis_page_barrier *each = &model->barrier[k];
-        const sunder_obstacle *geometry = &each->given->geometry;
-        bool wide = !geometry->shape && gis_picture_length(&writer->picture, each->given->width) >= WIDE;
+        bool wide = !each->area && gis_picture_length(&writer->picture, each->width) >= WIDE;
         if (!gis_box_meets(each->box, writer->picture.window)) continue;
         if (!gis_go_on(error) || !add_barrier(writer, each, wide ? "under wide" : "under", 0, error)) return false;
     }
@@ -129,12 +131,12 @@ enum { CLOSE_UP_WIDTH = 4000, CLOSE_UP_HEIGHT = 3000, CLOSE_UP_RIM = 30 };
 
 static bool has_moved(const picture_writer *writer, const gis_page_feature *feature)
 {
-    return gis_picture_length(&writer->picture, feature->length) >= 20;
+    return gis_picture_length(&writer->picture, gis_page_length(feature)) >= 20;
 }
 
-static bool add_ghost(picture_writer *writer, const gis_page_feature *feature, double part, gis_error *error)
+static bool add_ghost(picture_writer *writer, size_t i, double part, gis_error *error)
 {
-    return !has_moved(writer, feature) || add_feature(writer, feature, part, error);
+    return !has_moved(writer, &writer->model->feature[i]) || add_feature(writer, i, part, error);
 }
 
 static void add_line(picture_writer *writer, const char *class, const double from[2], const double to[2])
@@ -153,11 +155,13 @@ static bool add_moves(picture_writer *writer, gis_error *error)
         if (!add_path(writer, "ghost", 0, add_ghost, (sunder_feature_status)status, error)) return false;
     for (size_t i = 0; i < model->n; i++) {
         const gis_page_feature *feature = &model->feature[i];
+        const sunder_shape *shape;
         double box[4], from[2];
         gis_page_box(feature, 1, box);
-        gis_box_add(box, feature->box);
-        if (!feature->shape || !has_moved(writer, feature) || !gis_box_meets(box, writer->picture.window)) continue;
-        sunder_shape_anchor(feature->shape, from);
+        gis_box_join(box, feature->box);
+        if (!feature->vertices || !gis_box_meets(box, writer->picture.window) || !has_moved(writer, feature)) continue;
+        if (!gis_page_shape(model, i, &shape, error)) return false;
+        sunder_shape_anchor(shape, from);
         const double to[2] = {from[0] + feature->move[0], from[1] + feature->move[1]};
         add_line(writer, "arrow", from, to);
     }
@@ -238,10 +242,11 @@ static bool add_tiny(overview_writer *whole, const gis_page_feature *feature)
     return true;
 }
 
-static bool add_for_overview(picture_writer *writer, const gis_page_feature *feature, double part, gis_error *error)
+static bool add_for_overview(picture_writer *writer, size_t i, double part, gis_error *error)
 {
     overview_writer *whole = (overview_writer *)writer; /* its first member */
-    return !feature->shape || add_tiny(whole, feature) || add_feature(writer, feature, part, error);
+    const gis_page_feature *feature = &writer->model->feature[i];
+    return !feature->vertices || add_tiny(whole, feature) || add_feature(writer, i, part, error);
 }
 
 static gis_picture whole_picture(const gis_page_model *model)

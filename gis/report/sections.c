@@ -195,8 +195,7 @@ bool gis_page_map_note(const gis_page_model *model, const gis_thinning *thinning
 bool gis_page_add_name(const gis_page_model *model, size_t thing, gis_text *to, gis_error *error)
 {
     gis_text name = {0};
-    gis_page_name(model, thing, &name);
-    bool ok = gis_text_get(&name) || gis_no_memory(error);
+    bool ok = gis_page_name(model, thing, &name, error) && (gis_text_get(&name) || gis_no_memory(error));
     if (ok) {
         gis_text_add(to, "<bdi>");
         gis_escape_markup(to, gis_text_get(&name));
@@ -218,7 +217,7 @@ static bool add_caption(const gis_page_model *model, const gis_page_place *place
     gis_text_add(to, "</a><span class=\"what\">");
     if (!conflict) {
         gis_text_add(to, "moved by ");
-        gis_report_length(to, model->feature[place->feature].length, &model->unit);
+        gis_report_length(to, gis_page_length(&model->feature[place->feature]), &model->unit);
     } else {
         gis_text_print(to, "%s, ", gis_page_kind(conflict->kind));
         gis_report_length_beside(to, conflict->depth > 0 ? conflict->depth : conflict->distance, conflict->required,
@@ -272,7 +271,7 @@ bool gis_page_moves(const gis_page_model *model, const gis_thinning *thinning, g
     gis_text_add(to, ", together ");
     gis_report_length(to, model->request->summary->total, &model->unit);
     gis_text_add(to, "; half of them no longer than ");
-    gis_report_length(to, model->feature[model->moved[model->n_moved / 2]].length, &model->unit);
+    gis_report_length(to, gis_page_length(&model->feature[model->moved[model->n_moved / 2]]), &model->unit);
     gis_text_add(to, ".</p></section>\n");
     return true;
 }

@@ -47,14 +47,17 @@ static bool meets_marked(const gis_page_model *model, const double box[4], const
     return false;
 }
 
-static bool is_telling(const gis_page_feature *feature) { return feature->involved || feature->length > 0; }
+static bool is_telling(const gis_page_feature *feature)
+{
+    return feature->involved || feature->move[0] != 0 || feature->move[1] != 0;
+}
 
 /* Marks the cells of all that moved or is involved. */
 static void mark_telling(const gis_page_model *model, bool *marked)
 {
     for (size_t i = 0; i < model->n; i++) {
         const gis_page_feature *feature = &model->feature[i];
-        if (!feature->shape || !is_telling(feature)) continue;
+        if (!feature->vertices || !is_telling(feature)) continue;
         double after[4];
         gis_page_box(feature, 1, after);
         mark_cells(model, feature->box, marked);
@@ -72,15 +75,12 @@ typedef struct room {
     bool full; /* something found no room: nothing that matters less is drawn whole */
 } room;
 
-static double whole_bytes(const gis_page_feature *feature)
-{
-    return FEATURE_BYTES + CORNER_BYTES * (double)sunder_shape_vertices(feature->shape);
-}
+static double whole_bytes(const gis_page_feature *feature) { return FEATURE_BYTES + CORNER_BYTES * feature->vertices; }
 
 static void draw_whole(room *map, size_t i)
 {
     const gis_page_feature *feature = &map->model->feature[i];
-    if (!feature->shape || map->full || map->thinning->drawn[i]) return;
+    if (!feature->vertices || map->full || map->thinning->drawn[i]) return;
     double bytes = whole_bytes(feature);
     map->full = map->taken + bytes > map->most;
     if (map->full) return;
@@ -99,7 +99,7 @@ static bool fill(room *map, gis_error *error)
         if (model->feature[i].involved) draw_whole(map, i);
     for (size_t k = 0; k < model->n_moved; k++) draw_whole(map, model->moved[k]);
     for (size_t i = 0; i < model->n; i++)
-        if (model->feature[i].shape && meets_marked(model, model->feature[i].box, marked)) draw_whole(map, i);
+        if (model->feature[i].vertices && meets_marked(model, model->feature[i].box, marked)) draw_whole(map, i);
     for (size_t i = 0; i < model->n; i++) draw_whole(map, i);
     free(marked);
     return true;
@@ -113,15 +113,17 @@ static bool is_as_small(const gis_page_feature *feature, double tolerance)
 }
 
 /* What a feature takes, simplified; 0: it is left out. */
-static bool simpler_bytes(const gis_page_feature *feature, double tolerance, gis_corners *scratch, double *bytes,
+static bool simpler_bytes(const gis_page_model *model, size_t i, double tolerance, gis_corners *scratch, double *bytes,
                           gis_error *error)
 {
+    const sunder_shape *shape;
     *bytes = 0;
-    if (is_as_small(feature, tolerance)) return true;
-    for (size_t p = 0; p < sunder_shape_polygons(feature->shape); p++)
-        for (size_t r = 0; r < sunder_shape_rings(feature->shape, p); r++) {
+    if (is_as_small(&model->feature[i], tolerance)) return true;
+    if (!gis_page_shape(model, i, &shape, error)) return false;
+    for (size_t p = 0; p < sunder_shape_polygons(shape); p++)
+        for (size_t r = 0; r < sunder_shape_rings(shape, p); r++) {
             size_t n;
-            const double *ring = sunder_shape_ring(feature->shape, p, r, &n);
+            const double *ring = sunder_shape_ring(shape, p, r, &n);
             if (!gis_corners_simplify(scratch, ring, n, tolerance, error)) return false;
             *bytes += CORNER_BYTES * (double)scratch->n;
         }
@@ -138,8 +140,8 @@ static bool thin(const gis_page_model *model, gis_thinning *thinning, double *by
     thinning->simpler = thinning->left_out = 0;
     for (size_t i = 0; ok && i < model->n; i++) {
         double one;
-        if (!model->feature[i].shape || thinning->drawn[i] == GIS_DRAWN_WHOLE) continue;
-        ok = gis_go_on(error) && simpler_bytes(&model->feature[i], thinning->tolerance, &scratch, &one, error);
+        if (!model->feature[i].vertices || thinning->drawn[i] == GIS_DRAWN_WHOLE) continue;
+        ok = gis_go_on(error) && simpler_bytes(model, i, thinning->tolerance, &scratch, &one, error);
         bool drawn = ok && one > 0;
         thinning->drawn[i] = drawn ? GIS_DRAWN_SIMPLER : GIS_DRAWN_NOT;
         *bytes += drawn ? one : 0;
@@ -154,7 +156,7 @@ static bool choose(const gis_page_model *model, gis_thinning *thinning, gis_erro
 {
     double all = 0, bytes;
     for (size_t i = 0; i < model->n; i++)
-        if (model->feature[i].shape) all += whole_bytes(&model->feature[i]);
+        if (model->feature[i].vertices) all += whole_bytes(&model->feature[i]);
     room map = {model, thinning, 0, all <= most_bytes ? most_bytes : most_whole * most_bytes, false};
     if (!fill(&map, error)) return false;
     if (!map.full) return true;
@@ -169,19 +171,21 @@ static bool choose(const gis_page_model *model, gis_thinning *thinning, gis_erro
 
 static const double most_barrier_bytes = 2e6;
 
-static bool line_bytes(const gis_page_barrier *barrier, double tolerance, gis_corners *scratch, double *bytes,
-                       gis_error *error)
+static bool line_bytes(const gis_page_model *model, const gis_page_barrier *barrier, double tolerance,
+                       gis_corners *scratch, double *bytes, gis_error *error)
 {
-    const sunder_obstacle *geometry = &barrier->given->geometry;
+    sunder_obstacle geometry;
     size_t begin = 0;
+    *bytes = FEATURE_BYTES + CORNER_BYTES * (double)barrier->vertices;
+    if (tolerance == 0) return true;
+    if (!gis_page_geometry(model, barrier, &geometry, error)) return false;
     *bytes = FEATURE_BYTES;
-    for (size_t line = 0; line < geometry->lines; begin = geometry->line_end[line++]) {
-        size_t n = geometry->line_end[line] - begin;
-        if (tolerance > 0 && !gis_corners_simplify_line(scratch, geometry->xy + 2 * begin, n, tolerance, error))
-            return false;
-        *bytes += CORNER_BYTES * (double)(tolerance > 0 ? scratch->n : n);
+    for (size_t line = 0; line < geometry.lines; begin = geometry.line_end[line++]) {
+        const size_t n = geometry.line_end[line] - begin;
+        if (!gis_corners_simplify_line(scratch, geometry.xy + 2 * begin, n, tolerance, error)) return false;
+        *bytes += CORNER_BYTES * (double)scratch->n;
     }
-    if (geometry->shape) *bytes += CORNER_BYTES * (double)sunder_shape_vertices(geometry->shape);
+    if (geometry.shape) *bytes += CORNER_BYTES * (double)sunder_shape_vertices(geometry.shape);
     return true;
 }
 
@@ -197,7 +201,7 @@ static bool choose_barriers(const gis_page_model *model, gis_thinning *thinning,
             const double *box = model->barrier[k].box;
             double one = 0;
             bool drawn = *tolerance == 0 || fmax(box[2] - box[0], box[3] - box[1]) > *tolerance;
-            ok = !drawn || line_bytes(&model->barrier[k], *tolerance, &scratch, &one, error);
+            ok = !drawn || line_bytes(model, &model->barrier[k], *tolerance, &scratch, &one, error);
             bytes += one;
         }
         if (bytes <= most_barrier_bytes) break;

@@ -79,28 +79,48 @@ static bool load(gis_spool *spool, size_t cell, gis_error *error)
                     cell);
 }
 
+/* The record that is `at` bytes into what was loaded from a place on. */
+static bool visit_record(gis_spool *spool, uint64_t from, size_t at, gis_spool_visit *visit, void *user,
+                         gis_error *error)
+{
+    unsigned char *record = spool->records.at + at;
+    gis_spool_feature feature;
+    sunder_shape *shape;
+    sunder_error why;
+    if (!gis_go_on(error)) return false;
+    if (!gis_spool_record_feature(record, spool->records.used - at, &feature))
+        return gis_fail(error, "%s: at %llu it is not what was written", spool->file.path,
+                        (unsigned long long)(from + at));
+    if (!gis_spool_record_shape(record, &spool->rings, &shape, &why))
+        return gis_core_failed(error, spool->file.path, &why);
+    feature.demands.shape = shape;
+    feature.place = from + at;
+    if (!gis_spool_record_lines(record, &spool->line_end, &spool->line_room, &feature.lines, error)) {
+        sunder_shape_free(shape);
+        return false;
+    }
+    return visit(user, &feature, error);
+}
+
 bool gis_spool_read(gis_spool *spool, size_t cell, gis_spool_visit *visit, void *user, gis_error *error)
 {
     if (!load(spool, cell, error)) return false;
-    for (size_t at = 0; at < spool->records.used;) {
-        unsigned char *record = spool->records.at + at;
-        gis_spool_feature feature;
-        sunder_shape *shape;
-        sunder_error why;
-        if (!gis_go_on(error)) return false;
-        if (!gis_spool_record_feature(record, spool->records.used - at, &feature))
-            return gis_fail(error, "%s: cell %zu of it is not what was written", spool->file.path, cell);
-        if (!gis_spool_record_shape(record, &spool->rings, &shape, &why))
-            return gis_core_failed(error, spool->file.path, &why);
-        feature.demands.shape = shape;
-        if (!gis_spool_record_lines(record, &spool->line_end, &spool->line_room, &feature.lines, error)) {
-            sunder_shape_free(shape);
-            return false;
-        }
-        if (!visit(user, &feature, error)) return false;
-        at += gis_spool_record_head(record)->bytes;
-    }
+    for (size_t at = 0; at < spool->records.used; at += gis_spool_record_head(spool->records.at + at)->bytes)
+        if (!visit_record(spool, spool->index.entry[cell].from, at, visit, user, error)) return false;
     return true;
+}
+
+bool gis_spool_read_one(gis_spool *spool, uint64_t place, gis_spool_visit *visit, void *user, gis_error *error)
+{
+    gis_spool_room *records = &spool->records;
+    gis_spool_head head;
+    if (!gis_spool_file_read(&spool->file, place, &head, sizeof head, error)) return false;
+    if (head.bytes > spool->file.size - place)
+        return gis_fail(error, "%s: at %llu it is not what was written", spool->file.path, (unsigned long long)place);
+    if (!gis_array_reserve(&records->at, &records->capacity, (size_t)head.bytes, 1)) return gis_no_memory(error);
+    records->used = (size_t)head.bytes;
+    return gis_spool_file_read(&spool->file, place, records->at, records->used, error) &&
+           visit_record(spool, place, 0, visit, user, error);
 }
 
 bool gis_spool_boxes(gis_spool *spool, size_t cell, double (*box)[4], size_t *n, gis_error *error)

@@ -26,6 +26,7 @@ typedef struct gis_spool_feature {
     const char *id;         /* the user's own key as text; NULL: null */
     sunder_obstacle lines;  /* of a barrier (parts/barriers.h), lent; its shape is not asked for */
     double reach;           /* its box is so much larger on all sides; 0, but of a barrier */
+    uint64_t place;         /* where it lies in the spool that it is read from */
 } gis_spool_feature;
 
 typedef struct gis_spool_cell {
@@ -74,6 +75,8 @@ const gis_spool_cell *gis_spool_cell_at(const gis_spool *spool, size_t cell);
 typedef bool gis_spool_visit(void *user, const gis_spool_feature *feature, gis_error *error);
 /* Visits each feature of a cell, once all of it is known to be what was written. */
 bool gis_spool_read(gis_spool *spool, size_t cell, gis_spool_visit *visit, void *user, gis_error *error);
+/* Visits the one at a place that was visited before. */
+bool gis_spool_read_one(gis_spool *spool, uint64_t place, gis_spool_visit *visit, void *user, gis_error *error);
 /* The boxes of the features of a cell that cover anything, without the rest: box[] has room for all of them. */
 bool gis_spool_boxes(gis_spool *spool, size_t cell, double (*box)[4], size_t *n, gis_error *error);
 

@@ -177,7 +177,7 @@ refused 2 'with --shard the plan says that' separate --shard 1 plan7 --gap 3
 refused 2 'unknown option --gap' merge plan7 none.gpkg --gap 3
 refused 2 '--shards N is missing' plan town.gpkg none "${call[@]}"
 refused 2 '1 to' plan town.gpkg none "${call[@]}" --shards 0
-refused 2 '--report' plan town.gpkg none "${call[@]}" --shards 2 --report r.html
+refused 2 'unknown option --report' merge plan7 none.gpkg --report r.html
 refused 2 'is none of main' plan town.gpkg none "${call[@]}" --shards 2 --layers mein
 
 # ---- The input, changed ----

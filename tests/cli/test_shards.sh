@@ -1,11 +1,13 @@
 # shellcheck shell=bash disable=SC1091
 # Layers that are hard to cut (shard_layouts.py), in 1, 2, 7 and 64 shards, worked on in no order and some twice: the bytes and
-# figures of one process.
+# figures, proof and page of one process.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 for tool in python3 jq; do command -v $tool >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }; done
 export SOURCE_DATE_EPOCH=1700000000
 python3 "$SUNDER_SOURCE/tests/cli/shard_layouts.py" . || fail "no layouts"
 figures() { jq -c 'del(.seconds, .peak_rss_bytes)' "$1"; }
+# A page tells where the output went, and a plan calls files by whole paths.
+page() { sed "s#$PWD/##g; s#parts/o#whole/o#g" "$1"; }
 
 # All of 1 .. n, the odd ones backwards first.
 order() { seq 1 2 "$1" | tac; seq 2 2 "$1"; }
@@ -17,14 +19,16 @@ alike() {
     [ -e "$name.gpkg" ] || ogr2ogr -q "$name.gpkg" "$name.geojson" -nln houses || fail "$name.gpkg"
     rm -rf whole parts plan-*
     mkdir whole parts
-    "$SUNDER" separate "$name.gpkg" whole/o.gpkg "$@" --stats whole.json --proof whole.jsonl -q 2>err || wanted=$?
+    "$SUNDER" separate "$name.gpkg" whole/o.gpkg "$@" --stats whole.json --proof whole.jsonl --report whole.html -q 2>err || wanted=$?
     for n in $shards; do
-        expect 0 plan "$name.gpkg" "plan-$n" "$@" --stats parts.json --proof parts.jsonl -q --shards "$n"
+        expect 0 plan "$name.gpkg" "plan-$n" "$@" --stats parts.json --proof parts.jsonl --report parts.html -q \
+            --shards "$n"
         for k in $(order "$n"); do expect 0 separate --shard "$k" "plan-$n"; done
         expect 0 separate --shard 1 "plan-$n"
-        rm -f parts/o.gpkg parts.json parts.jsonl
+        rm -f parts/o.gpkg parts.json parts.jsonl parts.html
         expect "$wanted" merge "plan-$n" parts/o.gpkg
         cmp whole/o.gpkg parts/o.gpkg || fail "$name in $n shards, $*: another output"
+        cmp <(page whole.html) <(page parts.html) || fail "$name in $n shards, $*: another page"
         cmp whole.jsonl parts.jsonl || fail "$name in $n shards, $*: another proof"
         same "$(figures parts.json)" "$(figures whole.json)" "$name in $n shards, $*: figures"
     done

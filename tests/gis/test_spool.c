@@ -145,7 +145,7 @@ typedef struct reading {
     const gis_spool_cell *cell;
     double box[4];
     size_t features, vertices;
-    uint64_t last;
+    uint64_t last, place[MOST];
     bool found[MOST];
 } reading;
 
@@ -159,6 +159,7 @@ static bool see(void *user, const gis_spool_feature *feature, gis_error *error)
     (void)error;
     assert_false(r->found[feature->index]);
     r->found[feature->index] = true;
+    r->place[feature->index] = feature->place;
     same_shape(put->demands.shape, feature->demands.shape);
     assert_int_equal(put->fid, feature->fid);
     assert_true(put->demands.max_shift == feature->demands.max_shift);
@@ -203,6 +204,13 @@ static void read_board(const board *b, unsigned shards)
         last = cell->shard;
     }
     for (size_t i = 0; i < b->n; i++) assert_true(r->found[i]);
+    /* Each is found again by itself, where it was. */
+    for (size_t i = 0; i < b->n; i++) {
+        const uint64_t place = r->place[i];
+        r->found[i] = false;
+        assert_true(gis_spool_read_one(spool, place, see, r, &error));
+        assert_true(r->found[i] && r->place[i] == place);
+    }
     gis_spool_close(spool);
     free(r);
 }

@@ -1,0 +1,104 @@
+/* held.c: see contents.h. A page of a layer that is held in memory, with its report. */
+#include "base/box.h"
+#include "report/contents.h"
+
+#include <math.h>
+
+static size_t points_of(const sunder_obstacle *geometry)
+{
+    return geometry->lines ? geometry->line_end[geometry->lines - 1] : 0;
+}
+
+gis_page_barrier gis_page_barrier_of(const sunder_obstacle *geometry, double width)
+{
+    const size_t points = points_of(geometry);
+    gis_page_barrier out = {.width = width, .vertices = points, .area = geometry->shape != NULL};
+    gis_box_clear(out.box);
+    for (size_t i = 0; i < points; i++) {
+        const double *at = geometry->xy + 2 * i;
+        gis_box_join(out.box, (double[4]){at[0], at[1], at[0], at[1]});
+    }
+    if (geometry->shape && !sunder_shape_is_empty(geometry->shape)) {
+        double of_shape[4];
+        sunder_shape_box(geometry->shape, of_shape);
+        gis_box_join(out.box, of_shape);
+    }
+    if (geometry->shape) out.vertices += sunder_shape_vertices(geometry->shape);
+    for (int k = 0; k < 4; k++) out.box[k] += (k < 2 ? -0.5 : 0.5) * width;
+    return out;
+}
+
+static bool fill(void *of, gis_page_feature *feature, gis_error *error)
+{
+    const gis_page_held *held = of;
+    for (size_t i = 0; i < held->input->n; i++) {
+        const sunder_shape *shape = held->input->shape[i];
+        gis_page_feature *each = &feature[i];
+        if (!gis_go_on(error)) return false;
+        sunder_report_move(held->report, i, &each->move[0], &each->move[1]);
+        each->status = (uint8_t)sunder_report_status(held->report, i);
+        each->vertices = shape ? (uint32_t)sunder_shape_vertices(shape) : 0;
+        if (each->vertices) sunder_shape_box(shape, each->box);
+    }
+    return true;
+}
+
+static bool fill_barriers(void *of, gis_page_barrier *barrier, gis_error *error)
+{
+    const gis_barriers *barriers = &((const gis_page_held *)of)->input->barriers;
+    (void)error;
+    for (size_t k = 0; k < barriers->n; k++) {
+        barrier[k] = gis_page_barrier_of(&barriers->barrier[k].geometry, barriers->barrier[k].width);
+        barrier[k].place = k;
+    }
+    return true;
+}
+
+static bool conflicts(void *of, const sunder_conflict **conflict, size_t *n, gis_error *error)
+{
+    (void)error;
+    *conflict = sunder_report_conflicts(((const gis_page_held *)of)->report, n);
+    return true;
+}
+
+static bool shape(void *of, size_t feature, uint64_t place, const sunder_shape **out, gis_error *error)
+{
+    (void)place, (void)error;
+    *out = ((const gis_page_held *)of)->input->shape[feature];
+    return true;
+}
+
+static bool geometry(void *of, uint64_t place, sunder_obstacle *out, gis_error *error)
+{
+    (void)error;
+    *out = ((const gis_page_held *)of)->input->barriers.barrier[place].geometry;
+    return true;
+}
+
+static bool name(void *of, size_t feature, uint64_t place, GIntBig *fid, const char **id, gis_error *error)
+{
+    const gis_layer_input *input = ((const gis_page_held *)of)->input;
+    (void)place, (void)error;
+    *fid = gis_source_fid(input->source, feature);
+    *id = NULL;
+    if (input->id_field < 0) return true;
+    OGRFeatureH given = gis_source_feature(input->source, feature);
+    if (OGR_F_IsFieldSetAndNotNull(given, input->id_field)) *id = OGR_F_GetFieldAsString(given, input->id_field);
+    return true;
+}
+
+static bool barrier_name(void *of, size_t barrier, GIntBig *fid, const char **layer, gis_error *error)
+{
+    const gis_barriers *barriers = &((const gis_page_held *)of)->input->barriers;
+    (void)error;
+    *fid = barriers->feature[barrier].fid;
+    *layer = barriers->layer[barriers->feature[barrier].request];
+    return true;
+}
+
+gis_page_contents gis_page_contents_of(gis_page_held *held)
+{
+    return (gis_page_contents){
+        held, held->input->n, held->input->barriers.n, fill, fill_barriers, conflicts, shape, geometry,
+        name, barrier_name};
+}

@@ -1,0 +1,292 @@
+/* spooled.c: see contents.h. A page of a layer that was separated in parts: shapes and names are read from the spool
+ * one by one, what became of features from lists that lie in order on disk. */
+#include "base/array.h"
+#include "report/contents.h"
+#include "spool/file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { STATUS_BUFFER = 1 << 16 };
+
+struct gis_page_spooled {
+    gis_in_parts *parts;
+    gis_spool *aside; /* NULL: nothing lies there */
+    sunder_conflict *conflict;
+    size_t conflicts, conflict_room;
+    size_t *blocker; /* of all conflicts, one behind the other */
+    size_t blockers, blocker_room;
+    uint64_t *barrier_place; /* [barriers] */
+    sunder_shape *lent, *lent_barrier;
+    sunder_obstacle lines; /* of the barrier that is lent */
+    gis_text text;         /* of the name that is asked for */
+    int64_t fid;
+    bool named;
+};
+
+/* ---- Places ------------------------------------------------------------------------------------------------------ */
+
+/* Of a feature: its place in one of two spools, and in the lowest bit, which. */
+static uint64_t place_of(uint64_t place, bool aside) { return place << 1 | aside; }
+
+static gis_spool *spool_of(const gis_page_spooled *s, uint64_t place) { return place & 1 ? s->aside : s->parts->spool; }
+
+/* ---- All features ------------------------------------------------------------------------------------------------ */
+
+typedef struct filling {
+    gis_page_feature *feature;
+    gis_page_barrier *barrier;
+    uint64_t *barrier_place;
+    size_t n;
+    bool aside;
+} filling;
+
+static bool is_numbered(const filling *f, const gis_spool_feature *feature, gis_error *error)
+{
+    return feature->index < f->n || gis_fail(error, "a spool holds more than the layer that it is of");
+}
+
+static bool take_feature(void *user, const gis_spool_feature *feature, gis_error *error)
+{
+    filling *f = user;
+    const sunder_shape *shape = feature->demands.shape;
+    const bool done = is_numbered(f, feature, error);
+    if (done) {
+        gis_page_feature *to = &f->feature[feature->index];
+        to->place = place_of(feature->place, f->aside);
+        to->vertices = (uint32_t)sunder_shape_vertices(shape);
+        if (to->vertices) sunder_shape_box(shape, to->box);
+    }
+    sunder_shape_free((sunder_shape *)shape);
+    return done;
+}
+
+static bool visit_all(gis_spool *spool, gis_spool_visit *visit, filling *f, gis_error *error)
+{
+    bool done = true;
+    for (size_t k = 0; k < gis_spool_cells(spool) && done; k++) done = gis_spool_read(spool, k, visit, f, error);
+    return done;
+}
+
+/* As each would be alone. */
+static bool take_statuses(const gis_page_spooled *s, gis_page_feature *feature, size_t n, gis_error *error)
+{
+    unsigned char buffer[STATUS_BUFFER];
+    gis_spool_file file = {0};
+    bool done = gis_spool_file_open(&file, s->parts->directory, "status", error);
+    for (size_t k = 0; k < n && done; k += sizeof buffer) {
+        const size_t more = n - k < sizeof buffer ? n - k : sizeof buffer;
+        done = gis_spool_file_read(&file, k, buffer, more, error);
+        for (size_t i = 0; i < more && done; i++) feature[k + i].status = buffer[i];
+    }
+    gis_spool_file_close(&file);
+    return done;
+}
+
+/* What became of those that are not as they would be alone. */
+static bool take_rows(const gis_page_spooled *s, gis_page_feature *feature, gis_error *error)
+{
+    gis_joined *joined = &s->parts->joined;
+    gis_sorted *rows = &joined->rows;
+    bool any = true;
+    gis_sorted_again(rows);
+    while (gis_sorted_next(rows, &any, error) && any) {
+        gis_page_feature *to = &feature[rows->head.first];
+        if (!gis_go_on(error)) return false;
+        if (rows->one.rows) {
+            memcpy(to->move, rows->one.row->move, sizeof to->move);
+            to->status = (uint8_t)rows->one.row->status;
+        } else {
+            to->status = (uint8_t)gis_joined_status(joined, rows->one.still);
+        }
+    }
+    return !any;
+}
+
+static bool fill(void *of, gis_page_feature *feature, gis_error *error)
+{
+    const gis_page_spooled *s = of;
+    filling f = {.feature = feature, .n = s->parts->facts.source.features};
+    if (!visit_all(s->parts->spool, take_feature, &f, error)) return false;
+    f.aside = true;
+    return (!s->aside || visit_all(s->aside, take_feature, &f, error)) && take_statuses(s, feature, f.n, error) &&
+           take_rows(s, feature, error);
+}
+
+/* ---- All barriers ------------------------------------------------------------------------------------------------ */
+
+/* Of one that has no polygons there is no shape. */
+static sunder_obstacle geometry_of(const gis_spool_feature *barrier)
+{
+    sunder_obstacle out = barrier->lines;
+    out.shape = sunder_shape_is_empty(barrier->demands.shape) ? NULL : barrier->demands.shape;
+    return out;
+}
+
+static bool take_barrier(void *user, const gis_spool_feature *barrier, gis_error *error)
+{
+    filling *f = user;
+    const bool done = is_numbered(f, barrier, error);
+    if (done) {
+        const sunder_obstacle geometry = geometry_of(barrier);
+        f->barrier[barrier->index] = gis_page_barrier_of(&geometry, barrier->demands.weight);
+        f->barrier[barrier->index].place = f->barrier_place[barrier->index] = barrier->place;
+    }
+    sunder_shape_free((sunder_shape *)barrier->demands.shape);
+    return done;
+}
+
+static bool fill_barriers(void *of, gis_page_barrier *barrier, gis_error *error)
+{
+    gis_page_spooled *s = of;
+    gis_spool *all = s->parts->barriers.all;
+    if (!all) return true;
+    filling f = {.barrier = barrier, .barrier_place = s->barrier_place, .n = gis_spool_features(all)};
+    return visit_all(all, take_barrier, &f, error);
+}
+
+/* ---- Conflicts --------------------------------------------------------------------------------------------------- */
+
+static bool keep_conflict(gis_page_spooled *s, const gis_part_result *one, gis_error *error)
+{
+    const sunder_conflict *conflict = &one->conflict->is;
+    const size_t n = conflict->n_blocked_by;
+    if (!gis_array_reserve(&s->conflict, &s->conflict_room, s->conflicts + 1, sizeof *s->conflict) ||
+        !gis_array_reserve(&s->blocker, &s->blocker_room, s->blockers + n, sizeof *s->blocker))
+        return gis_no_memory(error);
+    s->conflict[s->conflicts++] = *conflict;
+    if (n) memcpy(s->blocker + s->blockers, one->blocker, n * sizeof *s->blocker);
+    s->blockers += n;
+    return true;
+}
+
+static bool conflicts(void *of, const sunder_conflict **conflict, size_t *n, gis_error *error)
+{
+    gis_page_spooled *s = of;
+    gis_sorted *sorted = &s->parts->joined.conflicts;
+    bool any = true;
+    s->conflicts = s->blockers = 0;
+    gis_sorted_again(sorted);
+    while (gis_sorted_next(sorted, &any, error) && any)
+        if (!gis_go_on(error) || !keep_conflict(s, &sorted->one, error)) return false;
+    for (size_t k = 0, at = 0; k < s->conflicts; at += s->conflict[k++].n_blocked_by)
+        s->conflict[k].blocked_by = s->blocker + at;
+    *conflict = s->conflict;
+    *n = s->conflicts;
+    return !any;
+}
+
+/* ---- One by one -------------------------------------------------------------------------------------------------- */
+
+static bool lend_shape(void *user, const gis_spool_feature *feature, gis_error *error)
+{
+    gis_page_spooled *s = user;
+    (void)error;
+    sunder_shape_free(s->lent);
+    s->lent = (sunder_shape *)feature->demands.shape;
+    return true;
+}
+
+static bool shape(void *of, size_t feature, uint64_t place, const sunder_shape **out, gis_error *error)
+{
+    gis_page_spooled *s = of;
+    (void)feature;
+    if (!gis_spool_read_one(spool_of(s, place), place >> 1, lend_shape, s, error)) return false;
+    *out = s->lent;
+    return true;
+}
+
+static bool lend_geometry(void *user, const gis_spool_feature *barrier, gis_error *error)
+{
+    gis_page_spooled *s = user;
+    (void)error;
+    sunder_shape_free(s->lent_barrier);
+    s->lent_barrier = (sunder_shape *)barrier->demands.shape;
+    s->lines = geometry_of(barrier);
+    return true;
+}
+
+static bool geometry(void *of, uint64_t place, sunder_obstacle *out, gis_error *error)
+{
+    gis_page_spooled *s = of;
+    if (!gis_spool_read_one(s->parts->barriers.all, place, lend_geometry, s, error)) return false;
+    *out = s->lines;
+    return true;
+}
+
+static bool take_name(void *user, const gis_spool_feature *feature, gis_error *error)
+{
+    gis_page_spooled *s = user;
+    (void)error;
+    s->fid = feature->fid;
+    s->named = feature->id != NULL;
+    s->text.length = 0;
+    gis_text_add(&s->text, feature->id ? feature->id : "");
+    sunder_shape_free((sunder_shape *)feature->demands.shape);
+    return true;
+}
+
+static bool ask_name(gis_page_spooled *s, gis_spool *spool, uint64_t place, GIntBig *fid, const char **text,
+                     gis_error *error)
+{
+    if (!gis_spool_read_one(spool, place, take_name, s, error)) return false;
+    *fid = s->fid;
+    *text = s->named ? gis_text_get(&s->text) : NULL;
+    return !s->text.failed || gis_no_memory(error);
+}
+
+static bool name(void *of, size_t feature, uint64_t place, GIntBig *fid, const char **id, gis_error *error)
+{
+    gis_page_spooled *s = of;
+    (void)feature;
+    return ask_name(s, spool_of(s, place), place >> 1, fid, id, error);
+}
+
+static bool barrier_name(void *of, size_t barrier, GIntBig *fid, const char **layer, gis_error *error)
+{
+    gis_page_spooled *s = of;
+    return ask_name(s, s->parts->barriers.all, s->barrier_place[barrier], fid, layer, error);
+}
+
+/* ---- From beginning to end --------------------------------------------------------------------------------------- */
+
+static bool open_aside(gis_page_spooled *s, gis_error *error)
+{
+    if (s->parts->facts.aside == 0) return true;
+    char *path = gis_spool_inside(s->parts->directory, GIS_SPOOL_ASIDE);
+    const bool done = (path || gis_no_memory(error)) && gis_spool_open(path, &s->aside, error);
+    free(path);
+    return done;
+}
+
+bool gis_page_spooled_open(gis_in_parts *parts, gis_page_spooled **out, gis_error *error)
+{
+    gis_page_spooled *s = calloc(1, sizeof *s);
+    if (!s) return gis_no_memory(error);
+    *out = s;
+    s->parts = parts;
+    const size_t barriers = parts->barriers.all ? gis_spool_features(parts->barriers.all) : 0;
+    s->barrier_place = calloc(barriers + 1, sizeof *s->barrier_place);
+    return (s->barrier_place || gis_no_memory(error)) && open_aside(s, error);
+}
+
+gis_page_contents gis_page_contents_of_spool(gis_page_spooled *s)
+{
+    const size_t barriers = s->parts->barriers.all ? gis_spool_features(s->parts->barriers.all) : 0;
+    return (gis_page_contents){
+        s,           s->parts->facts.source.features, barriers, fill, fill_barriers, conflicts, shape, geometry, name,
+        barrier_name};
+}
+
+void gis_page_spooled_close(gis_page_spooled *s)
+{
+    if (!s) return;
+    gis_spool_close(s->aside);
+    sunder_shape_free(s->lent);
+    sunder_shape_free(s->lent_barrier);
+    gis_text_clear(&s->text);
+    free(s->conflict);
+    free(s->blocker);
+    free(s->barrier_place);
+    free(s);
+}
