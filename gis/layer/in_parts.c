@@ -25,8 +25,8 @@ static const double bytes_a_feature = 2000, bytes_a_vertex = 120, bytes_written 
 static const double bytes_a_proof = 3000, bytes_of_effort = 8000;
 /* While a layer is written: what is sorted and written at a time, which fills up with the first million. */
 static const double bytes_filled = 30, bytes_full = 30e6;
-/* While it is drawn, when it is written: where each stands, and what the page holds at most. */
-static const double bytes_drawn = 66, bytes_of_page = 60e6;
+/* While it is drawn, when it is written: where each stands, and of which block it is; and what the page holds. */
+static const double bytes_drawn = 90, bytes_of_page = 60e6;
 /* Of barriers: their pieces, and the shapes of their parts. */
 static const double bytes_a_barrier = 1000, bytes_a_barrier_vertex = 300;
 
