@@ -32,12 +32,35 @@ static double find_extent(const sunder_i_obstacles *o, const double target[2], d
     return sum / (double)o->n;
 }
 
-static bool enter(sunder_i_cells *cells, sunder_i_cell *cell, uint32_t obstacle, bool holds)
+static bool enter(sunder_i_cells *cells, uint32_t at, uint32_t obstacle, bool holds)
 {
-    if (!sunder_i_reserve(&cells->entry, &cells->capacity, cells->entries + 1, sizeof *cells->entry)) return false;
-    cells->entry[cells->entries] = (sunder_i_cell_entry){obstacle, cell->first};
-    cell->first = (uint32_t)cells->entries++;
+    sunder_i_cell *cell = &cells->cell[at];
+    if (!sunder_i_reserve(&cells->entered, &cells->capacity, cells->entries + 1, sizeof *cells->entered)) return false;
+    cells->entered[cells->entries][0] = at;
+    cells->entered[cells->entries++][1] = obstacle;
+    cell->n++;
     if (holds && cell->holder == SUNDER_I_NO_ENTRY) cell->holder = obstacle;
+    return true;
+}
+
+/* Puts what was entered in the order of cells. */
+static bool sort_entries(const sunder_i_obstacles *o, sunder_i_cells *cells)
+{
+    const size_t n = (size_t)cells->across[0] * cells->across[1];
+    cells->entry = sunder_i_alloc(cells->entries, sizeof *cells->entry);
+    if (!cells->entry) return false;
+    uint32_t first = 0;
+    for (size_t k = 0; k < n; k++) {
+        cells->cell[k].first = first;
+        first += cells->cell[k].n;
+        cells->cell[k].n = 0;
+    }
+    for (size_t k = 0; k < cells->entries; k++) {
+        sunder_i_cell *cell = &cells->cell[cells->entered[k][0]];
+        sunder_i_cell_entry *entry = &cells->entry[cell->first + cell->n++];
+        entry->obstacle = cells->entered[k][1];
+        memcpy(entry->box, o->obstacle[entry->obstacle].box, sizeof entry->box);
+    }
     return true;
 }
 
@@ -90,7 +113,7 @@ static bool enter_obstacle(const sunder_i_obstacles *o, uint32_t k, sunder_i_cel
         for (uint32_t x = first; x < first + n; x++) {
             const double centre = cells->low[0] + (x + 0.5) * cells->side;
             if (centre < meets[0] || centre > meets[1]) continue;
-            if (!enter(cells, &cells->cell[(size_t)y * cells->across[0] + x], k,
+            if (!enter(cells, y * cells->across[0] + x, k,
                        centre > holds[0] && centre < holds[1]))
                 return false;
         }
@@ -118,15 +141,16 @@ bool sunder_i_cells_make(const sunder_i_obstacles *o, const double target[2], do
     const size_t n = (size_t)cells->across[0] * cells->across[1];
     cells->cell = sunder_i_alloc(n, sizeof *cells->cell);
     if (!cells->cell) return false;
-    for (size_t k = 0; k < n; k++) cells->cell[k] = (sunder_i_cell){SUNDER_I_NO_ENTRY, SUNDER_I_NO_ENTRY};
+    for (size_t k = 0; k < n; k++) cells->cell[k] = (sunder_i_cell){0, 0, SUNDER_I_NO_ENTRY};
     for (uint32_t k = 0; k < o->n; k++)
         if (!enter_obstacle(o, k, cells)) return sunder_i_stopped();
-    return true;
+    return sort_entries(o, cells);
 }
 
 void sunder_i_cells_free(sunder_i_cells *cells)
 {
     sunder_i_free(cells->cell);
     sunder_i_free(cells->entry);
+    sunder_i_free(cells->entered);
     memset(cells, 0, sizeof *cells);
 }

@@ -7,19 +7,23 @@
 #define SUNDER_I_NO_ENTRY UINT32_MAX
 
 typedef struct sunder_i_cell {
-    uint32_t first;  /* of the obstacles that may meet it; SUNDER_I_NO_ENTRY: there is none */
-    uint32_t holder; /* one that holds all of it; SUNDER_I_NO_ENTRY: no single one does */
+    uint32_t first, n; /* entries, of the obstacles that may meet it */
+    uint32_t holder;   /* one that holds all of it; SUNDER_I_NO_ENTRY: no single one does */
 } sunder_i_cell;
 
+/* An obstacle, with its box: most are told by that not to hold a thing, a thousand of them one after the other. */
 typedef struct sunder_i_cell_entry {
-    uint32_t obstacle, next;
+    double box[4];
+    uint32_t obstacle;
 } sunder_i_cell_entry;
 
 typedef struct sunder_i_cells {
     double low[2], side;
     uint32_t across[2]; /* 0: no cells were made */
     sunder_i_cell *cell;
-    sunder_i_cell_entry *entry;
+    sunder_i_cell_entry *entry; /* cell after cell */
+    /* While cells are made: the obstacles that were entered, and where. */
+    uint32_t (*entered)[2];
     size_t entries, capacity;
 } sunder_i_cells;
 

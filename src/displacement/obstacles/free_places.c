@@ -13,13 +13,13 @@
 #include "displacement/obstacles/cells.h"
 #include "displacement/obstacles/tuning.h"
 
-#include "base/heap.h"
 #include "base/invariant.h"
 #include "base/memory.h"
 #include "base/watch.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A wall, by how far it is from the target. */
@@ -73,12 +73,15 @@ static inline span span_of(const double a[2], const double b[2])
         {a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1], a[0] < b[0] ? b[0] : a[0], a[1] < b[1] ? b[1] : a[1]}};
 }
 
-/* Does that obstacle hold it? */
-static inline bool holds(const harvest *h, uint32_t obstacle, const span *of)
+/* Is it within the box, and within those lines? */
+static inline bool is_in_box(const double box[4], const span *of)
+{
+    return (of->box[0] > box[0]) & (of->box[2] < box[2]) & (of->box[1] > box[1]) & (of->box[3] < box[3]);
+}
+
+static inline bool is_in_lines(const harvest *h, uint32_t obstacle, const span *of)
 {
     const sunder_i_obstacle *it = &h->obstacles->obstacle[obstacle];
-    if (of->box[0] <= it->box[0] || of->box[2] >= it->box[2] || of->box[1] <= it->box[1] || of->box[3] >= it->box[3])
-        return false;
     const sunder_i_obstacle_line *line = h->obstacles->line + it->wall, *end = line + it->walls;
     for (; line < end; line++)
         if (line->n[0] * of->end[0][0] + line->n[1] * of->end[0][1] >= line->h ||
@@ -87,29 +90,37 @@ static inline bool holds(const harvest *h, uint32_t obstacle, const span *of)
     return true;
 }
 
-/* Does one obstacle, but for `own`, hold all of it? It is asked of those about x, a point of it; first of one that held
- * another thing there. */
+/* Does one of those about that cell, but for `own`, hold all of it? First one that held another thing there. */
+static bool is_held_about(harvest *h, const sunder_i_cell *c, const span *of, uint32_t own)
+{
+    sunder_i_cell_entry *first = h->cells.entry + c->first, *end = first + c->n;
+    for (sunder_i_cell_entry *e = first; e < end; e++) {
+        if (!is_in_box(e->box, of) || e->obstacle == own || !is_in_lines(h, e->obstacle, of)) continue;
+        const sunder_i_cell_entry hit = *e;
+        sunder_i_cell_entry *ahead = first + (e - first) / 2;
+        *e = *ahead;
+        *ahead = hit;
+        return true;
+    }
+    return false;
+}
+
+/* Does one obstacle, but for `own`, hold all of it? Who does is about each place of it, so it is asked of those about
+ * x, a place of it, or an end, wherever they are fewest. */
 static bool is_held(harvest *h, const span *of, const double x[2], uint32_t own)
 {
-    const sunder_i_obstacles *o = h->obstacles;
-    uint32_t cell;
-    if (sunder_i_cells_find(&h->cells, x, &cell)) {
-        sunder_i_cell *c = &h->cells.cell[cell];
-        uint32_t before = SUNDER_I_NO_ENTRY;
-        for (uint32_t e = c->first; e != SUNDER_I_NO_ENTRY; before = e, e = h->cells.entry[e].next) {
-            sunder_i_cell_entry *entry = &h->cells.entry[e];
-            if (entry->obstacle == own || !holds(h, entry->obstacle, of)) continue;
-            if (before == SUNDER_I_NO_ENTRY) return true;
-            h->cells.entry[before].next = entry->next;
-            entry->next = c->first;
-            c->first = e;
-            return true;
-        }
-        return false;
+    const double *place[3] = {x, of->end[0], of->end[1]};
+    sunder_i_cell *fewest = NULL;
+    for (size_t k = 0; k < 3; k++) {
+        uint32_t cell;
+        if (sunder_i_cells_find(&h->cells, place[k], &cell) && (!fewest || h->cells.cell[cell].n < fewest->n))
+            fewest = &h->cells.cell[cell];
     }
+    if (fewest) return is_held_about(h, fewest, of, own);
+    const sunder_i_obstacles *o = h->obstacles;
     for (size_t k = 0; k < o->n; k++) {
         const uint32_t hit = h->order[k];
-        if (hit == own || !holds(h, hit, of)) continue;
+        if (hit == own || !is_in_box(o->obstacle[hit].box, of) || !is_in_lines(h, hit, of)) continue;
         h->order[k] = h->order[k / 2];
         h->order[k / 2] = hit;
         return true;
@@ -187,36 +198,76 @@ static bool is_covered(harvest *h, const sunder_i_obstacle_side *w, const double
     return is_held(h, &all, foot, w->obstacle);
 }
 
-/* The same by cells alone: one obstacle holds those of both ends, and what is between them. */
+/* The same by cells alone: one obstacle holds those of both ends, and what is between them; or that of one, and the
+ * wall. */
 static bool is_covered_by_cells(const harvest *h, const sunder_i_obstacle_side *w)
 {
     uint32_t from, to;
     if (!sunder_i_cells_find(&h->cells, w->from, &from) || !sunder_i_cells_find(&h->cells, w->to, &to)) return false;
-    const uint32_t holder = h->cells.cell[from].holder;
-    return holder != SUNDER_I_NO_ENTRY && holder == h->cells.cell[to].holder;
+    const uint32_t holder[2] = {h->cells.cell[from].holder, h->cells.cell[to].holder};
+    if (holder[0] != SUNDER_I_NO_ENTRY && holder[0] == holder[1]) return true;
+    const span all = span_of(w->from, w->to);
+    for (size_t k = 0; k < 2; k++)
+        if (holder[k] != SUNDER_I_NO_ENTRY && holder[k] != w->obstacle &&
+            is_in_box(h->obstacles->obstacle[holder[k]].box, &all) && is_in_lines(h, holder[k], &all))
+            return true;
+    return false;
 }
 
-/* Feet on the walls, then crossings of walls. `near` is a heap of n walls, of which those that are not covered go to
- * `bare`, in order; covered: the distances of walls that were left out. */
-static void search(harvest *h, near_wall *near, size_t n, sunder_i_obstacle_side *bare, const double *covered,
-                   size_t left_out)
+static int by_distance(const void *a, const void *b) { return comes_before(b, a) - comes_before(a, b); }
+
+/* Walls that may matter, n of them; those that one obstacle covers were left out, or will be. */
+typedef struct walls {
+    near_wall *near; /* shelf after shelf, each as it comes */
+    size_t first[SHELVES + 1];
+    sunder_i_obstacle_side *bare; /* those that are not covered, the nearest first */
+    size_t bares;
+    double *covered; /* how far those are that are */
+    size_t left_out;
+} walls;
+
+/* What is on one shelf: feet on those that are not covered. Which ones are is asked before they are sorted: it is most
+ * of them. */
+static bool search_shelf(harvest *h, walls *all, size_t shelf)
 {
-    size_t bares = 0;
-    while (n && near[0].distance <= reach_of(h)) {
-        near_wall nearest;
+    near_wall *near = all->near + all->first[shelf];
+    size_t n = 0;
+    for (size_t k = 0; k < all->first[shelf + 1] - all->first[shelf]; k++) {
         double x[2];
-        sunder_i_heap_pop(near, &n, sizeof *near, &nearest, comes_before);
-        if (!work(h, h->obstacles->n)) return;
-        nearest_on(nearest.wall, h->target, x);
-        if (is_covered(h, nearest.wall, x)) continue;
-        offer(h, x);
-        bare[bares] = *nearest.wall;
-        bare[bares++].distance = nearest.distance;
+        nearest_on(near[k].wall, h->target, x);
+        if (is_covered(h, near[k].wall, x))
+            all->covered[all->left_out++] = near[k].distance;
+        else
+            near[n++] = near[k];
+        if (!sunder_i_steps(1 + h->obstacles->n / TESTS_A_WATCH)) return false;
     }
-    for (size_t k = 0; k < left_out; k++)
-        if (covered[k] <= reach_of(h)) h->work += work_of(h->obstacles->n);
-    for (size_t k = 0; k < bares && k < MOST_CROSSED && bare[k].distance <= reach_of(h); k++)
-        offer_crossings(h, bare, k);
+    if (n) qsort(near, n, sizeof *near, by_distance);
+    for (size_t k = 0; k < n && near[k].distance <= reach_of(h); k++) {
+        double x[2];
+        if (!work(h, h->obstacles->n)) return false;
+        nearest_on(near[k].wall, h->target, x);
+        offer(h, x);
+        all->bare[all->bares] = *near[k].wall;
+        all->bare[all->bares++].distance = near[k].distance;
+    }
+    return true;
+}
+
+/* The nearest wall of a shelf is no nearer than this. */
+static double distance_of(const harvest *h, size_t shelf)
+{
+    return shelf ? h->limit * (1 - 0x1p-40) * ((double)shelf / SHELVES) : 0;
+}
+
+/* Feet on the walls, then crossings of walls. */
+static void search(harvest *h, walls *all)
+{
+    for (size_t k = 0; k < SHELVES && distance_of(h, k) <= reach_of(h); k++)
+        if (!search_shelf(h, all, k)) return;
+    for (size_t k = 0; k < all->left_out; k++)
+        if (all->covered[k] <= reach_of(h)) h->work += work_of(h->obstacles->n);
+    for (size_t k = 0; k < all->bares && k < MOST_CROSSED && all->bare[k].distance <= reach_of(h); k++)
+        offer_crossings(h, all->bare, k);
 }
 
 #ifndef NDEBUG
@@ -239,13 +290,13 @@ static bool is_beyond(const sunder_i_obstacle *obstacle, const double target[2],
     return sum > square;
 }
 
-/* Walls that may matter, of those within the limit. Most are farther off, by squares, which are told apart from the
- * limit's by more than rounding makes of them. */
-static void gather(harvest *h, near_wall *near, sunder_i_obstacle_side *bare, double *covered)
+/* Walls that may matter, of those within the limit: into list. Most are farther off, by squares, which are told apart
+ * from the limit's by more than rounding makes of them. Returns how many. */
+static size_t gather(const harvest *h, near_wall *list, walls *all)
 {
     const sunder_i_obstacles *o = h->obstacles;
     const double beyond = h->limit * h->limit * (1 + 0x1p-40) + DBL_MIN;
-    size_t n = 0, left_out = 0;
+    size_t n = 0;
     for (size_t i = 0; i < o->n; i++) {
         const sunder_i_obstacle *obstacle = &o->obstacle[i];
         if (is_beyond(obstacle, h->target, beyond)) continue;
@@ -258,14 +309,31 @@ static void gather(harvest *h, near_wall *near, sunder_i_obstacle_side *bare, do
             const double distance = hypot(dx, dy);
             if (!(distance <= h->limit)) continue;
             if (is_covered_by_cells(h, w))
-                covered[left_out++] = distance;
+                all->covered[all->left_out++] = distance;
             else
-                near[n++] = (near_wall){distance, w};
+                list[n++] = (near_wall){distance, w};
         }
     }
-    near_wall scratch;
-    sunder_i_heap_make(near, n, sizeof *near, &scratch, comes_before);
-    search(h, near, n, bare, covered, left_out);
+    return n;
+}
+
+static size_t shelf_of(const harvest *h, double distance)
+{
+    const double share = distance / h->limit * SHELVES;
+    return share < SHELVES - 1 ? (size_t)share : SHELVES - 1;
+}
+
+/* Puts them on shelves, by distance. */
+static void shelve(const harvest *h, const near_wall *list, size_t n, walls *all)
+{
+    size_t *end = all->first;
+    memset(end, 0, sizeof all->first);
+    for (size_t k = 0; k < n; k++) end[shelf_of(h, list[k].distance) + 1]++;
+    for (size_t k = 0; k < SHELVES; k++) end[k + 1] += end[k];
+    for (size_t k = n; k-- > 0;) all->near[--end[shelf_of(h, list[k].distance) + 1]] = list[k];
+    /* Each shelf's end came down to its beginning. */
+    memmove(all->first, all->first + 1, SHELVES * sizeof *all->first);
+    all->first[SHELVES] = n;
 }
 
 size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2], double limit, double spread,
@@ -276,24 +344,29 @@ size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2],
     h.distance = distance;
     h.most = most < MOST_PLACES ? most : MOST_PLACES;
     h.order = sunder_i_alloc(o->n, sizeof *h.order);
-    sunder_i_obstacle_side *bare = sunder_i_alloc(o->walls, sizeof *bare);
-    near_wall *near = sunder_i_alloc(o->walls, sizeof *near);
-    double *covered = sunder_i_alloc(o->walls, sizeof *covered);
-    if (!h.order || !bare || !near || !covered || o->failed) {
+    walls all = {.near = sunder_i_alloc(o->walls, sizeof *all.near),
+                 .bare = sunder_i_alloc(o->walls, sizeof *all.bare),
+                 .covered = sunder_i_alloc(o->walls, sizeof *all.covered)};
+    near_wall *list = sunder_i_alloc(o->walls, sizeof *list);
+    if (!h.order || !all.bare || !all.near || !all.covered || !list || o->failed) {
         *failed = true;
     } else if (h.most) {
         for (size_t k = 0; k < o->n; k++) h.order[k] = (uint32_t)k;
         offer(&h, target);
         if (h.n == 0 && !sunder_i_cells_make(o, target, limit, &h.cells)) *failed = true;
-        if (h.n == 0 && !*failed) gather(&h, near, bare, covered);
+        if (h.n == 0 && !*failed) {
+            shelve(&h, list, gather(&h, list, &all), &all);
+            search(&h, &all);
+        }
         *failed = *failed || sunder_i_stopped();
     }
     SUNDER_I_CHECK(check(&h), h.n);
     *steps += h.work + 2 * o->walls;
     sunder_i_cells_free(&h.cells);
     sunder_i_free(h.order);
-    sunder_i_free(bare);
-    sunder_i_free(near);
-    sunder_i_free(covered);
+    sunder_i_free(all.bare);
+    sunder_i_free(all.near);
+    sunder_i_free(all.covered);
+    sunder_i_free(list);
     return h.n;
 }

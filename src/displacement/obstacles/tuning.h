@@ -25,6 +25,8 @@
 #define FEW_OBSTACLES 64
 #define CELLS_ACROSS 2
 #define CELLS_EACH 8
+/* Walls are taken by distance, from so many shelves. */
+#define SHELVES 256
 /* Cells are grown by this share, far above rounding, so that a point need not know in which of two it is. */
 #define CELL_MARGIN 1e-6
 /* More places than this are never asked for at once. */
