@@ -14,6 +14,8 @@
 #include "displacement/optimum/region.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/memory.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -23,6 +25,7 @@ typedef struct covering {
     uint64_t steps, most;
     const sunder_i_forbidden_piece *last; /* that held a region: it may hold the next */
     double *gap;                          /* NULL, or for a place that is in no piece */
+    sunder_i_regions *left;               /* NULL, or for what is not covered */
 } covering;
 
 static bool is_in(covering *c, const sunder_i_forbidden_piece *p, const double u[2], double blur)
@@ -30,7 +33,12 @@ static bool is_in(covering *c, const sunder_i_forbidden_piece *p, const double u
     c->steps++;
     if (u[0] <= p->box[0] || u[0] >= p->box[2] || u[1] <= p->box[1] || u[1] >= p->box[3]) return false;
     c->steps += p->edges;
-    return sunder_i_forbidden_distance(c->forbidden, p, u) < p->radius - (blur + p->vague + c->forbidden->grain);
+    const double deep = blur + p->vague + c->forbidden->grain;
+    if (p->radius > 0) return sunder_i_forbidden_distance(c->forbidden, p, u) < p->radius - deep;
+    const sunder_i_obstacle_edge *edge = c->forbidden->edge + p->edge, *end = edge + p->edges;
+    for (; edge < end; edge++)
+        if (!(edge->n[0] * (u[0] - edge->from[0]) + edge->n[1] * (u[1] - edge->from[1]) < -deep)) return false;
+    return true;
 }
 
 /* How many corners of the region are in it; all of them: it holds the region. */
@@ -115,6 +123,13 @@ static bool are_halves_covered(covering *c, const sunder_i_region *r, const doub
     return is_covered(c, &half, depth + 1);
 }
 
+/* What is not covered is left, if that is asked for: so far it counts as covered. It is small: there are few such. */
+static bool leave_over(covering *c, const sunder_i_region *r)
+{
+    return c->left && sunder_i_reserve(&c->left->item, &c->left->capacity, c->left->n + 1, sizeof *c->left->item) &&
+           (c->left->item[c->left->n++] = *r, true);
+}
+
 static bool is_covered(covering *c, const sunder_i_region *r, int depth)
 {
     double middle[2], along[2], d = 0;
@@ -139,8 +154,9 @@ static bool is_covered(covering *c, const sunder_i_region *r, int depth)
     }
     c->steps += walk.looks;
     if (c->gap && (!most || depth == COVER_DEPTH)) memcpy(c->gap, middle, sizeof middle);
-    if (!most || depth == COVER_DEPTH || c->steps > c->most) return false;
-    if (!find_leaving(c, most, r, middle, along, &d)) {
+    if ((!most && (!c->left || depth >= LEFT_DEPTH)) || depth == COVER_DEPTH || c->steps > c->most)
+        return leave_over(c, r);
+    if (!most || !find_leaving(c, most, r, middle, along, &d)) {
         measure(r, middle, along);
         d = along[0] * middle[0] + along[1] * middle[1];
     }
@@ -155,4 +171,13 @@ bool sunder_i_region_is_covered(const sunder_i_region *region, const sunder_i_fo
     const bool covered = is_covered(&c, region, 0);
     *steps += c.steps;
     return covered;
+}
+
+bool sunder_i_region_cover(const sunder_i_region *region, const sunder_i_forbidden *forbidden, sunder_i_regions *left,
+                           uint64_t *steps)
+{
+    covering c = {.forbidden = forbidden, .most = COVER_STEPS, .left = left};
+    const bool ok = is_covered(&c, region, 0);
+    *steps += c.steps;
+    return ok;
 }

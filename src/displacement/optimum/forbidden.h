@@ -23,7 +23,7 @@ typedef struct sunder_i_forbidden {
     size_t pieces, piece_capacity;
     sunder_i_obstacle_edge *edge;
     size_t edges, edge_capacity;
-    sunder_i_box_tree tree; /* over the pieces, where they are many; else its box is NULL */
+    sunder_i_box_tree tree; /* over the first pieces, where they are many; else its box is NULL */
     double size;            /* no coordinate of the pieces grown, or of what is asked of them, is larger */
     double grain;           /* more than rounding does to any point, distance or product of that size */
 } sunder_i_forbidden;

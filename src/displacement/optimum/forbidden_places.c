@@ -56,8 +56,9 @@ bool sunder_i_forbidden_index(sunder_i_forbidden *f)
 
 void sunder_i_forbidden_start(sunder_i_forbidden_walk *w, const sunder_i_forbidden *f)
 {
-    w->looks = w->at = 0;
-    w->end = sunder_i_forbidden_is_many(f) ? 0 : f->pieces;
+    w->looks = 0;
+    w->at = sunder_i_forbidden_is_many(f) ? f->tree.n : 0;
+    w->end = f->pieces;
     if (sunder_i_forbidden_is_many(f))
         sunder_i_box_walk_start(&w->waiting, &f->tree);
     else

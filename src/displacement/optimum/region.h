@@ -34,6 +34,16 @@ double sunder_i_region_beyond(const sunder_i_region *region, const double u[2], 
 bool sunder_i_region_is_covered(const sunder_i_region *region, const sunder_i_forbidden *forbidden, bool *used,
                                 double gap[2], uint64_t *steps);
 
+typedef struct sunder_i_regions {
+    sunder_i_region *item;
+    size_t n, capacity;
+} sunder_i_regions;
+
+/* Covers what it can: all of the region is proved to be within the forbidden set but for what is left, which is added
+ * to the list. False if memory is out. */
+bool sunder_i_region_cover(const sunder_i_region *region, const sunder_i_forbidden *forbidden, sunder_i_regions *left,
+                           uint64_t *steps);
+
 /* ---- free_hull.c ------------------------------------------------------------------------------------------------- */
 
 /* Places where the boundaries of two pieces cross outside of all others, in doubles. */

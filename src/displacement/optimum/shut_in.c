@@ -76,16 +76,21 @@ static bool any_is_open(const looking *l)
     return false;
 }
 
+/* The k-th part of the square, and a little more, for rounding. */
+static void find_part(int k, double reach, sunder_i_region *part)
+{
+    const int column = k % SQUARE_PARTS, row = k / SQUARE_PARTS;
+    const double half = reach / SQUARE_PARTS,
+                 centre[2] = {(2 * column + 1) * half - reach, (2 * row + 1) * half - reach};
+    sunder_i_region_init(part, centre, half * (1 + 0x1p-20));
+}
+
 /* The square, a part at a time: each may take what a cut may. */
 static bool is_covered(const sunder_i_forbidden *f, double reach, uint64_t *steps)
 {
-    const double half = reach / SQUARE_PARTS;
     for (int k = 0; k < SQUARE_PARTS * SQUARE_PARTS; k++) {
-        const int column = k % SQUARE_PARTS, row = k / SQUARE_PARTS;
-        const double centre[2] = {(2 * column + 1) * half - reach, (2 * row + 1) * half - reach};
         sunder_i_region part;
-        /* A little larger, for rounding. */
-        sunder_i_region_init(&part, centre, half * (1 + 0x1p-20));
+        find_part(k, reach, &part);
         if (!sunder_i_region_is_covered(&part, f, NULL, NULL, steps)) return false;
     }
     return true;
@@ -96,18 +101,6 @@ bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q
     looking l = {.model = model, .p = &model->body[p], .q = &model->body[q]};
     for (size_t c = 0; c < 2; c++) l.offset[c] = l.q->origin[c] - l.p->origin[c];
     return !any_is_open(&l);
-}
-
-/* The shadows of all, and of all other pieces those of these two features: into part, which has room for all. */
-static void keep_pair(const sunder_i_forbidden *all, const sunder_i_id_pair *pair, sunder_i_forbidden *part)
-{
-    size_t out = 0;
-    for (size_t k = 0; k < all->pieces; k++) {
-        const uint32_t a = all->piece[k].a->feature, b = all->piece[k].b->feature;
-        if (all->piece[k].shadow || (a == pair->a && b == pair->b) || (a == pair->b && b == pair->a))
-            part->piece[out++] = all->piece[k];
-    }
-    part->pieces = out;
 }
 
 /* What the two bodies forbid each other, and how far they are asked about. */
@@ -129,24 +122,72 @@ bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, bo
     return ok;
 }
 
+/* ---- Feature by feature ------------------------------------------------------------------------------------------ */
+
+static bool is_between(const sunder_i_forbidden_piece *piece, const sunder_i_id_pair *pair)
+{
+    const uint32_t a = piece->a->feature, b = piece->b->feature;
+    return (a == pair->a && b == pair->b) || (a == pair->b && b == pair->a);
+}
+
+/* The shadows of all: into part, which has room for all. */
+static void keep_shadows(const sunder_i_forbidden *all, sunder_i_forbidden *part)
+{
+    part->pieces = 0;
+    for (size_t k = 0; k < all->pieces; k++)
+        if (all->piece[k].shadow) part->piece[part->pieces++] = all->piece[k];
+}
+
+/* And behind the first n, of all other pieces, those of these two features. */
+static void add_pair(const sunder_i_forbidden *all, const sunder_i_id_pair *pair, size_t n, sunder_i_forbidden *part)
+{
+    part->pieces = n;
+    for (size_t k = 0; k < all->pieces; k++)
+        if (!all->piece[k].shadow && is_between(&all->piece[k], pair)) part->piece[part->pieces++] = all->piece[k];
+}
+
+/* Does it cover all that is left? What it does not is where the next will most likely fail, too: it comes first. */
+static bool covers(const sunder_i_forbidden *f, sunder_i_regions *left, uint64_t *steps)
+{
+    for (size_t k = 0; k < left->n; k++) {
+        if (sunder_i_region_is_covered(&left->item[k], f, NULL, NULL, steps)) continue;
+        const sunder_i_region first = left->item[k];
+        left->item[k] = left->item[0];
+        left->item[0] = first;
+        return false;
+    }
+    return true;
+}
+
+/* Shadows are the same for all pairs, and most of what there is: what they cover is proved once. */
 bool sunder_i_which_are_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, const sunder_i_id_pair *pair,
                                 size_t n, bool *shut)
 {
     sunder_i_forbidden all;
+    sunder_i_regions left = {0};
     double reach;
+    uint64_t steps = 0;
     bool ok = find_forbidden(&all, model, p, q, &reach);
-    for (size_t k = 0; k < n && ok; k++) {
-        sunder_i_forbidden part = all; /* its edges are those of all */
-        uint64_t steps = 0;
-        part.piece = sunder_i_alloc(all.pieces, sizeof *part.piece);
-        ok = part.piece != NULL;
-        if (ok) keep_pair(&all, &pair[k], &part);
-        ok = ok && sunder_i_forbidden_index(&part);
-        shut[k] = ok && is_covered(&part, reach, &steps);
-        ok = ok && sunder_i_steps(steps / 8);
-        part.edge = NULL;
-        sunder_i_forbidden_free(&part);
+    sunder_i_forbidden part = all; /* its edges are those of all */
+    part.piece = sunder_i_alloc(all.pieces, sizeof *part.piece);
+    ok = ok && part.piece;
+    if (ok) keep_shadows(&all, &part);
+    const size_t shadows = ok ? part.pieces : 0;
+    ok = ok && sunder_i_forbidden_index(&part);
+    for (int k = 0; k < SQUARE_PARTS * SQUARE_PARTS && ok; k++) {
+        sunder_i_region square;
+        find_part(k, reach, &square);
+        ok = sunder_i_region_cover(&square, &part, &left, &steps);
     }
+    for (size_t k = 0; k < n && ok; k++) {
+        add_pair(&all, &pair[k], shadows, &part);
+        shut[k] = covers(&part, &left, &steps);
+        ok = sunder_i_steps(steps / 8);
+        steps = 0;
+    }
+    part.edge = NULL;
+    sunder_i_forbidden_free(&part);
     sunder_i_forbidden_free(&all);
+    sunder_i_free(left.item);
     return ok;
 }

@@ -201,6 +201,8 @@
 #define TURN_SIN 0.3826834323650898
 #define MOST_SHUT_IN 200000u
 #define SQUARE_PARTS 4
+/* What shadows alone do not cover is left in regions divided so often. */
+#define LEFT_DEPTH 3
 
 /* ---- Hulls (free_hull.c) ----------------------------------------------------------------------------------------- */
 
