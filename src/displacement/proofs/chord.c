@@ -150,14 +150,19 @@ static bool shuts(sunder_i_plane *g, const spoke *s, const spoke *r, const doubl
 const sunder_i_plane_obstacle *sunder_i_plane_find_chord(sunder_i_plane *g, const double u[2], sunder_i_chord *chord,
                                                          size_t *ways)
 {
+    const struct sunder_i_plane_kept *kept = g->kept;
     spoke spokes[SPOKES];
     size_t n = 0;
     g->c->looked += g->obstacles;
-    for (size_t k = 0; k < g->obstacles && n < SPOKES; k++) {
-        if (!find_spoke(g, &g->kept->obstacle[g->list[k]], u, &spokes[n])) continue;
-        for (size_t i = 0; i < n && !g->c->failed; i++)
-            if (shuts(g, &spokes[i], &spokes[n], u, chord, ways)) return spokes[i].of;
-        n++;
+    for (size_t r = 0; r < kept->found; r++) {
+        const sunder_i_plane_run *run = sunder_i_plane_asked(kept, r);
+        if (!run || !run->side) continue;
+        for (size_t k = run->first; k < run->end && n < SPOKES; k++) {
+            if (kept->box[4 * k] > kept->box[4 * k + 2] || !find_spoke(g, &kept->obstacle[k], u, &spokes[n])) continue;
+            for (size_t i = 0; i < n && !g->c->failed; i++)
+                if (shuts(g, &spokes[i], &spokes[n], u, chord, ways)) return spokes[i].of;
+            n++;
+        }
     }
     return NULL;
 }

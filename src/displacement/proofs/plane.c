@@ -48,50 +48,79 @@ static double shared(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, 
     return sunder_i_plane_area(&part);
 }
 
-/* Of those in whose boxes the place is, the one that holds it and takes most of the region; its ways are in c->scratch
- * then. NULL: none does. */
-static const sunder_i_plane_obstacle *choose(sunder_i_plane *g, const sunder_i_plane_region *r, const double box[4],
-                                             const double u[2], size_t *ways)
+/* The obstacle to divide a region by. */
+typedef struct choice {
+    double box[4], whole, about, share;
+    const sunder_i_plane_obstacle *best;
+} choice;
+
+/* Takes that one instead if it holds the place and takes more of the region, of equals if it was found first. */
+static void weigh(const sunder_i_plane *g, const sunder_i_plane_region *r, const double u[2], uint32_t at, choice *to)
 {
-    const sunder_i_plane_obstacle *best = NULL;
-    const double whole = sunder_i_plane_area(r) * (1 - 0x1p-30);
-    const double about = g->thin ? 2 * SLIVER * g->reach : 0; /* what begins in a seam does not cover it */
-    double most = -1;
-    for (size_t k = 0; k < g->about_place && most < whole; k++) {
-        const uint32_t at = g->place[k];
-        const sunder_i_plane_obstacle *o = &g->kept->obstacle[at];
-        if (most_shared(box, g->kept->box + 4 * (size_t)at) <= most || !holds(g, o, u, about)) continue;
-        g->c->looked += o->ways;
-        const double share = shared(g, o, r);
-        if (share <= most) continue;
-        most = share;
-        best = o;
-    }
-    g->c->looked += g->about_place / BOXES_A_STEP;
-    if (!best) return NULL;
-    if (!sunder_i_reserve(&g->c->scratch, &g->c->scratch_capacity, best->ways, sizeof *g->c->scratch)) {
-        g->c->failed = true;
-        return NULL;
-    }
-    memcpy(g->c->scratch, g->kept->way + best->way, best->ways * sizeof *g->c->scratch);
-    *ways = best->ways;
-    return best;
+    const sunder_i_plane_obstacle *o = &g->kept->obstacle[at];
+    if (to->best && to->share >= to->whole && o->rank > to->best->rank) return;
+    if (most_shared(to->box, g->kept->box + 4 * (size_t)at) < to->share || !holds(g, o, u, to->about)) return;
+    const double share = fmin(shared(g, o, r), to->whole);
+    if (share < to->share || (to->best && share == to->share && o->rank > to->best->rank)) return;
+    to->share = share;
+    to->best = o;
 }
 
-/* The same of all, by lines that are made for the place. */
-static const sunder_i_plane_obstacle *choose_closely(sunder_i_plane *g, const double u[2], size_t *ways)
+/* Of those that hold the place, the one that takes most of the region, of equals the first that was found; its ways are
+ * in c->scratch then. NULL: none does. known: what was chosen for that region of all that is not fresh, or NULL. */
+static const sunder_i_plane_obstacle *choose(sunder_i_plane *g, const sunder_i_plane_region *r, const double u[2],
+                                             const sunder_i_plane_choice *known, double *share)
 {
     sunder_i_branching *c = g->c;
-    for (size_t k = 0; k < g->obstacles; k++) {
-        const sunder_i_plane_obstacle *o = &g->kept->obstacle[g->list[k]];
-        double box[4];
-        sunder_i_box_grow(g->kept->box + 4 * (size_t)g->list[k], fmax(o->clearance, 0), box);
-        c->looked++;
-        if (o->shadow || !(o->clearance > 0) || u[0] < box[0] || u[0] > box[2] || u[1] < box[1] || u[1] > box[3])
-            continue;
-        *ways = sunder_i_branching_fill_ways(c, &c->model->body[g->p], o->a, &c->model->body[o->q], o->b, o->clearance,
-                                             false, u);
-        if (c->failed || sunder_i_branching_depth(c, *ways, u) > 2 * c->hair) return o;
+    choice to = {.share = -1};
+    sunder_i_box_clear(to.box);
+    for (uint32_t k = 0; k < r->n; k++) sunder_i_box_include(to.box, r->xy + 2 * k);
+    to.whole = sunder_i_plane_area(r) * (1 - 0x1p-30); /* who takes so much takes all */
+    if (g->thin) to.about = 2 * SLIVER * g->reach;     /* what begins in a seam does not cover it */
+    if (known) {
+        to.share = known->share;
+        to.best = known->obstacle == SUNDER_I_NO_CHOICE ? NULL : &g->kept->obstacle[known->obstacle];
+        for (size_t k = 0; k < g->freshes; k++)
+            if (sunder_i_plane_is_in(g->fresh[k].box, u)) weigh(g, r, u, g->fresh[k].at, &to);
+    } else if (sunder_i_plane_index_find(g, u)) {
+        for (size_t k = 0; k < g->about_place; k++) weigh(g, r, u, g->place[k], &to);
+    } else {
+        c->failed = true;
+    }
+    c->looked += PLACE_LOOK + g->obstacles / BOXES_A_STEP;
+    *share = to.share;
+    if (!to.best || c->failed) return NULL;
+    if (!sunder_i_reserve(&c->scratch, &c->scratch_capacity, to.best->ways, sizeof *c->scratch)) {
+        c->failed = true;
+        return NULL;
+    }
+    memcpy(c->scratch, g->kept->way + to.best->way, to.best->ways * sizeof *c->scratch);
+    return to.best;
+}
+
+/* Does it hold the place, by lines that are made for that? Its ways are in c->scratch then. */
+static bool holds_closely(sunder_i_plane *g, size_t at, const double u[2], size_t *ways)
+{
+    sunder_i_branching *c = g->c;
+    const sunder_i_plane_obstacle *o = &g->kept->obstacle[at];
+    double box[4];
+    sunder_i_box_grow(g->kept->box + 4 * at, fmax(o->clearance, 0), box);
+    c->looked++;
+    if (u[0] < box[0] || u[0] > box[2] || u[1] < box[1] || u[1] > box[3]) return false;
+    *ways = sunder_i_branching_fill_ways(c, &c->model->body[g->p], o->a, &c->model->body[o->q], o->b, o->clearance,
+                                         false, u);
+    return c->failed || sunder_i_branching_depth(c, *ways, u) > 2 * c->hair;
+}
+
+/* The first of all that does. */
+static const sunder_i_plane_obstacle *choose_closely(sunder_i_plane *g, const double u[2], size_t *ways)
+{
+    const struct sunder_i_plane_kept *kept = g->kept;
+    for (size_t r = 0; r < kept->found; r++) {
+        const sunder_i_plane_run *run = sunder_i_plane_asked(kept, r);
+        if (!run || run->shadow || !(run->clearance > 0)) continue;
+        for (size_t k = run->first; k < run->end; k++)
+            if (kept->box[4 * k] <= kept->box[4 * k + 2] && holds_closely(g, k, u, ways)) return &kept->obstacle[k];
     }
     return NULL;
 }
@@ -121,7 +150,12 @@ static bool is_out_of_reach(sunder_i_plane *g, const uint32_t by[2])
     return false;
 }
 
-static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, size_t first, unsigned level,
+/* A region's place among those of the question at hand, and of that which is known. */
+typedef struct place {
+    uint32_t made, known;
+} place;
+
+static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, place at, unsigned level,
                             sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err);
 
 /* What the cases of a node say, as they are gone through. */
@@ -130,6 +164,7 @@ typedef struct cases {
     bool none;                  /* that is nothing, by what this claim and sides say */
     uint32_t claim, by[2];
     unsigned thin; /* how often it was nothing but a sliver */
+    place below;   /* of the first way's */
 } cases;
 
 /* The same where by are the sides that bound what was there. Where many lines meet in a corner they may be the wrong
@@ -160,9 +195,8 @@ static bool keep(sunder_i_plane *g, sunder_i_plane_region *r, const double n[2],
 }
 
 /* One case: beyond this way, and behind those before it. *dead: it is void by itself. */
-static sunder_status divide_case(sunder_i_plane *g, cases *s, size_t node, size_t way, size_t first, unsigned level,
-                                 bool *dead, sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root,
-                                 sunder_error *err)
+static sunder_status divide_case(sunder_i_plane *g, cases *s, size_t node, size_t way, unsigned level, bool *dead,
+                                 sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
     sunder_i_branching *c = g->c;
     const sunder_i_way *w = &c->way[way];
@@ -173,8 +207,11 @@ static sunder_status divide_case(sunder_i_plane *g, cases *s, size_t node, size_
     sunder_i_plane_region part = s->rest;
     *dead = s->none || !keep(g, &part, w->n, w->d, last, by, &thin);
     if (!*dead) {
+        const uint32_t k = (uint32_t)(way - c->node[node].way);
+        const place at = {s->below.made == SUNDER_I_NO_CHOICE ? s->below.made : s->below.made + k,
+                          s->below.known == SUNDER_I_NO_CHOICE ? s->below.known : s->below.known + k};
         g->thin += thin;
-        const sunder_status status = divide(g, &part, first, level + 1, verdict, levels, root, err);
+        const sunder_status status = divide(g, &part, at, level + 1, verdict, levels, root, err);
         g->thin -= thin;
         return status;
     }
@@ -197,13 +234,13 @@ static bool go_behind(sunder_i_plane *g, cases *s, size_t node, size_t way, unsi
     return true;
 }
 
-static sunder_status divide_all(sunder_i_plane *g, const sunder_i_plane_region *r, size_t node, size_t first,
+static sunder_status divide_all(sunder_i_plane *g, const sunder_i_plane_region *r, size_t node, place first,
                                 unsigned level, sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root,
                                 sunder_error *err)
 {
     sunder_i_branching *c = g->c;
     const size_t begin = c->node[node].way, end = begin + c->node[node].ways, claims = c->claims;
-    cases s = {.rest = *r};
+    cases s = {.rest = *r, .below = first};
     sunder_status status = SUNDER_OK;
     memset(levels, 0, sizeof *levels);
     *root = node;
@@ -213,7 +250,7 @@ static sunder_status divide_all(sunder_i_plane *g, const sunder_i_plane_region *
         size_t below = 0;
         bool dead = false;
         const size_t before = c->claims;
-        status = divide_case(g, &s, node, way, first, level, &dead, verdict, &used, &below, err);
+        status = divide_case(g, &s, node, way, level, &dead, verdict, &used, &below, err);
         if (status || *verdict != SUNDER_I_INFEASIBLE) break;
         c->way[way].next = below;
         if (!sunder_i_levels_has(&used, level)) { /* it does not use what the case says: it proves the node */
@@ -231,29 +268,36 @@ static sunder_status divide_all(sunder_i_plane *g, const sunder_i_plane_region *
     return status;
 }
 
-/* Lists those of the list from `first` on that meet the region, behind it, by their boxes, and in whose boxes the place
- * is: to ask more of tens of thousands takes longer than to look at them once more. False if memory is out. */
-static bool list_meeting(sunder_i_plane *g, const double box[4], const double u[2], size_t first)
+/* What a region is divided by: an obstacle, or a chord. */
+typedef struct divider {
+    const sunder_i_plane_obstacle *obstacle; /* NULL: nothing is in the way */
+    size_t ways;
+    sunder_i_chord chord;
+    bool across;
+    place below;
+} divider;
+
+static bool find_divider(sunder_i_plane *g, const sunder_i_plane_region *r, place at, const double middle[2],
+                         divider *by)
 {
-    const size_t end = g->listed;
-    if (!sunder_i_reserve(&g->list, &g->list_capacity, 2 * end - first + 1, sizeof *g->list) ||
-        !sunder_i_reserve(&g->place, &g->place_capacity, end - first + 1, sizeof *g->place))
-        return false;
-    size_t n = 0;
-    /* No branches: they would be guessed wrong half of the time. */
-    for (size_t k = first; k < end; k++) {
-        const uint32_t at = g->list[k];
-        const double *b = g->kept->box + 4 * (size_t)at;
-        g->list[g->listed] = g->place[n] = at;
-        g->listed += (size_t)((b[0] <= box[2]) & (b[2] >= box[0]) & (b[1] <= box[3]) & (b[3] >= box[1]));
-        n += (size_t)((b[0] <= u[0]) & (b[2] >= u[0]) & (b[1] <= u[1]) & (b[3] >= u[1]));
-    }
-    g->about_place = n;
-    g->c->looked += (end - first) / BOXES_A_STEP;
-    return true;
+    sunder_i_branching *c = g->c;
+    double share;
+    *by = (divider){.obstacle = choose(g, r, middle, sunder_i_plane_choices_known(g, at.known), &share)};
+    const sunder_i_plane_obstacle *o = by->obstacle;
+    const uint32_t chosen = o ? (uint32_t)(o - g->kept->obstacle) : SUNDER_I_NO_CHOICE;
+    by->ways = o ? o->ways : 0;
+    if (c->failed || !sunder_i_plane_choices_add(g, at.made, chosen, by->ways, share, &by->below.made)) return false;
+    by->below.known = o ? sunder_i_plane_choices_below(g, at.known, chosen) : SUNDER_I_NO_CHOICE;
+    if (o) return true;
+    by->below.made = SUNDER_I_NO_CHOICE;
+    by->obstacle = sunder_i_plane_find_chord(g, middle, &by->chord, &by->ways);
+    by->across = by->obstacle;
+    if (!by->obstacle && !c->failed && !(c->subproblem->coarse > 0))
+        by->obstacle = choose_closely(g, middle, &by->ways);
+    return !c->failed;
 }
 
-static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, size_t first, unsigned level,
+static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, place at, unsigned level,
                             sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
     sunder_i_branching *c = g->c;
@@ -266,32 +310,20 @@ static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, s
         *verdict = SUNDER_I_INFEASIBLE;
         return sunder_i_branching_add_leaf(c, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
     }
-    const size_t listed = g->listed;
-    double box[4];
-    sunder_i_box_clear(box);
-    for (uint32_t k = 0; k < r->n; k++) sunder_i_box_include(box, r->xy + 2 * k);
     sunder_i_plane_middle(r, nearest, g->reach, middle);
-    if (!list_meeting(g, box, middle, first)) return sunder_i_no_memory(err);
-    size_t ways = 0, node;
-    const sunder_i_plane_obstacle *o = choose(g, r, box, middle, &ways);
-    sunder_i_chord chord;
-    bool across = false;
-    if (!o && !c->failed) across = (o = sunder_i_plane_find_chord(g, middle, &chord, &ways)) != NULL;
-    if (!o && !c->failed && !(c->subproblem->coarse > 0)) o = choose_closely(g, middle, &ways);
-    sunder_status status = SUNDER_OK;
-    if (o && !c->failed) {
-        const sunder_i_violation v = {
-            .a = o->a, .b = o->b, .clearance = o->clearance, .shadow = o->shadow, .chord = across ? &chord : NULL};
-        if (sunder_i_branching_add_branch(c, &v, ways, &node))
-            status = divide_all(g, r, node, listed, level, verdict, levels, root, err);
-        else
-            c->failed = true;
-    } else if (!g->thin) { /* a sliver is forbidden, by a hair */
+    divider d;
+    size_t node;
+    if (!find_divider(g, r, at, middle, &d)) return sunder_i_no_memory(err);
+    if (!d.obstacle && !g->thin) { /* a sliver is forbidden, by a hair */
         *verdict = SUNDER_I_FEASIBLE;
         memcpy(g->free, middle, sizeof middle);
     }
-    g->listed = listed;
-    return c->failed ? sunder_i_no_memory(err) : status;
+    if (!d.obstacle) return SUNDER_OK;
+    const sunder_i_plane_obstacle *o = d.obstacle;
+    const sunder_i_violation v = {
+        .a = o->a, .b = o->b, .clearance = o->clearance, .shadow = o->shadow, .chord = d.across ? &d.chord : NULL};
+    if (!sunder_i_branching_add_branch(c, &v, d.ways, &node)) return sunder_i_no_memory(err);
+    return divide_all(g, r, node, d.below, level, verdict, levels, root, err);
 }
 
 /* ---- The question ------------------------------------------------------------------------------------------------ */
@@ -341,11 +373,15 @@ sunder_status sunder_i_branching_plane(sunder_i_branching *c, sunder_i_plane_ans
     for (size_t k = 0; k < c->bodies && !c->failed; k++) g.reach += c->limit[k];
     sunder_i_plane_disc(&g.disc, g.reach);
     sunder_i_planes own = {0}, *planes = c->subproblem->planes ? c->subproblem->planes : &own;
-    const bool ok = !c->failed && (g.kept = sunder_i_planes_take(planes, &g)) != NULL && sunder_i_plane_list(&g);
+    const bool ok = !c->failed && (g.kept = sunder_i_planes_take(planes, &g)) != NULL && sunder_i_plane_list(&g) &&
+                    sunder_i_plane_index_begin(&g) && sunder_i_plane_choices_begin(&g);
     sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
     if (ok) {
         sunder_i_levels levels;
-        status = divide(&g, &g.disc, 0, 0, &answer->verdict, &levels, &answer->root, err);
+        const place all = {0, 0};
+        status = divide(&g, &g.disc, all, 0, &answer->verdict, &levels, &answer->root, err);
+        if (!status && !sunder_i_plane_choices_end(&g, answer->verdict == SUNDER_I_INFEASIBLE))
+            status = sunder_i_no_memory(err);
     }
     answer->p = g.p;
     answer->q = g.q;
@@ -353,7 +389,9 @@ sunder_status sunder_i_branching_plane(sunder_i_branching *c, sunder_i_plane_ans
     answer->free = answer->verdict == SUNDER_I_FEASIBLE;
     if (answer->free && !is_all(c, &g)) answer->verdict = SUNDER_I_UNKNOWN;
     sunder_i_planes_clear(&own);
-    sunder_i_free(g.list);
     sunder_i_free(g.place);
+    sunder_i_free(g.few);
+    sunder_i_free(g.fresh);
+    sunder_i_plane_choices_free(&g.made);
     return status;
 }

@@ -4,6 +4,7 @@
 
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
+#include "spatial/box_tree.h"
 
 #define SUNDER_I_NO_CLAIM UINT32_MAX
 
@@ -20,19 +21,45 @@ typedef struct sunder_i_plane_obstacle {
     uint32_t q;  /* the body of b */
     bool shadow; /* of an anchor, of a side anchor */
     double clearance;
-    size_t way, ways, room;
+    size_t way, ways;
+    uint32_t run, rank; /* rank: its place among those found, the same for all clearances */
 } sunder_i_plane_obstacle;
 
 /* Obstacles one after the other between the same two features or parts of barriers, which owe each other or of which f
- * may not pass g: all are forbidden, or none. */
+ * may not pass g: all are forbidden, or none. What a pair owes in one question and what it is held to in others make a
+ * run each, so that neither has to be made again. */
 typedef struct sunder_i_plane_run {
     uint32_t f, g;
     bool shadow, side;
-    bool made; /* its ways are, for this clearance */
+    bool made;  /* its ways are, for this clearance */
+    bool asked; /* they are forbidden in the question at hand */
     double clearance;
     size_t first, end;
-    uint64_t cost; /* of making them, in constraints looked at */
+    size_t reached; /* that limits leave anything of */
+    uint32_t next;  /* the same for another clearance; 0: there is none */
+    uint64_t cost;  /* of making them, in constraints looked at */
 } sunder_i_plane_run;
+
+/* An obstacle that limits leave something of, its box, and its run. */
+typedef struct sunder_i_plane_item {
+    double box[4];
+    uint32_t at, run;
+} sunder_i_plane_item;
+
+/* What was chosen to divide a region by, and how much of it that takes; SUNDER_I_NO_CHOICE: nothing held its middle. */
+#define SUNDER_I_NO_CHOICE UINT32_MAX
+typedef struct sunder_i_plane_choice {
+    double share;
+    uint32_t obstacle, below; /* below: where the regions that its ways leave begin among `region` */
+} sunder_i_plane_choice;
+
+/* The choices of one question, from all of the plane down. */
+typedef struct sunder_i_plane_choices {
+    sunder_i_plane_choice *choice;
+    uint32_t *region; /* the choice for each; SUNDER_I_NO_CHOICE: none was made. The first is all of the plane */
+    bool *asked;      /* [runs] */
+    size_t n, capacity, regions, region_capacity, runs, run_capacity;
+} sunder_i_plane_choices;
 
 /* What may be forbidden in the plane of one relative move, kept from question to question: ways are made for the first
  * that asks. */
@@ -42,8 +69,14 @@ struct sunder_i_plane_kept {
     sunder_i_plane_obstacle *obstacle;
     double *box; /* [4 obstacles] of what limits leave of them; empty: nothing */
     size_t n, capacity, box_capacity;
-    sunder_i_plane_run *run;
-    size_t runs, run_capacity;
+    sunder_i_plane_run *run; /* first those that were found */
+    size_t found, runs, run_capacity;
+    /* All that were made: by a tree of boxes along a curve, and behind them, in no order, those made since. */
+    sunder_i_plane_item *item;
+    size_t items, item_capacity;
+    sunder_i_box_tree tree;
+    size_t most_asked;                /* obstacles that were forbidden in one question */
+    sunder_i_plane_choices proofs[2]; /* of the last question that was proved, of many of them and of few */
     sunder_i_way *way;
     size_t ways, way_capacity;
     uint64_t looked[3]; /* what finding pieces, anchors and sides costs who asks, be it done before */
@@ -56,13 +89,18 @@ typedef struct sunder_i_plane {
     double reach;
     sunder_i_plane_region disc; /* the polygon around that */
     struct sunder_i_plane_kept *kept;
-    /* Its obstacles that may meet the region at hand, behind those above it: first all that are forbidden. */
-    uint32_t *list;
-    size_t obstacles, listed, list_capacity;
-    uint32_t *place; /* those of the region above in whose boxes the place is that is looked at */
+    size_t obstacles; /* that are forbidden, and in reach */
+    bool are_few;
+    sunder_i_plane_item *few; /* then: all of them */
+    size_t few_capacity;
+    uint32_t *place; /* those in whose boxes the place is that is looked at */
     size_t about_place, place_capacity;
-    unsigned thin;  /* how often the region at hand was nothing but a sliver */
-    double free[2]; /* where nothing is in the way, if that is the answer */
+    const sunder_i_plane_choices *known; /* NULL, or of a question about nearly the same */
+    sunder_i_plane_item *fresh;          /* what is forbidden now that was not in it */
+    size_t freshes, fresh_capacity;
+    sunder_i_plane_choices made; /* in the question at hand */
+    unsigned thin;               /* how often the region at hand was nothing but a sliver */
+    double free[2];              /* where nothing is in the way, if that is the answer */
 } sunder_i_plane;
 
 /* ---- plane_region.c ---------------------------------------------------------------------------------------------- */
@@ -84,8 +122,45 @@ void sunder_i_plane_middle(const sunder_i_plane_region *region, const double nea
 
 /* Lists what may forbid moves of p beside q, or beside all that stands within reach. False if memory is out. */
 bool sunder_i_plane_find(const sunder_i_plane *plane, struct sunder_i_plane_kept *kept);
-/* Lists what does so in the question at hand. False if memory is out. */
+/* Says what does so in the question at hand. False if memory is out. */
 bool sunder_i_plane_list(sunder_i_plane *plane);
+/* Of the k-th run that was found, what is forbidden in the question at hand; NULL: nothing. */
+const sunder_i_plane_run *sunder_i_plane_asked(const struct sunder_i_plane_kept *kept, size_t k);
+
+/* Is the place in the box? */
+static inline bool sunder_i_plane_is_in(const double box[4], const double u[2])
+{
+    return (box[0] <= u[0]) & (box[2] >= u[0]) & (box[1] <= u[1]) & (box[3] >= u[1]);
+}
+
+/* ---- plane_index.c ----------------------------------------------------------------------------------------------- */
+
+/* One more was made. False if memory is out. */
+bool sunder_i_plane_index_add(struct sunder_i_plane_kept *kept, uint32_t at);
+/* What is forbidden in the question at hand is known. False if memory is out. */
+bool sunder_i_plane_index_begin(sunder_i_plane *plane);
+/* Those that are forbidden, and in whose boxes the place is: into plane->place. False if memory is out. */
+bool sunder_i_plane_index_find(sunder_i_plane *plane, const double u[2]);
+
+/* All of a run that limits leave anything of, behind the first n of a list. False if memory is out. */
+bool sunder_i_plane_index_list(const struct sunder_i_plane_kept *kept, const sunder_i_plane_run *run,
+                               sunder_i_plane_item **list, size_t *n, size_t *capacity);
+
+/* ---- plane_choices.c --------------------------------------------------------------------------------------------- */
+
+/* Looks for a question that was proved about nearly the same. False if memory is out. */
+bool sunder_i_plane_choices_begin(sunder_i_plane *plane);
+/* What was chosen for a region then, if it is the best still of what was forbidden then; NULL: that is not known. */
+const sunder_i_plane_choice *sunder_i_plane_choices_known(const sunder_i_plane *plane, uint32_t region);
+/* The first of the regions that what was chosen for one in the known question leaves, if that is this obstacle. */
+uint32_t sunder_i_plane_choices_below(const sunder_i_plane *plane, uint32_t region, uint32_t obstacle);
+/* Notes a choice for a region of the question at hand; *below: the first of those that its ways leave. False if memory
+ * is out. */
+bool sunder_i_plane_choices_add(sunder_i_plane *plane, uint32_t region, uint32_t obstacle, size_t ways, double share,
+                                uint32_t *below);
+/* They are kept if the question was proved. False if memory is out. */
+bool sunder_i_plane_choices_end(sunder_i_plane *plane, bool proved);
+void sunder_i_plane_choices_free(sunder_i_plane_choices *choices);
 
 /* ---- chord.c ----------------------------------------------------------------------------------------------------- */
 

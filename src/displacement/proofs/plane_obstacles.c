@@ -179,7 +179,12 @@ static bool join_runs(struct sunder_i_plane_kept *kept)
         else
             kept->run[runs++] = run;
     }
-    kept->runs = runs;
+    kept->found = kept->runs = runs;
+    for (size_t r = 0; r < runs; r++)
+        for (size_t k = kept->run[r].first; k < kept->run[r].end; k++) {
+            all[k].run = (uint32_t)r;
+            all[k].rank = (uint32_t)k;
+        }
     sunder_i_free(kept->obstacle);
     kept->obstacle = all;
     kept->capacity = kept->n;
@@ -215,10 +220,12 @@ static bool is_within_reach(const sunder_i_plane *g, size_t ways, double box[4])
 }
 
 /* Makes the ways of an obstacle. False if memory is out. */
-static bool make_ways(sunder_i_plane *g, sunder_i_plane_obstacle *o, double clearance, double box[4])
+static bool make_ways(sunder_i_plane *g, size_t at, double clearance)
 {
     struct sunder_i_plane_kept *kept = g->kept;
     const sunder_i_model *model = g->c->model;
+    sunder_i_plane_obstacle *o = &kept->obstacle[at];
+    double *box = kept->box + 4 * at;
     const size_t ways = sunder_i_branching_fill_ways(g->c, &model->body[g->p], o->a, &model->body[o->q], o->b,
                                                      clearance, o->shadow, NULL);
     if (g->c->failed) return false;
@@ -227,57 +234,87 @@ static bool make_ways(sunder_i_plane *g, sunder_i_plane_obstacle *o, double clea
         sunder_i_box_clear(box);
         return true;
     }
-    if (ways > o->room) {
-        if (!sunder_i_reserve(&kept->way, &kept->way_capacity, kept->ways + ways, sizeof *kept->way)) return false;
-        o->way = kept->ways;
-        o->room = ways;
-        kept->ways += ways;
-    }
-    memcpy(kept->way + o->way, g->c->scratch, ways * sizeof *kept->way);
+    if (!sunder_i_reserve(&kept->way, &kept->way_capacity, kept->ways + ways, sizeof *kept->way)) return false;
+    o->way = kept->ways;
     o->ways = ways;
-    return true;
+    kept->ways += ways;
+    memcpy(kept->way + o->way, g->c->scratch, ways * sizeof *kept->way);
+    return sunder_i_plane_index_add(kept, (uint32_t)at);
 }
 
-static bool make_run(sunder_i_plane *g, sunder_i_plane_run *run, double clearance)
+static bool make_run(sunder_i_plane *g, size_t at, double clearance)
 {
     struct sunder_i_plane_kept *kept = g->kept;
+    sunder_i_plane_run *run = &kept->run[at];
     const uint64_t before = g->c->looked;
+    const size_t items = kept->items;
     for (size_t k = run->first; k < run->end; k++)
-        if (!make_ways(g, &kept->obstacle[k], clearance, kept->box + 4 * k)) return false;
+        if (!make_ways(g, k, clearance)) return false;
+    run->reached = kept->items - items;
     run->made = true;
     run->clearance = clearance;
     run->cost = g->c->looked - before;
     return true;
 }
 
-static bool list_run(sunder_i_plane *g, sunder_i_plane_run *run, double clearance)
+/* The same obstacles as those of a run, for another clearance: a run behind all others. False if memory is out. */
+static bool add_run(struct sunder_i_plane_kept *kept, size_t of)
 {
-    if (run->made && run->clearance == clearance)
-        g->c->looked += run->cost; /* it costs who asks as much as the first */
-    else if (!make_run(g, run, clearance))
+    const size_t size = kept->run[of].end - kept->run[of].first, n = kept->n + size;
+    if (!sunder_i_reserve(&kept->obstacle, &kept->capacity, n, sizeof *kept->obstacle) ||
+        !sunder_i_reserve(&kept->box, &kept->box_capacity, 4 * n, sizeof *kept->box) ||
+        !sunder_i_reserve(&kept->run, &kept->run_capacity, kept->runs + 1, sizeof *kept->run))
         return false;
-    const size_t most = g->listed + run->end - run->first;
-    if (!sunder_i_reserve(&g->list, &g->list_capacity, most, sizeof *g->list)) return false;
-    for (size_t k = run->first; k < run->end; k++)
-        if (g->kept->box[4 * k] <= g->kept->box[4 * k + 2]) g->list[g->listed++] = (uint32_t)k;
+    sunder_i_plane_run run = kept->run[of];
+    memcpy(kept->obstacle + kept->n, kept->obstacle + run.first, size * sizeof *kept->obstacle);
+    for (size_t k = kept->n; k < n; k++) kept->obstacle[k].run = (uint32_t)kept->runs;
+    run.first = kept->n;
+    run.end = kept->n = n;
+    run.next = 0;
+    run.made = run.asked = false;
+    kept->run[of].next = (uint32_t)kept->runs;
+    kept->run[kept->runs++] = run;
     return true;
+}
+
+static bool list_run(sunder_i_plane *g, size_t at, double clearance)
+{
+    struct sunder_i_plane_kept *kept = g->kept;
+    while (kept->run[at].made && kept->run[at].clearance != clearance) {
+        if (!kept->run[at].next && !add_run(kept, at)) return false;
+        at = kept->run[at].next;
+    }
+    if (kept->run[at].made)
+        g->c->looked += kept->run[at].cost; /* it costs who asks as much as the first */
+    else if (!make_run(g, at, clearance))
+        return false;
+    kept->run[at].asked = true;
+    g->obstacles += kept->run[at].reached;
+    return true;
+}
+
+const sunder_i_plane_run *sunder_i_plane_asked(const struct sunder_i_plane_kept *kept, size_t k)
+{
+    while (!kept->run[k].asked && kept->run[k].next) k = kept->run[k].next;
+    return kept->run[k].asked ? &kept->run[k] : NULL;
 }
 
 bool sunder_i_plane_list(sunder_i_plane *g)
 {
     sunder_i_branching *c = g->c;
+    struct sunder_i_plane_kept *kept = g->kept;
     const sunder_i_subproblem *asked = c->subproblem;
     const bool sides = !asked->any_way, jumps = sides && !asked->any_jump;
     bool ok = true;
-    c->looked += g->kept->looked[PIECES] + (jumps ? g->kept->looked[JUMPS] : 0) + (sides ? g->kept->looked[SIDES] : 0);
-    for (size_t k = 0; k < g->kept->runs && ok; k++) {
-        sunder_i_plane_run *run = &g->kept->run[k];
+    c->looked += kept->looked[PIECES] + (jumps ? kept->looked[JUMPS] : 0) + (sides ? kept->looked[SIDES] : 0);
+    for (size_t k = 0; k < kept->runs; k++) kept->run[k].asked = false;
+    for (size_t k = 0; k < kept->found && ok; k++) {
+        const sunder_i_plane_run *run = &kept->run[k];
         double clearance = 0;
         if (run->shadow && !(run->side ? sides : jumps)) continue;
         if (run->shadow ? sunder_i_branching_shades(c, run->f, run->g)
                         : sunder_i_branching_owe(c, run->f, run->g, &clearance))
-            ok = list_run(g, run, clearance);
+            ok = list_run(g, k, clearance);
     }
-    g->obstacles = g->listed;
     return ok;
 }

@@ -70,9 +70,20 @@
 /* Sides of the polygon around the limits, and the most corners of a region. */
 #define PLANE_SIDES 24
 #define PLANE_CORNERS 48
-/* It ends after so much: some ten milliseconds. A box that is looked at counts as this part of a constraint. */
+/* It ends after so much: some ten milliseconds. Finding what holds a place counts as so much, and as this part of a
+ * constraint for each obstacle. */
 #define PLANE_EFFORT 4000000u
-#define BOXES_A_STEP 4
+#define PLACE_LOOK 64
+#define BOXES_A_STEP 8
+/* What was chosen before helps where no more than one in so many is forbidden that was not. */
+#define PLANE_FRESH 8
+/* Of the tree of boxes over all that is forbidden: how many stand in a leaf; and one in so many, and so many, may stand
+ * in no order, before it is made again. A question that heeds so few, or less than one in so many, looks at each of
+ * them. */
+#define PLANE_LEAF 4
+#define PLANE_LATE 8
+#define PLANE_FEW 512
+#define PLANE_PART 4
 /* How wide the seam between two claims is taken to be, as a share of the limits, and half of that each time that one is
  * found in another: wider than rounding, narrower than what covers it. So often. */
 #define SLIVER 0x1p-24
