@@ -235,14 +235,16 @@ static bool search_shelf(harvest *h, walls *all, size_t shelf)
     for (size_t k = 0; k < all->first[shelf + 1] - all->first[shelf]; k++) {
         double x[2];
         nearest_on(near[k].wall, h->target, x);
-        if (is_covered(h, near[k].wall, x))
+        if (is_covered(h, near[k].wall, x)) {
             all->covered[all->left_out++] = near[k].distance;
-        else
-            near[n++] = near[k];
+        } else {
+            near[n] = near[k];
+            near[n++].distance = hypot(x[0] - h->target[0], x[1] - h->target[1]);
+        }
         if (!sunder_i_steps(1 + h->obstacles->n / TESTS_A_WATCH)) return false;
     }
     if (n) qsort(near, n, sizeof *near, by_distance);
-    for (size_t k = 0; k < n && near[k].distance <= reach_of(h); k++) {
+    for (size_t k = 0; k < n && near[k].distance <= h->limit && near[k].distance <= reach_of(h); k++) {
         double x[2];
         if (!work(h, h->obstacles->n)) return false;
         nearest_on(near[k].wall, h->target, x);
@@ -290,8 +292,8 @@ static bool is_beyond(const sunder_i_obstacle *obstacle, const double target[2],
     return sum > square;
 }
 
-/* Walls that may matter, of those within the limit: into list. Most are farther off, by squares, which are told apart
- * from the limit's by more than rounding makes of them. Returns how many. */
+/* Walls that may matter, of those within the limit, by about how far they are: into list. Most are farther off, by
+ * squares, which are told apart from the limit's by more than rounding makes of them. Returns how many. */
 static size_t gather(const harvest *h, near_wall *list, walls *all)
 {
     const sunder_i_obstacles *o = h->obstacles;
@@ -306,8 +308,7 @@ static size_t gather(const harvest *h, near_wall *list, walls *all)
             nearest_on(w, h->target, x);
             const double dx = x[0] - h->target[0], dy = x[1] - h->target[1];
             if (dx * dx + dy * dy > beyond) continue;
-            const double distance = hypot(dx, dy);
-            if (!(distance <= h->limit)) continue;
+            const double distance = sqrt(dx * dx + dy * dy);
             if (is_covered_by_cells(h, w))
                 all->covered[all->left_out++] = distance;
             else

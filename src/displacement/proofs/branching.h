@@ -158,6 +158,8 @@ void sunder_i_branching_begin(sunder_i_branching *branching, size_t first);
 bool sunder_i_branching_widen(sunder_i_branching *branching);
 /* What features f and g of two bodies owe each other; false if nothing. */
 bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uint32_t g, double *clearance);
+/* Is f heeded, or are its ways? */
+bool sunder_i_branching_is_way_heeded(const sunder_i_branching *branching, uint32_t f);
 /* May f, of another body, not jump over g, or if g is part of a barrier cross its sides? */
 bool sunder_i_branching_shades(const sunder_i_branching *branching, uint32_t f, uint32_t g);
 

@@ -154,9 +154,9 @@ const sunder_i_plane_obstacle *sunder_i_plane_find_chord(sunder_i_plane *g, cons
     spoke spokes[SPOKES];
     size_t n = 0;
     g->c->looked += g->obstacles;
-    for (size_t r = 0; r < kept->found; r++) {
-        const sunder_i_plane_run *run = sunder_i_plane_asked(kept, r);
-        if (!run || !run->side) continue;
+    for (size_t r = 0; r < g->runs; r++) {
+        const sunder_i_plane_run *run = &kept->run[g->run[r]];
+        if (!run->side) continue;
         for (size_t k = run->first; k < run->end && n < SPOKES; k++) {
             if (kept->box[4 * k] > kept->box[4 * k + 2] || !find_spoke(g, &kept->obstacle[k], u, &spokes[n])) continue;
             for (size_t i = 0; i < n && !g->c->failed; i++)

@@ -158,8 +158,7 @@ static bool can_move(const sunder_i_branching *c, uint32_t f, uint32_t g, double
     return p != r && *reach > 0 && isfinite(*reach);
 }
 
-/* Or only its ways. */
-static bool is_way_heeded(const sunder_i_branching *c, uint32_t f)
+bool sunder_i_branching_is_way_heeded(const sunder_i_branching *c, uint32_t f)
 {
     const sunder_i_subproblem *q = c->subproblem;
     for (size_t k = 0; k < q->bodies && q->every_way; k++)
@@ -171,8 +170,9 @@ bool sunder_i_branching_shades(const sunder_i_branching *c, uint32_t f, uint32_t
 {
     const bool side = sunder_i_is_barrier(c->model, g);
     double reach;
-    return can_move(c, f, g, &reach) && is_way_heeded(c, f) &&
-           ((side && c->subproblem->every_side) || is_way_heeded(c, g)) && (side || !sunder_i_is_held(c->model, f, g));
+    return can_move(c, f, g, &reach) && sunder_i_branching_is_way_heeded(c, f) &&
+           ((side && c->subproblem->every_side) || sunder_i_branching_is_way_heeded(c, g)) &&
+           (side || !sunder_i_is_held(c->model, f, g));
 }
 
 bool sunder_i_branching_owe(const sunder_i_branching *c, uint32_t f, uint32_t g, double *clearance)

@@ -38,14 +38,12 @@ static double most_shared(const double box[4], const double of[4])
 
 static double shared(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, const sunder_i_plane_region *r)
 {
-    const sunder_i_way *way = g->kept->way;
-    sunder_i_plane_region part = *r;
-    uint32_t by[2];
-    for (size_t k = o->way; k < o->way + o->ways; k++) {
-        const double back[2] = {-way[k].n[0], -way[k].n[1]};
-        if (!sunder_i_plane_clip(&part, back, -way[k].d, SUNDER_I_NO_CLAIM, by)) return 0;
-    }
-    return sunder_i_plane_area(&part);
+    const sunder_i_way *way = g->kept->way + o->way;
+    sunder_i_plane_polygon part;
+    sunder_i_plane_take_corners(&part, r);
+    for (size_t k = 0; k < o->ways; k++)
+        if (!sunder_i_plane_clip_behind(&part, &way[k])) return 0;
+    return sunder_i_plane_area_of(&part);
 }
 
 /* The obstacle to divide a region by. */
@@ -116,9 +114,9 @@ static bool holds_closely(sunder_i_plane *g, size_t at, const double u[2], size_
 static const sunder_i_plane_obstacle *choose_closely(sunder_i_plane *g, const double u[2], size_t *ways)
 {
     const struct sunder_i_plane_kept *kept = g->kept;
-    for (size_t r = 0; r < kept->found; r++) {
-        const sunder_i_plane_run *run = sunder_i_plane_asked(kept, r);
-        if (!run || run->shadow || !(run->clearance > 0)) continue;
+    for (size_t r = 0; r < g->runs; r++) {
+        const sunder_i_plane_run *run = &kept->run[g->run[r]];
+        if (run->shadow || !(run->clearance > 0)) continue;
         for (size_t k = run->first; k < run->end; k++)
             if (kept->box[4 * k] <= kept->box[4 * k + 2] && holds_closely(g, k, u, ways)) return &kept->obstacle[k];
     }
@@ -389,6 +387,7 @@ sunder_status sunder_i_branching_plane(sunder_i_branching *c, sunder_i_plane_ans
     answer->free = answer->verdict == SUNDER_I_FEASIBLE;
     if (answer->free && !is_all(c, &g)) answer->verdict = SUNDER_I_UNKNOWN;
     sunder_i_planes_clear(&own);
+    sunder_i_free(g.run);
     sunder_i_free(g.place);
     sunder_i_free(g.few);
     sunder_i_free(g.fresh);

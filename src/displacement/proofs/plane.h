@@ -6,6 +6,8 @@
 #include "displacement/proofs/tuning.h"
 #include "spatial/box_tree.h"
 
+#include <string.h>
+
 #define SUNDER_I_NO_CLAIM UINT32_MAX
 
 /* A convex polygon of relative moves, counter-clockwise, with the claim that made the side from each corner. */
@@ -89,7 +91,9 @@ typedef struct sunder_i_plane {
     double reach;
     sunder_i_plane_region disc; /* the polygon around that */
     struct sunder_i_plane_kept *kept;
-    size_t obstacles; /* that are forbidden, and in reach */
+    uint32_t *run; /* what is forbidden, as it was found */
+    size_t runs, run_capacity;
+    size_t obstacles; /* of these, in reach */
     bool are_few;
     sunder_i_plane_item *few; /* then: all of them */
     size_t few_capacity;
@@ -107,6 +111,21 @@ typedef struct sunder_i_plane {
 
 static inline double sunder_i_plane_at(const double n[2], const double *u) { return n[0] * u[0] + n[1] * u[1]; }
 
+/* The same without claims. */
+typedef struct sunder_i_plane_polygon {
+    uint32_t n;
+    double xy[2 * PLANE_CORNERS];
+} sunder_i_plane_polygon;
+
+static inline void sunder_i_plane_take_corners(sunder_i_plane_polygon *polygon, const sunder_i_plane_region *region)
+{
+    polygon->n = region->n;
+    memcpy(polygon->xy, region->xy, 2 * region->n * sizeof *region->xy);
+}
+
+/* Keeps what is behind a way, n.u <= d. False: that is nothing. */
+bool sunder_i_plane_clip_behind(sunder_i_plane_polygon *polygon, const sunder_i_way *way);
+double sunder_i_plane_area_of(const sunder_i_plane_polygon *polygon);
 /* The polygon around the disc of that radius. */
 void sunder_i_plane_disc(sunder_i_plane_region *region, double radius);
 /* Keeps what has n.u >= d, by that claim. False: that is nothing, and the region stays as it is; by: the sides next to
@@ -124,8 +143,6 @@ void sunder_i_plane_middle(const sunder_i_plane_region *region, const double nea
 bool sunder_i_plane_find(const sunder_i_plane *plane, struct sunder_i_plane_kept *kept);
 /* Says what does so in the question at hand. False if memory is out. */
 bool sunder_i_plane_list(sunder_i_plane *plane);
-/* Of the k-th run that was found, what is forbidden in the question at hand; NULL: nothing. */
-const sunder_i_plane_run *sunder_i_plane_asked(const struct sunder_i_plane_kept *kept, size_t k);
 
 /* Is the place in the box? */
 static inline bool sunder_i_plane_is_in(const double box[4], const double u[2])

@@ -22,17 +22,17 @@ void sunder_i_plane_choices_free(sunder_i_plane_choices *choices)
     memset(choices, 0, sizeof *choices);
 }
 
-/* Is that run forbidden now, and was not then? */
-static bool is_fresh(const struct sunder_i_plane_kept *kept, const sunder_i_plane_choices *then, size_t run)
+/* Was that run not forbidden then? */
+static bool is_fresh(const sunder_i_plane_choices *then, uint32_t run)
 {
-    return kept->run[run].asked && !(run < then->runs && then->asked[run]);
+    return run >= then->runs || !then->asked[run];
 }
 
-static size_t count_fresh(const struct sunder_i_plane_kept *kept, const sunder_i_plane_choices *then)
+static size_t count_fresh(const sunder_i_plane *g, const sunder_i_plane_choices *then)
 {
     size_t n = 0;
-    for (size_t k = 0; k < kept->runs; k++)
-        if (is_fresh(kept, then, k)) n += kept->run[k].reached;
+    for (size_t k = 0; k < g->runs; k++)
+        if (is_fresh(then, g->run[k])) n += g->kept->run[g->run[k]].reached;
     return n;
 }
 
@@ -44,12 +44,12 @@ bool sunder_i_plane_choices_begin(sunder_i_plane *g)
     if (!sunder_i_reserve(&made->region, &made->region_capacity, 1, sizeof *made->region)) return false;
     made->region[made->regions++] = SUNDER_I_NO_CHOICE;
     for (size_t k = 2; k-- > 0 && !g->known;)
-        if (kept->proofs[k].n && count_fresh(kept, &kept->proofs[k]) <= g->obstacles / PLANE_FRESH)
+        if (kept->proofs[k].n && count_fresh(g, &kept->proofs[k]) <= g->obstacles / PLANE_FRESH)
             g->known = &kept->proofs[k];
     bool ok = true;
-    for (size_t k = 0; k < kept->runs && g->known && ok; k++)
-        if (is_fresh(kept, g->known, k))
-            ok = sunder_i_plane_index_list(kept, &kept->run[k], &g->fresh, &g->freshes, &g->fresh_capacity);
+    for (size_t k = 0; k < g->runs && g->known && ok; k++)
+        if (is_fresh(g->known, g->run[k]))
+            ok = sunder_i_plane_index_list(kept, &kept->run[g->run[k]], &g->fresh, &g->freshes, &g->fresh_capacity);
     return ok;
 }
 

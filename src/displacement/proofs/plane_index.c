@@ -87,10 +87,8 @@ bool sunder_i_plane_index_list(const struct sunder_i_plane_kept *kept, const sun
 static bool list_all(sunder_i_plane *g)
 {
     size_t n = 0;
-    for (size_t r = 0; r < g->kept->found; r++) {
-        const sunder_i_plane_run *run = sunder_i_plane_asked(g->kept, r);
-        if (run && !sunder_i_plane_index_list(g->kept, run, &g->few, &n, &g->few_capacity)) return false;
-    }
+    for (size_t r = 0; r < g->runs; r++)
+        if (!sunder_i_plane_index_list(g->kept, &g->kept->run[g->run[r]], &g->few, &n, &g->few_capacity)) return false;
     return true;
 }
 

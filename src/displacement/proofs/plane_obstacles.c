@@ -207,13 +207,10 @@ static bool is_within_reach(const sunder_i_plane *g, size_t ways, double box[4])
     const double beyond = g->disc.xy[0] * (1 + 0x1p-20); /* a line so far off has all of the disc on one side */
     for (size_t k = 0; k < ways; k++)
         if (c->scratch[k].d < -beyond) return false;
-    sunder_i_plane_region r = g->disc;
-    uint32_t by[2];
-    for (size_t k = 0; k < ways; k++) {
-        const double back[2] = {-c->scratch[k].n[0], -c->scratch[k].n[1]};
-        if (c->scratch[k].d > beyond) continue;
-        if (!sunder_i_plane_clip(&r, back, -c->scratch[k].d, SUNDER_I_NO_CLAIM, by)) return false;
-    }
+    sunder_i_plane_polygon r;
+    sunder_i_plane_take_corners(&r, &g->disc);
+    for (size_t k = 0; k < ways; k++)
+        if (c->scratch[k].d <= beyond && !sunder_i_plane_clip_behind(&r, &c->scratch[k])) return false;
     sunder_i_box_clear(box);
     for (uint32_t k = 0; k < r.n; k++) sunder_i_box_include(box, r.xy + 2 * k);
     return ways > 0;
@@ -290,13 +287,9 @@ static bool list_run(sunder_i_plane *g, size_t at, double clearance)
         return false;
     kept->run[at].asked = true;
     g->obstacles += kept->run[at].reached;
+    if (!sunder_i_reserve(&g->run, &g->run_capacity, g->runs + 1, sizeof *g->run)) return false;
+    g->run[g->runs++] = (uint32_t)at;
     return true;
-}
-
-const sunder_i_plane_run *sunder_i_plane_asked(const struct sunder_i_plane_kept *kept, size_t k)
-{
-    while (!kept->run[k].asked && kept->run[k].next) k = kept->run[k].next;
-    return kept->run[k].asked ? &kept->run[k] : NULL;
 }
 
 bool sunder_i_plane_list(sunder_i_plane *g)
@@ -305,13 +298,14 @@ bool sunder_i_plane_list(sunder_i_plane *g)
     struct sunder_i_plane_kept *kept = g->kept;
     const sunder_i_subproblem *asked = c->subproblem;
     const bool sides = !asked->any_way, jumps = sides && !asked->any_jump;
-    bool ok = true;
+    bool ok = true, heeded = false;
     c->looked += kept->looked[PIECES] + (jumps ? kept->looked[JUMPS] : 0) + (sides ? kept->looked[SIDES] : 0);
     for (size_t k = 0; k < kept->runs; k++) kept->run[k].asked = false;
     for (size_t k = 0; k < kept->found && ok; k++) {
         const sunder_i_plane_run *run = &kept->run[k];
         double clearance = 0;
-        if (run->shadow && !(run->side ? sides : jumps)) continue;
+        if (k == 0 || run->f != run[-1].f) heeded = sunder_i_branching_is_way_heeded(c, run->f);
+        if (!heeded || (run->shadow && !(run->side ? sides : jumps))) continue;
         if (run->shadow ? sunder_i_branching_shades(c, run->f, run->g)
                         : sunder_i_branching_owe(c, run->f, run->g, &clearance))
             ok = list_run(g, k, clearance);

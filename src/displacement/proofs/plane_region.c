@@ -55,6 +55,47 @@ bool sunder_i_plane_clip(sunder_i_plane_region *r, const double n[2], double d, 
     return true;
 }
 
+bool sunder_i_plane_clip_behind(sunder_i_plane_polygon *r, const sunder_i_way *way)
+{
+    double off[PLANE_CORNERS + 1], out[2 * PLANE_CORNERS]; /* off: how far corners are behind it */
+    uint32_t n = 0;
+    bool cut = false;
+    for (uint32_t k = 0; k < r->n; k++) {
+        off[k] = way->d - sunder_i_plane_at(way->n, r->xy + 2 * k);
+        cut = cut || !(off[k] >= 0);
+    }
+    if (!cut) return true;
+    off[r->n] = off[0];
+    for (uint32_t k = 0; k < r->n; k++) {
+        const double *u = r->xy + 2 * k, *v = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0), s = off[k], t = off[k + 1];
+        if (n + 2 > PLANE_CORNERS) return true; /* as above */
+        if (s >= 0) {
+            out[2 * n] = u[0];
+            out[2 * n++ + 1] = u[1];
+        }
+        if (!((s > 0 && t < 0) || (s < 0 && t > 0))) continue;
+        const double share = s / (s - t);
+        out[2 * n] = u[0] + share * (v[0] - u[0]);
+        out[2 * n++ + 1] = u[1] + share * (v[1] - u[1]);
+    }
+    if (n < 3) return false;
+    r->n = n;
+    memcpy(r->xy, out, 2 * n * sizeof *out);
+    return true;
+}
+
+static double area_of(const double *xy, uint32_t n)
+{
+    double sum = 0;
+    for (uint32_t k = 0; k < n; k++) {
+        const double *u = xy + 2 * k, *v = xy + 2 * (k + 1 < n ? k + 1 : 0);
+        sum += u[0] * v[1] - u[1] * v[0];
+    }
+    return sum / 2;
+}
+
+double sunder_i_plane_area_of(const sunder_i_plane_polygon *r) { return area_of(r->xy, r->n); }
+
 double sunder_i_plane_distance(const sunder_i_plane_region *r, double place[2], uint32_t by[2])
 {
     double least = INFINITY;
@@ -77,15 +118,7 @@ double sunder_i_plane_distance(const sunder_i_plane_region *r, double place[2], 
     return least;
 }
 
-double sunder_i_plane_area(const sunder_i_plane_region *r)
-{
-    double sum = 0;
-    for (uint32_t k = 0; k < r->n; k++) {
-        const double *u = r->xy + 2 * k, *v = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
-        sum += u[0] * v[1] - u[1] * v[0];
-    }
-    return sum / 2;
-}
+double sunder_i_plane_area(const sunder_i_plane_region *r) { return area_of(r->xy, r->n); }
 
 void sunder_i_plane_middle(const sunder_i_plane_region *r, const double nearest[2], double reach, double out[2])
 {
