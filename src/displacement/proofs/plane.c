@@ -53,11 +53,13 @@ typedef struct choice {
 } choice;
 
 /* Takes that one instead if it holds the place and takes more of the region, of equals if it was found first. */
-static void weigh(const sunder_i_plane *g, const sunder_i_plane_region *r, const double u[2], uint32_t at, choice *to)
+static void weigh(const sunder_i_plane *g, const sunder_i_plane_region *r, const double u[2],
+                  const sunder_i_plane_item *item, choice *to)
 {
-    const sunder_i_plane_obstacle *o = &g->kept->obstacle[at];
+    if (most_shared(to->box, item->box) < to->share) return;
+    const sunder_i_plane_obstacle *o = &g->kept->obstacle[item->at];
     if (to->best && to->share >= to->whole && o->rank > to->best->rank) return;
-    if (most_shared(to->box, g->kept->box + 4 * (size_t)at) < to->share || !holds(g, o, u, to->about)) return;
+    if (!holds(g, o, u, to->about)) return;
     const double share = fmin(shared(g, o, r), to->whole);
     if (share < to->share || (to->best && share == to->share && o->rank > to->best->rank)) return;
     to->share = share;
@@ -79,7 +81,7 @@ static const sunder_i_plane_obstacle *choose(sunder_i_plane *g, const sunder_i_p
         to.share = known->share;
         to.best = known->obstacle == SUNDER_I_NO_CHOICE ? NULL : &g->kept->obstacle[known->obstacle];
         for (size_t k = 0; k < g->freshes; k++)
-            if (sunder_i_plane_is_in(g->fresh[k].box, u)) weigh(g, r, u, g->fresh[k].at, &to);
+            if (sunder_i_plane_is_in(g->fresh[k].box, u)) weigh(g, r, u, &g->fresh[k], &to);
     } else if (sunder_i_plane_index_find(g, u)) {
         for (size_t k = 0; k < g->about_place; k++) weigh(g, r, u, g->place[k], &to);
     } else {

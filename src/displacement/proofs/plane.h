@@ -97,7 +97,7 @@ typedef struct sunder_i_plane {
     bool are_few;
     sunder_i_plane_item *few; /* then: all of them */
     size_t few_capacity;
-    uint32_t *place; /* those in whose boxes the place is that is looked at */
+    const sunder_i_plane_item **place; /* those in whose boxes the place is that is looked at */
     size_t about_place, place_capacity;
     const sunder_i_plane_choices *known; /* NULL, or of a question about nearly the same */
     sunder_i_plane_item *fresh;          /* what is forbidden now that was not in it */

@@ -106,7 +106,7 @@ static void take(sunder_i_plane *g, const sunder_i_plane_item *item, const sunde
 {
     const sunder_i_plane_run *run = g->kept->run;
     for (; item < end; item++)
-        if (sunder_i_plane_is_in(item->box, u) && run[item->run].asked) g->place[g->about_place++] = item->at;
+        if (sunder_i_plane_is_in(item->box, u) && run[item->run].asked) g->place[g->about_place++] = item;
 }
 
 /* Of few all are asked. No branches: they would be guessed wrong half of the time. */
@@ -114,7 +114,7 @@ static void take_few(sunder_i_plane *g, const double u[2])
 {
     size_t n = 0;
     for (size_t k = 0; k < g->obstacles; k++) {
-        g->place[n] = g->few[k].at;
+        g->place[n] = &g->few[k];
         n += (size_t)sunder_i_plane_is_in(g->few[k].box, u);
     }
     g->about_place = n;
