@@ -289,10 +289,73 @@ static void test_cover_by_a_strip(void **state)
         }
 }
 
+/* What is added behind the tree is found as well. */
+static void test_behind_the_tree(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < test_count(12); i++) {
+        static set s;
+        rng r = rng_start(test_seed(), 1000 + i);
+        make(&r, MOST / 2, &s);
+        assert_true(sunder_i_forbidden_index(&s.forbidden) && sunder_i_forbidden_is_many(&s.forbidden));
+        for (int k = 0; k < 20; k++) {
+            const double x = (double)rng_int(&r, -200, 160) / 4, y = (double)rng_int(&r, -200, 160) / 4;
+            add(&s, (double[4]){x, y, x + 12, y + 9}, 0);
+        }
+        check_places(&r, &s);
+        sunder_i_free(s.forbidden.tree.box);
+    }
+}
+
+/* Is the place in the convex region, or about as near to it as that is known? */
+static bool is_in(const sunder_i_region *region, const double u[2])
+{
+    for (uint32_t k = 0; k < region->n; k++) {
+        const double *p = region->xy + 2 * (size_t)k, *q = region->xy + 2 * (size_t)((k + 1) % region->n);
+        const double x = q[0] - p[0], y = q[1] - p[1], side = x * (u[1] - p[1]) - y * (u[0] - p[0]);
+        if (side < -(region->blur + hair) * hypot(x, y)) return false;
+    }
+    return region->n > 0;
+}
+
+/* What is not left is forbidden; and nothing is left of what is covered. */
+static void test_cover_what_can_be(void **state)
+{
+    (void)state;
+    size_t places = 0, lefts = 0;
+    for (size_t i = 0; i < test_count(40); i++) {
+        static set s;
+        rng r = rng_start(test_seed(), 2000 + i);
+        sunder_i_regions left = {0};
+        uint64_t steps = 0;
+        make(&r, i % 2 ? MOST : 60, &s);
+        assert_true(sunder_i_forbidden_index(&s.forbidden));
+        const double centre[2] = {(double)rng_int(&r, -80, 80) / 4, (double)rng_int(&r, -80, 80) / 4}, reach = 9;
+        sunder_i_region region;
+        sunder_i_region_init(&region, centre, reach);
+        assert_true(sunder_i_region_cover(&region, &s.forbidden, &left, &steps));
+        if (sunder_i_region_is_covered(&region, &s.forbidden, NULL, NULL, &steps)) assert_true(left.n == 0);
+        for (int k = 0; k < 400; k++) {
+            const double u[2] = {centre[0] + reach * (double)rng_int(&r, -999, 999) / 1000,
+                                 centre[1] + reach * (double)rng_int(&r, -999, 999) / 1000};
+            bool is_left = false;
+            for (size_t m = 0; m < left.n && !is_left; m++) is_left = is_in(&left.item[m], u);
+            if (!is_left) assert_true(depth_of(&s, u[0], u[1]) > 0);
+            places += !is_left;
+        }
+        lefts += left.n;
+        sunder_i_free(left.item);
+        sunder_i_free(s.forbidden.tree.box);
+    }
+    assert_true(places > 1000 && lefts > 10);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_few_and_many), cmocka_unit_test(test_down_into_a_notch),
                                        cmocka_unit_test(test_across_narrow_overlaps),
-                                       cmocka_unit_test(test_cover_by_a_strip)};
+                                       cmocka_unit_test(test_cover_by_a_strip),
+                                       cmocka_unit_test(test_behind_the_tree),
+                                       cmocka_unit_test(test_cover_what_can_be)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 
 #include "displacement/proofs/feasibility.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -138,8 +139,82 @@ static void test_questions(void **state)
     assert_true(told[SUNDER_I_INFEASIBLE] > LAYERS && told[SUNDER_I_FEASIBLE] > LAYERS);
 }
 
+/* ---- Two blocks of many houses ----------------------------------------------------------------------------------- */
+
+enum { HOUSES = 30, CROWDS = 6, CROWD_QUESTIONS = 40 };
+
+/* Each in the midst of the other: houses of the one stand between those of the other, or on them. So hundreds of pieces
+ * and shadows are in the plane of their relative move, for which there is a tree. */
+static void begin_crowd(rng *r, layer *l)
+{
+    memset(l, 0, sizeof *l);
+    scene_begin(&l->scene, 0.25);
+    l->scene.options.no_blocks = true;
+    l->scene.options.contained = SUNDER_CONTAINMENT_SEPARATE;
+    for (int k = 0; k < 2 * HOUSES; k++) {
+        sunder_feature *f = scene_add_box(&l->scene, (double)rng_int(r, 0, 96) / 4, (double)rng_int(r, 0, 96) / 4,
+                                          (double)rng_int(r, 4, 16) / 4, (double)rng_int(r, 4, 16) / 4);
+        f->block = k % 2;
+        f->max_shift = 5;
+    }
+    scene_model_related(&l->of, &l->scene);
+}
+
+/* About one pair or another, with all or some of the houses, others being held to nothing or to little. */
+static void check_crowd(rng *r, const layer *l, size_t *told)
+{
+    sunder_i_planes planes = {0};
+    sunder_error err;
+    uint32_t feature[2 * HOUSES];
+    const uint32_t body[2] = {l->of.model.body_of[0], l->of.model.body_of[1]};
+    sunder_i_requirement required[HOUSES * HOUSES];
+    size_t n = 0;
+    for (uint32_t f = 0; f < 2 * HOUSES; f++)
+        for (uint32_t g = f + 1; g < 2 * HOUSES; g += 2)
+            required[n++] = (sunder_i_requirement){.a = f, .b = g, .clearance = rng_once_in(r, 12) ? 0 : -INFINITY};
+    for (int k = 0; k < CROWD_QUESTIONS; k++) {
+        sunder_i_subproblem q = {.model = &l->of.model, .body = body, .bodies = 2, .most = 2, .required = required};
+        sunder_i_decision kept, anew;
+        q.required_n = n;
+        q.a = 2 * (uint32_t)rng_int(r, 0, HOUSES - 1);
+        q.b = 2 * (uint32_t)rng_int(r, 0, HOUSES - 1) + 1;
+        if (q.a > q.b) {
+            const uint32_t a = q.a;
+            q.a = q.b;
+            q.b = a;
+        }
+        q.coarse = rng_once_in(r, 2) ? 0x1p-8 : 0;
+        const bool all = rng_once_in(r, 3);
+        for (uint32_t f = 0; f < 2 * HOUSES; f++)
+            if (all || f == q.a || f == q.b || !rng_once_in(r, 4)) feature[q.features++] = f;
+        q.feature = feature;
+        assert_int_equal(sunder_i_decide(&q, &anew, &err), SUNDER_OK);
+        q.planes = &planes;
+        assert_int_equal(sunder_i_decide(&q, &kept, &err), SUNDER_OK);
+        expect_same(&kept, &anew);
+        told[kept.verdict]++;
+        sunder_i_decision_clear(&kept);
+        sunder_i_decision_clear(&anew);
+    }
+    sunder_i_planes_clear(&planes);
+}
+
+static void test_crowds(void **state)
+{
+    size_t told[3] = {0};
+    (void)state;
+    for (uint64_t k = 0; k < CROWDS; k++) {
+        rng r = rng_start(12, k);
+        layer l;
+        begin_crowd(&r, &l);
+        check_crowd(&r, &l, told);
+        end(&l);
+    }
+    assert_true(told[SUNDER_I_INFEASIBLE] > CROWDS && told[SUNDER_I_FEASIBLE] > CROWDS);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_questions)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_questions), cmocka_unit_test(test_crowds)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
