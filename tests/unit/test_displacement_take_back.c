@@ -11,6 +11,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -89,15 +90,19 @@ static void test_stranger(void **state)
     scene_board_end(&b);
 }
 
-/* Pairs that overlap by 2 and may not part, as many as that; then one that overlaps by 3, and may. Is it asked? */
+/* Pairs that overlap by 2 and may not part, as many as that; then one that overlaps by 3, and may, but only aside, since
+ * something fixed stands on either side: so nobody can be pushed. Is it asked? */
 static bool is_asked_after(size_t in_vain)
 {
+    const double last = 100 * (double)in_vain;
     scene_board b;
     memset(&b, 0, sizeof b);
     scene_begin(&b.scene, 0);
     for (size_t k = 0; k < 2 * (in_vain + 1); k++)
         scene_add_box(&b.scene, 100 * (double)(k / 2) + (k % 2 ? k / 2 < in_vain ? 8 : 7 : 0), 0, 10, 10)->max_shift =
-            k / 2 < in_vain ? 0.5 : 2;
+            k / 2 < in_vain ? 0.5 : 12;
+    scene_add_box(&b.scene, last - 10, 0, 10, 10)->fixed = true;
+    scene_add_box(&b.scene, last + 17, 0, 10, 10)->fixed = true;
     scene_board_begin(&b);
     sunder_i_search s;
     assert_true(sunder_i_search_init(&s, &b.of.model, b.body, b.scene.n, margin, b.move));
@@ -111,7 +116,8 @@ static bool is_asked_after(size_t in_vain)
     return asked;
 }
 
-/* The same, but that the last is to push a row of so many, of which none has any other place to go to. */
+/* The same, but that the last is to push a row of so many, of which none has any other place to go to; and at its end
+ * stands a slope that the last of it has to go up. */
 static bool is_whole_asked_after(size_t in_vain, size_t row)
 {
     scene_board b;
@@ -124,6 +130,11 @@ static bool is_whole_asked_after(size_t in_vain, size_t row)
         f->max_shift = 4;
         f->fixed = k == 0;
     }
+    char slope[128];
+    const double end = 10.001 * (double)(row - 1) + 7.001;
+    snprintf(slope, sizeof slope, "POLYGON ((%.3f 0, %.3f 0, %.3f 20))", end, end + 40, end + 40);
+    scene_add(&b.scene, slope)->fixed = true;
+    b.scene.feature[2 * in_vain + row - 1].max_shift = 6;
     scene_board_begin(&b);
     sunder_i_search s;
     assert_true(sunder_i_search_init(&s, &b.of.model, b.body, b.scene.n, margin, b.move));

@@ -370,8 +370,10 @@ void sunder_i_search_give_up(sunder_i_search *s, const double *start)
     sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
     s->failed = s->failed || !at_home;
     const bool parts = !s->failed && s->n >= CROWD && was_solved_in_parts(s, start, n);
-    if (!s->failed && s->n > LARGE_CROWD) begin_again(s, start);
-    if (!s->failed && (!parts || is_crowd(s))) done = give_up_gradually(s, at_home, n);
+    const bool pushed = !s->failed && sunder_i_search_push_from_home(s, start, at_home, n);
+    if (!s->failed) done = pushed;
+    if (!s->failed && !done && s->n > LARGE_CROWD) begin_again(s, start);
+    if (!s->failed && !done && (!parts || is_crowd(s))) done = give_up_gradually(s, at_home, n);
     if (!s->failed && !done && !parts) begin_again(s, start);
     if (!s->failed && !done && parts) {
         sunder_i_relaxations_free(&s->relaxations);
@@ -388,4 +390,5 @@ void sunder_i_search_give_up(sunder_i_search *s, const double *start)
     sunder_i_free(at_home);
     sunder_i_search_lower(s);
     if (done && !s->failed) settle_at_home(s);
+    if (pushed && !s->failed) sunder_i_search_go_together(s);
 }

@@ -7,6 +7,7 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include <math.h>
 #include <string.h>
 
 static void box_at(const sunder_i_search *s, uint32_t i, double grown, double box[4])
@@ -49,8 +50,7 @@ void sunder_i_neighbourhood_free(sunder_i_neighbourhood *v)
     memset(v, 0, sizeof *v);
 }
 
-/* Who stands within reach of body i, in order of number: into v->near. */
-static bool look_about(sunder_i_neighbourhood *v, uint32_t i, double reach)
+bool sunder_i_neighbourhood_look_about(sunder_i_neighbourhood *v, uint32_t i, double reach)
 {
     double box[4];
     box_at(v->all, i, reach, box);
@@ -77,7 +77,7 @@ static bool gather(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t mos
     take_in(v, i);
     take_in(v, j);
     for (size_t at = 0; at < v->n && !v->wider; at++) {
-        if (!look_about(v, v->place[at], reach)) return false;
+        if (!sunder_i_neighbourhood_look_about(v, v->place[at], reach)) return false;
         for (size_t k = 0; k < v->near.n && !v->wider; k++) {
             v->wider = v->n >= most && !v->moves[v->near.item[k]] && v->all->mass[v->near.item[k]] > 0;
             if (!v->wider) take_in(v, v->near.item[k]);
@@ -85,7 +85,7 @@ static bool gather(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t mos
     }
     v->moving = v->n;
     for (size_t at = 0; at < v->moving; at++) {
-        if (!look_about(v, v->place[at], reach)) return false;
+        if (!sunder_i_neighbourhood_look_about(v, v->place[at], reach)) return false;
         for (size_t k = 0; k < v->near.n; k++) {
             const uint32_t who = v->near.item[k];
             if (v->moves[who]) continue;
@@ -142,18 +142,31 @@ static void end(sunder_i_neighbourhood *v, sunder_i_search *part)
     for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = false;
 }
 
+/* Did the two go the same way, so that they stand to each other as they stood? stood: [2 n] of all; NULL: not known. */
+static bool went_together(const sunder_i_neighbourhood *v, uint32_t i, uint32_t j, const double *stood)
+{
+    const sunder_i_search *s = v->all;
+    if (!stood || !v->moves[j]) return false;
+    for (size_t x = 0; x < 2; x++) {
+        const size_t a = 2 * (size_t)i + x, b = 2 * (size_t)j + x;
+        if (fabs((s->t[a] - stood[a]) - (s->t[b] - stood[b])) > s->tolerance / TOGETHER) return false;
+    }
+    return true;
+}
+
 /* Are those that moved in nobody's way, wherever he stands? */
-static bool is_free(sunder_i_neighbourhood *v)
+static bool is_free(sunder_i_neighbourhood *v, const double *stood)
 {
     sunder_i_search *s = v->all;
     for (size_t m = 0; m < v->n && !s->failed; m++) {
         const uint32_t i = v->place[m];
         if (!v->moves[i]) continue;
-        if (!look_about(v, i, s->gap)) s->failed = true;
+        if (!sunder_i_neighbourhood_look_about(v, i, s->gap)) s->failed = true;
         for (size_t k = 0; k < v->near.n && !s->failed; k++) {
             const uint32_t j = v->near.item[k], p = i < j ? i : j, q = i < j ? j : i;
             const double u[2] = {s->t[2 * q] - s->t[2 * p], s->t[2 * q + 1] - s->t[2 * p + 1]};
             bool yields;
+            if (went_together(v, i, j, stood)) continue;
             if (i != j && sunder_i_search_pair(s, p, q, u, &yields) > s->tolerance) return false;
         }
     }
@@ -189,7 +202,7 @@ static bool end_where_it_went(sunder_i_neighbourhood *v, sunder_i_search *part, 
     if (done && !part->failed) {
         give_back_cache(v, part);
         put(v, part->t);
-        done = is_free(v);
+        done = is_free(v, NULL);
         if (!done) put(v, v->t);
     }
     end(v, part);
@@ -245,7 +258,7 @@ double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *v, uint32_t i, uin
     if (gain > least) {
         give_back_cache(v, &part);
         put(v, part.t);
-        if (!is_free(v)) gain = 0;
+        if (!is_free(v, NULL)) gain = 0;
     }
     if (!(gain > least)) {
         put(v, v->t);
@@ -253,4 +266,26 @@ double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *v, uint32_t i, uin
     }
     end(v, &part);
     return gain;
+}
+
+bool sunder_i_neighbourhood_put(sunder_i_neighbourhood *v, const double *to)
+{
+    sunder_i_search *s = v->all;
+    for (size_t k = 0; k < v->n; k++) {
+        const size_t i = v->place[k];
+        v->moves[i] = true;
+        v->body[k] = s->body[i];
+        memcpy(v->t + 2 * i, s->t + 2 * i, 2 * sizeof *v->t);
+    }
+    put(v, to);
+    const bool free = is_free(v, v->t);
+    for (size_t k = 0; k < v->n && !free; k++) {
+        const uint32_t i = v->place[k];
+        double box[4];
+        memcpy(s->t + 2 * (size_t)i, v->t + 2 * (size_t)i, 2 * sizeof *v->t);
+        box_at(s, i, 0, box);
+        if (s->model->body[s->body[i]].pieces) sunder_i_rtree_move(&v->tree, i, box);
+    }
+    for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = false;
+    return free;
 }

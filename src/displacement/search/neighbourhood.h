@@ -30,5 +30,10 @@ bool sunder_i_neighbourhood_make_good(sunder_i_neighbourhood *neighbourhood, uin
  * What is cheaper by more than `least` is kept; returns by how much, or 0: then all are as in `best`. */
 double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                       double reach, const double *best, double least);
+/* Puts the n of `place` there, a place for each, if nobody is in their way, who stand about them. They are in nobody's
+ * neighbourhood then. */
+bool sunder_i_neighbourhood_put(sunder_i_neighbourhood *neighbourhood, const double *to);
+/* Who stands within reach of body i, in order of number: into `near`. False if memory is out. */
+bool sunder_i_neighbourhood_look_about(sunder_i_neighbourhood *neighbourhood, uint32_t i, double reach);
 
 #endif

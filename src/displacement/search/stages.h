@@ -80,6 +80,20 @@ sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n);
 /* From a position without clashes: what this search has given up, one pair after the other, and where it can be had it
  * goes there. */
 void sunder_i_search_take_back(sunder_i_search *search);
+/* The same by pushing alone, of a search that stands without clashes. */
+void sunder_i_search_push_back(sunder_i_search *search);
+
+/* ---- together.c -------------------------------------------------------------------------------------------------- */
+
+/* Those that stand near each other and went the same way but for a hair go the same way. */
+void sunder_i_search_go_together(sunder_i_search *search);
+
+/* ---- push_from_home.c -------------------------------------------------------------------------------------------- */
+
+/* A crowd that began at home, n pairs clashing there: gives up all of these, and takes back by pushing what it can.
+ * False: there is more room than that tells, or it is no such crowd; then all is as it was. */
+bool sunder_i_search_push_from_home(sunder_i_search *search, const double *start, const sunder_i_clash *at_home,
+                                    size_t n);
 
 /* ---- solve_cluster.c: how a search ends -------------------------------------------------------------------------- */
 

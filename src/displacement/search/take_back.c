@@ -5,14 +5,18 @@
  * those that overlapped first, then by what is missing: first with a few of those about them, everybody else standing
  * (neighbourhood.c), which finds most of what there is and costs little; what is left after that is asked of the whole,
  * which goes down from there. Where that comes to no end, within what one may take, all is put back as it was. Both end
- * when so many were in vain. */
+ * when so many were in vain. At last all are asked by pushing whoever stands in the way straight on (pushed.c), be they
+ * hundreds, which needs no program. */
 #include "displacement/search/neighbourhood.h"
+#include "displacement/search/pushed.h"
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define HALF_WAY 0.70710678118654752440 /* cosine and sine of 45 degrees */
 
 /* Two bodies, i < j, and what it would take to resolve all that is given up between them. */
 typedef struct wish {
@@ -107,34 +111,110 @@ static size_t ask_few(sunder_i_search *s, const sunder_i_relaxations *all, wish 
     return left;
 }
 
-static void ask_whole(sunder_i_search *s, const sunder_i_relaxations *all, const wish *list, size_t n, double *stand)
+/* All that move. Returns how many are left: the first of the list, in order. */
+static size_t ask_whole(sunder_i_search *s, const sunder_i_relaxations *all, wish *list, size_t n, double *stand)
 {
     const uint64_t end = sunder_i_search_work(s) + TAKE_BACK_MOST;
+    size_t left = 0;
     unsigned in_vain = 0; /* one after the other */
-    for (size_t k = 0; k < n && in_vain < TAKE_BACK_IN_VAIN && !s->failed && sunder_i_search_work(s) < end; k++) {
-        claim(s, all, &list[k]);
-        const bool granted = settle_whole(s, stand);
-        if (!granted) waive(s, all, &list[k]);
-        in_vain = granted ? 0 : in_vain + 1;
+    for (size_t k = 0; k < n; k++) {
+        const wish w = list[k];
+        bool granted = false;
+        if (in_vain < TAKE_BACK_IN_VAIN && !s->failed && sunder_i_search_work(s) < end) {
+            claim(s, all, &w);
+            granted = settle_whole(s, stand);
+            if (!granted) waive(s, all, &w);
+            in_vain = granted ? 0 : in_vain + 1;
+        }
+        if (!granted) list[left++] = w;
     }
+    return left;
 }
 
-void sunder_i_search_take_back(sunder_i_search *s)
+/* ---- By pushing -------------------------------------------------------------------------------------------------- */
+
+/* Parts a pair that misses no more than `most`, if whoever stands in the way can be pushed along: straight on, else
+ * half-way to either side, which for two that stand corner to corner is along a row. Returns whether nothing is missed
+ * then. */
+static bool push(sunder_i_search *s, sunder_i_pushed *p, uint32_t i, uint32_t j, double most)
+{
+    static const double turn[3][2] = {{1, 0}, {HALF_WAY, HALF_WAY}, {HALF_WAY, -HALF_WAY}};
+    double n[2];
+    const double missing = sunder_i_pushed_missing(p, i, j, n);
+    if (missing <= s->tolerance || missing > most) return missing <= s->tolerance;
+    for (size_t k = 0; k < 3 && !s->failed; k++) {
+        const double along[2] = {turn[k][0] * n[0] - turn[k][1] * n[1], turn[k][1] * n[0] + turn[k][0] * n[1]};
+        const double far = missing / turn[k][0];
+        if (sunder_i_pushed_reaches(p, i, j, along, far) && sunder_i_pushed_part(p, far)) break;
+    }
+    return sunder_i_pushed_missing(p, i, j, n) <= s->tolerance;
+}
+
+/* Asks each that misses no more than that once. Returns how many are left: the first of the list, in order. */
+static size_t push_each(sunder_i_search *s, sunder_i_pushed *p, const sunder_i_relaxations *all, wish *list, size_t n,
+                        double most)
+{
+    size_t left = 0;
+    for (size_t k = 0; k < n; k++) {
+        const wish w = list[k];
+        const uint32_t i = sunder_i_search_place_of(s, w.i), j = sunder_i_search_place_of(s, w.j);
+        if (s->failed || i == SUNDER_I_NOBODY || j == SUNDER_I_NOBODY || !push(s, p, i, j, most)) {
+            list[left++] = w;
+            continue;
+        }
+        claim(s, all, &w);
+        sunder_i_pushed_renew(p, i, j);
+    }
+    return left;
+}
+
+/* What misses least now comes first: what a row was opened by for one of its pairs may be most of what another misses.
+ * Returns how many are left: the first of the list, in order. */
+static size_t ask_pushed(sunder_i_search *s, const sunder_i_relaxations *all, wish *list, size_t n)
+{
+    sunder_i_pushed pushed;
+    double most = 0;
+    for (size_t k = 0; k < n; k++) most = fmax(most, list[k].missing);
+    if (!sunder_i_pushed_init(&pushed, s, most)) s->failed = true;
+    bool last = false;
+    for (double level = most / PUSHED_FIRST; !last && n && !s->failed; level *= PUSHED_LEVELS) {
+        last = !(level < most);
+        for (size_t before = 2 * n; before - n > before / LEAST_PUSHED && !s->failed;) {
+            before = n;
+            n = push_each(s, &pushed, all, list, n, last ? INFINITY : level);
+        }
+    }
+    sunder_i_pushed_free(&pushed);
+    return n;
+}
+
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
+
+static void take_back(sunder_i_search *s, const sunder_i_relaxations *all, wish *list, bool by_pushing_alone)
+{
+    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
+    s->failed = s->failed || !stand;
+    list_wishes(s, all, list);
+    const size_t some = by_pushing_alone ? all->relaxed_n : ask_few(s, all, list, all->relaxed_n);
+    const size_t left = by_pushing_alone ? some : ask_whole(s, all, list, some, stand);
+    ask_pushed(s, all, list, left);
+    sunder_i_free(stand);
+}
+
+static void begin(sunder_i_search *s, bool by_pushing_alone)
 {
     sunder_i_relaxations all = {0};
     for (size_t k = 0; k < s->relaxations.n && !s->failed; k++)
         if (!sunder_i_relaxations_add(&all, &s->relaxations.item[k])) s->failed = true;
     if (!s->failed && !sunder_i_relaxations_index(&all, s->model)) s->failed = true;
     wish *list = sunder_i_alloc(all.relaxed_n, sizeof *list);
-    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
-    s->failed = s->failed || !list || !stand;
+    s->failed = s->failed || !list;
     s->patience = UINT64_MAX;
-    if (!s->failed) {
-        list_wishes(s, &all, list);
-        const size_t left = ask_few(s, &all, list, all.relaxed_n);
-        ask_whole(s, &all, list, left, stand);
-    }
+    if (!s->failed) take_back(s, &all, list, by_pushing_alone);
     sunder_i_relaxations_free(&all);
     sunder_i_free(list);
-    sunder_i_free(stand);
 }
+
+void sunder_i_search_take_back(sunder_i_search *s) { begin(s, false); }
+
+void sunder_i_search_push_back(sunder_i_search *s) { begin(s, true); }

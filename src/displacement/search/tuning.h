@@ -115,6 +115,18 @@
 #define TAKE_BACK_FEW 32
 #define TAKE_BACK_FEW_IN_VAIN 32
 #define TAKE_BACK_IN_VAIN 2
+/* Lines between bodies are taken anew when the two went so far from where they were taken, as a share of what is
+ * missed at most; who stands beside the way, but for so little, is not pushed (pushed.c). */
+#define PUSHED_STALE 0.125
+#define PUSHED_BESIDE 1e-9
+/* What pairs miss that are asked so: at first this part of the most, then so many times as much each time. */
+#define PUSHED_FIRST 8
+#define PUSHED_LEVELS 1.2
+/* A crowd of which pushing leaves more than one pair in so many given up has next to no room: of grids of squares two
+ * in three are left, of symbols one in ten, of which a compromise tells better what to give up. It is pushed again as
+ * long as that takes back more than one in so many of what was left. */
+#define MOST_PUSHED 2
+#define LEAST_PUSHED 64
 /* Moves no longer than this share of a body are what descents leave of none. */
 #define NEARLY_HOME 1e-7
 
@@ -166,6 +178,8 @@
 #define SHORT_PATIENCE 20000u
 #define SHORT_PATIENCE_EACH 600u
 
+/* Two that went the same way to this part of the tolerance are not looked at again. */
+#define TOGETHER 64
 /* What was missed by a hair is made good in so many rounds (descend.c), and that may take so many times as much. */
 #define MOST_MENDING 4
 #define MENDING_TIMES 16

@@ -1,0 +1,186 @@
+/* displacement/search/pushed: who is pushed when a pair is parted, how far each has to go, and when it is in vain; what
+ * is taken back so of a row; displacement/search/together: what went the same way but for a hair. */
+#include "scene_board.h"
+
+#include "displacement/search/pushed.h"
+#include "displacement/search/stages.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const double margin = 0x1p-30, right[2] = {1, 0};
+
+/* Squares of 10 m in a row, `apart` of each from the next, that owe each other 3 and may go so far. */
+static void begin_row(scene_board *b, sunder_i_search *s, const double *apart, size_t n, double limit)
+{
+    double x = 0;
+    memset(b, 0, sizeof *b);
+    scene_begin(&b->scene, 3);
+    for (size_t k = 0; k <= n; k++) {
+        scene_add_box(&b->scene, x, 0, 10, 10)->max_shift = limit;
+        if (k < n) x += 10 + apart[k];
+    }
+    scene_board_begin(b);
+    assert_true(sunder_i_search_init(s, &b->of.model, b->body, b->scene.n, margin, b->move));
+    for (size_t k = 0; k < n; k++) {
+        sunder_i_relaxation t;
+        sunder_error err;
+        if (apart[k] >= 3) continue;
+        assert_int_equal(sunder_i_relaxation_of(&b->of.model, (uint32_t)k, (uint32_t)k + 1, &t, &err), SUNDER_OK);
+        assert_true(sunder_i_relaxations_add(&s->relaxations, &t));
+    }
+    assert_true(sunder_i_relaxations_index(&s->relaxations, &b->of.model));
+}
+
+static void end_row(scene_board *b, sunder_i_search *s)
+{
+    sunder_i_search_free(s);
+    scene_board_end(b);
+}
+
+static void assert_near(double a, double b) { assert_true(fabs(a - b) <= 1e-6); }
+
+/* The first two miss 1; the third is pushed at once, the fourth has half a metre before it is, the last two metres. */
+static void test_pushed_as_far_as_need_be(void **state)
+{
+    (void)state;
+    static const double apart[] = {2, 2, 3.5, 5};
+    scene_board b;
+    sunder_i_search s;
+    sunder_i_pushed p;
+    double n[2];
+    begin_row(&b, &s, apart, 4, 2);
+    assert_true(sunder_i_pushed_init(&p, &s, 2));
+    const double missing = sunder_i_pushed_missing(&p, 0, 1, n);
+    assert_near(missing, 1);
+    assert_near(n[0], 1);
+    assert_true(sunder_i_pushed_reaches(&p, 0, 1, n, missing));
+    assert_true(p.front[0].spare[1] == 0 && p.front[0].spare[2] == 0 && p.front[1].spare[0] == 0);
+    assert_near(p.front[0].spare[3], 0.5);
+    assert_true(p.front[0].spare[4] == INFINITY && p.front[1].spare[1] == INFINITY);
+    assert_true(sunder_i_pushed_part(&p, missing));
+    assert_near(sunder_i_pushed_missing(&p, 0, 1, n), 0);
+    assert_near(s.t[0], -0.75); /* one against three */
+    assert_near(s.t[2], 0.25);
+    assert_true(s.t[4] == s.t[2] && s.t[6] == 0 && s.t[8] == 0);
+    sunder_i_pushed_free(&p);
+    end_row(&b, &s);
+}
+
+/* Both ends of the row may go so far, and no farther: what is missed by more is in vain, and nobody has moved. */
+static void test_limits(void **state)
+{
+    (void)state;
+    static const double apart[] = {2.5, 2, 2.5};
+    scene_board b;
+    sunder_i_search s;
+    sunder_i_pushed p;
+    for (int k = 0; k < 2; k++) {
+        begin_row(&b, &s, apart, 3, k ? 0.51 : 0.49);
+        assert_true(sunder_i_pushed_init(&p, &s, 2));
+        assert_int_equal(sunder_i_pushed_reaches(&p, 1, 2, right, 1), k);
+        assert_true(s.t[0] == 0 && s.t[6] == 0);
+        sunder_i_pushed_free(&p);
+        end_row(&b, &s);
+    }
+}
+
+/* Somebody who is not in the way of the ways, but of one of those that are pushed, aside: it is not done. */
+static void test_put_back(void **state)
+{
+    (void)state;
+    static const double apart[] = {2};
+    scene_board b;
+    sunder_i_search s;
+    sunder_i_neighbourhood about;
+    begin_row(&b, &s, apart, 1, 2);
+    assert_true(sunder_i_neighbourhood_init(&about, &s));
+    about.n = 1;
+    about.place[0] = 1;
+    assert_false(sunder_i_neighbourhood_put(&about, (const double[]){-0.5, 0}));
+    assert_true(s.t[2] == 0 && s.t[3] == 0 && !about.moves[1]);
+    assert_true(sunder_i_neighbourhood_put(&about, (const double[]){0.5, 0}));
+    assert_true(s.t[2] == 0.5);
+    sunder_i_neighbourhood_free(&about);
+    end_row(&b, &s);
+}
+
+/* A row of sixty: no few about a pair could give way, and all of what the limits leave is taken back, least first: of
+ * ten that miss 0.5 and fifty that miss 1 within 2 either way, seven of the former, since the margins take a hair. */
+static void test_row(void **state)
+{
+    (void)state;
+    double apart[60];
+    scene_board b;
+    sunder_i_search s;
+    for (size_t k = 0; k < 60; k++) apart[k] = k % 6 == 3 ? 2.5 : 2;
+    begin_row(&b, &s, apart, 60, 2);
+    sunder_i_search_push_back(&s);
+    assert_false(s.failed);
+    assert_int_equal(s.relaxations.n, 60 - 7);
+    for (size_t k = 0; k < s.relaxations.n; k++) assert_true(s.relaxations.item[k].gap == 2 || k);
+    assert_true(sunder_i_search_look(&s, s.t) <= s.tolerance);
+    assert_near(s.t[2 * 60] - s.t[0], 3.5);
+    end_row(&b, &s);
+}
+
+/* The same beginning with all at home and owing all: that is what such a crowd is told by. With more room it is not. */
+static void test_crowd(void **state)
+{
+    (void)state;
+    double apart[60];
+    scene_board b;
+    sunder_i_search s;
+    for (size_t k = 0; k < 60; k++) apart[k] = 2;
+    for (int roomy = 0; roomy < 2; roomy++) {
+        begin_row(&b, &s, apart, 60, roomy ? 20 : 2);
+        sunder_i_relaxations_free(&s.relaxations);
+        size_t n;
+        sunder_i_clash *at_home = sunder_i_search_at_home(&s, &n);
+        assert_non_null(at_home);
+        assert_int_equal(n, 60);
+        assert_int_equal(sunder_i_search_push_from_home(&s, b.move, at_home, n), !roomy);
+        assert_int_equal(s.relaxations.n, roomy ? 0 : 57);
+        free(at_home);
+        end_row(&b, &s);
+    }
+}
+
+/* What a program told the bodies of a row by hairs becomes one move, and what that takes from the last is made good. */
+static void test_together(void **state)
+{
+    (void)state;
+    static const double apart[] = {2, 2, 2, 2.5, 2};
+    scene_board b;
+    sunder_i_search s;
+    begin_row(&b, &s, apart, 5, 2);
+    sunder_i_search_push_back(&s);
+    for (size_t k = 0; k < 6; k++) s.t[2 * k] += (double)k * s.tolerance / 3;
+    sunder_i_search_go_together(&s);
+    assert_false(s.failed);
+    assert_true(sunder_i_search_look(&s, s.t) <= s.tolerance);
+    size_t same = 0;
+    for (size_t k = 1; k < 6; k++) same += s.t[2 * k] == s.t[2 * (k - 1)];
+    assert_int_equal(same, s.relaxations.n); /* all but where the row was opened */
+    end_row(&b, &s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_pushed_as_far_as_need_be),
+        cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_put_back),
+        cmocka_unit_test(test_row),
+        cmocka_unit_test(test_crowd),
+        cmocka_unit_test(test_together),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
