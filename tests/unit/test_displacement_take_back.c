@@ -90,8 +90,8 @@ static void test_stranger(void **state)
     scene_board_end(&b);
 }
 
-/* Pairs that overlap by 2 and may not part, as many as that; then one that overlaps by 3, and may, but only aside, since
- * something fixed stands on either side: so nobody can be pushed. Is it asked? */
+/* Pairs that overlap by 2 and may not part, as many as that; then one that overlaps by 3, and may, but only aside,
+ * since something fixed stands on either side: so nobody can be pushed. Is it asked? */
 static bool is_asked_after(size_t in_vain)
 {
     const double last = 100 * (double)in_vain;

@@ -2,9 +2,9 @@
  *
  * A row that was pushed along as a whole has one move, but programs tell each of its bodies a hair another, and
  * rounding makes a unit of that: by which a pair in the row that is left in conflict, and may stand no worse, stands
- * worse. So those that stand near each other and whose moves differ by less than counts as a miss take the move of one of them.
- * In a row of hundreds these hairs add up: what is missed at its ends then is made good by pushing it along. Where that
- * leaves anything in the way all stay as they were. */
+ * worse. So those that stand near each other and whose moves differ by less than counts as a miss take the move of one
+ * of them. In a row of hundreds these hairs add up: what is missed at its ends then is made good by pushing it along.
+ * Where that leaves anything in the way all stay as they were. */
 #include "displacement/search/pushed.h"
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
