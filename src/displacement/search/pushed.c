@@ -114,7 +114,8 @@ static bool is_stale(const sunder_i_pushed *p, uint32_t i)
     const sunder_i_search *s = p->about.all;
     const sunder_i_push_lines *of = &p->of[i];
     const double near = PUSHED_STALE * p->reach;
-    if (!of->known || hypot(s->t[2 * i] - of->at[0], s->t[2 * i + 1] - of->at[1]) > p->reach / 2) return true;
+    if (!of->known || fmax(fabs(s->t[2 * i] - of->at[0]), fabs(s->t[2 * i + 1] - of->at[1])) > p->reach / 2)
+        return true;
     for (size_t k = 0; k < of->n; k++) {
         const uint32_t j = of->line[k].other, a = i < j ? i : j, b = i < j ? j : i;
         if (fabs(s->t[2 * b] - s->t[2 * a] - of->line[k].u[0]) > near ||
@@ -210,7 +211,7 @@ static bool go_on(sunder_i_pushed *p, sunder_i_push_front *f, uint32_t end, uint
     f->most = fmin(f->most, e.spare + room(s, e.body, f->along));
     if (is_stale(p, e.body)) take_lines(p, e.body);
     const sunder_i_push_lines *of = &p->of[e.body];
-    s->steps += 1 + of->n / 4;
+    s->steps += 1 + of->n;
     for (size_t k = 0; k < of->n && !s->failed; k++) {
         const sunder_i_push_line *l = &of->line[k];
         const double on = at(l->n, f->along);

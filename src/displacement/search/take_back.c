@@ -150,15 +150,17 @@ static bool push(sunder_i_search *s, sunder_i_pushed *p, uint32_t i, uint32_t j,
     return sunder_i_pushed_missing(p, i, j, n) <= s->tolerance;
 }
 
-/* Asks each that misses no more than that once. Returns how many are left: the first of the list, in order. */
+/* Asks each that misses no more than that once, up to so much work in all. Returns how many are left: the first of the
+ * list, in order. */
 static size_t push_each(sunder_i_search *s, sunder_i_pushed *p, const sunder_i_relaxations *all, wish *list, size_t n,
-                        double most)
+                        double most, uint64_t end)
 {
     size_t left = 0;
     for (size_t k = 0; k < n; k++) {
         const wish w = list[k];
         const uint32_t i = sunder_i_search_place_of(s, w.i), j = sunder_i_search_place_of(s, w.j);
-        if (s->failed || i == SUNDER_I_NOBODY || j == SUNDER_I_NOBODY || !push(s, p, i, j, most)) {
+        const bool is_out = s->failed || i == SUNDER_I_NOBODY || j == SUNDER_I_NOBODY || sunder_i_search_work(s) >= end;
+        if (is_out || !push(s, p, i, j, most)) {
             list[left++] = w;
             continue;
         }
@@ -174,6 +176,7 @@ static size_t ask_pushed(sunder_i_search *s, const sunder_i_relaxations *all, wi
 {
     sunder_i_pushed pushed;
     double most = 0;
+    const uint64_t end = sunder_i_search_work(s) + PUSHED_MOST + PUSHED_EACH * (uint64_t)s->n;
     for (size_t k = 0; k < n; k++) most = fmax(most, list[k].missing);
     if (!sunder_i_pushed_init(&pushed, s, most)) s->failed = true;
     bool last = false;
@@ -181,7 +184,7 @@ static size_t ask_pushed(sunder_i_search *s, const sunder_i_relaxations *all, wi
         last = !(level < most);
         for (size_t before = 2 * n; before - n > before / LEAST_PUSHED && !s->failed;) {
             before = n;
-            n = push_each(s, &pushed, all, list, n, last ? INFINITY : level);
+            n = push_each(s, &pushed, all, list, n, last ? INFINITY : level, end);
         }
     }
     sunder_i_pushed_free(&pushed);

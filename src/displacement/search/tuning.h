@@ -122,6 +122,9 @@
 /* What pairs miss that are asked so: at first this part of the most, then so many times as much each time. */
 #define PUSHED_FIRST 8
 #define PUSHED_LEVELS 1.2
+/* It may take so much, and so much for each body: of a grid of 20,000 most pairs reach thousands in vain. */
+#define PUSHED_MOST 100000000u
+#define PUSHED_EACH 40000u
 /* A crowd of which pushing leaves more than one pair in so many given up has next to no room: of grids of squares two
  * in three are left, of symbols one in ten, of which a compromise tells better what to give up. It is pushed again as
  * long as that takes back more than one in so many of what was left. */
