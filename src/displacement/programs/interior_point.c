@@ -8,7 +8,7 @@
  * The steps number a dozen or two whatever the program, and what comes out lies inside the constraints, not a rounding
  * error beyond them. */
 #include "displacement/programs/methods.h"
-#include "displacement/programs/sparse.h"
+#include "displacement/programs/normal_equations.h"
 #include "displacement/programs/tuning.h"
 
 #include "base/watch.h"
@@ -18,103 +18,40 @@
 
 typedef struct interior {
     sunder_i_quadratic *p;
-    size_t n, m;       /* unknowns, constraints */
-    uint32_t *unknown; /* [bodies] first of its two unknowns, or SUNDER_I_GROUND */
-    sunder_i_sparse matrix;
-    double *h, *x, *dx;                       /* [n] */
+    sunder_i_normal normal;
+    size_t n, m;                              /* unknowns, constraints */
+    double *x, *dx;                           /* [n + 2], zero at the ground */
     double *s, *f, *ds, *df, *rp, *rc, *soft; /* [m] */
     double *memory;
 } interior;
 
 static void interior_free(interior *q)
 {
-    sunder_i_sparse_free(&q->matrix);
-    sunder_i_free(q->unknown);
+    sunder_i_normal_free(&q->normal);
     sunder_i_free(q->memory);
 }
 
-static uint32_t unknown_of(const interior *q, uint32_t body)
+static double stretch(const interior *q, size_t c, const double *x)
 {
-    return body == SUNDER_I_GROUND ? SUNDER_I_GROUND : q->unknown[body];
-}
-
-/* Numbers the unknowns, and which entries the matrix has. */
-static bool shape_matrix(interior *q)
-{
-    const sunder_i_quadratic *p = q->p;
-    sunder_i_id_pair *pair = sunder_i_alloc(q->m, sizeof *pair);
-    q->unknown = sunder_i_alloc(p->bodies, sizeof *q->unknown);
-    bool ok = pair && q->unknown;
-    for (size_t b = 0; ok && b < p->bodies; b++) {
-        q->unknown[b] = p->mass[b] > 0 ? (uint32_t)q->n : SUNDER_I_GROUND;
-        if (p->mass[b] > 0) q->n += 2;
-    }
-    size_t pairs = 0;
-    for (size_t c = 0; ok && c < q->m; c++) {
-        const uint32_t a = unknown_of(q, p->constraint[c].i), b = unknown_of(q, p->constraint[c].j);
-        if (a != SUNDER_I_GROUND && b != SUNDER_I_GROUND) pair[pairs++] = (sunder_i_id_pair){a / 2, b / 2};
-    }
-    ok = ok && sunder_i_sparse_init(&q->matrix, q->n / 2, pair, pairs);
-    sunder_i_free(pair);
-    return ok;
-}
-
-/* block += v n n', the matrix of one constraint's part. */
-static void add_outer(double *block, double v, const double n[2])
-{
-    block[0] += v * n[0] * n[0];
-    block[1] += v * n[0] * n[1];
-    block[2] += v * n[1] * n[0];
-    block[3] += v * n[1] * n[1];
+    return sunder_i_normal_stretch(&q->normal.row[c], x);
 }
 
 static void fill_matrix(interior *q)
 {
-    sunder_i_sparse_clear(&q->matrix);
-    for (size_t r = 0; r < q->n; r++) sunder_i_sparse_diagonal(&q->matrix, (uint32_t)r / 2)[r & 1 ? 3 : 0] = q->h[r];
-    for (size_t c = 0; c < q->m; c++) {
-        const sunder_i_constraint *k = &q->p->constraint[c];
-        const uint32_t a = unknown_of(q, k->i), b = unknown_of(q, k->j);
-        const double v = q->f[c] / (q->s[c] + q->soft[c] * q->f[c]);
-        if (a != SUNDER_I_GROUND) add_outer(sunder_i_sparse_diagonal(&q->matrix, a / 2), v, k->n);
-        if (b != SUNDER_I_GROUND) add_outer(sunder_i_sparse_diagonal(&q->matrix, b / 2), v, k->n);
-        /* The part is symmetric, so it does not matter which of the two entries is kept. */
-        bool transposed;
-        if (a != SUNDER_I_GROUND && b != SUNDER_I_GROUND)
-            add_outer(sunder_i_sparse_block(&q->matrix, a / 2, b / 2, &transposed), -v, k->n);
-    }
-    q->p->work += q->matrix.work + 4 * q->m;
-}
-
-/* (A x) of constraint c. */
-static double stretch(const interior *q, size_t c, const double *x)
-{
-    const sunder_i_constraint *k = &q->p->constraint[c];
-    const uint32_t a = unknown_of(q, k->i), b = unknown_of(q, k->j);
-    double v = 0;
-    if (b != SUNDER_I_GROUND) v += k->n[0] * x[b] + k->n[1] * x[b + 1];
-    if (a != SUNDER_I_GROUND) v -= k->n[0] * x[a] + k->n[1] * x[a + 1];
-    return v;
-}
-
-/* x += A' v for one constraint. */
-static void spread(const interior *q, size_t c, double v, double *x)
-{
-    const sunder_i_constraint *k = &q->p->constraint[c];
-    const uint32_t a = unknown_of(q, k->i), b = unknown_of(q, k->j);
-    for (size_t e = 0; e < 2; e++) {
-        if (b != SUNDER_I_GROUND) x[b + e] += v * k->n[e];
-        if (a != SUNDER_I_GROUND) x[a + e] -= v * k->n[e];
-    }
+    sunder_i_normal_clear(&q->normal);
+    for (size_t c = 0; c < q->m; c++) sunder_i_normal_add(&q->normal, c, q->f[c] / (q->s[c] + q->soft[c] * q->f[c]));
+    q->p->work += q->normal.matrix.work + 4 * q->m;
 }
 
 /* The Newton step for the complementarity rc, with the factor as it stands. */
 static void direction(interior *q)
 {
-    for (size_t k = 0; k < q->n; k++) q->dx[k] = -q->h[k] * q->x[k];
+    for (size_t k = 0; k < q->n; k++) q->dx[k] = -q->normal.h[k] * q->x[k];
     for (size_t c = 0; c < q->m; c++)
-        spread(q, c, q->f[c] - (q->rc[c] + q->f[c] * q->rp[c]) / (q->s[c] + q->soft[c] * q->f[c]), q->dx);
-    sunder_i_sparse_solve(&q->matrix, q->dx);
+        sunder_i_normal_spread(&q->normal.row[c],
+                               q->f[c] - (q->rc[c] + q->f[c] * q->rp[c]) / (q->s[c] + q->soft[c] * q->f[c]), q->dx);
+    sunder_i_sparse_solve(&q->normal.matrix, q->dx);
+    q->dx[q->n] = q->dx[q->n + 1] = 0;
     for (size_t c = 0; c < q->m; c++) {
         const double a = stretch(q, c, q->dx);
         q->df[c] = -(q->rc[c] + q->f[c] * (q->rp[c] + a)) / (q->s[c] + q->soft[c] * q->f[c]);
@@ -127,8 +64,9 @@ static double longest(const interior *q)
 {
     double step = 1;
     for (size_t c = 0; c < q->m; c++) {
-        if (q->ds[c] < 0) step = fmin(step, -q->s[c] / q->ds[c]);
-        if (q->df[c] < 0) step = fmin(step, -q->f[c] / q->df[c]);
+        const double slack = q->ds[c] < 0 ? -q->s[c] / q->ds[c] : 1, force = q->df[c] < 0 ? -q->f[c] / q->df[c] : 1;
+        if (slack < step) step = slack;
+        if (force < step) step = force;
     }
     return step;
 }
@@ -150,11 +88,11 @@ static bool advance(interior *q, double tolerance, double *mu)
         q->rc[c] = q->s[c] * q->f[c];
         q->ds[c] = q->df[c] = 0;
     }
-    for (size_t k = 0; k < q->n; k++) cost += q->h[k] * q->x[k] * q->x[k] / 2;
+    for (size_t k = 0; k < q->n; k++) cost += q->normal.h[k] * q->x[k] * q->x[k] / 2;
     *mu = mean_product(q, 0);
     if (missed <= tolerance && *mu * (double)q->m <= GAP_LEFT * cost) return false;
     fill_matrix(q);
-    if (!sunder_i_sparse_factor(&q->matrix)) return false;
+    if (!sunder_i_sparse_factor(&q->normal.matrix)) return false;
     direction(q);
     const double affine = longest(q), ratio = mean_product(q, affine) / *mu, centre = ratio * ratio * ratio * *mu;
     for (size_t c = 0; c < q->m; c++) q->rc[c] = q->s[c] * q->f[c] + q->ds[c] * q->df[c] - centre;
@@ -174,7 +112,7 @@ static void begin_near(interior *q, double scale, double mean)
 {
     const sunder_i_quadratic *p = q->p;
     for (size_t b = 0; b < p->bodies; b++)
-        if (q->unknown[b] != SUNDER_I_GROUND) memcpy(q->x + q->unknown[b], p->t + 2 * b, 2 * sizeof *q->x);
+        if (p->mass[b] > 0) memcpy(q->x + q->normal.unknown[b], p->t + 2 * b, 2 * sizeof *q->x);
     for (size_t c = 0; c < q->m; c++) {
         q->s[c] = fmax(stretch(q, c, q->x) - p->constraint[c].d, FIRST_SLACK * scale);
         q->f[c] = FIRST_SLACK * mean * scale * scale / q->s[c];
@@ -208,24 +146,22 @@ bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double 
     interior q;
     memset(&q, 0, sizeof q);
     q.p = p;
-    q.m = p->n;
-    bool ok = shape_matrix(&q);
+    bool ok = sunder_i_normal_init(&q.normal, p);
+    q.n = q.normal.n;
+    q.m = q.normal.m;
     if (ok) {
-        q.memory = sunder_i_calloc(3 * q.n + 7 * q.m, sizeof *q.memory);
+        q.memory = sunder_i_calloc(2 * (q.n + 2) + 7 * q.m, sizeof *q.memory);
         ok = q.memory;
     }
     if (ok && q.n) {
         double *next = q.memory, mean = 0, mu;
-        double **vector[] = {&q.h, &q.x, &q.dx, &q.s, &q.f, &q.ds, &q.df, &q.rp, &q.rc, &q.soft};
+        double **vector[] = {&q.x, &q.dx, &q.s, &q.f, &q.ds, &q.df, &q.rp, &q.rc, &q.soft};
         for (size_t v = 0; v < sizeof vector / sizeof *vector; v++) {
             *vector[v] = next;
-            next += v < 3 ? q.n : q.m;
+            next += v < 2 ? q.n + 2 : q.m;
         }
-        for (size_t b = 0; b < p->bodies; b++) {
-            if (q.unknown[b] == SUNDER_I_GROUND) continue;
-            for (size_t e = 0; e < 2; e++) q.h[q.unknown[b] + e] = 1 / p->mass[b];
-            mean += 2 / p->mass[b] / (double)q.n;
-        }
+        for (size_t b = 0; b < p->bodies; b++)
+            if (p->mass[b] > 0) mean += 2 / p->mass[b] / (double)q.n;
         for (size_t c = 0; c < q.m; c++)
             q.soft[c] = softness * (sunder_i_mass(p, p->constraint[c].i) + sunder_i_mass(p, p->constraint[c].j));
         if (q.n <= 2 * MOST_NEAR)
@@ -235,8 +171,7 @@ bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double 
         for (int k = 0; k < MOST_STEPS && !sunder_i_quadratic_is_done(p) && advance(&q, tolerance, &mu); k++)
             if (!sunder_i_look() || is_beyond(&q, softness)) break;
         for (size_t b = 0; b < p->bodies; b++)
-            for (size_t e = 0; e < 2; e++)
-                p->t[2 * b + e] = q.unknown[b] == SUNDER_I_GROUND ? 0 : q.x[q.unknown[b] + e];
+            for (size_t e = 0; e < 2; e++) p->t[2 * b + e] = p->mass[b] > 0 ? q.x[q.normal.unknown[b] + e] : 0;
         /* Forces that fade are of constraints that do not act. */
         for (size_t c = 0; c < q.m; c++) p->constraint[c].force = q.f[c] > FADED * mean * scale ? q.f[c] : 0;
     }

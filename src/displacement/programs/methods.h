@@ -52,6 +52,13 @@ bool sunder_i_quadratic_gradient(sunder_i_quadratic *program, double softness, d
  * not. */
 bool sunder_i_quadratic_equations(sunder_i_quadratic *program, double softness, double tolerance);
 
+/* ---- newton.c ---------------------------------------------------------------------------------------------------- */
+
+/* By Newton steps on the moves, from the forces: *solved, with t and the forces, which keep, or all but keep, all that
+ * is demanded, or prove that all solutions cost too much; else the forces are what they were. False if memory is
+ * out. */
+bool sunder_i_quadratic_newton(sunder_i_quadratic *program, double softness, double tolerance, bool *solved);
+
 /* ---- interior_point.c -------------------------------------------------------------------------------------------- */
 
 /* By an interior point method, from p->t; sets t and the forces. scale: a length such as things move by. False if

@@ -1,11 +1,13 @@
-/* min sum w_i |t_i|^2 under constraints n.(t_j - t_i) >= d: four methods, one after the other.
+/* min sum w_i |t_i|^2 under constraints n.(t_j - t_i) >= d: five methods, one after the other.
  *
  * The dual has one multiplier (a force) a constraint, and t follows from the forces: 2 w_i t_i = sum of the forces on
  * i. Hildreth's method [Hil57] takes one constraint after another and gives its force the value that makes it hold with
  * equality, or zero. It is quick to find which constraints act, slow to find how strongly where contacts form long
  * chains. There conjugate gradients that keep the forces non-negative (conjugate_gradients.c) are far quicker, and when
- * the acting set is known, or nearly, linear equations (active_set.c) give the rest of the digits. What resists, and
- * what is large, goes to an interior point method (interior_point.c).
+ * the acting set is known, or nearly, linear equations (active_set.c) give the rest of the digits. Programs of more
+ * than a few dozen constraints are asked first of Newton's method on the moves (newton.c), which takes a fraction of
+ * that where they contradict each other. What resists, and what is large, goes to an interior point method
+ * (interior_point.c).
  *
  * With softness s each constraint may be missed by s * (mass_i + mass_j) * force, which adds that to the diagonal of
  * the dual: contradictions then have a compromise. */
@@ -193,16 +195,13 @@ static double give_up(sunder_i_quadratic *p)
 
 double sunder_i_quadratic_solve(sunder_i_quadratic *p, double softness, double tolerance, double scale)
 {
-    if (p->n <= MOST_QUICK) {
-        const bool contradicts =
-            softness > 0 && p->most_cost > 0 && p->n > MOST_SOFT_QUICK && p->bodies <= FEW_SOFT;
-        if (!(contradicts ? sweep(p, softness, tolerance) : solve_quickly(p, softness, tolerance))) return -1;
-        if (contradicts) {
-            sunder_i_quadratic_place(p);
-            p->work += SOFT_WORK * p->n;
-        }
-        if (sunder_i_quadratic_worst(p, softness) <= tolerance) return finish(p);
-    }
+    bool solved = false;
+    if (p->n > FEWEST_NEWTON && p->n <= MOST_QUICK && p->bodies <= MOST_BODIES_NEWTON &&
+        !sunder_i_quadratic_newton(p, softness, tolerance, &solved))
+        return -1;
+    if (!solved && p->n <= MOST_QUICK && !solve_quickly(p, softness, tolerance)) return -1;
+    if (p->n <= MOST_QUICK && sunder_i_quadratic_worst(p, softness) <= tolerance) return finish(p);
+    if (solved) return sunder_i_quadratic_is_beyond(p, softness) ? give_up(p) : finish(p);
     sunder_i_quadratic_place(p);
     if (sunder_i_quadratic_is_done(p)) return finish(p);
     if (sunder_i_quadratic_is_beyond(p, softness)) return give_up(p);

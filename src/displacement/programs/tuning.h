@@ -8,14 +8,6 @@
 /* Programs with more constraints go to the interior point method at once: the dual methods are quick for the dozens of
  * contacts of almost every cluster, and had not ended after minutes for one of 300 blocks of a dense old town. */
 #define MOST_QUICK 1500
-/* Of soft programs with more constraints than the first and no more bodies than the second, where all that moves has a
- * limit, sweeps alone are tried before that. These contradict each other, mostly, and a compromise of many is what the
- * dual methods are slow to find: blocks of 32 houses with some 200 constraints took 0.75 ms by them, and take 0.2. They
- * count as work, for each constraint, about half of what the dual methods did: what may be done to give up pairs is
- * reckoned from that. (Of crowds, too: 503 to 769 pairs of symbols left for 387, whatever they count.) */
-#define MOST_SOFT_QUICK 128
-#define FEW_SOFT 40
-#define SOFT_WORK 800
 /* Passes of Hildreth's method, every fourth over all constraints, the others over those that act: enough to tell which
  * act, the forces are left to what follows. */
 #define SWEEPS 40
@@ -56,6 +48,34 @@
 
 /* Steps, which are some for each constraint that acts in the end. */
 #define MOST_NEAREST 1000
+
+/* ---- Newton steps ------------------------------------------------------------------------------------------------ */
+
+/* Programs with more constraints than these, and no more than MOST_QUICK, begin with them: below, the dual methods are
+ * as quick. Of the programs of terraces of 11,700 houses soft ones took a fifth of the time of what was done before,
+ * hard ones two fifths. */
+#define FEWEST_NEWTON 40
+/* Nor of more bodies than these: in a row of 250 slabs, each on the next and on a hut, the sequence of soft programs
+ * was cut short, and three stayed on their huts. */
+#define MOST_BODIES_NEWTON 400
+/* Of no more bodies than the first a step counts so many times as much work: what may be done to give up pairs, and to
+ * ask for them again, is reckoned from that. With 1 terraces of 11,700 houses take a tenth longer, for 6 of 6,960
+ * pairs; with 3 in crowds, too, Germany within 6 km is left with 447 pairs for 398. */
+#define FEW_BODIES 40
+#define WORK_OF_FEW 3
+/* Steps for one soft program, of which some to two dozen are the rule. */
+#define MOST_NEWTON 50
+/* A place is near enough if a step is shorter than the tolerance by so many times. */
+#define CLOSE 16
+/* Along a step: places looked at, and the share of the slope, or of the way, that is as good as none. */
+#define MOST_SHARES 30
+#define FLAT 1e-3
+/* Softness in the sequence that ends in a hard program: at first, what it is divided by each time, and the least, where
+ * rounding is still far; and how often. With 1e-2 to 1e-8 at first, and 1e-10 in the end, it takes as long. */
+#define FIRST_GIVE 1e-3
+#define LESS_GIVE 30
+#define LEAST_GIVE 1e-8
+#define MOST_FORCES 8
 
 /* ---- Interior point ---------------------------------------------------------------------------------------------- */
 

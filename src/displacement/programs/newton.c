@@ -1,0 +1,215 @@
+/* The same program by Newton steps on the moves, from forces that are nearly right.
+ *
+ * A soft program has no constraints any more: what is missed by v > 0 costs v^2 / (2 give), with give = softness *
+ * (mass_i + mass_j), and its force is v / give. The sum of all that and of the cost of the moves is convex and smooth,
+ * of pieces that are quadratic: those constraints act that are missed. A Newton step goes to the least of the piece at
+ * hand, or to where the sum is least on the way; once a whole step leaves the piece what it is, that is the solution
+ * [QS93]. It takes some steps from forces that are nearly right, a dozen or two from none, where what the dual methods
+ * take grows with the length of chains, and with contradictions without end.
+ *
+ * A hard program is a sequence of soft ones [Roc76]: each constraint is owed give * force more, with the force that it
+ * had before, so that where forces no longer change nothing is missed. The less give is the fewer it takes, so it
+ * falls; where contradictions let forces grow, they soon prove that all solutions cost too much, if they do. */
+#include "displacement/programs/methods.h"
+#include "displacement/programs/normal_equations.h"
+#include "displacement/programs/tuning.h"
+
+#include "base/watch.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct newton {
+    sunder_i_quadratic *p;
+    sunder_i_normal normal;
+    double *x, *step;    /* [n + 2] where the bodies are, and a step; zero at the ground */
+    double *give, *owed; /* [m] what a force of 1 yields, 0 where neither end can move; what is owed, with the forces */
+    double *left;        /* [m] of that: it acts if it is positive, and then the force is left / give */
+    double *along;       /* [m] what a step takes off */
+    double *first;       /* [m] forces, to go back to */
+    double *memory;
+} newton;
+
+static bool prepare(newton *q, sunder_i_quadratic *p)
+{
+    memset(q, 0, sizeof *q);
+    q->p = p;
+    if (!sunder_i_normal_init(&q->normal, p)) return false;
+    const size_t places = q->normal.n + 2, m = q->normal.m;
+    q->memory = sunder_i_calloc(2 * places + 5 * m, sizeof *q->memory);
+    if (!q->memory) return false;
+    q->x = q->memory;
+    q->step = q->x + places;
+    q->give = q->step + places;
+    q->owed = q->give + m;
+    q->left = q->owed + m;
+    q->along = q->left + m;
+    q->first = q->along + m;
+    for (size_t c = 0; c < m; c++) q->first[c] = p->constraint[c].force;
+    return true;
+}
+
+/* ---- One soft program -------------------------------------------------------------------------------------------- */
+
+static void look(newton *q)
+{
+    for (size_t c = 0; c < q->normal.m; c++)
+        q->left[c] = q->give[c] > 0 ? q->owed[c] - sunder_i_normal_stretch(&q->normal.row[c], q->x) : 0;
+}
+
+/* To the least of the piece at hand. False if the matrix is none that has one, as far as doubles can tell. */
+static bool find_step(newton *q)
+{
+    sunder_i_normal *a = &q->normal;
+    sunder_i_normal_clear(a);
+    for (size_t k = 0; k < a->n; k++) q->step[k] = -a->h[k] * q->x[k];
+    for (size_t c = 0; c < a->m; c++) {
+        if (!(q->left[c] > 0)) continue;
+        sunder_i_normal_add(a, c, 1 / q->give[c]);
+        sunder_i_normal_spread(&a->row[c], q->left[c] / q->give[c], q->step);
+    }
+    q->p->work += (q->p->bodies <= FEW_BODIES ? WORK_OF_FEW : 1) * (a->matrix.work + 4 * a->m);
+    if (!sunder_i_sparse_factor(&a->matrix)) return false;
+    sunder_i_sparse_solve(&a->matrix, q->step);
+    q->step[a->n] = q->step[a->n + 1] = 0;
+    for (size_t c = 0; c < a->m; c++) q->along[c] = sunder_i_normal_stretch(&a->row[c], q->step);
+    return true;
+}
+
+/* How steep the sum is that far along the step, and how much steeper it gets. */
+static void steepness(const newton *q, double share, const double moves[2], double *slope, double *bend)
+{
+    *slope = moves[0] + share * moves[1];
+    *bend = moves[1];
+    for (size_t c = 0; c < q->normal.m; c++) {
+        const double left = q->left[c] - share * q->along[c];
+        if (!(left > 0)) continue;
+        const double force = q->along[c] / q->give[c];
+        *slope -= left * force;
+        *bend += q->along[c] * force;
+    }
+}
+
+/* The share of the step at which the sum is least, or nearly: its slope grows along the step, in straight pieces, so
+ * Newton's method finds it, kept between a share where the sum still falls and one where it rises. */
+static double find_share(const newton *q)
+{
+    const sunder_i_normal *a = &q->normal;
+    double moves[2] = {0, 0}, low = 0, high = INFINITY, share = 1, whole = 0;
+    for (size_t k = 0; k < a->n; k++) {
+        moves[0] += a->h[k] * q->x[k] * q->step[k];
+        moves[1] += a->h[k] * q->step[k] * q->step[k];
+    }
+    for (int k = 0; k < MOST_SHARES; k++) {
+        double slope, bend;
+        steepness(q, share, moves, &slope, &bend);
+        if (k == 0) whole = fabs(slope);
+        *(slope > 0 ? &high : &low) = share;
+        if (k > 0 && !(fabs(slope) > FLAT * whole)) break;
+        const double before = share;
+        share -= slope / bend;
+        if (!(share > low && share < high)) share = high < INFINITY ? (low + high) / 2 : 2 * before;
+        if (fabs(share - before) < FLAT * before) break;
+    }
+    return share;
+}
+
+/* Goes that share of the step. Returns whether the same constraints act as did; *far: the longest step of a body. */
+static bool go(newton *q, double share, double *far)
+{
+    bool same = true;
+    *far = 0;
+    for (size_t k = 0; k < q->normal.n; k++) {
+        q->x[k] += share * q->step[k];
+        *far = fmax(*far, fabs(q->step[k]));
+    }
+    for (size_t c = 0; c < q->normal.m; c++) {
+        const bool acted = q->left[c] > 0;
+        q->left[c] -= share * q->along[c];
+        same = same && acted == (q->left[c] > 0);
+    }
+    return same;
+}
+
+/* The least of the sum; false if it was not found. */
+static bool minimise(newton *q, double tolerance)
+{
+    look(q);
+    if (!sunder_i_look()) return false;
+    for (int k = 0; k < MOST_NEWTON && !sunder_i_quadratic_is_done(q->p); k++) {
+        double far;
+        if (!find_step(q)) return false;
+        const double share = find_share(q);
+        const bool same = go(q, share, &far);
+        if ((same && share == 1) || far <= tolerance) return true;
+    }
+    return false;
+}
+
+/* ---- The sequence ------------------------------------------------------------------------------------------------ */
+
+/* What is owed with the forces as they are. */
+static void owe(newton *q, double softness, bool hard)
+{
+    const sunder_i_quadratic *p = q->p;
+    for (size_t c = 0; c < q->normal.m; c++) {
+        const sunder_i_constraint *k = &p->constraint[c];
+        q->give[c] = softness * (sunder_i_mass(p, k->i) + sunder_i_mass(p, k->j));
+        q->owed[c] = k->d + (hard ? q->give[c] * k->force : 0);
+    }
+}
+
+/* The forces that were found. Returns by how much a constraint is missed for their change, or kept: by none is it where
+ * they have not changed. */
+static double take_forces(newton *q)
+{
+    double most = 0;
+    look(q);
+    for (size_t c = 0; c < q->normal.m; c++) {
+        if (!(q->give[c] > 0)) continue;
+        const double left = fmax(0, q->left[c]), change = fabs(left - q->give[c] * q->p->constraint[c].force);
+        if (!(change <= most)) most = change;
+        q->p->constraint[c].force = left / q->give[c];
+    }
+    return most;
+}
+
+static bool solve_soft(newton *q, double softness, double tolerance)
+{
+    owe(q, softness, false);
+    if (!minimise(q, tolerance / CLOSE)) return false;
+    take_forces(q);
+    return true;
+}
+
+static bool solve_hard(newton *q, double tolerance)
+{
+    double give = FIRST_GIVE;
+    if (sunder_i_quadratic_is_beyond(q->p, 0)) return true;
+    for (int k = 0; k < MOST_FORCES && !sunder_i_quadratic_is_done(q->p);
+         k++, give = fmax(LEAST_GIVE, give / LESS_GIVE)) {
+        owe(q, give, true);
+        if (!minimise(q, tolerance / CLOSE)) return false;
+        if (take_forces(q) <= tolerance || sunder_i_quadratic_is_beyond(q->p, 0)) return true;
+    }
+    return false;
+}
+
+bool sunder_i_quadratic_newton(sunder_i_quadratic *p, double softness, double tolerance, bool *solved)
+{
+    newton q;
+    *solved = false;
+    const bool ok = prepare(&q, p);
+    if (ok) {
+        sunder_i_quadratic_place(p);
+        for (size_t b = 0; b < p->bodies; b++)
+            if (p->mass[b] > 0) memcpy(q.x + q.normal.unknown[b], p->t + 2 * b, 2 * sizeof *q.x);
+        *solved = softness > 0 ? solve_soft(&q, softness, tolerance) : solve_hard(&q, tolerance);
+        for (size_t b = 0; b < p->bodies && *solved; b++)
+            if (p->mass[b] > 0) memcpy(p->t + 2 * b, q.x + q.normal.unknown[b], 2 * sizeof *q.x);
+        for (size_t c = 0; c < p->n && !*solved; c++) p->constraint[c].force = q.first[c];
+    }
+    sunder_i_normal_free(&q.normal);
+    sunder_i_free(q.memory);
+    return ok;
+}
