@@ -178,7 +178,8 @@ static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const s
  * solution: a pair without one ends it, or a proof, or a cluster for which none is found, and nothing is given up or
  * improved. (Only who has to leave what it lies in finds that out by a search in vain.) */
 static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_options *options,
-                                  const sunder_i_id_pair *pair, size_t n, sunder_i_solver *s, sunder_error *err)
+                                  const sunder_i_id_pair *pair, size_t n, sunder_i_proof_found *proof,
+                                  sunder_i_solver *s, sunder_error *err)
 {
     const sunder_i_spared list = {pair, n};
     sunder_report *report = NULL;
@@ -192,7 +193,10 @@ static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_
     status = prepare(s, err);
     /* Two may be shut in, too. */
     s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, &list);
-    if (!status && s->brief && !s->hopeless) status = sunder_i_solver_is_proved_hopeless(s, &list, &s->hopeless, err);
+    if (!status && s->brief && !s->hopeless && *proof == SUNDER_I_PROOF_WANTED) {
+        status = sunder_i_solver_is_proved_hopeless(s, &list, &s->hopeless, err);
+        *proof = s->hopeless ? SUNDER_I_PROOF_FOUND : SUNDER_I_PROOF_IN_VAIN;
+    }
     if (!status && !s->hopeless) status = sunder_i_solver_spare(s, &list, err);
     if (!status && !s->hopeless) status = sunder_i_solver_move_inside(s, err);
     if (!status && !s->hopeless) status = sunder_i_solver_choose_holders(s, err);

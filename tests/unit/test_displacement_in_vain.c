@@ -82,11 +82,12 @@ static void end(crowd *c)
 }
 
 /* Of report/tuning.h: no more features than these take part in questions about a cluster that are in vain; so many
- * pairs are asked a question in vain before fewer are; the least effort for a proof; and so many of a cluster, one
- * after the other, are not proved by more, or by that. */
+ * pairs are asked a question in vain before fewer are, and of so many it is looked for a proof in vain; the least
+ * effort for a proof; and so many of a cluster, one after the other, are not proved by more, or by that. */
 enum {
     NEED_IN_VAIN = 200000,
     NEED_PATIENCE = 32,
+    PROOF_PATIENCE = 8,
     FIRST_EFFORT = 10000,
     PROOFS_IN_VAIN = 32,
     PROOFS_IN_VAIN_AT_FIRST = 1024
@@ -94,17 +95,20 @@ enum {
 
 /* ---- What would free it? ----------------------------------------------------------------------------------------- */
 
-/* Questions, by where their layer is, and of what: limits, or gaps. */
-static size_t asked_limit[2], asked_gap[2];
+/* Questions, by where their layer is, and of what: limits, or gaps; and for proofs. */
+static size_t asked_limit[2], asked_gap[2], asked_proof[2];
 
 /* No layer has a solution. */
 static sunder_status solve_in_vain(const sunder_layer *layer, const sunder_layer_options *options,
-                                   const sunder_i_id_pair *spared, size_t n, sunder_i_solver *x, sunder_error *err)
+                                   const sunder_i_id_pair *spared, size_t n, sunder_i_proof_found *proof,
+                                   sunder_i_solver *x, sunder_error *err)
 {
     double box[4];
     (void)spared, (void)n, (void)err;
     sunder_shape_box(layer->feature[0].shape, box);
     (options->gap < 2 ? asked_gap : asked_limit)[box[1] > 1000]++;
+    asked_proof[box[1] > 1000] += *proof == SUNDER_I_PROOF_WANTED;
+    if (*proof == SUNDER_I_PROOF_WANTED) *proof = SUNDER_I_PROOF_IN_VAIN;
     x->hopeless = true;
     return SUNDER_OK;
 }
@@ -142,7 +146,8 @@ static void test_needs(void **state)
     assert_true(asked_gap[0] >= NEED_IN_VAIN / 200 && asked_gap[0] <= NEED_IN_VAIN / 12);
     assert_true(asked_gap[0] < report->conflicts - 1);
     assert_true(asked_limit[0] >= NEED_PATIENCE && asked_limit[0] <= NEED_PATIENCE + 12);
-    assert_true(asked_limit[1] >= 1 && asked_gap[1] >= 1);
+    assert_true(asked_proof[0] >= PROOF_PATIENCE && asked_proof[0] <= PROOF_PATIENCE + 16);
+    assert_true(asked_limit[1] >= 1 && asked_gap[1] >= 1 && asked_proof[1] >= 1);
     for (size_t k = 0; k < report->conflicts; k++) assert_true(isnan(report->conflict[k].need_shift));
     sunder_report_free(report);
     end(&c);

@@ -17,39 +17,11 @@
 
 /* ---- Questions in vain ------------------------------------------------------------------------------------------- */
 
-/* What is left of a cluster's patience with one question: so many pairs may be asked it in vain yet, and each that has
- * an answer makes good some. Where none is left, ever more pairs pass between two that are asked. */
-typedef struct patience {
-    unsigned left, stride, passed;
-} patience;
-
-static const patience fresh = {NEED_PATIENCE, 1, 0};
-
-/* Is the next pair to be asked? */
-static bool is_asked(patience *p)
-{
-    if (p->left) return true;
-    if (++p->passed < p->stride) return false;
-    p->passed = 0;
-    return true;
-}
-
-static void note_answer(patience *p, bool yes)
-{
-    if (yes) {
-        p->left = p->left + NEED_REGAINED < NEED_PATIENCE ? p->left + NEED_REGAINED : NEED_PATIENCE;
-        p->stride = 1;
-    } else if (p->left) {
-        p->left--;
-    } else {
-        p->stride *= 2;
-    }
-}
-
-/* What may be asked in vain of a cluster yet: of which so many features take part, and each question by itself. */
+/* What may be asked in vain of a cluster yet: of which so many features take part, and each question by itself; proofs
+ * that a question has no answer, too, which only spare looking for one. */
 typedef struct budget {
     uint64_t left;
-    patience shift, gone;
+    sunder_i_patience shift, gone, proof;
 } budget;
 
 /* ---- The three needs --------------------------------------------------------------------------------------------- */
@@ -59,7 +31,7 @@ static sunder_status ask(const sunder_i_questions *g, const sunder_i_surrounding
                          const sunder_i_supposition *what, budget *left, bool *yes, double *longest, sunder_error *err)
 {
     const uint64_t took = a->feature.n + a->part.n;
-    const sunder_status status = sunder_i_ask(g, a, c, what, yes, longest, err);
+    const sunder_status status = sunder_i_ask(g, a, c, what, &left->proof, yes, longest, err);
     if (!status && !*yes) left->left -= took < left->left ? took : left->left;
     return status;
 }
@@ -73,11 +45,11 @@ static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surr
     bool yes;
     what.gap = g->options->gap;
     for (size_t k = 0; k < a->moving; k++) low = fmin(low, a->as[k].max_shift);
-    if (!(low < what.limit) || !is_asked(&left->shift)) return SUNDER_OK;
+    if (!(low < what.limit) || !sunder_i_patience_asks(&left->shift)) return SUNDER_OK;
     for (int k = 0; k <= g->halvings; k++) {
         const sunder_status status = ask(g, a, c, &what, left, &yes, &longest, err);
         if (status) return status;
-        if (k == 0) note_answer(&left->shift, yes);
+        if (k == 0) sunder_i_patience_note(&left->shift, yes);
         /* One unit above what is rounded once holds the move. */
         if (yes)
             c->need_shift = nextafter(longest, INFINITY);
@@ -118,7 +90,7 @@ static sunder_status need_gone(const sunder_i_questions *g, const sunder_i_surro
     const sunder_i_supposition none = {0, g->options->gap, SUNDER_I_NOBODY};
     double longest;
     bool yes = false;
-    if (c->n_blocked_by == 0 || !is_asked(&left->gone)) return SUNDER_OK;
+    if (c->n_blocked_by == 0 || !sunder_i_patience_asks(&left->gone)) return SUNDER_OK;
     for (size_t k = 0; k < c->n_blocked_by && k < g->leaves && !yes; k++) {
         sunder_i_supposition what = none;
         what.gone = (uint32_t)c->blocked_by[k];
@@ -126,7 +98,7 @@ static sunder_status need_gone(const sunder_i_questions *g, const sunder_i_surro
         if (status) return status;
         if (yes) c->need_gone = c->blocked_by[k];
     }
-    note_answer(&left->gone, yes);
+    sunder_i_patience_note(&left->gone, yes);
     return SUNDER_OK;
 }
 
@@ -169,7 +141,8 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
     const asking *g = context;
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
-        budget left = {g->most, fresh, fresh};
+        const sunder_i_patience fresh = sunder_i_patience_of(NEED_PATIENCE, NEED_REGAINED);
+        budget left = {g->most, fresh, fresh, sunder_i_patience_of(PROOF_PATIENCE, NEED_REGAINED)};
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &g->questions->solver->model, g->matter[g->first[k]].root);
         for (size_t m = g->first[k]; m < g->first[k + 1] && left.left && !status; m++)

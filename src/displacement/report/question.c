@@ -347,9 +347,10 @@ static sunder_status make_layer(const sunder_i_questions *g, const sunder_i_surr
 
 /* Is there a solution that leaves those pairs, sorted, as they are? */
 static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
-                                 const sunder_i_supposition *what, const sunder_i_id_pair *spared, size_t n, bool *yes,
-                                 double *longest, sunder_error *err)
+                                 const sunder_i_supposition *what, const sunder_i_id_pair *spared, size_t n,
+                                 sunder_i_patience *proof, bool *yes, double *longest, sunder_error *err)
 {
+    sunder_i_proof_found found = sunder_i_patience_asks(proof) ? SUNDER_I_PROOF_WANTED : SUNDER_I_PROOF_UNASKED;
     sunder_layer_options options = *g->options;
     sunder_i_solver x = {0};
     sunder_layer *layer = NULL;
@@ -363,27 +364,31 @@ static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_sur
     *yes = false;
     sunder_status status = make_layer(g, a, what, &layer, err);
     if (!status) {
-        status = g->solve(layer, &options, spared, n, &x, err);
+        status = g->solve(layer, &options, spared, n, &found, &x, err);
         if (!status) status = is_solved(g, a, c, &x, what, yes, longest, err);
         if (!status && *yes) status = find_jump(g, a, &x, what->gone, &jumps, err);
         *yes = *yes && !jumps;
         sunder_i_solver_free(&x);
     }
     sunder_layer_free(layer);
+    /* A solution is no proof in vain: nobody looked for it in vain. */
+    if (found == SUNDER_I_PROOF_FOUND || (found == SUNDER_I_PROOF_IN_VAIN && !*yes))
+        sunder_i_patience_note(proof, found == SUNDER_I_PROOF_FOUND);
     return status;
 }
 
 /* Few that are listed besides are asked to be solved, too. Where that has no solution, or where they are many, as
  * beside roads, they are left alone. */
 sunder_status sunder_i_ask(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
-                           const sunder_i_supposition *what, bool *yes, double *longest, sunder_error *err)
+                           const sunder_i_supposition *what, sunder_i_patience *proof, bool *yes, double *longest,
+                           sunder_error *err)
 {
     sunder_i_id_pair *spared = NULL;
     size_t n = 0;
     *yes = false;
     sunder_status status = list_spared(g, a, c, what->gone, &spared, &n) ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status && n <= NEED_ALL) status = ask_sparing(g, a, c, what, NULL, 0, yes, longest, err);
-    if (!status && n && !*yes) status = ask_sparing(g, a, c, what, spared, n, yes, longest, err);
+    if (!status && n <= NEED_ALL) status = ask_sparing(g, a, c, what, NULL, 0, proof, yes, longest, err);
+    if (!status && n && !*yes) status = ask_sparing(g, a, c, what, spared, n, proof, yes, longest, err);
     sunder_i_free(spared);
     return status;
 }

@@ -2,6 +2,7 @@
 #ifndef SUNDER_I_QUESTION_H
 #define SUNDER_I_QUESTION_H
 
+#include "displacement/report/patience.h"
 #include "displacement/report/report.h"
 
 /* A small layer about one conflict. The first `moving` features move, the others stand. */
@@ -34,9 +35,10 @@ typedef struct sunder_i_supposition {
 sunder_status sunder_i_surround(const sunder_i_solver *solver, const sunder_conflict *conflict,
                                 sunder_i_surroundings *surroundings, sunder_error *err);
 void sunder_i_surroundings_clear(sunder_i_surroundings *surroundings);
-/* Is there a solution? *longest: of its moves. */
+/* Is there a solution? *longest: of its moves. proof: with looking for a proof that there is none, which only saves
+ * time. */
 sunder_status sunder_i_ask(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
-                           const sunder_conflict *conflict, const sunder_i_supposition *what, bool *yes,
-                           double *longest, sunder_error *err);
+                           const sunder_conflict *conflict, const sunder_i_supposition *what, sunder_i_patience *proof,
+                           bool *yes, double *longest, sunder_error *err);
 
 #endif

@@ -150,11 +150,20 @@ sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solve
 
 /* ---- needs.c ----------------------------------------------------------------------------------------------------- */
 
+/* Is it asked first whether a proof tells that there is no solution, and does one? */
+typedef enum sunder_i_proof_found {
+    SUNDER_I_PROOF_UNASKED,
+    SUNDER_I_PROOF_WANTED,
+    SUNDER_I_PROOF_IN_VAIN,
+    SUNDER_I_PROOF_FOUND
+} sunder_i_proof_found;
+
 /* Solves a layer without much ado, to where its report would begin: all but those pairs of its features and barriers,
- * sorted, which may stand as they do. The solver is to be freed, also on failure. */
+ * sorted, which may stand as they do. *proof: wanted or not, and then what came of it, if it came to that. The solver
+ * is to be freed, also on failure. */
 typedef sunder_status (*sunder_i_solve_layer)(const sunder_layer *layer, const sunder_layer_options *options,
-                                              const sunder_i_id_pair *spared, size_t n, sunder_i_solver *solver,
-                                              sunder_error *err);
+                                              const sunder_i_id_pair *spared, size_t n, sunder_i_proof_found *proof,
+                                              sunder_i_solver *solver, sunder_error *err);
 /* Fills the conflicts' need_shift, need_gap and need_gone; after what blocks them is known. */
 sunder_status sunder_i_report_needs(sunder_report *report, const sunder_i_solver *solver,
                                     const sunder_layer_options *options, sunder_i_solve_layer solve, sunder_error *err);
