@@ -11,8 +11,9 @@
  * of passes. Where all shares are negative, v and those that act, each by its share, sum up to z: there is no solution
  * if z can be moved along by less than v misses, within the limits [Farkas].
  *
- * The normals that act are kept as Q R, Q orthonormal (made so twice, [GVL13, 5.2]), and rows of R are turned by Givens
- * rotations where one goes. So two walls that all but oppose each other are told from two that do.
+ * The normals that act are kept as Q R, Q orthonormal (made so twice, [GVL13, 5.2]; at first by what the normal itself
+ * has along each axis, which is two bodies' numbers), and rows of R are turned by Givens rotations where one goes. So
+ * two walls that all but oppose each other are told from two that do.
  *
  *   the normals that act span all      z is rounding, and is taken for nothing: so is a rest below 1e-14
  *   one that acts is missed again      by rounding: it is let in again, and its other self goes */
@@ -57,31 +58,56 @@ bool sunder_i_nearest_begin(sunder_i_nearest *w, sunder_i_quadratic *p)
 
 /* ---- The factors ------------------------------------------------------------------------------------------------- */
 
+/* Of vectors of an even length: four sums, of which none waits for another. */
+static inline double product(const double *restrict a, const double *restrict b, size_t n)
+{
+    double sum[4] = {0, 0, 0, 0};
+    size_t d = 0;
+    for (; d + 4 <= n; d += 4)
+        for (size_t e = 0; e < 4; e++) sum[e] += a[d + e] * b[d + e];
+    for (size_t e = 0; d + e < n; e++) sum[e] += a[d + e] * b[d + e];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+static inline void take_off(double along, const double *restrict axis, double *restrict rest, size_t n)
+{
+    for (size_t d = 0; d < n; d++) rest[d] -= along * axis[d];
+}
+
+/* The normal along an axis: it has numbers for two bodies only. */
+static inline double normal_along(const sunder_i_constraint *c, const double *axis)
+{
+    double along = 0;
+    if (c->j != SUNDER_I_GROUND) along += c->n[0] * axis[2 * (size_t)c->j] + c->n[1] * axis[2 * (size_t)c->j + 1];
+    if (c->i != SUNDER_I_GROUND) along -= c->n[0] * axis[2 * (size_t)c->i] + c->n[1] * axis[2 * (size_t)c->i + 1];
+    return along;
+}
+
 /* The part, shares and rest of a normal. Returns the square of the rest, 0 where that is nothing. */
 static double take_apart(sunder_i_nearest *w, const sunder_i_constraint *c)
 {
     const size_t dims = w->dims;
     memset(w->rest, 0, dims * sizeof *w->rest);
-    memset(w->part, 0, dims * sizeof *w->part);
     for (size_t x = 0; x < 2; x++) {
         if (c->j != SUNDER_I_GROUND) w->rest[2 * (size_t)c->j + x] += c->n[x];
         if (c->i != SUNDER_I_GROUND) w->rest[2 * (size_t)c->i + x] -= c->n[x];
     }
-    for (int pass = 0; pass < 2; pass++)
-        for (size_t k = 0; k < w->n; k++) {
-            const double *axis = w->axis + k * dims;
-            double along = 0;
-            for (size_t d = 0; d < dims; d++) along += axis[d] * w->rest[d];
-            for (size_t d = 0; d < dims; d++) w->rest[d] -= along * axis[d];
-            w->part[k] += along;
-        }
+    for (size_t k = 0; k < w->n; k++) {
+        const double *axis = w->axis + k * dims;
+        w->part[k] = normal_along(c, axis);
+        take_off(w->part[k], axis, w->rest, dims);
+    }
+    for (size_t k = 0; k < w->n; k++) {
+        const double *axis = w->axis + k * dims, along = product(axis, w->rest, dims);
+        take_off(along, axis, w->rest, dims);
+        w->part[k] += along;
+    }
     for (size_t k = w->n; k-- > 0;) {
         double share = w->part[k];
         for (size_t l = k + 1; l < w->n; l++) share -= w->factor[l * dims + k] * w->share[l];
         w->share[k] = share / w->factor[k * dims + k];
     }
-    double square = 0;
-    for (size_t d = 0; d < dims; d++) square += w->rest[d] * w->rest[d];
+    const double square = product(w->rest, w->rest, dims);
     return w->n < dims && square > NOTHING ? square : 0;
 }
 
