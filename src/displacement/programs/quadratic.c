@@ -196,7 +196,7 @@ static double give_up(sunder_i_quadratic *p)
 double sunder_i_quadratic_solve(sunder_i_quadratic *p, double softness, double tolerance, double scale)
 {
     bool solved = false;
-    if (p->n > FEWEST_NEWTON && p->n <= MOST_QUICK && p->bodies <= MOST_BODIES_NEWTON &&
+    if (p->most_cost > 0 && p->n > FEWEST_NEWTON && p->n <= MOST_QUICK && p->bodies <= MOST_BODIES_NEWTON &&
         !sunder_i_quadratic_newton(p, softness, tolerance, &solved))
         return -1;
     if (!solved && p->n <= MOST_QUICK && !solve_quickly(p, softness, tolerance)) return -1;

@@ -55,7 +55,8 @@
  * as quick. Of the programs of terraces of 11,700 houses soft ones took a fifth of the time of what was done before,
  * hard ones two fifths. */
 #define FEWEST_NEWTON 40
-/* Nor of more bodies than these: in a row of 250 slabs, each on the next and on a hut, the sequence of soft programs
+/* ... where all that moves has a limit: without one Italy's 10,000 places take 82 s for 64, at 1 % less of the cost.
+ * Nor of more bodies than these: in a row of 250 slabs, each on the next and on a hut, the sequence of soft programs
  * was cut short, and three stayed on their huts. */
 #define MOST_BODIES_NEWTON 400
 /* Of no more bodies than the first a step counts so many times as much work: what may be done to give up pairs, and to
