@@ -32,7 +32,8 @@ enum { TEXT_SIZE = 2048 }; /* longer ones are cut */
 static const char *const kind_words[GIS_MESSAGE_N] = {
     [GIS_MESSAGE_INVALID] = "invalid",     [GIS_MESSAGE_ARCS] = "arcs",       [GIS_MESSAGE_CRS] = "crs",
     [GIS_MESSAGE_PASSED_BY] = "passed_by", [GIS_MESSAGE_INPUT] = "input",     [GIS_MESSAGE_OUTPUT] = "output",
-    [GIS_MESSAGE_LOSS] = "loss",           [GIS_MESSAGE_REMAINS] = "remains", [GIS_MESSAGE_GDAL] = "gdal",
+    [GIS_MESSAGE_LOSS] = "loss",           [GIS_MESSAGE_REMAINS] = "remains", [GIS_MESSAGE_MEMORY] = "memory",
+    [GIS_MESSAGE_GDAL] = "gdal",
 };
 
 /* Warnings that are summed up together: of one kind and one layer, and those of lists alike but for their numbers. */

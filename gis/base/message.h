@@ -18,6 +18,7 @@ typedef enum gis_message_kind {
     GIS_MESSAGE_OUTPUT,    /* what GDAL says of what is written */
     GIS_MESSAGE_LOSS,      /* what the output's format does not hold */
     GIS_MESSAGE_REMAINS,   /* what a run that was ended has left */
+    GIS_MESSAGE_MEMORY,    /* what takes more than --max-memory */
     GIS_MESSAGE_GDAL,      /* what GDAL says elsewhere */
     GIS_MESSAGE_N
 } gis_message_kind;

@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "base/remove_tree.h"
 #include "base/resources.h"
+#include "parts/memory.h"
 
 #include <cpl_conv.h>
 #include <errno.h>
@@ -19,12 +20,10 @@
 enum { UNITS = 4096 };
 enum { BATCH = 16384 };
 
-/* On towns, at most. */
-static const double bytes_a_feature = 2000, bytes_a_vertex = 120, bytes_written = 32, bytes_anyway = 96e6;
-/* Of proofs, without search, and more with --effort 1; with more than that it was not measured. */
-static const double bytes_a_proof = 3000, bytes_of_effort = 8000;
-/* While a layer is written: what is sorted and written at a time, which fills up with the first million. */
-static const double bytes_filled = 30, bytes_full = 30e6;
+static const double bytes_anyway = GIS_PART_BYTES_ANYWAY;
+/* While a layer is written: of each feature, and what is sorted and written at a time, which fills up with the first
+ * million. */
+static const double bytes_written = 32, bytes_filled = 30, bytes_full = 30e6;
 /* While it is drawn, when it is written: where each stands, and of which block it is; and what the page holds. */
 static const double bytes_drawn = 90, bytes_of_page = 60e6;
 /* Of barriers: their pieces, and the shapes of their parts. */
@@ -61,8 +60,7 @@ static double bytes_of_barriers(const gis_spooled_barriers *b)
 
 double gis_in_parts_bytes(const gis_layer_rules *rules, double features, double vertices)
 {
-    const double proofs = rules->keep_trees ? bytes_a_proof + bytes_of_effort * fmin(1, rules->effort) : 0;
-    return bytes_anyway + (bytes_a_feature + proofs) * features + bytes_a_vertex * vertices;
+    return gis_part_bytes(rules->keep_trees, rules->effort, features, vertices);
 }
 
 double gis_in_parts_bytes_written(double features, bool drawn)
@@ -110,6 +108,7 @@ static bool open_spool(gis_in_parts *p, double memory, gis_error *error)
                       gis_layout_make(p->spool, p->facts.gap, p->request->rules.block_field != NULL, &p->layout, error);
     p->layout.barriers = p->barriers;
     p->layout.features = p->facts.source.features;
+    p->layout.memory = memory;
     p->layout.by_places = !p->facts.source.fids_unique;
     return done;
 }

@@ -4,6 +4,8 @@
 #include "base/array.h"
 #include "base/box.h"
 #include "base/core.h"
+#include "base/message.h"
+#include "parts/memory.h"
 #include "proof/lines.h"
 
 #include <math.h>
@@ -119,6 +121,25 @@ static bool load(part *p, gis_error *error)
     }
     if (p->n) qsort(p->item, p->n, sizeof *p->item, by_index);
     return gis_barriers_load(&p->layout->barriers, (const double(*)[4])p->boxes->box, p->boxes->n, &p->barriers, error);
+}
+
+/* What hangs together is one part, whatever its size: it is told of before hours are spent on it. */
+static void warn_if_large(const part *p)
+{
+    static const double large = 1.5;
+    const sunder_layer_options *how = &p->layout->how;
+    size_t vertices = 0;
+    for (size_t k = 0; k < p->n; k++) {
+        const sunder_shape *shape = p->item[k].feature.demands.shape;
+        vertices += shape ? sunder_shape_vertices(shape) : 0;
+    }
+    const double bytes = gis_part_bytes(how->keep_trees, how->effort, (double)p->n, (double)vertices);
+    if (p->layout->memory > 0 && bytes > large * p->layout->memory)
+        gis_say_warning(
+            GIS_MESSAGE_MEMORY,
+            "%zu features may have to do with each other, and are one piece of work: it takes about %.0f MB, "
+            "more than --max-memory has it",
+            p->n, ceil(bytes / 1e6));
 }
 
 /* ---- Names in lines of proofs ------------------------------------------------------------------------------------ */
@@ -540,7 +561,9 @@ bool gis_part_separate(const gis_layout *layout, const gis_boxes_list *boxes, gi
               .user = user,
               .run = run,
               .out = result};
-    const bool done = load(&p, error) && separate(&p, error) && add_worlds(&p, error) && add_others(&p, error);
+    bool done = load(&p, error);
+    if (done) warn_if_large(&p);
+    done = done && separate(&p, error) && add_worlds(&p, error) && add_others(&p, error);
     clear(&p);
     return done;
 }

@@ -32,6 +32,7 @@ typedef struct gis_layout {
     double halo; /* so far about a shard it is looked at first: a guess */
     gis_part_block *block;
     size_t blocks;
+    double memory;  /* bytes that a process may take, about; what takes far more is told of. 0: it does not matter */
     bool by_places; /* in proofs features are called by their places in the input: FIDs tell nobody apart */
 } gis_layout;
 

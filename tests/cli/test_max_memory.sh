@@ -95,6 +95,16 @@ drawn o.gpkg 103M --symbol-field drawn --symbol-size-field larger --effort 0 --m
 alike o.geojson 99M --symbol disc:4 --effort 0 --layers symbols
 alike o.shp 99M --symbol disc:4 --effort 0 --layers main,symbols
 
+# What hangs together is one part, and if that is too large it is said.
+"$SUNDER_BUILD/sunder-town" --buildings 30000 --seed 6 large.gpkg >/dev/null || fail "no town is made"
+run separate large.gpkg o.gpkg -l buildings --effort 0 --max-memory 99M --overwrite
+grep -q 'one piece of work' err && fail "a town is told to be one piece"
+ogrinfo -q large.gpkg -sql 'alter table buildings add column one integer default 1' >/dev/null || fail "no block is made"
+run separate large.gpkg o.gpkg -l buildings --effort 0 --max-memory 99M --overwrite --block-field one
+grep -q '30000 features may have to do with each other, and are one piece of work: it takes about' err ||
+    fail "nothing is said of a block of 30000 features"
+rm -f o.gpkg
+
 # Too little memory.
 refused 1 'need' separate town.gpkg o.gpkg -l buildings --gap 3 --max-memory 20M
 same "$(ls -A scratch)" '' "left of what was refused:"
