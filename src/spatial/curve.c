@@ -5,6 +5,7 @@
 #include "base/sort.h"
 
 #include <math.h>
+#include <string.h>
 
 /* The bits of two 16-bit numbers in turn (Morton order). */
 static uint32_t interleave(uint32_t x, uint32_t y)
@@ -45,4 +46,30 @@ void sunder_i_curve_sort(const double *xy, const uint32_t *vertex, uint32_t *lis
     }
     for (size_t i = 0; i < n; i++) list[i] = (uint32_t)key[i];
     sunder_i_arena_release(arena, mark);
+}
+
+bool sunder_i_curve_sort_records(void *record, size_t n, size_t bytes, size_t box)
+{
+    sunder_i_arena arena;
+    sunder_i_arena_init(&arena);
+    double *middle = sunder_i_alloc(2 * n, sizeof *middle);
+    uint32_t *number = sunder_i_alloc(n, sizeof *number), *list = sunder_i_alloc(n, sizeof *list);
+    char *from = record, *sorted = sunder_i_alloc(n, bytes);
+    bool ok = middle && number && list && sorted;
+    for (size_t k = 0; ok && k < n; k++) {
+        double own[4];
+        memcpy(own, from + k * bytes + box, sizeof own);
+        for (size_t c = 0; c < 2; c++) middle[2 * k + c] = own[c] / 2 + own[c + 2] / 2;
+        number[k] = list[k] = (uint32_t)k;
+    }
+    if (ok) sunder_i_curve_sort(middle, number, list, n, &arena);
+    ok = ok && !arena.failed;
+    for (size_t k = 0; ok && k < n; k++) memcpy(sorted + k * bytes, from + list[k] * bytes, bytes);
+    if (ok && n) memcpy(from, sorted, n * bytes);
+    sunder_i_free(middle);
+    sunder_i_free(number);
+    sunder_i_free(list);
+    sunder_i_free(sorted);
+    sunder_i_arena_free(&arena);
+    return ok;
 }

@@ -104,23 +104,29 @@ static void expect_same(const sunder_i_decision *kept, const sunder_i_decision *
     }
 }
 
+/* With what was kept, and without. */
+static void ask_both(sunder_i_subproblem *q, sunder_i_planes *planes, size_t *told)
+{
+    sunder_i_decision kept, anew;
+    sunder_error err;
+    assert_int_equal(sunder_i_decide(q, &anew, &err), SUNDER_OK);
+    q->planes = planes;
+    assert_int_equal(sunder_i_decide(q, &kept, &err), SUNDER_OK);
+    expect_same(&kept, &anew);
+    told[kept.verdict]++;
+    sunder_i_decision_clear(&kept);
+    sunder_i_decision_clear(&anew);
+}
+
 static void check_questions(rng *r, const layer *l, size_t *told)
 {
     sunder_i_planes planes = {0};
-    sunder_error err;
     for (int k = 0; k < QUESTIONS; k++) {
         uint32_t body[2], feature[MOVING + STANDING];
         sunder_i_requirement required;
         sunder_i_subproblem q;
-        sunder_i_decision kept, anew;
         draw_question(r, l, body, feature, &required, &q);
-        assert_int_equal(sunder_i_decide(&q, &anew, &err), SUNDER_OK);
-        q.planes = &planes;
-        assert_int_equal(sunder_i_decide(&q, &kept, &err), SUNDER_OK);
-        expect_same(&kept, &anew);
-        told[kept.verdict]++;
-        sunder_i_decision_clear(&kept);
-        sunder_i_decision_clear(&anew);
+        ask_both(&q, &planes, told);
     }
     sunder_i_planes_clear(&planes);
 }
@@ -164,7 +170,6 @@ static void begin_crowd(rng *r, layer *l)
 static void check_crowd(rng *r, const layer *l, size_t *told)
 {
     sunder_i_planes planes = {0};
-    sunder_error err;
     uint32_t feature[2 * HOUSES];
     const uint32_t body[2] = {l->of.model.body_of[0], l->of.model.body_of[1]};
     sunder_i_requirement required[HOUSES * HOUSES];
@@ -174,7 +179,6 @@ static void check_crowd(rng *r, const layer *l, size_t *told)
             required[n++] = (sunder_i_requirement){.a = f, .b = g, .clearance = rng_once_in(r, 12) ? 0 : -INFINITY};
     for (int k = 0; k < CROWD_QUESTIONS; k++) {
         sunder_i_subproblem q = {.model = &l->of.model, .body = body, .bodies = 2, .most = 2, .required = required};
-        sunder_i_decision kept, anew;
         q.required_n = n;
         q.a = 2 * (uint32_t)rng_int(r, 0, HOUSES - 1);
         q.b = 2 * (uint32_t)rng_int(r, 0, HOUSES - 1) + 1;
@@ -188,13 +192,7 @@ static void check_crowd(rng *r, const layer *l, size_t *told)
         for (uint32_t f = 0; f < 2 * HOUSES; f++)
             if (all || f == q.a || f == q.b || !rng_once_in(r, 4)) feature[q.features++] = f;
         q.feature = feature;
-        assert_int_equal(sunder_i_decide(&q, &anew, &err), SUNDER_OK);
-        q.planes = &planes;
-        assert_int_equal(sunder_i_decide(&q, &kept, &err), SUNDER_OK);
-        expect_same(&kept, &anew);
-        told[kept.verdict]++;
-        sunder_i_decision_clear(&kept);
-        sunder_i_decision_clear(&anew);
+        ask_both(&q, &planes, told);
     }
     sunder_i_planes_clear(&planes);
 }

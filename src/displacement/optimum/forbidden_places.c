@@ -8,6 +8,7 @@
 #include "spatial/curve.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 /* ---- Pieces near by ---------------------------------------------------------------------------------------------- */
@@ -18,36 +19,11 @@ static void add_box(const void *of, size_t k, double box[4])
     sunder_i_box_join(box, f->piece[k].box);
 }
 
-/* The pieces along a curve, by their middles. */
-static bool sort_pieces(sunder_i_forbidden *f)
-{
-    sunder_i_arena arena;
-    sunder_i_arena_init(&arena);
-    double *middle = sunder_i_alloc(2 * f->pieces, sizeof *middle);
-    uint32_t *number = sunder_i_alloc(f->pieces, sizeof *number), *list = sunder_i_alloc(f->pieces, sizeof *list);
-    sunder_i_forbidden_piece *sorted = sunder_i_alloc(f->pieces, sizeof *sorted);
-    bool ok = middle && number && list && sorted;
-    for (size_t k = 0; ok && k < f->pieces; k++) {
-        const double *box = f->piece[k].box;
-        for (size_t c = 0; c < 2; c++) middle[2 * k + c] = box[c] / 2 + box[c + 2] / 2;
-        number[k] = list[k] = (uint32_t)k;
-    }
-    if (ok) sunder_i_curve_sort(middle, number, list, f->pieces, &arena);
-    ok = ok && !arena.failed;
-    for (size_t k = 0; ok && k < f->pieces; k++) sorted[k] = f->piece[list[k]];
-    if (ok) memcpy(f->piece, sorted, f->pieces * sizeof *sorted);
-    sunder_i_free(middle);
-    sunder_i_free(number);
-    sunder_i_free(list);
-    sunder_i_free(sorted);
-    sunder_i_arena_free(&arena);
-    return ok;
-}
-
 bool sunder_i_forbidden_index(sunder_i_forbidden *f)
 {
     if (f->pieces <= MANY_PIECES) return true;
-    if (!sort_pieces(f)) return false;
+    if (!sunder_i_curve_sort_records(f->piece, f->pieces, sizeof *f->piece, offsetof(sunder_i_forbidden_piece, box)))
+        return false;
     f->tree = sunder_i_box_tree_of(f->pieces, PIECES_IN_LEAF);
     f->tree.box = sunder_i_alloc(2 * f->tree.leaves, sizeof *f->tree.box);
     if (f->tree.box) sunder_i_box_tree_fill(&f->tree, add_box, f);

@@ -9,6 +9,7 @@
 
 #include "spatial/curve.h"
 
+#include <stddef.h>
 #include <string.h>
 
 bool sunder_i_plane_index_add(struct sunder_i_plane_kept *kept, uint32_t at)
@@ -27,36 +28,10 @@ static void add_box(const void *of, size_t k, double box[4])
     sunder_i_box_join(box, kept->item[k].box);
 }
 
-/* All items along a curve, by the middles of their boxes. */
-static bool sort_items(struct sunder_i_plane_kept *kept)
-{
-    const size_t n = kept->items;
-    sunder_i_arena arena;
-    sunder_i_arena_init(&arena);
-    double *middle = sunder_i_alloc(2 * n, sizeof *middle);
-    uint32_t *number = sunder_i_alloc(n, sizeof *number), *list = sunder_i_alloc(n, sizeof *list);
-    sunder_i_plane_item *sorted = sunder_i_alloc(n, sizeof *sorted);
-    bool ok = middle && number && list && sorted;
-    for (size_t k = 0; ok && k < n; k++) {
-        const double *box = kept->item[k].box;
-        for (size_t c = 0; c < 2; c++) middle[2 * k + c] = box[c] / 2 + box[c + 2] / 2;
-        number[k] = list[k] = (uint32_t)k;
-    }
-    if (ok) sunder_i_curve_sort(middle, number, list, n, &arena);
-    ok = ok && !arena.failed;
-    for (size_t k = 0; ok && k < n; k++) sorted[k] = kept->item[list[k]];
-    if (ok) memcpy(kept->item, sorted, n * sizeof *sorted);
-    sunder_i_free(middle);
-    sunder_i_free(number);
-    sunder_i_free(list);
-    sunder_i_free(sorted);
-    sunder_i_arena_free(&arena);
-    return ok;
-}
-
 static bool build(struct sunder_i_plane_kept *kept)
 {
-    if (!sort_items(kept)) return false;
+    if (!sunder_i_curve_sort_records(kept->item, kept->items, sizeof *kept->item, offsetof(sunder_i_plane_item, box)))
+        return false;
     sunder_i_free(kept->tree.box);
     kept->tree = sunder_i_box_tree_of(kept->items, PLANE_LEAF);
     kept->tree.box = sunder_i_alloc(2 * kept->tree.leaves, sizeof *kept->tree.box);
