@@ -7,8 +7,9 @@
 #   pieces.sh --record             RECORD.md, of the tallies
 #
 # SUNDER_FUZZ_AS_BUILT=yes takes the targets as they were built last; SUNDER_FUZZ_NICE is how nice they are to other work (19).
-# State is in SUNDER_FUZZ_STATE (<build>/fuzz/pieces): inputs, tallies, and in found/ what went wrong. A target is done at
-# ten million executions if it makes more than 2000 of them in a second, else after eight hours of one core.
+# State is in SUNDER_FUZZ_STATE (<build>/fuzz/pieces): inputs, tallies, and in found/ what went wrong; where there is none it
+# begins with what RECORD.md and corpus/ have. A target is done at ten million executions if it makes more than 2000 of them
+# in a second, else after eight hours of one core.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 here=$root/tests/fuzz
@@ -31,6 +32,11 @@ build() { # and says of what: the commit, "-dirty" where the sources differ from
     bash "$here/build.sh" >"$state/build.log" 2>&1 || { tail -n 30 "$state/build.log"; exit 1; }
     git -C "$root" diff --quiet HEAD -- src gis tests/fuzz || dirty=-dirty
     echo "$(git -C "$root" rev-parse --short=7 HEAD)$dirty" >"$SUNDER_BUILD/fuzz/built_of"
+}
+
+begin_tally() { # a machine without any goes on from what is on record
+    [ -f "$state/tally" ] || [ ! -f "$here/RECORD.md" ] || awk -F ' *[|] *' '
+        $2 ~ /^`fuzz_/ { gsub(/`/, "", $2); gsub(/ of /, " ", $6); gsub(/, /, ",", $8); print $2, $3, 3600 * $4, $6, $8 }' "$here/RECORD.md" >"$state/tally"
 }
 
 begin() { # a target's inputs: those on record, and the seeds
@@ -90,7 +96,8 @@ record() {
         for name in $(targets); do
             awk -v name="$name" -v quick=$quick -v most=$executions_wanted -v hours=$hours_wanted \
                 -v inputs="$(tar -tzf "$here/corpus/$name.tar.gz" 2>/dev/null | grep -vc '/$')" '
-                $1 == name { n += $2; s += $3; run = $4; all = $5; if (!($6 in seen)) { seen[$6]; commits = commits (commits ? ", " : "") $6 } }
+                $1 == name { n += $2; s += $3; run = $4; all = $5; of = split($6, commit, ",")
+                    for (c = 1; c <= of; ++c) if (!(commit[c] in seen)) { seen[commit[c]]; commits = commits (commits ? ", " : "") commit[c] } }
                 END {
                     if (!s) exit
                     if (n / s > quick) wanted = n >= most ? "reached" : sprintf("%.0f %% of the executions", 100 * n / most)
@@ -102,6 +109,7 @@ record() {
     cat "$here/RECORD.md"
 }
 
+begin_tally
 case ${1:-} in
 --keep) keep ;;
 --record) record ;;
