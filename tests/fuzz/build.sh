@@ -5,6 +5,6 @@ set -eu
 . "$SUNDER_SOURCE/gis/setup.sh"
 setup_has_fuzzer >/dev/null 2>&1 || { echo "skipped: clang with libFuzzer and its sanitizers is not installed"; exit 77; }
 cmake -S "$SUNDER_SOURCE" -B "$SUNDER_BUILD/fuzz" -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Debug \
-    -DCMAKE_C_FLAGS_DEBUG="-O1 -gline-tables-only" -DSUNDER_FUZZ=ON -DSUNDER_PROGRAM=OFF -DSUNDER_TESTS=OFF \
+    -DCMAKE_C_FLAGS_DEBUG="-O2 -gline-tables-only" -DSUNDER_FUZZ=ON -DSUNDER_PROGRAM=OFF -DSUNDER_TESTS=OFF \
     -DSUNDER_SANITIZE=fuzzer-no-link,address,undefined
 cmake --build "$SUNDER_BUILD/fuzz" --target fuzzers -j 2
