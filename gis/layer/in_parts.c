@@ -4,6 +4,7 @@
 
 #include "base/abandoned.h"
 #include "base/interrupt.h"
+#include "base/message.h"
 #include "base/remove_tree.h"
 #include "base/resources.h"
 #include "parts/memory.h"
@@ -113,6 +114,26 @@ static bool open_spool(gis_in_parts *p, double memory, gis_error *error)
     return done;
 }
 
+/* Contact groups are within the gap and this much of a metre, or of a unit where there is none. */
+static const double next_to_nothing = 1e-6;
+
+/* What hangs together is one part, whatever its size: it is told of before hours are spent on all the rest. */
+static bool look_together(gis_in_parts *p, gis_error *error)
+{
+    const double memory = p->layout.memory, metres = p->facts.units.unit_metres,
+                 reach = fmax(p->facts.gap, p->facts.tolerance) + next_to_nothing / (metres > 0 ? metres : 1);
+    gis_together *t = &p->together;
+    choose_options(p);
+    if (!gis_parts_together(&p->layout, reach, memory, t, error)) return false;
+    const double bytes = gis_in_parts_bytes(&p->request->rules, (double)t->features, (double)t->vertices);
+    if (bytes > GIS_PART_LARGE * memory)
+        gis_say_warning(GIS_MESSAGE_MEMORY,
+                        "%zu features hang together as they stand, from (%.17g, %.17g) to (%.17g, %.17g), and are one "
+                        "piece of work: it takes about %.0f MB, more than --max-memory has it",
+                        t->features, t->box[0], t->box[1], t->box[2], t->box[3], ceil(bytes / 1e6));
+    return true;
+}
+
 bool gis_in_parts_begin(const gis_layer_input_request *request, const char *directory, unsigned shards, double memory,
                         gis_in_parts *out, gis_error *error)
 {
@@ -121,7 +142,7 @@ bool gis_in_parts_begin(const gis_layer_input_request *request, const char *dire
     if (!directory && !make_directory(out, where && *where ? where : "/tmp", error)) return false;
     out->directory = CPLStrdup(directory ? directory : out->scratch);
     return gis_layer_spool(request, units_of(shards), out->directory, &out->facts, error) &&
-           open_spool(out, memory, error);
+           open_spool(out, memory, error) && look_together(out, error);
 }
 
 bool gis_in_parts_resume(const gis_layer_input_request *request, const char *directory, const gis_layer_facts *facts,

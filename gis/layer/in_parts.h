@@ -13,6 +13,7 @@
 #include "layer/rows.h"
 #include "layer/spooling.h"
 #include "parts/join.h"
+#include "parts/together.h"
 
 /* Zeroed: nothing. */
 typedef struct gis_in_parts {
@@ -28,6 +29,7 @@ typedef struct gis_in_parts {
     bool whole;       /* the source was opened to be held whole */
     unsigned at_once; /* so many units are a part */
     gis_layout layout;
+    gis_together together; /* the largest lot that hangs together as the layer stands, or more than that */
     gis_joined joined;
     GIntBig *block_fid; /* [joined.blocks] of the features there, from when they are written */
 } gis_in_parts;
@@ -42,7 +44,8 @@ typedef struct gis_in_parts_layers {
 double gis_in_parts_bytes(const gis_layer_rules *rules, double features, double vertices);
 double gis_in_parts_bytes_written(double features, bool drawn);
 
-/* directory: NULL: one of its own, which goes in the end. memory: bytes that a process may take, about. */
+/* directory: NULL: one of its own, which goes in the end. memory: bytes that a process may take, about. What will be
+ * one piece of work and wants far more than that is told of. */
 bool gis_in_parts_begin(const gis_layer_input_request *request, const char *directory, unsigned shards, double memory,
                         gis_in_parts *out, gis_error *error);
 /* As after gis_in_parts_begin() with a directory, which is as that left it; facts are copied. */

@@ -76,6 +76,19 @@ bool gis_layout_make(gis_spool *spool, double gap, bool numbered, gis_layout *ou
     return done;
 }
 
+const gis_part_block *gis_layout_block(const gis_layout *layout, int64_t number)
+{
+    size_t low = 0, high = layout->blocks;
+    while (low < high) {
+        const size_t middle = (low + high) / 2;
+        if (layout->block[middle].block < number)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < layout->blocks && layout->block[low].block == number ? &layout->block[low] : NULL;
+}
+
 void gis_layout_clear(gis_layout *layout)
 {
     free(layout->block);

@@ -61,18 +61,10 @@ static bool is_near(const part *p, const double box[4])
 }
 
 /* Among the layout's blocks; SIZE_MAX: it is none. */
-static size_t place_of(const part *p, int64_t block)
+static size_t place_of(const part *p, int64_t number)
 {
-    size_t low = 0, high = p->layout->blocks;
-    while (low < high) {
-        const size_t middle = (low + high) / 2;
-        if (p->layout->block[middle].block == block) return middle;
-        if (p->layout->block[middle].block < block)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return SIZE_MAX;
+    const gis_part_block *block = gis_layout_block(p->layout, number);
+    return block ? (size_t)(block - p->layout->block) : SIZE_MAX;
 }
 
 static bool take(void *user, const gis_spool_feature *feature, gis_error *error)
@@ -126,7 +118,6 @@ static bool load(part *p, gis_error *error)
 /* What hangs together is one part, whatever its size: it is told of before hours are spent on it. */
 static void warn_if_large(const part *p)
 {
-    static const double large = 1.5;
     const sunder_layer_options *how = &p->layout->how;
     size_t vertices = 0;
     for (size_t k = 0; k < p->n; k++) {
@@ -134,7 +125,7 @@ static void warn_if_large(const part *p)
         vertices += shape ? sunder_shape_vertices(shape) : 0;
     }
     const double bytes = gis_part_bytes(how->keep_trees, how->effort, (double)p->n, (double)vertices);
-    if (p->layout->memory > 0 && bytes > large * p->layout->memory)
+    if (p->layout->memory > 0 && bytes > GIS_PART_LARGE * p->layout->memory)
         gis_say_warning(
             GIS_MESSAGE_MEMORY,
             "%zu features may have to do with each other, and are one piece of work: it takes about %.0f MB, "

@@ -39,6 +39,8 @@ typedef struct gis_layout {
 /* numbered: some features have a block in their demands, and all are looked through. `how` is left to be filled in,
  * without keep_worlds; with keep_trees, results have lines of proofs. */
 bool gis_layout_make(gis_spool *spool, double gap, bool numbered, gis_layout *out, gis_error *error);
+/* Of that number; NULL: it has none. */
+const gis_part_block *gis_layout_block(const gis_layout *layout, int64_t number);
 void gis_layout_clear(gis_layout *layout);
 
 /* Is the feature, of that cell, asked for? */

@@ -43,9 +43,21 @@ static void put_most(gis_json *out, const gis_plan *plan, const gis_plan_load *l
     gis_json_line(out);
 }
 
-static void describe(gis_json *out, const gis_plan *plan, const gis_plan_load *load, const gis_layer_rules *rules,
-                     bool drawn)
+/* What will be one piece of work: the shard's that has all of it, else the merge's. */
+static void put_together(gis_json *out, const gis_in_parts *parts)
 {
+    gis_json_key(out, "largest_group");
+    gis_json_open(out, '{');
+    gis_json_put_size(out, "features", parts->together.features);
+    gis_json_put_size(out, "vertices", parts->together.vertices);
+    put_estimate(out, gis_plan_of_together(parts));
+    gis_json_close(out, '}');
+    gis_json_line(out);
+}
+
+static void describe(gis_json *out, const gis_plan *plan, const gis_plan_load *load, const gis_in_parts *parts)
+{
+    const gis_layer_rules *rules = &parts->request->rules;
     gis_json_open(out, '{');
     gis_json_put_string(out, "command", "plan");
     gis_json_put_string(out, "version", sunder_version());
@@ -62,9 +74,10 @@ static void describe(gis_json *out, const gis_plan *plan, const gis_plan_load *l
     gis_json_put_size(out, "shard_count", plan->shards);
     gis_json_line(out);
     put_most(out, plan, load, rules);
+    put_together(out, parts);
     gis_json_key(out, "merge");
     gis_json_open(out, '{');
-    put_estimate(out, gis_plan_of_merge(plan, drawn));
+    put_estimate(out, gis_plan_of_merge(plan, parts));
     gis_json_close(out, '}');
     gis_json_line(out);
     put_shards(out, plan, load, rules);
@@ -90,7 +103,7 @@ bool gis_plan_describe(const gis_plan *plan, const gis_in_parts *parts, const ch
     gis_plan_load *load = calloc(plan->shards, sizeof *load);
     if (!load) return gis_no_memory(error);
     weigh_shards(plan, parts->spool, load);
-    describe(&json, plan, load, &parts->request->rules, parts->request->drawn);
+    describe(&json, plan, load, parts);
     free(load);
     const bool done = (gis_json_text(&json) || gis_no_memory(error)) &&
                       gis_spool_file_create(&file, directory, "plan.json.part", error) &&

@@ -48,7 +48,9 @@ typedef struct gis_plan_estimate {
 } gis_plan_estimate;
 
 gis_plan_estimate gis_plan_of_shard(const gis_plan *plan, const gis_plan_load *shard, const gis_layer_rules *rules);
-gis_plan_estimate gis_plan_of_merge(const gis_plan *plan, bool drawn);
+/* The largest lot that hangs together is taken for one that crosses borders: then it is the merge's. */
+gis_plan_estimate gis_plan_of_together(const gis_in_parts *parts);
+gis_plan_estimate gis_plan_of_merge(const gis_plan *plan, const gis_in_parts *parts);
 
 /* ---- place.c: the directory appears whole, or not at all --------------------------------------------------------- */
 

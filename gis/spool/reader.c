@@ -123,17 +123,42 @@ bool gis_spool_read_one(gis_spool *spool, uint64_t place, gis_spool_visit *visit
            visit_record(spool, place, 0, visit, user, error);
 }
 
-bool gis_spool_boxes(gis_spool *spool, size_t cell, double (*box)[4], size_t *n, gis_error *error)
+bool gis_spool_skim(gis_spool *spool, size_t cell, gis_spool_glance *glance, void *user, gis_error *error)
 {
-    *n = 0;
-    if (!load(spool, cell, error)) return false;
+    const uint64_t from = spool->index.entry[cell].from;
+    if (!gis_go_on(error) || !load(spool, cell, error)) return false;
     for (size_t at = 0; at < spool->records.used;) {
         gis_spool_feature feature;
         const gis_spool_head *head = gis_spool_record_head(spool->records.at + at);
         if (!gis_spool_record_feature(spool->records.at + at, spool->records.used - at, &feature))
             return gis_fail(error, "%s: cell %zu of it is not what was written", spool->file.path, cell);
-        if (head->box[0] <= head->box[2]) memcpy(box[(*n)++], head->box, sizeof *box);
+        feature.place = from + at;
+        if (!glance(user, &feature, head->box, head->vertices, error)) return false;
         at += head->bytes;
     }
     return true;
+}
+
+typedef struct listing {
+    double (*box)[4];
+    size_t n;
+} listing;
+
+static bool list_box(void *user, const gis_spool_feature *feature, const double box[4], size_t vertices,
+                     gis_error *error)
+{
+    listing *to = user;
+    (void)feature;
+    (void)vertices;
+    (void)error;
+    if (box[0] <= box[2]) memcpy(to->box[to->n++], box, 4 * sizeof *box);
+    return true;
+}
+
+bool gis_spool_boxes(gis_spool *spool, size_t cell, double (*box)[4], size_t *n, gis_error *error)
+{
+    listing to = {box, 0};
+    const bool done = gis_spool_skim(spool, cell, list_box, &to, error);
+    *n = to.n;
+    return done;
 }

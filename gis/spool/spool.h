@@ -77,6 +77,11 @@ typedef bool gis_spool_visit(void *user, const gis_spool_feature *feature, gis_e
 bool gis_spool_read(gis_spool *spool, size_t cell, gis_spool_visit *visit, void *user, gis_error *error);
 /* Visits the one at a place that was visited before. */
 bool gis_spool_read_one(gis_spool *spool, uint64_t place, gis_spool_visit *visit, void *user, gis_error *error);
+/* As gis_spool_read(), which it is several times as fast as, but without shapes, lines and their checks: of these there
+ * are the box, as in a gis_spool_cell, and the number of vertices. */
+typedef bool gis_spool_glance(void *user, const gis_spool_feature *feature, const double box[4], size_t vertices,
+                              gis_error *error);
+bool gis_spool_skim(gis_spool *spool, size_t cell, gis_spool_glance *glance, void *user, gis_error *error);
 /* The boxes of the features of a cell that cover anything, without the rest: box[] has room for all of them. */
 bool gis_spool_boxes(gis_spool *spool, size_t cell, double (*box)[4], size_t *n, gis_error *error);
 

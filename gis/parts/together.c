@@ -1,0 +1,375 @@
+/* together.c: see together.h. Cell by cell along the curve lots are made of features. Those features that come near a
+ * cell that is still to be looked at are remembered until the last of these was; so what is remembered at a time lies
+ * along the border between what was looked at and what was not. */
+#include "parts/together.h"
+
+#include "base/array.h"
+#include "base/box.h"
+#include "base/core.h"
+#include "base/interrupt.h"
+#include "parts/memory.h"
+#include "parts/sets.h"
+#include "parts/sweep.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct member {
+    double box[4]; /* with half the reach about it */
+    uint64_t place;
+    size_t lot;
+    sunder_shape *shape; /* owned; NULL: boxes alone are asked, or it is read when it is asked for */
+} member;
+
+typedef struct members {
+    member *at;
+    size_t n, room;
+} members;
+
+/* A cell that comes near another one, as their numbers. */
+typedef struct neighbour {
+    size_t of, is;
+} neighbour;
+
+typedef struct looking {
+    const gis_layout *layout;
+    double reach;
+    bool by_shapes;
+    gis_together *lot; /* [lots], sums at the roots */
+    size_t *parent;    /* [lots] */
+    size_t lots, lot_room, parent_room, enough_lots;
+    gis_together largest; /* of those that are complete, and forgotten */
+    size_t *of_block;     /* [layout->blocks] a lot of it, or SIZE_MAX */
+    neighbour *beside;    /* both ways, sorted */
+    size_t besides, beside_room;
+    size_t *last;  /* [cells] of those beside it, 0 if there are none */
+    members *cell; /* [cells] what is remembered of it */
+    members here;  /* of the cell that is looked at */
+    member **swept;
+    size_t swept_n, swept_room;
+    gis_sweep sweep;
+    sunder_shape *read; /* by gis_spool_read_one() */
+    gis_error *error;
+    bool failed;
+} looking;
+
+/* ---- Lots -------------------------------------------------------------------------------------------------------- */
+
+static double bytes_of(const gis_layout *layout, const gis_together *t)
+{
+    return gis_part_bytes(layout->how.keep_trees, layout->how.effort, (double)t->features, (double)t->vertices);
+}
+
+static bool add_lot(looking *l, const double box[4], size_t vertices)
+{
+    if (!gis_array_reserve(&l->lot, &l->lot_room, l->lots + 1, sizeof *l->lot) ||
+        !gis_array_reserve(&l->parent, &l->parent_room, l->lots + 1, sizeof *l->parent))
+        return false;
+    gis_together *to = &l->lot[l->lots];
+    *to = (gis_together){.features = 1, .vertices = vertices};
+    memcpy(to->box, box, sizeof to->box);
+    l->parent[l->lots] = l->lots;
+    l->lots++;
+    return true;
+}
+
+static void join(looking *l, size_t a, size_t b)
+{
+    const size_t x = gis_set_root(l->parent, a), y = gis_set_root(l->parent, b);
+    if (x == y) return;
+    gis_together *to = &l->lot[x < y ? x : y];
+    const gis_together *from = &l->lot[x < y ? y : x];
+    to->features += from->features;
+    to->vertices += from->vertices;
+    gis_box_join(to->box, from->box);
+    gis_set_join(l->parent, x, y);
+}
+
+/* Whom the block's number joins. */
+static void join_block(looking *l, int64_t number, size_t one)
+{
+    const gis_part_block *block = gis_layout_block(l->layout, number);
+    if (!block) return;
+    size_t *first = &l->of_block[block - l->layout->block];
+    if (*first == SIZE_MAX) *first = one;
+    join(l, *first, one);
+}
+
+static void consider(looking *l, const gis_together *lot)
+{
+    if (bytes_of(l->layout, lot) > bytes_of(l->layout, &l->largest)) l->largest = *lot;
+}
+
+/* Where a lot is after forget_lots(); what it was called before is a root's name. */
+static void keep_lot(const looking *l, size_t *to, size_t *lot)
+{
+    *lot = gis_set_root(l->parent, *lot);
+    to[*lot] = 0;
+}
+
+/* Of lots that nobody remembers any more nothing but the largest is of interest. */
+static bool forget_lots(looking *l, gis_error *error)
+{
+    const size_t cells = gis_spool_cells(l->layout->spool);
+    size_t *to = malloc((l->lots + 1) * sizeof *to), n = 0;
+    if (!to) return gis_no_memory(error);
+    for (size_t k = 0; k < l->lots; k++) to[k] = SIZE_MAX;
+    for (size_t c = 0; c < cells; c++)
+        for (size_t k = 0; k < l->cell[c].n; k++) keep_lot(l, to, &l->cell[c].at[k].lot);
+    for (size_t b = 0; b < l->layout->blocks; b++)
+        if (l->of_block[b] != SIZE_MAX) keep_lot(l, to, &l->of_block[b]);
+    for (size_t k = 0; k < l->lots; k++) {
+        if (to[k] != SIZE_MAX) {
+            to[k] = n;
+            l->lot[n++] = l->lot[k];
+        } else if (l->parent[k] == k) {
+            consider(l, &l->lot[k]);
+        }
+    }
+    for (size_t c = 0; c < cells; c++)
+        for (size_t k = 0; k < l->cell[c].n; k++) l->cell[c].at[k].lot = to[l->cell[c].at[k].lot];
+    for (size_t b = 0; b < l->layout->blocks; b++)
+        if (l->of_block[b] != SIZE_MAX) l->of_block[b] = to[l->of_block[b]];
+    for (size_t k = 0; k < n; k++) l->parent[k] = k;
+    l->lots = n;
+    free(to);
+    return true;
+}
+
+/* ---- Who is within reach of whom --------------------------------------------------------------------------------- */
+
+static bool keep_shape(void *user, const gis_spool_feature *feature, gis_error *error)
+{
+    looking *l = user;
+    (void)error;
+    l->read = (sunder_shape *)feature->demands.shape;
+    return true;
+}
+
+static sunder_shape *shape_of(looking *l, member *m)
+{
+    l->read = NULL;
+    if (!m->shape && gis_spool_read_one(l->layout->spool, m->place, keep_shape, l, l->error)) m->shape = l->read;
+    return m->shape;
+}
+
+static bool are_within_reach(looking *l, member *a, member *b)
+{
+    bool apart = true;
+    sunder_error why;
+    const sunder_shape *p = shape_of(l, a), *q = p ? shape_of(l, b) : NULL;
+    if (!q)
+        l->failed = true;
+    else if (sunder_pair_apart(p, q, l->reach, &apart, &why) != SUNDER_OK)
+        l->failed = !gis_core_failed(l->error, "what hangs together", &why);
+    return !apart;
+}
+
+/* kind: is it one of those remembered? These have been asked among themselves. */
+static void join_if_near(void *user, const gis_swept *a, const gis_swept *b)
+{
+    looking *l = user;
+    member *p = l->swept[a->of], *q = l->swept[b->of];
+    if (l->failed || (a->kind && b->kind) || gis_set_root(l->parent, p->lot) == gis_set_root(l->parent, q->lot)) return;
+    if (!l->by_shapes || are_within_reach(l, p, q)) join(l, p->lot, q->lot);
+}
+
+static bool sweep_too(looking *l, member *m, int kind, gis_error *error)
+{
+    if (!gis_array_reserve(&l->swept, &l->swept_room, l->swept_n + 1, sizeof(member *))) return gis_no_memory(error);
+    l->swept[l->swept_n++] = m;
+    return gis_sweep_add(&l->sweep, m->box, l->swept_n - 1, kind, error);
+}
+
+static void drop_shapes(members *all)
+{
+    for (size_t k = 0; k < all->n; k++) {
+        sunder_shape_free(all->at[k].shape);
+        all->at[k].shape = NULL;
+    }
+}
+
+/* Box of a cell, as members have theirs. */
+static void box_of(const looking *l, size_t cell, double box[4])
+{
+    memcpy(box, gis_spool_cell_at(l->layout->spool, cell)->box, 4 * sizeof *box);
+    for (int c = 0; c < 4; c++) box[c] += (c < 2 ? -1 : 1) * l->reach / 2;
+}
+
+/* The features of the cell among themselves, and with those of the cells beside it that came before. */
+static bool join_cell(looking *l, size_t cell, const neighbour *beside, size_t n, gis_error *error)
+{
+    double box[4];
+    bool done = true;
+    box_of(l, cell, box);
+    l->swept_n = 0;
+    for (size_t k = 0; k < l->here.n && done; k++) done = sweep_too(l, &l->here.at[k], 0, error);
+    for (size_t b = 0; b < n && done; b++) {
+        members *there = &l->cell[beside[b].is];
+        for (size_t k = 0; k < there->n && done; k++)
+            if (gis_box_meets(box, there->at[k].box)) done = sweep_too(l, &there->at[k], 1, error);
+    }
+    if (done) gis_sweep_run(&l->sweep, join_if_near, l);
+    for (size_t b = 0; b < n; b++) drop_shapes(&l->cell[beside[b].is]);
+    return done && !l->failed && gis_go_on(error);
+}
+
+/* ---- Cells ------------------------------------------------------------------------------------------------------- */
+
+static bool add_member(members *to, const member *m, gis_error *error)
+{
+    if (!gis_array_reserve(&to->at, &to->room, to->n + 1, sizeof *to->at)) return gis_no_memory(error);
+    to->at[to->n++] = *m;
+    return true;
+}
+
+static void forget(members *all)
+{
+    drop_shapes(all);
+    free(all->at);
+    *all = (members){0};
+}
+
+static bool take(looking *l, const gis_spool_feature *feature, const double box[4], size_t vertices, gis_error *error)
+{
+    member own = {.place = feature->place, .lot = l->lots, .shape = (sunder_shape *)feature->demands.shape};
+    for (int c = 0; c < 4; c++) own.box[c] = box[c] + (c < 2 ? -1 : 1) * l->reach / 2;
+    if (gis_box_is_empty(box) || feature->demands.fixed) {
+        sunder_shape_free(own.shape);
+        return true;
+    }
+    if (!add_member(&l->here, &own, error)) {
+        sunder_shape_free(own.shape);
+        return false;
+    }
+    if (!add_lot(l, box, vertices)) return gis_no_memory(error);
+    join_block(l, feature->demands.block, own.lot);
+    return true;
+}
+
+static bool glance(void *user, const gis_spool_feature *feature, const double box[4], size_t vertices, gis_error *error)
+{
+    return take(user, feature, box, vertices, error);
+}
+
+static bool visit(void *user, const gis_spool_feature *feature, gis_error *error)
+{
+    double box[4];
+    sunder_shape_box(feature->demands.shape, box);
+    return take(user, feature, box, sunder_shape_vertices(feature->demands.shape), error);
+}
+
+/* Those of the cell that come near one that is still to be looked at. */
+static bool remember(looking *l, size_t cell, const neighbour *beside, size_t n, gis_error *error)
+{
+    bool done = true;
+    drop_shapes(&l->here);
+    for (size_t k = 0; k < l->here.n && done; k++) {
+        bool near = false;
+        for (size_t b = 0; b < n && !near; b++) {
+            double box[4];
+            box_of(l, beside[b].is, box);
+            near = beside[b].is > cell && gis_box_meets(box, l->here.at[k].box);
+        }
+        done = !near || add_member(&l->cell[cell], &l->here.at[k], error);
+    }
+    l->here.n = 0;
+    return done;
+}
+
+static void note_neighbours(void *user, const gis_swept *a, const gis_swept *b)
+{
+    looking *l = user;
+    if (l->failed || !gis_array_reserve(&l->beside, &l->beside_room, l->besides + 2, sizeof *l->beside)) {
+        l->failed = true;
+        return;
+    }
+    l->beside[l->besides++] = (neighbour){a->of, b->of};
+    l->beside[l->besides++] = (neighbour){b->of, a->of};
+}
+
+static int by_cell(const void *a, const void *b)
+{
+    const neighbour *p = a, *q = b;
+    if (p->of != q->of) return p->of < q->of ? -1 : 1;
+    return (p->is > q->is) - (p->is < q->is);
+}
+
+static bool find_neighbours(looking *l, gis_error *error)
+{
+    bool done = true;
+    for (size_t k = 0; k < gis_spool_cells(l->layout->spool) && done; k++) {
+        double box[4];
+        box_of(l, k, box);
+        done = gis_sweep_add(&l->sweep, box, k, 0, error);
+    }
+    if (done) gis_sweep_run(&l->sweep, note_neighbours, l);
+    if (l->besides) qsort(l->beside, l->besides, sizeof *l->beside, by_cell);
+    for (size_t k = 0; k < l->besides; k++) l->last[l->beside[k].of] = l->beside[k].is;
+    return done && (!l->failed || gis_no_memory(error));
+}
+
+static bool look_at(looking *l, size_t cell, const neighbour *beside, size_t n, gis_error *error)
+{
+    gis_spool *spool = l->layout->spool;
+    const bool done =
+        (l->by_shapes ? gis_spool_read(spool, cell, visit, l, error) : gis_spool_skim(spool, cell, glance, l, error)) &&
+        join_cell(l, cell, beside, n, error) && remember(l, cell, beside, n, error);
+    for (size_t b = 0; b < n && beside[b].is < cell; b++)
+        if (l->last[beside[b].is] == cell) forget(&l->cell[beside[b].is]);
+    return done;
+}
+
+enum { LOTS = 1 << 12 }; /* so many are there before any are forgotten */
+
+static bool look(looking *l, gis_error *error)
+{
+    bool done = find_neighbours(l, error);
+    size_t first = 0, end = 0;
+    l->enough_lots = LOTS;
+    for (size_t k = 0; k < gis_spool_cells(l->layout->spool) && done; k++) {
+        for (first = end; end < l->besides && l->beside[end].of == k;) end++;
+        done = look_at(l, k, l->beside + first, end - first, error);
+        if (done && l->lots > l->enough_lots) {
+            done = forget_lots(l, error);
+            l->enough_lots = LOTS + 2 * l->lots;
+        }
+    }
+    for (size_t k = 0; k < l->lots && done; k++)
+        if (l->parent[k] == k) consider(l, &l->lot[k]);
+    return done;
+}
+
+static void clear(looking *l)
+{
+    for (size_t k = 0; l->cell && k < gis_spool_cells(l->layout->spool); k++) forget(&l->cell[k]);
+    forget(&l->here);
+    free(l->cell);
+    free(l->swept);
+    free(l->beside);
+    free(l->last);
+    free(l->lot);
+    free(l->parent);
+    free(l->of_block);
+    gis_sweep_clear(&l->sweep);
+}
+
+static bool find(const gis_layout *layout, double reach, bool by_shapes, gis_together *out, gis_error *error)
+{
+    looking l = {.layout = layout, .reach = reach, .by_shapes = by_shapes, .error = error};
+    gis_box_clear(l.largest.box);
+    l.of_block = malloc((layout->blocks + 1) * sizeof *l.of_block);
+    l.cell = calloc(gis_spool_cells(layout->spool) + 1, sizeof *l.cell);
+    l.last = calloc(gis_spool_cells(layout->spool) + 1, sizeof *l.last);
+    for (size_t b = 0; l.of_block && b < layout->blocks; b++) l.of_block[b] = SIZE_MAX;
+    const bool done = ((l.of_block && l.cell && l.last) || gis_no_memory(error)) && look(&l, error);
+    *out = l.largest;
+    clear(&l);
+    return done;
+}
+
+bool gis_parts_together(const gis_layout *layout, double reach, double enough, gis_together *out, gis_error *error)
+{
+    return find(layout, reach, false, out, error) &&
+           (bytes_of(layout, out) <= enough || find(layout, reach, true, out, error));
+}
