@@ -26,11 +26,6 @@ typedef struct members {
     size_t n, room;
 } members;
 
-/* A cell that comes near another one, as their numbers. */
-typedef struct neighbour {
-    size_t of, is;
-} neighbour;
-
 typedef struct looking {
     const gis_layout *layout;
     double reach;
@@ -40,9 +35,9 @@ typedef struct looking {
     size_t lots, lot_room, parent_room, enough_lots;
     gis_together largest; /* of those that are complete, and forgotten */
     size_t *of_block;     /* [layout->blocks] a lot of it, or SIZE_MAX */
-    neighbour *beside;    /* both ways, sorted */
+    size_t *beside;       /* [besides] the cells that come near the one that is looked at, by number */
     size_t besides, beside_room;
-    size_t *last;  /* [cells] of those beside it, 0 if there are none */
+    size_t *last;  /* [cells] of those beside one, which may be it itself */
     members *cell; /* [cells] what is remembered of it */
     members here;  /* of the cell that is looked at */
     member **swept;
@@ -197,20 +192,20 @@ static void box_of(const looking *l, size_t cell, double box[4])
 }
 
 /* The features of the cell among themselves, and with those of the cells beside it that came before. */
-static bool join_cell(looking *l, size_t cell, const neighbour *beside, size_t n, gis_error *error)
+static bool join_cell(looking *l, size_t cell, gis_error *error)
 {
     double box[4];
     bool done = true;
     box_of(l, cell, box);
     l->swept_n = 0;
     for (size_t k = 0; k < l->here.n && done; k++) done = sweep_too(l, &l->here.at[k], 0, error);
-    for (size_t b = 0; b < n && done; b++) {
-        members *there = &l->cell[beside[b].is];
+    for (size_t b = 0; b < l->besides && done; b++) {
+        members *there = &l->cell[l->beside[b]];
         for (size_t k = 0; k < there->n && done; k++)
             if (gis_box_meets(box, there->at[k].box)) done = sweep_too(l, &there->at[k], 1, error);
     }
     if (done) gis_sweep_run(&l->sweep, join_if_near, l);
-    for (size_t b = 0; b < n; b++) drop_shapes(&l->cell[beside[b].is]);
+    for (size_t b = 0; b < l->besides; b++) drop_shapes(&l->cell[l->beside[b]]);
     return done && !l->failed && gis_go_on(error);
 }
 
@@ -260,16 +255,16 @@ static bool visit(void *user, const gis_spool_feature *feature, gis_error *error
 }
 
 /* Those of the cell that come near one that is still to be looked at. */
-static bool remember(looking *l, size_t cell, const neighbour *beside, size_t n, gis_error *error)
+static bool remember(looking *l, size_t cell, gis_error *error)
 {
     bool done = true;
     drop_shapes(&l->here);
     for (size_t k = 0; k < l->here.n && done; k++) {
         bool near = false;
-        for (size_t b = 0; b < n && !near; b++) {
+        for (size_t b = l->besides; b-- > 0 && l->beside[b] > cell && !near;) {
             double box[4];
-            box_of(l, beside[b].is, box);
-            near = beside[b].is > cell && gis_box_meets(box, l->here.at[k].box);
+            box_of(l, l->beside[b], box);
+            near = gis_box_meets(box, l->here.at[k].box);
         }
         done = !near || add_member(&l->cell[cell], &l->here.at[k], error);
     }
@@ -277,46 +272,32 @@ static bool remember(looking *l, size_t cell, const neighbour *beside, size_t n,
     return done;
 }
 
-static void note_neighbours(void *user, const gis_swept *a, const gis_swept *b)
+/* By all boxes: where large features lie everywhere, a list of all that are beside each other would be no small one. */
+static bool find_beside(looking *l, size_t cell, gis_error *error)
 {
-    looking *l = user;
-    if (l->failed || !gis_array_reserve(&l->beside, &l->beside_room, l->besides + 2, sizeof *l->beside)) {
-        l->failed = true;
-        return;
+    double box[4], other[4];
+    box_of(l, cell, box);
+    l->besides = 0;
+    for (size_t k = 0; k < gis_spool_cells(l->layout->spool); k++) {
+        box_of(l, k, other);
+        if (k == cell || !gis_box_meets(box, other)) continue;
+        if (!gis_array_reserve(&l->beside, &l->beside_room, l->besides + 1, sizeof *l->beside))
+            return gis_no_memory(error);
+        l->beside[l->besides++] = k;
     }
-    l->beside[l->besides++] = (neighbour){a->of, b->of};
-    l->beside[l->besides++] = (neighbour){b->of, a->of};
+    l->last[cell] = l->besides && l->beside[l->besides - 1] > cell ? l->beside[l->besides - 1] : cell;
+    return true;
 }
 
-static int by_cell(const void *a, const void *b)
-{
-    const neighbour *p = a, *q = b;
-    if (p->of != q->of) return p->of < q->of ? -1 : 1;
-    return (p->is > q->is) - (p->is < q->is);
-}
-
-static bool find_neighbours(looking *l, gis_error *error)
-{
-    bool done = true;
-    for (size_t k = 0; k < gis_spool_cells(l->layout->spool) && done; k++) {
-        double box[4];
-        box_of(l, k, box);
-        done = gis_sweep_add(&l->sweep, box, k, 0, error);
-    }
-    if (done) gis_sweep_run(&l->sweep, note_neighbours, l);
-    if (l->besides) qsort(l->beside, l->besides, sizeof *l->beside, by_cell);
-    for (size_t k = 0; k < l->besides; k++) l->last[l->beside[k].of] = l->beside[k].is;
-    return done && (!l->failed || gis_no_memory(error));
-}
-
-static bool look_at(looking *l, size_t cell, const neighbour *beside, size_t n, gis_error *error)
+static bool look_at(looking *l, size_t cell, gis_error *error)
 {
     gis_spool *spool = l->layout->spool;
     const bool done =
+        find_beside(l, cell, error) &&
         (l->by_shapes ? gis_spool_read(spool, cell, visit, l, error) : gis_spool_skim(spool, cell, glance, l, error)) &&
-        join_cell(l, cell, beside, n, error) && remember(l, cell, beside, n, error);
-    for (size_t b = 0; b < n && beside[b].is < cell; b++)
-        if (l->last[beside[b].is] == cell) forget(&l->cell[beside[b].is]);
+        join_cell(l, cell, error) && remember(l, cell, error);
+    for (size_t b = 0; b < l->besides && l->beside[b] < cell; b++)
+        if (l->last[l->beside[b]] == cell) forget(&l->cell[l->beside[b]]);
     return done;
 }
 
@@ -324,12 +305,10 @@ enum { LOTS = 1 << 12 }; /* so many are there before any are forgotten */
 
 static bool look(looking *l, gis_error *error)
 {
-    bool done = find_neighbours(l, error);
-    size_t first = 0, end = 0;
+    bool done = true;
     l->enough_lots = LOTS;
     for (size_t k = 0; k < gis_spool_cells(l->layout->spool) && done; k++) {
-        for (first = end; end < l->besides && l->beside[end].of == k;) end++;
-        done = look_at(l, k, l->beside + first, end - first, error);
+        done = look_at(l, k, error);
         if (done && l->lots > l->enough_lots) {
             done = forget_lots(l, error);
             l->enough_lots = LOTS + 2 * l->lots;
