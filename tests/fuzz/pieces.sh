@@ -53,9 +53,10 @@ piece() { # NAME SECONDS
     local TIMEFORMAT='%U %S'
     # Leaks are looked for at the end of each input as ever; a seed of its own for each piece. No entropic schedule: with
     # some thousand inputs of some thousand features each its bookkeeping takes more time than what is asked.
+    # The time that an input may take is by the clock, of which other work may leave little.
     # Stacks of allocations are kept short, which takes a tenth of the time less: who looks into a finding runs it by itself.
     spent=$( { time ASAN_OPTIONS=malloc_context_size=5 nice -n "${SUNDER_FUZZ_NICE:-19}" "$SUNDER_BUILD/fuzz/$name" "$state/$name" -seed="$(date +%s)" -max_total_time="$2" -max_len=600 -entropic=0 \
-        -timeout=100 -rss_limit_mb=4096 -artifact_prefix="$state/found/$name-" -print_final_stats=1 >"$log" 2>&1 || status=$?
+        -timeout=600 -rss_limit_mb=4096 -artifact_prefix="$state/found/$name-" -print_final_stats=1 >"$log" 2>&1 || status=$?
         echo "$status" >"$state/$name.status"; } 2>&1 )
     executions=$(final number_of_executed_units "$log")
     # shellcheck disable=SC2046 # two numbers
