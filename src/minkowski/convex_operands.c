@@ -7,12 +7,13 @@
 #include "minkowski/convex_operands.h"
 
 #include "convex/merge.h"
+#include "predicate/narrow.h"
 
 static uint32_t smallest(sunder_i_lattice *l, const sunder_shape *shape, const sunder_i_point *at)
 {
     uint32_t least = 0;
     for (uint32_t v = 1; v < shape->vertices; v++)
-        if (sunder_i_point_cmp(l, at[v], at[least]) < 0) least = v;
+        if (sunder_i_point_cmp_inline(l, at[v], at[least]) < 0) least = v;
     return least;
 }
 
@@ -24,14 +25,14 @@ typedef struct side {
 static side side_from(sunder_i_lattice *l, const sunder_shape *shape, const sunder_i_point *at, uint32_t v)
 {
     const sunder_i_point from = at[v], to = at[shape->next[v]];
-    return (side){sunder_i_point_sub(l, to, from), sunder_i_point_cmp(l, to, from) < 0};
+    return (side){sunder_i_point_sub_inline(l, to, from), sunder_i_point_cmp_inline(l, to, from) < 0};
 }
 
 /* Which comes first; 0: they have one direction. */
 static int order(sunder_i_lattice *l, const side *s, const side *t)
 {
     if (s->back != t->back) return s->back ? 1 : -1;
-    return -sunder_i_cross_sign(l, s->along, t->along);
+    return -sunder_i_cross_sign_inline(l, s->along, t->along);
 }
 
 bool sunder_i_are_convex(const sunder_shape *p, const sunder_shape *q) { return p->pieces == 1 && q->pieces == 1; }
@@ -50,7 +51,7 @@ sunder_status sunder_i_convex_operands_sum(sunder_sum *sum, const sunder_shape *
     sunder_i_merge m = sunder_i_merge_of(p->vertices, q->vertices);
     side s = side_from(l, p, at_p, i), t = side_from(l, q, at_q, j);
     while (SUNDER_I_MERGE_NEXT(&m, order(l, &s, &t))) {
-        sum->vertex[n++] = sunder_i_hpoint_of(l, sunder_i_point_add(l, at_p[i], at_q[j]));
+        sunder_i_hpoint_of_sum(l, at_p[i], at_q[j], &sum->vertex[n++]);
         if (m.of_a) s = side_from(l, p, at_p, i = p->next[i]);
         if (m.of_b) t = side_from(l, q, at_q, j = q->next[j]);
     }

@@ -32,6 +32,9 @@
 #include "minkowski/convolution_inner.h"
 #include "sum/canonical.h"
 
+#include <stdalign.h>
+#include <string.h>
+
 /* A piece of a link is what lies between two stops, or a stop and an end. Link i has its pieces from
  * stop_begin(i) + i on, one more than it has stops. */
 typedef struct walker {
@@ -137,6 +140,7 @@ static bool follow(walker *w, uint32_t i, uint32_t k, sunder_sum *sum, size_t *r
 }
 
 typedef struct ring_list {
+    sunder_i_arena *memory;
     sunder_i_found_ring *ring; /* start and end in the vertices of the sum */
     size_t n, room;
 } ring_list;
@@ -151,7 +155,7 @@ static bool follow_all(walker *w, sunder_sum *sum, ring_list *rings)
             const uint32_t piece = stop_begin(c, i) + i + k;
             if (w->right[piece] != 0 || w->done[piece]) continue;
             if (rings->n == rings->room &&
-                !sunder_i_reserve(&rings->ring, &rings->room, rings->n + 1, sizeof *rings->ring))
+                !sunder_i_arena_reserve(rings->memory, &rings->ring, &rings->room, rings->n + 1, sizeof *rings->ring))
                 return false;
             sunder_i_found_ring r = {.start = sum->vertices};
             if (!follow(w, i, k, sum, &room)) return false;
@@ -164,7 +168,7 @@ static bool follow_all(walker *w, sunder_sum *sum, ring_list *rings)
 /* No two rings have a vertex in common; the outer one has the smallest of all. */
 static bool put_rings(ring_list *rings, sunder_sum *sum)
 {
-    uint32_t *vertex = sunder_i_alloc(sum->vertices, sizeof *vertex);
+    uint32_t *vertex = sunder_i_arena_alloc(rings->memory, sum->vertices, sizeof *vertex);
     size_t outer = 0, at = 0;
     for (size_t r = 0; vertex && r < rings->n; r++) {
         const uint32_t start = (uint32_t)rings->ring[r].start, end = (uint32_t)rings->ring[r].end;
@@ -182,9 +186,7 @@ static bool put_rings(ring_list *rings, sunder_sum *sum)
                             .components = 1,
                             .compare = sunder_i_sum_vertex_cmp,
                             .context = sum};
-    const bool ok = vertex && sunder_i_canonical(&found, sum);
-    sunder_i_free(vertex);
-    return ok;
+    return vertex && sunder_i_canonical(&found, sum);
 }
 
 /* ---- All of it ---- */
@@ -196,12 +198,14 @@ static void forget(sunder_sum *sum)
     sum->vertices = 0;
 }
 
-static bool walk(const sunder_i_convolution *c, sunder_sum *sum, bool *done)
+static bool walk(sunder_i_convolution *c, sunder_sum *sum, bool *done)
 {
     const size_t pieces = c->links + c->stops;
-    walker w = {c, sunder_i_alloc(pieces, sizeof *w.right), sunder_i_calloc(pieces, sizeof *w.done), true};
-    ring_list rings = {0};
+    walker w = {c, sunder_i_arena_alloc(&c->memory, pieces, sizeof *w.right),
+                sunder_i_arena_alloc(&c->memory, pieces, sizeof *w.done), true};
+    ring_list rings = {.memory = &c->memory};
     bool ok = w.right && w.done;
+    if (ok) memset(w.done, 0, pieces * sizeof *w.done);
     for (uint32_t r = 0; ok && r < c->p->rings; r++) number_ring(&w, sunder_i_convolution_first(c, r), c->ring_end[r]);
     ok = ok && (!w.tame || follow_all(&w, sum, &rings));
     *done = ok && w.tame;
@@ -209,9 +213,6 @@ static bool walk(const sunder_i_convolution *c, sunder_sum *sum, bool *done)
         ok = put_rings(&rings, sum);
     else
         forget(sum);
-    sunder_i_free(w.right);
-    sunder_i_free(w.done);
-    sunder_i_free(rings.ring);
     return ok;
 }
 
@@ -225,8 +226,8 @@ static sunder_status build(sunder_i_convolution *c, sunder_sum *sum, const sunde
     return walk(c, sum, done) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* For each ring all links are gone through to locate it. */
-enum { MOST_RINGS = 64 };
+/* For each ring all links are gone through to locate it. What is needed for a building and a disc takes so much. */
+enum { MOST_RINGS = 64, LENT = 16384 };
 
 sunder_status sunder_i_convolution_sum(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,
                                        const sunder_shape *q, const sunder_i_point *at_q, bool *done, sunder_error *err)
@@ -235,7 +236,9 @@ sunder_status sunder_i_convolution_sum(sunder_sum *sum, const sunder_shape *p, c
     if (!sum->lattice.narrow || p->polygons != 1 || p->touches || p->rings > MOST_RINGS || q->pieces != 1)
         return SUNDER_OK;
     sunder_i_convolution c = {.lattice = &sum->lattice, .p = p};
+    alignas(16) char lent[LENT];
+    sunder_i_arena_init_on(&c.memory, lent, sizeof lent);
     const sunder_status status = build(&c, sum, at_p, q, at_q, done, err);
-    sunder_i_convolution_free(&c);
+    sunder_i_arena_free(&c.memory);
     return status;
 }

@@ -15,9 +15,12 @@ typedef struct crosser {
  * is left to the general road, which has a better order. */
 static const size_t patience = 256;
 
+/* Branches that nobody foresees take longer here than tests that were not needed: so these are without. */
+
+/* Of chains whose boxes overlap from left to right. */
 static bool boxes_apart(const sunder_i_chain *a, const sunder_i_chain *b)
 {
-    return a->high[0] < b->low[0] || b->high[0] < a->low[0] || a->high[1] < b->low[1] || b->high[1] < a->low[1];
+    return (a->high[1] < b->low[1]) | (b->high[1] < a->low[1]);
 }
 
 /* May they meet in nothing but the end that they share, by their making? A side is on a line that supports v + Q at
@@ -35,23 +38,26 @@ static bool are_neighbours(const sunder_i_convolution *c, const sunder_i_chain *
     return side->vertex == joint->vertex || next[side->vertex] == joint->vertex;
 }
 
+static inline int64_t least(int64_t a, int64_t b) { return a < b ? a : b; }
+static inline int64_t most(int64_t a, int64_t b) { return a < b ? b : a; }
+
 static bool link_apart(sunder_i_point a, sunder_i_point b, const sunder_i_chain *c)
 {
-    return (a.x < c->low[0] && b.x < c->low[0]) || (a.x > c->high[0] && b.x > c->high[0]) ||
-           (a.y < c->low[1] && b.y < c->low[1]) || (a.y > c->high[1] && b.y > c->high[1]);
+    return (most(a.x, b.x) < c->low[0]) | (least(a.x, b.x) > c->high[0]) | (most(a.y, b.y) < c->low[1]) |
+           (least(a.y, b.y) > c->high[1]);
 }
 
 static bool links_apart(sunder_i_point a, sunder_i_point b, sunder_i_point c, sunder_i_point d)
 {
-    return (a.x < c.x && a.x < d.x && b.x < c.x && b.x < d.x) || (a.x > c.x && a.x > d.x && b.x > c.x && b.x > d.x) ||
-           (a.y < c.y && a.y < d.y && b.y < c.y && b.y < d.y) || (a.y > c.y && a.y > d.y && b.y > c.y && b.y > d.y);
+    return (most(a.x, b.x) < least(c.x, d.x)) | (least(a.x, b.x) > most(c.x, d.x)) |
+           (most(a.y, b.y) < least(c.y, d.y)) | (least(a.y, b.y) > most(c.y, d.y));
 }
 
 static void add_crossing(crosser *x, uint32_t i, const sunder_i_point ab[2], uint32_t j, const sunder_i_point cd[2])
 {
     sunder_i_convolution *c = x->curve;
     if (c->stops + 2 > c->stops_capacity &&
-        !sunder_i_reserve(&c->stop, &c->stops_capacity, c->stops + 2, sizeof *c->stop)) {
+        !sunder_i_arena_reserve(&c->memory, &c->stop, &c->stops_capacity, c->stops + 2, sizeof *c->stop)) {
         x->no_memory = true;
         return;
     }
@@ -140,23 +146,39 @@ static bool order_stops(crosser *x, uint32_t *order, uint32_t *rank, sunder_i_st
     return true;
 }
 
+/* Chains from left to right. */
+static bool order_chains(const sunder_i_convolution *c, uint32_t *order)
+{
+    enum { FEW = 32 };
+    for (uint32_t i = 0; i < c->chains; i++) order[i] = i;
+    if (c->chains > FEW) return sunder_i_sort_indices(order, c->chains, compare_lows, c->chain);
+    int64_t low[FEW];
+    for (uint32_t i = 0; i < c->chains; i++) {
+        const int64_t own = c->chain[i].low[0];
+        uint32_t k = i;
+        for (; k > 0 && low[k - 1] > own; k--) {
+            low[k] = low[k - 1];
+            order[k] = order[k - 1];
+        }
+        low[k] = own;
+        order[k] = i;
+    }
+    return true;
+}
+
 sunder_status sunder_i_convolution_cross(sunder_i_convolution *curve, bool *fits, sunder_error *err)
 {
+    sunder_i_arena *m = &curve->memory;
     crosser x = {.curve = curve, .pairs = patience * curve->chains, .fits = true};
-    uint32_t *order = sunder_i_alloc(curve->chains, sizeof *order);
-    curve->stop_end = sunder_i_alloc(curve->links, sizeof *curve->stop_end);
-    bool ok = order && curve->stop_end;
-    for (uint32_t i = 0; ok && i < curve->chains; i++) order[i] = i;
-    ok = ok && sunder_i_sort_indices(order, curve->chains, compare_lows, curve->chain);
+    uint32_t *order = sunder_i_arena_alloc(m, curve->chains, sizeof *order);
+    curve->stop_end = sunder_i_arena_alloc(m, curve->links, sizeof *curve->stop_end);
+    bool ok = order && curve->stop_end && order_chains(curve, order);
     if (ok) cross_all(&x, order);
-    sunder_i_free(order);
     ok = ok && !x.no_memory;
     if (ok && x.fits) {
-        uint32_t *both = sunder_i_alloc(2 * curve->stops, sizeof *both);
-        sunder_i_stop *sorted = sunder_i_alloc(curve->stops, sizeof *sorted);
+        uint32_t *both = sunder_i_arena_alloc(m, 2 * curve->stops, sizeof *both);
+        sunder_i_stop *sorted = sunder_i_arena_alloc(m, curve->stops, sizeof *sorted);
         ok = both && sorted && order_stops(&x, both, both + curve->stops, sorted);
-        sunder_i_free(both);
-        sunder_i_free(sorted);
     }
     *fits = x.fits;
     return ok ? SUNDER_OK : sunder_i_no_memory(err);

@@ -1,8 +1,6 @@
 /* The curve: P's sides, each moved by the corner of Q that is extreme in its outward direction, and what joins them. */
 #include "minkowski/convolution_inner.h"
 
-#include "base/memory.h"
-
 #include <string.h>
 
 typedef struct mover {
@@ -177,15 +175,16 @@ static void add_links(mover *t)
 static bool make_room(mover *t, const sunder_shape *q, const sunder_i_point *at_q)
 {
     sunder_i_convolution *c = t->curve;
+    sunder_i_arena *m = &c->memory;
     const size_t n = c->p->vertices;
-    t->q = sunder_i_alloc(t->m, sizeof *t->q);
-    t->first = sunder_i_alloc(2 * n, sizeof *t->first);
-    t->from = sunder_i_alloc(2 * n, sizeof *t->from);
-    c->reflex = sunder_i_alloc(2 * n, sizeof *c->reflex);
-    if (!t->q || !t->first || !t->from || !c->reflex) return false;
-    t->last = t->first + n;
-    t->to = t->from + n;
-    c->joined = c->reflex + n;
+    t->q = sunder_i_arena_alloc(m, t->m, sizeof *t->q);
+    t->first = sunder_i_arena_alloc(m, n, sizeof *t->first);
+    t->last = sunder_i_arena_alloc(m, n, sizeof *t->last);
+    t->from = sunder_i_arena_alloc(m, n, sizeof *t->from);
+    t->to = sunder_i_arena_alloc(m, n, sizeof *t->to);
+    c->reflex = sunder_i_arena_alloc(m, n, sizeof *c->reflex);
+    c->joined = sunder_i_arena_alloc(m, n, sizeof *c->joined);
+    if (m->failed) return false;
     for (uint32_t j = 0, v = 0; j < t->m; j++, v = q->next[v]) t->q[j] = at_q[v];
     return true;
 }
@@ -200,12 +199,13 @@ static sunder_status build(mover *t, bool *fits, sunder_error *err)
     const size_t n = count_links(t);
     *fits = n < UINT32_MAX / 4;
     if (!*fits) return SUNDER_OK;
-    c->corner = sunder_i_alloc(n, sizeof *c->corner);
-    c->next = sunder_i_alloc(n, sizeof *c->next);
-    c->chord = sunder_i_alloc(n, sizeof *c->chord);
-    c->chain = sunder_i_alloc(2 * (size_t)c->p->vertices, sizeof *c->chain);
-    c->ring_end = sunder_i_alloc(c->p->rings, sizeof *c->ring_end);
-    if (!c->corner || !c->next || !c->chord || !c->chain || !c->ring_end) return sunder_i_no_memory(err);
+    sunder_i_arena *m = &c->memory;
+    c->corner = sunder_i_arena_alloc(m, n, sizeof *c->corner);
+    c->next = sunder_i_arena_alloc(m, n, sizeof *c->next);
+    c->chord = sunder_i_arena_alloc(m, n, sizeof *c->chord);
+    c->chain = sunder_i_arena_alloc(m, 2 * (size_t)c->p->vertices, sizeof *c->chain);
+    c->ring_end = sunder_i_arena_alloc(m, c->p->rings, sizeof *c->ring_end);
+    if (m->failed) return sunder_i_no_memory(err);
     add_links(t);
     return SUNDER_OK;
 }
@@ -214,21 +214,5 @@ sunder_status sunder_i_convolution_build(sunder_i_convolution *curve, const sund
                                          const sunder_i_point *at_q, bool *fits, sunder_error *err)
 {
     mover t = {.curve = curve, .at = at_p, .m = q->vertices};
-    const sunder_status status = make_room(&t, q, at_q) ? build(&t, fits, err) : sunder_i_no_memory(err);
-    sunder_i_free(t.q);
-    sunder_i_free(t.first);
-    sunder_i_free(t.from);
-    return status;
-}
-
-void sunder_i_convolution_free(sunder_i_convolution *curve)
-{
-    sunder_i_free(curve->corner);
-    sunder_i_free(curve->next);
-    sunder_i_free(curve->ring_end);
-    sunder_i_free(curve->chord);
-    sunder_i_free(curve->chain);
-    sunder_i_free(curve->reflex);
-    sunder_i_free(curve->stop_end);
-    sunder_i_free(curve->stop);
+    return make_room(&t, q, at_q) ? build(&t, fits, err) : sunder_i_no_memory(err);
 }

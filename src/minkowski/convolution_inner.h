@@ -23,6 +23,7 @@ typedef struct sunder_i_stop {
 
 typedef struct sunder_i_convolution {
     sunder_i_lattice *lattice;
+    sunder_i_arena memory; /* of all of this, and of who works on it */
     const sunder_shape *p;
     uint32_t links;
     sunder_i_point *corner; /* [links] where each link starts */
@@ -38,14 +39,12 @@ typedef struct sunder_i_convolution {
     size_t stops, stops_capacity;
 } sunder_i_convolution;
 
-/* Builds the curve; *fits is false where P or Q is of no kind that this is for. Fails only with SUNDER_ENOMEM; free
- * the curve in any case. */
+/* Builds the curve; *fits is false where P or Q is of no kind that this is for. Fails only with SUNDER_ENOMEM. */
 sunder_status sunder_i_convolution_build(sunder_i_convolution *curve, const sunder_i_point *at_p, const sunder_shape *q,
                                          const sunder_i_point *at_q, bool *fits, sunder_error *err);
 /* Finds all stops; *fits is false where anything but two links that cross in their insides meets, or it takes
  * too long. */
 sunder_status sunder_i_convolution_cross(sunder_i_convolution *curve, bool *fits, sunder_error *err);
-void sunder_i_convolution_free(sunder_i_convolution *curve);
 
 static inline uint32_t sunder_i_convolution_first(const sunder_i_convolution *curve, uint32_t ring)
 {

@@ -59,17 +59,12 @@ sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *l, sunder_i_point a, sunder
     return p;
 }
 
-static sunder_i_i256 narrow_i256(int64_t v)
-{
-    sunder_i_i256 r = {{v < 0 ? -(uint64_t)v : (uint64_t)v, 0, 0, 0}, (v > 0) - (v < 0)};
-    return r;
-}
-
 sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *l, sunder_i_point a)
 {
-    if (l->narrow) return (sunder_i_hpoint){narrow_i256(a.x), narrow_i256(a.y), 1, (double)a.x, (double)a.y};
+    if (l->narrow)
+        return (sunder_i_hpoint){sunder_i_narrow_i256(a.x), sunder_i_narrow_i256(a.y), 1, (double)a.x, (double)a.y};
     if (sunder_i_point_is_plain(a))
-        return (sunder_i_hpoint){narrow_i256(a.x), narrow_i256(a.y), 1, sunder_i_approx(l, a.x),
+        return (sunder_i_hpoint){sunder_i_narrow_i256(a.x), sunder_i_narrow_i256(a.y), 1, sunder_i_approx(l, a.x),
                                  sunder_i_approx(l, a.y)};
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     const sunder_i_rational_point v = sunder_i_rational_get(&l->scratch, l, a);

@@ -34,6 +34,42 @@ static inline int sunder_i_orient_inline(sunder_i_lattice *l, sunder_i_point a, 
     return sunder_i_det_sign(sunder_i_narrow_orient(a, b, c));
 }
 
+/* The same of others. */
+static inline int sunder_i_point_cmp_inline(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b)
+{
+    if (!l->narrow) return sunder_i_point_cmp(l, a, b);
+    l->counts.comparisons++;
+    return a.x != b.x ? (a.x > b.x) - (a.x < b.x) : (a.y > b.y) - (a.y < b.y);
+}
+
+static inline int sunder_i_cross_sign_inline(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v)
+{
+    if (!l->narrow) return sunder_i_cross_sign(l, u, v);
+    l->counts.orientation_tests++;
+    return sunder_i_det_sign(sunder_i_narrow_cross(u, v));
+}
+
+static inline sunder_i_point sunder_i_point_sub_inline(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b)
+{
+    return l->narrow ? sunder_i_narrow_sub(a, b) : sunder_i_point_sub(l, a, b);
+}
+
+static inline sunder_i_i256 sunder_i_narrow_i256(int64_t v)
+{
+    return (sunder_i_i256){{v < 0 ? -(uint64_t)v : (uint64_t)v, 0, 0, 0}, (v > 0) - (v < 0)};
+}
+
+/* sunder_i_hpoint_of() the sum of two points. */
+static inline void sunder_i_hpoint_of_sum(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_hpoint *out)
+{
+    if (!l->narrow) {
+        *out = sunder_i_hpoint_of(l, sunder_i_point_add(l, a, b));
+        return;
+    }
+    const sunder_i_point s = {a.x + b.x, a.y + b.y};
+    *out = (sunder_i_hpoint){sunder_i_narrow_i256(s.x), sunder_i_narrow_i256(s.y), 1, (double)s.x, (double)s.y};
+}
+
 /* num / den as a double: both conversions and the division round once each, relative error below 2^-51. */
 static inline double sunder_i_narrow_value(sunder_i_det num, sunder_i_det den)
 {

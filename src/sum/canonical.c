@@ -125,23 +125,32 @@ static void copy_rings(const sunder_i_found *f, const uint32_t *place, sunder_su
     out->rings = f->rings;
 }
 
-static bool put_rings(sunder_i_found *f, sunder_sum *out)
+static bool order_rings(sunder_i_found *f, sunder_sum *out)
 {
     const size_t n = f->rings;
-    size_t corners = 0;
-    for (size_t r = 0; r < n; r++) corners += f->ring[r].end - f->ring[r].start;
     uint32_t *order = sunder_i_calloc(3 * n + f->components, sizeof *order);
-    out->ring_vertex = sunder_i_alloc(corners, sizeof *out->ring_vertex);
-    out->ring_end = sunder_i_alloc(n, sizeof *out->ring_end);
-    out->poly_end = sunder_i_alloc(n, sizeof *out->poly_end);
-    bool ok = order && out->ring_vertex && out->ring_end && out->poly_end;
-    ok = ok && sort_rings(f, &out->lattice, order);
+    const bool ok = order && sort_rings(f, &out->lattice, order);
     if (ok) {
         deal_rings(f, order, order + n, order + 2 * n, order + 3 * n, out);
         copy_rings(f, order + n, out);
     }
     sunder_i_free(order);
     return ok;
+}
+
+static bool put_rings(sunder_i_found *f, sunder_sum *out)
+{
+    const uint32_t one = 0;
+    size_t corners = 0;
+    for (size_t r = 0; r < f->rings; r++) corners += f->ring[r].end - f->ring[r].start;
+    out->ring_vertex = sunder_i_alloc(corners, sizeof *out->ring_vertex);
+    out->ring_end = sunder_i_alloc(f->rings, sizeof *out->ring_end);
+    out->poly_end = sunder_i_alloc(f->rings, sizeof *out->poly_end);
+    if (!out->ring_vertex || !out->ring_end || !out->poly_end) return false;
+    if (f->rings != 1) return order_rings(f, out);
+    copy_rings(f, &one, out);
+    out->polygons = out->poly_end[0] = 1;
+    return true;
 }
 
 /* ---- Degenerate parts ---- */

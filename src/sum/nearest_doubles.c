@@ -1,9 +1,10 @@
 /* Vertices of a sum as the nearest doubles, and how far these are off, without text and without one allocation each.
  *
- * Nearly all vertices are lattice points: n 2^e + both origins. On a narrow lattice that is an integer of at most 126
- * bits where the origins are not too far out, and its conversion rounds once. Crossings have a fraction besides, and
- * one bit tells whether there is any: that is all that rounding has to know. Others take the big integers. The
- * deviation is measured, and rounded up. */
+ * Nearly all vertices are lattice points: n 2^e + both origins. Where the origins are not too far out that is the sum
+ * of three doubles that stand for themselves, of which two are added exactly, so that it is rounded once. Else, on a
+ * narrow lattice, it is an integer of at most 126 bits, whose conversion rounds once, too. Crossings have a fraction
+ * besides, and one bit tells whether there is any: that is all that rounding has to know. Others take the big integers.
+ * The deviation is measured, and rounded up. */
 #include "sum/sum.h"
 
 #include <limits.h>
@@ -124,15 +125,83 @@ static void big_vertex(sunder_i_arena *arena, const sunder_sum *sum, const sunde
     sunder_i_arena_release(arena, mark);
 }
 
-/* A vertex on a lattice with whole origins; false where that cannot be told here. */
-static bool plain_vertex(const sunder_i_hpoint *p, const sunder_i_i128 origin[2], double unit, double xy[2],
-                         double off[2])
+/* A number on the lattice as a double: units of 2^32 and the rest. */
+typedef struct frame {
+    double unit;
+    bool plain, near; /* the origins are whole; and below 2^83, parted so: */
+    sunder_i_i128 origin[2];
+    double high[2], low[2];   /* a multiple of 2^32, and less than that */
+    double most, off_squared; /* so far none is off by more; this square, in units, is below that */
+} frame;
+
+static const double part = 0x1p32;
+
+static void part_origin(frame *f, int axis)
 {
+    const sunder_i_i128 limit = (sunder_i_i128)1 << 83, o = f->origin[axis];
+    if (o <= -limit || o >= limit) f->near = false;
+    f->low[axis] = (double)(uint32_t)o;
+    f->high[axis] = sunder_i_i128_is_short(o) ? (double)(int64_t)(o >> 32) * part : (double)(o - (uint32_t)o);
+}
+
+static frame frame_of(const sunder_sum *sum, double most)
+{
+    const sunder_i_lattice *l = &sum->lattice;
+    frame f = {.most = most, .off_squared = -1};
+    f.plain = l->small && l->exponent >= -900 && l->exponent <= 800 && whole_origin(sum, 0, &f.origin[0]) &&
+              whole_origin(sum, 1, &f.origin[1]);
+    if (!f.plain) return f;
+    f.unit = ldexp(1, (int)l->exponent);
+    f.near = true;
+    for (int k = 0; k < 2; k++) part_origin(&f, k);
+    return f;
+}
+
+/* n + origin in units, rounded once, and exactly what that leaves. The parts of 2^32 add up to less than 2^84 and so
+ * exactly; the sum with the rest is two-sum's [Knu97]. */
+static double near_double(const frame *f, int axis, int64_t n, double *rest)
+{
+    const double high = f->high[axis] + (double)(n >> 32) * part, low = f->low[axis] + (double)(uint32_t)n;
+    const double nearest = high + low, of_low = nearest - high;
+    *rest = (high - (nearest - of_low)) + (low - of_low);
+    return nearest;
+}
+
+static void take_off(frame *f, double x, double y)
+{
+    const double here = x == 0 ? y : y == 0 ? x : nextafter(hypot(x, y), INFINITY);
+    if (here <= f->most) return;
+    f->most = here;
+    const double most = here / f->unit;
+    f->off_squared = most * most * (1 - 0x1p-40);
+}
+
+static double off_of(const frame *f, double rest) { return rest == 0 ? 0 : nextafter(fabs(rest), INFINITY) * f->unit; }
+
+/* A lattice point near the origins; false where it is none. */
+static bool near_vertex(frame *f, const sunder_i_hpoint *p, double xy[2])
+{
+    const uint64_t x = p->x.limb[0], y = p->y.limb[0];
+    if (!f->near || p->w != 1 || (x | y) >> 62 || p->x.limb[1] || p->y.limb[1] || p->x.limb[2] || p->y.limb[2] ||
+        p->x.limb[3] || p->y.limb[3])
+        return false;
+    double rest[2];
+    xy[0] = near_double(f, 0, p->x.sign * (int64_t)x, &rest[0]) * f->unit;
+    xy[1] = near_double(f, 1, p->y.sign * (int64_t)y, &rest[1]) * f->unit;
+    const double squared = rest[0] * rest[0] + rest[1] * rest[1];
+    if (squared > 0 && squared > f->off_squared) take_off(f, off_of(f, rest[0]), off_of(f, rest[1]));
+    return true;
+}
+
+/* A vertex on a lattice with whole origins; false where that cannot be told here. */
+static bool plain_vertex(const frame *f, const sunder_i_hpoint *p, double xy[2], double off[2])
+{
+    if (!f->plain || p->w == 0) return false;
     for (int k = 0; k < 2; k++) {
         const sunder_i_i256 *n = k ? &p->y : &p->x;
         if (p->w == 1 && !(n->limb[0] >> 63 || n->limb[1] || n->limb[2] || n->limb[3]))
-            whole_double(n->sign * (sunder_i_i128)n->limb[0] + origin[k], unit, &xy[k], &off[k]);
-        else if (!ratio_double(n, p->w, origin[k], unit, &xy[k], &off[k]))
+            whole_double(n->sign * (sunder_i_i128)n->limb[0] + f->origin[k], f->unit, &xy[k], &off[k]);
+        else if (!ratio_double(n, p->w, f->origin[k], f->unit, &xy[k], &off[k]))
             return false;
     }
     return true;
@@ -142,22 +211,17 @@ sunder_status sunder_sum_vertices(const sunder_sum *sum, const uint32_t *vertex,
                                   double *deviation, sunder_error *err)
 {
     sunder_i_arena arena = {0};
-    sunder_i_i128 origin[2];
-    const sunder_i_lattice *l = &sum->lattice;
-    const bool plain = l->small && l->exponent >= -900 && l->exponent <= 800 && whole_origin(sum, 0, &origin[0]) &&
-                       whole_origin(sum, 1, &origin[1]);
-    const double unit = plain ? ldexp(1, (int)l->exponent) : 0;
-    double most = 0;
+    frame f = frame_of(sum, 0);
     for (size_t i = 0; i < n; i++) {
         const sunder_i_hpoint *p = &sum->vertex[vertex[i]];
         double *at = xy + 2 * i, off[2];
-        if (!plain || p->w == 0 || !plain_vertex(p, origin, unit, at, off)) big_vertex(&arena, sum, p, at, off);
-        const double here = off[0] == 0 ? off[1] : off[1] == 0 ? off[0] : nextafter(hypot(off[0], off[1]), INFINITY);
-        if (!(here <= most)) most = here;
+        if (near_vertex(&f, p, at)) continue;
+        if (!plain_vertex(&f, p, at, off)) big_vertex(&arena, sum, p, at, off);
+        take_off(&f, off[0], off[1]);
     }
     const bool failed = arena.failed;
     sunder_i_arena_free(&arena);
     if (failed) return sunder_i_no_memory(err);
-    if (most > *deviation) *deviation = most;
+    if (f.most > *deviation) *deviation = f.most;
     return SUNDER_OK;
 }

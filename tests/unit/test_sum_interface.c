@@ -280,10 +280,49 @@ static void test_beyond_doubles(void **state)
     polyset_free(&p);
 }
 
+/* Of a ring at once no vertex is said to be further off than of each by itself, and none is forgotten: at home, far out
+ * and beyond where doubles hold a fraction; by itself each is compared with its text. */
+static void test_deviation(void **state)
+{
+    (void)state;
+    const double out[] = {0, 0.1, 1234567.123, -4503599627370497.0, 0x1.123456789p60, 0x1.3p85, -0x1.7p120};
+    size_t off_by_some = 0;
+    for (size_t k = 0; k < sizeof out / sizeof *out; k++) {
+        const double o = out[k], size = fmax(16.3, fabs(o) * 0x1p-45), xy[] = {o, -o, o + size, -o, o, -o + 0.7 * size};
+        const size_t ring_end = 3, poly_end = 1;
+        sunder_shape *p = NULL, *disc = NULL;
+        sunder_sum *sum = NULL;
+        assert_int_equal(sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_VALIDITY_STRICT, &p, NULL), 0);
+        assert_int_equal(sunder_shape_disc(size / 3, 60, false, &disc, NULL), 0);
+        assert_int_equal(sunder_minkowski_sum(p, disc, NULL, &sum, NULL), 0);
+        size_t n = 0;
+        double at[2 * 200], all = 0, most = 0;
+        const uint32_t *v = sunder_sum_ring(sum, 0, 0, &n);
+        assert_true(n <= 200);
+        assert_int_equal(sunder_sum_vertices(sum, v, n, at, &all, NULL), 0);
+        for (size_t i = 0; i < n; i++) {
+            double one[2], off = 0;
+            assert_int_equal(sunder_sum_vertices(sum, v + i, 1, one, &off, NULL), 0);
+            assert_true(one[0] == at[2 * i] && one[1] == at[2 * i + 1]);
+            most = fmax(most, off);
+        }
+        assert_true(all == most);
+        off_by_some += all > 0;
+        char *text = sum_text(sum);
+        assert_non_null(text);
+        free(text);
+        sunder_sum_free(sum);
+        sunder_shape_free(disc);
+        sunder_shape_free(p);
+    }
+    assert_true(off_by_some > 3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_empty),          cmocka_unit_test(test_same_operand),
                                        cmocka_unit_test(test_nested_slivers), cmocka_unit_test(test_progress),
-                                       cmocka_unit_test(test_out_of_memory),  cmocka_unit_test(test_beyond_doubles)};
+                                       cmocka_unit_test(test_out_of_memory),  cmocka_unit_test(test_beyond_doubles),
+                                       cmocka_unit_test(test_deviation)};
     return cmocka_run_group_tests_name("the interface of sums", tests, NULL, NULL);
 }
