@@ -6,8 +6,9 @@
  * a reflex one by that arc run backwards. Its winding number at x is the Euler characteristic of the meet of P and x -
  * Q: how many pieces that has, less the holes of P that lie inside x - Q. Here
  *
- *  - no hole of P has a box that fits into Q's, so that the number counts pieces: the interiors meet at x exactly
- *    where it is positive, and nowhere is it negative;
+ *  - holes of P into which Q does not fit by its box are left out, which changes nothing, and no other has a box that
+ *    fits into Q's, so that the number counts pieces: the interiors meet at x exactly where it is positive, and nowhere
+ *    is it negative;
  *  - an arc run backwards is replaced by its chord. The number rises by one between arc and chord, which is inside
  *    v + Q, where it was positive already. So what is positive remains the same.
  *
@@ -206,7 +207,8 @@ static bool walk(sunder_i_convolution *c, sunder_sum *sum, bool *done)
     ring_list rings = {.memory = &c->memory};
     bool ok = w.right && w.done;
     if (ok) memset(w.done, 0, pieces * sizeof *w.done);
-    for (uint32_t r = 0; ok && r < c->p->rings; r++) number_ring(&w, sunder_i_convolution_first(c, r), c->ring_end[r]);
+    for (uint32_t r = 0; ok && r < c->p->rings; r++)
+        if (!c->left_out[r]) number_ring(&w, sunder_i_convolution_first(c, r), c->ring_end[r]);
     ok = ok && (!w.tame || follow_all(&w, sum, &rings));
     *done = ok && w.tame;
     if (*done)

@@ -45,6 +45,44 @@ static uint32_t find_corner(const mover *t, sunder_i_point d)
     return walk_to(t, best, d, false);
 }
 
+/* ---- Holes ---- */
+
+/* The corners of a ring of P, and how far they reach along x and y. */
+static void size_of(const sunder_i_point *at, uint32_t n, int64_t size[2])
+{
+    sunder_i_point low = at[0], high = at[0];
+    for (uint32_t i = 1; i < n; i++) {
+        if (at[i].x < low.x) low.x = at[i].x;
+        if (at[i].x > high.x) high.x = at[i].x;
+        if (at[i].y < low.y) low.y = at[i].y;
+        if (at[i].y > high.y) high.y = at[i].y;
+    }
+    size[0] = high.x - low.x;
+    size[1] = high.y - low.y;
+}
+
+static uint32_t ring_begin(const sunder_shape *p, uint32_t r) { return r ? p->ring_end[r - 1] : 0; }
+
+/* A hole that is narrower than Q one way or the other is of no consequence and left out [BFHHM15]: what x - Q's interior
+ * has no point of P's in common with, connected as it is, lies in one hole, and does not fit into this one. A hole that
+ * is just as large as Q both ways may be filled by a translate of -Q, where winding numbers do not count pieces: then
+ * *fits is false. */
+static void leave_out_holes(const mover *t, bool *fits)
+{
+    const sunder_shape *p = t->curve->p;
+    int64_t size[2], own[2];
+    t->curve->left_out[0] = false;
+    if (p->rings == 1) return;
+    size_of(t->q, t->m, size);
+    for (uint32_t r = 1; r < p->rings; r++) {
+        size_of(t->at + ring_begin(p, r), p->ring_end[r] - ring_begin(p, r), own);
+        t->curve->left_out[r] = own[0] < size[0] || own[1] < size[1];
+        if (own[0] == size[0] && own[1] == size[1]) *fits = false;
+    }
+}
+
+/* ---- Sides ---- */
+
 /* Which corners are extreme for the sides of one ring. False where two rings meet in a vertex, which then is not of one
  * chain. */
 static bool find_corners(mover *t, uint32_t start)
@@ -69,41 +107,16 @@ static bool find_corners(mover *t, uint32_t start)
 
 /* Where Q has a side of the same direction the two are joined to one; but at a reflex end it would be run back at once,
  * and is left out. False where with two such ends nothing is left. */
-static bool move_sides(mover *t)
+static bool move_sides(mover *t, uint32_t begin, uint32_t end)
 {
     const sunder_shape *p = t->curve->p;
-    for (uint32_t v = 0; v < p->vertices; v++) {
+    for (uint32_t v = begin; v < end; v++) {
         const uint32_t w = p->next[v];
         const bool *reflex = t->curve->reflex;
         const sunder_i_point d = sunder_i_narrow_sub(t->at[w], t->at[v]);
         t->from[v] = sum_of(t->at[v], t->q[reflex[v] ? t->last[v] : t->first[v]]);
         t->to[v] = sum_of(t->at[w], t->q[reflex[w] ? t->first[v] : t->last[v]]);
         if (sunder_i_narrow_dot(d, sunder_i_narrow_sub(t->to[v], t->from[v])) <= 0) return false;
-    }
-    return true;
-}
-
-/* A hole with a box that fits into Q's may lie inside a translate of -Q, where winding numbers do not count pieces.
- * Such holes could be filled [BFHHM15]; they are left to the general road. */
-static bool holes_are_large(const mover *t)
-{
-    const sunder_shape *p = t->curve->p;
-    int64_t size[2] = {0, 0};
-    for (uint32_t r = 0; r < p->rings; r++) {
-        const uint32_t begin = r ? p->ring_end[r - 1] : 0, n = r ? p->ring_end[r] - begin : t->m;
-        const sunder_i_point *at = r ? t->at + begin : t->q; /* Q in place of the outer ring */
-        sunder_i_point low = at[0], high = at[0];
-        for (uint32_t i = 1; i < n; i++) {
-            if (at[i].x < low.x) low.x = at[i].x;
-            if (at[i].x > high.x) high.x = at[i].x;
-            if (at[i].y < low.y) low.y = at[i].y;
-            if (at[i].y > high.y) high.y = at[i].y;
-        }
-        const int64_t own[2] = {high.x - low.x, high.y - low.y};
-        if (r == 0)
-            memcpy(size, own, sizeof size);
-        else if (own[0] <= size[0] && own[1] <= size[1])
-            return false;
     }
     return true;
 }
@@ -116,11 +129,10 @@ static uint32_t arc_length(const mover *t, uint32_t v)
     return b >= a ? b - a : b + t->m - a;
 }
 
-static size_t count_links(const mover *t)
+static size_t count_links(const mover *t, uint32_t begin, uint32_t end)
 {
-    const sunder_shape *p = t->curve->p;
-    size_t n = p->vertices;
-    for (uint32_t v = 0; v < p->vertices; v++) n += t->curve->reflex[v] ? 1 : arc_length(t, v);
+    size_t n = end - begin;
+    for (uint32_t v = begin; v < end; v++) n += t->curve->reflex[v] ? 1 : arc_length(t, v);
     return n;
 }
 
@@ -156,7 +168,9 @@ static void add_links(mover *t)
 {
     sunder_i_convolution *c = t->curve;
     for (uint32_t r = 0; r < c->p->rings; r++) {
-        const uint32_t start = r ? c->p->ring_end[r - 1] : 0, begin = c->links;
+        const uint32_t start = ring_begin(c->p, r), begin = c->links;
+        c->ring_end[r] = c->links;
+        if (c->left_out[r]) continue;
         uint32_t v = start;
         do {
             add_joint(t, v);
@@ -184,6 +198,7 @@ static bool make_room(mover *t, const sunder_shape *q, const sunder_i_point *at_
     t->to = sunder_i_arena_alloc(m, n, sizeof *t->to);
     c->reflex = sunder_i_arena_alloc(m, n, sizeof *c->reflex);
     c->joined = sunder_i_arena_alloc(m, n, sizeof *c->joined);
+    c->left_out = sunder_i_arena_alloc(m, c->p->rings, sizeof *c->left_out);
     if (m->failed) return false;
     for (uint32_t j = 0, v = 0; j < t->m; j++, v = q->next[v]) t->q[j] = at_q[v];
     return true;
@@ -192,19 +207,24 @@ static bool make_room(mover *t, const sunder_shape *q, const sunder_i_point *at_
 static sunder_status build(mover *t, bool *fits, sunder_error *err)
 {
     sunder_i_convolution *c = t->curve;
+    const sunder_shape *p = c->p;
+    size_t n = 0;
     *fits = true;
-    for (uint32_t r = 0; *fits && r < c->p->rings; r++) *fits = find_corners(t, r ? c->p->ring_end[r - 1] : 0);
-    *fits = *fits && move_sides(t) && holes_are_large(t);
+    leave_out_holes(t, fits);
+    for (uint32_t r = 0; *fits && r < p->rings; r++) {
+        if (c->left_out[r]) continue;
+        *fits = find_corners(t, ring_begin(p, r)) && move_sides(t, ring_begin(p, r), p->ring_end[r]);
+        n += *fits ? count_links(t, ring_begin(p, r), p->ring_end[r]) : 0;
+    }
     if (!*fits) return SUNDER_OK;
-    const size_t n = count_links(t);
     *fits = n < UINT32_MAX / 4;
     if (!*fits) return SUNDER_OK;
     sunder_i_arena *m = &c->memory;
     c->corner = sunder_i_arena_alloc(m, n, sizeof *c->corner);
     c->next = sunder_i_arena_alloc(m, n, sizeof *c->next);
     c->chord = sunder_i_arena_alloc(m, n, sizeof *c->chord);
-    c->chain = sunder_i_arena_alloc(m, 2 * (size_t)c->p->vertices, sizeof *c->chain);
-    c->ring_end = sunder_i_arena_alloc(m, c->p->rings, sizeof *c->ring_end);
+    c->chain = sunder_i_arena_alloc(m, 2 * (size_t)p->vertices, sizeof *c->chain);
+    c->ring_end = sunder_i_arena_alloc(m, p->rings, sizeof *c->ring_end);
     if (m->failed) return sunder_i_no_memory(err);
     add_links(t);
     return SUNDER_OK;

@@ -29,6 +29,7 @@ typedef struct sunder_i_convolution {
     sunder_i_point *corner; /* [links] where each link starts */
     uint32_t *next;         /* [links] the one that starts where it ends */
     uint32_t *ring_end;     /* [rings of P] in links */
+    bool *left_out;         /* [rings of P] holes of no consequence: they have no links */
     bool *chord;            /* [links] */
     sunder_i_chain *chain;
     uint32_t chains;

@@ -156,9 +156,18 @@ static void test_cases(void **state)
         /* a mouth that just closes: a degenerate segment */
         {"POLYGON ((0 0, 40 0, 40 30, 22 30, 22 25, 30 25, 30 10, 10 10, 10 25, 18 25, 18 30, 0 30))",
          "POLYGON ((-2 -2, 2 -2, 2 2, -2 2))", false},
-        /* a courtyard that remains, and one into which the shape's box would go */
+        /* a courtyard that remains; some that are too small, or narrow, and fill up; one that the shape's box just fits
+         * into, and one that it fits into from side to side: degenerate */
         {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 12 29, 30 30, 28 11))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
-        {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 10 13, 13 13, 13 10))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))",
+        {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 10 13, 13 13, 13 10))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
+        {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 10 30, 15 30, 15 10))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
+        {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 10 16, 35 16, 35 10), (9 20, 8 27, 15 30), (20 18, 20 38, 38 38, "
+         "38 18))",
+         "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
+        {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 10 17, 18 17, 18 10))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", false},
+        {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 10 17, 18 17, 18 10))", "POLYGON ((-3 -4, 5 -4, 5 3, -3 3))",
+         false},
+        {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 10 30, 18 30, 18 10))", "POLYGON ((-3 -4, 5 -4, 5 3, -3 3))",
          false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         polyset p, q;
