@@ -34,11 +34,12 @@ static bool load(gis_holding *h, gis_part_result *held, gis_error *error)
     return done;
 }
 
-static void want_both(void *user, const gis_swept *a, const gis_swept *b)
+static gis_sweep_on want_both(void *user, const gis_swept *a, const gis_swept *b)
 {
     gis_holding *h = user;
     if (of_file(&h->chunk[a->of])->run != of_file(&h->chunk[b->of])->run)
         h->chunk[a->of].wanted = h->chunk[b->of].wanted = true;
+    return GIS_SWEEP_BOTH;
 }
 
 bool gis_hold_at_borders(gis_holding *h, gis_part_result *held, gis_error *error)
@@ -56,10 +57,11 @@ bool gis_hold_at_borders(gis_holding *h, gis_part_result *held, gis_error *error
 
 enum { CHUNK, WORLD };
 
-static void want_chunk(void *user, const gis_swept *a, const gis_swept *b)
+static gis_sweep_on want_chunk(void *user, const gis_swept *a, const gis_swept *b)
 {
     gis_holding *h = user;
     if (a->kind != b->kind) h->chunk[(a->kind == CHUNK ? a : b)->of].wanted = true;
+    return GIS_SWEEP_BOTH;
 }
 
 bool gis_hold_what_met(gis_holding *h, gis_part_result *held, gis_error *error)

@@ -81,11 +81,12 @@ static bool compare_holdings(joining *j, gis_error *error)
     return true;
 }
 
-static void lump_if_met(void *user, const gis_swept *a, const gis_swept *b)
+static gis_sweep_on lump_if_met(void *user, const gis_swept *a, const gis_swept *b)
 {
     joining *j = user;
     const gis_part_world *world = j->r->world;
     if (a->kind != b->kind && world[a->of].run != world[b->of].run) lump(j, a->of, b->of);
+    return GIS_SWEEP_BOTH;
 }
 
 /* Worlds of different runs of which one wrote where the other read. */

@@ -22,6 +22,8 @@ static int by_left(const void *a, const void *b)
     return (p->box[0] > q->box[0]) - (p->box[0] < q->box[0]);
 }
 
+static bool meet(const gis_swept *a, const gis_swept *b) { return a->box[1] <= b->box[3] && b->box[1] <= a->box[3]; }
+
 void gis_sweep_run(gis_sweep *sweep, gis_sweep_meets *meets, void *user)
 {
     gis_swept *box = sweep->box;
@@ -29,15 +31,16 @@ void gis_sweep_run(gis_sweep *sweep, gis_sweep_meets *meets, void *user)
     if (sweep->n) qsort(box, sweep->n, sizeof *box, by_left);
     for (size_t k = 0; k < sweep->n; k++) {
         const gis_swept next = box[k];
+        gis_sweep_on on = GIS_SWEEP_BOTH;
         size_t kept = 0;
         for (size_t i = 0; i < open; i++) {
             if (box[i].box[2] < next.box[0]) continue;
-            box[kept++] = box[i];
-            if (box[kept - 1].box[1] <= next.box[3] && next.box[1] <= box[kept - 1].box[3])
-                meets(user, &box[kept - 1], &next);
+            if (on != GIS_SWEEP_A_ALONE && meet(&box[i], &next)) on = meets(user, &box[i], &next);
+            if (on != GIS_SWEEP_B_ALONE) box[kept++] = box[i];
+            if (on == GIS_SWEEP_B_ALONE) on = GIS_SWEEP_BOTH;
         }
         open = kept;
-        box[open++] = next; /* open <= k: what stood there was taken */
+        if (on != GIS_SWEEP_A_ALONE) box[open++] = next; /* open <= k: what stood there was taken */
     }
     sweep->n = 0;
 }

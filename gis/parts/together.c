@@ -19,6 +19,7 @@ typedef struct member {
     uint64_t place;
     size_t lot;
     sunder_shape *shape; /* owned; NULL: boxes alone are asked, or it is read when it is asked for */
+    bool inside;         /* its box lies in another one's, and boxes alone are asked */
 } member;
 
 typedef struct members {
@@ -30,6 +31,7 @@ typedef struct looking {
     const gis_layout *layout;
     double reach;
     bool by_shapes;
+    size_t patience;   /* so many pairs of boxes that meet may still be looked at for their shapes */
     gis_together *lot; /* [lots], sums at the roots */
     size_t *parent;    /* [lots] */
     size_t lots, lot_room, parent_room, enough_lots;
@@ -160,13 +162,30 @@ static bool are_within_reach(looking *l, member *a, member *b)
     return !apart;
 }
 
+/* Boxes join whatever meets: one in another has nothing to add. */
+static gis_sweep_on join_boxes(looking *l, member *p, member *q, const gis_swept *a, const gis_swept *b)
+{
+    join(l, p->lot, q->lot);
+    if (a->box[2] >= b->box[2] && a->box[1] <= b->box[1] && a->box[3] >= b->box[3]) {
+        q->inside = true;
+        return GIS_SWEEP_A_ALONE;
+    }
+    const bool within = b->box[2] >= a->box[2] && b->box[1] <= a->box[1] && b->box[3] >= a->box[3];
+    return within ? GIS_SWEEP_B_ALONE : GIS_SWEEP_BOTH;
+}
+
 /* kind: is it one of those remembered? These have been asked among themselves. */
-static void join_if_near(void *user, const gis_swept *a, const gis_swept *b)
+static gis_sweep_on join_if_near(void *user, const gis_swept *a, const gis_swept *b)
 {
     looking *l = user;
     member *p = l->swept[a->of], *q = l->swept[b->of];
-    if (l->failed || (a->kind && b->kind) || gis_set_root(l->parent, p->lot) == gis_set_root(l->parent, q->lot)) return;
-    if (!l->by_shapes || are_within_reach(l, p, q)) join(l, p->lot, q->lot);
+    if (!l->by_shapes) return join_boxes(l, p, q, a, b);
+    if (l->failed || l->patience == 0) return GIS_SWEEP_A_ALONE; /* it is in vain */
+    if (a->kind && b->kind) return GIS_SWEEP_BOTH;
+    l->patience--;
+    if (gis_set_root(l->parent, p->lot) != gis_set_root(l->parent, q->lot) && are_within_reach(l, p, q))
+        join(l, p->lot, q->lot);
+    return GIS_SWEEP_BOTH;
 }
 
 static bool sweep_too(looking *l, member *m, int kind, gis_error *error)
@@ -261,6 +280,7 @@ static bool remember(looking *l, size_t cell, gis_error *error)
     drop_shapes(&l->here);
     for (size_t k = 0; k < l->here.n && done; k++) {
         bool near = false;
+        if (l->here.at[k].inside) continue;
         for (size_t b = l->besides; b-- > 0 && l->beside[b] > cell && !near;) {
             double box[4];
             box_of(l, l->beside[b], box);
@@ -302,12 +322,14 @@ static bool look_at(looking *l, size_t cell, gis_error *error)
 }
 
 enum { LOTS = 1 << 12 }; /* so many are there before any are forgotten */
+/* So many pairs a feature: where more meet they lie in piles, and hang together by boxes alone. */
+static const size_t patience = 500;
 
 static bool look(looking *l, gis_error *error)
 {
     bool done = true;
     l->enough_lots = LOTS;
-    for (size_t k = 0; k < gis_spool_cells(l->layout->spool) && done; k++) {
+    for (size_t k = 0; k < gis_spool_cells(l->layout->spool) && done && l->patience > 0; k++) {
         done = look_at(l, k, error);
         if (done && l->lots > l->enough_lots) {
             done = forget_lots(l, error);
@@ -333,9 +355,12 @@ static void clear(looking *l)
     gis_sweep_clear(&l->sweep);
 }
 
-static bool find(const gis_layout *layout, double reach, bool by_shapes, gis_together *out, gis_error *error)
+/* *whole: there was patience enough. */
+static bool find(const gis_layout *layout, double reach, bool by_shapes, gis_together *out, bool *whole,
+                 gis_error *error)
 {
     looking l = {.layout = layout, .reach = reach, .by_shapes = by_shapes, .error = error};
+    l.patience = patience * gis_spool_features(layout->spool) + 1;
     gis_box_clear(l.largest.box);
     l.of_block = malloc((layout->blocks + 1) * sizeof *l.of_block);
     l.cell = calloc(gis_spool_cells(layout->spool) + 1, sizeof *l.cell);
@@ -343,12 +368,18 @@ static bool find(const gis_layout *layout, double reach, bool by_shapes, gis_tog
     for (size_t b = 0; l.of_block && b < layout->blocks; b++) l.of_block[b] = SIZE_MAX;
     const bool done = ((l.of_block && l.cell && l.last) || gis_no_memory(error)) && look(&l, error);
     *out = l.largest;
+    *whole = l.patience > 0;
     clear(&l);
     return done;
 }
 
 bool gis_parts_together(const gis_layout *layout, double reach, double enough, gis_together *out, gis_error *error)
 {
-    return find(layout, reach, false, out, error) &&
-           (bytes_of(layout, out) <= enough || find(layout, reach, true, out, error));
+    gis_together by_shapes;
+    bool whole;
+    if (!find(layout, reach, false, out, &whole, error)) return false;
+    if (bytes_of(layout, out) <= enough) return true;
+    if (!find(layout, reach, true, &by_shapes, &whole, error)) return false;
+    if (whole) *out = by_shapes;
+    return true;
 }

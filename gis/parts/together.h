@@ -12,8 +12,9 @@ typedef struct gis_together {
 } gis_together;
 
 /* The largest lot by vertices and features, as gis_part_bytes() weighs them. Where that is no more than `enough` bytes
- * boxes alone are asked, and *out may be larger than what does hang together; where it is more, shapes are. Fixed
- * features hang together with nothing: nobody waits for them. Takes memory for what lies at the borders of cells. */
+ * boxes alone are asked, and *out may be larger than what does hang together; where it is more, shapes are, unless
+ * features lie in piles. Fixed features hang together with nothing: nobody waits for them. Takes memory for what lies
+ * at the borders of cells. */
 bool gis_parts_together(const gis_layout *layout, double reach, double enough, gis_together *out, gis_error *error);
 
 #endif

@@ -142,6 +142,22 @@ static void test_largest(void **state)
     assert_true(cells > 6 && fewer > 0);
 }
 
+/* Ten thousand on top of each other, and two more: a number of pairs that is not to be gone through. */
+static void test_pile(void **state)
+{
+    (void)state;
+    static layer l;
+    rng r = rng_start(test_seed(), 0);
+    l = (layer){.n = 10002, .reach = 1};
+    for (size_t k = 0; k < l.n; k++) l.of[k] = (diamond){rng_unit(&r), rng_unit(&r), 5 + 5 * rng_unit(&r), -1, false};
+    l.of[77] = (diamond){-100, 0, 5, -1, false};
+    l.of[78] = (diamond){-90.5, 0, 5, -1, false};
+    gis_spool *spool = spool_of(&l, 7);
+    assert_int_equal(find_largest(&l, spool, INFINITY), 10000);
+    assert_int_equal(find_largest(&l, spool, 0), 10000);
+    gis_spool_close(spool);
+}
+
 static void test_nothing(void **state)
 {
     (void)state;
@@ -172,6 +188,7 @@ static int tear_down(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_largest), cmocka_unit_test(test_nothing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_largest), cmocka_unit_test(test_pile),
+                                       cmocka_unit_test(test_nothing)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
