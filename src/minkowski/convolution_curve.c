@@ -64,9 +64,9 @@ static void size_of(const sunder_i_point *at, uint32_t n, int64_t size[2])
 static uint32_t ring_begin(const sunder_shape *p, uint32_t r) { return r ? p->ring_end[r - 1] : 0; }
 
 /* A hole that is narrower than Q one way or the other is of no consequence and left out [BFHHM15]: where x - Q's
- * interior has no point in common with P it lies in one hole, connected as it is, and does not fit into this one. A hole
- * just as large as Q both ways may be filled by a translate of -Q, where winding numbers do not count pieces: then *fits
- * is false. */
+ * interior has no point in common with P it lies in one hole, connected as it is, and does not fit into this one. One
+ * that is just as large as Q both ways may be filled by a translate of -Q, where winding numbers do not count pieces:
+ * then *fits is false. */
 static void leave_out_holes(const mover *t, bool *fits)
 {
     const sunder_shape *p = t->curve->p;
