@@ -1,5 +1,8 @@
-/* insert.h: whole rows into a table of a database that GDAL has open, by a statement that is parsed once; and what else
- * is asked of such a database without GDAL's hearing of it. */
+/* insert.h: whole rows into a table of a database that GDAL has open, by statements that are parsed once; and what else
+ * is asked of such a database without GDAL's hearing of it.
+ *
+ * Rows are held back until there are some dozens, which go in by one statement: where keys are to rise (AUTOINCREMENT)
+ * SQLite looks up and writes the last one once a statement, and that takes as long as the row itself. */
 #ifndef GIS_SQLITE_INSERT_H
 #define GIS_SQLITE_INSERT_H
 
@@ -9,12 +12,34 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The statement; NULL where SQLite cannot be had, or does not take it. */
-void *gis_sqlite_insert_begin(void *database, const char *sql);
-/* One row: a key, bytes, and n values. False, with SQLite's own words in *reason, if it does not take it. */
-bool gis_sqlite_insert(void *database, void *statement, int64_t key, const void *bytes, size_t size,
-                       const gis_value *values, int n, const char **reason);
-void gis_sqlite_insert_end(void *statement);
+/* A value as it is held back: what is text, or bytes, lies so far into the buffer. */
+typedef struct gis_sqlite_held {
+    gis_value value;
+    size_t at, size;
+    bool bytes;
+} gis_sqlite_held;
+
+/* A zeroed struct has not begun. */
+typedef struct gis_sqlite_inserts {
+    void *database, *one, *many; /* statements; many NULL: rows go one by one */
+    size_t columns, at_once;
+    gis_sqlite_held *held; /* [rows * columns] */
+    size_t rows, room;
+    unsigned char *buffer;
+    size_t size, buffer_room;
+} gis_sqlite_inserts;
+
+/* Rows for a statement that ends with "VALUES ", to which is added a bracket of so many parameters: a key, bytes, and
+ * values. False where SQLite cannot be had, or does not take it. */
+bool gis_sqlite_inserts_begin(gis_sqlite_inserts *rows, void *database, const char *sql, size_t columns);
+/* One row; bytes and texts are copied. False, with SQLite's own words in *reason, if it, or one held back before it,
+ * is not taken: *key is that one's then. */
+bool gis_sqlite_inserts_add(gis_sqlite_inserts *rows, int64_t *key, const void *bytes, size_t size,
+                            const gis_value *values, const char **reason);
+/* What is held back goes in. */
+bool gis_sqlite_inserts_flush(gis_sqlite_inserts *rows, int64_t *key, const char **reason);
+/* What is held back is forgotten. */
+void gis_sqlite_inserts_end(gis_sqlite_inserts *rows);
 
 /* Is the first value of the first row that the query gives these bytes, from `from` on? The bytes before are copied to
  * `head`. */

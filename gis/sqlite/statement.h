@@ -5,7 +5,14 @@
 
 #include <stdint.h>
 
-enum { GIS_SQLITE_OK = 0, GIS_SQLITE_ROW = 100, GIS_SQLITE_DONE = 101 };
+enum {
+    GIS_SQLITE_OK = 0,
+    GIS_SQLITE_CONSTRAINT = 19,
+    GIS_SQLITE_MISUSE = 21,
+    GIS_SQLITE_ROW = 100,
+    GIS_SQLITE_DONE = 101
+};
+enum { GIS_SQLITE_KIND = 0xff }; /* beyond it: what kind of that result */
 
 typedef struct gis_sqlite_functions {
     const char *(*source_id)(void);

@@ -17,6 +17,7 @@
 #define GIS_SINK_INTERNAL_H
 
 #include "base/interrupt.h"
+#include "sqlite/insert.h"
 #include "stage/stage.h"
 #include "write/digest_list.h"
 #include "write/format.h"
@@ -61,7 +62,8 @@ typedef struct gis_digests {
 typedef struct gis_sink_rows {
     bool closed;  /* there are none, or no more */
     bool offered; /* the last row is put together, whoever writes it */
-    void *database, *statement;
+    void *database;
+    gis_sqlite_inserts inserts;
     unsigned char head[8]; /* of a geometry's blob */
     unsigned char *blob;
     size_t size, room;

@@ -9,7 +9,6 @@
 
 #include "base/array.h"
 #include "read/packed.h"
-#include "sqlite/insert.h"
 #include "write/sql.h"
 
 #include <cpl_conv.h>
@@ -128,9 +127,7 @@ static char *insert_statement(const gis_sink_layer *layer)
     sql = gis_sql_append_name(gis_sql_append(sql, ", "), OGR_L_GetGeometryColumn(layer->layer));
     for (int i = 0; i < n; i++)
         sql = gis_sql_append_name(gis_sql_append(sql, ", "), OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i)));
-    sql = gis_sql_append(sql, ") VALUES (?, ?");
-    for (int i = 0; i < n; i++) sql = gis_sql_append(sql, ", ?");
-    return gis_sql_append(sql, ")");
+    return gis_sql_append(sql, ") VALUES ");
 }
 
 /* The blob of a feature, unless a trigger waits for rows (GDAL takes those of the index and of the count away), or
@@ -161,17 +158,17 @@ static bool begin(gis_sink_layer *layer, GIntBig fid)
     if (rows->database && gis_sqlite_says(rows->database, ask, blob, HEAD, blob + HEAD, rows->size - HEAD) &&
         memcmp(blob, "GP", 2) == 0 && blob[FLAGS] == LITTLE_ENDIAN_WITH_BOX) {
         memcpy(rows->head, blob, HEAD);
-        rows->statement = gis_sqlite_insert_begin(rows->database, insert);
+        gis_sqlite_inserts_begin(&rows->inserts, rows->database, insert, layer->digests.n_fields + 2);
     }
     CPLFree(ask);
     CPLFree(insert);
-    return rows->statement != NULL;
+    return rows->inserts.one != NULL;
 }
 
 void gis_sink_rows_clear(gis_sink_layer *layer)
 {
     gis_sink_rows *rows = &layer->rows;
-    gis_sqlite_insert_end(rows->statement);
+    gis_sqlite_inserts_end(&rows->inserts);
     free(rows->blob);
     CPLFree(rows->value);
     *rows = (gis_sink_rows){.closed = true, .n = rows->n};
@@ -249,14 +246,19 @@ static bool holds(const OGREnvelope *around, const OGREnvelope *box)
            box->MaxY <= around->MaxY;
 }
 
+static bool fail(const gis_sink_layer *layer, int64_t fid, const char *reason, gis_error *error)
+{
+    return gis_fail(error, "%s, layer %s: FID %" PRId64 " cannot be written: %s", layer->sink->request.path,
+                    layer->name, fid, reason);
+}
+
 static bool insert(gis_sink_layer *layer, GIntBig fid, const OGREnvelope *box, gis_error *error)
 {
     gis_sink_rows *rows = &layer->rows;
     const char *reason;
-    if (!gis_sqlite_insert(rows->database, rows->statement, fid, rows->blob, rows->size, rows->value,
-                           (int)layer->digests.n_fields, &reason))
-        return gis_fail(error, "%s, layer %s: FID %" PRId64 " cannot be written: %s", layer->sink->request.path,
-                        layer->name, (int64_t)fid, reason);
+    int64_t key = fid;
+    if (!gis_sqlite_inserts_add(&rows->inserts, &key, rows->blob, rows->size, rows->value, &reason))
+        return fail(layer, key, reason, error);
     layer->written++;
     rows->n++;
     return gis_rtree_add_box(&layer->tree, fid, box, error) &&
@@ -275,14 +277,24 @@ static bool may_compose(gis_sink_layer *layer, bool lines)
     return true;
 }
 
+/* Before GDAL does anything with the layer. */
+static bool flush(gis_sink_layer *layer, gis_error *error)
+{
+    int64_t key;
+    const char *reason;
+    return layer->rows.inserts.rows == 0 || gis_sqlite_inserts_flush(&layer->rows.inserts, &key, &reason) ||
+           fail(layer, key, reason, error);
+}
+
 /* Writes what was put together, unless it is GDAL's. */
 static gis_row settle(gis_sink_layer *layer, gis_row row, GIntBig fid, const OGREnvelope *box, gis_error *error)
 {
     gis_sink_rows *rows = &layer->rows;
     rows->offered = row == GIS_ROW_DONE;
     rows->box = *box;
-    if (row != GIS_ROW_DONE || !rows->statement || !holds(&rows->around, box))
-        return row == GIS_ROW_FAILED ? row : GIS_ROW_GDAL;
+    if (row == GIS_ROW_FAILED) return row;
+    if (row != GIS_ROW_DONE || !rows->inserts.one || !holds(&rows->around, box))
+        return flush(layer, error) ? GIS_ROW_GDAL : GIS_ROW_FAILED;
     return insert(layer, fid, box, error) ? GIS_ROW_DONE : GIS_ROW_FAILED;
 }
 
@@ -307,7 +319,7 @@ void gis_sink_row_by_gdal(gis_sink_layer *layer, GIntBig fid)
 {
     gis_sink_rows *rows = &layer->rows;
     if (rows->closed || !rows->offered) return;
-    if (!rows->statement && !begin(layer, fid)) {
+    if (!rows->inserts.one && !begin(layer, fid)) {
         gis_sink_rows_clear(layer);
         return;
     }
@@ -324,8 +336,8 @@ void gis_sink_row_by_gdal(gis_sink_layer *layer, GIntBig fid)
 bool gis_sink_rows_end(gis_sink_layer *layer, gis_error *error)
 {
     gis_sink_rows *rows = &layer->rows;
-    bool done = true;
-    if (!rows->closed && rows->n) {
+    bool done = flush(layer, error);
+    if (done && !rows->closed && rows->n) {
         char *name = CPLEscapeString(OGR_L_GetName(layer->layer), -1, CPLES_SQL);
         char *sql = CPLStrdup(CPLSPrintf(
             "CREATE TEMP TRIGGER sunder_count_%zu BEFORE UPDATE OF feature_count ON main.gpkg_ogr_contents WHEN "
