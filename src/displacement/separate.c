@@ -209,14 +209,16 @@ static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_
 static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
 {
     sunder_i_relations last = {0};
-    bool *elsewhere = sunder_i_calloc(s->model.things, sizeof *elsewhere);
-    if (!elsewhere) return sunder_i_no_memory(err);
-    for (size_t f = 0; f < s->model.features; f++) {
+    sunder_i_changes elsewhere;
+    sunder_status status = sunder_i_changes_init(&elsewhere, s->model.things) ? SUNDER_OK : sunder_i_no_memory(err);
+    for (uint32_t f = 0; f < s->model.features && !status; f++) {
         const double *t = s->placement.translate[f].t;
-        elsewhere[f] = t[0] != 0 || t[1] != 0 || s->placement.was_rounded[f];
+        if (t[0] != 0 || t[1] != 0 || s->placement.was_rounded[f]) sunder_i_changes_add(&elsewhere, f);
     }
-    const sunder_status status = sunder_i_placement_relate(&s->model, &s->placement, elsewhere, &s->start, &last, err);
-    sunder_i_free(elsewhere);
+    if (!status && elsewhere.failed) status = sunder_i_no_memory(err);
+    if (!status)
+        status = sunder_i_placement_relate(&s->model, &s->placement, &elsewhere, &s->start, &last, err);
+    sunder_i_changes_free(&elsewhere);
     if (status) return status;
     sunder_i_free(s->now.pair);
     s->now = last;

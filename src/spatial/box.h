@@ -4,6 +4,8 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
 
 /* The box of nothing: it meets no other, and what is joined to it is all there is. */
 static inline void sunder_i_box_clear(double box[4])
@@ -79,13 +81,24 @@ static inline void sunder_i_box_distance(const double box[4], double out[2])
     for (int k = 0; k < 2; k++) out[k] = box[k] > 0 ? box[k] : box[k + 2] < 0 ? -box[k + 2] : 0;
 }
 
+/* nextafter() downwards, or (up) upwards: numbers of one sign follow each other as their bits do. */
+static inline double sunder_i_box_step(double x, bool up)
+{
+    uint64_t bits;
+    if (!(fabs(x) > 0x1p-1000 && fabs(x) < 0x1p1000)) return nextafter(x, up ? INFINITY : -INFINITY);
+    memcpy(&bits, &x, sizeof bits);
+    bits += (x > 0) == up ? 1 : UINT64_MAX;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
 /* The box grown by reach; one step outward covers the rounding of the sum. */
 static inline void sunder_i_box_grow(const double box[4], double reach, double out[4])
 {
-    out[0] = nextafter(box[0] - reach, -INFINITY);
-    out[1] = nextafter(box[1] - reach, -INFINITY);
-    out[2] = nextafter(box[2] + reach, INFINITY);
-    out[3] = nextafter(box[3] + reach, INFINITY);
+    out[0] = sunder_i_box_step(box[0] - reach, false);
+    out[1] = sunder_i_box_step(box[1] - reach, false);
+    out[2] = sunder_i_box_step(box[2] + reach, true);
+    out[3] = sunder_i_box_step(box[3] + reach, true);
 }
 
 #endif

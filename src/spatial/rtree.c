@@ -130,6 +130,24 @@ sunder_status sunder_i_rtree_build(const double *box, const bool *present, size_
     return SUNDER_OK;
 }
 
+sunder_status sunder_i_rtree_copy(const sunder_i_rtree *tree, size_t n, sunder_i_rtree *out, sunder_error *err)
+{
+    const size_t nodes = tree->levels ? tree->level[tree->levels] : 0;
+    sunder_i_rtree copy = *tree;
+    copy.box = sunder_i_alloc(4 * nodes, sizeof *copy.box);
+    copy.item = sunder_i_alloc(tree->leaves, sizeof *copy.item);
+    copy.leaf = sunder_i_alloc(n, sizeof *copy.leaf);
+    if (!copy.box || !copy.item || !copy.leaf) {
+        sunder_i_rtree_free(&copy);
+        return sunder_i_no_memory(err);
+    }
+    if (nodes) memcpy(copy.box, tree->box, 4 * nodes * sizeof *copy.box);
+    if (tree->leaves) memcpy(copy.item, tree->item, tree->leaves * sizeof *copy.item);
+    if (tree->leaves) memcpy(copy.leaf, tree->leaf, n * sizeof *copy.leaf);
+    *out = copy;
+    return SUNDER_OK;
+}
+
 void sunder_i_rtree_move(sunder_i_rtree *tree, uint32_t item, const double box[4])
 {
     size_t node = tree->leaf[item];
@@ -154,15 +172,16 @@ void sunder_i_rtree_free(sunder_i_rtree *tree)
     memset(tree, 0, sizeof *tree);
 }
 
-/* The leaves of a node of the lowest level that meet the box: appended. */
-static bool take_leaves(const sunder_i_rtree *tree, size_t first, size_t end, const double box[4], sunder_i_list *hits)
+/* The leaves of a node of the lowest level that meet the box, or what they hold (items): appended. */
+static inline bool take_leaves(const sunder_i_rtree *tree, size_t first, size_t end, const double box[4], bool items,
+                               sunder_i_list *hits)
 {
     if (hits->capacity - hits->n < end - first &&
         !sunder_i_reserve(&hits->item, &hits->capacity, hits->n + (end - first), sizeof *hits->item))
         return false;
     size_t n = hits->n;
     for (size_t c = first; c < end; c++) {
-        hits->item[n] = tree->item[c];
+        hits->item[n] = items ? tree->item[c] : (uint32_t)c;
         n += sunder_i_box_meet_any(tree->box + 4 * c, box);
     }
     hits->n = n;
@@ -170,10 +189,10 @@ static bool take_leaves(const sunder_i_rtree *tree, size_t first, size_t end, co
 }
 
 /* Depth first, children in their order. */
-bool sunder_i_rtree_query(const sunder_i_rtree *tree, const double box[4], sunder_i_list *hits)
+static inline bool query(const sunder_i_rtree *tree, const double box[4], bool items, sunder_i_list *hits)
 {
     if (tree->leaves == 0) return true;
-    if (tree->levels == 1) return take_leaves(tree, 0, 1, box, hits);
+    if (tree->levels == 1) return take_leaves(tree, 0, 1, box, items, hits);
     /* At most 16 siblings wait on each of at most 16 levels; what is not to wait is written behind them. */
     struct {
         size_t node;
@@ -187,7 +206,7 @@ bool sunder_i_rtree_query(const sunder_i_rtree *tree, const double box[4], sunde
         const unsigned l = stack[depth].level;
         const size_t first = children(tree, l, node, &end);
         if (l == 1) {
-            if (!take_leaves(tree, first, end, box, hits)) return false;
+            if (!take_leaves(tree, first, end, box, items, hits)) return false;
             continue;
         }
         for (size_t c = end; c-- > first;) {
@@ -197,4 +216,29 @@ bool sunder_i_rtree_query(const sunder_i_rtree *tree, const double box[4], sunde
         }
     }
     return true;
+}
+
+bool sunder_i_rtree_query(const sunder_i_rtree *tree, const double box[4], sunder_i_list *hits)
+{
+    return query(tree, box, true, hits);
+}
+
+bool sunder_i_rtree_query_leaves(const sunder_i_rtree *tree, const double box[4], sunder_i_list *hits)
+{
+    return query(tree, box, false, hits);
+}
+
+/* A tree of one leaf has no other node. */
+size_t sunder_i_rtree_runs(const sunder_i_rtree *tree)
+{
+    return tree->levels > 1 ? tree->level[2] - tree->level[1] : tree->leaves;
+}
+
+const double *sunder_i_rtree_run(const sunder_i_rtree *tree, size_t run, size_t *first, size_t *end)
+{
+    const size_t node = tree->levels > 1 ? tree->level[1] + run : 0;
+    *first = 0;
+    *end = 1;
+    if (tree->levels > 1) *first = children(tree, 1, node, end);
+    return tree->box + 4 * node;
 }

@@ -35,7 +35,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->parent);
     sunder_i_free(s->dirty);
     sunder_i_free(s->widened);
-    sunder_i_free(s->changed);
+    sunder_i_changes_free(&s->changes);
     sunder_i_free(s->reconsidered);
     sunder_i_free(s->alone);
     sunder_i_free(s->alone_work);
@@ -65,7 +65,6 @@ sunder_status sunder_i_solver_init(sunder_i_solver *s, sunder_error *err)
     s->parent = sunder_i_alloc(n, sizeof *s->parent);
     s->dirty = sunder_i_calloc(n, sizeof *s->dirty);
     s->widened = sunder_i_calloc(n, sizeof *s->widened);
-    s->changed = sunder_i_calloc(s->model.things, sizeof *s->changed);
     s->reconsidered = sunder_i_calloc(n, sizeof *s->reconsidered);
     s->improved = sunder_i_calloc(n, sizeof *s->improved);
     s->cheapest = sunder_i_calloc(n, sizeof *s->cheapest);
@@ -74,8 +73,8 @@ sunder_status sunder_i_solver_init(sunder_i_solver *s, sunder_error *err)
     s->doubtful = sunder_i_alloc(n, sizeof *s->doubtful);
     s->gave_up = sunder_i_calloc(n, sizeof *s->gave_up);
     if (!s->wanted || !s->doubtful || !s->gave_up) return sunder_i_no_memory(err);
-    if (!s->improved || !s->cheapest || !s->parent || !s->dirty || !s->widened || !s->changed || !s->reconsidered ||
-        !s->carrier)
+    if (!s->improved || !s->cheapest || !s->parent || !s->dirty || !s->widened || !s->reconsidered || !s->carrier ||
+        !sunder_i_changes_init(&s->changes, s->model.things))
         return sunder_i_no_memory(err);
     sunder_i_union_init(s->parent, n);
     for (size_t b = 0; b < n; b++) {

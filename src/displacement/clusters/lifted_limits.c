@@ -72,7 +72,7 @@ static void send_home(sunder_i_solver *s, const bool *back)
 {
     sunder_i_model *model = &s->model;
     const double home[2] = {0, 0};
-    memset(s->changed, 0, model->features * sizeof *s->changed);
+    sunder_i_changes_clear(&s->changes);
     for (uint32_t b = 0; b < model->bodies; b++) {
         if (!back[b]) continue;
         sunder_i_solver_place(s, b, home);

@@ -29,7 +29,7 @@ static void send(sunder_i_solver *s, const sunder_i_entry *e)
 sunder_status sunder_i_solver_move_inside(sunder_i_solver *s, sunder_error *err)
 {
     if (s->entries == 0) return SUNDER_OK;
-    memset(s->changed, 0, s->model.features * sizeof *s->changed);
+    sunder_i_changes_clear(&s->changes);
     for (size_t k = 0; k < s->entries; k++) {
         const uint32_t i = s->model.body_of[s->entry[k].a], j = s->model.body_of[s->entry[k].b];
         send(s, &s->entry[k]);

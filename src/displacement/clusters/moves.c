@@ -27,25 +27,26 @@ void sunder_i_solver_place(sunder_i_solver *s, uint32_t b, const double *to)
     const bool exact = sunder_i_round_move(model, b, move, exact_move, NULL);
     for (uint32_t m = 0; m < body->members; m++) {
         const uint32_t f = model->member[body->member + m];
-        s->changed[f] = true;
+        sunder_i_changes_add(&s->changes, f);
         model->inexact[f] = !exact;
     }
 }
 
 void sunder_i_solver_commit(sunder_i_solver *s)
 {
-    memset(s->changed, 0, s->model.features * sizeof *s->changed);
+    sunder_i_changes_clear(&s->changes);
     for (size_t k = 0; k < s->members; k++) sunder_i_solver_place(s, s->body[k], s->move + 2 * k);
 }
 
 sunder_status sunder_i_solver_relate(sunder_i_solver *s, sunder_error *err)
 {
-    sunder_status status = sunder_i_placement_move(&s->model, &s->placement, s->changed, err);
+    if (!sunder_i_changes_sort(&s->changes)) return sunder_i_no_memory(err);
+    sunder_status status = sunder_i_placement_move(&s->model, &s->placement, &s->changes, err);
     if (status) return status;
-    status = sunder_i_jumps_update(&s->jumps, &s->model, s->changed, err);
+    status = sunder_i_jumps_update(&s->jumps, &s->model, &s->changes, err);
     if (status) return status;
     sunder_i_relations now;
-    status = sunder_i_placement_relate(&s->model, &s->placement, s->changed, &s->now, &now, err);
+    status = sunder_i_placement_relate(&s->model, &s->placement, &s->changes, &s->now, &now, err);
     if (status) return status;
     sunder_i_free(s->now.pair);
     s->now = now;

@@ -253,7 +253,10 @@ static bool has_moved(const taking *t, uint32_t thing)
 }
 
 /* Has one of the two gone back since pairs were related? What ran into who went back may stay. */
-static bool is_outdated(const sunder_i_solver *s, uint32_t a, uint32_t b) { return s->changed[a] || s->changed[b]; }
+static bool is_outdated(const sunder_i_solver *s, uint32_t a, uint32_t b)
+{
+    return s->changes.is[a] || s->changes.is[b];
+}
 
 typedef enum offence { NONE, WORSE, CONFLICT } offence;
 
@@ -300,7 +303,7 @@ static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
     sunder_i_solver *s = t->solver;
     sunder_status status = SUNDER_OK;
     *any = false;
-    memset(s->changed, 0, s->model.features * sizeof *s->changed);
+    sunder_i_changes_clear(&s->changes);
     for (size_t k = 0; k < s->now.n && !status; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
         offence found;
@@ -326,7 +329,7 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
     *any = false;
     if (!status) {
         for (size_t b = 0; b < n; b++) t.by[b] = SUNDER_I_NOBODY;
-        memset(s->changed, 0, s->model.features * sizeof *s->changed);
+        sunder_i_changes_clear(&s->changes);
         for (size_t k = 0; k < s->groups.n; k++) {
             if (!s->groups.group[k].improved) continue;
             place(&t, k, false);

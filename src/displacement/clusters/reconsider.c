@@ -242,7 +242,7 @@ sunder_status sunder_i_solver_reconsider(sunder_i_solver *s, bool *changed, sund
         asking g = {s, all.component, asked, required, list_requirements(&s->model, required), decision};
         status = sunder_i_parallel(s->model.rules.threads, all.n, SUNDER_I_GRAIN_WHOLE, decide_some, &g, err);
     }
-    if (!status) memset(s->changed, 0, s->model.features * sizeof *s->changed);
+    if (!status) sunder_i_changes_clear(&s->changes);
     for (size_t k = 0; k < all.n && !status; k++) {
         if (decision[k].verdict != SUNDER_I_FEASIBLE) {
             s->reconsidered[all.component[k].root] |= asked[k];

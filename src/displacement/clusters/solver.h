@@ -51,7 +51,7 @@ typedef struct sunder_i_solver {
     uint32_t *parent;        /* [bodies] union-find over edges */
     bool *dirty;             /* [bodies] to be solved (again) */
     unsigned char *widened;  /* [bodies] how often the margin grew */
-    bool *changed;           /* [things] moved in this round */
+    sunder_i_changes changes; /* what moved in this round */
     bool *reconsidered;      /* [bodies] of the least of a component of conflicts: no solution was found */
     sunder_i_id_pair *alone; /* things of pairs that were asked about by themselves (one_by_one.c); sorted */
     size_t alone_n, alone_capacity;

@@ -66,7 +66,7 @@ static sunder_status put(sunder_i_trial *t, const double *to, sunder_error *err)
 {
     sunder_i_solver *s = t->solver;
     sunder_status status = SUNDER_OK;
-    memset(s->changed, 0, s->model.features * sizeof *s->changed);
+    sunder_i_changes_clear(&s->changes);
     for (size_t k = 0; k < t->n && !status; k++) {
         double goal[2] = {t->stood[2 * k], t->stood[2 * k + 1]};
         if (to) goal_of(t, k, to, goal);

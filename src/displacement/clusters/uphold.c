@@ -262,7 +262,7 @@ static sunder_status pin(sunder_i_solver *s, uint32_t i, uint32_t j, sunder_erro
     uint32_t b = may_i ? i : j;
     if (may_i && may_j && cost_of(s, j) < cost_of(s, i)) b = j;
     if (may_i && may_j && cost_of(s, b) == 0) b = b == i ? j : i;
-    memset(s->changed, 0, s->model.features * sizeof *s->changed);
+    sunder_i_changes_clear(&s->changes);
     sunder_i_solver_place(s, b, home);
     const sunder_status status = sunder_i_solver_relate(s, err);
     s->model.body[b].pinned = true;

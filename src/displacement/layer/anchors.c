@@ -52,19 +52,25 @@ static sunder_status look_at(looking *l, uint32_t f, uint32_t g, double *clear, 
     return SUNDER_OK;
 }
 
-/* Who stands about the anchor of f: as far from it as its own edges, and two gaps beyond. */
+/* What is looked at about the anchor of f: as far from it as its own edges, and two gaps beyond. */
+static double box_about(const sunder_i_model *model, uint32_t f, double box[4])
+{
+    const double *a = model->anchor_at + 2 * (size_t)f, *own = model->box + 4 * (size_t)f;
+    const double reach = fmax(own[2] - own[0], own[3] - own[1]) / 2 + 2 * model->rules.gap;
+    for (int c = 0; c < 4; c++) box[c] = a[c & 1] + (c < 2 ? -reach : reach);
+    return reach;
+}
+
+/* Who stands there, of those leaves of the tree. */
 static sunder_status look_about(looking *l, uint32_t f, sunder_error *err)
 {
     sunder_i_model *model = l->model;
-    const double *a = model->anchor_at + 2 * (size_t)f, *own = model->box + 4 * (size_t)f;
-    const double reach = fmax(own[2] - own[0], own[3] - own[1]) / 2 + 2 * model->rules.gap;
-    const double box[4] = {a[0] - reach, a[1] - reach, a[0] + reach, a[1] + reach};
+    const sunder_i_rtree *tree = &model->tree;
     sunder_status status = SUNDER_OK;
-    double clear = reach;
-    l->near.n = 0;
-    if (!sunder_i_rtree_query(&model->tree, box, &l->near)) return sunder_i_no_memory(err);
+    double box[4], clear = box_about(model, f, box);
     for (size_t k = 0; k < l->near.n && !status; k++) {
-        const uint32_t g = l->near.item[k];
+        if (!sunder_i_box_meet(tree->box + 4 * (size_t)l->near.item[k], box)) continue;
+        const uint32_t g = tree->item[l->near.item[k]];
         if (!sunder_i_is_barrier(model, g) && model->body_of[f] != model->body_of[g])
             status = look_at(l, f, g, &clear, err);
     }
@@ -77,9 +83,23 @@ static sunder_status look_about(looking *l, uint32_t f, sunder_error *err)
 static sunder_status look_about_all(sunder_i_model *model, sunder_error *err)
 {
     looking l = {.model = model};
+    const sunder_i_rtree *tree = &model->tree;
     sunder_status status = SUNDER_OK;
-    for (uint32_t f = 0; f < model->features && !status; f++)
-        if (model->present[f]) status = look_about(&l, f, err);
+    for (size_t run = 0; run < sunder_i_rtree_runs(tree) && !status; run++) {
+        size_t first, end;
+        double all[4], box[4];
+        sunder_i_rtree_run(tree, run, &first, &end);
+        sunder_i_box_clear(all);
+        for (size_t leaf = first; leaf < end; leaf++) {
+            if (sunder_i_is_barrier(model, tree->item[leaf])) continue;
+            box_about(model, tree->item[leaf], box);
+            sunder_i_box_join(all, box);
+        }
+        l.near.n = 0;
+        if (!sunder_i_rtree_query_leaves(tree, all, &l.near)) status = sunder_i_no_memory(err);
+        for (size_t leaf = first; leaf < end && !status; leaf++)
+            if (!sunder_i_is_barrier(model, tree->item[leaf])) status = look_about(&l, tree->item[leaf], err);
+    }
     sunder_i_free(l.near.item);
     if (model->held_n) qsort(model->held, model->held_n, sizeof *model->held, sunder_i_by_id_pair);
     return status;

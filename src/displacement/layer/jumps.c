@@ -48,7 +48,20 @@ static void find_way(const sunder_i_jumps *jumps, const sunder_i_model *model, u
     }
 }
 
-static sunder_status begin(sunder_i_jumps *jumps, const sunder_i_model *model, sunder_error *err)
+/* The tree of where all stand at home, which there is already, and in it those that have moved. */
+static sunder_status begin_at_home(sunder_i_jumps *jumps, const sunder_i_model *model, sunder_error *err)
+{
+    const sunder_status status = sunder_i_rtree_copy(&model->tree, model->features, &jumps->tree, err);
+    for (uint32_t f = 0; f < model->features && !status; f++) {
+        double way[4];
+        if (!model->present[f] || !has_moved(jumps, model, f)) continue;
+        find_way(jumps, model, f, way);
+        sunder_i_rtree_move(&jumps->tree, f, way);
+    }
+    return status;
+}
+
+static sunder_status build(sunder_i_jumps *jumps, const sunder_i_model *model, sunder_error *err)
 {
     const size_t n = model->features;
     double *way = sunder_i_alloc(4 * n, sizeof *way);
@@ -58,6 +71,12 @@ static sunder_status begin(sunder_i_jumps *jumps, const sunder_i_model *model, s
     const sunder_status status = sunder_i_rtree_build(way, model->present, n, &jumps->tree, err);
     sunder_i_free(way);
     return status;
+}
+
+/* Parts of barriers have no ways, and are not in it. */
+static sunder_status begin(sunder_i_jumps *jumps, const sunder_i_model *model, sunder_error *err)
+{
+    return model->things == model->features ? begin_at_home(jumps, model, err) : build(jumps, model, err);
 }
 
 static sunder_status follow(sunder_i_jumps *jumps, const sunder_i_model *model, const uint32_t *moved, size_t n,
@@ -71,7 +90,7 @@ static sunder_status follow(sunder_i_jumps *jumps, const sunder_i_model *model, 
     }
     if (!sunder_i_rtree_is_worn(&jumps->tree)) return SUNDER_OK;
     sunder_i_rtree_free(&jumps->tree);
-    return begin(jumps, model, err);
+    return build(jumps, model, err);
 }
 
 /* ---- Pairs ------------------------------------------------------------------------------------------------------- */
@@ -202,18 +221,21 @@ static bool collect(sunder_i_jumps *jumps, const pair_search *s, size_t asked)
     return true;
 }
 
-sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model, const bool *changed,
-                                    sunder_error *err)
+sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model,
+                                    const sunder_i_changes *changes, sunder_error *err)
 {
     if (!sunder_i_forbids_ways(model)) return SUNDER_OK;
     sunder_status status = sunder_i_jumps_begun(jumps) || model->rules.jumps ? SUNDER_OK : begin(jumps, model, err);
-    uint32_t *asked = sunder_i_alloc(model->features, sizeof *asked);
+    const size_t most = changes ? changes->list.n : model->features;
+    uint32_t *asked = sunder_i_alloc(most, sizeof *asked);
     if (!status && !asked) status = sunder_i_no_memory(err);
     size_t n = 0;
-    for (uint32_t f = 0; f < model->features && !status; f++)
-        if (model->present[f] && (!changed || changed[f])) asked[n++] = f;
+    for (size_t k = 0; k < most && !status; k++) {
+        const uint32_t f = changes ? changes->list.item[k] : (uint32_t)k;
+        if (f < model->features && model->present[f]) asked[n++] = f;
+    }
     if (!status && sunder_i_jumps_begun(jumps)) status = follow(jumps, model, asked, n, err);
-    pair_search s = {jumps, model, changed, asked, NULL};
+    pair_search s = {jumps, model, changes ? changes->is : NULL, asked, NULL};
     const size_t present = n;
     n = 0;
     for (size_t k = 0; k < present && !status; k++)

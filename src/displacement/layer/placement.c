@@ -5,6 +5,7 @@
 
 #include "base/invariant.h"
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "shape/shape.h"
 
 #include <math.h>
@@ -30,7 +31,7 @@ sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_plac
         placement->translate[f] = sunder_i_is_barrier(model, f)
                                       ? (sunder_i_translate){.shape = model->layer->feature[f].shape}
                                       : sunder_i_at_home(model, f);
-    return sunder_i_rtree_build(placement->box, model->present, n, &placement->tree, err);
+    return sunder_i_rtree_copy(&model->tree, n, &placement->tree, err); /* all stand at home */
 }
 
 void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *placement)
@@ -78,14 +79,15 @@ static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *pl
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement *placement, const bool *changed,
-                                      sunder_error *err)
+sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement *placement,
+                                      const sunder_i_changes *changes, sunder_error *err)
 {
-    for (size_t f = 0; f < model->features; f++) {
-        if (!changed[f] || !model->present[f]) continue;
+    for (size_t k = 0; k < changes->list.n; k++) {
+        const uint32_t f = changes->list.item[k];
+        if (!model->present[f]) continue;
         const sunder_status status = stand_feature(model, placement, f, err);
         if (status) return status;
-        sunder_i_rtree_move(&placement->tree, (uint32_t)f, placement->box + 4 * f);
+        sunder_i_rtree_move(&placement->tree, f, placement->box + 4 * (size_t)f);
     }
     if (!sunder_i_rtree_is_worn(&placement->tree)) return SUNDER_OK;
     sunder_i_rtree_free(&placement->tree);
@@ -112,8 +114,9 @@ typedef struct pair_search {
     const sunder_i_model *model;
     const sunder_i_placement *placement;
     const bool *changed;   /* NULL: all did */
-    const uint32_t *asked; /* features that changed */
-    sunder_i_list *found;  /* [asked] partners of each; of two that changed the greater is the lesser's partner */
+    const uint32_t *asked; /* features that changed, ascending */
+    sunder_i_list *found;  /* [asked] partners of each; of two that changed the greater is the lesser's partner; where
+                            * all are asked by leaves of the tree */
 } pair_search;
 
 /* Those of f, sorted, in `near`. False if memory is out. */
@@ -145,6 +148,51 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
     for (size_t a = begin; a < end && ok; a++)
         ok = find_partners_of(s, s->asked[a], reach, &near) && sunder_i_list_copy(&s->found[a], &near);
     sunder_i_free(near.item);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+/* Of leaves that meet a run, those that feature f, in that leaf, meets; sorted, in `near`. */
+static bool pick_partners(const pair_search *s, uint32_t f, double reach, const sunder_i_list *leaves,
+                          sunder_i_list *near)
+{
+    const sunder_i_rtree *tree = &s->placement->tree;
+    double box[4];
+    if (reach > 0)
+        sunder_i_box_grow(s->placement->box + 4 * (size_t)f, reach, box);
+    else
+        memcpy(box, s->placement->box + 4 * (size_t)f, sizeof box);
+    near->n = 0;
+    if (!sunder_i_reserve(&near->item, &near->capacity, leaves->n + 1, sizeof *near->item)) return false;
+    for (size_t k = 0; k < leaves->n; k++) {
+        const uint32_t g = tree->item[leaves->item[k]];
+        near->item[near->n] = g;
+        near->n += (g > f) & sunder_i_box_meet_any(tree->box + 4 * (size_t)leaves->item[k], box);
+    }
+    sunder_i_sort_few(near->item, near->n, sizeof *near->item, sunder_i_by_number);
+    return true;
+}
+
+/* Where all are asked: by runs of the tree, found[] by leaves. */
+static sunder_status find_all_partners(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const pair_search *s = context;
+    const sunder_i_rtree *tree = &s->placement->tree;
+    const double reach = fmax(s->model->rules.gap, s->model->rules.tolerance);
+    sunder_i_list near = {0}, leaves = {0};
+    bool ok = true;
+    for (size_t run = begin; run < end && ok; run++) {
+        size_t first, last;
+        double hull[4];
+        sunder_i_box_grow(sunder_i_rtree_run(tree, run, &first, &last), reach, hull);
+        leaves.n = 0;
+        ok = sunder_i_rtree_query_leaves(tree, hull, &leaves);
+        for (size_t leaf = first; leaf < last && ok; leaf++)
+            if (tree->item[leaf] < s->model->features)
+                ok = pick_partners(s, tree->item[leaf], reach, &leaves, &near) &&
+                     sunder_i_list_copy(&s->found[leaf], &near);
+    }
+    sunder_i_free(near.item);
+    sunder_i_free(leaves.item);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
@@ -216,18 +264,20 @@ sunder_status sunder_i_placement_visit(const sunder_i_model *model, const sunder
 }
 
 /* The lists of partners as one array of pairs, in order; the lists are emptied. */
-static sunder_i_relation *collect(const pair_search *s, size_t asked, size_t *pairs)
+static sunder_i_relation *collect(const pair_search *s, size_t asked, size_t lists, size_t *pairs)
 {
+    const uint32_t *leaf = s->placement->tree.leaf;
     size_t total = 0, k = 0;
-    for (size_t a = 0; a < asked; a++) total += s->found[a].n;
+    for (size_t a = 0; a < lists; a++) total += s->found[a].n;
     sunder_i_relation *pair = sunder_i_calloc(total, sizeof *pair);
     for (size_t a = 0; a < asked; a++) {
-        for (size_t i = 0; pair && i < s->found[a].n; i++, k++) {
-            const uint32_t f = s->asked[a], g = s->found[a].item[i];
+        sunder_i_list *found = &s->found[s->changed ? a : leaf[s->asked[a]]];
+        for (size_t i = 0; pair && i < found->n; i++, k++) {
+            const uint32_t f = s->asked[a], g = found->item[i];
             pair[k].a = f < g ? f : g;
             pair[k].b = f < g ? g : f;
         }
-        sunder_i_free(s->found[a].item);
+        sunder_i_free(found->item);
     }
     if (pair && total && s->changed) qsort(pair, total, sizeof *pair, sunder_i_by_id_pair);
     *pairs = total;
@@ -235,20 +285,29 @@ static sunder_i_relation *collect(const pair_search *s, size_t asked, size_t *pa
 }
 
 /* Every pair of boxes within reach of each other of which one feature changed, as the features stand. */
-static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_placement *placement, const bool *changed,
-                                sunder_i_relation **pair, size_t *pairs, sunder_error *err)
+static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_placement *placement,
+                                const sunder_i_changes *changes, sunder_i_relation **pair, size_t *pairs,
+                                sunder_error *err)
 {
-    uint32_t *asked = sunder_i_alloc(model->features, sizeof *asked);
+    const size_t most = changes ? changes->list.n : model->features;
+    uint32_t *asked = sunder_i_alloc(most, sizeof *asked);
     if (!asked) return sunder_i_no_memory(err);
     size_t n = 0;
-    for (uint32_t f = 0; f < model->features; f++)
-        if (model->present[f] && (!changed || changed[f])) asked[n++] = f;
-    const pair_search search = {model, placement, changed, asked, sunder_i_calloc(n, sizeof *search.found)};
+    for (size_t k = 0; k < most; k++) {
+        const uint32_t f = changes ? changes->list.item[k] : (uint32_t)k;
+        if (f < model->features && model->present[f]) asked[n++] = f;
+    }
+    const size_t lists = changes ? n : placement->tree.leaves;
+    const pair_search search = {model, placement, changes ? changes->is : NULL, asked,
+                                sunder_i_calloc(lists, sizeof *search.found)};
     sunder_status status = search.found ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status)
-        status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_BOXES, find_partners, (void *)&search, err);
+        status = changes ? sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_BOXES, find_partners,
+                                             (void *)&search, err)
+                         : sunder_i_parallel(model->rules.threads, sunder_i_rtree_runs(&placement->tree),
+                                             SUNDER_I_GRAIN_TESTS, find_all_partners, (void *)&search, err);
     if (search.found) {
-        *pair = collect(&search, n, pairs);
+        *pair = collect(&search, n, lists, pairs);
         if (!status && !*pair) status = sunder_i_no_memory(err);
     }
     sunder_i_free(search.found);
@@ -269,18 +328,25 @@ static const char *check(const sunder_i_relations *relations)
 }
 #endif
 
+/* Does it come behind the other, both being sorted as sunder_i_by_id_pair() does it? */
+static inline bool comes_behind(const sunder_i_relation *r, const sunder_i_relation *other)
+{
+    return r->a != other->a ? r->a > other->a : r->b > other->b;
+}
+
 /* Of the pairs looked at, those that matter; and those that nothing happened to. Both are sorted. */
 static sunder_status merge(const classification *c, size_t pairs, sunder_i_relations *relations, sunder_error *err)
 {
     const size_t old = c->before ? c->before->n : 0;
+    const sunder_i_relation *before = old ? c->before->pair : NULL;
     sunder_i_relation *out = old ? sunder_i_alloc(old + pairs, sizeof *out) : c->pair;
     if (!out) return sunder_i_no_memory(err);
     size_t n = 0, at = 0;
     for (size_t k = 0; k <= pairs; k++) {
         const sunder_i_relation *r = k < pairs ? &c->pair[k] : NULL;
-        for (; at < old && (!r || sunder_i_by_id_pair(&c->before->pair[at], r) <= 0); at++) {
-            const sunder_i_relation *b = &c->before->pair[at];
-            if (!c->changed[b->a] && !c->changed[b->b]) out[n++] = *b;
+        for (; at < old && (!r || !comes_behind(&before[at], r)); at++) {
+            out[n] = before[at];
+            n += !c->changed[before[at].a] && !c->changed[before[at].b];
         }
         if (r && (r->near || r->touch || r->kept)) out[n++] = *r;
     }
@@ -291,12 +357,12 @@ static sunder_status merge(const classification *c, size_t pairs, sunder_i_relat
 }
 
 sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunder_i_placement *placement,
-                                        const bool *changed, const sunder_i_relations *before,
+                                        const sunder_i_changes *changes, const sunder_i_relations *before,
                                         sunder_i_relations *relations, sunder_error *err)
 {
-    classification c = {model, placement, changed, before, NULL};
+    classification c = {model, placement, changes ? changes->is : NULL, before, NULL};
     size_t pairs = 0;
-    sunder_status status = find_pairs(model, placement, changed, &c.pair, &pairs, err);
+    sunder_status status = find_pairs(model, placement, changes, &c.pair, &pairs, err);
     if (!status) status = sunder_i_parallel(model->rules.threads, pairs, SUNDER_I_GRAIN_TESTS, classify, &c, err);
     if (!status) status = merge(&c, pairs, relations, err);
     if (status) sunder_i_free(c.pair);

@@ -2,6 +2,7 @@
 #ifndef SUNDER_I_PLACEMENT_H
 #define SUNDER_I_PLACEMENT_H
 
+#include "displacement/layer/changes.h"
 #include "displacement/layer/model.h"
 
 /* How the features stand at one moment. */
@@ -14,11 +15,11 @@ typedef struct sunder_i_placement {
     sunder_i_rtree tree;
 } sunder_i_placement;
 
-/* The placement at the start, and after bodies moved: every feature f with changed[f] is placed anew by model->move.
- * Failure leaves a placement that can be freed. */
+/* The placement at the start, and after bodies moved: every feature that changed (sorted) is placed anew by
+ * model->move. Failure leaves a placement that can be freed. */
 sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_placement *placement, sunder_error *err);
-sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement *placement, const bool *changed,
-                                      sunder_error *err);
+sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement *placement,
+                                      const sunder_i_changes *changes, sunder_error *err);
 /* The same for one body. */
 sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_placement *placement, uint32_t body,
                                            sunder_error *err);
@@ -26,11 +27,11 @@ void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *pl
 
 /* ---- Near pairs -------------------------------------------------------------------------------------------------- */
 
-/* All pairs that are near, touch or are kept, as the features stand; exact. before and changed, or both NULL: the
- * relations when all but the features with changed[] stood as now; what cannot have changed is taken from there, and
- * costs nothing but the copy. */
+/* All pairs that are near, touch or are kept, as the features stand; exact. before and changes, or both NULL: the
+ * relations when all but the features that changed (sorted) stood as now; what cannot have changed is taken from there,
+ * and costs nothing but the copy. */
 sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunder_i_placement *placement,
-                                        const bool *changed, const sunder_i_relations *before,
+                                        const sunder_i_changes *changes, const sunder_i_relations *before,
                                         sunder_i_relations *relations, sunder_error *err);
 
 /* Called for the relations of one body's members to those of others, as they stand, until *on is false; near:

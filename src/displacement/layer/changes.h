@@ -1,0 +1,53 @@
+/* Which features stand elsewhere than when it was last asked: as flags, and as a list, so that what is done about a few
+ * of a million costs what those few do. */
+#ifndef SUNDER_I_CHANGES_H
+#define SUNDER_I_CHANGES_H
+
+#include "base/list.h"
+
+#include <string.h>
+
+typedef struct sunder_i_changes {
+    bool *is;           /* [things] */
+    sunder_i_list list; /* these, once each; in no order until it is sorted */
+    size_t things;
+    bool failed; /* memory was out: the list is not all */
+} sunder_i_changes;
+
+/* None of so many things. Failure leaves what can be freed. */
+static inline bool sunder_i_changes_init(sunder_i_changes *changes, size_t things)
+{
+    *changes = (sunder_i_changes){.is = sunder_i_calloc(things, sizeof *changes->is), .things = things};
+    return changes->is != NULL;
+}
+
+static inline void sunder_i_changes_free(sunder_i_changes *changes)
+{
+    sunder_i_free(changes->is);
+    sunder_i_free(changes->list.item);
+    *changes = (sunder_i_changes){0};
+}
+
+static inline void sunder_i_changes_clear(sunder_i_changes *changes)
+{
+    for (size_t k = 0; k < changes->list.n && !changes->failed; k++) changes->is[changes->list.item[k]] = false;
+    if (changes->failed && changes->things) memset(changes->is, 0, changes->things * sizeof *changes->is);
+    changes->list.n = 0;
+    changes->failed = false;
+}
+
+static inline void sunder_i_changes_add(sunder_i_changes *changes, uint32_t f)
+{
+    if (changes->is[f]) return;
+    changes->is[f] = true;
+    if (!sunder_i_list_push(&changes->list, f)) changes->failed = true;
+}
+
+/* Ascending. False if memory was out when some were added. */
+static inline bool sunder_i_changes_sort(sunder_i_changes *changes)
+{
+    if (!changes->failed) changes->list.n = sunder_i_set_make(changes->list.item, changes->list.n);
+    return !changes->failed;
+}
+
+#endif
