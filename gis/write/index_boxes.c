@@ -3,6 +3,7 @@
 
 #include "base/array.h"
 #include "base/curve.h"
+#include "base/keyed.h"
 #include "spool/sort.h"
 
 #include <math.h>
@@ -73,24 +74,12 @@ static uint32_t along(const gis_index_boxes *boxes, const gis_index_box *box)
     return (uint32_t)gis_curve_position(x, y, CURVE_BITS);
 }
 
-typedef struct place {
-    uint32_t along, at; /* which box */
-} place;
-
-static int compare_places(const void *a, const void *b)
-{
-    const place *p = a, *q = b;
-    if (p->along != q->along) return p->along < q->along ? -1 : 1;
-    return (p->at > q->at) - (p->at < q->at);
-}
-
 static bool take_from_memory(gis_index_boxes *boxes, gis_index_boxes_take *take, void *user, gis_error *error)
 {
-    place *places = boxes->n <= UINT32_MAX ? malloc((boxes->n + 1) * sizeof *places) : NULL;
-    bool done = places || gis_no_memory(error);
-    for (size_t i = 0; done && i < boxes->n; i++) places[i] = (place){along(boxes, &boxes->at[i]), (uint32_t)i};
-    if (done && boxes->n) qsort(places, boxes->n, sizeof *places, compare_places);
-    for (size_t i = 0; done && i < boxes->n; i++) done = take(user, &boxes->at[places[i].at], error);
+    gis_keyed *places = malloc((boxes->n + 1) * sizeof *places); /* along the curve, and which box */
+    for (size_t i = 0; places && i < boxes->n; i++) places[i] = (gis_keyed){along(boxes, &boxes->at[i]), i};
+    bool done = (places && gis_keyed_sort(places, boxes->n)) || gis_no_memory(error);
+    for (size_t i = 0; done && i < boxes->n; i++) done = take(user, &boxes->at[places[i].with], error);
     free(places);
     return done;
 }

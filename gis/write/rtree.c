@@ -9,6 +9,7 @@
 
 #include "base/array.h"
 #include "base/interrupt.h"
+#include "base/keyed.h"
 #include "spool/sort.h"
 #include "sqlite/rows.h"
 #include "write/sql.h"
@@ -127,7 +128,7 @@ typedef struct packing {
     unsigned char *node; /* room for one */
     gis_index_box *cell; /* [capacity] of the leaf that is being filled */
     size_t cells, features, taken;
-    row_of *leaf; /* of all features, in memory */
+    gis_keyed *leaf; /* of all features, in memory: by key_of() of the FID, the node */
     size_t leaves, leaf_room;
     gis_spool_file leaf_file; /* ... or on the disk */
     row_of *parent;           /* of all nodes but the root, by their numbers */
@@ -149,8 +150,7 @@ static bool note_leaf(packing *all, int64_t fid, int64_t node, gis_error *error)
     }
     if (!gis_array_reserve(&all->leaf, &all->leaf_room, all->leaves + 1, sizeof *all->leaf))
         return gis_no_memory(error);
-    all->leaf[all->leaves][0] = fid;
-    all->leaf[all->leaves++][1] = node;
+    all->leaf[all->leaves++] = (gis_keyed){key_of(fid), (uint64_t)node};
     return true;
 }
 
@@ -221,12 +221,6 @@ static bool write_levels(packing *all, gis_error *error)
     }
 }
 
-static int compare_rows(const void *a, const void *b)
-{
-    const row_of *p = a, *q = b;
-    return ((*p)[0] > (*q)[0]) - ((*p)[0] < (*q)[0]);
-}
-
 static bool empty_tables(GDALDatasetH dataset, OGRLayerH layer, gis_error *error)
 {
     static const char *const tables[] = {"_node", "_parent", "_rowid"};
@@ -286,50 +280,58 @@ static bool write_parents(GDALDatasetH dataset, OGRLayerH layer, packing *all, g
     return done;
 }
 
-/* Rows from the disk, as many as are written at a time. */
+/* Rows of features, as many as are written at a time. */
 typedef struct stretch {
     gis_sqlite_rows *rows;
     row_of row[STRETCH];
     size_t n;
 } stretch;
 
-static bool take_row(void *user, const unsigned char *bytes, gis_error *error)
+static bool put_row(stretch *s, uint64_t key, uint64_t node, gis_error *error)
 {
-    stretch *s = user;
-    const gis_sort_head *one = (const void *)bytes;
-    s->row[s->n][0] = fid_of(one->first);
-    s->row[s->n++][1] = (int64_t)one->second;
+    s->row[s->n][0] = fid_of(key);
+    s->row[s->n++][1] = (int64_t)node;
     if (s->n < STRETCH) return true;
     s->n = 0;
     return write_rows(s->rows, s->row, STRETCH, error);
 }
 
-static bool write_from_disk(packing *all, gis_sqlite_rows *rows, gis_error *error)
+static bool take_row(void *user, const unsigned char *bytes, gis_error *error)
 {
-    stretch *s = malloc(sizeof *s);
-    if (!s) return gis_no_memory(error);
-    s->rows = rows;
-    s->n = 0;
+    const gis_sort_head *one = (const void *)bytes;
+    return put_row(user, one->first, one->second, error);
+}
+
+static bool write_from_memory(packing *all, stretch *s, gis_error *error)
+{
+    bool done = gis_keyed_sort(all->leaf, all->leaves) || gis_no_memory(error);
+    for (size_t i = 0; i < all->leaves && done; i++) done = put_row(s, all->leaf[i].key, all->leaf[i].with, error);
+    return done;
+}
+
+static bool write_from_disk(packing *all, stretch *s, gis_error *error)
+{
     const gis_spool_sorting sorting = {.from = &all->leaf_file,
                                        .directory = all->scratch,
                                        .parts = "rows-sorted.XXXXXX",
                                        .run = GIS_SPOOL_RUN,
                                        .take = take_row,
                                        .user = s};
-    const bool done = gis_spool_file_flush(&all->leaf_file, error) && gis_spool_sort(&sorting, error) &&
-                      write_rows(rows, s->row, s->n, error);
-    free(s);
-    return done;
+    return gis_spool_file_flush(&all->leaf_file, error) && gis_spool_sort(&sorting, error);
 }
 
 /* By rising keys, though the tree has them along the curve. */
 static bool write_leaves(GDALDatasetH dataset, OGRLayerH layer, packing *all, gis_error *error)
 {
     gis_sqlite_rows rows = {0};
-    bool done = begin_rows(&rows, dataset, layer, "_rowid", all->features >= MANY_ROWS, error);
-    if (all->leaves) qsort(all->leaf, all->leaves, sizeof *all->leaf, compare_rows);
-    done =
-        done && (all->scratch ? write_from_disk(all, &rows, error) : write_rows(&rows, all->leaf, all->leaves, error));
+    stretch *s = malloc(sizeof *s);
+    if (!s) return gis_no_memory(error);
+    s->rows = &rows;
+    s->n = 0;
+    const bool done = begin_rows(&rows, dataset, layer, "_rowid", all->features >= MANY_ROWS, error) &&
+                      (all->scratch ? write_from_disk(all, s, error) : write_from_memory(all, s, error)) &&
+                      write_rows(&rows, s->row, s->n, error);
+    free(s);
     gis_sqlite_rows_end(&rows);
     return done;
 }

@@ -152,7 +152,10 @@ double sunder_i_solver_margin(const sunder_i_solver *s, const uint32_t *b, size_
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *body = &s->model.body[b[k]];
         if (body->pieces == 0) continue;
-        for (int c = 0; c < 4; c++) largest = fmax(largest, fabs(body->origin[c & 1]) + fabs(body->box[c]));
+        for (int c = 0; c < 4; c++) {
+            const double far = fabs(body->origin[c & 1]) + fabs(body->box[c]);
+            if (far > largest) largest = far;
+        }
         if (s->widened[b[k]] > widened) widened = s->widened[b[k]];
     }
     int exponent;
@@ -250,7 +253,7 @@ sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *s, sunder_error *err
     sunder_status status = seen && body ? SUNDER_OK : sunder_i_no_memory(err);
     size_t n = 0;
     for (size_t k = 0; !status && k < s->members; k++) {
-        if (!seen[s->body[k]]) body[n++] = s->body[k];
+        if (!seen[s->body[k]] && sunder_i_cluster_may_want_shape(&s->model, s->body[k])) body[n++] = s->body[k];
         seen[s->body[k]] = true;
     }
     if (!status) status = sunder_i_model_unite(&s->model, body, n, err);

@@ -19,12 +19,12 @@ void sunder_i_solver_place(sunder_i_solver *s, uint32_t b, const double *to)
 {
     sunder_i_model *model = &s->model;
     const sunder_i_body *body = &model->body[b];
-    double *move = model->move + 2 * (size_t)b, exact_move[2];
+    double *move = model->move + 2 * (size_t)b;
     if (body->fixed || memcmp(move, to, 2 * sizeof *move) == 0) return;
     memcpy(move, to, 2 * sizeof *move);
     if (model->went) sunder_i_box_include(model->went + 4 * (size_t)b, to);
     s->cheapest[b] = false;
-    const bool exact = sunder_i_round_move(model, b, move, exact_move, NULL);
+    const bool exact = sunder_i_is_exact_move(model, b, move);
     for (uint32_t m = 0; m < body->members; m++) {
         const uint32_t f = model->member[body->member + m];
         sunder_i_changes_add(&s->changes, f);

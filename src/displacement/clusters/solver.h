@@ -107,8 +107,8 @@ static inline uint32_t sunder_i_reader_for(const sunder_i_solver *solver, const 
 }
 /* Clusters from the edges, afresh. */
 sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err);
-/* Unites the blocks that clusters are made of. A fixed one may be a member of several clusters: each body once, so that
- * no two threads do the same. */
+/* Unites those blocks of clusters of which the search may ask for the union. A fixed one may be a member of several
+ * clusters: each body once, so that no two threads do the same. */
 sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- moves.c: between the layer and its clusters ----------------------------------------------------------------- */

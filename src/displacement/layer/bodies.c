@@ -166,6 +166,7 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
             const sunder_status status = outline_feature(model, body, f, &model->corners, err);
             if (status) return status;
         }
+        if (body->pieces > model->most_pieces) model->most_pieces = body->pieces;
     }
     const sunder_status status = find_runs(model, err);
     return status ? status : sunder_i_inclusion_walls(model, err);

@@ -221,8 +221,8 @@ static bool collect(sunder_i_jumps *jumps, const pair_search *s, size_t asked)
     return true;
 }
 
-sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model,
-                                    const sunder_i_changes *changes, sunder_error *err)
+sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model, const sunder_i_changes *changes,
+                                    sunder_error *err)
 {
     if (!sunder_i_forbids_ways(model)) return SUNDER_OK;
     sunder_status status = sunder_i_jumps_begun(jumps) || model->rules.jumps ? SUNDER_OK : begin(jumps, model, err);

@@ -111,6 +111,7 @@ struct sunder_i_model {
     sunder_i_body_piece *side_anchor; /* [features] each side anchor as a piece of one corner */
     double *side_at;                  /* [2 * features] the side anchors as they are */
     sunder_shape **whole;        /* [bodies] the union of a block's members, where wanted; NULL for what stands alone */
+    uint32_t most_pieces;        /* that a body has */
     double *box;                 /* [4 * things] as they stood at the start; see sunder_i_reach_beyond() */
     bool *present;               /* [things] */
     sunder_i_seamless *seamless; /* [features] where there are barriers without area; else NULL */

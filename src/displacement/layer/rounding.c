@@ -47,8 +47,9 @@ static int coarsest(const sunder_i_model *model, const sunder_i_body *body, size
         if (!shape) continue;
         const size_t n = raw_vertices(shape);
         for (size_t v = 0; v < n; v++) {
-            const double x = shape->raw_xy[2 * v + c];
-            largest = fmax(largest, fmax(fabs(x), fabs(x + t)));
+            const double before = fabs(shape->raw_xy[2 * v + c]), after = fabs(shape->raw_xy[2 * v + c] + t);
+            if (before > largest) largest = before;
+            if (after > largest) largest = after;
         }
     }
     return unit_exponent(largest);
@@ -64,6 +65,12 @@ static bool all_exact(const sunder_i_model *model, const sunder_i_body *body, co
             if (!sum_is_exact(shape->raw_xy[v], t[v & 1])) return false;
     }
     return true;
+}
+
+bool sunder_i_is_exact_move(const sunder_i_model *model, uint32_t b, const double move[2])
+{
+    double out[2];
+    return all_exact(model, &model->body[b], move) || sunder_i_round_move(model, b, move, out, NULL);
 }
 
 bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double move[2], double out[2], double *unit)

@@ -40,6 +40,11 @@ typedef struct sunder_i_retry {
 sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err);
 
+/* ---- free_positions.c -------------------------------------------------------------------------------------------- */
+
+/* May a search ask for the shape of a body, whoever else is in its cluster? Only of those is it to be united. */
+bool sunder_i_cluster_may_want_shape(const sunder_i_model *model, uint32_t body);
+
 /* ---- retry_cluster.c --------------------------------------------------------------------------------------------- */
 
 /* Pairs given up are asked once more for all that they owe, and held to it where there is a solution, the first ones

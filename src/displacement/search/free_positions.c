@@ -223,13 +223,21 @@ static size_t find_beside(sunder_i_search *s, const sunder_i_body *p, const sund
     return n;
 }
 
+/* As shapes, or piece by piece? */
+static bool are_many(uint32_t pieces, uint32_t others) { return (uint64_t)pieces * others > MANY_PAIRS; }
+
+bool sunder_i_cluster_may_want_shape(const sunder_i_model *model, uint32_t body)
+{
+    return are_many(model->body[body].pieces, model->most_pieces);
+}
+
 size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double target[2], double spread,
                                  size_t most, double (*places)[2])
 {
     const sunder_i_model *model = s->model;
     const sunder_i_body *p = &model->body[s->body[i]], *q = &model->body[s->body[j]];
     const double none[2] = {0, 0};
-    const bool many = (uint64_t)p->pieces * q->pieces > MANY_PAIRS;
+    const bool many = are_many(p->pieces, q->pieces);
     const sunder_shape *ps = sunder_i_model_shape(model, s->body[i]), *qs = sunder_i_model_shape(model, s->body[j]);
     double shift;
     const bool relaxed = sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift);
