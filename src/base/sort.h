@@ -21,7 +21,7 @@ bool sunder_i_sort_keys(uint64_t *key, size_t n);
 /* Fewer than that are sorted by insertion: the corners of most features, the bodies of most clusters. */
 #define SUNDER_I_FEW_TO_SORT 25
 /* Items are no larger than that. */
-#define SUNDER_I_MOST_ITEM 16
+#define SUNDER_I_MOST_ITEM 48
 
 /* Sorts n items like qsort(). The comparison is compiled in; items that it calls equal are alike in all that counts. */
 static inline void sunder_i_sort_few(void *list, size_t n, size_t size, int (*compare)(const void *, const void *))

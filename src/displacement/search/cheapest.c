@@ -94,23 +94,32 @@ static bool find_acting(bounding *b)
 
 /* ---- One line ---------------------------------------------------------------------------------------------------- */
 
+/* How far it is, at least as far as the gap, from the corner where an edge that it faces begins, or ends. */
+static double beyond_corner(const sunder_i_obstacle_edge *edge, size_t n, size_t e, double along, const double at[2])
+{
+    const double *c = along < 0 ? edge[e].from : edge[e + 1 < n ? e + 1 : 0].from;
+    return sqrt((at[0] - c[0]) * (at[0] - c[0]) + (at[1] - c[1]) * (at[1] - c[1]));
+}
+
+/* Is it no farther from obstacle k than the gap, as sunder_i_support_at() tells it? That is so if no line is farther
+ * below it, and it faces an edge, or no corner of those that it faces is farther. */
 static bool is_covered(const covering *o, size_t k, const double at[2])
 {
     const sunder_i_obstacle_edge *edge = o->edge + o->first[k];
     const size_t n = o->first[k + 1] - o->first[k];
-    const sunder_i_obstacle_edge *beyond = NULL;
-    size_t faces = 0;
+    double corner = INFINITY;
+    bool beside = false, faces = false;
     for (size_t e = 0; e < n; e++) {
-        const double s = edge[e].n[0] * (at[0] - edge[e].from[0]) + edge[e].n[1] * (at[1] - edge[e].from[1]);
+        const double wx = at[0] - edge[e].from[0], wy = at[1] - edge[e].from[1];
+        const double s = edge[e].n[0] * wx + edge[e].n[1] * wy;
         if (!(s <= o->gap[k])) return false;
-        if (!(s > 0)) continue;
-        beyond = &edge[e];
-        faces++;
+        if (!(s >= 0) || beside) continue;
+        const double along = wy * edge[e].n[0] - wx * edge[e].n[1];
+        faces = faces || s > 0;
+        beside = along >= 0 && along <= edge[e].length;
+        if (!beside) corner = fmin(corner, beyond_corner(edge, n, e, along, at));
     }
-    if (faces == 0) return true;
-    const double along = (at[1] - beyond->from[1]) * beyond->n[0] - (at[0] - beyond->from[0]) * beyond->n[1];
-    if (faces == 1 && along >= 0 && along <= beyond->length) return true;
-    return sunder_i_support_at(edge, n, at).distance <= o->gap[k];
+    return beside || !faces || corner <= o->gap[k] || sunder_i_support_at(edge, n, at).distance <= o->gap[k];
 }
 
 static bool is_covered_by_any(covering *o, const double at[2])

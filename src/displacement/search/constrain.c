@@ -3,17 +3,20 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/sort.h"
 #include "base/watch.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-int sunder_i_by_constraint(const void *a, const void *b)
+static inline int by_key(const void *a, const void *b)
 {
     const sunder_i_constraint *c = a, *d = b;
     return c->key < d->key ? -1 : c->key > d->key;
 }
+
+int sunder_i_by_constraint(const void *a, const void *b) { return by_key(a, b); }
 
 static const sunder_i_constraint *look_up(const sunder_i_constraint *c, size_t n, uint64_t key)
 {
@@ -144,7 +147,7 @@ static void sort_constraints(sunder_i_search *s)
     size_t k = 1;
     while (k < s->program.n && c[k - 1].key <= c[k].key) k++;
     if (k < s->program.n)
-        qsort(s->program.constraint, s->program.n, sizeof *s->program.constraint, sunder_i_by_constraint);
+        sunder_i_sort_few(s->program.constraint, s->program.n, sizeof *s->program.constraint, by_key);
 }
 
 bool sunder_i_search_constrain(sunder_i_search *s, double reach, bool as_it_stands)

@@ -11,6 +11,7 @@
 #include "displacement/layer/sides.h"
 #include "displacement/search/search.h"
 
+#include "base/sort.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -214,7 +215,7 @@ void sunder_i_search_passing(sunder_i_search *s, const double *t, double reach, 
         box_of_body(s, t, k, list[n].box);
         list[n++].body = k;
     }
-    qsort(list, n, sizeof *list, by_left);
+    sunder_i_sort_few(list, n, sizeof *list, by_left);
     for (size_t x = 0; x < n && !s->failed; x++)
         for (size_t y = x + 1; y < n && list[y].box[0] <= list[x].box[2] && !s->failed; y++) {
             const uint32_t i = list[x].body < list[y].body ? list[x].body : list[y].body,
