@@ -147,6 +147,14 @@ static void stop_short(sunder_i_search *s)
     s->ended = false;
 }
 
+/* Does the program end where a search came from, all but for rounding? Then it would begin there once more. */
+static bool is_back(const sunder_i_search *s)
+{
+    for (size_t k = 0; k < 2 * s->n; k++)
+        if (!(fabs(s->next[k] - s->back[k]) <= BACK * s->extent)) return false;
+    return true;
+}
+
 #ifndef NDEBUG
 /* Does s->next miss no constraint by more than s->t, but for rounding? */
 static const char *check_next(const sunder_i_search *s)
@@ -188,6 +196,7 @@ bool sunder_i_search_descend(sunder_i_search *s)
     double *best = sunder_i_alloc(2 * s->n, sizeof *best);
     if (!best) s->failed = true;
     for (int round = 0; round < MOST_ROUNDS && !is_out_of_patience(s) && !s->failed; round++) {
+        const uint64_t before = sunder_i_search_work(s);
         const bool clashing = sunder_i_search_constrain(s, reach, false);
         if (s->failed) break;
         double v;
@@ -206,6 +215,10 @@ bool sunder_i_search_descend(sunder_i_search *s)
         const bool free_next = left <= s->tolerance;
         const double next_cost = sunder_i_search_cost(s, s->next);
         const double step = longest_step(s);
+        if (s->back && free_next && is_back(s)) {
+            s->steps += sunder_i_search_work(s) - before; /* the round that would follow; it counts as work */
+            break;
+        }
         if (free_now && free_next && next_cost - HOPEFUL * (cost - next_cost) > s->hope) break;
         if (free_now && (!free_next || next_cost >= cost - s->settled * cost)) {
             /* The last round; one that ends in a clash was stuck numerically, and what stands is free. */

@@ -26,7 +26,9 @@ bool sunder_i_search_attempt(sunder_i_search *s, double *best, double *cost)
 {
     const size_t size = 2 * s->n * sizeof *best;
     s->hope = *cost;
+    s->back = best;
     const bool free_now = sunder_i_search_descend(s);
+    s->back = NULL;
     s->hope = INFINITY;
     const double now = sunder_i_search_cost(s, s->t);
     if (!s->failed && free_now && now < *cost * (1 - CHEAPER)) {

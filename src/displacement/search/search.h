@@ -59,6 +59,7 @@ typedef struct sunder_i_search {
     uint64_t steps, effort; /* work done, in constraints looked at; how much may be done for better sides */
     int clashing;           /* rounds that end in a clash before a descent gives up */
     uint64_t patience;      /* a descent gives up when so much has been done ... */
+    const double *back;     /* [2 n] ... or when it comes back to here; NULL */
     double hope;            /* ... or, from a free position, when it is not going to cost less than this; INFINITY */
     bool failed;            /* memory is out */
 } sunder_i_search;

@@ -61,6 +61,8 @@
 #define SETTLED 1e-3
 #define SETTLED_BETTER 1e-5
 #define SETTLED_BEST 1e-9
+/* A search for better sides that comes back to this share of a body from where it began ends. */
+#define BACK 1e-8
 /* Descents after jumps, before pairs are given up. */
 #define MOST_JUMPS 3
 
