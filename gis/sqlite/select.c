@@ -31,13 +31,14 @@ gis_sqlite_next gis_sqlite_select_next(void *statement)
 bool gis_sqlite_select_value(void *statement, int column, gis_value *value)
 {
     const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
+    void *held = sqlite->column_value(statement, column);
     *value = (gis_value){.kind = GIS_NULL};
-    switch (sqlite->column_type(statement, column)) {
-    case INTEGER: *value = (gis_value){GIS_INTEGER, {.integer = sqlite->column_number(statement, column)}}; return true;
-    case REAL: *value = (gis_value){GIS_REAL, {.real = sqlite->column_real(statement, column)}}; return true;
+    switch (sqlite->value_type(held)) {
+    case INTEGER: *value = (gis_value){GIS_INTEGER, {.integer = sqlite->value_number(held)}}; return true;
+    case REAL: *value = (gis_value){GIS_REAL, {.real = sqlite->value_real(held)}}; return true;
     case TEXT:
-        *value = (gis_value){GIS_TEXT, {.text = (const char *)sqlite->column_text(statement, column)}};
-        return value->as.text && strlen(value->as.text) == (size_t)sqlite->column_size(statement, column);
+        *value = (gis_value){GIS_TEXT, {.text = (const char *)sqlite->value_text(held)}};
+        return value->as.text && strlen(value->as.text) == (size_t)sqlite->value_size(held);
     case BYTES: return false;
     default: return true;
     }
@@ -46,10 +47,11 @@ bool gis_sqlite_select_value(void *statement, int column, gis_value *value)
 const unsigned char *gis_sqlite_select_bytes(void *statement, int column, size_t *size, bool *null)
 {
     const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
-    const int type = sqlite->column_type(statement, column);
+    void *held = sqlite->column_value(statement, column);
+    const int type = sqlite->value_type(held);
     *null = type != INTEGER && type != REAL && type != TEXT && type != BYTES;
     if (type != BYTES) return NULL;
-    const unsigned char *bytes = sqlite->column_bytes(statement, column);
-    *size = (size_t)sqlite->column_size(statement, column);
+    const unsigned char *bytes = sqlite->value_bytes(held);
+    *size = (size_t)sqlite->value_size(held);
     return bytes;
 }

@@ -19,10 +19,12 @@ const gis_sqlite_functions *gis_sqlite_find_functions(void)
         gis_sqlite_find("sqlite3_reset", &f.reset) && gis_sqlite_find("sqlite3_finalize", &f.finalize) &&
         gis_sqlite_find("sqlite3_column_blob", &f.column_bytes) &&
         gis_sqlite_find("sqlite3_column_bytes", &f.column_size) &&
-        gis_sqlite_find("sqlite3_column_type", &f.column_type) &&
-        gis_sqlite_find("sqlite3_column_int64", &f.column_number) &&
-        gis_sqlite_find("sqlite3_column_double", &f.column_real) &&
-        gis_sqlite_find("sqlite3_column_text", &f.column_text) && gis_sqlite_find("sqlite3_exec", &f.run) &&
+        gis_sqlite_find("sqlite3_column_value", &f.column_value) &&
+        gis_sqlite_find("sqlite3_value_type", &f.value_type) &&
+        gis_sqlite_find("sqlite3_value_int64", &f.value_number) &&
+        gis_sqlite_find("sqlite3_value_double", &f.value_real) &&
+        gis_sqlite_find("sqlite3_value_text", &f.value_text) && gis_sqlite_find("sqlite3_value_blob", &f.value_bytes) &&
+        gis_sqlite_find("sqlite3_value_bytes", &f.value_size) && gis_sqlite_find("sqlite3_exec", &f.run) &&
         gis_sqlite_find("sqlite3_errmsg", &f.error_message);
     return found ? &f : NULL;
 }

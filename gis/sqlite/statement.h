@@ -27,10 +27,13 @@ typedef struct gis_sqlite_functions {
     int (*finalize)(void *);
     const void *(*column_bytes)(void *, int);
     int (*column_size)(void *, int);
-    int (*column_type)(void *, int);
-    int64_t (*column_number)(void *, int);
-    double (*column_real)(void *, int);
-    const unsigned char *(*column_text)(void *, int);
+    void *(*column_value)(void *, int); /* a question about a column takes a lock, one about a value none */
+    int (*value_type)(void *);
+    int64_t (*value_number)(void *);
+    double (*value_real)(void *);
+    const unsigned char *(*value_text)(void *);
+    const void *(*value_bytes)(void *);
+    int (*value_size)(void *);
     int (*run)(void *, const char *, int (*)(void *, int, char **, char **), void *, char **);
     const char *(*error_message)(void *);
 } gis_sqlite_functions;

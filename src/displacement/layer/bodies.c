@@ -104,11 +104,31 @@ size_t sunder_i_convex_hull(double *p, size_t n, double *out)
     return m;
 }
 
-/* The outline of a feature, from its corners in doubles; behind all others in model->corner. */
+/* Does the feature consist of one piece with all its corners, which turns at each of them in doubles, too? */
+static bool is_its_outline(const sunder_i_model *model, const sunder_shape *shape, const sunder_i_body_piece *piece)
+{
+    if (shape->pieces != 1 || piece->corners != shape->vertices || piece->corners < 3) return false;
+    const double *corner = model->corner + 2 * (size_t)piece->corner, *b = corner + 2 * (size_t)(piece->corners - 1),
+                 *a = b - 2;
+    for (uint32_t k = 0; k < piece->corners; k++) {
+        const double *c = corner + 2 * (size_t)k;
+        if (!((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0)) return false;
+        a = b;
+        b = c;
+    }
+    return true;
+}
+
+/* The outline of a feature, from its corners in doubles; behind all others in model->corner. Most features are convex,
+ * and their piece is it; it is the last one that was cut. */
 static sunder_status outline_feature(sunder_i_model *model, const sunder_i_body *body, uint32_t f, size_t *corner,
                                      sunder_error *err)
 {
     const sunder_shape *shape = model->layer->feature[f].shape;
+    if (!sunder_i_is_barrier(model, f) && is_its_outline(model, shape, &model->piece[model->pieces - 1])) {
+        model->outline[f] = model->piece[model->pieces - 1];
+        return SUNDER_OK;
+    }
     double *p = sunder_i_alloc(2 * (size_t)shape->vertices, sizeof *p);
     if (!p) return sunder_i_no_memory(err);
     for (uint32_t v = 0; v < 2 * shape->vertices; v++) p[v] = shape->xy[v] - body->origin[v & 1];
