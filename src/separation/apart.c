@@ -123,7 +123,8 @@ sunder_status sunder_i_apart_by(const sunder_shape *p, const double tp[2], const
 {
     /* What the low part adds to doubles is within their doubt. */
     const double most = gap[1] > 0 ? nextafter(gap[0], INFINITY) : gap[0];
-    if (p->pieces == 0 || q->pieces == 0 || sunder_i_boxes_apart(p, tp, q, tq, most)) {
+    if (p->pieces == 0 || q->pieces == 0 || sunder_i_boxes_apart(p, tp, q, tq, most) ||
+        sunder_i_surely_apart(p, tp, q, tq, most)) {
         *apart = true;
         return SUNDER_OK;
     }
@@ -147,6 +148,7 @@ sunder_status sunder_i_meet(const sunder_shape *p, const double tp[2], const sun
     const double far = fmax(fmax(gap, tolerance), 0x1p-1074);
     *out = (sunder_i_encounter){.apart = true};
     if (p->pieces == 0 || q->pieces == 0 || sunder_i_boxes_apart(p, tp, q, tq, far)) return SUNDER_OK;
+    if (sunder_i_surely_apart(p, tp, q, tq, far)) return SUNDER_OK;
     sunder_i_operands g;
     const sunder_i_operands_options options = {.tp = tp, .tq = tq};
     sunder_status status = sunder_i_operands_init(&g, p, q, &options, err);

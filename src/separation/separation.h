@@ -16,6 +16,9 @@ sunder_status sunder_i_overlap(const sunder_shape *p, const double tp[2], const 
 /* Interiors disjoint and the distance at least gap? Exact. gap >= 0. */
 sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                              double gap, bool *apart, sunder_error *err);
+/* Are they surely farther apart than that? False: nothing is known. In doubles, with all their errors. */
+bool sunder_i_surely_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                           double far);
 /* Both at once, and do they touch: is their distance, as the nearest double, at most the tolerance? What doubles do not
  * tell of that stays open: may_touch without touch; but for the tolerance 0, which is decided. Where interiors meet
  * nothing more is said. */

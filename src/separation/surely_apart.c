@@ -1,0 +1,84 @@
+/* Are two sets surely farther apart than a length? A line that parts them, with room for all rounding: of two convex
+ * sets that are apart there is one along an edge of either, or nearly. Most pairs whose boxes are near each other are
+ * told so for a tenth of what an exact answer takes; of all others nothing is said. */
+#include "separation/separation.h"
+
+#include "shape/shape.h"
+
+#include <math.h>
+
+/* Sets with more corners are better asked by their pieces. */
+#define MOST_CORNERS 24
+/* Squares of shorter edges are lost below all doubles. */
+#define SHORTEST 0x1p-450
+
+/* Corners from the lower left of P's box, in doubles. Each went through two differences and a sum, of numbers no larger
+ * than `size` in sum, so it is off by less than 2^-51 of that. */
+typedef struct corners {
+    double xy[2 * MOST_CORNERS];
+    uint32_t n;
+} corners;
+
+static double place(const sunder_shape *s, const double t[2], const double origin[2], corners *out)
+{
+    double size = 0;
+    out->n = s->vertices;
+    for (uint32_t v = 0; v < 2 * s->vertices; v++) {
+        const double x = s->xy[v] - origin[v & 1];
+        out->xy[v] = x + t[v & 1];
+        const double sum = fabs(x) + fabs(t[v & 1]);
+        if (sum > size) size = sum;
+    }
+    return size;
+}
+
+/* How far Q's corners lie beyond all of P's in direction n, of any length: the least of the one, less the most of the
+ * other. */
+static double beyond(const corners *p, const corners *q, const double n[2])
+{
+    double most = -INFINITY, least = INFINITY;
+    for (uint32_t v = 0; v < p->n; v++) {
+        const double s = n[0] * p->xy[2 * v] + n[1] * p->xy[2 * v + 1];
+        if (s > most) most = s;
+    }
+    for (uint32_t v = 0; v < q->n; v++) {
+        const double s = n[0] * q->xy[2 * v] + n[1] * q->xy[2 * v + 1];
+        if (s < least) least = s;
+    }
+    return least - most;
+}
+
+/* Along an edge of one of them, that faces the other: which way that is, is told by their middles. A product of n with
+ * a corner is off by |n| (in the sum of its coordinates) times what the corner is off and 2^-51 of its size, so the
+ * difference of two by twice 2^-50 of that; and the difference itself rounds by less than once more. The length of n,
+ * and what is asked for, are off by 2^-50 of themselves. */
+static bool parts_along(const sunder_shape *s, const corners *at, const corners *p, const corners *q,
+                        const double way[2], double far, double size)
+{
+    for (uint32_t v = 0; v < s->vertices; v++) {
+        const double *a = at->xy + 2 * v, *b = at->xy + 2 * s->next[v];
+        double n[2] = {b[1] - a[1], a[0] - b[0]};
+        if (n[0] * way[0] + n[1] * way[1] < 0) {
+            n[0] = -n[0];
+            n[1] = -n[1];
+        }
+        const double length = fabs(n[0]) + fabs(n[1]), doubt = length * size * 0x1p-48;
+        if (!(length > SHORTEST)) continue;
+        if (beyond(p, q, n) > far * sqrt(n[0] * n[0] + n[1] * n[1]) * (1 + 0x1p-48) + doubt) return true;
+    }
+    return false;
+}
+
+bool sunder_i_surely_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                           double far)
+{
+    const double none[2] = {0, 0}, *origin = p->box, *s = tp ? tp : none, *t = tq ? tq : none;
+    if (p->rational || q->rational || p->vertices > MOST_CORNERS || q->vertices > MOST_CORNERS) return false;
+    corners at_p, at_q;
+    const double of_p = place(p, s, origin, &at_p), of_q = place(q, t, origin, &at_q), size = fmax(of_p, of_q);
+    /* No product comes near the greatest double; what is lost below the least is nothing beside the doubt. */
+    if (!(size < 0x1p400 && size > 0x1p-400 && far < 0x1p400)) return false;
+    const double way[2] = {(q->box[0] - p->box[0]) + (q->box[2] - p->box[2]) + 2 * (t[0] - s[0]),
+                           (q->box[1] - p->box[1]) + (q->box[3] - p->box[3]) + 2 * (t[1] - s[1])};
+    return parts_along(p, &at_p, &at_p, &at_q, way, far, size) || parts_along(q, &at_q, &at_p, &at_q, way, far, size);
+}
