@@ -216,8 +216,7 @@ static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
         if (t[0] != 0 || t[1] != 0 || s->placement.was_rounded[f]) sunder_i_changes_add(&elsewhere, f);
     }
     if (!status && elsewhere.failed) status = sunder_i_no_memory(err);
-    if (!status)
-        status = sunder_i_placement_relate(&s->model, &s->placement, &elsewhere, &s->start, &last, err);
+    if (!status) status = sunder_i_placement_relate(&s->model, &s->placement, &elsewhere, &s->start, &last, err);
     sunder_i_changes_free(&elsewhere);
     if (status) return status;
     sunder_i_free(s->now.pair);

@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* Children of a node: many, so that there are few levels to mend when a box moves. */
-#define FANOUT 16
+#define FANOUT SUNDER_I_RTREE_RUN
 /* The tree is worn when its nodes have so many times the size that they were packed to: queries then look at about that
  * many times the nodes, and building anew costs about as much as asking once for each box. */
 #define WORN 1.5

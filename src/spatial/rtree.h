@@ -6,6 +6,9 @@
 #include "base/memory.h"
 #include "spatial/box.h"
 
+/* Leaves of a node of the lowest level: leaf / SUNDER_I_RTREE_RUN tells which. */
+#define SUNDER_I_RTREE_RUN 16u
+
 /* A packed R-tree over boxes; it serves as well when some of them move. */
 typedef struct sunder_i_rtree {
     double *box;      /* [4 * nodes] xmin ymin xmax ymax; the leaves first, in Hilbert order, the root last */

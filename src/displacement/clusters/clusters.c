@@ -6,6 +6,7 @@
 #include "displacement/clusters/stages.h"
 
 #include "base/invariant.h"
+#include "base/sort.h"
 #include "base/union_find.h"
 
 #include <math.h>
@@ -202,6 +203,27 @@ static const char *check(const sunder_i_solver *s)
 }
 #endif
 
+/* The ends of all edges, each by the root of its cluster, and once. False if memory is out. */
+static bool list_members(sunder_i_solver *s)
+{
+    uint64_t *key = sunder_i_alloc(2 * s->edges, sizeof *key);
+    size_t n = 0;
+    for (size_t e = 0; e < s->edges && key; e++) {
+        const uint32_t i = s->edge[e].a, j = s->edge[e].b;
+        const uint64_t root = sunder_i_union_find(s->parent, s->model.body[i].fixed ? j : i);
+        key[n++] = root << 32 | i;
+        key[n++] = root << 32 | j;
+    }
+    const bool ok = key && sunder_i_sort_keys(key, n);
+    for (size_t k = 0; k < n && ok; k++) {
+        if (k && key[k - 1] == key[k]) continue;
+        s->member[s->members] = (sunder_i_cluster_member){(uint32_t)(key[k] >> 32), (uint32_t)key[k]};
+        s->body[s->members++] = (uint32_t)key[k];
+    }
+    sunder_i_free(key);
+    return ok;
+}
+
 /* Clusters from the edges, afresh. */
 sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
 {
@@ -215,21 +237,7 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
     s->cluster = sunder_i_calloc(s->edges, sizeof *s->cluster);
     s->members = 0;
     if (!s->member || !s->body || !s->move || !s->cluster) return sunder_i_no_memory(err);
-    size_t n = 0;
-    for (size_t e = 0; e < s->edges; e++) {
-        const uint32_t i = s->edge[e].a, j = s->edge[e].b;
-        const uint32_t root = sunder_i_union_find(s->parent, s->model.body[i].fixed ? j : i);
-        s->member[n++] = (sunder_i_cluster_member){root, i};
-        s->member[n++] = (sunder_i_cluster_member){root, j};
-    }
-    if (n) qsort(s->member, n, sizeof *s->member, sunder_i_by_id_pair);
-    for (size_t k = 0; k < n; k++)
-        if (k == 0 || sunder_i_by_id_pair(&s->member[k - 1], &s->member[k])) {
-            /* Compares the raw entry k with its neighbour, which may have been overwritten only by itself or
-             * an equal. */
-            s->member[s->members] = s->member[k];
-            s->body[s->members++] = s->member[k].body;
-        }
+    if (!list_members(s)) return sunder_i_no_memory(err);
     for (size_t first = 0, end; first < s->members; first = end) {
         sunder_i_cluster *c = &s->cluster[s->clusters++];
         for (end = first; end < s->members && s->member[end].root == s->member[first].root; end++) {

@@ -48,12 +48,12 @@ typedef struct sunder_i_solver {
     size_t entries, entry_capacity;
     sunder_i_id_pair *edge;
     size_t edges, edge_capacity;
-    uint32_t *parent;        /* [bodies] union-find over edges */
-    bool *dirty;             /* [bodies] to be solved (again) */
-    unsigned char *widened;  /* [bodies] how often the margin grew */
+    uint32_t *parent;         /* [bodies] union-find over edges */
+    bool *dirty;              /* [bodies] to be solved (again) */
+    unsigned char *widened;   /* [bodies] how often the margin grew */
     sunder_i_changes changes; /* what moved in this round */
-    bool *reconsidered;      /* [bodies] of the least of a component of conflicts: no solution was found */
-    sunder_i_id_pair *alone; /* things of pairs that were asked about by themselves (one_by_one.c); sorted */
+    bool *reconsidered;       /* [bodies] of the least of a component of conflicts: no solution was found */
+    sunder_i_id_pair *alone;  /* things of pairs that were asked about by themselves (one_by_one.c); sorted */
     size_t alone_n, alone_capacity;
     uint64_t *alone_work; /* [bodies] what those questions took in vain, by one body of each pair */
     bool *wanted;         /* [bodies] what is sought is sought of the clusters that have one of these (clusters.c) */

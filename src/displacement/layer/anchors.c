@@ -13,8 +13,8 @@
 
 typedef struct looking {
     sunder_i_model *model;
-    sunder_i_list near;
-    size_t capacity; /* of model->held */
+    sunder_i_list near, about; /* leaves of the tree: about a run, and of those about one feature */
+    size_t capacity;           /* of model->held */
 } looking;
 
 /* At most how far the outline of g, of a body with that origin, is from a: 0 where it holds it. Beyond one of its sides
@@ -61,16 +61,28 @@ static double box_about(const sunder_i_model *model, uint32_t f, double box[4])
     return reach;
 }
 
-/* Who stands there, of those leaves of the tree. */
+/* Those of l->near whose boxes meet the box, to l->about, which has room for them. */
+static void pick(looking *l, const double box[4])
+{
+    const double *boxes = l->model->tree.box;
+    size_t n = 0;
+    for (size_t k = 0; k < l->near.n; k++) {
+        const uint32_t leaf = l->near.item[k];
+        l->about.item[n] = leaf;
+        n += sunder_i_box_meet_any(boxes + 4 * (size_t)leaf, box);
+    }
+    l->about.n = n;
+}
+
+/* Who stands there, of l->near. */
 static sunder_status look_about(looking *l, uint32_t f, sunder_error *err)
 {
     sunder_i_model *model = l->model;
-    const sunder_i_rtree *tree = &model->tree;
     sunder_status status = SUNDER_OK;
     double box[4], clear = box_about(model, f, box);
-    for (size_t k = 0; k < l->near.n && !status; k++) {
-        if (!sunder_i_box_meet(tree->box + 4 * (size_t)l->near.item[k], box)) continue;
-        const uint32_t g = tree->item[l->near.item[k]];
+    pick(l, box);
+    for (size_t k = 0; k < l->about.n && !status; k++) {
+        const uint32_t g = model->tree.item[l->about.item[k]];
         if (!sunder_i_is_barrier(model, g) && model->body_of[f] != model->body_of[g])
             status = look_at(l, f, g, &clear, err);
     }
@@ -96,11 +108,14 @@ static sunder_status look_about_all(sunder_i_model *model, sunder_error *err)
             sunder_i_box_join(all, box);
         }
         l.near.n = 0;
-        if (!sunder_i_rtree_query_leaves(tree, all, &l.near)) status = sunder_i_no_memory(err);
+        if (!sunder_i_rtree_query_leaves(tree, all, &l.near) ||
+            !sunder_i_reserve(&l.about.item, &l.about.capacity, l.near.n + 1, sizeof *l.about.item))
+            status = sunder_i_no_memory(err);
         for (size_t leaf = first; leaf < end && !status; leaf++)
             if (!sunder_i_is_barrier(model, tree->item[leaf])) status = look_about(&l, tree->item[leaf], err);
     }
     sunder_i_free(l.near.item);
+    sunder_i_free(l.about.item);
     if (model->held_n) qsort(model->held, model->held_n, sizeof *model->held, sunder_i_by_id_pair);
     return status;
 }

@@ -18,8 +18,8 @@ void sunder_i_jumps_free(sunder_i_jumps *jumps);
 /* Is there a tree, of ways? There is none while nothing has moved, and where features may jump. */
 static inline bool sunder_i_jumps_begun(const sunder_i_jumps *jumps) { return jumps->tree.levels > 0; }
 /* What changed (sorted; NULL: all) stands elsewhere now, by model->move. Of no effect where no way is forbidden. */
-sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model,
-                                    const sunder_i_changes *changes, sunder_error *err);
+sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model, const sunder_i_changes *changes,
+                                    sunder_error *err);
 /* Did the anchor of f pass g; or if g is part of a barrier, its side anchor a side of that? */
 sunder_status sunder_i_jumps_over(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, uint32_t g,
                                   bool *over, sunder_error *err);

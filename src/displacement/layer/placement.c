@@ -115,85 +115,77 @@ typedef struct pair_search {
     const sunder_i_placement *placement;
     const bool *changed;   /* NULL: all did */
     const uint32_t *asked; /* features that changed, ascending */
-    sunder_i_list *found;  /* [asked] partners of each; of two that changed the greater is the lesser's partner; where
-                            * all are asked by leaves of the tree */
+    sunder_i_list *found;  /* [asked] partners of each; of two that changed the greater is the lesser's partner */
+    const uint64_t *place; /* [asked] the leaf of one, and behind it which; sorted: by runs of the tree ... */
+    const uint32_t *first; /* ... that begin there */
+    double reach;
 } pair_search;
 
-/* Those of f, sorted, in `near`. False if memory is out. */
-static bool find_partners_of(const pair_search *s, uint32_t f, double reach, sunder_i_list *near)
+static uint32_t asked_at(const pair_search *s, size_t k) { return s->asked[(uint32_t)s->place[k]]; }
+
+static void box_about(const pair_search *s, uint32_t f, double box[4])
 {
-    double box[4];
-    size_t kept = 0;
-    if (reach > 0)
-        sunder_i_box_grow(s->placement->box + 4 * (size_t)f, reach, box);
+    const double *own = s->placement->box + 4 * (size_t)f;
+    if (s->reach > 0)
+        sunder_i_box_grow(own, s->reach, box);
     else
-        memcpy(box, s->placement->box + 4 * (size_t)f, sizeof box);
-    near->n = 0;
-    if (!sunder_i_rtree_query(&s->placement->tree, box, near)) return false;
-    for (size_t k = 0; k < near->n; k++) {
-        const uint32_t g = near->item[k];
-        if (g > f || (s->changed && !s->changed[g])) near->item[kept++] = g;
-    }
-    near->n = kept;
-    if (kept > 1) qsort(near->item, kept, sizeof *near->item, sunder_i_by_number);
-    return true;
+        memcpy(box, own, 4 * sizeof *box);
 }
 
-static sunder_status find_partners(void *context, size_t begin, size_t end, sunder_error *err)
-{
-    const pair_search *s = context;
-    const double reach = fmax(s->model->rules.gap, s->model->rules.tolerance);
-    sunder_i_list near = {0};
-    bool ok = true;
-    for (size_t a = begin; a < end && ok; a++)
-        ok = find_partners_of(s, s->asked[a], reach, &near) && sunder_i_list_copy(&s->found[a], &near);
-    sunder_i_free(near.item);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
-}
-
-/* Of leaves that meet a run, those that feature f, in that leaf, meets; sorted, in `near`. */
-static bool pick_partners(const pair_search *s, uint32_t f, double reach, const sunder_i_list *leaves,
-                          sunder_i_list *near)
+/* Of leaves that are about its run, the partners of f; sorted, in `near`. */
+static bool pick_partners(const pair_search *s, uint32_t f, const sunder_i_list *leaves, sunder_i_list *near)
 {
     const sunder_i_rtree *tree = &s->placement->tree;
     double box[4];
-    if (reach > 0)
-        sunder_i_box_grow(s->placement->box + 4 * (size_t)f, reach, box);
-    else
-        memcpy(box, s->placement->box + 4 * (size_t)f, sizeof box);
+    box_about(s, f, box);
     near->n = 0;
     if (!sunder_i_reserve(&near->item, &near->capacity, leaves->n + 1, sizeof *near->item)) return false;
     for (size_t k = 0; k < leaves->n; k++) {
-        const uint32_t g = tree->item[leaves->item[k]];
-        near->item[near->n] = g;
-        near->n += (g > f) & sunder_i_box_meet_any(tree->box + 4 * (size_t)leaves->item[k], box);
+        const uint32_t g = near->item[near->n] = tree->item[leaves->item[k]];
+        near->n += sunder_i_box_meet_any(tree->box + 4 * (size_t)leaves->item[k], box) &
+                   (g > f || (s->changed && !s->changed[g]));
     }
     sunder_i_sort_few(near->item, near->n, sizeof *near->item, sunder_i_by_number);
     return true;
 }
 
-/* Where all are asked: by runs of the tree, found[] by leaves. */
-static sunder_status find_all_partners(void *context, size_t begin, size_t end, sunder_error *err)
+/* Of those asked that lie in some runs of the tree: who is near a run is looked up once. */
+static sunder_status find_partners(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const pair_search *s = context;
-    const sunder_i_rtree *tree = &s->placement->tree;
-    const double reach = fmax(s->model->rules.gap, s->model->rules.tolerance);
     sunder_i_list near = {0}, leaves = {0};
     bool ok = true;
     for (size_t run = begin; run < end && ok; run++) {
-        size_t first, last;
-        double hull[4];
-        sunder_i_box_grow(sunder_i_rtree_run(tree, run, &first, &last), reach, hull);
+        double hull[4], box[4];
+        sunder_i_box_clear(hull);
+        for (size_t k = s->first[run]; k < s->first[run + 1]; k++) {
+            box_about(s, asked_at(s, k), box);
+            sunder_i_box_join(hull, box);
+        }
         leaves.n = 0;
-        ok = sunder_i_rtree_query_leaves(tree, hull, &leaves);
-        for (size_t leaf = first; leaf < last && ok; leaf++)
-            if (tree->item[leaf] < s->model->features)
-                ok = pick_partners(s, tree->item[leaf], reach, &leaves, &near) &&
-                     sunder_i_list_copy(&s->found[leaf], &near);
+        ok = sunder_i_rtree_query_leaves(&s->placement->tree, hull, &leaves);
+        for (size_t k = s->first[run]; k < s->first[run + 1] && ok; k++)
+            ok = pick_partners(s, asked_at(s, k), &leaves, &near) &&
+                 sunder_i_list_copy(&s->found[(uint32_t)s->place[k]], &near);
     }
     sunder_i_free(near.item);
     sunder_i_free(leaves.item);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+/* Those asked by where they lie in the tree, and where its runs begin among them; how many runs. False if memory is
+ * out. */
+static bool order_by_runs(const pair_search *s, size_t n, uint64_t *place, uint32_t *first, size_t *runs)
+{
+    const uint32_t *leaf = s->placement->tree.leaf;
+    for (size_t a = 0; a < n; a++) place[a] = (uint64_t)leaf[s->asked[a]] << 32 | a;
+    if (!sunder_i_sort_keys(place, n)) return false;
+    *runs = 0;
+    for (size_t k = 0; k < n; k++)
+        if (k == 0 || (place[k] >> 32) / SUNDER_I_RTREE_RUN != (place[k - 1] >> 32) / SUNDER_I_RTREE_RUN)
+            first[(*runs)++] = (uint32_t)k;
+    first[*runs] = (uint32_t)n;
+    return true;
 }
 
 static sunder_status relate(const sunder_i_model *model, const sunder_i_placement *placement, sunder_i_relation *r,
@@ -264,24 +256,34 @@ sunder_status sunder_i_placement_visit(const sunder_i_model *model, const sunder
 }
 
 /* The lists of partners as one array of pairs, in order; the lists are emptied. */
-static sunder_i_relation *collect(const pair_search *s, size_t asked, size_t lists, size_t *pairs)
+static sunder_i_relation *collect(const pair_search *s, size_t asked, size_t *pairs)
 {
-    const uint32_t *leaf = s->placement->tree.leaf;
     size_t total = 0, k = 0;
-    for (size_t a = 0; a < lists; a++) total += s->found[a].n;
+    for (size_t a = 0; a < asked; a++) total += s->found[a].n;
     sunder_i_relation *pair = sunder_i_calloc(total, sizeof *pair);
     for (size_t a = 0; a < asked; a++) {
-        sunder_i_list *found = &s->found[s->changed ? a : leaf[s->asked[a]]];
-        for (size_t i = 0; pair && i < found->n; i++, k++) {
-            const uint32_t f = s->asked[a], g = found->item[i];
+        for (size_t i = 0; pair && i < s->found[a].n; i++, k++) {
+            const uint32_t f = s->asked[a], g = s->found[a].item[i];
             pair[k].a = f < g ? f : g;
             pair[k].b = f < g ? g : f;
         }
-        sunder_i_free(found->item);
+        sunder_i_free(s->found[a].item);
     }
     if (pair && total && s->changed) qsort(pair, total, sizeof *pair, sunder_i_by_id_pair);
     *pairs = total;
     return pair;
+}
+
+static uint32_t *list_asked(const sunder_i_model *model, const sunder_i_changes *changes, size_t *n)
+{
+    const size_t most = changes ? changes->list.n : model->features;
+    uint32_t *asked = sunder_i_alloc(most, sizeof *asked);
+    *n = 0;
+    for (size_t k = 0; k < most && asked; k++) {
+        const uint32_t f = changes ? changes->list.item[k] : (uint32_t)k;
+        if (f < model->features && model->present[f]) asked[(*n)++] = f;
+    }
+    return asked;
 }
 
 /* Every pair of boxes within reach of each other of which one feature changed, as the features stand. */
@@ -289,28 +291,30 @@ static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_plac
                                 const sunder_i_changes *changes, sunder_i_relation **pair, size_t *pairs,
                                 sunder_error *err)
 {
-    const size_t most = changes ? changes->list.n : model->features;
-    uint32_t *asked = sunder_i_alloc(most, sizeof *asked);
-    if (!asked) return sunder_i_no_memory(err);
-    size_t n = 0;
-    for (size_t k = 0; k < most; k++) {
-        const uint32_t f = changes ? changes->list.item[k] : (uint32_t)k;
-        if (f < model->features && model->present[f]) asked[n++] = f;
-    }
-    const size_t lists = changes ? n : placement->tree.leaves;
-    const pair_search search = {model, placement, changes ? changes->is : NULL, asked,
-                                sunder_i_calloc(lists, sizeof *search.found)};
-    sunder_status status = search.found ? SUNDER_OK : sunder_i_no_memory(err);
+    size_t n, runs = 0;
+    uint32_t *asked = list_asked(model, changes, &n), *first = sunder_i_alloc(n + 1, sizeof *first);
+    uint64_t *place = sunder_i_alloc(n, sizeof *place);
+    sunder_i_list *found = sunder_i_calloc(n, sizeof *found);
+    pair_search search = {.model = model,
+                          .placement = placement,
+                          .changed = changes ? changes->is : NULL,
+                          .asked = asked,
+                          .found = found,
+                          .place = place,
+                          .first = first,
+                          .reach = fmax(model->rules.gap, model->rules.tolerance)};
+    sunder_status status = asked && first && place && found && order_by_runs(&search, n, place, first, &runs)
+                               ? SUNDER_OK
+                               : sunder_i_no_memory(err);
     if (!status)
-        status = changes ? sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_BOXES, find_partners,
-                                             (void *)&search, err)
-                         : sunder_i_parallel(model->rules.threads, sunder_i_rtree_runs(&placement->tree),
-                                             SUNDER_I_GRAIN_TESTS, find_all_partners, (void *)&search, err);
-    if (search.found) {
-        *pair = collect(&search, n, lists, pairs);
+        status = sunder_i_parallel(model->rules.threads, runs, SUNDER_I_GRAIN_TESTS, find_partners, &search, err);
+    sunder_i_free(first);
+    sunder_i_free(place);
+    if (asked && found) {
+        *pair = collect(&search, n, pairs);
         if (!status && !*pair) status = sunder_i_no_memory(err);
     }
-    sunder_i_free(search.found);
+    sunder_i_free(found);
     sunder_i_free(asked);
     return status;
 }

@@ -146,8 +146,7 @@ static void sort_constraints(sunder_i_search *s)
     const sunder_i_constraint *c = s->program.constraint;
     size_t k = 1;
     while (k < s->program.n && c[k - 1].key <= c[k].key) k++;
-    if (k < s->program.n)
-        sunder_i_sort_few(s->program.constraint, s->program.n, sizeof *s->program.constraint, by_key);
+    if (k < s->program.n) sunder_i_sort_few(s->program.constraint, s->program.n, sizeof *s->program.constraint, by_key);
 }
 
 bool sunder_i_search_constrain(sunder_i_search *s, double reach, bool as_it_stands)
