@@ -1,0 +1,144 @@
+/* Rows that go into a table by the dozen are, row by row, what was given, whatever was done with the memory they came
+ * from. A row that breaks a rule is told by its key, wherever among those held back it stands; what came before is in.
+ * And numbers with what goes along are sorted, alike ones in their order. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "base/keyed.h"
+#include "sqlite/insert.h"
+#include "sqlite/select.h"
+
+#include <gdal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ROWS = 1000 };
+
+static GDALDatasetH dataset;
+
+static void *database(void) { return GDALGetInternalHandle(dataset, "SQLITE_HANDLE"); }
+
+static int set_up(void **state)
+{
+    (void)state;
+    GDALAllRegister();
+    dataset = GDALCreate(GDALGetDriverByName("GPKG"), "/vsimem/rows.gpkg", 0, 0, 0, GDT_Unknown, NULL);
+    return dataset ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    GDALClose(dataset);
+    return 0;
+}
+
+static void begin(gis_sqlite_inserts *rows)
+{
+    assert_true(gis_sqlite_run(database(), "DROP TABLE IF EXISTS t"));
+    assert_true(gis_sqlite_run(database(), "CREATE TABLE t (k INTEGER PRIMARY KEY AUTOINCREMENT, b BLOB, x REAL, "
+                                           "s TEXT NOT NULL, n INTEGER UNIQUE)"));
+    assert_true(gis_sqlite_inserts_begin(rows, database(), "INSERT INTO t (k, b, x, s, n) VALUES ", 5));
+}
+
+/* The row of that key; n: its number. Bytes and text are spoilt once they were given. */
+static bool add(gis_sqlite_inserts *rows, int64_t key, int64_t n, int64_t *failed, const char **reason)
+{
+    unsigned char bytes[64];
+    char text[32];
+    const size_t size = (size_t)(key % 60);
+    memset(bytes, (int)(key & 255), sizeof bytes);
+    snprintf(text, sizeof text, "row %lld", (long long)key);
+    const gis_value values[] = {{GIS_REAL, {.real = (double)key / 8}},
+                                {GIS_TEXT, {.text = key % 7 ? text : ""}},
+                                {GIS_INTEGER, {.integer = n}}};
+    *failed = key;
+    const bool done = gis_sqlite_inserts_add(rows, failed, bytes, size, values, reason);
+    memset(bytes, 0, sizeof bytes);
+    memset(text, '?', sizeof text);
+    return done;
+}
+
+static size_t count_right(void)
+{
+    void *statement = gis_sqlite_select_begin(database(), "SELECT k, b, x, s, n FROM t ORDER BY k");
+    size_t right = 0;
+    assert_non_null(statement);
+    while (gis_sqlite_select_next(statement) == GIS_SQLITE_HAS_ROW) {
+        gis_value key, x, s, n;
+        size_t size;
+        bool null;
+        char text[32];
+        assert_true(gis_sqlite_select_value(statement, 0, &key) && gis_sqlite_select_value(statement, 2, &x) &&
+                    gis_sqlite_select_value(statement, 3, &s) && gis_sqlite_select_value(statement, 4, &n));
+        const unsigned char *bytes = gis_sqlite_select_bytes(statement, 1, &size, &null);
+        snprintf(text, sizeof text, "row %lld", (long long)key.as.integer);
+        assert_false(null);
+        assert_int_equal(size, key.as.integer % 60);
+        for (size_t k = 0; k < size; k++) assert_int_equal(bytes[k], key.as.integer & 255);
+        assert_true(x.as.real == (double)key.as.integer / 8 && n.as.integer == key.as.integer);
+        assert_string_equal(s.as.text, key.as.integer % 7 ? text : "");
+        right++;
+    }
+    gis_sqlite_select_end(statement);
+    return right;
+}
+
+static void test_rows(void **state)
+{
+    (void)state;
+    gis_sqlite_inserts rows;
+    int64_t failed;
+    const char *reason;
+    begin(&rows);
+    for (int64_t k = 1; k <= ROWS; k++) assert_true(add(&rows, k, k, &failed, &reason));
+    assert_true(rows.at_once > 1 && count_right() <= ROWS);
+    assert_true(gis_sqlite_inserts_flush(&rows, &failed, &reason));
+    assert_int_equal(count_right(), ROWS);
+    gis_sqlite_inserts_end(&rows);
+}
+
+/* The last column is unique: the number of an earlier row is refused. */
+static void test_refused(void **state)
+{
+    (void)state;
+    for (int64_t bad = 2; bad < 140; bad += 23) {
+        gis_sqlite_inserts rows;
+        int64_t failed = 0;
+        const char *reason = NULL;
+        bool done = true;
+        begin(&rows);
+        for (int64_t k = 1; k <= 200 && done; k++) done = add(&rows, k, k == bad ? 1 : k, &failed, &reason);
+        assert_false(done && gis_sqlite_inserts_flush(&rows, &failed, &reason));
+        assert_int_equal(failed, bad);
+        assert_non_null(strstr(reason, "UNIQUE"));
+        assert_int_equal(count_right(), bad - 1);
+        gis_sqlite_inserts_end(&rows);
+    }
+}
+
+static void test_keyed(void **state)
+{
+    (void)state;
+    for (size_t n = 0; n < 5000; n = 3 * n + 1) {
+        gis_keyed *list = calloc(n + 1, sizeof *list);
+        assert_non_null(list);
+        for (size_t k = 0; k < n; k++) list[k] = (gis_keyed){(k * UINT64_C(0x9e3779b97f4a7c15) >> (n % 3 ? 3 : 50)), k};
+        assert_true(gis_keyed_sort(list, n));
+        for (size_t k = 1; k < n; k++)
+            assert_true(list[k - 1].key < list[k].key ||
+                        (list[k - 1].key == list[k].key && list[k - 1].with < list[k].with));
+        free(list);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_refused),
+                                       cmocka_unit_test(test_keyed)};
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
