@@ -52,6 +52,41 @@ static bool attempt_about(sunder_i_search *s, uint32_t i, uint32_t j, double *be
     return gain > 0;
 }
 
+/* Bodies, or pairs of them, that were put elsewhere in vain since something was last gained, and the work that it took:
+ * it would be in vain once more. It counts as done all the same, so that what is left to spend is what it would be. */
+typedef struct vain {
+    struct vain_try {
+        uint32_t i, j;
+        uint64_t work;
+    } * tried;
+    size_t n, capacity;
+} vain;
+
+static bool was_in_vain(sunder_i_search *s, const vain *v, uint32_t i, uint32_t j)
+{
+    for (size_t k = 0; k < v->n; k++) {
+        if (v->tried[k].i != i || v->tried[k].j != j) continue;
+        s->steps += v->tried[k].work;
+        return true;
+    }
+    return false;
+}
+
+/* before: the work when it began. */
+static void note_try(sunder_i_search *s, vain *v, uint32_t i, uint32_t j, uint64_t before, bool gained)
+{
+    if (gained) {
+        v->n = 0;
+        return;
+    }
+    if (s->neighbourhood) return; /* too many to look through, and seldom twice */
+    if (!sunder_i_reserve(&v->tried, &v->capacity, v->n + 1, sizeof *v->tried)) {
+        s->failed = true;
+        return;
+    }
+    v->tried[v->n++] = (struct vain_try){i, j, sunder_i_search_work(s) - before};
+}
+
 /* The longest move, and the power of two below it. */
 static double longest_move(const sunder_i_search *s, double *below)
 {
@@ -97,8 +132,17 @@ static bool is_hopeful(const sunder_i_search *s, size_t in_vain)
     return !s->neighbourhood || !(s->program.most_cost > 0) || in_vain < BETTER_IN_VAIN + s->n / BETTER_SHARE;
 }
 
+/* Body i put to the free place nearest to where it came from: is it cheaper? */
+static bool try_place(sunder_i_search *s, uint32_t i, double *best, double *cost)
+{
+    double place[2];
+    if (!sunder_i_search_free_body(s, i, NEARER_PLACE * hypot(s->t[2 * i], s->t[2 * i + 1]), place)) return false;
+    memcpy(s->t + 2 * i, place, sizeof place);
+    return attempt_about(s, i, i, best, cost);
+}
+
 /* Each body in turn, the costliest first, to the free place nearest to where it came from, the others standing. */
-static void try_places(sunder_i_search *s, rank *order, double *best, double *cost)
+static void try_places(sunder_i_search *s, rank *order, vain *v, double *best, double *cost)
 {
     size_t n = 0;
     for (uint32_t k = 0; k < s->n; k++) {
@@ -110,12 +154,12 @@ static void try_places(sunder_i_search *s, rank *order, double *best, double *co
     size_t in_vain = 0; /* one after the other */
     for (size_t k = 0; k < n && is_hopeful(s, in_vain) && has_time(s) && !s->failed; k++) {
         const uint32_t i = order[k].index;
-        const double length = hypot(s->t[2 * i], s->t[2 * i + 1]);
-        double place[2];
         in_vain++;
-        if (!sunder_i_search_free_body(s, i, NEARER_PLACE * length, place)) continue;
-        memcpy(s->t + 2 * i, place, sizeof place);
-        if (attempt_about(s, i, i, best, cost)) in_vain = 0;
+        if (was_in_vain(s, v, i, i)) continue;
+        const uint64_t before = sunder_i_search_work(s);
+        const bool gained = try_place(s, i, best, cost);
+        note_try(s, v, i, i, before, gained);
+        if (gained) in_vain = 0;
     }
 }
 
@@ -150,8 +194,29 @@ static rank *rank_contacts(const sunder_i_quadratic *program, size_t *n)
     return order;
 }
 
+/* Bodies i and j put to their other sides, one after the other, until one is cheaper. */
+static bool try_sides_of(sunder_i_search *s, uint32_t i, uint32_t j, double *best, double *cost)
+{
+    const double home[2] = {0, 0}, u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
+    const double length = hypot(u[0], u[1]);
+    double places[MOST_SIDES][2];
+    const size_t found = sunder_i_search_free_pair(s, i, j, home, OTHER_SIDE * length, MOST_SIDES, places);
+    for (size_t p = 0; p < found && has_time(s) && !s->failed; p++) {
+        if (hypot(places[p][0] - u[0], places[p][1] - u[1]) < OTHER_SIDE * length) continue;
+        /* The lighter goes farther. */
+        const double share = s->mass[j] / (s->mass[i] + s->mass[j]);
+        for (int c = 0; c < 2; c++) {
+            const double change = places[p][c] - u[c];
+            s->t[2 * j + (uint32_t)c] += share * change;
+            s->t[2 * i + (uint32_t)c] -= (1 - share) * change;
+        }
+        if (attempt_about(s, i, j, best, cost)) return true;
+    }
+    return false;
+}
+
 /* Pairs in contact put to their other sides. */
-static void try_sides(sunder_i_search *s, double *best, double *cost)
+static void try_sides(sunder_i_search *s, vain *v, double *best, double *cost)
 {
     size_t n;
     rank *order = rank_contacts(&s->program, &n);
@@ -159,36 +224,24 @@ static void try_sides(sunder_i_search *s, double *best, double *cost)
     size_t in_vain = 0;
     for (size_t k = 0; k < n && is_hopeful(s, in_vain) && has_time(s) && !s->failed; k++) {
         const uint32_t i = order[k].index, j = order[k].other;
-        const double home[2] = {0, 0}, u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
-        const double length = hypot(u[0], u[1]);
-        double places[MOST_SIDES][2];
-        const size_t found = sunder_i_search_free_pair(s, i, j, home, OTHER_SIDE * length, MOST_SIDES, places);
         in_vain++;
-        for (size_t p = 0; p < found && has_time(s) && !s->failed; p++) {
-            if (hypot(places[p][0] - u[0], places[p][1] - u[1]) < OTHER_SIDE * length) continue;
-            /* The lighter goes farther. */
-            const double share = s->mass[j] / (s->mass[i] + s->mass[j]);
-            for (int c = 0; c < 2; c++) {
-                const double change = places[p][c] - u[c];
-                s->t[2 * j + (uint32_t)c] += share * change;
-                s->t[2 * i + (uint32_t)c] -= (1 - share) * change;
-            }
-            if (!attempt_about(s, i, j, best, cost)) continue;
-            in_vain = 0;
-            break;
-        }
+        if (was_in_vain(s, v, i, j)) continue;
+        const uint64_t before = sunder_i_search_work(s);
+        const bool gained = try_sides_of(s, i, j, best, cost);
+        note_try(s, v, i, j, before, gained);
+        if (gained) in_vain = 0;
     }
     sunder_i_free(order);
 }
 
 /* Every place once, then every side once; in a large cluster with those about each only, after which all go down. */
-static void try_once(sunder_i_search *s, rank *order, double *best, double *cost)
+static void try_once(sunder_i_search *s, rank *order, vain *v, double *best, double *cost)
 {
     sunder_i_neighbourhood about = {0};
     if (sunder_i_search_movers(s) > MANY) s->neighbourhood = &about;
     if (s->neighbourhood && !sunder_i_neighbourhood_init(&about, s)) s->failed = true;
     const double start = *cost;
-    if (!s->failed) try_places(s, order, best, cost);
+    if (!s->failed) try_places(s, order, v, best, cost);
     /* All go down, which tells the forces too; unless they are known from when all did, and nobody has moved since. */
     if (s->neighbourhood && !s->failed && (*cost < start || s->program.n == 0)) sunder_i_search_attempt(s, best, cost);
     if (!s->neighbourhood && !s->failed) {
@@ -196,7 +249,7 @@ static void try_once(sunder_i_search *s, rank *order, double *best, double *cost
         memcpy(s->t, best, 2 * s->n * sizeof *best);
     }
     const double before = *cost;
-    if (has_time(s) && !s->failed) try_sides(s, best, cost);
+    if (has_time(s) && !s->failed) try_sides(s, v, best, cost);
     if (s->neighbourhood && *cost < before && !s->failed) sunder_i_search_attempt(s, best, cost);
     s->neighbourhood = NULL;
     sunder_i_neighbourhood_free(&about);
@@ -205,11 +258,13 @@ static void try_once(sunder_i_search *s, rank *order, double *best, double *cost
 /* Places and sides in turn, until a round of both gains little. */
 static void try_all(sunder_i_search *s, rank *order, double *best, double *cost)
 {
+    vain v = {0};
     for (int round = 0; round < BETTER_ROUNDS && has_time(s) && !s->failed; round++) {
         const double start = *cost;
-        try_once(s, order, best, cost);
+        try_once(s, order, &v, best, cost);
         if (!(*cost < start * (1 - ROUND_GAIN))) break;
     }
+    sunder_i_free(v.tried);
 }
 
 /* Does it stand without clashes? What rounding took of the margin is made good first. */
