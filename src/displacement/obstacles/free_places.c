@@ -362,7 +362,7 @@ size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2],
         *failed = *failed || sunder_i_stopped();
     }
     SUNDER_I_CHECK(check(&h), h.n);
-    *steps += h.work + 2 * (o->walls + o->left_sharp);
+    *steps += h.work + 2 * o->walls;
     sunder_i_cells_free(&h.cells);
     sunder_i_free(h.order);
     sunder_i_free(all.bare);

@@ -31,9 +31,6 @@ typedef struct sunder_i_obstacles {
     size_t walls, wall_capacity;
     sunder_i_obstacle_line *line; /* of each wall */
     size_t line_capacity;
-    bool about;              /* places are asked for about the target only, ... */
-    double target[2], reach; /* ... no farther from it than that */
-    size_t left_sharp;       /* tangents that corners too far off do without */
     bool failed;
 } sunder_i_obstacles;
 
@@ -41,9 +38,8 @@ typedef struct sunder_i_obstacles {
 double sunder_i_obstacle_slack(const sunder_i_obstacle *obstacle);
 
 void sunder_i_obstacles_free(sunder_i_obstacles *obstacles);
-/* There are none any more; the memory stays. Of those that are added from now on it is asked which places about the
- * target are free, with no limit above `reach`. (A zeroed struct is empty, and may be asked about any.) */
-void sunder_i_obstacles_begin(sunder_i_obstacles *obstacles, const double target[2], double reach);
+/* There are none any more; the memory stays. */
+void sunder_i_obstacles_clear(sunder_i_obstacles *obstacles);
 /* Adds the convex polygon d grown by gap; its round corners are replaced by tangents that contain them. */
 void sunder_i_obstacles_add(sunder_i_obstacles *obstacles, const double *d, size_t n, double gap);
 /* Local minima of the distance from target on the boundary of the free space, nearest first, at most `most` of them,

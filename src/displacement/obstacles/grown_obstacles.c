@@ -18,12 +18,9 @@ void sunder_i_obstacles_free(sunder_i_obstacles *obstacles)
     memset(obstacles, 0, sizeof *obstacles);
 }
 
-void sunder_i_obstacles_begin(sunder_i_obstacles *obstacles, const double target[2], double reach)
+void sunder_i_obstacles_clear(sunder_i_obstacles *obstacles)
 {
-    obstacles->n = obstacles->walls = obstacles->left_sharp = 0;
-    obstacles->about = true;
-    memcpy(obstacles->target, target, sizeof obstacles->target);
-    obstacles->reach = reach;
+    obstacles->n = obstacles->walls = 0;
     obstacles->failed = false;
 }
 
@@ -46,35 +43,21 @@ static inline void add_normal(sunder_i_obstacles *o, const double n[2], const do
         .n = {n[0], n[1]}, .h = n[0] * c[0] + n[1] * c[1] + gap, .from = {c[0], c[1]}, .obstacle = (uint32_t)o->n};
 }
 
-/* By how much normals may turn at a round corner, and the cosine of that; the square of the distance from the target
- * from which on corners stay sharp. */
+/* By how much normals may turn at a round corner, and the cosine of that. */
 typedef struct roundness {
-    double turn, cosine, far;
+    double turn, cosine;
 } roundness;
 
 /* Where the gap is next to nothing beside the polygon (the margin of a
  * search whose gap is 0, all shadows) so is what a corner holds too much. */
-static roundness find_roundness(const sunder_i_obstacles *o, const double *d, size_t n, double gap)
+static roundness find_roundness(const double *d, size_t n, double gap)
 {
     double box[4];
     sunder_i_box_clear(box);
     for (size_t k = 0; k < n; k++) sunder_i_box_include(box, d + 2 * k);
     const bool next_to_nothing = gap < NEXT_TO_NOTHING * (box[2] - box[0] + box[3] - box[1]);
-    const double turn = next_to_nothing ? CORNER_TURN_AT_MOST : CORNER_TURN,
-                 far = o->about ? o->reach + FAR_CORNER * gap : INFINITY;
-    return (roundness){turn, cos(turn), far * far};
-}
-
-/* A corner that is left sharp holds too much no farther from it than its tip, which at a right angle is 1.42 gaps off.
- * Where that is beyond reach no place is any other, and the tangents, most of what an obstacle costs, are not made: how
- * many there would be is told from the turn, since walls count as work. */
-static bool stays_sharp(sunder_i_obstacles *o, double sine, double cosine, const double c[2], const roundness *most)
-{
-    const double x = c[0] - o->target[0], y = c[1] - o->target[1];
-    if (!(x * x + y * y > most->far) || !(sine > 0) || !(cosine >= -RIGHT_ANGLE)) return false;
-    const double tangent[] = {cos(2 * CORNER_TURN), cos(3 * CORNER_TURN)};
-    o->left_sharp += cosine >= tangent[0] ? 1 : cosine >= tangent[1] ? 2 : 3;
-    return true;
+    const double turn = next_to_nothing ? CORNER_TURN_AT_MOST : CORNER_TURN;
+    return (roundness){turn, cos(turn)};
 }
 
 /* The normals between those of two edges that meet in c. */
@@ -82,7 +65,7 @@ static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2
                       const roundness *most)
 {
     const double sine = n[0] * m[1] - n[1] * m[0], cosine = n[0] * m[0] + n[1] * m[1];
-    if ((sine >= 0 && cosine > most->cosine) || stays_sharp(o, sine, cosine, c, most)) return;
+    if (sine >= 0 && cosine > most->cosine) return;
     const double turn = atan2(sine, cosine);
     const double angle = turn < -FLAT ? turn + 2 * PI : turn; /* a flat piece turns by half a circle */
     const int steps = (int)ceil(angle / most->turn);
@@ -123,7 +106,7 @@ void sunder_i_obstacles_add(sunder_i_obstacles *o, const double *d, size_t n, do
     }
     double before[2] = {0, 0}, first_normal[2] = {0, 0};
     const double *first_corner = d;
-    const roundness most = find_roundness(o, d, n, gap);
+    const roundness most = find_roundness(d, n, gap);
     bool any = false;
     for (size_t k = 0; k < n; k++) {
         const double *p = d + 2 * k, *q = d + 2 * (k + 1 < n ? k + 1 : 0);

@@ -12,10 +12,6 @@
  * gap too much, which nobody sees. */
 #define NEXT_TO_NOTHING 1e-6
 #define CORNER_TURN_AT_MOST (PI / 2 + FLAT)
-/* A corner is far if it is so many gaps beyond what is asked about: more than a sharp one sticks out, at a right angle
- * and those that are wider, but for rounding. */
-#define FAR_CORNER 1.5
-#define RIGHT_ANGLE 1e-3
 /* A turn to the right by no more than this is none: rounding of normals, where two sides lie on one line. */
 #define FLAT 1e-3
 /* Crossings are looked for among at most this many sides, the nearest to the target: it bounds the work where a block

@@ -209,7 +209,7 @@ static size_t find_beside(sunder_i_search *s, const sunder_i_body *p, const sund
     const bool coarse_p = many && !sunder_i_is_barrier_body(s->model, p),
                coarse_q = many && !sunder_i_is_barrier_body(s->model, q);
     sunder_i_obstacles *o = &s->obstacles;
-    sunder_i_obstacles_begin(o, target, reach);
+    sunder_i_obstacles_clear(o);
     add_obstacles(s, o, p, coarse_p, q, coarse_q, offset, target, reach);
     size_t n = sunder_i_free_places(o, target, reach, spread, most, places, &s->steps, &s->failed);
     if (n == 0 && outside && outside_all(o, target, INFINITY, places[0])) n = 1;
@@ -380,7 +380,7 @@ static bool find_among(others *all, const double home[2], double reach, double p
     double best[1][2];
     size_t n = 0;
     sunder_i_obstacles *o = &s->obstacles;
-    sunder_i_obstacles_begin(o, home, reach);
+    sunder_i_obstacles_clear(o);
     surround(all, o, home, reach);
     for (int shadows = 0; shadows < 2; shadows++) {
         n = sunder_i_free_places(o, home, reach, 0, 1, best, &s->steps, &s->failed);
