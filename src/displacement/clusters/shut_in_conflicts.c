@@ -58,12 +58,14 @@ sunder_status sunder_i_find_unsolvable(const sunder_i_model *model, const sunder
     uint64_t in_vain = 0;
     if ((uint64_t)model->body[body[0]].pieces * model->body[body[1]].pieces > MOST_IN_PLANE) return SUNDER_OK;
     sunder_i_planes planes = {0};
+    sunder_i_precedents precedents = {0};
     sunder_i_subproblem two = {.model = model,
                                .body = body,
                                .bodies = 2,
                                .instead = 2 * sunder_i_farthest_near(model, bodies->a, bodies->b),
                                .coarse = COARSE_IN_PLANE,
                                .planes = &planes,
+                               .precedents = &precedents,
                                .effort = 0, /* the plane, and nothing else */
                                .most = 2};
     uint32_t *members = members_of(model, bodies, &two.features);

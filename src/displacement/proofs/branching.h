@@ -261,6 +261,23 @@ typedef struct sunder_i_plane_answer {
 
 /* The question of the one body of a subproblem that may move, among what stands, or of its two. */
 sunder_status sunder_i_branching_plane(sunder_i_branching *branching, sunder_i_plane_answer *answer, sunder_error *err);
+/* The same of some places alone: feasible if nothing is in the way at one of them, else unknown. */
+sunder_status sunder_i_branching_plane_try(sunder_i_branching *branching, const double (*place)[2], size_t n,
+                                           sunder_i_plane_answer *answer, sunder_error *err);
+/* The bodies that the plane is about; false: it is about none. */
+bool sunder_i_branching_plane_bodies(const sunder_i_branching *branching, uint32_t *p, uint32_t *q);
+
+/* ---- precedents.c ------------------------------------------------------------------------------------------------ */
+
+/* What is known of those bodies. */
+sunder_i_precedent *sunder_i_precedents_take(sunder_i_precedents *precedents, uint32_t p, uint32_t q);
+void sunder_i_precedent_note_place(sunder_i_precedent *precedent, const double u[2]);
+/* False if memory is out. */
+bool sunder_i_precedent_note_proof(sunder_i_precedent *precedent, const sunder_i_model *model,
+                                   const sunder_proof *proof, bool fine);
+/* The things that may be enough for a proof, of those that are asked about; 0: they are no fewer. */
+size_t sunder_i_precedent_things(const sunder_i_precedent *precedent, const sunder_i_subproblem *asked,
+                                 uint32_t set[SUNDER_I_PRECEDENT_THINGS + 2]);
 
 /* ---- proof.c ----------------------------------------------------------------------------------------------------- */
 

@@ -70,16 +70,24 @@ static sunder_status take_plane_solution(const sunder_i_branching *c, const sund
     return SUNDER_OK;
 }
 
-/* What the plane of one relative move tells of it: an answer, or that there is a place where nothing is forbidden there
- * (*free), or neither. */
-static sunder_status decide_in_plane(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, bool *free,
-                                     sunder_error *err)
+/* What a question in the plane of one relative move came to. */
+typedef struct plane_told {
+    bool free;       /* there is a place where nothing is forbidden there */
+    double place[2]; /* then */
+} plane_told;
+
+/* What the plane of one relative move tells of it: an answer, or that there is a free place, or neither. places: NULL,
+ * or n places that alone are looked at. */
+static sunder_status decide_in_plane(const sunder_i_subproblem *subproblem, const double (*places)[2], size_t n,
+                                     sunder_i_decision *decision, plane_told *told, sunder_error *err)
 {
     sunder_i_branching c = {.subproblem = subproblem, .model = subproblem->model};
     sunder_i_plane_answer answer;
-    sunder_status status = sunder_i_branching_plane(&c, &answer, err);
+    sunder_status status = places ? sunder_i_branching_plane_try(&c, places, n, &answer, err)
+                                  : sunder_i_branching_plane(&c, &answer, err);
     decision->verdict = answer.verdict;
-    *free = answer.free;
+    told->free = answer.free;
+    memcpy(told->place, answer.u, sizeof told->place);
     if (!status && answer.verdict == SUNDER_I_INFEASIBLE) {
         decision->proof = sunder_i_proof_of(&c, answer.root);
         if (!decision->proof) status = sunder_i_no_memory(err);
@@ -94,18 +102,74 @@ static sunder_status decide_in_plane(const sunder_i_subproblem *subproblem, sund
 }
 
 /* First by lines that are as coarse as was asked for. */
-static sunder_status ask_plane(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, sunder_error *err)
+static sunder_status ask_all(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, plane_told *told,
+                             sunder_error *err)
 {
     sunder_i_subproblem closely = *subproblem;
-    bool free;
-    sunder_status status = decide_in_plane(subproblem, decision, &free, err);
+    sunder_status status = SUNDER_OK;
+    const bool coarsely = subproblem->coarse > 0 && !subproblem->fine_plane;
+    decision->fine_plane = !coarsely;
     closely.coarse = 0;
-    if (!status && free && subproblem->coarse > 0) {
+    if (coarsely) status = decide_in_plane(subproblem, NULL, 0, decision, told, err);
+    if (!status && coarsely && told->free) {
         sunder_i_free(decision->solution.body);
         sunder_i_free(decision->solution.move);
         decision->solution = (sunder_i_solution){0};
-        status = decide_in_plane(&closely, decision, &free, err);
+        decision->fine_plane = true;
     }
+    if (!status && decision->fine_plane) status = decide_in_plane(&closely, NULL, 0, decision, told, err);
+    return status;
+}
+
+/* By what was told before. */
+static sunder_status ask_precedent(const sunder_i_subproblem *subproblem, const sunder_i_precedent *precedent,
+                                   sunder_i_decision *decision, plane_told *told, sunder_error *err)
+{
+    uint32_t set[SUNDER_I_PRECEDENT_THINGS + 2];
+    sunder_i_subproblem some = *subproblem;
+    sunder_status status = SUNDER_OK;
+    some.coarse = 0;
+    if (precedent->places)
+        status = decide_in_plane(&some, precedent->place, precedent->places, decision, told, err);
+    if (status || told->free) return status;
+    some.features = sunder_i_precedent_things(precedent, subproblem, set);
+    if (!some.features) return SUNDER_OK;
+    some.feature = set;
+    some.coarse = precedent->fine ? 0 : subproblem->coarse;
+    status = decide_in_plane(&some, NULL, 0, decision, told, err);
+    decision->fine_plane = precedent->fine;
+    if (decision->verdict == SUNDER_I_INFEASIBLE) return status;
+    sunder_i_free(decision->solution.body);
+    sunder_i_free(decision->solution.move);
+    decision->solution = (sunder_i_solution){0};
+    decision->verdict = SUNDER_I_UNKNOWN;
+    told->free = false;
+    return status;
+}
+
+static sunder_status note(const sunder_i_subproblem *subproblem, const sunder_i_decision *decision,
+                          const plane_told *told, sunder_i_precedent *precedent, sunder_error *err)
+{
+    if (told->free) sunder_i_precedent_note_place(precedent, told->place);
+    if (!decision->proof ||
+        sunder_i_precedent_note_proof(precedent, subproblem->model, decision->proof, decision->fine_plane))
+        return SUNDER_OK;
+    return sunder_i_no_memory(err);
+}
+
+static sunder_status ask_plane(const sunder_i_branching *c, sunder_i_decision *decision, sunder_error *err)
+{
+    const sunder_i_subproblem *subproblem = c->subproblem;
+    sunder_i_precedent *precedent = NULL;
+    plane_told told = {.free = false};
+    uint32_t p, q;
+    sunder_status status = SUNDER_OK;
+    if (subproblem->precedents && sunder_i_branching_plane_bodies(c, &p, &q))
+        precedent = sunder_i_precedents_take(subproblem->precedents, p, q);
+    if (precedent) status = ask_precedent(subproblem, precedent, decision, &told, err);
+    if (!status && decision->verdict == SUNDER_I_UNKNOWN && !told.free)
+        status = ask_all(subproblem, decision, &told, err);
+    if (!status && precedent) status = note(subproblem, decision, &told, precedent, err);
     decision->no_plane = decision->verdict == SUNDER_I_UNKNOWN;
     return status;
 }
@@ -131,7 +195,7 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
     with_slack.slack = subproblem->slack || (c.walls && (c.wall[0].slack || c.wall[1].slack));
     c.subproblem = &with_slack;
     if (!status && limited && c.longest > 0 && !subproblem->slack && !subproblem->still && !subproblem->no_plane)
-        status = ask_plane(subproblem, decision, err);
+        status = ask_plane(&c, decision, err);
     if (status || decision->verdict != SUNDER_I_UNKNOWN || subproblem->effort == 0) {
         sunder_i_free(c.body);
         sunder_i_free(c.t);

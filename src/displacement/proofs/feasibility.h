@@ -20,6 +20,23 @@ typedef struct sunder_i_planes {
 
 void sunder_i_planes_clear(sunder_i_planes *planes);
 
+/* What earlier questions about the same bodies told: the things that were enough for a proof, and places where nothing
+ * was in the way, the last first; of one model, which does not change (precedents.c). All zero: none. */
+#define SUNDER_I_PRECEDENTS 16
+#define SUNDER_I_PRECEDENT_THINGS 48
+#define SUNDER_I_PRECEDENT_PLACES 4
+typedef struct sunder_i_precedent {
+    uint32_t p, q; /* bodies, as in the plane of their relative move; equal: nothing is known */
+    bool fine;     /* coarse lines were no proof */
+    uint32_t thing[SUNDER_I_PRECEDENT_THINGS];
+    size_t things, places;
+    double place[SUNDER_I_PRECEDENT_PLACES][2];
+} sunder_i_precedent;
+
+typedef struct sunder_i_precedents {
+    sunder_i_precedent of[SUNDER_I_PRECEDENTS];
+} sunder_i_precedents;
+
 typedef struct sunder_i_subproblem {
     const sunder_i_model *model;
     const uint32_t *body; /* the bodies to begin with; those that they run into are asked about as well */
@@ -46,7 +63,10 @@ typedef struct sunder_i_subproblem {
     bool every_way;          /* the ways of all members of `body` are heeded, whoever else is not */
     double instead;          /* > 0: a limit for those that have none; else they are not asked about */
     bool no_plane;           /* the plane of one relative move has been asked about, and had no answer */
+    bool fine_plane;         /* and by coarse lines it has none: it is not asked about by them */
     sunder_i_planes *planes; /* NULL, or kept for who asks about the same bodies again */
+    /* NULL, or what was told before is tried first: then solutions are any that there are, and proofs. */
+    sunder_i_precedents *precedents;
     uint64_t effort;         /* in constraints looked at; 0: the plane of one relative move is asked, and no more */
     size_t most;             /* it ends where more bodies than these take part */
 } sunder_i_subproblem;
@@ -62,7 +82,7 @@ typedef struct sunder_i_decision {
     sunder_i_solution solution; /* if SUNDER_I_FEASIBLE */
     sunder_proof *proof;        /* if SUNDER_I_INFEASIBLE */
     uint64_t work;
-    bool no_plane; /* as above, for who asks again */
+    bool no_plane, fine_plane; /* as above, for who asks again, of these things or fewer */
 } sunder_i_decision;
 
 /* Who pushes whom in a cluster, kept for all questions about its conflicts; of one thread, and of one model, which does
@@ -83,6 +103,9 @@ bool sunder_i_may_have_slack(const sunder_i_subproblem *subproblem);
 sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, sunder_error *err);
 void sunder_i_decision_clear(sunder_i_decision *decision);
 void sunder_i_proof_free(sunder_proof *proof);
+/* The features that a proof names, and its barriers by their first parts, ascending: into set, which has room for three
+ * a node. */
+size_t sunder_i_proof_things(const sunder_i_model *model, const sunder_proof *proof, uint32_t *set);
 /* Leaves nothing of it but whom it names: each two things of its inner nodes once. It proves nothing then. */
 void sunder_i_proof_strip(sunder_proof *proof);
 

@@ -363,18 +363,40 @@ static bool is_all(const sunder_i_branching *c, const sunder_i_plane *g)
     return true;
 }
 
+/* What is forbidden is found. False if memory is out. */
+static bool begin(sunder_i_branching *c, sunder_i_plane *g, sunder_i_planes *own)
+{
+    g->i = sunder_i_branching_join(c, g->p);
+    g->j = g->q == SUNDER_I_GROUND ? SUNDER_I_GROUND : sunder_i_branching_join(c, g->q);
+    for (size_t k = 0; k < c->bodies && !c->failed; k++) g->reach += c->limit[k];
+    sunder_i_plane_disc(&g->disc, g->reach);
+    sunder_i_planes *planes = c->subproblem->planes ? c->subproblem->planes : own;
+    return !c->failed && (g->kept = sunder_i_planes_take(planes, g)) != NULL && sunder_i_plane_list(g) &&
+           sunder_i_plane_index_begin(g);
+}
+
+static void end(sunder_i_branching *c, sunder_i_plane *g, sunder_i_planes *own, sunder_i_plane_answer *answer)
+{
+    answer->p = g->p;
+    answer->q = g->q;
+    memcpy(answer->u, g->free, sizeof g->free);
+    answer->free = answer->verdict == SUNDER_I_FEASIBLE;
+    if (answer->free && !is_all(c, g)) answer->verdict = SUNDER_I_UNKNOWN;
+    sunder_i_planes_clear(own);
+    sunder_i_free(g->run);
+    sunder_i_free(g->place);
+    sunder_i_free(g->few);
+    sunder_i_free(g->fresh);
+    sunder_i_plane_choices_free(&g->made);
+}
+
 sunder_status sunder_i_branching_plane(sunder_i_branching *c, sunder_i_plane_answer *answer, sunder_error *err)
 {
     *answer = (sunder_i_plane_answer){.verdict = SUNDER_I_UNKNOWN};
     sunder_i_plane g = {.c = c};
+    sunder_i_planes own = {0};
     if (!find_bodies(c, &g)) return SUNDER_OK;
-    g.i = sunder_i_branching_join(c, g.p);
-    g.j = g.q == SUNDER_I_GROUND ? SUNDER_I_GROUND : sunder_i_branching_join(c, g.q);
-    for (size_t k = 0; k < c->bodies && !c->failed; k++) g.reach += c->limit[k];
-    sunder_i_plane_disc(&g.disc, g.reach);
-    sunder_i_planes own = {0}, *planes = c->subproblem->planes ? c->subproblem->planes : &own;
-    const bool ok = !c->failed && (g.kept = sunder_i_planes_take(planes, &g)) != NULL && sunder_i_plane_list(&g) &&
-                    sunder_i_plane_index_begin(&g) && sunder_i_plane_choices_begin(&g);
+    const bool ok = begin(c, &g, &own) && sunder_i_plane_choices_begin(&g);
     sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
     if (ok) {
         sunder_i_levels levels;
@@ -383,16 +405,46 @@ sunder_status sunder_i_branching_plane(sunder_i_branching *c, sunder_i_plane_ans
         if (!status && !sunder_i_plane_choices_end(&g, answer->verdict == SUNDER_I_INFEASIBLE))
             status = sunder_i_no_memory(err);
     }
-    answer->p = g.p;
-    answer->q = g.q;
-    memcpy(answer->u, g.free, sizeof g.free);
-    answer->free = answer->verdict == SUNDER_I_FEASIBLE;
-    if (answer->free && !is_all(c, &g)) answer->verdict = SUNDER_I_UNKNOWN;
-    sunder_i_planes_clear(&own);
-    sunder_i_free(g.run);
-    sunder_i_free(g.place);
-    sunder_i_free(g.few);
-    sunder_i_free(g.fresh);
-    sunder_i_plane_choices_free(&g.made);
+    end(c, &g, &own, answer);
     return status;
+}
+
+/* Is nothing in the way there? */
+static bool is_free(sunder_i_plane *g, const double u[2])
+{
+    sunder_i_chord chord;
+    size_t ways;
+    if (hypot(u[0], u[1]) > g->reach) return false;
+    if (!sunder_i_plane_index_find(g, u)) g->c->failed = true;
+    g->c->looked += PLACE_LOOK + g->obstacles / BOXES_A_STEP;
+    for (size_t k = 0; k < g->about_place && !g->c->failed; k++)
+        if (holds(g, &g->kept->obstacle[g->place[k]->at], u, 0)) return false;
+    return !g->c->failed && !sunder_i_plane_find_chord(g, u, &chord, &ways) && !choose_closely(g, u, &ways);
+}
+
+sunder_status sunder_i_branching_plane_try(sunder_i_branching *c, const double (*at)[2], size_t n,
+                                           sunder_i_plane_answer *answer, sunder_error *err)
+{
+    *answer = (sunder_i_plane_answer){.verdict = SUNDER_I_UNKNOWN};
+    sunder_i_plane g = {.c = c};
+    sunder_i_planes own = {0};
+    if (!n || !find_bodies(c, &g)) return SUNDER_OK;
+    const bool ok = begin(c, &g, &own);
+    for (size_t k = 0; k < n && ok && !c->failed && answer->verdict == SUNDER_I_UNKNOWN; k++) {
+        if (!is_free(&g, at[k])) continue;
+        answer->verdict = SUNDER_I_FEASIBLE;
+        memcpy(g.free, at[k], sizeof g.free);
+    }
+    const sunder_status status = ok && !c->failed ? SUNDER_OK : sunder_i_no_memory(err);
+    end(c, &g, &own, answer);
+    return status;
+}
+
+bool sunder_i_branching_plane_bodies(const sunder_i_branching *c, uint32_t *p, uint32_t *q)
+{
+    sunder_i_plane g = {.c = NULL};
+    if (!find_bodies(c, &g)) return false;
+    *p = g.p;
+    *q = g.q;
+    return true;
 }

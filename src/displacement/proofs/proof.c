@@ -159,6 +159,19 @@ void sunder_i_proof_free(sunder_proof *proof)
     sunder_i_free(proof);
 }
 
+size_t sunder_i_proof_things(const sunder_i_model *model, const sunder_proof *proof, uint32_t *set)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < proof->nodes; k++) {
+        const sunder_proof_node *node = &proof->node[k];
+        if (!node->ways) continue;
+        set[n++] = sunder_i_whole_of(model, (uint32_t)node->a);
+        set[n++] = sunder_i_whole_of(model, (uint32_t)node->b);
+        if (node->chord) set[n++] = sunder_i_whole_of(model, (uint32_t)node->c);
+    }
+    return sunder_i_set_make(set, n);
+}
+
 static int by_things(const void *a, const void *b)
 {
     const sunder_proof_node *p = a, *q = b;

@@ -22,13 +22,19 @@ static double limit_of(const sunder_i_model *model, size_t f)
     return body->fixed ? 0 : body->limit;
 }
 
+/* What questions about the same two bodies have in common. */
+typedef struct common {
+    sunder_i_planes planes;
+    sunder_i_precedents precedents;
+} common;
+
 /* Which rules about ways the pair is asked about under. */
 typedef enum ways_heeded { NO_WAYS, SIDES, SIDES_AND_JUMPS } ways_heeded;
 
 /* The proof that the pair by itself, under those rules, has no solution; NULL if none is found. Whoever is of their
  * blocks goes with them. instead: a limit for who has none. */
 static sunder_status prove_alone(const sunder_i_model *model, const sunder_conflict *c, ways_heeded ways,
-                                 double instead, sunder_i_planes *planes, sunder_proof **proof, sunder_error *err)
+                                 double instead, common *both, sunder_proof **proof, sunder_error *err)
 {
     const size_t bodies = c->b < model->features ? 2 : 1;
     const uint32_t feature[2] = {(uint32_t)c->a, (uint32_t)c->b},
@@ -45,7 +51,8 @@ static sunder_status prove_alone(const sunder_i_model *model, const sunder_confl
                                        .any_way = ways == NO_WAYS,
                                        .every_way = true,
                                        .instead = instead,
-                                       .planes = planes,
+                                       .planes = &both->planes,
+                                       .precedents = &both->precedents,
                                        .effort = ALONE_EFFORT,
                                        .most = ALONE_MOST};
     sunder_i_decision decision;
@@ -59,28 +66,28 @@ static sunder_status prove_alone(const sunder_i_model *model, const sunder_confl
 /* Where one of the two has no limit. Beyond where the two are apart for certain nothing but shadows forbids a relative
  * move, and these have no end: whatever direction leads into one there leads on in it for ever. So what has no solution
  * a little farther than there has none at all; sides, which are about moves of the one, are left out. */
-static sunder_status reason_without_limit(const sunder_i_model *model, sunder_conflict *c, sunder_i_planes *planes,
+static sunder_status reason_without_limit(const sunder_i_model *model, sunder_conflict *c, common *both,
                                           sunder_proof **proof, sunder_error *err)
 {
     if (model->rules.jumps || c->b >= model->features) return SUNDER_OK;
     const double within = 2 * sunder_i_farthest_near(model, model->body_of[c->a], model->body_of[c->b]);
-    const sunder_status status = prove_alone(model, c, SIDES_AND_JUMPS, within, planes, proof, err);
+    const sunder_status status = prove_alone(model, c, SIDES_AND_JUMPS, within, both, proof, err);
     if (*proof) c->reason = SUNDER_REASON_JUMP;
     return status;
 }
 
 /* Within limits that by themselves leave a solution. */
-static sunder_status reason_of_ways(const sunder_i_model *model, sunder_conflict *c, sunder_i_planes *planes,
-                                    sunder_proof **proof, sunder_error *err)
+static sunder_status reason_of_ways(const sunder_i_model *model, sunder_conflict *c, common *both, sunder_proof **proof,
+                                    sunder_error *err)
 {
     const bool jump = !model->rules.jumps && c->b < model->features;
     if (!jump && model->sides == 0) return SUNDER_OK;
-    sunder_status status = prove_alone(model, c, jump ? SIDES_AND_JUMPS : SIDES, 0, planes, proof, err);
+    sunder_status status = prove_alone(model, c, jump ? SIDES_AND_JUMPS : SIDES, 0, both, proof, err);
     if (status || !*proof) return status;
     c->reason = jump ? SUNDER_REASON_JUMP : SUNDER_REASON_SIDE;
     if (!jump || model->sides == 0) return SUNDER_OK;
     sunder_proof *by_sides = NULL;
-    status = prove_alone(model, c, SIDES, 0, planes, &by_sides, err);
+    status = prove_alone(model, c, SIDES, 0, both, &by_sides, err);
     if (!by_sides) return status;
     sunder_i_proof_free(*proof);
     *proof = by_sides;
@@ -88,20 +95,20 @@ static sunder_status reason_of_ways(const sunder_i_model *model, sunder_conflict
     return status;
 }
 
-static sunder_status find_reason(const sunder_i_model *model, sunder_conflict *c, sunder_i_planes *planes,
-                                 sunder_proof **proof, sunder_error *err)
+static sunder_status find_reason(const sunder_i_model *model, sunder_conflict *c, common *both, sunder_proof **proof,
+                                 sunder_error *err)
 {
     const double limit[2] = {limit_of(model, c->a), limit_of(model, c->b)}, reach = limit[0] + limit[1];
     const bool shut = c->b < model->features && sunder_i_are_shut_in(model, (uint32_t)c->a, (uint32_t)c->b);
     c->reason = reach == 0 ? SUNDER_REASON_FIXED : shut ? SUNDER_REASON_JUMP : SUNDER_REASON_UNRESOLVED;
     if (reach == 0) return SUNDER_OK;
-    if (reach == INFINITY) return reason_without_limit(model, c, planes, proof, err);
+    if (reach == INFINITY) return reason_without_limit(model, c, both, proof, err);
     sunder_i_resolution resolution;
     const sunder_status status = sunder_i_resolve_within(model, c->a, c->b, limit, &resolution, err);
     if (status) return status;
-    if (!resolution.beyond) return reason_of_ways(model, c, planes, proof, err);
+    if (!resolution.beyond) return reason_of_ways(model, c, both, proof, err);
     c->reason = SUNDER_REASON_MAX_SHIFT;
-    return model->rules.keep_trees ? prove_alone(model, c, NO_WAYS, 0, planes, proof, err) : SUNDER_OK;
+    return model->rules.keep_trees ? prove_alone(model, c, NO_WAYS, 0, both, proof, err) : SUNDER_OK;
 }
 
 /* ---- All of them ------------------------------------------------------------------------------------------------- */
@@ -132,17 +139,17 @@ static sunder_status find_reasons(void *context, size_t begin, size_t end, sunde
     const asking *g = context;
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
-        sunder_i_planes planes = {0};
+        common both = {0};
         for (size_t m = g->first[k]; m < g->first[k + 1] && !status; m++) {
             const uint32_t at = g->matter[m].conflict;
             sunder_conflict *c = &g->report->conflict[at];
             sunder_i_reading reading;
             sunder_i_reads_begin(&reading, g->model, sunder_i_reader_of(g->model, c->a, c->b));
-            status = find_reason(g->model, c, &planes, &g->report->proof[at], err);
+            status = find_reason(g->model, c, &both, &g->report->proof[at], err);
             sunder_i_reads_end(&reading);
             if (g->model->rules.drop_proofs) sunder_i_proof_strip(g->report->proof[at]);
         }
-        sunder_i_planes_clear(&planes);
+        sunder_i_planes_clear(&both.planes);
     }
     return status;
 }

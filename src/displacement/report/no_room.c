@@ -39,27 +39,13 @@ static sunder_status find_some_requirements(void *context, size_t begin, size_t 
 
 /* ---- A proof that needs all it says ------------------------------------------------------------------------------ */
 
-/* The features of a proof, and its barriers by their first parts, ascending: into set, which has room for three
- * a node. */
-static size_t features_of(const sunder_i_model *model, const sunder_proof *proof, uint32_t *set)
-{
-    size_t n = 0;
-    for (size_t k = 0; k < proof->nodes; k++)
-        if (proof->node[k].ways) {
-            set[n++] = sunder_i_whole_of(model, (uint32_t)proof->node[k].a);
-            set[n++] = sunder_i_whole_of(model, (uint32_t)proof->node[k].b);
-            if (proof->node[k].chord) set[n++] = sunder_i_whole_of(model, (uint32_t)proof->node[k].c);
-        }
-    return sunder_i_set_make(set, n);
-}
-
-/* The same into a set that has room for them: they are among those of another proof, whose nodes may be fewer. False if
- * memory is out. */
+/* The things of a proof into a set that has room for them: they are among those of another proof, whose nodes may be
+ * fewer. False if memory is out. */
 static bool take_features(const sunder_i_model *model, const sunder_proof *proof, uint32_t *set, size_t *n)
 {
     uint32_t *all = sunder_i_alloc(3 * proof->nodes, sizeof *all);
     if (!all) return false;
-    *n = features_of(model, proof, all);
+    *n = sunder_i_proof_things(model, proof, all);
     memcpy(set, all, *n * sizeof *set);
     sunder_i_free(all);
     return true;
@@ -75,7 +61,7 @@ static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_i_deci
     uint32_t *all = sunder_i_alloc(room, sizeof *all), *set = sunder_i_alloc(room, sizeof *set);
     uint32_t *body = sunder_i_alloc(room, sizeof *body);
     sunder_status status = all && set && body ? SUNDER_OK : sunder_i_no_memory(err);
-    const size_t n = status ? 0 : features_of(q.model, *proof, all);
+    const size_t n = status ? 0 : sunder_i_proof_things(q.model, *proof, all);
     size_t left = n;
     if (n) memcpy(set, all, n * sizeof *set);
     q.effort = subproblem->effort < LITTLE_EFFORT ? LITTLE_EFFORT : subproblem->effort;
@@ -96,6 +82,7 @@ static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_i_deci
         sunder_i_decision decision;
         status = decide(&q, &decision, err);
         if (decision.proof) {
+            q.fine_plane = decision.fine_plane;
             sunder_i_proof_free(*proof);
             *proof = decision.proof;
             decision.proof = NULL;
@@ -160,15 +147,17 @@ static bool ask_closer(const sunder_i_subproblem *q, matter *m)
 
 /* The conflict has the decision's proof from now on, if there is one; what it can do without is left out, if it is to
  * be reduced. Clears the decision. */
-static sunder_status keep_proof(const asking *g, const matter *m, const sunder_i_subproblem *q,
+static sunder_status keep_proof(const asking *g, const matter *m, const sunder_i_subproblem *asked,
                                 sunder_i_decision *decision, bool reducible, sunder_error *err)
 {
+    sunder_i_subproblem q = *asked;
     sunder_proof **proof = &g->report->proof[m->conflict];
     *proof = decision->proof;
+    q.fine_plane = decision->fine_plane; /* what coarse lines do not prove of all they do not prove of fewer */
     decision->proof = NULL;
     sunder_i_decision_clear(decision);
     if (!*proof) return SUNDER_OK;
-    const sunder_status status = reducible ? reduce(q, g->decide, proof, err) : SUNDER_OK;
+    const sunder_status status = reducible ? reduce(&q, g->decide, proof, err) : SUNDER_OK;
     if (status) return status;
     if (g->solver->model.rules.drop_proofs) sunder_i_proof_strip(*proof);
     g->report->conflict[m->conflict].reason = SUNDER_REASON_NO_ROOM;
@@ -309,11 +298,13 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
     for (size_t k = begin; k < end; k++) {
         matter *first = g->matter + g->first[k], *last = g->matter + g->first[k + 1];
         sunder_i_planes planes = {0};
+        sunder_i_precedents precedents = {0};
         sunder_i_subproblem q = {.model = &g->solver->model,
                                  .required = g->required,
                                  .required_n = g->required_n,
                                  .most = MOST_BODIES,
-                                 .planes = &planes};
+                                 .planes = &planes,
+                                 .precedents = &precedents};
         q.reserve = sunder_i_solver_members(g->solver, first->root, &q.reserves);
         q.farthest = farthest_of(q.model, q.reserve, q.reserves);
         sunder_i_reading reading;
