@@ -83,8 +83,8 @@ static sunder_status decide_in_plane(const sunder_i_subproblem *subproblem, cons
 {
     sunder_i_branching c = {.subproblem = subproblem, .model = subproblem->model};
     sunder_i_plane_answer answer;
-    sunder_status status = places ? sunder_i_branching_plane_try(&c, places, n, &answer, err)
-                                  : sunder_i_branching_plane(&c, &answer, err);
+    sunder_status status =
+        places ? sunder_i_branching_plane_try(&c, places, n, &answer, err) : sunder_i_branching_plane(&c, &answer, err);
     decision->verdict = answer.verdict;
     told->free = answer.free;
     memcpy(told->place, answer.u, sizeof told->place);
@@ -129,8 +129,7 @@ static sunder_status ask_precedent(const sunder_i_subproblem *subproblem, const 
     sunder_i_subproblem some = *subproblem;
     sunder_status status = SUNDER_OK;
     some.coarse = 0;
-    if (precedent->places)
-        status = decide_in_plane(&some, precedent->place, precedent->places, decision, told, err);
+    if (precedent->places) status = decide_in_plane(&some, precedent->place, precedent->places, decision, told, err);
     if (status || told->free) return status;
     some.features = sunder_i_precedent_things(precedent, subproblem, set);
     if (!some.features) return SUNDER_OK;

@@ -22,6 +22,7 @@ typedef struct sunder_i_plane_obstacle {
     const sunder_i_body_piece *a, *b;
     uint32_t q;  /* the body of b */
     bool shadow; /* of an anchor, of a side anchor */
+    bool made;   /* its ways are; none: limits leave nothing of it */
     double clearance;
     size_t way, ways;
     uint32_t run, rank; /* rank: its place among those found, the same for all clearances */
@@ -33,16 +34,16 @@ typedef struct sunder_i_plane_obstacle {
 typedef struct sunder_i_plane_run {
     uint32_t f, g;
     bool shadow, side;
-    bool made;  /* its ways are, for this clearance */
+    bool made;  /* it is listed what limits may leave of it, for this clearance */
     bool asked; /* they are forbidden in the question at hand */
     double clearance;
     size_t first, end;
-    size_t reached; /* that limits leave anything of */
+    size_t reached; /* that limits may leave anything of */
     uint32_t next;  /* the same for another clearance; 0: there is none */
     uint64_t cost;  /* of making them, in constraints looked at */
 } sunder_i_plane_run;
 
-/* An obstacle that limits leave something of, its box, and its run. */
+/* An obstacle that limits may leave something of, its box, and its run. */
 typedef struct sunder_i_plane_item {
     double box[4];
     uint32_t at, run;
@@ -69,7 +70,7 @@ struct sunder_i_plane_kept {
     uint32_t p, q; /* bodies; q: SUNDER_I_GROUND: all that stands */
     double reach, coarse;
     sunder_i_plane_obstacle *obstacle;
-    double *box; /* [4 obstacles] of what limits leave of them; empty: nothing */
+    double *box; /* [4 obstacles] about what limits leave of them, close where ways are made; empty: nothing */
     size_t n, capacity, box_capacity;
     sunder_i_plane_run *run; /* first those that were found */
     size_t found, runs, run_capacity;
@@ -97,7 +98,7 @@ typedef struct sunder_i_plane {
     bool are_few;
     sunder_i_plane_item *few; /* then: all of them */
     size_t few_capacity;
-    const sunder_i_plane_item **place; /* those in whose boxes the place is that is looked at */
+    sunder_i_plane_item **place; /* those in whose boxes the place is that is looked at */
     size_t about_place, place_capacity;
     const sunder_i_plane_choices *known; /* NULL, or of a question about nearly the same */
     sunder_i_plane_item *fresh;          /* what is forbidden now that was not in it */
@@ -141,6 +142,11 @@ void sunder_i_plane_middle(const sunder_i_plane_region *region, const double nea
 
 /* Lists what may forbid moves of p beside q, or beside all that stands within reach. False if memory is out. */
 bool sunder_i_plane_find(const sunder_i_plane *plane, struct sunder_i_plane_kept *kept);
+/* A box about what limits may leave of an obstacle, empty if nothing. */
+void sunder_i_plane_bound(const sunder_i_plane *plane, const sunder_i_plane_obstacle *obstacle, double clearance,
+                          double box[4]);
+/* Makes the ways of an obstacle that is listed. False if memory is out. */
+bool sunder_i_plane_make_ways(sunder_i_plane *plane, size_t at);
 /* Says what does so in the question at hand. False if memory is out. */
 bool sunder_i_plane_list(sunder_i_plane *plane);
 
@@ -178,6 +184,18 @@ bool sunder_i_plane_choices_add(sunder_i_plane *plane, uint32_t region, uint32_t
 /* They are kept if the question was proved. False if memory is out. */
 bool sunder_i_plane_choices_end(sunder_i_plane *plane, bool proved);
 void sunder_i_plane_choices_free(sunder_i_plane_choices *choices);
+
+/* ---- plane_choose.c ---------------------------------------------------------------------------------------------- */
+
+/* Of those that hold the place, the one that takes most of the region, of equals the first that was found; its ways are
+ * in c->scratch then. NULL: none does. known: what was chosen for that region of all that is not fresh, or NULL. */
+const sunder_i_plane_obstacle *sunder_i_plane_choose(sunder_i_plane *plane, const sunder_i_plane_region *region,
+                                                     const double u[2], const sunder_i_plane_choice *known,
+                                                     double *share);
+/* The first of all that holds the place by lines that are made for that; its ways are in c->scratch then. */
+const sunder_i_plane_obstacle *sunder_i_plane_choose_closely(sunder_i_plane *plane, const double u[2], size_t *ways);
+/* Is nothing in the way there? */
+bool sunder_i_plane_is_free(sunder_i_plane *plane, const double u[2]);
 
 /* ---- chord.c ----------------------------------------------------------------------------------------------------- */
 

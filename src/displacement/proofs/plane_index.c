@@ -77,7 +77,7 @@ bool sunder_i_plane_index_begin(sunder_i_plane *g)
 }
 
 /* Those of the items that are asked, and in whose boxes the place is. */
-static void take(sunder_i_plane *g, const sunder_i_plane_item *item, const sunder_i_plane_item *end, const double u[2])
+static void take(sunder_i_plane *g, sunder_i_plane_item *item, const sunder_i_plane_item *end, const double u[2])
 {
     const sunder_i_plane_run *run = g->kept->run;
     for (; item < end; item++)

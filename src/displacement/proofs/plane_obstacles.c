@@ -1,7 +1,7 @@
 /* What is forbidden in the plane of one relative move: pieces that are nearer than they owe, and what anchors may not
  * pass. Which could be is a matter of the model alone, and is found once for all questions about the two bodies; what
  * they owe each other is the question's, of which most ask for the same of nearly all. The ways of each are made once,
- * as in violations.c. */
+ * as in violations.c, when the first place is asked about that they may be about: of most there is none. */
 #include "displacement/layer/reads.h"
 #include "displacement/proofs/plane.h"
 
@@ -11,6 +11,7 @@
 
 #include "base/list.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -200,6 +201,33 @@ bool sunder_i_plane_find(const sunder_i_plane *g, struct sunder_i_plane_kept *ke
 
 /* ---- What is forbidden ------------------------------------------------------------------------------------------- */
 
+/* A box that no relative move within the limits is outside of that is behind all ways of an obstacle: they stand for no
+ * more than A + (-B) and its clearance, or its shadow, which is what is seen of it up to so many times as far off. */
+void sunder_i_plane_bound(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, double clearance, double box[4])
+{
+    const sunder_i_body *body = g->c->model->body;
+    const double far = g->disc.xy[0] * (1 + 0x1p-20);
+    double square = 0;
+    for (uint32_t x = 0; x < 2; x++) {
+        const double offset = body[o->q].origin[x] - body[g->p].origin[x];
+        box[x] = o->a->box[x] - o->b->box[x + 2] - offset;
+        box[x + 2] = o->a->box[x + 2] - o->b->box[x] - offset;
+        const double off = fmax(fmax(box[x], -box[x + 2]), 0);
+        square += off * off;
+    }
+    const double times = o->shadow ? far / sqrt(square) : 1,
+                 margin = fmax(o->shadow ? 0 : clearance, 0) + BOX_MARGIN * far;
+    for (uint32_t x = 0; x < 2; x++) {
+        if (times > 1) {
+            if (box[x] < 0) box[x] *= times;
+            if (box[x + 2] > 0) box[x + 2] *= times;
+        }
+        box[x] = fmax(box[x] - margin, -far);
+        box[x + 2] = fmin(box[x + 2] + margin, far);
+    }
+    if (sqrt(square) > far + margin || !(box[0] <= box[2] && box[1] <= box[3])) sunder_i_box_clear(box);
+}
+
 /* What limits leave of what is behind the ways in c->scratch: its box. False: nothing. */
 static bool is_within_reach(const sunder_i_plane *g, size_t ways, double box[4])
 {
@@ -216,41 +244,51 @@ static bool is_within_reach(const sunder_i_plane *g, size_t ways, double box[4])
     return ways > 0;
 }
 
-/* Makes the ways of an obstacle. False if memory is out. */
-static bool make_ways(sunder_i_plane *g, size_t at, double clearance)
+bool sunder_i_plane_make_ways(sunder_i_plane *g, size_t at)
 {
     struct sunder_i_plane_kept *kept = g->kept;
     const sunder_i_model *model = g->c->model;
     sunder_i_plane_obstacle *o = &kept->obstacle[at];
-    double *box = kept->box + 4 * at;
+    const uint64_t looked = g->c->looked;
+    double box[4];
     const size_t ways = sunder_i_branching_fill_ways(g->c, &model->body[g->p], o->a, &model->body[o->q], o->b,
-                                                     clearance, o->shadow, NULL);
-    if (g->c->failed) return false;
-    o->clearance = clearance;
-    if (!is_within_reach(g, ways, box)) {
-        sunder_i_box_clear(box);
-        return true;
+                                                     o->clearance, o->shadow, NULL);
+    g->c->looked = looked; /* it was counted when it was listed */
+    o->made = true;
+    o->ways = 0;
+    if (g->c->failed || !is_within_reach(g, ways, box)) return !g->c->failed;
+    if (!sunder_i_reserve(&kept->way, &kept->way_capacity, kept->ways + ways, sizeof *kept->way)) {
+        g->c->failed = true;
+        return false;
     }
-    if (!sunder_i_reserve(&kept->way, &kept->way_capacity, kept->ways + ways, sizeof *kept->way)) return false;
+    memcpy(kept->box + 4 * at, box, sizeof box);
     o->way = kept->ways;
     o->ways = ways;
     kept->ways += ways;
     memcpy(kept->way + o->way, g->c->scratch, ways * sizeof *kept->way);
-    return sunder_i_plane_index_add(kept, (uint32_t)at);
+    return true;
 }
 
+/* Lists what limits may leave anything of. */
 static bool make_run(sunder_i_plane *g, size_t at, double clearance)
 {
     struct sunder_i_plane_kept *kept = g->kept;
     sunder_i_plane_run *run = &kept->run[at];
-    const uint64_t before = g->c->looked;
     const size_t items = kept->items;
-    for (size_t k = run->first; k < run->end; k++)
-        if (!make_ways(g, k, clearance)) return false;
+    run->cost = 0;
+    for (size_t k = run->first; k < run->end; k++) {
+        sunder_i_plane_obstacle *o = &kept->obstacle[k];
+        double *box = kept->box + 4 * k;
+        o->made = false;
+        o->clearance = clearance;
+        run->cost += o->a->corners + o->b->corners;
+        sunder_i_plane_bound(g, o, clearance, box);
+        if (box[0] <= box[2] && !sunder_i_plane_index_add(kept, (uint32_t)k)) return false;
+    }
+    g->c->looked += run->cost;
     run->reached = kept->items - items;
     run->made = true;
     run->clearance = clearance;
-    run->cost = g->c->looked - before;
     return true;
 }
 

@@ -84,6 +84,8 @@
 #define PLANE_LATE 8
 #define PLANE_FEW 512
 #define PLANE_PART 4
+/* Boxes about what is forbidden are wider by this share of the limits: far above rounding. */
+#define BOX_MARGIN 0x1p-40
 /* How wide the seam between two claims is taken to be, as a share of the limits, and half of that each time that one is
  * found in another: wider than rounding, narrower than what covers it. So often. */
 #define SLIVER 0x1p-24
