@@ -191,6 +191,9 @@ sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *s, sunder_error *err
         model->shut_in = sunder_i_alloc(s->start.n, sizeof *model->shut_in);
         model->given_up = sunder_i_alloc(s->start.n, sizeof *model->given_up);
         status = model->shut_in && model->given_up ? relax(s, pair, out, err) : sunder_i_no_memory(err);
+        model->confined = pair;
+        model->confined_n = out;
+        pair = NULL;
     }
     sunder_i_free(g.shut);
     sunder_i_free(pair);

@@ -43,6 +43,7 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_relaxations_free(&model->relaxations);
     sunder_i_free(model->given_up);
     sunder_i_free(model->shut_in);
+    sunder_i_free(model->confined);
     sunder_i_free(model->move);
     sunder_i_free(model->lifted);
     sunder_i_free(model->inexact);

@@ -130,6 +130,8 @@ struct sunder_i_model {
     size_t given_up_n;
     sunder_i_id_pair *shut_in; /* features, a < b, that nothing but a jump takes clear of each other: proved; sorted */
     size_t shut_in_n;
+    sunder_i_id_pair *confined; /* bodies i < j of which that is proved, whatever of theirs is in conflict; sorted */
+    size_t confined_n;
     double *move;   /* [2 * bodies] where each stands now, relative to the start */
     double *lifted; /* [2 * bodies] where each stood when limits were lifted; NULL: they were not, or still are */
     bool *inexact;  /* [things] the translate was rounded */
@@ -187,6 +189,13 @@ static inline bool sunder_i_are_shut_in(const sunder_i_model *model, uint32_t f,
 {
     const sunder_i_id_pair pair = {f, g};
     return model->shut_in_n && bsearch(&pair, model->shut_in, model->shut_in_n, sizeof pair, sunder_i_by_id_pair);
+}
+
+/* And these two bodies? */
+static inline bool sunder_i_are_confined(const sunder_i_model *model, uint32_t i, uint32_t j)
+{
+    const sunder_i_id_pair pair = {i < j ? i : j, i < j ? j : i};
+    return model->confined_n && bsearch(&pair, model->confined, model->confined_n, sizeof pair, sunder_i_by_id_pair);
 }
 
 /* ---- model.c ----------------------------------------------------------------------------------------------------- */

@@ -246,14 +246,16 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
     if (many && most == 1 && model->inclusions == 0 && !relaxed && ps && qs && !ps->flat && !qs->flat &&
         free_pair_exactly(s, ps, qs, target, shallow, places[0]) && !is_shaded(s, p, none, q, places[0]))
         return 1;
-    const double all = BEYOND_ALL * (extent(p->box) + extent(q->box) + s->gap);
+    double all = BEYOND_ALL * (extent(p->box) + extent(q->box) + s->gap);
+    const bool confined = sunder_i_search_is_confined(s, i, j, target, &all);
     double reach = fmax(2 * s->gap, PAIR_REACH * fmin(extent(p->box), extent(q->box)));
     /* Beside a point, to which no gap is owed, it begins with the other one's size: from 0 it would not grow. */
     if (!(reach > 0)) reach = PAIR_REACH * fmax(extent(p->box), extent(q->box));
     for (;; reach *= PAIR_GROWTH) {
-        const size_t n = find_beside(s, p, q, many, target, reach, spread, reach > all, most, places);
+        if (confined) reach = fmin(reach, all);
+        const size_t n = find_beside(s, p, q, many, target, reach, spread, !confined && reach > all, most, places);
         if (n || s->failed) return n;
-        if (reach > all || !(reach > 0)) return 0;
+        if (reach > all || (confined && reach == all) || !(reach > 0)) return 0;
     }
 }
 

@@ -12,6 +12,12 @@ size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j
 /* The free place of body i nearest to where it came from, all others as they stand, no longer than limit. */
 bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit, double place[2]);
 
+/* ---- confined.c: pairs that are shut in -------------------------------------------------------------------------- */
+
+/* Are the two known to be shut in? Then no relative move of j that is farther from u is free. */
+bool sunder_i_search_is_confined(const sunder_i_search *search, uint32_t i, uint32_t j, const double u[2],
+                                 double *farthest);
+
 /* ---- limits.c: how far bodies may go ----------------------------------------------------------------------------- */
 
 /* Is it a tangent of a limit? By its key. */
