@@ -108,9 +108,20 @@ double sunder_i_i256_double_long(const sunder_i_i256 *a)
 
 /* Binary: of two odd numbers the difference is even, and its odd part has the same divisors in common with the lesser
  * one. */
+/* Of odd numbers. Without branches: which of the two is the greater is anyone's guess. */
+static uint64_t odd_gcd_64(uint64_t a, uint64_t b)
+{
+    while (a != b) {
+        const uint64_t less = a < b ? a : b, off = a < b ? b - a : a - b;
+        a = off >> __builtin_ctzll(off);
+        b = less;
+    }
+    return a;
+}
+
 sunder_i_u128 sunder_i_u128_odd_gcd(sunder_i_u128 a, sunder_i_u128 b)
 {
-    while (a != b && (a >> 64 || b >> 64)) {
+    while (a >> 64 && b >> 64 && a != b) {
         if (a > b) {
             a -= b;
             a >>= sunder_i_u128_twos(a);
@@ -119,18 +130,12 @@ sunder_i_u128 sunder_i_u128_odd_gcd(sunder_i_u128 a, sunder_i_u128 b)
             b >>= sunder_i_u128_twos(b);
         }
     }
-    uint64_t c = (uint64_t)a, d = (uint64_t)b;
     if (a == b) return a;
-    while (c != d) {
-        if (c > d) {
-            c -= d;
-            c >>= __builtin_ctzll(c);
-        } else {
-            d -= c;
-            d >>= __builtin_ctzll(d);
-        }
-    }
-    return c;
+    /* One is short: of the other only the rest matters. */
+    const uint64_t c = (uint64_t)(a >> 64 ? b : a);
+    const sunder_i_u128 other = a >> 64 ? a : b;
+    const uint64_t rest = (uint64_t)(other >> 64 ? other % c : other);
+    return rest ? odd_gcd_64(c, rest >> __builtin_ctzll(rest)) : c;
 }
 
 sunder_i_u128 sunder_i_u128_gcd(sunder_i_u128 a, sunder_i_u128 b)

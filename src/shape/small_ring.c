@@ -19,6 +19,7 @@
 
 typedef struct ring {
     uint32_t n;
+    bool brief;              /* no two coordinates are 2^31 apart: a turn fits 64 bits */
     sunder_i_point at[MOST]; /* in units of the lowest bit */
     int8_t turn[MOST];       /* the side that the ring turns to at each corner */
 } ring;
@@ -28,9 +29,16 @@ typedef struct mesh {
     uint8_t origin[HALVES], twin[HALVES], next[HALVES], prev[HALVES]; /* as in sunder_i_mesh */
 } mesh;
 
+static inline int turn_of(const ring *r, sunder_i_point u, sunder_i_point v)
+{
+    if (!r->brief) return sunder_i_det_sign(sunder_i_narrow_cross(u, v));
+    const int64_t cross = u.x * v.y - u.y * v.x;
+    return (cross > 0) - (cross < 0);
+}
+
 static inline int orient(const ring *r, uint32_t a, uint32_t b, uint32_t c)
 {
-    return sunder_i_det_sign(sunder_i_narrow_orient(r->at[a], r->at[b], r->at[c]));
+    return turn_of(r, sunder_i_narrow_sub(r->at[b], r->at[a]), sunder_i_narrow_sub(r->at[c], r->at[a]));
 }
 
 /* ---- Is it sound? ---- */
@@ -43,6 +51,8 @@ static bool place(ring *r, const double *xy, const sunder_i_extent *extent)
     const double limit = sunder_i_power_of_two(bit + SUNDER_I_NARROW_BITS), scale = sunder_i_power_of_two(-bit);
     for (int k = 0; k < 2; k++)
         if (!(extent->low[k] > -limit && extent->high[k] < limit)) return false;
+    const double apart = sunder_i_power_of_two(bit + 31);
+    r->brief = extent->high[0] - extent->low[0] < apart && extent->high[1] - extent->low[1] < apart;
     for (uint32_t i = 0; i < r->n; i++)
         r->at[i] = (sunder_i_point){(int64_t)(xy[2 * i] * scale), (int64_t)(xy[2 * i + 1] * scale)};
     return true;
@@ -53,7 +63,7 @@ static bool turns_everywhere(ring *r)
     sunder_i_point before = sunder_i_narrow_sub(r->at[0], r->at[r->n - 1]);
     for (uint32_t i = 0; i < r->n; i++) {
         const sunder_i_point after = sunder_i_narrow_sub(r->at[i + 1 < r->n ? i + 1 : 0], r->at[i]);
-        r->turn[i] = (int8_t)sunder_i_det_sign(sunder_i_narrow_cross(before, after));
+        r->turn[i] = (int8_t)turn_of(r, before, after);
         if (r->turn[i] == 0) return false;
         before = after;
     }

@@ -23,21 +23,22 @@ static inline void sunder_i_box_of_segment(const double a[2], const double b[2],
     }
 }
 
-/* The least box that holds this one and a point, and this one and another. */
+/* The least box that holds this one and a point, and this one and another. Without branches: which coordinates are
+ * beyond the others is anyone's guess. */
 static inline void sunder_i_box_include(double box[4], const double at[2])
 {
-    if (at[0] < box[0]) box[0] = at[0];
-    if (at[1] < box[1]) box[1] = at[1];
-    if (at[0] > box[2]) box[2] = at[0];
-    if (at[1] > box[3]) box[3] = at[1];
+    box[0] = at[0] < box[0] ? at[0] : box[0];
+    box[1] = at[1] < box[1] ? at[1] : box[1];
+    box[2] = at[0] > box[2] ? at[0] : box[2];
+    box[3] = at[1] > box[3] ? at[1] : box[3];
 }
 
 static inline void sunder_i_box_join(double box[4], const double other[4])
 {
-    if (other[0] < box[0]) box[0] = other[0];
-    if (other[1] < box[1]) box[1] = other[1];
-    if (other[2] > box[2]) box[2] = other[2];
-    if (other[3] > box[3]) box[3] = other[3];
+    box[0] = other[0] < box[0] ? other[0] : box[0];
+    box[1] = other[1] < box[1] ? other[1] : box[1];
+    box[2] = other[2] > box[2] ? other[2] : box[2];
+    box[3] = other[3] > box[3] ? other[3] : box[3];
 }
 
 static inline bool sunder_i_box_meet(const double a[4], const double b[4])

@@ -232,7 +232,7 @@ static void test_cmp_products_256(void **state)
     close_numbers(&n);
 }
 
-/* With a divisor of any length in common, as fractions of crossings have. */
+/* With a divisor of any length in common, as fractions of crossings have; of a long number and a short one, too. */
 static void test_gcd(void **state)
 {
     (void)state;
@@ -244,6 +244,8 @@ static void test_gcd(void **state)
         sunder_i_i128 common = random_i128(&g, bits), a = random_i128(&g, 63) * common,
                       b = random_i128(&g, 63) * common;
         if (i % 8 == 0) b = a;
+        if (i % 8 == 1) b = common;
+        if (i % 8 == 2) b = random_i128(&g, 62);
         if (a == 0 || b == 0) continue;
         mpz_from_i128(n.a, a);
         mpz_from_i128(n.b, b);

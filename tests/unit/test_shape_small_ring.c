@@ -15,10 +15,14 @@
 #define CASES 20000
 #define MOST 16
 
-/* Rings round a middle, mostly sound; or any corners on a small grid, which may repeat, lie on one line, or cross. */
+/* Rings round a middle, mostly sound, some as large as turns in 64 bits allow, or a little larger; or any corners on a
+ * small grid, which may repeat, lie on one line, or cross. */
 static void draw(rng *g, double xy[2 * MOST + 4], size_t *n)
 {
-    const int64_t size = rng_once_in(g, 2) ? 4 : rng_once_in(g, 2) ? 30 : 100000;
+    const int64_t size = rng_once_in(g, 2)   ? 4
+                         : rng_once_in(g, 2) ? 30
+                         : rng_once_in(g, 2) ? 100000
+                                             : (int64_t)1 << rng_int(g, 28, 32);
     const double unit = ldexp(1, (int)rng_int(g, -40, 20)), far = rng_once_in(g, 2) ? 0 : unit * 0x1p40;
     const bool around = !rng_once_in(g, 4), back = rng_once_in(g, 2), fine = rng_once_in(g, 20);
     *n = (size_t)rng_int(g, 3, around ? MOST : 6);
