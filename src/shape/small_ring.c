@@ -90,8 +90,11 @@ static bool is_simple(const ring *r)
     }
     for (uint32_t e = 0; e + 2 < r->n; e++) {
         const int64_t x0 = low_x[e], x1 = high_x[e], y0 = low_y[e], y1 = high_y[e];
+        uint32_t near = 0; /* whose boxes meet: without branches */
         for (uint32_t f = e + 2; f < r->n - (e == 0); f++)
-            if (low_x[f] <= x1 && high_x[f] >= x0 && low_y[f] <= y1 && high_y[f] >= y0 && !apart(r, e, f)) return false;
+            near |= (uint32_t)((low_x[f] <= x1) & (high_x[f] >= x0) & (low_y[f] <= y1) & (high_y[f] >= y0)) << f;
+        for (; near; near &= near - 1)
+            if (!apart(r, e, (uint32_t)__builtin_ctz(near))) return false;
     }
     return true;
 }

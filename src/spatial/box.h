@@ -61,7 +61,7 @@ static inline bool sunder_i_box_near(const double a[4], const double b[4], doubl
 /* Does a point come that near to the box? What is no number does. */
 static inline bool sunder_i_box_near_point(const double box[4], double x, double y, double reach)
 {
-    return !(x < box[0] - reach || x > box[2] + reach || y < box[1] - reach || y > box[3] + reach);
+    return !((x < box[0] - reach) | (x > box[2] + reach) | (y < box[1] - reach) | (y > box[3] + reach));
 }
 
 /* The Minkowski sum of two boxes. */
@@ -73,7 +73,8 @@ static inline void sunder_i_box_sum(const double a[4], const double b[4], double
 /* Does a point come that near to the sum? */
 static inline bool sunder_i_box_sum_near_point(const double a[4], const double b[4], double x, double y, double reach)
 {
-    return !(x < a[0] + b[0] - reach || x > a[2] + b[2] + reach || y < a[1] + b[1] - reach || y > a[3] + b[3] + reach);
+    return !((x < a[0] + b[0] - reach) | (x > a[2] + b[2] + reach) | (y < a[1] + b[1] - reach) |
+             (y > a[3] + b[3] + reach));
 }
 
 /* How far the box is from the origin, in either coordinate. */
