@@ -133,6 +133,43 @@ static void test_row(void **state)
     end_row(&b, &s);
 }
 
+/* Of a row that has given all it has every question is in vain, and looks at all between the pair and the row's ends.
+ * Once that was asked often what stops them is known: then a question looks at less, and is in vain as before; and what
+ * is not in vain is asked as before. */
+static void test_known_in_vain(void **state)
+{
+    (void)state;
+    double apart[70];
+    scene_board b;
+    sunder_i_search s;
+    sunder_i_pushed p;
+    for (size_t k = 0; k < 70; k++) apart[k] = 2;
+    begin_row(&b, &s, apart, 70, 0.49);
+    for (size_t k = 1; k < 70; k++) b.of.model.body[k].limit = 5;
+    assert_true(sunder_i_pushed_init(&p, &s, 2));
+    uint64_t steps = s.steps;
+    assert_false(sunder_i_pushed_is_in_vain(&p, 30, 31, right, 1));
+    assert_false(sunder_i_pushed_reaches(&p, 30, 31, right, 1));
+    const uint64_t first = s.steps - steps;
+    for (int k = 0; k < 100; k++) assert_false(sunder_i_pushed_reaches(&p, 30, 31, right, 1));
+    steps = s.steps;
+    for (uint32_t k = 0; k < 70; k++) {
+        assert_true(sunder_i_pushed_is_in_vain(&p, k, k + 1, right, 1));
+        assert_false(sunder_i_pushed_is_in_vain(&p, k, k + 1, right, 0.97));
+        assert_false(sunder_i_pushed_reaches(&p, k, k + 1, right, 1));
+    }
+    assert_true(s.steps - steps < 70 * first);
+    /* What the ends may give is what they may give now, whenever the ways were found. */
+    s.t[2 * 70] = -0.4;
+    assert_true(sunder_i_pushed_is_in_vain(&p, 69, 70, right, 1.39));
+    s.t[2 * 70] = 0;
+    assert_true(sunder_i_pushed_is_in_vain(&p, 69, 70, right, 0.99));
+    s.t[2 * 70] = -0.4;
+    assert_false(sunder_i_pushed_is_in_vain(&p, 69, 70, right, 1.37));
+    sunder_i_pushed_free(&p);
+    end_row(&b, &s);
+}
+
 /* The same beginning with all at home and owing all: that is what such a crowd is told by. With more room it is not. */
 static void test_crowd(void **state)
 {
@@ -181,6 +218,7 @@ int main(void)
         cmocka_unit_test(test_limits),
         cmocka_unit_test(test_put_back),
         cmocka_unit_test(test_row),
+        cmocka_unit_test(test_known_in_vain),
         cmocka_unit_test(test_crowd),
         cmocka_unit_test(test_together),
     };

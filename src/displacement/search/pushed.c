@@ -56,6 +56,7 @@ void sunder_i_pushed_free(sunder_i_pushed *p)
         sunder_i_free(p->front[e].reached);
         sunder_i_free(p->front[e].heap);
     }
+    for (size_t w = 0; w < PUSHED_WAYS; w++) sunder_i_free(p->ways[w].next);
     sunder_i_free(p->of);
     sunder_i_free(p->to);
     sunder_i_neighbourhood_free(&p->about);
@@ -125,6 +126,13 @@ static bool is_stale(const sunder_i_pushed *p, uint32_t i)
     return false;
 }
 
+const sunder_i_push_lines *sunder_i_pushed_lines(sunder_i_pushed *p, uint32_t i)
+{
+    if (!p->of[i].fresh && is_stale(p, i)) take_lines(p, i);
+    p->of[i].fresh = true;
+    return &p->of[i];
+}
+
 typedef struct worst {
     const double *u;
     double missing, n[2];
@@ -152,7 +160,11 @@ double sunder_i_pushed_missing(sunder_i_pushed *p, uint32_t i, uint32_t j, doubl
     return w.missing;
 }
 
-void sunder_i_pushed_renew(sunder_i_pushed *p, uint32_t i, uint32_t j) { p->of[i].known = p->of[j].known = false; }
+void sunder_i_pushed_renew(sunder_i_pushed *p, uint32_t i, uint32_t j)
+{
+    p->of[i].known = p->of[j].known = false;
+    p->of[i].fresh = p->of[j].fresh = false;
+}
 
 /* ---- Fronts ------------------------------------------------------------------------------------------------------ */
 
@@ -163,9 +175,9 @@ static bool comes_before(const void *a, const void *b)
     return p->progress != q->progress ? p->progress > q->progress : p->body < q->body;
 }
 
-/* How far a body may yet go. */
-static double room(const sunder_i_search *s, uint32_t k, const double along[2])
+double sunder_i_pushed_room(const sunder_i_pushed *p, uint32_t k, const double along[2])
 {
+    const sunder_i_search *s = p->about.all;
     const double limit = sunder_i_search_limit(s, k), *t = s->t + 2 * (size_t)k;
     if (!(s->mass[k] > 0)) return 0;
     if (limit == INFINITY) return INFINITY;
@@ -208,9 +220,8 @@ static bool go_on(sunder_i_pushed *p, sunder_i_push_front *f, uint32_t end, uint
         if (f->waiting == 0) return false;
         sunder_i_heap_pop(f->heap, &f->waiting, sizeof e, &e, comes_before);
     } while (e.spare > f->spare[e.body] || e.spare >= f->most);
-    f->most = fmin(f->most, e.spare + room(s, e.body, f->along));
-    if (is_stale(p, e.body)) take_lines(p, e.body);
-    const sunder_i_push_lines *of = &p->of[e.body];
+    f->most = fmin(f->most, e.spare + sunder_i_pushed_room(p, e.body, f->along));
+    const sunder_i_push_lines *of = sunder_i_pushed_lines(p, e.body);
     s->steps += 1 + of->n;
     for (size_t k = 0; k < of->n && !s->failed; k++) {
         const sunder_i_push_line *l = &of->line[k];
@@ -227,6 +238,7 @@ bool sunder_i_pushed_reaches(sunder_i_pushed *p, uint32_t i, uint32_t j, const d
 {
     const double back[2] = {-n[0], -n[1]};
     sunder_i_push_front *f = p->front;
+    if (sunder_i_pushed_is_in_vain(p, i, j, n, missing)) return false;
     begin(p, &f[0], j, n, missing);
     begin(p, &f[1], i, back, missing);
     bool any = true;
@@ -234,7 +246,9 @@ bool sunder_i_pushed_reaches(sunder_i_pushed *p, uint32_t i, uint32_t j, const d
         any = go_on(p, &f[0], j, i);
         any = go_on(p, &f[1], i, j) || any;
     }
-    return f[0].most + f[1].most >= missing && !p->about.all->failed;
+    if (f[0].most + f[1].most >= missing && !p->about.all->failed) return true;
+    sunder_i_pushed_note_in_vain(p);
+    return false;
 }
 
 /* ---- Giving way -------------------------------------------------------------------------------------------------- */
@@ -256,6 +270,16 @@ static void divide(const sunder_i_push_front f[2], double missing, double share[
     share[1] = missing - share[0];
 }
 
+/* Those that went, and those about them, are to be looked at again. */
+static void note_gone(sunder_i_pushed *p)
+{
+    for (size_t k = 0; k < p->about.n; k++) {
+        sunder_i_push_lines *of = &p->of[p->about.place[k]];
+        of->fresh = false;
+        for (size_t m = 0; m < of->n; m++) p->of[of->line[m].other].fresh = false;
+    }
+}
+
 bool sunder_i_pushed_part(sunder_i_pushed *p, double missing)
 {
     sunder_i_search *s = p->about.all;
@@ -274,5 +298,7 @@ bool sunder_i_pushed_part(sunder_i_pushed *p, double missing)
             for (int x = 0; x < 2; x++) to[x] = s->t[2 * (size_t)b + (size_t)x] + by * f->along[x];
         }
     }
-    return sunder_i_neighbourhood_put(&p->about, p->to);
+    if (!sunder_i_neighbourhood_put(&p->about, p->to)) return false;
+    note_gone(p);
+    return true;
 }

@@ -4,6 +4,9 @@
 
 #include "displacement/search/neighbourhood.h"
 
+/* Directions of which it is kept what stops bodies there. */
+#define PUSHED_WAYS 64
+
 /* What a body has to keep from another: n.(t_other - t) >= d, whoever of the two moves. */
 typedef struct sunder_i_push_line {
     uint32_t other;
@@ -17,6 +20,7 @@ typedef struct sunder_i_push_lines {
     size_t n, capacity;
     double at[2];
     bool known;
+    bool fresh; /* nobody has gone since it was looked whether they say enough */
 } sunder_i_push_lines;
 
 /* A body that is pushed: from what on, and so far. */
@@ -37,12 +41,19 @@ typedef struct sunder_i_push_front {
     size_t n;
 } sunder_i_push_front;
 
+/* Of one direction: what was asked in vain since the ways to those who stop it were looked for, and these. */
+typedef struct sunder_i_push_ways {
+    size_t in_vain; /* how many were looked at */
+    uint32_t *next; /* [n] whom a body pushes on the way; SUNDER_I_NOBODY: its own limit stops it. NULL: never looked */
+} sunder_i_push_ways;
+
 typedef struct sunder_i_pushed {
     sunder_i_neighbourhood about;
     sunder_i_push_lines *of; /* [all->n] */
     sunder_i_push_front front[2];
     double reach; /* nothing is to give way any farther */
     double *to;   /* [2 n] */
+    sunder_i_push_ways ways[PUSHED_WAYS];
 } sunder_i_pushed;
 
 /* Of a search that stands without clashes, in which no pair misses more than `reach`. False if memory is out; is to be
@@ -59,5 +70,16 @@ void sunder_i_pushed_renew(sunder_i_pushed *pushed, uint32_t i, uint32_t j);
 bool sunder_i_pushed_reaches(sunder_i_pushed *pushed, uint32_t i, uint32_t j, const double n[2], double missing);
 /* If that was so: puts them there, unless somebody else is in the way. */
 bool sunder_i_pushed_part(sunder_i_pushed *pushed, double missing);
+/* All that the body has to keep from those that it might push; not as things stood where they went far. */
+const sunder_i_push_lines *sunder_i_pushed_lines(sunder_i_pushed *pushed, uint32_t body);
+/* How far the body may yet go that way. */
+double sunder_i_pushed_room(const sunder_i_pushed *pushed, uint32_t body, const double along[2]);
+
+/* ---- pushed_in_vain.c -------------------------------------------------------------------------------------------- */
+
+/* Is it known that the pair is not parted so, without looking about? */
+bool sunder_i_pushed_is_in_vain(sunder_i_pushed *pushed, uint32_t i, uint32_t j, const double n[2], double missing);
+/* A question with these fronts was in vain. */
+void sunder_i_pushed_note_in_vain(sunder_i_pushed *pushed);
 
 #endif
