@@ -18,15 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool send_home(sunder_i_search *s, uint32_t i)
-{
-    if (!(s->mass[i] > 0) || (s->t[2 * i] == 0 && s->t[2 * i + 1] == 0)) return false;
-    s->t[2 * i] = s->t[2 * i + 1] = 0;
-    return true;
-}
-
 /* A relaxation for pair (i, j), if there is none by this search yet. */
-static bool relax(sunder_i_search *s, uint32_t i, uint32_t j)
+bool sunder_i_search_relax(sunder_i_search *s, uint32_t i, uint32_t j)
 {
     const uint32_t p = s->body[i], q = s->body[j];
     if (sunder_i_relaxations_between(&s->relaxations, p, q)) return false;
@@ -93,7 +86,7 @@ static bool relax_cheapest(sunder_i_search *s, const sunder_i_clash *at_home, si
         }
     for (size_t k = 0; k < listed && !s->failed; k++) {
         const sunder_i_clash *c = list[k].clash;
-        if (best[c->i] == &list[k] && best[c->j] == &list[k]) relax(s, c->i, c->j);
+        if (best[c->i] == &list[k] && best[c->j] == &list[k]) sunder_i_search_relax(s, c->i, c->j);
     }
     if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
     sunder_i_free(root);
@@ -105,7 +98,7 @@ static bool relax_cheapest(sunder_i_search *s, const sunder_i_clash *at_home, si
 
 static void send_all_home(sunder_i_search *s)
 {
-    for (uint32_t k = 0; k < s->n; k++) send_home(s, k);
+    for (uint32_t k = 0; k < s->n; k++) sunder_i_search_send_home(s, k);
     s->program.n = 0;
 }
 
@@ -160,14 +153,14 @@ static bool give_up_gradually(sunder_i_search *s, const sunder_i_clash *at_home,
     return done && !s->failed;
 }
 
-/* ---- Yielding ---------------------------------------------------------------------------------------------------- */
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
 
 sunder_i_clash *sunder_i_search_at_home(sunder_i_search *s, size_t *n)
 {
     double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
     if (!stand) return NULL;
     memcpy(stand, s->t, 2 * s->n * sizeof *stand);
-    for (uint32_t k = 0; k < s->n; k++) send_home(s, k);
+    for (uint32_t k = 0; k < s->n; k++) sunder_i_search_send_home(s, k);
     sunder_i_search_look(s, s->t);
     memcpy(s->t, stand, 2 * s->n * sizeof *stand);
     sunder_i_free(stand);
@@ -186,82 +179,10 @@ bool sunder_i_search_waive_margins(sunder_i_search *s)
     const double margin = s->gap - s->model->rules.gap;
     if (!at_home) s->failed = true;
     for (size_t k = 0; k < n && !s->failed; k++)
-        if (at_home[k].violation <= margin + s->tolerance) relax(s, at_home[k].i, at_home[k].j);
+        if (at_home[k].violation <= margin + s->tolerance) sunder_i_search_relax(s, at_home[k].i, at_home[k].j);
     sunder_i_free(at_home);
     if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
     return !s->failed && s->relaxations.n > before;
-}
-
-/* Who may stand near whom, each where it stands or where it came from: pairs, and of each body which they are. */
-typedef struct neighbours {
-    sunder_i_id_pair *pair;
-    size_t pairs, capacity;
-    size_t *first;   /* [n + 1] */
-    uint32_t *other; /* of body k from first[k] to first[k + 1] */
-} neighbours;
-
-static void free_neighbours(neighbours *g)
-{
-    sunder_i_free(g->pair);
-    sunder_i_free(g->first);
-    sunder_i_free(g->other);
-}
-
-static void add_pair(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
-{
-    neighbours *g = context;
-    if (!sunder_i_reserve(&g->pair, &g->capacity, g->pairs + 1, sizeof *g->pair)) {
-        s->failed = true;
-        return;
-    }
-    g->pair[g->pairs++] = (sunder_i_id_pair){i, j};
-}
-
-static void find_neighbours(sunder_i_search *s, neighbours *g)
-{
-    sunder_i_search_near_or_home(s, s->gap, add_pair, g);
-    g->first = sunder_i_calloc(s->n + 1, sizeof *g->first);
-    g->other = sunder_i_alloc(2 * g->pairs, sizeof *g->other);
-    s->failed = s->failed || !g->first || !g->other;
-    if (s->failed) return;
-    for (size_t k = 0; k < g->pairs; k++) g->first[g->pair[k].a]++, g->first[g->pair[k].b]++;
-    for (size_t k = 0, sum = 0; k <= s->n; k++) g->first[k] = sum += g->first[k]; /* the ends, for now */
-    for (size_t k = g->pairs; k-- > 0;) {
-        g->other[--g->first[g->pair[k].a]] = g->pair[k].b;
-        g->other[--g->first[g->pair[k].b]] = g->pair[k].a;
-    }
-}
-
-/* What clashes now, of the pairs of which one changed: into s->clash. */
-static void look_at_changed(sunder_i_search *s, const neighbours *g, const bool *changed)
-{
-    s->clashes = 0;
-    for (uint32_t i = 0; i < s->n; i++) {
-        if (!changed[i]) continue;
-        for (size_t k = g->first[i]; k < g->first[i + 1] && !s->failed; k++) {
-            const uint32_t j = g->other[k];
-            if (!changed[j] || i < j) sunder_i_search_look_at(s, s->t, i < j ? i : j, i < j ? j : i);
-        }
-    }
-}
-
-/* One pass over what clashes now by more than that. Marks what changed, and returns whether anything did. */
-static bool yield_once(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double hair, bool *changed)
-{
-    bool any = false;
-    const size_t before = s->relaxations.n;
-    memset(changed, 0, s->n * sizeof *changed);
-    for (size_t k = 0; k < s->clashes && !s->failed; k++) {
-        const sunder_i_clash *c = &s->clash[k];
-        if (c->violation <= hair) continue;
-        const bool yields = n && bsearch(c, at_home, n, sizeof *at_home, sunder_i_by_id_pair) && relax(s, c->i, c->j);
-        const bool i = yields || send_home(s, c->i), j = yields || send_home(s, c->j);
-        changed[c->i] = changed[c->i] || i;
-        changed[c->j] = changed[c->j] || j;
-        any = any || i || j;
-    }
-    if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
-    return any;
 }
 
 void sunder_i_search_lower(sunder_i_search *s)
@@ -285,7 +206,7 @@ static void settle_at_home(sunder_i_search *s)
     if (s->failed) return;
     memcpy(stand, s->t, 2 * s->n * sizeof *stand);
     for (uint32_t k = 0; k < s->n; k++)
-        if (hypot(s->t[2 * k], s->t[2 * k + 1]) <= NEARLY_HOME * s->extent) send_home(s, k);
+        if (hypot(s->t[2 * k], s->t[2 * k + 1]) <= NEARLY_HOME * s->extent) sunder_i_search_send_home(s, k);
     if (sunder_i_search_look(s, s->t) > s->tolerance) memcpy(s->t, stand, 2 * s->n * sizeof *stand);
     sunder_i_free(stand);
 }
@@ -323,7 +244,7 @@ static void relax_about(sunder_i_search *s, const sunder_i_clash *at_home, size_
     for (size_t k = 0; k < s->clashes; k++)
         if (s->clash[k].violation >= FIRST_SHARE * worst) about[s->clash[k].i] = about[s->clash[k].j] = true;
     for (size_t k = 0; k < n && !s->failed; k++)
-        if (about[at_home[k].i] || about[at_home[k].j]) relax(s, at_home[k].i, at_home[k].j);
+        if (about[at_home[k].i] || about[at_home[k].j]) sunder_i_search_relax(s, at_home[k].i, at_home[k].j);
     if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
 }
 
@@ -349,28 +270,36 @@ static bool give_up_about(sunder_i_search *s, const double *start, const sunder_
     return done && !s->failed;
 }
 
-/* What clashes is relaxed, or goes home, until nothing clashes by more than that. near: of all, once anything does. */
-static void yield(sunder_i_search *s, neighbours *near, const sunder_i_clash *at_home, size_t n, double hair)
+/* The end of either: what still clashes by a hair yields, and all go down. */
+static void end_free(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool done, bool pushed)
 {
-    bool *changed = sunder_i_alloc(s->n, sizeof *changed);
-    s->failed = s->failed || !changed;
-    if (!s->failed) sunder_i_search_look(s, s->t);
-    while (!s->failed && yield_once(s, at_home, n, hair, changed)) {
-        if (!near->first) find_neighbours(s, near);
-        if (!s->failed) look_at_changed(s, near, changed);
-    }
-    sunder_i_free(changed);
+    if (!s->failed) sunder_i_search_yield(s, at_home, n, 0);
+    sunder_i_search_lower(s);
+    if (done && !s->failed) settle_at_home(s);
+    if (pushed && !s->failed) sunder_i_search_go_together(s);
+}
+
+bool sunder_i_search_give_up_at_home(sunder_i_search *s, const double *start)
+{
+    size_t n = 0;
+    if (s->failed || sunder_i_search_movers(s) <= LARGE_CROWD) return false;
+    sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
+    s->failed = !at_home;
+    const bool pushed = !s->failed && sunder_i_search_push_from_home(s, start, at_home, n);
+    if (pushed) end_free(s, at_home, n, true, true);
+    sunder_i_free(at_home);
+    return pushed;
 }
 
 void sunder_i_search_give_up(sunder_i_search *s, const double *start)
 {
     size_t n = 0;
     bool done = false;
-    neighbours near = {0};
     sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
     s->failed = s->failed || !at_home;
     const bool parts = !s->failed && s->n >= CROWD && was_solved_in_parts(s, start, n);
-    const bool pushed = !s->failed && sunder_i_search_push_from_home(s, start, at_home, n);
+    const bool large = sunder_i_search_movers(s) > LARGE_CROWD; /* then it was asked for before */
+    const bool pushed = !s->failed && !large && sunder_i_search_push_from_home(s, start, at_home, n);
     if (!s->failed) done = pushed;
     if (!s->failed && !done && s->n > LARGE_CROWD) begin_again(s, start);
     if (!s->failed && !done && (!parts || is_crowd(s))) done = give_up_gradually(s, at_home, n);
@@ -382,13 +311,9 @@ void sunder_i_search_give_up(sunder_i_search *s, const double *start)
     if (!s->failed && !done) sunder_i_search_clip(s);
     if (!s->failed && !done) {
         /* What rounding took of what was solved before is no reason to give anything up. */
-        yield(s, &near, at_home, n, MENDED * s->tolerance);
+        sunder_i_search_yield(s, at_home, n, MENDED * s->tolerance);
         if (!s->failed) sunder_i_search_make_good(s);
     }
-    if (!s->failed) yield(s, &near, at_home, n, 0);
-    free_neighbours(&near);
+    end_free(s, at_home, n, done, pushed);
     sunder_i_free(at_home);
-    sunder_i_search_lower(s);
-    if (done && !s->failed) settle_at_home(s);
-    if (pushed && !s->failed) sunder_i_search_go_together(s);
 }

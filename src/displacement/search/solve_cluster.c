@@ -38,6 +38,13 @@ static bool find_free(sunder_i_search *s, const sunder_i_cluster *cluster)
     return done;
 }
 
+static bool has_limits(const sunder_i_search *s)
+{
+    for (size_t k = 0; k < s->n; k++)
+        if (!s->model->body[s->body[k]].fixed && s->model->body[s->body[k]].limit < INFINITY) return true;
+    return false;
+}
+
 /* Begins anew from where all began, with pairs that stood apart there, but not by the margin, held to that. */
 static bool find_free_but_for_margins(sunder_i_search *s, const sunder_i_cluster *cluster, const double *move)
 {
@@ -45,13 +52,6 @@ static bool find_free_but_for_margins(sunder_i_search *s, const sunder_i_cluster
     memcpy(s->t, move, 2 * s->n * sizeof *s->t);
     s->program.n = 0;
     return find_free(s, cluster);
-}
-
-static bool has_limits(const sunder_i_search *s)
-{
-    for (size_t k = 0; k < s->n; k++)
-        if (!s->model->body[s->body[k]].fixed && s->model->body[s->body[k]].limit < INFINITY) return true;
-    return false;
 }
 
 /* The same from where the bodies stood when limits were lifted: the sides that they had found there. */
@@ -70,13 +70,16 @@ sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_clust
 {
     sunder_i_search s;
     if (!sunder_i_search_init(&s, model, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
-    bool done = find_free(&s, cluster);
+    const bool may_give_up = cluster->limited && !cluster->brief;
+    const bool given_up = may_give_up && has_limits(&s) &&
+                          (sunder_i_search_mend_few(&s) || sunder_i_search_give_up_at_home(&s, move));
+    bool done = given_up || find_free(&s, cluster);
     if (!done && !s.failed && cluster->brief) done = find_free_but_for_margins(&s, cluster, move);
     if (!done && !s.failed) done = find_free_from_lifted(&s, cluster);
     if (!done && !s.failed) done = sunder_i_search_spread(&s);
-    cluster->cheapest =
-        done && !s.failed && !cluster->brief && sunder_i_search_goes_down(&s) && sunder_i_search_is_cheapest(&s);
-    if (!done && !s.failed && cluster->limited && !cluster->brief) sunder_i_search_give_up(&s, move);
+    cluster->cheapest = done && !given_up && !s.failed && !cluster->brief && sunder_i_search_goes_down(&s) &&
+                        sunder_i_search_is_cheapest(&s);
+    if (!done && !s.failed && may_give_up) sunder_i_search_give_up(&s, move);
     cluster->hopeless = !done && cluster->brief;
     sunder_i_search_hand_over(&s, cluster);
     const bool failed = s.failed;

@@ -73,13 +73,26 @@ bool sunder_i_search_spread(sunder_i_search *search);
 /* From where the search ended, with clashes, to where the pairs that clashed at the start are relaxed and nothing
  * clashes; then down from there. The new relaxations are in search->relaxations. */
 void sunder_i_search_give_up(sunder_i_search *search, const double *start);
+/* The same of a crowd that begins at home and has next to no room, before any other search. False: it is no such crowd,
+ * as far as is seen; then all is as it was. */
+bool sunder_i_search_give_up_at_home(sunder_i_search *search, const double *start);
 /* Relaxes pairs that, with all at home, miss no more than the margin, which is asked beyond what they owe. Returns
  * whether there were any. */
 bool sunder_i_search_waive_margins(sunder_i_search *search);
 /* Down from a position without clashes, or stay there. */
 void sunder_i_search_lower(sunder_i_search *search);
+/* Pair (i, j) is given up, if it is not yet. Returns whether it was so now; relaxations are to be indexed then. */
+bool sunder_i_search_relax(sunder_i_search *search, uint32_t i, uint32_t j);
 /* The pairs that would clash with all at home; *n of them, sorted, the caller's. NULL if memory is out. */
 sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n);
+
+/* ---- yield.c ----------------------------------------------------------------------------------------------------- */
+
+/* What clashes by more than a hair is relaxed, if it is one of the n that clash at home, or goes home, until nothing
+ * does. */
+void sunder_i_search_yield(sunder_i_search *search, const sunder_i_clash *at_home, size_t n, double hair);
+/* Returns whether it was elsewhere, and may move. */
+bool sunder_i_search_send_home(sunder_i_search *search, uint32_t i);
 
 /* ---- take_back.c: and asked for again ---------------------------------------------------------------------------- */
 
@@ -93,6 +106,12 @@ void sunder_i_search_push_back(sunder_i_search *search);
 
 /* Those that stand near each other and went the same way but for a hair go the same way. */
 void sunder_i_search_go_together(sunder_i_search *search);
+
+/* ---- mend_few.c -------------------------------------------------------------------------------------------------- */
+
+/* A large crowd of which few clash: these are settled with those about them, or yield if anybody was sent home; then
+ * nothing clashes. False: it is no such crowd, or they are not settled so; then all is as it was. */
+bool sunder_i_search_mend_few(sunder_i_search *search);
 
 /* ---- push_from_home.c -------------------------------------------------------------------------------------------- */
 
