@@ -1,5 +1,5 @@
-/* displacement/search/mend_few: a crowd of which few clash is mended about those, and nobody else moves; one of which
- * many do, and one that is no large crowd, is left as it was. */
+/* displacement/search/mend_few: a crowd in which somebody was sent home, and few clash, is mended about those, and
+ * nobody else moves; where nobody was, or many clash, or it is no large crowd, it is left as it was. */
 #include "polyset.h"
 #include "scene_model.h"
 
@@ -71,6 +71,7 @@ static void test_few(void **state)
 {
     (void)state;
     field *f = begin(24);
+    f->of.model.body[0].pinned = true;
     sunder_i_search *s = &f->search;
     const size_t clashes = disturb(f, 200);
     assert_true(clashes > 0 && clashes <= 3);
@@ -99,8 +100,18 @@ static void test_many_or_none(void **state)
 {
     (void)state;
     field *f = begin(24);
+    f->of.model.body[0].pinned = true;
     expect_left_alone(f);
     assert_true(disturb(f, 20) > 20);
+    expect_left_alone(f);
+    end(f);
+}
+
+static void test_nobody_sent_home(void **state)
+{
+    (void)state;
+    field *f = begin(24);
+    assert_true(disturb(f, 200) > 0);
     expect_left_alone(f);
     end(f);
 }
@@ -109,6 +120,7 @@ static void test_no_crowd(void **state)
 {
     (void)state;
     field *f = begin(20);
+    f->of.model.body[0].pinned = true;
     assert_true(disturb(f, 200) > 0);
     expect_left_alone(f);
     end(f);
@@ -117,6 +129,6 @@ static void test_no_crowd(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_few), cmocka_unit_test(test_many_or_none),
-                                       cmocka_unit_test(test_no_crowd)};
+                                       cmocka_unit_test(test_nobody_sent_home), cmocka_unit_test(test_no_crowd)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -285,7 +285,7 @@ bool sunder_i_search_give_up_at_home(sunder_i_search *s, const double *start)
     if (s->failed || sunder_i_search_movers(s) <= LARGE_CROWD) return false;
     sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
     s->failed = !at_home;
-    const bool pushed = !s->failed && sunder_i_search_push_from_home(s, start, at_home, n);
+    const bool pushed = !s->failed && sunder_i_search_push_from_home(s, start, at_home, n, LEFT_AT_HOME);
     if (pushed) end_free(s, at_home, n, true, true);
     sunder_i_free(at_home);
     return pushed;
@@ -298,8 +298,7 @@ void sunder_i_search_give_up(sunder_i_search *s, const double *start)
     sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
     s->failed = s->failed || !at_home;
     const bool parts = !s->failed && s->n >= CROWD && was_solved_in_parts(s, start, n);
-    const bool large = sunder_i_search_movers(s) > LARGE_CROWD; /* then it was asked for before */
-    const bool pushed = !s->failed && !large && sunder_i_search_push_from_home(s, start, at_home, n);
+    const bool pushed = !s->failed && sunder_i_search_push_from_home(s, start, at_home, n, LEFT_BY_PUSHING);
     if (!s->failed) done = pushed;
     if (!s->failed && !done && s->n > LARGE_CROWD) begin_again(s, start);
     if (!s->failed && !done && (!parts || is_crowd(s))) done = give_up_gradually(s, at_home, n);

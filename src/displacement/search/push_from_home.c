@@ -36,12 +36,13 @@ static bool give_up_all(sunder_i_search *s, const double *start, const sunder_i_
     return !s->failed && sunder_i_search_look(s, s->t) <= s->tolerance;
 }
 
-/* Pushes, goes down, pushes again, as long as that takes back any number. Returns whether it left the more part. */
-static bool push_all(sunder_i_search *s)
+/* Pushes, goes down, pushes again, as long as that takes back any number. Returns whether the first left more than that
+ * share. */
+static bool push_all(sunder_i_search *s, double share)
 {
     const size_t all = s->relaxations.n;
     sunder_i_search_push_back(s);
-    if (s->failed || s->relaxations.n <= all / MOST_PUSHED) return false;
+    if (s->failed || (double)s->relaxations.n <= share * (double)all) return false;
     for (size_t before = all; before - s->relaxations.n > before / LEAST_PUSHED && !s->failed;) {
         before = s->relaxations.n;
         sunder_i_search_lower(s);
@@ -50,7 +51,8 @@ static bool push_all(sunder_i_search *s)
     return !s->failed;
 }
 
-bool sunder_i_search_push_from_home(sunder_i_search *s, const double *start, const sunder_i_clash *at_home, size_t n)
+bool sunder_i_search_push_from_home(sunder_i_search *s, const double *start, const sunder_i_clash *at_home, size_t n,
+                                    double share)
 {
     if (s->n < CROWD || n == 0 || !begins_at_home(s, start)) return false;
     const size_t size = 2 * s->n * sizeof *s->t;
@@ -60,7 +62,7 @@ bool sunder_i_search_push_from_home(sunder_i_search *s, const double *start, con
     memcpy(stood, s->t, size);
     const sunder_i_relaxations given_up = s->relaxations;
     memset(&s->relaxations, 0, sizeof s->relaxations);
-    const bool done = give_up_all(s, start, at_home, n) && push_all(s);
+    const bool done = give_up_all(s, start, at_home, n) && push_all(s, share);
     sunder_i_relaxations other = done ? given_up : s->relaxations;
     if (!done) {
         s->relaxations = given_up;

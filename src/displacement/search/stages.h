@@ -109,16 +109,18 @@ void sunder_i_search_go_together(sunder_i_search *search);
 
 /* ---- mend_few.c -------------------------------------------------------------------------------------------------- */
 
-/* A large crowd of which few clash: these are settled with those about them, or yield if anybody was sent home; then
- * nothing clashes. False: it is no such crowd, or they are not settled so; then all is as it was. */
+/* A large crowd in which somebody was sent home, and few clash: these are settled with those about them, or yield where
+ * it is very large; then nothing clashes. False: it is no such crowd, or they are not settled so; then all is as it
+ * was. */
 bool sunder_i_search_mend_few(sunder_i_search *search);
 
 /* ---- push_from_home.c -------------------------------------------------------------------------------------------- */
 
 /* A crowd that began at home, n pairs clashing there: gives up all of these, and takes back by pushing what it can.
- * False: there is more room than that tells, or it is no such crowd; then all is as it was. */
+ * False: that leaves no more than this share, so there may be more room than it tells, or it is no such crowd; then all
+ * is as it was. */
 bool sunder_i_search_push_from_home(sunder_i_search *search, const double *start, const sunder_i_clash *at_home,
-                                    size_t n);
+                                    size_t n, double share);
 
 /* ---- solve_cluster.c: how a search ends -------------------------------------------------------------------------- */
 

@@ -131,10 +131,12 @@
 /* It may take so much, and so much for each body: of a grid of 20,000 most pairs reach thousands in vain. */
 #define PUSHED_MOST 100000000u
 #define PUSHED_EACH 40000u
-/* A crowd of which pushing leaves more than one pair in so many given up has next to no room: of grids of squares two
- * in three are left, of symbols one in ten, of which a compromise tells better what to give up. It is pushed again as
- * long as that takes back more than one in so many of what was left. */
-#define MOST_PUSHED 2
+/* A crowd of which pushing leaves more than this share given up has next to no room: of grids of squares two in three
+ * are left, of symbols one in ten, of which a compromise tells better what to give up. Where nothing else was tried yet
+ * it is believed from a greater share on: of grids of thousands four in five are left. It is pushed again as long as
+ * that takes back more than one in so many of what was left. */
+#define LEFT_BY_PUSHING 0.5
+#define LEFT_AT_HOME 0.75
 #define LEAST_PUSHED 64
 /* Moves no longer than this share of a body are what descents leave of none. */
 #define NEARLY_HOME 1e-7
