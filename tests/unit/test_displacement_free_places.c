@@ -1,5 +1,6 @@
 /* Free places in crowds of convex obstacles, which the search takes through cells: the nearest one is free, and as near
  * as the nearest of all feet of perpendiculars and all crossings of sides that are free, each tested against all. */
+#include "base/watch.h"
 #include "displacement/obstacles/free_places.h"
 #include "random.h"
 
@@ -160,8 +161,41 @@ static void test_corners(void **state)
     sunder_i_obstacles_free(&o);
 }
 
+static bool go_on_once(void *user)
+{
+    bool *asked = user, go_on = !*asked;
+    *asked = true;
+    return go_on;
+}
+
+/* Whoever is told to stop, be it while cells are made, says that he failed. */
+static void test_stopped(void **state)
+{
+    (void)state;
+    static crowd c;
+    size_t stopped = 0;
+    for (int before = 0; before < SUNDER_I_STEPS; before++) {
+        rng r = rng_start(1, (uint64_t)before);
+        bool asked = false, failed = false;
+        sunder_i_obstacles o = {0};
+        double place[4][2];
+        uint64_t steps = 0;
+        draw(&r, &c);
+        for (size_t k = 0; k < c.n; k++) sunder_i_obstacles_add(&o, c.corner[k][0], c.corners[k], 0);
+        sunder_watch(go_on_once, &asked); /* it is asked at the next step, and then at each of so many */
+        for (int k = 0; k < before; k++) sunder_i_step();
+        sunder_i_free_places(&o, c.target, 1e9, 0, 4, place, &steps, &failed);
+        assert_true(failed == sunder_i_stopped());
+        stopped += failed;
+        sunder_watch(NULL, NULL);
+        sunder_i_obstacles_free(&o);
+    }
+    assert_true(stopped > 10);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_crowds), cmocka_unit_test(test_corners)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_crowds), cmocka_unit_test(test_corners),
+                                       cmocka_unit_test(test_stopped)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

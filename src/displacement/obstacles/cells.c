@@ -113,9 +113,7 @@ static bool enter_obstacle(const sunder_i_obstacles *o, uint32_t k, sunder_i_cel
         for (uint32_t x = first; x < first + n; x++) {
             const double centre = cells->low[0] + (x + 0.5) * cells->side;
             if (centre < meets[0] || centre > meets[1]) continue;
-            if (!enter(cells, y * cells->across[0] + x, k,
-                       centre > holds[0] && centre < holds[1]))
-                return false;
+            if (!enter(cells, y * cells->across[0] + x, k, centre > holds[0] && centre < holds[1])) return false;
         }
     }
     return sunder_i_steps(1 + rows);
@@ -143,7 +141,7 @@ bool sunder_i_cells_make(const sunder_i_obstacles *o, const double target[2], do
     if (!cells->cell) return false;
     for (size_t k = 0; k < n; k++) cells->cell[k] = (sunder_i_cell){0, 0, SUNDER_I_NO_ENTRY};
     for (uint32_t k = 0; k < o->n; k++)
-        if (!enter_obstacle(o, k, cells)) return sunder_i_stopped();
+        if (!enter_obstacle(o, k, cells)) return false; /* stopped, or out of memory */
     return sort_entries(o, cells);
 }
 
