@@ -84,6 +84,7 @@ int gis_command_merge(const gis_options *options)
     run.in_parts = run.merges = true;
     run.stamp = planned.plan.stamp;
     ok = ok && resume(&run, &planned, directory, &error);
+    if (ok) gis_in_parts_tell_together(&run.parts);
     run.read = gis_clock() - run.start;
     ok = ok && gis_separate_in_parts(&run, &error) && gis_separate_deliver(&run, &error);
     const int status = gis_separate_end(&run, ok, &error);

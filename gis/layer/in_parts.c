@@ -117,21 +117,26 @@ static bool open_spool(gis_in_parts *p, double memory, gis_error *error)
 /* Contact groups are within the gap and this much of a metre, or of a unit where there is none. */
 static const double next_to_nothing = 1e-6;
 
-/* What hangs together is one part, whatever its size: it is told of before hours are spent on all the rest. */
 static bool look_together(gis_in_parts *p, gis_error *error)
 {
-    const double memory = p->layout.memory, metres = p->facts.units.unit_metres,
+    const double metres = p->facts.units.unit_metres,
                  reach = fmax(p->facts.gap, p->facts.tolerance) + next_to_nothing / (metres > 0 ? metres : 1);
-    gis_together *t = &p->together;
     choose_options(p);
-    if (!gis_parts_together(&p->layout, reach, memory, t, error)) return false;
+    if (!gis_parts_together(&p->layout, reach, p->layout.memory, &p->facts.together, error)) return false;
+    gis_in_parts_tell_together(p);
+    return true;
+}
+
+/* What hangs together is one part, whatever its size: it is told of before hours are spent on all the rest. */
+void gis_in_parts_tell_together(const gis_in_parts *p)
+{
+    const gis_together *t = &p->facts.together;
     const double bytes = gis_in_parts_bytes(&p->request->rules, (double)t->features, (double)t->vertices);
-    if (bytes > GIS_PART_LARGE * memory)
+    if (bytes > GIS_PART_LARGE * p->layout.memory)
         gis_say_warning(GIS_MESSAGE_MEMORY,
-                        "%zu features hang together as they stand, from (%.17g, %.17g) to (%.17g, %.17g), and are one "
+                        "%zu features hang together as they stand, from (%.12g, %.12g) to (%.12g, %.12g), and are one "
                         "piece of work: it takes about %.0f MB, more than --max-memory has it",
                         t->features, t->box[0], t->box[1], t->box[2], t->box[3], ceil(bytes / 1e6));
-    return true;
 }
 
 bool gis_in_parts_begin(const gis_layer_input_request *request, const char *directory, unsigned shards, double memory,

@@ -13,7 +13,6 @@
 #include "layer/rows.h"
 #include "layer/spooling.h"
 #include "parts/join.h"
-#include "parts/together.h"
 
 /* Zeroed: nothing. */
 typedef struct gis_in_parts {
@@ -29,7 +28,6 @@ typedef struct gis_in_parts {
     bool whole;       /* the source was opened to be held whole */
     unsigned at_once; /* so many units are a part */
     gis_layout layout;
-    gis_together together; /* the largest lot that hangs together as the layer stands, or more than that */
     gis_joined joined;
     GIntBig *block_fid; /* [joined.blocks] of the features there, from when they are written */
 } gis_in_parts;
@@ -51,6 +49,8 @@ bool gis_in_parts_begin(const gis_layer_input_request *request, const char *dire
 /* As after gis_in_parts_begin() with a directory, which is as that left it; facts are copied. */
 bool gis_in_parts_resume(const gis_layer_input_request *request, const char *directory, const gis_layer_facts *facts,
                          unsigned shards, double memory, gis_in_parts *out, gis_error *error);
+/* Once more, by who comes to that piece of work. */
+void gis_in_parts_tell_together(const gis_in_parts *parts);
 
 /* Shard k, 1 to shards, to its file in the directory, in place of one that is there. options: of the call, for the
  * file's stamp. */

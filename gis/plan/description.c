@@ -48,8 +48,8 @@ static void put_together(gis_json *out, const gis_in_parts *parts)
 {
     gis_json_key(out, "largest_group");
     gis_json_open(out, '{');
-    gis_json_put_size(out, "features", parts->together.features);
-    gis_json_put_size(out, "vertices", parts->together.vertices);
+    gis_json_put_size(out, "features", parts->facts.together.features);
+    gis_json_put_size(out, "vertices", parts->facts.together.vertices);
     put_estimate(out, gis_plan_of_together(parts));
     gis_json_close(out, '}');
     gis_json_line(out);

@@ -24,7 +24,7 @@ gis_plan_estimate gis_plan_of_shard(const gis_plan *plan, const gis_plan_load *s
 gis_plan_estimate gis_plan_of_together(const gis_in_parts *parts)
 {
     const gis_layer_rules *rules = &parts->request->rules;
-    const double features = (double)parts->together.features, vertices = (double)parts->together.vertices;
+    const double features = (double)parts->facts.together.features, vertices = (double)parts->facts.together.vertices;
     return (gis_plan_estimate){.bytes = gis_in_parts_bytes(rules, features, vertices),
                                .seconds = seconds_of(rules, features)};
 }

@@ -111,6 +111,10 @@ grep -q '30000 features hang together as they stand' err || fail "plan does not 
 same "$(jq '.largest_group.features' one.plan/plan.json)" 30000 'largest_group of plan.json'
 jq -e '.largest_group.memory_bytes > 1.5 * .max_memory_bytes and .merge.memory_bytes >= .largest_group.memory_bytes' one.plan/plan.json >/dev/null ||
     fail "the merge is not estimated by what it has to hold"
+for k in 1 2 3; do run separate --shard $k one.plan -q; done
+rm -f o.gpkg
+run merge one.plan o.gpkg
+same "$(grep -c 'hang together as they stand' err)" 1 'times that merge tells of a block of 30000 features'
 expect 0 plan large.gpkg none.plan -l buildings --shards 3 --max-memory 99M
 grep -q 'hang together' err && fail "plan tells that a town hangs together"
 # Long houses aslant in rows of which nearly all boxes meet, and no two houses: shapes decide.
