@@ -14,6 +14,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { LOTS = 1 << 12 }; /* so many are there before any are forgotten */
+/* So many pairs a feature: where more meet they lie in piles, and hang together by boxes alone. */
+static const size_t patience = 500;
+
 typedef struct member {
     double box[4]; /* with half the reach about it */
     uint64_t place;
@@ -97,7 +101,7 @@ static void consider(looking *l, const gis_together *lot)
     if (bytes_of(l->layout, lot) > bytes_of(l->layout, &l->largest)) l->largest = *lot;
 }
 
-/* Where a lot is after forget_lots(); what it was called before is a root's name. */
+/* A lot that is remembered: by the number of its root, which is marked as one that stays. */
 static void keep_lot(const looking *l, size_t *to, size_t *lot)
 {
     *lot = gis_set_root(l->parent, *lot);
@@ -320,10 +324,6 @@ static bool look_at(looking *l, size_t cell, gis_error *error)
         if (l->last[l->beside[b]] == cell) forget(&l->cell[l->beside[b]]);
     return done;
 }
-
-enum { LOTS = 1 << 12 }; /* so many are there before any are forgotten */
-/* So many pairs a feature: where more meet they lie in piles, and hang together by boxes alone. */
-static const size_t patience = 500;
 
 static bool look(looking *l, gis_error *error)
 {
