@@ -6,23 +6,18 @@
 #include <stdint.h>
 
 /* Position of a cell of a grid of 2^bits by 2^bits along the curve, bits <= 31: at each level the quadrant in which it
- * lies, then the quadrant's own turn of the plane. */
+ * lies, then the quadrant's own turn of the plane, which exchanges the axes and may turn both round. Which quadrant it
+ * is is as good as random: so there are no branches. */
 static inline uint64_t gis_curve_position(uint32_t x, uint32_t y, unsigned bits)
 {
-    const uint32_t last = (UINT32_C(1) << bits) - 1;
     uint64_t along = 0;
-    for (uint32_t s = UINT32_C(1) << (bits - 1); s; s >>= 1) {
-        const uint32_t right = (x & s) != 0, up = (y & s) != 0;
-        along += (uint64_t)s * s * ((3 * right) ^ up);
-        if (!up) {
-            if (right) {
-                x = last - x;
-                y = last - y;
-            }
-            const uint32_t swap = x;
-            x = y;
-            y = swap;
-        }
+    uint32_t exchanged = 0, round = 0;
+    for (unsigned level = bits; level-- > 0;) {
+        const uint32_t own = (x >> level) & 1, other = (y >> level) & 1, turn = ((own ^ other) & exchanged) ^ round;
+        const uint32_t right = own ^ turn, up = other ^ turn;
+        along = along << 2 | ((3 * right) ^ up);
+        round ^= right & ~up;
+        exchanged ^= up ^ 1;
     }
     return along;
 }

@@ -2,6 +2,7 @@
  * the features as they are read once more. */
 #include "layer/in_parts.h"
 
+#include "base/array.h"
 #include "base/interrupt.h"
 #include "layer/output.h"
 #include "read/source_checksum.h"
@@ -17,6 +18,8 @@
 typedef struct passing {
     gis_in_parts *parts;
     gis_spool_file status;
+    unsigned char *alone; /* of the batch that goes by: how each feature of it is by itself */
+    size_t room;
     bool any; /* joined.rows is at one */
     size_t block;
 } passing;
@@ -36,9 +39,7 @@ static bool pass(passing *at, const gis_source *source, size_t i, gis_sink_layer
     gis_in_parts *p = at->parts;
     const gis_joined *j = &p->joined;
     const size_t feature = gis_source_first(source) + i;
-    unsigned char alone;
-    if (!gis_spool_file_read(&at->status, feature, &alone, 1, error)) return false;
-    gis_feature_row row = {.status = (sunder_feature_status)alone};
+    gis_feature_row row = {.status = (sunder_feature_status)at->alone[i]};
     gis_sorted *rows = &p->joined.rows;
     if (at->any && rows->head.first == feature) {
         if (rows->one.rows) {
@@ -63,11 +64,13 @@ static bool input_changed(const gis_source *source, gis_error *error)
                     gis_source_path(source));
 }
 
-static bool check_batch(const gis_in_parts *p, const gis_source *source, uint64_t *checksum, gis_error *error)
+static bool begin_batch(passing *at, const gis_source *source, uint64_t *checksum, gis_error *error)
 {
-    if (gis_source_first(source) + gis_source_count(source) > p->facts.source.features)
-        return input_changed(source, error);
-    return gis_source_checksum(source, checksum, error);
+    const size_t first = gis_source_first(source), n = gis_source_count(source);
+    if (first + n > at->parts->facts.source.features) return input_changed(source, error);
+    if (!gis_source_checksum(source, checksum, error)) return false;
+    if (!gis_array_reserve(&at->alone, &at->room, n, sizeof *at->alone)) return gis_no_memory(error);
+    return gis_spool_file_read(&at->status, first, at->alone, n, error);
 }
 
 /* All features go by, as blocks are called by FIDs that are known then; and are written, if layer is not NULL. */
@@ -82,12 +85,13 @@ static bool write_main(gis_in_parts *p, gis_source *source, gis_sink_layer *laye
     bool done = gis_spool_file_open(&at.status, p->directory, "status", error) &&
                 gis_sorted_next(&p->joined.rows, &at.any, error);
     while (done && any) {
-        done = check_batch(p, source, &checksum, error);
+        done = begin_batch(&at, source, &checksum, error);
         for (size_t i = 0; i < gis_source_count(source) && done; i++) done = pass(&at, source, i, layer, error);
         any = !p->whole;
         if (any) done = done && gis_source_next(source, &any, error);
     }
     gis_spool_file_close(&at.status);
+    free(at.alone);
     if (done && checksum != p->facts.checksum) return input_changed(source, error);
     return done;
 }

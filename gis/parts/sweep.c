@@ -36,7 +36,10 @@ void gis_sweep_run(gis_sweep *sweep, gis_sweep_meets *meets, void *user)
         for (size_t i = 0; i < open; i++) {
             if (box[i].box[2] < next.box[0]) continue;
             if (on != GIS_SWEEP_A_ALONE && meet(&box[i], &next)) on = meets(user, &box[i], &next);
-            if (on != GIS_SWEEP_B_ALONE) box[kept++] = box[i];
+            if (on != GIS_SWEEP_B_ALONE) {
+                if (kept != i) box[kept] = box[i];
+                kept++;
+            }
             if (on == GIS_SWEEP_B_ALONE) on = GIS_SWEEP_BOTH;
         }
         open = kept;
