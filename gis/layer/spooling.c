@@ -91,7 +91,7 @@ static gis_spool_writer *open_aside(spooling *s, gis_error *error)
     else if (mkdir(path, 0777) != 0 && errno != EEXIST)
         gis_fail(error, "%s: it cannot be made: %s", path, strerror(errno));
     else
-        gis_spool_create(path, &s->aside, error);
+        gis_spool_create(path, gis_source_extent(s->input.source), &s->aside, error);
     free(path);
     return s->aside;
 }
@@ -199,7 +199,7 @@ static bool read_batches(spooling *s, const gis_layer_input_request *request, co
 {
     gis_layer_input *input = &s->input;
     if (!gis_layer_begin(request, true, input, error) || !gis_layer_lengths(input, error) ||
-        !gis_spool_create(directory, &s->writer, error) ||
+        !gis_spool_create(directory, gis_source_extent(input->source), &s->writer, error) ||
         !gis_spool_file_create(&s->status, directory, "status.part", error))
         return false;
     for (bool any = true; any;)

@@ -143,7 +143,7 @@ bool gis_barriers_create(const char *directory, double gap, gis_barriers_writer 
     w->gap = gap;
     w->directory = gis_spool_inside(directory, GIS_BARRIERS);
     const bool done = (w->directory || gis_no_memory(error)) && make_directory(w->directory, error) &&
-                      gis_spool_create(w->directory, &w->all, error);
+                      gis_spool_create(w->directory, NULL, &w->all, error);
     if (done)
         *out = w;
     else
@@ -161,7 +161,7 @@ bool gis_barriers_finish(gis_barriers_writer *w, gis_error *error)
 {
     char *path = gis_spool_inside(w->directory, GIS_BARRIERS_EVERYWHERE);
     gis_spool_writer *few = NULL;
-    bool done = (path || gis_no_memory(error)) && make_directory(path, error) && gis_spool_create(path, &few, error);
+    bool done = (path || gis_no_memory(error)) && make_directory(path, error) && gis_spool_create(path, NULL, &few, error);
     for (int k = 0; k < FACTS && done; k++) {
         bool again = !w->fact[k].there;
         for (int i = 0; i < k; i++)

@@ -9,6 +9,9 @@
 /* So much is read at a time. */
 enum { BUFFER = 1 << 18 };
 
+/* There are several of these at a time. */
+static const size_t RUN = GIS_SPOOL_RUN / 4;
+
 enum { NAME = 64 };
 
 static void name_of(const gis_sorted *s, const char *suffix, char name[NAME])
@@ -18,10 +21,10 @@ static void name_of(const gis_sorted *s, const char *suffix, char name[NAME])
 
 bool gis_sorted_begin(gis_sorted *s, const char *directory, const char *called, gis_error *error)
 {
-    char name[NAME];
+    char parts[NAME];
     *s = (gis_sorted){.directory = directory, .name = called};
-    name_of(s, "input", name);
-    return gis_spool_file_create(&s->file, directory, name, error);
+    name_of(s, "runs", parts);
+    return gis_sorter_new(directory, parts, RUN, &s->sorter, error);
 }
 
 bool gis_sorted_add(gis_sorted *s, uint64_t first, uint64_t second, const gis_part_result *one, gis_error *error)
@@ -30,7 +33,7 @@ bool gis_sorted_add(gis_sorted *s, uint64_t first, uint64_t second, const gis_pa
     if (!gis_array_reserve(&s->record, &s->room, head.bytes, 1)) return gis_no_memory(error);
     memcpy(s->record, &head, sizeof head);
     gis_part_result_store(one, s->record + sizeof head);
-    return gis_spool_file_write(&s->file, s->record, (size_t)head.bytes, error);
+    return gis_sorter_add(s->sorter, s->record, error);
 }
 
 /* ---- Sorting ----------------------------------------------------------------------------------------------------- */
@@ -48,7 +51,7 @@ static bool load(gis_sorted *s, const unsigned char *record, gis_error *error)
     memcpy(&s->head, record, sizeof s->head);
     return gis_part_result_load(&s->one, record + sizeof s->head, (size_t)s->head.bytes - sizeof s->head, &sound,
                                 error) &&
-           (sound || gis_fail(error, "%s: it is not what was written", s->file.path));
+           (sound || gis_fail(error, "%s/%s: it is not what was written", s->directory, s->name));
 }
 
 static bool take(void *user, const unsigned char *record, gis_error *error)
@@ -63,16 +66,13 @@ static bool take(void *user, const unsigned char *record, gis_error *error)
 
 bool gis_sorted_sort(gis_sorted *s, gis_sorted_keep *keep, void *user, gis_error *error)
 {
-    char parts[NAME], name[NAME];
+    char name[NAME];
     sorting own = {.sorted = s, .keep = keep, .user = user};
-    name_of(s, "runs", parts);
     name_of(s, "sorted", name);
-    const gis_spool_sorting how = {
-        .from = &s->file, .directory = s->directory, .parts = parts, .run = GIS_SPOOL_RUN, .take = take, .user = &own};
-    const bool done = gis_spool_file_flush(&s->file, error) &&
-                      gis_spool_file_create(&own.out, s->directory, name, error) && gis_spool_sort(&how, error) &&
-                      gis_spool_file_flush(&own.out, error);
-    gis_spool_file_close(&s->file);
+    const bool done = gis_spool_file_create(&own.out, s->directory, name, error) &&
+                      gis_sorter_take(s->sorter, take, &own, error) && gis_spool_file_flush(&own.out, error);
+    gis_sorter_free(s->sorter);
+    s->sorter = NULL;
     s->file = own.out;
     gis_sorted_again(s);
     return done;
@@ -118,6 +118,7 @@ bool gis_sorted_next(gis_sorted *s, bool *any, gis_error *error)
 
 void gis_sorted_clear(gis_sorted *s)
 {
+    gis_sorter_free(s->sorter);
     gis_spool_file_close(&s->file);
     gis_part_result_clear(&s->one);
     free(s->record);

@@ -9,7 +9,8 @@
 /* Zeroed: none. */
 typedef struct gis_sorted {
     const char *directory, *name; /* borrowed */
-    gis_spool_file file;
+    gis_sorter *sorter;           /* until it is sorted; and then: */
+    gis_spool_file file;          /* all of them in order */
     size_t n;
     unsigned char *record; /* one that is written */
     size_t room;

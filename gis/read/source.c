@@ -17,6 +17,7 @@
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,6 +45,8 @@ struct gis_source {
     size_t batch, first, bytes; /* bytes: of geometries in the batch; see gis_source_request */
     bool may_pack, ended;       /* ended: the last feature was read */
     bool facts_given, fids_mean_nothing;
+    double extent[4];
+    bool extent_known;
     gis_source_marks marks;
     gis_sentences warnings;
 };
@@ -392,8 +395,25 @@ bool gis_source_goes_by_fids(const gis_source *source)
 
 /* ---- Opening a source -------------------------------------------------------------------------------------------- */
 
+/* Before features are read, which asking may disturb. */
+static void find_extent(gis_source *source)
+{
+    OGREnvelope box;
+    CPLPushErrorHandler(CPLQuietErrorHandler);
+    if (OGR_L_TestCapability(source->layer, OLCFastGetExtent) &&
+        OGR_L_GetExtent(source->layer, &box, FALSE) == OGRERR_NONE) {
+        const double extent[4] = {box.MinX, box.MinY, box.MaxX, box.MaxY};
+        memcpy(source->extent, extent, sizeof extent);
+        source->extent_known = extent[0] <= extent[2] && extent[1] <= extent[3] && isfinite(extent[2] - extent[0]) &&
+                               isfinite(extent[3] - extent[1]);
+    }
+    CPLPopErrorHandler();
+    CPLErrorReset();
+}
+
 static bool begin_reading(gis_source *source, const gis_source_request *request, gis_error *error)
 {
+    if (request->batch) find_extent(source);
     source->batch = request->batch;
     source->may_pack = request->packed;
     source->fids_mean_nothing = request->fids_mean_nothing;
@@ -513,6 +533,9 @@ bool gis_source_unpack(gis_source *source, gis_error *error)
 }
 
 size_t gis_source_first(const gis_source *source) { return source->first; }
+
+const double *gis_source_extent(const gis_source *source) { return source->extent_known ? source->extent : NULL; }
+
 bool gis_source_fids_unique(const gis_source *source) { return source->facts.fids_unique; }
 gis_content gis_source_content(const gis_source *source, size_t i) { return (gis_content)source->contents[i]; }
 

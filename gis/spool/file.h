@@ -11,6 +11,7 @@
 typedef struct gis_spool_file {
     char *path;
     FILE *stream;
+    char *buffer;           /* the stream's, if it is written */
     uint64_t size;          /* bytes written, or there */
     gis_leftover *leftover; /* of a temporary one */
 } gis_spool_file;

@@ -128,12 +128,15 @@ bool gis_spool_skim(gis_spool *spool, size_t cell, gis_spool_glance *glance, voi
     const uint64_t from = spool->index.entry[cell].from;
     if (!gis_go_on(error) || !load(spool, cell, error)) return false;
     for (size_t at = 0; at < spool->records.used;) {
+        unsigned char *record = spool->records.at + at;
         gis_spool_feature feature;
-        const gis_spool_head *head = gis_spool_record_head(spool->records.at + at);
-        if (!gis_spool_record_feature(spool->records.at + at, spool->records.used - at, &feature))
+        double box[4];
+        if (!gis_spool_record_feature(record, spool->records.used - at, &feature))
             return gis_fail(error, "%s: cell %zu of it is not what was written", spool->file.path, cell);
         feature.place = from + at;
-        if (!glance(user, &feature, head->box, head->vertices, error)) return false;
+        gis_spool_record_box(record, box);
+        const gis_spool_head *head = gis_spool_record_head(record);
+        if (!glance(user, &feature, box, head->vertices, error)) return false;
         at += head->bytes;
     }
     return true;

@@ -1,8 +1,9 @@
-/* sort.c: see sort.h. Records are read in parts that fit into memory; each part is sorted and written behind the last
- * one, into one file; then the parts are merged by a heap of their first records. */
+/* sort.c: see sort.h. Records are gathered until they fill the memory that they may take; then they are sorted and
+ * written behind the last such part, into one file; in the end the parts are merged by a heap of their first records. */
 #include "spool/sort.h"
 
 #include "base/array.h"
+#include "base/keyed.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -14,99 +15,81 @@ typedef struct run {
     size_t used, filled, room;
 } run;
 
-/* Where a record of the part in memory is. */
-typedef struct place {
-    uint64_t first, second;
-    size_t offset;
-} place;
-
-typedef struct sorter {
-    const gis_spool_sorting *how;
+struct gis_sorter {
+    char *directory, *parts;
+    size_t most; /* bytes of a part */
     gis_spool_file runs;
     run *run;
     size_t n, capacity;
-    unsigned char *part; /* records of one part, in the order in which they came */
-    size_t room;
-    place *place;
-    size_t places;
-} sorter;
+    unsigned char *part; /* records of the part that is gathered, in the order in which they came */
+    size_t used, room;
+    gis_keyed *place; /* where each is, and a key of it */
+    size_t places, place_room;
+};
 
-static int compare(uint64_t first_a, uint64_t second_a, uint64_t first_b, uint64_t second_b)
+static int compare(const gis_sort_head *p, const gis_sort_head *q)
 {
-    if (first_a != first_b) return first_a < first_b ? -1 : 1;
-    return (second_a > second_b) - (second_a < second_b);
-}
-
-static int compare_places(const void *a, const void *b)
-{
-    const place *p = a, *q = b;
-    const int by_keys = compare(p->first, p->second, q->first, q->second);
-    return by_keys ? by_keys : (p->offset > q->offset) - (p->offset < q->offset);
+    if (p->first != q->first) return p->first < q->first ? -1 : 1;
+    return (p->second > q->second) - (p->second < q->second);
 }
 
 static gis_sort_head *head_of(unsigned char *record) { return (void *)record; }
-
-/* ---- Parts ------------------------------------------------------------------------------------------------------- */
 
 static bool fail_content(const gis_spool_file *file, gis_error *error)
 {
     return gis_fail(error, "%s: it is not what was written", file->path);
 }
 
-/* Reads as many bytes of the next part. No more room than is needed: one that doubles would be twice the bound. */
-static bool read_bytes(sorter *s, uint64_t from, size_t size, gis_error *error)
-{
-    if (s->room < size) {
-        unsigned char *larger = realloc(s->part, size);
-        if (!larger) return gis_no_memory(error);
-        s->part = larger;
-        s->room = size;
-    }
-    return gis_spool_file_read(s->how->from, from, s->part, size, error);
-}
+/* ---- Parts ------------------------------------------------------------------------------------------------------- */
 
-/* Reads the records that fit into a part, at least one; *n of them, as they came. */
-static bool read_part(sorter *s, uint64_t *from, size_t *n, gis_error *error)
+enum { LEAST_ROOM = 1 << 16 };
+
+/* For so many bytes more. No more room than a part may take: one that doubles would be twice the bound. */
+static bool make_room(gis_sorter *s, size_t bytes, gis_error *error)
 {
-    gis_spool_file *file = s->how->from;
-    const uint64_t left = file->size - *from;
-    size_t size = left < s->how->run ? (size_t)left : s->how->run, used = 0;
-    gis_sort_head head;
-    if (left < sizeof head || !gis_spool_file_read(file, *from, &head, sizeof head, error) || head.bytes > left)
-        return fail_content(file, error);
-    if (size < head.bytes) size = head.bytes;
-    if (!read_bytes(s, *from, size, error)) return false;
-    for (*n = 0; size - used >= sizeof head; used += head_of(s->part + used)->bytes) {
-        const gis_sort_head *next = head_of(s->part + used);
-        if (next->bytes < sizeof head || next->bytes % 8) return fail_content(file, error);
-        if (next->bytes > size - used) break;
-        if (!gis_go_on(error) || (s->how->prepare && !s->how->prepare(s->how->user, s->part + used, error)))
-            return false;
-        if (!gis_array_reserve(&s->place, &s->places, *n + 1, sizeof *s->place)) return gis_no_memory(error);
-        s->place[(*n)++] = (place){next->first, next->second, used};
-    }
-    *from += used;
-    qsort(s->place, *n, sizeof *s->place, compare_places);
+    if (s->room - s->used >= bytes) return true;
+    size_t room = 2 * s->room > LEAST_ROOM ? 2 * s->room : LEAST_ROOM;
+    if (room > s->most) room = s->most;
+    if (room < s->used + bytes) room = s->used + bytes;
+    unsigned char *larger = realloc(s->part, room);
+    if (!larger) return gis_no_memory(error);
+    s->part = larger;
+    s->room = room;
     return true;
 }
 
-static bool write_part(sorter *s, size_t n, gis_error *error)
+/* By the first keys, by the second where these agree, and else as they came: by the second keys first, since what is
+ * sorted keeps its order. */
+static bool sort_part(gis_sorter *s, gis_error *error)
 {
+    gis_keyed *place = s->place;
+    for (size_t k = 0; k < s->places; k++) place[k].key = head_of(s->part + place[k].with)->second;
+    if (!gis_keyed_sort(place, s->places)) return gis_no_memory(error);
+    for (size_t k = 0; k < s->places; k++) place[k].key = head_of(s->part + place[k].with)->first;
+    return gis_keyed_sort(place, s->places) || gis_no_memory(error);
+}
+
+static bool write_part(gis_sorter *s, gis_error *error)
+{
+    if (!sort_part(s, error)) return false;
+    if (!s->runs.stream && !gis_spool_file_create(&s->runs, s->directory, s->parts, error)) return false;
     if (!gis_array_reserve(&s->run, &s->capacity, s->n + 1, sizeof *s->run)) return gis_no_memory(error);
     run *next = &s->run[s->n++];
     *next = (run){.from = s->runs.size};
-    for (size_t k = 0; k < n; k++) {
-        unsigned char *record = s->part + s->place[k].offset;
+    for (size_t k = 0; k < s->places; k++) {
+        unsigned char *record = s->part + s->place[k].with;
         if (!gis_spool_file_write(&s->runs, record, head_of(record)->bytes, error)) return false;
     }
     next->end = s->runs.size;
+    s->places = s->used = 0;
     return gis_go_on(error);
 }
 
-static bool take_part(sorter *s, size_t n, gis_error *error)
+static bool take_part(gis_sorter *s, gis_spool_take *take, void *user, gis_error *error)
 {
-    for (size_t k = 0; k < n; k++)
-        if (!s->how->take(s->how->user, s->part + s->place[k].offset, error)) return false;
+    if (!sort_part(s, error)) return false;
+    for (size_t k = 0; k < s->places; k++)
+        if (!take(user, s->part + s->place[k].with, error)) return false;
     return true;
 }
 
@@ -115,7 +98,7 @@ static bool take_part(sorter *s, size_t n, gis_error *error)
 static gis_sort_head *first_of(const run *r) { return head_of(r->at + r->used); }
 
 /* Has the first record of what is left whole in memory; *any = false: nothing is left. */
-static bool refill(sorter *s, run *r, size_t share, bool *any, gis_error *error)
+static bool refill(gis_sorter *s, run *r, size_t share, bool *any, gis_error *error)
 {
     const size_t have = r->filled - r->used;
     *any = have > 0 || r->from < r->end;
@@ -142,8 +125,7 @@ static bool refill(sorter *s, run *r, size_t share, bool *any, gis_error *error)
 /* Runs lie in the order in which their records came. */
 static bool before(const run *a, const run *b)
 {
-    const gis_sort_head *p = first_of(a), *q = first_of(b);
-    const int by_keys = compare(p->first, p->second, q->first, q->second);
+    const int by_keys = compare(first_of(a), first_of(b));
     return by_keys ? by_keys < 0 : a < b;
 }
 
@@ -159,7 +141,7 @@ static void sink(run **heap, size_t n, size_t i)
     }
 }
 
-static bool merge_heap(sorter *s, run **heap, size_t share, gis_error *error)
+static bool merge_heap(gis_sorter *s, run **heap, size_t share, gis_spool_take *take, void *user, gis_error *error)
 {
     size_t n = 0;
     for (size_t k = 0; k < s->n; k++) {
@@ -171,7 +153,7 @@ static bool merge_heap(sorter *s, run **heap, size_t share, gis_error *error)
     while (n > 0) {
         run *least = heap[0];
         bool any;
-        if (!gis_go_on(error) || !s->how->take(s->how->user, least->at + least->used, error)) return false;
+        if (!gis_go_on(error) || !take(user, least->at + least->used, error)) return false;
         least->used += first_of(least)->bytes;
         if (!refill(s, least, share, &any, error)) return false;
         if (!any) heap[0] = heap[--n];
@@ -183,7 +165,7 @@ static bool merge_heap(sorter *s, run **heap, size_t share, gis_error *error)
 /* Reading less at once would cost a seek for every few records. */
 enum { LEAST_SHARE = 1 << 16 };
 
-static bool merge(sorter *s, gis_error *error)
+static bool merge(gis_sorter *s, gis_spool_take *take, void *user, gis_error *error)
 {
     free(s->part);
     free(s->place);
@@ -191,38 +173,105 @@ static bool merge(sorter *s, gis_error *error)
     s->place = NULL;
     run **heap = malloc((s->n + 1) * sizeof *heap);
     if (!heap) return gis_no_memory(error);
-    size_t share = s->how->run / (s->n + 1);
+    size_t share = s->most / (s->n + 1);
     if (share < LEAST_SHARE) share = LEAST_SHARE;
-    const bool done = gis_spool_file_flush(&s->runs, error) && merge_heap(s, heap, share, error);
+    const bool done = gis_spool_file_flush(&s->runs, error) && merge_heap(s, heap, share, take, user, error);
     free(heap);
     return done;
 }
 
-/* ---- All of it --------------------------------------------------------------------------------------------------- */
+/* ---- Records as they come ---------------------------------------------------------------------------------------- */
 
-static bool sort(sorter *s, gis_error *error)
+bool gis_sorter_new(const char *directory, const char *parts, size_t most, gis_sorter **out, gis_error *error)
 {
-    size_t n;
-    uint64_t from = 0;
-    if (s->how->from->size == 0) return true;
-    if (!read_part(s, &from, &n, error)) return false;
-    if (from == s->how->from->size) return take_part(s, n, error);
-    if (!gis_spool_file_create(&s->runs, s->how->directory, s->how->parts, error)) return false;
-    while (write_part(s, n, error)) {
-        if (from == s->how->from->size) return merge(s, error);
-        if (!read_part(s, &from, &n, error)) return false;
+    gis_sorter *s = calloc(1, sizeof *s);
+    if (!s) return gis_no_memory(error);
+    *s = (gis_sorter){.directory = strdup(directory), .parts = strdup(parts), .most = most};
+    if (!s->directory || !s->parts) {
+        gis_sorter_free(s);
+        return gis_no_memory(error);
     }
-    return false;
+    *out = s;
+    return true;
 }
 
-bool gis_spool_sort(const gis_spool_sorting *sorting, gis_error *error)
+bool gis_sorter_add(gis_sorter *s, const void *record, gis_error *error)
 {
-    sorter s = {.how = sorting};
-    const bool done = sort(&s, error);
-    for (size_t k = 0; k < s.n; k++) free(s.run[k].at);
-    free(s.run);
-    free(s.part);
-    free(s.place);
-    gis_spool_file_close(&s.runs);
+    const size_t bytes = (size_t)((const gis_sort_head *)record)->bytes;
+    if (s->places && s->used + bytes > s->most && !write_part(s, error)) return false;
+    if (!make_room(s, bytes, error)) return false;
+    if (!gis_array_reserve(&s->place, &s->place_room, s->places + 1, sizeof *s->place)) return gis_no_memory(error);
+    memcpy(s->part + s->used, record, bytes);
+    s->place[s->places++].with = s->used;
+    s->used += bytes;
+    return true;
+}
+
+bool gis_sorter_take(gis_sorter *s, gis_spool_take *take, void *user, gis_error *error)
+{
+    if (s->n == 0) return take_part(s, take, user, error);
+    return write_part(s, error) && merge(s, take, user, error);
+}
+
+void gis_sorter_free(gis_sorter *s)
+{
+    if (!s) return;
+    for (size_t k = 0; k < s->n; k++) free(s->run[k].at);
+    free(s->run);
+    free(s->part);
+    free(s->place);
+    free(s->directory);
+    free(s->parts);
+    gis_spool_file_close(&s->runs);
+    free(s);
+}
+
+/* ---- Records of a file ------------------------------------------------------------------------------------------- */
+
+enum { PIECE = 1 << 18 };
+
+/* Adds the record that begins a piece of which so many bytes are there; *bytes of it, 0: it is not there whole. */
+static bool add_first(const gis_spool_sorting *how, gis_sorter *s, unsigned char *at, size_t there, size_t *bytes,
+                      gis_error *error)
+{
+    *bytes = 0;
+    if (there < sizeof(gis_sort_head)) return true;
+    const uint64_t own = head_of(at)->bytes;
+    if (own < sizeof(gis_sort_head) || own % 8) return fail_content(how->from, error);
+    if (own > there) return true;
+    *bytes = (size_t)own;
+    return gis_go_on(error) && how->prepare(how->user, at, error) && gis_sorter_add(s, at, error);
+}
+
+static bool add_file(const gis_spool_sorting *how, gis_sorter *s, gis_error *error)
+{
+    unsigned char *piece = NULL;
+    size_t room = 0, there = 0, wanted = PIECE;
+    uint64_t from = 0;
+    bool done = true;
+    while (done && (there || from < how->from->size)) {
+        const uint64_t left = how->from->size - from;
+        const size_t more = left < wanted - there ? (size_t)left : wanted - there;
+        size_t used = 0, bytes = 0;
+        done = gis_array_reserve(&piece, &room, wanted, 1) || gis_no_memory(error);
+        done = done && gis_spool_file_read(how->from, from, piece + there, more, error);
+        from += more;
+        there += more;
+        while (done && (done = add_first(how, s, piece + used, there - used, &bytes, error)) && bytes) used += bytes;
+        if (done && used == 0 && from == how->from->size) done = fail_content(how->from, error); /* it was cut off */
+        if (used == 0) wanted *= 2;                                                              /* a large one */
+        there -= used;
+        if (done && there) memmove(piece, piece + used, there);
+    }
+    free(piece);
+    return done;
+}
+
+bool gis_spool_sort(const gis_spool_sorting *how, gis_error *error)
+{
+    gis_sorter *s = NULL;
+    const bool done = gis_sorter_new(how->directory, how->parts, how->run, &s, error) && add_file(how, s, error) &&
+                      gis_sorter_take(s, how->take, how->user, error);
+    gis_sorter_free(s);
     return done;
 }

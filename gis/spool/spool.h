@@ -7,8 +7,9 @@
  * vertices and features each, as far as that goes, and neighbours along the curve. Everything is in the machine's own
  * order of bytes, which is told, and has checksums.
  *
- * Writing takes bounded memory: features wait in the order in which they come, are sorted by parts of SPOOL_RUN bytes,
- * and these merged. So disk is needed for twice what a spool takes in the end. */
+ * Writing takes bounded memory: features are sorted by parts of GIS_SPOOL_RUN bytes, which wait on the disk, and these
+ * merged. So disk is needed for twice what a spool takes in the end. Where nothing was known beforehand of where they
+ * lie they wait in the order in which they come, too, until all are there. */
 #ifndef GIS_SPOOL_H
 #define GIS_SPOOL_H
 
@@ -39,13 +40,15 @@ typedef struct gis_spool_cell {
 
 typedef struct gis_spool_writer gis_spool_writer;
 
-/* In a directory that is there; a spool in it stays until the new one is complete. */
-bool gis_spool_create(const char *directory, gis_spool_writer **out, gis_error *error);
+/* In a directory that is there; a spool in it stays until the new one is complete. frame: where features lie; those
+ * that lie elsewhere are only less well told apart by the curve. NULL: it is not known. */
+bool gis_spool_create(const char *directory, const double frame[4], gis_spool_writer **out, gis_error *error);
 /* Each index once; the order does not matter. The shape's rings are kept as they were given (sunder_shape_given()). */
 bool gis_spool_add(gis_spool_writer *writer, const gis_spool_feature *feature, gis_error *error);
 
-/* Sets what is known of a feature only when all are there: the weight, the limit and the block of its demands. Its
- * shape is NULL. Called once for each, in the order in which they were added. */
+/* Sets what is known of a feature only when all are there: the weight, the limit and, if it was added with one, the
+ * block of its demands. Its shape is NULL. Called once for each. False refuses it, and with it the spool: of several
+ * the first in the order of the input is told. */
 typedef bool gis_spool_settle(void *user, gis_spool_feature *feature, gis_error *error);
 
 /* Sorts, cuts into cells, deals these to so many shards (1 or more) and puts the files in place; settle may be NULL. */

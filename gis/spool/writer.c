@@ -1,4 +1,4 @@
-/* writer.c: a spool written: features to a temporary file as they come, then sorted into cells. */
+/* writer.c: a spool written: features put in order along the curve, then cut into cells. */
 #include "base/array.h"
 #include "base/box.h"
 #include "base/curve.h"
@@ -20,25 +20,39 @@ enum { CURVE_BITS = 26 };
 
 struct gis_spool_writer {
     char *directory;
-    gis_spool_file input, out;
+    gis_sorter *sorter;   /* where the frame of the curve is known; if not: */
+    gis_spool_file input; /* features in the order in which they come, and */
+    double frame[4];      /* the frame, or box of what came so far */
+    gis_spool_file out;
     gis_spool_room record;
     size_t features;
-    double box[4];
     gis_spool_index index;
     gis_spool_entry cell; /* the one that is being filled, and the records in it */
     gis_spool_room records;
     gis_spool_settle *settle;
     void *settle_user;
+    uint64_t refused; /* UINT64_MAX, or the first in the order of the input that settle refused, and */
+    gis_error why;
 };
 
-bool gis_spool_create(const char *directory, gis_spool_writer **out, gis_error *error)
+static const char *const parts = "features.runs";
+
+static bool begin(gis_spool_writer *writer, const char *directory, const double frame[4], gis_error *error)
+{
+    writer->directory = strdup(directory);
+    if (!writer->directory) return gis_no_memory(error);
+    if (!frame) return gis_spool_file_create(&writer->input, directory, "features.input", error);
+    memcpy(writer->frame, frame, sizeof writer->frame);
+    return gis_sorter_new(directory, parts, GIS_SPOOL_RUN, &writer->sorter, error);
+}
+
+bool gis_spool_create(const char *directory, const double frame[4], gis_spool_writer **out, gis_error *error)
 {
     gis_spool_writer *writer = calloc(1, sizeof *writer);
     if (!writer) return gis_no_memory(error);
-    gis_box_clear(writer->box);
-    writer->directory = strdup(directory);
-    if (!writer->directory || !gis_spool_file_create(&writer->input, directory, "features.input", error)) {
-        if (!writer->directory) gis_no_memory(error);
+    writer->refused = UINT64_MAX;
+    gis_box_clear(writer->frame);
+    if (!begin(writer, directory, frame, error)) {
         gis_spool_writer_free(writer);
         return false;
     }
@@ -46,11 +60,24 @@ bool gis_spool_create(const char *directory, gis_spool_writer **out, gis_error *
     return true;
 }
 
+static void find_along(unsigned char *record, const double frame[4])
+{
+    double box[4];
+    gis_spool_record_box(record, box);
+    gis_spool_record_head(record)->along = gis_spool_along(frame, box);
+}
+
 bool gis_spool_add(gis_spool_writer *writer, const gis_spool_feature *feature, gis_error *error)
 {
+    double box[4];
     if (!gis_spool_record_make(&writer->record, feature, error)) return false;
-    gis_box_join(writer->box, gis_spool_record_head(writer->record.at)->box);
     writer->features++;
+    if (writer->sorter) {
+        find_along(writer->record.at, writer->frame);
+        return gis_sorter_add(writer->sorter, writer->record.at, error);
+    }
+    gis_spool_record_box(writer->record.at, box);
+    gis_box_join(writer->frame, box);
     return gis_spool_file_write(&writer->input, writer->record.at, writer->record.used, error);
 }
 
@@ -77,23 +104,42 @@ static bool end_cell(gis_spool_writer *writer, gis_error *error)
     return true;
 }
 
+/* What is known now that all are there. */
+static bool settle_record(gis_spool_writer *writer, unsigned char *record, gis_error *error)
+{
+    gis_spool_feature feature;
+    if (!writer->settle) return true;
+    if (!gis_spool_record_feature(record, (size_t)gis_spool_record_head(record)->bytes, &feature))
+        return gis_fail(error, "%s/features: it is not what was written", writer->directory);
+    gis_error why;
+    if (writer->settle(writer->settle_user, &feature, &why)) {
+        gis_spool_record_settle(record, &feature.demands);
+    } else if (feature.index < writer->refused) {
+        writer->refused = feature.index;
+        writer->why = why;
+    }
+    return true;
+}
+
 static bool take(void *user, const unsigned char *record, gis_error *error)
 {
     gis_spool_writer *writer = user;
-    gis_spool_head head;
-    memcpy(&head, record, sizeof head);
+    double box[4];
+    const size_t bytes = (size_t)((const gis_sort_head *)(const void *)record)->bytes,
+                 vertices = gis_spool_record_vertices(record);
     gis_spool_cell *cell = &writer->cell.cell;
-    const bool full = cell->features == CELL_FEATURES || cell->vertices + head.vertices + head.points > CELL_VERTICES;
+    const bool full = cell->features == CELL_FEATURES || cell->vertices + vertices > CELL_VERTICES;
     if (full && !end_cell(writer, error)) return false;
     gis_spool_room *records = &writer->records;
-    if (!gis_array_reserve(&records->at, &records->capacity, records->used + head.bytes, 1))
-        return gis_no_memory(error);
-    memcpy(records->at + records->used, record, head.bytes);
-    records->used += head.bytes;
+    if (!gis_array_reserve(&records->at, &records->capacity, records->used + bytes, 1)) return gis_no_memory(error);
+    unsigned char *own = records->at + records->used;
+    memcpy(own, record, bytes);
+    records->used += bytes;
     cell->features++;
-    cell->vertices += head.vertices + head.points;
-    gis_box_join(cell->box, head.box);
-    return true;
+    cell->vertices += vertices;
+    gis_spool_record_box(own, box);
+    gis_box_join(cell->box, box);
+    return settle_record(writer, own, error);
 }
 
 /* ---- Order ------------------------------------------------------------------------------------------------------- */
@@ -113,45 +159,48 @@ _Static_assert(offsetof(gis_spool_head, along) == offsetof(gis_sort_head, first)
 static bool prepare(void *user, unsigned char *record, gis_error *error)
 {
     const gis_spool_writer *writer = user;
-    gis_spool_head *head = gis_spool_record_head(record);
     gis_spool_feature feature;
-    head->along = gis_spool_along(writer->box, head->box);
-    if (!writer->settle) return true;
-    if (!gis_spool_record_feature(record, head->bytes, &feature))
+    if (!gis_spool_record_feature(record, (size_t)gis_spool_record_head(record)->bytes, &feature))
         return gis_fail(error, "%s: it is not what was written", writer->input.path);
-    if (!writer->settle(writer->settle_user, &feature, error)) return false;
-    head->weight = feature.demands.weight;
-    head->max_shift = feature.demands.max_shift;
-    head->block = feature.demands.block;
+    find_along(record, writer->frame);
     return true;
 }
 
 /* ---- Ending ------------------------------------------------------------------------------------------------------ */
 
-static bool write_features(gis_spool_writer *writer, gis_spool_settle *settle, void *user, gis_error *error)
+static bool sort_features(gis_spool_writer *writer, gis_error *error)
 {
-    const gis_spool_mark mark = gis_spool_mark_of(GIS_SPOOL_FEATURES);
+    if (writer->sorter) return gis_sorter_take(writer->sorter, take, writer, error);
     const gis_spool_sorting sorting = {.from = &writer->input,
                                        .directory = writer->directory,
-                                       .parts = "features.runs",
+                                       .parts = parts,
                                        .run = GIS_SPOOL_RUN,
                                        .prepare = prepare,
                                        .take = take,
                                        .user = writer};
-    writer->settle = settle;
-    writer->settle_user = user;
-    if (!gis_spool_file_flush(&writer->input, error) ||
-        !gis_spool_file_create(&writer->out, writer->directory, "features.part", error) ||
+    return gis_spool_file_flush(&writer->input, error) && gis_spool_sort(&sorting, error);
+}
+
+static bool write_features(gis_spool_writer *writer, gis_error *error)
+{
+    const gis_spool_mark mark = gis_spool_mark_of(GIS_SPOOL_FEATURES);
+    if (!gis_spool_file_create(&writer->out, writer->directory, "features.part", error) ||
         !gis_spool_file_write(&writer->out, &mark, sizeof mark, error))
         return false;
     begin_cell(writer);
-    return gis_spool_sort(&sorting, error) && end_cell(writer, error) &&
-           gis_spool_file_place(&writer->out, writer->directory, "features", error);
+    if (!sort_features(writer, error) || !end_cell(writer, error)) return false;
+    if (writer->refused == UINT64_MAX) return gis_spool_file_place(&writer->out, writer->directory, "features", error);
+    *error = writer->why;
+    return false;
 }
 
 bool gis_spool_finish(gis_spool_writer *writer, unsigned shards, gis_spool_settle *settle, void *user, gis_error *error)
 {
-    if (!write_features(writer, settle, user, error)) return false;
+    writer->settle = settle;
+    writer->settle_user = user;
+    if (!write_features(writer, error)) return false;
+    gis_sorter_free(writer->sorter);
+    writer->sorter = NULL;
     gis_spool_file_close(&writer->input);
     gis_spool_index_deal(&writer->index, shards);
     return gis_spool_index_write(&writer->index, writer->directory, error);
@@ -160,6 +209,7 @@ bool gis_spool_finish(gis_spool_writer *writer, unsigned shards, gis_spool_settl
 void gis_spool_writer_free(gis_spool_writer *writer)
 {
     if (!writer) return;
+    gis_sorter_free(writer->sorter);
     gis_spool_file_close(&writer->input);
     gis_spool_file_close(&writer->out);
     gis_spool_index_clear(&writer->index);

@@ -130,8 +130,8 @@ typedef struct packing {
     size_t cells, features, taken;
     gis_keyed *leaf; /* of all features, in memory: by key_of() of the FID, the node */
     size_t leaves, leaf_room;
-    gis_spool_file leaf_file; /* ... or on the disk */
-    row_of *parent;           /* of all nodes but the root, by their numbers */
+    gis_sorter *sorter; /* ... or in bounded memory */
+    row_of *parent;     /* of all nodes but the root, by their numbers */
     size_t parents, parent_room;
     gis_index_box *level; /* the nodes of one level */
     size_t in_level, level_room;
@@ -146,7 +146,7 @@ static bool note_leaf(packing *all, int64_t fid, int64_t node, gis_error *error)
 {
     if (all->scratch) {
         const gis_sort_head one = {sizeof one, key_of(fid), (uint64_t)node};
-        return gis_spool_file_write(&all->leaf_file, &one, sizeof one, error);
+        return gis_sorter_add(all->sorter, &one, error);
     }
     if (!gis_array_reserve(&all->leaf, &all->leaf_room, all->leaves + 1, sizeof *all->leaf))
         return gis_no_memory(error);
@@ -309,17 +309,6 @@ static bool write_from_memory(packing *all, stretch *s, gis_error *error)
     return done;
 }
 
-static bool write_from_disk(packing *all, stretch *s, gis_error *error)
-{
-    const gis_spool_sorting sorting = {.from = &all->leaf_file,
-                                       .directory = all->scratch,
-                                       .parts = "rows-sorted.XXXXXX",
-                                       .run = GIS_SPOOL_RUN,
-                                       .take = take_row,
-                                       .user = s};
-    return gis_spool_file_flush(&all->leaf_file, error) && gis_spool_sort(&sorting, error);
-}
-
 /* By rising keys, though the tree has them along the curve. */
 static bool write_leaves(GDALDatasetH dataset, OGRLayerH layer, packing *all, gis_error *error)
 {
@@ -328,9 +317,10 @@ static bool write_leaves(GDALDatasetH dataset, OGRLayerH layer, packing *all, gi
     if (!s) return gis_no_memory(error);
     s->rows = &rows;
     s->n = 0;
-    const bool done = begin_rows(&rows, dataset, layer, "_rowid", all->features >= MANY_ROWS, error) &&
-                      (all->scratch ? write_from_disk(all, s, error) : write_from_memory(all, s, error)) &&
-                      write_rows(&rows, s->row, s->n, error);
+    const bool done =
+        begin_rows(&rows, dataset, layer, "_rowid", all->features >= MANY_ROWS, error) &&
+        (all->scratch ? gis_sorter_take(all->sorter, take_row, s, error) : write_from_memory(all, s, error)) &&
+        write_rows(&rows, s->row, s->n, error);
     free(s);
     gis_sqlite_rows_end(&rows);
     return done;
@@ -343,7 +333,7 @@ static void clear_packing(packing *all)
     free(all->leaf);
     free(all->parent);
     free(all->level);
-    gis_spool_file_close(&all->leaf_file);
+    gis_sorter_free(all->sorter);
 }
 
 static bool write_nodes(GDALDatasetH dataset, OGRLayerH layer, packing *all, gis_index_boxes *boxes, gis_error *error)
@@ -366,7 +356,7 @@ static bool fill(GDALDatasetH dataset, OGRLayerH layer, gis_index_boxes *boxes, 
                    .features = boxes->n,
                    .next = 2};
     bool done = all.cell || gis_no_memory(error);
-    done = done && (!all.scratch || gis_spool_file_create(&all.leaf_file, all.scratch, "rows.XXXXXX", error)) &&
+    done = done && (!all.scratch || gis_sorter_new(all.scratch, "rows.XXXXXX", GIS_SPOOL_RUN, &all.sorter, error)) &&
            write_nodes(dataset, layer, &all, boxes, error) && write_parents(dataset, layer, &all, error) &&
            write_leaves(dataset, layer, &all, error);
     clear_packing(&all);

@@ -178,7 +178,7 @@ static gis_spool *spool_of(const town *t, unsigned shards)
     gis_spool_writer *writer;
     gis_spool *spool;
     gis_error error;
-    assert_true(gis_spool_create(directory, &writer, &error));
+    assert_true(gis_spool_create(directory, NULL, &writer, &error));
     for (size_t k = 0; k < t->n; k++) {
         const gis_spool_feature f = {.index = k, .fid = (int64_t)k + 1, .demands = t->feature[k], .start = {NAN, NAN}};
         assert_true(gis_spool_add(writer, &f, &error));

@@ -110,14 +110,23 @@ static void free_board(board *b)
     free(b);
 }
 
-static void write_board(const board *b, unsigned shards, gis_spool_settle *settle)
+/* Where features lie, or not quite: some lie outside. */
+static const double frame[4] = {-90000, -70000, 100000, 65000};
+
+static bool put_board(const board *b, const double *around, unsigned shards, gis_spool_settle *settle, gis_error *error)
 {
     gis_spool_writer *writer;
-    gis_error error = {0};
-    assert_true(gis_spool_create(directory, &writer, &error));
-    for (size_t i = 0; i < b->n; i++) assert_true(gis_spool_add(writer, &b->feature[i], &error));
-    assert_true(gis_spool_finish(writer, shards, settle, (void *)b, &error));
+    assert_true(gis_spool_create(directory, around, &writer, error));
+    for (size_t i = 0; i < b->n; i++) assert_true(gis_spool_add(writer, &b->feature[i], error));
+    const bool done = gis_spool_finish(writer, shards, settle, (void *)b, error);
     gis_spool_writer_free(writer);
+    return done;
+}
+
+static void write_board(const board *b, const double *around, unsigned shards, gis_spool_settle *settle)
+{
+    gis_error error = {0};
+    assert_true(put_board(b, around, shards, settle, &error));
 }
 
 /* ---- What is read ------------------------------------------------------------------------------------------------ */
@@ -221,7 +230,9 @@ static void test_what_was_put_in(void **state)
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         board *b = draw_board(sizes[k]);
         for (unsigned shards = 1; shards < 9; shards += 3) {
-            write_board(b, shards, NULL);
+            write_board(b, NULL, shards, NULL);
+            read_board(b, shards);
+            write_board(b, frame, shards, NULL);
             read_board(b, shards);
         }
         free_board(b);
@@ -240,7 +251,7 @@ static bool settle(void *user, gis_spool_feature *feature, gis_error *error)
 {
     board *b = user;
     (void)error;
-    assert_int_equal(feature->index, b->seen++);
+    b->seen++;
     assert_null(feature->demands.shape);
     assert_true(feature->id == NULL || strcmp(feature->id, b->id[feature->index]) == 0);
     feature->demands.weight = 2 * feature->demands.weight / feature->area;
@@ -261,14 +272,40 @@ static bool see_settled(void *user, const gis_spool_feature *feature, gis_error 
 
 static void test_settled(void **state)
 {
+    const double *const around[] = {NULL, frame};
     board *b = draw_board(1500);
-    gis_spool *spool;
     gis_error error = {0};
-    write_board(b, 2, settle);
-    assert_int_equal(b->seen, b->n);
-    assert_true(gis_spool_open(directory, &spool, &error));
-    for (size_t c = 0; c < gis_spool_cells(spool); c++) assert_true(gis_spool_read(spool, c, see_settled, b, &error));
-    gis_spool_close(spool);
+    for (int k = 0; k < 2; k++) {
+        gis_spool *spool;
+        b->seen = 0;
+        write_board(b, around[k], 2, settle);
+        assert_int_equal(b->seen, b->n);
+        assert_true(gis_spool_open(directory, &spool, &error));
+        for (size_t c = 0; c < gis_spool_cells(spool); c++)
+            assert_true(gis_spool_read(spool, c, see_settled, b, &error));
+        gis_spool_close(spool);
+    }
+    free_board(b);
+}
+
+static bool refuse_some(void *user, gis_spool_feature *feature, gis_error *error)
+{
+    (void)user;
+    return feature->index % 7 != 5 || gis_fail(error, "feature %zu is refused", feature->index);
+}
+
+/* Whatever the order on the disk; and the former spool stays. */
+static void test_refused(void **state)
+{
+    const double *const around[] = {NULL, frame};
+    board *b = draw_board(1500);
+    for (int k = 0; k < 2; k++) {
+        gis_error error = {0};
+        write_board(b, frame, 1, NULL);
+        assert_false(put_board(b, around[k], 1, refuse_some, &error));
+        assert_string_equal(error.message, "feature 5 is refused");
+        read_board(b, 1);
+    }
     free_board(b);
 }
 
@@ -293,10 +330,11 @@ static bool note(void *user, const unsigned char *record, gis_error *error)
 static bool find_place(void *user, unsigned char *record, gis_error *error)
 {
     static const double all[] = {-100000, -70000, 100000, 70000};
-    gis_spool_head *head = gis_spool_record_head(record);
+    double box[4];
     (void)user;
     (void)error;
-    head->along = gis_spool_along(all, head->box);
+    gis_spool_record_box(record, box);
+    gis_spool_record_head(record)->along = gis_spool_along(all, box);
     return true;
 }
 
@@ -332,6 +370,58 @@ static void test_order(void **state)
     gis_spool_file_close(&input);
     free(record.at);
     free_board(b);
+}
+
+/* Keys that often agree, records of several sizes. */
+typedef struct keyed {
+    gis_sort_head head;
+    uint64_t number, more[3];
+} keyed;
+
+typedef struct keyed_list {
+    keyed at[MOST];
+    size_t n;
+} keyed_list;
+
+static bool note_keyed(void *user, const unsigned char *record, gis_error *error)
+{
+    keyed_list *to = user;
+    gis_sort_head head;
+    (void)error;
+    memcpy(&head, record, sizeof head);
+    memcpy(&to->at[to->n++], record, (size_t)head.bytes);
+    return true;
+}
+
+static void test_keys(void **state)
+{
+    static const size_t most[] = {1, 200, 5000, GIS_SPOOL_RUN};
+    static keyed_list list;
+    for (size_t n = 0; n < MOST; n = 3 * n + 1)
+        for (size_t m = 0; m < sizeof most / sizeof *most; m++) {
+            gis_sorter *sorter;
+            gis_error error = {0};
+            rng random = rng_start(test_seed(), n);
+            assert_true(gis_sorter_new(directory, "keys.runs", most[m], &sorter, &error));
+            for (size_t i = 0; i < n; i++) {
+                const uint64_t more = (uint64_t)rng_int(&random, 0, 3);
+                const keyed one = {.head = {sizeof one - 8 * more, (uint64_t)rng_int(&random, -2, 2),
+                                            (uint64_t)rng_int(&random, 0, 3) << rng_int(&random, 0, 62)},
+                                   .number = i};
+                assert_true(gis_sorter_add(sorter, &one, &error));
+            }
+            list.n = 0;
+            assert_true(gis_sorter_take(sorter, note_keyed, &list, &error));
+            gis_sorter_free(sorter);
+            assert_int_equal(list.n, n);
+            for (size_t i = 1; i < n; i++) {
+                const keyed *a = &list.at[i - 1], *b = &list.at[i];
+                const bool same = a->head.first == b->head.first;
+                assert_true(a->head.first <= b->head.first);
+                assert_true(!same || a->head.second <= b->head.second);
+                assert_true(!same || a->head.second < b->head.second || a->number < b->number);
+            }
+        }
 }
 
 /* Each position once, and from one to the next a step to a cell beside it: that is what makes it this curve. */
@@ -400,7 +490,7 @@ static void test_harm(void **state)
     char path[256];
     for (int f = 0; f < 2; f++) {
         path_of(names[f], path);
-        write_board(b, 3, NULL);
+        write_board(b, NULL, 3, NULL);
         assert_true(read_all(&error));
         const long size = size_of(path), step = size > 2000 ? size / 200 : 1;
         for (long at = 0; at < size; at += step) {
@@ -430,7 +520,7 @@ static void test_marks(void **state)
     } cases[] = {{0, "no such file"}, {8, "version"}, {12, "order of bytes"}};
     static const char *const names[] = {"features", "cells"};
     board *b = draw_board(3);
-    write_board(b, 1, NULL);
+    write_board(b, frame, 1, NULL);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
         for (int f = 0; f < 2; f++) {
             char path[256];
@@ -451,14 +541,14 @@ static void test_given_up(void **state)
     gis_spool_writer *writer;
     gis_error error = {0};
     char path[256];
-    write_board(b, 1, NULL);
-    assert_true(gis_spool_create(directory, &writer, &error));
+    write_board(b, frame, 1, NULL);
+    assert_true(gis_spool_create(directory, NULL, &writer, &error));
     assert_true(gis_spool_add(writer, &b->feature[0], &error));
     gis_spool_writer_free(writer);
     read_board(b, 1);
     path_of("features.input", path);
     assert_int_not_equal(access(path, F_OK), 0);
-    assert_false(gis_spool_create("/nowhere", &writer, &error));
+    assert_false(gis_spool_create("/nowhere", NULL, &writer, &error));
     assert_non_null(strstr(error.message, "/nowhere/features.input"));
     free_board(b);
 }
@@ -483,9 +573,16 @@ static void test_full_disk(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_what_was_put_in), cmocka_unit_test(test_settled),   cmocka_unit_test(test_order),
-        cmocka_unit_test(test_curve),           cmocka_unit_test(test_harm),      cmocka_unit_test(test_marks),
-        cmocka_unit_test(test_given_up),        cmocka_unit_test(test_full_disk),
+        cmocka_unit_test(test_what_was_put_in),
+        cmocka_unit_test(test_settled),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_order),
+        cmocka_unit_test(test_keys),
+        cmocka_unit_test(test_curve),
+        cmocka_unit_test(test_harm),
+        cmocka_unit_test(test_marks),
+        cmocka_unit_test(test_given_up),
+        cmocka_unit_test(test_full_disk),
     };
     if (!mkdtemp(directory)) return 1;
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

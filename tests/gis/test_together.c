@@ -89,7 +89,7 @@ static gis_spool *spool_of(const layer *l, unsigned shards)
     gis_spool_writer *writer;
     gis_spool *spool;
     gis_error error;
-    assert_true(gis_spool_create(directory, &writer, &error));
+    assert_true(gis_spool_create(directory, NULL, &writer, &error));
     for (size_t k = 0; k < l->n; k++) {
         const diamond *d = &l->of[k];
         const double xy[] = {d->x - d->size, d->y, d->x, d->y - d->size, d->x + d->size, d->y, d->x, d->y + d->size};
