@@ -161,7 +161,8 @@ bool gis_barriers_finish(gis_barriers_writer *w, gis_error *error)
 {
     char *path = gis_spool_inside(w->directory, GIS_BARRIERS_EVERYWHERE);
     gis_spool_writer *few = NULL;
-    bool done = (path || gis_no_memory(error)) && make_directory(path, error) && gis_spool_create(path, NULL, &few, error);
+    bool done =
+        (path || gis_no_memory(error)) && make_directory(path, error) && gis_spool_create(path, NULL, &few, error);
     for (int k = 0; k < FACTS && done; k++) {
         bool again = !w->fact[k].there;
         for (int i = 0; i < k; i++)

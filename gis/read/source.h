@@ -69,8 +69,8 @@ bool gis_source_next(gis_source *source, bool *any, gis_error *error);
 bool gis_source_again(gis_source *source, bool *any, gis_error *error);
 /* The place of the batch's first feature among all, from 0. */
 size_t gis_source_first(const gis_source *source);
-/* Where features lie, as far as the format has that written down, which may be out of date: xmin, ymin, xmax, ymax; NULL:
- * it does not say. Of a source that is read by batches. */
+/* Where features lie, as far as the format has that written down, which may be out of date: xmin, ymin, xmax, ymax;
+ * NULL: it does not say. Of a source that is read by batches. */
 const double *gis_source_extent(const gis_source *source);
 /* What is known of the whole layer. Of a source that is read by batches: once they were all read, and no other can be
  * read after this. */

@@ -1,5 +1,5 @@
 /* sort.c: see sort.h. Records are gathered until they fill the memory that they may take; then they are sorted and
- * written behind the last such part, into one file; in the end the parts are merged by a heap of their first records. */
+ * written behind the last such part, into one file; in the end parts are merged by a heap of their first records. */
 #include "spool/sort.h"
 
 #include "base/array.h"
