@@ -24,11 +24,10 @@ typedef struct passing {
     size_t block;
 } passing;
 
-/* Of a feature that went by, or goes: so the first of its block did. */
-static gis_value block_value(const gis_in_parts *p, size_t feature)
+/* own: of a feature that went by, or goes: so the first of its block did. NULL: it is of none. */
+static gis_value block_value(const gis_in_parts *p, const gis_part_link *own)
 {
     const gis_joined *j = &p->joined;
-    const gis_part_link *own = gis_joined_block(j, feature);
     if (!own) return gis_block_as_value(p->facts.source.fids_unique, -1, OGRNullFID);
     return gis_block_as_value(p->facts.source.fids_unique, (int64_t)own->b,
                               p->block_fid[gis_joined_block(j, own->b) - j->block]);
@@ -51,9 +50,9 @@ static bool pass(passing *at, const gis_source *source, size_t i, gis_sink_layer
         }
         if (!gis_sorted_next(rows, &at->any, error)) return false;
     }
-    if (at->block < j->blocks && j->block[at->block].a == feature)
-        p->block_fid[at->block++] = gis_source_fid(source, i);
-    row.block = block_value(p, feature);
+    const gis_part_link *own = at->block < j->blocks && j->block[at->block].a == feature ? &j->block[at->block] : NULL;
+    if (own) p->block_fid[at->block++] = gis_source_fid(source, i);
+    row.block = block_value(p, own);
     return !layer || gis_main_row(layer, i, &row, error);
 }
 
@@ -116,7 +115,7 @@ static bool write_displacement(gis_in_parts *p, gis_sink_layer *layer, gis_error
         if (!rows->one.rows || (own->move[0] == 0 && own->move[1] == 0)) continue;
         const gis_arrow_row row = {.fid = gis_fid_as_value(own->fid),
                                    .id = id_value(p, gis_part_text(&rows->one, own->id)),
-                                   .block = block_value(p, own->index),
+                                   .block = block_value(p, gis_joined_block(&p->joined, own->index)),
                                    .from = {own->from[0], own->from[1]},
                                    .move = {own->move[0], own->move[1]}};
         if (!gis_go_on(error) || !gis_displacement_row(layer, &row, error)) return false;

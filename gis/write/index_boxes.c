@@ -12,7 +12,7 @@
 
 /* ---- Noting ------------------------------------------------------------------------------------------------------ */
 
-/* A box as it lies on the disk. */
+/* A box as it is sorted. */
 typedef struct record {
     gis_sort_head head;
     gis_index_box box;
@@ -32,9 +32,8 @@ static float above(double x)
 
 static bool store(gis_index_boxes *boxes, const gis_index_box *box, gis_error *error)
 {
-    record one = {.head.bytes = sizeof one, .box = *box};
     return (boxes->file.stream || gis_spool_file_create(&boxes->file, boxes->scratch, "boxes.XXXXXX", error)) &&
-           gis_spool_file_write(&boxes->file, &one, sizeof one, error);
+           gis_spool_file_write(&boxes->file, box, sizeof *box, error);
 }
 
 bool gis_index_boxes_add(gis_index_boxes *boxes, GIntBig fid, const OGREnvelope *box, gis_error *error)
@@ -85,19 +84,9 @@ static bool take_from_memory(gis_index_boxes *boxes, gis_index_boxes_take *take,
 }
 
 typedef struct taking {
-    const gis_index_boxes *boxes;
     gis_index_boxes_take *take;
     void *user;
 } taking;
-
-static bool prepare_record(void *user, unsigned char *bytes, gis_error *error)
-{
-    const taking *t = user;
-    record *one = (void *)bytes;
-    (void)error;
-    one->head.first = along(t->boxes, &one->box);
-    return true;
-}
 
 static bool take_record(void *user, const unsigned char *bytes, gis_error *error)
 {
@@ -106,17 +95,34 @@ static bool take_record(void *user, const unsigned char *bytes, gis_error *error
     return t->take(t->user, &one->box, error);
 }
 
+/* So many are read at a time. */
+enum { STRETCH = 4096 };
+
+static bool sort_file(gis_index_boxes *boxes, gis_sorter *sorter, gis_error *error)
+{
+    gis_index_box *box = malloc(STRETCH * sizeof *box);
+    bool done = (box || gis_no_memory(error)) && gis_spool_file_flush(&boxes->file, error);
+    for (size_t k = 0; k < boxes->n && done; k += STRETCH) {
+        const size_t n = boxes->n - k < STRETCH ? boxes->n - k : STRETCH;
+        done = gis_spool_file_read(&boxes->file, k * sizeof *box, box, n * sizeof *box, error) && gis_go_on(error);
+        for (size_t i = 0; i < n && done; i++) {
+            const record one = {.head = {sizeof one, along(boxes, &box[i]), 0}, .box = box[i]};
+            done = gis_sorter_add(sorter, &one, error);
+        }
+    }
+    free(box);
+    return done;
+}
+
 static bool take_from_disk(gis_index_boxes *boxes, gis_index_boxes_take *take, void *user, gis_error *error)
 {
-    taking t = {boxes, take, user};
-    const gis_spool_sorting sorting = {.from = &boxes->file,
-                                       .directory = boxes->scratch,
-                                       .parts = "boxes-sorted.XXXXXX",
-                                       .run = GIS_SPOOL_RUN,
-                                       .prepare = prepare_record,
-                                       .take = take_record,
-                                       .user = &t};
-    return boxes->n == 0 || (gis_spool_file_flush(&boxes->file, error) && gis_spool_sort(&sorting, error));
+    taking t = {take, user};
+    gis_sorter *sorter = NULL;
+    const bool done =
+        boxes->n == 0 || (gis_sorter_new(boxes->scratch, "boxes-sorted.XXXXXX", GIS_SPOOL_RUN, &sorter, error) &&
+                          sort_file(boxes, sorter, error) && gis_sorter_take(sorter, take_record, &t, error));
+    gis_sorter_free(sorter);
+    return done;
 }
 
 bool gis_index_boxes_in_order(gis_index_boxes *boxes, gis_index_boxes_take *take, void *user, gis_error *error)
