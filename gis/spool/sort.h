@@ -17,8 +17,6 @@ typedef struct gis_sort_head {
 /* Takes each record in order; false ends it all. */
 typedef bool gis_spool_take(void *user, const unsigned char *record, gis_error *error);
 
-/* ---- Records as they come ---------------------------------------------------------------------------------------- */
-
 typedef struct gis_sorter gis_sorter;
 
 /* parts: name of a file in the directory, made when there is more than `most` bytes (GIS_SPOOL_RUN, where there is
@@ -28,22 +26,5 @@ bool gis_sorter_add(gis_sorter *sorter, const void *record, gis_error *error);
 /* Once, when all are there. */
 bool gis_sorter_take(gis_sorter *sorter, gis_spool_take *take, void *user, gis_error *error);
 void gis_sorter_free(gis_sorter *sorter);
-
-/* ---- Records whose keys are known only when all are there -------------------------------------------------------- */
-
-/* Completes a record that was read: its keys. */
-typedef bool gis_spool_prepare(void *user, unsigned char *record, gis_error *error);
-
-typedef struct gis_spool_sorting {
-    gis_spool_file *from;  /* records in the order in which they came */
-    const char *directory; /* for a file of parts */
-    const char *parts;     /* ... and its name */
-    size_t run;            /* bytes; GIS_SPOOL_RUN, but in tests */
-    gis_spool_prepare *prepare;
-    gis_spool_take *take;
-    void *user; /* of both */
-} gis_spool_sorting;
-
-bool gis_spool_sort(const gis_spool_sorting *sorting, gis_error *error);
 
 #endif

@@ -18,14 +18,17 @@ enum { CELL_FEATURES = 1000, CELL_VERTICES = 20000 };
 /* A grid over a continent has cells of a tenth of a metre. */
 enum { CURVE_BITS = 26 };
 
+/* A frame is of no use where more than one in so many lies beyond it, or all within so small a part of its sides. */
+enum { MOST_STRAYS = 8, CORNER = 1024 };
+
 struct gis_spool_writer {
     char *directory;
-    gis_sorter *sorter;   /* where the frame of the curve is known; if not: */
-    gis_spool_file input; /* features in the order in which they come, and */
-    double frame[4];      /* the frame, or box of what came so far */
+    gis_sorter *sorter;
+    double frame[4];       /* of the curve: where features are said to lie; cleared: nothing is said */
+    double box[4];         /* where they do */
+    size_t placed, strays; /* that have a box, and of these those that lie beyond the frame */
     gis_spool_file out;
     gis_spool_room record;
-    size_t features;
     gis_spool_index index;
     gis_spool_entry cell; /* the one that is being filled, and the records in it */
     gis_spool_room records;
@@ -35,24 +38,16 @@ struct gis_spool_writer {
     gis_error why;
 };
 
-static const char *const parts = "features.runs";
-
-static bool begin(gis_spool_writer *writer, const char *directory, const double frame[4], gis_error *error)
-{
-    writer->directory = strdup(directory);
-    if (!writer->directory) return gis_no_memory(error);
-    if (!frame) return gis_spool_file_create(&writer->input, directory, "features.input", error);
-    memcpy(writer->frame, frame, sizeof writer->frame);
-    return gis_sorter_new(directory, parts, GIS_SPOOL_RUN, &writer->sorter, error);
-}
-
 bool gis_spool_create(const char *directory, const double frame[4], gis_spool_writer **out, gis_error *error)
 {
     gis_spool_writer *writer = calloc(1, sizeof *writer);
     if (!writer) return gis_no_memory(error);
     writer->refused = UINT64_MAX;
-    gis_box_clear(writer->frame);
-    if (!begin(writer, directory, frame, error)) {
+    gis_box_clear(writer->box);
+    memcpy(writer->frame, frame ? frame : writer->box, sizeof writer->frame);
+    writer->directory = strdup(directory);
+    if (!writer->directory) gis_no_memory(error);
+    if (!writer->directory || !gis_sorter_new(directory, "features.runs", GIS_SPOOL_RUN, &writer->sorter, error)) {
         gis_spool_writer_free(writer);
         return false;
     }
@@ -60,25 +55,23 @@ bool gis_spool_create(const char *directory, const double frame[4], gis_spool_wr
     return true;
 }
 
-static void find_along(unsigned char *record, const double frame[4])
+static bool is_beyond(const double frame[4], const double box[4])
 {
-    double box[4];
-    gis_spool_record_box(record, box);
-    gis_spool_record_head(record)->along = gis_spool_along(frame, box);
+    return !(box[0] >= frame[0] && box[1] >= frame[1] && box[2] <= frame[2] && box[3] <= frame[3]);
 }
 
 bool gis_spool_add(gis_spool_writer *writer, const gis_spool_feature *feature, gis_error *error)
 {
     double box[4];
     if (!gis_spool_record_make(&writer->record, feature, error)) return false;
-    writer->features++;
-    if (writer->sorter) {
-        find_along(writer->record.at, writer->frame);
-        return gis_sorter_add(writer->sorter, writer->record.at, error);
-    }
     gis_spool_record_box(writer->record.at, box);
-    gis_box_join(writer->frame, box);
-    return gis_spool_file_write(&writer->input, writer->record.at, writer->record.used, error);
+    if (box[0] <= box[2]) {
+        gis_box_join(writer->box, box);
+        writer->placed++;
+        writer->strays += is_beyond(writer->frame, box);
+    }
+    gis_spool_record_head(writer->record.at)->along = gis_spool_along(writer->frame, box);
+    return gis_sorter_add(writer->sorter, writer->record.at, error);
 }
 
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
@@ -146,7 +139,7 @@ static bool take(void *user, const unsigned char *record, gis_error *error)
 
 uint64_t gis_spool_along(const double all[4], const double box[4])
 {
-    if (!(box[0] <= box[2])) return 0;
+    if (!(box[0] <= box[2]) || !(all[0] <= all[2])) return 0;
     const uint32_t x = gis_curve_cell(box[0] / 2 + box[2] / 2, all[0], all[2], CURVE_BITS);
     const uint32_t y = gis_curve_cell(box[1] / 2 + box[3] / 2, all[1], all[3], CURVE_BITS);
     return gis_curve_position(x, y, CURVE_BITS);
@@ -156,30 +149,45 @@ _Static_assert(offsetof(gis_spool_head, along) == offsetof(gis_sort_head, first)
                    offsetof(gis_spool_head, index) == offsetof(gis_sort_head, second),
                "records are sorted by their place on the curve and, where that is one, by their place in the input");
 
-static bool prepare(void *user, unsigned char *record, gis_error *error)
+/* Does the frame tell them apart? Not if many lie beyond it, or all in a corner: what a format says of its layer's
+ * extent may be of another day. */
+static bool is_framed(const gis_spool_writer *writer)
 {
-    const gis_spool_writer *writer = user;
-    gis_spool_feature feature;
-    if (!gis_spool_record_feature(record, (size_t)gis_spool_record_head(record)->bytes, &feature))
-        return gis_fail(error, "%s: it is not what was written", writer->input.path);
-    find_along(record, writer->frame);
-    return true;
+    const double *frame = writer->frame, *box = writer->box;
+    return writer->strays <= writer->placed / MOST_STRAYS &&
+           !(fmax(box[2] - box[0], box[3] - box[1]) < fmax(frame[2] - frame[0], frame[3] - frame[1]) / CORNER);
+}
+
+typedef struct reordering {
+    gis_spool_writer *writer;
+    gis_sorter *to;
+} reordering;
+
+static bool put_elsewhere(void *user, const unsigned char *record, gis_error *error)
+{
+    const reordering *r = user;
+    const size_t bytes = (size_t)((const gis_sort_head *)(const void *)record)->bytes;
+    gis_spool_room *own = &r->writer->record;
+    double box[4];
+    if (!gis_array_reserve(&own->at, &own->capacity, bytes, 1)) return gis_no_memory(error);
+    memcpy(own->at, record, bytes);
+    gis_spool_record_box(own->at, box);
+    gis_spool_record_head(own->at)->along = gis_spool_along(r->writer->box, box);
+    return gis_sorter_add(r->to, own->at, error);
+}
+
+/* By the curve of the box that they are known to have. */
+static bool order_again(gis_spool_writer *writer, gis_error *error)
+{
+    reordering r = {.writer = writer};
+    const bool done = gis_sorter_new(writer->directory, "features.again", GIS_SPOOL_RUN, &r.to, error) &&
+                      gis_sorter_take(writer->sorter, put_elsewhere, &r, error);
+    gis_sorter_free(writer->sorter);
+    writer->sorter = r.to;
+    return done;
 }
 
 /* ---- Ending ------------------------------------------------------------------------------------------------------ */
-
-static bool sort_features(gis_spool_writer *writer, gis_error *error)
-{
-    if (writer->sorter) return gis_sorter_take(writer->sorter, take, writer, error);
-    const gis_spool_sorting sorting = {.from = &writer->input,
-                                       .directory = writer->directory,
-                                       .parts = parts,
-                                       .run = GIS_SPOOL_RUN,
-                                       .prepare = prepare,
-                                       .take = take,
-                                       .user = writer};
-    return gis_spool_file_flush(&writer->input, error) && gis_spool_sort(&sorting, error);
-}
 
 static bool write_features(gis_spool_writer *writer, gis_error *error)
 {
@@ -188,7 +196,8 @@ static bool write_features(gis_spool_writer *writer, gis_error *error)
         !gis_spool_file_write(&writer->out, &mark, sizeof mark, error))
         return false;
     begin_cell(writer);
-    if (!sort_features(writer, error) || !end_cell(writer, error)) return false;
+    if (!is_framed(writer) && !order_again(writer, error)) return false;
+    if (!gis_sorter_take(writer->sorter, take, writer, error) || !end_cell(writer, error)) return false;
     if (writer->refused == UINT64_MAX) return gis_spool_file_place(&writer->out, writer->directory, "features", error);
     *error = writer->why;
     return false;
@@ -201,7 +210,6 @@ bool gis_spool_finish(gis_spool_writer *writer, unsigned shards, gis_spool_settl
     if (!write_features(writer, error)) return false;
     gis_sorter_free(writer->sorter);
     writer->sorter = NULL;
-    gis_spool_file_close(&writer->input);
     gis_spool_index_deal(&writer->index, shards);
     return gis_spool_index_write(&writer->index, writer->directory, error);
 }
@@ -210,7 +218,6 @@ void gis_spool_writer_free(gis_spool_writer *writer)
 {
     if (!writer) return;
     gis_sorter_free(writer->sorter);
-    gis_spool_file_close(&writer->input);
     gis_spool_file_close(&writer->out);
     gis_spool_index_clear(&writer->index);
     free(writer->record.at);

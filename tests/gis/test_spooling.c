@@ -292,7 +292,7 @@ static void expect_failure(const gis_layer_input_request *request, const char *s
     gis_layer_facts_clear(&facts);
     assert_non_null(strstr(error.message, said));
     assert_int_not_equal(access(path_of("status.part"), F_OK), 0);
-    assert_int_not_equal(access(path_of("features.input"), F_OK), 0);
+    assert_int_not_equal(access(path_of("features.runs"), F_OK), 0);
 }
 
 static void test_failures(void **state)
