@@ -12,6 +12,7 @@
 
 #include "parts/join.h"
 #include "random.h"
+#include "scratch.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,8 +21,6 @@
 #include <unistd.h>
 
 enum { MOST = 4000, BARRIERS = 1500 };
-
-static char directory[] = "/tmp/test_parts.XXXXXX";
 
 typedef struct town {
     sunder_feature feature[MOST];
@@ -162,14 +161,14 @@ static gis_spooled_barriers barriers_of(const town *t)
     gis_spooled_barriers spool = {0};
     gis_error error;
     if (t->barriers == 0) return spool;
-    assert_true(gis_barriers_create(directory, t->how.gap, &writer, &error));
+    assert_true(gis_barriers_create(scratch_directory(), t->how.gap, &writer, &error));
     for (size_t k = 0; k < t->barriers; k++) {
         const gis_part_barrier barrier = {2 * k, (int64_t)k, "roads", t->barrier[k]};
         assert_true(gis_barriers_add(writer, &barrier, &error));
     }
     if (!gis_barriers_finish(writer, &error)) fail_msg("%s", error.message);
     gis_barriers_writer_free(writer);
-    assert_true(gis_barriers_open(directory, &spool, &error));
+    assert_true(gis_barriers_open(scratch_directory(), &spool, &error));
     return spool;
 }
 
@@ -178,14 +177,14 @@ static gis_spool *spool_of(const town *t, unsigned shards)
     gis_spool_writer *writer;
     gis_spool *spool;
     gis_error error;
-    assert_true(gis_spool_create(directory, NULL, &writer, &error));
+    assert_true(gis_spool_create(scratch_directory(), NULL, &writer, &error));
     for (size_t k = 0; k < t->n; k++) {
         const gis_spool_feature f = {.index = k, .fid = (int64_t)k + 1, .demands = t->feature[k], .start = {NAN, NAN}};
         assert_true(gis_spool_add(writer, &f, &error));
     }
     assert_true(gis_spool_finish(writer, shards, NULL, NULL, &error));
     gis_spool_writer_free(writer);
-    assert_true(gis_spool_open(directory, &spool, &error));
+    assert_true(gis_spool_open(scratch_directory(), &spool, &error));
     return spool;
 }
 
@@ -277,8 +276,9 @@ static void separate_parts(gis_layout *layout, unsigned shards, bool apart)
         const bool opens = apart || k == 0, ends = apart || k + 1 == shards;
         gis_part_result_empty(&result);
         if (!gis_parts_shards(layout, k, k + 1, &result, &error) ||
-            (opens && !gis_part_file_create(&file, directory, &stamp, &error)) ||
-            !gis_part_file_add(&file, &result, &error) || (ends && !gis_part_file_place(&file, directory, &error)))
+            (opens && !gis_part_file_create(&file, scratch_directory(), &stamp, &error)) ||
+            !gis_part_file_add(&file, &result, &error) ||
+            (ends && !gis_part_file_place(&file, scratch_directory(), &error)))
             fail_msg("%s", error.message);
     }
     gis_part_result_clear(&result);
@@ -301,9 +301,9 @@ static unsigned compare(const town *t, const sunder_report *whole, unsigned shar
     separate_parts(&layout, shards, apart);
     for (unsigned k = 0; k < files; k++) {
         const gis_part_stamp stamp = {.version = "1", .shard = k + 1, .shards = files};
-        if (!gis_part_file_open(&file[k], directory, &stamp, &error)) fail_msg("%s", error.message);
+        if (!gis_part_file_open(&file[k], scratch_directory(), &stamp, &error)) fail_msg("%s", error.message);
     }
-    if (!gis_parts_join(&layout, file, files, directory, &joined, &error)) fail_msg("%s", error.message);
+    if (!gis_parts_join(&layout, file, files, scratch_directory(), &joined, &error)) fail_msg("%s", error.message);
     demand_same_features(t, whole, &joined);
     demand_same_conflicts(t, whole, &joined);
     demand_same_sums(whole, &joined);
@@ -357,22 +357,8 @@ static void test_barriers_in_parts(void **state)
     separate_towns(true);
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    return mkdtemp(directory) ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    char command[200];
-    snprintf(command, sizeof command, "rm -rf %s", directory);
-    return system(command);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_towns_in_parts), cmocka_unit_test(test_barriers_in_parts)};
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, scratch_set_up, scratch_tear_down);
 }

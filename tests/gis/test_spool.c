@@ -9,6 +9,7 @@
 
 #include "base/curve.h"
 #include "random.h"
+#include "scratch.h"
 #include "spool/index.h"
 #include "spool/record.h"
 #include "spool/sort.h"
@@ -19,10 +20,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-static char directory[] = "/tmp/test_spool.XXXXXX";
-
-static void path_of(const char *name, char path[256]) { snprintf(path, 256, "%s/%s", directory, name); }
 
 /* ---- Random features --------------------------------------------------------------------------------------------- */
 
@@ -116,7 +113,7 @@ static const double frame[4] = {-90000, -70000, 100000, 65000};
 static bool put_board(const board *b, const double *around, unsigned shards, gis_spool_settle *settle, gis_error *error)
 {
     gis_spool_writer *writer;
-    assert_true(gis_spool_create(directory, around, &writer, error));
+    assert_true(gis_spool_create(scratch_directory(), around, &writer, error));
     for (size_t i = 0; i < b->n; i++) assert_true(gis_spool_add(writer, &b->feature[i], error));
     const bool done = gis_spool_finish(writer, shards, settle, (void *)b, error);
     gis_spool_writer_free(writer);
@@ -197,7 +194,7 @@ static void read_board(const board *b, unsigned shards)
     reading *r = calloc(1, sizeof *r);
     unsigned last = 0;
     r->board = b;
-    assert_true(gis_spool_open(directory, &spool, &error));
+    assert_true(gis_spool_open(scratch_directory(), &spool, &error));
     assert_int_equal(gis_spool_shards(spool), shards);
     assert_int_equal(gis_spool_features(spool), b->n);
     for (size_t c = 0; c < gis_spool_cells(spool); c++) {
@@ -237,10 +234,9 @@ static void test_what_was_put_in(void **state)
         }
         free_board(b);
     }
-    char path[256];
     static const char *const left[] = {"features.runs", "features.again", "features.part", "cells.part"};
     for (size_t k = 0; k < sizeof left / sizeof *left; k++) {
-        path_of(left[k], path);
+        const char *path = scratch_path(left[k]);
         assert_int_not_equal(access(path, F_OK), 0);
     }
 }
@@ -280,7 +276,7 @@ static void test_settled(void **state)
         b->seen = 0;
         write_board(b, around[k], 2, settle);
         assert_int_equal(b->seen, b->n);
-        assert_true(gis_spool_open(directory, &spool, &error));
+        assert_true(gis_spool_open(scratch_directory(), &spool, &error));
         for (size_t c = 0; c < gis_spool_cells(spool); c++)
             assert_true(gis_spool_read(spool, c, see_settled, b, &error));
         gis_spool_close(spool);
@@ -339,7 +335,7 @@ static void test_order(void **state)
     for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
         gis_sorter *sorter;
         double box[4];
-        assert_true(gis_sorter_new(directory, "features.runs", runs[k], &sorter, &error));
+        assert_true(gis_sorter_new(scratch_directory(), "features.runs", runs[k], &sorter, &error));
         for (size_t i = 0; i < b->n; i++) {
             assert_true(gis_spool_record_make(&record, &b->feature[i], &error));
             gis_spool_record_box(record.at, box);
@@ -374,8 +370,7 @@ static void find_box(const board *b, double all[4])
 /* The bytes of a file, the caller's. */
 static char *bytes_of(const char *name, size_t *n)
 {
-    char path[256];
-    path_of(name, path);
+    const char *path = scratch_path(name);
     FILE *file = fopen(path, "rb");
     assert_non_null(file);
     assert_int_equal(fseek(file, 0, SEEK_END), 0);
@@ -442,7 +437,7 @@ static void test_keys(void **state)
             gis_sorter *sorter;
             gis_error error = {0};
             rng random = rng_start(test_seed(), n);
-            assert_true(gis_sorter_new(directory, "keys.runs", most[m], &sorter, &error));
+            assert_true(gis_sorter_new(scratch_directory(), "keys.runs", most[m], &sorter, &error));
             for (size_t i = 0; i < n; i++) {
                 const uint64_t more = (uint64_t)rng_int(&random, 0, 3);
                 const keyed one = {.head = {sizeof one - 8 * more, (uint64_t)rng_int(&random, -2, 2),
@@ -515,7 +510,7 @@ static bool pass(void *user, const gis_spool_feature *feature, gis_error *error)
 static bool read_all(gis_error *error)
 {
     gis_spool *spool;
-    if (!gis_spool_open(directory, &spool, error)) return false;
+    if (!gis_spool_open(scratch_directory(), &spool, error)) return false;
     bool done = true;
     for (size_t c = 0; done && c < gis_spool_cells(spool); c++) done = gis_spool_read(spool, c, pass, NULL, error);
     gis_spool_close(spool);
@@ -527,9 +522,8 @@ static void test_harm(void **state)
     static const char *const names[] = {"features", "cells"};
     board *b = draw_board(300);
     gis_error error = {0};
-    char path[256];
     for (int f = 0; f < 2; f++) {
-        path_of(names[f], path);
+        const char *path = scratch_path(names[f]);
         write_board(b, NULL, 3, NULL);
         assert_true(read_all(&error));
         const long size = size_of(path), step = size > 2000 ? size / 200 : 1;
@@ -563,9 +557,8 @@ static void test_marks(void **state)
     write_board(b, frame, 1, NULL);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
         for (int f = 0; f < 2; f++) {
-            char path[256];
             gis_error error = {0};
-            path_of(names[f], path);
+            const char *path = scratch_path(names[f]);
             flip(path, cases[k].at);
             assert_false(read_all(&error));
             assert_non_null(strstr(error.message, cases[k].said));
@@ -580,13 +573,12 @@ static void test_given_up(void **state)
     board *b = draw_board(20);
     gis_spool_writer *writer;
     gis_error error = {0};
-    char path[256];
     write_board(b, frame, 1, NULL);
-    assert_true(gis_spool_create(directory, NULL, &writer, &error));
+    assert_true(gis_spool_create(scratch_directory(), NULL, &writer, &error));
     assert_true(gis_spool_add(writer, &b->feature[0], &error));
     gis_spool_writer_free(writer);
     read_board(b, 1);
-    path_of("features.runs", path);
+    const char *path = scratch_path("features.runs");
     assert_int_not_equal(access(path, F_OK), 0);
     assert_true(gis_spool_create("/nowhere", NULL, &writer, &error));
     assert_false(gis_spool_finish(writer, 1, NULL, NULL, &error));
@@ -620,13 +612,5 @@ int main(void)
         cmocka_unit_test(test_curve),           cmocka_unit_test(test_harm),        cmocka_unit_test(test_marks),
         cmocka_unit_test(test_given_up),        cmocka_unit_test(test_full_disk),
     };
-    if (!mkdtemp(directory)) return 1;
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    char path[256];
-    path_of("features", path);
-    unlink(path);
-    path_of("cells", path);
-    unlink(path);
-    rmdir(directory);
-    return failed;
+    return cmocka_run_group_tests(tests, scratch_set_up, scratch_tear_down);
 }

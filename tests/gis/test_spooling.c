@@ -10,6 +10,7 @@
 #include "layer/output.h"
 #include "layer/spooling.h"
 #include "random.h"
+#include "scratch.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -20,17 +21,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-static char directory[] = "/tmp/test_spooling.XXXXXX";
-
-static char *path_of(const char *name)
-{
-    static char path[4][256];
-    static int next;
-    char *to = path[next++ % 4];
-    snprintf(to, sizeof path[0], "%s/%s", directory, name);
-    return to;
-}
 
 /* ---- Layers ------------------------------------------------------------------------------------------------------ */
 
@@ -76,7 +66,7 @@ static void add_field(OGRLayerH layer, const char *name, OGRFieldType type)
 
 static void make_layer(const char *file, bool points)
 {
-    GDALDatasetH dataset = GDALCreate(GDALGetDriverByName("GPKG"), path_of(file), 0, 0, 0, GDT_Unknown, NULL);
+    GDALDatasetH dataset = GDALCreate(GDALGetDriverByName("GPKG"), scratch_path(file), 0, 0, 0, GDT_Unknown, NULL);
     OGRLayerH layer = GDALDatasetCreateLayer(dataset, "made", NULL, points ? wkbPoint : wkbUnknown, NULL);
     rng random = rng_start(test_seed(), points);
     add_field(layer, "kind", OFTInteger);
@@ -106,12 +96,12 @@ static void make_layer(const char *file, bool points)
 /* The layer twice, with the FIDs that features have. */
 static void make_union(const char *file)
 {
-    FILE *out = fopen(path_of(file), "w");
+    FILE *out = fopen(scratch_path(file), "w");
     fprintf(out, "<OGRVRTDataSource><OGRVRTUnionLayer name=\"made\"><PreserveSrcFID>ON</PreserveSrcFID>");
     for (int k = 0; k < 2; k++)
         fprintf(out,
                 "<OGRVRTLayer name=\"made%d\"><SrcDataSource>%s</SrcDataSource><SrcLayer>made</SrcLayer></OGRVRTLayer>",
-                k, path_of("polygons.gpkg"));
+                k, scratch_path("polygons.gpkg"));
     fprintf(out, "</OGRVRTUnionLayer></OGRVRTDataSource>");
     fclose(out);
 }
@@ -168,7 +158,7 @@ static bool compare(void *user, const gis_spool_feature *feature, gis_error *err
 
 static void compare_statuses(const gis_layer_input *whole)
 {
-    FILE *file = fopen(path_of("status"), "r");
+    FILE *file = fopen(scratch_path("status"), "r");
     assert_non_null(file);
     for (size_t i = 0; i < whole->n; i++) {
         const sunder_feature *d = &whole->feature[i];
@@ -209,10 +199,10 @@ static void compare_spool(const gis_layer_input_request *request)
     gis_layer_facts facts;
     gis_spool *spool;
     assert_true(gis_layer_input_read(request, &whole, &error));
-    assert_true(gis_layer_spool(request, 3, directory, &facts, &error));
+    assert_true(gis_layer_spool(request, 3, scratch_directory(), &facts, &error));
     compare_facts(&whole, &facts);
     compare_statuses(&whole);
-    assert_true(gis_spool_open(directory, &spool, &error));
+    assert_true(gis_spool_open(scratch_directory(), &spool, &error));
     comparing c = {.whole = &whole, .found = calloc(whole.n + 1, sizeof *c.found)};
     for (size_t k = 0; k < gis_spool_cells(spool); k++) assert_true(gis_spool_read(spool, k, compare, &c, &error));
     assert_int_equal(c.n + facts.skipped, whole.n);
@@ -224,7 +214,7 @@ static void compare_spool(const gis_layer_input_request *request)
 
 static gis_layer_input_request request_for(const char *file)
 {
-    gis_layer_input_request request = {.source = {.path = path_of(file)}, .moves = true};
+    gis_layer_input_request request = {.source = {.path = scratch_path(file)}, .moves = true};
     request.rules.gap = (gis_optional_length){"0.5", {0.5, GIS_LAYER_UNIT}};
     request.rules.max_shift = (gis_optional_length){"7", {7, GIS_LAYER_UNIT}};
     return request;
@@ -288,11 +278,11 @@ static void expect_failure(const gis_layer_input_request *request, const char *s
 {
     gis_error error = {0};
     gis_layer_facts facts;
-    assert_false(gis_layer_spool(request, 1, directory, &facts, &error));
+    assert_false(gis_layer_spool(request, 1, scratch_directory(), &facts, &error));
     gis_layer_facts_clear(&facts);
     assert_non_null(strstr(error.message, said));
-    assert_int_not_equal(access(path_of("status.part"), F_OK), 0);
-    assert_int_not_equal(access(path_of("features.runs"), F_OK), 0);
+    assert_int_not_equal(access(scratch_path("status.part"), F_OK), 0);
+    assert_int_not_equal(access(scratch_path("features.runs"), F_OK), 0);
 }
 
 static void test_failures(void **state)
@@ -315,7 +305,7 @@ static void test_batches(void **state)
     gis_error error = {0};
     gis_source *whole, *source;
     gis_source_facts facts;
-    gis_source_request request = {.path = path_of("polygons.gpkg"), .takes = GIS_TAKES_POLYGONS, .packed = true};
+    gis_source_request request = {.path = scratch_path("polygons.gpkg"), .takes = GIS_TAKES_POLYGONS, .packed = true};
     assert_true(gis_source_open(&request, &whole, &error));
     for (size_t batch = 1; batch < 2 * FEATURES; batch = 7 * batch + 1) {
         request.batch = batch;
@@ -359,6 +349,7 @@ static void test_batches(void **state)
 
 static int make_layers(void **state)
 {
+    if (scratch_set_up(state) != 0) return -1;
     make_layer("polygons.gpkg", false);
     make_layer("points.gpkg", true);
     make_union("twice.vrt");
@@ -371,10 +362,7 @@ int main(void)
         cmocka_unit_test(test_plain),  cmocka_unit_test(test_rules),    cmocka_unit_test(test_fids),
         cmocka_unit_test(test_points), cmocka_unit_test(test_failures), cmocka_unit_test(test_batches),
     };
-    if (!mkdtemp(directory)) return 1;
     GDALAllRegister();
     gis_messages_begin(&(gis_messages_request){.quiet = true}, NULL);
-    const int failed = cmocka_run_group_tests(tests, make_layers, NULL);
-    VSIRmdirRecursive(directory);
-    return failed;
+    return cmocka_run_group_tests(tests, make_layers, scratch_tear_down);
 }

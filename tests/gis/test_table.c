@@ -9,6 +9,7 @@
 #include "base/message.h"
 #include "read/source.h"
 #include "read/table.h"
+#include "scratch.h"
 
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
@@ -17,15 +18,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-static char directory[] = "/tmp/test_table.XXXXXX";
-
-static char *path_of(const char *name)
-{
-    static char path[256];
-    snprintf(path, sizeof path, "%s/%s", directory, name);
-    return path;
-}
 
 /* ---- Layers ------------------------------------------------------------------------------------------------------ */
 
@@ -45,7 +37,7 @@ static void make_layer(const char *name, const char *statement)
         const char *name;
         OGRFieldType type;
     } fields[] = {{"say \"so\"", OFTString}, {"small", OFTInteger}, {"large", OFTInteger64}, {"real", OFTReal}};
-    GDALDatasetH dataset = GDALCreate(GDALGetDriverByName("GPKG"), path_of(name), 0, 0, 0, GDT_Unknown, NULL);
+    GDALDatasetH dataset = GDALCreate(GDALGetDriverByName("GPKG"), scratch_path(name), 0, 0, 0, GDT_Unknown, NULL);
     OGRLayerH layer = GDALDatasetCreateLayer(dataset, "a \"layer\"", NULL, wkbUnknown, NULL);
     assert_non_null(layer);
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
@@ -70,7 +62,7 @@ static void make_layer(const char *name, const char *statement)
     GDALClose(dataset);
     if (!statement) return;
     char *const drivers[] = {"GPKG", NULL};
-    dataset = GDALOpenEx(path_of(name), GDAL_OF_VECTOR | GDAL_OF_UPDATE, (const char *const *)drivers, NULL, NULL);
+    dataset = GDALOpenEx(scratch_path(name), GDAL_OF_VECTOR | GDAL_OF_UPDATE, (const char *const *)drivers, NULL, NULL);
     assert_non_null(dataset);
     OGRLayerH result = GDALDatasetExecuteSQL(dataset, statement, NULL, NULL);
     if (result) GDALDatasetReleaseResultSet(dataset, result);
@@ -90,7 +82,7 @@ static bool count(void *user, const unsigned char *record, gis_error *error)
 static bool is_read_past_gdal(const char *name)
 {
     gis_error error = {0};
-    GDALDatasetH dataset = GDALOpenEx(path_of(name), GDAL_OF_VECTOR, NULL, NULL, NULL);
+    GDALDatasetH dataset = GDALOpenEx(scratch_path(name), GDAL_OF_VECTOR, NULL, NULL, NULL);
     OGRLayerH layer = GDALDatasetGetLayer(dataset, 0);
     gis_packed packed = {0};
     size_t n = 0;
@@ -105,7 +97,7 @@ static bool is_read_past_gdal(const char *name)
 
 static bool open_source(const char *name, bool packed, gis_source **source, gis_error *error)
 {
-    const gis_source_request request = {.path = path_of(name), .takes = GIS_TAKES_POLYGONS, .packed = packed};
+    const gis_source_request request = {.path = scratch_path(name), .takes = GIS_TAKES_POLYGONS, .packed = packed};
     return gis_source_open(&request, source, error);
 }
 
@@ -222,10 +214,7 @@ int main(void)
         cmocka_unit_test(test_not_plain),
         cmocka_unit_test(test_other_fields),
     };
-    if (!mkdtemp(directory)) return 1;
     GDALAllRegister();
     gis_messages_begin(&(gis_messages_request){.quiet = true}, NULL);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    VSIRmdirRecursive(directory);
-    return failed;
+    return cmocka_run_group_tests(tests, scratch_set_up, scratch_tear_down);
 }

@@ -11,6 +11,7 @@
 #include "parts/sets.h"
 #include "parts/together.h"
 #include "random.h"
+#include "scratch.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,8 +20,6 @@
 #include <unistd.h>
 
 enum { MOST = 40000, BLOCKS = 40, LARGEST = 30 };
-
-static char directory[] = "/tmp/test_together.XXXXXX";
 
 typedef struct diamond {
     double x, y, size; /* |X - x| + |Y - y| <= size */
@@ -89,7 +88,7 @@ static gis_spool *spool_of(const layer *l, unsigned shards)
     gis_spool_writer *writer;
     gis_spool *spool;
     gis_error error;
-    assert_true(gis_spool_create(directory, NULL, &writer, &error));
+    assert_true(gis_spool_create(scratch_directory(), NULL, &writer, &error));
     for (size_t k = 0; k < l->n; k++) {
         const diamond *d = &l->of[k];
         const double xy[] = {d->x - d->size, d->y, d->x, d->y - d->size, d->x + d->size, d->y, d->x, d->y + d->size};
@@ -106,7 +105,7 @@ static gis_spool *spool_of(const layer *l, unsigned shards)
     }
     assert_true(gis_spool_finish(writer, shards, NULL, NULL, &error));
     gis_spool_writer_free(writer);
-    assert_true(gis_spool_open(directory, &spool, &error));
+    assert_true(gis_spool_open(scratch_directory(), &spool, &error));
     return spool;
 }
 
@@ -172,23 +171,9 @@ static void test_nothing(void **state)
     gis_spool_close(spool);
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    return mkdtemp(directory) ? 0 : -1;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    char command[200];
-    snprintf(command, sizeof command, "rm -rf %s", directory);
-    return system(command);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_largest), cmocka_unit_test(test_pile),
                                        cmocka_unit_test(test_nothing)};
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, scratch_set_up, scratch_tear_down);
 }

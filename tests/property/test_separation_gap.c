@@ -44,25 +44,6 @@ static double point_side(double x, double y, const side *s)
     return hypot(x - s->ax - t * dx, y - s->ay - t * dy);
 }
 
-/* Is (x, y) inside a member, by parity? Away from edges; those are looked at before. */
-static bool inside(const polyset *s, double x, double y)
-{
-    for (size_t p = 0, r = 0, v = 0; p < s->polygons; p++) {
-        bool in = false;
-        for (; r < s->poly_end[p]; r++) {
-            const size_t first = v, end = s->ring_end[r];
-            for (; v < end; v++) {
-                const size_t w = v + 1 < end ? v + 1 : first;
-                const double ay = s->xy[2 * v + 1], by = s->xy[2 * w + 1];
-                if ((ay > y) == (by > y)) continue;
-                if (x < s->xy[2 * v] + (y - ay) / (by - ay) * (s->xy[2 * w] - s->xy[2 * v])) in = !in;
-            }
-        }
-        if (in) return true;
-    }
-    return false;
-}
-
 /* Distance of P and Q + (tx, ty), 0 where they meet. Edges that cross are seen by their ends or by the inside tests
  * only where the boundaries do not cross; so crossings are looked for. */
 static double set_distance(const polyset *p, const polyset *q, const side *a, size_t n, const side *b, size_t m,
@@ -85,9 +66,9 @@ static double set_distance(const polyset *p, const polyset *q, const side *a, si
         }
     /* Boundaries apart: one of a ring inside the other set means that the interiors meet. */
     for (size_t r = 0, v = 0; r < q->rings; v = q->ring_end[r++])
-        if (inside(p, q->xy[2 * v] + tx, q->xy[2 * v + 1] + ty)) return 0;
+        if (polyset_holds(p, q->xy[2 * v] + tx, q->xy[2 * v + 1] + ty)) return 0;
     for (size_t r = 0, v = 0; r < p->rings; v = p->ring_end[r++])
-        if (inside(q, p->xy[2 * v] - tx, p->xy[2 * v + 1] - ty)) return 0;
+        if (polyset_holds(q, p->xy[2 * v] - tx, p->xy[2 * v + 1] - ty)) return 0;
     return least;
 }
 

@@ -34,24 +34,6 @@ void figure_close(figure *f)
     free(f->b);
 }
 
-static bool inside(const polyset *s, double x, double y)
-{
-    for (size_t p = 0, r = 0, v = 0; p < s->polygons; p++) {
-        bool in = false;
-        for (; r < s->poly_end[p]; r++) {
-            const size_t first = v, end = s->ring_end[r];
-            for (; v < end; v++) {
-                const size_t w = v + 1 < end ? v + 1 : first;
-                const double ay = s->xy[2 * v + 1], by = s->xy[2 * w + 1];
-                if ((ay > y) == (by > y)) continue;
-                if (x < s->xy[2 * v] + (y - ay) / (by - ay) * (s->xy[2 * w] - s->xy[2 * v])) in = !in;
-            }
-        }
-        if (in) return true;
-    }
-    return false;
-}
-
 bool interiors_apart(const figure *f, double tx, double ty)
 {
     for (size_t i = 0; i < f->n; i++)
@@ -63,9 +45,9 @@ bool interiors_apart(const figure *f, double tx, double ty)
             if ((c1 < 0) != (c2 < 0) && (c3 < 0) != (c4 < 0)) return false;
         }
     for (size_t r = 0, v = 0; r < f->q->rings; v = f->q->ring_end[r++])
-        if (inside(f->p, f->q->xy[2 * v] + tx, f->q->xy[2 * v + 1] + ty)) return false;
+        if (polyset_holds(f->p, f->q->xy[2 * v] + tx, f->q->xy[2 * v + 1] + ty)) return false;
     for (size_t r = 0, v = 0; r < f->p->rings; v = f->p->ring_end[r++])
-        if (inside(f->q, f->p->xy[2 * v] - tx, f->p->xy[2 * v + 1] - ty)) return false;
+        if (polyset_holds(f->q, f->p->xy[2 * v] - tx, f->p->xy[2 * v + 1] - ty)) return false;
     return true;
 }
 

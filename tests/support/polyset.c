@@ -134,6 +134,22 @@ void polyset_turn_rings(polyset *set, size_t start)
     }
 }
 
+bool polyset_holds(const polyset *set, double x, double y)
+{
+    for (size_t p = 0, r = 0, v = 0; p < set->polygons; p++) {
+        bool in = false;
+        for (; r < set->poly_end[p]; r++) {
+            const size_t first = v, end = set->ring_end[r];
+            for (; v < end; v++) {
+                const double *a = set->xy + 2 * v, *b = set->xy + 2 * (v + 1 < end ? v + 1 : first);
+                if ((a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) in = !in;
+            }
+        }
+        if (in) return true;
+    }
+    return false;
+}
+
 static const char *skip(const char *s)
 {
     while (isspace((unsigned char)*s)) s++;

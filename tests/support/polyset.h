@@ -6,6 +6,7 @@
 
 #include "sunder.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 
 typedef struct polyset {
@@ -38,6 +39,8 @@ void polyset_scale(polyset *set, double sx, double sy);
 void polyset_negate(polyset *set);
 /* Every ring turned round, and started at another vertex. */
 void polyset_turn_rings(polyset *set, size_t start);
+/* Is (x, y) inside a member, by parity? Told in doubles: away from edges. */
+bool polyset_holds(const polyset *set, double x, double y);
 
 /* POLYGON or MULTIPOLYGON from WKT; false if the text is anything else. *end (if not NULL): past the last character
  * read. */

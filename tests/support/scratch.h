@@ -1,0 +1,13 @@
+/* A directory of a test's own, taken away with all that is in it. */
+#ifndef SUNDER_TESTS_SCRATCH_H
+#define SUNDER_TESTS_SCRATCH_H
+
+/* Before all tests of a group, and after them. */
+int scratch_set_up(void **state);
+int scratch_tear_down(void **state);
+/* Its path, from the one to the other. */
+const char *scratch_directory(void);
+/* Of a file in it; good until the fourth call after. */
+const char *scratch_path(const char *name);
+
+#endif
