@@ -66,4 +66,14 @@ typedef struct sunder_i_pair {
  * longer least translation that takes the interiors apart. Exact. */
 sunder_status sunder_i_pair_worsened(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse, sunder_error *err);
 
+/* How it stood, for who asks that of the same pair again and again: zero at first, filled in by the first question. */
+typedef struct sunder_i_depth {
+    enum { SUNDER_I_STOOD_UNKNOWN, SUNDER_I_STOOD_APART, SUNDER_I_STOOD_IN_EACH_OTHER } stood;
+    double away[2];         /* in each other: the least translation of Q that takes the interiors apart, ... */
+    double distance, least; /* ... its length, as nearest doubles, and what that is at least */
+} sunder_i_depth;
+
+sunder_status sunder_i_pair_worsened_since(const sunder_i_pair *was, sunder_i_depth *depth, const sunder_i_pair *is,
+                                           bool *worse, sunder_error *err);
+
 #endif

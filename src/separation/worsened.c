@@ -128,39 +128,88 @@ static sunder_status compare_texts(const char *was, const char *is, bool *worse,
     return failed ? sunder_i_no_memory(err) : SUNDER_OK;
 }
 
-static sunder_status compare_depths(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse, sunder_error *err)
+static double at(const double *t, int c) { return t ? t[c] : 0; }
+
+/* Is the least translation surely no longer now? What took them apart then, less what they have moved since, takes them
+ * apart: that is enough where it is shorter by more than doubles can be off, whose sums of five terms these are. */
+static bool is_surely_no_deeper(const sunder_i_depth *d, const sunder_i_pair *was, const sunder_i_pair *is)
 {
-    sunder_separation before, now = {.overlap = false};
-    sunder_i_least_options o = {.tp = was->tp, .tq = was->tq, .upper = INFINITY, .texts = true};
-    sunder_status status = sunder_i_least(was->p, was->q, &o, &before, NULL, err);
-    if (status) return status;
-    o = (sunder_i_least_options){.tp = is->tp, .tq = is->tq, .upper = 2 * before.distance, .texts = true};
+    double left[2], size = 0;
+    if (was->p != is->p || was->q != is->q) return false;
+    for (int c = 0; c < 2; c++) {
+        left[c] = d->away[c] - ((at(is->tq, c) - at(is->tp, c)) - (at(was->tq, c) - at(was->tp, c)));
+        size +=
+            fabs(d->away[c]) + fabs(at(is->tq, c)) + fabs(at(is->tp, c)) + fabs(at(was->tq, c)) + fabs(at(was->tp, c));
+    }
+    return hypot(left[0], left[1]) + 0x1p-47 * size < d->least;
+}
+
+/* No farther than what doubles of the lengths may tell apart from that one. */
+#define BARELY (1 + 0x1p-20)
+
+static sunder_status compare_lengths(const sunder_i_pair *was, const sunder_i_depth *d, const sunder_i_pair *is,
+                                     bool *worse, sunder_error *err)
+{
+    sunder_separation before, now;
+    sunder_i_least_options o = {.tp = is->tp, .tq = is->tq, .upper = BARELY * d->distance, .texts = true};
     *worse = false;
-    status = sunder_i_least(is->p, is->q, &o, &now, worse, err);
-    if (!status && !*worse) {
-        /* Nearest doubles of the true lengths keep their order. */
-        if (now.distance != before.distance)
-            *worse = now.distance > before.distance;
-        else
-            status = compare_texts(before.distance_squared_text, now.distance_squared_text, worse, err);
+    sunder_status status = sunder_i_least(is->p, is->q, &o, &now, worse, err);
+    if (status) return status;
+    if (!*worse && now.distance != d->distance) {
+        *worse = now.distance > d->distance; /* nearest doubles of the true lengths keep their order */
+    } else if (!*worse) {
+        o = (sunder_i_least_options){.tp = was->tp, .tq = was->tq, .upper = INFINITY, .texts = true};
+        status = sunder_i_least(was->p, was->q, &o, &before, NULL, err);
+        if (!status) status = compare_texts(before.distance_squared_text, now.distance_squared_text, worse, err);
+        if (!status) sunder_separation_clear(&before);
     }
     sunder_separation_clear(&now);
-    sunder_separation_clear(&before);
     return status;
 }
 
-/* ---- The question ---- */
+/* ---- How it stood ------------------------------------------------------------------------------------------------ */
 
-sunder_status sunder_i_pair_worsened(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse, sunder_error *err)
+static sunder_status find_depth(const sunder_i_pair *was, sunder_i_depth *d, sunder_error *err)
 {
-    bool before, now;
+    bool overlap;
+    sunder_separation least;
+    sunder_status status = sunder_i_overlap(was->p, was->tp, was->q, was->tq, &overlap, err);
+    if (status) return status;
+    *d = (sunder_i_depth){.stood = SUNDER_I_STOOD_APART};
+    if (!overlap) return SUNDER_OK;
+    const sunder_i_least_options o = {.tp = was->tp, .tq = was->tq, .upper = INFINITY};
+    status = sunder_i_least(was->p, was->q, &o, &least, NULL, err);
+    if (status) {
+        d->stood = SUNDER_I_STOOD_UNKNOWN;
+        return status;
+    }
+    *d = (sunder_i_depth){SUNDER_I_STOOD_IN_EACH_OTHER, {least.dx, least.dy}, least.distance, least.lower_bound};
+    sunder_separation_clear(&least);
+    return SUNDER_OK;
+}
+
+/* ---- The question ------------------------------------------------------------------------------------------------ */
+
+sunder_status sunder_i_pair_worsened_since(const sunder_i_pair *was, sunder_i_depth *depth, const sunder_i_pair *is,
+                                           bool *worse, sunder_error *err)
+{
+    bool now;
     *worse = false;
-    sunder_status status = sunder_i_overlap(was->p, was->tp, was->q, was->tq, &before, err);
-    if (!status) status = sunder_i_overlap(is->p, is->tp, is->q, is->tq, &now, err);
+    sunder_status status = depth->stood == SUNDER_I_STOOD_UNKNOWN ? find_depth(was, depth, err) : SUNDER_OK;
+    if (status) return status;
+    const bool before = depth->stood == SUNDER_I_STOOD_IN_EACH_OTHER;
+    if (before && is_surely_no_deeper(depth, was, is)) return SUNDER_OK;
+    status = sunder_i_overlap(is->p, is->tp, is->q, is->tq, &now, err);
     if (status) return status;
     if (before != now) {
         *worse = now;
         return SUNDER_OK;
     }
-    return now ? compare_depths(was, is, worse, err) : compare_distances(was, is, worse, err);
+    return now ? compare_lengths(was, depth, is, worse, err) : compare_distances(was, is, worse, err);
+}
+
+sunder_status sunder_i_pair_worsened(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse, sunder_error *err)
+{
+    sunder_i_depth depth = {.stood = SUNDER_I_STOOD_UNKNOWN};
+    return sunder_i_pair_worsened_since(was, &depth, is, worse, err);
 }

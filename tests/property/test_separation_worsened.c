@@ -101,6 +101,66 @@ static void check_worse(void **state)
     assert_true(ties > trials / 10 && worse_n > trials / 4);
 }
 
+/* Is the sum no other than it would be without rounding? (Knuth's TwoSum.) */
+static bool add_exactly(double *to, double d)
+{
+    const double sum = *to + d, part = sum - *to, lost = (*to - (sum - part)) + (d - part);
+    *to = sum;
+    return lost == 0;
+}
+
+/* Asked again and again of one pair that is moved about, as it stands and as a shape of its own there. */
+static void check_worse_since(void **state)
+{
+    size_t worse_n = 0, asked = 0;
+    const size_t trials = test_count(300);
+    for (size_t k = 0; k < trials; k++) {
+        rng r = rng_start(test_seed(), 1000000 + k);
+        polyset p, q;
+        standing before;
+        sunder_i_depth depth = {.stood = SUNDER_I_STOOD_UNKNOWN};
+        polyset_init(&p);
+        polyset_init(&q);
+        random_shape(&r, &p);
+        random_shape(&r, &q);
+        polyset_move(&q, (double)rng_int(&r, -6, 6) / 2, (double)rng_int(&r, -6, 6) / 2);
+        sunder_shape *ps = shape_of(&p), *qs = shape_of(&q);
+        assert_true(ps && qs);
+        standing_of(&before, &p, &q);
+        const double unit = rng_once_in(&r, 3) ? 0x1p-40 : rng_once_in(&r, 2) ? 0.125 : 1;
+        for (int m = 0; m < 8; m++) {
+            double t[2][2];
+            for (int c = 0; c < 4; c++) t[c / 2][c % 2] = unit * (double)rng_int(&r, -3, 3);
+            polyset moved;
+            standing now;
+            bool exact = true; /* sums of tenths may be rounded: then a shape of its own is what is asked about */
+            polyset_copy(&moved, &q);
+            for (size_t v = 0; v < 2 * moved.vertices; v++)
+                exact = add_exactly(&moved.xy[v], t[1][v % 2] - t[0][v % 2]) && exact;
+            const bool own = !exact || rng_once_in(&r, 3);
+            sunder_shape *there = shape_of(&moved);
+            standing_of(&now, &p, &moved);
+            const sunder_i_pair was = {ps, qs, NULL, NULL};
+            const sunder_i_pair is = own ? (sunder_i_pair){ps, there, NULL, NULL} : (sunder_i_pair){ps, qs, t[0], t[1]};
+            bool worse;
+            assert_int_equal(sunder_i_pair_worsened_since(&was, &depth, &is, &worse, NULL), SUNDER_OK);
+            assert_int_equal(worse, stands_worse(&now, &before));
+            worse_n += worse;
+            asked++;
+            standing_clear(&now);
+            sunder_shape_free(there);
+            polyset_free(&moved);
+        }
+        standing_clear(&before);
+        sunder_shape_free(ps);
+        sunder_shape_free(qs);
+        polyset_free(&p);
+        polyset_free(&q);
+    }
+    print_message("%zu of %zu questions said worse\n", worse_n, asked);
+    assert_true(worse_n > asked / 10 && worse_n < asked * 9 / 10);
+}
+
 /* ---- The oracle itself ------------------------------------------------------------------------------------------ */
 
 /* The greatest of the dot products of n with the corners of p. */
@@ -204,6 +264,7 @@ static void check_nearly_parallel(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(check_worse), cmocka_unit_test(check_nearly_parallel)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(check_worse), cmocka_unit_test(check_worse_since),
+                                       cmocka_unit_test(check_nearly_parallel)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -264,7 +264,7 @@ typedef enum offence { NONE, WORSE, CONFLICT } offence;
  */
 static sunder_status find_offence(const taking *t, const sunder_i_relation *r, offence *found, sunder_error *err)
 {
-    const sunder_i_solver *s = t->solver;
+    sunder_i_solver *s = t->solver;
     const sunder_i_waived waived = {.pair = s->groups.waived, .n = s->groups.waived_n};
     *found = NONE;
     if (!sunder_i_is_conflict_of_bodies(&s->model, r) || (!has_moved(t, r->a) && !has_moved(t, r->b))) return SUNDER_OK;

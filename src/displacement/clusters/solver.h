@@ -9,6 +9,8 @@
 #include "displacement/optimum/optimum.h"
 #include "displacement/search/cluster.h"
 
+#include "separation/separation.h"
+
 typedef struct sunder_i_cluster_member {
     uint32_t root, body;
 } sunder_i_cluster_member;
@@ -43,6 +45,7 @@ typedef struct sunder_i_solver {
     sunder_i_model model;
     sunder_i_placement placement;
     sunder_i_relations start, now;
+    sunder_i_depth *depth; /* [start.n] of those that were asked about; NULL: nobody was */
     sunder_i_jumps jumps;  /* as the features stand */
     sunder_i_entry *entry; /* pairs that cannot be parted, but go inside */
     size_t entries, entry_capacity;

@@ -115,10 +115,10 @@ sunder_status sunder_i_solver_spare(sunder_i_solver *solver, const sunder_i_spar
 /* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */
 bool sunder_i_solver_is_always_listed(const sunder_i_solver *solver, const sunder_i_relation *r);
 /* Is it one, and does it stand worse than it stood? */
-sunder_status sunder_i_solver_breaks_rule(const sunder_i_solver *solver, const sunder_i_relation *r, bool *breaks,
+sunder_status sunder_i_solver_breaks_rule(sunder_i_solver *solver, const sunder_i_relation *r, bool *breaks,
                                           sunder_error *err);
 /* Does the pair, which is in conflict, stand worse than it stood? Exact. */
-sunder_status sunder_i_solver_is_worse(const sunder_i_solver *solver, const sunder_i_relation *r, bool *worse,
+sunder_status sunder_i_solver_is_worse(sunder_i_solver *solver, const sunder_i_relation *r, bool *worse,
                                        sunder_error *err);
 /* For sunder_i_solver_mend(): each cluster has its own, so that what is done for one takes nothing from another. The
  * caller's; NULL: memory is out. */
@@ -130,6 +130,6 @@ sunder_status sunder_i_solver_mend(sunder_i_solver *solver, const sunder_i_relat
 /* Takes back what rounding made worse, pair by pair. */
 sunder_status sunder_i_solver_uphold(sunder_i_solver *solver, sunder_error *err);
 /* Does no pair in conflict stand worse than it stood? */
-sunder_status sunder_i_solver_is_upheld(const sunder_i_solver *solver, bool *upheld, sunder_error *err);
+sunder_status sunder_i_solver_is_upheld(sunder_i_solver *solver, bool *upheld, sunder_error *err);
 
 #endif

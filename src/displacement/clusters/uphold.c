@@ -50,8 +50,7 @@ static sunder_status is_worse_to_barrier(const sunder_i_solver *s, const sunder_
     return sunder_i_barrier_worsened(&s->model, &home, &s->placement.translate[r->a], r->b, worse, err);
 }
 
-sunder_status sunder_i_solver_is_worse(const sunder_i_solver *s, const sunder_i_relation *r, bool *worse,
-                                       sunder_error *err)
+sunder_status sunder_i_solver_is_worse(sunder_i_solver *s, const sunder_i_relation *r, bool *worse, sunder_error *err)
 {
     const sunder_i_relation *was = sunder_i_relations_find(&s->start, r->a, r->b);
     *worse = !was || !sunder_i_is_conflict(was);
@@ -61,7 +60,9 @@ sunder_status sunder_i_solver_is_worse(const sunder_i_solver *s, const sunder_i_
     const sunder_i_translate *a = &s->placement.translate[r->a], *b = &s->placement.translate[r->b];
     const sunder_i_pair before = {feature[r->a].shape, feature[r->b].shape, NULL, NULL},
                         now = {a->shape, b->shape, a->t, b->t};
-    return sunder_i_pair_worsened(&before, &now, worse, err);
+    if (!s->depth) s->depth = sunder_i_calloc(s->start.n, sizeof *s->depth);
+    if (!s->depth) return sunder_i_no_memory(err);
+    return sunder_i_pair_worsened_since(&before, &s->depth[was - s->start.pair], &now, worse, err);
 }
 
 /* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */
@@ -70,14 +71,14 @@ bool sunder_i_solver_is_always_listed(const sunder_i_solver *s, const sunder_i_r
     return sunder_i_is_conflict(r) && (s->model.body_of[r->a] != s->model.body_of[r->b] || (r->overlap && !r->touch));
 }
 
-sunder_status sunder_i_solver_breaks_rule(const sunder_i_solver *s, const sunder_i_relation *r, bool *breaks,
+sunder_status sunder_i_solver_breaks_rule(sunder_i_solver *s, const sunder_i_relation *r, bool *breaks,
                                           sunder_error *err)
 {
     *breaks = false;
     return sunder_i_solver_is_always_listed(s, r) ? sunder_i_solver_is_worse(s, r, breaks, err) : SUNDER_OK;
 }
 
-sunder_status sunder_i_solver_is_upheld(const sunder_i_solver *s, bool *upheld, sunder_error *err)
+sunder_status sunder_i_solver_is_upheld(sunder_i_solver *s, bool *upheld, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     *upheld = s->jumps.n == 0;
