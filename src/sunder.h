@@ -566,7 +566,8 @@ typedef struct sunder_conflict {
     bool inside_block; /* counted in inside_blocks alone */
     /* A limit of moves, a gap with which a solution of the pair and its neighbours is known, NAN: none; a feature or
      * barrier without which it is, SIZE_MAX: none. Upper estimates: all others stand as in the result; a few questions
-     * each, and none at effort 0. */
+     * each, and none at effort 0. Of a cluster where these have no answer need_shift is the longest move of a layout of
+     * all of it, if one is known. */
     double need_shift, need_gap;
     size_t need_gone;
 } sunder_conflict;

@@ -152,9 +152,10 @@ static void charge(sunder_i_solver *s)
 
 typedef struct taking {
     sunder_i_solver *solver;
-    uint32_t *by;   /* [bodies] the place in the list of the group that moved it; SUNDER_I_NOBODY: none */
-    double *before; /* [2 * bodies] */
-    size_t *budget; /* [bodies] by roots of clusters: bodies that may yet be moved in vain */
+    uint32_t *by;            /* [bodies] the place in the list of the group that moved it; SUNDER_I_NOBODY: none */
+    double *before;          /* [2 * bodies] */
+    size_t *budget;          /* [bodies] by roots of clusters: bodies that may yet be moved in vain */
+    sunder_i_id_pair mended; /* no pair before this one stands worse: what mends one leaves no other so */
 } taking;
 
 static void place(taking *t, size_t k, bool back)
@@ -258,39 +259,32 @@ static bool is_outdated(const sunder_i_solver *s, uint32_t a, uint32_t b)
     return s->changes.is[a] || s->changes.is[b];
 }
 
-typedef enum offence { NONE, WORSE, CONFLICT } offence;
-
-/* A conflict that is to be none, or an overlap that had ended; or one that is listed, and stands worse than it stood.
- */
-static sunder_status find_offence(const taking *t, const sunder_i_relation *r, offence *found, sunder_error *err)
+/* A pair in conflict, of which one moved; may_stay: it is listed, and no overlap that had ended. */
+static bool is_in_question(const taking *t, const sunder_i_relation *r, bool *may_stay)
 {
     sunder_i_solver *s = t->solver;
     const sunder_i_waived waived = {.pair = s->groups.waived, .n = s->groups.waived_n};
-    *found = NONE;
-    if (!sunder_i_is_conflict_of_bodies(&s->model, r) || (!has_moved(t, r->a) && !has_moved(t, r->b))) return SUNDER_OK;
+    if (!sunder_i_is_conflict_of_bodies(&s->model, r) || (!has_moved(t, r->a) && !has_moved(t, r->b))) return false;
     const sunder_i_waiver *waiver = sunder_i_waiver_of(&s->model, &waived, r->a, r->b);
-    if (!waiver || (r->overlap && !waiver->overlap)) {
-        *found = CONFLICT;
-        return SUNDER_OK;
-    }
-    bool worse;
-    const sunder_status status = sunder_i_solver_is_worse(s, r, &worse, err);
-    if (!status && worse) *found = WORSE;
-    return status;
+    *may_stay = waiver && (!r->overlap || waiver->overlap);
+    return true;
 }
 
-/* The first pair that is listed and stands worse: what rounding did may be mended, after which relations are others; or
- * who moved goes back. */
+/* The first pair that is listed and stands worse than it stood: what rounding did may be mended, after which relations
+ * are others; or who moved goes back. */
 static sunder_status mend_first(taking *t, bool *any, sunder_error *err)
 {
     sunder_i_solver *s = t->solver;
     sunder_status status = SUNDER_OK;
-    for (size_t k = 0; k < s->now.n && !status && !*any; k++) {
+    const sunder_i_relation from = {.a = t->mended.a, .b = t->mended.b};
+    size_t k = sunder_i_lower_bound(&from, s->now.pair, s->now.n, sizeof from, sunder_i_by_id_pair);
+    for (; k < s->now.n && !status && !*any; k++) {
         const sunder_i_relation r = s->now.pair[k];
-        offence found;
-        status = find_offence(t, &r, &found, err);
-        if (status || found != WORSE) continue;
+        bool may_stay, worse = false;
+        if (is_in_question(t, &r, &may_stay) && may_stay) status = sunder_i_solver_is_worse(s, &r, &worse, err);
+        if (status || !worse) continue;
         status = sunder_i_solver_mend(s, &r, t->budget, any, err);
+        t->mended = *any ? (sunder_i_id_pair){r.a, r.b} : (sunder_i_id_pair){0, 0};
         if (!status && !*any) part(t, r.a, r.b, true, any);
     }
     return status;
@@ -304,17 +298,16 @@ static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
     sunder_status status = SUNDER_OK;
     *any = false;
     sunder_i_changes_clear(&s->changes);
-    for (size_t k = 0; k < s->now.n && !status; k++) {
+    for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
-        offence found;
-        if (is_outdated(s, r->a, r->b)) continue;
-        status = find_offence(t, r, &found, err);
-        if (!status && found == CONFLICT) part(t, r->a, r->b, true, any);
+        bool may_stay;
+        if (!is_outdated(s, r->a, r->b) && is_in_question(t, r, &may_stay) && !may_stay) part(t, r->a, r->b, true, any);
     }
     for (size_t k = 0; k < s->jumps.n && !status; k++) {
         const sunder_i_id_pair *p = &s->jumps.pair[k];
         if (!is_outdated(s, p->a, p->b) && !part_jump(t, p->a, p->b, any)) status = sunder_i_no_memory(err);
     }
+    if (*any) t->mended = (sunder_i_id_pair){0, 0};
     return status || *any ? status : mend_first(t, any, err);
 }
 
@@ -322,8 +315,11 @@ static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
 static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
 {
     const size_t n = s->model.bodies;
-    taking t = {s, sunder_i_alloc(n, sizeof *t.by), sunder_i_alloc(2 * n, sizeof *t.before),
-                sunder_i_solver_patience(s)};
+    taking t = {s,
+                sunder_i_alloc(n, sizeof *t.by),
+                sunder_i_alloc(2 * n, sizeof *t.before),
+                sunder_i_solver_patience(s),
+                {0, 0}};
     sunder_status status = t.by && t.before && t.budget ? SUNDER_OK : sunder_i_no_memory(err);
     bool again = false;
     *any = false;

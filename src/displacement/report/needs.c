@@ -2,9 +2,9 @@
  * layer about it (question.c).
  *
  * In a crowd that has no room hardly any small layer has a solution, and there are thousands of conflicts: the pairs
- * of a cluster are asked about in turn until so much was asked in vain. And a question that is mostly in vain, of a
- * limit or of who is gone, is put to fewer and fewer of them. (One of a gap is answered soon, since without one pairs
- * mostly have a solution.) So what is known of a pair is a matter of its cluster, never of the layer. */
+ * of a cluster are asked about in turn until so much was asked in vain. And a question that is mostly in vain is put
+ * to fewer and fewer of them. (One of a gap is answered beforehand where the result keeps one.) So what is known of a
+ * pair is a matter of its cluster, never of the layer. */
 #include "displacement/layer/reads.h"
 #include "displacement/report/question.h"
 #include "displacement/report/tuning.h"
@@ -21,8 +21,46 @@
  * that a question has no answer, too, which only spare looking for one. */
 typedef struct budget {
     uint64_t left;
-    sunder_i_patience shift, gone, proof;
+    sunder_i_patience shift, gap, gone, proof;
 } budget;
+
+/* ---- A gap that there is in the result --------------------------------------------------------------------------- */
+
+/* Is it asked what would free it? */
+static bool is_asked_about(const sunder_conflict *c) { return !c->inside_block && c->reason != SUNDER_REASON_KEPT; }
+
+/* The gap that a conflict leaves where it stands: two that are nearer than the layer's have the one between them. */
+static double gap_of(const sunder_conflict *c)
+{
+    return c->kind == SUNDER_CONFLICT_TOO_CLOSE && c->depth == 0 ? fmax(0, nextafter(c->distance, -INFINITY)) : -1;
+}
+
+/* The least gap of a pair and of all that are left of its two bodies: with that the result is a solution of it and its
+ * neighbours, which need not be asked for. Only where it is one at all, and less than what is asked for. */
+static sunder_status keep_what_there_is(const sunder_i_questions *g, sunder_error *err)
+{
+    const sunder_i_model *model = &g->solver->model;
+    sunder_report *report = g->report;
+    double *least = sunder_i_alloc(model->bodies, sizeof *least);
+    if (!least) return sunder_i_no_memory(err);
+    for (size_t b = 0; b < model->bodies; b++) least[b] = INFINITY;
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t k = 0; k < report->conflicts; k++) {
+            sunder_conflict *c = &report->conflict[k];
+            if (!is_asked_about(c)) continue;
+            double gap = gap_of(c), *of[2] = {&least[model->body_of[c->a]], &least[model->body_of[c->b]]};
+            for (int e = 0; e < 2; e++) {
+                if (model->body[model->body_of[e ? c->b : c->a]].fixed) continue;
+                if (pass == 0)
+                    *of[e] = fmin(*of[e], gap);
+                else
+                    gap = fmin(gap, *of[e]);
+            }
+            if (pass == 1 && gap >= 0 && gap < g->options->gap) c->need_gap = gap;
+        }
+    sunder_i_free(least);
+    return SUNDER_OK;
+}
 
 /* ---- The three needs --------------------------------------------------------------------------------------------- */
 
@@ -66,12 +104,15 @@ static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surr
 static sunder_status need_gap(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
                               budget *left, sunder_error *err)
 {
-    sunder_i_supposition what = {0, 0, SUNDER_I_NOBODY};
+    const bool known = !isnan(c->need_gap);
     double high = g->options->gap, longest;
+    sunder_i_supposition what = {0, known ? c->need_gap + (high - c->need_gap) / 2 : 0, SUNDER_I_NOBODY};
     bool yes;
-    for (int k = 0; k <= g->halvings && high > 0; k++) {
+    if (known && !sunder_i_patience_asks(&left->gap)) return SUNDER_OK;
+    for (int k = known ? 1 : 0; k <= g->halvings && high > 0; k++) {
         const sunder_status status = ask(g, a, c, &what, left, &yes, &longest, err);
         if (status) return status;
+        if (known && k == 1) sunder_i_patience_note(&left->gap, yes);
         if (yes)
             c->need_gap = what.gap;
         else if (k == 0)
@@ -142,7 +183,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
         const sunder_i_patience fresh = sunder_i_patience_of(NEED_PATIENCE, NEED_REGAINED);
-        budget left = {g->most, fresh, fresh, sunder_i_patience_of(PROOF_PATIENCE, NEED_REGAINED)};
+        budget left = {g->most, fresh, fresh, fresh, sunder_i_patience_of(PROOF_PATIENCE, NEED_REGAINED)};
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &g->questions->solver->model, g->matter[g->first[k]].root);
         for (size_t m = g->first[k]; m < g->first[k + 1] && left.left && !status; m++)
@@ -166,7 +207,7 @@ static size_t group(const sunder_i_solver *s, const sunder_report *report, matte
     size_t n = 0, groups = 0;
     for (size_t k = 0; k < report->conflicts; k++) {
         const sunder_conflict *c = &report->conflict[k];
-        if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
+        if (!is_asked_about(c)) continue;
         const uint32_t i = model->body_of[c->a], j = model->body_of[c->b];
         list[n++] = (matter){sunder_i_union_find(s->parent, model->body[i].fixed ? j : i), (uint32_t)k};
     }
@@ -185,7 +226,7 @@ sunder_status sunder_i_report_needs(sunder_report *report, const sunder_i_solver
     if (!(effort > 0)) return SUNDER_OK;
     matter *list = sunder_i_alloc(report->conflicts, sizeof *list);
     size_t *first = sunder_i_alloc(report->conflicts + 1, sizeof *first);
-    sunder_status status = list && first ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = list && first ? keep_what_there_is(&g, err) : sunder_i_no_memory(err);
     if (!status) {
         const size_t groups = group(solver, report, list, first);
         asking h = {&g, list, first, NEED_IN_VAIN * (uint64_t)effort};

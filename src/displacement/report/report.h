@@ -168,6 +168,19 @@ typedef sunder_status (*sunder_i_solve_layer)(const sunder_layer *layer, const s
 sunder_status sunder_i_report_needs(sunder_report *report, const sunder_i_solver *solver,
                                     const sunder_layer_options *options, sunder_i_solve_layer solve, sunder_error *err);
 
+/* ---- crowd_needs.c ----------------------------------------------------------------------------------------------- */
+
+/* And the need_shift of all conflicts of a cluster, from a layout of it that solves them, if one is known. All stand as
+ * in the result before and behind. */
+sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver *solver, sunder_error *err);
+
+/* ---- spread_out.c ------------------------------------------------------------------------------------------------ */
+
+/* Moves that take boxes apart which are in conflict at the start, of bodies, ascending, and of those that stand where
+ * they come to, which join them: into goal, which is of all bodies. *found: there are such. */
+sunder_status sunder_i_spread_out(const sunder_i_solver *solver, sunder_i_list *body, double *goal, bool *found,
+                                  sunder_error *err);
+
 /* ---- worlds.c ---------------------------------------------------------------------------------------------------- */
 
 /* Which parts of the layer had nothing to do with each other, where that is wanted; last of all. */

@@ -88,6 +88,12 @@
  * a town of terraces three of 254, and to look for them took a third of all time that questions took. */
 #define PROOF_PATIENCE 8
 
+/* By so much more than has to be, as a share, a cluster is stretched (spread_out.c): what roundings take. */
+#define SPREAD_MARGIN 0x1p-20
+/* It takes so many times its bodies with it, and so many. */
+#define SPREAD_TIMES 8
+#define SPREAD_MOST 256
+
 /* ---- What stands in the way (blockers.c) ------------------------------------------------------------------------- */
 
 /* Two that are apart by the gap and this share of the gap or of a feature's size still rest against each other. */

@@ -1,0 +1,236 @@
+/* A limit that would free all that is left of a crowd. A question about one pair, with all others where they stand in
+ * the result (question.c), is asked of a crowd in vain: nobody has room until everybody has. But layouts of a whole
+ * cluster are known: where its bodies stood when limits were lifted, at first; and where that was given up, all of it
+ * stretched (spread_out.c). The longest move of one that is a solution is a limit that does for all its pairs.
+ *
+ * It is looked at exactly, in the place of the result: the bodies of the cluster are put there, and so is whoever is in
+ * their way and has another place in it, until nobody is or one has none. Then no pair may be in conflict that is in
+ * none in the result, none that stays so may stand worse than at the start, and nobody may have jumped. All others
+ * stand as in the result; and all go back to where that has them. What it costs is to relate a cluster three times,
+ * however many pairs are left of it. */
+#include "displacement/clusters/stages.h"
+#include "displacement/clusters/trial.h"
+#include "displacement/report/report.h"
+
+#include "base/union_find.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct crowd {
+    sunder_report *report;
+    sunder_i_trial trial; /* whom it puts elsewhere, and where these stand in the result */
+    sunder_i_list body;   /* whom it begins with */
+    const double *goal;   /* [2 * bodies] of the layout */
+    bool *taken;          /* [bodies] */
+    bool *stays;          /* [conflicts] of the report: in conflict in that layout, too */
+    bool any;             /* somebody more was put elsewhere */
+} crowd;
+
+static const double *goal(const crowd *g, uint32_t body) { return g->goal + 2 * (size_t)body; }
+
+/* One body as it stands from now on. */
+static sunder_status put(crowd *g, uint32_t body, const double *move, sunder_error *err)
+{
+    sunder_i_solver *s = g->trial.solver;
+    sunder_i_solver_place(s, body, move);
+    const sunder_status status = sunder_i_placement_move_body(&s->model, &s->placement, body, err);
+    return status ? status : sunder_i_jumps_follow(&s->jumps, &s->model, body, err);
+}
+
+/* Puts a body where the layout has it; *done: it may move, and stood elsewhere. */
+static sunder_status take(crowd *g, uint32_t body, bool *done, sunder_error *err)
+{
+    const sunder_i_model *model = &g->trial.solver->model;
+    *done = sunder_i_may_move(&model->body[body]) && !g->taken[body] &&
+            memcmp(goal(g, body), model->move + 2 * (size_t)body, 2 * sizeof(double)) != 0;
+    if (!*done) return SUNDER_OK;
+    if (!sunder_i_trial_take(&g->trial, body)) return sunder_i_no_memory(err);
+    g->taken[body] = g->any = true;
+    return put(g, body, goal(g, body), err);
+}
+
+/* The conflict of the report, if it is one; else NULL. */
+static const sunder_conflict *find_listed(const crowd *g, const sunder_i_relation *r)
+{
+    size_t low = 0, high = g->report->conflicts;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        const sunder_conflict *c = &g->report->conflict[middle];
+        if (c->a == r->a && c->b == r->b) return c;
+        if (c->a < r->a || (c->a == r->a && c->b < r->b))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return NULL;
+}
+
+/* Who is in the way goes where the layout has it, too. */
+static sunder_status make_way(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
+{
+    crowd *g = context;
+    const sunder_i_model *model = &g->trial.solver->model;
+    if (!sunder_i_is_conflict_of_bodies(model, r)) return SUNDER_OK;
+    const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+    bool done = false;
+    sunder_status status = take(g, i, &done, err);
+    if (!status && !done) status = take(g, j, &done, err);
+    g->trial.well = *on = done || find_listed(g, r);
+    return status;
+}
+
+/* Is the pair in no conflict but one that is listed, and no worse than at the start? */
+static sunder_status look_at_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
+{
+    crowd *g = context;
+    if (!sunder_i_is_conflict_of_bodies(&g->trial.solver->model, r)) return SUNDER_OK;
+    const sunder_conflict *c = find_listed(g, r);
+    bool worse = !c;
+    const sunder_status status = c ? sunder_i_solver_is_worse(g->trial.solver, r, &worse, err) : SUNDER_OK;
+    if (c) g->stays[c - g->report->conflict] = true;
+    g->trial.well = *on = !worse;
+    return status;
+}
+
+static sunder_status visit_all(crowd *g, sunder_i_visit_relation visit, sunder_error *err)
+{
+    sunder_i_solver *s = g->trial.solver;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < g->trial.n && g->trial.well && !status; k++)
+        status = sunder_i_placement_visit(&s->model, &s->placement, g->trial.body[k], &g->trial.near, visit, g, err);
+    return status;
+}
+
+static sunder_status ask_for_jumps(crowd *g, sunder_error *err)
+{
+    sunder_i_solver *s = g->trial.solver;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < g->trial.n && g->trial.well && !status; k++) {
+        bool jumps;
+        status = sunder_i_jumps_of_body(&s->jumps, &s->model, g->trial.body[k], &g->trial.near, &jumps, err);
+        g->trial.well = !jumps;
+    }
+    return status;
+}
+
+/* Is that layout a solution, and how far do they go in it? All stand as in the result before and behind. */
+static sunder_status try_layout(crowd *g, double *longest, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    g->trial.n = 0;
+    g->trial.well = true;
+    g->any = false;
+    for (size_t k = 0; k < g->body.n && !status; k++) {
+        bool done;
+        status = take(g, g->body.item[k], &done, err);
+    }
+    while (g->any && g->trial.well && !status) {
+        g->any = false;
+        status = visit_all(g, make_way, err);
+    }
+    if (!status) status = visit_all(g, look_at_pair, err);
+    if (!status) status = ask_for_jumps(g, err);
+    *longest = 0;
+    for (size_t k = 0; k < g->trial.n; k++) {
+        const uint32_t body = g->trial.body[k];
+        *longest = fmax(*longest, hypot(goal(g, body)[0], goal(g, body)[1]));
+        g->taken[body] = false;
+        const sunder_status back = put(g, body, g->trial.stood + 2 * k, err);
+        if (!status) status = back;
+    }
+    return status;
+}
+
+/* The cluster that a conflict belongs to. */
+static uint32_t root_of(const sunder_i_solver *s, const sunder_conflict *c)
+{
+    const uint32_t i = s->model.body_of[c->a], j = s->model.body_of[c->b];
+    return sunder_i_union_find(s->parent, s->model.body[i].fixed ? j : i);
+}
+
+static bool is_asked(const sunder_conflict *c)
+{
+    return !c->inside_block && c->reason != SUNDER_REASON_KEPT && c->reason != SUNDER_REASON_FIXED;
+}
+
+/* Of one cluster, by a layout: all its conflicts that this solves, if it is a solution; item[] of them, by their
+ * places. */
+static sunder_status free_by(crowd *g, const double *layout, const sunder_i_id_pair *item, size_t n, bool *well,
+                             sunder_error *err)
+{
+    double longest;
+    g->goal = layout;
+    for (size_t k = 0; k < n; k++) g->stays[item[k].b] = false;
+    const sunder_status status = try_layout(g, &longest, err);
+    *well = !status && g->trial.n && g->trial.well;
+    /* One unit above what is rounded once holds the move. */
+    longest = nextafter(longest, INFINITY);
+    for (size_t k = 0; k < n && *well; k++) {
+        sunder_conflict *c = &g->report->conflict[item[k].b];
+        if (!g->stays[item[k].b] && !(c->need_shift <= longest)) c->need_shift = longest;
+    }
+    return status;
+}
+
+/* spread: of all bodies, where they stand in the result, before and behind. */
+static sunder_status free_cluster(crowd *g, const sunder_i_id_pair *item, size_t n, double *spread, sunder_error *err)
+{
+    const sunder_i_model *model = &g->trial.solver->model;
+    size_t members;
+    const uint32_t *member = sunder_i_solver_members(g->trial.solver, item[0].a, &members);
+    bool well = false, found = false;
+    sunder_i_reading reading;
+    g->body.n = 0;
+    for (size_t k = 0; k < members; k++)
+        if (!sunder_i_list_push(&g->body, member[k])) return sunder_i_no_memory(err);
+    sunder_i_reads_begin(&reading, model, item[0].a);
+    sunder_status status = free_by(g, model->lifted, item, n, &well, err);
+    if (!status && !well) status = sunder_i_spread_out(g->trial.solver, &g->body, spread, &found, err);
+    if (!status && found) status = free_by(g, spread, item, n, &well, err);
+    sunder_i_reads_end(&reading);
+    for (size_t k = 0; k < g->body.n; k++) {
+        const size_t at = 2 * (size_t)g->body.item[k];
+        memcpy(spread + at, model->move + at, 2 * sizeof *spread);
+    }
+    return status;
+}
+
+/* Conflicts by clusters: the root and the place of each. */
+static size_t group(const sunder_i_solver *s, const sunder_report *report, sunder_i_id_pair *item)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < report->conflicts; k++)
+        if (is_asked(&report->conflict[k]))
+            item[n++] = (sunder_i_id_pair){root_of(s, &report->conflict[k]), (uint32_t)k};
+    if (n) qsort(item, n, sizeof *item, sunder_i_by_id_pair);
+    return n;
+}
+
+sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver *s, sunder_error *err)
+{
+    crowd g = {.report = report, .trial = {.solver = s}};
+    if (!s->model.lifted || !(s->model.rules.effort > 0) || report->conflicts == 0) return SUNDER_OK;
+    sunder_i_id_pair *item = sunder_i_alloc(report->conflicts, sizeof *item);
+    double *spread = sunder_i_alloc(2 * s->model.bodies, sizeof *spread);
+    g.taken = sunder_i_calloc(s->model.bodies, sizeof *g.taken);
+    g.stays = sunder_i_calloc(report->conflicts, sizeof *g.stays);
+    sunder_status status = item && spread && g.taken && g.stays ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) memcpy(spread, s->model.move, 2 * s->model.bodies * sizeof *spread);
+    const size_t n = status ? 0 : group(s, report, item);
+    for (size_t k = 0, end; k < n && !status; k = end) {
+        bool open = false;
+        for (end = k; end < n && item[end].a == item[k].a; end++)
+            open = open || isnan(report->conflict[item[end].b].need_shift);
+        if (open) status = free_cluster(&g, item + k, end - k, spread, err);
+    }
+    sunder_i_changes_clear(&s->changes);
+    sunder_i_trial_free(&g.trial);
+    sunder_i_free(g.body.item);
+    sunder_i_free(item);
+    sunder_i_free(spread);
+    sunder_i_free(g.taken);
+    sunder_i_free(g.stays);
+    return status;
+}
