@@ -546,10 +546,12 @@ typedef enum sunder_reason {
                                * pairs are no worse than at the start */
     SUNDER_REASON_SAME_BLOCK, /* they move as one */
     SUNDER_REASON_KEPT,       /* allowed to overlap: contained, ignored */
+    SUNDER_REASON_CROWDED,    /* proved: the pair and all pairs of its features and those of blocked_by cannot all be
+                               * solved, listed or not, whatever is left elsewhere: so some of these have to be */
     SUNDER_REASON_UNRESOLVED  /* neither a solution nor a proof that there is none was found */
 } sunder_reason;
 
-/* "", "max_shift", "fixed", "side", "jump", "no_room", "same_block", "kept", "unresolved". */
+/* "", "max_shift", "fixed", "side", "jump", "no_room", "same_block", "kept", "crowded", "unresolved". */
 SUNDER_API const char *sunder_reason_string(sunder_reason reason);
 
 typedef struct sunder_conflict {
@@ -863,12 +865,13 @@ typedef struct sunder_proof {
 } sunder_proof;
 
 /* The proof of conflict k of sunder_report_conflicts(), or NULL. It lives as long as the report. There is one for
- * each with SUNDER_REASON_NO_ROOM; the features of its nodes, but for the two in conflict, are the conflict's
- * blocked_by: none of them could be left out of it. With SUNDER_REASON_SIDE and mostly SUNDER_REASON_JUMP there is one,
- * too: its nodes are about the pair, and about the ways of the members of their two blocks (shadows). Without a limit
- * `within` is one by which the two are apart for certain: farther out nothing but shadows forbids a move, and what is
- * shaded there was shaded before; with SUNDER_REASON_NO_ROOM all nodes are about members of the two blocks then. With
- * SUNDER_REASON_MAX_SHIFT, if keep_trees was asked for and one was found, they are about the pair. */
+ * each with SUNDER_REASON_NO_ROOM and SUNDER_REASON_CROWDED; the features of its nodes, but for the two in conflict,
+ * are the conflict's blocked_by: none of them could be left out of it. With SUNDER_REASON_SIDE and mostly
+ * SUNDER_REASON_JUMP there is one, too: its nodes are about the pair, and about the ways of the members of their two
+ * blocks (shadows). Without a limit `within` is one by which the two are apart for certain: farther out nothing but
+ * shadows forbids a move, and what is shaded there was shaded before; with SUNDER_REASON_NO_ROOM all nodes are about
+ * members of the two blocks then. With SUNDER_REASON_MAX_SHIFT, if keep_trees was asked for and one was found, they
+ * are about the pair. */
 SUNDER_API const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k);
 
 /* ---- Routes ----------------------------------------------------------------------------------------------- */

@@ -35,6 +35,10 @@ static const struct {
                                true},
     [SUNDER_REASON_SAME_BLOCK] = {"same block", "the two move as one", true},
     [SUNDER_REASON_KEPT] = {"kept", "the two are allowed to overlap", true},
+    [SUNDER_REASON_CROWDED] = {"crowded",
+                               "proved: of the pairs of these two and of what stands in the way some have to stay in "
+                               "conflict, whatever is done elsewhere; none of them could be left out of the proof",
+                               true},
     [SUNDER_REASON_UNRESOLVED] = {"unresolved", "neither a solution nor a proof that there is none was found", false},
 };
 

@@ -421,12 +421,21 @@ def other_reason(told):
     return (shadow or stranger) and ("no ways are heeded", "has no neighbours")
 
 
+def crowd_without_room(told):
+    """What a few cannot do together, told as if the others of them were held to no more than they had."""
+    if told["reason"] != "crowded" or len(told["blocked_by"]) < 3:
+        return False
+    told["reason"] = "no_room"
+    return ("held to more than it had",)
+
+
 VERDICTS = {"way": drop_way, "leaf": weaken_leaves, "clearance": ask_more, "slack": drop_slack,
             "claimed slack": claim_slack, "short slack": shorten_slack, "blamed": blame,
             "let go": let_go, "one line": one_line, "pushed line": push_line, "turned lines": turn_lines, "reached line": reach_line,
             "held roughly": hold_roughly, "held itself": hold_own,
             "pulled chord": pull_chord, "half a chord": halve_chord, "parted sides": part_sides,
-            "side twice": same_side_twice, "chord as side": drop_sides, "within": shorten_within, "reason": other_reason}
+            "side twice": same_side_twice, "chord as side": drop_sides, "within": shorten_within, "reason": other_reason,
+            "crowd": crowd_without_room}
 
 
 # ---- Mutations of the whole

@@ -36,6 +36,19 @@ proved tight "$town" --gap 3 --no-blocks --max-shift 2 --fixed-where "$monuments
 refuted tight "$town" --gap 3 --no-blocks --max-shift 2 --fixed-where "$monuments" --need limit --need leaf --need way \
     --need clearance --need blamed
 proved jumps "$town" --gap 2 --allow-jumps --contained separate
+
+# A grid of squares that lack a metre each, two of which may go three together: nothing is told of one pair, but that the
+# pairs of a few cannot all be solved.
+python3 -c '
+print("WKT,w")
+for k in range(64):
+    x, y = 12 * (k % 8) + k * 7 % 5 / 8, 12 * (k // 8) + k * 3 % 5 / 8
+    print(f"\"POLYGON(({x} {y},{x + 10} {y},{x + 10} {y + 10},{x} {y + 10}))\",1")' | layer crowd.gpkg buildings POLYGON
+crowd=(--gap 3 --no-blocks --max-shift 1.5)
+proved crowd crowd.gpkg "${crowd[@]}"
+grep -q '"reason": "crowded"' crowd.jsonl || fail "no pair of a grid is crowded"
+refuted crowd crowd.gpkg "${crowd[@]}" --need leaf --need way --need clearance --need blamed --need reason \
+    --need crowd
 proved width "$town" --gap 1 --max-shift 4 --barrier "$town,layer=roads,width-field=width,gap=0"
 
 # Without effort, and where conflicts remain, pairs alone may prove more than groups: then trees are theirs.

@@ -14,7 +14,7 @@ class Verdict:
         self.kinds = {self.key(c["a"], c["b"]): c["kind"] for c in conflicts if not c.get("inside_block")}
         self.own = self.key(told["a"], told["b"])
         self.unit = problem.lattice.unit
-        self.alone = told["reason"] != "no_room"
+        self.alone = told["reason"] not in ("no_room", "crowded")
         self.within = told.get("within")
         if self.within is not None:
             self.check_within()
@@ -99,7 +99,8 @@ class Verdict:
             demand(within * within >= reach[0] ** 2 + reach[1] ** 2, "farther out the two could still be too near:", k, l)
 
     def is_listed(self, a, b):
-        return self.key(a, b) in self.kinds and self.key(a, b) != self.own
+        """Of a crowd all is owed, listed or not."""
+        return self.told["reason"] != "crowded" and self.key(a, b) in self.kinds and self.key(a, b) != self.own
 
     def check_clearance(self, a, b, clearance):
         """No more than the pair owes, or than it had at the start where it is another listed one."""
@@ -337,7 +338,7 @@ def is_shaded(polygon, v, far):
 def check(problem, told, conflicts):
     """Is there a proof? Then it holds."""
     problem.demand_listed(told)
-    if told["reason"] in ("no_room", "side"):
+    if told["reason"] in ("no_room", "crowded", "side"):
         demand("proof" in told, "no solution, and no proof:", told["a"], told["b"])
     if "proof" not in told:
         return 0

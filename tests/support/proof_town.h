@@ -7,7 +7,7 @@
 
 #include "sunder.h"
 
-enum { PROOF_TOWN_MOST = 48, PROOF_TOWN_CORNERS = 8, PROOF_TOWN_BARRIERS = 6 };
+enum { PROOF_TOWN_MOST = 100, PROOF_TOWN_CORNERS = 8, PROOF_TOWN_BARRIERS = 6 };
 
 typedef struct proof_town {
     double xy[PROOF_TOWN_MOST][2 * PROOF_TOWN_CORNERS];

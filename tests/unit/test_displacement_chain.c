@@ -101,7 +101,7 @@ static size_t links_of(const row *r, size_t pair)
 static uint64_t ask(const row *r, bool has_proof)
 {
     sunder_error err;
-    sunder_i_chains *chains = sunder_i_chains_new(&r->cluster);
+    sunder_i_chains *chains = sunder_i_chains_new(&r->cluster, false);
     uint64_t most = 0, all = 0;
     assert_non_null(chains);
     for (size_t k = 0; k < r->cluster.required_n; k++) {

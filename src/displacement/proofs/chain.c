@@ -210,6 +210,17 @@ static bool is_open(const sunder_i_way *way, size_t k, const bool *open, double 
     return is;
 }
 
+/* Do all links of a chain go along nearly the same line? */
+static bool is_straight(const sunder_i_chains *g, const sunder_i_way *way, const sunder_i_pushing *chain)
+{
+    bool is = true;
+    for (size_t k = 0; k < chain->n && is; k++) {
+        const double along = at(way->n, g->link[chain->link[k]].n);
+        is = (k < chain->right ? along : -along) > CHAIN_STRAIGHT;
+    }
+    return is;
+}
+
 /* The two pieces of the pair, of which all open ways are to have a chain. False if memory is out. */
 static bool ask_pieces(finding *f, const sunder_i_chain_link *pair)
 {
@@ -230,7 +241,8 @@ static bool ask_pieces(finding *f, const sunder_i_chain_link *pair)
         open[k] = is_open(f->way, k, open, reach);
         if (!open[k]) continue;
         f->chain[chains] = (sunder_i_pushing){.way = k};
-        ok = find_chain(g, f->q, pair, &f->way[k], f->half, &f->chain[chains], &found);
+        ok = g->all ? sunder_i_chain_fewest(g, pair, &f->way[k], &f->chain[chains], &found)
+                    : find_chain(g, f->q, pair, &f->way[k], f->half, &f->chain[chains], &found);
         if (ok && found) chains++;
     }
     bool failed = false;
@@ -238,6 +250,8 @@ static bool ask_pieces(finding *f, const sunder_i_chain_link *pair)
     if (ok && found) f->decision->proof = sunder_i_chain_prove(g, f->q, pair, f->way, n, f->chain, chains, &failed);
     for (size_t k = 0; k < chains; k++) {
         if (f->decision->proof && f->chain[k].n > *f->links) *f->links = f->chain[k].n;
+        if (f->decision->proof && chains == 1)
+            f->decision->straight = is_straight(g, &f->way[f->chain[0].way], &f->chain[0]);
         sunder_i_free(f->chain[k].link);
     }
     sunder_i_free(open);
@@ -315,13 +329,14 @@ sunder_status sunder_i_chains_decide(sunder_i_chains *g, const sunder_i_subprobl
 
 /* ---- Of a cluster ------------------------------------------------------------------------------------------------ */
 
-sunder_i_chains *sunder_i_chains_new(const sunder_i_subproblem *cluster)
+sunder_i_chains *sunder_i_chains_new(const sunder_i_subproblem *cluster, bool all)
 {
     sunder_i_chains *g = sunder_i_calloc(1, sizeof *g);
     if (!g) return NULL;
     g->of = *cluster;
     g->of.a = g->of.b = SUNDER_I_NOBODY;
     g->of.coarse = CHAIN_COARSE;
+    g->all = all;
     g->branching.subproblem = &g->of;
     g->branching.model = cluster->model;
     g->body = sunder_i_calloc(cluster->reserves, sizeof *g->body);

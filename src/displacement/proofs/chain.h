@@ -11,7 +11,7 @@ typedef struct sunder_i_chain_link {
     const sunder_i_body_piece *a, *b;
     double clearance;
     double n[2], d; /* n.(t_j - t_i) >= d */
-    double spare;   /* by how much more they are apart, where they stand; not negative */
+    double spare;   /* by how much more they are apart, where they stand; not negative, unless all is owed */
 } sunder_i_chain_link;
 
 /* The links of a body, as it looks from there. */
@@ -37,6 +37,7 @@ typedef struct sunder_i_chain_entry {
 /* Links of a cluster's bodies, found as they are asked for, and kept from conflict to conflict of it. */
 struct sunder_i_chains {
     sunder_i_subproblem of; /* the cluster; no pair is asked about */
+    bool all;               /* listed pairs owe all, too, and everybody stands at home (chain_fewest.c) */
     sunder_i_branching branching;
     sunder_i_chain_links *body; /* [of.reserves] */
     sunder_i_chain_link *link;
@@ -70,6 +71,13 @@ size_t sunder_i_chain_ways(sunder_i_branching *branching, size_t n, double reach
 /* May the two, no farther from each other's places than reach, go this way? And if they do not go the other way? */
 bool sunder_i_chain_is_open(const sunder_i_way *way, double reach);
 bool sunder_i_chain_is_open_behind(const sunder_i_way *way, const sunder_i_way *behind, double reach);
+
+/* ---- chain_fewest.c ---------------------------------------------------------------------------------------------- */
+
+/* Where all is owed, the chain of fewest links that leaves a way of the pair no room: *found, if there is one. False if
+ * memory is out. */
+bool sunder_i_chain_fewest(sunder_i_chains *chains, const sunder_i_chain_link *pair, const sunder_i_way *way,
+                           sunder_i_pushing *chain, bool *found);
 
 /* ---- chain_proof.c ----------------------------------------------------------------------------------------------- */
 

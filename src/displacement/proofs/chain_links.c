@@ -99,7 +99,7 @@ static uint32_t *find(const sunder_i_chains *g, uint32_t body)
 
 void sunder_i_chains_stand(const sunder_i_chains *g, uint32_t body, double t[2])
 {
-    const bool moves = find(g, body) && !g->of.model->body[body].fixed;
+    const bool moves = !g->all && find(g, body) && !g->of.model->body[body].fixed;
     t[0] = moves ? g->of.model->move[2 * (size_t)body] : 0;
     t[1] = moves ? g->of.model->move[2 * (size_t)body + 1] : 0;
 }
@@ -146,6 +146,7 @@ static bool link_pieces(sunder_i_chains *g, uint32_t i, const sunder_i_body_piec
     const sunder_i_way *w = c->scratch;
     sunder_i_chains_stand(g, i, s);
     sunder_i_chains_stand(g, j, t);
+    const double spare = at(w->n, t) - at(w->n, s) - w->d;
     g->step[g->links].search = 0;
     g->link[g->links++] = (sunder_i_chain_link){.i = i,
                                                 .j = j,
@@ -154,7 +155,7 @@ static bool link_pieces(sunder_i_chains *g, uint32_t i, const sunder_i_body_piec
                                                 .clearance = clearance,
                                                 .n = {w->n[0], w->n[1]},
                                                 .d = w->d,
-                                                .spare = fmax(0, at(w->n, t) - at(w->n, s) - w->d)};
+                                                .spare = g->all ? spare : fmax(0, spare)};
     return true;
 }
 

@@ -67,8 +67,8 @@ typedef struct sunder_i_subproblem {
     sunder_i_planes *planes; /* NULL, or kept for who asks about the same bodies again */
     /* NULL, or what was told before is tried first: then solutions are any that there are, and proofs. */
     sunder_i_precedents *precedents;
-    uint64_t effort;         /* in constraints looked at; 0: the plane of one relative move is asked, and no more */
-    size_t most;             /* it ends where more bodies than these take part */
+    uint64_t effort; /* in constraints looked at; 0: the plane of one relative move is asked, and no more */
+    size_t most;     /* it ends where more bodies than these take part */
 } sunder_i_subproblem;
 
 typedef struct sunder_i_solution {
@@ -82,6 +82,7 @@ typedef struct sunder_i_decision {
     sunder_i_solution solution; /* if SUNDER_I_FEASIBLE */
     sunder_proof *proof;        /* if SUNDER_I_INFEASIBLE */
     uint64_t work;
+    bool straight;             /* the proof is one chain, from end to end along nearly the same line */
     bool no_plane, fine_plane; /* as above, for who asks again, of these things or fewer */
 } sunder_i_decision;
 
@@ -89,8 +90,9 @@ typedef struct sunder_i_decision {
  * not change (chain.c). */
 typedef struct sunder_i_chains sunder_i_chains;
 
-/* Of the cluster whose bodies are the reserve, and what is required in it. NULL if memory is out. */
-sunder_i_chains *sunder_i_chains_new(const sunder_i_subproblem *cluster);
+/* Of the cluster whose bodies are the reserve, and what is required in it; all: of the fewest that cannot all be
+ * solved, nothing being required but what is owed. NULL if memory is out. */
+sunder_i_chains *sunder_i_chains_new(const sunder_i_subproblem *cluster, bool all);
 void sunder_i_chains_free(sunder_i_chains *chains);
 /* Is there a proof that the things a and b of the subproblem push others to their limits, one after the other?
  * Infeasible, or unknown. *links: of the longest chain. The answer is to be cleared, also on failure. */

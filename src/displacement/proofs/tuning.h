@@ -42,6 +42,14 @@
 #define CHAIN_EFFORT 400000u
 #define CHAIN_MOST 1024
 
+/* Where all is owed (chain_fewest.c): the most links besides the pair's, and of so many links the best few that are
+ * gone on with. */
+#define FEWEST_MOST 32
+#define FEWEST_KEPT 8
+/* Links of a straight chain are along the pair's line up to this cosine: who does not follow on one is beside
+ * nobody. */
+#define CHAIN_STRAIGHT 0.9
+
 /* ---- Ways that are kept (ways_kept.c) ---------------------------------------------------------------------------- */
 
 /* Of two to the power of this many pairs of pieces: a question of a dozen houses between roads meets some hundred. */

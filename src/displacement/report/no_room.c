@@ -1,9 +1,13 @@
-/* Which conflicts that remain have no room, with the proof of each.
+/* Which conflicts that remain have no room, or are of a crowd that has none, with the proof of each.
  *
  * A conflict has no room if it and all pairs that are not listed cannot be solved together, every other listed pair
  * being held no worse than it stood. Each is asked about by itself (proofs/feasibility.c). A proof is then made
  * irreducible: without one feature after another, what cannot be proved any more needs it, and so does every part of
- * it; as far as the effort goes. */
+ * it; as far as the effort goes.
+ *
+ * In a crowd what a pair is left for is not what all others have, but what a few about it would need, of which most are
+ * left, too: one that has no such proof is crowded if a chain through it (proofs/chain_fewest.c) proves that the pairs
+ * of a few features cannot all be solved, whatever is left elsewhere. */
 #include "displacement/proofs/feasibility.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
@@ -52,8 +56,8 @@ static bool take_features(const sunder_i_model *model, const sunder_proof *proof
 }
 
 /* Leaves out what the proof can do without, in order of number, while the effort lasts: the feature at hand, and what a
- * proof without it has no more use for. */
-static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_i_decide_subproblem decide,
+ * proof without it has no more use for. *budget: what it may take, and what of it is left. */
+static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_i_decide_subproblem decide, uint64_t *budget,
                             sunder_proof **proof, sunder_error *err)
 {
     sunder_i_subproblem q = *subproblem;
@@ -64,8 +68,6 @@ static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_i_deci
     const size_t n = status ? 0 : sunder_i_proof_things(q.model, *proof, all);
     size_t left = n;
     if (n) memcpy(set, all, n * sizeof *set);
-    q.effort = subproblem->effort < LITTLE_EFFORT ? LITTLE_EFFORT : subproblem->effort;
-    uint64_t budget = REDUCING * q.effort;
     q.reserves = 0;
     for (size_t k = 0; k < n && !status; k++) {
         if (all[k] == q.a || all[k] == q.b || !sunder_i_set_has(set, left, all[k])) continue;
@@ -91,9 +93,9 @@ static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_i_deci
             set[out] = all[k];
             left = sunder_i_set_make(set, out + 1);
         }
-        budget = budget > decision.work ? budget - decision.work : 0;
+        *budget = *budget > decision.work ? *budget - decision.work : 0;
         sunder_i_decision_clear(&decision);
-        if (budget == 0) break;
+        if (*budget == 0) break;
     }
     sunder_i_free(all);
     sunder_i_free(set);
@@ -145,10 +147,10 @@ static bool ask_closer(const sunder_i_subproblem *q, matter *m)
     return !m->still;
 }
 
-/* The conflict has the decision's proof from now on, if there is one; what it can do without is left out, if it is to
- * be reduced. Clears the decision. */
+/* The conflict has the decision's proof from now on, if there is one, which is of that reason; what it can do
+ * without is left out, while a budget lasts. Clears the decision. */
 static sunder_status keep_proof(const asking *g, const matter *m, const sunder_i_subproblem *asked,
-                                sunder_i_decision *decision, bool reducible, sunder_error *err)
+                                sunder_i_decision *decision, sunder_reason reason, uint64_t *budget, sunder_error *err)
 {
     sunder_i_subproblem q = *asked;
     sunder_proof **proof = &g->report->proof[m->conflict];
@@ -157,11 +159,24 @@ static sunder_status keep_proof(const asking *g, const matter *m, const sunder_i
     decision->proof = NULL;
     sunder_i_decision_clear(decision);
     if (!*proof) return SUNDER_OK;
-    const sunder_status status = reducible ? reduce(&q, g->decide, proof, err) : SUNDER_OK;
+    const sunder_status status = *budget ? reduce(&q, g->decide, budget, proof, err) : SUNDER_OK;
     if (status) return status;
     if (g->solver->model.rules.drop_proofs) sunder_i_proof_strip(*proof);
-    g->report->conflict[m->conflict].reason = SUNDER_REASON_NO_ROOM;
+    g->report->conflict[m->conflict].reason = reason;
     return SUNDER_OK;
+}
+
+/* The same of one without room: as much is allowed for each of the questions that reduce it as for the proof, or a
+ * little. */
+static sunder_status keep_no_room(const asking *g, const matter *m, sunder_i_subproblem *q, sunder_i_decision *decision,
+                                  bool reducible, sunder_error *err)
+{
+    const uint64_t effort = q->effort;
+    q->effort = effort < LITTLE_EFFORT ? LITTLE_EFFORT : effort;
+    uint64_t budget = reducible ? REDUCING * q->effort : 0;
+    const sunder_status status = keep_proof(g, m, q, decision, SUNDER_REASON_NO_ROOM, &budget, err);
+    q->effort = effort;
+    return status;
 }
 
 /* Asks about one conflict: is there a proof? It is open as long as more effort might tell. */
@@ -188,7 +203,7 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
     const bool later = m->still && !q->still; /* it has a solution of reals, and is not asked for one again */
     if (!decision.proof && !later) *pool = *pool > decision.work ? *pool - decision.work : 0;
     q->no_plane = false;
-    if (!status) return keep_proof(g, m, q, &decision, true, err);
+    if (!status) return keep_no_room(g, m, q, &decision, true, err);
     sunder_i_decision_clear(&decision);
     return status;
 }
@@ -203,10 +218,29 @@ static bool has_no_limit(const asking *g, const matter *m)
     return p > 0 && r > 0 && p + r == INFINITY;
 }
 
+/* The same of one that is of a crowd. One straight chain is irreducible as it comes; the rest is made so, or is no
+ * reason where the budget of the cluster is spent. */
+static sunder_status keep_crowded(const asking *g, const matter *m, const sunder_i_subproblem *q,
+                                  sunder_i_decision *decision, uint64_t *budget, sunder_error *err)
+{
+    uint64_t none = 0;
+    const bool reducible = decision->proof && !decision->straight;
+    if (reducible && *budget == 0) {
+        sunder_i_decision_clear(decision);
+        return SUNDER_OK;
+    }
+    const sunder_status status = keep_proof(g, m, q, decision, SUNDER_REASON_CROWDED, reducible ? budget : &none, err);
+    if (status || !reducible || *budget) return status;
+    sunder_i_proof_free(g->report->proof[m->conflict]);
+    g->report->proof[m->conflict] = NULL;
+    g->report->conflict[m->conflict].reason = SUNDER_REASON_UNRESOLVED;
+    return SUNDER_OK;
+}
+
 /* Does the pair push others to their limits, one after the other? What is longer than a few links is irreducible as it
- * comes, as far as such chains tell. */
+ * comes, as far as such chains tell. crowd: NULL, or the budget of those that are of a crowd. */
 static sunder_status ask_chain(const asking *g, matter *m, sunder_i_subproblem *q, sunder_i_chains *chains,
-                               sunder_error *err)
+                               uint64_t *crowd, sunder_error *err)
 {
     const sunder_conflict *c = &g->report->conflict[m->conflict];
     const uint32_t body[2] = {q->model->body_of[c->a], q->model->body_of[c->b]};
@@ -216,22 +250,43 @@ static sunder_status ask_chain(const asking *g, matter *m, sunder_i_subproblem *
     q->bodies = 2;
     q->a = (uint32_t)c->a;
     q->b = (uint32_t)c->b;
-    const sunder_status status = sunder_i_chains_decide(chains, q, &decision, &links, err);
+    sunder_status status = sunder_i_chains_decide(chains, q, &decision, &links, err);
     m->open = !decision.proof;
-    if (!status) return keep_proof(g, m, q, &decision, links <= REDUCED_LINKS, err);
-    sunder_i_decision_clear(&decision);
+    if (status) {
+        sunder_i_decision_clear(&decision);
+        return status;
+    }
+    return crowd ? keep_crowded(g, m, q, &decision, crowd, err)
+                 : keep_no_room(g, m, q, &decision, links <= REDUCED_LINKS, err);
+}
+
+/* crowd: NULL, or what may be taken by reducing, of those that are of a crowd. */
+static sunder_status ask_chains(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
+                                uint64_t *crowd, sunder_error *err)
+{
+    sunder_i_chains *chains = sunder_i_chains_new(q, crowd != NULL);
+    sunder_status status = chains ? SUNDER_OK : sunder_i_no_memory(err);
+    for (matter *m = first; m < last && !status; m++)
+        if (g->report->conflict[m->conflict].reason == SUNDER_REASON_UNRESOLVED && !has_no_limit(g, m))
+            status = ask_chain(g, m, q, chains, crowd, err);
+    sunder_i_chains_free(chains);
     return status;
 }
 
-static sunder_status ask_chains(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
-                                sunder_error *err)
+/* When nothing else was proved: is it of a crowd, of which so many owe each other all, listed or not? */
+static sunder_status ask_crowd(const asking *g, matter *first, const matter *last, const sunder_i_subproblem *cluster,
+                               sunder_error *err)
 {
-    sunder_i_chains *chains = sunder_i_chains_new(q);
-    sunder_status status = chains ? SUNDER_OK : sunder_i_no_memory(err);
-    for (matter *m = first; m < last && !status; m++)
-        if (!has_no_limit(g, m)) status = ask_chain(g, m, q, chains, err);
-    sunder_i_chains_free(chains);
-    return status;
+    sunder_i_subproblem q = *cluster;
+    uint64_t budget = CROWD_REDUCING + CROWD_REDUCING_EACH * (uint64_t)cluster->reserves;
+    q.required = NULL;
+    q.required_n = 0;
+    q.planes = NULL;
+    q.precedents = NULL;
+    q.coarse = COARSE;
+    q.effort = CROWD_EFFORT;
+    q.slack = q.still = q.no_plane = q.fine_plane = false;
+    return ask_chains(g, first, last, &q, &budget, err);
 }
 
 /* Those of the two bodies, ascending; *n of them. NULL if memory is out. */
@@ -309,10 +364,11 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
         q.farthest = farthest_of(q.model, q.reserve, q.reserves);
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, q.model, first->root);
-        status = ask_chains(g, first, last, &q, err);
+        status = ask_chains(g, first, last, &q, NULL, err);
         if (!status) status = ask_cluster(g, first, last, &q, err);
         for (matter *m = first; m < last; m++) m->open = m->still;
         if (!status) status = ask_cluster(g, first, last, &q, err);
+        if (!status) status = ask_crowd(g, first, last, &q, err);
         sunder_i_reads_end(&reading);
         sunder_i_planes_clear(&planes);
         if (status) return status;

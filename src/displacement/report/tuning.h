@@ -33,6 +33,11 @@
 /* Making a proof irreducible takes no more than this many times what finding it was allowed, or a little. */
 #define REDUCING 4
 #define LITTLE_EFFORT 1000000u
+/* Of all proofs together that pairs of a cluster are of a crowd (no_room.c) no more than this, and so much for each of
+ * its bodies; of one question so much. */
+#define CROWD_REDUCING 20000000u
+#define CROWD_REDUCING_EACH 10000u
+#define CROWD_EFFORT 100000u
 
 /* ---- A pair by itself (alone.c) ---------------------------------------------------------------------------------- */
 
