@@ -27,6 +27,7 @@ typedef struct reached {
 typedef struct reach {
     uint32_t body; /* which is pushed along n */
     double n[2];
+    double least; /* what a chain has to have won, but for the limit of its last body, to be gone on with */
     reached item[FEWEST_MOST * FEWEST_KEPT];
     size_t first[FEWEST_MOST + 2];
     size_t rounds;                /* of that there are any */
@@ -79,9 +80,10 @@ static bool push_on(sunder_i_chains *g, reach *r, size_t k, size_t at, uint32_t 
     g->work += of->n;
     for (size_t l = of->first; l < of->first + of->n; l++) {
         const sunder_i_chain_link *link = &g->link[l];
-        if (link->j == other || is_behind(g, r, k, at, link->j)) continue;
         const reached found = {(uint32_t)l, (uint32_t)(k ? at - r->first[k] : 0),
                                won - turn(g, body, n, link->n) - link->spare};
+        if (found.won + limit_of(g, link->j) <= r->least || link->j == other || is_behind(g, r, k, at, link->j))
+            continue;
         keep(r, k + 1, &found);
     }
     return true;
@@ -111,8 +113,11 @@ static bool go_on(sunder_i_chains *g, reach *r, uint32_t other)
     return true;
 }
 
-static void begin(const sunder_i_chains *g, reach *r, uint32_t body, double nx, double ny)
+/* What follows on a body wins no more than its limit, or that stretch would win by itself; nor does the other end of the
+ * pair win more than the limit of who is there. */
+static void begin(const sunder_i_chains *g, reach *r, uint32_t body, double nx, double ny, double least)
 {
+    r->least = least;
     r->body = body;
     r->n[0] = nx;
     r->n[1] = ny;
@@ -205,8 +210,8 @@ bool sunder_i_chain_fewest(sunder_i_chains *g, const sunder_i_chain_link *pair, 
     reach *of = sunder_i_alloc(2, sizeof *of);
     bool ok = of != NULL;
     *found = false;
-    if (ok) begin(g, &of[0], pair->j, way->n[0], way->n[1]);
-    if (ok) begin(g, &of[1], pair->i, -way->n[0], -way->n[1]);
+    if (ok) begin(g, &of[0], pair->j, way->n[0], way->n[1], -way->d - limit_of(g, pair->i));
+    if (ok) begin(g, &of[1], pair->i, -way->n[0], -way->n[1], -way->d - limit_of(g, pair->j));
     for (size_t n = 0; n <= FEWEST_MOST && ok && !*found; n++) {
         for (size_t right = 0; right <= n && ok && !*found; right++)
             ok = try_chain(g, pair, way, of, right, n - right, chain, found);

@@ -36,8 +36,8 @@
 /* Of all proofs together that pairs of a cluster are of a crowd (no_room.c) no more than this, and so much for each of
  * its bodies; of one question so much. */
 #define CROWD_REDUCING 20000000u
-#define CROWD_REDUCING_EACH 10000u
-#define CROWD_EFFORT 100000u
+#define CROWD_REDUCING_EACH 30000u
+#define CROWD_EFFORT 30000u
 
 /* ---- A pair by itself (alone.c) ---------------------------------------------------------------------------------- */
 
