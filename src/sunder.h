@@ -546,12 +546,10 @@ typedef enum sunder_reason {
                                * pairs are no worse than at the start */
     SUNDER_REASON_SAME_BLOCK, /* they move as one */
     SUNDER_REASON_KEPT,       /* allowed to overlap: contained, ignored */
-    SUNDER_REASON_CROWDED,    /* proved: the pair and all pairs of its features and those of blocked_by cannot all be
-                               * solved, listed or not, whatever is left elsewhere: so some of these have to be */
-    SUNDER_REASON_UNRESOLVED  /* neither a solution nor a proof that there is none was found */
+    SUNDER_REASON_UNRESOLVED  /* neither a solution nor such a proof was found; it may be crowded, which is proved */
 } sunder_reason;
 
-/* "", "max_shift", "fixed", "side", "jump", "no_room", "same_block", "kept", "crowded", "unresolved". */
+/* "", "max_shift", "fixed", "side", "jump", "no_room", "same_block", "kept", "unresolved". */
 SUNDER_API const char *sunder_reason_string(sunder_reason reason);
 
 typedef struct sunder_conflict {
@@ -572,6 +570,9 @@ typedef struct sunder_conflict {
      * all of it, if one is known. */
     double need_shift, need_gap;
     size_t need_gone;
+    /* Of one that is unresolved, proved: all pairs of its two features and those of blocked_by, listed or not, cannot
+     * be solved together, whatever is left elsewhere. So some of these have to stay, though it need not be this one. */
+    bool crowded;
 } sunder_conflict;
 
 typedef struct sunder_conflict_counts {
@@ -865,7 +866,7 @@ typedef struct sunder_proof {
 } sunder_proof;
 
 /* The proof of conflict k of sunder_report_conflicts(), or NULL. It lives as long as the report. There is one for
- * each with SUNDER_REASON_NO_ROOM and SUNDER_REASON_CROWDED; the features of its nodes, but for the two in conflict,
+ * each with SUNDER_REASON_NO_ROOM, and for each that is crowded; the features of its nodes, but for the two in conflict,
  * are the conflict's blocked_by: none of them could be left out of it. With SUNDER_REASON_SIDE and mostly
  * SUNDER_REASON_JUMP there is one, too: its nodes are about the pair, and about the ways of the members of their two
  * blocks (shadows). Without a limit `within` is one by which the two are apart for certain: farther out nothing but

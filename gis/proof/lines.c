@@ -178,6 +178,7 @@ void gis_proof_conflict(gis_proof_lines *w, size_t k)
     put_thing(w, "b", c->b);
     gis_json_put_string(&w->json, "kind", sunder_conflict_kind_string(c->kind));
     gis_json_put_string(&w->json, "reason", sunder_reason_string(c->reason));
+    if (c->crowded) gis_json_put_bool(&w->json, "crowded", true);
     if (c->inside_block) gis_json_put_bool(&w->json, "inside_block", true);
     gis_json_key(&w->json, "blocked_by");
     gis_json_open(&w->json, '[');

@@ -228,7 +228,7 @@ static void add_conflicts(data_writer *writer)
     writer->last[0] = writer->last[1] = 0;
     for (size_t k = 0; k < model->n_conflicts && k < MOST_CONFLICTS; k++) {
         const sunder_conflict *each = model->conflict[k];
-        add_integer(writer->to, gis_page_is_proved(each->reason));
+        add_integer(writer->to, gis_page_is_proved(each));
         add_corner(writer, each->from[0], each->from[1]);
         add_corner(writer, each->to[0], each->to[1]);
     }

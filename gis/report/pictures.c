@@ -178,7 +178,7 @@ static void add_link(picture_writer *writer, const sunder_conflict *conflict)
     if (gis_picture_length(&writer->picture, length) >= SHORT) return;
     gis_picture_place(&writer->picture, conflict->from[0], conflict->from[1], at);
     gis_text_print(writer->to, "<circle class=\"%s\" cx=\"%.0f\" cy=\"%.0f\" r=\"%d\"/>\n",
-                   gis_page_is_proved(conflict->reason) ? "spot" : "spot open", at[0], at[1], RADIUS);
+                   gis_page_is_proved(conflict) ? "spot" : "spot open", at[0], at[1], RADIUS);
 }
 
 static void add_links(picture_writer *writer)

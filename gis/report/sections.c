@@ -222,7 +222,8 @@ static bool add_caption(const gis_page_model *model, const gis_page_place *place
         gis_text_print(to, "%s, ", gis_page_kind(conflict->kind));
         gis_report_length_beside(to, conflict->depth > 0 ? conflict->depth : conflict->distance, conflict->required,
                                  &model->unit);
-        gis_text_print(to, " %s: %s", conflict->depth > 0 ? "deep" : "apart", gis_page_reason(conflict->reason));
+        gis_text_print(to, " %s: %s", conflict->depth > 0 ? "deep" : "apart",
+                       gis_page_reason(gis_page_reason_of(conflict)));
     }
     if (place->others > 0) {
         gis_text_add(to, "; ");

@@ -81,13 +81,14 @@ static void conflict_link(const gis_page_model *model, const sunder_conflict *co
 
 static bool add_row(const gis_page_model *model, const sunder_conflict *conflict, gis_text *to, gis_error *error)
 {
-    gis_text_print(to, "<tr class=\"%s\"><td>", gis_page_is_proved(conflict->reason) ? "proved" : "open");
+    const size_t reason = gis_page_reason_of(conflict);
+    gis_text_print(to, "<tr class=\"%s\"><td>", gis_page_is_proved(conflict) ? "proved" : "open");
     conflict_link(model, conflict, to);
     if (!gis_page_add_name(model, conflict->a, to, error)) return false;
     gis_text_add(to, "</a></td><td>");
     if (!gis_page_add_name(model, conflict->b, to, error)) return false;
     gis_text_print(to, "</td><td>%s</td><td title=\"%s\">%s</td>", gis_page_kind(conflict->kind),
-                   gis_page_explanation(conflict->reason), gis_page_reason(conflict->reason));
+                   gis_page_explanation(reason), gis_page_reason(reason));
     open_number(to, conflict->distance);
     gis_report_length_beside(to, conflict->distance, conflict->required, &model->unit);
     gis_text_add(to, "</td>");
@@ -101,14 +102,14 @@ static bool add_row(const gis_page_model *model, const sunder_conflict *conflict
 /* The reasons that occur, explained. */
 static void add_reasons(const gis_page_model *model, gis_text *to)
 {
-    size_t count[SUNDER_REASON_UNRESOLVED + 1] = {0};
-    for (size_t k = 0; k < model->n_conflicts; k++) count[model->conflict[k]->reason]++;
     gis_text_add(to, "<dl class=\"reasons\">\n");
-    for (int reason = 0; reason <= SUNDER_REASON_UNRESOLVED; reason++) {
-        if (!count[reason]) continue;
-        gis_text_print(to, "<div><dt>%s</dt><dd><span class=\"number\">", gis_page_reason((sunder_reason)reason));
-        gis_report_count(to, count[reason]);
-        gis_text_print(to, "</span> %s</dd></div>\n", gis_page_explanation((sunder_reason)reason));
+    for (size_t reason = 0; reason < gis_page_reasons(); reason++) {
+        size_t n = 0;
+        for (size_t k = 0; k < model->n_conflicts; k++) n += gis_page_reason_of(model->conflict[k]) == reason;
+        if (!n) continue;
+        gis_text_print(to, "<div><dt>%s</dt><dd><span class=\"number\">", gis_page_reason(reason));
+        gis_report_count(to, n);
+        gis_text_print(to, "</span> %s</dd></div>\n", gis_page_explanation(reason));
     }
     gis_text_add(to, "</dl>\n");
 }

@@ -18,6 +18,9 @@ const char *gis_page_kind(sunder_conflict_kind kind)
     return (size_t)kind < N_OF(words) && words[kind] ? words[kind] : sunder_conflict_kind_string(kind);
 }
 
+/* What a crowd is told of is of people's words alone. */
+enum { CROWDED = SUNDER_REASON_UNRESOLVED + 1 };
+
 static const struct {
     const char *word, *explanation;
     bool proved;
@@ -35,20 +38,22 @@ static const struct {
                                true},
     [SUNDER_REASON_SAME_BLOCK] = {"same block", "the two move as one", true},
     [SUNDER_REASON_KEPT] = {"kept", "the two are allowed to overlap", true},
-    [SUNDER_REASON_CROWDED] = {"crowded",
-                               "proved: of the pairs of these two and of what stands in the way some have to stay in "
-                               "conflict, whatever is done elsewhere; none of them could be left out of the proof",
-                               true},
     [SUNDER_REASON_UNRESOLVED] = {"unresolved", "neither a solution nor a proof that there is none was found", false},
+    [CROWDED] = {"crowded",
+                 "proved: of the pairs of these two and of what stands in the way some have to stay in conflict, "
+                 "whatever is done elsewhere; none of them could be left out of the proof",
+                 true},
 };
 
-static bool is_known(sunder_reason reason) { return (size_t)reason < N_OF(reasons) && reasons[reason].word; }
+size_t gis_page_reasons(void) { return N_OF(reasons); }
 
-const char *gis_page_reason(sunder_reason reason)
+size_t gis_page_reason_of(const sunder_conflict *conflict) { return conflict->crowded ? CROWDED : conflict->reason; }
+
+const char *gis_page_reason(size_t reason)
 {
-    return is_known(reason) ? reasons[reason].word : sunder_reason_string(reason);
+    return reasons[reason].word ? reasons[reason].word : sunder_reason_string((sunder_reason)reason);
 }
 
-const char *gis_page_explanation(sunder_reason reason) { return is_known(reason) ? reasons[reason].explanation : ""; }
+const char *gis_page_explanation(size_t reason) { return reasons[reason].word ? reasons[reason].explanation : ""; }
 
-bool gis_page_is_proved(sunder_reason reason) { return is_known(reason) && reasons[reason].proved; }
+bool gis_page_is_proved(const sunder_conflict *conflict) { return reasons[gis_page_reason_of(conflict)].proved; }

@@ -6,10 +6,13 @@
 #include "sunder.h"
 
 const char *gis_page_kind(sunder_conflict_kind kind);
-const char *gis_page_reason(sunder_reason reason);
+/* Reasons as the page tells them apart, from 0; those of conflicts that are crowded by themselves, behind all others. */
+size_t gis_page_reasons(void);
+size_t gis_page_reason_of(const sunder_conflict *conflict);
+const char *gis_page_reason(size_t reason);
 /* A sentence; "" if there is none. */
-const char *gis_page_explanation(sunder_reason reason);
-/* Is it proved that the conflict could not be solved, by its reason? */
-bool gis_page_is_proved(sunder_reason reason);
+const char *gis_page_explanation(size_t reason);
+/* Is it proved that the conflict could not be solved; or, of one that is crowded, not all that it is one of? */
+bool gis_page_is_proved(const sunder_conflict *conflict);
 
 #endif

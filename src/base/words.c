@@ -46,7 +46,7 @@ WORDS(sunder_conflict_kind_string, sunder_conflict_kind, SUNDER_CONFLICT_NOT_A_T
       "barrier", "barrier_near", "contained", "duplicate", "worse", "limit", "side", "jump", "not_a_translate")
 
 WORDS(sunder_reason_string, sunder_reason, SUNDER_REASON_UNRESOLVED, "", "", "max_shift", "fixed", "side", "jump",
-      "no_room", "same_block", "kept", "crowded", "unresolved")
+      "no_room", "same_block", "kept", "unresolved")
 
 WORDS(sunder_route_status_string, sunder_route_status, SUNDER_ROUTE_DISCONNECTED, "", "found", "start_in_collision",
       "goal_in_collision", "disconnected")

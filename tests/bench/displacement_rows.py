@@ -97,7 +97,7 @@ def units_before(source, layer, unit, words):
     return found, conflicts
 
 
-REASONS = ("fixed", "max_shift", "side", "jump", "no_room", "crowded", "unresolved")
+REASONS = ("fixed", "max_shift", "side", "jump", "no_room", "unresolved")
 
 
 def units_after(unit):

@@ -418,14 +418,16 @@ def other_reason(told):
     stranger = any(not n.get("shadow") and {n["a"], n["b"]} != own for n in told["proof"] if "ways" in n)
     told["reason"] = "max_shift"
     told.pop("within", None)
+    told.pop("crowded", None)
     return (shadow or stranger) and ("no ways are heeded", "has no neighbours")
 
 
 def crowd_without_room(told):
     """What a few cannot do together, told as if the others of them were held to no more than they had."""
-    if told["reason"] != "crowded" or len(told["blocked_by"]) < 3:
+    if not told.get("crowded") or len(told["blocked_by"]) < 3:
         return False
     told["reason"] = "no_room"
+    del told["crowded"]
     return ("held to more than it had",)
 
 

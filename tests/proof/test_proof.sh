@@ -46,7 +46,7 @@ for k in range(64):
     print(f"\"POLYGON(({x} {y},{x + 10} {y},{x + 10} {y + 10},{x} {y + 10}))\",1")' | layer crowd.gpkg buildings POLYGON
 crowd=(--gap 3 --no-blocks --max-shift 1.5)
 proved crowd crowd.gpkg "${crowd[@]}"
-grep -q '"reason": "crowded"' crowd.jsonl || fail "no pair of a grid is crowded"
+grep -q '"crowded": true' crowd.jsonl || fail "no pair of a grid is crowded"
 refuted crowd crowd.gpkg "${crowd[@]}" --need leaf --need way --need clearance --need blamed --need reason \
     --need crowd
 proved width "$town" --gap 1 --max-shift 4 --barrier "$town,layer=roads,width-field=width,gap=0"

@@ -14,7 +14,8 @@ class Verdict:
         self.kinds = {self.key(c["a"], c["b"]): c["kind"] for c in conflicts if not c.get("inside_block")}
         self.own = self.key(told["a"], told["b"])
         self.unit = problem.lattice.unit
-        self.alone = told["reason"] not in ("no_room", "crowded")
+        self.crowded = told.get("crowded", False)
+        self.alone = told["reason"] != "no_room" and not self.crowded
         self.within = told.get("within")
         if self.within is not None:
             self.check_within()
@@ -100,7 +101,7 @@ class Verdict:
 
     def is_listed(self, a, b):
         """Of a crowd all is owed, listed or not."""
-        return self.told["reason"] != "crowded" and self.key(a, b) in self.kinds and self.key(a, b) != self.own
+        return not self.crowded and self.key(a, b) in self.kinds and self.key(a, b) != self.own
 
     def check_clearance(self, a, b, clearance):
         """No more than the pair owes, or than it had at the start where it is another listed one."""
@@ -338,7 +339,8 @@ def is_shaded(polygon, v, far):
 def check(problem, told, conflicts):
     """Is there a proof? Then it holds."""
     problem.demand_listed(told)
-    if told["reason"] in ("no_room", "crowded", "side"):
+    demand(not told.get("crowded") or told["reason"] == "unresolved", "crowded, of another reason:", told["reason"])
+    if told["reason"] in ("no_room", "side") or told.get("crowded"):
         demand("proof" in told, "no solution, and no proof:", told["a"], told["b"])
     if "proof" not in told:
         return 0

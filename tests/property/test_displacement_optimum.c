@@ -48,8 +48,7 @@ typedef struct tally {
 static bool pose_verdict(const hamlet *t, const sunder_conflict *c, size_t n, const sunder_conflict *own,
                          optimum_problem *m)
 {
-    const bool alone = own->reason != SUNDER_REASON_NO_ROOM && own->reason != SUNDER_REASON_CROWDED &&
-                       own->reason != SUNDER_REASON_UNRESOLVED;
+    const bool alone = own->reason != SUNDER_REASON_NO_ROOM && own->reason != SUNDER_REASON_UNRESOLVED;
     switch (own->reason) {
     case SUNDER_REASON_FIXED:
     case SUNDER_REASON_MAX_SHIFT: hamlet_pose_pair(t, own, HAMLET_APART, m); break;

@@ -11,7 +11,7 @@
 /* The conflict that the two are listed as, and so held to less than all; in a crowd all is owed. */
 static const sunder_conflict *find_listed(const checking *c, size_t a, size_t b)
 {
-    if (c->listed[c->conflict].reason == SUNDER_REASON_CROWDED) return NULL;
+    if (c->listed[c->conflict].crowded) return NULL;
     for (size_t k = 0; k < c->listed_n; k++)
         if ((c->listed[k].a == a && c->listed[k].b == b) || (c->listed[k].a == b && c->listed[k].b == a))
             return &c->listed[k];

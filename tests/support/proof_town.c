@@ -84,9 +84,8 @@ size_t proof_town_check(const proof_town *t, const sunder_report *report, size_t
     size_t n, proved = 0;
     const sunder_conflict *c = sunder_report_conflicts(report, &n);
     for (size_t k = 0; k < n; k++) {
-        *open += c[k].reason == SUNDER_REASON_UNRESOLVED;
-        if (c[k].reason != SUNDER_REASON_NO_ROOM && c[k].reason != SUNDER_REASON_CROWDED &&
-            c[k].reason != SUNDER_REASON_SIDE) {
+        *open += c[k].reason == SUNDER_REASON_UNRESOLVED && !c[k].crowded;
+        if (c[k].reason != SUNDER_REASON_NO_ROOM && c[k].reason != SUNDER_REASON_SIDE && !c[k].crowded) {
             assert_null(sunder_report_proof(report, k));
             continue;
         }

@@ -229,11 +229,13 @@ static sunder_status keep_crowded(const asking *g, const matter *m, const sunder
         sunder_i_decision_clear(decision);
         return SUNDER_OK;
     }
-    const sunder_status status = keep_proof(g, m, q, decision, SUNDER_REASON_CROWDED, reducible ? budget : &none, err);
+    const sunder_status status =
+        keep_proof(g, m, q, decision, SUNDER_REASON_UNRESOLVED, reducible ? budget : &none, err);
+    g->report->conflict[m->conflict].crowded = g->report->proof[m->conflict] != NULL;
     if (status || !reducible || *budget) return status;
     sunder_i_proof_free(g->report->proof[m->conflict]);
     g->report->proof[m->conflict] = NULL;
-    g->report->conflict[m->conflict].reason = SUNDER_REASON_UNRESOLVED;
+    g->report->conflict[m->conflict].crowded = false;
     return SUNDER_OK;
 }
 
