@@ -113,8 +113,8 @@ static bool go_on(sunder_i_chains *g, reach *r, uint32_t other)
     return true;
 }
 
-/* What follows on a body wins no more than its limit, or that stretch would win by itself; nor does the other end of the
- * pair win more than the limit of who is there. */
+/* What follows on a body wins no more than its limit, or that stretch would win by itself; nor does the other end of
+ * the pair win more than the limit of who is there. */
 static void begin(const sunder_i_chains *g, reach *r, uint32_t body, double nx, double ny, double least)
 {
     r->least = least;
