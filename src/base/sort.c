@@ -55,9 +55,12 @@ bool sunder_i_sort_indices(uint32_t *index, size_t n, comparison compare, void *
     return true;
 }
 
+/* Bits of a digit: a pass counts 2^DIGIT of them whatever the number of keys, so of some hundred keys digits are short,
+ * and fewer are inserted one by one. */
 #define DIGIT 11
-/* So few keys are inserted one by one: a pass over the digits counts 2^DIGIT of them whatever the number of keys. */
-#define FEW_KEYS 64
+#define SHORT_DIGIT 8
+#define SOME_KEYS 2048 /* measured: from here on the longer digits take less */
+#define FEW_KEYS 32
 
 static void sort_few(uint64_t *key, size_t n)
 {
@@ -81,12 +84,15 @@ bool sunder_i_sort_keys(uint64_t *key, size_t n)
     uint64_t *scratch = sunder_i_alloc(n, sizeof *scratch);
     if (!scratch) return false;
     uint64_t *from = key, *to = scratch;
-    for (int shift = 0; shift < 64; shift += DIGIT) {
-        if (((used >> shift) & ((1u << DIGIT) - 1)) == 0) continue; /* all keys agree here */
-        size_t start[(1u << DIGIT) + 1] = {0};
-        for (size_t i = 0; i < n; i++) start[((from[i] >> shift) & ((1u << DIGIT) - 1)) + 1]++;
-        for (size_t d = 0; d < 1u << DIGIT; d++) start[d + 1] += start[d];
-        for (size_t i = 0; i < n; i++) to[start[(from[i] >> shift) & ((1u << DIGIT) - 1)]++] = from[i];
+    const int bits = n < SOME_KEYS ? SHORT_DIGIT : DIGIT;
+    const uint64_t digit = ((uint64_t)1 << bits) - 1;
+    for (int shift = 0; shift < 64; shift += bits) {
+        if (((used >> shift) & digit) == 0) continue; /* all keys agree here */
+        size_t start[(1u << DIGIT) + 1];
+        memset(start, 0, (digit + 2) * sizeof *start);
+        for (size_t i = 0; i < n; i++) start[((from[i] >> shift) & digit) + 1]++;
+        for (size_t d = 0; d <= digit; d++) start[d + 1] += start[d];
+        for (size_t i = 0; i < n; i++) to[start[(from[i] >> shift) & digit]++] = from[i];
         uint64_t *t = from;
         from = to;
         to = t;

@@ -1,6 +1,6 @@
 /* Which road leads to the sum: a merge for two convex operands; the convolution where one is convex and the other one
- * polygon, unless it is not tame; else the outline of the union of all subsums. Other roads are taken when asked for
- * (../unions/). */
+ * polygon, unless it is not tame; rectangles where all sides run along the axes; else the outline of the union of all
+ * subsums. Other roads are taken when asked for (../unions/). */
 #include "minkowski/minkowski.h"
 
 #include "base/clock.h"
@@ -11,6 +11,7 @@
 #include "minkowski/convolution.h"
 #include "outline/contained_sides.h"
 #include "outline/outline.h"
+#include "rectilinear/rectilinear_sum.h"
 #include "sum/canonical.h"
 #include "sum/place.h"
 #include "unions/unions.h"
@@ -47,6 +48,7 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
         status = sunder_i_convolution_sum(sum, p, at.p, q, at.q, &done, err);
     else if (p->pieces == 1)
         status = sunder_i_convolution_sum(sum, q, at.q, p, at.p, &done, err);
+    if (status == SUNDER_OK && !done) status = sunder_i_rectilinear_sum(sum, p, at.p, q, at.q, &done, err);
     if (status == SUNDER_OK && !done) status = unite_subsums(sum, p, q, &at, start, options, err);
     sunder_i_placed_free(&at);
     sum->seconds[2] = sunder_i_now() - start - sum->seconds[1];

@@ -63,8 +63,17 @@ static void add_part(gathering *g, const sunder_sum *s, uint32_t first)
 
 static bool put_in_order(gathering *g)
 {
-    sunder_i_found found = {g->vertex,   g->ring,  g->rings,  (uint32_t)g->polygons,   g->segment,
-                            g->segments, g->point, g->points, sunder_i_sum_vertex_cmp, g->out, g->out->vertex};
+    sunder_i_found found = {.vertex = g->vertex,
+                            .ring = g->ring,
+                            .rings = g->rings,
+                            .components = (uint32_t)g->polygons,
+                            .segment = g->segment,
+                            .segments = g->segments,
+                            .point = g->point,
+                            .points = g->points,
+                            .compare = sunder_i_sum_vertex_cmp,
+                            .context = g->out,
+                            .place = g->out->vertex};
     return sunder_i_canonical(&found, g->out) && !g->out->lattice.arena.failed;
 }
 

@@ -27,14 +27,19 @@ static bool straight(const sunder_i_graph *g, uint32_t e, uint32_t f)
  * vertex both rays point right, and the leaving one is the lower of a counter-clockwise ring. */
 static uint32_t first_edge(const sunder_i_graph *g, uint32_t start, bool *outer)
 {
+    const uint32_t walk = g->walk[start];
+    if (g->walk_plain[walk]) {
+        const uint32_t lowest = g->walk_start[walk]; /* of a hole it arrives there */
+        *outer = g->walk_outer[walk];
+        return *outer ? lowest : sunder_i_graph_next_free(g, lowest);
+    }
     uint32_t best = start, before = start, previous = start;
     for (uint32_t e = sunder_i_graph_next_free(g, start);; e = sunder_i_graph_next_free(g, e)) {
         if (e == start) {
             if (best == start) before = previous;
             break;
         }
-        const uint32_t v = g->edge[e].from, w = g->edge[best].from;
-        if (v != w && sunder_i_hpoint_cmp(g->lattice, &g->vertex[v], &g->vertex[w]) < 0) {
+        if (sunder_i_is_before(g, g->edge[e].from, g->edge[best].from)) {
             best = e;
             before = previous;
         }
@@ -116,9 +121,18 @@ static bool trace(const sunder_i_graph *g, const sunder_i_coverage *coverage, su
 {
     tracer t = {.g = g, .out = out};
     bool ok = trace_rings(&t) && gather_segments(&t, coverage) && gather_points(&t, coverage);
-    sunder_i_found found = {t.vertex,   t.ring,  t.rings,  g->components,           t.segment,
-                            t.segments, t.point, t.points, sunder_i_sum_vertex_cmp, out,
-                            g->vertex};
+    sunder_i_found found = {.vertex = t.vertex,
+                            .ring = t.ring,
+                            .rings = t.rings,
+                            .components = g->components,
+                            .segment = t.segment,
+                            .segments = t.segments,
+                            .point = t.point,
+                            .points = t.points,
+                            .compare = sunder_i_sum_vertex_cmp,
+                            .context = out,
+                            .place = g->vertex,
+                            .sorted = g->sorted};
     ok = ok && sunder_i_canonical(&found, out);
     sunder_i_free(t.vertex);
     sunder_i_free(t.ring);
@@ -128,18 +142,18 @@ static bool trace(const sunder_i_graph *g, const sunder_i_coverage *coverage, su
     return ok;
 }
 
-sunder_status sunder_i_boundary_build(const sunder_i_convex_pieces *parts, const sunder_i_lines *lines,
+sunder_status sunder_i_boundary_build(sunder_i_lattice *lattice, uint32_t classes, const sunder_i_lines *lines,
                                       sunder_i_coverage *coverage, sunder_sum *out, sunder_error *err)
 {
-    sunder_i_lattice *lattice = parts->lattice;
     out->vertex = coverage->vertices.point;
     out->vertices = (uint32_t)coverage->vertices.n;
     coverage->vertices.point = NULL;
     sunder_i_graph g = {.lattice = lattice,
                         .lines = lines,
                         .vertex = out->vertex,
-                        .classes = parts->classes,
-                        .vertices = out->vertices};
+                        .classes = classes,
+                        .vertices = out->vertices,
+                        .sorted = coverage->sorted};
     const bool ok = sunder_i_graph_build(&g, coverage) && trace(&g, coverage, out);
     sunder_i_graph_free(&g);
     return ok && !lattice->arena.failed ? SUNDER_OK : sunder_i_no_memory(err);

@@ -11,9 +11,9 @@
 #include "outline/coverage.h"
 #include "sum/sum.h"
 
-/* Takes the vertices of coverage over (the sum's vertices); fills all but lattice, origin and seconds. Fails with
- * SUNDER_ENOMEM; the caller then frees the sum. */
-sunder_status sunder_i_boundary_build(const sunder_i_convex_pieces *parts, const sunder_i_lines *lines,
+/* Takes the vertices of coverage over (the sum's vertices), which stand on that lattice; lines have so many classes.
+ * Fills all but lattice, origin and seconds. Fails with SUNDER_ENOMEM; the caller then frees the sum. */
+sunder_status sunder_i_boundary_build(sunder_i_lattice *lattice, uint32_t classes, const sunder_i_lines *lines,
                                       sunder_i_coverage *coverage, sunder_sum *out, sunder_error *err);
 
 #endif

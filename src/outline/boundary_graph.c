@@ -77,16 +77,27 @@ uint32_t sunder_i_graph_next_covered(const sunder_i_graph *graph, uint32_t edge)
 
 uint32_t sunder_i_graph_next_free(const sunder_i_graph *graph, uint32_t edge) { return turn(graph, edge, false, true); }
 
-/* The lexicographically smallest vertex of a walk, and whether the walk has its face inside: at that vertex all rays
- * point into the right half-plane, and the region beyond the lowest one is outside the walk. If that ray leaves, the
- * covered side (its left) is above it, inside; if it arrives, below. */
-static void judge_walk(sunder_i_graph *g, uint32_t walk, uint32_t start)
+/* Numbers the edges of a walk from `start` on; its lexicographically smallest vertex. */
+static uint32_t number_walk(sunder_i_graph *g, uint32_t walk, uint32_t start)
 {
-    uint32_t least = g->edge[start].from;
-    for (uint32_t e = sunder_i_graph_next_covered(g, start); e != start; e = sunder_i_graph_next_covered(g, e))
-        if (g->edge[e].from != least &&
-            sunder_i_hpoint_cmp(g->lattice, &g->vertex[g->edge[e].from], &g->vertex[least]) < 0)
-            least = g->edge[e].from;
+    uint32_t least = g->edge[start].from, e = start;
+    bool plain = true;
+    do {
+        const uint32_t v = g->edge[e].from;
+        if (sunder_i_is_before(g, v, least)) least = v;
+        plain &= g->ray_end[v] - sunder_i_first_ray(g, v) == 2;
+        g->walk[e] = walk;
+        e = sunder_i_graph_next_covered(g, e);
+    } while (e != start);
+    g->walk_plain[walk] = plain;
+    return least;
+}
+
+/* Whether the walk has its face inside: at its smallest vertex all rays point into the right half-plane, and the region
+ * beyond the lowest one is outside the walk. If that ray leaves, the covered side (its left) is above it, inside; if it
+ * arrives, below. */
+static void judge_walk(sunder_i_graph *g, uint32_t walk, uint32_t least)
+{
     const uint32_t first = sunder_i_first_ray(g, least);
     sunder_i_ray lowest = UINT32_MAX;
     for (uint32_t i = first; i < g->ray_end[least]; i++) {
@@ -103,16 +114,12 @@ static bool make_walks(sunder_i_graph *g)
     g->walk = sunder_i_alloc(g->edges, sizeof *g->walk);
     g->walk_start = sunder_i_alloc(g->edges, sizeof *g->walk_start);
     g->walk_outer = sunder_i_alloc(g->edges, sizeof *g->walk_outer);
-    if (!g->walk || !g->walk_start || !g->walk_outer) return false;
+    g->walk_plain = sunder_i_alloc(g->edges, sizeof *g->walk_plain);
+    if (!g->walk || !g->walk_start || !g->walk_outer || !g->walk_plain) return false;
     memset(g->walk, 0xff, g->edges * sizeof *g->walk);
     for (uint32_t start = 0; start < g->edges; start++) {
         if (g->walk[start] != UINT32_MAX) continue;
-        uint32_t e = start;
-        do {
-            g->walk[e] = g->walks;
-            e = sunder_i_graph_next_covered(g, e);
-        } while (e != start);
-        judge_walk(g, g->walks, start);
+        judge_walk(g, g->walks, number_walk(g, g->walks, start));
         g->walks++;
     }
     return true;
@@ -131,5 +138,6 @@ void sunder_i_graph_free(sunder_i_graph *graph)
     sunder_i_free(graph->walk);
     sunder_i_free(graph->walk_start);
     sunder_i_free(graph->walk_outer);
+    sunder_i_free(graph->walk_plain);
     sunder_i_free(graph->component);
 }

@@ -17,6 +17,7 @@ typedef struct sunder_i_graph {
     const sunder_i_lines *lines;
     const sunder_i_hpoint *vertex;
     uint32_t classes, vertices;
+    bool sorted; /* vertices that edges have are numbered lexicographically */
     sunder_i_boundary_edge *edge;
     uint32_t edges;
     uint32_t *ray_end; /* [vertices] past its last ray */
@@ -25,6 +26,7 @@ typedef struct sunder_i_graph {
     uint32_t walks;
     uint32_t *walk_start; /* [walks] an edge that leaves, or arrives at, the walk's lexicographically smallest vertex */
     bool *walk_outer;     /* [walks] is the walk the outer boundary of its component? */
+    bool *walk_plain;     /* [walks] at no vertex of it are there other edges, so that it is a ring by itself */
     uint32_t *component;  /* [walks] numbered from 0 */
     uint32_t components;
 } sunder_i_graph;
@@ -44,6 +46,12 @@ static inline uint32_t sunder_i_ray_height(const sunder_i_graph *g, sunder_i_ray
 {
     const uint32_t rank = sunder_i_ray_rank(g, r);
     return rank < g->classes ? rank + g->classes : rank - g->classes;
+}
+
+/* Is v lexicographically before w? */
+static inline bool sunder_i_is_before(const sunder_i_graph *g, uint32_t v, uint32_t w)
+{
+    return g->sorted ? v < w : v != w && sunder_i_hpoint_cmp(g->lattice, &g->vertex[v], &g->vertex[w]) < 0;
 }
 
 /* Edges, rays, covered walks and components; false if memory is out. */

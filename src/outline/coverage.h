@@ -31,6 +31,7 @@ typedef struct sunder_i_coverage {
     sunder_i_vertex_table vertices;
     sunder_i_outline_stretch *stretch; /* consecutive along each line */
     size_t stretches, stretches_capacity;
+    bool sorted; /* vertices where stretches end are numbered lexicographically */
 } sunder_i_coverage;
 
 /* Consumes the order of culled->pair. Fails with SUNDER_ENOMEM. */

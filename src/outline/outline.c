@@ -22,14 +22,14 @@ static sunder_status find_along(const finder *f, const sunder_i_lines *lines, su
     sunder_i_culled_free(&culled);
     if (status != SUNDER_OK) return status;
     if (f->keep) status = f->keep(&coverage, f->user, err);
-    if (status == SUNDER_OK) status = sunder_i_boundary_build(f->parts, lines, &coverage, f->sum, err);
+    if (status == SUNDER_OK)
+        status = sunder_i_boundary_build(f->parts->lattice, f->parts->classes, lines, &coverage, f->sum, err);
     sunder_i_coverage_free(&coverage);
     return status;
 }
 
 sunder_status sunder_i_outline_find(const sunder_i_convex_pieces *parts, const sunder_sum_options *options,
-                                    sunder_status (*keep)(sunder_i_coverage *coverage, void *user,
-                                                          sunder_error *err),
+                                    sunder_status (*keep)(sunder_i_coverage *coverage, void *user, sunder_error *err),
                                     void *user, sunder_sum *sum, sunder_error *err)
 {
     const finder f = {parts, options, keep, user, sum};

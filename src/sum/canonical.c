@@ -83,8 +83,25 @@ static bool sort_rings_by_places(sunder_i_found *f, sunder_i_lattice *l, uint32_
     return ok;
 }
 
+/* By the numbers of the vertices where the rings start; those that share one, by their further vertices. */
+static bool sort_rings_by_numbers(sunder_i_found *f, uint32_t *order)
+{
+    const size_t n = f->rings;
+    uint64_t *key = sunder_i_alloc(n, sizeof *key);
+    if (!key) return false;
+    for (size_t r = 0; r < n; r++) key[r] = (uint64_t)f->vertex[f->ring[r].start] << 32 | r;
+    bool ok = sunder_i_sort_keys(key, n);
+    for (size_t i = 0, j; ok && i < n; i = j) {
+        for (j = i; j < n && key[j] >> 32 == key[i] >> 32; j++) order[j] = (uint32_t)key[j];
+        ok = j - i == 1 || sunder_i_sort_indices(order + i, j - i, compare_rings, f);
+    }
+    sunder_i_free(key);
+    return ok;
+}
+
 static bool sort_rings(sunder_i_found *f, sunder_i_lattice *l, uint32_t *order)
 {
+    if (f->sorted) return sort_rings_by_numbers(f, order);
     if (f->place && f->rings > 1) return sort_rings_by_places(f, l, order);
     for (uint32_t r = 0; r < f->rings; r++) order[r] = r;
     return sunder_i_sort_indices(order, f->rings, compare_rings, f);

@@ -29,6 +29,7 @@ typedef struct sunder_i_found {
     int (*compare)(void *context, uint32_t v, uint32_t w); /* the lexicographic order of two vertices */
     void *context;
     const sunder_i_hpoint *place; /* of each vertex, where known: then most need no comparison */
+    bool sorted;                  /* the vertices of rings are numbered in that order */
 } sunder_i_found;
 
 /* For those that know their vertices as the sum does, which then is the context. */

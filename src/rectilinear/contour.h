@@ -1,0 +1,33 @@
+/* The contour of a union of open rectangles along the lines of one axis. Internal to this folder. */
+#ifndef SUNDER_I_CONTOUR_H
+#define SUNDER_I_CONTOUR_H
+
+#include "rectilinear/rectangles.h"
+
+/* No point of it is covered, except perhaps its ends; what lies before it, after it, or both, is. Before and after are
+ * meant along the axis across. */
+typedef struct sunder_i_contour_stretch {
+    uint32_t line;     /* rank along the axis across */
+    uint32_t from, to; /* ranks along the line, from < to */
+    uint32_t sides;    /* SUNDER_I_COVERED_BEFORE, SUNDER_I_COVERED_AFTER */
+} sunder_i_contour_stretch;
+
+enum { SUNDER_I_COVERED_BEFORE = 1, SUNDER_I_COVERED_AFTER = 2 };
+
+/* A point that no rectangle covers, though all around it is covered. */
+typedef struct sunder_i_contour_point {
+    uint32_t line, at;
+} sunder_i_contour_point;
+
+typedef struct sunder_i_contour {
+    sunder_i_contour_stretch *stretch; /* by line, and along each; two that meet differ in their sides */
+    size_t stretches, stretches_capacity;
+    sunder_i_contour_point *point; /* likewise */
+    size_t points, points_capacity;
+} sunder_i_contour;
+
+/* The contour on lines across the axis: of coordinate x for axis 0, y for axis 1. False if memory is out. */
+bool sunder_i_contour_find(const sunder_i_ranked_rectangles *rectangles, int axis, sunder_i_contour *out);
+void sunder_i_contour_free(sunder_i_contour *contour);
+
+#endif
