@@ -1,5 +1,5 @@
 /* A polygon P, with holes or not, plus one convex polygon Q: no decomposition and no arrangement of many subsums, only
- * one walk around P. Most buildings are such.
+ * one walk around P. Most buildings are such. Several such sums are united by the way, in *rounds*.
  *
  * The convolution [GRS83] of P's rings with Q is a closed curve for each ring: every side of P moved by the corner of Q
  * that is extreme in its outward direction, joined at a convex vertex v by the arc of v + Q between the two corners, at
@@ -11,6 +11,9 @@
  *    is it negative;
  *  - an arc run backwards is replaced by its chord. The number rises by one between arc and chord, which is inside
  *    v + Q, where it was positive already. So what is positive remains the same.
+ *
+ * Of several rounds the numbers are added up. None is negative anywhere, so what is positive is the union, and all that
+ * is said here of one holds of them together.
  *
  * The curve is tame if no two links have a point in common but those that follow each other, in their ends, and pairs
  * that cross in their insides, no third one passing there. Then walk along it with the number on the right hand. It
@@ -25,13 +28,12 @@
  * links.
  *
  * Rings of the result: as no point has two boundary pieces but a vertex where one goes on in the other, they are simple
- * and have no points in common. P and Q are connected, so there is one outer ring. Collinear vertices cannot arise:
- * sides of P and of Q of one direction are joined. All tests are exact, and on a narrow lattice; elsewhere nothing is
- * tried, and where the curve is not tame the general road is taken. */
+ * and have no points in common. An outer one turns left in its smallest vertex; of one round there is one, since P and Q
+ * are connected. Collinear vertices cannot arise: sides of P and of Q of one direction are joined. All tests are exact,
+ * and on a narrow lattice; elsewhere nothing is tried, and where the curve is not tame the general road is taken. */
 #include "minkowski/convolution.h"
 
 #include "minkowski/convolution_inner.h"
-#include "sum/canonical.h"
 
 #include <stdalign.h>
 #include <string.h>
@@ -43,6 +45,9 @@ typedef struct walker {
     int32_t *right; /* [pieces] the winding number on the right hand */
     bool *done;     /* [pieces] */
     bool tame;      /* nothing was found that cannot be */
+    sunder_i_traced *to;
+    uint32_t first;   /* vertex of this curve's rings in the sum */
+    uint32_t *leaves; /* [vertices of these] the link on which the ring goes on */
 } walker;
 
 static uint32_t stop_begin(const sunder_i_convolution *c, uint32_t link) { return link ? c->stop_end[link - 1] : 0; }
@@ -81,7 +86,7 @@ static int32_t winding_of_others(const sunder_i_convolution *c, sunder_i_point a
 static int32_t number_at(const sunder_i_convolution *c, uint32_t least, uint32_t begin, uint32_t end)
 {
     const uint32_t last = least > begin ? least - 1 : end - 1;
-    const int32_t others = c->p->rings > 1 ? winding_of_others(c, c->corner[least], begin, end) : 0;
+    const int32_t others = c->rings > 1 ? winding_of_others(c, c->corner[least], begin, end) : 0;
     return others - (sunder_i_narrow_orient(c->corner[last], c->corner[least], c->corner[c->next[least]]) < 0);
 }
 
@@ -107,17 +112,21 @@ static void number_ring(walker *w, uint32_t begin, uint32_t end)
 
 /* ---- Rings ---- */
 
-static bool add_vertex(sunder_sum *sum, size_t *room, sunder_i_hpoint at)
+/* A vertex, and the link on which its ring goes on. */
+static bool add_vertex(walker *w, sunder_i_hpoint at, uint32_t leaves)
 {
-    if (sum->vertices == *room && !sunder_i_reserve(&sum->vertex, room, (size_t)sum->vertices + 1, sizeof *sum->vertex))
+    sunder_i_traced *t = w->to;
+    sunder_sum *sum = t->sum;
+    if (sum->vertices == t->room && !sunder_i_reserve(&sum->vertex, &t->room, (size_t)sum->vertices + 1, sizeof at))
         return false;
+    w->leaves[sum->vertices - w->first] = leaves;
     sum->vertex[sum->vertices++] = at;
     return true;
 }
 
 /* Follows the boundary from piece k of link i until it closes: at a crossing it goes on on the link that comes from the
  * left, which has the free side on its right as well. False if memory is out. */
-static bool follow(walker *w, uint32_t i, uint32_t k, sunder_sum *sum, size_t *room)
+static bool follow(walker *w, uint32_t i, uint32_t k)
 {
     const sunder_i_convolution *c = w->curve;
     for (;;) {
@@ -136,111 +145,176 @@ static bool follow(walker *w, uint32_t i, uint32_t k, sunder_sum *sum, size_t *r
             k = 0;
             at = sunder_i_hpoint_of(c->lattice, c->corner[i]);
         }
-        if (!add_vertex(sum, room, at)) return false;
+        if (!add_vertex(w, at, i)) return false;
     }
 }
 
-typedef struct ring_list {
-    sunder_i_arena *memory;
-    sunder_i_found_ring *ring; /* start and end in the vertices of the sum */
-    size_t n, room;
-} ring_list;
-
-static bool follow_all(walker *w, sunder_sum *sum, ring_list *rings)
+static sunder_i_point along(const walker *w, uint32_t vertex)
 {
     const sunder_i_convolution *c = w->curve;
-    size_t room = 0;
-    if (!sunder_i_reserve(&sum->vertex, &room, c->links + c->stops / 2, sizeof *sum->vertex)) return false;
+    const uint32_t link = w->leaves[vertex - w->first];
+    return sunder_i_narrow_sub(c->corner[c->next[link]], c->corner[link]);
+}
+
+/* Takes the vertices of the sum from `start` on as a ring. False if memory is out. */
+static bool add_ring(walker *w, uint32_t start)
+{
+    sunder_i_traced *t = w->to;
+    sunder_sum *sum = t->sum;
+    const uint32_t end = sum->vertices;
+    uint32_t least = start;
+    for (uint32_t v = start + 1; v < end; v++)
+        if (sunder_i_hpoint_cmp(&sum->lattice, &sum->vertex[v], &sum->vertex[least]) < 0) least = v;
+    if (!sunder_i_reserve(&t->ring, &t->ring_room, t->rings + 1, sizeof *t->ring) ||
+        !sunder_i_reserve(&t->vertex, &t->vertex_room, end, sizeof *t->vertex))
+        return false;
+    const sunder_i_det bend = sunder_i_narrow_cross(along(w, least > start ? least - 1 : end - 1), along(w, least));
+    t->ring[t->rings++] = (sunder_i_found_ring){start, end, t->components, bend > 0};
+    for (uint32_t v = start, k = least; v < end; v++, k = k + 1 < end ? k + 1 : start) t->vertex[v] = k;
+    return true;
+}
+
+static bool follow_all(walker *w)
+{
+    const sunder_i_convolution *c = w->curve;
+    sunder_sum *sum = w->to->sum;
     for (uint32_t i = 0; i < c->links; i++)
         for (uint32_t k = 0; k <= c->stop_end[i] - stop_begin(c, i); k++) {
-            const uint32_t piece = stop_begin(c, i) + i + k;
+            const uint32_t piece = stop_begin(c, i) + i + k, start = sum->vertices;
             if (w->right[piece] != 0 || w->done[piece]) continue;
-            if (rings->n == rings->room &&
-                !sunder_i_arena_reserve(rings->memory, &rings->ring, &rings->room, rings->n + 1, sizeof *rings->ring))
-                return false;
-            sunder_i_found_ring r = {.start = sum->vertices};
-            if (!follow(w, i, k, sum, &room)) return false;
-            r.end = sum->vertices;
-            rings->ring[rings->n++] = r;
+            if (!follow(w, i, k) || (w->tame && !add_ring(w, start))) return false;
         }
     return true;
 }
 
-/* No two rings have a vertex in common; the outer one has the smallest of all. */
-static bool put_rings(ring_list *rings, sunder_sum *sum)
+/* ---- Which holes are in which component ---- */
+
+/* Does a ring hold the place of a vertex of another one? An odd number of its sides is to the left of that then. */
+static bool holds(const walker *w, const sunder_i_found_ring *r, uint32_t vertex)
 {
-    uint32_t *vertex = sunder_i_arena_alloc(rings->memory, sum->vertices, sizeof *vertex);
-    size_t outer = 0, at = 0;
-    for (size_t r = 0; vertex && r < rings->n; r++) {
-        const uint32_t start = (uint32_t)rings->ring[r].start, end = (uint32_t)rings->ring[r].end;
-        uint32_t least = start;
-        for (uint32_t v = start + 1; v < end; v++)
-            if (sunder_i_hpoint_cmp(&sum->lattice, &sum->vertex[v], &sum->vertex[least]) < 0) least = v;
-        for (uint32_t v = least; v < end; v++) vertex[at++] = v;
-        for (uint32_t v = start; v < least; v++) vertex[at++] = v;
-        if (sunder_i_sum_vertex_cmp(sum, least, vertex[rings->ring[outer].start]) < 0) outer = r;
+    const sunder_i_convolution *c = w->curve;
+    const sunder_sum *sum = w->to->sum;
+    const sunder_i_hpoint *place = &sum->vertex[vertex];
+    const uint32_t first = (uint32_t)r->start, end = (uint32_t)r->end;
+    bool above = sunder_i_hpoint_cmp_y(c->lattice, &sum->vertex[end - 1], place) > 0, odd = false;
+    for (uint32_t v = first; v < end; v++) {
+        const bool to_above = sunder_i_hpoint_cmp_y(c->lattice, &sum->vertex[v], place) > 0;
+        if (above != to_above) {
+            const uint32_t link = w->leaves[(v > first ? v - 1 : end - 1) - w->first];
+            const int side = sunder_i_orient_hpoint(c->lattice, c->corner[link], c->corner[c->next[link]], place);
+            odd ^= to_above ? side < 0 : side > 0;
+        }
+        above = to_above;
     }
-    rings->ring[outer].outer = true;
-    sunder_i_found found = {.vertex = vertex,
-                            .ring = rings->ring,
-                            .rings = rings->n,
-                            .components = 1,
-                            .compare = sunder_i_sum_vertex_cmp,
-                            .context = sum};
-    return vertex && sunder_i_canonical(&found, sum);
+    return odd;
+}
+
+/* Each outer ring begins a component; a hole is in that of the innermost one around it, which of those around it has
+ * the greatest smallest vertex. */
+static void find_components(walker *w, size_t first_ring)
+{
+    sunder_i_traced *t = w->to;
+    const uint32_t before = t->components;
+    for (size_t r = first_ring; r < t->rings; r++)
+        if (t->ring[r].outer) t->ring[r].component = t->components++;
+    if (t->components == before + 1) return;
+    for (size_t r = first_ring; r < t->rings; r++) {
+        if (t->ring[r].outer) continue;
+        size_t best = t->rings;
+        for (size_t o = first_ring; o < t->rings; o++)
+            if (t->ring[o].outer && holds(w, &t->ring[o], t->vertex[t->ring[r].start]) &&
+                (best == t->rings ||
+                 sunder_i_sum_vertex_cmp(t->sum, t->vertex[t->ring[o].start], t->vertex[t->ring[best].start]) > 0))
+                best = o;
+        if (best == t->rings)
+            w->tame = false;
+        else
+            t->ring[r].component = t->ring[best].component;
+    }
 }
 
 /* ---- All of it ---- */
 
-static void forget(sunder_sum *sum)
+static bool walk(sunder_i_convolution *c, sunder_i_traced *to, bool *done)
 {
-    sunder_i_free(sum->vertex);
-    sum->vertex = NULL;
-    sum->vertices = 0;
-}
-
-static bool walk(sunder_i_convolution *c, sunder_sum *sum, bool *done)
-{
-    const size_t pieces = c->links + c->stops;
-    walker w = {c, sunder_i_arena_alloc(&c->memory, pieces, sizeof *w.right),
-                sunder_i_arena_alloc(&c->memory, pieces, sizeof *w.done), true};
-    ring_list rings = {.memory = &c->memory};
-    bool ok = w.right && w.done;
-    if (ok) memset(w.done, 0, pieces * sizeof *w.done);
-    for (uint32_t r = 0; ok && r < c->p->rings; r++)
+    const size_t pieces = c->links + c->stops, most = c->links + c->stops / 2, rings = to->rings;
+    const uint32_t vertices = to->sum->vertices, components = to->components;
+    walker w = {.curve = c,
+                .right = sunder_i_arena_alloc(&c->memory, pieces, sizeof *w.right),
+                .done = sunder_i_arena_alloc(&c->memory, pieces, sizeof *w.done),
+                .tame = true,
+                .to = to,
+                .first = vertices,
+                .leaves = sunder_i_arena_alloc(&c->memory, pieces, sizeof *w.leaves)};
+    if (c->memory.failed || !sunder_i_reserve(&to->sum->vertex, &to->room, vertices + most, sizeof *to->sum->vertex))
+        return false;
+    memset(w.done, 0, pieces * sizeof *w.done);
+    for (uint32_t r = 0; r < c->rings; r++)
         if (!c->left_out[r]) number_ring(&w, sunder_i_convolution_first(c, r), c->ring_end[r]);
-    ok = ok && (!w.tame || follow_all(&w, sum, &rings));
+    const bool ok = !w.tame || follow_all(&w);
+    if (ok && w.tame) find_components(&w, rings);
     *done = ok && w.tame;
-    if (*done)
-        ok = put_rings(&rings, sum);
-    else
-        forget(sum);
+    if (*done) return true;
+    to->sum->vertices = vertices;
+    to->rings = rings;
+    to->components = components;
     return ok;
 }
 
-static sunder_status build(sunder_i_convolution *c, sunder_sum *sum, const sunder_i_point *at_p, const sunder_shape *q,
-                           const sunder_i_point *at_q, bool *done, sunder_error *err)
+static sunder_status trace(sunder_i_convolution *c, sunder_i_traced *to, bool *done, sunder_error *err)
 {
     bool fits;
-    sunder_status status = sunder_i_convolution_build(c, at_p, q, at_q, &fits, err);
+    sunder_status status = sunder_i_convolution_build(c, &fits, err);
     if (status == SUNDER_OK && fits) status = sunder_i_convolution_cross(c, &fits, err);
     if (status != SUNDER_OK || !fits) return status;
-    return walk(c, sum, done) ? SUNDER_OK : sunder_i_no_memory(err);
+    return walk(c, to, done) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* For each ring all links are gone through to locate it. What is needed for a building and a disc takes so much. */
-enum { MOST_RINGS = 64, LENT = 16384 };
+/* What is needed for a building and a disc takes so much. */
+enum { LENT = 16384 };
+
+sunder_status sunder_i_convolution_trace(sunder_i_traced *to, const sunder_i_round *round, size_t rounds, bool *done,
+                                         sunder_error *err)
+{
+    sunder_i_convolution c = {.lattice = &to->sum->lattice, .round = round, .rounds = rounds};
+    alignas(16) char lent[LENT];
+    *done = false;
+    sunder_i_arena_init_on(&c.memory, lent, sizeof lent);
+    const sunder_status status = trace(&c, to, done, err);
+    sunder_i_arena_free(&c.memory);
+    return status;
+}
+
+sunder_status sunder_i_traced_end(sunder_i_traced *traced, bool keep, sunder_error *err)
+{
+    sunder_sum *sum = traced->sum;
+    sunder_i_found found = {.vertex = traced->vertex,
+                            .ring = traced->ring,
+                            .rings = traced->rings,
+                            .components = traced->components,
+                            .compare = sunder_i_sum_vertex_cmp,
+                            .context = sum,
+                            .place = sum->vertex};
+    const bool ok = !keep || sunder_i_canonical(&found, sum);
+    sunder_i_free(traced->vertex);
+    sunder_i_free(traced->ring);
+    if (keep && ok) return SUNDER_OK;
+    sunder_i_free(sum->vertex);
+    sum->vertex = NULL;
+    sum->vertices = 0;
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
 
 sunder_status sunder_i_convolution_sum(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,
                                        const sunder_shape *q, const sunder_i_point *at_q, bool *done, sunder_error *err)
 {
     *done = false;
-    if (!sum->lattice.narrow || p->polygons != 1 || p->touches || p->rings > MOST_RINGS || q->pieces != 1)
+    if (!sum->lattice.narrow || p->polygons != 1 || p->touches || p->rings > SUNDER_I_MOST_CURVES || q->pieces != 1)
         return SUNDER_OK;
-    sunder_i_convolution c = {.lattice = &sum->lattice, .p = p};
-    alignas(16) char lent[LENT];
-    sunder_i_arena_init_on(&c.memory, lent, sizeof lent);
-    const sunder_status status = build(&c, sum, at_p, q, at_q, done, err);
-    sunder_i_arena_free(&c.memory);
-    return status;
+    const sunder_i_round round = {p, q, at_p, at_q, 0, 0};
+    sunder_i_traced traced = {.sum = sum};
+    const sunder_status status = sunder_i_convolution_trace(&traced, &round, 1, done, err);
+    const sunder_status end = sunder_i_traced_end(&traced, *done, err);
+    *done &= end == SUNDER_OK;
+    return status == SUNDER_OK ? end : status;
 }

@@ -27,7 +27,7 @@ static bool boxes_apart(const sunder_i_chain *a, const sunder_i_chain *b)
  * both of its vertices v. Two sides with a chord between them cross, mostly. */
 static bool are_neighbours(const sunder_i_convolution *c, const sunder_i_chain *a, const sunder_i_chain *b)
 {
-    const uint32_t *next = c->p->next;
+    const uint32_t *next = c->after;
     if (a->side && b->side) {
         const uint32_t v = next[a->vertex] == b->vertex ? b->vertex : a->vertex;
         if (v == a->vertex && next[b->vertex] != a->vertex) return false;

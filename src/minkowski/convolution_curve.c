@@ -3,20 +3,28 @@
 
 #include <string.h>
 
+/* One round. Vertices of its P are numbered from 0 on here, and so are the arrays. */
 typedef struct mover {
     sunder_i_convolution *curve;
-    const sunder_i_point *at; /* P's vertices */
+    const sunder_i_round *round;
+    const sunder_i_point *at; /* [n] P's vertices */
+    const uint32_t *next;     /* [n] along the ring, as in the shape: less `start` */
+    uint32_t start, n;        /* P's first vertex in the shape */
+    uint32_t base, ring;      /* its number in the curve, and that of P's first ring */
+    bool *reflex, *joined;    /* [n] in the curve's arrays */
     sunder_i_point *q;        /* [m] Q's corners, counter-clockwise */
     uint32_t m;
-    uint32_t *first, *last; /* [vertices] the corners of Q extreme for the side that leaves a vertex; they differ where
-                               Q has a side of that direction, from first to last */
-    sunder_i_point *from, *to; /* [vertices] that side, moved */
+    uint32_t *first, *last;    /* [n] the corners of Q extreme for the side that leaves a vertex; they differ where Q
+                                  has a side of that direction, from first to last */
+    sunder_i_point *from, *to; /* [n] that side, moved */
 } mover;
 
 static sunder_i_point sum_of(sunder_i_point a, sunder_i_point b) { return (sunder_i_point){a.x + b.x, a.y + b.y}; }
 static bool same(sunder_i_point a, sunder_i_point b) { return a.x == b.x && a.y == b.y; }
 static uint32_t after(const mover *t, uint32_t j) { return j + 1 < t->m ? j + 1 : 0; }
 static uint32_t before(const mover *t, uint32_t j) { return j ? j - 1 : t->m - 1; }
+static uint32_t next_of(const mover *t, uint32_t v) { return t->next[v] - t->start; }
+static uint32_t prev_of(const mover *t, uint32_t v) { return t->round->p->prev[t->start + v] - t->start; }
 
 /* The sign of the turn from d to the side of Q that ends in corner j. */
 static int turn_to(const mover *t, sunder_i_point d, uint32_t j)
@@ -61,7 +69,13 @@ static void size_of(const sunder_i_point *at, uint32_t n, int64_t size[2])
     size[1] = high.y - low.y;
 }
 
-static uint32_t ring_begin(const sunder_shape *p, uint32_t r) { return r ? p->ring_end[r - 1] : 0; }
+static uint32_t first_ring(const mover *t) { return sunder_i_round_first_ring(t->round); }
+
+static uint32_t rings_of(const mover *t) { return t->round->p->poly_end[t->round->polygon] - first_ring(t); }
+
+/* Ring r of P. */
+static uint32_t ring_end(const mover *t, uint32_t r) { return t->round->p->ring_end[first_ring(t) + r] - t->start; }
+static uint32_t ring_begin(const mover *t, uint32_t r) { return r ? ring_end(t, r - 1) : 0; }
 
 /* A hole that is narrower than Q one way or the other is of no consequence and left out [BFHHM15]: where x - Q's
  * interior has no point in common with P it lies in one hole, connected as it is, and does not fit into this one. One
@@ -69,14 +83,14 @@ static uint32_t ring_begin(const sunder_shape *p, uint32_t r) { return r ? p->ri
  * then *fits is false. */
 static void leave_out_holes(const mover *t, bool *fits)
 {
-    const sunder_shape *p = t->curve->p;
     int64_t size[2], own[2];
-    t->curve->left_out[0] = false;
-    if (p->rings == 1) return;
+    bool *left_out = t->curve->left_out + t->ring;
+    left_out[0] = false;
+    if (rings_of(t) == 1) return;
     size_of(t->q, t->m, size);
-    for (uint32_t r = 1; r < p->rings; r++) {
-        size_of(t->at + ring_begin(p, r), p->ring_end[r] - ring_begin(p, r), own);
-        t->curve->left_out[r] = own[0] < size[0] || own[1] < size[1];
+    for (uint32_t r = 1; r < rings_of(t); r++) {
+        size_of(t->at + ring_begin(t, r), ring_end(t, r) - ring_begin(t, r), own);
+        left_out[r] = own[0] < size[0] || own[1] < size[1];
         if (own[0] == size[0] && own[1] == size[1]) *fits = false;
     }
 }
@@ -87,20 +101,19 @@ static void leave_out_holes(const mover *t, bool *fits)
  * chain. */
 static bool find_corners(mover *t, uint32_t start)
 {
-    const sunder_shape *p = t->curve->p;
     uint32_t v = start;
-    sunder_i_point d = sunder_i_narrow_sub(t->at[start], t->at[p->prev[start]]);
+    sunder_i_point d = sunder_i_narrow_sub(t->at[start], t->at[prev_of(t, start)]);
     uint32_t j = find_corner(t, d);
     do {
-        const sunder_i_point e = sunder_i_narrow_sub(t->at[p->next[v]], t->at[v]);
+        const sunder_i_point e = sunder_i_narrow_sub(t->at[next_of(t, v)], t->at[v]);
         const sunder_i_det bend = sunder_i_narrow_cross(d, e);
-        if (bend == 0 || p->shared[v]) return false;
-        t->curve->reflex[v] = bend < 0;
+        if (bend == 0 || t->round->p->shared[t->start + v]) return false;
+        t->reflex[v] = bend < 0;
         j = walk_to(t, j, e, bend < 0);
         t->last[v] = j;
         t->first[v] = turn_to(t, e, j) == 0 ? before(t, j) : j;
         d = e;
-        v = p->next[v];
+        v = next_of(t, v);
     } while (v != start);
     return true;
 }
@@ -109,10 +122,9 @@ static bool find_corners(mover *t, uint32_t start)
  * and is left out. False where with two such ends nothing is left. */
 static bool move_sides(mover *t, uint32_t begin, uint32_t end)
 {
-    const sunder_shape *p = t->curve->p;
+    const bool *reflex = t->reflex;
     for (uint32_t v = begin; v < end; v++) {
-        const uint32_t w = p->next[v];
-        const bool *reflex = t->curve->reflex;
+        const uint32_t w = next_of(t, v);
         const sunder_i_point d = sunder_i_narrow_sub(t->at[w], t->at[v]);
         t->from[v] = sum_of(t->at[v], t->q[reflex[v] ? t->last[v] : t->first[v]]);
         t->to[v] = sum_of(t->at[w], t->q[reflex[w] ? t->first[v] : t->last[v]]);
@@ -125,14 +137,14 @@ static bool move_sides(mover *t, uint32_t begin, uint32_t end)
 
 static uint32_t arc_length(const mover *t, uint32_t v)
 {
-    const uint32_t a = t->last[t->curve->p->prev[v]], b = t->first[v];
+    const uint32_t a = t->last[prev_of(t, v)], b = t->first[v];
     return b >= a ? b - a : b + t->m - a;
 }
 
 static size_t count_links(const mover *t, uint32_t begin, uint32_t end)
 {
     size_t n = end - begin;
-    for (uint32_t v = begin; v < end; v++) n += t->curve->reflex[v] ? 1 : arc_length(t, v);
+    for (uint32_t v = begin; v < end; v++) n += t->reflex[v] ? 1 : arc_length(t, v);
     return n;
 }
 
@@ -153,86 +165,130 @@ static void add_chain(sunder_i_convolution *c, uint32_t vertex, uint32_t first, 
 static void add_joint(mover *t, uint32_t v)
 {
     sunder_i_convolution *c = t->curve;
-    const uint32_t u = c->p->prev[v], first = c->links;
-    c->joined[v] = same(t->to[u], t->from[v]);
-    if (c->joined[v]) return;
-    const uint32_t n = c->reflex[v] ? 1 : arc_length(t, v);
+    const uint32_t u = prev_of(t, v), first = c->links;
+    t->joined[v] = same(t->to[u], t->from[v]);
+    if (t->joined[v]) return;
+    const uint32_t n = t->reflex[v] ? 1 : arc_length(t, v);
     for (uint32_t k = 0, j = t->last[u]; k < n; k++, j = after(t, j)) {
-        c->chord[c->links] = c->reflex[v];
-        c->corner[c->links++] = c->reflex[v] ? t->to[u] : sum_of(t->at[v], t->q[j]);
+        c->chord[c->links] = t->reflex[v];
+        c->corner[c->links++] = t->reflex[v] ? t->to[u] : sum_of(t->at[v], t->q[j]);
     }
-    add_chain(c, v, first, false, t->from[v]);
+    add_chain(c, t->base + v, first, false, t->from[v]);
+}
+
+static void add_ring(mover *t, uint32_t start)
+{
+    sunder_i_convolution *c = t->curve;
+    const uint32_t begin = c->links;
+    uint32_t v = start;
+    do {
+        add_joint(t, v);
+        c->chord[c->links] = false;
+        c->corner[c->links++] = t->from[v];
+        add_chain(c, t->base + v, c->links - 1, true, t->to[v]);
+        c->after[t->base + v] = t->base + next_of(t, v);
+        v = next_of(t, v);
+    } while (v != start);
+    for (uint32_t i = begin; i < c->links; i++) c->next[i] = i + 1 < c->links ? i + 1 : begin;
 }
 
 static void add_links(mover *t)
 {
     sunder_i_convolution *c = t->curve;
-    for (uint32_t r = 0; r < c->p->rings; r++) {
-        const uint32_t start = ring_begin(c->p, r), begin = c->links;
-        c->ring_end[r] = c->links;
-        if (c->left_out[r]) continue;
-        uint32_t v = start;
-        do {
-            add_joint(t, v);
-            c->chord[c->links] = false;
-            c->corner[c->links++] = t->from[v];
-            add_chain(c, v, c->links - 1, true, t->to[v]);
-            v = c->p->next[v];
-        } while (v != start);
-        for (uint32_t i = begin; i < c->links; i++) c->next[i] = i + 1 < c->links ? i + 1 : begin;
-        c->ring_end[r] = c->links;
+    for (uint32_t r = 0; r < rings_of(t); r++) {
+        if (!c->left_out[t->ring + r]) add_ring(t, ring_begin(t, r));
+        c->ring_end[t->ring + r] = c->links;
     }
 }
 
 /* ---- All of it ---- */
 
-static bool make_room(mover *t, const sunder_shape *q, const sunder_i_point *at_q)
+/* The numbers of one round; those of the next one follow. */
+static mover mover_of(sunder_i_convolution *c, const sunder_i_round *round)
 {
-    sunder_i_convolution *c = t->curve;
+    const uint32_t ring = sunder_i_round_first_ring(round), end = round->p->poly_end[round->polygon];
+    const uint32_t start = ring ? round->p->ring_end[ring - 1] : 0;
+    const mover t = {.curve = c,
+                     .round = round,
+                     .at = round->at_p + start,
+                     .next = round->p->next + start,
+                     .start = start,
+                     .n = round->p->ring_end[end - 1] - start,
+                     .base = c->vertices,
+                     .ring = c->rings,
+                     .m = sunder_i_round_corners(round)};
+    c->vertices += t.n;
+    c->rings += end - ring;
+    return t;
+}
+
+/* Memory for what the rounds have in common. */
+static bool make_room(sunder_i_convolution *c)
+{
     sunder_i_arena *m = &c->memory;
-    const size_t n = c->p->vertices;
+    c->after = sunder_i_arena_alloc(m, c->vertices, sizeof *c->after);
+    c->reflex = sunder_i_arena_alloc(m, c->vertices, sizeof *c->reflex);
+    c->joined = sunder_i_arena_alloc(m, c->vertices, sizeof *c->joined);
+    c->left_out = sunder_i_arena_alloc(m, c->rings, sizeof *c->left_out);
+    c->ring_end = sunder_i_arena_alloc(m, c->rings, sizeof *c->ring_end);
+    return !m->failed;
+}
+
+static bool make_own_room(mover *t)
+{
+    sunder_i_arena *m = &t->curve->memory;
+    t->reflex = t->curve->reflex + t->base;
+    t->joined = t->curve->joined + t->base;
     t->q = sunder_i_arena_alloc(m, t->m, sizeof *t->q);
-    t->first = sunder_i_arena_alloc(m, n, sizeof *t->first);
-    t->last = sunder_i_arena_alloc(m, n, sizeof *t->last);
-    t->from = sunder_i_arena_alloc(m, n, sizeof *t->from);
-    t->to = sunder_i_arena_alloc(m, n, sizeof *t->to);
-    c->reflex = sunder_i_arena_alloc(m, n, sizeof *c->reflex);
-    c->joined = sunder_i_arena_alloc(m, n, sizeof *c->joined);
-    c->left_out = sunder_i_arena_alloc(m, c->p->rings, sizeof *c->left_out);
+    t->first = sunder_i_arena_alloc(m, t->n, sizeof *t->first);
+    t->last = sunder_i_arena_alloc(m, t->n, sizeof *t->last);
+    t->from = sunder_i_arena_alloc(m, t->n, sizeof *t->from);
+    t->to = sunder_i_arena_alloc(m, t->n, sizeof *t->to);
     if (m->failed) return false;
-    for (uint32_t j = 0, v = 0; j < t->m; j++, v = q->next[v]) t->q[j] = at_q[v];
+    for (uint32_t j = 0, v = sunder_i_round_first_corner(t->round); j < t->m; j++, v = t->round->q->next[v])
+        t->q[j] = t->round->at_q[v];
     return true;
 }
 
-static sunder_status build(mover *t, bool *fits, sunder_error *err)
+/* Moves the sides of one round; how many links there will be is added to *links. */
+static void move_round(mover *t, bool *fits, size_t *links)
 {
-    sunder_i_convolution *c = t->curve;
-    const sunder_shape *p = c->p;
-    size_t n = 0;
-    *fits = true;
     leave_out_holes(t, fits);
-    for (uint32_t r = 0; *fits && r < p->rings; r++) {
-        if (c->left_out[r]) continue;
-        *fits = find_corners(t, ring_begin(p, r)) && move_sides(t, ring_begin(p, r), p->ring_end[r]);
-        n += *fits ? count_links(t, ring_begin(p, r), p->ring_end[r]) : 0;
+    for (uint32_t r = 0; *fits && r < rings_of(t); r++) {
+        if (t->curve->left_out[t->ring + r]) continue;
+        *fits = find_corners(t, ring_begin(t, r)) && move_sides(t, ring_begin(t, r), ring_end(t, r));
+        *links += *fits ? count_links(t, ring_begin(t, r), ring_end(t, r)) : 0;
     }
-    if (!*fits) return SUNDER_OK;
-    *fits = n < UINT32_MAX / 4;
-    if (!*fits) return SUNDER_OK;
-    sunder_i_arena *m = &c->memory;
-    c->corner = sunder_i_arena_alloc(m, n, sizeof *c->corner);
-    c->next = sunder_i_arena_alloc(m, n, sizeof *c->next);
-    c->chord = sunder_i_arena_alloc(m, n, sizeof *c->chord);
-    c->chain = sunder_i_arena_alloc(m, 2 * (size_t)p->vertices, sizeof *c->chain);
-    c->ring_end = sunder_i_arena_alloc(m, p->rings, sizeof *c->ring_end);
-    if (m->failed) return sunder_i_no_memory(err);
-    add_links(t);
-    return SUNDER_OK;
 }
 
-sunder_status sunder_i_convolution_build(sunder_i_convolution *curve, const sunder_i_point *at_p, const sunder_shape *q,
-                                         const sunder_i_point *at_q, bool *fits, sunder_error *err)
+static bool make_links(sunder_i_convolution *c, const mover *t, size_t links)
 {
-    mover t = {.curve = curve, .at = at_p, .m = q->vertices};
-    return make_room(&t, q, at_q) ? build(&t, fits, err) : sunder_i_no_memory(err);
+    sunder_i_arena *m = &c->memory;
+    c->corner = sunder_i_arena_alloc(m, links, sizeof *c->corner);
+    c->next = sunder_i_arena_alloc(m, links, sizeof *c->next);
+    c->chord = sunder_i_arena_alloc(m, links, sizeof *c->chord);
+    c->chain = sunder_i_arena_alloc(m, 2 * (size_t)c->vertices, sizeof *c->chain);
+    if (m->failed) return false;
+    for (size_t i = 0; i < c->rounds; i++) {
+        mover own = t[i];
+        add_links(&own);
+    }
+    return true;
+}
+
+sunder_status sunder_i_convolution_build(sunder_i_convolution *curve, bool *fits, sunder_error *err)
+{
+    size_t links = 0;
+    mover *t = sunder_i_arena_alloc(&curve->memory, curve->rounds, sizeof *t);
+    if (!t) return sunder_i_no_memory(err);
+    for (size_t i = 0; i < curve->rounds; i++) t[i] = mover_of(curve, &curve->round[i]);
+    bool ok = make_room(curve);
+    *fits = true;
+    for (size_t i = 0; ok && *fits && i < curve->rounds; i++) {
+        ok = make_own_room(&t[i]);
+        if (ok) move_round(&t[i], fits, &links);
+    }
+    *fits = *fits && links < UINT32_MAX / 4;
+    if (ok && *fits) ok = make_links(curve, t, links);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }

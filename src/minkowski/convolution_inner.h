@@ -5,8 +5,8 @@
 #include "minkowski/convolution.h"
 #include "predicate/narrow.h"
 
-/* Closed polylines, one for each ring of P, that follow each other in corner[]. They are made of chains: moved sides,
- * arcs of v + Q at convex vertices, chords at reflex ones. */
+/* Closed polylines, one for each ring of each round's P, that follow each other in corner[]. They are made of chains:
+ * moved sides, arcs of v + Q at convex vertices, chords at reflex ones. Vertices of P are numbered through all rounds. */
 typedef struct sunder_i_chain {
     int64_t low[2], high[2];
     uint32_t first, end; /* links */
@@ -24,25 +24,28 @@ typedef struct sunder_i_stop {
 typedef struct sunder_i_convolution {
     sunder_i_lattice *lattice;
     sunder_i_arena memory; /* of all of this, and of who works on it */
-    const sunder_shape *p;
+    const sunder_i_round *round;
+    size_t rounds;
+    uint32_t rings, vertices; /* of all rounds' P */
     uint32_t links;
     sunder_i_point *corner; /* [links] where each link starts */
     uint32_t *next;         /* [links] the one that starts where it ends */
-    uint32_t *ring_end;     /* [rings of P] in links */
-    bool *left_out;         /* [rings of P] holes of no consequence: they have no links */
+    uint32_t *ring_end;     /* [rings] in links */
+    bool *left_out;         /* [rings] holes of no consequence: they have no links */
     bool *chord;            /* [links] */
     sunder_i_chain *chain;
     uint32_t chains;
-    bool *joined;       /* [vertices of P] sides meet there, without arc or chord */
-    bool *reflex;       /* [vertices of P] */
+    uint32_t *after;    /* [vertices] the next one of the ring */
+    bool *joined;       /* [vertices] sides meet there, without arc or chord */
+    bool *reflex;       /* [vertices] */
     uint32_t *stop_end; /* [links] past the last stop on each; stops of a link in its direction */
     sunder_i_stop *stop;
     size_t stops, stops_capacity;
 } sunder_i_convolution;
 
-/* Builds the curve; *fits is false where P or Q is of no kind that this is for. Fails only with SUNDER_ENOMEM. */
-sunder_status sunder_i_convolution_build(sunder_i_convolution *curve, const sunder_i_point *at_p, const sunder_shape *q,
-                                         const sunder_i_point *at_q, bool *fits, sunder_error *err);
+/* Builds the curve of the rounds; *fits is false where a P or Q is of no kind that this is for. Fails only with
+ * SUNDER_ENOMEM. */
+sunder_status sunder_i_convolution_build(sunder_i_convolution *curve, bool *fits, sunder_error *err);
 /* Finds all stops; *fits is false where anything but two links that cross in their insides meets, or it takes
  * too long. */
 sunder_status sunder_i_convolution_cross(sunder_i_convolution *curve, bool *fits, sunder_error *err);

@@ -9,12 +9,16 @@
 #include "convex/subsums.h"
 #include "minkowski/convex_operands.h"
 #include "minkowski/convolution.h"
+#include "minkowski/members.h"
 #include "outline/contained_sides.h"
 #include "outline/outline.h"
 #include "rectilinear/rectilinear_sum.h"
 #include "sum/canonical.h"
+#include "sum/gather.h"
 #include "sum/place.h"
 #include "unions/unions.h"
+
+#include <string.h>
 
 /* The general road. */
 static sunder_status unite_subsums(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q,
@@ -34,6 +38,81 @@ static sunder_status unite_subsums(sunder_sum *sum, const sunder_shape *p, const
     return status;
 }
 
+typedef struct operands {
+    const sunder_shape *p, *q;
+    const sunder_i_placed *at;
+    double start;
+} operands;
+
+/* Hands the outline over to a new sum, which stands on no lattice; NULL if memory is out. */
+static sunder_sum *take_outline(sunder_sum *sum)
+{
+    sunder_sum *part = sunder_i_calloc(1, sizeof *part);
+    if (!part) return NULL;
+    sunder_sum without = {.lattice = sum->lattice, .method = sum->method};
+    memcpy(without.origin, sum->origin, sizeof without.origin);
+    memcpy(without.seconds, sum->seconds, sizeof without.seconds);
+    *part = *sum;
+    memset(&part->lattice, 0, sizeof part->lattice);
+    *sum = without;
+    return part;
+}
+
+/* The general road for those of several members that are not in the sum yet. */
+static sunder_status unite_rest(sunder_sum *sum, const operands *o, bool of_p, const sunder_i_members_left *left,
+                                const sunder_sum_options *options, sunder_error *err)
+{
+    sunder_shape view;
+    if (!sunder_i_members_view_init(of_p ? o->p : o->q, left->polygon, &view)) return sunder_i_no_memory(err);
+    sunder_sum *part[2] = {take_outline(sum), NULL};
+    sunder_status status =
+        part[0] ? unite_subsums(sum, of_p ? &view : o->p, of_p ? o->q : &view, o->at, o->start, options, err)
+                : sunder_i_no_memory(err);
+    sunder_i_members_view_free(&view);
+    if (status == SUNDER_OK) {
+        part[1] = take_outline(sum);
+        if (!part[1] || !sunder_i_gather(part, 2, sum)) status = sunder_i_no_memory(err);
+    }
+    for (int i = 0; i < 2; i++) sunder_sum_free(part[i]);
+    return status;
+}
+
+/* Several members and a single one: those that are apart from all others by themselves. */
+static sunder_status sum_members(sunder_sum *sum, const operands *o, bool *done, const sunder_sum_options *options,
+                                 sunder_error *err)
+{
+    const bool of_p = o->p->polygons > 1;
+    const sunder_i_placed *at = o->at;
+    sunder_i_members_left left;
+    sunder_status status = of_p ? sunder_i_members_sum(sum, o->p, at->p, o->q, at->q, &left, err)
+                                : sunder_i_members_sum(sum, o->q, at->q, o->p, at->p, &left, err);
+    *done = status == SUNDER_OK && left.n < (of_p ? o->p : o->q)->polygons;
+    if (*done && left.n > 0) status = unite_rest(sum, o, of_p, &left, options, err);
+    sunder_i_free(left.polygon);
+    return status;
+}
+
+/* One of the roads that are for some operands only, if these are such. */
+static sunder_status try_special(sunder_sum *sum, const operands *o, bool *done, const sunder_sum_options *options,
+                                 sunder_error *err)
+{
+    const sunder_shape *p = o->p, *q = o->q;
+    const sunder_i_placed *at = o->at;
+    const bool single = p->polygons == 1 && q->polygons == 1;
+    sunder_status status = SUNDER_OK;
+    *done = sunder_i_are_convex(p, q);
+    if (p->polygons == 0 || q->polygons == 0) return SUNDER_OK;
+    if (*done) return sunder_i_convex_operands_sum(sum, p, at->p, q, at->q, err);
+    if (single && q->pieces == 1)
+        status = sunder_i_convolution_sum(sum, p, at->p, q, at->q, done, err);
+    else if (single && p->pieces == 1)
+        status = sunder_i_convolution_sum(sum, q, at->q, p, at->p, done, err);
+    if (status == SUNDER_OK && !*done) status = sunder_i_rectilinear_sum(sum, p, at->p, q, at->q, done, err);
+    if (status == SUNDER_OK && !*done && !single && (p->polygons == 1 || q->polygons == 1))
+        status = sum_members(sum, o, done, options, err);
+    return status;
+}
+
 static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
                            const sunder_sum_options *options, sunder_error *err)
 {
@@ -41,14 +120,9 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
     sunder_i_placed at;
     sunder_status status = sunder_i_sum_place(sum, p, q, force_wide, &at, err);
     if (status != SUNDER_OK) return status;
-    bool done = sunder_i_are_convex(p, q);
-    if (done)
-        status = sunder_i_convex_operands_sum(sum, p, at.p, q, at.q, err);
-    else if (q->pieces == 1)
-        status = sunder_i_convolution_sum(sum, p, at.p, q, at.q, &done, err);
-    else if (p->pieces == 1)
-        status = sunder_i_convolution_sum(sum, q, at.q, p, at.p, &done, err);
-    if (status == SUNDER_OK && !done) status = sunder_i_rectilinear_sum(sum, p, at.p, q, at.q, &done, err);
+    const operands o = {p, q, &at, start};
+    bool done;
+    status = try_special(sum, &o, &done, options, err);
     if (status == SUNDER_OK && !done) status = unite_subsums(sum, p, q, &at, start, options, err);
     sunder_i_placed_free(&at);
     sum->seconds[2] = sunder_i_now() - start - sum->seconds[1];

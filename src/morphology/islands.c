@@ -9,6 +9,7 @@
  * So a layer of a hundred thousand blocks takes the memory of its largest one beside the result, and all threads. */
 #include "base/parallel.h"
 #include "morphology/morphology.h"
+#include "sum/gather.h"
 
 #include <math.h>
 #include <pthread.h>

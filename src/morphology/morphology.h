@@ -7,7 +7,6 @@
  * bands.c         a side plus a convex piece
  * fit.c           does a convex shape fit into what two shapes have in common?
  * islands.c       polygon by polygon, on several threads
- * gather.c        results of that in one
  * union.c         members that overlap
  * morphology.c    dilate, erode, open, close */
 #ifndef SUNDER_I_MORPHOLOGY_H
@@ -106,12 +105,6 @@ sunder_sum *sunder_i_morphology_operands_sum(const sunder_i_morphology_operands 
 sunder_status sunder_i_islands(const sunder_i_morphology_operands *operands, const sunder_sum *whole, bool connected,
                                sunder_operation operation, const sunder_sum_options *options, sunder_sum **out,
                                sunder_error *err);
-
-/* ---- gather.c ---- */
-
-/* Appends n sums to an empty one in canonical order. Their polygons, segments and points are disjoint or touch in
- * points. False if memory is out. */
-bool sunder_i_gather(sunder_sum *const *part, size_t n, sunder_sum *out);
 
 /* ---- union.c ---- */
 

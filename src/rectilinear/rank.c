@@ -6,13 +6,14 @@
 /* As a key in the order of the integers. */
 static uint64_t key_of(int64_t at) { return (uint64_t)at ^ (uint64_t)1 << 63; }
 
-static uint32_t rank_of(const int64_t *at, uint32_t n, int64_t what)
+static uint32_t rank_of(const int64_t *at, uint32_t n, int64_t what, uint64_t *comparisons)
 {
     const int64_t *low = at;
     while (n > 1) {
         const uint32_t half = n / 2;
         low += low[half] <= what ? half : 0;
         n -= half;
+        ++*comparisons;
     }
     return (uint32_t)(low - at);
 }
@@ -37,8 +38,8 @@ static bool rank_axis(const sunder_i_rectangle_list *list, int axis, sunder_i_ra
     }
     out->places[axis] = n;
     for (size_t i = 0; i < list->n; i++) {
-        out->item[i].low[axis] = rank_of(at, n, list->item[i].low[axis]);
-        out->item[i].high[axis] = rank_of(at, n, list->item[i].high[axis]);
+        out->item[i].low[axis] = rank_of(at, n, list->item[i].low[axis], &out->comparisons);
+        out->item[i].high[axis] = rank_of(at, n, list->item[i].high[axis], &out->comparisons);
     }
     return sunder_i_steps(list->n / 8 + 1);
 }

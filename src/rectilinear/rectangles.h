@@ -24,6 +24,7 @@ typedef struct sunder_i_ranked_rectangles {
     uint32_t n;
     int64_t *at[2];     /* coordinates along each axis, ascending, each once */
     uint32_t places[2]; /* how many */
+    uint64_t comparisons;
 } sunder_i_ranked_rectangles;
 
 /* ---- cut.c ---- */

@@ -82,6 +82,7 @@ static sunder_status unite(sunder_sum *sum, const sunder_i_rectangle_list *recta
     sunder_i_ranked_rectangles ranked;
     if (rectangles->n == 0) return SUNDER_OK;
     if (!sunder_i_rectangles_rank(rectangles, &ranked)) return sunder_i_no_memory(err);
+    sum->lattice.counts.comparisons += ranked.comparisons;
     const sunder_status status = sunder_i_rectangles_unite(&ranked, sum, err);
     sunder_i_ranked_rectangles_free(&ranked);
     *done = status == SUNDER_OK;

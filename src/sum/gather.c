@@ -1,5 +1,5 @@
-/* Sums of islands as one sum: what all of them have, put in canonical order together. The lattices have one unit. */
-#include "morphology/morphology.h"
+/* Sums of parts that are apart as one sum: what all of them have, put in canonical order together. */
+#include "sum/gather.h"
 
 #include "base/invariant.h"
 #include "base/watch.h"
@@ -38,6 +38,10 @@ static bool make_room(gathering *g, sunder_sum *const *part, size_t n)
 static bool copy_vertices(sunder_sum *out, sunder_i_arena *arena, const sunder_sum *s)
 {
     for (uint32_t v = 0; v < s->vertices; v++) {
+        if (s->vertex[v].w != 0) { /* native numbers are the same on all lattices of one unit */
+            out->vertex[out->vertices++] = s->vertex[v];
+            continue;
+        }
         const sunder_i_mark mark = sunder_i_arena_mark(arena);
         const sunder_i_rational_point at = sunder_i_hpoint_read(arena, &s->lattice, &s->vertex[v]);
         if (arena->failed) return false;
