@@ -15,6 +15,11 @@
  * Of several rounds the numbers are added up. None is negative anywhere, so what is positive is the union, and all that
  * is said here of one holds of them together.
  *
+ * Where a vertex of P touches an edge from outside (from inside, and in vertices, they share the place, which is
+ * declined), think of it as drawn back a little: that is a simple ring with the same curve but for a little, of a set
+ * inside P that in the limit has all of its interior. Tame curves stay so when they are moved a little, and nothing of
+ * theirs collapses in the limit.
+ *
  * The curve is tame if no two links have a point in common but those that follow each other, in their ends, and pairs
  * that cross in their insides, no third one passing there. Then walk along it with the number on the right hand. It
  * changes only where another link crosses, by one, and the pieces of links that have 0 on their right bound the sum,
@@ -309,7 +314,7 @@ sunder_status sunder_i_convolution_sum(sunder_sum *sum, const sunder_shape *p, c
                                        const sunder_shape *q, const sunder_i_point *at_q, bool *done, sunder_error *err)
 {
     *done = false;
-    if (!sum->lattice.narrow || p->polygons != 1 || p->touches || p->rings > SUNDER_I_MOST_CURVES || q->pieces != 1)
+    if (!sum->lattice.narrow || p->polygons != 1 || p->rings > SUNDER_I_MOST_CURVES || q->pieces != 1)
         return SUNDER_OK;
     const sunder_i_round round = {p, q, at_p, at_q, 0, 0};
     sunder_i_traced traced = {.sum = sum};

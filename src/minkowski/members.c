@@ -156,7 +156,7 @@ sunder_status sunder_i_members_sum(sunder_sum *sum, const sunder_shape *many, co
     sunder_i_arena arena = {0};
     const uint32_t n = many->polygons;
     *left = (sunder_i_members_left){NULL, n};
-    if (!sum->lattice.narrow || many->touches || one->touches || many->flat || one->flat) return SUNDER_OK;
+    if (!sum->lattice.narrow || many->flat || one->flat) return SUNDER_OK;
     grouper g = {.many = many,
                  .one = one,
                  .at_many = at_many,

@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-typedef enum kind { CONVEX, STARS, MIXED, HOLES, TOUCHING, KINDS } kind;
+typedef enum kind { CONVEX, STARS, MIXED, HOLES, TOUCHING, PATCHES, KINDS } kind;
 
 /* A frame whose hole may hold others. */
 static void frame(polyset *set, double x, double y, double half, double width)
@@ -45,8 +45,22 @@ static void add_member(polyset *set, rng *r, kind k, double x, double y)
     polyset_free(&one);
 }
 
+/* Half squares of a board, whose rings touch themselves and each other in vertices and on edges. */
+static void draw_patches(polyset *set, rng *r)
+{
+    cells board;
+    random_cells(&board, r, (int)rng_int(r, 2, 6), (int)rng_int(r, 2, 6), SPACING_SMALL, true, (int)rng_int(r, 30, 70));
+    polyset_init(set);
+    cells_outline(set, &board, rng_once_in(r, 2), true);
+    polyset_scale(set, 30, 30);
+}
+
 static void draw_many(polyset *set, rng *r, kind k)
 {
+    if (k == PATCHES) {
+        draw_patches(set, r);
+        return;
+    }
     const int n = (int)rng_int(r, 2, 14), room = (int)rng_int(r, 1, 6);
     polyset_init(set);
     for (int i = 0; i < n; i++) {
@@ -144,8 +158,36 @@ static void test_nested(void **state)
     polyset_free(&one);
 }
 
+/* A yard that a tooth shuts, whose tip touches an edge from outside. */
+static void test_shut_yard(void **state)
+{
+    (void)state;
+    const double yard[] = {0, 0, 100, 0, 100, 41, 30, 40, 30, 80, 60, 81, 65, 40.5, 81, 80, 100, 81, 101, 120, -1, 120};
+    const double away[] = {300, 0, 330, 1, 310, 30};
+    const sunder_sum_options how = {.algorithm = SUNDER_ALGORITHM_DIVIDE,
+                                    .decomposition = SUNDER_DECOMPOSITION_HERTEL_MEHLHORN};
+    size_t traced = 0;
+    for (int i = 1; i <= 64; i++) {
+        rng r = rng_start(test_seed() * 41, (uint64_t)i);
+        polyset many, one;
+        polyset_init(&many);
+        polyset_init(&one);
+        polyset_polygon(&many, yard, 11);
+        polyset_polygon(&many, away, 3);
+        random_convex(&one, &r, (int)rng_int(&r, 3, 9), i / 2.0 + 2);
+        traced += left_of(&many, &one) == 0;
+        char *want = library_sum_text(&many, &one);
+        assert_true(want && road_agrees(&many, &one, &how, false, want, true));
+        free(want);
+        polyset_free(&many);
+        polyset_free(&one);
+    }
+    assert_true(traced > 16);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_members), cmocka_unit_test(test_nested)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_members), cmocka_unit_test(test_nested),
+                                       cmocka_unit_test(test_shut_yard)};
     return cmocka_run_group_tests_name("sum_members", tests, NULL, NULL);
 }
