@@ -6,7 +6,8 @@
 #include "predicate/narrow.h"
 
 /* Closed polylines, one for each ring of each round's P, that follow each other in corner[]. They are made of chains:
- * moved sides, arcs of v + Q at convex vertices, chords at reflex ones. Vertices of P are numbered through all rounds. */
+ * moved sides, arcs of v + Q at convex vertices, chords at reflex ones. Vertices of P are numbered through all
+ * rounds. */
 typedef struct sunder_i_chain {
     int64_t low[2], high[2];
     uint32_t first, end; /* links */

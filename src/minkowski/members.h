@@ -13,7 +13,7 @@ typedef struct sunder_i_members_left {
 
 /* Members of the set `many` whose sums with `one` are in no contact with those of others, or but with few, are traced
  * together with these by the convolution, into an empty sum that stands on a lattice that both operands are placed on.
- * What is left out is in *left, and is apart from what is traced; there the sum is left alone if all is. Fails only with
+ * What is left out is in *left, and is apart from what is traced; the sum is left alone if all is. Fails only with
  * SUNDER_ENOMEM. */
 sunder_status sunder_i_members_sum(sunder_sum *sum, const sunder_shape *many, const sunder_i_point *at_many,
                                    const sunder_shape *one, const sunder_i_point *at_one, sunder_i_members_left *left,

@@ -84,7 +84,7 @@ static void change_range(sunder_i_cover_tree *t, uint32_t from, uint32_t to, boo
         change_elements(t, b, 0, to_bit, more);
         change_leaves(t, a + 1, b, more);
     }
-    /* What is changed is at or below the first ancestor that the ends share; what is above that changes only with it. */
+    /* What is changed is at or below the first ancestor that the ends share; what is above it changes only with it. */
     uint32_t first = a + t->size, last = b + t->size;
     for (bool joined = first == last; first > 1;) {
         first /= 2, last /= 2;

@@ -3,8 +3,8 @@
  *
  * Leaves are blocks of elements, which count for themselves the ranges that begin or end among them, and have a bit for
  * each element: those are set at once, and runs are read off them. Nodes are numbered as in a heap. Each counts the
- * ranges that are its own, and knows its state, which is that of its elements under the ranges of its own and of what is
- * below. */
+ * ranges that are its own, and knows its state, which is that of its elements under the ranges of its own and of
+ * what is below. */
 #ifndef SUNDER_I_COVER_TREE_H
 #define SUNDER_I_COVER_TREE_H
 

@@ -84,6 +84,7 @@ static bool number_vertices(joiner *j, sunder_i_coverage *to, sunder_i_lattice *
         if (!add_vertex(j, to, lattice, first ? j->end[ROWS][row] : j->end[COLUMNS][k])) return false;
         if (first) j->vertex[row] = vertex, i++;
         if (second) column[k++] = vertex;
+        lattice->counts.segment_intersections += first && second;
     }
     return true;
 }

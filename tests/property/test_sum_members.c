@@ -1,4 +1,4 @@
-/* Sums of several members with one polygon: what is apart is traced by itself, what overlaps a little together, and what
+/* Sums of several members with one polygon: what is apart is traced by itself, what overlaps a little together, what
  * cannot be traced goes the general road; all of it is the same, byte for byte, as by a road that knows no members. */
 #include "generate.h"
 #include "minkowski/members.h"
