@@ -34,8 +34,8 @@
  *
  * Rings of the result: as no point has two boundary pieces but a vertex where one goes on in the other, they are simple
  * and have no points in common. An outer one turns left in its smallest vertex; of one round there is one, as P and
- * Q are connected. Collinear vertices cannot arise: sides of P and of Q of one direction are joined. All tests are exact,
- * and on a narrow lattice; elsewhere nothing is tried, and where the curve is not tame the general road is taken. */
+ * Q are connected. Collinear vertices cannot arise: sides of P and of Q of one direction are joined. All tests are
+ * exact, and on a narrow lattice; elsewhere nothing is tried, and where the curve is not tame the general road is taken. */
 #include "minkowski/convolution.h"
 
 #include "minkowski/convolution_inner.h"

@@ -1,4 +1,5 @@
-/* Both operands fall into rectangles, the sum of one of each is a rectangle, and these are united. As for all pieces, the sum is the closure of the union of the open ones [AFH00]. */
+/* Both operands fall into rectangles, the sum of one of each is a rectangle, and these are united. As for all pieces,
+ * the sum is the closure of the union of the open ones [AFH00]. */
 #include "rectilinear/rectilinear_sum.h"
 
 #include "base/watch.h"
