@@ -7,7 +7,7 @@
 enum { FREE = 0, MIXED = 1, COVERED = 2, STATE = 3, ONE = 4 };
 
 #define LEAF_BITS 5
-#define LEAF ((uint32_t)1 << LEAF_BITS) /* elements; bits of a number */
+#define LEAF ((uint32_t)1 << LEAF_BITS) /* elements; bits of a number, and digits of a count */
 #define ALL UINT32_MAX
 
 bool sunder_i_cover_tree_init(sunder_i_cover_tree *tree, uint32_t elements)
@@ -16,11 +16,12 @@ bool sunder_i_cover_tree_init(sunder_i_cover_tree *tree, uint32_t elements)
     while (LEAF * (size_t)size < elements) size *= 2;
     const size_t n = (LEAF + 3) * (size_t)size;
     tree->size = size;
+    tree->digits = 0;
     tree->node = sunder_i_alloc(n, sizeof *tree->node);
     if (!tree->node) return false;
     memset(tree->node, 0, n * sizeof *tree->node);
     tree->covered = tree->node + 2 * (size_t)size;
-    tree->count = tree->covered + size;
+    tree->digit = tree->covered + size;
     return true;
 }
 
@@ -50,16 +51,27 @@ static void change(sunder_i_cover_tree *t, uint32_t i, uint32_t by)
 /* The bits from..to - 1 of a leaf, from < to. */
 static uint32_t bits_of(uint32_t from, uint32_t to) { return ALL << from & ALL >> (LEAF - to); }
 
-static void change_elements(sunder_i_cover_tree *t, uint32_t leaf, uint32_t from, uint32_t to, bool more)
+/* One more, or one less, of each element that has a bit in `by`: carries go on to the next digit. */
+static void change_elements(sunder_i_cover_tree *t, uint32_t leaf, uint32_t by, bool more)
 {
-    uint32_t *count = t->count + LEAF * (size_t)leaf;
+    uint32_t *digit = t->digit + LEAF * (size_t)leaf, carry = by, i = 0;
     if (more) {
-        for (uint32_t i = from; i < to; i++) count[i]++;
-        t->covered[leaf] |= bits_of(from, to);
+        for (; carry; i++) {
+            const uint32_t old = digit[i];
+            digit[i] = old ^ carry;
+            carry &= old;
+        }
+        if (i > t->digits) t->digits = i;
+        t->covered[leaf] |= by;
     } else {
-        uint32_t free = 0;
-        for (uint32_t i = from; i < to; i++) free |= (uint32_t)(--count[i] == 0) << i;
-        t->covered[leaf] &= ~free;
+        uint32_t left = 0; /* bits of these elements in any digit */
+        for (; carry; i++) {
+            digit[i] ^= carry;
+            carry &= digit[i];
+            left |= digit[i];
+        }
+        for (; i < t->digits; i++) left |= digit[i];
+        t->covered[leaf] &= ~by | left;
     }
     change(t, t->size + leaf, 0);
 }
@@ -78,10 +90,10 @@ static void change_range(sunder_i_cover_tree *t, uint32_t from, uint32_t to, boo
     const uint32_t a = from >> LEAF_BITS, b = (to - 1) >> LEAF_BITS, from_bit = from % LEAF,
                    to_bit = (to - 1) % LEAF + 1;
     if (a == b) {
-        change_elements(t, a, from_bit, to_bit, more);
+        change_elements(t, a, bits_of(from_bit, to_bit), more);
     } else {
-        change_elements(t, a, from_bit, LEAF, more);
-        change_elements(t, b, 0, to_bit, more);
+        change_elements(t, a, bits_of(from_bit, LEAF), more);
+        change_elements(t, b, bits_of(0, to_bit), more);
         change_leaves(t, a + 1, b, more);
     }
     /* What is changed is at or below the first ancestor that the ends share; what is above it changes only with it. */

@@ -1,8 +1,9 @@
 /* A segment tree: how many of the ranges put in cover each element, and which elements of a range none does. A question
  * goes down only to where covered and free elements mix, so it costs O((k + 1) log n) for k runs found.
  *
- * Leaves are blocks of elements, which count for themselves the ranges that begin or end among them, and have a bit for
- * each element: those are set at once, and runs are read off them. Nodes are numbered as in a heap. Each counts the
+ * Leaves are blocks of elements, which count for themselves the ranges that begin or end among them: bit i of the first
+ * number of a leaf is the lowest digit of element i's count, that of the next number the next digit, and so on. So one
+ * is added to many of them at once, and runs are read off as bits. Nodes are numbered as in a heap. Each counts the
  * ranges that are its own, and knows its state, which is that of its elements under the ranges of its own and of
  * what is below. */
 #ifndef SUNDER_I_COVER_TREE_H
@@ -13,8 +14,9 @@
 typedef struct sunder_i_cover_tree {
     uint32_t *node;    /* [2 * size] count * 4 + state */
     uint32_t size;     /* a power of two; leaves are from here on */
-    uint32_t *count;   /* [elements] of each leaf, one after the other */
-    uint32_t *covered; /* [size] a bit for each element whose count is not zero, the first one lowest */
+    uint32_t *digit;   /* [32 * size] of each leaf, one after the other, the lowest first */
+    uint32_t digits;   /* that any count has had so far */
+    uint32_t *covered; /* [size] a bit for each element whose count is not zero */
 } sunder_i_cover_tree;
 
 /* Elements from (inclusive) to (exclusive). */
