@@ -35,13 +35,18 @@
  * Rings of the result: as no point has two boundary pieces but a vertex where one goes on in the other, they are simple
  * and have no points in common. An outer one turns left in its smallest vertex; of one round there is one, as P and
  * Q are connected. Collinear vertices cannot arise: sides of P and of Q of one direction are joined. All tests are
- * exact, and on a narrow lattice; elsewhere nothing is tried, and where the curve is not tame the general road is taken. */
+ * exact, and on a narrow lattice; elsewhere nothing is tried, and where the curve is not tame the general road is
+ * taken. */
 #include "minkowski/convolution.h"
 
 #include "minkowski/convolution_inner.h"
 
 #include <stdalign.h>
 #include <string.h>
+
+typedef struct box {
+    sunder_i_point low, high;
+} box;
 
 /* A piece of a link is what lies between two stops, or a stop and an end. Link i has its pieces from
  * stop_begin(i) + i on, one more than it has stops. */
@@ -50,6 +55,7 @@ typedef struct walker {
     int32_t *right; /* [pieces] the winding number on the right hand */
     bool *done;     /* [pieces] */
     bool tame;      /* nothing was found that cannot be */
+    box *reach;     /* [rings] of the curve */
     sunder_i_traced *to;
     uint32_t first;   /* vertex of this curve's rings in the sum */
     uint32_t *leaves; /* [vertices of these] the link on which the ring goes on */
@@ -69,14 +75,25 @@ static uint32_t smallest_corner(const sunder_i_convolution *c, uint32_t begin, u
     return least;
 }
 
-/* How often links outside [begin, end) wind around a place that none of them touches: those that cross the ray from
- * there to the left. */
-static int32_t winding_of_others(const sunder_i_convolution *c, sunder_i_point at, uint32_t begin, uint32_t end)
+static box box_of(const sunder_i_convolution *c, uint32_t begin, uint32_t end)
+{
+    box b = {c->corner[begin], c->corner[begin]};
+    for (uint32_t i = begin + 1; i < end; i++) {
+        const sunder_i_point a = c->corner[i];
+        if (a.x < b.low.x) b.low.x = a.x;
+        if (a.y < b.low.y) b.low.y = a.y;
+        if (a.x > b.high.x) b.high.x = a.x;
+        if (a.y > b.high.y) b.high.y = a.y;
+    }
+    return b;
+}
+
+/* How often some links that close wind around a place that none of them touches: those that cross the ray from there to
+ * the left. */
+static int32_t winding_of(const sunder_i_convolution *c, sunder_i_point at, uint32_t begin, uint32_t end)
 {
     int32_t winding = 0;
-    for (uint32_t i = 0; i < c->links; i++) {
-        if (i == begin) i = end;
-        if (i >= c->links) break;
+    for (uint32_t i = begin; i < end; i++) {
         const sunder_i_point a = c->corner[i], b = c->corner[c->next[i]];
         if ((a.y > at.y) == (b.y > at.y)) continue;
         const bool up = b.y > at.y;
@@ -86,20 +103,35 @@ static int32_t winding_of_others(const sunder_i_convolution *c, sunder_i_point a
     return winding;
 }
 
+/* The same of all rings but one: those whose boxes hold the place. */
+static int32_t winding_of_others(const walker *w, sunder_i_point at, uint32_t ring)
+{
+    const sunder_i_convolution *c = w->curve;
+    int32_t winding = 0;
+    for (uint32_t r = 0; r < c->rings; r++) {
+        const box *b = &w->reach[r];
+        if (r == ring || c->left_out[r] || at.x < b->low.x || at.x > b->high.x || at.y < b->low.y || at.y > b->high.y)
+            continue;
+        winding += winding_of(c, at, sunder_i_convolution_first(c, r), c->ring_end[r]);
+    }
+    return winding;
+}
+
 /* At a ring's smallest corner the outside of the ring is to the left of the bend: a left turn has it on the right hand,
  * a right turn on the left, and there the ring itself counts -1 on the right. */
-static int32_t number_at(const sunder_i_convolution *c, uint32_t least, uint32_t begin, uint32_t end)
+static int32_t number_at(const walker *w, uint32_t least, uint32_t ring)
 {
-    const uint32_t last = least > begin ? least - 1 : end - 1;
-    const int32_t others = c->rings > 1 ? winding_of_others(c, c->corner[least], begin, end) : 0;
+    const sunder_i_convolution *c = w->curve;
+    const uint32_t last = least > sunder_i_convolution_first(c, ring) ? least - 1 : c->ring_end[ring] - 1;
+    const int32_t others = c->rings > 1 ? winding_of_others(w, c->corner[least], ring) : 0;
     return others - (sunder_i_narrow_orient(c->corner[last], c->corner[least], c->corner[c->next[least]]) < 0);
 }
 
-static void number_ring(walker *w, uint32_t begin, uint32_t end)
+static void number_ring(walker *w, uint32_t ring)
 {
     const sunder_i_convolution *c = w->curve;
-    const uint32_t least = smallest_corner(c, begin, end);
-    const int32_t start = number_at(c, least, begin, end);
+    const uint32_t least = smallest_corner(c, sunder_i_convolution_first(c, ring), c->ring_end[ring]);
+    const int32_t start = number_at(w, least, ring);
     int32_t right = start;
     uint32_t i = least;
     do {
@@ -248,14 +280,17 @@ static bool walk(sunder_i_convolution *c, sunder_i_traced *to, bool *done)
                 .right = sunder_i_arena_alloc(&c->memory, pieces, sizeof *w.right),
                 .done = sunder_i_arena_alloc(&c->memory, pieces, sizeof *w.done),
                 .tame = true,
+                .reach = sunder_i_arena_alloc(&c->memory, c->rings, sizeof *w.reach),
                 .to = to,
                 .first = vertices,
                 .leaves = sunder_i_arena_alloc(&c->memory, pieces, sizeof *w.leaves)};
     if (c->memory.failed || !sunder_i_reserve(&to->sum->vertex, &to->room, vertices + most, sizeof *to->sum->vertex))
         return false;
     memset(w.done, 0, pieces * sizeof *w.done);
+    for (uint32_t r = 0; r < c->rings && c->rings > 1; r++)
+        if (!c->left_out[r]) w.reach[r] = box_of(c, sunder_i_convolution_first(c, r), c->ring_end[r]);
     for (uint32_t r = 0; r < c->rings; r++)
-        if (!c->left_out[r]) number_ring(&w, sunder_i_convolution_first(c, r), c->ring_end[r]);
+        if (!c->left_out[r]) number_ring(&w, r);
     const bool ok = !w.tame || follow_all(&w);
     if (ok && w.tame) find_components(&w, rings);
     *done = ok && w.tame;
@@ -314,8 +349,7 @@ sunder_status sunder_i_convolution_sum(sunder_sum *sum, const sunder_shape *p, c
                                        const sunder_shape *q, const sunder_i_point *at_q, bool *done, sunder_error *err)
 {
     *done = false;
-    if (!sum->lattice.narrow || p->polygons != 1 || p->rings > SUNDER_I_MOST_CURVES || q->pieces != 1)
-        return SUNDER_OK;
+    if (!sum->lattice.narrow || p->polygons != 1 || p->rings > SUNDER_I_MOST_CURVES || q->pieces != 1) return SUNDER_OK;
     const sunder_i_round round = {p, q, at_p, at_q, 0, 0};
     sunder_i_traced traced = {.sum = sum};
     const sunder_status status = sunder_i_convolution_trace(&traced, &round, 1, done, err);

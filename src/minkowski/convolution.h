@@ -38,8 +38,8 @@ typedef struct sunder_i_traced {
     uint32_t components;
 } sunder_i_traced;
 
-/* So many rings take part in one curve at most: each is located by going through all links. */
-#define SUNDER_I_MOST_CURVES 64
+/* So many rings take part in one curve at most: each is located by asking all others, or their boxes. */
+#define SUNDER_I_MOST_CURVES 512
 
 /* Adds the union of the sums of some rounds, and sets *done; leaves all as it was where the curve does not prove the
  * result: the general road has to be taken then. Fails only with SUNDER_ENOMEM. */
