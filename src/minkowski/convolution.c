@@ -39,6 +39,7 @@
  * taken. */
 #include "minkowski/convolution.h"
 
+#include "base/watch.h"
 #include "minkowski/convolution_inner.h"
 
 #include <stdalign.h>
@@ -257,6 +258,7 @@ static void find_components(walker *w, size_t first_ring)
     if (t->components == before + 1) return;
     for (size_t r = first_ring; r < t->rings; r++) {
         if (t->ring[r].outer) continue;
+        if (!sunder_i_steps(t->rings - first_ring)) w->tame = false; /* told to stop: whoever asks next says so */
         size_t best = t->rings;
         for (size_t o = first_ring; o < t->rings; o++)
             if (t->ring[o].outer && holds(w, &t->ring[o], t->vertex[t->ring[r].start]) &&

@@ -2,6 +2,7 @@
 #include "minkowski/convolution_inner.h"
 
 #include "base/sort.h"
+#include "base/watch.h"
 
 #include <string.h>
 
@@ -97,6 +98,7 @@ static void cross_all(crosser *x, const uint32_t *order)
     const sunder_i_convolution *c = x->curve;
     for (uint32_t i = 0; i < c->chains; i++) {
         const sunder_i_chain *a = &c->chain[order[i]];
+        x->no_memory |= !sunder_i_step();
         for (uint32_t k = i + 1; k < c->chains && c->chain[order[k]].low[0] <= a->high[0]; k++) {
             const sunder_i_chain *b = &c->chain[order[k]];
             if (x->pairs-- == 0) x->fits = false;
