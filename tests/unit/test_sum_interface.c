@@ -254,6 +254,30 @@ static void test_out_of_memory(void **state)
     }
 }
 
+/* Members that are apart, that overlap once they are grown, and that share a wall, which takes three roads; bars, so
+ * many that it is asked which sums are needed. */
+static void test_out_of_memory_in_members(void **state)
+{
+    (void)state;
+    const char *const text[] = {
+        "MULTIPOLYGON(((0 0,9 1,8 9,4 3,0 0)),((10 0,19 1,18 9,14 3,10 0)),((99 0,109 0,109 9,99 9,99 0)),"
+        "((109 0,119 0,119 9,109 9,109 0)),((200 0,209 1,208 9,204 3,200 0)))",
+        "POLYGON((0 0,3 1,1 3,0 0))"};
+    attempt c[2];
+    assert_true(polyset_read_wkt(&c[0].p, text[0], NULL) && polyset_read_wkt(&c[0].q, text[1], NULL));
+    polyset_init(&c[1].p);
+    polyset_init(&c[1].q);
+    for (int i = 0; i < 17; i++) {
+        polyset_rectangle(&c[1].p, 10 * i, 7 * i, 10 * i + 9, 7 * i + 60);
+        polyset_rectangle(&c[1].q, 3 * i, 11 * i, 3 * i + 50, 11 * i + 9);
+    }
+    for (int i = 0; i < 2; i++) {
+        assert_true(failing_loop(sum_run, &c[i], false));
+        polyset_free(&c[i].p);
+        polyset_free(&c[i].q);
+    }
+}
+
 /* The exact sum is beyond all doubles: the texts are right, the doubles infinite. */
 static void test_beyond_doubles(void **state)
 {
@@ -320,9 +344,10 @@ static void test_deviation(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_empty),          cmocka_unit_test(test_same_operand),
-                                       cmocka_unit_test(test_nested_slivers), cmocka_unit_test(test_progress),
-                                       cmocka_unit_test(test_out_of_memory),  cmocka_unit_test(test_beyond_doubles),
-                                       cmocka_unit_test(test_deviation)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_empty),          cmocka_unit_test(test_same_operand),
+        cmocka_unit_test(test_nested_slivers), cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_out_of_memory),  cmocka_unit_test(test_out_of_memory_in_members),
+        cmocka_unit_test(test_beyond_doubles), cmocka_unit_test(test_deviation)};
     return cmocka_run_group_tests_name("the interface of sums", tests, NULL, NULL);
 }
