@@ -866,7 +866,7 @@ typedef struct sunder_proof {
 } sunder_proof;
 
 /* The proof of conflict k of sunder_report_conflicts(), or NULL. It lives as long as the report. There is one for
- * each with SUNDER_REASON_NO_ROOM, and for each that is crowded; the features of its nodes, but for the two in conflict,
+ * each with SUNDER_REASON_NO_ROOM, and each that is crowded; the features of its nodes, but for the two in conflict,
  * are the conflict's blocked_by: none of them could be left out of it. With SUNDER_REASON_SIDE and mostly
  * SUNDER_REASON_JUMP there is one, too: its nodes are about the pair, and about the ways of the members of their two
  * blocks (shadows). Without a limit `within` is one by which the two are apart for certain: farther out nothing but

@@ -6,7 +6,7 @@
 #include "sunder.h"
 
 const char *gis_page_kind(sunder_conflict_kind kind);
-/* Reasons as the page tells them apart, from 0; those of conflicts that are crowded by themselves, behind all others. */
+/* Reasons as the page tells them apart, from 0: that of conflicts that are crowded is behind all others. */
 size_t gis_page_reasons(void);
 size_t gis_page_reason_of(const sunder_conflict *conflict);
 const char *gis_page_reason(size_t reason);
