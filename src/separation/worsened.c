@@ -147,21 +147,30 @@ static bool is_surely_no_deeper(const sunder_i_depth *d, const sunder_i_pair *wa
 /* No farther than what doubles of the lengths may tell apart from that one. */
 #define BARELY (1 + 0x1p-20)
 
+static sunder_status compare_exactly(const sunder_i_pair *was, const sunder_separation *now, bool *worse,
+                                     sunder_error *err)
+{
+    sunder_separation before;
+    const sunder_i_least_options o = {.tp = was->tp, .tq = was->tq, .upper = INFINITY, .texts = true};
+    sunder_status status = sunder_i_least(was->p, was->q, &o, &before, NULL, err);
+    if (status) return status;
+    status = compare_texts(before.distance_squared_text, now->distance_squared_text, worse, err);
+    sunder_separation_clear(&before);
+    return status;
+}
+
 static sunder_status compare_lengths(const sunder_i_pair *was, const sunder_i_depth *d, const sunder_i_pair *is,
                                      bool *worse, sunder_error *err)
 {
-    sunder_separation before, now;
-    sunder_i_least_options o = {.tp = is->tp, .tq = is->tq, .upper = BARELY * d->distance, .texts = true};
+    sunder_separation now;
+    const sunder_i_least_options o = {.tp = is->tp, .tq = is->tq, .upper = BARELY * d->distance, .texts = true};
     *worse = false;
     sunder_status status = sunder_i_least(is->p, is->q, &o, &now, worse, err);
     if (status) return status;
     if (!*worse && now.distance != d->distance) {
         *worse = now.distance > d->distance; /* nearest doubles of the true lengths keep their order */
     } else if (!*worse) {
-        o = (sunder_i_least_options){.tp = was->tp, .tq = was->tq, .upper = INFINITY, .texts = true};
-        status = sunder_i_least(was->p, was->q, &o, &before, NULL, err);
-        if (!status) status = compare_texts(before.distance_squared_text, now.distance_squared_text, worse, err);
-        if (!status) sunder_separation_clear(&before);
+        status = compare_exactly(was, &now, worse, err);
     }
     sunder_separation_clear(&now);
     return status;
