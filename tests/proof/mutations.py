@@ -505,6 +505,7 @@ class Asker:
         for t in listed:  # verdicts of others are not asked for again
             if conflict is None or t["conflict"] != conflict["conflict"]:
                 t.pop("proof", None)
+                t.pop("crowded", None)
                 t["reason"] = "unresolved"
         lines += listed
         if tree:

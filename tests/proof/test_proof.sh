@@ -43,11 +43,11 @@ python3 -c '
 print("WKT,w")
 for k in range(64):
     x, y = 12 * (k % 8) + k * 7 % 5 / 8, 12 * (k // 8) + k * 3 % 5 / 8
-    print(f"\"POLYGON(({x} {y},{x + 10} {y},{x + 10} {y + 10},{x} {y + 10}))\",1")' | layer crowd.gpkg buildings POLYGON
+    print(f"\"POLYGON(({x} {y},{x + 10} {y},{x + 10} {y + 10},{x} {y + 10}))\",1")' | layer squares.gpkg buildings POLYGON
 crowd=(--gap 3 --no-blocks --max-shift 1.5)
-proved crowd crowd.gpkg "${crowd[@]}"
-grep -q '"crowded": true' crowd.jsonl || fail "no pair of a grid is crowded"
-refuted crowd crowd.gpkg "${crowd[@]}" --need leaf --need way --need clearance --need blamed --need reason \
+proved squares squares.gpkg "${crowd[@]}"
+grep -q '"crowded": true' squares.jsonl || fail "no pair of a grid is crowded"
+refuted squares squares.gpkg "${crowd[@]}" --need leaf --need way --need clearance --need blamed --need reason \
     --need crowd
 proved width "$town" --gap 1 --max-shift 4 --barrier "$town,layer=roads,width-field=width,gap=0"
 
