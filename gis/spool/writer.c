@@ -65,7 +65,7 @@ bool gis_spool_add(gis_spool_writer *writer, const gis_spool_feature *feature, g
     double box[4];
     if (!gis_spool_record_make(&writer->record, feature, error)) return false;
     gis_spool_record_box(writer->record.at, box);
-    if (box[0] <= box[2]) {
+    if (!gis_box_is_empty(box)) {
         gis_box_join(writer->box, box);
         writer->placed++;
         writer->strays += is_beyond(writer->frame, box);
@@ -139,7 +139,7 @@ static bool take(void *user, const unsigned char *record, gis_error *error)
 
 uint64_t gis_spool_along(const double all[4], const double box[4])
 {
-    if (!(box[0] <= box[2]) || !(all[0] <= all[2])) return 0;
+    if (gis_box_is_empty(box) || gis_box_is_empty(all)) return 0;
     const uint32_t x = gis_curve_cell(box[0] / 2 + box[2] / 2, all[0], all[2], CURVE_BITS);
     const uint32_t y = gis_curve_cell(box[1] / 2 + box[3] / 2, all[1], all[3], CURVE_BITS);
     return gis_curve_position(x, y, CURVE_BITS);

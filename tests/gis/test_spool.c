@@ -7,7 +7,6 @@
 
 #include <cmocka.h>
 
-#include "base/curve.h"
 #include "random.h"
 #include "scratch.h"
 #include "spool/index.h"
@@ -407,76 +406,6 @@ static void test_poor_frames(void **state)
     free_board(b);
 }
 
-/* Keys that often agree, records of several sizes. */
-typedef struct keyed {
-    gis_sort_head head;
-    uint64_t number, more[3];
-} keyed;
-
-typedef struct keyed_list {
-    keyed at[MOST];
-    size_t n;
-} keyed_list;
-
-static bool note_keyed(void *user, const unsigned char *record, gis_error *error)
-{
-    keyed_list *to = user;
-    gis_sort_head head;
-    (void)error;
-    memcpy(&head, record, sizeof head);
-    memcpy(&to->at[to->n++], record, (size_t)head.bytes);
-    return true;
-}
-
-static void test_keys(void **state)
-{
-    static const size_t most[] = {1, 200, 5000, GIS_SPOOL_RUN};
-    static keyed_list list;
-    for (size_t n = 0; n < MOST; n = 3 * n + 1)
-        for (size_t m = 0; m < sizeof most / sizeof *most; m++) {
-            gis_sorter *sorter;
-            gis_error error = {0};
-            rng random = rng_start(test_seed(), n);
-            assert_true(gis_sorter_new(scratch_directory(), "keys.runs", most[m], &sorter, &error));
-            for (size_t i = 0; i < n; i++) {
-                const uint64_t more = (uint64_t)rng_int(&random, 0, 3);
-                const keyed one = {.head = {sizeof one - 8 * more, (uint64_t)rng_int(&random, -2, 2),
-                                            (uint64_t)rng_int(&random, 0, 3) << rng_int(&random, 0, 62)},
-                                   .number = i};
-                assert_true(gis_sorter_add(sorter, &one, &error));
-            }
-            list.n = 0;
-            assert_true(gis_sorter_take(sorter, note_keyed, &list, &error));
-            gis_sorter_free(sorter);
-            assert_int_equal(list.n, n);
-            for (size_t i = 1; i < n; i++) {
-                const keyed *a = &list.at[i - 1], *b = &list.at[i];
-                const bool same = a->head.first == b->head.first;
-                assert_true(a->head.first <= b->head.first);
-                assert_true(!same || a->head.second <= b->head.second);
-                assert_true(!same || a->head.second < b->head.second || a->number < b->number);
-            }
-        }
-}
-
-/* Each position once, and from one to the next a step to a cell beside it: that is what makes it this curve. */
-static void test_curve(void **state)
-{
-    enum { BITS = 6, SIDE = 1 << BITS };
-    static uint32_t at[SIDE * SIDE][2];
-    static bool taken[SIDE * SIDE];
-    for (uint32_t x = 0; x < SIDE; x++)
-        for (uint32_t y = 0; y < SIDE; y++) {
-            const uint64_t along = gis_curve_position(x, y, BITS);
-            assert_true(along < SIDE * SIDE && !taken[along]);
-            taken[along] = true;
-            at[along][0] = x;
-            at[along][1] = y;
-        }
-    for (size_t k = 1; k < SIDE * SIDE; k++)
-        assert_int_equal(abs((int)at[k][0] - (int)at[k - 1][0]) + abs((int)at[k][1] - (int)at[k - 1][1]), 1);
-}
-
 /* ---- Harm -------------------------------------------------------------------------------------------------------- */
 
 static long size_of(const char *path)
@@ -608,9 +537,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_was_put_in), cmocka_unit_test(test_settled),     cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_order),           cmocka_unit_test(test_poor_frames), cmocka_unit_test(test_keys),
-        cmocka_unit_test(test_curve),           cmocka_unit_test(test_harm),        cmocka_unit_test(test_marks),
-        cmocka_unit_test(test_given_up),        cmocka_unit_test(test_full_disk),
+        cmocka_unit_test(test_order),           cmocka_unit_test(test_poor_frames), cmocka_unit_test(test_harm),
+        cmocka_unit_test(test_marks),           cmocka_unit_test(test_given_up),    cmocka_unit_test(test_full_disk),
     };
     return cmocka_run_group_tests(tests, scratch_set_up, scratch_tear_down);
 }
