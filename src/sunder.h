@@ -767,6 +767,16 @@ typedef struct sunder_bound_node {
     size_t i, j, named, names;
 } sunder_bound_node;
 
+/* Prices of area, whole numbers of `unit` a unit of area at the nodes of a lattice: node (i, j) is the place side * (x +
+ * i, y + j); bilinear between nodes, 0 beyond them. No two of a tree's bodies share area, so that they cost at least
+ * what each pays for moving, and for the area that it stands on, at the least; less the worth of all area. */
+typedef struct sunder_bound_prices {
+    double side, unit; /* powers of 2 */
+    int64_t x, y;
+    size_t columns, rows;
+    const uint32_t *price; /* [columns * rows]; NULL: none */
+} sunder_bound_prices;
+
 typedef struct sunder_bound_tree {
     size_t group; /* trees of one group follow each other */
     double bound;
@@ -778,6 +788,7 @@ typedef struct sunder_bound_tree {
     const size_t *named;  /* pieces */
     const double *corner; /* [2 * corners] */
     size_t bodies, pieces, cuts, forces, nodes, names, corners;
+    sunder_bound_prices prices; /* where it has such, they prove its bound, and it has no nodes */
 } sunder_bound_tree;
 
 /* They live as long as the report. */

@@ -303,6 +303,36 @@ static void put_node(gis_proof_lines *w, const sunder_bound_tree *tree, const su
     gis_json_close(&w->json, '}');
 }
 
+/* Of each row the place of the first price that is not 0, and all from there to the last; of a row of zeros nothing. */
+static void put_price_row(gis_proof_lines *w, const uint32_t *price, size_t columns)
+{
+    size_t first = 0, end = columns;
+    while (first < columns && !price[first]) first++;
+    while (end > first && !price[end - 1]) end--;
+    gis_json_open(&w->json, '[');
+    if (first < end) gis_json_size(&w->json, first);
+    for (size_t k = first; k < end; k++) gis_json_size(&w->json, price[k]);
+    gis_json_close(&w->json, ']');
+}
+
+static void put_prices(gis_proof_lines *w, const sunder_bound_prices *prices)
+{
+    gis_json_key(&w->json, "prices");
+    gis_json_open(&w->json, '{');
+    gis_json_put_double(&w->json, "side", prices->side);
+    gis_json_put_double(&w->json, "unit", prices->unit);
+    gis_json_key(&w->json, "x");
+    gis_json_signed(&w->json, prices->x);
+    gis_json_key(&w->json, "y");
+    gis_json_signed(&w->json, prices->y);
+    gis_json_put_size(&w->json, "columns", prices->columns);
+    gis_json_key(&w->json, "rows");
+    gis_json_open(&w->json, '[');
+    for (size_t j = 0; j < prices->rows; j++) put_price_row(w, prices->price + j * prices->columns, prices->columns);
+    gis_json_close(&w->json, ']');
+    gis_json_close(&w->json, '}');
+}
+
 bool gis_proof_tree(gis_proof_lines *w, const sunder_bound_tree *tree, gis_error *error)
 {
     gis_json_put_double(&w->json, "bound", tree->bound);
@@ -310,6 +340,10 @@ bool gis_proof_tree(gis_proof_lines *w, const sunder_bound_tree *tree, gis_error
     gis_json_open(&w->json, '[');
     for (size_t k = 0; k < tree->bodies; k++) put_body(w, &tree->body[k]);
     gis_json_close(&w->json, ']');
+    if (tree->prices.price) {
+        put_prices(w, &tree->prices);
+        return gis_go_on(error);
+    }
     gis_json_key(&w->json, "pieces");
     gis_json_open(&w->json, '[');
     for (size_t k = 0; k < tree->pieces; k++) put_piece(w, tree, &tree->piece[k]);

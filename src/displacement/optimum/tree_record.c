@@ -18,6 +18,7 @@ void sunder_i_bound_tree_free(sunder_bound_tree *tree)
     sunder_i_free((void *)tree->node);
     sunder_i_free((void *)tree->named);
     sunder_i_free((void *)tree->corner);
+    sunder_i_free((void *)tree->prices.price);
     *tree = (sunder_bound_tree){0};
 }
 

@@ -1,4 +1,5 @@
-/* The lower bound of the layer: what is proved of its contact groups, or of pairs, added up part by part.
+/* The lower bound of the layer: what is proved of its contact groups, of pairs, or by prices of area, added up part by
+ * part.
  *
  * No layout costs less than the sum over disjoint sets of bodies of what each cannot do without. A group's bound owes
  * what all pairs of its bodies owe that were not listed when it was proved, and of those that were that they stand no
@@ -79,13 +80,13 @@ static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver
 static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, const sunder_i_parts *parts,
                                 sunder_error *err)
 {
-    size_t n = report->bound_pairs; /* and room for those of pairs */
+    size_t n = report->bound_pairs + parts->areas; /* and room for those of pairs and of areas */
     for (size_t k = 0; k < groups->n; k++) n += groups->group[k].trees.n;
     report->bound_tree = sunder_i_calloc(n, sizeof *report->bound_tree);
     if (!report->bound_tree) return sunder_i_no_memory(err);
     for (size_t k = 0; k < groups->n; k++) {
         sunder_i_group *g = &groups->group[k];
-        if (!(g->bound > 0) || sunder_i_part_is_by_pairs(parts, g->number)) continue;
+        if (!(g->bound > 0) || !sunder_i_part_is_by_groups(parts, g->number)) continue;
         for (size_t m = 0; m < g->trees.n; m++) {
             g->trees.tree[m].group = k;
             report->bound_tree[report->bound_trees++] = g->trees.tree[m];
@@ -103,7 +104,8 @@ static sunder_status prove_parts(sunder_report *report, sunder_i_solver *s, sund
     for (uint32_t b = 0; b < s->model.bodies; b++) proved[b] = sunder_i_part_bound(parts, b);
     if (!s->model.rules.keep_trees) return SUNDER_OK;
     sunder_status status = take_trees(report, &s->groups, parts, err);
-    return status ? status : sunder_i_report_pair_trees(report, s, parts, proved, err);
+    if (!status) status = sunder_i_report_pair_trees(report, s, parts, proved, err);
+    return status ? status : sunder_i_report_area_trees(report, s, parts, err);
 }
 
 /* Sums are exact until they are rounded, once: whatever the order. */
@@ -138,6 +140,7 @@ sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver 
     sunder_status status = proved ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status && any) status = count_groups(summary, s, err);
     if (!status) status = sunder_i_parts_find(&parts, report, s, err);
+    if (!status) status = sunder_i_report_area_bounds(s, &parts, err);
     if (!status) status = prove_parts(report, s, &parts, proved, err);
     if (!status) add_up(summary, proved, parts.by_pairs, s->model.bodies);
     if (!status && s->model.rules.keep_worlds) keep_proved(report, &proved, &parts);

@@ -35,8 +35,9 @@ sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *re
     const sunder_i_model *model = &s->model;
     *parts = (sunder_i_parts){.root = sunder_i_alloc(model->bodies, sizeof *parts->root),
                               .by_pairs = sunder_i_calloc(model->bodies, sizeof *parts->by_pairs),
-                              .by_groups = sunder_i_calloc(model->bodies, sizeof *parts->by_groups)};
-    if (!parts->root || !parts->by_pairs || !parts->by_groups) return sunder_i_no_memory(err);
+                              .by_groups = sunder_i_calloc(model->bodies, sizeof *parts->by_groups),
+                              .by_areas = sunder_i_calloc(model->bodies, sizeof *parts->by_areas)};
+    if (!parts->root || !parts->by_pairs || !parts->by_groups || !parts->by_areas) return sunder_i_no_memory(err);
     sunder_i_union_init(parts->root, model->bodies);
     join_pairs(model, report, parts->root);
     for (size_t k = 0; k < s->groups.n; k++)
@@ -57,17 +58,29 @@ void sunder_i_parts_free(sunder_i_parts *parts)
     sunder_i_free(parts->root);
     sunder_i_free(parts->by_pairs);
     sunder_i_free(parts->by_groups);
+    sunder_i_free(parts->by_areas);
+    for (size_t k = 0; k < parts->areas; k++) {
+        sunder_i_free(parts->area[k].body);
+        sunder_i_free(parts->area[k].prices.price);
+    }
+    sunder_i_free(parts->area);
     memset(parts, 0, sizeof *parts);
 }
 
 bool sunder_i_part_is_by_pairs(const sunder_i_parts *parts, uint32_t body)
 {
     const uint32_t at = sunder_i_union_find(parts->root, body);
-    return parts->by_pairs[at] > parts->by_groups[at];
+    return parts->by_pairs[at] > parts->by_groups[at] && parts->by_pairs[at] >= parts->by_areas[at];
+}
+
+bool sunder_i_part_is_by_groups(const sunder_i_parts *parts, uint32_t body)
+{
+    const uint32_t at = sunder_i_union_find(parts->root, body);
+    return parts->by_groups[at] >= parts->by_pairs[at] && parts->by_groups[at] >= parts->by_areas[at];
 }
 
 double sunder_i_part_bound(const sunder_i_parts *parts, uint32_t body)
 {
-    const double most = fmax(parts->by_pairs[body], parts->by_groups[body]);
+    const double most = fmax(fmax(parts->by_pairs[body], parts->by_groups[body]), parts->by_areas[body]);
     return most > 0 && isfinite(most) ? most : 0;
 }

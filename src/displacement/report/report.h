@@ -2,6 +2,7 @@
 #ifndef SUNDER_I_REPORT_H
 #define SUNDER_I_REPORT_H
 
+#include "displacement/areas/areas.h"
 #include "displacement/clusters/solver.h"
 
 /* ---- report.c ---------------------------------------------------------------------------------------------------- */
@@ -105,19 +106,40 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
  * on, or by a contact group of which something is proved. So what stands elsewhere has no say in which of the two
  * proves more. What is fixed holds none together. */
 typedef struct sunder_i_parts {
-    uint32_t *root;    /* [bodies] union-find */
-    double *by_pairs;  /* [bodies] what the pairs prove of the part; at its root */
-    double *by_groups; /* [bodies] what its groups prove, added up */
+    uint32_t *root;                   /* [bodies] union-find */
+    double *by_pairs;                 /* [bodies] what the pairs prove of the part; at its root */
+    double *by_groups;                /* [bodies] what its groups prove, added up */
+    double *by_areas;                 /* [bodies] what is proved of it by prices of area, where that is more; else 0 */
+    struct sunder_i_area_bound *area; /* of those parts, by their roots */
+    size_t areas;
 } sunder_i_parts;
+
+/* What a part costs because its bodies, these, share no area. */
+typedef struct sunder_i_area_bound {
+    uint32_t root;
+    double bound;
+    uint32_t *body; /* [n]; owned */
+    size_t n;
+    sunder_i_prices prices; /* owned */
+} sunder_i_area_bound;
 
 /* Failure leaves what sunder_i_parts_free() takes. */
 sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *report, const sunder_i_solver *solver,
                                   sunder_error *err);
 void sunder_i_parts_free(sunder_i_parts *parts);
-/* Do its pairs prove more than its groups? */
+/* By what is most proved of its part: by its pairs? By its groups? */
 bool sunder_i_part_is_by_pairs(const sunder_i_parts *parts, uint32_t body);
+bool sunder_i_part_is_by_groups(const sunder_i_parts *parts, uint32_t body);
 /* The better bound of the part whose root the body is; of any other body 0. */
 double sunder_i_part_bound(const sunder_i_parts *parts, uint32_t body);
+
+/* ---- area_bounds.c ----------------------------------------------------------------------------------------------- */
+
+/* Asks parts of which less than nearly all is proved what their area proves. Blocks are united for that. */
+sunder_status sunder_i_report_area_bounds(const sunder_i_solver *solver, sunder_i_parts *parts, sunder_error *err);
+/* Adds the tree of each such part. */
+sunder_status sunder_i_report_area_trees(sunder_report *report, const sunder_i_solver *solver, sunder_i_parts *parts,
+                                         sunder_error *err);
 
 /* ---- optimality.c ------------------------------------------------------------------------------------------------ */
 

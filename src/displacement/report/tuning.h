@@ -53,6 +53,12 @@
 #define SWEEPS 400
 #define STILL 1e-7
 
+/* ---- What areas prove (area_bounds.c) ---------------------------------------------------------------------------- */
+
+/* Parts of so many bodies at least are asked, of which less than this share of the cost is proved. */
+#define AREAS_FEWEST 4
+#define AREAS_ASKED 0.9
+
 /* ---- Trees for the bound of pairs (pair_trees.c) ----------------------------------------------------------------- */
 
 /* So much of the weights is left over, for rounding; steps for each pair. */
