@@ -79,7 +79,8 @@ bool sunder_i_prices_ascend(const sunder_i_grid *grid, const sunder_i_payer *pay
 /* ---- least.c ----------------------------------------------------------------------------------------------------- */
 
 /* What the prices prove: the sum over payers of the least that each pays, moving and standing, less the worth of all
- * area; rounded downwards. 0 where the numbers get too large. False if memory is out. */
+ * area; rounded downwards. 0 where the numbers get too large, or there are prices in the two outermost rows and columns.
+ * False if memory is out. */
 bool sunder_i_prices_prove(const sunder_i_prices *prices, const sunder_i_payer *payer, size_t n, double *bound);
 
 /* ---- areas.c ----------------------------------------------------------------------------------------------------- */

@@ -158,6 +158,14 @@ static bool is_inner(const sunder_i_grid *l, size_t node)
     return i >= border && j >= border && i + border < l->columns && j + border < l->rows;
 }
 
+/* What a coarser grid's prices, which are blurred, ask for beyond inner nodes is nothing that this grid may ask for: a
+ * step that is shortened would leave some of it, level after level nearer to the border. */
+static void keep_inner(const sunder_i_grid *l, float *price)
+{
+    for (size_t k = 0; k < sunder_i_grid_nodes(l); k++)
+        if (!is_inner(l, k)) price[k] = 0;
+}
+
 typedef struct place {
     float *price, *slope;
     double value;
@@ -230,6 +238,7 @@ bool sunder_i_prices_ascend(const sunder_i_grid *grid, const sunder_i_payer *pay
         a.half = work + 6 * nodes;
         place at = {work, work + nodes, 0}, other = {work + 2 * nodes, work + 3 * nodes, 0};
         memcpy(at.price, price, nodes * sizeof *price);
+        keep_inner(grid, at.price);
         ok = climb(&a, &at, &other, work + 4 * nodes, rounds);
         if (ok) memcpy(price, at.price, nodes * sizeof *price);
         if (ok) blur(&a, price);
