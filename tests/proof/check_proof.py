@@ -15,6 +15,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import geopackage  # noqa: E402
 import trees  # noqa: E402
 import verdicts  # noqa: E402
+from prices import Prices  # noqa: E402
 from problem import Problem, Refused, demand  # noqa: E402
 
 
@@ -102,7 +103,7 @@ def check(options):
     problem.listed = {tuple(sorted((str(c["a"]), str(c["b"])))): c["kind"] for c in conflicts if not c.get("inside_block")}
     found = []
     for tree in told:
-        found.append(trees.Tree(problem, tree))
+        found.append((Prices if "prices" in tree else trees.Tree)(problem, tree))
         found[-1].check()
     total = trees.add_up(problem, found)
     by_pairs = head["lower_bound"] > total and head["lower_bound"] == head["pair_bound"]

@@ -1,0 +1,41 @@
+"""What a line of the lower bound is about: bodies, what they weigh there, and what they are shifted by."""
+from fractions import Fraction
+
+from problem import demand
+
+
+class Bodies:
+    def __init__(self, problem, told):
+        self.problem, self.unit = problem, problem.lattice.unit
+        self.group, self.bound = told["group"], Fraction(told["bound"])
+        self.own_weight = {}
+        self.bodies = [self.read_body(b) for b in told["bodies"]]
+        self.weights = [self.read_weight(b, k) for k, b in enumerate(told["bodies"])]
+        self.shifts = [tuple(map(Fraction, b["shift"])) for b in told["bodies"]]
+        for weight, shift in zip(self.weights, self.shifts):
+            demand(weight is not None or shift == (0, 0), "what does not move has a shift")
+
+    def read_body(self, told):
+        if "barrier" in told:
+            demand(self.problem.is_barrier(told["barrier"]), "there is no barrier", told["barrier"])
+            return (told["barrier"],)
+        fids = tuple(f["fid"] for f in told["features"])
+        for f in told["features"]:
+            demand(f["fid"] in self.problem.things and f["fid"] not in self.problem.ignored, "no feature", f["fid"])
+            if "anchor" in f:
+                self.problem.note_anchor(f["fid"], f["anchor"])
+        demand(fids == self.problem.block(fids[0]), "a body is no block:", *fids)
+        return fids
+
+    def read_weight(self, told, k):
+        """None: it does not move."""
+        if "barrier" in told:
+            demand(told["weight"] is None, "a barrier has a weight")
+            return None
+        if told["weight"] is None:
+            demand(self.problem.body_limit(self.bodies[k]) == 0, "a body that may move is taken for a fixed one")
+            return None
+        own = sum(self.problem.weight(f["fid"], f["weight"]) for f in told["features"])
+        demand(0 < Fraction(told["weight"]) <= own, "a body weighs more than its members")
+        self.own_weight[self.bodies[k]] = own
+        return Fraction(told["weight"])

@@ -1,0 +1,208 @@
+"""The lower bound by prices of area: docs/PROOF.md, section 4, in whole numbers."""
+from array import array
+from fractions import Fraction
+from math import isqrt
+
+from bodies import Bodies
+from occupied import MASS, Lattice, in_squares, masses
+from problem import demand, plane
+
+PARTS = 8      # squares of moves are divided in so many, either way
+FIRST_LOOK = 8  # moves are looked at so many squares far, and farther where that does not tell
+
+
+def is_power_of_two(value):
+    return value > 0 and value.numerator & (value.numerator - 1) == value.denominator & (value.denominator - 1) == 0
+
+
+class Prices(Bodies):
+    """With the interface that a tree has."""
+    nodes, cuts = (), ()
+
+    def __init__(self, problem, told):
+        super().__init__(problem, told)
+        self.grid = Grid(told["prices"])
+
+    def check(self):
+        """Sum of what bodies pay at least, less the worth of all area."""
+        self.demand_strangers()
+        lattice, parts = Lattice(self.problem, self.grid.side), PARTS ** 2
+        paid = sum(self.least(lattice, body, weight) for body, weight in zip(self.bodies, self.weights))
+        worth = sum(map(sum, self.grid.price)) << MASS
+        proved = (paid - parts * worth) * self.grid.unit * self.grid.side ** 2 / (parts << MASS)
+        demand(proved >= self.bound, "the prices prove", float(proved), "and not", float(self.bound))
+        return self.bound
+
+    def least(self, lattice, body, weight):
+        polygons = [p for fid in body for p in self.problem.things[fid].polygons]
+        squares = in_squares(polygons, lattice)
+        if not squares:
+            return 0
+        limit = self.problem.body_limit(body)
+        weight = (weight * (1 << MASS) / self.grid.unit).__floor__()
+        demand(weight > 0, "a body weighs too little for the unit of prices")
+        return Payer(self.grid, *masses(squares, lattice), weight, limit).least()
+
+    # ---- Who owes whom
+
+    def demand_strangers(self):
+        """Every feature owes the gap to those of all other bodies."""
+        problem, of = self.problem, {}
+        demand(problem.options.contained != "ignore", "features may lie in each other, and owe nothing then")
+        for k, body in enumerate(self.bodies):
+            demand(self.weights[k] is not None, "who pays prices moves:", *body)
+            demand(self.shifts[k] == (0, 0), "who pays prices has no shift:", *body)
+            for fid in body:
+                demand(fid not in of, "a body pays twice:", fid)
+                of[fid] = k
+        by_name = {str(fid): k for fid, k in of.items()}
+        for a, b in problem.listed:
+            demand(not (a in by_name and b in by_name) or by_name[a] == by_name[b], a, "and", b, "are listed")
+        if problem.options.block_field:
+            values = {}
+            for fid, k in of.items():
+                value = problem.attributes[fid][problem.options.block_field]
+                demand(value is None or values.setdefault(value, k) == k, fid, "is of another's block by its field")
+        for a, b in self.near_pairs(of):
+            problem.demand_owed(a, b)
+
+    def near_pairs(self, of):
+        """Of features of two bodies that are no farther apart than the tolerance, by their boxes; others do not join."""
+        problem = self.problem
+        tolerance = problem.lattice(problem.tolerance)
+        boxes = sorted((*plane.box_of([p for polygon in problem.things[fid].polygons for r in polygon for p in r]), fid)
+                       for fid in of if any(r for polygon in problem.things[fid].polygons for r in polygon))
+        open_ones = []
+        for box in boxes:
+            open_ones = [o for o in open_ones if o[2] + tolerance >= box[0]]
+            for other in open_ones:
+                if of[other[4]] != of[box[4]] and plane.boxes_near(other, box, tolerance):
+                    yield other[4], box[4]
+            open_ones.append(box)
+
+
+class Grid:
+    """Prices at nodes, and by how much they turn up in squares."""
+
+    def __init__(self, told):
+        self.side, self.unit = Fraction(told["side"]), Fraction(told["unit"])
+        demand(is_power_of_two(self.side) and is_power_of_two(self.unit), "side and unit are powers of two")
+        self.x, self.y, self.columns = told["x"], told["y"], told["columns"]
+        demand(all(type(n) is int for n in (self.x, self.y, self.columns)), "a grid has whole numbers")
+        self.price = [self.read_row(row) for row in told["rows"]]
+        border = self.price[:2] + self.price[-2:] + [row[:2] + row[-2:] for row in self.price]
+        demand(not any(map(any, border)), "a price at the border")
+        self.kink = find_kinks(self.price)
+        self.price_rows, self.kink_rows = ([array("Q", row) for row in what] for what in (self.price, self.kink))
+
+    def read_row(self, told):
+        demand(all(type(n) is int and 0 <= n < 1 << 32 for n in told), "prices are whole numbers")
+        before = told[0] if told else 0
+        after = self.columns - before - len(told[1:])
+        demand(after >= 0, "a row of too many prices")
+        return [0] * before + told[1:] + [0] * after
+
+
+def find_kinks(price):
+    """Of each square (by its lower left node): how much prices turn up at most, along x and along y, from its nodes to the
+    next but one. All of it is 0 at the border, and beyond."""
+    along = [[max(0, a - 2 * b + c) for a, b, c in zip(r, r[1:], r[2:])] for r in price]
+    up = [[max(0, a - 2 * b + c) for a, b, c in zip(p, q, r)] for p, q, r in zip(price, price[1:], price[2:])]
+    return [[max(x) + max(y) for x, y in zip(zip(p, q, r), zip(u, u[1:], u[2:]))]
+            for p, q, r, u in zip(along, along[1:], along[2:], up)]
+
+
+class Payer:
+    """A body, and what it pays: `weight` times the square of its move (in squares), and the price of what it occupies. Let h be the
+    price that one of its places meets at moves from (x, y) to (x + 1, y + 1). Along one axis h is linear but for one turn, of d,
+    at a node; where that is up, h is below its chord by no more than d / 4. So it is no less than the bilinear mean of its values at
+    the four corners less (d + d') / 4, d and d' the greatest turns that the place's square meets there. That holds of the sum over all
+    places, and |t|^2 is below its own bilinear mean by no more than half the square of the side of a part."""
+
+    def __init__(self, grid, corner, hats, areas, weight, limit):
+        self.grid, self.hats, self.areas = grid, hats, areas
+        self.at = corner[0] - grid.x, corner[1] - grid.y
+        self.weight = weight
+        # (squares)^2 that a move may be long
+        self.limit = None if limit is None else (Fraction(limit) / grid.side) ** 2
+
+    def sums(self, rows, own, reach):
+        """[dy][dx]: the sum of own[j][i] times what is in `rows` there, (i, j) moved by (dx, dy), from -reach to reach. A row
+        times a row is a product of two numbers, whose digits are the rows'."""
+        width, (x, y) = len(own[0]), self.at
+        top = max(map(max, own)) * max((max(r, default=0) for r in rows), default=0)
+        demand(top * width * len(own) < 1 << 63, "prices that are too large")
+        digits = [number(array("Q", row[::-1])) for row in own]
+        window = {}
+        for j in range(max(0, y - reach), min(len(rows), y + len(own) + reach)):
+            window[j] = number(cut_out(rows[j], x - reach, width + 2 * reach))
+        found = []
+        for dy in range(-reach, reach + 1):
+            total = sum(d * window.get(y + dy + j, 0) for j, d in enumerate(digits) if d)
+            slots = array("Q", total.to_bytes(8 * (2 * width + 2 * reach), "little"))
+            found.append(slots[width - 1:width + 2 * reach])
+        return found
+
+    def may_go(self, square):
+        return self.limit is None or square <= self.limit
+
+    def least(self):
+        """In parts of a mass's price: what it pays wherever it may go is no less."""
+        weight, reach = self.weight, FIRST_LOOK
+        while True:
+            price = self.sums(self.grid.price_rows, self.hats, reach)
+            spent = min(weight * (x * x + y * y) + price[y + reach][x + reach] for y in range(-reach, reach + 1)
+                        for x in range(-reach, reach + 1) if self.may_go(x * x + y * y))
+            need = isqrt(spent // weight) + 2
+            if self.limit is not None:
+                need = min(need, isqrt(self.limit.__floor__()) + 2)
+            if need <= reach:
+                break
+            reach = min(need, 2 * reach)
+        return self.least_of_squares(price, reach, PARTS ** 2 * spent)
+
+    def least_of_squares(self, price, reach, least):
+        """`least`: what a move that it may make costs, or less."""
+        weight, parts = self.weight, PARTS ** 2
+        kinks = self.sums(self.grid.kink_rows, self.areas, reach)
+        asked = []
+        for y in range(-reach, reach):
+            lower, upper = price[y + reach], price[y + reach + 1]
+            for x in range(-reach, reach):
+                square = max(x, -x - 1) ** 2 + max(y, -y - 1) ** 2  # of its nearest place
+                if parts * weight * square >= least or not self.may_go(square):
+                    continue
+                k = x + reach
+                less = parts // 4 * kinks[y + reach][k]
+                corners = lower[k], lower[k + 1], upper[k], upper[k + 1]
+                roughly = parts * (weight * square + min(corners)) - less
+                if roughly < least:
+                    asked.append((roughly, x, y, corners, less, parts * weight * square))
+        asked.sort()
+        for roughly, x, y, corners, less, way in asked:
+            if roughly >= least:
+                break
+            paid = least_of_parts(x, y, corners, weight) - (weight + 1) // 2 - less
+            least = min(least, max(roughly, way, paid))
+        return least
+
+
+def least_of_parts(x, y, corners, weight):
+    """The least at corners of the parts of a square."""
+    a, b, c, d = corners
+    found = []
+    for v in range(PARTS + 1):
+        left, right, up = (PARTS - v) * a + v * c, (PARTS - v) * b + v * d, weight * (PARTS * y + v) ** 2
+        found += [(PARTS - u) * left + u * right + weight * (PARTS * x + u) ** 2 + up for u in range(PARTS + 1)]
+    return min(found)
+
+
+def cut_out(row, start, n):
+    """n from there, 0 where the row has none."""
+    before = min(max(0, -start), n)
+    own = row[max(start, 0):max(start + n, 0)]
+    return array("Q", bytes(8 * before)) + own + array("Q", bytes(8 * (n - before - len(own))))
+
+
+def number(digits):
+    return int.from_bytes(digits.tobytes(), "little")
