@@ -15,6 +15,7 @@ from collections import Counter
 from contextlib import redirect_stdout
 
 import check_proof
+from price_mutations import PRICES
 
 CUTS = {"hull": "not forbidden", "disc": "may be cheap", "cone": "do not cover", "limit": "what the limit leaves"}
 
@@ -226,11 +227,13 @@ def raise_tree(tree):
     return ("the tree proves", "may be cheap", "not forbidden")
 
 
+BODIES = {"heavier": heavier, "nailed": nail_down, "joined": join_bodies}  # of trees and of prices
+
 TREES = {"forces": change_forces, "pull": pull, "elsewhere": force_from_elsewhere, "child": drop_child,
          "no forces": drop_forces_of_a_leaf, "unnamed": unname, "part": move_part, "anchor": move_anchor,
          "shade": move_shade,
          "side": move_side, "side anchor": leave_feature,
-         "shadow": fill_shadow, "held": hold_farther, "depth": hold_higher, "in it": part, "heavier": heavier, "nailed": nail_down, "joined": join_bodies, "raised": raise_tree,
+         "shadow": fill_shadow, "held": hold_farther, "depth": hold_higher, "in it": part, "raised": raise_tree,
          **{kind: push_cut(kind) for kind in CUTS}}
 
 
@@ -462,10 +465,15 @@ def raise_bound(lines):
 
 
 def list_pair(lines):
-    piece = next((p for p in lines[-1]["pieces"] if not p.get("shadow") and "clearance" not in p), None)
-    if piece is None:
-        return False
-    lines.insert(1, {"conflict": 0, "a": piece["a"], "b": piece["b"], "kind": "too_close", "reason": "unresolved",
+    """A pair that is taken to owe the gap: of a piece, or of two that pay for their area."""
+    if "prices" in lines[-1]:
+        a, b = (body["features"][-1]["fid"] for body in lines[-1]["bodies"][:2])
+    else:
+        piece = next((p for p in lines[-1]["pieces"] if not p.get("shadow") and "clearance" not in p), None)
+        if piece is None:
+            return False
+        a, b = piece["a"], piece["b"]
+    lines.insert(1, {"conflict": 0, "a": a, "b": b, "kind": "too_close", "reason": "unresolved",
                      "blocked_by": []})
     lines[0]["conflicts"] += 1
     return ("are listed",)
@@ -479,7 +487,7 @@ def other_gap(lines):
 def list_overlap(lines):
     """Pairs that the list says to be parted, and which are held to that, listed as overlapping."""
     of = {}
-    for piece in lines[-1]["pieces"]:
+    for piece in lines[-1].get("pieces", []):
         if piece.get("clearance") == 0:
             of[frozenset((str(piece["a"]), str(piece["b"])))] = True
     for line in lines:
@@ -543,8 +551,10 @@ class Asker:
         of = Counter(t["group"] for t in self.lines if "group" in t)
         trees = sorted((t for t in self.lines if "group" in t and of[t["group"]] == 1), key=lambda t: len(json.dumps(t)))
         alone = [(self.alone(tree=t), -1) for t in trees]
-        for name, mutate in TREES.items():
-            self.ask(name, alone, lambda lines, at, m=mutate: m(lines[at]))
+        for kind, mutations in (("bodies", BODIES), ("nodes", TREES), ("prices", PRICES)):
+            own = [(lines, at) for lines, at in alone if kind in lines[at]]
+            for name, mutate in mutations.items():
+                self.ask(name, own, lambda lines, at, m=mutate: m(lines[at]))
         for name, mutate in WHOLE.items():
             self.ask(name, alone, lambda lines, at, m=mutate: m(lines))
         proofs = sorted((t for t in self.lines if "proof" in t), key=lambda t: len(json.dumps(t)))

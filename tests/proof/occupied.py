@@ -155,7 +155,8 @@ def take(column, side, a, b, below, above, found):
     whole = 24 * (b - a) * side, 12 * squares, 12 * (b - a) * side * side, 6 * squares * side
     for row in range(first, last):
         add(found[column, row], whole, 1)
-    add(found[column, last], under(a, b, *(y - last * side for y in above)), 1)
+    if sum(above) > 2 * last * side:
+        add(found[column, last], under(a, b, *(y - last * side for y in above)), 1)
     add(found[column, first], under(a, b, *(y - first * side for y in below)), -1)
 
 

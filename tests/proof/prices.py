@@ -1,4 +1,4 @@
-"""The lower bound by prices of area: docs/PROOF.md, section 4, in whole numbers."""
+"""The lower bound by prices of area: docs/PROOF.md, section 5, in whole numbers."""
 from array import array
 from fractions import Fraction
 from math import isqrt

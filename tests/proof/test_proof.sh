@@ -202,6 +202,57 @@ for symbol in square:4 rectangle:5x3 'POLYGON ((-2 -1,2 -2,1 3,-2 -1))'; do
     grep -q '"reason": "max_shift".*"proof": ' points.jsonl || fail "symbols: $(cat points.jsonl)"
 done
 
+# A crowd on one place, of which the price of ground proves more than trees do: symbols; and buildings that lie on each
+# other, some with a corner cut out, three of them one block, some pairs given up.
+python3 -c '
+from random import Random
+r = Random(7)
+print("WKT,w")
+for k in range(14):
+    print(f"\"POINT({500000 + r.gauss(0, 2):.3f} {5000000 + r.gauss(0, 2):.3f})\",1")' | layer pile.gpkg buildings POINT
+proved pile pile.gpkg --symbol square:10
+refuted pile pile.gpkg --symbol square:10 --need price --need "price below 0" --need "priced border" --need "priced side" --need "wide row" \
+    --need "raised prices" --need "raised unit" --need "odd unit" --need "halved side" --need "moved grid" --need "payer twice" \
+    --need "left out" --need "shifted payer" --need listed --need heavier --need nailed --need joined --need twice --need bound
+python3 -c '
+from math import cos, sin
+from random import Random
+r = Random(5)
+print("WKT,k")
+for k in range(15):
+    x, y, a, w, h = r.gauss(600000, 4), r.gauss(5000000, 4), r.uniform(0, 6), r.uniform(8, 12), r.uniform(6, 9)
+    cut = [(w, h / 3), (w / 3, h / 3), (w / 3, h)] if k % 3 == 0 else [(w, h)]
+    ring = ", ".join(f"{x + cos(a) * u - sin(a) * v:.2f} {y + sin(a) * u + cos(a) * v:.2f}" for u, v in [(0, 0), (w, 0)] + cut + [(0, h)])
+    print(f"\"POLYGON(({ring}))\",{1 if k in (2, 3, 7) else 100 + k}")' | layer lying.gpkg buildings POLYGON
+lying=(--gap 2 --no-blocks --block-field k --contained separate)
+proved lying lying.gpkg "${lying[@]}"
+refuted lying lying.gpkg "${lying[@]}" --need price --need "parted block" --need listed --need joined
+proved limited pile.gpkg --symbol square:10 --max-shift 14
+for name in pile lying limited; do grep -q '"prices": ' $name.jsonl || fail "$name: no prices"; done
+PYTHONPATH=$here python3 - <<'END' || fail "what is occupied of squares"
+from fractions import Fraction
+import prices, occupied
+class Own(occupied.Lattice):
+    def __init__(self, gap): self.shift, self.side, self.disc = 0, S, occupied.polygon_in_disc(gap * S // 2)
+S = 1 << 44
+def ring(*corners): return [[(int(Fraction(x) * S), int(Fraction(y) * S)) for x, y in corners]]
+def total(gap, *polygons):
+    lattice = Own(Fraction(gap))
+    _, hats, areas = occupied.masses(occupied.in_squares(polygons, lattice), lattice)
+    least, most = sum(map(sum, hats)) / 2**20, sum(map(sum, areas)) / 2**20
+    assert least <= most < least + 1e-3
+    return round(least, 3)
+def box(a, b, c, d): return ring((a, b), (c, b), (c, d), (a, d))
+assert total(0, box("0.3", "0.2", "3.8", "2.1")) == 6.65
+assert total(0, box(0, 0, 3, 3), box(2, 2, 5, 5), box("2.5", "0.5", "3.5", "2.5")) == 17.75  # what members share counts once
+assert total(0, box(0, 0, 9, 9) + box(2, 2, 5, 4)) == 75  # a hole
+assert total(0, ring((0, 0), (4, 1), (1, 3)), ring((0, 3), (3, 0), (4, 2))) == 7.158  # edges that cross
+assert total(2, box(0, 0, 4, 4)) == 35.121  # 4 by 4, a border of 1, and 16 sin(pi / 16) at its corners
+_, hats, _ = occupied.masses(occupied.in_squares([box(0, 0, 1, 1)], Own(0)), Own(0))
+assert hats == [[1 << 18] * 2] * 2
+assert prices.find_kinks([[0] * 6, [0] * 6, [0, 0, 5, 0, 0, 0], [0] * 6, [0] * 6]) == [[10, 5, 10, 0], [5, 0, 5, 0], [10, 5, 10, 0]]
+END
+
 # As often as it is asked, on however many threads, the same bytes.
 cp roads.jsonl first.jsonl
 proved roads "$town" --gap 3 --max-shift 10 --barrier "$roads"

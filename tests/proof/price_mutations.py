@@ -1,0 +1,94 @@
+"""What mutations.py does to a line with prices: False where it has nothing of the kind; else the words of the refusal."""
+import copy
+
+FALLS_SHORT = "the prices prove"
+
+
+def raise_node(line):
+    """A price so high that nobody goes there, so that its worth is lost."""
+    row = max(line["prices"]["rows"], key=lambda r: max(r[1:], default=0))
+    at = max(range(1, len(row)), key=row.__getitem__)
+    row[at] *= 1000
+    return (FALLS_SHORT,)
+
+
+def sink_node(line):
+    row = max(line["prices"]["rows"], key=len)
+    row[1] = -1
+    return ("whole numbers",)
+
+
+def price_border(line):
+    line["prices"]["rows"][1] = [line["prices"]["columns"] // 2, 1]
+    return ("at the border",)
+
+
+def price_side(line):
+    row = max(line["prices"]["rows"], key=len)
+    row[:] = [1] + [1] * (row[0] - 1) + row[1:]
+    return ("at the border",)
+
+
+def widen_row(line):
+    row = max(line["prices"]["rows"], key=len)
+    row += [0] * line["prices"]["columns"]
+    return ("too many prices",)
+
+
+def raise_claim(line):
+    line["bound"] *= 1.05
+    return (FALLS_SHORT,)
+
+
+def raise_unit(line):
+    line["prices"]["unit"] *= 8
+    return (FALLS_SHORT,)
+
+
+def odd_unit(line):
+    line["prices"]["unit"] *= 1.5
+    return ("powers of two",)
+
+
+def halve_side(line):
+    line["prices"]["side"] /= 2
+    return (FALLS_SHORT,)
+
+
+def move_grid(line):
+    line["prices"]["x"] += 7
+    return (FALLS_SHORT,)
+
+
+def pay_twice(line):
+    line["bodies"].append(copy.deepcopy(line["bodies"][0]))
+    return ("pays twice",)
+
+
+def leave_out(line):
+    """A third of the bodies, while the bound stays."""
+    del line["bodies"][::3]
+    return (FALLS_SHORT,)
+
+
+def shift_body(line):
+    line["bodies"][0]["shift"] = [1, 0]
+    return ("has no shift",)
+
+
+def part_block(line):
+    """Members of a block that pay by themselves."""
+    for body in line["bodies"]:
+        if len(body["features"]) > 1:
+            other = copy.deepcopy(body)
+            other["features"] = [body["features"].pop()]
+            body["weight"] = other["weight"] = 1
+            line["bodies"].append(other)
+            return ("no block",)
+    return False
+
+
+PRICES = {"price": raise_node, "price below 0": sink_node, "priced border": price_border, "priced side": price_side,
+          "wide row": widen_row, "raised prices": raise_claim, "raised unit": raise_unit, "odd unit": odd_unit,
+          "halved side": halve_side, "moved grid": move_grid, "payer twice": pay_twice, "left out": leave_out,
+          "shifted payer": shift_body, "parted block": part_block}
