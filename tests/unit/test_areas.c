@@ -1,0 +1,427 @@
+/* displacement/areas: masses against integrals of another kind; what prices prove against what random moves pay. */
+#include "displacement/areas/areas.h"
+#include "failing.h"
+#include "random.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { MOST_CORNERS = 48, MOST_NODES = 96, COPIES = 8192 };
+
+/* ---- Bodies ------------------------------------------------------------------------------------------------------ */
+
+typedef struct body {
+    double xy[4 * MOST_CORNERS];
+    size_t ring_end[2];
+    sunder_i_outline outline;
+} body;
+
+/* Corners about a place, turning to the left, or to the right; so many that it is within the ring. */
+static void draw_ring(rng *g, sunder_i_outline *o, const double at[2], double least, double most, bool left)
+{
+    const size_t from = o->rings ? o->ring_end[o->rings - 1] : 0, n = (size_t)rng_int(g, 5, MOST_CORNERS);
+    for (size_t k = 0; k < n; k++) {
+        const double angle = 6.283185307179586 * ((double)k + 0.9 * rng_unit(g)) / (double)n * (left ? 1 : -1);
+        const double r = least + (most - least) * rng_unit(g);
+        o->xy[2 * (from + k)] = at[0] + r * cos(angle);
+        o->xy[2 * (from + k) + 1] = at[1] + r * sin(angle);
+    }
+    o->ring_end[o->rings++] = from + n;
+}
+
+/* An L whose corners are at multiples of `step`. */
+static void draw_corner(rng *g, sunder_i_outline *o, const double at[2], double size, double step)
+{
+    const int64_t most = (int64_t)(size / step) + 3;
+    const double a = (double)rng_int(g, 2, most), b = (double)rng_int(g, 2, most);
+    const double c = (double)rng_int(g, 1, (int64_t)a - 1), d = (double)rng_int(g, 1, (int64_t)b - 1);
+    const double corner[] = {0, 0, a, 0, a, d, c, d, c, b, 0, b};
+    for (size_t k = 0; k < 12; k++) o->xy[k] = step * (round(at[k & 1] / step) + corner[k]);
+    o->ring_end[o->rings++] = 6;
+}
+
+/* So large, so far from the origin; with a hole now and then. step > 0: all of its numbers are multiples. */
+static void draw_body(rng *g, double size, double far, double step, body *b)
+{
+    const double at[2] = {far * (2 * rng_unit(g) - 1), far * (2 * rng_unit(g) - 1)};
+    sunder_i_outline *o = &b->outline;
+    *o = (sunder_i_outline){.xy = b->xy, .ring_end = b->ring_end};
+    if (step > 0)
+        draw_corner(g, o, at, size, step);
+    else
+        draw_ring(g, o, at, 0.3 * size, size, true);
+    if (step == 0 && rng_once_in(g, 3)) draw_ring(g, o, at, 0.01 * size, 0.1 * size, false);
+    o->box[0] = o->box[1] = INFINITY;
+    o->box[2] = o->box[3] = -INFINITY;
+    for (size_t k = 0; k < 2 * o->ring_end[o->rings - 1]; k++) {
+        o->box[k & 1] = fmin(o->box[k & 1], o->xy[k]);
+        o->box[2 + (k & 1)] = fmax(o->box[2 + (k & 1)], o->xy[k]);
+    }
+}
+
+/* ---- Integrals of hats, another way: under each edge, by pieces that lie in one square each ---------------------- */
+
+typedef struct table {
+    int64_t x, y; /* node of at[0], of all the plane */
+    size_t columns, rows;
+    long double *at;
+} table;
+
+static void give(const table *t, int64_t i, int64_t j, const long double one[4], long double sign)
+{
+    long double *at = t->at + (size_t)(j - t->y) * t->columns + (size_t)(i - t->x);
+    at[0] += sign * (one[0] - one[1] - one[2] + one[3]);
+    at[1] += sign * (one[1] - one[3]);
+    at[t->columns] += sign * (one[2] - one[3]);
+    at[t->columns + 1] += sign * one[3];
+}
+
+/* What is between the piece and the floor of the table. */
+static void give_under(const table *t, const long double p[2], const long double q[2])
+{
+    const long double dx = q[0] - p[0];
+    const int64_t i = (int64_t)floorl((p[0] + q[0]) / 2), j = (int64_t)floorl((p[1] + q[1]) / 2);
+    const long double a = p[0] - (long double)i, b = q[0] - (long double)i;
+    const long double c = p[1] - (long double)j, d = q[1] - (long double)j;
+    const long double whole[4] = {dx, dx * (a + b) / 2, dx / 2, dx * (a + b) / 4};
+    for (int64_t row = t->y; row < j; row++) give(t, i, row, whole, 1);
+    const long double part[4] = {dx * (c + d) / 2, dx * (a * (2 * c + d) + b * (c + 2 * d)) / 6,
+                                 dx * (c * c + c * d + d * d) / 6,
+                                 dx * (a * (3 * c * c + 2 * c * d + d * d) + b * (c * c + 2 * c * d + 3 * d * d)) / 24};
+    give(t, i, j, part, 1);
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const long double x = *(const long double *)a, y = *(const long double *)b;
+    return (x > y) - (x < y);
+}
+
+/* An edge from right to left is above what it gives. */
+static void give_edge(const table *t, const long double p[2], const long double q[2])
+{
+    static long double share[4 * 8192];
+    size_t n = 0;
+    share[n++] = 0;
+    share[n++] = 1;
+    for (int c = 0; c < 2; c++)
+        for (long double at = ceill(fminl(p[c], q[c])); at < fmaxl(p[c], q[c]) && p[c] != q[c]; at++)
+            share[n++] = (at - p[c]) / (q[c] - p[c]);
+    qsort(share, n, sizeof *share, by_size);
+    for (size_t k = 0; k + 1 < n; k++) {
+        long double a[2], b[2];
+        for (int c = 0; c < 2; c++) {
+            a[c] = p[c] + share[k] * (q[c] - p[c]);
+            b[c] = p[c] + share[k + 1] * (q[c] - p[c]);
+        }
+        if (share[k] < share[k + 1]) give_under(t, b, a);
+    }
+}
+
+/* Of the body when it moved by (dx, dy) squares; at[] is the caller's. */
+static table integrate(const sunder_i_outline *o, double side, long double dx, long double dy)
+{
+    const long double move[2] = {dx, dy};
+    table t = {.x = (int64_t)floorl(o->box[0] / side + dx) - 1, .y = (int64_t)floorl(o->box[1] / side + dy) - 1};
+    t.columns = (size_t)((int64_t)ceill(o->box[2] / side + dx) + 3 - t.x);
+    t.rows = (size_t)((int64_t)ceill(o->box[3] / side + dy) + 3 - t.y);
+    t.at = calloc(t.columns * t.rows, sizeof *t.at);
+    assert_non_null(t.at);
+    for (size_t r = 0, from = 0; r < o->rings; from = o->ring_end[r++])
+        for (size_t k = from; k < o->ring_end[r]; k++) {
+            const size_t next = k + 1 < o->ring_end[r] ? k + 1 : from;
+            long double p[2], q[2];
+            for (int c = 0; c < 2; c++) {
+                p[c] = (long double)o->xy[2 * k + (size_t)c] / side + move[c];
+                q[c] = (long double)o->xy[2 * next + (size_t)c] / side + move[c];
+            }
+            give_edge(&t, p, q);
+        }
+    return t;
+}
+
+/* ---- Masses ------------------------------------------------------------------------------------------------------ */
+
+static void check_masses(const body *b, const sunder_i_grid *grid)
+{
+    sunder_i_masses m;
+    assert_true(sunder_i_masses_make(&b->outline, grid, &m));
+    const table t = integrate(&b->outline, grid->side, 0, 0);
+    int64_t total = 0;
+    for (size_t j = 0; j < t.rows; j++)
+        for (size_t i = 0; i < t.columns; i++) {
+            const long double own = t.at[j * t.columns + i] * (long double)SUNDER_I_MASS_OF_SQUARE;
+            const int64_t x = t.x + (int64_t)i - grid->x - m.x, y = t.y + (int64_t)j - grid->y - m.y;
+            if (x < 0 || y < 0 || x >= (int64_t)m.columns || y >= (int64_t)m.rows) {
+                assert_true(fabsl(own) < 1e-3L);
+                continue;
+            }
+            const int32_t at = m.at[(size_t)y * m.columns + (size_t)x];
+            total += at;
+            if (at == 0) assert_true(own > -1e-3L);
+            if (at > 0) assert_true((long double)at <= own);
+            assert_true((long double)(at + m.slack) >= own);
+        }
+    assert_int_equal(total, m.total);
+    free(t.at);
+    sunder_i_masses_free(&m);
+}
+
+static void test_masses(void **state)
+{
+    for (size_t k = 0; k < test_count(200); k++) {
+        rng g = rng_start(test_seed(), k);
+        body b;
+        const double side = ldexp(1, (int)rng_int(&g, -12, 12));
+        const double size = side * pow(10, 4.5 * rng_unit(&g) - 2.5), far = side * pow(10, 9 * rng_unit(&g) - 2);
+        draw_body(&g, size, far, rng_once_in(&g, 3) ? side / 4 : 0, &b);
+        check_masses(&b, &(sunder_i_grid){.side = side, .x = rng_int(&g, -99, 99), .y = 7, .columns = 9, .rows = 9});
+    }
+}
+
+/* ---- What prices prove ------------------------------------------------------------------------------------------- */
+
+typedef struct market {
+    body body;
+    sunder_i_prices prices;
+    sunder_i_payer payer;
+    uint32_t price[MOST_NODES * MOST_NODES];
+} market;
+
+/* A plateau, or a hill, less noise, holes of one node each, or valleys along one axis; nothing in the two outermost
+ * rows and columns. */
+static void draw_prices(rng *g, sunder_i_prices *p, double height)
+{
+    const int kind = (int)rng_int(g, 0, 4);
+    const sunder_i_grid *l = &p->grid;
+    const double depth = rng_once_in(g, 4) ? 1 : 0.3 * rng_unit(g);
+    for (size_t j = 0; j < l->rows; j++)
+        for (size_t i = 0; i < l->columns; i++) {
+            const double u = 2.0 * (double)i / (double)l->columns - 1, v = 2.0 * (double)j / (double)l->rows - 1;
+            const double own = kind == 0   ? rng_unit(g)
+                               : kind == 1 ? rng_once_in(g, 6)
+                               : kind == 2 ? fmin(1, u * u + v * v)
+                                           : (kind == 3 ? i : j) % 4 == 0;
+            const bool inner = i >= 2 && j >= 2 && i + 2 < l->columns && j + 2 < l->rows;
+            p->price[j * l->columns + i] = inner ? (uint32_t)(height * (1 - depth * own)) : 0;
+        }
+}
+
+/* Bodies as small as a part of a square meet kinks with all that they have. */
+static void draw_market(rng *g, market *m)
+{
+    const double side = ldexp(1, (int)rng_int(g, -3, 3)), far = rng_once_in(g, 2) ? 0 : 1e6;
+    const double size = rng_once_in(g, 3) ? 4 * rng_unit(g) : 0.15 + 0.3 * rng_unit(g),
+                 height = pow(2, 7 + 9 * rng_unit(g));
+    sunder_i_grid *l = &m->prices.grid;
+    draw_body(g, side * size, far, rng_once_in(g, 3) ? side / 8 : 0, &m->body);
+    const double *box = m->body.outline.box;
+    l->side = side;
+    l->columns = (size_t)rng_int(g, 9, 24);
+    l->rows = (size_t)rng_int(g, 9, 24);
+    l->x = (int64_t)floor((box[0] + box[2]) / (2 * side)) - (int64_t)l->columns / 2;
+    l->y = (int64_t)floor((box[1] + box[3]) / (2 * side)) - (int64_t)l->rows / 2;
+    m->prices.price = m->price;
+    m->prices.unit = ldexp(1, (int)rng_int(g, -14, 4));
+    draw_prices(g, &m->prices, height);
+    assert_true(sunder_i_masses_make(&m->body.outline, l, &m->payer.masses));
+    /* So that what it pays to stay takes it some squares far. */
+    const double stays = height * m->prices.unit * (double)m->payer.masses.total / (double)SUNDER_I_MASS_OF_SQUARE;
+    m->payer.weight = fmax(stays / pow(1 + 7 * rng_unit(g), 2), m->prices.unit * 0x1p-18);
+    m->payer.limit = rng_once_in(g, 3) ? side * 5 * rng_unit(g) : INFINITY;
+}
+
+static double worth_of(const sunder_i_prices *p)
+{
+    double sum = 0;
+    for (size_t k = 0; k < sunder_i_grid_nodes(&p->grid); k++) sum += p->price[k];
+    return sum * p->unit * p->grid.side * p->grid.side;
+}
+
+/* What one pays by a move of so many squares. */
+static long double paid_at(const market *m, const double t[2])
+{
+    const sunder_i_prices *p = &m->prices;
+    const sunder_i_grid *l = &p->grid;
+    const table own = integrate(&m->body.outline, l->side, t[0], t[1]);
+    long double sum = 0;
+    for (size_t j = 0; j < own.rows; j++)
+        for (size_t i = 0; i < own.columns; i++) {
+            const int64_t x = own.x + (int64_t)i - l->x, y = own.y + (int64_t)j - l->y;
+            if (x < 0 || y < 0 || x >= (int64_t)l->columns || y >= (int64_t)l->rows) continue;
+            sum += own.at[j * own.columns + i] * p->price[(size_t)y * l->columns + (size_t)x];
+        }
+    free(own.at);
+    return (sum * p->unit + (long double)m->payer.weight * (t[0] * t[0] + t[1] * t[1])) * l->side * l->side;
+}
+
+/* A move within the limit, in squares: any, to a node, or as far as it may go. */
+static void draw_move(rng *g, const market *m, double limit, double at[2])
+{
+    const double *box = m->body.outline.box, reach = fmin(limit, 8);
+    const int kind = (int)rng_int(g, 0, 4);
+    for (int c = 0; c < 2; c++) {
+        const double middle = (box[c] + box[c + 2]) / (2 * m->prices.grid.side);
+        at[c] = kind == 0 ? 0 : reach * (2 * rng_unit(g) - 1);
+        if (kind > 2) at[c] = round(middle + at[c]) - middle;
+    }
+    const double far = hypot(at[0], at[1]), most = limit * (1 - 1e-9);
+    if (far > most || (kind == 1 && isfinite(limit)))
+        for (int c = 0; c < 2; c++) at[c] *= far > 0 ? most / far : 0;
+}
+
+/* Nobody finds a place that is cheaper than what is proved: from a random one by shorter and shorter steps downwards. */
+static void seek_cheaper(rng *g, const market *m, long double least)
+{
+    const double limit = m->payer.limit / m->prices.grid.side;
+    double at[2];
+    draw_move(g, m, limit, at);
+    long double paid = paid_at(m, at);
+    for (double step = 1; step > 0.01; step *= 0.7) {
+        const double to[2] = {at[0] + step * (2 * rng_unit(g) - 1), at[1] + step * (2 * rng_unit(g) - 1)};
+        if (hypot(to[0], to[1]) > limit) continue;
+        const long double there = paid_at(m, to);
+        if (there < paid) {
+            paid = there;
+            memcpy(at, to, sizeof at);
+        }
+    }
+    if (paid < least) fail_msg("by (%g, %g) squares %.17Lg is paid, and not %.17Lg", at[0], at[1], paid, least);
+}
+
+/* So many of one kind that the worth of all area is little beside what they pay. */
+static double prove_copies(const market *m)
+{
+    static sunder_i_payer payer[COPIES];
+    double bound;
+    for (size_t k = 0; k < COPIES; k++) payer[k] = m->payer;
+    assert_true(sunder_i_prices_prove(&m->prices, payer, COPIES, &bound));
+    return bound;
+}
+
+static void test_prices(void **state)
+{
+    static market m;
+    size_t proved = 0;
+    const size_t cases = test_count(50);
+    for (size_t k = 0; k < cases; k++) {
+        rng g = rng_start(test_seed(), 1000 + k);
+        draw_market(&g, &m);
+        const double bound = prove_copies(&m);
+        proved += bound > 0;
+        if (bound > 0) {
+            const long double least = ((long double)bound + worth_of(&m.prices)) / COPIES;
+            for (int n = 0; n < 30; n++) seek_cheaper(&g, &m, least * (1 - 1e-12L));
+        }
+        sunder_i_masses_free(&m.payer.masses);
+    }
+    assert_true(4 * proved > cases);
+}
+
+/* What stands still pays for where it is, but for what kinks and rounding may take; and prices at the border prove
+ * nothing, nor do weights that are too small or too large for the unit. */
+static void test_limits(void **state)
+{
+    static market m;
+    rng g = rng_start(test_seed(), 5000);
+    draw_body(&g, 4, 0, 0, &m.body);
+    m.prices = (sunder_i_prices){{.side = 1, .x = -20, .y = -20, .columns = 41, .rows = 41}, 1, m.price};
+    for (size_t k = 0; k < 41 * 41; k++) {
+        const double u = (double)(k % 41) - 20, v = (double)(k / 41) - 20;
+        m.price[k] = fabs(u) > 18 || fabs(v) > 18 ? 0 : (uint32_t)(2 * (800 - u * u - v * v));
+    }
+    assert_true(sunder_i_masses_make(&m.body.outline, &m.prices.grid, &m.payer.masses));
+    m.payer.weight = 1;
+    m.payer.limit = 0;
+    const double stays = prove_copies(&m), here[2] = {0, 0};
+    const long double least = ((long double)stays + worth_of(&m.prices)) / COPIES, paid = paid_at(&m, here);
+    assert_true(least <= paid && least > 0.9L * paid);
+    double before = stays;
+    for (m.payer.limit = 1; m.payer.limit < 20; m.payer.limit *= 2) {
+        const double bound = prove_copies(&m);
+        assert_true(bound > 0 && bound <= before);
+        before = bound;
+    }
+    m.payer.limit = 4 * (1 - 0x1p-40); /* squares that it may only just reach, or not */
+    before = prove_copies(&m);
+    m.payer.limit = 4;
+    assert_true(prove_copies(&m) < before);
+    m.payer.weight = 0x1p-30;
+    assert_true(prove_copies(&m) == 0);
+    m.payer.weight = 0x1p40;
+    assert_true(prove_copies(&m) == 0);
+    m.payer.weight = 1;
+    m.payer.limit = 8;
+    for (size_t k = 0; k < 4; k++) {
+        uint32_t *const border[] = {m.price + 20, m.price + 41 * 20 + 1, m.price + 41 * 20 + 39, m.price + 41 * 39 + 9};
+        *border[k] = 1;
+        assert_true(prove_copies(&m) == 0);
+        *border[k] = 0;
+    }
+    assert_true(prove_copies(&m) > 0);
+    sunder_i_masses_free(&m.payer.masses);
+}
+
+/* ---- Ascent ------------------------------------------------------------------------------------------------------ */
+
+/* A coarser grid's prices reach the border; of what comes of them none is within two rows and columns of it. */
+static void test_border(void **state)
+{
+    static market m;
+    static float price[41 * 41];
+    for (size_t k = 0; k < 12; k++) {
+        rng g = rng_start(test_seed(), 6000 + k);
+        draw_body(&g, 4, 0, 0, &m.body);
+        const sunder_i_grid grid = {.side = 1, .x = -20, .y = -20, .columns = 41, .rows = 41};
+        assert_true(sunder_i_masses_make(&m.body.outline, &grid, &m.payer.masses));
+        sunder_i_payer payer[6];
+        for (size_t i = 0; i < 6; i++) payer[i] = (sunder_i_payer){1, INFINITY, m.payer.masses};
+        for (size_t i = 0; i < 41 * 41; i++) price[i] = (float)(40 * rng_unit(&g));
+        assert_true(sunder_i_prices_ascend(&grid, payer, 6, 1, (unsigned)k, price));
+        for (size_t i = 0; i < 41 * 41; i++) {
+            const size_t x = i % 41, y = i / 41;
+            if (x < 2 || y < 2 || x > 38 || y > 38) assert_true(price[i] == 0);
+        }
+        sunder_i_masses_free(&m.payer.masses);
+    }
+}
+
+/* ---- Memory ------------------------------------------------------------------------------------------------------ */
+
+static bool attempt(void *context)
+{
+    market *m = context;
+    float price[21 * 21] = {0};
+    double bound;
+    sunder_i_payer payer[5];
+    const bool made = sunder_i_masses_make(&m->body.outline, &m->prices.grid, &m->payer.masses);
+    for (size_t k = 0; k < 5; k++) payer[k] = (sunder_i_payer){1, INFINITY, m->payer.masses};
+    const bool ok = made && sunder_i_prices_ascend(&m->prices.grid, payer, 5, 1, 3, price) &&
+                    sunder_i_prices_prove(&m->prices, payer, 5, &bound);
+    sunder_i_masses_free(&m->payer.masses);
+    return ok;
+}
+
+static void test_memory(void **state)
+{
+    static market m;
+    rng g = rng_start(test_seed(), 7000);
+    draw_body(&g, 2, 0, 0, &m.body);
+    m.prices = (sunder_i_prices){{.side = 1, .x = -10, .y = -10, .columns = 21, .rows = 21}, 1, m.price};
+    m.price[10 * 21 + 10] = 30;
+    assert_true(failing_loop(attempt, &m, false));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_masses), cmocka_unit_test(test_prices),
+                                       cmocka_unit_test(test_limits), cmocka_unit_test(test_border),
+                                       cmocka_unit_test(test_memory)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
