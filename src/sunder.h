@@ -767,9 +767,9 @@ typedef struct sunder_bound_node {
     size_t i, j, named, names;
 } sunder_bound_node;
 
-/* Prices of area, whole numbers of `unit` a unit of area at the nodes of a lattice: node (i, j) is the place side * (x +
- * i, y + j); bilinear between nodes, 0 beyond them. No two of a tree's bodies share area, so that they cost at least
- * what each pays for moving, and for the area that it stands on, at the least; less the worth of all area. */
+/* Prices of area, whole numbers of `unit` a unit of area at the nodes of a lattice, bilinear between them, 0 beyond:
+ * node (i, j) is the place side * (x + i, y + j). No two of a tree's bodies share area, so that they cost at least what
+ * each pays for moving, and for the area that it stands on, at the least; less the worth of all area. */
 typedef struct sunder_bound_prices {
     double side, unit; /* powers of 2 */
     int64_t x, y;

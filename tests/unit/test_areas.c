@@ -276,7 +276,7 @@ static void draw_move(rng *g, const market *m, double limit, double at[2])
         for (int c = 0; c < 2; c++) at[c] *= far > 0 ? most / far : 0;
 }
 
-/* Nobody finds a place that is cheaper than what is proved: from a random one by shorter and shorter steps downwards. */
+/* Nobody finds a place that is cheaper than what is proved: from a random one by ever shorter steps downwards. */
 static void seek_cheaper(rng *g, const market *m, long double least)
 {
     const double limit = m->payer.limit / m->prices.grid.side;

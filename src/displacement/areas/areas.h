@@ -70,8 +70,8 @@ void sunder_i_masses_free(sunder_i_masses *masses);
 
 /* ---- ascent.c ---------------------------------------------------------------------------------------------------- */
 
-/* Raises prices (of a unit of area, [nodes]) towards those that prove most, in doubles. rounds: how often all payers are
- * asked at most. patience: how far from a payer's cheapest place others count, as a share of a square moved by its
+/* Raises prices (of a unit of area, [nodes]) towards those that prove most, in doubles. rounds: how often all payers
+ * are asked at most. patience: how far from a payer's cheapest place others count, as a share of a square moved by its
  * side. False if memory is out. */
 bool sunder_i_prices_ascend(const sunder_i_grid *grid, const sunder_i_payer *payer, size_t n, double patience,
                             unsigned rounds, float *price);
@@ -79,7 +79,7 @@ bool sunder_i_prices_ascend(const sunder_i_grid *grid, const sunder_i_payer *pay
 /* ---- least.c ----------------------------------------------------------------------------------------------------- */
 
 /* What the prices prove: the sum over payers of the least that each pays, moving and standing, less the worth of all
- * area; rounded downwards. 0 where the numbers get too large, or there are prices in the two outermost rows and columns.
+ * area; rounded downwards. 0 where the numbers get too large, or where the two outermost rows or columns have a price.
  * False if memory is out. */
 bool sunder_i_prices_prove(const sunder_i_prices *prices, const sunder_i_payer *payer, size_t n, double *bound);
 

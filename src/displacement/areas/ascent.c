@@ -110,8 +110,8 @@ static bool ask_payer(ascent *a, const sunder_i_payer *payer, const float *price
     return true;
 }
 
-/* Each node's mean with its neighbours, 1 : 2 : 1 along one axis: from in[] to out[], [nodes]; beyond the border all are
- * 0. */
+/* Each node's mean with its neighbours, 1 : 2 : 1 along one axis: from in[] to out[], [nodes]; beyond the border all
+ * are 0. */
 static void blur_along(const sunder_i_grid *l, size_t stride, const float *in, float *out)
 {
     const size_t nodes = sunder_i_grid_nodes(l);

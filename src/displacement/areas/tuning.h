@@ -46,7 +46,7 @@
         60, 60, 30, 10, 4                                                                                              \
     }
 #define MOST_NODES 4e6
-/* A place counts that is dearer than the cheapest by so great a share of what it costs to move by the size of a body. */
+/* A place counts that is dearer than the cheapest by so great a share of what a move by a body's size costs. */
 #define PATIENCE 0.03
 
 #endif
