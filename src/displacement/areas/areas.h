@@ -76,6 +76,10 @@ void sunder_i_masses_free(sunder_i_masses *masses);
 bool sunder_i_prices_ascend(const sunder_i_grid *grid, const sunder_i_payer *payer, size_t n, double patience,
                             unsigned rounds, float *price);
 
+/* Where each payer is in the mean, as softly: [2 * n] moves. False if memory is out. */
+bool sunder_i_prices_places(const sunder_i_grid *grid, const sunder_i_payer *payer, size_t n, double patience,
+                            const float *price, double *move);
+
 /* ---- least.c ----------------------------------------------------------------------------------------------------- */
 
 /* What the prices prove: the sum over payers of the least that each pays, moving and standing, less the worth of all
@@ -89,5 +93,12 @@ bool sunder_i_prices_prove(const sunder_i_prices *prices, const sunder_i_payer *
  * else *prices, whose numbers are the caller's, are what it stands on. Members are to be united. */
 sunder_status sunder_i_areas_bound(const sunder_i_model *model, const uint32_t *body, size_t n, sunder_i_prices *prices,
                                    double *bound, sunder_error *err);
+
+/* ---- places.c ---------------------------------------------------------------------------------------------------- */
+
+/* Where bodies may begin to be taken apart: [2 * n] moves; *found: false where there are none, and they are as they
+ * were, or have no meaning if it fails. Members are to be united. */
+sunder_status sunder_i_areas_places(const sunder_i_model *model, const uint32_t *body, size_t n, double *move,
+                                    bool *found, sunder_error *err);
 
 #endif

@@ -79,34 +79,64 @@ static int64_t reach_of(const ascent *a, const sunder_i_payer *payer, double sta
     return (int64_t)fmin(reach, payer->limit / a->grid->side);
 }
 
+/* The payer's places, each with its share of it: a->paid, [(2 * reach + 1)^2]. *value: what it pays, softly. False if
+ * memory is out. */
+static bool find_shares(ascent *a, const sunder_i_payer *payer, const float *price, double stays, int64_t *reach,
+                        double *value)
+{
+    const double heat = a->patience * payer->weight;
+    *reach = reach_of(a, payer, stays, heat);
+    const size_t across = (size_t)(2 * *reach + 1), places = across * across;
+    if (!sunder_i_reserve(&a->paid, &a->paid_capacity, places, sizeof *a->paid)) return false;
+    double least = stays, *paid = a->paid, sum = 0;
+    for (int64_t dy = -*reach; dy <= *reach; dy++)
+        for (int64_t dx = -*reach; dx <= *reach; dx++, paid++) {
+            *paid = payer->weight * (double)(dx * dx + dy * dy);
+            if (*paid < least + TOO_DEAR * heat) *paid += price_of(a, &payer->masses, price, dx, dy);
+            least = fmin(least, *paid);
+        }
+    for (size_t k = 0; k < places; k++) {
+        a->paid[k] = a->paid[k] < least + TOO_DEAR * heat ? exp((least - a->paid[k]) / heat) : 0;
+        sum += a->paid[k];
+    }
+    for (size_t k = 0; k < places; k++) a->paid[k] /= sum;
+    *value = least - heat * log(sum);
+    return true;
+}
+
 /* What it pays, softly; slope: where it is then. False if memory is out. */
 static bool ask_payer(ascent *a, const sunder_i_payer *payer, const float *price, float *slope, double *value)
 {
-    const double stays = price_of(a, &payer->masses, price, 0, 0), heat = a->patience * payer->weight;
+    const double stays = price_of(a, &payer->masses, price, 0, 0);
     *value = 0;
     if (!(stays > 0)) {
         occupy(a, &payer->masses, 1, 0, 0, slope);
         return true;
     }
-    const int64_t reach = reach_of(a, payer, stays, heat);
-    const size_t across = (size_t)(2 * reach + 1);
-    if (!sunder_i_reserve(&a->paid, &a->paid_capacity, across * across, sizeof *a->paid)) return false;
-    double least = stays, *paid = a->paid, sum = 0;
+    int64_t reach;
+    if (!find_shares(a, payer, price, stays, &reach, value)) return false;
+    const double *share = a->paid;
     for (int64_t dy = -reach; dy <= reach; dy++)
-        for (int64_t dx = -reach; dx <= reach; dx++, paid++) {
-            *paid = payer->weight * (double)(dx * dx + dy * dy);
-            if (*paid < least + TOO_DEAR * heat) *paid += price_of(a, &payer->masses, price, dx, dy);
-            least = fmin(least, *paid);
+        for (int64_t dx = -reach; dx <= reach; dx++, share++)
+            if (*share > LITTLE) occupy(a, &payer->masses, *share, dx, dy, slope);
+    return true;
+}
+
+/* Where it is in the mean. */
+static bool find_mean(ascent *a, const sunder_i_payer *payer, const float *price, double move[2])
+{
+    const double stays = price_of(a, &payer->masses, price, 0, 0);
+    move[0] = move[1] = 0;
+    if (!(stays > 0)) return true;
+    int64_t reach;
+    double value;
+    if (!find_shares(a, payer, price, stays, &reach, &value)) return false;
+    const double *share = a->paid;
+    for (int64_t dy = -reach; dy <= reach; dy++)
+        for (int64_t dx = -reach; dx <= reach; dx++, share++) {
+            move[0] += *share * (double)dx * a->grid->side;
+            move[1] += *share * (double)dy * a->grid->side;
         }
-    for (size_t k = 0; k < across * across; k++) {
-        a->paid[k] = a->paid[k] < least + TOO_DEAR * heat ? exp((least - a->paid[k]) / heat) : 0;
-        sum += a->paid[k];
-    }
-    paid = a->paid;
-    for (int64_t dy = -reach; dy <= reach; dy++)
-        for (int64_t dx = -reach; dx <= reach; dx++, paid++)
-            if (*paid > LITTLE * sum) occupy(a, &payer->masses, *paid / sum, dx, dy, slope);
-    *value = least - heat * log(sum);
     return true;
 }
 
@@ -245,5 +275,15 @@ bool sunder_i_prices_ascend(const sunder_i_grid *grid, const sunder_i_payer *pay
     }
     sunder_i_free(a.paid);
     sunder_i_free(work);
+    return ok;
+}
+
+bool sunder_i_prices_places(const sunder_i_grid *grid, const sunder_i_payer *payer, size_t n, double patience,
+                            const float *price, double *move)
+{
+    ascent a = {.grid = grid, .payer = payer, .n = n, .patience = patience};
+    bool ok = true;
+    for (size_t k = 0; k < n && ok; k++) ok = sunder_i_step() && find_mean(&a, &payer[k], price, move + 2 * k);
+    sunder_i_free(a.paid);
     return ok;
 }

@@ -49,4 +49,9 @@
 /* A place counts that is dearer than the cheapest by so great a share of what a move by a body's size costs. */
 #define PATIENCE 0.03
 
+/* ---- Places to begin from (places.c) ----------------------------------------------------------------------------- */
+
+/* The room about n bodies, in sizes of one, for each root of n: what stands in one place takes half of that. */
+#define ROOM_ABOUT 0.5
+
 #endif

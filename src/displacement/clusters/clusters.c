@@ -4,6 +4,7 @@
  * components of the edges over bodies that are not fixed; a fixed body is a member of every cluster that has an edge to
  * it, and joins none. */
 #include "displacement/clusters/stages.h"
+#include "displacement/clusters/tuning.h"
 
 #include "base/invariant.h"
 #include "base/sort.h"
@@ -44,6 +45,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->wanted);
     sunder_i_free(s->doubtful);
     sunder_i_free(s->gave_up);
+    sunder_i_free(s->crowd);
     sunder_i_free(s->improved);
     sunder_i_free(s->cheapest);
     sunder_i_free(s->limit);
@@ -74,7 +76,8 @@ sunder_status sunder_i_solver_init(sunder_i_solver *s, sunder_error *err)
     s->wanted = sunder_i_alloc(n, sizeof *s->wanted);
     s->doubtful = sunder_i_alloc(n, sizeof *s->doubtful);
     s->gave_up = sunder_i_calloc(n, sizeof *s->gave_up);
-    if (!s->wanted || !s->doubtful || !s->gave_up) return sunder_i_no_memory(err);
+    s->crowd = sunder_i_calloc(n, sizeof *s->crowd);
+    if (!s->wanted || !s->doubtful || !s->gave_up || !s->crowd) return sunder_i_no_memory(err);
     if (!s->improved || !s->cheapest || !s->parent || !s->dirty || !s->widened || !s->reconsidered || !s->carrier ||
         !sunder_i_changes_init(&s->changes, s->model.things))
         return sunder_i_no_memory(err);
@@ -225,6 +228,16 @@ static bool list_members(sunder_i_solver *s)
     return ok;
 }
 
+/* Many that may go anywhere, and began with no more than half of them together, if they did: what a crowd ran into
+ * changes little of where it is best put. */
+static bool is_new_crowd(const sunder_i_solver *s, const sunder_i_cluster *c)
+{
+    if (!(s->model.rules.effort > 0) || c->limited || c->brief || c->n < CROWD) return false;
+    for (size_t k = 0; k < c->n; k++)
+        if (s->crowd[c->body[k]] > c->n / 2) return false;
+    return true;
+}
+
 /* Clusters from the edges, afresh. */
 sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
 {
@@ -250,6 +263,7 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
         c->body = s->body + first;
         c->n = end - first;
         c->margin = sunder_i_solver_margin(s, c->body, c->n);
+        c->crowd = is_new_crowd(s, c);
     }
     SUNDER_I_CHECK(check(s), s->members);
     return SUNDER_OK;

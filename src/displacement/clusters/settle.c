@@ -44,6 +44,7 @@ static void note_solved(sunder_i_solver *s)
         for (size_t m = 0; m < c->n; m++) {
             s->improved[c->body[m]] = false;
             s->cheapest[c->body[m]] = c->cheapest;
+            if (c->crowd) s->crowd[c->body[m]] = (uint32_t)c->n;
         }
     }
 }

@@ -61,6 +61,7 @@ typedef struct sunder_i_solver {
     uint64_t *alone_work; /* [bodies] what those questions took in vain, by one body of each pair */
     bool *wanted;         /* [bodies] what is sought is sought of the clusters that have one of these (clusters.c) */
     bool *doubtful;       /* [bodies] and of those of such is asked again whether they have a solution */
+    uint32_t *crowd;      /* [bodies] in how large a crowd it began where prices of area put it; 0: in none */
     bool *gave_up;        /* [bodies] of pairs that were given up since this was last cleared */
     bool *improved;       /* [bodies] better sides were looked for since the body's cluster was solved */
     bool *cheapest; /* [bodies] there are none: it stands where a solution had it that was known to be the cheapest */

@@ -272,3 +272,11 @@ sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, 
     uniting u = {model, body};
     return sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_SHAPES, unite_some, &u, err);
 }
+
+/* Members' weights are added, and what that may round by taken off. */
+double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body)
+{
+    double w = 0;
+    for (uint32_t k = 0; k < body->members; k++) w += model->layer->feature[model->member[body->member + k]].weight;
+    return body->members > 1 ? w * (1 - body->members * 0x1p-52) : w;
+}

@@ -225,6 +225,8 @@ double sunder_i_farthest_near(const sunder_i_model *model, uint32_t p, uint32_t 
 sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 /* The shape of a body: its only member's, or the union. NULL if it was not united or is empty. */
 const sunder_shape *sunder_i_model_shape(const sunder_i_model *model, uint32_t body);
+/* A lower bound of the weight of a body. */
+double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body);
 
 /* ---- anchors.c --------------------------------------------------------------------------------------------------- */
 

@@ -36,8 +36,6 @@ void sunder_i_bound_tree_free(sunder_bound_tree *tree);
 void sunder_i_bound_trees_free(sunder_i_bound_trees *trees);
 /* Trees of `from` go over to `to`. False if memory is out. */
 bool sunder_i_bound_trees_take(sunder_i_bound_trees *to, sunder_i_bound_trees *from);
-/* A lower bound of the weight of a body. */
-double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body);
 /* tight_place.c: bodies' moves, good up to rounding, become such as keep what lies in steps to the last bit, and a
  * margin elsewhere; *found: doubles can hold them. False if memory is out. */
 bool sunder_i_tight_place(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *body, size_t n,

@@ -19,14 +19,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Members' weights are added, and what that may round by taken off. */
-double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body)
-{
-    double w = 0;
-    for (uint32_t k = 0; k < body->members; k++) w += model->layer->feature[model->member[body->member + k]].weight;
-    return body->members > 1 ? w * (1 - body->members * 0x1p-52) : w;
-}
-
 static void lend(sunder_i_tree *t)
 {
     t->task.body = t->body;

@@ -1,5 +1,6 @@
 /* A cluster from start to rounded moves: descend, and where sides contradict each other jump, descend again; pairs that
  * find no solution are given up; then round. */
+#include "displacement/areas/areas.h"
 #include "displacement/layer/rounding.h"
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
@@ -65,14 +66,24 @@ static bool find_free_from_lifted(sunder_i_search *s, const sunder_i_cluster *cl
     return find_free(s, cluster);
 }
 
+/* A crowd begins apart as far as its area needs it to be, and nobody far from home by chance. */
+static sunder_status begin_crowd(sunder_i_search *s, const sunder_i_cluster *cluster, sunder_error *err)
+{
+    bool found;
+    if (s->failed || !cluster->crowd) return SUNDER_OK;
+    return sunder_i_areas_places(s->model, s->body, s->n, s->t, &found, err);
+}
+
 sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err)
 {
     sunder_i_search s;
     if (!sunder_i_search_init(&s, model, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
+    const sunder_status begun = begin_crowd(&s, cluster, err);
+    if (begun) s.failed = true;
     const bool may_give_up = cluster->limited && !cluster->brief;
-    const bool given_up = may_give_up && has_limits(&s) &&
-                          (sunder_i_search_mend_few(&s) || sunder_i_search_give_up_at_home(&s, move));
+    const bool given_up =
+        may_give_up && has_limits(&s) && (sunder_i_search_mend_few(&s) || sunder_i_search_give_up_at_home(&s, move));
     bool done = given_up || find_free(&s, cluster);
     if (!done && !s.failed && cluster->brief) done = find_free_but_for_margins(&s, cluster, move);
     if (!done && !s.failed) done = find_free_from_lifted(&s, cluster);
@@ -85,5 +96,6 @@ sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_clust
     const bool failed = s.failed;
     if (!failed && !cluster->hopeless) sunder_i_search_round(&s, move);
     sunder_i_search_free(&s);
+    if (begun) return begun;
     return failed ? sunder_i_no_memory(err) : SUNDER_OK;
 }
