@@ -1,8 +1,10 @@
 /* What parts of the layer cost because their bodies share no area, where neither pairs nor contact groups prove nearly
  * what they cost.
  *
- * Of a part those bodies pay of which every two owe each other the gap. Of two that are listed the larger one does;
- * where features may lie in others, and owe them nothing then, nobody does. */
+ * A crowd has many parts: contact groups are those that press on each other in the end. So parts that were solved
+ * together are asked together, those of them of which little is proved, and who has no part and was solved with them.
+ * Of these pay those of which every two owe each other the gap. Of two that are listed the larger one does; where
+ * features may lie in others, and owe them nothing then, nobody does. */
 #include "displacement/clusters/stages.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
@@ -16,10 +18,13 @@
 
 typedef struct payers {
     const sunder_i_solver *s;
-    sunder_i_id_pair *member; /* part after part: its root, the body */
+    sunder_i_parts *parts;
+    double *cost;             /* [bodies] of each part, at its root */
+    uint32_t *crowd;          /* [bodies] union-find over parts, and bodies that were solved together */
+    sunder_i_id_pair *member; /* crowd after crowd: its root, a body */
     size_t members;
     bool *left_out; /* [bodies] */
-    uint32_t *body; /* of one part */
+    uint32_t *body; /* of one crowd */
 } payers;
 
 static double extent(const sunder_i_model *model, uint32_t body)
@@ -41,60 +46,94 @@ static void leave_out_listed(payers *p)
     }
 }
 
-/* All bodies that move of parts of which anything is proved. */
-static void list_members(payers *p, sunder_i_parts *parts)
+/* Is nearly all that the part costs proved of it? */
+static bool is_settled(const payers *p, uint32_t root)
+{
+    return p->cost[root] > 0 && sunder_i_part_bound(p->parts, root) >= AREAS_ASKED * p->cost[root];
+}
+
+static void find_costs(payers *p)
 {
     const sunder_i_model *model = &p->s->model;
     for (uint32_t b = 0; b < model->bodies; b++) {
-        const uint32_t root = sunder_i_union_find(parts->root, b);
-        if (model->body[b].fixed || !(parts->by_pairs[root] > 0 || parts->by_groups[root] > 0)) continue;
-        p->member[p->members++] = (sunder_i_id_pair){root, b};
+        const double *t = model->move + 2 * (size_t)b;
+        if (model->body[b].fixed) continue;
+        p->cost[sunder_i_union_find(p->parts->root, b)] += model->body[b].weight * (t[0] * t[0] + t[1] * t[1]);
+    }
+}
+
+/* Crowd after crowd, those that move and are of no part that is settled. */
+static void list_members(payers *p)
+{
+    const sunder_i_model *model = &p->s->model;
+    sunder_i_union_init(p->crowd, model->bodies);
+    for (uint32_t b = 0; b < model->bodies; b++) {
+        if (model->body[b].fixed) continue;
+        sunder_i_union_join(p->crowd, b, sunder_i_union_find(p->s->parent, b));
+        sunder_i_union_join(p->crowd, b, sunder_i_union_find(p->parts->root, b));
+    }
+    for (uint32_t b = 0; b < model->bodies; b++) {
+        if (model->body[b].fixed || is_settled(p, sunder_i_union_find(p->parts->root, b))) continue;
+        p->member[p->members++] = (sunder_i_id_pair){sunder_i_union_find(p->crowd, b), b};
     }
     qsort(p->member, p->members, sizeof *p->member, sunder_i_by_id_pair);
 }
 
-/* Would a better bound of the part change anything that is told of the layer? */
-static bool is_worth_it(const sunder_i_model *model, const sunder_i_parts *parts, const sunder_i_id_pair *member,
-                        size_t n)
+/* What the crowd costs, and what is proved of its parts. */
+static void measure(const payers *p, const sunder_i_id_pair *member, size_t n, double *cost, double *proved)
 {
-    double cost = 0;
+    sunder_total costs = {0}, bounds = {0};
     for (size_t k = 0; k < n; k++) {
-        const double *t = model->move + 2 * (size_t)member[k].b;
-        cost += model->body[member[k].b].weight * (t[0] * t[0] + t[1] * t[1]);
+        sunder_total_add(&costs, p->cost[member[k].b]);
+        sunder_total_add(&bounds, sunder_i_part_bound(p->parts, member[k].b));
     }
-    return sunder_i_part_bound(parts, member[0].a) < AREAS_ASKED * cost;
+    *cost = sunder_total_nearest(&costs);
+    *proved = sunder_total_nearest(&bounds);
 }
 
-static sunder_status ask_part(payers *p, sunder_i_parts *parts, size_t from, size_t end, sunder_error *err)
+/* Its bound is that of all its parts, which have none of their own any more. */
+static sunder_status take(payers *p, sunder_i_area_bound *area, const sunder_i_id_pair *member, size_t members,
+                          sunder_error *err)
+{
+    area->body = sunder_i_alloc(area->n, sizeof *area->body);
+    if (!area->body) return sunder_i_no_memory(err);
+    memcpy(area->body, p->body, area->n * sizeof *area->body);
+    for (size_t k = 0; k < members; k++) p->parts->by_areas[sunder_i_union_find(p->parts->root, member[k].b)] = -1;
+    p->parts->by_areas[area->root] = area->bound;
+    return SUNDER_OK;
+}
+
+static sunder_status ask_crowd(payers *p, const sunder_i_id_pair *member, size_t members, sunder_error *err)
 {
     sunder_i_model *model = (sunder_i_model *)&p->s->model;
+    double cost, proved;
     size_t n = 0;
-    for (size_t k = from; k < end; k++)
-        if (!p->left_out[p->member[k].b]) p->body[n++] = p->member[k].b;
-    sunder_i_area_bound *out = &parts->area[parts->areas];
-    *out = (sunder_i_area_bound){.root = p->member[from].a, .n = n};
+    for (size_t k = 0; k < members; k++)
+        if (!p->left_out[member[k].b]) p->body[n++] = member[k].b;
+    measure(p, member, members, &cost, &proved);
+    if (n < AREAS_FEWEST || !(proved < AREAS_ASKED * cost)) return SUNDER_OK;
+    sunder_i_area_bound *out = &p->parts->area[p->parts->areas];
+    *out = (sunder_i_area_bound){.root = sunder_i_union_find(p->parts->root, p->body[0]), .n = n};
     sunder_status status = sunder_i_model_unite(model, p->body, n, err);
     if (!status) status = sunder_i_areas_bound(model, p->body, n, &out->prices, &out->bound, err);
-    if (status || !(out->bound > sunder_i_part_bound(parts, out->root))) {
-        sunder_i_free(out->prices.price);
-        return status;
+    const bool better = !status && out->bound > proved;
+    if (better) {
+        p->parts->areas++; /* freed with the parts from here on */
+        return take(p, out, member, members, err);
     }
-    out->body = sunder_i_alloc(n, sizeof *out->body);
-    if (out->body) memcpy(out->body, p->body, n * sizeof *out->body);
-    parts->by_areas[out->root] = out->bound;
-    parts->areas++;
-    return out->body ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_i_free(out->prices.price);
+    return status;
 }
 
-static sunder_status ask_parts(payers *p, sunder_i_parts *parts, sunder_error *err)
+static sunder_status ask_crowds(payers *p, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     leave_out_listed(p);
-    list_members(p, parts);
+    find_costs(p);
+    list_members(p);
     for (size_t from = 0, end; from < p->members && !status; from = end) {
         for (end = from; end < p->members && p->member[end].a == p->member[from].a;) end++;
-        if (end - from >= AREAS_FEWEST && is_worth_it(&p->s->model, parts, p->member + from, end - from))
-            status = ask_part(p, parts, from, end, err);
+        if (end - from >= AREAS_FEWEST) status = ask_crowd(p, p->member + from, end - from, err);
     }
     return status;
 }
@@ -104,12 +143,17 @@ sunder_status sunder_i_report_area_bounds(const sunder_i_solver *s, sunder_i_par
     if (!(s->model.rules.effort > 0) || s->model.rules.contained == SUNDER_CONTAINMENT_IGNORE) return SUNDER_OK;
     const size_t n = s->model.bodies;
     payers p = {.s = s,
+                .parts = parts,
+                .cost = sunder_i_calloc(n, sizeof *p.cost),
+                .crowd = sunder_i_alloc(n, sizeof *p.crowd),
                 .member = sunder_i_alloc(n, sizeof *p.member),
                 .left_out = sunder_i_calloc(n, sizeof *p.left_out),
                 .body = sunder_i_alloc(n, sizeof *p.body)};
     parts->area = sunder_i_alloc(n / AREAS_FEWEST + 1, sizeof *parts->area);
-    const bool ok = p.member && p.left_out && p.body && parts->area;
-    const sunder_status status = ok ? ask_parts(&p, parts, err) : sunder_i_no_memory(err);
+    const bool ok = p.cost && p.crowd && p.member && p.left_out && p.body && parts->area;
+    const sunder_status status = ok ? ask_crowds(&p, err) : sunder_i_no_memory(err);
+    sunder_i_free(p.cost);
+    sunder_i_free(p.crowd);
     sunder_i_free(p.member);
     sunder_i_free(p.left_out);
     sunder_i_free(p.body);

@@ -70,17 +70,18 @@ void sunder_i_parts_free(sunder_i_parts *parts)
 bool sunder_i_part_is_by_pairs(const sunder_i_parts *parts, uint32_t body)
 {
     const uint32_t at = sunder_i_union_find(parts->root, body);
-    return parts->by_pairs[at] > parts->by_groups[at] && parts->by_pairs[at] >= parts->by_areas[at];
+    return parts->by_areas[at] == 0 && parts->by_pairs[at] > parts->by_groups[at];
 }
 
 bool sunder_i_part_is_by_groups(const sunder_i_parts *parts, uint32_t body)
 {
     const uint32_t at = sunder_i_union_find(parts->root, body);
-    return parts->by_groups[at] >= parts->by_pairs[at] && parts->by_groups[at] >= parts->by_areas[at];
+    return parts->by_areas[at] == 0 && parts->by_groups[at] >= parts->by_pairs[at];
 }
 
 double sunder_i_part_bound(const sunder_i_parts *parts, uint32_t body)
 {
-    const double most = fmax(fmax(parts->by_pairs[body], parts->by_groups[body]), parts->by_areas[body]);
+    const double by_area = parts->by_areas[body];
+    const double most = by_area < 0 ? 0 : fmax(fmax(parts->by_pairs[body], parts->by_groups[body]), by_area);
     return most > 0 && isfinite(most) ? most : 0;
 }

@@ -106,10 +106,10 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
  * on, or by a contact group of which something is proved. So what stands elsewhere has no say in which of the two
  * proves more. What is fixed holds none together. */
 typedef struct sunder_i_parts {
-    uint32_t *root;                   /* [bodies] union-find */
-    double *by_pairs;                 /* [bodies] what the pairs prove of the part; at its root */
-    double *by_groups;                /* [bodies] what its groups prove, added up */
-    double *by_areas;                 /* [bodies] what is proved of it by prices of area, where that is more; else 0 */
+    uint32_t *root;    /* [bodies] union-find */
+    double *by_pairs;  /* [bodies] what the pairs prove of the part; at its root */
+    double *by_groups; /* [bodies] what its groups prove, added up */
+    double *by_areas;  /* [bodies] what prices of area prove of it, where that is more; -1: of another part with it */
     struct sunder_i_area_bound *area; /* of those parts, by their roots */
     size_t areas;
 } sunder_i_parts;
