@@ -22,11 +22,11 @@
  * random polygons, forks, covered forks, robots and grids. */
 
 /* A cell that no more reach into is not halved further. */
-#define LEAF 32
+#define LEAF 256
 /* A pair of groups is opened where it is so many times as large as the cell. */
 #define COARSE 12
 /* Pairs of groups looked at in a cell, below each one listed for it, for a subsum that holds it. */
-#define LOOKS 16
+#define LOOKS 64
 /* For each subsum so many pairs may be looked at in all, handed down from cell to cell: less than it costs to make one
  * and to find it covered. */
 #define CREDIT 32.0
