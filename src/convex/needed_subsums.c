@@ -21,8 +21,12 @@
 /* Numbers that decide how long it takes, never what comes out but for subsums more or less; by measurement on stars,
  * random polygons, forks, covered forks, robots and grids. */
 
-/* A cell that no more reach into is not halved further. */
-#define LEAF 256
+/* A cell that no more reach into is not halved further: the larger, the more subsums are found needed, and it is those
+ * that take memory. Nor is a half into which more reach, if together with the other it has nearly twice the cell's:
+ * halves of such halves will be no better (copies side by side, far longer than they are apart). */
+#define LEAF 32
+#define STUBBORN_LEAF 256
+#define STUBBORN_GROWTH 1.75
 /* A pair of groups is opened where it is so many times as large as the cell. */
 #define COARSE 12
 /* Pairs of groups looked at in a cell, below each one listed for it, for a subsum that holds it. */
@@ -51,6 +55,7 @@ typedef struct cell {
     double subsums;  /* in these */
     double credit;
     int depth;
+    bool stubborn; /* its parent was halved in vain */
 } cell;
 
 typedef struct finder {
@@ -246,7 +251,7 @@ static void put_half(finder *f, const cell *c, const double box[4])
         f->no_memory = true;
         return;
     }
-    f->stack[f->cells++] = (cell){{box[0], box[1], box[2], box[3]}, from, f->pairs, f->subsums, 0, c->depth + 1};
+    f->stack[f->cells++] = (cell){{box[0], box[1], box[2], box[3]}, from, f->pairs, f->subsums, 0, c->depth + 1, false};
 }
 
 /* Both halves across the longer axis; what credit is left goes to them by what they have to do. */
@@ -260,7 +265,10 @@ static void halve(finder *f, const cell *c)
     box[0][axis + 2] = box[1][axis] = c->box[axis] / 2 + c->box[axis + 2] / 2;
     for (int k = 0; k < 2 && !f->no_memory; k++) put_half(f, c, box[k]);
     for (size_t i = first; i < f->cells; i++) all += f->stack[i].subsums;
-    for (size_t i = first; i < f->cells; i++) f->stack[i].credit = (c->credit - f->spent) * (f->stack[i].subsums / all);
+    for (size_t i = first; i < f->cells; i++) {
+        f->stack[i].credit = (c->credit - f->spent) * (f->stack[i].subsums / all);
+        f->stack[i].stubborn = all > STUBBORN_GROWTH * c->subsums;
+    }
 }
 
 static void descend(finder *f)
@@ -270,7 +278,7 @@ static void descend(finder *f)
         const sunder_i_cell_window w = sunder_i_cell_window_of(c.box, f->error);
         f->pairs = c.to; /* lists above are of cells that are done with */
         f->spent = 0;
-        if (c.subsums <= LEAF || c.credit <= 0 || c.depth > DEPTH)
+        if (c.subsums <= (c.stubborn ? STUBBORN_LEAF : LEAF) || c.credit <= 0 || c.depth > DEPTH)
             need_all(f, &c, &w);
         else if (is_held(f, &c, &w))
             need(f, f->holder);
