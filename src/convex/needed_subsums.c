@@ -36,11 +36,12 @@
 #define CREDIT 32.0
 /* Going round a subsum costs so many looks at pairs. */
 #define WALK 4
-/* Where more than this share of all is needed, or the subsums cover their box less than that many times, with no one
- * that has a tenth of it, leaving some out gains nothing. */
+/* Where more than this share of all is needed, or the subsums cover their box less than that many times, and the
+ * largest does not have a tenth of it and that share of the others inside, leaving some out gains nothing. */
 #define MOST_NEEDED 0.5
 #define LEAST_LAYERS 4
 #define LARGE_SHARE 0.1
+#define LEAST_HELD 0.25
 #define SAMPLES 64
 /* Halved more often than that, a box is a point in doubles. */
 #define DEPTH 96
@@ -287,20 +288,50 @@ static void descend(finder *f)
     }
 }
 
-/* Do the subsums lie in layers, or is one of them large? Some are asked, spread over all, and those of long pieces. */
+/* Samples: spread over all, and those of long pieces. */
+static pair sample_of(const finder *f, uint32_t k)
+{
+    return (pair){(uint32_t)((uint64_t)k * 7919 % f->p->pieces->n), (uint32_t)((uint64_t)k * 104729 % f->q->pieces->n)};
+}
+
+static pair long_sample_of(const finder *f, uint32_t k)
+{
+    return (pair){f->p->group[k % f->p->groups].piece, f->q->group[k * 5 % f->q->groups].piece};
+}
+
+/* How many of the samples lie inside that subsum? */
+static uint32_t count_held(const finder *f, pair in)
+{
+    uint32_t held = 0;
+    for (uint32_t k = 0; k < SAMPLES; k++) {
+        const pair s = sample_of(f, k);
+        double a[4], b[4], box[4];
+        sunder_i_piece_tree_box(f->p, s.a, a);
+        sunder_i_piece_tree_box(f->q, s.b, b);
+        for (int i = 0; i < 4; i++) box[i] = a[i] + b[i];
+        const sunder_i_cell_window w = sunder_i_cell_window_of(box, f->error);
+        held += sunder_i_approx_sum_sees(f->p, in.a, f->q, in.b, &w) == SUNDER_I_WITHIN;
+    }
+    return held;
+}
+
+/* Do the subsums lie in layers, or in one of them? */
 static bool is_worth_it(const finder *f, const double box[4])
 {
-    const uint32_t m = f->p->pieces->n, n = f->q->pieces->n;
-    double sum = 0, largest = 0;
+    double sum = 0, most = 0;
+    pair largest = {0, 0};
     for (uint32_t k = 0; k < SAMPLES; k++) {
-        sum += sunder_i_approx_sum_area(f->p, (uint32_t)((uint64_t)k * 7919 % m), f->q,
-                                        (uint32_t)((uint64_t)k * 104729 % n));
-        const double large = sunder_i_approx_sum_area(f->p, f->p->group[k % f->p->groups].piece, f->q,
-                                                      f->q->group[k * 5 % f->q->groups].piece);
-        largest = fmax(largest, large);
+        const pair s = sample_of(f, k), l = long_sample_of(f, k);
+        sum += sunder_i_approx_sum_area(f->p, s.a, f->q, s.b);
+        const double area = sunder_i_approx_sum_area(f->p, l.a, f->q, l.b);
+        if (area > most) {
+            most = area;
+            largest = l;
+        }
     }
     const double area = (box[2] - box[0]) * (box[3] - box[1]);
-    return sum / SAMPLES * f->whole >= LEAST_LAYERS * area || largest >= LARGE_SHARE * area;
+    if (sum / SAMPLES * f->whole >= LEAST_LAYERS * area) return true;
+    return most >= LARGE_SHARE * area && count_held(f, largest) >= LEAST_HELD * SAMPLES;
 }
 
 static bool find(finder *f)
