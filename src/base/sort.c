@@ -1,5 +1,5 @@
-/* Merge sort: runs by insertion, merged pairwise between two arrays. Radix sort: from the lowest digit up, leaving out
- * digits in which all keys agree. */
+/* Merge sort: runs by insertion, merged pairwise between two arrays. Radix sort: from the lowest digit up, each
+ * beginning at a bit in which not all keys agree. */
 #include "base/sort.h"
 
 #include "base/invariant.h"
@@ -86,8 +86,8 @@ bool sunder_i_sort_keys(uint64_t *key, size_t n)
     uint64_t *from = key, *to = scratch;
     const int bits = n < SOME_KEYS ? SHORT_DIGIT : DIGIT;
     const uint64_t digit = ((uint64_t)1 << bits) - 1;
-    for (int shift = 0; shift < 64; shift += bits) {
-        if (((used >> shift) & digit) == 0) continue; /* all keys agree here */
+    for (int shift = 0; shift < 64 && used >> shift; shift += bits) {
+        shift += __builtin_ctzll(used >> shift); /* all keys agree in what is left out */
         size_t start[(1u << DIGIT) + 1];
         memset(start, 0, (digit + 2) * sizeof *start);
         for (size_t i = 0; i < n; i++) start[((from[i] >> shift) & digit) + 1]++;

@@ -1,9 +1,10 @@
-/* Directions ranked: vectors turned into one half-plane, sorted there by their cross products, and numbered; those
- * that were turned come half a turn later. */
+/* Directions ranked: vectors turned into one half-plane, sorted there, by doubles as far as these are certain and by
+ * their cross products, and numbered; those that were turned come half a turn later. */
 #include "convex/directions.h"
 
 #include "base/sort.h"
 #include "predicate/predicate.h"
+#include "predicate/turn.h"
 
 #include <string.h>
 
@@ -16,6 +17,35 @@ static int compare_keys(void *context, uint32_t a, uint32_t b)
 {
     const keys *k = context;
     return -sunder_i_cross_sign(k->lattice, k->key[a], k->key[b]); /* both in one half-plane */
+}
+
+static int compare_numbers(void *context, uint32_t a, uint32_t b)
+{
+    (void)context;
+    return (a > b) - (a < b);
+}
+
+/* Numbers that grow with the angle, of integers of a narrow lattice, are off by a few 2^-52 (turn.h). Such as are
+ * farther apart are in order. */
+#define CERTAIN 0x1p-48
+
+/* The same order as by comparing keys, equal ones as they were. */
+static bool sort_narrow(keys *k, uint32_t *order, size_t n)
+{
+    sunder_i_valued *v = sunder_i_alloc(2 * n, sizeof *v);
+    if (!v) return false;
+    for (size_t i = 0; i < n; i++)
+        v[i] = (sunder_i_valued){sunder_i_turn((double)k->key[i].x, (double)k->key[i].y), (uint32_t)i, 0};
+    bool ok = sunder_i_sort_valued(v, n);
+    for (size_t i = 0, j; ok && i < n; i = j) {
+        order[i] = v[i].item;
+        for (j = i + 1; j < n && v[j].value - v[j - 1].value <= CERTAIN; j++) order[j] = v[j].item;
+        if (j - i > 1)
+            ok = sunder_i_sort_indices(order + i, j - i, compare_numbers, NULL) &&
+                 sunder_i_sort_indices(order + i, j - i, compare_keys, k);
+    }
+    sunder_i_free(v);
+    return ok;
 }
 
 /* Classes in the order of their angles, and which each key has. */
@@ -42,7 +72,7 @@ static bool sort(sunder_i_lattice *l, sunder_i_point *side, size_t n, uint32_t *
         turned[i] = sunder_i_half_plane(l, side[i]) == 1;
         if (turned[i]) side[i] = sunder_i_point_neg(l, side[i]);
     }
-    if (!sunder_i_sort_indices(order, n, compare_keys, &k)) return false;
+    if (!(l->narrow ? sort_narrow(&k, order, n) : sunder_i_sort_indices(order, n, compare_keys, &k))) return false;
     number_classes(&k, order, n, rank, out);
     for (size_t i = 0; i < n; i++)
         if (turned[i]) rank[i] += out->classes;

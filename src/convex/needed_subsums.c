@@ -21,22 +21,27 @@
 /* Numbers that decide how long it takes, never what comes out but for subsums more or less; by measurement on stars,
  * random polygons, forks, covered forks, robots and grids. */
 
-/* A cell that no more reach into is not halved further. */
+/* A cell that no more reach into is not halved further: the larger, the more subsums are found needed, and it is those
+ * that take memory. Nor is a half into which more reach, if together with the other it has nearly twice the cell's:
+ * halves of such halves will be no better (copies side by side, far longer than they are apart). */
 #define LEAF 32
+#define STUBBORN_LEAF 256
+#define STUBBORN_GROWTH 1.75
 /* A pair of groups is opened where it is so many times as large as the cell. */
 #define COARSE 12
 /* Pairs of groups looked at in a cell, below each one listed for it, for a subsum that holds it. */
-#define LOOKS 16
+#define LOOKS 64
 /* For each subsum so many pairs may be looked at in all, handed down from cell to cell: less than it costs to make one
  * and to find it covered. */
 #define CREDIT 32.0
 /* Going round a subsum costs so many looks at pairs. */
 #define WALK 4
-/* Where more than this share of all is needed, or the subsums cover their box less than that many times, with no one
- * that has a tenth of it, leaving some out gains nothing. */
+/* Where more than this share of all is needed, or the subsums cover their box less than that many times, and the
+ * largest does not have a tenth of it and that share of the others inside, leaving some out gains nothing. */
 #define MOST_NEEDED 0.5
 #define LEAST_LAYERS 4
 #define LARGE_SHARE 0.1
+#define LEAST_HELD 0.25
 #define SAMPLES 64
 /* Halved more often than that, a box is a point in doubles. */
 #define DEPTH 96
@@ -51,6 +56,7 @@ typedef struct cell {
     double subsums;  /* in these */
     double credit;
     int depth;
+    bool stubborn; /* its parent was halved in vain */
 } cell;
 
 typedef struct finder {
@@ -246,7 +252,7 @@ static void put_half(finder *f, const cell *c, const double box[4])
         f->no_memory = true;
         return;
     }
-    f->stack[f->cells++] = (cell){{box[0], box[1], box[2], box[3]}, from, f->pairs, f->subsums, 0, c->depth + 1};
+    f->stack[f->cells++] = (cell){{box[0], box[1], box[2], box[3]}, from, f->pairs, f->subsums, 0, c->depth + 1, false};
 }
 
 /* Both halves across the longer axis; what credit is left goes to them by what they have to do. */
@@ -260,7 +266,10 @@ static void halve(finder *f, const cell *c)
     box[0][axis + 2] = box[1][axis] = c->box[axis] / 2 + c->box[axis + 2] / 2;
     for (int k = 0; k < 2 && !f->no_memory; k++) put_half(f, c, box[k]);
     for (size_t i = first; i < f->cells; i++) all += f->stack[i].subsums;
-    for (size_t i = first; i < f->cells; i++) f->stack[i].credit = (c->credit - f->spent) * (f->stack[i].subsums / all);
+    for (size_t i = first; i < f->cells; i++) {
+        f->stack[i].credit = (c->credit - f->spent) * (f->stack[i].subsums / all);
+        f->stack[i].stubborn = all > STUBBORN_GROWTH * c->subsums;
+    }
 }
 
 static void descend(finder *f)
@@ -270,7 +279,7 @@ static void descend(finder *f)
         const sunder_i_cell_window w = sunder_i_cell_window_of(c.box, f->error);
         f->pairs = c.to; /* lists above are of cells that are done with */
         f->spent = 0;
-        if (c.subsums <= LEAF || c.credit <= 0 || c.depth > DEPTH)
+        if (c.subsums <= (c.stubborn ? STUBBORN_LEAF : LEAF) || c.credit <= 0 || c.depth > DEPTH)
             need_all(f, &c, &w);
         else if (is_held(f, &c, &w))
             need(f, f->holder);
@@ -279,20 +288,50 @@ static void descend(finder *f)
     }
 }
 
-/* Do the subsums lie in layers, or is one of them large? Some are asked, spread over all, and those of long pieces. */
+/* Samples: spread over all, and those of long pieces. */
+static pair sample_of(const finder *f, uint32_t k)
+{
+    return (pair){(uint32_t)((uint64_t)k * 7919 % f->p->pieces->n), (uint32_t)((uint64_t)k * 104729 % f->q->pieces->n)};
+}
+
+static pair long_sample_of(const finder *f, uint32_t k)
+{
+    return (pair){f->p->group[k % f->p->groups].piece, f->q->group[k * 5 % f->q->groups].piece};
+}
+
+/* How many of the samples lie inside that subsum? */
+static uint32_t count_held(const finder *f, pair in)
+{
+    uint32_t held = 0;
+    for (uint32_t k = 0; k < SAMPLES; k++) {
+        const pair s = sample_of(f, k);
+        double a[4], b[4], box[4];
+        sunder_i_piece_tree_box(f->p, s.a, a);
+        sunder_i_piece_tree_box(f->q, s.b, b);
+        for (int i = 0; i < 4; i++) box[i] = a[i] + b[i];
+        const sunder_i_cell_window w = sunder_i_cell_window_of(box, f->error);
+        held += sunder_i_approx_sum_sees(f->p, in.a, f->q, in.b, &w) == SUNDER_I_WITHIN;
+    }
+    return held;
+}
+
+/* Do the subsums lie in layers, or in one of them? */
 static bool is_worth_it(const finder *f, const double box[4])
 {
-    const uint32_t m = f->p->pieces->n, n = f->q->pieces->n;
-    double sum = 0, largest = 0;
+    double sum = 0, most = 0;
+    pair largest = {0, 0};
     for (uint32_t k = 0; k < SAMPLES; k++) {
-        sum += sunder_i_approx_sum_area(f->p, (uint32_t)((uint64_t)k * 7919 % m), f->q,
-                                        (uint32_t)((uint64_t)k * 104729 % n));
-        const double large = sunder_i_approx_sum_area(f->p, f->p->group[k % f->p->groups].piece, f->q,
-                                                      f->q->group[k * 5 % f->q->groups].piece);
-        largest = fmax(largest, large);
+        const pair s = sample_of(f, k), l = long_sample_of(f, k);
+        sum += sunder_i_approx_sum_area(f->p, s.a, f->q, s.b);
+        const double area = sunder_i_approx_sum_area(f->p, l.a, f->q, l.b);
+        if (area > most) {
+            most = area;
+            largest = l;
+        }
     }
     const double area = (box[2] - box[0]) * (box[3] - box[1]);
-    return sum / SAMPLES * f->whole >= LEAST_LAYERS * area || largest >= LARGE_SHARE * area;
+    if (sum / SAMPLES * f->whole >= LEAST_LAYERS * area) return true;
+    return most >= LARGE_SHARE * area && count_held(f, largest) >= LEAST_HELD * SAMPLES;
 }
 
 static bool find(finder *f)

@@ -2,6 +2,7 @@
 #include "convex/piece_tree.h"
 
 #include "predicate/predicate.h"
+#include "spatial/box.h"
 #include "spatial/curve.h"
 
 #include <math.h>
@@ -125,4 +126,11 @@ void sunder_i_piece_tree_free(sunder_i_piece_tree *tree)
     sunder_i_free(tree->side);
     sunder_i_free(tree->group);
     memset(tree, 0, sizeof *tree);
+}
+
+void sunder_i_piece_tree_box(const sunder_i_piece_tree *tree, uint32_t piece, double box[4])
+{
+    sunder_i_box_clear(box);
+    for (uint32_t k = sunder_i_convex_pieces_first(tree->pieces, piece); k < tree->pieces->end[piece]; k++)
+        sunder_i_box_include(box, (const double[2]){tree->side[k].x, tree->side[k].y});
 }

@@ -35,6 +35,8 @@ typedef struct sunder_i_piece_tree {
 /* Of ranked pieces, at least one, which must outlive the tree. False if memory is out. */
 bool sunder_i_piece_tree_build(const sunder_i_convex_pieces *pieces, sunder_i_piece_tree *out);
 void sunder_i_piece_tree_free(sunder_i_piece_tree *tree);
+/* The box xmin, ymin, xmax, ymax of a piece. */
+void sunder_i_piece_tree_box(const sunder_i_piece_tree *tree, uint32_t piece, double box[4]);
 
 /* Extents of a box xmin, ymin, xmax, ymax along the ways. */
 static inline void sunder_i_ways_of_box(const double box[4], double low[SUNDER_I_WAYS], double high[SUNDER_I_WAYS])

@@ -17,6 +17,7 @@ typedef struct mover {
     uint32_t *first, *last;    /* [n] the corners of Q extreme for the side that leaves a vertex; they differ where Q
                                   has a side of that direction, from first to last */
     sunder_i_point *from, *to; /* [n] that side, moved */
+    bool *backwards;           /* [n] run against its direction */
 } mover;
 
 static sunder_i_point sum_of(sunder_i_point a, sunder_i_point b) { return (sunder_i_point){a.x + b.x, a.y + b.y}; }
@@ -119,16 +120,20 @@ static bool find_corners(mover *t, uint32_t start)
 }
 
 /* Where Q has a side of the same direction the two are joined to one; but at a reflex end it would be run back at once,
- * and is left out. False where with two such ends nothing is left. */
+ * and is left out. So with two such ends Q's side is taken off P's, and what is left is run backwards where that is the
+ * shorter one: then Q reaches into P at both ends wherever these two are in contact, and what is said of chords holds
+ * (convolution.c). False where nothing is left, which may be an exact fit. */
 static bool move_sides(mover *t, uint32_t begin, uint32_t end)
 {
     const bool *reflex = t->reflex;
     for (uint32_t v = begin; v < end; v++) {
         const uint32_t w = next_of(t, v);
-        const sunder_i_point d = sunder_i_narrow_sub(t->at[w], t->at[v]);
         t->from[v] = sum_of(t->at[v], t->q[reflex[v] ? t->last[v] : t->first[v]]);
         t->to[v] = sum_of(t->at[w], t->q[reflex[w] ? t->first[v] : t->last[v]]);
-        if (sunder_i_narrow_dot(d, sunder_i_narrow_sub(t->to[v], t->from[v])) <= 0) return false;
+        if (same(t->from[v], t->to[v])) return false;
+        const sunder_i_point d = sunder_i_narrow_sub(t->at[w], t->at[v]);
+        t->backwards[v] = t->first[v] != t->last[v] && reflex[v] && reflex[w] &&
+                          sunder_i_narrow_dot(d, sunder_i_narrow_sub(t->to[v], t->from[v])) < 0;
     }
     return true;
 }
@@ -183,7 +188,7 @@ static void add_ring(mover *t, uint32_t start)
     uint32_t v = start;
     do {
         add_joint(t, v);
-        c->chord[c->links] = false;
+        c->chord[c->links] = t->backwards[v];
         c->corner[c->links++] = t->from[v];
         add_chain(c, t->base + v, c->links - 1, true, t->to[v]);
         c->after[t->base + v] = t->base + next_of(t, v);
@@ -244,6 +249,7 @@ static bool make_own_room(mover *t)
     t->last = sunder_i_arena_alloc(m, t->n, sizeof *t->last);
     t->from = sunder_i_arena_alloc(m, t->n, sizeof *t->from);
     t->to = sunder_i_arena_alloc(m, t->n, sizeof *t->to);
+    t->backwards = sunder_i_arena_alloc(m, t->n, sizeof *t->backwards);
     if (m->failed) return false;
     for (uint32_t j = 0, v = sunder_i_round_first_corner(t->round); j < t->m; j++, v = t->round->q->next[v])
         t->q[j] = t->round->at_q[v];

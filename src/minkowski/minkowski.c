@@ -29,8 +29,7 @@ static sunder_status unite_subsums(sunder_sum *sum, const sunder_shape *p, const
     sunder_i_directions directions;
     sunder_status status = sunder_i_subsums_build(&sum->lattice, p, at->p, q, at->q, &directions, &subsums, err);
     if (status != SUNDER_OK) return status;
-    /* Members overlap as they stand, and more once they are grown; else few sides are inside a single subsum. */
-    if (p->polygons > 1 || q->polygons > 1) status = sunder_i_drop_contained_sides(&subsums, err);
+    status = sunder_i_drop_contained_sides(&subsums, err);
     sum->seconds[1] = sunder_i_now() - start;
     if (status == SUNDER_OK) status = sunder_i_outline_find(&subsums, options, NULL, NULL, sum, err);
     sunder_i_convex_pieces_free(&subsums);

@@ -149,7 +149,7 @@ static bool solid_init(solid *s, const sunder_i_figure *f, const sunder_i_lattic
         span[i][0] = fmin(y[0], y[1]) - 4 * margin(s->most);
         span[i][1] = fmax(y[0], y[1]) + 4 * margin(s->most);
     }
-    ok = ok && sunder_i_strips_build(&s->strips, (const double(*)[2])span, f->sides);
+    ok = ok && sunder_i_strips_build(&s->strips, (const double(*)[2])span, f->sides, f->sides);
     sunder_i_arena_free(&scratch);
     sunder_i_free(span);
     return ok;

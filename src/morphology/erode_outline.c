@@ -157,7 +157,7 @@ static bool locator_init(locator *l, const eroder *e, sunder_i_lattice *lattice)
         span[i][0] = fmin(y[0], y[1]) - margin(fmax(fabs(y[0]), fabs(y[1])));
         span[i][1] = fmax(y[0], y[1]) + margin(fmax(fabs(y[0]), fabs(y[1])));
     }
-    const bool ok = span && sunder_i_strips_build(&l->strips, (const double(*)[2])span, e->side.n);
+    const bool ok = span && sunder_i_strips_build(&l->strips, (const double(*)[2])span, e->side.n, e->side.n);
     sunder_i_free(span);
     return ok;
 }

@@ -75,7 +75,7 @@ static bool make_strips(const sunder_i_free_space *s, const sunder_i_corners *c,
         span[i][0] = fmin(a, b) - e;
         span[i][1] = fmax(a, b) + e;
     }
-    const bool ok = sunder_i_strips_build(out, (const double(*)[2])span, s->stretches);
+    const bool ok = sunder_i_strips_build(out, (const double(*)[2])span, s->stretches, s->stretches);
     sunder_i_free(span);
     return ok;
 }

@@ -24,15 +24,16 @@ static bool sort_edges(finder *f)
     double(*span)[2] = sunder_i_alloc(g->edges, sizeof *span), most = 0;
     uint32_t n = 0;
     if (!span) return false;
-    for (uint32_t v = 0; v < g->vertices; v++) most = fmax(most, fabs(g->vertex[v].ay));
+    for (uint32_t v = 0; v < g->vertices; v++)
+        if (fabs(g->vertex[v].ay) > most) most = fabs(g->vertex[v].ay);
     for (uint32_t e = 0; e < g->edges; e++) {
         if (!g->walk_outer[g->walk[e]]) continue;
         const double a = g->vertex[g->edge[e].from].ay, b = g->vertex[g->edge[e].to].ay;
-        span[n][0] = fmin(a, b) - margin(most);
-        span[n][1] = fmax(a, b) + margin(most);
+        span[n][0] = (a < b ? a : b) - margin(most);
+        span[n][1] = (a < b ? b : a) + margin(most);
         f->edge[n++] = e;
     }
-    const bool ok = sunder_i_strips_build(&f->strips, (const double(*)[2])span, n);
+    const bool ok = sunder_i_strips_build(&f->strips, (const double(*)[2])span, n, g->walks - g->components);
     sunder_i_free(span);
     return ok;
 }

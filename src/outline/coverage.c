@@ -27,9 +27,12 @@ typedef struct finder {
     bool no_memory;
 } finder;
 
-static void add_event(finder *f, sunder_i_fraction at, state change, uint32_t corner, uint32_t side)
+static inline void add_event(finder *f, sunder_i_fraction at, state change, uint32_t corner, uint32_t side)
 {
-    if (!sunder_i_events_add(&f->events, at, change, corner, side)) f->no_memory = true;
+    if (!sunder_i_events_reserve(&f->events, 1))
+        f->no_memory = true;
+    else
+        f->events.event[f->events.n++] = (sunder_i_event){at, change, corner, side};
 }
 
 /* ---- One part and one line ---- */

@@ -10,16 +10,6 @@
 
 #define FEW 8 /* so many at one place need no memory */
 
-bool sunder_i_events_add(sunder_i_events *events, sunder_i_fraction at, sunder_i_line_state change, uint32_t corner,
-                         uint32_t side)
-{
-    if (events->n == events->capacity &&
-        !sunder_i_reserve(&events->event, &events->capacity, events->n + 1, sizeof *events->event))
-        return false;
-    events->event[events->n++] = (sunder_i_event){at, change, corner, side};
-    return true;
-}
-
 typedef struct context {
     const sunder_i_events *events;
     sunder_i_lattice *lattice;

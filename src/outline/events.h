@@ -27,9 +27,12 @@ typedef struct sunder_i_events {
     size_t n, capacity, order_capacity;
 } sunder_i_events;
 
-/* False if memory is out. */
-bool sunder_i_events_add(sunder_i_events *events, sunder_i_fraction at, sunder_i_line_state change, uint32_t corner,
-                         uint32_t side);
+/* Room for some more; false if memory is out. */
+static inline bool sunder_i_events_reserve(sunder_i_events *events, size_t more)
+{
+    return sunder_i_reserve(&events->event, &events->capacity, events->n + more, sizeof *events->event);
+}
+
 bool sunder_i_events_sort(sunder_i_events *events, sunder_i_lattice *lattice);
 void sunder_i_events_free(sunder_i_events *events);
 

@@ -3,9 +3,6 @@
 #include "base/watch.h"
 #include "rectilinear/rectangles.h"
 
-/* As a key in the order of the integers. */
-static uint64_t key_of(int64_t at) { return (uint64_t)at ^ (uint64_t)1 << 63; }
-
 static uint32_t rank_of(const int64_t *at, uint32_t n, int64_t what, uint64_t *comparisons)
 {
     const int64_t *low = at;
@@ -18,13 +15,24 @@ static uint32_t rank_of(const int64_t *at, uint32_t n, int64_t what, uint64_t *c
     return (uint32_t)(low - at);
 }
 
+/* Keys are counted from here: so they are in the order of the coordinates, and as short as can be, whatever their
+ * signs. */
+static int64_t least_along(const sunder_i_rectangle_list *list, int axis)
+{
+    int64_t least = list->item[0].low[axis];
+    for (size_t i = 1; i < list->n; i++)
+        if (list->item[i].low[axis] < least) least = list->item[i].low[axis];
+    return least;
+}
+
 static bool rank_axis(const sunder_i_rectangle_list *list, int axis, sunder_i_ranked_rectangles *out)
 {
     uint64_t *key = sunder_i_alloc(2 * list->n, sizeof *key);
     if (!key) return false;
+    const int64_t least = least_along(list, axis);
     for (size_t i = 0; i < list->n; i++) {
-        key[2 * i] = key_of(list->item[i].low[axis]);
-        key[2 * i + 1] = key_of(list->item[i].high[axis]);
+        key[2 * i] = (uint64_t)list->item[i].low[axis] - (uint64_t)least;
+        key[2 * i + 1] = (uint64_t)list->item[i].high[axis] - (uint64_t)least;
     }
     if (!sunder_i_sort_keys(key, 2 * list->n)) {
         sunder_i_free(key);
@@ -33,7 +41,7 @@ static bool rank_axis(const sunder_i_rectangle_list *list, int axis, sunder_i_ra
     int64_t *at = out->at[axis] = (int64_t *)key;
     uint32_t n = 0;
     for (size_t i = 0; i < 2 * list->n; i++) {
-        const int64_t v = (int64_t)key_of((int64_t)key[i]);
+        const int64_t v = (int64_t)(key[i] + (uint64_t)least);
         if (n == 0 || at[n - 1] != v) at[n++] = v;
     }
     out->places[axis] = n;

@@ -8,7 +8,7 @@
 #include "rectilinear/union.h"
 
 #define MOST_RECTANGLES ((size_t)1 << 24) /* in the union; the general road finds fewer, perhaps */
-#define FEW_RECTANGLES 256                /* so many are all made: to ask which are needed would cost more */
+#define FEW_RECTANGLES 512                /* so many are all made: to ask which are needed would cost more */
 
 static const sunder_i_point axis_direction[2] = {{1, 0}, {0, 1}};
 

@@ -18,11 +18,12 @@ static uint32_t strip_of(const sunder_i_strips *s, double height)
     return !(k > 0) ? 0 : k < s->n ? (uint32_t)k : s->n - 1;
 }
 
-/* As many strips as items, or half of them, ...; how many entries that makes. */
-static size_t choose_count(sunder_i_strips *s, const double (*span)[2], size_t n, double high)
+/* As many strips as there may be, or half of them, ...; how many entries that makes. */
+static size_t choose_count(sunder_i_strips *s, const double (*span)[2], size_t n, size_t most, double high)
 {
     size_t entries;
-    for (s->n = n < MOST_STRIPS ? (uint32_t)n + 1 : MOST_STRIPS;; s->n /= 2) {
+    if (most > n) most = n;
+    for (s->n = most < MOST_STRIPS ? (uint32_t)most + 1 : MOST_STRIPS;; s->n /= 2) {
         const double height = high - s->low;
         s->per_unit = height > 0 && isfinite(height) ? s->n / height : 0;
         entries = 0;
@@ -31,16 +32,16 @@ static size_t choose_count(sunder_i_strips *s, const double (*span)[2], size_t n
     }
 }
 
-bool sunder_i_strips_build(sunder_i_strips *s, const double (*span)[2], size_t n)
+bool sunder_i_strips_build(sunder_i_strips *s, const double (*span)[2], size_t n, size_t most)
 {
     double high = -INFINITY;
     memset(s, 0, sizeof *s);
     s->low = INFINITY;
     for (size_t i = 0; i < n; i++) {
-        s->low = fmin(s->low, span[i][0]);
-        high = fmax(high, span[i][1]);
+        if (span[i][0] < s->low) s->low = span[i][0];
+        if (span[i][1] > high) high = span[i][1];
     }
-    const size_t entries = choose_count(s, span, n, high);
+    const size_t entries = choose_count(s, span, n, most, high);
     s->end = sunder_i_calloc((size_t)s->n + 1, sizeof *s->end);
     s->item = sunder_i_alloc(entries, sizeof *s->item);
     if (!s->end || !s->item) return false;

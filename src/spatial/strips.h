@@ -15,8 +15,9 @@ typedef struct sunder_i_strips {
 } sunder_i_strips;
 
 /* Of n items with the spans low, high (low <= high, finite). So many strips that an item is in a few of them on
- * average. False if memory is out; the strips can be freed all the same. */
-bool sunder_i_strips_build(sunder_i_strips *strips, const double (*span)[2], size_t n);
+ * average, and no more than `most`, or one: few questions are not worth many strips. False if memory is out; the strips
+ * can be freed all the same. */
+bool sunder_i_strips_build(sunder_i_strips *strips, const double (*span)[2], size_t n, size_t most);
 void sunder_i_strips_free(sunder_i_strips *strips);
 
 /* Entries [*from, *to) are all whose spans hold the height, and others. */

@@ -155,6 +155,29 @@ static void test_copies(void **state)
     polyset_free(&q);
 }
 
+/* One large piece is of use where it has others inside: squares spread over it, not teeth along its edge. */
+static void test_one_large_piece(void **state)
+{
+    (void)state;
+    for (int inside = 0; inside < 2; inside++) {
+        polyset p, q;
+        size_t count[2];
+        polyset_init(&p);
+        polyset_init(&q);
+        polyset_rectangle(&p, 0, 0, 10000, 10000);
+        for (int i = 0; i < 400; i++) {
+            const double x = inside ? 500 * (i % 20) + 10 : 25 * i, y = inside ? 500 * (i / 20) + 10 : -9;
+            polyset_rectangle(&p, x, y, x + 10, y + 10);
+        }
+        polyset_rectangle(&q, 0, 0, 3, 2);
+        count_needed(&p, &q, count);
+        assert_true(inside ? count[1] < count[0] / 4 : count[1] == count[0]);
+        assert_true(agrees(&p, &q, 0));
+        polyset_free(&p);
+        polyset_free(&q);
+    }
+}
+
 static void test_memory(void **state)
 {
     (void)state;
@@ -163,7 +186,7 @@ static void test_memory(void **state)
     size_t count[2];
     for (int k = 0; k < 2; k++) {
         polyset_init(&operand[k]);
-        random_star(&operand[k], &r, 36, 1000);
+        random_star(&operand[k], &r, 44, 1000);
     }
     count_needed(&operand[0], &operand[1], count);
     assert_true(count[0] >= 256 && count[1] < count[0]);
@@ -173,8 +196,8 @@ static void test_memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_families), cmocka_unit_test(test_share),
-                                       cmocka_unit_test(test_far_and_tiny), cmocka_unit_test(test_copies),
-                                       cmocka_unit_test(test_memory)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_families),        cmocka_unit_test(test_share),
+                                       cmocka_unit_test(test_far_and_tiny),    cmocka_unit_test(test_copies),
+                                       cmocka_unit_test(test_one_large_piece), cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests_name("subsums that the outline needs", tests, NULL, NULL);
 }
