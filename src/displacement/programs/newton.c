@@ -9,7 +9,9 @@
  *
  * A hard program is a sequence of soft ones [Roc76]: each constraint is owed give * force more, with the force that it
  * had before, so that where forces no longer change nothing is missed. The less give is the fewer it takes, so it
- * falls; where contradictions let forces grow, they soon prove that all solutions cost too much, if they do. */
+ * falls; where contradictions let forces grow, they soon prove that all solutions cost too much, if they do. If little
+ * is missed they grow slowly, but along the same line from some time on, the one that proves the contradiction: so the
+ * proof is looked for all along that line. */
 #include "displacement/programs/methods.h"
 #include "displacement/programs/normal_equations.h"
 #include "displacement/programs/tuning.h"
@@ -27,6 +29,7 @@ typedef struct newton {
     double *left;        /* [m] of that: it acts if it is positive, and then the force is left / give */
     double *along;       /* [m] what a step takes off */
     double *first;       /* [m] forces, to go back to */
+    double *before;      /* [m] those before the last step of the sequence */
     double *memory;
 } newton;
 
@@ -36,7 +39,7 @@ static bool prepare(newton *q, sunder_i_quadratic *p)
     q->p = p;
     if (!sunder_i_normal_init(&q->normal, p)) return false;
     const size_t places = q->normal.n + 2, m = q->normal.m;
-    q->memory = sunder_i_calloc(2 * places + 5 * m, sizeof *q->memory);
+    q->memory = sunder_i_calloc(2 * places + 6 * m, sizeof *q->memory);
     if (!q->memory) return false;
     q->x = q->memory;
     q->step = q->x + places;
@@ -45,6 +48,7 @@ static bool prepare(newton *q, sunder_i_quadratic *p)
     q->left = q->owed + m;
     q->along = q->left + m;
     q->first = q->along + m;
+    q->before = q->first + m;
     for (size_t c = 0; c < m; c++) q->first[c] = p->constraint[c].force;
     return true;
 }
@@ -165,6 +169,7 @@ static double take_forces(newton *q)
 {
     double most = 0;
     look(q);
+    for (size_t c = 0; c < q->normal.m; c++) q->before[c] = q->p->constraint[c].force;
     for (size_t c = 0; c < q->normal.m; c++) {
         if (!(q->give[c] > 0)) continue;
         const double left = fmax(0, q->left[c]), change = fabs(left - q->give[c] * q->p->constraint[c].force);
@@ -182,6 +187,42 @@ static bool solve_soft(newton *q, double softness, double tolerance)
     return true;
 }
 
+/* Do forces along the last step, as far as it takes, prove that all solutions cost too much? Those that fell stay: any
+ * that do not pull are a proof [weak duality, quadratic.c]. Along f + s g, with t and u where f and g send the bodies,
+ * what is proved grows by s (g.d - sum of t.u / mass) - s^2 / 2 sum of u.u / mass. If they do they are the program's. */
+static bool is_beyond_along(newton *q)
+{
+    sunder_i_quadratic *p = q->p;
+    if (!(p->most_cost > 0)) return false;
+    double gain = 0, loss = 0, *t = sunder_i_calloc(4 * p->bodies, sizeof *t), *u = t + 2 * p->bodies;
+    if (!t) return false;
+    for (size_t c = 0; c < p->n; c++) {
+        const sunder_i_constraint *k = &p->constraint[c];
+        const double more = fmax(0, k->force - q->before[c]);
+        if (k->force > 0) sunder_i_push(p, k, k->force, t);
+        if (more > 0) sunder_i_push(p, k, more, u);
+        gain += more * k->d;
+    }
+    for (size_t b = 0; b < 2 * p->bodies; b++) {
+        if (!(p->mass[b / 2] > 0)) continue;
+        gain -= t[b] * u[b] / p->mass[b / 2];
+        loss += u[b] * u[b] / p->mass[b / 2];
+    }
+    sunder_i_free(t);
+    if (!(gain > 0)) return false;
+    /* No farther than proves twice as much as is wanted. */
+    const double far = fmin(gain / loss, 4 * p->most_cost / gain);
+    for (size_t c = 0; c < p->n; c++) {
+        sunder_i_constraint *k = &p->constraint[c];
+        const double force = k->force;
+        k->force += far * fmax(0, force - q->before[c]);
+        q->before[c] = force;
+    }
+    if (sunder_i_quadratic_is_beyond(p, 0)) return true;
+    for (size_t c = 0; c < p->n; c++) p->constraint[c].force = q->before[c];
+    return false;
+}
+
 static bool solve_hard(newton *q, double tolerance)
 {
     double give = FIRST_GIVE;
@@ -190,7 +231,7 @@ static bool solve_hard(newton *q, double tolerance)
          k++, give = fmax(LEAST_GIVE, give / LESS_GIVE)) {
         owe(q, give, true);
         if (!minimise(q, tolerance / CLOSE)) return false;
-        if (take_forces(q) <= tolerance || sunder_i_quadratic_is_beyond(q->p, 0)) return true;
+        if (take_forces(q) <= tolerance || sunder_i_quadratic_is_beyond(q->p, 0) || is_beyond_along(q)) return true;
     }
     return false;
 }
