@@ -40,6 +40,10 @@
  * vain. */
 #define EFFORT_BRIEFLY_ALONE 50000u
 #define ALONE_IN_VAIN 2
+/* So many of a cluster may end for want of effort before fewer and fewer are asked; one that ends otherwise makes good
+ * so many. */
+#define ALONE_PATIENCE 8
+#define ALONE_REGAINED 4
 #define MARGINS 4
 
 /* ---- Questions about one conflict (spared.c) --------------------------------------------------------------------- */
