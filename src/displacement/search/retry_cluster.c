@@ -26,7 +26,8 @@ typedef struct retrying {
     bool *in_vain;   /* [n] with more bodies the question would be the same */
     double *stand;   /* [2 bodies] */
     uint64_t effort; /* the work done (sunder_i_search_work()) at which asking ends */
-    bool any;        /* something was resolved */
+    uint64_t in_vain_most;
+    bool any; /* something was resolved */
     sunder_i_neighbourhood neighbourhood;
 } retrying;
 
@@ -182,18 +183,31 @@ static bool is_out(const retrying *p, size_t k, const request *r)
     return known || sunder_i_relaxations_find(&p->search->relaxations, t->a, t->b);
 }
 
+/* What was asked in vain at one stage since something was granted there. */
+typedef struct useless {
+    size_t asked;
+    uint64_t since; /* the work done when that began */
+} useless;
+
+/* Is it too much to go on? With few nobody is spared. */
+static bool is_useless(const retrying *p, const useless *u, size_t level)
+{
+    if (level == 0 || u->asked == 0) return false;
+    return u->asked >= RETRIES_IN_VAIN || sunder_i_search_work(p->search) > u->since + p->in_vain_most;
+}
+
 /* Puts one question to all whom it concerns, stage by stage. */
 static void ask_all(retrying *p, const request *r)
 {
     sunder_i_search *s = p->search;
     memset(p->in_vain, 0, p->n * sizeof *p->in_vain);
     for (size_t level = p->moving > FEW ? 0 : STAGES; level <= STAGES; level++) {
-        size_t useless = 0;
+        useless u = {0, sunder_i_search_work(s)};
         for (size_t k = 0; k < p->n && !s->failed && sunder_i_search_work(s) < p->effort; k++) {
-            if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r) || (level && useless == RETRIES_IN_VAIN)) continue;
+            if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r) || is_useless(p, &u, level)) continue;
             p->settled[k] = grant(p, k, level, r->resolve);
             p->any = p->any || p->settled[k];
-            useless = p->settled[k] ? 0 : useless + 1;
+            u = p->settled[k] ? (useless){0, sunder_i_search_work(s)} : (useless){u.asked + 1, u.since};
         }
     }
 }
@@ -311,6 +325,7 @@ static void retry_all(sunder_i_search *s, const sunder_i_retry *retry, size_t n)
         s->failed = true;
     const uint64_t pairs = n < MOST_RETRIES ? n : MOST_RETRIES;
     const uint64_t effort = RETRY_EFFORT + RETRY_EFFORT_EACH * (uint64_t)p.moving + RETRY_EFFORT_PAIR * pairs;
+    p.in_vain_most = effort / SHARE_IN_VAIN > WORK_IN_VAIN ? effort / SHARE_IN_VAIN : WORK_IN_VAIN;
     for (size_t k = 0; k < REQUESTS && !s->failed; k++) {
         if (!requests[k].part) p.effort = sunder_i_search_work(s) + effort / 2;
         ask_all(&p, &requests[k]);

@@ -213,6 +213,10 @@
 /* So many in vain, one after the other, and with so many who move none of the others is asked. Of a layer of lanes
  * that are too narrow (bench_layer lanes 4000) 400 million steps went into such questions. */
 #define RETRIES_IN_VAIN 32
+/* Nor is any when that took so much, or this share of all effort if that is more. Of 54 crowds of terraces, of which
+ * each is asked for a hundred pairs, next to none was granted with dozens who move. */
+#define WORK_IN_VAIN 2000000u
+#define SHARE_IN_VAIN 8
 /* Overlaps are parted at the cost of other pairs in clusters of which no more than so many may move. */
 #define MOST_TRADING 64
 
