@@ -175,7 +175,8 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
         size_t members;
         const uint32_t *member = sunder_i_solver_members(g->solver, g->question[g->first[k]].root, &members);
         uint64_t left = left_to_ask(g, member, members);
-        unsigned in_vain = 0; /* ended for want of effort, one after the other */
+        /* Ended for want of effort, one after the other; the first of a crowd would mostly do, too. */
+        unsigned in_vain = g->first[k + 1] - g->first[k] > MANY_ALONE ? MANY_IN_VAIN : 0;
         sunder_i_patience patience = sunder_i_patience_of(ALONE_PATIENCE, ALONE_REGAINED);
         for (size_t q = g->first[k]; q < g->first[k + 1] && left && !status; q++) {
             if (!sunder_i_patience_asks(&patience)) continue;

@@ -19,6 +19,9 @@
  * about; after half as many, where that is eight times as much again, and so on. Terraces of 32 houses that have no
  * room for 18 of their pairs, each pair asked to the end of all effort, took a second each. */
 #define PROOFS_IN_VAIN 32
+/* The same where the first effort told nothing of all, if they are so many. */
+#define ALL_IN_VAIN 64
+#define PROOFS_IN_VAIN_OF_CROWD 8
 /* And after so many of which the first effort tells nothing: in a field of 5,000 squares that have nowhere to go the
  * first effort of all its 17,000 conflicts took a second and a half. */
 #define PROOFS_IN_VAIN_AT_FIRST 1024

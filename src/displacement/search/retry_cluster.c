@@ -187,28 +187,36 @@ static bool is_out(const retrying *p, size_t k, const request *r)
 typedef struct useless {
     size_t asked;
     uint64_t since; /* the work done when that began */
+    size_t most;
 } useless;
 
 /* Is it too much to go on? With few nobody is spared. */
 static bool is_useless(const retrying *p, const useless *u, size_t level)
 {
     if (level == 0 || u->asked == 0) return false;
-    return u->asked >= RETRIES_IN_VAIN || sunder_i_search_work(p->search) > u->since + p->in_vain_most;
+    return u->asked >= u->most || sunder_i_search_work(p->search) > u->since + p->in_vain_most;
 }
 
 /* Puts one question to all whom it concerns, stage by stage. */
 static void ask_all(retrying *p, const request *r)
 {
     sunder_i_search *s = p->search;
+    size_t most = RETRIES_IN_VAIN;
     memset(p->in_vain, 0, p->n * sizeof *p->in_vain);
     for (size_t level = p->moving > FEW ? 0 : STAGES; level <= STAGES; level++) {
-        useless u = {0, sunder_i_search_work(s)};
+        useless u = {0, sunder_i_search_work(s), most};
+        bool any = false;
         for (size_t k = 0; k < p->n && !s->failed && sunder_i_search_work(s) < p->effort; k++) {
             if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r) || is_useless(p, &u, level)) continue;
             p->settled[k] = grant(p, k, level, r->resolve);
             p->any = p->any || p->settled[k];
-            u = p->settled[k] ? (useless){0, sunder_i_search_work(s)} : (useless){u.asked + 1, u.since};
+            any = any || p->settled[k];
+            u.asked++;
+            if (p->settled[k]) u = (useless){0, sunder_i_search_work(s), most};
         }
+        /* What one stage tells of a crowd in vain the next one will, mostly. */
+        most = any || p->n <= FEW_RETRIES || p->n / SHARE_OF_RETRIES >= RETRIES_IN_VAIN ? RETRIES_IN_VAIN
+                                                                                        : p->n / SHARE_OF_RETRIES;
     }
 }
 

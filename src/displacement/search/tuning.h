@@ -213,6 +213,9 @@
 /* So many in vain, one after the other, and with so many who move none of the others is asked. Of a layer of lanes
  * that are too narrow (bench_layer lanes 4000) 400 million steps went into such questions. */
 #define RETRIES_IN_VAIN 32
+/* And, where more than the first are to be asked and none was granted at the stage before, one in so many. */
+#define FEW_RETRIES 64
+#define SHARE_OF_RETRIES 24
 /* Nor is any when that took so much, or this share of all effort if that is more. Of 54 crowds of terraces, of which
  * each is asked for a hundred pairs, next to none was granted with dozens who move. */
 #define WORK_IN_VAIN 2000000u
