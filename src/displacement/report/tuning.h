@@ -99,7 +99,7 @@
 /* The same of a crowd of which a layout tells what limit it needs, where answers make good nothing. Of 6,900 pairs of
  * terraces all were asked before, in 23 s: 97 do with less than the crowd, 1,100 with a larger gap, and 600 if somebody
  * leaves. */
-#define CROWD_PATIENCE 8
+#define CROWD_PATIENCE 4
 
 /* So many proofs that there is no solution are looked for in vain, of a cluster and one after the other, before fewer
  * are. Beside roads eleven of twelve questions without a solution have one, and it takes a hundredth of the search; of

@@ -253,8 +253,8 @@
  * of the cost. */
 #define BETTER_MOST 600000000u
 /* In a crowd within limits so many in vain, one after the other, and this share of all, and no more are tried. */
-#define BETTER_IN_VAIN 64
-#define BETTER_SHARE 16
+#define BETTER_IN_VAIN 24
+#define BETTER_SHARE 64
 /* Rounds of places and sides in turn; one that gains less than this share of the cost is the last. */
 #define BETTER_ROUNDS 4
 #define ROUND_GAIN 1e-3
