@@ -244,8 +244,8 @@ static bool is_beyond(newton *q)
 
 /* Where forces change as much as they did they go over from one constraint to another that is nearly the same, in steps
  * that are as long as the hair between the two allows: what is left of that way is gone at once. If no more than a hair
- * is kept, and nothing missed, which of the two has the force does not matter. (Of few constraints the dual methods soon
- * tell.) */
+ * is kept, and nothing missed, which of the two has the force does not matter. (Of few constraints the dual methods
+ * soon tell.) */
 static bool solve_hard(newton *q, double tolerance)
 {
     const bool few = q->normal.m <= FEW_TO_LEAP;
