@@ -6,7 +6,8 @@
  * but the pair moves, then more and more of those about it (neighbourhood.c), at last the whole cluster. What overlaps
  * and finds no solution is asked not to overlap, at least, before any pair that is only too near is asked for anything.
  * All are asked at one stage before any is at the next, so that where the effort ends the small questions have been
- * put; it grows with the number of bodies and of pairs, and with nothing else. */
+ * put; it grows with the number of bodies and of pairs, and with nothing else. A stage ends before its time where so
+ * many were in vain, one after the other, or so much was done for them. */
 #include "displacement/search/neighbourhood.h"
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
@@ -22,12 +23,12 @@ typedef struct retrying {
     sunder_i_search *search;
     const sunder_i_retry *retry;
     size_t n, moving;
-    bool *settled;   /* [n] nothing is left to be asked */
-    bool *in_vain;   /* [n] with more bodies the question would be the same */
-    double *stand;   /* [2 bodies] */
-    uint64_t effort; /* the work done (sunder_i_search_work()) at which asking ends */
-    uint64_t in_vain_most;
-    bool any; /* something was resolved */
+    bool *settled;         /* [n] nothing is left to be asked */
+    bool *in_vain;         /* [n] with more bodies the question would be the same */
+    double *stand;         /* [2 bodies] */
+    uint64_t effort;       /* the work done (sunder_i_search_work()) at which asking ends */
+    uint64_t in_vain_most; /* at one stage, since something was granted there */
+    bool any;              /* something was resolved */
     sunder_i_neighbourhood neighbourhood;
 } retrying;
 
