@@ -240,8 +240,9 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
     if (!status) status = sunder_i_report_pushes(report, s, err);
     if (!status) status = sunder_i_report_proofs(report, s, sunder_i_decide, err);
     if (!status) status = sunder_i_report_blockers(report, s, err);
+    if (!status) status = sunder_i_report_crowd_needs(report, s, true, err);
     if (!status) status = sunder_i_report_needs(report, s, options, work_briefly, err);
-    if (!status) status = sunder_i_report_crowd_needs(report, s, err);
+    if (!status) status = sunder_i_report_crowd_needs(report, s, false, err);
     if (!status) status = sunder_i_solver_is_upheld(s, &report->summary.verified, err);
     if (status) return status;
     sunder_i_report_moves(report, &s->model);

@@ -124,6 +124,28 @@ static void check_contradiction(void **state)
     assert_true(sunder_i_quadratic_solve(&p.q, 0, 1e-9, 1) == INFINITY);
 }
 
+/* The same where next to nothing is missed, so that forces grow slowly. */
+static void check_slight_contradiction(void **state)
+{
+    (void)state;
+    static program p;
+    for (double missed = 1e-2; missed > 5e-6; missed /= 10) {
+        bool done;
+        row(&p, (BODIES - 1) / 2.0 - missed);
+        p.q.most_cost = BODIES * 1000.0;
+        assert_true(sunder_i_quadratic_newton(&p.q, 0, 1e-9, &done));
+        if (!done) fail_msg("with %g missed it is not known", missed);
+        assert_true(sunder_i_quadratic_is_beyond(&p.q, 0));
+        for (size_t k = 0; k < p.q.n; k++) assert_true(p.constraint[k].force >= 0 && p.constraint[k].force < INFINITY);
+    }
+    /* And with as much room there is a solution. */
+    bool done;
+    row(&p, (BODIES - 1) / 2.0 + 1e-6);
+    p.q.most_cost = BODIES * 1000.0;
+    assert_true(sunder_i_quadratic_newton(&p.q, 0, 1e-9, &done) && done);
+    check_optimal(&p, 0, 0, 1e-8);
+}
+
 static void check_work(void **state)
 {
     (void)state;
@@ -142,6 +164,6 @@ int main(void)
 {
     printf("seed %llu\n", (unsigned long long)test_seed());
     const struct CMUnitTest tests[] = {cmocka_unit_test(check_solutions), cmocka_unit_test(check_contradiction),
-                                       cmocka_unit_test(check_work)};
+                                       cmocka_unit_test(check_slight_contradiction), cmocka_unit_test(check_work)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

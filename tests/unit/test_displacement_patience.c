@@ -1,5 +1,5 @@
 /* How many questions are asked in vain, and after how many that pass one is asked again. */
-#include "displacement/report/patience.h"
+#include "base/patience.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

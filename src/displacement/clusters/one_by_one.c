@@ -6,7 +6,8 @@
  * (report/no_room.c); so what has a solution is not left to be told there that nothing is known of it. The search goes
  * on from a solution, one in each cluster at a time, and where it can, the pair is no longer given up; else all is left
  * as it was. A solution without room to spare, which the margins of the search close, is lined up to the last bit
- * (optimum/tight_place.c): whether it holds is asked exactly, as of all that moved. No pair is asked about twice. */
+ * (optimum/tight_place.c): whether it holds is asked exactly, as of all that moved. No pair is asked about twice; and
+ * of a crowd of which nothing is to be known fewer and fewer are. */
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
 #include "displacement/layer/resolution.h"
@@ -14,6 +15,7 @@
 #include "displacement/proofs/feasibility.h"
 
 #include "base/parallel.h"
+#include "base/patience.h"
 #include "base/union_find.h"
 
 #include <math.h>
@@ -173,8 +175,11 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
         size_t members;
         const uint32_t *member = sunder_i_solver_members(g->solver, g->question[g->first[k]].root, &members);
         uint64_t left = left_to_ask(g, member, members);
-        unsigned in_vain = 0; /* ended for want of effort, one after the other */
+        /* Ended for want of effort, one after the other; the first of a crowd would mostly do, too. */
+        unsigned in_vain = g->first[k + 1] - g->first[k] > MANY_ALONE ? MANY_IN_VAIN : 0;
+        sunder_i_patience patience = sunder_i_patience_of(ALONE_PATIENCE, ALONE_REGAINED);
         for (size_t q = g->first[k]; q < g->first[k + 1] && left && !status; q++) {
+            if (!sunder_i_patience_asks(&patience)) continue;
             const sunder_i_relaxation *t = &model->relaxations.item[g->question[q].relaxation];
             const uint32_t body[2] = {model->body_of[t->a], model->body_of[t->b]};
             sunder_i_subproblem p = {.model = model,
@@ -204,6 +209,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
             if (status || verdict == SUNDER_I_FEASIBLE) break;
             sunder_i_decision_clear(decision);
             in_vain = verdict == SUNDER_I_UNKNOWN ? in_vain + 1 : 0;
+            sunder_i_patience_note(&patience, verdict != SUNDER_I_UNKNOWN);
             g->work[model->body[body[0]].fixed ? body[1] : body[0]] += work;
             left -= work < left ? work : left;
         }

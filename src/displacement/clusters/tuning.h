@@ -46,6 +46,13 @@
  * vain. */
 #define EFFORT_BRIEFLY_ALONE 50000u
 #define ALONE_IN_VAIN 2
+/* A cluster of more such pairs is asked as if so many had: 54 crowds of terraces took 6 s until they had. */
+#define MANY_ALONE 64
+#define MANY_IN_VAIN 5
+/* So many of a cluster may end for want of effort before fewer and fewer are asked; one that ends otherwise makes good
+ * so many. */
+#define ALONE_PATIENCE 8
+#define ALONE_REGAINED 4
 #define MARGINS 4
 
 /* ---- Questions about one conflict (spared.c) --------------------------------------------------------------------- */

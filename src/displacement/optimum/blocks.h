@@ -53,6 +53,7 @@ typedef struct sunder_i_lagrangian {
     uint32_t *member; /* [items] as the bundle wants them */
     double *others;
     size_t size;                /* movers of a block */
+    double proved;              /* by blocks of other sizes, at most */
     uint64_t steps, most, each; /* each: for the tree of a block */
 } sunder_i_lagrangian;
 

@@ -27,6 +27,7 @@ typedef struct newton {
     double *left;        /* [m] of that: it acts if it is positive, and then the force is left / give */
     double *along;       /* [m] what a step takes off */
     double *first;       /* [m] forces, to go back to */
+    double *before;      /* [m] those before the last step of the sequence */
     double *memory;
 } newton;
 
@@ -36,7 +37,7 @@ static bool prepare(newton *q, sunder_i_quadratic *p)
     q->p = p;
     if (!sunder_i_normal_init(&q->normal, p)) return false;
     const size_t places = q->normal.n + 2, m = q->normal.m;
-    q->memory = sunder_i_calloc(2 * places + 5 * m, sizeof *q->memory);
+    q->memory = sunder_i_calloc(2 * places + 6 * m, sizeof *q->memory);
     if (!q->memory) return false;
     q->x = q->memory;
     q->step = q->x + places;
@@ -45,6 +46,7 @@ static bool prepare(newton *q, sunder_i_quadratic *p)
     q->left = q->owed + m;
     q->along = q->left + m;
     q->first = q->along + m;
+    q->before = q->first + m;
     for (size_t c = 0; c < m; c++) q->first[c] = p->constraint[c].force;
     return true;
 }
@@ -160,15 +162,18 @@ static void owe(newton *q, double softness, bool hard)
 }
 
 /* The forces that were found. Returns by how much a constraint is missed for their change, or kept: by none is it where
- * they have not changed. */
-static double take_forces(newton *q)
+ * they have not changed. *missed: of that by how much one is missed. */
+static double take_forces(newton *q, double *missed)
 {
     double most = 0;
+    *missed = 0;
     look(q);
+    for (size_t c = 0; c < q->normal.m; c++) q->before[c] = q->p->constraint[c].force;
     for (size_t c = 0; c < q->normal.m; c++) {
         if (!(q->give[c] > 0)) continue;
         const double left = fmax(0, q->left[c]), change = fabs(left - q->give[c] * q->p->constraint[c].force);
         if (!(change <= most)) most = change;
+        *missed = fmax(*missed, left - q->give[c] * q->p->constraint[c].force);
         q->p->constraint[c].force = left / q->give[c];
     }
     return most;
@@ -178,19 +183,85 @@ static bool solve_soft(newton *q, double softness, double tolerance)
 {
     owe(q, softness, false);
     if (!minimise(q, tolerance / CLOSE)) return false;
-    take_forces(q);
+    double missed;
+    take_forces(q, &missed);
     return true;
 }
 
+/* How far to go on along the last step of the forces: as far as what they prove grows, and none of them pulls. Along
+ * f + s g, with t and u where f and g send the bodies, it grows by s (g.d - sum of t.u / mass) - s^2 / 2 sum of
+ * u.u / mass [weak duality, quadratic.c]; that is no farther than proves twice as much as is wanted. rising: those that
+ * fell stay. */
+static double far_along(const newton *q, bool rising)
+{
+    const sunder_i_quadratic *p = q->p;
+    double gain = 0, loss = 0, far = INFINITY, *t = sunder_i_calloc(4 * p->bodies, sizeof *t), *u = t + 2 * p->bodies;
+    if (!t) return 0;
+    for (size_t c = 0; c < p->n; c++) {
+        const sunder_i_constraint *k = &p->constraint[c];
+        const double more = fmax(k->force - q->before[c], rising ? 0 : -INFINITY);
+        if (k->force > 0) sunder_i_push(p, k, k->force, t);
+        if (more != 0) sunder_i_push(p, k, more, u);
+        if (more < 0) far = fmin(far, k->force / -more);
+        gain += more * k->d;
+    }
+    for (size_t b = 0; b < 2 * p->bodies; b++) {
+        if (!(p->mass[b / 2] > 0)) continue;
+        gain -= t[b] * u[b] / p->mass[b / 2];
+        loss += u[b] * u[b] / p->mass[b / 2];
+    }
+    sunder_i_free(t);
+    if (!(gain > 0)) return 0;
+    far = fmin(far, gain / loss);
+    if (p->most_cost > 0) far = fmin(far, 4 * p->most_cost / gain);
+    return far < INFINITY ? far : 0;
+}
+
+static void go_along(newton *q, double far, bool rising)
+{
+    for (size_t c = 0; c < q->p->n; c++) {
+        double *force = &q->p->constraint[c].force;
+        const double now = *force, more = now - q->before[c];
+        if (more > 0 || !rising) *force = fmax(0, now + far * more);
+        q->before[c] = now;
+    }
+}
+
+/* Is it known that all solutions cost too much, by the forces as they are, or along their last step? In a contradiction
+ * by a hair they grow slowly, but in a straight line from some time on. Where they prove it they are the program's. */
+static bool is_beyond(newton *q)
+{
+    if (sunder_i_quadratic_is_beyond(q->p, 0)) return true;
+    const double far = q->p->most_cost > 0 ? far_along(q, true) : 0;
+    if (!(far > 0)) return false;
+    memcpy(q->along, q->before, q->normal.m * sizeof *q->along);
+    go_along(q, far, true);
+    if (sunder_i_quadratic_is_beyond(q->p, 0)) return true;
+    for (size_t c = 0; c < q->normal.m; c++) q->p->constraint[c].force = q->before[c];
+    memcpy(q->before, q->along, q->normal.m * sizeof *q->along);
+    return false;
+}
+
+/* Where forces change as much as they did they go over from one constraint to another that is nearly the same, in steps
+ * that are as long as the hair between the two allows: what is left of that way is gone at once. If no more than a hair
+ * is kept, and nothing missed, which of the two has the force does not matter. (Of few constraints the dual methods
+ * soon tell.) */
 static bool solve_hard(newton *q, double tolerance)
 {
-    double give = FIRST_GIVE;
+    const bool few = q->normal.m <= FEW_TO_LEAP;
+    const int most = few ? MOST_FORCES_OF_FEW : MOST_FORCES;
+    double give = FIRST_GIVE, last = INFINITY;
     if (sunder_i_quadratic_is_beyond(q->p, 0)) return true;
-    for (int k = 0; k < MOST_FORCES && !sunder_i_quadratic_is_done(q->p);
-         k++, give = fmax(LEAST_GIVE, give / LESS_GIVE)) {
+    for (int k = 0; k < most && !sunder_i_quadratic_is_done(q->p); k++, give = fmax(LEAST_GIVE, give / LESS_GIVE)) {
         owe(q, give, true);
         if (!minimise(q, tolerance / CLOSE)) return false;
-        if (take_forces(q) <= tolerance || sunder_i_quadratic_is_beyond(q->p, 0)) return true;
+        double missed;
+        const double change = take_forces(q, &missed);
+        if (change <= tolerance || is_beyond(q)) return true;
+        const bool stands = !few && change > STANDS * last;
+        if (stands && missed <= tolerance && change <= HAIR * tolerance) return true;
+        if (stands) go_along(q, far_along(q, false), false);
+        last = change;
     }
     return false;
 }

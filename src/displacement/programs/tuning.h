@@ -76,7 +76,14 @@
 #define FIRST_GIVE 1e-3
 #define LESS_GIVE 30
 #define LEAST_GIVE 1e-8
-#define MOST_FORCES 8
+#define MOST_FORCES 32
+/* The same of few constraints, which the dual methods solve as quickly. */
+#define FEW_TO_LEAP 64
+#define MOST_FORCES_OF_FEW 8
+/* Forces change as much as they did if by this share. A hair is so many times the tolerance, which is less than what
+ * rounding leaves of a move at the ends of a layer. */
+#define STANDS 0.5
+#define HAIR 64
 
 /* ---- Interior point ---------------------------------------------------------------------------------------------- */
 

@@ -7,10 +7,12 @@
  * their way and has another place in it, until nobody is or one has none. Then no pair may be in conflict that is in
  * none in the result, none that stays so may stand worse than at the start, and nobody may have jumped. All others
  * stand as in the result; and all go back to where that has them. What it costs is to relate a cluster three times,
- * however many pairs are left of it. */
+ * however many pairs are left of it. So crowds are asked before any of their pairs is asked about by itself, which is
+ * then done for fewer of them (needs.c); of others only what these questions left open. */
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/trial.h"
 #include "displacement/report/report.h"
+#include "displacement/report/tuning.h"
 
 #include "base/union_find.h"
 
@@ -208,7 +210,7 @@ static size_t group(const sunder_i_solver *s, const sunder_report *report, sunde
     return n;
 }
 
-sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver *s, bool crowds, sunder_error *err)
 {
     crowd g = {.report = report, .trial = {.solver = s}};
     if (!s->model.lifted || !(s->model.rules.effort > 0) || report->conflicts == 0) return SUNDER_OK;
@@ -223,7 +225,7 @@ sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver
         bool open = false;
         for (end = k; end < n && item[end].a == item[k].a; end++)
             open = open || isnan(report->conflict[item[end].b].need_shift);
-        if (open) status = free_cluster(&g, item + k, end - k, spread, err);
+        if (open && (end - k > NEED_PATIENCE) == crowds) status = free_cluster(&g, item + k, end - k, spread, err);
     }
     sunder_i_changes_clear(&s->changes);
     sunder_i_trial_free(&g.trial);

@@ -74,14 +74,14 @@ static sunder_status ask(const sunder_i_questions *g, const sunder_i_surrounding
     return status;
 }
 
-/* A limit of moves: what they need where they may go as far as is known, and then less, by halves. */
+/* A limit of moves: what they need where they may go as far as is known, and then less, by halves; less than does for
+ * all of a crowd, where that is known (crowd_needs.c). */
 static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
                                 budget *left, sunder_error *err)
 {
-    sunder_i_supposition what = {a->farthest, c->required, SUNDER_I_NOBODY};
+    sunder_i_supposition what = {fmin(a->farthest, c->need_shift), g->options->gap, SUNDER_I_NOBODY};
     double longest, low = INFINITY;
     bool yes;
-    what.gap = g->options->gap;
     for (size_t k = 0; k < a->moving; k++) low = fmin(low, a->as[k].max_shift);
     if (!(low < what.limit) || !sunder_i_patience_asks(&left->shift)) return SUNDER_OK;
     for (int k = 0; k <= g->halvings; k++) {
@@ -90,7 +90,7 @@ static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surr
         if (k == 0) sunder_i_patience_note(&left->shift, yes);
         /* One unit above what is rounded once holds the move. */
         if (yes)
-            c->need_shift = nextafter(longest, INFINITY);
+            c->need_shift = fmin(c->need_shift, nextafter(longest, INFINITY));
         else if (k == 0)
             return SUNDER_OK;
         else
@@ -177,12 +177,22 @@ typedef struct asking {
     uint64_t most;       /* may be asked in vain of one */
 } asking;
 
+/* Of a crowd that has its answer as a whole few are asked about by themselves: what they need besides is found for some
+ * of them only, but most have nobody who could leave, and no shorter way. */
+static sunder_i_patience patience_for(const asking *g, size_t cluster)
+{
+    bool known = false;
+    for (size_t m = g->first[cluster]; m < g->first[cluster + 1] && !known; m++)
+        known = !isnan(g->questions->report->conflict[g->matter[m].conflict].need_shift);
+    return known ? sunder_i_patience_of(CROWD_PATIENCE, 0) : sunder_i_patience_of(NEED_PATIENCE, NEED_REGAINED);
+}
+
 static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const asking *g = context;
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
-        const sunder_i_patience fresh = sunder_i_patience_of(NEED_PATIENCE, NEED_REGAINED);
+        const sunder_i_patience fresh = patience_for(g, k);
         budget left = {g->most, fresh, fresh, fresh, sunder_i_patience_of(PROOF_PATIENCE, NEED_REGAINED)};
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &g->questions->solver->model, g->matter[g->first[k]].root);

@@ -323,7 +323,7 @@ static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_
 
 /* All conflicts of a cluster that are open at one effort, before any is asked about at the next. Where it tells nothing
  * of so many, one after the other, they hang together by more than any proof could hold, and it is the last; of fewer
- * each time, since each costs more. */
+ * each time, since each costs more, and of a crowd of which the first tells nothing at all. */
 static sunder_status ask_cluster(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
                                  sunder_error *err)
 {
@@ -333,15 +333,20 @@ static sunder_status ask_cluster(const asking *g, matter *first, const matter *l
     uint64_t pool = EFFORT * g->times + EFFORT_EACH * (uint64_t)(q->reserves + 2);
     for (uint64_t effort = FIRST_EFFORT; effort <= MOST_EFFORT * g->times && pool && !in_vain && !status;
          effort *= GROWTH) {
-        unsigned open = 0;
+        unsigned open = 0, asked = 0;
         for (matter *m = first; m < last && pool && !in_vain && !status; m++) {
             if (!m->open) continue;
+            asked++;
             q->effort = effort < pool ? effort : pool;
             status = has_no_limit(g, m) ? ask_without_limit(g, m, q, &pool, err) : ask(g, m, q, &pool, err);
             open = m->open ? open + 1 : 0;
             in_vain = open >= patience;
         }
-        patience = effort == FIRST_EFFORT ? PROOFS_IN_VAIN : patience > 2 ? patience / 2 : patience;
+        const bool nothing = open == asked && asked >= ALL_IN_VAIN;
+        if (effort == FIRST_EFFORT)
+            patience = nothing ? PROOFS_IN_VAIN_OF_CROWD : PROOFS_IN_VAIN;
+        else if (patience > 2)
+            patience /= 2;
     }
     return status;
 }

@@ -2,7 +2,7 @@
 #ifndef SUNDER_I_QUESTION_H
 #define SUNDER_I_QUESTION_H
 
-#include "displacement/report/patience.h"
+#include "base/patience.h"
 #include "displacement/report/report.h"
 
 /* A small layer about one conflict. The first `moving` features move, the others stand. */

@@ -170,6 +170,13 @@ typedef sunder_status (*sunder_i_decide_subproblem)(const struct sunder_i_subpro
 sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *solver,
                                      sunder_i_decide_subproblem decide, sunder_error *err);
 
+/* ---- crowd_needs.c ----------------------------------------------------------------------------------------------- */
+
+/* The need_shift of all conflicts of a cluster, from a layout of it that solves them, if one is known and it is not of
+ * all: of clusters of many conflicts (crowds), or of the others. All stand as in the result before and behind. */
+sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver *solver, bool crowds,
+                                          sunder_error *err);
+
 /* ---- needs.c ----------------------------------------------------------------------------------------------------- */
 
 /* Is it asked first whether a proof tells that there is no solution, and does one? */
@@ -186,15 +193,9 @@ typedef enum sunder_i_proof_found {
 typedef sunder_status (*sunder_i_solve_layer)(const sunder_layer *layer, const sunder_layer_options *options,
                                               const sunder_i_id_pair *spared, size_t n, sunder_i_proof_found *proof,
                                               sunder_i_solver *solver, sunder_error *err);
-/* Fills the conflicts' need_shift, need_gap and need_gone; after what blocks them is known. */
+/* Fills the conflicts' need_shift, need_gap and need_gone; after what blocks them is known, and what crowds need. */
 sunder_status sunder_i_report_needs(sunder_report *report, const sunder_i_solver *solver,
                                     const sunder_layer_options *options, sunder_i_solve_layer solve, sunder_error *err);
-
-/* ---- crowd_needs.c ----------------------------------------------------------------------------------------------- */
-
-/* And the need_shift of all conflicts of a cluster, from a layout of it that solves them, if one is known. All stand as
- * in the result before and behind. */
-sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver *solver, sunder_error *err);
 
 /* ---- spread_out.c ------------------------------------------------------------------------------------------------ */
 

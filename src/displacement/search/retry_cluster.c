@@ -6,7 +6,8 @@
  * but the pair moves, then more and more of those about it (neighbourhood.c), at last the whole cluster. What overlaps
  * and finds no solution is asked not to overlap, at least, before any pair that is only too near is asked for anything.
  * All are asked at one stage before any is at the next, so that where the effort ends the small questions have been
- * put; it grows with the number of bodies and of pairs, and with nothing else. */
+ * put; it grows with the number of bodies and of pairs, and with nothing else. A stage ends before its time where so
+ * many were in vain, one after the other, or so much was done for them. */
 #include "displacement/search/neighbourhood.h"
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
@@ -22,11 +23,12 @@ typedef struct retrying {
     sunder_i_search *search;
     const sunder_i_retry *retry;
     size_t n, moving;
-    bool *settled;   /* [n] nothing is left to be asked */
-    bool *in_vain;   /* [n] with more bodies the question would be the same */
-    double *stand;   /* [2 bodies] */
-    uint64_t effort; /* the work done (sunder_i_search_work()) at which asking ends */
-    bool any;        /* something was resolved */
+    bool *settled;         /* [n] nothing is left to be asked */
+    bool *in_vain;         /* [n] with more bodies the question would be the same */
+    double *stand;         /* [2 bodies] */
+    uint64_t effort;       /* the work done (sunder_i_search_work()) at which asking ends */
+    uint64_t in_vain_most; /* at one stage, since something was granted there */
+    bool any;              /* something was resolved */
     sunder_i_neighbourhood neighbourhood;
 } retrying;
 
@@ -182,19 +184,40 @@ static bool is_out(const retrying *p, size_t k, const request *r)
     return known || sunder_i_relaxations_find(&p->search->relaxations, t->a, t->b);
 }
 
+/* What was asked in vain at one stage since something was granted there. */
+typedef struct useless {
+    size_t asked;
+    uint64_t since; /* the work done when that began */
+    size_t most;
+} useless;
+
+/* Is it too much to go on? With few nobody is spared. */
+static bool is_useless(const retrying *p, const useless *u, size_t level)
+{
+    if (level == 0 || u->asked == 0) return false;
+    return u->asked >= u->most || sunder_i_search_work(p->search) > u->since + p->in_vain_most;
+}
+
 /* Puts one question to all whom it concerns, stage by stage. */
 static void ask_all(retrying *p, const request *r)
 {
     sunder_i_search *s = p->search;
+    size_t most = RETRIES_IN_VAIN;
     memset(p->in_vain, 0, p->n * sizeof *p->in_vain);
     for (size_t level = p->moving > FEW ? 0 : STAGES; level <= STAGES; level++) {
-        size_t useless = 0;
+        useless u = {0, sunder_i_search_work(s), most};
+        bool any = false;
         for (size_t k = 0; k < p->n && !s->failed && sunder_i_search_work(s) < p->effort; k++) {
-            if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r) || (level && useless == RETRIES_IN_VAIN)) continue;
+            if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r) || is_useless(p, &u, level)) continue;
             p->settled[k] = grant(p, k, level, r->resolve);
             p->any = p->any || p->settled[k];
-            useless = p->settled[k] ? 0 : useless + 1;
+            any = any || p->settled[k];
+            u.asked++;
+            if (p->settled[k]) u = (useless){0, sunder_i_search_work(s), most};
         }
+        /* What one stage tells of a crowd in vain the next one will, mostly. */
+        most = any || p->n <= FEW_RETRIES || p->n / SHARE_OF_RETRIES >= RETRIES_IN_VAIN ? RETRIES_IN_VAIN
+                                                                                        : p->n / SHARE_OF_RETRIES;
     }
 }
 
@@ -311,6 +334,7 @@ static void retry_all(sunder_i_search *s, const sunder_i_retry *retry, size_t n)
         s->failed = true;
     const uint64_t pairs = n < MOST_RETRIES ? n : MOST_RETRIES;
     const uint64_t effort = RETRY_EFFORT + RETRY_EFFORT_EACH * (uint64_t)p.moving + RETRY_EFFORT_PAIR * pairs;
+    p.in_vain_most = effort / SHARE_IN_VAIN > WORK_IN_VAIN ? effort / SHARE_IN_VAIN : WORK_IN_VAIN;
     for (size_t k = 0; k < REQUESTS && !s->failed; k++) {
         if (!requests[k].part) p.effort = sunder_i_search_work(s) + effort / 2;
         ask_all(&p, &requests[k]);

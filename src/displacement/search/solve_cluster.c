@@ -55,11 +55,24 @@ static bool find_free_but_for_margins(sunder_i_search *s, const sunder_i_cluster
     return find_free(s, cluster);
 }
 
+/* Do all together go farther than within their limits they may? Then the sides that they found are of no use there. */
+static bool is_beyond_use(const sunder_i_search *s, const double *t)
+{
+    double cost = 0, most = 0;
+    for (uint32_t k = 0; k < s->n; k++) {
+        const double limit = sunder_i_search_limit(s, k), *at = t + 2 * (size_t)s->body[k];
+        if (!(s->mass[k] > 0)) continue;
+        cost += (at[0] * at[0] + at[1] * at[1]) / (2 * s->mass[k]);
+        most += limit * limit / (2 * s->mass[k]);
+    }
+    return cost > most;
+}
+
 /* The same from where the bodies stood when limits were lifted: the sides that they had found there. */
 static bool find_free_from_lifted(sunder_i_search *s, const sunder_i_cluster *cluster)
 {
     const sunder_i_model *model = s->model;
-    if (!model->lifted || !has_limits(s)) return false;
+    if (!model->lifted || !has_limits(s) || is_beyond_use(s, model->lifted)) return false;
     for (size_t k = 0; k < s->n; k++)
         if (s->mass[k] > 0) memcpy(s->t + 2 * k, model->lifted + 2 * (size_t)s->body[k], 2 * sizeof *s->t);
     s->program.n = 0;

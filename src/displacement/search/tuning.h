@@ -213,6 +213,13 @@
 /* So many in vain, one after the other, and with so many who move none of the others is asked. Of a layer of lanes
  * that are too narrow (bench_layer lanes 4000) 400 million steps went into such questions. */
 #define RETRIES_IN_VAIN 32
+/* And, where more than the first are to be asked and none was granted at the stage before, one in so many. */
+#define FEW_RETRIES 64
+#define SHARE_OF_RETRIES 24
+/* Nor is any when that took so much, or this share of all effort if that is more. Of 54 crowds of terraces, of which
+ * each is asked for a hundred pairs, next to none was granted with dozens who move. */
+#define WORK_IN_VAIN 2000000u
+#define SHARE_IN_VAIN 8
 /* Overlaps are parted at the cost of other pairs in clusters of which no more than so many may move. */
 #define MOST_TRADING 64
 
@@ -246,8 +253,8 @@
  * of the cost. */
 #define BETTER_MOST 600000000u
 /* In a crowd within limits so many in vain, one after the other, and this share of all, and no more are tried. */
-#define BETTER_IN_VAIN 64
-#define BETTER_SHARE 16
+#define BETTER_IN_VAIN 24
+#define BETTER_SHARE 64
 /* Rounds of places and sides in turn; one that gains less than this share of the cost is the last. */
 #define BETTER_ROUNDS 4
 #define ROUND_GAIN 1e-3
