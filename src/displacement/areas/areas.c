@@ -18,7 +18,7 @@ static bool round_prices(const float *price, sunder_i_prices *out)
 }
 
 /* What the prices of one grid prove; they are kept if it is more. False if memory is out. */
-static bool prove(const sunder_i_levels *l, sunder_i_prices *best, double *bound)
+static bool prove(const sunder_i_climb *l, sunder_i_prices *best, double *bound)
 {
     sunder_i_prices own = {.grid = l->grid};
     double proved = 0;
@@ -36,13 +36,13 @@ static bool prove(const sunder_i_levels *l, sunder_i_prices *best, double *bound
 sunder_status sunder_i_areas_bound(const sunder_i_model *model, const uint32_t *body, size_t n, sunder_i_prices *prices,
                                    double *bound, sunder_error *err)
 {
-    sunder_i_levels l;
+    sunder_i_climb l;
     *prices = (sunder_i_prices){0};
     *bound = 0;
-    sunder_status status = sunder_i_levels_init(&l, model, body, n, 0, err);
+    sunder_status status = sunder_i_climb_init(&l, model, body, n, 0, err);
     while (!status && l.left > 0)
-        if (!sunder_i_levels_climb(&l) || !prove(&l, prices, bound)) status = sunder_i_no_memory(err);
-    sunder_i_levels_free(&l);
+        if (!sunder_i_climb_on(&l) || !prove(&l, prices, bound)) status = sunder_i_no_memory(err);
+    sunder_i_climb_free(&l);
     if (status) {
         sunder_i_free(prices->price);
         *prices = (sunder_i_prices){0};

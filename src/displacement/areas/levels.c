@@ -11,7 +11,7 @@
 static bool has_area(const sunder_i_outline *outline) { return outline->rings && outline->area > 0; }
 
 /* Outlines, and the box of where they stood and stand. */
-static sunder_status find_outlines(sunder_i_levels *l, double about, sunder_error *err)
+static sunder_status find_outlines(sunder_i_climb *l, double about, sunder_error *err)
 {
     double area = 0;
     size_t n = 0;
@@ -36,7 +36,7 @@ static sunder_status find_outlines(sunder_i_levels *l, double about, sunder_erro
 
 /* Nodes at multiples of `coarse` squares, so that coarser grids are among them, with a border all about. False: there
  * would be too many. */
-static bool lay_grid(const sunder_i_levels *l, double side, unsigned coarse, sunder_i_grid *out)
+static bool lay_grid(const sunder_i_climb *l, double side, unsigned coarse, sunder_i_grid *out)
 {
     const double step = side * coarse, border = SUNDER_I_GRID_BORDER;
     const double x = floor(l->box[0] / step) - border, y = floor(l->box[1] / step) - border;
@@ -51,7 +51,7 @@ static bool lay_grid(const sunder_i_levels *l, double side, unsigned coarse, sun
 }
 
 /* The coarsest, which is one in 2^LEVELS of the finest, or less where that would have too many nodes. */
-static void choose_sides(sunder_i_levels *l)
+static void choose_sides(sunder_i_climb *l)
 {
     sunder_i_grid fine;
     int exponent;
@@ -67,16 +67,16 @@ static void choose_sides(sunder_i_levels *l)
     l->side = finest * (1u << coarser);
 }
 
-static void free_masses(sunder_i_levels *l)
+static void free_masses(sunder_i_climb *l)
 {
     for (size_t k = 0; k < l->payers; k++) sunder_i_masses_free(&l->payer[k].masses);
     l->payers = 0;
 }
 
-sunder_status sunder_i_levels_init(sunder_i_levels *l, const sunder_i_model *model, const uint32_t *body, size_t n,
-                                   double about, sunder_error *err)
+sunder_status sunder_i_climb_init(sunder_i_climb *l, const sunder_i_model *model, const uint32_t *body, size_t n,
+                                  double about, sunder_error *err)
 {
-    *l = (sunder_i_levels){.model = model, .body = body, .n = n};
+    *l = (sunder_i_climb){.model = model, .body = body, .n = n};
     l->outline = sunder_i_calloc(n, sizeof *l->outline);
     l->payer = sunder_i_calloc(n, sizeof *l->payer);
     sunder_status status = l->outline && l->payer ? SUNDER_OK : sunder_i_no_memory(err);
@@ -85,7 +85,7 @@ sunder_status sunder_i_levels_init(sunder_i_levels *l, const sunder_i_model *mod
     return status;
 }
 
-void sunder_i_levels_free(sunder_i_levels *l)
+void sunder_i_climb_free(sunder_i_climb *l)
 {
     for (size_t k = 0; k < l->n && l->outline; k++) sunder_i_outline_free(&l->outline[k]);
     free_masses(l);
@@ -100,7 +100,7 @@ static bool spans_too_much(const sunder_i_outline *o, double side)
 }
 
 /* False if memory is out. */
-static bool make_payers(sunder_i_levels *l, const sunder_i_grid *grid)
+static bool make_payers(sunder_i_climb *l, const sunder_i_grid *grid)
 {
     free_masses(l);
     for (size_t k = 0; k < l->n; k++) {
@@ -123,7 +123,7 @@ static float price_at(const sunder_i_grid *grid, const float *price, int64_t x, 
 }
 
 /* The same prices on a grid of half the side, bilinear; all 0 before the first. */
-static float *refine(const sunder_i_levels *l, const sunder_i_grid *fine)
+static float *refine(const sunder_i_climb *l, const sunder_i_grid *fine)
 {
     float *out = sunder_i_calloc(sunder_i_grid_nodes(fine), sizeof *out);
     if (!out || !l->price) return out;
@@ -137,7 +137,7 @@ static float *refine(const sunder_i_levels *l, const sunder_i_grid *fine)
     return out;
 }
 
-bool sunder_i_levels_climb(sunder_i_levels *l)
+bool sunder_i_climb_on(sunder_i_climb *l)
 {
     static const unsigned rounds[LEVELS + 1] = ROUNDS;
     sunder_i_grid grid;

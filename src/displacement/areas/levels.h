@@ -4,7 +4,7 @@
 
 #include "displacement/areas/areas.h"
 
-typedef struct sunder_i_levels {
+typedef struct sunder_i_climb {
     const sunder_i_model *model;
     const uint32_t *body; /* [n] */
     size_t n;
@@ -18,14 +18,14 @@ typedef struct sunder_i_levels {
     unsigned left, coarser; /* grids to come, the next one among them; it is one in 2^coarser of the finest */
     sunder_i_grid grid;     /* the last, and its prices */
     float *price;
-} sunder_i_levels;
+} sunder_i_climb;
 
 /* about: how far from where bodies stood and stand there may be a price, in sizes of bodies. Failure leaves what is
  * freed. */
-sunder_status sunder_i_levels_init(sunder_i_levels *levels, const sunder_i_model *model, const uint32_t *body, size_t n,
-                                   double about, sunder_error *err);
-void sunder_i_levels_free(sunder_i_levels *levels);
+sunder_status sunder_i_climb_init(sunder_i_climb *levels, const sunder_i_model *model, const uint32_t *body, size_t n,
+                                  double about, sunder_error *err);
+void sunder_i_climb_free(sunder_i_climb *levels);
 /* Prices on the next grid, from those on the last; only while levels->left > 0. False if memory is out. */
-bool sunder_i_levels_climb(sunder_i_levels *levels);
+bool sunder_i_climb_on(sunder_i_climb *levels);
 
 #endif
