@@ -1,5 +1,5 @@
 /* What bodies cost together, by prices of area. */
-#include "displacement/areas/levels.h"
+#include "displacement/areas/climb.h"
 
 #include <math.h>
 

@@ -7,6 +7,7 @@
  * Raydan 2000]. None of this needs to be right: what the prices prove is worked out of them alone (least.c). */
 #include "displacement/areas/areas.h"
 #include "displacement/areas/tuning.h"
+#include "displacement/areas/window.h"
 
 #include "base/watch.h"
 
@@ -23,37 +24,13 @@ typedef struct ascent {
     size_t paid_capacity;
 } ascent;
 
-/* Nodes of a payer that are on the grid when it moved by (dx, dy) squares: the first and past the last, of its own.
- */
-typedef struct window {
-    size_t column, columns, row, rows;
-} window;
-
-static window find_window(const sunder_i_grid *l, const sunder_i_masses *m, int64_t dx, int64_t dy)
-{
-    const int64_t x = m->x + dx, y = m->y + dy;
-    const int64_t left = x < 0 ? -x : 0, low = y < 0 ? -y : 0;
-    int64_t right = (int64_t)l->columns - x, high = (int64_t)l->rows - y;
-    if (right > (int64_t)m->columns) right = (int64_t)m->columns;
-    if (high > (int64_t)m->rows) high = (int64_t)m->rows;
-    if (left >= right || low >= high) return (window){0, 0, 0, 0};
-    return (window){(size_t)left, (size_t)right, (size_t)low, (size_t)high};
-}
-
-/* The prices under the first node of row j of the window. */
-static size_t node_under(const sunder_i_grid *l, const sunder_i_masses *m, const window *w, size_t j, int64_t dx,
-                         int64_t dy)
-{
-    return (size_t)(m->y + dy + (int64_t)j) * l->columns + (size_t)(m->x + dx + (int64_t)w->column);
-}
-
 /* The price of the payer's area there, in squares. */
 static double price_of(const ascent *a, const sunder_i_masses *m, const float *price, int64_t dx, int64_t dy)
 {
-    const window w = find_window(a->grid, m, dx, dy);
+    const sunder_i_window w = sunder_i_window_of(a->grid, m, dx, dy);
     double sum = 0;
     for (size_t j = w.row; j < w.rows; j++) {
-        const float *p = price + node_under(a->grid, m, &w, j, dx, dy);
+        const float *p = price + sunder_i_window_node(a->grid, &w, j);
         const int32_t *mass = m->at + j * m->columns + w.column;
         for (size_t i = 0; i < w.columns - w.column; i++) sum += (double)mass[i] * (double)p[i];
     }
@@ -63,10 +40,10 @@ static double price_of(const ascent *a, const sunder_i_masses *m, const float *p
 /* So much of the payer is there. */
 static void occupy(const ascent *a, const sunder_i_masses *m, double share, int64_t dx, int64_t dy, float *slope)
 {
-    const window w = find_window(a->grid, m, dx, dy);
+    const sunder_i_window w = sunder_i_window_of(a->grid, m, dx, dy);
     share /= (double)SUNDER_I_MASS_OF_SQUARE;
     for (size_t j = w.row; j < w.rows; j++) {
-        float *s = slope + node_under(a->grid, m, &w, j, dx, dy);
+        float *s = slope + sunder_i_window_node(a->grid, &w, j);
         const int32_t *mass = m->at + j * m->columns + w.column;
         for (size_t i = 0; i < w.columns - w.column; i++) s[i] += (float)(share * mass[i]);
     }

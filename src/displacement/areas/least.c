@@ -7,7 +7,7 @@
  * squares of their mass times the greatest such d that they may meet, in x and in y. And |t|^2 is below its own mean
  * over a square of side s by no more than s^2 / 2, so squares are divided further, by the mean alone. */
 #include "displacement/areas/areas.h"
-#include "displacement/areas/tuning.h"
+#include "displacement/areas/window.h"
 
 #include "base/watch.h"
 
@@ -77,16 +77,13 @@ static void find_kinks(const field *f)
 static int64_t sum_at(const asking *a, const uint32_t *what, int64_t more, int64_t dx, int64_t dy)
 {
     const sunder_i_masses *m = &a->payer->masses;
-    const sunder_i_grid *l = &a->field->prices->grid;
-    const int64_t x = m->x + dx, y = m->y + dy;
-    const int64_t left = x < 0 ? -x : 0, low = y < 0 ? -y : 0;
-    int64_t right = (int64_t)l->columns - x, high = (int64_t)l->rows - y, sum = 0;
-    if (right > (int64_t)m->columns) right = (int64_t)m->columns;
-    if (high > (int64_t)m->rows) high = (int64_t)m->rows;
-    for (int64_t j = low; j < high; j++) {
-        const uint32_t *row = what + (y + j) * (int64_t)l->columns + x;
-        const int32_t *mass = m->at + j * (int64_t)m->columns;
-        for (int64_t i = left; i < right; i++) sum += (mass[i] + more) * row[i];
+    const sunder_i_grid *grid = &a->field->prices->grid;
+    const sunder_i_window w = sunder_i_window_of(grid, m, dx, dy);
+    int64_t sum = 0;
+    for (size_t j = w.row; j < w.rows; j++) {
+        const uint32_t *row = what + sunder_i_window_node(grid, &w, j);
+        const int32_t *mass = m->at + j * m->columns + w.column;
+        for (size_t i = 0; i < w.columns - w.column; i++) sum += (mass[i] + more) * row[i];
     }
     return sum;
 }

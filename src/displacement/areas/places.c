@@ -2,7 +2,7 @@
  * stands in one place comes apart in all directions, and those that stand in a row do not pass each other, as mass
  * does that is transported at the least cost; so sides are mostly right when the search begins, and what is still
  * missing is little. */
-#include "displacement/areas/levels.h"
+#include "displacement/areas/climb.h"
 #include "displacement/areas/tuning.h"
 
 #include <math.h>

@@ -17,7 +17,7 @@
 #include <string.h>
 
 typedef struct payers {
-    const sunder_i_solver *s;
+    sunder_i_solver *s;
     sunder_i_parts *parts;
     double *cost;             /* [bodies] of each part, at its root */
     uint32_t *crowd;          /* [bodies] union-find over parts, and bodies that were solved together */
@@ -105,7 +105,7 @@ static sunder_status take(payers *p, sunder_i_area_bound *area, const sunder_i_i
 
 static sunder_status ask_crowd(payers *p, const sunder_i_id_pair *member, size_t members, sunder_error *err)
 {
-    sunder_i_model *model = (sunder_i_model *)&p->s->model;
+    sunder_i_model *model = &p->s->model;
     double cost, proved;
     size_t n = 0;
     for (size_t k = 0; k < members; k++)
@@ -138,7 +138,7 @@ static sunder_status ask_crowds(payers *p, sunder_error *err)
     return status;
 }
 
-sunder_status sunder_i_report_area_bounds(const sunder_i_solver *s, sunder_i_parts *parts, sunder_error *err)
+sunder_status sunder_i_report_area_bounds(sunder_i_solver *s, sunder_i_parts *parts, sunder_error *err)
 {
     if (!(s->model.rules.effort > 0) || s->model.rules.contained == SUNDER_CONTAINMENT_IGNORE) return SUNDER_OK;
     const size_t n = s->model.bodies;

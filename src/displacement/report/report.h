@@ -136,7 +136,7 @@ double sunder_i_part_bound(const sunder_i_parts *parts, uint32_t body);
 /* ---- area_bounds.c ----------------------------------------------------------------------------------------------- */
 
 /* Asks parts of which less than nearly all is proved what their area proves. Blocks are united for that. */
-sunder_status sunder_i_report_area_bounds(const sunder_i_solver *solver, sunder_i_parts *parts, sunder_error *err);
+sunder_status sunder_i_report_area_bounds(sunder_i_solver *solver, sunder_i_parts *parts, sunder_error *err);
 /* Adds the tree of each such part. */
 sunder_status sunder_i_report_area_trees(sunder_report *report, const sunder_i_solver *solver, sunder_i_parts *parts,
                                          sunder_error *err);

@@ -1,6 +1,6 @@
 /* Payers, and grids that tell them well enough: on a coarse one prices spread in few rounds, on finer ones they are
  * told better. */
-#include "displacement/areas/levels.h"
+#include "displacement/areas/climb.h"
 #include "displacement/areas/tuning.h"
 
 #include "spatial/box.h"

@@ -1,6 +1,6 @@
 /* Prices of area from a coarse grid to finer ones: what the bound and the places of a crowd have in common. */
-#ifndef SUNDER_I_AREAS_LEVELS_H
-#define SUNDER_I_AREAS_LEVELS_H
+#ifndef SUNDER_I_AREAS_CLIMB_H
+#define SUNDER_I_AREAS_CLIMB_H
 
 #include "displacement/areas/areas.h"
 
@@ -22,10 +22,10 @@ typedef struct sunder_i_climb {
 
 /* about: how far from where bodies stood and stand there may be a price, in sizes of bodies. Failure leaves what is
  * freed. */
-sunder_status sunder_i_climb_init(sunder_i_climb *levels, const sunder_i_model *model, const uint32_t *body, size_t n,
+sunder_status sunder_i_climb_init(sunder_i_climb *climb, const sunder_i_model *model, const uint32_t *body, size_t n,
                                   double about, sunder_error *err);
-void sunder_i_climb_free(sunder_i_climb *levels);
-/* Prices on the next grid, from those on the last; only while levels->left > 0. False if memory is out. */
-bool sunder_i_climb_on(sunder_i_climb *levels);
+void sunder_i_climb_free(sunder_i_climb *climb);
+/* Prices on the next grid, from those on the last; only while climb->left > 0. False if memory is out. */
+bool sunder_i_climb_on(sunder_i_climb *climb);
 
 #endif
