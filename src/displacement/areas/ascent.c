@@ -3,8 +3,7 @@
  * What a payer pays is the least over its places, which has corners: a place that is cheapest by a hair pays for all of
  * its area, and the next step is drawn to another. So the least is taken softly, as -T log of the sum of exp(-f / T)
  * over places, whose gradient has the body a little everywhere that is nearly as cheap. Steps are those of Barzilai and
- * Borwein, shortened where they prove less than the least of the last ten values, a variant of [Birgin, Martinez,
- * Raydan 2000]. None of this needs to be right: what the prices prove is worked out of them alone (least.c). */
+ * Borwein, shortened where they prove less than the least of the last ten values, a variant of [BMR00]. None of this needs to be right: what the prices prove is worked out of them alone (least.c). */
 #include "displacement/areas/areas.h"
 #include "displacement/areas/tuning.h"
 #include "displacement/areas/window.h"
@@ -27,10 +26,10 @@ typedef struct ascent {
 /* The price of the payer's area there, in squares. */
 static double price_of(const ascent *a, const sunder_i_masses *m, const float *price, int64_t dx, int64_t dy)
 {
-    const sunder_i_window w = sunder_i_window_of(a->grid, m, dx, dy);
+    const sunder_i_part_on_grid w = sunder_i_part_on(a->grid, m, dx, dy);
     double sum = 0;
     for (size_t j = w.row; j < w.rows; j++) {
-        const float *p = price + sunder_i_window_node(a->grid, &w, j);
+        const float *p = price + sunder_i_part_node(a->grid, &w, j);
         const int32_t *mass = m->at + j * m->columns + w.column;
         for (size_t i = 0; i < w.columns - w.column; i++) sum += (double)mass[i] * (double)p[i];
     }
@@ -40,10 +39,10 @@ static double price_of(const ascent *a, const sunder_i_masses *m, const float *p
 /* So much of the payer is there. */
 static void occupy(const ascent *a, const sunder_i_masses *m, double share, int64_t dx, int64_t dy, float *slope)
 {
-    const sunder_i_window w = sunder_i_window_of(a->grid, m, dx, dy);
+    const sunder_i_part_on_grid w = sunder_i_part_on(a->grid, m, dx, dy);
     share /= (double)SUNDER_I_MASS_OF_SQUARE;
     for (size_t j = w.row; j < w.rows; j++) {
-        float *s = slope + sunder_i_window_node(a->grid, &w, j);
+        float *s = slope + sunder_i_part_node(a->grid, &w, j);
         const int32_t *mass = m->at + j * m->columns + w.column;
         for (size_t i = 0; i < w.columns - w.column; i++) s[i] += (float)(share * mass[i]);
     }

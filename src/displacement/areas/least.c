@@ -78,10 +78,10 @@ static int64_t sum_at(const asking *a, const uint32_t *what, int64_t more, int64
 {
     const sunder_i_masses *m = &a->payer->masses;
     const sunder_i_grid *grid = &a->field->prices->grid;
-    const sunder_i_window w = sunder_i_window_of(grid, m, dx, dy);
+    const sunder_i_part_on_grid w = sunder_i_part_on(grid, m, dx, dy);
     int64_t sum = 0;
     for (size_t j = w.row; j < w.rows; j++) {
-        const uint32_t *row = what + sunder_i_window_node(grid, &w, j);
+        const uint32_t *row = what + sunder_i_part_node(grid, &w, j);
         const int32_t *mass = m->at + j * m->columns + w.column;
         for (size_t i = 0; i < w.columns - w.column; i++) sum += (mass[i] + more) * row[i];
     }

@@ -1,6 +1,6 @@
 /* How a body's area is spread over the nodes of a grid.
  *
- * Rings are clipped to each row of squares, and what is left to each square of it [Sutherland, Hodgman 1974]: edges
+ * Rings are clipped to each row of squares, and what is left to each square of it [SH74]: edges
  * along the border that this leaves cancel out in integrals by Green's formula, whatever the ring. A square gives its
  * four nodes the integrals of (1 - u) (1 - v), u (1 - v), (1 - u) v and u v, (u, v) the place in it.
  *
