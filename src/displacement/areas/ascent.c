@@ -3,7 +3,8 @@
  * What a payer pays is the least over its places, which has corners: a place that is cheapest by a hair pays for all of
  * its area, and the next step is drawn to another. So the least is taken softly, as -T log of the sum of exp(-f / T)
  * over places, whose gradient has the body a little everywhere that is nearly as cheap. Steps are those of Barzilai and
- * Borwein, shortened where they prove less than the least of the last ten values, a variant of [BMR00]. None of this needs to be right: what the prices prove is worked out of them alone (least.c). */
+ * Borwein, shortened where they prove less than the least of the last ten values, a variant of [BMR00]. None of this
+ * needs to be right: what the prices prove is worked out of them alone (least.c). */
 #include "displacement/areas/areas.h"
 #include "displacement/areas/tuning.h"
 #include "displacement/areas/window.h"
