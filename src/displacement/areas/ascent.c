@@ -14,26 +14,43 @@
 #include <math.h>
 #include <string.h>
 
+/* What of a payer is at a move, in squares. */
+typedef struct part {
+    int64_t dx, dy;
+    double share; /* of 1; before that what it pays there */
+} part;
+
 typedef struct ascent {
     const sunder_i_grid *grid;
     const sunder_i_payer *payer;
     size_t n;
     double patience;
     float *price, *half; /* [nodes] what is wished for, blurred; scratch */
-    double *paid;        /* [(2 * reach + 1)^2] of one payer, by its move */
-    size_t paid_capacity;
+    double *glance;      /* of one payer: what it pays at every GLANCES-th place, either way */
+    part *part;          /* [parts] of one payer */
+    size_t parts, part_capacity, glance_capacity;
+    double farthest; /* the square of how far it may go, in squares */
 } ascent;
+
+/* The sum of mass times price over n nodes of a row; in four sums that do not wait for each other. */
+static float price_of_row(const int32_t *mass, const float *price, size_t n)
+{
+    float sum[4] = {0, 0, 0, 0};
+    size_t i = 0;
+    for (; i + 4 <= n; i += 4)
+        for (size_t k = 0; k < 4; k++) sum[k] += (float)mass[i + k] * price[i + k];
+    for (; i < n; i++) sum[0] += (float)mass[i] * price[i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
 
 /* The price of the payer's area there, in squares. */
 static double price_of(const ascent *a, const sunder_i_masses *m, const float *price, int64_t dx, int64_t dy)
 {
     const sunder_i_part_on_grid w = sunder_i_part_on(a->grid, m, dx, dy);
     double sum = 0;
-    for (size_t j = w.row; j < w.rows; j++) {
-        const float *p = price + sunder_i_part_node(a->grid, &w, j);
-        const int32_t *mass = m->at + j * m->columns + w.column;
-        for (size_t i = 0; i < w.columns - w.column; i++) sum += (double)mass[i] * (double)p[i];
-    }
+    for (size_t j = w.row; j < w.rows; j++)
+        sum += (double)price_of_row(m->at + j * m->columns + w.column, price + sunder_i_part_node(a->grid, &w, j),
+                                    w.columns - w.column);
     return sum / (double)SUNDER_I_MASS_OF_SQUARE;
 }
 
@@ -41,11 +58,11 @@ static double price_of(const ascent *a, const sunder_i_masses *m, const float *p
 static void occupy(const ascent *a, const sunder_i_masses *m, double share, int64_t dx, int64_t dy, float *slope)
 {
     const sunder_i_part_on_grid w = sunder_i_part_on(a->grid, m, dx, dy);
-    share /= (double)SUNDER_I_MASS_OF_SQUARE;
+    const float each = (float)(share / (double)SUNDER_I_MASS_OF_SQUARE);
     for (size_t j = w.row; j < w.rows; j++) {
-        float *s = slope + sunder_i_part_node(a->grid, &w, j);
-        const int32_t *mass = m->at + j * m->columns + w.column;
-        for (size_t i = 0; i < w.columns - w.column; i++) s[i] += (float)(share * mass[i]);
+        float *restrict s = slope + sunder_i_part_node(a->grid, &w, j);
+        const int32_t *restrict mass = m->at + j * m->columns + w.column;
+        for (size_t i = 0; i < w.columns - w.column; i++) s[i] += each * (float)mass[i];
     }
 }
 
@@ -56,28 +73,89 @@ static int64_t reach_of(const ascent *a, const sunder_i_payer *payer, double sta
     return (int64_t)fmin(reach, payer->limit / a->grid->side);
 }
 
-/* The payer's places, each with its share of it: a->paid, [(2 * reach + 1)^2]. *value: what it pays, softly. False if
- * memory is out. */
-static bool find_shares(ascent *a, const sunder_i_payer *payer, const float *price, double stays, int64_t *reach,
-                        double *value)
+/* Way and price of one place; the way alone where that is too dear to count. Nothing is beyond its limit. */
+static double paid_at(const ascent *a, const sunder_i_payer *payer, const float *price, int64_t dx, int64_t dy,
+                      double most)
 {
-    const double heat = a->patience * payer->weight;
-    *reach = reach_of(a, payer, stays, heat);
-    const size_t across = (size_t)(2 * *reach + 1), places = across * across;
-    if (!sunder_i_reserve(&a->paid, &a->paid_capacity, places, sizeof *a->paid)) return false;
-    double least = stays, *paid = a->paid, sum = 0;
-    for (int64_t dy = -*reach; dy <= *reach; dy++)
-        for (int64_t dx = -*reach; dx <= *reach; dx++, paid++) {
-            *paid = payer->weight * (double)(dx * dx + dy * dy);
-            if (*paid < least + TOO_DEAR * heat) *paid += price_of(a, &payer->masses, price, dx, dy);
-            least = fmin(least, *paid);
+    const double square = (double)(dx * dx + dy * dy), way = payer->weight * square;
+    if (square > a->farthest) return INFINITY;
+    return way < most ? way + price_of(a, &payer->masses, price, dx, dy) : way;
+}
+
+/* Looks at one place in GLANCES^2, `half` of them from the middle: the least that is paid. */
+static double glance(const ascent *a, const sunder_i_payer *payer, const float *price, double stays, double doubt,
+                     int64_t half)
+{
+    double least = stays, *seen = a->glance;
+    for (int64_t y = -half; y <= half; y++)
+        for (int64_t x = -half; x <= half; x++, seen++) {
+            *seen = paid_at(a, payer, price, GLANCES * x, GLANCES * y, least + doubt);
+            if (*seen < least) least = *seen;
         }
-    for (size_t k = 0; k < places; k++) {
-        a->paid[k] = a->paid[k] < least + TOO_DEAR * heat ? exp((least - a->paid[k]) / heat) : 0;
-        sum += a->paid[k];
+    return least;
+}
+
+/* May a place between these four be as cheap as that? What is paid changes little more from there to there than
+ * between them. */
+static bool may_be_cheap(const double *seen, size_t across, double most)
+{
+    const double low = fmin(fmin(seen[0], seen[1]), fmin(seen[across], seen[across + 1]));
+    const double high = fmax(fmax(seen[0], seen[1]), fmax(seen[across], seen[across + 1]));
+    return low - (high - low) < most;
+}
+
+/* The places of one cell that may count. False if memory is out. */
+static bool list_cell(ascent *a, const sunder_i_payer *payer, const float *price, int64_t x, int64_t y, double doubt,
+                      double *least)
+{
+    const bool chequered = a->patience >= SMOOTH;
+    if (!sunder_i_reserve(&a->part, &a->part_capacity, a->parts + GLANCES * GLANCES, sizeof *a->part)) return false;
+    for (int64_t dy = GLANCES * y; dy < GLANCES * (y + 1); dy++)
+        for (int64_t dx = GLANCES * x; dx < GLANCES * (x + 1); dx++) {
+            if (chequered && ((dx + dy) & 1)) continue;
+            const double paid = paid_at(a, payer, price, dx, dy, *least + doubt);
+            if (paid >= *least + doubt) continue;
+            if (paid < *least) *least = paid;
+            a->part[a->parts++] = (part){dx, dy, paid};
+        }
+    return true;
+}
+
+/* Of places that count each one's share, from what is paid there; *value: what the payer pays, softly. */
+static void weigh_shares(ascent *a, double heat, double least, double *value)
+{
+    double sum = 0;
+    size_t n = 0;
+    for (size_t k = 0; k < a->parts; k++) {
+        if (a->part[k].share >= least + TOO_DEAR * heat) continue;
+        a->part[n] = a->part[k];
+        sum += a->part[n++].share = exp((least - a->part[k].share) / heat);
     }
-    for (size_t k = 0; k < places; k++) a->paid[k] /= sum;
+    a->parts = n;
+    for (size_t k = 0; k < n; k++) a->part[k].share /= sum;
     *value = least - heat * log(sum);
+}
+
+/* The payer's places, each with its share of it: a->part. Where shares fall off over more than a square they are those
+ * of every other place, like black squares of a chessboard: nothing is lost of a sum that is so smooth. False if memory
+ * is out. */
+static bool find_shares(ascent *a, const sunder_i_payer *payer, const float *price, double stays, double *value)
+{
+    const double heat = a->patience * payer->weight, doubt = TOO_DEAR * heat;
+    const int64_t half = reach_of(a, payer, stays, heat) / GLANCES + 1;
+    const size_t across = (size_t)(2 * half + 1);
+    if (!sunder_i_reserve(&a->glance, &a->glance_capacity, across * across, sizeof *a->glance)) return false;
+    const double limit = payer->limit / a->grid->side;
+    a->farthest = limit * limit;
+    double least = glance(a, payer, price, stays, doubt, half);
+    a->parts = 0;
+    for (int64_t y = -half; y < half; y++)
+        for (int64_t x = -half; x < half; x++) {
+            const double *seen = a->glance + (size_t)(y + half) * across + (size_t)(x + half);
+            if (!may_be_cheap(seen, across, least + doubt)) continue;
+            if (!list_cell(a, payer, price, x, y, doubt, &least)) return false;
+        }
+    weigh_shares(a, heat, least, value);
     return true;
 }
 
@@ -90,12 +168,9 @@ static bool ask_payer(ascent *a, const sunder_i_payer *payer, const float *price
         occupy(a, &payer->masses, 1, 0, 0, slope);
         return true;
     }
-    int64_t reach;
-    if (!find_shares(a, payer, price, stays, &reach, value)) return false;
-    const double *share = a->paid;
-    for (int64_t dy = -reach; dy <= reach; dy++)
-        for (int64_t dx = -reach; dx <= reach; dx++, share++)
-            if (*share > LITTLE) occupy(a, &payer->masses, *share, dx, dy, slope);
+    if (!find_shares(a, payer, price, stays, value)) return false;
+    for (const part *s = a->part; s < a->part + a->parts; s++)
+        if (s->share > LITTLE) occupy(a, &payer->masses, s->share, s->dx, s->dy, slope);
     return true;
 }
 
@@ -105,15 +180,12 @@ static bool find_mean(ascent *a, const sunder_i_payer *payer, const float *price
     const double stays = price_of(a, &payer->masses, price, 0, 0);
     move[0] = move[1] = 0;
     if (!(stays > 0)) return true;
-    int64_t reach;
     double value;
-    if (!find_shares(a, payer, price, stays, &reach, &value)) return false;
-    const double *share = a->paid;
-    for (int64_t dy = -reach; dy <= reach; dy++)
-        for (int64_t dx = -reach; dx <= reach; dx++, share++) {
-            move[0] += *share * (double)dx * a->grid->side;
-            move[1] += *share * (double)dy * a->grid->side;
-        }
+    if (!find_shares(a, payer, price, stays, &value)) return false;
+    for (const part *s = a->part; s < a->part + a->parts; s++) {
+        move[0] += s->share * (double)s->dx * a->grid->side;
+        move[1] += s->share * (double)s->dy * a->grid->side;
+    }
     return true;
 }
 
@@ -250,7 +322,8 @@ bool sunder_i_prices_ascend(const sunder_i_grid *grid, const sunder_i_payer *pay
         if (ok) memcpy(price, at.price, nodes * sizeof *price);
         if (ok) blur(&a, price);
     }
-    sunder_i_free(a.paid);
+    sunder_i_free(a.glance);
+    sunder_i_free(a.part);
     sunder_i_free(work);
     return ok;
 }
@@ -261,6 +334,7 @@ bool sunder_i_prices_places(const sunder_i_grid *grid, const sunder_i_payer *pay
     ascent a = {.grid = grid, .payer = payer, .n = n, .patience = patience};
     bool ok = true;
     for (size_t k = 0; k < n && ok; k++) ok = sunder_i_step() && find_mean(&a, &payer[k], price, move + 2 * k);
-    sunder_i_free(a.paid);
+    sunder_i_free(a.glance);
+    sunder_i_free(a.part);
     return ok;
 }

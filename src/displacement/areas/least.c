@@ -73,19 +73,20 @@ static void find_kinks(const field *f)
 }
 
 /* The sum over the payer's nodes, when it moved by (dx, dy), of what is at the node there: times its mass and `more`.
- */
+ * Both are below 2^32 (are_small()). */
 static int64_t sum_at(const asking *a, const uint32_t *what, int64_t more, int64_t dx, int64_t dy)
 {
     const sunder_i_masses *m = &a->payer->masses;
     const sunder_i_grid *grid = &a->field->prices->grid;
     const sunder_i_part_on_grid w = sunder_i_part_on(grid, m, dx, dy);
-    int64_t sum = 0;
+    const uint32_t each = (uint32_t)more;
+    uint64_t sum = 0;
     for (size_t j = w.row; j < w.rows; j++) {
         const uint32_t *row = what + sunder_i_part_node(grid, &w, j);
         const int32_t *mass = m->at + j * m->columns + w.column;
-        for (size_t i = 0; i < w.columns - w.column; i++) sum += (mass[i] + more) * row[i];
+        for (size_t i = 0; i < w.columns - w.column; i++) sum += (uint64_t)((uint32_t)mass[i] + each) * row[i];
     }
-    return sum;
+    return (int64_t)sum;
 }
 
 static int64_t *slot(const asking *a, int64_t dx, int64_t dy)
@@ -175,14 +176,16 @@ static bool ask_payer(const field *f, const sunder_i_payer *payer, int64_t *paid
     return true;
 }
 
-/* Are all numbers below 2^61? A way that costs more than to stay is not looked along. */
+/* Are all numbers below 2^61, and masses with their slack below 2^32? A way that costs more than to stay is not looked
+ * along. */
 static bool are_small(const sunder_i_prices *prices, const sunder_i_payer *payer, size_t n)
 {
     for (size_t k = 0; k < n; k++) {
         const sunder_i_masses *m = &payer[k].masses;
         const double mass = (double)m->total + (double)m->slack * (double)(m->columns * m->rows);
         const double weight = payer[k].weight * (double)SUNDER_I_MASS_OF_SQUARE / prices->unit;
-        if (!(weight >= 1 && weight < 0x1p48 && mass * 8 * (double)SUNDER_I_MOST_PRICE < 0x1p52)) return false;
+        if (!(weight >= 1 && weight < 0x1p48 && m->slack < INT64_C(1) << 31)) return false;
+        if (!(mass * 8 * (double)SUNDER_I_MOST_PRICE < 0x1p52)) return false;
     }
     return true;
 }

@@ -228,13 +228,14 @@ static bool list_members(sunder_i_solver *s)
     return ok;
 }
 
-/* Many that may go anywhere, and began with no more than half of them together, if they did: what a crowd ran into
- * changes little of where it is best put. */
+/* Many that may go anywhere, and are more than when they began: what a large crowd ran into changes little of where it
+ * is best put, unless it is as many as itself. */
 static bool is_new_crowd(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
     if (!(s->model.rules.effort > 0) || c->limited || c->brief || c->n < CROWD) return false;
+    const size_t most = c->n <= LARGE_GROWN_CROWD ? c->n - 1 : c->n / 2;
     for (size_t k = 0; k < c->n; k++)
-        if (s->crowd[c->body[k]] > c->n / 2) return false;
+        if (s->crowd[c->body[k]] > most) return false;
     return true;
 }
 

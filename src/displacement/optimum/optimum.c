@@ -180,16 +180,16 @@ static bool keep_guests(sunder_i_group *g, const sunder_i_tree *tree, size_t fro
     return true;
 }
 
-/* Of a group whose tree ended without a proof blocks are asked in earnest only where a quick look at them proves nearly
- * as much as the tree: what is small enough for a tree they seldom prove more of. */
+/* Blocks are asked in earnest only where a quick look at them proves so much: of what is small enough for a tree that
+ * ended without a proof they seldom prove more than the tree. */
 static sunder_status look_at_blocks(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g,
-                                    uint64_t steps, bool *promising, sunder_error *err)
+                                    double enough, uint64_t steps, bool *promising, sunder_error *err)
 {
     sunder_i_bound_trees trees = {0};
     double bound;
     const sunder_status status = sunder_i_blocks_bound(model, waived, g, steps / QUICK_LOOK, 0, &bound, &trees, err);
     sunder_i_bound_trees_free(&trees);
-    *promising = bound >= QUICK_AS_MUCH * g->bound;
+    *promising = bound >= enough;
     return status;
 }
 
@@ -269,8 +269,10 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     const bool asked = g->asked >= ASKED_SHARE * before;
     if (!asked) g->asked = movers > MOST_TOGETHER ? before : 0;
     const bool crowded = sunder_i_group_is_crowded(model, waived, g);
+    const bool free_crowd = sunder_i_group_is_free_crowd(model, waived, g);
     if (movers > MOST_TOGETHER)
-        return asked ? SUNDER_OK : prove_parts(model, waived, g, crowded ? steps / CROWD_LOOK : steps, err);
+        return asked || free_crowd ? SUNDER_OK
+                                   : prove_parts(model, waived, g, crowded ? steps / CROWD_LOOK : steps, err);
     const sunder_status polished = attempt(model, waived, g, g->body, g->move, g->n, false, &better, err);
     if (polished || known >= goal_of(model, g)) return polished;
     if (crowded) {
@@ -304,7 +306,10 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     if (status || movers <= FEW || asked) return status;
     g->asked = before;
     bool promising = !spent;
-    if (small) status = look_at_blocks(model, waived, g, steps, &promising, err);
+    double priced = 0;
+    if (promising && free_crowd) status = sunder_i_group_ask_prices(model, g, &priced, err);
+    if (!status && promising && (small || priced > 0))
+        status = look_at_blocks(model, waived, g, fmax(QUICK_AS_MUCH * g->bound, priced), steps, &promising, err);
     return status || !promising ? status : prove_blocks(model, waived, g, steps, err);
 }
 

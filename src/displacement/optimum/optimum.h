@@ -44,6 +44,14 @@ bool sunder_i_tight_place(const sunder_i_model *model, const sunder_i_waived *wa
 bool sunder_i_may_be_tight(const sunder_i_model *model, const uint32_t *body, size_t n, bool *may);
 /* crowded.c: are so many pairs of its bodies left in conflict that neither shaking nor a tree is of any use? */
 bool sunder_i_group_is_crowded(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *group);
+/* Pairs of its bodies that are left in conflict. */
+size_t sunder_i_group_listed(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *group);
+/* free_crowd.c: may all of so many bodies go anywhere, and owe every two each other the gap, so that the report will
+ * ask for prices of area? Then what these prove of the group alone: *bound. */
+bool sunder_i_group_is_free_crowd(const sunder_i_model *model, const sunder_i_waived *waived,
+                                  const sunder_i_group *group);
+sunder_status sunder_i_group_ask_prices(const sunder_i_model *model, const sunder_i_group *group, double *bound,
+                                        sunder_error *err);
 /* Is its cost proved to be the least, up to what the program prints of it? */
 bool sunder_i_group_is_optimal(const sunder_i_group *group);
 /* Goes down from where the group's bodies are put; takes what is cheaper. */
