@@ -392,6 +392,69 @@ static void test_border(void **state)
     }
 }
 
+/* What one pays at a move by whole squares, by float prices. */
+static double paid_by(const sunder_i_grid *l, const sunder_i_payer *payer, const float *price, int64_t dx, int64_t dy)
+{
+    const sunder_i_masses *m = &payer->masses;
+    double sum = 0;
+    for (size_t k = 0; k < m->columns * m->rows; k++) {
+        const int64_t x = m->x + dx + (int64_t)(k % m->columns), y = m->y + dy + (int64_t)(k / m->columns);
+        if (x < 0 || y < 0 || x >= (int64_t)l->columns || y >= (int64_t)l->rows) continue;
+        sum += (double)m->at[k] * (double)price[(size_t)y * l->columns + (size_t)x];
+    }
+    return sum / (double)SUNDER_I_MASS_OF_SQUARE + payer->weight * (double)(dx * dx + dy * dy);
+}
+
+/* The mean of all moves within its limit, those that are dearer by `heat` counted e times less. */
+static void find_mean(const sunder_i_grid *l, const sunder_i_payer *payer, const float *price, double heat,
+                      double mean[2])
+{
+    double least = INFINITY, sum[3] = {0, 0, 0};
+    for (int pass = 0; pass < 2; pass++)
+        for (int64_t dy = -40; dy <= 40; dy++)
+            for (int64_t dx = -40; dx <= 40; dx++) {
+                if (l->side * sqrt((double)(dx * dx + dy * dy)) > payer->limit) continue;
+                const double paid = paid_by(l, payer, price, dx, dy), share = pass ? exp((least - paid) / heat) : 0;
+                if (paid < least) least = paid;
+                sum[0] += share;
+                sum[1] += share * (double)dx;
+                sum[2] += share * (double)dy;
+            }
+    for (int c = 0; c < 2; c++) mean[c] = l->side * sum[1 + c] / sum[0];
+}
+
+/* Places are left out that are known to be too dear: the mean is that of all. */
+static void test_places(void **state)
+{
+    (void)state;
+    static market m;
+    static float price[41 * 41];
+    size_t moved = 0;
+    for (size_t k = 0; k < test_count(60); k++) {
+        rng g = rng_start(test_seed(), 8000 + k);
+        const sunder_i_grid grid = {.side = 2, .x = -20, .y = -20, .columns = 41, .rows = 41};
+        draw_body(&g, 4, 0, 0, &m.body);
+        assert_true(sunder_i_masses_make(&m.body.outline, &grid, &m.payer.masses));
+        const double area = (double)m.payer.masses.total / (double)SUNDER_I_MASS_OF_SQUARE;
+        const double x = 6 * (2 * rng_unit(&g) - 1), y = 6 * (2 * rng_unit(&g) - 1), steep = 1 + 3 * rng_unit(&g);
+        for (size_t i = 0; i < 41 * 41; i++) {
+            const double u = (double)(i % 41) - 20 - x, v = (double)(i / 41) - 20 - y;
+            price[i] = (float)fmax(0, steep * (100 - u * u - v * v));
+        }
+        m.payer.weight = area * (1 + 4 * rng_unit(&g));
+        m.payer.limit = rng_once_in(&g, 3) ? 20 * rng_unit(&g) : INFINITY;
+        const double patience = 0.05 + 3 * rng_unit(&g);
+        double mean[2], move[2];
+        find_mean(&grid, &m.payer, price, patience * m.payer.weight, mean);
+        assert_true(sunder_i_prices_places(&grid, &m.payer, 1, patience, price, move));
+        assert_true(hypot(move[0] - mean[0], move[1] - mean[1]) <= 1e-3 * grid.side);
+        assert_true(hypot(move[0], move[1]) <= m.payer.limit);
+        moved += hypot(move[0], move[1]) > grid.side;
+        sunder_i_masses_free(&m.payer.masses);
+    }
+    assert_true(moved > test_count(60) / 4);
+}
+
 /* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
 static bool attempt(void *context)
@@ -422,6 +485,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_masses), cmocka_unit_test(test_prices),
                                        cmocka_unit_test(test_limits), cmocka_unit_test(test_border),
-                                       cmocka_unit_test(test_memory)};
+                                       cmocka_unit_test(test_places), cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,11 +108,9 @@ static bool may_be_cheap(const double *seen, size_t across, double most)
 static bool list_cell(ascent *a, const sunder_i_payer *payer, const float *price, int64_t x, int64_t y, double doubt,
                       double *least)
 {
-    const bool chequered = a->patience >= SMOOTH;
     if (!sunder_i_reserve(&a->part, &a->part_capacity, a->parts + GLANCES * GLANCES, sizeof *a->part)) return false;
     for (int64_t dy = GLANCES * y; dy < GLANCES * (y + 1); dy++)
         for (int64_t dx = GLANCES * x; dx < GLANCES * (x + 1); dx++) {
-            if (chequered && ((dx + dy) & 1)) continue;
             const double paid = paid_at(a, payer, price, dx, dy, *least + doubt);
             if (paid >= *least + doubt) continue;
             if (paid < *least) *least = paid;
@@ -136,9 +134,7 @@ static void weigh_shares(ascent *a, double heat, double least, double *value)
     *value = least - heat * log(sum);
 }
 
-/* The payer's places, each with its share of it: a->part. Where shares fall off over more than a square they are those
- * of every other place, like black squares of a chessboard: nothing is lost of a sum that is so smooth. False if memory
- * is out. */
+/* The payer's places, each with its share of it: a->part. False if memory is out. */
 static bool find_shares(ascent *a, const sunder_i_payer *payer, const float *price, double stays, double *value)
 {
     const double heat = a->patience * payer->weight, doubt = TOO_DEAR * heat;

@@ -32,9 +32,6 @@
 #define TOO_DEAR 12
 /* One place in so many, either way, is looked at to see what the least is about. */
 #define GLANCES 4
-/* From so much patience on every other place tells enough: shares fall off as exp(-d^2 / patience), so the sum over
- * places of a lattice of step sqrt(2) is off by exp(-pi^2 patience / 2), a half of a per cent. */
-#define SMOOTH 1.1
 /* A share of the payer that counts for nothing. */
 #define LITTLE 1e-5
 
