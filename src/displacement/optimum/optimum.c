@@ -309,7 +309,7 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     double priced = 0;
     if (promising && free_crowd) status = sunder_i_group_ask_prices(model, g, &priced, err);
     if (!status && promising && (small || priced > 0))
-        status = look_at_blocks(model, waived, g, fmax(QUICK_AS_MUCH * g->bound, priced), steps, &promising, err);
+        status = look_at_blocks(model, waived, g, QUICK_AS_MUCH * fmax(g->bound, priced), steps, &promising, err);
     return status || !promising ? status : prove_blocks(model, waived, g, steps, err);
 }
 
