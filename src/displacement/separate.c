@@ -31,18 +31,34 @@
 /* Better sides are looked for so often, where clusters joined since the last time. */
 #define IMPROVED 3
 
-/* as_given: features keep the order that they have. */
+/* How all pairs stand; movers_only: all of which not both are fixed. */
+static sunder_status relate(sunder_i_solver *s, bool movers_only, sunder_error *err)
+{
+    if (!movers_only) return sunder_i_placement_relate(&s->model, &s->placement, NULL, NULL, &s->start, err);
+    sunder_i_changes movers;
+    sunder_status status = sunder_i_changes_init(&movers, s->model.things) ? SUNDER_OK : sunder_i_no_memory(err);
+    for (uint32_t f = 0; f < s->model.features && !status; f++)
+        if (s->model.present[f] && !s->layer.feature[f].fixed) sunder_i_changes_add(&movers, f);
+    if (!status && !sunder_i_changes_sort(&movers)) status = sunder_i_no_memory(err);
+    if (!status) status = sunder_i_placement_relate(&s->model, &s->placement, &movers, NULL, &s->start, err);
+    sunder_i_changes_free(&movers);
+    return status;
+}
+
+/* What a layer is read for: all of it; what stands where, in the order of the input; can what moves be solved? */
+typedef enum purpose { TO_SEPARATE, TO_CHECK, TO_ANSWER } purpose;
+
 static sunder_status start(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
-                           bool as_given, sunder_report **report, sunder_error *err)
+                           purpose what_for, sunder_report **report, sunder_error *err)
 {
     sunder_i_rules rules;
     sunder_status status = sunder_i_rules_of(options, &rules, err);
     if (!status) status = sunder_i_barriers_make(layer, rules.gap, &s->barriers, err);
-    if (!status) status = sunder_i_order_layer(layer, &s->barriers, as_given, &s->layer, &s->number, err);
+    if (!status) status = sunder_i_order_layer(layer, &s->barriers, what_for == TO_CHECK, &s->layer, &s->number, err);
     if (!status) status = sunder_i_model_init(&s->layer, &s->barriers, &rules, &s->model, err);
     if (!status) status = sunder_i_placement_init(&s->model, &s->placement, err);
     s->model.standing = &s->placement.tree;
-    if (!status) status = sunder_i_placement_relate(&s->model, &s->placement, NULL, NULL, &s->start, err);
+    if (!status) status = relate(s, what_for == TO_ANSWER, err);
     if (!status) status = sunder_i_model_join(&s->model, &s->start, err);
     if (!status) status = sunder_i_report_new(&s->model, report, err);
     if (status) return status;
@@ -165,8 +181,8 @@ static sunder_status solve(sunder_i_solver *s, sunder_error *err)
 static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
                           sunder_report **report, sunder_error *err)
 {
-    sunder_status status = start(s, layer, options, false, report, err);
-    if (!status) status = sunder_i_solver_find_infeasible(s, err);
+    sunder_status status = start(s, layer, options, TO_SEPARATE, report, err);
+    if (!status) status = sunder_i_solver_find_infeasible(s, NULL, err);
     if (!status) status = prepare(s, err);
     if (!status && !sunder_i_progress(&s->model.rules, PREPARED)) status = sunder_i_no_memory(err);
     if (!status) status = solve(s, err);
@@ -183,21 +199,21 @@ static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_
 {
     const sunder_i_spared list = {pair, n};
     sunder_report *report = NULL;
-    sunder_status status = start(s, layer, options, false, &report, err);
+    sunder_status status = start(s, layer, options, TO_ANSWER, &report, err);
     sunder_report_free(report);
-    if (!status) status = sunder_i_solver_find_infeasible(s, err);
+    if (!status) status = sunder_i_solver_find_infeasible(s, &list, err);
     if (status) return status;
     s->brief = s->model.inclusions == 0;
     s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, &list);
     if (s->hopeless) return SUNDER_OK;
-    status = prepare(s, err);
+    status = sunder_i_solver_spare(s, &list, err);
+    if (!status) status = prepare(s, err);
     /* Two may be shut in, too. */
     s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, &list);
     if (!status && s->brief && !s->hopeless && *proof == SUNDER_I_PROOF_WANTED) {
         status = sunder_i_solver_is_proved_hopeless(s, &list, &s->hopeless, err);
         *proof = s->hopeless ? SUNDER_I_PROOF_FOUND : SUNDER_I_PROOF_IN_VAIN;
     }
-    if (!status && !s->hopeless) status = sunder_i_solver_spare(s, &list, err);
     if (!status && !s->hopeless) status = sunder_i_solver_move_inside(s, err);
     if (!status && !s->hopeless) status = sunder_i_solver_choose_holders(s, err);
     if (!status && !s->hopeless) status = sunder_i_solver_settle(s, 0, 1, err);
@@ -266,7 +282,7 @@ static sunder_status check(sunder_i_solver *s, const sunder_layer *layer, const 
                            sunder_report **report, sunder_error *err)
 {
     const double began = sunder_i_now();
-    sunder_status status = start(s, layer, options, true, report, err);
+    sunder_status status = start(s, layer, options, TO_CHECK, report, err);
     if (!status) status = sunder_i_report_conflicts(*report, &s->model, &s->placement, &s->start, false, err);
     if (!status) status = sunder_i_report_renumber(*report, s->number, err);
     if (status) return status;

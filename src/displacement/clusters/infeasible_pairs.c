@@ -8,7 +8,9 @@
 #include <math.h>
 
 typedef struct judging {
+    const sunder_i_solver *solver;
     const sunder_i_model *model;
+    const sunder_i_spared *spared; /* NULL: none */
     const sunder_i_relations *start;
     sunder_i_relaxation *relaxation; /* [start->n] infeasible ones are filled */
     sunder_i_resolution *resolution; /* [start->n] */
@@ -21,6 +23,13 @@ static bool boxes_can_part(const double *a, const double *b, double gap, double 
     return out + gap < reach * (1 - 0x1p-40);
 }
 
+/* What is left as it is will be relaxed, whatever its limits; unless it may go inside, which is asked here. */
+static bool is_left(const judging *g, const sunder_i_relation *r)
+{
+    return g->spared && !sunder_i_may_be_inside(&g->model->rules) &&
+           sunder_i_solver_is_spared(g->solver, g->spared, r->a, r->b);
+}
+
 static sunder_status judge(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const judging *g = context;
@@ -31,7 +40,7 @@ static sunder_status judge(void *context, size_t begin, size_t end, sunder_error
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
         const double limit[2] = {sunder_i_limit_of(&model->body[i]), sunder_i_limit_of(&model->body[j])},
                      reach = limit[0] + limit[1];
-        if (!sunder_i_is_open_conflict(model, r) || reach == INFINITY ||
+        if (!sunder_i_is_open_conflict(model, r) || reach == INFINITY || is_left(g, r) ||
             (!sunder_i_is_barrier(model, r->b) &&
              boxes_can_part(model->box + 4 * (size_t)r->a, model->box + 4 * (size_t)r->b, model->rules.gap, reach)))
             continue;
@@ -72,11 +81,15 @@ static sunder_status note(sunder_i_solver *s, const sunder_i_relation *r, const 
     return sunder_i_inclusions_add(model, r->a, r->b, resolution->a_inside, err);
 }
 
-sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *s, const sunder_i_spared *spared, sunder_error *err)
 {
     const size_t n = s->start.n;
-    judging g = {&s->model, &s->start, sunder_i_calloc(n, sizeof *g.relaxation),
-                 sunder_i_calloc(n, sizeof *g.resolution)};
+    judging g = {.solver = s,
+                 .model = &s->model,
+                 .spared = spared,
+                 .start = &s->start,
+                 .relaxation = sunder_i_calloc(n, sizeof *g.relaxation),
+                 .resolution = sunder_i_calloc(n, sizeof *g.resolution)};
     sunder_status status = g.relaxation && g.resolution ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) status = sunder_i_inclusions_note_nested(&s->model, &s->start, err);
     if (!status) status = sunder_i_parallel(s->model.rules.threads, n, SUNDER_I_GRAIN_PAIRS, judge, &g, err);

@@ -13,14 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the relaxation asks for, and a little less: its lengths are rounded. */
-static sunder_i_requirement requirement_below(const sunder_i_model *model, const sunder_i_relaxation *t)
-{
-    sunder_i_requirement r = sunder_i_requirement_of(model, t);
-    r.clearance *= r.clearance < 0 ? 1 + 0x1p-48 : 1 - 0x1p-48;
-    return r;
-}
-
 /* The members of both, ascending; NULL if memory is out. */
 static uint32_t *members_of(const sunder_i_model *model, const sunder_i_id_pair *bodies, size_t *n)
 {
@@ -41,11 +33,11 @@ static sunder_i_requirement *list_required(const sunder_i_model *model, const su
     const sunder_i_relaxations *all = &model->relaxations;
     sunder_i_requirement *list = sunder_i_alloc(n + all->n, sizeof *list);
     *required = 0;
-    for (size_t k = 0; k < n && list; k++) list[(*required)++] = requirement_below(model, &relaxation[k]);
+    for (size_t k = 0; k < n && list; k++) list[(*required)++] = sunder_i_requirement_below(model, &relaxation[k]);
     for (size_t k = 0; k < all->n && list; k++) {
         const uint32_t i = model->body_of[all->item[k].a], j = model->body_of[all->item[k].b];
         if ((i == bodies->a && j == bodies->b) || (i == bodies->b && j == bodies->a))
-            list[(*required)++] = requirement_below(model, &all->item[k]);
+            list[(*required)++] = sunder_i_requirement_below(model, &all->item[k]);
     }
     if (*required) qsort(list, *required, sizeof *list, sunder_i_by_id_pair);
     return list;

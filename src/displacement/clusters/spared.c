@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-static bool is_spared(const sunder_i_solver *s, const sunder_i_spared *list, uint32_t a, uint32_t b)
+bool sunder_i_solver_is_spared(const sunder_i_solver *s, const sunder_i_spared *list, uint32_t a, uint32_t b)
 {
     const uint32_t p = (uint32_t)s->number[a], q = (uint32_t)s->number[b];
     const sunder_i_id_pair key = {p < q ? p : q, p < q ? q : p};
@@ -22,7 +22,7 @@ sunder_status sunder_i_solver_spare(sunder_i_solver *s, const sunder_i_spared *l
     for (size_t k = 0; k < s->start.n && list->n && !status; k++) {
         const sunder_i_relation *r = &s->start.pair[k];
         sunder_i_relaxation relaxation;
-        if (!sunder_i_is_conflict_of_bodies(model, r) || !is_spared(s, list, r->a, r->b)) continue;
+        if (!sunder_i_is_conflict_of_bodies(model, r) || !sunder_i_solver_is_spared(s, list, r->a, r->b)) continue;
         status = sunder_i_relaxation_of(model, r->a, r->b, &relaxation, err);
         relaxation.infeasible = true;
         if (!status && !sunder_i_relaxations_spread(&model->relaxations, model, &relaxation, model->rules.gap))
@@ -37,7 +37,7 @@ bool sunder_i_solver_is_beyond_limits(const sunder_i_solver *s, const sunder_i_s
     const sunder_i_model *model = &s->model;
     for (size_t k = 0; k < model->relaxations.n; k++) {
         const sunder_i_relaxation *t = &model->relaxations.item[k];
-        if (is_spared(s, list, t->a, t->b)) continue;
+        if (sunder_i_solver_is_spared(s, list, t->a, t->b)) continue;
         if (sunder_i_may_move(&model->body[model->body_of[t->a]]) ||
             sunder_i_may_move(&model->body[model->body_of[t->b]]))
             return true;
@@ -47,6 +47,19 @@ bool sunder_i_solver_is_beyond_limits(const sunder_i_solver *s, const sunder_i_s
 
 /* ---- By proof ---------------------------------------------------------------------------------------------------- */
 
+/* What one of the spared is held to: what it is relaxed to, but where it lies in the other or in an area, and may go
+ * deeper. */
+static sunder_status find_requirement(const sunder_i_solver *s, const sunder_i_relation *r, sunder_i_requirement *out,
+                                      sunder_error *err)
+{
+    const sunder_i_model *model = &s->model;
+    const sunder_i_relaxation *t = sunder_i_relaxations_find(&model->relaxations, r->a, r->b);
+    const bool area = sunder_i_is_barrier(model, r->b) && !model->layer->feature[r->b].shape->flat;
+    if (!t || r->contained || area) return sunder_i_requirement_find(model, &s->start, r->a, r->b, out, err);
+    *out = sunder_i_requirement_below(model, t);
+    return SUNDER_OK;
+}
+
 /* What the spared are held to, sorted: of those that were in conflict. All others owe each other all. */
 static sunder_status find_requirements(const sunder_i_solver *s, const sunder_i_spared *list,
                                        sunder_i_requirement *required, size_t *n, sunder_error *err)
@@ -55,8 +68,8 @@ static sunder_status find_requirements(const sunder_i_solver *s, const sunder_i_
     *n = 0;
     for (size_t k = 0; k < s->start.n && list->n && !status; k++) {
         const sunder_i_relation *r = &s->start.pair[k];
-        if (!sunder_i_is_conflict_of_bodies(&s->model, r) || !is_spared(s, list, r->a, r->b)) continue;
-        status = sunder_i_requirement_find(&s->model, &s->start, r->a, r->b, &required[(*n)++], err);
+        if (!sunder_i_is_conflict_of_bodies(&s->model, r) || !sunder_i_solver_is_spared(s, list, r->a, r->b)) continue;
+        status = find_requirement(s, r, &required[(*n)++], err);
     }
     if (!status && *n) qsort(required, *n, sizeof *required, sunder_i_by_id_pair);
     return status;
@@ -77,7 +90,7 @@ static sunder_status prove(const sunder_i_solver *s, const sunder_i_spared *list
         const bool barrier = sunder_i_is_barrier(model, r->b);
         const sunder_i_id_pair asked = {body[0], barrier ? SUNDER_I_NOBODY : body[1]};
         sunder_i_decision decision;
-        if (!sunder_i_is_open_conflict(model, r) || is_spared(s, list, r->a, r->b) ||
+        if (!sunder_i_is_open_conflict(model, r) || sunder_i_solver_is_spared(s, list, r->a, r->b) ||
             sunder_i_by_id_pair(&asked, &last) == 0)
             continue;
         last = asked;

@@ -4,11 +4,19 @@
 
 #include "displacement/clusters/solver.h"
 
+/* Pairs that a question leaves as they are, sorted. */
+typedef struct sunder_i_spared {
+    const sunder_i_id_pair *pair; /* of features and barriers, as they were numbered */
+    size_t n;
+} sunder_i_spared;
+
 /* ---- infeasible_pairs.c ------------------------------------------------------------------------------------------ */
 
 /* Finds, exactly, the pairs that cannot be resolved within their limits, and relaxes them; and those that cannot be
- * parted, but may go inside, which are kept there from then on. Before the model is cut. */
-sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *solver, sunder_error *err);
+ * parted, but may go inside, which are kept there from then on. Before the model is cut. spared: whom the question
+ * leaves as they are, which need not be asked; NULL: none. */
+sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *solver, const sunder_i_spared *spared,
+                                              sunder_error *err);
 
 /* ---- shut_in_pairs.c --------------------------------------------------------------------------------------------- */
 
@@ -96,18 +104,14 @@ sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *er
 
 /* ---- spared.c ---------------------------------------------------------------------------------------------------- */
 
-/* Pairs that a question leaves as they are, sorted. */
-typedef struct sunder_i_spared {
-    const sunder_i_id_pair *pair; /* of features and barriers, as they were numbered */
-    size_t n;
-} sunder_i_spared;
-
+/* Is it one of those? */
+bool sunder_i_solver_is_spared(const sunder_i_solver *solver, const sunder_i_spared *spared, uint32_t a, uint32_t b);
 /* Is there a pair that was found to have no solution, and that is not spared? */
 bool sunder_i_solver_is_beyond_limits(const sunder_i_solver *solver, const sunder_i_spared *spared);
-/* Is it proved, with little effort, that those that are not spared cannot all be solved? */
+/* Is it proved, with little effort, that those that are not spared cannot all be solved? Spared ones are relaxed. */
 sunder_status sunder_i_solver_is_proved_hopeless(const sunder_i_solver *solver, const sunder_i_spared *spared,
                                                  bool *proved, sunder_error *err);
-/* Relaxes those that are. */
+/* Relaxes those that are. Before the model is cut, so that nothing more is asked about them. */
 sunder_status sunder_i_solver_spare(sunder_i_solver *solver, const sunder_i_spared *spared, sunder_error *err);
 
 /* ---- uphold.c ---------------------------------------------------------------------------------------------------- */

@@ -27,9 +27,9 @@ void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *pl
 
 /* ---- Near pairs -------------------------------------------------------------------------------------------------- */
 
-/* All pairs that are near, touch or are kept, as the features stand; exact. before and changes, or both NULL: the
- * relations when all but the features that changed (sorted) stood as now; what cannot have changed is taken from there,
- * and costs nothing but the copy. */
+/* All pairs that are near, touch or are kept, as the features stand; exact. changes: NULL, or those alone (sorted) of
+ * whose pairs it is asked. before: NULL, or the relations when all others stood as now, from which what cannot have
+ * changed is taken, and costs nothing but the copy. */
 sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunder_i_placement *placement,
                                         const sunder_i_changes *changes, const sunder_i_relations *before,
                                         sunder_i_relations *relations, sunder_error *err);

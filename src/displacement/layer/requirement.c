@@ -96,3 +96,10 @@ sunder_i_requirement sunder_i_requirement_of(const sunder_i_model *model, const 
     return (sunder_i_requirement){
         relaxation->a, sunder_i_whole_of(model, relaxation->b), clearance, {shift[0], shift[1]}};
 }
+
+sunder_i_requirement sunder_i_requirement_below(const sunder_i_model *model, const sunder_i_relaxation *relaxation)
+{
+    sunder_i_requirement r = sunder_i_requirement_of(model, relaxation);
+    r.clearance *= r.clearance < 0 ? 1 + 0x1p-48 : 1 - 0x1p-48;
+    return r;
+}

@@ -19,7 +19,8 @@ typedef struct sunder_i_requirement {
 /* a: a feature; b: a feature, or any part of a barrier. start: how the layer's pairs stood. */
 sunder_status sunder_i_requirement_find(const sunder_i_model *model, const sunder_i_relations *start, uint32_t a,
                                         uint32_t b, sunder_i_requirement *out, sunder_error *err);
-/* What the search holds it to. */
+/* What the search holds it to; and a little less, since its lengths are rounded. */
 sunder_i_requirement sunder_i_requirement_of(const sunder_i_model *model, const sunder_i_relaxation *relaxation);
+sunder_i_requirement sunder_i_requirement_below(const sunder_i_model *model, const sunder_i_relaxation *relaxation);
 
 #endif
