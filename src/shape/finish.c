@@ -18,6 +18,7 @@ static void *carve(unsigned char *block, size_t *used, size_t n, size_t size)
 typedef struct layout {
     size_t raw_vertices, raw_rings;
     uint32_t corners; /* of pieces */
+    bool numbers;     /* some corner may be no pair of doubles */
     bool few;         /* its rings are one of few corners: links and ends are those of all such */
     bool whole;       /* and it is its only piece, from its first corner on */
     bool clean;       /* and the ring as given begins with its corners */
@@ -42,7 +43,7 @@ static bool is_identity(const uint32_t *number, uint32_t n)
 static layout plan(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
                    const sunder_i_rings *r, const sunder_i_pieces *pieces)
 {
-    layout l = {.raw_rings = polygons ? poly_end[polygons - 1] : 0, .corners = pieces->corners};
+    layout l = {.raw_rings = polygons ? poly_end[polygons - 1] : 0, .corners = pieces->corners, .numbers = r->rounded};
     l.raw_vertices = l.raw_rings ? ring_end[l.raw_rings - 1] : 0;
     l.few = r->rings == 1 && r->polygons == 1 && r->vertices >= 3 && r->vertices <= SUNDER_I_FEW_CORNERS &&
             polygons == 1 && l.raw_rings == 1 && l.raw_vertices <= SUNDER_I_FEW_CORNERS + 1;
@@ -56,7 +57,8 @@ static layout plan(const double *xy, const size_t *ring_end, const size_t *poly_
 
 static size_t lay_out(sunder_shape *s, unsigned char *block, const sunder_shape *n, const layout *l)
 {
-    size_t used = (sizeof *s + 15) & ~(size_t)15;
+    size_t used = sizeof *s;
+    s->numbers = l->numbers ? carve(block, &used, 1, sizeof *s->numbers) : NULL;
     s->raw_xy = carve(block, &used, 2 * l->raw_vertices, sizeof *s->raw_xy);
     s->xy = l->clean ? s->raw_xy : carve(block, &used, 2 * (size_t)n->vertices, sizeof *s->xy);
     if (l->few) {
@@ -100,6 +102,7 @@ static sunder_shape *allocate(const sunder_shape *head, const layout *l)
     if (!s) return NULL;
     *s = *head;
     lay_out(s, (unsigned char *)s, head, l);
+    if (s->numbers) *s->numbers = (sunder_i_numbers){0};
     return s;
 }
 
@@ -107,7 +110,7 @@ sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, 
                                       const sunder_i_rings *r, const sunder_i_pieces *pieces)
 {
     const layout l = plan(xy, ring_end, poly_end, polygons, r, pieces);
-    sunder_shape head = {.raw_polygons = polygons,
+    sunder_shape head = {.raw_polygons = (uint32_t)polygons,
                          .vertices = r->vertices,
                          .rings = r->rings,
                          .polygons = r->polygons,
@@ -242,6 +245,6 @@ bool sunder_i_shape_mark_shared(sunder_shape *s, sunder_i_arena *arena)
 void sunder_shape_free(sunder_shape *shape)
 {
     if (!shape) return;
-    sunder_i_arena_free(&shape->arena);
+    if (shape->numbers) sunder_i_arena_free(&shape->numbers->arena);
     sunder_i_free(shape);
 }

@@ -21,7 +21,7 @@ void sunder_shape_box(const sunder_shape *shape, double box[4]) { memcpy(box, sh
 /* Rings run with the interior on their left, so their signed areas add up to that of the members. */
 double sunder_shape_area(const sunder_shape *shape)
 {
-    if (shape->rational) return shape->area;
+    if (shape->rational) return shape->numbers->area;
     sunder_i_accumulator twice = {{0}};
     for (uint32_t i = 0; i < shape->vertices; i++) {
         const double *a = shape->xy + 2 * (size_t)i, *b = shape->xy + 2 * (size_t)shape->next[i];

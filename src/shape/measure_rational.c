@@ -160,8 +160,8 @@ bool sunder_i_shape_measure_pieces(sunder_shape *shape)
     uint32_t from;
     const uint32_t largest = sunder_i_largest_piece(shape, &from);
     centroid(&placed.lattice, &arena, placed.p, shape->piece_vertex + from, shape->piece_end[largest] - from,
-             placed.origin_p, shape->anchor);
-    shape->area = area_of(&arena, shape, &placed);
+             placed.origin_p, shape->numbers->anchor);
+    shape->numbers->area = area_of(&arena, shape, &placed);
     const bool good = !arena.failed && !placed.lattice.arena.failed;
     sunder_i_arena_free(&arena);
     sunder_i_placed_free(&placed);

@@ -47,7 +47,7 @@ typedef struct arrays {
 /* Room for all arrays, in the shape's arena. */
 static bool make_room(sunder_shape *s, arrays *to)
 {
-    sunder_i_arena *a = &s->arena;
+    sunder_i_arena *a = &s->numbers->arena;
     s->xy = sunder_i_arena_alloc(a, s->vertices, 2 * sizeof *s->xy);
     s->ring_end = s->piece_end = to->ring_end = sunder_i_arena_alloc(a, s->pieces, sizeof *to->ring_end);
     s->poly_end = to->poly_end = sunder_i_arena_alloc(a, s->pieces, sizeof *to->poly_end);
@@ -100,9 +100,9 @@ sunder_status sunder_i_shape_of_pieces(const sunder_i_piece_of *piece, size_t n,
     size_t corners = 0;
     for (size_t i = 0; i < n; i++) corners += corners_of(&piece[i]);
     if (corners >= UINT32_MAX / 2) return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
-    sunder_shape *s = sunder_i_calloc(1, sizeof *s);
+    sunder_shape *s = sunder_i_calloc(1, sizeof *s + sizeof *s->numbers);
     if (!s) return sunder_i_no_memory(err);
-    sunder_i_arena_init(&s->arena);
+    s->numbers = (sunder_i_numbers *)(s + 1);
     s->vertices = (uint32_t)corners;
     s->pieces = s->rings = s->polygons = (uint32_t)n;
     for (size_t i = 0; i < n; i++) {

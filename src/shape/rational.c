@@ -54,16 +54,16 @@ bool sunder_i_exact_is_double(sunder_i_arena *arena, const sunder_i_exact *v)
 
 bool sunder_i_shape_set_rational(sunder_shape *s, const sunder_i_exact *exact)
 {
+    sunder_i_arena *arena = &s->numbers->arena;
     s->rational = true;
-    s->exact = sunder_i_arena_alloc(&s->arena, s->vertices, sizeof *s->exact);
+    s->exact = sunder_i_arena_alloc(arena, s->vertices, sizeof *s->exact);
     for (uint32_t v = 0; s->exact && v < s->vertices; v++) {
         const sunder_i_exact *from = &exact[v];
-        s->exact[v] =
-            (sunder_i_exact){{sunder_i_big_copy(&s->arena, from->num[0]), sunder_i_big_copy(&s->arena, from->num[1])},
-                             sunder_i_big_copy(&s->arena, from->den),
-                             from->exponent};
+        s->exact[v] = (sunder_i_exact){{sunder_i_big_copy(arena, from->num[0]), sunder_i_big_copy(arena, from->num[1])},
+                                       sunder_i_big_copy(arena, from->den),
+                                       from->exponent};
     }
-    return !s->arena.failed;
+    return !arena->failed;
 }
 
 /* The coordinates of vertex v: to nearest, down and up. */

@@ -27,17 +27,25 @@ typedef struct sunder_i_exact {
     long exponent;
 } sunder_i_exact;
 
+/* What only shapes have of which some corner is no pair of doubles, and those made of pieces (of_pieces.c): few. */
+typedef struct sunder_i_numbers {
+    sunder_i_arena arena;   /* of the numbers of corners */
+    double area, anchor[2]; /* of rational shapes, worked out when made, while failing was possible
+                             * (measure_rational.c) */
+} sunder_i_numbers;
+
 /* Layers have millions of them, most with one ring of few corners: what is the same for all of these they share
  * (few_corners.h), and a ring that was clean as it was given is kept once. */
 struct sunder_shape {
     /* as given */
     double *raw_xy;
     const size_t *raw_ring_end, *raw_poly_end;
-    size_t raw_polygons;
+    uint32_t raw_polygons;
 
     /* cleaned */
     uint32_t vertices, rings, polygons;
     uint32_t pieces;
+    int low_bit;                 /* coordinates are multiples of 2^low_bit; if rational, those that were given */
     double *xy;                  /* [2 * vertices] the coordinates; of corners that are no doubles the nearest ones; may
                                   * be raw_xy */
     double box[4];               /* rounded outward if rational */
@@ -50,13 +58,11 @@ struct sunder_shape {
     const uint32_t *piece_end;    /* [pieces] index past the last corner of each */
     const uint32_t *piece_vertex; /* corners, counter-clockwise */
 
-    int low_bit;             /* coordinates are multiples of 2^low_bit; if rational, those that were given */
-    bool touches;            /* as given, rings of one polygon meet somewhere, or a ring meets itself */
-    bool flat;               /* made of convex pieces, with or without area (of_pieces.c) */
-    bool repaired, rational; /* rational: some corner is no pair of doubles */
-    sunder_i_arena arena;    /* of the numbers of those */
-    sunder_i_exact *exact;   /* [vertices] of rational shapes, else NULL */
-    double area, anchor[2];  /* worked out when made, while failing was possible (measure_rational.c) */
+    bool touches;              /* as given, rings of one polygon meet somewhere, or a ring meets itself */
+    bool flat;                 /* made of convex pieces, with or without area (of_pieces.c) */
+    bool repaired, rational;   /* rational: some corner is no pair of doubles */
+    sunder_i_exact *exact;     /* [vertices] of rational shapes, else NULL */
+    sunder_i_numbers *numbers; /* in the shape's own block; NULL: it has none */
 };
 
 /* What a lattice has to hold for the shape; of a rational one the box, and the low bit of what was given. */
