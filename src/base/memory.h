@@ -28,6 +28,9 @@ static inline bool sunder_i_reserve(void *array, size_t *capacity, size_t need, 
     return need <= *capacity || sunder_i_enlarge(array, capacity, need, size);
 }
 
+/* Gives back what a growing array has beyond n elements. Where that fails it stays as it is. */
+void sunder_i_trim(void *array, size_t n, size_t size);
+
 struct sunder_i_chunk;
 
 typedef struct sunder_i_arena {

@@ -19,7 +19,6 @@ typedef struct comparison {
     const sunder_layer *before, *after;
     sunder_i_barriers barriers;   /* of `before` */
     sunder_layer layer;           /* `before`, and parts of these behind it; its own copy */
-    size_t *number;               /* [things] as the interface counts them */
     sunder_i_model model;         /* of all that */
     sunder_i_placement placement; /* first of `before`, then of `after` */
     sunder_i_relations start, now;
@@ -36,8 +35,7 @@ static void clear(comparison *c)
     sunder_i_placement_free(&c->model, &c->placement);
     sunder_i_model_free(&c->model);
     sunder_i_barriers_free(&c->barriers);
-    sunder_i_free(c->layer.feature);
-    sunder_i_free(c->number);
+    sunder_i_ordered_clear(&c->layer);
     sunder_i_free(c->start.pair);
     sunder_i_free(c->now.pair);
     sunder_i_free(c->move);
@@ -89,7 +87,7 @@ static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
 /* A feature's side anchor crossed a side of a part; of a barrier that is told once. */
 static sunder_status tell_side(comparison *c, uint32_t f, uint32_t part, sunder_error *err)
 {
-    const size_t barrier = c->number[part];
+    const size_t barrier = c->layer.number[part];
     const sunder_conflict *last = c->n ? &c->found[c->n - 1] : NULL;
     if (!c->translated[f] || (last && last->kind == SUNDER_CONFLICT_SIDE && last->a == f && last->b == barrier))
         return SUNDER_OK;
@@ -135,19 +133,22 @@ static sunder_status check_ways(comparison *c, sunder_error *err)
 static sunder_status place_after(comparison *c, sunder_error *err)
 {
     sunder_i_placement *p = &c->placement;
-    for (uint32_t f = 0; f < c->model.features; f++) {
+    double *box = sunder_i_rtree_boxes(&p->tree, c->model.things);
+    sunder_status status = box ? SUNDER_OK : sunder_i_no_memory(err);
+    for (uint32_t f = 0; f < c->model.features && !status; f++) {
         const sunder_shape *shape = c->after->feature[f].shape;
         c->model.present[f] = c->model.present[f] && shape && !sunder_shape_is_empty(shape);
         if (!c->model.present[f]) continue;
         p->translate[f] = (sunder_i_translate){.shape = shape};
-        sunder_shape_box(shape, p->box + 4 * (size_t)f);
+        sunder_shape_box(shape, box + 4 * (size_t)f);
         if (!c->model.seamless) continue;
-        const sunder_status status = sunder_i_seamless_make(shape, &p->seamless[f], err);
-        if (status) return status;
+        status = sunder_i_seamless_make(shape, &p->seamless[f], err);
         p->translate[f].seamless = p->seamless[f].shape;
     }
     sunder_i_rtree_free(&p->tree);
-    return sunder_i_rtree_build(p->box, c->model.present, c->model.things, &p->tree, err);
+    if (!status) status = sunder_i_rtree_build(box, c->model.present, c->model.things, &p->tree, err);
+    sunder_i_free(box);
+    return status;
 }
 
 /* Is it in conflict between blocks, and does it stand worse than it did? */
@@ -193,7 +194,7 @@ static sunder_status check_pairs(comparison *c, sunder_report *report, sunder_er
         sunder_conflict *found = add(c, SUNDER_CONFLICT_WORSE, told->a, told->b);
         if (!found) return sunder_i_no_memory(err);
         *found = *told;
-        found->b = c->number[told->b];
+        found->b = c->layer.number[told->b];
         found->kind = SUNDER_CONFLICT_WORSE;
         if (sunder_i_is_barrier(&c->model, (uint32_t)told->b)) {
             const sunder_i_translate home = sunder_i_at_home(&c->model, (uint32_t)told->a);
@@ -217,7 +218,7 @@ static sunder_status begin(comparison *c, const sunder_layer_options *options, s
         return sunder_i_fail(err, SUNDER_EARG, "the layers have %zu and %zu features", c->before->n, c->after->n);
     sunder_status status = sunder_i_rules_of(options, &rules, err);
     if (!status) status = sunder_i_barriers_make(c->before, rules.gap, &c->barriers, err);
-    if (!status) status = sunder_i_order_layer(c->before, &c->barriers, true, &c->layer, &c->number, err);
+    if (!status) status = sunder_i_order_layer(c->before, &c->barriers, true, &c->layer, err);
     if (!status) status = sunder_i_model_init(&c->layer, &c->barriers, &rules, &c->model, err);
     if (!status) status = sunder_i_placement_init(&c->model, &c->placement, err);
     if (!status) status = sunder_i_placement_relate(&c->model, &c->placement, NULL, NULL, &c->start, err);

@@ -38,7 +38,7 @@ static sunder_status relate(sunder_i_solver *s, bool movers_only, sunder_error *
     sunder_i_changes movers;
     sunder_status status = sunder_i_changes_init(&movers, s->model.things) ? SUNDER_OK : sunder_i_no_memory(err);
     for (uint32_t f = 0; f < s->model.features && !status; f++)
-        if (s->model.present[f] && !s->layer.feature[f].fixed) sunder_i_changes_add(&movers, f);
+        if (s->model.present[f] && !sunder_i_feature(&s->layer, f)->fixed) sunder_i_changes_add(&movers, f);
     if (!status && !sunder_i_changes_sort(&movers)) status = sunder_i_no_memory(err);
     if (!status) status = sunder_i_placement_relate(&s->model, &s->placement, &movers, NULL, &s->start, err);
     sunder_i_changes_free(&movers);
@@ -54,7 +54,7 @@ static sunder_status start(sunder_i_solver *s, const sunder_layer *layer, const 
     sunder_i_rules rules;
     sunder_status status = sunder_i_rules_of(options, &rules, err);
     if (!status) status = sunder_i_barriers_make(layer, rules.gap, &s->barriers, err);
-    if (!status) status = sunder_i_order_layer(layer, &s->barriers, what_for == TO_CHECK, &s->layer, &s->number, err);
+    if (!status) status = sunder_i_order_layer(layer, &s->barriers, what_for == TO_CHECK, &s->layer, err);
     if (!status) status = sunder_i_model_init(&s->layer, &s->barriers, &rules, &s->model, err);
     if (!status) status = sunder_i_placement_init(&s->model, &s->placement, err);
     s->model.standing = &s->placement.tree;
@@ -265,7 +265,7 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
     status = sunder_i_report_worlds(report, s, err);
     if (status) return status;
     report->summary.seconds_verify = sunder_i_now() - solved;
-    return sunder_i_report_renumber(report, s->number, err);
+    return sunder_i_report_renumber(report, s->layer.number, err);
 }
 
 static sunder_status separate(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
@@ -284,7 +284,7 @@ static sunder_status check(sunder_i_solver *s, const sunder_layer *layer, const 
     const double began = sunder_i_now();
     sunder_status status = start(s, layer, options, TO_CHECK, report, err);
     if (!status) status = sunder_i_report_conflicts(*report, &s->model, &s->placement, &s->start, false, err);
-    if (!status) status = sunder_i_report_renumber(*report, s->number, err);
+    if (!status) status = sunder_i_report_renumber(*report, s->layer.number, err);
     if (status) return status;
     sunder_layer_summary *summary = &(*report)->summary;
     summary->after = summary->before;

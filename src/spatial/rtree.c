@@ -105,7 +105,7 @@ sunder_status sunder_i_rtree_build(const double *box, const bool *present, size_
         nodes += width;
         tree.level[++tree.levels] = nodes;
     }
-    tree.box = sunder_i_alloc(4 * nodes, sizeof *tree.box);
+    tree.box = sunder_i_alloc(4 * (nodes + 1), sizeof *tree.box);
     tree.item = sunder_i_alloc(leaves, sizeof *tree.item);
     tree.leaf = sunder_i_alloc(n, sizeof *tree.leaf);
     if (!tree.box || !tree.item || !tree.leaf) {
@@ -113,6 +113,8 @@ sunder_status sunder_i_rtree_build(const double *box, const bool *present, size_
         sunder_i_rtree_free(&tree);
         return sunder_i_no_memory(err);
     }
+    memset(tree.box + 4 * nodes, 0, 4 * sizeof *tree.box);
+    for (size_t i = 0; i < n && leaves < n; i++) tree.leaf[i] = (uint32_t)nodes;
     for (size_t i = 0; i < leaves; i++) {
         const uint32_t item = (uint32_t)places[i];
         tree.item[i] = item;
@@ -134,16 +136,16 @@ sunder_status sunder_i_rtree_copy(const sunder_i_rtree *tree, size_t n, sunder_i
 {
     const size_t nodes = tree->levels ? tree->level[tree->levels] : 0;
     sunder_i_rtree copy = *tree;
-    copy.box = sunder_i_alloc(4 * nodes, sizeof *copy.box);
+    copy.box = sunder_i_alloc(4 * (nodes + 1), sizeof *copy.box);
     copy.item = sunder_i_alloc(tree->leaves, sizeof *copy.item);
     copy.leaf = sunder_i_alloc(n, sizeof *copy.leaf);
     if (!copy.box || !copy.item || !copy.leaf) {
         sunder_i_rtree_free(&copy);
         return sunder_i_no_memory(err);
     }
-    if (nodes) memcpy(copy.box, tree->box, 4 * nodes * sizeof *copy.box);
+    memcpy(copy.box, tree->box, 4 * (nodes + 1) * sizeof *copy.box);
     if (tree->leaves) memcpy(copy.item, tree->item, tree->leaves * sizeof *copy.item);
-    if (tree->leaves) memcpy(copy.leaf, tree->leaf, n * sizeof *copy.leaf);
+    if (n) memcpy(copy.leaf, tree->leaf, n * sizeof *copy.leaf);
     *out = copy;
     return SUNDER_OK;
 }
@@ -160,6 +162,13 @@ void sunder_i_rtree_move(sunder_i_rtree *tree, uint32_t item, const double box[4
         tree->sprawl += size_of(hull) - size_of(tree->box + 4 * node);
         memcpy(tree->box + 4 * node, hull, sizeof hull);
     }
+}
+
+double *sunder_i_rtree_boxes(const sunder_i_rtree *tree, size_t n)
+{
+    double *box = sunder_i_alloc(4 * n, sizeof *box);
+    for (uint32_t i = 0; i < n && box; i++) memcpy(box + 4 * (size_t)i, sunder_i_rtree_box(tree, i), 4 * sizeof *box);
+    return box;
 }
 
 bool sunder_i_rtree_is_worn(const sunder_i_rtree *tree) { return !(tree->sprawl <= WORN * tree->packed); }

@@ -11,9 +11,10 @@
 
 /* A packed R-tree over boxes; it serves as well when some of them move. */
 typedef struct sunder_i_rtree {
-    double *box;      /* [4 * nodes] xmin ymin xmax ymax; the leaves first, in Hilbert order, the root last */
+    double *box;      /* [4 * (nodes + 1)] xmin ymin xmax ymax; the leaves first, in Hilbert order, then the root, and
+                       * behind it zeros */
     uint32_t *item;   /* [leaves] what each leaf holds */
-    uint32_t *leaf;   /* [items] where each is; of no meaning for those that were not present */
+    uint32_t *leaf;   /* [items] where each is; those that were not present are behind the root */
     size_t level[16]; /* first node of each level; level[levels] is the end */
     unsigned levels;
     size_t leaves;
@@ -28,11 +29,13 @@ sunder_status sunder_i_rtree_copy(const sunder_i_rtree *tree, size_t n, sunder_i
 void sunder_i_rtree_free(sunder_i_rtree *tree);
 /* A present item has another box from now on. */
 void sunder_i_rtree_move(sunder_i_rtree *tree, uint32_t item, const double box[4]);
-/* The box of a present item. */
+/* The box of an item; zeros if it was not present. */
 static inline const double *sunder_i_rtree_box(const sunder_i_rtree *tree, uint32_t item)
 {
     return tree->box + 4 * (size_t)tree->leaf[item];
 }
+/* The boxes of all n items, to be freed; NULL if memory is out. */
+double *sunder_i_rtree_boxes(const sunder_i_rtree *tree, size_t n);
 /* Have so many moved so far that it should be built again? */
 bool sunder_i_rtree_is_worn(const sunder_i_rtree *tree);
 

@@ -95,7 +95,6 @@ static sunder_status find_side_anchor(const sunder_shape *shape, const barriers 
     sunder_i_rules rules;
     sunder_i_model model = {0};
     const sunder_i_relations none = {0};
-    size_t *number = NULL;
     sunder_layer_options options;
     sunder_layer_options_init(&options);
     sunder_shape_anchor(shape, at);
@@ -103,7 +102,7 @@ static sunder_status find_side_anchor(const sunder_shape *shape, const barriers 
     if (!status) status = sunder_layer_set_barriers(layer, b->item, b->n, err);
     if (!status) status = sunder_i_rules_of(&options, &rules, err);
     if (!status) status = sunder_i_barriers_make(layer, 0, &parts, err);
-    if (!status) status = sunder_i_order_layer(layer, &parts, true, &work, &number, err);
+    if (!status) status = sunder_i_order_layer(layer, &parts, true, &work, err);
     if (!status) status = sunder_i_model_init(&work, &parts, &rules, &model, err);
     if (!status) status = sunder_i_model_join(&model, &none, err);
     if (!status) status = sunder_i_model_cut(&model, err);
@@ -111,8 +110,7 @@ static sunder_status find_side_anchor(const sunder_shape *shape, const barriers 
     if (!status && model.side_at) memcpy(at, model.side_at, 2 * sizeof *at);
     sunder_i_model_free(&model);
     sunder_i_barriers_free(&parts);
-    sunder_i_free(work.feature);
-    sunder_i_free(number);
+    sunder_i_ordered_clear(&work);
     sunder_layer_free(layer);
     return status;
 }

@@ -17,7 +17,7 @@ static void make(scene_model *m, const sunder_feature *feature, size_t n, const 
     assert_int_equal(sunder_layer_new(feature, n, &m->layer, &err), SUNDER_OK);
     assert_int_equal(sunder_i_rules_of(options, &rules, &err), SUNDER_OK);
     assert_int_equal(sunder_i_barriers_make(m->layer, rules.gap, &m->parts, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_order_layer(m->layer, &m->parts, true, &m->work, &m->number, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_order_layer(m->layer, &m->parts, true, &m->work, &err), SUNDER_OK);
     assert_int_equal(sunder_i_model_init(&m->work, &m->parts, &rules, &m->model, &err), SUNDER_OK);
 }
 
@@ -60,7 +60,6 @@ void scene_model_end(scene_model *m)
     if (m->placed) sunder_i_placement_free(&m->model, &m->placement);
     sunder_i_model_free(&m->model);
     sunder_i_barriers_free(&m->parts);
-    sunder_i_free(m->work.feature);
-    sunder_i_free(m->number);
+    sunder_i_ordered_clear(&m->work);
     sunder_layer_free(m->layer);
 }

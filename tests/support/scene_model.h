@@ -10,7 +10,6 @@
 typedef struct scene_model {
     sunder_layer *layer;
     sunder_layer work; /* the layer in the order of the work */
-    size_t *number;
     sunder_i_barriers parts;
     sunder_i_model model;
     sunder_i_placement placement; /* these two by scene_model_related() only */

@@ -52,7 +52,6 @@ static void go_down(double x)
     sunder_i_barriers parts;
     sunder_i_model model;
     sunder_error err;
-    size_t *number;
     bool found;
     find_corner(x, corner);
     scene_begin(&s, 0);
@@ -62,7 +61,7 @@ static void go_down(double x)
     assert_int_equal(sunder_layer_set_barriers(layer, &barrier, 1, &err), SUNDER_OK);
     assert_int_equal(sunder_i_rules_of(&s.options, &rules, &err), SUNDER_OK);
     assert_int_equal(sunder_i_barriers_make(layer, 0, &parts, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_order_layer(layer, &parts, true, &work, &number, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_order_layer(layer, &parts, true, &work, &err), SUNDER_OK);
     assert_int_equal(sunder_i_model_init(&work, &parts, &rules, &model, &err), SUNDER_OK);
     assert_int_equal(sunder_i_model_join(&model, &none, &err), SUNDER_OK);
     assert_int_equal(sunder_i_model_cut(&model, &err), SUNDER_OK);
@@ -80,8 +79,7 @@ static void go_down(double x)
     assert_true(move[2] == 0 && move[3] == 0);
     sunder_i_model_free(&model);
     sunder_i_barriers_free(&parts);
-    sunder_i_free(work.feature);
-    sunder_i_free(number);
+    sunder_i_ordered_clear(&work);
     sunder_layer_free(layer);
     scene_end(&s);
 }

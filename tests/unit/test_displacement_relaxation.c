@@ -20,7 +20,6 @@ typedef struct layer {
     sunder_shape *bar;
     sunder_layer *layer;
     sunder_layer work;
-    size_t *number;
     sunder_i_barriers parts;
     sunder_i_model model;
     sunder_i_relaxation relaxation; /* of things 0 and 1, as they stand at first */
@@ -42,7 +41,7 @@ static void begin(layer *l, bool barrier)
     if (barrier) assert_int_equal(sunder_layer_set_barriers(l->layer, &one, 1, &err), SUNDER_OK);
     assert_int_equal(sunder_i_rules_of(&l->scene.options, &rules, &err), SUNDER_OK);
     assert_int_equal(sunder_i_barriers_make(l->layer, 1, &l->parts, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_order_layer(l->layer, &l->parts, true, &l->work, &l->number, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_order_layer(l->layer, &l->parts, true, &l->work, &err), SUNDER_OK);
     assert_int_equal(sunder_i_model_init(&l->work, &l->parts, &rules, &l->model, &err), SUNDER_OK);
     assert_int_equal(sunder_i_relaxation_of(&l->model, 0, 1, &l->relaxation, &err), SUNDER_OK);
     assert_true(l->relaxation.shift[0] == 3 && l->relaxation.shift[1] == 0);
@@ -52,8 +51,7 @@ static void end(layer *l)
 {
     sunder_i_model_free(&l->model);
     sunder_i_barriers_free(&l->parts);
-    sunder_i_free(l->work.feature);
-    sunder_i_free(l->number);
+    sunder_i_ordered_clear(&l->work);
     sunder_layer_free(l->layer);
     sunder_shape_free(l->bar);
     scene_end(&l->scene);

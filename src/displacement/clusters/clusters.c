@@ -58,9 +58,8 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->move);
     free_clusters(s);
     sunder_i_groups_free(&s->groups);
-    sunder_i_free(s->layer.feature);
+    sunder_i_ordered_clear(&s->layer);
     sunder_i_barriers_free(&s->barriers);
-    sunder_i_free(s->number);
 }
 
 sunder_status sunder_i_solver_init(sunder_i_solver *s, sunder_error *err)

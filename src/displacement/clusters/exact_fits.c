@@ -101,15 +101,14 @@ static sunder_status find_least(const sunder_i_model *model, uint32_t f, uint32_
                                 bool *found, sunder_error *err)
 {
     const double none[2] = {0, 0};
-    const sunder_feature *feature = model->layer->feature;
     sunder_separation least;
     bool beyond;
     const sunder_i_translate home = sunder_i_at_home(model, f);
     const bool beside = sunder_i_is_barrier(model, g);
     const sunder_status status =
         beside ? sunder_i_barrier_least(model, &home, g, sunder_i_owed_above(model, f, g), upper, &least, &beyond, err)
-               : sunder_i_separate(feature[f].shape, none, feature[g].shape, none, model->rules.gap, upper, &least,
-                                   &beyond, err);
+               : sunder_i_separate(sunder_i_thing_shape(model, f), none, sunder_i_thing_shape(model, g), none,
+                                   model->rules.gap, upper, &least, &beyond, err);
     if (status) return status;
     *found = !beyond;
     d[0] = beside ? -least.dx : least.dx;

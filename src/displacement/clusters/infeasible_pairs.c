@@ -42,7 +42,7 @@ static sunder_status judge(void *context, size_t begin, size_t end, sunder_error
                      reach = limit[0] + limit[1];
         if (!sunder_i_is_open_conflict(model, r) || reach == INFINITY || is_left(g, r) ||
             (!sunder_i_is_barrier(model, r->b) &&
-             boxes_can_part(model->box + 4 * (size_t)r->a, model->box + 4 * (size_t)r->b, model->rules.gap, reach)))
+             boxes_can_part(sunder_i_home_box(model, r->a), sunder_i_home_box(model, r->b), model->rules.gap, reach)))
             continue;
         status = sunder_i_resolve_within(model, r->a, r->b, limit, &g->resolution[k], err);
         if (status || !g->resolution[k].beyond) continue;

@@ -40,8 +40,7 @@ typedef struct sunder_i_groups {
 
 typedef struct sunder_i_solver {
     sunder_i_barriers barriers;
-    sunder_layer layer; /* in the order of work; its own copy of the features, and parts of barriers behind them */
-    size_t *number;     /* [things] what they were */
+    sunder_layer layer; /* in the order of work, with parts of barriers behind the features */
     sunder_i_model model;
     sunder_i_placement placement;
     sunder_i_relations start, now;

@@ -10,7 +10,7 @@
 
 bool sunder_i_solver_is_spared(const sunder_i_solver *s, const sunder_i_spared *list, uint32_t a, uint32_t b)
 {
-    const uint32_t p = (uint32_t)s->number[a], q = (uint32_t)s->number[b];
+    const uint32_t p = s->layer.number[a], q = s->layer.number[b];
     const sunder_i_id_pair key = {p < q ? p : q, p < q ? q : p};
     return list->n && bsearch(&key, list->pair, list->n, sizeof key, sunder_i_by_id_pair);
 }
@@ -54,7 +54,7 @@ static sunder_status find_requirement(const sunder_i_solver *s, const sunder_i_r
 {
     const sunder_i_model *model = &s->model;
     const sunder_i_relaxation *t = sunder_i_relaxations_find(&model->relaxations, r->a, r->b);
-    const bool area = sunder_i_is_barrier(model, r->b) && !model->layer->feature[r->b].shape->flat;
+    const bool area = sunder_i_is_barrier(model, r->b) && !sunder_i_thing_shape(model, r->b)->flat;
     if (!t || r->contained || area) return sunder_i_requirement_find(model, &s->start, r->a, r->b, out, err);
     *out = sunder_i_requirement_below(model, t);
     return SUNDER_OK;

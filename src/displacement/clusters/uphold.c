@@ -56,9 +56,9 @@ sunder_status sunder_i_solver_is_worse(sunder_i_solver *s, const sunder_i_relati
     *worse = !was || !sunder_i_is_conflict(was);
     if (sunder_i_is_barrier(&s->model, r->b)) return is_worse_to_barrier(s, r, worse, err);
     if (*worse || stand_as_they_did(s, r) || (was->contained && r->contained)) return SUNDER_OK;
-    const sunder_feature *feature = s->model.layer->feature;
     const sunder_i_translate *a = &s->placement.translate[r->a], *b = &s->placement.translate[r->b];
-    const sunder_i_pair before = {feature[r->a].shape, feature[r->b].shape, NULL, NULL},
+    const sunder_i_pair before = {sunder_i_thing_shape(&s->model, r->a), sunder_i_thing_shape(&s->model, r->b), NULL,
+                                  NULL},
                         now = {a->shape, b->shape, a->t, b->t};
     if (!s->depth) s->depth = sunder_i_calloc(s->start.n, sizeof *s->depth);
     if (!s->depth) return sunder_i_no_memory(err);
@@ -141,7 +141,7 @@ static sunder_status take_alike(sunder_i_trial *t, uint32_t b, double hair, sund
         const uint32_t f = model->member[p->member + m];
         double box[4];
         if (!model->present[f]) continue;
-        sunder_i_box_grow(t->solver->placement.box + 4 * (size_t)f, model->rules.gap, box);
+        sunder_i_box_grow(sunder_i_rtree_box(&t->solver->placement.tree, f), model->rules.gap, box);
         t->near.n = 0;
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, model, b);

@@ -37,11 +37,11 @@ static double distance_to_outline(const sunder_i_model *model, uint32_t g, const
 static sunder_status look_at(looking *l, uint32_t f, uint32_t g, double *clear, sunder_error *err)
 {
     sunder_i_model *model = l->model;
-    const double *a = model->anchor_at + 2 * (size_t)f, *box = model->box + 4 * (size_t)g;
+    const double *a = model->anchor_at + 2 * (size_t)f, *box = sunder_i_home_box(model, g);
     bool holds = false;
     if (!sunder_i_box_near_point(box, a[0], a[1], *clear)) return SUNDER_OK;
     if (sunder_i_box_near_point(box, a[0], a[1], 0)) {
-        const sunder_status status = sunder_i_holds(model->layer->feature[g].shape, a, &holds, err);
+        const sunder_status status = sunder_i_holds(sunder_i_thing_shape(model, g), a, &holds, err);
         if (status) return status;
     }
     if (!holds) *clear = fmin(*clear, distance_to_outline(model, g, a));
@@ -55,7 +55,7 @@ static sunder_status look_at(looking *l, uint32_t f, uint32_t g, double *clear, 
 /* What is looked at about the anchor of f: as far from it as its own edges, and two gaps beyond. */
 static double box_about(const sunder_i_model *model, uint32_t f, double box[4])
 {
-    const double *a = model->anchor_at + 2 * (size_t)f, *own = model->box + 4 * (size_t)f;
+    const double *a = model->anchor_at + 2 * (size_t)f, *own = sunder_i_home_box(model, f);
     const double reach = fmax(own[2] - own[0], own[3] - own[1]) / 2 + 2 * model->rules.gap;
     for (int c = 0; c < 4; c++) box[c] = a[c & 1] + (c < 2 ? -reach : reach);
     return reach;
@@ -143,7 +143,7 @@ sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err)
             double *at = model->anchor_at + 2 * (size_t)f, *to = corner + 2 * model->corners;
             sunder_i_body_piece *anchor = &model->anchor[f];
             if (!model->present[f]) continue;
-            sunder_shape_anchor(model->layer->feature[f].shape, at);
+            sunder_shape_anchor(sunder_i_thing_shape(model, f), at);
             *anchor = (sunder_i_body_piece){.corner = (uint32_t)model->corners++, .corners = 1, .feature = f};
             for (int c = 0; c < 2; c++) to[c] = anchor->box[c] = anchor->box[c + 2] = at[c] - body->origin[c];
             sunder_i_box_join(body->anchors, anchor->box);

@@ -49,7 +49,7 @@ static sunder_status find_near(const sunder_i_model *model, const sunder_i_trans
 sunder_status sunder_i_barrier_relate(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
                                       sunder_i_relation *r, sunder_error *err)
 {
-    const sunder_shape *shape = model->layer->feature[part].shape, *own = facing(feature, shape);
+    const sunder_shape *shape = sunder_i_thing_shape(model, part), *own = facing(feature, shape);
     const double *required = model->barriers->required[sunder_i_barrier_of(model, part)];
     bool apart = false;
     r->near = r->overlap = r->contained = r->a_in_b = r->duplicate = r->touch = r->kept = false;
@@ -191,11 +191,12 @@ static sunder_status compare_to_parts(const sunder_i_model *model, uint32_t feat
                                       const sunder_shape *part, const sunder_shape *of_other, bool *worse,
                                       sunder_error *err)
 {
-    const sunder_feature *all = model->layer->feature;
     const sunder_i_pair parts = {of_other, part, NULL, NULL};
     if (!sunder_i_is_barrier(model, other))
-        return sunder_i_pair_worsened(&parts, &(sunder_i_pair){all[other].shape, all[feature].shape, NULL, NULL}, worse,
-                                      err);
+        return sunder_i_pair_worsened(
+            &parts,
+            &(sunder_i_pair){sunder_i_thing_shape(model, other), sunder_i_thing_shape(model, feature), NULL, NULL},
+            worse, err);
     const sunder_i_translate home = sunder_i_at_home(model, feature);
     sunder_i_barrier_stance stance;
     sunder_shape *near = NULL;
@@ -229,9 +230,9 @@ sunder_status sunder_i_parts_stand_so(const sunder_i_model *model, uint32_t feat
 sunder_status sunder_i_resolve_things(const sunder_i_model *model, size_t a, size_t b, double upper,
                                       sunder_i_resolution *out, sunder_error *err)
 {
-    const sunder_feature *feature = model->layer->feature;
     if (!sunder_i_is_barrier(model, (uint32_t)b))
-        return sunder_i_resolve(&model->rules, feature[a].shape, feature[b].shape, upper, out, err);
+        return sunder_i_resolve(&model->rules, sunder_i_thing_shape(model, a), sunder_i_thing_shape(model, b), upper,
+                                out, err);
     const sunder_i_translate home = sunder_i_at_home(model, (uint32_t)a);
     const double gap = sunder_i_required_below(model->barriers, sunder_i_barrier_of(model, (uint32_t)b));
     sunder_separation least;
@@ -247,14 +248,13 @@ sunder_status sunder_i_resolve_things(const sunder_i_model *model, size_t a, siz
 sunder_status sunder_i_resolve_within(const sunder_i_model *model, size_t a, size_t b, const double limit[2],
                                       sunder_i_resolution *out, sunder_error *err)
 {
-    const sunder_feature *feature = model->layer->feature;
     const double sum = limit[0] + limit[1];
     bool within;
     sunder_status status = sunder_i_resolve_things(model, a, b, nextafter(sum, INFINITY), out, err);
     if (status || out->beyond || sum == INFINITY || sunder_i_is_barrier(model, (uint32_t)b) || model->rules.gap > 0 ||
         sunder_i_may_be_inside(&model->rules) || out->least < sum * (1 - NEARLY))
         return status;
-    status = sunder_i_parts_within(feature[a].shape, feature[b].shape, limit, &within, err);
+    status = sunder_i_parts_within(sunder_i_thing_shape(model, a), sunder_i_thing_shape(model, b), limit, &within, err);
     if (!status) out->apart_beyond = out->beyond = !within;
     return status;
 }

@@ -12,7 +12,7 @@
 
 static void cut_feature(sunder_i_model *model, sunder_i_body *body, uint32_t f, size_t *corner)
 {
-    const sunder_shape *shape = model->layer->feature[f].shape;
+    const sunder_shape *shape = sunder_i_thing_shape(model, f);
     uint32_t from = 0;
     for (uint32_t p = 0; p < shape->pieces; p++) {
         sunder_i_body_piece *piece = &model->piece[model->pieces++];
@@ -67,7 +67,7 @@ void sunder_i_piece_as_given(const sunder_i_model *model, const sunder_i_body_pi
     const uint32_t f = piece->feature;
     if (anchor_as_given(model, piece, out)) return;
     /* Pieces of a feature are in the order of the shape's. */
-    const sunder_shape *shape = model->layer->feature[f].shape;
+    const sunder_shape *shape = sunder_i_thing_shape(model, f);
     const sunder_i_body_piece *first = piece, *all = model->piece + model->body[model->body_of[f]].piece;
     while (first > all && first[-1].feature == f) first--;
     const size_t p = (size_t)(piece - first);
@@ -124,7 +124,7 @@ static bool is_its_outline(const sunder_i_model *model, const sunder_shape *shap
 static sunder_status outline_feature(sunder_i_model *model, const sunder_i_body *body, uint32_t f, size_t *corner,
                                      sunder_error *err)
 {
-    const sunder_shape *shape = model->layer->feature[f].shape;
+    const sunder_shape *shape = sunder_i_thing_shape(model, f);
     if (!sunder_i_is_barrier(model, f) && is_its_outline(model, shape, &model->piece[model->pieces - 1])) {
         model->outline[f] = model->piece[model->pieces - 1];
         return SUNDER_OK;
@@ -159,7 +159,7 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
     size_t pieces = 0, corners = 0;
     for (size_t f = 0; f < model->things; f++)
         if (model->present[f]) {
-            const sunder_shape *shape = model->layer->feature[f].shape;
+            const sunder_shape *shape = sunder_i_thing_shape(model, f);
             pieces += shape->pieces;
             if (shape->pieces) corners += shape->piece_end[shape->pieces - 1];
             corners += shape->vertices + 1;
@@ -177,8 +177,7 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
         body->clear = INFINITY;
         sunder_i_box_clear(body->box);
         const uint32_t first = model->member[body->member];
-        body->origin[0] = model->box[4 * first];
-        body->origin[1] = model->box[4 * first + 1];
+        memcpy(body->origin, sunder_i_home_box(model, first), sizeof body->origin);
         for (uint32_t k = 0; k < body->members; k++) {
             const uint32_t f = model->member[body->member + k];
             if (!model->present[f]) continue;
@@ -198,7 +197,7 @@ const sunder_shape *sunder_i_model_shape(const sunder_i_model *model, uint32_t b
 {
     const sunder_i_body *b = &model->body[body];
     if (b->members > 1) return model->whole[body];
-    return model->present[model->member[b->member]] ? model->layer->feature[model->member[b->member]].shape : NULL;
+    return model->present[model->member[b->member]] ? sunder_i_thing_shape(model, model->member[b->member]) : NULL;
 }
 
 /* The members' rings as given, one after the other: a polygonal set may have members that touch and overlap. */
@@ -209,7 +208,7 @@ static sunder_status unite(sunder_i_model *model, uint32_t b, sunder_error *err)
     for (uint32_t m = 0; m < body->members; m++) {
         const uint32_t f = model->member[body->member + m];
         if (!model->present[f]) continue;
-        const sunder_shape *s = model->layer->feature[f].shape;
+        const sunder_shape *s = sunder_i_thing_shape(model, f);
         const size_t r = s->raw_polygons ? s->raw_poly_end[s->raw_polygons - 1] : 0;
         polygons += s->raw_polygons;
         rings += r;
@@ -222,7 +221,7 @@ static sunder_status unite(sunder_i_model *model, uint32_t b, sunder_error *err)
     for (uint32_t m = 0; !status && m < body->members; m++) {
         const uint32_t f = model->member[body->member + m];
         if (!model->present[f]) continue;
-        const sunder_shape *s = model->layer->feature[f].shape;
+        const sunder_shape *s = sunder_i_thing_shape(model, f);
         const size_t r = s->raw_polygons ? s->raw_poly_end[s->raw_polygons - 1] : 0, n = r ? s->raw_ring_end[r - 1] : 0;
         for (size_t k = 0; k < s->raw_polygons; k++) poly_end[polygons++] = rings + s->raw_poly_end[k];
         for (size_t k = 0; k < r; k++) ring_end[rings + k] = corners + s->raw_ring_end[k];
@@ -277,6 +276,7 @@ sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, 
 double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body)
 {
     double w = 0;
-    for (uint32_t k = 0; k < body->members; k++) w += model->layer->feature[model->member[body->member + k]].weight;
+    for (uint32_t k = 0; k < body->members; k++)
+        w += sunder_i_feature(model->layer, model->member[body->member + k])->weight;
     return body->members > 1 ? w * (1 - body->members * 0x1p-52) : w;
 }

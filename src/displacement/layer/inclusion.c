@@ -101,8 +101,8 @@ static uint32_t inner_of(const sunder_i_inclusion *pair) { return pair->a_inside
 /* The squared distance of the middle of feature f's box from the nearest edge of a feature that it lies in. */
 static double depth_in(const sunder_i_model *model, uint32_t f, uint32_t holder)
 {
-    const sunder_shape *shape = model->layer->feature[holder].shape;
-    const double *box = model->box + 4 * (size_t)f, x = (box[0] + box[2]) / 2, y = (box[1] + box[3]) / 2;
+    const sunder_shape *shape = sunder_i_thing_shape(model, holder);
+    const double *box = sunder_i_home_box(model, f), x = (box[0] + box[2]) / 2, y = (box[1] + box[3]) / 2;
     double least = INFINITY;
     for (uint32_t v = 0; v < shape->vertices; v++) {
         const double *p = shape->xy + 2 * (size_t)v, *q = shape->xy + 2 * (size_t)shape->next[v];
@@ -140,7 +140,7 @@ sunder_status sunder_i_inclusions_choose(sunder_i_model *model, const sunder_i_r
 
 static void add_walls(sunder_i_model *model, sunder_i_body *body, uint32_t f, double *corner, size_t *corners)
 {
-    const sunder_shape *shape = model->layer->feature[f].shape;
+    const sunder_shape *shape = sunder_i_thing_shape(model, f);
     for (uint32_t v = 0; v < shape->vertices; v++) {
         sunder_i_body_piece *wall = &model->wall[model->walls++];
         wall->feature = f;
@@ -167,7 +167,7 @@ sunder_status sunder_i_inclusion_walls(sunder_i_model *model, sunder_error *err)
     for (size_t k = 0; k < model->inclusions; k++) holds[holder_of(&model->inclusion[k])] = true;
     for (size_t k = 0; k < model->nested_n; k++) holds[holder_of(&model->nested[k])] = true;
     for (size_t f = 0; f < model->features; f++)
-        if (holds[f]) edges += model->layer->feature[f].shape->vertices;
+        if (holds[f]) edges += sunder_i_thing_shape(model, f)->vertices;
     sunder_status status = SUNDER_OK;
     double *corner = NULL;
     /* Corners are numbered in 32 bits, and walls are told apart in the keys of constraints by 30. */

@@ -91,7 +91,7 @@ static void add(joining *j, uint32_t f, uint32_t g, const edge *e, const edge *o
 /* Edge e of feature f, and those of g. */
 static void look_along(joining *j, uint32_t f, uint32_t g, const edge *e)
 {
-    const sunder_shape *shape = j->model->layer->feature[g].shape;
+    const sunder_shape *shape = sunder_i_thing_shape(j->model, g);
     uint32_t from = 0;
     for (uint32_t p = 0; p < shape->pieces && !j->failed; from = shape->piece_end[p++]) {
         const uint32_t n = shape->piece_end[p] - from;
@@ -104,8 +104,8 @@ static void look_along(joining *j, uint32_t f, uint32_t g, const edge *e)
 
 static void join(joining *j, uint32_t f, uint32_t g)
 {
-    const sunder_shape *shape = j->model->layer->feature[f].shape;
-    const double *box = j->model->box + 4 * (size_t)g;
+    const sunder_shape *shape = sunder_i_thing_shape(j->model, f);
+    const double *box = sunder_i_home_box(j->model, g);
     uint32_t from = 0;
     for (uint32_t p = 0; p < shape->pieces && !j->failed; from = shape->piece_end[p++]) {
         const uint32_t n = shape->piece_end[p] - from;
@@ -129,7 +129,7 @@ static void join_members(joining *j, uint32_t b)
         const uint32_t f = model->member[body->member + m];
         j->near.n = 0;
         if (!model->present[f]) continue;
-        if (!sunder_i_rtree_query(&model->tree, model->box + 4 * (size_t)f, &j->near)) j->failed = true;
+        if (!sunder_i_rtree_query(&model->tree, sunder_i_home_box(model, f), &j->near)) j->failed = true;
         for (size_t k = 0; k < j->near.n && !j->failed; k++)
             if (j->near.item[k] > f && model->body_of[j->near.item[k]] == b) join(j, f, j->near.item[k]);
     }
@@ -141,5 +141,8 @@ sunder_status sunder_i_model_find_joints(sunder_i_model *model, const uint32_t *
     joining j = {.model = model};
     for (size_t k = 0; k < n && !j.failed; k++) join_members(&j, body[k]);
     sunder_i_free(j.near.item);
+    /* Few bodies have joints, and all have corners: twice the room for these would be the largest array of all. */
+    sunder_i_trim(&model->joint, model->joints, sizeof *model->joint);
+    sunder_i_trim(&model->corner, 2 * model->corners, sizeof *model->corner);
     return j.failed ? sunder_i_no_memory(err) : SUNDER_OK;
 }

@@ -40,7 +40,7 @@ static bool has_moved(const sunder_i_jumps *jumps, const sunder_i_model *model, 
 /* From home to where the feature stands, rounded outward. */
 static void find_way(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, double way[4])
 {
-    const double *home = model->box + 4 * (size_t)f, *t = move_of(jumps, model, f);
+    const double *home = sunder_i_home_box(model, f), *t = move_of(jumps, model, f);
     memcpy(way, home, 4 * sizeof *way);
     for (int c = 0; c < 4 && has_moved(jumps, model, f); c++) {
         const double out = c < 2 ? -INFINITY : INFINITY, there = nextafter(home[c] + t[c & 1], out);
@@ -101,7 +101,7 @@ sunder_status sunder_i_jumps_over(const sunder_i_jumps *jumps, const sunder_i_mo
     if (sunder_i_is_barrier(model, g)) return sunder_i_crosses_side(model, f, move_of(jumps, model, f), g, over, err);
     const double *a = model->anchor_at + 2 * (size_t)f, *t = move_of(jumps, model, f), *s = move_of(jumps, model, g);
     const sunder_i_passage way = {{a[0], a[1]}, {t[0], t[1]}, {s[0], s[1]}};
-    return sunder_i_passes(&way, model->layer->feature[g].shape, over, err);
+    return sunder_i_passes(&way, sunder_i_thing_shape(model, g), over, err);
 }
 
 static sunder_status ask_both(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, uint32_t g,

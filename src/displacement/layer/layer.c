@@ -27,10 +27,7 @@ sunder_status sunder_layer_new(const sunder_feature *features, size_t n, sunder_
         return sunder_i_no_memory(err);
     }
     if (n) memcpy(copy, features, n * sizeof *copy);
-    layer->feature = copy;
-    layer->n = n;
-    layer->barrier = NULL;
-    layer->barriers = 0;
+    *layer = (sunder_layer){.feature = copy, .n = n};
     *out = layer;
     return SUNDER_OK;
 }

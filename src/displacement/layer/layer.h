@@ -13,7 +13,17 @@ struct sunder_layer {
     size_t n;
     sunder_barrier *barrier;
     size_t barriers;
+    /* Of a layer in the order of work (order.c), which has no features of its own; else NULL: */
+    const sunder_feature *given; /* [n] of the layer as it was given, in its order */
+    uint32_t *number; /* [n + parts] what each was: of a part of a barrier n + the barrier, as the interface counts */
+    sunder_feature *part; /* [parts] */
 };
+
+/* What is asked of a feature of a layer in the order of work, or of a part behind them. */
+static inline const sunder_feature *sunder_i_feature(const sunder_layer *layer, size_t thing)
+{
+    return thing < layer->n ? &layer->given[layer->number[thing]] : &layer->part[thing - layer->n];
+}
 
 /* Is the feature there at all (not ignored, not empty)? */
 static inline bool sunder_i_is_present(const sunder_feature *feature)
@@ -47,10 +57,11 @@ bool sunder_i_progress(const sunder_i_rules *rules, double fraction);
 
 typedef struct sunder_i_barriers sunder_i_barriers;
 
-/* A copy of the layer in the order that it is worked on in (or as given): number[k] is what feature k was. Behind its
- * n features it has a fixed one for each part of its barriers, in their order, of which number[] tells the barrier, as
- * the interface counts these. Failure leaves what sunder_i_free() takes. */
+/* The layer in the order that it is worked on in (or as given). Behind its n features it has a fixed one for each part
+ * of its barriers, in their order. It lives as long as the layer, of which it has no copy, and is cleared by
+ * sunder_i_ordered_clear(), also on failure. */
 sunder_status sunder_i_order_layer(const sunder_layer *layer, const sunder_i_barriers *barriers, bool as_given,
-                                   sunder_layer *out, size_t **number, sunder_error *err);
+                                   sunder_layer *out, sunder_error *err);
+void sunder_i_ordered_clear(sunder_layer *ordered);
 
 #endif

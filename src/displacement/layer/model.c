@@ -31,9 +31,9 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_free(model->side);
     sunder_i_free(model->side_anchor);
     sunder_i_free(model->side_at);
+    sunder_i_free(model->side_anchors);
     for (size_t b = 0; model->whole && b < model->bodies; b++) sunder_shape_free(model->whole[b]);
     sunder_i_free(model->whole);
-    sunder_i_free(model->box);
     sunder_i_free(model->present);
     for (size_t f = 0; model->seamless && f < model->features; f++) sunder_i_seamless_free(&model->seamless[f]);
     sunder_i_free(model->seamless);
@@ -57,7 +57,7 @@ static sunder_status make_some_seamless(void *context, size_t begin, size_t end,
     sunder_status status = SUNDER_OK;
     for (size_t f = begin; f < end && !status; f++)
         if (model->present[f])
-            status = sunder_i_seamless_make(model->layer->feature[f].shape, &model->seamless[f], err);
+            status = sunder_i_seamless_make(sunder_i_thing_shape(model, f), &model->seamless[f], err);
     return status;
 }
 
@@ -72,8 +72,27 @@ static sunder_status make_seamless(sunder_i_model *model, sunder_error *err)
 
 sunder_i_translate sunder_i_at_home(const sunder_i_model *model, uint32_t f)
 {
-    return (sunder_i_translate){.shape = model->layer->feature[f].shape,
+    return (sunder_i_translate){.shape = sunder_i_thing_shape(model, f),
                                 .seamless = model->seamless ? model->seamless[f].shape : NULL};
+}
+
+/* Who is there, and the tree over these. */
+static sunder_status build_tree(sunder_i_model *model, sunder_error *err)
+{
+    double *boxes = sunder_i_alloc(4 * model->things, sizeof *boxes);
+    if (!boxes) return sunder_i_no_memory(err);
+    for (size_t f = 0; f < model->things; f++) {
+        const sunder_feature *feature = sunder_i_feature(model->layer, f);
+        double *box = boxes + 4 * f;
+        model->present[f] = sunder_i_is_present(feature);
+        if (!model->present[f]) continue;
+        sunder_shape_box(feature->shape, box);
+        const double beyond = sunder_i_reach_beyond(model, (uint32_t)f);
+        if (beyond > 0) sunder_i_box_grow(box, beyond, box);
+    }
+    const sunder_status status = sunder_i_rtree_build(boxes, model->present, model->things, &model->tree, err);
+    sunder_i_free(boxes);
+    return status;
 }
 
 sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_barriers *barriers,
@@ -89,21 +108,12 @@ sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_barr
     model->body_of = sunder_i_alloc(n, sizeof *model->body_of);
     model->member = sunder_i_alloc(n, sizeof *model->member);
     model->body = sunder_i_calloc(n, sizeof *model->body);
-    model->box = sunder_i_calloc(4 * n, sizeof *model->box);
     model->present = sunder_i_calloc(n, sizeof *model->present);
     model->move = sunder_i_calloc(2 * n, sizeof *model->move);
     model->inexact = sunder_i_calloc(n, sizeof *model->inexact);
-    if (!model->body_of || !model->member || !model->body || !model->box || !model->present || !model->move ||
-        !model->inexact)
+    if (!model->body_of || !model->member || !model->body || !model->present || !model->move || !model->inexact)
         return sunder_i_no_memory(err);
-    for (size_t f = 0; f < n; f++) {
-        model->present[f] = sunder_i_is_present(&layer->feature[f]);
-        if (!model->present[f]) continue;
-        sunder_shape_box(layer->feature[f].shape, model->box + 4 * f);
-        const double beyond = sunder_i_reach_beyond(model, (uint32_t)f);
-        if (beyond > 0) sunder_i_box_grow(model->box + 4 * f, beyond, model->box + 4 * f);
-    }
-    sunder_status status = sunder_i_rtree_build(model->box, model->present, n, &model->tree, err);
+    sunder_status status = build_tree(model, err);
     if (!status) status = sunder_i_thin_disc(rules->tolerance, &model->disc, err);
     model->rules.disc = model->disc;
     return status ? status : make_seamless(model, err);
@@ -129,11 +139,12 @@ static bool unite_labelled(const sunder_layer *layer, uint32_t *parent)
     label *labels = sunder_i_alloc(layer->n, sizeof *labels);
     if (!labels) return false;
     size_t k = 0;
-    for (size_t f = 0; f < layer->n; f++)
-        if (layer->feature[f].block >= 0 && !layer->feature[f].ignored) {
-            labels[k].block = layer->feature[f].block;
-            labels[k++].feature = (uint32_t)f;
-        }
+    for (size_t f = 0; f < layer->n; f++) {
+        const sunder_feature *feature = sunder_i_feature(layer, f);
+        if (feature->block < 0 || feature->ignored) continue;
+        labels[k].block = feature->block;
+        labels[k++].feature = (uint32_t)f;
+    }
     qsort(labels, k, sizeof *labels, by_label);
     for (size_t i = 1; i < k; i++)
         if (labels[i].block == labels[i - 1].block)
@@ -162,7 +173,7 @@ static void number_bodies(sunder_i_model *model, uint32_t *parent)
         body->limit = INFINITY;
     }
     for (size_t f = 0; f < model->things; f++) {
-        const sunder_feature *feature = &model->layer->feature[f];
+        const sunder_feature *feature = sunder_i_feature(model->layer, f);
         sunder_i_body *body = &model->body[model->body_of[f]];
         model->member[body->member + body->members++] = (uint32_t)f;
         body->weight += feature->weight;

@@ -28,7 +28,6 @@ typedef struct sunder_i_body {
     double origin[2];         /* its corners are stored relative to this */
     double box[4];            /* of its pieces, relative to the origin */
     double anchors[4];        /* of its members' anchors, likewise */
-    double side_anchors[4];   /* of their side anchors */
     double clear;             /* the least of its members', in sunder_i_model.clear; INFINITY where jumps are allowed */
 } sunder_i_body;
 
@@ -110,12 +109,12 @@ struct sunder_i_model {
     size_t sides;
     sunder_i_body_piece *side_anchor; /* [features] each side anchor as a piece of one corner */
     double *side_at;                  /* [2 * features] the side anchors as they are */
+    double *side_anchors;             /* [4 * bodies] the box of its members' side anchors, relative to its origin */
     sunder_shape **whole;        /* [bodies] the union of a block's members, where wanted; NULL for what stands alone */
     uint32_t most_pieces;        /* that a body has */
-    double *box;                 /* [4 * things] as they stood at the start; see sunder_i_reach_beyond() */
     bool *present;               /* [things] */
     sunder_i_seamless *seamless; /* [features] where there are barriers without area; else NULL */
-    sunder_i_rtree tree;         /* as they stood at the start */
+    sunder_i_rtree tree;         /* the boxes as they stood at the start; see sunder_i_reach_beyond() */
     sunder_i_read *read;         /* [bodies] (layer/reads.h); NULL: nobody notes it */
     double *went;                /* [4 * bodies] the box of all moves that each ever had, likewise */
     const sunder_i_rtree *standing; /* as they stand now: the placement's; lent */
@@ -152,8 +151,26 @@ static inline uint32_t sunder_i_barrier_of(const sunder_i_model *model, uint32_t
     return model->barriers->barrier[part - model->features];
 }
 
+/* The shape of a thing, as it is given. */
+static inline const sunder_shape *sunder_i_thing_shape(const sunder_i_model *model, size_t thing)
+{
+    return sunder_i_feature(model->layer, thing)->shape;
+}
+
+/* The box of a thing as it stood at the start; of one that was not there no more than zeros. */
+static inline const double *sunder_i_home_box(const sunder_i_model *model, uint32_t thing)
+{
+    return sunder_i_rtree_box(&model->tree, thing);
+}
+
 /* May some relative moves not be made, wherever that leads? */
 static inline bool sunder_i_forbids_ways(const sunder_i_model *model) { return !model->rules.jumps || model->sides; }
+
+/* The box of the side anchors of one of the model's bodies, where barriers have sides. */
+static inline const double *sunder_i_side_anchors(const sunder_i_model *model, const sunder_i_body *body)
+{
+    return model->side_anchors + 4 * (size_t)(body - model->body);
+}
 
 /* A thing by which all parts of a barrier are known: their first; else the thing itself. */
 static inline uint32_t sunder_i_whole_of(const sunder_i_model *model, uint32_t thing)

@@ -14,7 +14,7 @@
 typedef struct ranked {
     double box[4];
     const sunder_feature *feature;
-    size_t number;
+    uint32_t number;
 } ranked;
 
 static int by_double(double a, double b) { return a < b ? -1 : a > b; }
@@ -49,36 +49,40 @@ static int by_place(const void *x, const void *y)
 }
 
 /* Parts of barriers behind the features, in the order of the barriers. */
-static void append_parts(const sunder_i_barriers *barriers, sunder_layer *out, size_t *number)
+static void append_parts(const sunder_i_barriers *barriers, sunder_layer *out)
 {
     for (uint32_t k = 0; k < barriers->parts; k++) {
-        out->feature[out->n + k] =
+        out->part[k] =
             (sunder_feature){.shape = barriers->shape[k], .weight = 1, .max_shift = 0, .block = -1, .fixed = true};
-        number[out->n + k] = out->n + barriers->barrier[k];
+        out->number[out->n + k] = (uint32_t)out->n + barriers->barrier[k];
     }
 }
 
-sunder_status sunder_i_order_layer(const sunder_layer *layer, const sunder_i_barriers *barriers, bool as_given,
-                                   sunder_layer *out, size_t **number, sunder_error *err)
+void sunder_i_ordered_clear(sunder_layer *ordered)
 {
-    const size_t n = layer->n, things = n + barriers->parts;
+    sunder_i_free(ordered->number);
+    sunder_i_free(ordered->part);
+    *ordered = (sunder_layer){0};
+}
+
+sunder_status sunder_i_order_layer(const sunder_layer *layer, const sunder_i_barriers *barriers, bool as_given,
+                                   sunder_layer *out, sunder_error *err)
+{
+    const size_t n = layer->n;
     ranked *list = sunder_i_alloc(n, sizeof *list);
-    out->feature = sunder_i_alloc(things, sizeof *out->feature);
-    out->n = n;
-    out->barrier = layer->barrier;
-    out->barriers = layer->barriers;
-    *number = sunder_i_alloc(things, sizeof **number);
-    const bool ok = list && out->feature && *number;
+    *out = *layer;
+    out->feature = NULL;
+    out->given = layer->feature;
+    out->part = sunder_i_alloc(barriers->parts, sizeof *out->part);
+    out->number = sunder_i_alloc(n + barriers->parts, sizeof *out->number);
+    const bool ok = list && out->part && out->number;
     for (size_t k = 0; ok && k < n; k++) {
-        list[k] = (ranked){{INFINITY, INFINITY, INFINITY, INFINITY}, &layer->feature[k], k};
+        list[k] = (ranked){{INFINITY, INFINITY, INFINITY, INFINITY}, &layer->feature[k], (uint32_t)k};
         if (sunder_i_is_present(list[k].feature)) sunder_shape_box(list[k].feature->shape, list[k].box);
     }
     if (ok && n && !as_given) qsort(list, n, sizeof *list, by_place);
-    for (size_t k = 0; ok && k < n; k++) {
-        out->feature[k] = *list[k].feature;
-        (*number)[k] = list[k].number;
-    }
-    if (ok) append_parts(barriers, out, *number);
+    for (size_t k = 0; ok && k < n; k++) out->number[k] = list[k].number;
+    if (ok) append_parts(barriers, out);
     sunder_i_free(list);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }

@@ -22,14 +22,12 @@ sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_plac
     placement->rounded = sunder_i_calloc(n, sizeof *placement->rounded);
     placement->seamless = model->seamless ? sunder_i_calloc(n, sizeof *placement->seamless) : NULL;
     placement->was_rounded = sunder_i_calloc(n, sizeof *placement->was_rounded);
-    placement->box = sunder_i_alloc(4 * n, sizeof *placement->box);
     if (!placement->translate || !placement->rounded || (model->seamless && !placement->seamless) ||
-        !placement->was_rounded || !placement->box)
+        !placement->was_rounded)
         return sunder_i_no_memory(err);
-    memcpy(placement->box, model->box, 4 * n * sizeof *placement->box);
     for (uint32_t f = 0; f < n; f++)
         placement->translate[f] = sunder_i_is_barrier(model, f)
-                                      ? (sunder_i_translate){.shape = model->layer->feature[f].shape}
+                                      ? (sunder_i_translate){.shape = sunder_i_thing_shape(model, f)}
                                       : sunder_i_at_home(model, f);
     return sunder_i_rtree_copy(&model->tree, n, &placement->tree, err); /* all stand at home */
 }
@@ -42,7 +40,6 @@ void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *pl
     sunder_i_free(placement->seamless);
     sunder_i_free(placement->was_rounded);
     sunder_i_free(placement->translate);
-    sunder_i_free(placement->box);
     sunder_i_rtree_free(&placement->tree);
     memset(placement, 0, sizeof *placement);
 }
@@ -50,8 +47,9 @@ void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *pl
 static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *placement, size_t f, sunder_error *err)
 {
     const double *t = model->move + 2 * (size_t)model->body_of[f];
-    const sunder_shape *shape = model->layer->feature[f].shape;
+    const sunder_shape *shape = sunder_i_thing_shape(model, f);
     sunder_i_translate *stand = &placement->translate[f];
+    double box[4];
     sunder_shape_free(placement->rounded[f]);
     if (placement->seamless) sunder_i_seamless_free(&placement->seamless[f]);
     placement->rounded[f] = NULL;
@@ -65,17 +63,20 @@ static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *pl
         const sunder_status status = sunder_shape_translate(shape, t[0], t[1], &placement->rounded[f], &exact, err);
         if (status) return status;
         *stand = (sunder_i_translate){.shape = placement->rounded[f]};
-        sunder_shape_box(stand->shape, placement->box + 4 * f);
+        sunder_shape_box(stand->shape, box);
+        sunder_i_rtree_move(&placement->tree, (uint32_t)f, box);
         if (!model->seamless) return SUNDER_OK;
         const sunder_status made = sunder_i_seamless_make(stand->shape, &placement->seamless[f], err);
         stand->seamless = placement->seamless[f].shape;
         return made;
     }
+    const double *home = sunder_i_home_box(model, (uint32_t)f);
     for (int c = 0; c < 4; c++) {
-        const double v = model->box[4 * f + (size_t)c] + t[c & 1];
+        const double v = home[c] + t[c & 1];
         /* Corners plus t are exact, but the box of a repaired shape is not made of corners. */
-        placement->box[4 * f + (size_t)c] = shape->rational ? nextafter(v, c < 2 ? -INFINITY : INFINITY) : v;
+        box[c] = shape->rational ? nextafter(v, c < 2 ? -INFINITY : INFINITY) : v;
     }
+    sunder_i_rtree_move(&placement->tree, (uint32_t)f, box);
     return SUNDER_OK;
 }
 
@@ -87,11 +88,14 @@ sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement 
         if (!model->present[f]) continue;
         const sunder_status status = stand_feature(model, placement, f, err);
         if (status) return status;
-        sunder_i_rtree_move(&placement->tree, f, placement->box + 4 * (size_t)f);
     }
     if (!sunder_i_rtree_is_worn(&placement->tree)) return SUNDER_OK;
+    double *box = sunder_i_rtree_boxes(&placement->tree, model->things);
+    if (!box) return sunder_i_no_memory(err);
     sunder_i_rtree_free(&placement->tree);
-    return sunder_i_rtree_build(placement->box, model->present, model->things, &placement->tree, err);
+    const sunder_status status = sunder_i_rtree_build(box, model->present, model->things, &placement->tree, err);
+    sunder_i_free(box);
+    return status;
 }
 
 sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_placement *placement, uint32_t body,
@@ -103,7 +107,6 @@ sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_place
         if (!model->present[f]) continue;
         const sunder_status status = stand_feature(model, placement, f, err);
         if (status) return status;
-        sunder_i_rtree_move(&placement->tree, f, placement->box + 4 * (size_t)f);
     }
     return SUNDER_OK;
 }
@@ -125,7 +128,7 @@ static uint32_t asked_at(const pair_search *s, size_t k) { return s->asked[(uint
 
 static void box_about(const pair_search *s, uint32_t f, double box[4])
 {
-    const double *own = s->placement->box + 4 * (size_t)f;
+    const double *own = sunder_i_rtree_box(&s->placement->tree, f);
     if (s->reach > 0)
         sunder_i_box_grow(own, s->reach, box);
     else
@@ -240,7 +243,7 @@ sunder_status sunder_i_placement_visit(const sunder_i_model *model, const sunder
         const uint32_t f = model->member[b->member + m];
         double box[4];
         if (!model->present[f]) continue;
-        sunder_i_box_grow(placement->box + 4 * (size_t)f, reach, box);
+        sunder_i_box_grow(sunder_i_rtree_box(&placement->tree, f), reach, box);
         near->n = 0;
         if (!sunder_i_rtree_query(&placement->tree, box, near)) return sunder_i_no_memory(err);
         if (near->n) qsort(near->item, near->n, sizeof *near->item, sunder_i_by_number);

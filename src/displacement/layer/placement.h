@@ -11,7 +11,6 @@ typedef struct sunder_i_placement {
     sunder_shape **rounded;        /* [things] owned shapes of those whose translate was rounded; else NULL */
     sunder_i_seamless *seamless;   /* [things] of these, where there are barriers without area; else NULL */
     bool *was_rounded;             /* [things] at any time */
-    double *box;                   /* [4 * things] */
     sunder_i_rtree tree;
 } sunder_i_placement;
 

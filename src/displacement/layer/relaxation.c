@@ -217,7 +217,7 @@ sunder_status sunder_i_relaxation_of(const sunder_i_model *model, uint32_t f, ui
     const double none[2] = {0, 0};
     *out = (sunder_i_relaxation){.a = f < g ? f : g, .b = f < g ? g : f};
     if (sunder_i_is_barrier(model, out->b)) return relaxation_of_barrier(model, out, err);
-    const sunder_shape *a = model->layer->feature[out->a].shape, *b = model->layer->feature[out->b].shape;
+    const sunder_shape *a = sunder_i_thing_shape(model, out->a), *b = sunder_i_thing_shape(model, out->b);
     const sunder_i_inclusion *inclusion = sunder_i_inclusion_find(model, f, g);
     out->inside = inclusion && !inclusion->enters;
     if (out->inside) return SUNDER_OK;
@@ -244,13 +244,13 @@ static sunder_status way_out(const sunder_i_model *model, const sunder_i_relaxat
                              const double tb[2], double upper, double way[2], bool *beyond, sunder_error *err)
 {
     const bool barrier = sunder_i_is_barrier(model, t->b);
-    const sunder_feature *feature = model->layer->feature;
     sunder_i_translate moved = sunder_i_at_home(model, t->a);
     sunder_separation least;
     memcpy(moved.t, ta, sizeof moved.t);
     const sunder_status status =
         barrier ? sunder_i_barrier_least(model, &moved, t->b, 0, upper, &least, beyond, err)
-                : sunder_i_separate(feature[t->a].shape, ta, feature[t->b].shape, tb, 0, upper, &least, beyond, err);
+                : sunder_i_separate(sunder_i_thing_shape(model, t->a), ta, sunder_i_thing_shape(model, t->b), tb, 0,
+                                    upper, &least, beyond, err);
     if (status) return status;
     way[0] = barrier ? -least.dx : least.dx;
     way[1] = barrier ? -least.dy : least.dy;
@@ -282,7 +282,7 @@ bool sunder_i_relaxations_spread(sunder_i_relaxations *out, const sunder_i_model
     const double limit = sunder_i_limit_of(&model->body[model->body_of[of_part.a]]);
     double box[4];
     sunder_i_list near = {0};
-    sunder_i_box_grow(model->box + 4 * (size_t)of_part.a, isfinite(limit) ? reach + limit : reach, box);
+    sunder_i_box_grow(sunder_i_home_box(model, of_part.a), isfinite(limit) ? reach + limit : reach, box);
     bool ok = sunder_i_rtree_query(&model->tree, box, &near);
     for (size_t k = 0; k < near.n && ok; k++) {
         if (near.item[k] < whole || near.item[k] >= end) continue;
@@ -302,11 +302,11 @@ sunder_status sunder_i_relaxations_make(const sunder_i_model *model, uint32_t i,
         const uint32_t f = model->member[p->member + k];
         double box[4];
         if (!model->present[f]) continue;
-        sunder_i_box_grow(model->box + 4 * (size_t)f, reach, box);
+        sunder_i_box_grow(sunder_i_home_box(model, f), reach, box);
         for (uint32_t l = 0; l < q->members && !status; l++) {
             const uint32_t g = model->member[q->member + l];
             sunder_i_relaxation relaxation;
-            if (!model->present[g] || !sunder_i_box_meet(box, model->box + 4 * (size_t)g)) continue;
+            if (!model->present[g] || !sunder_i_box_meet(box, sunder_i_home_box(model, g))) continue;
             if (sunder_i_is_included(model, f, g)) continue;
             status = sunder_i_relaxation_of(model, f, g, &relaxation, err);
             if (!status && relaxation.gap < reach + (sunder_i_owed_above(model, f, g) - model->rules.gap) &&

@@ -20,9 +20,9 @@ static sunder_status are_apart(const sunder_i_model *model, uint32_t a, uint32_t
                                sunder_error *err)
 {
     const double none[2] = {0, 0};
-    const sunder_feature *feature = model->layer->feature;
     if (!sunder_i_is_barrier(model, b))
-        return sunder_i_apart(feature[a].shape, none, feature[b].shape, none, length, apart, err);
+        return sunder_i_apart(sunder_i_thing_shape(model, a), none, sunder_i_thing_shape(model, b), none, length, apart,
+                              err);
     const sunder_i_translate home = sunder_i_at_home(model, a);
     return sunder_i_barrier_apart(model, &home, b, length, apart, err);
 }
@@ -62,7 +62,7 @@ static sunder_status of_barrier(const sunder_i_model *model, sunder_i_requiremen
 static sunder_status of_features(const sunder_i_model *model, sunder_i_requirement *out, sunder_error *err)
 {
     const double none[2] = {0, 0};
-    const sunder_shape *a = model->layer->feature[out->a].shape, *b = model->layer->feature[out->b].shape;
+    const sunder_shape *a = sunder_i_thing_shape(model, out->a), *b = sunder_i_thing_shape(model, out->b);
     bool overlap, beyond;
     sunder_status status = sunder_i_overlap(a, none, b, none, &overlap, err);
     if (!status && !overlap) {

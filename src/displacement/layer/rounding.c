@@ -43,7 +43,7 @@ static int coarsest(const sunder_i_model *model, const sunder_i_body *body, size
 {
     double largest = fabs(t);
     for (uint32_t k = 0; k < body->members; k++) {
-        const sunder_shape *shape = model->layer->feature[model->member[body->member + k]].shape;
+        const sunder_shape *shape = sunder_i_thing_shape(model, model->member[body->member + k]);
         if (!shape) continue;
         const size_t n = raw_vertices(shape);
         for (size_t v = 0; v < n; v++) {
@@ -58,7 +58,7 @@ static int coarsest(const sunder_i_model *model, const sunder_i_body *body, size
 static bool all_exact(const sunder_i_model *model, const sunder_i_body *body, const double t[2])
 {
     for (uint32_t k = 0; k < body->members; k++) {
-        const sunder_shape *shape = model->layer->feature[model->member[body->member + k]].shape;
+        const sunder_shape *shape = sunder_i_thing_shape(model, model->member[body->member + k]);
         if (!shape) continue;
         const size_t n = raw_vertices(shape);
         for (size_t v = 0; v < 2 * n; v++)

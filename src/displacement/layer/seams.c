@@ -23,7 +23,7 @@ static bool add_seams(gathering *g, uint32_t f)
     sunder_i_model *model = g->model;
     double *corner;
     size_t n;
-    bool ok = sunder_i_seams_find(model->layer->feature[f].shape, &corner, &n);
+    bool ok = sunder_i_seams_find(sunder_i_thing_shape(model, f), &corner, &n);
     ok = ok && sunder_i_reserve(&model->seam, &g->capacity, model->seams + n, sizeof *model->seam) &&
          sunder_i_reserve(&model->seam_at, &g->at_capacity, 8 * (model->seams + n), sizeof *model->seam_at);
     for (size_t k = 0; k < n && ok; k++) {
@@ -37,6 +37,8 @@ static bool add_seams(gathering *g, uint32_t f)
 /* Corners of the seams from `first` on, from the bodies' origins, behind all others. */
 static sunder_status put_corners(sunder_i_model *model, size_t first, sunder_error *err)
 {
+    sunder_i_trim(&model->seam, model->seams, sizeof *model->seam);
+    sunder_i_trim(&model->seam_at, 8 * model->seams, sizeof *model->seam_at);
     const size_t corners = model->corners + 4 * (model->seams - first);
     if (corners >= UINT32_MAX) return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
     double *corner = sunder_i_realloc(model->corner, 2 * corners, sizeof *corner);

@@ -131,7 +131,7 @@ static sunder_status find_some_anchors(void *context, size_t begin, size_t end, 
     size_t capacity = 0;
     sunder_status status = SUNDER_OK;
     for (size_t f = begin; f < end && !status; f++) {
-        const sunder_shape *shape = model->layer->feature[f].shape;
+        const sunder_shape *shape = sunder_i_thing_shape(model, f);
         size_t n = 0;
         if (!model->present[f]) continue;
         if (!find_lines(model, shape->box, &near, &line, &n, &capacity)) status = sunder_i_no_memory(err);
@@ -146,8 +146,9 @@ static sunder_status find_some_anchors(void *context, size_t begin, size_t end, 
 static void put_anchors(sunder_i_model *model)
 {
     for (size_t b = 0; b < model->bodies; b++) {
-        sunder_i_body *body = &model->body[b];
-        sunder_i_box_clear(body->side_anchors);
+        const sunder_i_body *body = &model->body[b];
+        double *box = model->side_anchors + 4 * b;
+        sunder_i_box_clear(box);
         for (uint32_t m = 0; m < body->members; m++) {
             const uint32_t f = model->member[body->member + m];
             if (sunder_i_is_barrier(model, f) || !model->present[f]) continue;
@@ -157,7 +158,7 @@ static void put_anchors(sunder_i_model *model)
             for (int c = 0; c < 2; c++)
                 to[c] = anchor->box[c] = anchor->box[c + 2] =
                     model->side_at[2 * (size_t)f + (size_t)c] - body->origin[c];
-            sunder_i_box_join(body->side_anchors, anchor->box);
+            sunder_i_box_join(box, anchor->box);
         }
     }
 }
@@ -168,7 +169,8 @@ sunder_status sunder_i_model_find_sides(sunder_i_model *model, sunder_error *err
     if (status || model->sides == 0) return status;
     model->side_at = sunder_i_calloc(2 * model->features, sizeof *model->side_at);
     model->side_anchor = sunder_i_calloc(model->features, sizeof *model->side_anchor);
-    if (!model->side_at || !model->side_anchor) return sunder_i_no_memory(err);
+    model->side_anchors = sunder_i_alloc(4 * model->bodies, sizeof *model->side_anchors);
+    if (!model->side_at || !model->side_anchor || !model->side_anchors) return sunder_i_no_memory(err);
     status =
         sunder_i_parallel(model->rules.threads, model->features, SUNDER_I_GRAIN_TESTS, find_some_anchors, model, err);
     if (!status) put_anchors(model);

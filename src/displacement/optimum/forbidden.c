@@ -64,14 +64,14 @@ static bool owe(const listing *l, uint32_t f, uint32_t g, const sunder_i_waiver 
     *waiver = sunder_i_waiver_of(l->model, l->waived, f, g);
     if (*waiver && sunder_i_waiver_clearance(*waiver) == -INFINITY) return false;
     if (sunder_i_is_barrier(l->model, f) || sunder_i_is_barrier(l->model, g)) return true;
-    return !sunder_i_may_get_inside(&l->model->rules, l->model->box + 4 * (size_t)f, l->model->box + 4 * (size_t)g,
+    return !sunder_i_may_get_inside(&l->model->rules, sunder_i_home_box(l->model, f), sunder_i_home_box(l->model, g),
                                     nextafter(l->reach, INFINITY));
 }
 
 /* S of one coordinate sum: of a piece, and what its coordinates were before they were reckoned from the origin. */
 static double size_of(const listing *l, const sunder_i_body *body, const sunder_i_body_piece *piece)
 {
-    const sunder_shape *shape = l->model->layer->feature[piece->feature].shape;
+    const sunder_shape *shape = sunder_i_thing_shape(l->model, piece->feature);
     const bool rational = shape && shape->rational;
     double size = 0;
     for (size_t c = 0; c < 2; c++) {

@@ -59,8 +59,8 @@ static bool may_pass(const sunder_i_model *model, const sunder_i_body *p, const 
                  u[2] = {v[0] - t[0], v[1] - t[1]};
     double way[4];
     sunder_i_shadow_way(u, 0, way);
-    if (p->sides && sunder_i_shadow_may_reach(p->box, q->side_anchors, offset, way)) return true;
-    if (q->sides && sunder_i_shadow_may_reach(p->side_anchors, q->box, offset, way)) return true;
+    if (p->sides && sunder_i_shadow_may_reach(p->box, sunder_i_side_anchors(model, q), offset, way)) return true;
+    if (q->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, way)) return true;
     return !model->rules.jumps && (sunder_i_shadow_may_reach(p->anchors, q->box, offset, way) ||
                                    sunder_i_shadow_may_reach(p->box, q->anchors, offset, way));
 }

@@ -294,8 +294,8 @@ static bool ask_parts(finding *f, uint32_t a, uint32_t barrier)
     const sunder_i_model *model = f->g->of.model;
     sunder_i_list near = {0};
     double box[4];
-    sunder_i_box_grow(model->box + 4 * (size_t)a, sunder_i_limit_of(&model->body[model->body_of[a]]) + model->rules.gap,
-                      box);
+    sunder_i_box_grow(sunder_i_home_box(model, a),
+                      sunder_i_limit_of(&model->body[model->body_of[a]]) + model->rules.gap, box);
     bool ok = sunder_i_look_about(model, &model->tree, box, &near);
     near.n = sunder_i_set_make(near.item, near.n);
     for (size_t k = 0; k < near.n && ok && !f->decision->proof; k++)

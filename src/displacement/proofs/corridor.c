@@ -81,7 +81,7 @@ static bool find_unit(const sunder_i_model *model, const sunder_i_body *body, si
 {
     double low = INFINITY, high = -INFINITY;
     for (uint32_t k = 0; k < body->members; k++) {
-        const sunder_shape *shape = model->layer->feature[model->member[body->member + k]].shape;
+        const sunder_shape *shape = sunder_i_thing_shape(model, model->member[body->member + k]);
         for (size_t v = 0; shape && v < sunder_i_shape_raw_vertices(shape); v++) {
             low = fmin(low, shape->raw_xy[2 * v + c]);
             high = fmax(high, shape->raw_xy[2 * v + c]);
@@ -263,7 +263,7 @@ typedef struct looking {
     sunder_error *err;
 } looking;
 
-static bool is_rational(const sunder_i_model *model, uint32_t f) { return model->layer->feature[f].shape->rational; }
+static bool is_rational(const sunder_i_model *model, uint32_t f) { return sunder_i_thing_shape(model, f)->rational; }
 
 /* Takes the line, if the pair stood as `part`, of the feature, and the other thing's part did. */
 static void take_line(looking *g, const facing *f, const double *part, size_t corners)
@@ -308,7 +308,7 @@ static void look_at_depth(looking *g, const sunder_i_body_piece *a, const sunder
 /* The corners of the hull of a feature, as given, counter-clockwise and strictly convex; false: it is none so. */
 static bool find_hull(const sunder_i_model *model, uint32_t f, double **hull, size_t *corners)
 {
-    const sunder_shape *shape = model->layer->feature[f].shape;
+    const sunder_shape *shape = sunder_i_thing_shape(model, f);
     const size_t n = shape->vertices;
     double *xy = sunder_i_alloc(2 * n, sizeof *xy);
     *hull = sunder_i_alloc(2 * (n + 1), sizeof **hull);
@@ -379,7 +379,7 @@ static void look_at_requirement(looking *g, const sunder_i_requirement *r)
         return;
     }
     const uint32_t end = (uint32_t)model->features + model->barriers->part_end[sunder_i_barrier_of(model, other)];
-    sunder_i_box_grow(model->box + 4 * (size_t)f, fabs(clearance) + c->hair, box);
+    sunder_i_box_grow(sunder_i_home_box(model, f), fabs(clearance) + c->hair, box);
     c->near.n = 0;
     if (!sunder_i_look_about(model, &model->tree, box, &c->near)) g->status = sunder_i_no_memory(g->err);
     if (c->near.n) qsort(c->near.item, c->near.n, sizeof *c->near.item, sunder_i_by_number);

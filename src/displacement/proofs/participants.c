@@ -183,7 +183,7 @@ bool sunder_i_branching_owe(const sunder_i_branching *c, uint32_t f, uint32_t g,
     double reach;
     if (!can_move(c, f, g, &reach) || !is_heeded(c, f) || !is_heeded(c, g)) return false;
     if (!sunder_i_is_barrier(model, f > g ? f : g) &&
-        sunder_i_may_get_inside(&model->rules, model->box + 4 * (size_t)f, model->box + 4 * (size_t)g,
+        sunder_i_may_get_inside(&model->rules, sunder_i_home_box(model, f), sunder_i_home_box(model, g),
                                 nextafter(reach, INFINITY)))
         return false;
     *clearance = sunder_i_owed_below(model, f, g) + q->margin;

@@ -138,7 +138,7 @@ static bool find_on_ground(const finding *w)
         const uint32_t f = model->member[p->member + m];
         double box[4];
         if (!model->present[f]) continue;
-        sunder_i_box_grow(model->box + 4 * (size_t)f, w->reach + model->rules.gap, box);
+        sunder_i_box_grow(sunder_i_home_box(model, f), w->reach + model->rules.gap, box);
         w->kept->looked[PIECES] += LOOK_WORK;
         ok = sunder_i_look_about(model, &model->tree, box, &near);
     }

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_rational(const sunder_i_model *model, uint32_t f) { return model->layer->feature[f].shape->rational; }
+static bool is_rational(const sunder_i_model *model, uint32_t f) { return sunder_i_thing_shape(model, f)->rational; }
 
 size_t sunder_i_branching_fill_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
                                     const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
@@ -190,7 +190,7 @@ static void look_at_slack(sunder_i_branching *c, const standing *s, const sunder
     double u[2], box[4], clearance;
     if (!model->present[f] || !sunder_i_branching_owe(c, f, required->b, &clearance) || !(clearance < 0)) return;
     move_of_slack(c, required, s->t, u);
-    for (uint32_t x = 0; x < 4; x++) box[x] = model->box[4 * (size_t)f + x] - u[x & 1];
+    for (uint32_t x = 0; x < 4; x++) box[x] = sunder_i_home_box(model, f)[x] - u[x & 1];
     c->looked += LOOK_WORK;
     c->near.n = 0;
     if (!sunder_i_look_about(model, &model->tree, box, &c->near)) c->failed = true;
@@ -237,7 +237,8 @@ static void look_across(sunder_i_branching *c, const standing *s, const standing
     double way[4];
     sunder_i_shadow_way(u, 0, way);
     c->looked++;
-    if (!sunder_i_shadow_may_reach(swapped ? p->box : p->side_anchors, swapped ? q->side_anchors : q->box, offset, way))
+    if (!sunder_i_shadow_may_reach(swapped ? p->box : sunder_i_side_anchors(model, p),
+                                   swapped ? sunder_i_side_anchors(model, q) : q->box, offset, way))
         return;
     for (uint32_t m = 0; m < of->members; m++) {
         const uint32_t f = model->member[of->member + m];
@@ -274,9 +275,9 @@ static bool find_near(sunder_i_branching *c, const standing *s)
         const uint32_t f = model->member[s->body->member + m];
         double box[4], grown[4];
         if (!model->present[f]) continue;
-        for (uint32_t x = 0; x < 4; x++) box[x] = model->box[4 * (size_t)f + x] + s->t[x & 1];
+        for (uint32_t x = 0; x < 4; x++) box[x] = sunder_i_home_box(model, f)[x] + s->t[x & 1];
         if (sunder_i_forbids_ways(model))
-            sunder_i_box_join(box, model->box + 4 * (size_t)f); /* what it passed on its way, too */
+            sunder_i_box_join(box, sunder_i_home_box(model, f)); /* what it passed on its way, too */
         sunder_i_box_grow(box, model->rules.gap, grown);
         c->looked += LOOK_WORK;
         if (!sunder_i_look_about(model, &model->tree, grown, &c->near)) return false;

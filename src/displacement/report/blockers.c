@@ -14,7 +14,7 @@ static sunder_status find_around(const sunder_i_solver *s, const sunder_conflict
 {
     const sunder_i_model *model = &s->model;
     const sunder_i_placement *placement = &s->placement;
-    const double *own = placement->box + 4 * (size_t)f, size = hypot(own[2] - own[0], own[3] - own[1]);
+    const double *own = sunder_i_rtree_box(&placement->tree, f), size = hypot(own[2] - own[0], own[3] - own[1]);
     const double reach = model->rules.gap + fmax(model->rules.gap, size) * RESTING;
     double box[4];
     sunder_i_box_grow(own, reach, box);

@@ -255,7 +255,7 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
         } else if (d->reasons) {
             if (sunder_i_is_included(model, (uint32_t)c->a, (uint32_t)c->b)) c->reason = SUNDER_REASON_KEPT;
             double on_a[2], on_b[2];
-            status = sunder_pair_distance(model->layer->feature[c->a].shape, model->layer->feature[c->b].shape,
+            status = sunder_pair_distance(sunder_i_thing_shape(model, c->a), sunder_i_thing_shape(model, c->b),
                                           &c->before, on_a, on_b, err);
             if (status) return status;
         }

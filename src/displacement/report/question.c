@@ -50,7 +50,7 @@ static bool look_about(const sunder_i_solver *s, uint32_t feature, double reach,
                        sunder_i_list *body)
 {
     double box[4];
-    sunder_i_box_grow(s->model.box + 4 * (size_t)feature, reach, box);
+    sunder_i_box_grow(sunder_i_home_box(&s->model, feature), reach, box);
     near->n = 0;
     if (!sunder_i_look_about(&s->model, &s->placement.tree, box, near) ||
         !sunder_i_look_about(&s->model, &s->model.tree, box, near))
@@ -97,7 +97,7 @@ static sunder_status take_part(const sunder_i_solver *s, sunder_i_surroundings *
     const sunder_i_model *model = &s->model;
     const uint32_t f = a->feature.item[k], b = model->body_of[f];
     const sunder_i_translate *at = &s->placement.translate[f];
-    a->as[k] = model->layer->feature[f];
+    a->as[k] = *sunder_i_feature(model->layer, f);
     a->as[k].block = b;
     if (k < a->moving) {
         a->as[k].max_shift = model->body[b].limit;
@@ -122,7 +122,7 @@ sunder_status sunder_i_surround(const sunder_i_solver *s, const sunder_conflict 
     sunder_i_box_clear(a->known);
     for (size_t k = 0; k < moving.n && ok; k++) ok = append_members(model, moving.item[k], &a->feature);
     a->moving = a->feature.n;
-    for (size_t k = 0; k < a->moving; k++) sunder_i_box_join(a->known, model->box + 4 * (size_t)a->feature.item[k]);
+    for (size_t k = 0; k < a->moving; k++) sunder_i_box_join(a->known, sunder_i_home_box(model, a->feature.item[k]));
     a->farthest = NEED_GAPS * c->required + NEED_MISSING * missing(c);
     sunder_i_box_grow(a->known, a->farthest + reach, a->known);
     ok = ok && sunder_i_look_about(&s->model, &s->placement.tree, a->known, &near);
@@ -149,8 +149,9 @@ static bool is_known(const sunder_i_surroundings *a, const sunder_i_solver *x, d
     *longest = 0;
     gap = fmax(gap, x->barriers.farthest);
     for (size_t k = 0; k < model->features; k++) {
-        const double *t = model->move + 2 * (size_t)model->body_of[k], *box = x->placement.box + 4 * k;
-        if (x->number[k] >= a->moving || !model->present[k]) continue;
+        const double *t = model->move + 2 * (size_t)model->body_of[k],
+                     *box = sunder_i_rtree_box(&x->placement.tree, (uint32_t)k);
+        if (x->layer.number[k] >= a->moving || !model->present[k]) continue;
         *longest = fmax(*longest, hypot(t[0], t[1]));
         if (box[0] - gap < a->known[0] || box[1] - gap < a->known[1] || box[2] + gap > a->known[2] ||
             box[3] + gap > a->known[3])
@@ -163,9 +164,9 @@ static bool is_known(const sunder_i_surroundings *a, const sunder_i_solver *x, d
 static uint32_t whole_number(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_i_solver *x,
                              uint32_t thing, uint32_t gone)
 {
-    if (!sunder_i_is_barrier(&x->model, thing)) return a->feature.item[x->number[thing]];
+    if (!sunder_i_is_barrier(&x->model, thing)) return a->feature.item[x->layer.number[thing]];
     size_t k = 0;
-    for (size_t left = x->number[thing] - a->feature.n;; k++)
+    for (size_t left = x->layer.number[thing] - a->feature.n;; k++)
         if (sunder_i_whole_of(&g->solver->model, a->part.item[k]) != gone && left-- == 0) return a->part.item[k];
 }
 
@@ -194,7 +195,7 @@ static sunder_status may_stay(const sunder_i_questions *g, const sunder_i_surrou
         const sunder_i_translate home = sunder_i_at_home(model, low);
         status = sunder_i_barrier_worsened(model, &home, p, high, &worse, err);
     } else {
-        const sunder_i_pair was = {model->layer->feature[f].shape, model->layer->feature[other].shape, NULL, NULL},
+        const sunder_i_pair was = {sunder_i_thing_shape(model, f), sunder_i_thing_shape(model, other), NULL, NULL},
                             is = {p->shape, q->shape, p->t, q->t};
         status = sunder_i_pair_worsened(&was, &is, &worse, err);
     }
@@ -212,7 +213,7 @@ static sunder_status is_solved(const sunder_i_questions *g, const sunder_i_surro
     for (size_t k = 0; k < x->now.n && *yes && !status; k++) {
         const sunder_i_relation *r = &x->now.pair[k];
         if (sunder_i_is_conflict_of_bodies(&x->model, r) &&
-            (x->number[r->a] < a->moving || x->number[r->b] < a->moving))
+            (x->layer.number[r->a] < a->moving || x->layer.number[r->b] < a->moving))
             status = may_stay(g, a, c, x, r, what->gone, yes, err);
     }
     return status;
@@ -232,8 +233,8 @@ static sunder_status pass(const sunder_i_model *model, uint32_t f, const double 
     const double *a = model->anchor_at + 2 * (size_t)f, *b = model->anchor_at + 2 * (size_t)g;
     const sunder_i_passage there = {{a[0], a[1]}, {t[0], t[1]}, {s[0], s[1]}},
                            back = {{b[0], b[1]}, {s[0], s[1]}, {t[0], t[1]}};
-    const sunder_status status = sunder_i_passes(&there, model->layer->feature[g].shape, passes, err);
-    return status || *passes ? status : sunder_i_passes(&back, model->layer->feature[f].shape, passes, err);
+    const sunder_status status = sunder_i_passes(&there, sunder_i_thing_shape(model, g), passes, err);
+    return status || *passes ? status : sunder_i_passes(&back, sunder_i_thing_shape(model, f), passes, err);
 }
 
 /* Does f, going by t, cross a side? That layer knows those of lines alone. */
@@ -259,7 +260,7 @@ static sunder_status find_jump(const sunder_i_questions *g, const sunder_i_surro
     if (sunder_i_jumps_begun(&s->jumps) && !sunder_i_look_about(&s->model, &s->jumps.tree, a->known, &mover))
         status = sunder_i_no_memory(err);
     for (size_t k = 0; k < x->model.features && !status && !*jumps; k++) {
-        const size_t at = x->number[k];
+        const size_t at = x->layer.number[k];
         if (at >= a->moving || !x->model.present[k]) continue;
         const double *t = x->model.move + 2 * (size_t)x->model.body_of[k];
         if (!status) status = cross(&s->model, a->feature.item[at], t, a, gone, jumps, err);
@@ -286,8 +287,8 @@ static sunder_status set_barriers(const sunder_i_solver *s, const sunder_i_surro
         const uint32_t part = a->part.item[k];
         if (sunder_i_whole_of(&s->model, part) == gone) continue;
         barrier[n] = s->layer.barrier[sunder_i_barrier_of(&s->model, part)];
-        barrier[n].side = barrier[n].side && s->model.layer->feature[part].shape->flat;
-        barrier[n++].geometry = (sunder_obstacle){.shape = s->model.layer->feature[part].shape};
+        barrier[n].side = barrier[n].side && sunder_i_thing_shape(&s->model, part)->flat;
+        barrier[n++].geometry = (sunder_obstacle){.shape = sunder_i_thing_shape(&s->model, part)};
     }
     const sunder_status status = sunder_layer_set_barriers(layer, barrier, n, err);
     sunder_i_free(barrier);

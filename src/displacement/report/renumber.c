@@ -41,7 +41,7 @@ static void turn(sunder_conflict *c)
     }
 }
 
-static void number_proof(sunder_proof *proof, const size_t *number)
+static void number_proof(sunder_proof *proof, const uint32_t *number)
 {
     sunder_proof_node *node = (sunder_proof_node *)proof->node; /* the report's own */
     for (size_t k = 0; k < proof->nodes; k++) {
@@ -52,7 +52,7 @@ static void number_proof(sunder_proof *proof, const size_t *number)
     }
 }
 
-static sunder_status number_conflicts(sunder_report *report, const size_t *number, sunder_error *err)
+static sunder_status number_conflicts(sunder_report *report, const uint32_t *number, sunder_error *err)
 {
     const size_t n = report->conflicts;
     listed *list = sunder_i_alloc(n, sizeof *list);
@@ -79,7 +79,7 @@ static sunder_status number_conflicts(sunder_report *report, const size_t *numbe
     return SUNDER_OK;
 }
 
-static void number_tree(sunder_bound_tree *tree, const size_t *number)
+static void number_tree(sunder_bound_tree *tree, const uint32_t *number)
 {
     sunder_bound_body *body = (sunder_bound_body *)tree->body; /* the report's own */
     sunder_bound_piece *piece = (sunder_bound_piece *)tree->piece;
@@ -104,7 +104,7 @@ static int by_push(const void *x, const void *y)
 }
 
 /* By pairs, the lesser first; of each pair one, of the sum of forces. */
-static void number_pushes(sunder_report *report, const size_t *number)
+static void number_pushes(sunder_report *report, const uint32_t *number)
 {
     sunder_push *push = report->push;
     size_t n = 0;
@@ -149,7 +149,7 @@ static void find_longest(sunder_report *report)
         if (hypot(report->move[2 * f], report->move[2 * f + 1]) == most) report->summary.max_feature = f;
 }
 
-sunder_status sunder_i_report_renumber(sunder_report *report, const size_t *number, sunder_error *err)
+sunder_status sunder_i_report_renumber(sunder_report *report, const uint32_t *number, sunder_error *err)
 {
     const size_t n = report->n;
     double *move = sunder_i_alloc(2 * n, sizeof *move);

@@ -49,7 +49,7 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
 /* ---- renumber.c -------------------------------------------------------------------------------------------------- */
 
 /* The report on a layer in the order of work, as one on the layer as it was given: number[k] is what feature k was. */
-sunder_status sunder_i_report_renumber(sunder_report *report, const size_t *number, sunder_error *err);
+sunder_status sunder_i_report_renumber(sunder_report *report, const uint32_t *number, sunder_error *err);
 
 /* ---- conflicts.c ------------------------------------------------------------------------------------------------- */
 

@@ -78,7 +78,7 @@ static bool meet(looking *l, uint32_t f, double reach, bool all, sunder_i_list *
     const sunder_i_model *model = &l->solver->model;
     double box[4];
     near->n = 0;
-    sunder_i_box_grow(model->box + 4 * (size_t)f, reach, box);
+    sunder_i_box_grow(sunder_i_home_box(model, f), reach, box);
     if (!sunder_i_rtree_query(&model->tree, box, near)) return false;
     for (size_t k = 0; k < near->n; k++) {
         const uint32_t b = model->body_of[near->item[k]];

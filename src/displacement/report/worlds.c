@@ -37,7 +37,7 @@ static void box_of(const sunder_i_model *model, uint32_t body, double box[4])
     sunder_i_box_clear(box);
     for (uint32_t m = 0; m < b->members; m++) {
         const uint32_t f = model->member[b->member + m];
-        if (model->present[f]) sunder_i_box_join(box, model->box + 4 * (size_t)f);
+        if (model->present[f]) sunder_i_box_join(box, sunder_i_home_box(model, f));
     }
     for (int c = 0; c < 4; c++) box[c] += went[c];
 }
@@ -144,7 +144,7 @@ static sunder_status meet_readers(gathering *g, uint32_t *world, sunder_error *e
 static sunder_status number_worlds(sunder_report *report, const gathering *g, uint32_t *world, sunder_error *err)
 {
     const sunder_i_model *model = g->model;
-    const size_t *number = g->solver->number;
+    const uint32_t *number = g->solver->layer.number;
     size_t *named = sunder_i_alloc(model->bodies, sizeof *named),
            *thing = sunder_i_alloc(model->features, sizeof *thing);
     report->world_of = sunder_i_alloc(model->features, sizeof *report->world_of);
@@ -174,13 +174,14 @@ static size_t world_of_body(const sunder_report *report, const gathering *g, uin
 {
     const sunder_i_body *b = &g->model->body[body];
     if (sunder_i_is_barrier_body(g->model, b)) return SIZE_MAX;
-    return report->world_of[g->solver->number[g->model->member[b->member]]];
+    return report->world_of[g->solver->layer.number[g->model->member[b->member]]];
 }
 
 /* Whose pair of the model's is it? SIZE_MAX: it is inside a block that nothing happened to. */
 static size_t world_of_pair(const sunder_report *report, const gathering *g, uint32_t a, uint32_t b)
 {
-    const size_t n = g->model->features, *number = g->solver->number;
+    const size_t n = g->model->features;
+    const uint32_t *number = g->solver->layer.number;
     return sunder_report_world_of_pair(report, number[a], b < n ? number[b] : n);
 }
 
@@ -229,7 +230,7 @@ static sunder_status count_pairs(sunder_report *report, const gathering *g, sund
             if (w != SIZE_MAX) {
                 sunder_i_count(now ? &report->world[w].after : &report->world[w].before, &c);
             } else if (!now) {
-                const size_t p = g->solver->number[a], q = g->solver->number[b];
+                const size_t p = g->solver->layer.number[a], q = g->solver->layer.number[b];
                 report->inside[p < q ? p : q]++;
             }
         }
@@ -284,8 +285,8 @@ static sunder_status keep_each(sunder_report *report, const gathering *g, sunder
     report->stands = sunder_i_calloc(model->features, sizeof *report->stands);
     if (!report->inexact || !report->stands) return sunder_i_no_memory(err);
     for (size_t f = 0; f < model->features; f++) {
-        report->inexact[g->solver->number[f]] = model->inexact[f];
-        report->stands[g->solver->number[f]] = stands(model, model->body_of[f]);
+        report->inexact[g->solver->layer.number[f]] = model->inexact[f];
+        report->stands[g->solver->layer.number[f]] = stands(model, model->body_of[f]);
     }
     return SUNDER_OK;
 }

@@ -12,7 +12,7 @@
 static double farthest_near(const sunder_i_search *s, uint32_t f, uint32_t g, const double u[2])
 {
     const sunder_i_model *model = s->model;
-    const double *a = model->box + 4 * (size_t)f, *b = model->box + 4 * (size_t)g;
+    const double *a = sunder_i_home_box(model, f), *b = sunder_i_home_box(model, g);
     const double owed = s->gap + 2 * s->tolerance;
     double square = 0;
     for (uint32_t x = 0; x < 2; x++) {

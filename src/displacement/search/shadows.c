@@ -81,12 +81,12 @@ static void visit_sides(sunder_i_search *s, const sunder_i_body *p, const sunder
 }
 
 /* May one of them have sides that the other may not cross, which are within reach of the way? swapped: it is p. */
-static bool may_cross(const sunder_i_body *p, const sunder_i_body *q, const double offset[2], const double way[4],
-                      bool *swapped)
+static bool may_cross(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q,
+                      const double offset[2], const double way[4], bool *swapped)
 {
     *swapped = p->sides > 0;
-    if (p->sides) return sunder_i_shadow_may_reach(p->box, q->side_anchors, offset, way);
-    return q->sides && sunder_i_shadow_may_reach(p->side_anchors, q->box, offset, way);
+    if (p->sides) return sunder_i_shadow_may_reach(p->box, sunder_i_side_anchors(model, q), offset, way);
+    return q->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, way);
 }
 
 /* May one of them jump over the other, were it not for the rule? */
@@ -103,7 +103,7 @@ void sunder_i_search_visit_shadows(sunder_i_search *s, const sunder_i_body *p, c
     double way[4];
     bool swapped;
     sunder_i_shadow_way(u, reach, way);
-    const bool crosses = may_cross(p, q, offset, way, &swapped), jumps = may_jump(s->model, p, q),
+    const bool crosses = may_cross(s->model, p, q, offset, way, &swapped), jumps = may_jump(s->model, p, q),
                from_p = jumps && p->clear <= far && sunder_i_shadow_may_reach(p->anchors, q->box, offset, way),
                from_q = jumps && q->clear <= far && sunder_i_shadow_may_reach(p->box, q->anchors, offset, way);
     if (!crosses && !from_p && !from_q) return;
@@ -151,7 +151,7 @@ bool sunder_i_search_may_pass(const sunder_i_search *s, const double *t, uint32_
     bool swapped;
     if (!sunder_i_forbids_ways(s->model)) return false;
     sunder_i_shadow_way(u, reach - s->model->rules.gap, way);
-    if (may_cross(p, q, offset, way, &swapped)) return true;
+    if (may_cross(s->model, p, q, offset, way, &swapped)) return true;
     if (!may_jump(s->model, p, q)) return false;
     return sunder_i_shadow_may_reach(p->anchors, q->box, offset, way) ||
            sunder_i_shadow_may_reach(p->box, q->anchors, offset, way);
@@ -165,8 +165,9 @@ static double least_way(const sunder_i_search *s)
     for (size_t k = 0; k < s->n; k++) {
         const sunder_i_body *b = &s->model->body[s->body[k]];
         if (b->clear < least) least = b->clear;
-        for (int c = 0; c < 2 && s->model->sides && b->pieces; c++)
-            least = fmin(least, fmin(b->side_anchors[c] - b->box[c], b->box[c + 2] - b->side_anchors[c + 2]));
+        if (!s->model->sides || !b->pieces) continue;
+        const double *anchors = sunder_i_side_anchors(s->model, b);
+        for (int c = 0; c < 2; c++) least = fmin(least, fmin(anchors[c] - b->box[c], b->box[c + 2] - anchors[c + 2]));
     }
     return least;
 }
