@@ -209,7 +209,9 @@ void gis_layer_default_demands(gis_layer_input *input)
 bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
 {
     if (!gis_layer_begin(request, true, out, error) || !gis_layer_make_room(out, true, error)) return false;
-    if (!gis_layer_lengths(out, error) || !gis_layer_shapes(out, error)) return false;
+    if (!gis_layer_lengths(out, error) || !gis_layer_shapes(out, error) ||
+        !gis_source_borrow(out->source, out->shape, error))
+        return false;
     gis_layer_default_demands(out);
     gis_layer_warn_of_crs(out);
     gis_layer_warn_of_others(out, gis_source_content_count(out->source, GIS_POINTS) > 0);

@@ -1,10 +1,12 @@
 /* packed.c: see packed.h. A record is: the FID; how many bytes of geometry, and these, as ISO well-known binary in the
- * machine's own order; of each field a byte that says whether it is set, and its value. Nothing in it is aligned. */
+ * machine's own order; of each field a byte that says whether it is set, and its value. Nothing in it is aligned. One
+ * that borrows its vertices has in place of the geometry a byte, whether it is a MultiPolygon, and the address of the
+ * shape; the highest bit of the number of bytes says so. */
 #include "read/packed.h"
 
 #include "base/array.h"
+#include "read/given.h"
 
-#include <cpl_port.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -12,14 +14,9 @@
 
 enum { UNSET, EMPTY, VALUE }; /* of a field: not set, null, or what follows */
 
-/* The machine's order of bytes: doubles can be taken as they stand. */
-#ifdef CPL_LSB
-static const OGRwkbByteOrder order = wkbNDR;
-#else
-static const OGRwkbByteOrder order = wkbXDR;
-#endif
-
 enum { CHUNK = 1 << 20 };
+
+#define BORROWS UINT32_C(0x80000000) /* no geometry has so many bytes: they fit an int */
 
 /* ---- Room -------------------------------------------------------------------------------------------------------- */
 
@@ -140,7 +137,7 @@ bool gis_packed_add(gis_packed *packed, OGRFeatureH feature, const unsigned char
     const unsigned char *const at = to;
     to = put(to, &fid, sizeof fid);
     to = put(to, &bytes, sizeof bytes);
-    if (OGR_G_ExportToIsoWkb(geometry, order, to) != OGRERR_NONE) return gis_no_memory(error);
+    if (OGR_G_ExportToIsoWkb(geometry, GIS_GIVEN_ORDER, to) != OGRERR_NONE) return gis_no_memory(error);
     to += bytes;
     for (int i = 0; i < packed->fields; i++) to = put_value(to, packed->type[i], OGR_F_GetRawFieldRef(feature, i));
     *record = at;
@@ -188,12 +185,30 @@ static uint32_t number_at(const unsigned char **at)
     return number;
 }
 
-/* The geometry of a record: its bytes, from its own byte of order on. */
-static const unsigned char *geometry_of(const unsigned char *record, size_t *bytes)
+/* What there is of the geometry in a record. */
+typedef struct place {
+    const unsigned char *geometry; /* from its own byte of order on; NULL: its vertices are borrowed */
+    const unsigned char *values;   /* behind it */
+    size_t bytes;
+    bool multi; /* of those that are borrowed */
+    const sunder_shape *shape;
+} place;
+
+static place place_of(const unsigned char *record)
 {
+    place p = {0};
     record += sizeof(GIntBig);
-    *bytes = number_at(&record);
-    return record;
+    const uint32_t bytes = number_at(&record);
+    p.bytes = bytes & ~BORROWS;
+    if (!(bytes & BORROWS)) {
+        p.geometry = record;
+        p.values = record + bytes;
+        return p;
+    }
+    p.multi = *record++;
+    memcpy(&p.shape, record, sizeof p.shape);
+    p.values = record + sizeof p.shape;
+    return p;
 }
 
 /* Past the order of bytes and the type; tells the type. */
@@ -205,9 +220,8 @@ static uint32_t begin_geometry(const unsigned char **at)
 
 bool gis_packed_is_multi(const unsigned char *record)
 {
-    size_t bytes;
-    const unsigned char *at = geometry_of(record, &bytes);
-    return begin_geometry(&at) == wkbMultiPolygon;
+    place p = place_of(record);
+    return p.geometry ? begin_geometry(&p.geometry) == wkbMultiPolygon : p.multi;
 }
 
 static bool visit_polygon(const unsigned char **at, gis_packed_ring *visit, void *user)
@@ -244,8 +258,27 @@ static bool visit_finite(void *user, const unsigned char *points, size_t n, bool
 
 bool gis_packed_is_finite(const unsigned char *record)
 {
-    size_t bytes;
-    return gis_packed_visit(geometry_of(record, &bytes), visit_finite, NULL);
+    const place p = place_of(record);
+    return !p.geometry || gis_packed_visit(p.geometry, visit_finite, NULL); /* a shape is finite */
+}
+
+static const unsigned char *pass_value(OGRFieldType type, const unsigned char *from)
+{
+    if (*from++ != VALUE) return from;
+    return from + (type == OFTString ? strlen((const char *)from) + 1 : sizeof(int64_t));
+}
+
+/* ---- Vertices of a shape ------------------------------------------------------------------------------------------ */
+
+/* The geometry of a record; one whose vertices are borrowed lives until another is asked for. NULL if memory is out. */
+static const unsigned char *geometry_of(gis_packed *packed, const unsigned char *record, size_t *bytes)
+{
+    const place p = place_of(record);
+    *bytes = p.bytes;
+    if (p.geometry) return p.geometry;
+    if (!gis_array_reserve(&packed->moved, &packed->moved_room, p.bytes, 1)) return NULL;
+    gis_given_write(p.shape, p.multi, packed->moved);
+    return packed->moved;
 }
 
 typedef struct appending {
@@ -263,13 +296,43 @@ static bool visit_appending(void *user, const unsigned char *points, size_t n, b
     return gis_polygons_end_ring(set, to->error) && (!last || gis_polygons_end_polygon(set, to->error));
 }
 
-bool gis_packed_polygons(const unsigned char *record, gis_polygonal_part *part, gis_error *error)
+bool gis_packed_polygons(gis_packed *packed, const unsigned char *record, gis_polygonal_part *part, gis_error *error)
 {
     appending to = {&part->set, error};
     size_t bytes;
+    const unsigned char *geometry = geometry_of(packed, record, &bytes);
     part->set.vertices = part->set.rings = part->set.polygons = 0;
     part->linearised = 0;
-    return gis_packed_visit(geometry_of(record, &bytes), visit_appending, &to);
+    return geometry ? gis_packed_visit(geometry, visit_appending, &to) : gis_no_memory(error);
+}
+
+/* Is the geometry what the shape was given? *same; false if memory is out. */
+static bool is_given(gis_packed *packed, const place *p, bool multi, const sunder_shape *shape, bool *same)
+{
+    *same = gis_given_bytes(shape, multi) == p->bytes;
+    if (!*same) return true;
+    if (!gis_array_reserve(&packed->moved, &packed->moved_room, p->bytes, 1)) return false;
+    gis_given_write(shape, multi, packed->moved);
+    *same = memcmp(packed->moved, p->geometry, p->bytes) == 0;
+    return true;
+}
+
+const unsigned char *gis_packed_add_borrowing(gis_packed *packed, const unsigned char *record,
+                                              const sunder_shape *shape)
+{
+    const place p = place_of(record);
+    const unsigned char multi = gis_packed_is_multi(record), *end = p.values;
+    for (int i = 0; i < packed->fields; i++) end = pass_value(packed->type[i], end);
+    const size_t values = (size_t)(end - p.values), size = (size_t)(end - record);
+    bool same = false;
+    if (shape && !is_given(packed, &p, multi, shape, &same)) return NULL;
+    unsigned char *const at =
+        take(packed, same ? sizeof(GIntBig) + sizeof(uint32_t) + sizeof multi + sizeof shape + values : size);
+    if (!at || !same) return at ? put(at, record, size) - size : NULL;
+    const uint32_t bytes = (uint32_t)p.bytes | BORROWS;
+    unsigned char *to = put(put(at, record, sizeof(GIntBig)), &bytes, sizeof bytes);
+    put(put(put(to, &multi, sizeof multi), &shape, sizeof shape), p.values, values);
+    return at;
 }
 
 /* ---- Features again ---------------------------------------------------------------------------------------------- */
@@ -295,22 +358,15 @@ static const unsigned char *set_value(OGRFeatureH feature, int i, OGRFieldType t
     }
 }
 
-static const unsigned char *pass_value(OGRFieldType type, const unsigned char *from)
-{
-    if (*from++ != VALUE) return from;
-    return from + (type == OFTString ? strlen((const char *)from) + 1 : sizeof(int64_t));
-}
-
 /* Everything that the record holds. False if memory is out. */
-static bool unpack(const gis_packed *packed, const unsigned char *record, OGRFeatureH feature)
+static bool unpack(gis_packed *packed, const unsigned char *record, OGRFeatureH feature)
 {
     size_t bytes;
-    const unsigned char *at = geometry_of(record, &bytes);
+    const unsigned char *wkb = geometry_of(packed, record, &bytes), *at = place_of(record).values;
     OGRGeometryH geometry = NULL;
     OGR_F_SetFID(feature, gis_packed_fid(record));
-    if (OGR_G_CreateFromWkb(at, packed->crs, &geometry, (int)bytes) != OGRERR_NONE) return false;
+    if (!wkb || OGR_G_CreateFromWkb(wkb, packed->crs, &geometry, (int)bytes) != OGRERR_NONE) return false;
     OGR_F_SetGeometryDirectly(feature, geometry);
-    at += bytes;
     for (int i = 0; i < packed->fields; i++) at = set_value(feature, i, packed->type[i], at);
     return true;
 }
@@ -323,7 +379,7 @@ OGRFeatureH gis_packed_feature(gis_packed *packed, const unsigned char *record)
     return packed->made_of ? packed->made : NULL;
 }
 
-OGRFeatureH gis_packed_copy(const gis_packed *packed, const unsigned char *record)
+OGRFeatureH gis_packed_copy(gis_packed *packed, const unsigned char *record)
 {
     OGRFeatureH feature = OGR_F_Create(packed->definition);
     if (!feature || unpack(packed, record, feature)) return feature;
@@ -352,9 +408,9 @@ const unsigned char *gis_packed_moved(gis_packed *packed, const unsigned char *r
                                       size_t *bytes)
 {
     double move[2] = {dx, dy};
-    const unsigned char *at = geometry_of(record, bytes);
-    if (!gis_array_reserve(&packed->moved, &packed->moved_room, *bytes, 1)) return NULL;
-    memcpy(packed->moved, at, *bytes);
+    const unsigned char *at = geometry_of(packed, record, bytes);
+    if (!at || !gis_array_reserve(&packed->moved, &packed->moved_room, *bytes, 1)) return NULL;
+    if (at != packed->moved) memcpy(packed->moved, at, *bytes);
     if (dx != 0 || dy != 0) gis_packed_visit(packed->moved, visit_moving, move);
     return packed->moved;
 }
@@ -368,7 +424,7 @@ bool gis_packed_put(gis_packed *packed, const unsigned char *record, const int *
     if (!moved || OGR_G_CreateFromWkb(moved, packed->crs, &geometry, (int)bytes) != OGRERR_NONE)
         return gis_no_memory(error);
     OGR_F_SetGeometryDirectly(to, geometry);
-    const unsigned char *at = geometry_of(record, &bytes) + bytes;
+    const unsigned char *at = place_of(record).values;
     for (int i = 0; i < packed->fields; i++)
         at = map[i] < 0 ? pass_value(packed->type[i], at) : set_value(to, map[i], packed->type[i], at);
     return true;
@@ -376,8 +432,7 @@ bool gis_packed_put(gis_packed *packed, const unsigned char *record, const int *
 
 void gis_packed_values(const gis_packed *packed, const unsigned char *record, const int *map, gis_value *to)
 {
-    size_t bytes;
-    const unsigned char *at = geometry_of(record, &bytes) + bytes;
+    const unsigned char *at = place_of(record).values;
     for (int i = 0; i < packed->fields; i++) {
         const unsigned char *const from = at + 1;
         const bool there = *at == VALUE;

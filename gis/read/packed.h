@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/value.h"
 #include "read/geometry.h"
+#include "sunder.h"
 
 /* Where records stand, chunk behind chunk; and the feature that was made last. Zeroed: nothing is packed. */
 typedef struct gis_packed {
@@ -36,6 +37,11 @@ bool gis_packed_add(gis_packed *packed, OGRFeatureH feature, const unsigned char
  * out. */
 const unsigned char *gis_packed_add_row(gis_packed *packed, GIntBig fid, const unsigned char *geometry, size_t bytes,
                                         const gis_value *values);
+/* The same of a record of the same layer that has its geometry. Where the shape was given just that, the new record has
+ * no vertices of its own, and takes them from the shape, which has to outlive it: most of what a layer takes is
+ * these. */
+const unsigned char *gis_packed_add_borrowing(gis_packed *packed, const unsigned char *record,
+                                              const sunder_shape *shape);
 void gis_packed_clear(gis_packed *packed);
 
 GIntBig gis_packed_fid(const unsigned char *record);
@@ -44,11 +50,11 @@ bool gis_packed_is_multi(const unsigned char *record);
 /* Is every coordinate finite? */
 bool gis_packed_is_finite(const unsigned char *record);
 /* As gis_geometry_polygonal_part(): a packed geometry is a Polygon or a MultiPolygon. */
-bool gis_packed_polygons(const unsigned char *record, gis_polygonal_part *part, gis_error *error);
+bool gis_packed_polygons(gis_packed *packed, const unsigned char *record, gis_polygonal_part *part, gis_error *error);
 /* The feature as it was; it lives until another is asked for. NULL if memory is out. */
 OGRFeatureH gis_packed_feature(gis_packed *packed, const unsigned char *record);
 /* The same, the caller's own. */
-OGRFeatureH gis_packed_copy(const gis_packed *packed, const unsigned char *record);
+OGRFeatureH gis_packed_copy(gis_packed *packed, const unsigned char *record);
 /* The geometry as well-known binary, moved as gis_geometry_translate() does; it lives until another is asked for. NULL
  * if memory is out. */
 const unsigned char *gis_packed_moved(gis_packed *packed, const unsigned char *record, double dx, double dy,

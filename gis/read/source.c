@@ -491,7 +491,7 @@ bool gis_source_polygons(const gis_source *source, size_t i, gis_polygonal_part 
 {
     const gis_read_feature *read = &source->features[i];
     return read->feature ? gis_geometry_polygonal_part(OGR_F_GetGeometryRef(read->feature), part, error)
-                         : gis_packed_polygons(read->record, part, error);
+                         : gis_packed_polygons(source->packed, read->record, part, error);
 }
 
 GIntBig gis_source_fid(const gis_source *source, size_t i)
@@ -519,6 +519,26 @@ bool gis_source_put(const gis_source *source, size_t i, const int *map, double d
         return gis_fail(error, "layer %s: the attributes of FID %" PRId64 " cannot be copied", source->name,
                         (int64_t)OGR_F_GetFID(read->feature));
     return gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error);
+}
+
+bool gis_source_borrow(gis_source *source, sunder_shape *const *shape, gis_error *error)
+{
+    gis_packed lean;
+    if (!source->may_pack || !gis_packed_begin(&lean, source->layer, error)) return !source->may_pack;
+    /* Once more only where all of it succeeds: what is there is good until then. */
+    const unsigned char **record = malloc((source->n + 1) * sizeof *record);
+    bool ok = record != NULL;
+    for (size_t i = 0; i < source->n && ok; i++) {
+        const gis_read_feature *read = &source->features[i];
+        record[i] = read->feature ? NULL : gis_packed_add_borrowing(&lean, read->record, shape[i]);
+        ok = read->feature || record[i];
+    }
+    for (size_t i = 0; i < source->n && ok; i++)
+        if (record[i]) source->features[i].record = record[i];
+    free(record);
+    gis_packed_clear(ok ? source->packed : &lean);
+    if (ok) *source->packed = lean;
+    return ok || gis_no_memory(error);
 }
 
 bool gis_source_unpack(gis_source *source, gis_error *error)

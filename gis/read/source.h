@@ -93,6 +93,9 @@ bool gis_source_plain(const gis_source *source, size_t i, double dx, double dy, 
  * that is -1. */
 bool gis_source_put(const gis_source *source, size_t i, const int *map, double dx, double dy, OGRFeatureH to,
                     gis_error *error);
+/* Has what is packed take its vertices from the shapes that were made of it, by the features' numbers, NULL: there is
+ * none: these have to live as long as features are asked for. Not of a source that is read by batches. */
+bool gis_source_borrow(gis_source *source, sunder_shape *const *shape, gis_error *error);
 /* Makes features of all that is packed, for who keeps them: then they live as long as the source. */
 bool gis_source_unpack(gis_source *source, gis_error *error);
 /* Its FID as read; OGRNullFID if it has none. */

@@ -1,0 +1,46 @@
+/* given.c: see given.h. */
+#include "read/given.h"
+
+#include <stdint.h>
+#include <string.h>
+
+/* Bytes of: the order and the type of a geometry; how many it has of something; a point. */
+enum { HEAD = 1 + sizeof(uint32_t), COUNT = sizeof(uint32_t), POINT = 2 * sizeof(double) };
+
+static unsigned char *put(unsigned char *to, const void *from, size_t n)
+{
+    memcpy(to, from, n);
+    return to + n;
+}
+
+static unsigned char *put_number(unsigned char *to, uint32_t number) { return put(to, &number, sizeof number); }
+
+static unsigned char *put_head(unsigned char *to, uint32_t type)
+{
+    *to++ = (unsigned char)GIS_GIVEN_ORDER;
+    return put_number(to, type);
+}
+
+size_t gis_given_bytes(const sunder_shape *shape, bool multi)
+{
+    const double *xy;
+    const size_t *ring_end, *poly_end, polygons = sunder_shape_given(shape, &xy, &ring_end, &poly_end),
+                                       rings = polygons ? poly_end[polygons - 1] : 0;
+    return (multi ? HEAD + COUNT : 0) + polygons * (HEAD + COUNT) + rings * COUNT +
+           (rings ? ring_end[rings - 1] : 0) * POINT;
+}
+
+void gis_given_write(const sunder_shape *shape, bool multi, unsigned char *to)
+{
+    const double *xy;
+    const size_t *ring_end, *poly_end, polygons = sunder_shape_given(shape, &xy, &ring_end, &poly_end);
+    size_t ring = 0, vertex = 0;
+    if (multi) to = put_number(put_head(to, wkbMultiPolygon), (uint32_t)polygons);
+    for (size_t p = 0; p < polygons; p++) {
+        to = put_number(put_head(to, wkbPolygon), (uint32_t)(poly_end[p] - ring));
+        for (; ring < poly_end[p]; vertex = ring_end[ring++]) {
+            const size_t n = ring_end[ring] - vertex;
+            to = put(put_number(to, (uint32_t)n), xy + 2 * vertex, n * POINT);
+        }
+    }
+}
