@@ -35,8 +35,8 @@ struct gis_source {
     OGRSpatialReferenceH crs;
     char *path, *name, *where;
     const char *where_option; /* as messages call it; the request's */
-    gis_read_feature *features;
-    unsigned char *contents;
+    const void **held;        /* [n] features as they were read, or records */
+    unsigned char *contents;  /* [n] with RECORD of those */
     size_t n, capacity, contents_capacity;
     gis_packed *packed; /* what records are of */
     gis_source_facts facts;
@@ -50,6 +50,15 @@ struct gis_source {
     gis_source_marks marks;
     gis_sentences warnings;
 };
+
+enum { RECORD = 0x80 }; /* beside a content */
+
+static gis_read_feature read_of(const gis_source *source, size_t i)
+{
+    const void *held = source->held[i];
+    return source->contents[i] & RECORD ? (gis_read_feature){.record = held}
+                                        : (gis_read_feature){.feature = (OGRFeatureH)held};
+}
 
 /* ---- Opening ----------------------------------------------------------------------------------------------------- */
 
@@ -181,13 +190,13 @@ static size_t bytes_of(OGRGeometryH geometry) { return geometry ? (size_t)OGR_G_
 static bool keep(gis_source *source, OGRFeatureH feature, const unsigned char *record)
 {
     const gis_content content = record ? GIS_POLYGONS : gis_geometry_content(OGR_F_GetGeometryRef(feature));
-    if (!gis_array_reserve(&source->features, &source->capacity, source->n + 1, sizeof *source->features) ||
+    if (!gis_array_reserve(&source->held, &source->capacity, source->n + 1, sizeof *source->held) ||
         !gis_array_reserve(&source->contents, &source->contents_capacity, source->n + 1, sizeof *source->contents))
         return false;
     if (!source->facts_given) note_facts(source, feature, record, content);
     if (source->batch) source->bytes += bytes_of(OGR_F_GetGeometryRef(feature));
-    source->contents[source->n] = (unsigned char)content;
-    source->features[source->n++] = record ? (gis_read_feature){.record = record} : (gis_read_feature){feature, NULL};
+    source->contents[source->n] = (unsigned char)(record ? content | RECORD : content);
+    source->held[source->n++] = record ? (const void *)record : feature;
     if (record && feature) OGR_F_Destroy(feature);
     return true;
 }
@@ -232,7 +241,7 @@ static bool begin_packing(gis_source *source, gis_error *error)
 static void drop_features(gis_source *source)
 {
     for (size_t i = 0; i < source->n; i++)
-        if (source->features[i].feature) OGR_F_Destroy(source->features[i].feature);
+        if (!(source->contents[i] & RECORD)) OGR_F_Destroy(read_of(source, i).feature);
     if (source->packed) gis_packed_clear(source->packed);
     source->n = source->bytes = 0;
 }
@@ -460,7 +469,7 @@ void gis_source_close(gis_source *source)
     drop_features(source);
     gis_source_marks_clear(&source->marks);
     free(source->packed);
-    free(source->features);
+    free(source->held);
     free(source->contents);
     if (source->crs) OSRRelease(source->crs);
     if (source->is_result) GDALDatasetReleaseResultSet(source->dataset, source->layer);
@@ -478,8 +487,8 @@ size_t gis_source_count(const gis_source *source) { return source->n; }
 
 OGRFeatureH gis_source_feature(const gis_source *source, size_t i)
 {
-    const gis_read_feature *read = &source->features[i];
-    return read->feature ? read->feature : gis_packed_feature(source->packed, read->record);
+    const gis_read_feature read = read_of(source, i);
+    return read.feature ? read.feature : gis_packed_feature(source->packed, read.record);
 }
 
 OGRGeometryH gis_source_geometry(const gis_source *source, size_t i)
@@ -489,35 +498,35 @@ OGRGeometryH gis_source_geometry(const gis_source *source, size_t i)
 
 bool gis_source_polygons(const gis_source *source, size_t i, gis_polygonal_part *part, gis_error *error)
 {
-    const gis_read_feature *read = &source->features[i];
-    return read->feature ? gis_geometry_polygonal_part(OGR_F_GetGeometryRef(read->feature), part, error)
-                         : gis_packed_polygons(source->packed, read->record, part, error);
+    const gis_read_feature read = read_of(source, i);
+    return read.feature ? gis_geometry_polygonal_part(OGR_F_GetGeometryRef(read.feature), part, error)
+                        : gis_packed_polygons(source->packed, read.record, part, error);
 }
 
 GIntBig gis_source_fid(const gis_source *source, size_t i)
 {
-    const gis_read_feature *read = &source->features[i];
-    return read->feature ? OGR_F_GetFID(read->feature) : gis_packed_fid(read->record);
+    const gis_read_feature read = read_of(source, i);
+    return read.feature ? OGR_F_GetFID(read.feature) : gis_packed_fid(read.record);
 }
 
 bool gis_source_plain(const gis_source *source, size_t i, double dx, double dy, const int *map, gis_value *values,
                       const unsigned char **geometry, size_t *bytes)
 {
-    const gis_read_feature *read = &source->features[i];
-    if (read->feature) return false;
-    *geometry = gis_packed_moved(source->packed, read->record, dx, dy, bytes);
-    gis_packed_values(source->packed, read->record, map, values);
+    const gis_read_feature read = read_of(source, i);
+    if (read.feature) return false;
+    *geometry = gis_packed_moved(source->packed, read.record, dx, dy, bytes);
+    gis_packed_values(source->packed, read.record, map, values);
     return true;
 }
 
 bool gis_source_put(const gis_source *source, size_t i, const int *map, double dx, double dy, OGRFeatureH to,
                     gis_error *error)
 {
-    const gis_read_feature *read = &source->features[i];
-    if (!read->feature) return gis_packed_put(source->packed, read->record, map, dx, dy, to, error);
-    if (OGR_F_SetFromWithMap(to, read->feature, TRUE, map) != OGRERR_NONE)
+    const gis_read_feature read = read_of(source, i);
+    if (!read.feature) return gis_packed_put(source->packed, read.record, map, dx, dy, to, error);
+    if (OGR_F_SetFromWithMap(to, read.feature, TRUE, map) != OGRERR_NONE)
         return gis_fail(error, "layer %s: the attributes of FID %" PRId64 " cannot be copied", source->name,
-                        (int64_t)OGR_F_GetFID(read->feature));
+                        (int64_t)OGR_F_GetFID(read.feature));
     return gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error);
 }
 
@@ -529,12 +538,12 @@ bool gis_source_borrow(gis_source *source, sunder_shape *const *shape, gis_error
     const unsigned char **record = malloc((source->n + 1) * sizeof *record);
     bool ok = record != NULL;
     for (size_t i = 0; i < source->n && ok; i++) {
-        const gis_read_feature *read = &source->features[i];
-        record[i] = read->feature ? NULL : gis_packed_add_borrowing(&lean, read->record, shape[i]);
-        ok = read->feature || record[i];
+        const gis_read_feature read = read_of(source, i);
+        record[i] = read.feature ? NULL : gis_packed_add_borrowing(&lean, read.record, shape[i]);
+        ok = read.feature || record[i];
     }
     for (size_t i = 0; i < source->n && ok; i++)
-        if (record[i]) source->features[i].record = record[i];
+        if (record[i]) source->held[i] = record[i];
     free(record);
     gis_packed_clear(ok ? source->packed : &lean);
     if (ok) *source->packed = lean;
@@ -544,9 +553,11 @@ bool gis_source_borrow(gis_source *source, sunder_shape *const *shape, gis_error
 bool gis_source_unpack(gis_source *source, gis_error *error)
 {
     for (size_t i = 0; i < source->n; i++) {
-        gis_read_feature *read = &source->features[i];
-        if (!read->feature) read->feature = gis_packed_copy(source->packed, read->record);
-        if (!read->feature) return gis_no_memory(error);
+        if (!(source->contents[i] & RECORD)) continue;
+        OGRFeatureH feature = gis_packed_copy(source->packed, source->held[i]);
+        if (!feature) return gis_no_memory(error);
+        source->held[i] = feature;
+        source->contents[i] &= (unsigned char)~RECORD;
     }
     if (source->packed) gis_packed_clear(source->packed);
     return true;
@@ -557,7 +568,10 @@ size_t gis_source_first(const gis_source *source) { return source->first; }
 const double *gis_source_extent(const gis_source *source) { return source->extent_known ? source->extent : NULL; }
 
 bool gis_source_fids_unique(const gis_source *source) { return source->facts.fids_unique; }
-gis_content gis_source_content(const gis_source *source, size_t i) { return (gis_content)source->contents[i]; }
+gis_content gis_source_content(const gis_source *source, size_t i)
+{
+    return (gis_content)(source->contents[i] & ~RECORD);
+}
 
 size_t gis_source_content_count(const gis_source *source, gis_content content)
 {

@@ -159,6 +159,64 @@ static void test_plain(void **state)
     assert_read_alike("plain.gpkg");
 }
 
+/* The shape of feature i, in which places of vertices are as they were read. */
+static sunder_shape *shape_of(const gis_source *source, size_t i)
+{
+    gis_polygonal_part part = {0};
+    gis_error error = {0};
+    sunder_error why;
+    sunder_shape *shape = NULL;
+    assert_true(gis_source_polygons(source, i, &part, &error));
+    assert_int_equal(gis_polygons_shape(&part.set, SUNDER_VALIDITY_EVEN_ODD, &shape, &why), SUNDER_OK);
+    gis_polygonal_part_clear(&part);
+    return shape;
+}
+
+/* The geometry of feature i, moved, as it is written past GDAL. */
+static void assert_written_moved(const gis_source *source, size_t i, OGRGeometryH geometry)
+{
+    const int map[] = {0, 1, 2, 3};
+    const unsigned char *wkb;
+    size_t bytes;
+    gis_value values[4];
+    gis_error error = {0};
+    OGRGeometryH moved = OGR_G_Clone(geometry), written = NULL;
+    assert_true(gis_geometry_translate(moved, 0.3, -7, &error));
+    assert_true(gis_source_plain(source, i, 0.3, -7, map, values, &wkb, &bytes));
+    assert_int_equal(OGR_G_CreateFromWkb(wkb, NULL, &written, (int)bytes), OGRERR_NONE);
+    assert_true(same_bytes(moved, written));
+    OGR_G_DestroyGeometry(moved);
+    OGR_G_DestroyGeometry(written);
+}
+
+/* What takes its vertices from shapes is what it was: also where there is no shape, or that of another feature. */
+static void test_borrowing(void **state)
+{
+    enum { WITHOUT = 1, OTHER = 3 };
+    gis_source *a = NULL, *b = NULL;
+    gis_error error = {0};
+    sunder_shape *shape[FEATURES];
+    (void)state;
+    make_layer("borrowing.gpkg", NULL);
+    assert_true(open_source("borrowing.gpkg", true, &a, &error) && open_source("borrowing.gpkg", false, &b, &error));
+    for (size_t i = 0; i < FEATURES; i++)
+        shape[i] = i == WITHOUT ? NULL : shape_of(a, i == OTHER ? (size_t)WITHOUT : i);
+    assert_true(gis_source_borrow(a, shape, &error));
+    assert_same_features(a, b);
+    for (size_t i = 0; i < FEATURES; i++) {
+        assert_written_moved(a, i, OGR_F_GetGeometryRef(gis_source_feature(b, i)));
+        sunder_shape *again = shape_of(a, i), *was = shape_of(b, i);
+        assert_true(sunder_shape_area(again) == sunder_shape_area(was));
+        sunder_shape_free(again);
+        sunder_shape_free(was);
+    }
+    assert_true(gis_source_unpack(a, &error));
+    for (size_t i = 0; i < FEATURES; i++) sunder_shape_free(shape[i]);
+    assert_same_features(a, b);
+    gis_source_close(a);
+    gis_source_close(b);
+}
+
 /* The last row that is read. */
 #define LAST " WHERE fid = 35"
 #define UPDATE "UPDATE \"a \"\"layer\"\"\" SET "
@@ -211,6 +269,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_plain),
+        cmocka_unit_test(test_borrowing),
         cmocka_unit_test(test_not_plain),
         cmocka_unit_test(test_other_fields),
     };
