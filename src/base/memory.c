@@ -86,12 +86,14 @@ bool sunder_i_enlarge(void *array, size_t *capacity, size_t need, size_t size)
     return true;
 }
 
-void sunder_i_trim(void *array, size_t n, size_t size)
+bool sunder_i_trim(void *array, size_t n, size_t size)
 {
     void *old;
     memcpy(&old, array, sizeof old);
-    void *less = old ? sunder_i_realloc(old, n, size) : NULL;
+    if (!old) return true;
+    void *less = sunder_i_realloc(old, n, size);
     if (less) memcpy(array, &less, sizeof less);
+    return less != NULL;
 }
 
 /* ---- Arenas ---- */

@@ -139,12 +139,11 @@ static sunder_status place_after(comparison *c, sunder_error *err)
         const sunder_shape *shape = c->after->feature[f].shape;
         c->model.present[f] = c->model.present[f] && shape && !sunder_shape_is_empty(shape);
         if (!c->model.present[f]) continue;
-        p->translate[f] = (sunder_i_translate){.shape = shape};
         sunder_shape_box(shape, box + 4 * (size_t)f);
         if (!c->model.seamless) continue;
         status = sunder_i_seamless_make(shape, &p->seamless[f], err);
-        p->translate[f].seamless = p->seamless[f].shape;
     }
+    p->given = c->after;
     sunder_i_rtree_free(&p->tree);
     if (!status) status = sunder_i_rtree_build(box, c->model.present, c->model.things, &p->tree, err);
     sunder_i_free(box);
@@ -157,8 +156,9 @@ static sunder_status is_worse(const comparison *c, const sunder_i_relation *r, b
     const sunder_i_relation *was = sunder_i_relations_find(&c->start, r->a, r->b);
     *worse = false;
     if (sunder_i_is_barrier(&c->model, r->b)) {
-        const sunder_i_translate home = sunder_i_at_home(&c->model, r->a);
-        return sunder_i_barrier_worsened(&c->model, &home, &c->placement.translate[r->a], r->b, worse, err);
+        const sunder_i_translate home = sunder_i_at_home(&c->model, r->a),
+                                 now = sunder_i_standing(&c->model, &c->placement, r->a);
+        return sunder_i_barrier_worsened(&c->model, &home, &now, r->b, worse, err);
     }
     if (!sunder_i_is_conflict_of_bodies(&c->model, r) || (was && was->contained && r->contained)) return SUNDER_OK;
     const sunder_i_pair before = {c->before->feature[r->a].shape, c->before->feature[r->b].shape, NULL, NULL},

@@ -228,7 +228,7 @@ static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
     sunder_i_changes elsewhere;
     sunder_status status = sunder_i_changes_init(&elsewhere, s->model.things) ? SUNDER_OK : sunder_i_no_memory(err);
     for (uint32_t f = 0; f < s->model.features && !status; f++) {
-        const double *t = s->placement.translate[f].t;
+        const double *t = s->placement.move + 2 * (size_t)f;
         if (t[0] != 0 || t[1] != 0 || s->placement.was_rounded[f]) sunder_i_changes_add(&elsewhere, f);
     }
     if (!status && elsewhere.failed) status = sunder_i_no_memory(err);

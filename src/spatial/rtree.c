@@ -132,20 +132,14 @@ sunder_status sunder_i_rtree_build(const double *box, const bool *present, size_
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_rtree_copy(const sunder_i_rtree *tree, size_t n, sunder_i_rtree *out, sunder_error *err)
+sunder_status sunder_i_rtree_copy(const sunder_i_rtree *tree, sunder_i_rtree *out, sunder_error *err)
 {
     const size_t nodes = tree->levels ? tree->level[tree->levels] : 0;
     sunder_i_rtree copy = *tree;
     copy.box = sunder_i_alloc(4 * (nodes + 1), sizeof *copy.box);
-    copy.item = sunder_i_alloc(tree->leaves, sizeof *copy.item);
-    copy.leaf = sunder_i_alloc(n, sizeof *copy.leaf);
-    if (!copy.box || !copy.item || !copy.leaf) {
-        sunder_i_rtree_free(&copy);
-        return sunder_i_no_memory(err);
-    }
+    if (!copy.box) return sunder_i_no_memory(err);
     memcpy(copy.box, tree->box, 4 * (nodes + 1) * sizeof *copy.box);
-    if (tree->leaves) memcpy(copy.item, tree->item, tree->leaves * sizeof *copy.item);
-    if (n) memcpy(copy.leaf, tree->leaf, n * sizeof *copy.leaf);
+    copy.borrows = true;
     *out = copy;
     return SUNDER_OK;
 }
@@ -176,8 +170,10 @@ bool sunder_i_rtree_is_worn(const sunder_i_rtree *tree) { return !(tree->sprawl 
 void sunder_i_rtree_free(sunder_i_rtree *tree)
 {
     sunder_i_free(tree->box);
-    sunder_i_free(tree->item);
-    sunder_i_free(tree->leaf);
+    if (!tree->borrows) {
+        sunder_i_free(tree->item);
+        sunder_i_free(tree->leaf);
+    }
     memset(tree, 0, sizeof *tree);
 }
 

@@ -72,6 +72,47 @@ static void test_queries_as_boxes_move(void **state)
     }
 }
 
+static void check_boxes(const boxes *b, const sunder_i_rtree *tree)
+{
+    static const double none[4] = {0};
+    double *all = sunder_i_rtree_boxes(tree, b->n);
+    assert_non_null(all);
+    for (uint32_t k = 0; k < b->n; k++) {
+        assert_memory_equal(all + 4 * (size_t)k, sunder_i_rtree_box(tree, k), sizeof none);
+        assert_memory_equal(all + 4 * (size_t)k, b->present[k] ? b->box + 4 * (size_t)k : none, sizeof none);
+    }
+    sunder_i_free(all);
+}
+
+/* The boxes of a copy move, and those of the tree that it is of do not. */
+static void test_copy(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < test_count(60); i++) {
+        rng r = rng_start(test_seed(), i);
+        boxes b = {.n = (size_t)rng_int(&r, 0, MOST)}, moved;
+        sunder_i_rtree tree, copy;
+        for (size_t k = 0; k < b.n; k++) {
+            random_box(&r, b.box + 4 * k);
+            b.present[k] = !rng_once_in(&r, 8);
+        }
+        assert_int_equal(sunder_i_rtree_build(b.box, b.present, b.n, &tree, NULL), SUNDER_OK);
+        assert_int_equal(sunder_i_rtree_copy(&tree, &copy, NULL), SUNDER_OK);
+        moved = b;
+        for (uint32_t k = 0; k < b.n; k++) {
+            if (!b.present[k] || rng_once_in(&r, 2)) continue;
+            random_box(&r, moved.box + 4 * (size_t)k);
+            sunder_i_rtree_move(&copy, k, moved.box + 4 * (size_t)k);
+        }
+        check_boxes(&moved, &copy);
+        check_query(&r, &moved, &copy);
+        sunder_i_rtree_free(&copy);
+        check_boxes(&b, &tree);
+        check_query(&r, &b, &tree);
+        sunder_i_rtree_free(&tree);
+    }
+}
+
 /* Many that go far wear the tree; one does not, nor do all of them going a little. */
 static void test_wears_by_many(void **state)
 {
@@ -99,7 +140,7 @@ static void test_wears_by_many(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_queries_as_boxes_move),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_queries_as_boxes_move), cmocka_unit_test(test_copy),
                                        cmocka_unit_test(test_wears_by_many)};
     return cmocka_run_group_tests_name("spatial/rtree", tests, NULL, NULL);
 }

@@ -33,8 +33,9 @@
 /* Do the two stand to each other as they did, exactly? */
 static bool stand_as_they_did(const sunder_i_solver *s, const sunder_i_relation *r)
 {
-    const sunder_i_translate *a = &s->placement.translate[r->a], *b = &s->placement.translate[r->b];
-    return !s->placement.rounded[r->a] && !s->placement.rounded[r->b] && a->t[0] == b->t[0] && a->t[1] == b->t[1];
+    const sunder_i_placement *p = &s->placement;
+    const double *a = p->move + 2 * (size_t)r->a, *b = p->move + 2 * (size_t)r->b;
+    return !p->rounded[r->a] && !p->rounded[r->b] && a[0] == b[0] && a[1] == b[1];
 }
 
 /* The same of a barrier, which stands all of it as it did: any part of it may have been what was in conflict. */
@@ -46,8 +47,9 @@ static sunder_status is_worse_to_barrier(const sunder_i_solver *s, const sunder_
     *worse =
         at == s->start.n || s->start.pair[at].a != r->a || sunder_i_whole_of(&s->model, s->start.pair[at].b) != first.b;
     if (*worse || stand_as_they_did(s, r)) return SUNDER_OK;
-    const sunder_i_translate home = sunder_i_at_home(&s->model, r->a);
-    return sunder_i_barrier_worsened(&s->model, &home, &s->placement.translate[r->a], r->b, worse, err);
+    const sunder_i_translate home = sunder_i_at_home(&s->model, r->a),
+                             now = sunder_i_standing(&s->model, &s->placement, r->a);
+    return sunder_i_barrier_worsened(&s->model, &home, &now, r->b, worse, err);
 }
 
 sunder_status sunder_i_solver_is_worse(sunder_i_solver *s, const sunder_i_relation *r, bool *worse, sunder_error *err)
@@ -56,10 +58,11 @@ sunder_status sunder_i_solver_is_worse(sunder_i_solver *s, const sunder_i_relati
     *worse = !was || !sunder_i_is_conflict(was);
     if (sunder_i_is_barrier(&s->model, r->b)) return is_worse_to_barrier(s, r, worse, err);
     if (*worse || stand_as_they_did(s, r) || (was->contained && r->contained)) return SUNDER_OK;
-    const sunder_i_translate *a = &s->placement.translate[r->a], *b = &s->placement.translate[r->b];
+    const sunder_i_translate a = sunder_i_standing(&s->model, &s->placement, r->a),
+                             b = sunder_i_standing(&s->model, &s->placement, r->b);
     const sunder_i_pair before = {sunder_i_thing_shape(&s->model, r->a), sunder_i_thing_shape(&s->model, r->b), NULL,
                                   NULL},
-                        now = {a->shape, b->shape, a->t, b->t};
+                        now = {a.shape, b.shape, a.t, b.t};
     if (!s->depth) s->depth = sunder_i_calloc(s->start.n, sizeof *s->depth);
     if (!s->depth) return sunder_i_no_memory(err);
     return sunder_i_pair_worsened_since(&before, &s->depth[was - s->start.pair], &now, worse, err);

@@ -21,7 +21,7 @@ typedef struct looking {
  * it is as far at least. */
 static double distance_to_outline(const sunder_i_model *model, uint32_t g, const double a[2])
 {
-    const sunder_i_body_piece *outline = &model->outline[g];
+    const sunder_i_body_piece *outline = sunder_i_hull_of(model, g);
     const double *origin = model->body[model->body_of[g]].origin, *corner = model->corner + 2 * (size_t)outline->corner;
     const double at[2] = {a[0] - origin[0], a[1] - origin[1]};
     double most = 0;

@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "base/sort.h"
+#include "base/watch.h"
 #include "shape/shape.h"
 
 #include <math.h>
@@ -119,28 +120,35 @@ static bool is_its_outline(const sunder_i_model *model, const sunder_shape *shap
     return true;
 }
 
+typedef struct outlining {
+    sunder_i_model *model;
+    size_t hulls, capacity;
+    double *point; /* room for the corners of a feature */
+    size_t room;
+} outlining;
+
 /* The outline of a feature, from its corners in doubles; behind all others in model->corner. Most features are convex,
  * and their piece is it; it is the last one that was cut. */
-static sunder_status outline_feature(sunder_i_model *model, const sunder_i_body *body, uint32_t f, size_t *corner,
-                                     sunder_error *err)
+static bool outline_feature(outlining *o, const sunder_i_body *body, uint32_t f, size_t *corner)
 {
+    sunder_i_model *model = o->model;
     const sunder_shape *shape = sunder_i_thing_shape(model, f);
     if (!sunder_i_is_barrier(model, f) && is_its_outline(model, shape, &model->piece[model->pieces - 1])) {
-        model->outline[f] = model->piece[model->pieces - 1];
-        return SUNDER_OK;
+        model->outline[f] = (uint32_t)model->pieces - 1;
+        return true;
     }
-    double *p = sunder_i_alloc(2 * (size_t)shape->vertices, sizeof *p);
-    if (!p) return sunder_i_no_memory(err);
-    for (uint32_t v = 0; v < 2 * shape->vertices; v++) p[v] = shape->xy[v] - body->origin[v & 1];
-    sunder_i_body_piece *piece = &model->outline[f];
-    piece->feature = f;
-    piece->corner = (uint32_t)*corner;
-    piece->corners = (uint32_t)sunder_i_convex_hull(p, shape->vertices, model->corner + 2 * *corner);
-    sunder_i_free(p);
+    if (!sunder_i_reserve(&model->hull, &o->capacity, o->hulls + 1, sizeof *model->hull) ||
+        !sunder_i_reserve(&o->point, &o->room, 2 * (size_t)shape->vertices, sizeof *o->point))
+        return false;
+    for (uint32_t v = 0; v < 2 * shape->vertices; v++) o->point[v] = shape->xy[v] - body->origin[v & 1];
+    model->outline[f] = UINT32_MAX - (uint32_t)o->hulls;
+    sunder_i_body_piece *piece = &model->hull[o->hulls++];
+    *piece = (sunder_i_body_piece){.corner = (uint32_t)*corner, .feature = f};
+    piece->corners = (uint32_t)sunder_i_convex_hull(o->point, shape->vertices, model->corner + 2 * *corner);
     sunder_i_box_clear(piece->box);
     for (uint32_t k = 0; k < piece->corners; k++, ++*corner)
         sunder_i_box_include(piece->box, model->corner + 2 * *corner);
-    return SUNDER_OK;
+    return true;
 }
 
 static sunder_status find_runs(sunder_i_model *model, sunder_error *err)
@@ -152,6 +160,32 @@ static sunder_status find_runs(sunder_i_model *model, sunder_error *err)
     for (size_t k = 0; k < runs * SUNDER_I_RUN; k++)
         sunder_i_box_join(model->run + 4 * (k / SUNDER_I_RUN), model->piece[k].box);
     return SUNDER_OK;
+}
+
+/* All bodies, one after the other. False if memory is out. */
+static bool cut_all(sunder_i_model *model)
+{
+    outlining o = {.model = model, .hulls = 1};
+    bool ok = sunder_i_reserve(&model->hull, &o.capacity, o.hulls, sizeof *model->hull);
+    if (ok) model->hull[0] = (sunder_i_body_piece){.corners = 0};
+    for (size_t b = 0; b < model->bodies && ok; b++) {
+        sunder_i_body *body = &model->body[b];
+        body->piece = (uint32_t)model->pieces;
+        body->clear = INFINITY;
+        sunder_i_box_clear(body->box);
+        const uint32_t first = model->member[body->member];
+        memcpy(body->origin, sunder_i_home_box(model, first), sizeof body->origin);
+        for (uint32_t k = 0; k < body->members && ok; k++) {
+            const uint32_t f = model->member[body->member + k];
+            model->outline[f] = UINT32_MAX;
+            if (!model->present[f]) continue;
+            cut_feature(model, body, f, &model->corners);
+            ok = sunder_i_step() && outline_feature(&o, body, f, &model->corners);
+        }
+        if (body->pieces > model->most_pieces) model->most_pieces = body->pieces;
+    }
+    sunder_i_free(o.point);
+    return ok && sunder_i_trim(&model->hull, o.hulls, sizeof *model->hull);
 }
 
 sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
@@ -168,25 +202,10 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
         return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
     model->piece = sunder_i_alloc(pieces, sizeof *model->piece);
     model->corner = sunder_i_alloc(2 * corners, sizeof *model->corner);
-    model->outline = sunder_i_calloc(model->things, sizeof *model->outline);
+    model->outline = sunder_i_alloc(model->things, sizeof *model->outline);
     model->whole = sunder_i_calloc(model->bodies, sizeof *model->whole);
-    if (!model->piece || !model->corner || !model->outline || !model->whole) return sunder_i_no_memory(err);
-    for (size_t b = 0; b < model->bodies; b++) {
-        sunder_i_body *body = &model->body[b];
-        body->piece = (uint32_t)model->pieces;
-        body->clear = INFINITY;
-        sunder_i_box_clear(body->box);
-        const uint32_t first = model->member[body->member];
-        memcpy(body->origin, sunder_i_home_box(model, first), sizeof body->origin);
-        for (uint32_t k = 0; k < body->members; k++) {
-            const uint32_t f = model->member[body->member + k];
-            if (!model->present[f]) continue;
-            cut_feature(model, body, f, &model->corners);
-            const sunder_status status = outline_feature(model, body, f, &model->corners, err);
-            if (status) return status;
-        }
-        if (body->pieces > model->most_pieces) model->most_pieces = body->pieces;
-    }
+    if (!model->piece || !model->corner || !model->outline || !model->whole || !cut_all(model))
+        return sunder_i_no_memory(err);
     const sunder_status status = find_runs(model, err);
     return status ? status : sunder_i_inclusion_walls(model, err);
 }

@@ -142,7 +142,7 @@ sunder_status sunder_i_model_find_joints(sunder_i_model *model, const uint32_t *
     for (size_t k = 0; k < n && !j.failed; k++) join_members(&j, body[k]);
     sunder_i_free(j.near.item);
     /* Few bodies have joints, and all have corners: twice the room for these would be the largest array of all. */
-    sunder_i_trim(&model->joint, model->joints, sizeof *model->joint);
-    sunder_i_trim(&model->corner, 2 * model->corners, sizeof *model->corner);
+    j.failed = j.failed || !sunder_i_trim(&model->joint, model->joints, sizeof *model->joint) ||
+               !sunder_i_trim(&model->corner, 2 * model->corners, sizeof *model->corner);
     return j.failed ? sunder_i_no_memory(err) : SUNDER_OK;
 }

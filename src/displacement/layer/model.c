@@ -20,6 +20,7 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_free(model->piece);
     sunder_i_free(model->run);
     sunder_i_free(model->outline);
+    sunder_i_free(model->hull);
     sunder_i_free(model->corner);
     sunder_i_free(model->anchor);
     sunder_i_free(model->anchor_at);

@@ -88,9 +88,10 @@ struct sunder_i_model {
     uint32_t *member;        /* [things] things by body */
     sunder_i_body *body;
     sunder_i_body_piece *piece;
-    double *run;                  /* [4 * (pieces / SUNDER_I_RUN)] the boxes of runs of pieces, whosesoever */
-    sunder_i_body_piece *outline; /* [things] the convex hull of each, for where its pieces are too many */
-    double *corner;               /* [2 * corners] relative to the body's origin */
+    double *run;               /* [4 * (pieces / SUNDER_I_RUN)] the boxes of runs of pieces, whosesoever */
+    uint32_t *outline;         /* [things] see sunder_i_hull_of() */
+    sunder_i_body_piece *hull; /* the outlines that are no pieces; the first one has no corners */
+    double *corner;            /* [2 * corners] relative to the body's origin */
     size_t corners;
     /* Where jumps are not allowed; else NULL: */
     sunder_i_body_piece *anchor; /* [things] each anchor as a piece of one corner; barriers have none */
@@ -155,6 +156,14 @@ static inline uint32_t sunder_i_barrier_of(const sunder_i_model *model, uint32_t
 static inline const sunder_shape *sunder_i_thing_shape(const sunder_i_model *model, size_t thing)
 {
     return sunder_i_feature(model->layer, thing)->shape;
+}
+
+/* The convex hull of a thing, for where its pieces are too many: its piece, if that is it. Of one that is not there it
+ * has no corners. */
+static inline const sunder_i_body_piece *sunder_i_hull_of(const sunder_i_model *model, uint32_t thing)
+{
+    const uint32_t at = model->outline[thing];
+    return at < model->pieces ? &model->piece[at] : &model->hull[UINT32_MAX - at];
 }
 
 /* The box of a thing as it stood at the start; of one that was not there no more than zeros. */

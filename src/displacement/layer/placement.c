@@ -18,18 +18,13 @@ sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_plac
 {
     const size_t n = model->things;
     memset(placement, 0, sizeof *placement);
-    placement->translate = sunder_i_calloc(n, sizeof *placement->translate);
+    placement->move = sunder_i_calloc(2 * n, sizeof *placement->move);
     placement->rounded = sunder_i_calloc(n, sizeof *placement->rounded);
     placement->seamless = model->seamless ? sunder_i_calloc(n, sizeof *placement->seamless) : NULL;
     placement->was_rounded = sunder_i_calloc(n, sizeof *placement->was_rounded);
-    if (!placement->translate || !placement->rounded || (model->seamless && !placement->seamless) ||
-        !placement->was_rounded)
+    if (!placement->move || !placement->rounded || (model->seamless && !placement->seamless) || !placement->was_rounded)
         return sunder_i_no_memory(err);
-    for (uint32_t f = 0; f < n; f++)
-        placement->translate[f] = sunder_i_is_barrier(model, f)
-                                      ? (sunder_i_translate){.shape = sunder_i_thing_shape(model, f)}
-                                      : sunder_i_at_home(model, f);
-    return sunder_i_rtree_copy(&model->tree, n, &placement->tree, err); /* all stand at home */
+    return sunder_i_rtree_copy(&model->tree, &placement->tree, err); /* all stand at home */
 }
 
 void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *placement)
@@ -39,7 +34,7 @@ void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *pl
     sunder_i_free(placement->rounded);
     sunder_i_free(placement->seamless);
     sunder_i_free(placement->was_rounded);
-    sunder_i_free(placement->translate);
+    sunder_i_free(placement->move);
     sunder_i_rtree_free(&placement->tree);
     memset(placement, 0, sizeof *placement);
 }
@@ -48,27 +43,22 @@ static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *pl
 {
     const double *t = model->move + 2 * (size_t)model->body_of[f];
     const sunder_shape *shape = sunder_i_thing_shape(model, f);
-    sunder_i_translate *stand = &placement->translate[f];
+    const bool rounded = model->inexact[f];
     double box[4];
     sunder_shape_free(placement->rounded[f]);
     if (placement->seamless) sunder_i_seamless_free(&placement->seamless[f]);
     placement->rounded[f] = NULL;
-    *stand = sunder_i_at_home(model, (uint32_t)f);
-    stand->t[0] = t[0];
-    stand->t[1] = t[1];
-    if (model->inexact[f]) {
+    for (size_t c = 0; c < 2; c++) placement->move[2 * f + c] = rounded ? 0 : t[c];
+    if (rounded) {
         /* It stands as it will be written. */
         bool exact;
         placement->was_rounded[f] = true;
         const sunder_status status = sunder_shape_translate(shape, t[0], t[1], &placement->rounded[f], &exact, err);
         if (status) return status;
-        *stand = (sunder_i_translate){.shape = placement->rounded[f]};
-        sunder_shape_box(stand->shape, box);
+        sunder_shape_box(placement->rounded[f], box);
         sunder_i_rtree_move(&placement->tree, (uint32_t)f, box);
         if (!model->seamless) return SUNDER_OK;
-        const sunder_status made = sunder_i_seamless_make(stand->shape, &placement->seamless[f], err);
-        stand->seamless = placement->seamless[f].shape;
-        return made;
+        return sunder_i_seamless_make(placement->rounded[f], &placement->seamless[f], err);
     }
     const double *home = sunder_i_home_box(model, (uint32_t)f);
     for (int c = 0; c < 4; c++) {
@@ -194,9 +184,10 @@ static bool order_by_runs(const pair_search *s, size_t n, uint64_t *place, uint3
 static sunder_status relate(const sunder_i_model *model, const sunder_i_placement *placement, sunder_i_relation *r,
                             sunder_error *err)
 {
-    const sunder_i_translate *a = &placement->translate[r->a], *b = &placement->translate[r->b];
-    return sunder_i_is_barrier(model, r->b) ? sunder_i_barrier_relate(model, a, r->b, r, err)
-                                            : sunder_i_relate(&model->rules, a, b, r, err);
+    const sunder_i_translate a = sunder_i_standing(model, placement, r->a);
+    if (sunder_i_is_barrier(model, r->b)) return sunder_i_barrier_relate(model, &a, r->b, r, err);
+    const sunder_i_translate b = sunder_i_standing(model, placement, r->b);
+    return sunder_i_relate(&model->rules, &a, &b, r, err);
 }
 
 typedef struct classification {

@@ -7,12 +7,28 @@
 
 /* How the features stand at one moment. */
 typedef struct sunder_i_placement {
-    sunder_i_translate *translate; /* [things] */
-    sunder_shape **rounded;        /* [things] owned shapes of those whose translate was rounded; else NULL */
-    sunder_i_seamless *seamless;   /* [things] of these, where there are barriers without area; else NULL */
-    bool *was_rounded;             /* [things] at any time */
+    double *move;                /* [2 * things] zeros of those that stand as a shape of their own */
+    sunder_shape **rounded;      /* [things] owned shapes of those whose translate was rounded; else NULL */
+    const sunder_layer *given;   /* NULL, or features are the shapes that they have there, with no move */
+    sunder_i_seamless *seamless; /* [things] of both, where there are barriers without area; else NULL */
+    bool *was_rounded;           /* [things] at any time */
     sunder_i_rtree tree;
 } sunder_i_placement;
+
+/* A thing as it stands. */
+static inline sunder_i_translate sunder_i_standing(const sunder_i_model *model, const sunder_i_placement *placement,
+                                                   uint32_t thing)
+{
+    if (sunder_i_is_barrier(model, thing)) return (sunder_i_translate){.shape = sunder_i_thing_shape(model, thing)};
+    const sunder_shape *own = placement->given ? placement->given->feature[thing].shape : placement->rounded[thing];
+    if (own)
+        return (sunder_i_translate){.shape = own,
+                                    .seamless = placement->seamless ? placement->seamless[thing].shape : NULL};
+    sunder_i_translate home = sunder_i_at_home(model, thing);
+    home.t[0] = placement->move[2 * (size_t)thing];
+    home.t[1] = placement->move[2 * (size_t)thing + 1];
+    return home;
+}
 
 /* The placement at the start, and after bodies moved: every feature that changed (sorted) is placed anew by
  * model->move. Failure leaves a placement that can be freed. */

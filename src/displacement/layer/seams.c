@@ -37,8 +37,9 @@ static bool add_seams(gathering *g, uint32_t f)
 /* Corners of the seams from `first` on, from the bodies' origins, behind all others. */
 static sunder_status put_corners(sunder_i_model *model, size_t first, sunder_error *err)
 {
-    sunder_i_trim(&model->seam, model->seams, sizeof *model->seam);
-    sunder_i_trim(&model->seam_at, 8 * model->seams, sizeof *model->seam_at);
+    if (!sunder_i_trim(&model->seam, model->seams, sizeof *model->seam) ||
+        !sunder_i_trim(&model->seam_at, 8 * model->seams, sizeof *model->seam_at))
+        return sunder_i_no_memory(err);
     const size_t corners = model->corners + 4 * (model->seams - first);
     if (corners >= UINT32_MAX) return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
     double *corner = sunder_i_realloc(model->corner, 2 * corners, sizeof *corner);

@@ -29,10 +29,10 @@ static sunder_status find_around(const sunder_i_solver *s, const sunder_conflict
         if (other == model->body_of[c->a] || sunder_i_whole_of(model, g) == c->b || other == model->body_of[c->b] ||
             sunder_i_is_included(model, f, g))
             continue;
-        const sunder_i_translate *p = &placement->translate[g], *q = &placement->translate[f];
+        const sunder_i_translate p = sunder_i_standing(model, placement, g), q = sunder_i_standing(model, placement, f);
         const double off = reach + (sunder_i_owed_above(model, f, g) - model->rules.gap);
         bool apart;
-        const sunder_status status = sunder_i_apart(p->shape, p->t, q->shape, q->t, fmax(off, 0), &apart, err);
+        const sunder_status status = sunder_i_apart(p.shape, p.t, q.shape, q.t, fmax(off, 0), &apart, err);
         if (status) return status;
         if (!apart && !sunder_i_list_push(blockers, sunder_i_whole_of(model, g))) return sunder_i_no_memory(err);
     }

@@ -207,8 +207,9 @@ typedef struct describing {
 static sunder_status describe_barrier(const describing *d, sunder_conflict *c, sunder_error *err)
 {
     const sunder_i_model *model = d->model;
+    const sunder_i_translate at = sunder_i_standing(model, d->placement, (uint32_t)c->a);
     sunder_i_barrier_stance now, home;
-    sunder_status status = sunder_i_barrier_stand(model, &d->placement->translate[c->a], (uint32_t)c->b, &now, err);
+    sunder_status status = sunder_i_barrier_stand(model, &at, (uint32_t)c->b, &now, err);
     if (status) return status;
     c->distance = c->before = now.distance;
     c->depth = now.least.distance;
@@ -217,10 +218,10 @@ static sunder_status describe_barrier(const describing *d, sunder_conflict *c, s
         c->to[k] = now.on[1][k];
     }
     if (now.overlap) {
-        sunder_shape_anchor(d->placement->translate[c->a].shape, c->from);
+        sunder_shape_anchor(at.shape, c->from);
         const double t[2] = {now.least.dx, now.least.dy};
         for (int k = 0; k < 2; k++) {
-            c->from[k] += d->placement->translate[c->a].t[k];
+            c->from[k] += at.t[k];
             c->to[k] = c->from[k] - t[k];
         }
     }
@@ -243,8 +244,10 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
             continue;
         }
         sunder_shape *a = NULL, *b = NULL;
-        sunder_status status = placed_shape(&d->placement->translate[c->a], &a, err);
-        if (!status) status = placed_shape(&d->placement->translate[c->b], &b, err);
+        const sunder_i_translate at = sunder_i_standing(model, d->placement, (uint32_t)c->a),
+                                 other = sunder_i_standing(model, d->placement, (uint32_t)c->b);
+        sunder_status status = placed_shape(&at, &a, err);
+        if (!status) status = placed_shape(&other, &b, err);
         if (!status) status = measure(a, b, d->overlap[k], c, err);
         sunder_shape_free(a);
         sunder_shape_free(b);

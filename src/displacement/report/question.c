@@ -96,7 +96,7 @@ static sunder_status take_part(const sunder_i_solver *s, sunder_i_surroundings *
 {
     const sunder_i_model *model = &s->model;
     const uint32_t f = a->feature.item[k], b = model->body_of[f];
-    const sunder_i_translate *at = &s->placement.translate[f];
+    const sunder_i_translate at = sunder_i_standing(model, &s->placement, f);
     a->as[k] = *sunder_i_feature(model->layer, f);
     a->as[k].block = b;
     if (k < a->moving) {
@@ -104,10 +104,10 @@ static sunder_status take_part(const sunder_i_solver *s, sunder_i_surroundings *
         return SUNDER_OK;
     }
     a->as[k].fixed = true;
-    a->as[k].shape = at->shape;
-    if (at->t[0] == 0 && at->t[1] == 0) return SUNDER_OK;
+    a->as[k].shape = at.shape;
+    if (at.t[0] == 0 && at.t[1] == 0) return SUNDER_OK;
     bool exact;
-    const sunder_status status = sunder_shape_translate(at->shape, at->t[0], at->t[1], &a->standing[k], &exact, err);
+    const sunder_status status = sunder_shape_translate(at.shape, at.t[0], at.t[1], &a->standing[k], &exact, err);
     a->as[k].shape = a->standing[k];
     return status;
 }
@@ -186,17 +186,18 @@ static sunder_status may_stay(const sunder_i_questions *g, const sunder_i_surrou
                    low = f < other ? f : other, high = f < other ? other : f;
     const sunder_conflict key = {.a = low, .b = sunder_i_whole_of(model, high)};
     const sunder_conflict *listed = bsearch(&key, g->report->conflict, g->report->conflicts, sizeof key, by_things);
-    const sunder_i_translate *p = &x->placement.translate[r->a], *q = &x->placement.translate[r->b];
+    const sunder_i_translate p = sunder_i_standing(&x->model, &x->placement, r->a),
+                             q = sunder_i_standing(&x->model, &x->placement, r->b);
     bool worse;
     *may = false;
     if (!listed || listed->inside_block || by_things(listed, c) == 0) return SUNDER_OK;
     sunder_status status;
     if (sunder_i_is_barrier(model, high)) {
         const sunder_i_translate home = sunder_i_at_home(model, low);
-        status = sunder_i_barrier_worsened(model, &home, p, high, &worse, err);
+        status = sunder_i_barrier_worsened(model, &home, &p, high, &worse, err);
     } else {
         const sunder_i_pair was = {sunder_i_thing_shape(model, f), sunder_i_thing_shape(model, other), NULL, NULL},
-                            is = {p->shape, q->shape, p->t, q->t};
+                            is = {p.shape, q.shape, p.t, q.t};
         status = sunder_i_pair_worsened(&was, &is, &worse, err);
     }
     *may = !status && !worse;

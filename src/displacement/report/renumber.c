@@ -149,24 +149,26 @@ static void find_longest(sunder_report *report)
         if (hypot(report->move[2 * f], report->move[2 * f + 1]) == most) report->summary.max_feature = f;
 }
 
+/* What is known of each feature, n values of `size` bytes, by what the features were: in an array that takes the place
+ * of the one before. False if memory is out. */
+static bool number_values(void *array, size_t n, size_t size, const uint32_t *number)
+{
+    unsigned char *old, *fresh = sunder_i_alloc(n, size);
+    if (!fresh) return false;
+    memcpy(&old, array, sizeof old);
+    for (size_t k = 0; k < n; k++) memcpy(fresh + number[k] * size, old + k * size, size);
+    memcpy(array, &fresh, sizeof fresh);
+    sunder_i_free(old);
+    return true;
+}
+
 sunder_status sunder_i_report_renumber(sunder_report *report, const uint32_t *number, sunder_error *err)
 {
     const size_t n = report->n;
-    double *move = sunder_i_alloc(2 * n, sizeof *move);
-    sunder_feature_status *standing = sunder_i_alloc(n, sizeof *standing);
-    int64_t *block = sunder_i_alloc(n, sizeof *block);
-    sunder_status status = move && standing && block ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) {
-        for (size_t k = 0; k < n; k++) {
-            memcpy(move + 2 * number[k], report->move + 2 * k, 2 * sizeof *move);
-            standing[number[k]] = report->status[k];
-            block[number[k]] = report->block[k];
-        }
-        if (n) memcpy(report->move, move, 2 * n * sizeof *move);
-        if (n) memcpy(report->status, standing, n * sizeof *standing);
-        if (n) memcpy(report->block, block, n * sizeof *block);
-        status = number_blocks(report->block, n, err);
-    }
+    const bool ok = number_values(&report->move, n, 2 * sizeof *report->move, number) &&
+                    number_values(&report->status, n, sizeof *report->status, number) &&
+                    number_values(&report->block, n, sizeof *report->block, number);
+    sunder_status status = ok ? number_blocks(report->block, n, err) : sunder_i_no_memory(err);
     if (!status) status = number_conflicts(report, number, err);
     for (size_t k = 0; !status && k < report->bound_pairs; k++) {
         sunder_bound_pair *p = &report->bound_pair[k];
@@ -177,8 +179,5 @@ sunder_status sunder_i_report_renumber(sunder_report *report, const uint32_t *nu
     for (size_t k = 0; !status && k < report->bound_trees; k++) number_tree(&report->bound_tree[k], number);
     if (!status) number_pushes(report, number);
     if (!status) find_longest(report);
-    sunder_i_free(move);
-    sunder_i_free(standing);
-    sunder_i_free(block);
     return status;
 }

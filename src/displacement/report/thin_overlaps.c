@@ -20,9 +20,9 @@ static sunder_status look_at(void *context, size_t begin, size_t end, sunder_err
         if (!r->overlap || r->contained || sunder_i_is_barrier(s->model, r->b) ||
             s->model->body_of[r->a] == s->model->body_of[r->b])
             continue;
-        const sunder_status status =
-            sunder_i_overlap_is_thin(&s->placement->translate[r->a], &s->placement->translate[r->b],
-                                     s->model->rules.thin, s->disc, &s->thin[k], err);
+        const sunder_i_translate a = sunder_i_standing(s->model, s->placement, r->a),
+                                 b = sunder_i_standing(s->model, s->placement, r->b);
+        const sunder_status status = sunder_i_overlap_is_thin(&a, &b, s->model->rules.thin, s->disc, &s->thin[k], err);
         if (status) return status;
     }
     return SUNDER_OK;

@@ -18,7 +18,7 @@ static uint32_t parts_of(const sunder_i_body *body, bool coarse) { return coarse
 static const sunder_i_body_piece *part_of(const sunder_i_model *model, const sunder_i_body *body, bool coarse,
                                           uint32_t k)
 {
-    return coarse ? &model->outline[model->member[body->member + k]] : &model->piece[body->piece + k];
+    return coarse ? sunder_i_hull_of(model, model->member[body->member + k]) : &model->piece[body->piece + k];
 }
 
 static void add_wall(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
