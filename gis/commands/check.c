@@ -69,6 +69,7 @@ static bool write_layer(check_run *run, gis_error *error)
 static bool check_and_write(check_run *run, gis_error *error)
 {
     if (!open_sink(run, error)) return false;
+    if (!run->options->given[OPT_BEFORE]) gis_layer_forget_demands(&run->input);
     gis_progress_stage(&run->progress, GIS_CHECK_READ, GIS_CHECK_CHECKED);
     if (!gis_layer_run(&run->input, sunder_layer_check, &run->progress, &run->report, &run->summary, error))
         return false;

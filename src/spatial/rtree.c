@@ -132,15 +132,21 @@ sunder_status sunder_i_rtree_build(const double *box, const bool *present, size_
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_rtree_copy(const sunder_i_rtree *tree, sunder_i_rtree *out, sunder_error *err)
+sunder_i_rtree sunder_i_rtree_lend(const sunder_i_rtree *tree)
 {
-    const size_t nodes = tree->levels ? tree->level[tree->levels] : 0;
-    sunder_i_rtree copy = *tree;
-    copy.box = sunder_i_alloc(4 * (nodes + 1), sizeof *copy.box);
-    if (!copy.box) return sunder_i_no_memory(err);
-    memcpy(copy.box, tree->box, 4 * (nodes + 1) * sizeof *copy.box);
-    copy.borrows = true;
-    *out = copy;
+    sunder_i_rtree lent = *tree;
+    lent.borrows = lent.unmoved = true;
+    return lent;
+}
+
+sunder_status sunder_i_rtree_own(sunder_i_rtree *tree, sunder_error *err)
+{
+    if (!tree->unmoved) return SUNDER_OK;
+    const size_t n = 4 * ((tree->levels ? tree->level[tree->levels] : 0) + 1);
+    double *box = sunder_i_alloc(n, sizeof *box);
+    if (!box) return sunder_i_no_memory(err);
+    tree->box = memcpy(box, tree->box, n * sizeof *box);
+    tree->unmoved = false;
     return SUNDER_OK;
 }
 
@@ -169,7 +175,7 @@ bool sunder_i_rtree_is_worn(const sunder_i_rtree *tree) { return !(tree->sprawl 
 
 void sunder_i_rtree_free(sunder_i_rtree *tree)
 {
-    sunder_i_free(tree->box);
+    if (!tree->unmoved) sunder_i_free(tree->box);
     if (!tree->borrows) {
         sunder_i_free(tree->item);
         sunder_i_free(tree->leaf);

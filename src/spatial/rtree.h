@@ -15,7 +15,8 @@ typedef struct sunder_i_rtree {
                        * behind it zeros */
     uint32_t *item;   /* [leaves] what each leaf holds */
     uint32_t *leaf;   /* [items] where each is; those that were not present are behind the root */
-    bool borrows;     /* these two are another tree's */
+    bool borrows;     /* these two are another tree's ... */
+    bool unmoved;     /* ... and the boxes, too */
     size_t level[16]; /* first node of each level; level[levels] is the end */
     unsigned levels;
     size_t leaves;
@@ -25,8 +26,11 @@ typedef struct sunder_i_rtree {
 /* Boxes of the items for which present[i] (NULL: all). */
 sunder_status sunder_i_rtree_build(const double *box, const bool *present, size_t n, sunder_i_rtree *out,
                                    sunder_error *err);
-/* Another tree of the same items, with boxes of its own; the first one has to outlive it. */
-sunder_status sunder_i_rtree_copy(const sunder_i_rtree *tree, sunder_i_rtree *out, sunder_error *err);
+/* Another tree of the same boxes, which costs nothing until they are to move; the first one, which keeps them, has to
+ * outlive it. */
+sunder_i_rtree sunder_i_rtree_lend(const sunder_i_rtree *tree);
+/* Boxes of its own for a tree that was lent, before any of them moves. */
+sunder_status sunder_i_rtree_own(sunder_i_rtree *tree, sunder_error *err);
 void sunder_i_rtree_free(sunder_i_rtree *tree);
 /* A present item has another box from now on. */
 void sunder_i_rtree_move(sunder_i_rtree *tree, uint32_t item, const double box[4]);

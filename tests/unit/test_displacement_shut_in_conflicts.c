@@ -52,7 +52,7 @@ static void end(yard *y)
 static int side_of(const yard *y, const sunder_i_relaxation *t, double width)
 {
     for (uint32_t e = 0; e < 2; e++) {
-        const double *box = y->of.model.box + 4 * (size_t)(e ? t->b : t->a);
+        const double *box = sunder_i_home_box(&y->of.model, e ? t->b : t->a);
         const double u = (box[0] + box[2]) / 2, v = (box[1] + box[3]) / 2;
         if (u < 0 || u > width) return u < 0 ? WEST : EAST;
         if (v < 0 || v > 3) return v < 0 ? SOUTH : NORTH;

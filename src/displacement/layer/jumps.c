@@ -51,7 +51,8 @@ static void find_way(const sunder_i_jumps *jumps, const sunder_i_model *model, u
 /* The tree of where all stand at home, which there is already, and in it those that have moved. */
 static sunder_status begin_at_home(sunder_i_jumps *jumps, const sunder_i_model *model, sunder_error *err)
 {
-    const sunder_status status = sunder_i_rtree_copy(&model->tree, &jumps->tree, err);
+    jumps->tree = sunder_i_rtree_lend(&model->tree);
+    const sunder_status status = sunder_i_rtree_own(&jumps->tree, err);
     for (uint32_t f = 0; f < model->features && !status; f++) {
         double way[4];
         if (!model->present[f] || !has_moved(jumps, model, f)) continue;

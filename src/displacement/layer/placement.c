@@ -24,7 +24,8 @@ sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_plac
     placement->was_rounded = sunder_i_calloc(n, sizeof *placement->was_rounded);
     if (!placement->move || !placement->rounded || (model->seamless && !placement->seamless) || !placement->was_rounded)
         return sunder_i_no_memory(err);
-    return sunder_i_rtree_copy(&model->tree, &placement->tree, err); /* all stand at home */
+    placement->tree = sunder_i_rtree_lend(&model->tree); /* all stand at home */
+    return SUNDER_OK;
 }
 
 void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *placement)
@@ -39,6 +40,7 @@ void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *pl
     memset(placement, 0, sizeof *placement);
 }
 
+/* Its tree has boxes of its own. */
 static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *placement, size_t f, sunder_error *err)
 {
     const double *t = model->move + 2 * (size_t)model->body_of[f];
@@ -73,17 +75,17 @@ static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *pl
 sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement *placement,
                                       const sunder_i_changes *changes, sunder_error *err)
 {
-    for (size_t k = 0; k < changes->list.n; k++) {
+    sunder_status status = sunder_i_rtree_own(&placement->tree, err);
+    for (size_t k = 0; k < changes->list.n && !status; k++) {
         const uint32_t f = changes->list.item[k];
-        if (!model->present[f]) continue;
-        const sunder_status status = stand_feature(model, placement, f, err);
-        if (status) return status;
+        if (model->present[f]) status = stand_feature(model, placement, f, err);
     }
+    if (status) return status;
     if (!sunder_i_rtree_is_worn(&placement->tree)) return SUNDER_OK;
     double *box = sunder_i_rtree_boxes(&placement->tree, model->things);
     if (!box) return sunder_i_no_memory(err);
     sunder_i_rtree_free(&placement->tree);
-    const sunder_status status = sunder_i_rtree_build(box, model->present, model->things, &placement->tree, err);
+    status = sunder_i_rtree_build(box, model->present, model->things, &placement->tree, err);
     sunder_i_free(box);
     return status;
 }
@@ -92,13 +94,12 @@ sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_place
                                            sunder_error *err)
 {
     const sunder_i_body *b = &model->body[body];
-    for (uint32_t m = 0; m < b->members; m++) {
+    sunder_status status = sunder_i_rtree_own(&placement->tree, err);
+    for (uint32_t m = 0; m < b->members && !status; m++) {
         const uint32_t f = model->member[b->member + m];
-        if (!model->present[f]) continue;
-        const sunder_status status = stand_feature(model, placement, f, err);
-        if (status) return status;
+        if (model->present[f]) status = stand_feature(model, placement, f, err);
     }
-    return SUNDER_OK;
+    return status;
 }
 
 /* ---- Near pairs -------------------------------------------------------------------------------------------------- */
