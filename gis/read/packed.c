@@ -268,7 +268,7 @@ static const unsigned char *pass_value(OGRFieldType type, const unsigned char *f
     return from + (type == OFTString ? strlen((const char *)from) + 1 : sizeof(int64_t));
 }
 
-/* ---- Vertices of a shape ------------------------------------------------------------------------------------------ */
+/* ---- Vertices of a shape ----------------------------------------------------------------------------------------- */
 
 /* The geometry of a record; one whose vertices are borrowed lives until another is asked for. NULL if memory is out. */
 static const unsigned char *geometry_of(gis_packed *packed, const unsigned char *record, size_t *bytes)
