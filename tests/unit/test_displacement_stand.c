@@ -2,6 +2,7 @@
 #include "random.h"
 #include "scene_model.h"
 
+#include "base/memory.h"
 #include "displacement/layer/relaxation.h"
 #include "displacement/layer/requirement.h"
 
@@ -54,7 +55,7 @@ static void test_relations_of_some(void **state)
         }
         assert_true(n == found.n);
         sunder_i_changes_free(&some);
-        free(found.pair);
+        sunder_i_free(found.pair);
         scene_model_end(&m);
         scene_end(&s);
     }
