@@ -18,7 +18,7 @@
 typedef struct comparison {
     const sunder_layer *before, *after;
     sunder_i_barriers barriers;   /* of `before` */
-    sunder_layer layer;           /* `before`, and parts of these behind it; its own copy */
+    sunder_layer layer;           /* `before`, and parts of these behind it; cleared by itself */
     sunder_i_model model;         /* of all that */
     sunder_i_placement placement; /* first of `before`, then of `after` */
     sunder_i_relations start, now;
