@@ -17,7 +17,8 @@
 /* What of a payer is at a move, in squares. */
 typedef struct part {
     int64_t dx, dy;
-    double share; /* of 1; before that what it pays there */
+    double paid;  /* there */
+    double share; /* of 1; weigh_shares() */
 } part;
 
 typedef struct ascent {
@@ -114,7 +115,7 @@ static bool list_cell(ascent *a, const sunder_i_payer *payer, const float *price
             const double paid = paid_at(a, payer, price, dx, dy, *least + doubt);
             if (paid >= *least + doubt) continue;
             if (paid < *least) *least = paid;
-            a->part[a->parts++] = (part){dx, dy, paid};
+            a->part[a->parts++] = (part){dx, dy, paid, 0};
         }
     return true;
 }
@@ -125,9 +126,10 @@ static void weigh_shares(ascent *a, double heat, double least, double *value)
     double sum = 0;
     size_t n = 0;
     for (size_t k = 0; k < a->parts; k++) {
-        if (a->part[k].share >= least + TOO_DEAR * heat) continue;
+        if (a->part[k].paid >= least + TOO_DEAR * heat) continue;
         a->part[n] = a->part[k];
-        sum += a->part[n++].share = exp((least - a->part[k].share) / heat);
+        a->part[n].share = exp((least - a->part[k].paid) / heat);
+        sum += a->part[n++].share;
     }
     a->parts = n;
     for (size_t k = 0; k < n; k++) a->part[k].share /= sum;

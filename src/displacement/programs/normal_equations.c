@@ -76,7 +76,7 @@ void sunder_i_normal_clear(sunder_i_normal *q)
 void sunder_i_normal_add(sunder_i_normal *q, size_t c, double v)
 {
     const sunder_i_normal_row *row = &q->row[c];
-    const double x = row->n[0], y = row->n[1], part[] = {v * x * x, v * x * y, v * y * x, v * y * y};
+    const double x = row->n[0], y = row->n[1], part[] = {v * x * x, v * y * x, v * x * y, v * y * y};
     for (int e = 0; e < 4; e++) row->on_i[e] += part[e];
     for (int e = 0; e < 4; e++) row->on_j[e] += part[e];
     for (int e = 0; e < 4; e++) row->across[e] -= part[e];
