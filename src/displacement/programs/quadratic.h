@@ -43,4 +43,9 @@ static inline double sunder_i_stretch(const sunder_i_constraint *c, const double
  * scale: a length such as bodies move by. */
 double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, double tolerance, double scale);
 
+/* The same of a large program that was solved, and has a few more constraints since: about those that t misses only,
+ * while what is farther off stays (mend.c). Returns the worst violation; INFINITY if it does not do, or costs more than
+ * before by a larger share than `more`, with t and forces as they were; negative if memory is out. */
+double sunder_i_quadratic_mend(sunder_i_quadratic *program, double tolerance, double scale, double more);
+
 #endif

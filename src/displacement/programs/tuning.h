@@ -44,6 +44,13 @@
  * pieces), and any split of their force will do. Far above rounding, far below what the tolerance shows. */
 #define RAISED 1e-11
 
+/* ---- A few more constraints (mend.c) ----------------------------------------------------------------------------- */
+
+/* So many contacts from what is missed take part at first, twice as many each time that this does not do, and no more
+ * than this share of the bodies: then all are asked. */
+#define FIRST_RINGS 4
+#define MOST_MENDING_SHARE 8
+
 /* ---- Nearest place (nearest.c) ----------------------------------------------------------------------------------- */
 
 /* Steps, which are some for each constraint that acts in the end. */

@@ -79,6 +79,17 @@ static double solve(sunder_i_search *s, double softness)
     return v;
 }
 
+/* The same of a hard program that was solved, but for what s->next ran into. Within limits what is done about that fades;
+ * without, chains of contacts carry it on, and which of many layouts a crowd ends in is as good as drawn anew. */
+static double solve_further(sunder_i_search *s)
+{
+    sunder_i_quadratic *p = &s->program;
+    if (!(p->most_cost > 0)) return solve(s, 0);
+    const double v = sunder_i_quadratic_mend(p, s->tolerance / SOLVED_TO, s->extent, s->settled / PART_OF_SETTLED);
+    if (v < 0) s->failed = true;
+    return v >= 0 && v <= s->tolerance ? v : solve(s, 0);
+}
+
 /* The program around s->t with everything that its solution runs into. */
 static double solve_lazily(sunder_i_search *s, double softness)
 {
@@ -86,7 +97,7 @@ static double solve_lazily(sunder_i_search *s, double softness)
     const int most = softness > 0 ? MOST_SOFT_ADDITIONS : MOST_ADDITIONS;
     s->ended = false;
     for (int k = 0; k < most && !is_out_of_patience(s) && !s->failed; k++) {
-        v = solve(s, softness);
+        v = k > 0 && softness == 0 ? solve_further(s) : solve(s, softness);
         /* No solution: what lies in the way of where it went astray is of no interest. */
         if (softness == 0 && v > NO_SOLUTION * (s->extent + s->gap)) break;
         s->ended = !sunder_i_search_constrain_further(s);
