@@ -1,6 +1,6 @@
 /* A solved program that has a few more constraints.
  *
- * In a crowd of thousands whose program is solved a dozen bodies oversteps their limits, or run into pieces that were
+ * In a crowd of thousands whose program is solved a dozen bodies overstep their limits, or run into pieces that were
  * out of reach: to solve all of it once more for each handful of constraints took three fifths of all factorisations
  * of a grid of 20,000 squares within limits. What a few constraints change fades with the contacts between, so those
  * about them are solved while all others stay. With more constraints no solution is cheaper, so that what those cost
@@ -164,9 +164,10 @@ double sunder_i_quadratic_mend(sunder_i_quadratic *p, double tolerance, double s
     bool ok = mending_init(&m, p), solved = false;
     if (ok) mark_missed(&m, tolerance);
     for (uint32_t rings = FIRST_RINGS, ring = 0; ok && !solved && !sunder_i_quadratic_is_done(p); rings *= 2) {
+        const size_t before = m.part.bodies;
         for (; ring < rings; ring++) mark_next(&m, ring);
         take_bodies(&m);
-        if (m.part.bodies > p->bodies / MOST_MENDING_SHARE) break;
+        if (m.part.bodies == before || m.part.bodies > p->bodies / MOST_MENDING_SHARE) break;
         take_constraints(&m);
         ok = solve_part(&m, tolerance, scale, more, &solved);
     }
