@@ -83,7 +83,7 @@ static void check_random(void **state)
         rng g = rng_start(test_seed(), i);
         const size_t n = (size_t)rng_int(&g, 1, MOST), m = draw_graph(&g, n, pair);
         sunder_i_sparse matrix;
-        assert_true(sunder_i_sparse_init(&matrix, n, pair, m));
+        assert_true(sunder_i_sparse_init(&matrix, n, pair, m, NULL));
         sunder_i_sparse_clear(&matrix);
         memset(full, 0, sizeof full);
         for (size_t k = 0; k < 2 * n; k++) {
@@ -109,7 +109,7 @@ static void check_star(void **state)
     static sunder_i_id_pair pair[RAYS];
     for (uint32_t k = 0; k < RAYS; k++) pair[k] = (sunder_i_id_pair){0, k + 1};
     sunder_i_sparse matrix;
-    assert_true(sunder_i_sparse_init(&matrix, RAYS + 1, pair, RAYS));
+    assert_true(sunder_i_sparse_init(&matrix, RAYS + 1, pair, RAYS, NULL));
     assert_int_equal(matrix.column[RAYS + 1], RAYS);
     assert_true(matrix.rank[0] >= RAYS - 1);
     sunder_i_sparse_clear(&matrix);

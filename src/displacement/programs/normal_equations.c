@@ -21,16 +21,27 @@ static void number_unknowns(sunder_i_normal *q, const sunder_i_quadratic *p)
     }
 }
 
-/* Which entries the matrix has. */
-static bool shape_matrix(sunder_i_normal *q)
+/* Where the bodies are that have unknowns; NULL if memory is out. */
+static double *find_places(const sunder_i_normal *q, const sunder_i_quadratic *p)
 {
+    double *place = sunder_i_alloc(q->n, sizeof *place);
+    for (size_t b = 0; place && b < p->bodies; b++)
+        if (p->mass[b] > 0) memcpy(place + q->unknown[b], p->place + 2 * b, 2 * sizeof *place);
+    return place;
+}
+
+/* Which entries the matrix has. */
+static bool shape_matrix(sunder_i_normal *q, const sunder_i_quadratic *p)
+{
+    double *place = p->place ? find_places(q, p) : NULL;
     sunder_i_id_pair *pair = sunder_i_alloc(q->m, sizeof *pair);
     size_t pairs = 0;
     for (size_t c = 0; pair && c < q->m; c++)
         if (q->row[c].i < q->n && q->row[c].j < q->n)
             pair[pairs++] = (sunder_i_id_pair){q->row[c].i / 2, q->row[c].j / 2};
-    const bool ok = pair && sunder_i_sparse_init(&q->matrix, q->n / 2, pair, pairs);
+    const bool ok = pair && (place || !p->place) && sunder_i_sparse_init(&q->matrix, q->n / 2, pair, pairs, place);
     sunder_i_free(pair);
+    sunder_i_free(place);
     return ok;
 }
 
@@ -62,7 +73,7 @@ bool sunder_i_normal_init(sunder_i_normal *q, const sunder_i_quadratic *p)
         q->row[c].j = k->j == SUNDER_I_GROUND ? (uint32_t)q->n : q->unknown[k->j];
         memcpy(q->row[c].n, k->n, sizeof k->n);
     }
-    if (!shape_matrix(q)) return false;
+    if (!shape_matrix(q, p)) return false;
     for (size_t c = 0; c < q->m; c++) find_blocks(q, &q->row[c]);
     return true;
 }

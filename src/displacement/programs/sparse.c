@@ -1,17 +1,13 @@
-/* The structure of a sparse matrix and of its Cholesky factor, in minimum degree order.
- *
- * Who is in contact with few goes first. Bodies in a plane touch few others, and an outline that holds hundreds of
- * houses comes last of them all, so the factor stays sparse whatever the shape of the cluster [GL81, chapter 5].
- * Eliminating a node joins its neighbours to each other; the lists of neighbours at that moment are the columns of the
- * factor.
+/* The structure of a sparse matrix and of its Cholesky factor, by an order of elimination.
  *
  * Nodes that are eliminated late have the same neighbours as those after them, but for themselves. In postorder of the
  * elimination tree such columns stand side by side, and are used as one panel (sparse_factor.c). */
 #include "displacement/programs/sparse.h"
+#include "displacement/programs/elimination.h"
+#include "displacement/programs/tuning.h"
 
 #include "base/invariant.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,124 +29,40 @@ void sunder_i_sparse_free(sunder_i_sparse *m)
 
 /* ---- The order --------------------------------------------------------------------------------------------------- */
 
-/* The graph as it is eliminated: sorted lists of neighbours that are still there, and nodes by their degrees in
- * doubly linked lists. */
 #define END UINT32_MAX
 
-typedef struct graph {
-    size_t n;
-    sunder_i_list *near;
-    uint32_t *head, *tail, *next, *prev; /* [n] of each degree, and of each node; END ends a list */
-    sunder_i_list merged;
-} graph;
-
-static void unlist(graph *g, uint32_t v)
+bool sunder_i_elimination_init(sunder_i_elimination *e, size_t n, const sunder_i_id_pair *pair, size_t pairs,
+                               uint32_t *rank)
 {
-    if (g->prev[v] != END)
-        g->next[g->prev[v]] = g->next[v];
-    else
-        g->head[g->near[v].n] = g->next[v];
-    if (g->next[v] != END)
-        g->prev[g->next[v]] = g->prev[v];
-    else
-        g->tail[g->near[v].n] = g->prev[v];
-}
-
-/* At the end: of equal degrees those come first that have had theirs for longest, so that the elimination goes on all
- * over the graph at once. Where it went on beside the last one a grid of 20,000 took a third more work. */
-static void enlist(graph *g, uint32_t v)
-{
-    const size_t degree = g->near[v].n;
-    const uint32_t last = g->head[degree] == END ? END : g->tail[degree];
-    g->prev[v] = last;
-    g->next[v] = END;
-    g->tail[degree] = v;
-    if (last == END)
-        g->head[degree] = v;
-    else
-        g->next[last] = v;
-}
-
-static bool graph_init(graph *g, size_t n, const sunder_i_id_pair *pair, size_t pairs)
-{
-    memset(g, 0, sizeof *g);
-    g->n = n;
-    g->near = sunder_i_calloc(n, sizeof *g->near);
-    g->head = sunder_i_alloc(n, sizeof *g->head);
-    g->tail = sunder_i_alloc(n, sizeof *g->tail);
-    g->next = sunder_i_alloc(n, sizeof *g->next);
-    g->prev = sunder_i_alloc(n, sizeof *g->prev);
-    if (!g->near || !g->head || !g->tail || !g->next || !g->prev) return false;
+    e->n = n;
+    e->rank = rank;
+    e->near = sunder_i_calloc(n, sizeof *e->near);
+    if (!e->near) return false;
     for (size_t k = 0; k < pairs; k++)
-        if (!sunder_i_list_push(&g->near[pair[k].a], pair[k].b) || !sunder_i_list_push(&g->near[pair[k].b], pair[k].a))
+        if (!sunder_i_list_push(&e->near[pair[k].a], pair[k].b) || !sunder_i_list_push(&e->near[pair[k].b], pair[k].a))
             return false;
-    for (size_t v = 0; v < n; v++) {
-        sunder_i_list *near = &g->near[v];
-        near->n = sunder_i_set_make(near->item, near->n);
-        g->head[v] = END;
-    }
-    for (size_t v = 0; v < n; v++) enlist(g, (uint32_t)v);
+    for (size_t v = 0; v < n; v++) e->near[v].n = sunder_i_set_make(e->near[v].item, e->near[v].n);
     return true;
 }
 
-static void graph_free(graph *g)
+void sunder_i_elimination_free(sunder_i_elimination *e)
 {
-    for (size_t v = 0; g->near && v < g->n; v++) sunder_i_free(g->near[v].item);
-    sunder_i_free(g->near);
-    sunder_i_free(g->head);
-    sunder_i_free(g->tail);
-    sunder_i_free(g->next);
-    sunder_i_free(g->prev);
-    sunder_i_free(g->merged.item);
+    for (size_t v = 0; e->near && v < e->n; v++) sunder_i_free(e->near[v].item);
+    sunder_i_free(e->near);
 }
 
-/* The neighbours of v become neighbours of u; v is no longer there. */
-static bool join_neighbours(graph *g, uint32_t u, uint32_t v)
+/* By place, if that is known, where there are many. */
+static bool eliminate(sunder_i_elimination *e, const double *place)
 {
-    const sunder_i_list *a = &g->near[u], *b = &g->near[v];
-    sunder_i_list *out = &g->merged;
-    if (!sunder_i_reserve(&out->item, &out->capacity, a->n + b->n, sizeof *out->item)) return false;
-    out->n = 0;
-    size_t i = 0, j = 0;
-    while (i < a->n || j < b->n) {
-        uint32_t w;
-        if (j == b->n || (i < a->n && a->item[i] < b->item[j]))
-            w = a->item[i++];
-        else {
-            w = b->item[j++];
-            if (i < a->n && a->item[i] == w) i++;
-        }
-        if (w != u && w != v) out->item[out->n++] = w;
-    }
-    unlist(g, u);
-    const sunder_i_list swap = g->near[u];
-    g->near[u] = *out;
-    *out = swap;
-    enlist(g, u);
-    return true;
-}
-
-/* Eliminates all nodes; g->near[v] is left as the neighbours that v had when its turn came. */
-static bool eliminate(graph *g, uint32_t *rank)
-{
-    size_t degree = 0;
-    for (size_t turn = 0; turn < g->n; turn++) {
-        /* The least degree falls by one at most with each node. */
-        if (degree) degree--;
-        while (g->head[degree] == END) degree++;
-        const uint32_t v = g->head[degree];
-        unlist(g, v);
-        rank[v] = (uint32_t)turn;
-        for (size_t k = 0; k < g->near[v].n; k++)
-            if (!join_neighbours(g, g->near[v].item[k], v)) return false;
-    }
-    return true;
+    bool done = false;
+    if (place && e->n > FEWEST_DISSECTED && !sunder_i_dissect(e, place, &done)) return false;
+    return done || sunder_i_minimum_degree(e);
 }
 
 /* The same elimination in another order: each node directly after all those that are below it in the elimination tree,
  * where the parent of a node is the first of its neighbours whose turn comes. That changes no column, and columns with
  * the same rows become neighbours. Ranks are given from the last node on, each before those below it. */
-static bool rank_in_postorder(const graph *g, uint32_t *rank)
+static bool rank_in_postorder(const sunder_i_elimination *g, uint32_t *rank)
 {
     uint32_t *by_rank = sunder_i_alloc(g->n, sizeof *by_rank), *parent = sunder_i_alloc(g->n, sizeof *parent),
              *below = sunder_i_calloc(g->n, sizeof *below), *end = sunder_i_alloc(g->n, sizeof *end);
@@ -186,7 +98,7 @@ static bool continues_panel(const sunder_i_sparse *m, uint32_t k)
 }
 
 /* Columns from the neighbours, by rank. */
-static bool fill_columns(sunder_i_sparse *m, const graph *g)
+static bool fill_columns(sunder_i_sparse *m, const sunder_i_elimination *g)
 {
     size_t entries = 0;
     for (size_t v = 0; v < m->n; v++) entries += g->near[v].n;
@@ -222,7 +134,7 @@ static const char *check(const sunder_i_sparse *m)
 }
 #endif
 
-bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_id_pair *pair, size_t pairs)
+bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_id_pair *pair, size_t pairs, const double *place)
 {
     memset(m, 0, sizeof *m);
     m->n = n;
@@ -237,10 +149,10 @@ bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_id_pair *
     m->across = sunder_i_alloc(8 * n, sizeof *m->across);
     if (!m->rank || !m->column || !m->diagonal || !m->first || !m->link || !m->at || !m->y || !m->panel || !m->across)
         return false;
-    graph g;
-    const bool ok = graph_init(&g, n, pair, pairs) && eliminate(&g, m->rank) && rank_in_postorder(&g, m->rank) &&
-                    fill_columns(m, &g);
-    graph_free(&g);
+    sunder_i_elimination e;
+    const bool ok = sunder_i_elimination_init(&e, n, pair, pairs, m->rank) && eliminate(&e, place) &&
+                    rank_in_postorder(&e, m->rank) && fill_columns(m, &e);
+    sunder_i_elimination_free(&e);
     SUNDER_I_CHECK(ok ? check(m) : NULL, n);
     return ok;
 }

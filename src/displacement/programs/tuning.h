@@ -56,6 +56,16 @@
 /* Steps, which are some for each constraint that acts in the end. */
 #define MOST_NEAREST 1000
 
+/* ---- Order of elimination (sparse.c, dissection.c) --------------------------------------------------------------- */
+
+/* More bodies than these are dissected: of fewer the factor takes as long as with minimum degree, or two thirds. */
+#define FEWEST_DISSECTED 8192
+/* A part of no more than these is not divided; nor one of which more than such a share would part two halves, if it is
+ * small: of a larger one that says that this is no graph to be dissected. */
+#define LEAF_OF_DISSECTION 8
+#define FEW_PARTING 4
+#define SMALL_PART_OF_DISSECTION 256
+
 /* ---- Newton steps ------------------------------------------------------------------------------------------------ */
 
 /* Programs with more constraints than these, and no more than MOST_QUICK, begin with them: below, the dual methods are

@@ -41,16 +41,20 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_model *model, const
     s->next = sunder_i_alloc(2 * n, sizeof *s->next);
     s->box = sunder_i_alloc(4 * n, sizeof *s->box);
     s->order = sunder_i_alloc(n, sizeof *s->order);
+    s->place = n > LARGE_CROWD ? sunder_i_alloc(2 * n, sizeof *s->place) : NULL;
+    if (n > LARGE_CROWD && !s->place) return false;
     if (!s->mass || !s->away || !s->t || !s->next || !s->box || !s->order) return false;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *b = &model->body[body[k]];
         s->mass[k] = sunder_i_may_move(b) ? 0.5 / b->weight : 0;
+        if (s->place) memcpy(s->place + 2 * k, b->origin, 2 * sizeof *s->place);
     }
     s->extent = mean_extent(model, body, n);
     memcpy(s->t, move, 2 * n * sizeof *s->t);
     s->program.bodies = n;
     s->program.mass = s->mass;
     s->program.t = s->next;
+    s->program.place = s->place;
     return true;
 }
 
@@ -71,6 +75,7 @@ void sunder_i_search_free(sunder_i_search *s)
 {
     sunder_i_free(s->listed);
     sunder_i_free(s->mass);
+    sunder_i_free(s->place);
     sunder_i_free(s->away);
     sunder_i_free(s->t);
     sunder_i_free(s->next);

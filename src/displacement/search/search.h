@@ -24,6 +24,7 @@ typedef struct sunder_i_search {
     double gap;                 /* the gap and the margin */
     double tolerance;           /* a violation below this counts as none: a quarter of the margin */
     double *mass;               /* [n] 1 / (2 weight), or 0 */
+    double *place;              /* [2 n] of a large crowd: where each comes from; NULL */
     bool *away;                 /* [n] taken out: not there for others that look for room */
     double *t;                  /* [2 n] where they stand */
     double *box;                /* [4 n] of the bodies as they stand, relative to the first body's origin */
