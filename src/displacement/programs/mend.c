@@ -91,6 +91,7 @@ static void take_bodies(mending *m)
         if (m->ring[b] == OUTSIDE) continue;
         m->place[b] = (uint32_t)part->bodies;
         m->mass[part->bodies] = m->p->mass[b];
+        memcpy(part->t + 2 * part->bodies, m->p->t + 2 * (size_t)b, 2 * sizeof *part->t);
         m->body[part->bodies++] = b;
     }
     part->mass = m->mass;
@@ -138,18 +139,18 @@ static void exchange(mending *m)
     for (size_t k = 0; k < m->part.n; k++) swap(&m->p->constraint[m->which[k]].force, &m->part.constraint[k].force);
 }
 
-/* Solves the part; *solved: with those who stay it all but solves all, and the program has it. False if memory is
+/* Solves the part, from inside, as all was: what ends a hair beyond what pairs are held to is worse than it stood, and
+ * has to go home. *solved: with those who stay it all but solves all, and the program has it. False if memory is
  * out. */
 static bool solve_part(mending *m, double tolerance, double scale, double more, bool *solved)
 {
     sunder_i_quadratic *p = m->p, *part = &m->part;
     part->work = 0;
     part->most_work = p->most_work ? (p->most_work > p->work ? p->most_work - p->work : 1) : 0;
-    const double missed = sunder_i_quadratic_solve(part, 0, tolerance, scale);
-    p->work += part->work + p->n;
     *solved = false;
-    if (missed < 0) return false;
-    if (missed > tolerance) return true;
+    if (!sunder_i_quadratic_interior(part, 0, tolerance, scale)) return false;
+    p->work += part->work + p->n;
+    if (!(sunder_i_quadratic_worst(part, 0) <= tolerance)) return true;
     const double before = cost_of(p);
     exchange(m);
     *solved = cost_of(p) <= before * (1 + more);

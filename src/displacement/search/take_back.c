@@ -171,6 +171,7 @@ static size_t push_each(sunder_i_search *s, sunder_i_pushed *p, const sunder_i_r
 }
 
 /* What misses least now comes first: what a row was opened by for one of its pairs may be most of what another misses.
+ * Where hardly any of a level was parted all that are left are asked at once, and for the last time.
  * Returns how many are left: the first of the list, in order. */
 static size_t ask_pushed(sunder_i_search *s, const sunder_i_relaxations *all, wish *list, size_t n)
 {
@@ -180,12 +181,15 @@ static size_t ask_pushed(sunder_i_search *s, const sunder_i_relaxations *all, wi
     for (size_t k = 0; k < n; k++) most = fmax(most, list[k].missing);
     if (!sunder_i_pushed_init(&pushed, s, most)) s->failed = true;
     bool last = false;
-    for (double level = most / PUSHED_FIRST; !last && n && !s->failed; level *= PUSHED_LEVELS) {
-        last = !(level < most);
+    for (double level = most / PUSHED_FIRST; n && !s->failed; level *= PUSHED_LEVELS) {
+        last = last || !(level < most);
+        const size_t whole = n;
         for (size_t before = 2 * n; before - n > before / LEAST_PUSHED && !s->failed;) {
             before = n;
             n = push_each(s, &pushed, all, list, n, last ? INFINITY : level, end);
         }
+        if (last) break;
+        last = whole - n < whole / LEAST_OF_LEVEL;
     }
     sunder_i_pushed_free(&pushed);
     return n;

@@ -141,6 +141,9 @@
 #define LEFT_BY_PUSHING 0.5
 #define LEFT_AT_HOME 0.75
 #define LEAST_PUSHED 64
+/* Where a level takes back no larger a share than that all that are left are asked at once. A grid of 20,000 was asked
+ * six times more for 35 of 60,000 pairs, in a sixth of the time of all. */
+#define LEAST_OF_LEVEL 1024
 /* Moves no longer than this share of a body are what descents leave of none. */
 #define NEARLY_HOME 1e-7
 
