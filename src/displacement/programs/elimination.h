@@ -1,5 +1,5 @@
-/* Orders in which the nodes of a graph are eliminated: each joins its neighbours to each other and is gone, and who those
- * are at that moment is its column of the factor of a matrix that has the graph's edges [GL81, chapter 5]. */
+/* Orders in which the nodes of a graph are eliminated: each joins its neighbours to each other and is gone, and who
+ * those are at that moment is its column of the factor of a matrix that has the graph's edges [GL81, chapter 5]. */
 #ifndef SUNDER_I_ELIMINATION_H
 #define SUNDER_I_ELIMINATION_H
 

@@ -19,9 +19,9 @@ typedef struct sunder_i_sparse {
     uint64_t work;          /* products of blocks in one factorisation */
 } sunder_i_sparse;
 
-/* The structure: entries (a, b) and (b, a) for each pair of different numbers below n, and the diagonal. place: NULL, or
- * [2 n] where in the plane each row's body stands, which may be of use for the order. False if memory is out; free it
- * all the same. */
+/* The structure: entries (a, b) and (b, a) for each pair of different numbers below n, and the diagonal. place: NULL,
+ * or [2 n] where in the plane each row's body stands, which may be of use for the order. False if memory is out; free
+ * it all the same. */
 bool sunder_i_sparse_init(sunder_i_sparse *matrix, size_t n, const sunder_i_id_pair *pair, size_t pairs,
                           const double *place);
 void sunder_i_sparse_free(sunder_i_sparse *matrix);

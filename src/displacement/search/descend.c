@@ -79,8 +79,9 @@ static double solve(sunder_i_search *s, double softness)
     return v;
 }
 
-/* The same of a hard program that was solved, but for what s->next ran into. Within limits what is done about that fades;
- * without, chains of contacts carry it on, and which of many layouts a crowd ends in is as good as drawn anew. */
+/* The same of a hard program that was solved, but for what s->next ran into. Within limits what is done about that
+ * fades; without, chains of contacts carry it on, and which of many layouts a crowd ends in is as good as drawn
+ * anew. */
 static double solve_further(sunder_i_search *s)
 {
     sunder_i_quadratic *p = &s->program;

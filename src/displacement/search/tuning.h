@@ -36,10 +36,10 @@
 /* Programs are solved to this part of the tolerance; soft ones to this part of the gap, or of a small part of a body:
  * a compromise need not be found to the last digit. */
 #define SOLVED_TO 8
-/* What a solved program has too few constraints for is mended about it, if that costs more by no larger a part than this
- * of what counts as settled. */
-#define PART_OF_SETTLED 4
 #define COMPROMISE_TO 1e-4
+/* A solved program that has a few more constraints is mended about these, if that costs more by no larger a part than
+ * this of what counts as settled. */
+#define PART_OF_SETTLED 4
 /* A small part of a body: its extent divided by so much. Pieces no farther off than that are looked at beforehand. */
 #define SMALL_PART 50
 /* What long chains leave of hard constraints is asked for in addition, so many times as much, so often. */
