@@ -138,19 +138,35 @@ static bool arena_grow(sunder_i_arena *arena, size_t need)
     return true;
 }
 
-void *sunder_i_arena_alloc(sunder_i_arena *arena, size_t n, size_t size)
+static void *alloc_in_new_chunk(sunder_i_arena *arena, size_t n, size_t size)
 {
     size_t b;
-    if (arena->failed) return NULL;
-    if (!sunder_i_step() || !bytes(n, size, &b) || b > SIZE_MAX - 64) {
+    if (!bytes(n, size, &b) || b > SIZE_MAX - 64) {
         arena->failed = true;
         return NULL;
     }
     b = (b + 15) & ~(size_t)15;
-    if (!arena->chunk || arena->chunk->size - arena->chunk->used < b)
-        if (!arena_grow(arena, b)) return NULL;
-    void *p = arena->chunk->data + arena->chunk->used;
-    arena->chunk->used += b;
+    if (!arena_grow(arena, b)) return NULL;
+    void *p = arena->chunk->data;
+    arena->chunk->used = b;
+    return p;
+}
+
+void *sunder_i_arena_alloc(sunder_i_arena *arena, size_t n, size_t size)
+{
+    sunder_i_chunk *c = arena->chunk;
+    size_t b;
+    if (arena->failed) return NULL;
+    if (!sunder_i_step()) {
+        arena->failed = true;
+        return NULL;
+    }
+    /* Mostly there is room; of nothing one byte is taken. */
+    if (!c || __builtin_mul_overflow(n, size, &b) || b > c->size - c->used) return alloc_in_new_chunk(arena, n, size);
+    b = (b + 15 + (b == 0)) & ~(size_t)15;
+    if (b > c->size - c->used) return alloc_in_new_chunk(arena, n, size);
+    void *p = c->data + c->used;
+    c->used += b;
     return p;
 }
 

@@ -67,7 +67,8 @@ static void check_cones(sunder_i_operands *g, size_t *asked, size_t *all)
         for (uint32_t e = 0; e < own->vertices; e += 1 + own->vertices / 40) {
             const double *a = own->xy + 2 * (size_t)e, *b = own->xy + 2 * (size_t)own->next[e];
             const double *x = g->xy[side] + 2 * (size_t)e, *y = g->xy[side] + 2 * (size_t)own->next[e];
-            const uint32_t n = sunder_i_cones_met(g, &c, y[0] - x[0], y[1] - x[1], met, &looked_at);
+            const uint32_t n =
+                sunder_i_cones_met(&c, sunder_i_direction_of(g, y[0] - x[0], y[1] - x[1]), met, &looked_at);
             memset(seen, 0, other->vertices * sizeof *seen);
             for (uint32_t k = 0; k < n; k++) {
                 assert_true(k == 0 || met[k] > met[k - 1]);

@@ -1,9 +1,8 @@
-/* A vertex is met by the edges whose directions lie between those of its two edges. Where there are many, directions
- * are put into sectors first, by a number that grows with the angle, so that an edge is asked of those vertices only
- * that meet some edge of its sector: of a round outline one or two. */
+/* A vertex is met by the edges whose directions lie between those of its two edges. Directions are numbers, and so a
+ * vertex stands for a range of them, and an edge meets it if its number is in the range. Where there are many, numbers
+ * are put into sectors first, so that an edge is asked of those vertices only that meet some edge of its sector: of a
+ * round outline one or two. */
 #include "separation/obstacle/cones.h"
-
-#include "predicate/turn.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,76 +10,90 @@
 #define SECTORS_FROM 64 /* fewer are asked one by one */
 #define SECTORS_MOST 65536
 #define LISTED_MOST 4 /* times, on average, one may be listed */
-/* Where a whole turn is 4. The number of an edge is rounded by less; an edge so short that its direction is uncertain
- * by more asks them all. */
-#define TURN_SLACK 0x1p-20
+#define HALF_TURN 0x80000000u
+/* Numbers are cut off below one, and what doubles get wrong is far less than another. */
+#define CUT_OFF 2
+/* The direction of a difference of coordinates that are not exact is off by this at most, or vague. */
+#define COARSE_SLACK 1024
 
-static inline bool cone_of(const sunder_i_operands *g, int side, uint32_t v, sunder_i_cone *out)
+/* How much the direction of an edge may be off. */
+static inline uint32_t slack_of(const sunder_i_operands *g)
 {
-    const sunder_shape *s = g->shape[side];
-    const double *xy = g->xy[side], *a = xy + 2 * s->prev[v], *b = xy + 2 * v, *d = xy + 2 * s->next[v];
-    const double in_x = b[0] - a[0], in_y = b[1] - a[1], out_x = d[0] - b[0], out_y = d[1] - b[1];
-    const double bound = (fabs(in_x) + fabs(in_y)) * g->error + 8 * g->magnitude * g->coarse;
-    /* A point by itself is its own neighbour: all edges meet it. */
-    if (in_x * out_y - in_y * out_x <= -bound && s->next[v] != v) return false;
-    *out = (sunder_i_cone){b[0], b[1], in_x, in_y, out_x, out_y};
-    return true;
+    return g->coarse == 0 ? CUT_OFF : COARSE_SLACK + CUT_OFF;
 }
 
-bool sunder_i_cone_of(const sunder_i_operands *g, int side, uint32_t vertex, sunder_i_cone *out)
+/* Without branches: which quadrant it is is anyone's guess. The quotient, in [-1, 1], grows with the angle on the right
+ * half of the plane and falls on the left one (as in predicate/turn.h). */
+static inline uint32_t direction_number(double dx, double dy, double size)
 {
-    return cone_of(g, side, vertex, out);
+    const uint32_t t = (uint32_t)(int32_t)(dy / size * 0x1p30), left = -(uint32_t)(dx < 0);
+    return (t ^ left) - left + (left & HALF_TURN);
+}
+
+sunder_i_direction sunder_i_direction_of(const sunder_i_operands *g, double dx, double dy)
+{
+    const double size = fabs(dx) + fabs(dy);
+    /* A point has no direction, and of an edge whose ends may be as far off as it is long none is known. */
+    if (!(size > 0) || (g->coarse > 0 && !(4 * g->coarse * 0x1p30 < COARSE_SLACK * size)))
+        return (sunder_i_direction){0, true};
+    return (sunder_i_direction){direction_number(dx, dy, size), false};
+}
+
+static sunder_i_direction edge_direction(const sunder_i_operands *g, int side, uint32_t v)
+{
+    const double *xy = g->xy[side], *a = xy + 2 * (size_t)v, *b = xy + 2 * (size_t)g->shape[side]->next[v];
+    return sunder_i_direction_of(g, b[0] - a[0], b[1] - a[1]);
+}
+
+/* Between the edges that arrive and leave, neither vague; false if that is more than half a turn for certain. */
+static inline bool cone_between(uint32_t in, uint32_t out, uint32_t slack, sunder_i_cone *cone)
+{
+    const uint32_t turn = out - in + 2 * slack; /* of a straight corner it may come out below nothing */
+    *cone = (sunder_i_cone){in - 2 * slack, turn + 2 * slack};
+    return turn <= HALF_TURN + 4 * slack;
+}
+
+bool sunder_i_cone_of(const sunder_i_operands *g, int side, uint32_t v, sunder_i_cone *out)
+{
+    const sunder_i_direction a = edge_direction(g, side, g->shape[side]->prev[v]), b = edge_direction(g, side, v);
+    if (!a.vague && !b.vague) return cone_between(a.at, b.at, slack_of(g), out);
+    *out = (sunder_i_cone){0, UINT32_MAX};
+    return true;
 }
 
 static bool make_room(sunder_i_operands *g, uint32_t n, sunder_i_cones *c)
 {
-    double *block = sunder_i_arena_alloc(&g->placed.lattice.arena, n, 6 * sizeof *block + sizeof *c->vertex);
+    uint32_t *block = sunder_i_arena_alloc(&g->placed.lattice.arena, n, 4 * sizeof *block);
     if (!block) return false;
-    *c = (sunder_i_cones){.vertex = (uint32_t *)(block + 6 * (size_t)n),
-                          .x = block,
-                          .y = block + n,
-                          .in_x = block + 2 * (size_t)n,
-                          .in_y = block + 3 * (size_t)n,
-                          .out_x = block + 4 * (size_t)n,
-                          .out_y = block + 5 * (size_t)n};
+    *c = (sunder_i_cones){.direction = block, .vertex = block + n, .cone = (sunder_i_cone *)(block + 2 * (size_t)n)};
     return true;
 }
 
 /* ---- Sectors ---- */
 
-/* How uncertain the direction of a difference of two vertices is; a quotient by zero, which is so, too. */
-static double turn_error(const sunder_i_operands *g, double x, double y) { return 4 * g->coarse / (fabs(x) + fabs(y)); }
-
-/* The sectors that cone k belongs to: *n from the one returned on, cyclically; all where its edges do not say. */
-static uint32_t sectors_of(const sunder_i_operands *g, const sunder_i_cones *c, uint32_t k, uint32_t sectors,
-                           uint32_t *n)
+/* The sectors that the cone belongs to: *n from the one returned on, cyclically. */
+static uint32_t sectors_of(sunder_i_cone cone, int shift, uint32_t *n)
 {
-    const double error = turn_error(g, c->in_x[k], c->in_y[k]) + turn_error(g, c->out_x[k], c->out_y[k]);
-    const double slack = 2 * TURN_SLACK + error;
-    const double from = sunder_i_turn(c->in_x[k], c->in_y[k]) - slack;
-    double width = sunder_i_turn(c->out_x[k], c->out_y[k]) + slack - from;
-    if (width < 0) width += 4;
-    *n = sectors;
-    if (!(slack < 0.25) || width >= 4) return 0;
-    const double scale = sectors / 4.0, first = floor(from * scale);
-    *n = (uint32_t)(floor((from + width) * scale) - first) + 1;
-    if (*n > sectors) *n = sectors;
-    return (uint32_t)(int64_t)(first < 0 ? first + sectors : first) % sectors;
+    const uint32_t first = cone.at >> shift, all = (uint32_t)1 << (32 - shift);
+    *n = (uint32_t)(((uint64_t)cone.at + cone.width) >> shift) - first + 1;
+    if (*n > all) *n = all;
+    return first;
 }
 
-/* So many sectors that cones are listed a few times each; 0: not worth it. */
-static uint32_t choose_sectors(const sunder_i_operands *g, const sunder_i_cones *c)
+/* So many sectors, a power of two, that cones are listed a few times each; the shift that tells them, or 0: not worth
+ * it. */
+static int choose_sectors(const sunder_i_cones *c)
 {
     if (c->n < SECTORS_FROM) return 0;
-    uint32_t sectors = SECTORS_MOST;
-    while (sectors > 2 * c->n) sectors /= 2;
-    for (; sectors >= 16; sectors /= 4) {
+    int shift = 16;
+    for (uint32_t sectors = SECTORS_MOST; sectors > 2 * c->n; sectors /= 2) shift++;
+    for (; shift <= 28; shift += 2) {
         uint64_t listed = 0;
         for (uint32_t k = 0, n; k < c->n && listed <= (uint64_t)LISTED_MOST * c->n; k++) {
-            sectors_of(g, c, k, sectors, &n);
+            sectors_of(c->cone[k], shift, &n);
             listed += n;
         }
-        if (listed <= (uint64_t)LISTED_MOST * c->n) return sectors;
+        if (listed <= (uint64_t)LISTED_MOST * c->n) return shift;
         if (!sunder_i_steps(c->n / 16)) return 0;
     }
     return 0;
@@ -88,74 +101,95 @@ static uint32_t choose_sectors(const sunder_i_operands *g, const sunder_i_cones 
 
 static bool list_sectors(sunder_i_operands *g, sunder_i_cones *c)
 {
-    const uint32_t sectors = choose_sectors(g, c);
-    if (!sectors) return !g->placed.lattice.arena.failed;
+    const int shift = choose_sectors(c);
+    if (!shift) return !g->placed.lattice.arena.failed;
+    const uint32_t sectors = (uint32_t)1 << (32 - shift);
     uint32_t *end = sunder_i_arena_alloc(&g->placed.lattice.arena, (size_t)sectors + 1, sizeof *end);
     if (!end) return false;
     memset(end, 0, ((size_t)sectors + 1) * sizeof *end);
     for (uint32_t k = 0; k < c->n; k++) {
-        uint32_t n, at = sectors_of(g, c, k, sectors, &n);
+        uint32_t n, at = sectors_of(c->cone[k], shift, &n);
         for (; n > 0; n--, at = (at + 1) % sectors) end[at + 1]++;
     }
     for (uint32_t i = 0; i < sectors; i++) end[i + 1] += end[i];
     c->sector = sunder_i_arena_alloc(&g->placed.lattice.arena, (size_t)end[sectors] + 1, sizeof *c->sector);
     if (!c->sector) return false;
     for (uint32_t k = 0; k < c->n; k++) {
-        uint32_t n, at = sectors_of(g, c, k, sectors, &n);
+        uint32_t n, at = sectors_of(c->cone[k], shift, &n);
         for (; n > 0; n--, at = (at + 1) % sectors) c->sector[end[at]++] = k;
     }
     c->sector_end = end; /* end[i] has become the end of sector i */
     c->sectors = sectors;
+    c->shift = shift;
+    return true;
+}
+
+/* Of edges of a length that doubles know exactly, as on most lattices. */
+static bool find_exact(sunder_i_operands *g, int side, sunder_i_cones *c)
+{
+    const sunder_shape *s = g->shape[side];
+    const double *xy = g->xy[side];
+    uint32_t *direction = c->direction, n = 0;
+    for (uint32_t v = 0; v < s->vertices; v++) {
+        const double *a = xy + 2 * (size_t)v, *b = xy + 2 * (size_t)s->next[v];
+        const double dx = b[0] - a[0], dy = b[1] - a[1], size = fabs(dx) + fabs(dy);
+        if (size == 0) return false;
+        direction[v] = direction_number(dx, dy, size);
+    }
+    for (uint32_t v = 0; v < s->vertices; v++) { /* what is written stays if the vertex has a cone */
+        c->vertex[n] = v;
+        n += cone_between(direction[s->prev[v]], direction[v], CUT_OFF, &c->cone[n]);
+    }
+    c->n = n;
+    return true;
+}
+
+static bool find_coarse(sunder_i_operands *g, int side, sunder_i_cones *c)
+{
+    const uint32_t vertices = g->shape[side]->vertices;
+    c->vague = sunder_i_arena_alloc(&g->placed.lattice.arena, vertices, sizeof *c->vague);
+    if (!c->vague) return false;
+    c->n = 0;
+    for (uint32_t v = 0; v < vertices; v++) {
+        const sunder_i_direction d = edge_direction(g, side, v);
+        c->direction[v] = d.at;
+        c->vague[v] = d.vague;
+        c->vertex[c->n] = v;
+        c->n += sunder_i_cone_of(g, side, v, &c->cone[c->n]);
+    }
     return true;
 }
 
 bool sunder_i_cones_find(sunder_i_operands *g, int side, sunder_i_cones *c)
 {
-    const sunder_shape *s = g->shape[side];
-    if (!make_room(g, s->vertices, c)) return false;
-    for (uint32_t v = 0; v < s->vertices; v++) {
-        if (!sunder_i_step()) return false;
-        sunder_i_cone at;
-        if (!cone_of(g, side, v, &at)) continue;
-        const uint32_t k = c->n++;
-        c->vertex[k] = v;
-        c->x[k] = at.x;
-        c->y[k] = at.y;
-        c->in_x[k] = at.in_x;
-        c->in_y[k] = at.in_y;
-        c->out_x[k] = at.out_x;
-        c->out_y[k] = at.out_y;
-    }
+    const uint32_t vertices = g->shape[side]->vertices;
+    if (!make_room(g, vertices, c) || !sunder_i_steps(vertices)) return false;
+    if ((g->coarse > 0 || !find_exact(g, side, c)) && !find_coarse(g, side, c)) return false;
     return list_sectors(g, c);
 }
 
 /* ---- Asking ---- */
 
-static inline bool meets(const sunder_i_cones *c, uint32_t k, double dx, double dy, double bound)
+uint32_t sunder_i_cones_met(const sunder_i_cones *c, sunder_i_direction edge, uint32_t *met, uint32_t *looked_at)
 {
-    return (c->in_x[k] * dy - c->in_y[k] * dx >= bound) & (dx * c->out_y[k] - dy * c->out_x[k] >= bound);
-}
-
-uint32_t sunder_i_cones_met(const sunder_i_operands *g, const sunder_i_cones *c, double dx, double dy, uint32_t *met,
-                            uint32_t *looked_at)
-{
-    const double bound = -(fabs(dx) + fabs(dy)) * g->error - 8 * g->magnitude * g->coarse;
+    const sunder_i_cone *cone = c->cone;
     uint32_t n = 0;
     /* Without branches: which corners pass is anyone's guess. */
-    if (c->sectors && turn_error(g, dx, dy) < TURN_SLACK) {
-        const uint32_t at = (uint32_t)(sunder_i_turn(dx, dy) * (c->sectors / 4.0)) % c->sectors;
+    if (c->sectors && !edge.vague) {
+        const uint32_t at = edge.at >> c->shift;
         const uint32_t first = at ? c->sector_end[at - 1] : 0, last = c->sector_end[at];
         for (uint32_t i = first; i < last; i++) {
             met[n] = c->sector[i];
-            n += meets(c, c->sector[i], dx, dy, bound);
+            n += sunder_i_cone_meets(cone[c->sector[i]], edge);
         }
         *looked_at = last - first;
         return n;
     }
-    for (uint32_t k = 0; k < c->n; k++) {
+    const uint32_t all = *looked_at = c->n;
+    for (uint32_t k = 0; k < all; k++) {
         met[n] = k;
-        n += meets(c, k, dx, dy, bound);
+        n += edge.at - cone[k].at <= cone[k].width;
     }
-    *looked_at = c->n;
-    return n;
+    for (uint32_t k = 0; k < all && edge.vague; k++) met[n = k] = k;
+    return edge.vague ? all : n;
 }

@@ -14,11 +14,16 @@
 
 #include <math.h>
 
+/* Room for n more. */
+static bool make_room(sunder_i_operands *g, sunder_i_candidates *h, uint32_t n)
+{
+    return h->n + n <= h->capacity ||
+           sunder_i_arena_reserve(&g->placed.lattice.arena, &h->item, &h->capacity, h->n + n, sizeof *h->item);
+}
+
 bool sunder_i_candidates_push(sunder_i_operands *g, sunder_i_candidates *h, sunder_i_candidate c)
 {
-    if (h->n == h->capacity &&
-        !sunder_i_arena_reserve(&g->placed.lattice.arena, &h->item, &h->capacity, h->n + 1, sizeof c))
-        return false;
+    if (!make_room(g, h, 1)) return false;
     h->item[h->n++] = c;
     return true;
 }
@@ -33,35 +38,38 @@ static bool out_of_reach(const double *a, const double *b, const double box[4], 
     return false;
 }
 
-/* The edges of operand `side` at the corners of the other. The directions are compared in doubles: what is in doubt is
- * let in, since a superset of the boundary serves as well. */
-static bool pair_edges(sunder_i_operands *g, int side, const sunder_i_cones *c, double limit, sunder_i_candidates *h)
+/* The edges of operand `side` at the corners of the other. What is in doubt about their directions is let in, since a
+ * superset of the boundary serves as well. */
+static bool pair_edges(sunder_i_operands *g, int side, const sunder_i_cones *own, const sunder_i_cones *c, double limit,
+                       sunder_i_candidates *h)
 {
     const sunder_shape *s = g->shape[side];
-    const double *xy = g->xy[side], reach = limit + 8 * g->error;
+    const double *xy = g->xy[side], *other = g->xy[!side], reach = limit + 8 * g->error;
     const bool many = c->n > 16; /* else the test costs more than it saves */
     uint32_t *met = sunder_i_arena_alloc(&g->placed.lattice.arena, (size_t)c->n + 1, sizeof *met);
     if (!met) return false;
     uint64_t asked = 0;
     for (uint32_t e = 0; e < s->vertices; e++) {
-        const double *a = xy + 2 * e, *b = xy + 2 * s->next[e];
-        if (!sunder_i_step()) return false;
+        const double *a = xy + 2 * (size_t)e, *b = xy + 2 * (size_t)s->next[e];
         if (s->next[e] == e) continue; /* a point, which has none */
-        if (many && out_of_reach(a, b, g->box[!side], reach)) continue;
-        const double dx = b[0] - a[0], dy = b[1] - a[1];
+        if (many && out_of_reach(a, b, g->box[!side], reach)) {
+            if (!sunder_i_step()) return false;
+            continue;
+        }
         uint32_t looked_at;
-        const uint32_t n = sunder_i_cones_met(g, c, dx, dy, met, &looked_at);
+        const uint32_t n = sunder_i_cones_met(c, sunder_i_cones_edge(own, e), met, &looked_at);
         asked += looked_at;
-        if (!sunder_i_steps(looked_at / 32 + n)) return false;
+        if (!sunder_i_steps(looked_at / 32 + n + 1)) return false;
         if (n == 0) continue;
-        const double inverse = 1 / (dx * dx + dy * dy);
+        if (!make_room(g, h, n)) return false;
+        const double dx = b[0] - a[0], dy = b[1] - a[1], inverse = 1 / (dx * dx + dy * dy);
         for (uint32_t m = 0; m < n; m++) {
-            const uint32_t k = met[m];
-            const double square = sunder_i_segment_square(a[0] + c->x[k], a[1] + c->y[k], dx, dy, inverse);
-            if (square > reach * reach ||
-                (g->board && sunder_i_board_segment(g->board, g->error, a[0] + c->x[k], a[1] + c->y[k], dx, dy)))
+            const uint32_t v = c->vertex[met[m]];
+            const double x = a[0] + other[2 * (size_t)v], y = a[1] + other[2 * (size_t)v + 1];
+            const double square = sunder_i_segment_square(x, y, dx, dy, inverse);
+            if (square > reach * reach || (g->board && sunder_i_board_segment(g->board, g->error, x, y, dx, dy)))
                 continue;
-            if (!sunder_i_candidates_push(g, h, (sunder_i_candidate){square, e, c->vertex[k], side})) return false;
+            h->item[h->n++] = (sunder_i_candidate){square, e, v, side};
         }
     }
     g->placed.lattice.counts.orientation_tests += 2 * asked;
@@ -84,7 +92,7 @@ bool sunder_i_candidates_find(sunder_i_operands *g, double limit, sunder_i_candi
     sunder_i_cones p, q;
     *h = (sunder_i_candidates){NULL, 0, 0};
     if (!sunder_i_cones_find(g, 0, &p) || !sunder_i_cones_find(g, 1, &q)) return false;
-    if (!pair_edges(g, 0, &q, limit, h) || !pair_edges(g, 1, &p, limit, h)) return false;
+    if (!pair_edges(g, 0, &p, &q, limit, h) || !pair_edges(g, 1, &q, &p, limit, h)) return false;
     sunder_i_candidates_order(h);
     return true;
 }

@@ -31,13 +31,13 @@ static bool add_edge(sunder_i_squares *q, const double at[4], double reach, int 
     const sunder_i_operand_piece o = sunder_i_operands_piece(g, !side, j);
     const double *a = g->xy[side] + 2 * (size_t)u, *b = g->xy[side] + 2 * (size_t)s->next[u];
     const double dx = b[0] - a[0], dy = b[1] - a[1], inverse = 1 / (dx * dx + dy * dy);
-    const double bound = -(fabs(dx) + fabs(dy)) * g->error - 8 * g->magnitude * g->coarse;
+    const sunder_i_direction direction = sunder_i_direction_of(g, dx, dy);
     for (uint32_t k = 0; k < o.n; k++) {
         const uint32_t v = o.corner[k];
         const double *c = g->xy[!side] + 2 * (size_t)v;
         if (q->first_piece[!side][v] != j || !comes_near(at, 32 * g->error, a[0] + c[0], a[1] + c[1], dx, dy)) continue;
         const sunder_i_cone *w = corner_of(q, !side, v);
-        if (!w || !(w->in_x * dy - w->in_y * dx >= bound) || !(dx * w->out_y - dy * w->out_x >= bound)) continue;
+        if (!w || !sunder_i_cone_meets(*w, direction)) continue;
         const double norm = sunder_i_segment_square(a[0] + c[0], a[1] + c[1], dx, dy, inverse);
         if (norm > reach * reach) continue;
         if (!sunder_i_candidates_push(g, out, (sunder_i_candidate){norm, u, v, side})) return false;
