@@ -9,7 +9,7 @@
  * repair.c         the even-odd set of a polygon in its place, by the arrangement of arcs.c and even_odd.c
  * pieces.c         holes bridged (bridge.c), ears cut off (ears.c), triangles merged (merge_triangles.c)
  * finish.c         everything into one block of memory
- * small_ring.c     all of that for one small ring that is sound as it is
+ * small_polygon.c  all of that for one small polygon that is sound as it is; its pieces are of small_pieces.c
  * few_corners.c    what is the same for all rings of few corners */
 #ifndef SUNDER_I_BUILD_H
 #define SUNDER_I_BUILD_H

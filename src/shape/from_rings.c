@@ -1,14 +1,14 @@
 /* sunder_shape_from_rings(): raw coordinates -> a shape. Rings are cleaned, turned, and checked exactly, polygon by
  * polygon; then come the convex pieces, and all of it moves into one block of memory.
  *
- * Most input is tiny and there is much of it: a sound ring of few corners has a way of its own (small_ring.c), and else
- * the plain path allocates twice, one arena for the work, one block for the shape. */
+ * Most input is tiny and there is much of it: a sound polygon of few corners has a way of its own (small_polygon.c),
+ * and else the plain path allocates twice, one arena for the work, one block for the shape. */
 #include "shape/from_rings.h"
 
 #include "base/invariant.h"
 #include "shape/rational.h"
 #include "shape/repair.h"
-#include "shape/small_ring.h"
+#include "shape/small_polygon.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -285,7 +285,7 @@ sunder_status sunder_shape_from_rings(const double *xy, const size_t *ring_end, 
     sunder_status status = read_input(&in, err);
     if (status) return status;
     sunder_shape *small;
-    if (polygons == 1 && in.rings == 1 && sunder_i_small_ring(xy, in.vertices, &small)) {
+    if (sunder_i_small_polygon(&in, &small)) {
         if (!small) return sunder_i_no_memory(err);
         SUNDER_I_CHECK(sunder_i_shape_check(small), small->vertices);
         *out = small;

@@ -1,0 +1,176 @@
+/* A small walk cut into ears, as in ears.c, that are merged again, as in merge_triangles.c. The pieces are the same in
+ * the same order, since the same is asked in the same order. */
+#include "shape/small_walk.h"
+
+#define NONE SUNDER_I_SMALL_NONE
+#define BRIDGE SUNDER_I_SMALL_BRIDGE
+
+typedef struct mesh {
+    uint32_t halves;
+    uint8_t origin[SUNDER_I_SMALL_HALVES], twin[SUNDER_I_SMALL_HALVES]; /* as in sunder_i_mesh, but nodes */
+    uint8_t next[SUNDER_I_SMALL_HALVES], prev[SUNDER_I_SMALL_HALVES];
+} mesh;
+
+typedef struct cutter {
+    sunder_i_small_walk *w;
+    mesh *m;
+    uint32_t blunt, stamped; /* sets of nodes: not convex; a neighbour was cut in this round */
+    uint8_t turn[2][2 * SUNDER_I_SMALL_NODES];
+    uint32_t turn_n;
+    uint8_t *now, *later;
+    uint8_t bridge_half[SUNDER_I_SMALL_BRIDGES]; /* the half-edge that met the bridge first, or NONE */
+} cutter;
+
+/* Does no blunt node lie in the open triangle, or inside its side ca? */
+static bool is_ear(const cutter *c, uint32_t b)
+{
+    const sunder_i_small_walk *w = c->w;
+    const uint32_t a = w->prev[b], d = w->next[b];
+    uint32_t left = c->blunt & ~(1u << a | 1u << d);
+    if (!left) return true;
+    const sunder_i_point p = w->at[a], q = w->at[b], r = w->at[d];
+    const sunder_i_point ab = sunder_i_narrow_sub(q, p), bd = sunder_i_narrow_sub(r, q), da = sunder_i_narrow_sub(p, r);
+    for (; left; left &= left - 1) {
+        const sunder_i_point v = w->at[__builtin_ctz(left)];
+        if (sunder_i_small_not_right(w->brief, da, sunder_i_narrow_sub(v, r)) &&
+            sunder_i_small_left(w->brief, ab, sunder_i_narrow_sub(v, p)) &&
+            sunder_i_small_left(w->brief, bd, sunder_i_narrow_sub(v, q)))
+            return false;
+    }
+    return true;
+}
+
+/* Joins side h of a new triangle to what lies beyond the edge that starts at this node. */
+static inline void link_side(cutter *c, uint32_t h, uint32_t node)
+{
+    uint8_t beyond = c->w->beyond[node];
+    if (beyond & BRIDGE && beyond != NONE) {
+        uint8_t *met = &c->bridge_half[beyond & ~BRIDGE];
+        beyond = *met;
+        *met = (uint8_t)h;
+    }
+    c->m->twin[h] = beyond;
+    if (beyond != NONE) c->m->twin[beyond] = (uint8_t)h;
+}
+
+static inline uint32_t add_triangle(cutter *c, uint32_t b)
+{
+    mesh *m = c->m;
+    const uint32_t h = m->halves;
+    const uint8_t a = c->w->prev[b];
+    m->origin[h] = a;
+    m->origin[h + 1] = (uint8_t)b;
+    m->origin[h + 2] = c->w->next[b];
+    m->next[h] = m->prev[h + 2] = (uint8_t)(h + 1);
+    m->next[h + 1] = m->prev[h] = (uint8_t)(h + 2);
+    m->next[h + 2] = m->prev[h + 1] = (uint8_t)h;
+    m->halves += 3;
+    link_side(c, h, a);
+    link_side(c, h + 1, b);
+    return h;
+}
+
+/* A neighbour of a cut corner: it may have become convex, and is left alone for the rest of the round. */
+static inline void refresh(cutter *c, uint32_t node)
+{
+    c->stamped |= 1u << node;
+    if (!(c->blunt >> node & 1) || !sunder_i_small_turns_left(c->w, c->w->prev[node], node, c->w->next[node])) return;
+    c->blunt &= ~(1u << node);
+    c->later[c->turn_n++] = (uint8_t)node;
+}
+
+static void cut(cutter *c, uint32_t b)
+{
+    const uint8_t a = c->w->prev[b], d = c->w->next[b];
+    const uint32_t h = add_triangle(c, b);
+    c->w->beyond[a] = (uint8_t)(h + 2);
+    c->m->twin[h + 2] = NONE;
+    c->w->next[a] = d;
+    c->w->prev[d] = a;
+    refresh(c, a);
+    refresh(c, d);
+}
+
+static void cut_all(cutter *c)
+{
+    uint32_t left = c->w->nodes, last = 0;
+    while (left > 3) {
+        const uint32_t n = c->turn_n;
+        uint8_t *const now = c->later;
+        c->later = c->now;
+        c->now = now;
+        c->turn_n = c->stamped = 0;
+        for (uint32_t i = 0; i < n; i++) {
+            const uint8_t node = now[i];
+            if (left > 3 && !(c->stamped >> node & 1) && is_ear(c, node)) {
+                last = c->w->prev[node];
+                cut(c, node);
+                left--;
+            } else {
+                c->later[c->turn_n++] = node;
+            }
+        }
+    }
+    /* The last triangle has three sides that are all known. */
+    const uint32_t b = c->w->next[last], h = add_triangle(c, b);
+    link_side(c, h + 2, c->w->next[b]);
+}
+
+static void triangulate(sunder_i_small_walk *w, mesh *m)
+{
+    cutter c;
+    c.w = w;
+    c.m = m;
+    c.blunt = (uint32_t)(((uint64_t)1 << w->nodes) - 1) & ~w->convex;
+    c.turn_n = 0;
+    c.now = c.turn[0];
+    c.later = c.turn[1];
+    m->halves = 0;
+    memset(c.bridge_half, NONE, sizeof c.bridge_half);
+    for (uint32_t left = w->convex; left; left &= left - 1) c.later[c.turn_n++] = (uint8_t)__builtin_ctz(left);
+    cut_all(&c);
+}
+
+/* Would the corner at the origin of h be strictly convex without the edge h? g is its twin. */
+static inline bool convex_without(const sunder_i_small_walk *w, const mesh *m, uint32_t h, uint32_t g)
+{
+    return sunder_i_small_turns_left(w, m->origin[m->prev[h]], m->origin[h], m->origin[m->next[m->next[g]]]);
+}
+
+/* Of an edge the half that was made first is asked: of a diagonal that is the third side of a triangle. */
+static void merge(const sunder_i_small_walk *w, mesh *m)
+{
+    const uint32_t first = w->bridges ? 0 : 2, step = w->bridges ? 1 : 3;
+    for (uint32_t h = first; h < m->halves; h += step) {
+        const uint8_t g = m->twin[h];
+        if (g == NONE || g < h || !convex_without(w, m, h, g) || !convex_without(w, m, g, h)) continue;
+        m->next[m->prev[h]] = m->next[g];
+        m->prev[m->next[g]] = m->prev[h];
+        m->next[m->prev[g]] = m->next[h];
+        m->prev[m->next[h]] = m->prev[g];
+        m->origin[h] = m->origin[g] = NONE;
+    }
+}
+
+static void collect(const sunder_i_small_walk *w, mesh *m, sunder_i_pieces *out)
+{
+    uint32_t corners = 0, pieces = 0;
+    for (uint32_t h = 0; h < m->halves; h++) {
+        if (m->origin[h] == NONE) continue;
+        for (uint32_t g = h; m->origin[g] != NONE; g = m->next[g]) {
+            out->piece_vertex[corners++] = w->vertex[m->origin[g]];
+            m->origin[g] = NONE;
+        }
+        out->piece_end[pieces++] = corners;
+    }
+    out->corners = corners;
+    out->pieces = pieces;
+}
+
+void sunder_i_small_pieces(sunder_i_small_walk *w, sunder_i_pieces *out)
+{
+    mesh m;
+    triangulate(w, &m);
+    merge(w, &m);
+    collect(w, &m, out);
+}

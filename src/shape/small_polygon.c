@@ -1,0 +1,389 @@
+/* The usual building: one polygon of few corners that is sound as it was given. What the other files of this folder do
+ * in general is done here on arrays of fixed size: cleaned (clean.c), looked over for crossings (intersections.c),
+ * turned and nested (nesting.c), joined to its holes (bridge.c) and cut into pieces (small_pieces.c). The shape is the
+ * same; only, nothing is repaired or explained here. A polygon in which a corner repeats or is straight, or two edges
+ * meet, or a hole is not where holes may be, or whose coordinates are too long for native integers, goes the general
+ * way.
+ *
+ * A turn that is not zero at every corner tells that nothing is to be cleaned. Of a ring whose edges meet nowhere else
+ * the turn at its lowest corner tells its orientation, and it is convex if all turns are to the left. So rings are read
+ * as that corner says, and whether they were sound is asked afterwards. */
+#include "shape/small_polygon.h"
+
+#include "shape/few_corners.h"
+#include "shape/small_walk.h"
+
+#include <string.h>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
+#define MOST SUNDER_I_SMALL_NODES
+#define MOST_RINGS (SUNDER_I_SMALL_BRIDGES + 1)
+
+typedef struct polygon {
+    const sunder_i_input *in;
+    sunder_i_extent extent; /* of the raw vertices */
+    double scale;           /* the unit is that of the lowest bit */
+    uint32_t rings;
+    uint32_t ring_end[MOST_RINGS];
+    bool turned[MOST_RINGS]; /* run the other way than given */
+    sunder_i_small_walk w;   /* nodes: the corners; then, with holes, the second ends of bridges too */
+} polygon;
+
+/* How many vertices of the raw ring lo .. hi are corners, if all are but one that closes it. */
+static size_t corners_of(const double *xy, size_t lo, size_t hi)
+{
+    const double *first = xy + 2 * lo, *last = xy + 2 * (hi - 1);
+    return hi - lo - (first[0] == last[0] && first[1] == last[1]);
+}
+
+/* ---- Reading ---- */
+
+/* Are there few enough corners, all of them integers below 2^60 in a unit, so that a turn is a matter of native
+ * integers? Each hole takes two nodes more. */
+static bool measure(polygon *p)
+{
+    const sunder_i_input *in = p->in;
+    if (in->polygons != 1 || in->rings < 1 || in->rings > MOST_RINGS || in->vertices > MOST + MOST_RINGS) return false;
+    size_t n = 2 * (in->rings - 1);
+    for (size_t ring = 0, lo = 0; ring < in->rings; lo = in->ring_end[ring++]) {
+        if (in->ring_end[ring] < lo + 3) return false;
+        const size_t corners = corners_of(in->xy, lo, in->ring_end[ring]);
+        if (corners < 3) return false;
+        n += corners;
+    }
+    if (n > MOST) return false;
+    p->extent = (sunder_i_extent){0};
+    sunder_i_extent_add(&p->extent, in->xy, in->vertices);
+    const int bit = p->extent.low_bit;
+    if (bit < -900 || bit > 900) return false;
+    const double *low = p->extent.low, *high = p->extent.high;
+    const double limit = sunder_i_power_of_two(bit + SUNDER_I_NARROW_BITS), apart = sunder_i_power_of_two(bit + 31);
+    p->scale = sunder_i_power_of_two(-bit);
+    p->w.brief = high[0] - low[0] < apart && high[1] - low[1] < apart;
+    return low[0] > -limit && low[1] > -limit && high[0] < limit && high[1] < limit;
+}
+
+static inline sunder_i_point point_at(const polygon *p, size_t raw)
+{
+    const double *xy = p->in->xy + 2 * raw;
+    return (sunder_i_point){(int64_t)(xy[0] * p->scale), (int64_t)(xy[1] * p->scale)};
+}
+
+/* The turns at nodes first .. end of a ring; false if one of them is straight. */
+static bool find_turns(sunder_i_small_walk *w, uint32_t first, uint32_t end)
+{
+    sunder_i_point before = sunder_i_narrow_sub(w->at[first], w->at[end - 1]);
+    uint32_t left = 0, right = 0;
+    for (uint32_t i = first; i < end; i++) {
+        const sunder_i_point after = sunder_i_narrow_sub(w->at[i + 1 < end ? i + 1 : first], w->at[i]);
+        left |= (uint32_t)sunder_i_small_left(w->brief, before, after) << i;
+        right |= (uint32_t)!sunder_i_small_not_right(w->brief, before, after) << i;
+        before = after;
+    }
+    w->convex |= left;
+    return (left | right) == (uint32_t)(((uint64_t)1 << end) - ((uint64_t)1 << first));
+}
+
+/* Of any node those that come after and before it along a ring, but for its ends. */
+static const uint8_t after[MOST] = {1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16,
+                                    17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32};
+static const uint8_t before[MOST] = {0,  0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14,
+                                     15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30};
+static const uint8_t itself[MOST] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15,
+                                     16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31};
+
+/* The ring of n corners from raw vertex lo on into nodes first and so on, the outer one counter-clockwise, holes
+ * clockwise. False if a corner is straight. */
+static bool read_ring(polygon *p, size_t ring, size_t lo, uint32_t first, uint32_t n)
+{
+    sunder_i_small_walk *w = &p->w;
+    sunder_i_point *at = w->at + first;
+    uint32_t lowest = 0;
+    int64_t y = INT64_MAX;
+    for (uint32_t i = 0; i < n; i++) {
+        at[i] = point_at(p, lo + i);
+        lowest = at[i].y < y ? i : lowest; /* of several any: all of these are on the hull */
+        y = at[i].y < y ? at[i].y : y;
+    }
+    const sunder_i_point b = at[lowest], a = at[lowest ? lowest - 1 : n - 1], c = at[lowest + 1 < n ? lowest + 1 : 0];
+    const bool left = sunder_i_small_left(w->brief, sunder_i_narrow_sub(b, a), sunder_i_narrow_sub(c, b));
+    p->turned[ring] = left == (ring > 0);
+    if (p->turned[ring])
+        for (uint32_t i = 0; i < n; i++) at[i] = point_at(p, lo + n - 1 - i);
+    w->next[first + n - 1] = (uint8_t)first;
+    w->prev[first] = (uint8_t)(first + n - 1);
+    return find_turns(w, first, first + n);
+}
+
+static bool read_rings(polygon *p)
+{
+    const sunder_i_input *in = p->in;
+    sunder_i_small_walk *w = &p->w;
+    memcpy(w->next, after, sizeof after);
+    memcpy(w->prev, before, sizeof before);
+    memset(w->beyond, SUNDER_I_SMALL_NONE, sizeof w->beyond);
+    w->vertex = itself;
+    w->nodes = w->bridges = w->convex = 0;
+    p->rings = (uint32_t)in->rings;
+    for (size_t ring = 0, lo = 0; ring < in->rings; lo = in->ring_end[ring++]) {
+        const uint32_t n = (uint32_t)corners_of(in->xy, lo, in->ring_end[ring]);
+        if (!read_ring(p, ring, lo, w->nodes, n)) return false;
+        p->ring_end[ring] = w->nodes += n;
+    }
+    return true;
+}
+
+/* ---- Is it sound? ---- */
+
+/* Are both ends of edge f, u and v from its ends, strictly on one side of edge e? */
+static inline bool on_one_side(bool brief, sunder_i_point e, sunder_i_point u, sunder_i_point v)
+{
+    return sunder_i_small_left(brief, e, u)
+               ? sunder_i_small_left(brief, e, v)
+               : !sunder_i_small_not_right(brief, e, u) && !sunder_i_small_not_right(brief, e, v);
+}
+
+/* Do edges e and f, which do not follow each other, certainly have nothing in common? Edges on one line count as
+ * meeting, too: if they are apart their boxes are, and they are not asked for. */
+static bool apart(const sunder_i_small_walk *w, uint32_t e, uint32_t f)
+{
+    const sunder_i_point a = w->at[e], b = w->at[w->next[e]], g = w->at[f], h = w->at[w->next[f]];
+    const sunder_i_point ab = sunder_i_narrow_sub(b, a), gh = sunder_i_narrow_sub(h, g);
+    const sunder_i_point ag = sunder_i_narrow_sub(g, a), ah = sunder_i_narrow_sub(h, a);
+    const sunder_i_point ga = sunder_i_narrow_sub(a, g), gb = sunder_i_narrow_sub(b, g);
+    return on_one_side(w->brief, ab, ag, ah) || on_one_side(w->brief, gh, ga, gb);
+}
+
+/* Four numbers at a time, whatever the machine makes of it. */
+#define LANES 4
+typedef int32_t lanes __attribute__((vector_size(4 * LANES)));
+
+/* Boxes of edges, in 31 bits from the lowest corner on: numbers that are longer are cut off, which keeps their order
+ * but may make them equal. Past the last edge stand some that meet none. */
+typedef struct boxes {
+    int32_t low_x[MOST + LANES], low_y[MOST + LANES], high_x[MOST + LANES], high_y[MOST + LANES];
+} boxes;
+
+static inline void add_box(boxes *b, uint32_t e, int32_t x, int32_t y, int32_t u, int32_t v)
+{
+    b->low_x[e] = x < u ? x : u;
+    b->high_x[e] = x < u ? u : x;
+    b->low_y[e] = y < v ? y : v;
+    b->high_y[e] = y < v ? v : y;
+}
+
+static void find_boxes(const polygon *p, boxes *b)
+{
+    const sunder_i_small_walk *w = &p->w;
+    const double *low = p->extent.low, *high = p->extent.high;
+    const int64_t x0 = (int64_t)(low[0] * p->scale), y0 = (int64_t)(low[1] * p->scale);
+    int cut = 0;
+    if (!w->brief) {
+        const uint64_t wide = (uint64_t)((int64_t)(high[0] * p->scale) - x0),
+                       tall = (uint64_t)((int64_t)(high[1] * p->scale) - y0);
+        while ((wide | tall) >> cut > INT32_MAX) cut++;
+    }
+    for (uint32_t ring = 0, e = 0; ring < p->rings; ring++) {
+        const uint32_t last = p->ring_end[ring] - 1;
+        int32_t x = (int32_t)((w->at[last].x - x0) >> cut), y = (int32_t)((w->at[last].y - y0) >> cut);
+        add_box(b, last, x, y, (int32_t)((w->at[e].x - x0) >> cut), (int32_t)((w->at[e].y - y0) >> cut));
+        x = (int32_t)((w->at[e].x - x0) >> cut), y = (int32_t)((w->at[e].y - y0) >> cut);
+        for (; e < last; e++) {
+            const int32_t u = (int32_t)((w->at[e + 1].x - x0) >> cut), v = (int32_t)((w->at[e + 1].y - y0) >> cut);
+            add_box(b, e, x, y, u, v);
+            x = u, y = v;
+        }
+        e++;
+    }
+    for (uint32_t e = w->nodes; e < w->nodes + LANES; e++) {
+        b->low_x[e] = b->low_y[e] = INT32_MAX;
+        b->high_x[e] = b->high_y[e] = INT32_MIN;
+    }
+}
+
+static inline lanes lanes_at(const int32_t *v)
+{
+    lanes l;
+    memcpy(&l, v, sizeof l);
+    return l;
+}
+
+/* The set of those that are -1, and not 0. */
+static inline uint32_t set_of(lanes l)
+{
+#ifdef __SSE__
+    return (uint32_t)_mm_movemask_ps((__m128)l);
+#else
+    return (uint32_t)((l[0] & 1) | (l[1] & 2) | (l[2] & 4) | (l[3] & 8));
+#endif
+}
+
+/* The set of edges after e, of n, whose boxes meet that of e. */
+static inline uint32_t near_edges(const boxes *b, uint32_t e, uint32_t n)
+{
+    const int32_t x0 = b->low_x[e], y0 = b->low_y[e], x1 = b->high_x[e], y1 = b->high_y[e];
+    uint32_t near = 0;
+    for (uint32_t f = e + 1; f < n; f += LANES) {
+        const lanes meet = (lanes_at(b->low_x + f) <= x1) & (lanes_at(b->high_x + f) >= x0) &
+                           (lanes_at(b->low_y + f) <= y1) & (lanes_at(b->high_y + f) >= y0);
+        near |= set_of(meet) << f;
+    }
+    return near;
+}
+
+static bool is_simple(const polygon *p)
+{
+    const sunder_i_small_walk *w = &p->w;
+    boxes b;
+    find_boxes(p, &b);
+    for (uint32_t e = 0; e + 1 < w->nodes; e++) {
+        uint32_t near = near_edges(&b, e, w->nodes) & ~(1u << w->next[e] | 1u << w->prev[e]);
+        for (; near; near &= near - 1)
+            if (!apart(w, e, (uint32_t)__builtin_ctz(near))) return false;
+    }
+    return true;
+}
+
+/* Is the node, which is on no edge of the ring lo .. hi, inside it? A ray to the right, in a height just above. */
+static bool is_inside(const sunder_i_small_walk *w, uint32_t lo, uint32_t hi, uint32_t node)
+{
+    const int64_t y = w->at[node].y;
+    bool inside = false;
+    for (uint32_t e = lo; e < hi; e++) {
+        const uint32_t f = w->next[e];
+        const bool below = w->at[e].y <= y;
+        if (below == (w->at[f].y <= y)) continue;
+        inside ^= sunder_i_small_turns_left(w, e, f, node) ? below : !below;
+    }
+    return inside;
+}
+
+/* Are the holes in the outer ring, and not in each other? No edges meet, so one corner tells it of all. */
+static bool is_nested(const polygon *p)
+{
+    for (uint32_t hole = 1; hole < p->rings; hole++)
+        for (uint32_t ring = 0; ring < p->rings; ring++) {
+            const uint32_t lo = ring ? p->ring_end[ring - 1] : 0;
+            if (ring != hole && is_inside(&p->w, lo, p->ring_end[ring], p->ring_end[hole - 1]) != (ring == 0))
+                return false;
+        }
+    return true;
+}
+
+/* ---- Pieces ---- */
+
+/* What others ask of rings (build.h), for those who need it: with holes, or too many corners to share their numbers. */
+typedef struct made_rings {
+    sunder_i_rings r;
+    sunder_i_lattice lattice;
+    sunder_i_point at[MOST];
+    double xy[2 * MOST];
+    uint32_t next[MOST], prev[MOST], poly_end[1];
+    uint8_t vertex[MOST]; /* of the nodes, with holes */
+} made_rings;
+
+static void make_rings(polygon *p, made_rings *m)
+{
+    const sunder_i_small_walk *w = &p->w;
+    memset(&m->lattice, 0, sizeof m->lattice);
+    m->lattice.narrow = m->lattice.small = true;
+    m->poly_end[0] = p->rings;
+    m->r = (sunder_i_rings){.lattice = &m->lattice,
+                            .vertices = p->ring_end[p->rings - 1],
+                            .rings = p->rings,
+                            .polygons = 1,
+                            .at = m->at,
+                            .xy = m->xy,
+                            .ring_end = p->ring_end,
+                            .poly_end = m->poly_end,
+                            .next = m->next,
+                            .prev = m->prev};
+    for (uint32_t ring = 0, v = 0; ring < p->rings; ring++) {
+        const size_t lo = ring ? p->in->ring_end[ring - 1] : 0;
+        const uint32_t first = v, end = p->ring_end[ring];
+        for (; v < end; v++) {
+            const size_t raw = lo + (p->turned[ring] ? end - 1 - v : v - first);
+            m->at[v] = w->at[v];
+            memcpy(m->xy + 2 * v, p->in->xy + 2 * raw, 2 * sizeof *m->xy);
+            m->next[v] = w->next[v];
+            m->prev[v] = w->prev[v];
+        }
+    }
+}
+
+/* Joins the holes to the outer ring; false if that failed, which it does not on sound rings. */
+static bool bridge(polygon *p, made_rings *m)
+{
+    sunder_i_small_walk *w = &p->w;
+    uint32_t vertex[MOST], next[MOST], prev[MOST], beyond[MOST];
+    sunder_i_walk walk = {w->nodes, vertex, next, prev, beyond};
+    sunder_i_arena none = {NULL, false}; /* so few corners need no memory */
+    for (uint32_t i = 0; i < w->nodes; i++) {
+        vertex[i] = i;
+        next[i] = w->next[i];
+        prev[i] = w->prev[i];
+        beyond[i] = SUNDER_I_NONE;
+    }
+    sunder_i_bridge_holes(&m->r, 0, p->rings, &walk, &none);
+    if (none.failed) return false;
+    w->nodes = walk.nodes;
+    w->bridges = p->rings - 1;
+    w->vertex = m->vertex;
+    w->convex = 0;
+    for (uint32_t i = 0; i < w->nodes; i++) {
+        m->vertex[i] = (uint8_t)vertex[i];
+        w->at[i] = w->at[vertex[i]];
+        w->next[i] = (uint8_t)next[i];
+        w->prev[i] = (uint8_t)prev[i];
+        w->beyond[i] = beyond[i] == SUNDER_I_NONE ? SUNDER_I_SMALL_NONE
+                                                  : (uint8_t)(SUNDER_I_SMALL_BRIDGE | (beyond[i] & ~SUNDER_I_BRIDGE));
+    }
+    for (uint32_t i = 0; i < w->nodes; i++)
+        w->convex |= (uint32_t)sunder_i_small_turns_left(w, w->prev[i], i, w->next[i]) << i;
+    return true;
+}
+
+static void find_pieces(sunder_i_small_walk *w, sunder_i_pieces *out)
+{
+    if (w->convex != (uint32_t)(((uint64_t)1 << w->nodes) - 1)) {
+        sunder_i_small_pieces(w, out);
+        return;
+    }
+    for (uint32_t i = 0; i < w->nodes; i++) out->piece_vertex[i] = i;
+    out->corners = out->piece_end[0] = w->nodes;
+    out->pieces = 1;
+}
+
+/* ---- All of it ---- */
+
+static sunder_shape *assemble(polygon *p, made_rings *m)
+{
+    uint32_t piece_end[MOST - 2], piece_vertex[SUNDER_I_SMALL_HALVES];
+    sunder_i_pieces pieces = {.piece_end = piece_end, .piece_vertex = piece_vertex};
+    find_pieces(&p->w, &pieces);
+    const sunder_i_input *in = p->in;
+    sunder_shape *s = m ? sunder_i_shape_assemble(in->xy, in->ring_end, in->poly_end, 1, &m->r, &pieces)
+                        : sunder_i_shape_assemble_small(in->xy, in->vertices, p->ring_end[0], p->turned[0], &pieces);
+    if (!s) return NULL;
+    sunder_i_shape_measure(s, &p->extent);
+    if (m) sunder_i_shape_mark_none_shared(s);
+    return s;
+}
+
+bool sunder_i_small_polygon(const sunder_i_input *in, sunder_shape **out)
+{
+    polygon p;
+    p.in = in;
+    if (!measure(&p) || !read_rings(&p) || !is_simple(&p)) return false;
+    if (p.rings == 1 && p.w.nodes <= SUNDER_I_FEW_CORNERS) {
+        *out = assemble(&p, NULL);
+        return true;
+    }
+    made_rings m;
+    make_rings(&p, &m);
+    if (p.rings > 1 && (!is_nested(&p) || !bridge(&p, &m))) return false;
+    *out = assemble(&p, &m);
+    return true;
+}
