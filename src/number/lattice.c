@@ -239,9 +239,3 @@ sunder_i_big sunder_i_lattice_get(sunder_i_lattice *lattice, int64_t n)
 {
     return sunder_i_lattice_read(&lattice->arena, lattice, n).num;
 }
-
-double sunder_i_approx(const sunder_i_lattice *lattice, int64_t n)
-{
-    if (!sunder_i_is_plain(n)) return lattice->pool[n - INT64_MIN].value;
-    return lattice->approx_shift ? ldexp((double)n, -lattice->approx_shift) : (double)n;
-}

@@ -107,7 +107,11 @@ sunder_i_ratio sunder_i_lattice_read(sunder_i_arena *arena, const sunder_i_latti
 /* A number that is an integer, on the lattice's arena. */
 sunder_i_big sunder_i_lattice_get(sunder_i_lattice *lattice, int64_t n);
 /* Close to n / 2^approx_shift: error at most half an ulp of the largest magnitude on the lattice. Always finite. */
-double sunder_i_approx(const sunder_i_lattice *lattice, int64_t n);
+static inline double sunder_i_approx(const sunder_i_lattice *lattice, int64_t n)
+{
+    if (!sunder_i_is_plain(n)) return lattice->pool[n - INT64_MIN].value;
+    return lattice->approx_shift ? ldexp((double)n, -lattice->approx_shift) : (double)n;
+}
 /* What the cross product of two differences in those units may be off by where they underflow, besides what is relative
  * to them: each is off by half of 2^-1074 then, times another below 2^502, and a sum has a few such terms. */
 #define SUNDER_I_APPROX_UNDERFLOW 0x1p-560

@@ -16,6 +16,10 @@ static inline sunder_i_det sunder_i_narrow_dot(sunder_i_point u, sunder_i_point 
     return (sunder_i_det)u.x * (sunder_i_det)v.x + (sunder_i_det)u.y * (sunder_i_det)v.y;
 }
 
+/* The same of *brief* vectors, below 2^30: in 64 bits, below 2^61. */
+static inline int64_t sunder_i_brief_cross(sunder_i_point u, sunder_i_point v) { return u.x * v.y - u.y * v.x; }
+static inline int64_t sunder_i_brief_dot(sunder_i_point u, sunder_i_point v) { return u.x * v.x + u.y * v.y; }
+
 static inline sunder_i_point sunder_i_narrow_sub(sunder_i_point a, sunder_i_point b)
 {
     return (sunder_i_point){a.x - b.x, a.y - b.y};

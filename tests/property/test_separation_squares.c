@@ -39,7 +39,8 @@ static result look(sunder_i_operands *g, bool squares)
     if (r.done && !r.nearest.origin) {
         assert_true(r.nearest.found);
         assert_true(sunder_i_free_point_verify(g, &r.nearest));
-        r.contact = sunder_i_free_point_contact(g, &r.nearest);
+        sunder_i_near_subsums near;
+        r.contact = sunder_i_free_point_contact(g, &r.nearest, &near);
     }
     return r;
 }

@@ -24,6 +24,11 @@ static inline sunder_i_fraction narrow_fraction(sunder_i_i128 num, sunder_i_i128
     return (sunder_i_fraction){num, den, fast_double(num) / fast_double(den)};
 }
 
+static inline sunder_i_fraction brief_fraction(int64_t num, int64_t den)
+{
+    return (sunder_i_fraction){num, den, (double)num / (double)den};
+}
+
 sunder_i_carrier sunder_i_carrier_make(sunder_i_operands *g, sunder_i_point a, sunder_i_point d)
 {
     const sunder_i_lattice *l = &g->placed.lattice;
@@ -40,6 +45,12 @@ sunder_i_carrier sunder_i_carrier_make(sunder_i_operands *g, sunder_i_point a, s
 sunder_i_fraction sunder_i_carrier_foot(sunder_i_operands *g, const sunder_i_carrier *line)
 {
     sunder_i_lattice *l = &g->placed.lattice;
+    if (g->brief) {
+        const int64_t num = -sunder_i_brief_dot(line->a, line->d), den = sunder_i_brief_dot(line->d, line->d);
+        if (num <= 0) return (sunder_i_fraction){0, 1, 0};
+        if (num >= den) return (sunder_i_fraction){1, 1, 1};
+        return brief_fraction(num, den);
+    }
     if (line->plain) {
         const sunder_i_i128 num = -sunder_i_narrow_dot(line->a, line->d), den = sunder_i_narrow_dot(line->d, line->d);
         if (num <= 0) return (sunder_i_fraction){0, 1, 0};
@@ -62,6 +73,9 @@ int sunder_i_carrier_cmp(sunder_i_operands *g, const sunder_i_fraction *s, const
     if (d > bound) return 1;
     if (d < -bound) return -1;
     l->counts.exact_fallbacks++;
+    if (g->brief) /* below 2^62 all of them */
+        return sunder_i_i128_sign((sunder_i_i128)(int64_t)s->num * (int64_t)t->den -
+                                  (sunder_i_i128)(int64_t)t->num * (int64_t)s->den);
     return sunder_i_cmp_products(s->num, t->den, t->num, s->den);
 }
 
@@ -79,6 +93,11 @@ int sunder_i_carrier_side(sunder_i_operands *g, const sunder_i_carrier *line, co
     sunder_i_lattice *l = &g->placed.lattice;
     l->counts.orientation_tests++;
     l->counts.exact_fallbacks++;
+    if (g->brief) {
+        const int64_t a = sunder_i_brief_cross(s->side[k], sunder_i_narrow_sub(line->a, s->corner[k]));
+        const int64_t b = sunder_i_brief_cross(s->side[k], line->d);
+        return sunder_i_i128_sign((sunder_i_i128)a * (int64_t)t->den + (sunder_i_i128)b * (int64_t)t->num);
+    }
     if (line->plain && s->plain && t->den != 0) {
         sunder_i_i128 a, b;
         narrow_linear(line, s, k, &a, &b);
@@ -116,6 +135,14 @@ static sunder_i_fan_answer inside_fan(const sunder_i_subsum *s, double x, double
     return sunder_i_fan_says(&fan, (double[3]){-side_says(s, low, x, y), -left, -right}, 0, 0);
 }
 
+static bool inside_exactly(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t,
+                           const sunder_i_subsum *s)
+{
+    for (uint32_t k = 0; k < s->sides; k++)
+        if (sunder_i_carrier_side(g, line, t, s, k) <= 0) return false;
+    return true;
+}
+
 /* Is the point in the interior of the subsum? Doubles where they suffice. */
 static inline bool inside(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
                           double y, const sunder_i_subsum *s)
@@ -124,18 +151,18 @@ static inline bool inside(sunder_i_operands *g, const sunder_i_carrier *line, co
         const sunder_i_fan_answer where = inside_fan(s, x, y, g->error);
         if (where != SUNDER_I_FAN_DOUBT) return where == SUNDER_I_FAN_INSIDE;
     }
+    /* Sides that doubles leave in doubt are asked after all others have spoken. */
     g->placed.lattice.counts.orientation_tests += s->sides;
-    bool certain = true;
+    uint32_t doubt[SUNDER_I_SIDES_MANY], n = 0;
     for (uint32_t k = 0; k < s->sides; k++) {
         const double v = s->sx[k] * (y - s->cy[k]) - s->sy[k] * (x - s->cx[k]);
+        if (v > s->bound[k]) continue;
         if (v < -s->bound[k]) return false;
-        certain &= v > s->bound[k];
+        if (n == SUNDER_I_SIDES_MANY) return inside_exactly(g, line, t, s);
+        doubt[n++] = k;
     }
-    if (certain) return true;
-    for (uint32_t k = 0; k < s->sides; k++) {
-        const double v = s->sx[k] * (y - s->cy[k]) - s->sy[k] * (x - s->cx[k]);
-        if (v <= s->bound[k] && sunder_i_carrier_side(g, line, t, s, k) <= 0) return false;
-    }
+    for (uint32_t i = 0; i < n; i++)
+        if (sunder_i_carrier_side(g, line, t, s, doubt[i]) <= 0) return false;
     return true;
 }
 
@@ -283,6 +310,25 @@ static sunder_i_fraction narrow_exit(const sunder_i_carrier *line, const sunder_
     return b < 0 ? narrow_fraction(a, -b) : narrow_fraction(-a, b);
 }
 
+/* The same of brief numbers. */
+static sunder_i_fraction brief_exit(const sunder_i_carrier *line, const sunder_i_subsum *s, stretch near, bool forwards)
+{
+    const sunder_i_point d = forwards ? line->d : (sunder_i_point){-line->d.x, -line->d.y};
+    uint32_t k = near.first, last = k;
+    bool before = false;
+    for (uint32_t i = 0; i <= near.n; i++) {
+        const int64_t height = sunder_i_brief_cross(d, sunder_i_narrow_sub(s->corner[k], line->a));
+        if (before && height >= 0) break;
+        before = height < 0;
+        last = k;
+        k = k + 1 < s->sides ? k + 1 : 0;
+    }
+    const int64_t a = sunder_i_brief_cross(s->side[last], sunder_i_narrow_sub(line->a, s->corner[last]));
+    const int64_t b = sunder_i_brief_cross(s->side[last], line->d);
+    SUNDER_I_ASSERT(forwards ? b < 0 : b > 0);
+    return b < 0 ? brief_fraction(a, -b) : brief_fraction(-a, b);
+}
+
 sunder_i_fraction sunder_i_carrier_exit(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_subsum *s,
                                         bool forwards)
 {
@@ -291,6 +337,7 @@ sunder_i_fraction sunder_i_carrier_exit(sunder_i_operands *g, const sunder_i_car
     bool any = false;
     const stretch near = leaving(g, line, s, forwards);
     l->counts.segment_intersections++;
+    if (g->brief) return brief_exit(line, s, near, forwards);
     if (line->plain && s->plain) return narrow_exit(line, s, near, forwards);
     for (uint32_t i = 0; i < near.n; i++) {
         const uint32_t k = (near.first + i) % s->sides;

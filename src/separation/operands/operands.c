@@ -234,6 +234,7 @@ sunder_status sunder_i_operands_init(sunder_i_operands *g, const sunder_shape *p
     sunder_i_lattice *l = &g->placed.lattice;
     sunder_i_operands_fill_boxes(g, 0);
     sunder_i_operands_fill_boxes(g, 1);
+    g->brief = l->narrow && g->magnitude < 0x1p28;
     sunder_i_operands_admit(g, 0);
     /* Doubles of differences are the nearest ones, but for what a scaled lattice loses below all doubles. */
     g->rough = l->approx_shift == 0 ? 0 : 0x1p-1000;

@@ -42,6 +42,7 @@ typedef struct sunder_i_operands {
     double *piece_box[2];        /* [4 * pieces] x0 y0 x1 y1 */
     double box[2][4];
     double magnitude; /* no coordinate is larger */
+    bool brief;       /* all coordinates are integers below 2^28: what is made of sums fits 64 bits (narrow.h) */
     double error;     /* of a coordinate of a sum, or of a point on a line through sums, evaluated in doubles */
     double rough;     /* absolute error of a difference vector as doubles, besides its relative one; mostly 0 */
     double coarse;    /* the same for the difference of two coordinates in doubles; 0 if they are exact */
@@ -152,6 +153,10 @@ static inline sunder_i_point sunder_i_operands_add(sunder_i_operands *g, sunder_
 
 static inline int sunder_i_operands_cross(sunder_i_operands *g, sunder_i_point u, sunder_i_point v)
 {
+    if (g->brief) {
+        const int64_t cross = sunder_i_brief_cross(u, v);
+        return (cross > 0) - (cross < 0);
+    }
     return g->placed.lattice.narrow ? sunder_i_i128_sign(sunder_i_narrow_cross(u, v))
                                     : sunder_i_cross_sign(&g->placed.lattice, u, v);
 }

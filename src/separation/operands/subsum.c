@@ -83,21 +83,21 @@ bool sunder_i_operands_reach(sunder_i_operands *g, double radius)
 
 /* ---- Pieces turned so that they start at their lowest corner (of those the leftmost) ---- */
 
-static uint32_t lowest(sunder_i_operands *g, int side, uint32_t first, uint32_t n)
+static uint32_t lowest(sunder_i_operands *g, const sunder_i_point *at, const uint32_t *c, uint32_t n)
 {
-    const uint32_t *c = g->shape[side]->piece_vertex + first;
     sunder_i_lattice *l = &g->placed.lattice;
     uint32_t best = 0;
+    sunder_i_point b = at[c[0]];
     for (uint32_t k = 1; k < n; k++) {
-        const sunder_i_point a = g->at[side][c[k]], b = g->at[side][c[best]];
-        int d;
+        const sunder_i_point a = at[c[k]];
+        bool lower;
         if (l->narrow)
-            d = a.y != b.y ? (a.y < b.y ? -1 : 1) : (a.x < b.x ? -1 : 1);
+            lower = (a.y < b.y) | ((a.y == b.y) & (a.x < b.x));
         else {
-            d = sunder_i_int_cmp(l, a.y, b.y);
-            if (d == 0) d = sunder_i_int_cmp(l, a.x, b.x);
+            const int d = sunder_i_int_cmp(l, a.y, b.y);
+            lower = d < 0 || (d == 0 && sunder_i_int_cmp(l, a.x, b.x) < 0);
         }
-        if (d < 0) best = k;
+        if (lower) best = k, b = a;
     }
     return best;
 }
@@ -109,18 +109,20 @@ static const sunder_i_turned_piece *turn_piece(sunder_i_operands *g, int side, u
     if (r->n) return r;
     const sunder_shape *s = g->shape[side];
     const uint32_t first = piece ? s->piece_end[piece - 1] : 0, n = s->piece_end[piece] - first;
+    const uint32_t *c = s->piece_vertex + first;
+    const sunder_i_point *at = g->at[side];
     sunder_i_point *block = sunder_i_arena_alloc(&g->placed.lattice.arena, 2 * (size_t)n + 1, sizeof *block);
     if (!block) return NULL;
-    uint32_t k = lowest(g, side, first, n);
+    uint32_t k = lowest(g, at, c, n);
     r->corner = block;
     r->side = block + n + 1;
-    for (uint32_t i = 0; i <= n; i++) {
-        block[i] = g->at[side][s->piece_vertex[first + k]];
+    block[0] = at[c[k]];
+    for (uint32_t i = 1; i <= n; i++) {
         if (++k == n) k = 0;
+        block[i] = at[c[k]];
+        r->side[i - 1] = sunder_i_operands_diff(g, block[i], block[i - 1]);
     }
-    if (n < 2) return r; /* as if it were not made yet: that is no work */
-    for (uint32_t i = 0; i < n; i++) r->side[i] = sunder_i_operands_diff(g, block[i + 1], block[i]);
-    r->n = n;
+    if (n >= 2) r->n = n; /* else as if it were not made yet: that is no work */
     return r;
 }
 
@@ -133,6 +135,18 @@ bool sunder_i_operands_turn(sunder_i_operands *g)
 }
 
 /* ---- The merge ---- */
+
+/* As SUNDER_I_MERGE_NEXT() asks. */
+static inline int narrow_order(sunder_i_point u, sunder_i_point v)
+{
+    return -sunder_i_i128_sign(sunder_i_narrow_cross(u, v));
+}
+
+static inline int brief_order(sunder_i_point u, sunder_i_point v)
+{
+    const int64_t cross = sunder_i_brief_cross(u, v);
+    return (cross < 0) - (cross > 0);
+}
 
 /* Both start at their lowest corners, so that their sides are sorted by angle in [0, 2 pi), and the two sides at hand
  * are never pi or more apart: the side before the further one came before the other, and turns by less than pi. */
@@ -150,23 +164,27 @@ static uint32_t merge(sunder_i_operands *g, const sunder_i_turned_piece *a, cons
 }
 
 /* The same on a narrow lattice, with the doubles. */
-static uint32_t narrow_merge(const sunder_i_turned_piece *a, const sunder_i_turned_piece *b, double per_length,
-                             double fixed, sunder_i_subsum *s)
+static inline __attribute__((always_inline)) uint32_t narrow_merge(const sunder_i_turned_piece *a,
+                                                                   const sunder_i_turned_piece *b, bool brief,
+                                                                   double per_length, double fixed, sunder_i_subsum *s)
 {
     uint32_t n = 0;
     sunder_i_merge m = sunder_i_merge_of(a->n, b->n);
-    while (SUNDER_I_MERGE_NEXT(&m, -sunder_i_i128_sign(sunder_i_narrow_cross(a->side[m.next_a], b->side[m.next_b])))) {
-        const sunder_i_point p = a->corner[m.a], q = b->corner[m.b], c = {p.x + q.x, p.y + q.y};
-        sunder_i_point d = {0, 0};
-        if (m.of_a) d = a->side[m.a];
-        if (m.of_b) d = (sunder_i_point){d.x + b->side[m.b].x, d.y + b->side[m.b].y};
+    sunder_i_point c = {a->corner[0].x + b->corner[0].x, a->corner[0].y + b->corner[0].y};
+    while (SUNDER_I_MERGE_NEXT(&m, brief ? brief_order(a->side[m.next_a], b->side[m.next_b])
+                                         : narrow_order(a->side[m.next_a], b->side[m.next_b]))) {
+        sunder_i_point d = m.of_a ? a->side[m.a] : b->side[m.b];
+        if (m.of_a && m.of_b) d = (sunder_i_point){d.x + b->side[m.b].x, d.y + b->side[m.b].y};
+        const double x = (double)d.x, y = (double)d.y;
         s->corner[n] = c;
         s->side[n] = d;
         s->cx[n] = (double)c.x;
         s->cy[n] = (double)c.y;
-        s->sx[n] = (double)d.x;
-        s->sy[n] = (double)d.y;
-        s->bound[n] = (fabs(s->sx[n]) + fabs(s->sy[n])) * per_length + fixed;
+        s->sx[n] = x;
+        s->sy[n] = y;
+        s->bound[n] = (fabs(x) + fabs(y)) * per_length + fixed;
+        c.x += d.x;
+        c.y += d.y;
         n++;
     }
     return n;
@@ -204,7 +222,9 @@ bool sunder_i_subsum_make(sunder_i_operands *g, sunder_i_subsum *s)
     s->sy = s->sx + most;
     s->bound = s->sy + most;
     const double per_length = 2 * g->error, fixed = 16 * g->magnitude * g->rough;
-    const uint32_t n = l->narrow ? narrow_merge(a, b, per_length, fixed, s) : merge(g, a, b, s->corner, s->side);
+    const uint32_t n = g->brief    ? narrow_merge(a, b, true, per_length, fixed, s)
+                       : l->narrow ? narrow_merge(a, b, false, per_length, fixed, s)
+                                   : merge(g, a, b, s->corner, s->side);
     s->plain = true;
     for (uint32_t k = 0; k < n && !l->narrow; k++) {
         const sunder_i_point c = s->corner[k], d = s->side[k];

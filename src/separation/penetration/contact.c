@@ -25,27 +25,30 @@ static sunder_i_point negative(sunder_i_operands *g, sunder_i_point u)
     return g->placed.lattice.narrow ? (sunder_i_point){-u.x, -u.y} : sunder_i_point_neg(&g->placed.lattice, u);
 }
 
-/* The cone of one subsum at the point; false if the point is not on its boundary. */
-static bool cone_of(sunder_i_operands *g, const sunder_i_free_point *f, sunder_i_subsum *s, cone *out)
+typedef enum where { OFF, BESIDE, ON } where; /* OFF: by more than what doubles get wrong twice */
+
+/* Where the point is to a subsum; the cone of that at the point if it is on its boundary. */
+static where cone_of(sunder_i_operands *g, const sunder_i_free_point *f, sunder_i_subsum *s, cone *out)
 {
-    if (!sunder_i_box_near_point(s->box, f->x, f->y, g->error)) return false;
-    if (!s->sides && !sunder_i_subsum_make(g, s)) return false;
+    if (!sunder_i_box_near_point(s->box, f->x, f->y, 4 * g->error)) return OFF;
+    if (!s->sides && !sunder_i_subsum_make(g, s)) return OFF;
     uint32_t on[2], n = 0;
+    bool beside = false;
     for (uint32_t k = 0; k < s->sides; k++) {
         const double v = s->sx[k] * (f->y - s->cy[k]) - s->sy[k] * (f->x - s->cx[k]);
-        if (v < -s->bound[k]) return false;
         if (v > s->bound[k]) continue;
-        const int side = sunder_i_carrier_side(g, &f->line, &f->t, s, k);
-        if (side < 0) return false;
+        if (v < -2 * s->bound[k]) return OFF;
+        const int side = beside ? -1 : sunder_i_carrier_side(g, &f->line, &f->t, s, k);
+        beside |= side < 0;
         if (side == 0 && n < 2) on[n++] = k;
     }
-    if (n == 0) return false;
+    if (beside || n == 0) return BESIDE;
     /* Two sides meet in the corner between them: `last` arrives and `first` leaves. */
     const uint32_t first = n == 2 ? (on[0] + 1 == on[1] ? on[1] : on[0]) : on[0];
     const uint32_t last = n == 2 ? (first == on[1] ? on[0] : on[1]) : on[0];
     out->from = s->side[first];
     out->to = negative(g, s->side[last]);
-    return true;
+    return ON;
 }
 
 static sunder_i_point *sorted_rays(sunder_i_operands *g, const cone *cones, size_t n, size_t *rays)
@@ -115,14 +118,21 @@ static sunder_contact classify(sunder_i_operands *g, const cone *cones, size_t n
     return SUNDER_CONTACT_VERTEX;
 }
 
-sunder_contact sunder_i_free_point_contact(sunder_i_operands *g, const sunder_i_free_point *f)
+sunder_contact sunder_i_free_point_contact(sunder_i_operands *g, const sunder_i_free_point *f,
+                                           sunder_i_near_subsums *near)
 {
     size_t n = 0;
-    cone *cones = sunder_i_arena_alloc(&g->placed.lattice.arena, g->subsums + 1, sizeof *cones);
+    sunder_i_arena *arena = &g->placed.lattice.arena;
+    cone *cones = sunder_i_arena_alloc(arena, g->subsums + 1, sizeof *cones + sizeof *near->subsum);
+    *near = (sunder_i_near_subsums){.n = 0};
     if (!cones) return SUNDER_CONTACT_VERTEX;
+    near->subsum = (uint32_t *)(cones + g->subsums + 1);
     bool flat = true;
     for (size_t k = 0; k < g->subsums; k++) {
-        if (!cone_of(g, f, g->subsum + k, cones + n)) continue;
+        const where at = cone_of(g, f, g->subsum + k, cones + n);
+        if (at == OFF) continue;
+        near->subsum[near->n++] = (uint32_t)k;
+        if (at == BESIDE) continue;
         flat = flat && opposite_or_same(g, cones[n].from, cones[n].to) < 0 &&
                opposite_or_same(g, cones[0].from, cones[n].from) > 0;
         n++;

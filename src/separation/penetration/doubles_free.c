@@ -82,20 +82,32 @@ static int dyadic_side(sunder_i_operands *g, const dyadic *d, const sunder_i_sub
     return sign;
 }
 
-bool sunder_i_doubles_free(sunder_i_operands *g, double dx, double dy)
+static bool is_inside(sunder_i_operands *g, const dyadic *d, const sunder_i_subsum *s)
+{
+    for (uint32_t k = 0; k < s->sides; k++) {
+        const double v = s->sx[k] * (d->ay - s->cy[k]) - s->sy[k] * (d->ax - s->cx[k]);
+        if (!(v > s->bound[k] || (v >= -s->bound[k] && dyadic_side(g, d, s, k) > 0))) return false;
+    }
+    return true;
+}
+
+bool sunder_i_doubles_free(sunder_i_operands *g, const sunder_i_free_point *f, const sunder_i_near_subsums *near,
+                           double dx, double dy)
 {
     if (!isfinite(dx) || !isfinite(dy)) return false;
     const dyadic d = dyadic_of(g, dx, dy);
+    /* As near to the point as the point is known, which doubles that are not at the end of their range are, and so off
+     * all that the point is off. */
+    if (fabs(d.ax - f->x) <= g->error / 2 && fabs(d.ay - f->y) <= g->error / 2) {
+        for (size_t n = 0; n < near->n; n++)
+            if (is_inside(g, &d, g->subsum + near->subsum[n])) return false;
+        return true;
+    }
     for (size_t n = 0; n < g->subsums; n++) {
         sunder_i_subsum *s = g->subsum + n;
         if (!sunder_i_box_near_point(s->box, d.ax, d.ay, g->error)) continue;
         if (!s->sides && !sunder_i_subsum_make(g, s)) return false;
-        bool inside = true;
-        for (uint32_t k = 0; k < s->sides && inside; k++) {
-            const double v = s->sx[k] * (d.ay - s->cy[k]) - s->sy[k] * (d.ax - s->cx[k]);
-            inside = v > s->bound[k] || (v >= -s->bound[k] && dyadic_side(g, &d, s, k) > 0);
-        }
-        if (inside) return false;
+        if (is_inside(g, &d, s)) return false;
     }
     return true;
 }

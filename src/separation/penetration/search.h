@@ -23,11 +23,21 @@ sunder_status sunder_i_nearest_free_point(sunder_i_operands *operands, double li
 sunder_status sunder_i_nearest_by_squares(sunder_i_operands *operands, double limit, bool *done,
                                           sunder_i_free_point *out, sunder_error *err);
 
-/* How the placement touches: for a point that the search found. */
-sunder_contact sunder_i_free_point_contact(sunder_i_operands *operands, const sunder_i_free_point *nearest);
+/* The numbers of listed subsums, made, that a point may be in, on or very near to: of all others it is off by more than
+ * what doubles get wrong of it twice. */
+typedef struct sunder_i_near_subsums {
+    uint32_t *subsum;
+    size_t n;
+} sunder_i_near_subsums;
 
-/* Is the translation by the doubles (dx, dy) covered by no listed subsum? Exact. The listed ones reach that far. */
-bool sunder_i_doubles_free(sunder_i_operands *operands, double dx, double dy);
+/* How the placement touches, for a point that the search found; and what is near it. Memory: the lattice's arena. */
+sunder_contact sunder_i_free_point_contact(sunder_i_operands *operands, const sunder_i_free_point *nearest,
+                                           sunder_i_near_subsums *near);
+
+/* Is the translation by the doubles (dx, dy), nearest to that point, covered by no listed subsum? Exact. The listed ones
+ * reach that far. */
+bool sunder_i_doubles_free(sunder_i_operands *operands, const sunder_i_free_point *nearest,
+                           const sunder_i_near_subsums *near, double dx, double dy);
 
 /* The pieces of P and of Q + x, x the point found, have disjoint interiors: asked again of every pair of pieces by
  * separating sides, without the subsums. Exact. */
