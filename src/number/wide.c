@@ -131,10 +131,10 @@ sunder_i_u128 sunder_i_u128_odd_gcd(sunder_i_u128 a, sunder_i_u128 b)
         }
     }
     if (a == b) return a;
-    /* One is short: of the other only the rest matters. */
-    const uint64_t c = (uint64_t)(a >> 64 ? b : a);
-    const sunder_i_u128 other = a >> 64 ? a : b;
-    const uint64_t rest = (uint64_t)(other >> 64 ? other % c : other);
+    /* One is short: of the other, if that is the greater, only the rest matters. */
+    const uint64_t c = (uint64_t)(a < b ? a : b);
+    const sunder_i_u128 other = a < b ? b : a;
+    const uint64_t rest = other >> 64 ? (uint64_t)(other % c) : (uint64_t)other % c;
     return rest ? odd_gcd_64(c, rest >> __builtin_ctzll(rest)) : c;
 }
 

@@ -12,11 +12,9 @@
 
 #include "shape/few_corners.h"
 #include "shape/small_walk.h"
+#include "spatial/lanes.h"
 
 #include <string.h>
-#ifdef __SSE__
-#include <xmmintrin.h>
-#endif
 
 #define MOST SUNDER_I_SMALL_NODES
 #define MOST_RINGS (SUNDER_I_SMALL_BRIDGES + 1)
@@ -156,14 +154,11 @@ static bool apart(const sunder_i_small_walk *w, uint32_t e, uint32_t f)
     return on_one_side(w->brief, ab, ag, ah) || on_one_side(w->brief, gh, ga, gb);
 }
 
-/* Four numbers at a time, whatever the machine makes of it. */
-#define LANES 4
-typedef int32_t lanes __attribute__((vector_size(4 * LANES)));
-
 /* Boxes of edges, in 31 bits from the lowest corner on: numbers that are longer are cut off, which keeps their order
  * but may make them equal. Past the last edge stand some that meet none. */
 typedef struct boxes {
-    int32_t low_x[MOST + LANES], low_y[MOST + LANES], high_x[MOST + LANES], high_y[MOST + LANES];
+    int32_t low_x[MOST + SUNDER_I_LANES], low_y[MOST + SUNDER_I_LANES], high_x[MOST + SUNDER_I_LANES],
+        high_y[MOST + SUNDER_I_LANES];
 } boxes;
 
 static inline void add_box(boxes *b, uint32_t e, int32_t x, int32_t y, int32_t u, int32_t v)
@@ -197,27 +192,10 @@ static void find_boxes(const polygon *p, boxes *b)
         }
         e++;
     }
-    for (uint32_t e = w->nodes; e < w->nodes + LANES; e++) {
+    for (uint32_t e = w->nodes; e < w->nodes + SUNDER_I_LANES; e++) {
         b->low_x[e] = b->low_y[e] = INT32_MAX;
         b->high_x[e] = b->high_y[e] = INT32_MIN;
     }
-}
-
-static inline lanes lanes_at(const int32_t *v)
-{
-    lanes l;
-    memcpy(&l, v, sizeof l);
-    return l;
-}
-
-/* The set of those that are -1, and not 0. */
-static inline uint32_t set_of(lanes l)
-{
-#ifdef __SSE__
-    return (uint32_t)_mm_movemask_ps((__m128)l);
-#else
-    return (uint32_t)((l[0] & 1) | (l[1] & 2) | (l[2] & 4) | (l[3] & 8));
-#endif
 }
 
 /* The set of edges after e, of n, whose boxes meet that of e. */
@@ -225,10 +203,11 @@ static inline uint32_t near_edges(const boxes *b, uint32_t e, uint32_t n)
 {
     const int32_t x0 = b->low_x[e], y0 = b->low_y[e], x1 = b->high_x[e], y1 = b->high_y[e];
     uint32_t near = 0;
-    for (uint32_t f = e + 1; f < n; f += LANES) {
-        const lanes meet = (lanes_at(b->low_x + f) <= x1) & (lanes_at(b->high_x + f) >= x0) &
-                           (lanes_at(b->low_y + f) <= y1) & (lanes_at(b->high_y + f) >= y0);
-        near |= set_of(meet) << f;
+    for (uint32_t f = e + 1; f < n; f += SUNDER_I_LANES) {
+        const sunder_i_signed_lanes meet =
+            (sunder_i_signed_lanes_at(b->low_x + f) <= x1) & (sunder_i_signed_lanes_at(b->high_x + f) >= x0) &
+            (sunder_i_signed_lanes_at(b->low_y + f) <= y1) & (sunder_i_signed_lanes_at(b->high_y + f) >= y0);
+        near |= sunder_i_lanes_set(meet) << f;
     }
     return near;
 }

@@ -164,9 +164,7 @@ bool sunder_i_answer_exact(sunder_i_operands *g, const sunder_i_exact_translatio
 void sunder_separation_clear(sunder_separation *separation)
 {
     if (!separation) return;
-    sunder_i_free(separation->dx_text);
-    sunder_i_free(separation->dy_text);
-    sunder_i_free(separation->distance_squared_text);
+    sunder_i_free(separation->dx_text); /* the others stand behind it */
     separation->dx_text = separation->dy_text = separation->distance_squared_text = NULL;
 }
 
@@ -175,15 +173,12 @@ sunder_status sunder_i_stay(bool texts, sunder_separation *out, sunder_error *er
     out->attained = out->rounded_is_free = true;
     out->contact = SUNDER_CONTACT_NONE;
     if (!texts) return SUNDER_OK;
-    char **text[3] = {&out->dx_text, &out->dy_text, &out->distance_squared_text};
-    for (int i = 0; i < 3; i++) {
-        *text[i] = sunder_i_alloc(2, 1);
-        if (!*text[i]) {
-            sunder_separation_clear(out);
-            return sunder_i_no_memory(err);
-        }
-        memcpy(*text[i], "0", 2);
-    }
+    char *block = sunder_i_alloc(6, 1);
+    if (!block) return sunder_i_no_memory(err);
+    memcpy(block, "0\0000\0000", 6);
+    out->dx_text = block;
+    out->dy_text = block + 2;
+    out->distance_squared_text = block + 4;
     return SUNDER_OK;
 }
 

@@ -1,112 +1,158 @@
 /* Exact vectors as texts: fractions in lowest terms, in the caller's units. Numbers of up to 127 bits are reduced and
- * written in machine arithmetic, others by sunder_i_big_ratio_text(). */
+ * written in machine arithmetic, others by sunder_i_big_ratio_text(). All three texts stand in one block, which begins
+ * with that of dx (sunder_separation_clear()). */
 #include "separation/answer/answer.h"
 
 #include <string.h>
 
+#define LONGEST (2 * 39 + 3) /* a sign, two numbers below 2^127, a stroke, the end */
+
+/* ---- Short fractions, written from their ends backwards ---- */
+
 /* Decimal digits of v, below 10^19, before `end`, and no fewer than so many; returns the first. */
 static char *put_low_digits(char *end, uint64_t v, int least)
 {
+    static const char two[] = "0001020304050607080910111213141516171819202122232425262728293031323334353637383940414243"
+                              "4445464748495051525354555657585960616263646566676869707172737475767778798081828384858687"
+                              "888990919293949596979899";
     char *at = end;
-    while (v >= 100) {
-        const unsigned two = (unsigned)(v % 100);
-        v /= 100;
-        *--at = (char)('0' + two % 10);
-        *--at = (char)('0' + two / 10);
-    }
-    if (v >= 10) {
-        *--at = (char)('0' + v % 10);
-        v /= 10;
-    }
-    *--at = (char)('0' + v);
+    for (; v >= 100; v /= 100) memcpy(at -= 2, two + 2 * (v % 100), 2);
+    if (v >= 10)
+        memcpy(at -= 2, two + 2 * v, 2);
+    else
+        *--at = (char)('0' + v);
     while (end - at < least) *--at = '0';
     return at;
 }
 
-/* Decimal digits of v at `at`; returns past the last one. */
-static char *put_digits(char *at, sunder_i_u128 v)
+static char *put_digits(char *end, sunder_i_u128 v)
 {
-    char buffer[3 * 19], *const end = buffer + sizeof buffer, *first = end;
     const uint64_t chunk = 10000000000000000000u;
-    for (; v >= chunk; v /= chunk) first = put_low_digits(first, (uint64_t)(v % chunk), 19);
-    first = put_low_digits(first, (uint64_t)v, 1);
-    memcpy(at, first, (size_t)(end - first));
-    return at + (end - first);
+    for (; v >= chunk; v /= chunk) end = put_low_digits(end, (uint64_t)(v % chunk), 19);
+    return put_low_digits(end, (uint64_t)v, 1);
 }
 
-/* The text of num / den * 2^exponent; NULL if the fraction does not fit (then *fits is false) or memory is out. */
-static char *quick_text(bool negative, sunder_i_u128 num, sunder_i_u128 den, long exponent, bool *fit)
+/* num / den * 2^exponent, both odd and without a common divisor (num may be 0), before `end`; NULL if that is not short.
+ */
+static char *put_fraction(char *end, bool negative, sunder_i_u128 num, sunder_i_u128 den, long exponent)
 {
-    *fit = true;
-    char text[2 * 40 + 2], *end = text;
     if (num == 0) {
-        *end++ = '0';
-    } else {
-        const unsigned a = sunder_i_u128_twos(num), b = sunder_i_u128_twos(den);
-        exponent += (long)a - (long)b;
-        num >>= a;
-        den >>= b;
-        if (den != 1) {
-            const sunder_i_u128 common = sunder_i_u128_odd_gcd(num, den);
-            if (common != 1) {
-                num /= common;
-                den /= common;
-            }
-        }
-        sunder_i_u128 *grows = exponent > 0 ? &num : &den;
-        const long shift = exponent > 0 ? exponent : -exponent;
-        if (shift >= 127 || *grows >> (127 - shift)) {
-            *fit = false;
-            return NULL;
-        }
-        *grows <<= shift;
-        if (negative) *end++ = '-';
-        end = put_digits(end, num);
-        if (den != 1) {
-            *end++ = '/';
-            end = put_digits(end, den);
-        }
+        den = 1;
+        exponent = 0;
     }
-    *end++ = 0;
-    char *copy = sunder_i_alloc((size_t)(end - text), 1);
-    if (copy) memcpy(copy, text, (size_t)(end - text));
-    return copy;
+    sunder_i_u128 *grows = exponent > 0 ? &num : &den;
+    const long shift = exponent > 0 ? exponent : -exponent;
+    if (shift >= 127 || *grows >> (127 - shift)) return NULL;
+    *grows <<= shift;
+    *--end = 0;
+    if (den != 1) {
+        end = put_digits(end, den);
+        *--end = '/';
+    }
+    end = put_digits(end, num);
+    if (negative) *--end = '-';
+    return end;
 }
 
-static char *coordinate_text(sunder_i_operands *g, const sunder_i_exact_translation *v, int k)
+/* Takes the factors of two out of v, not 0; how many. */
+static long take_twos(sunder_i_u128 *v)
 {
-    sunder_i_lattice *l = &g->placed.lattice;
-    if (v->small) {
-        const sunder_i_i128 c = k ? v->y : v->x;
-        bool fit;
-        char *text = quick_text(c < 0, sunder_i_i128_abs(c), (sunder_i_u128)v->w, l->exponent, &fit);
-        if (fit) return text;
-    }
-    const sunder_i_rational_point big = sunder_i_exact_translation_point(g, v);
-    return sunder_i_big_ratio_text(&l->arena, sunder_i_rational_axis(&big, k), big.w, l->exponent);
+    const unsigned twos = sunder_i_u128_twos(*v);
+    *v >>= twos;
+    return (long)twos;
 }
 
-static char *norm_text(sunder_i_operands *g, const sunder_i_exact_translation *v)
+/* Divides both, which are odd, by what they have in common. */
+static void reduce(sunder_i_u128 *num, sunder_i_u128 *den)
+{
+    if (*den == 1) return;
+    const sunder_i_u128 common = sunder_i_u128_odd_gcd(*num, *den);
+    if (common == 1) return;
+    *num /= common;
+    *den /= common;
+}
+
+static char *put_coordinate(char *end, sunder_i_i128 c, sunder_i_i128 w, long exponent)
+{
+    sunder_i_u128 num = sunder_i_i128_abs(c), den = (sunder_i_u128)w;
+    if (num == 0) return put_fraction(end, false, 0, 1, 0);
+    exponent += take_twos(&num) - take_twos(&den);
+    reduce(&num, &den);
+    return put_fraction(end, c < 0, num, den, exponent);
+}
+
+/* (x^2 + y^2) / w^2. What the numerator has in common with w is taken out twice, which leaves nothing: of a prime that
+ * divides it a times and w b times, min(a, b) and then min(a - min(a, b), b) are min(a, 2 b). */
+static char *put_norm(char *end, sunder_i_i128 x, sunder_i_i128 y, sunder_i_i128 w, long exponent)
+{
+    sunder_i_u128 num = (sunder_i_u128)(x * x) + (sunder_i_u128)(y * y), den[2] = {(sunder_i_u128)w, (sunder_i_u128)w};
+    if (num == 0) return put_fraction(end, false, 0, 1, 0);
+    exponent = 2 * exponent + take_twos(&num) - 2 * take_twos(&den[0]);
+    den[1] = den[0];
+    reduce(&num, &den[0]);
+    reduce(&num, &den[1]);
+    return put_fraction(end, false, num, den[0] * den[1], exponent);
+}
+
+/* ---- All three ---- */
+
+/* The texts, the first two of known length, from a block that holds them one after the other. */
+static void point_into(char *block, size_t dx, size_t dy, sunder_separation *out)
+{
+    out->dx_text = block;
+    out->dy_text = block + dx;
+    out->distance_squared_text = block + dx + dy;
+}
+
+/* False if one of them is not short. What cannot be had for want of memory is NULL. */
+static bool short_texts(sunder_i_operands *g, const sunder_i_exact_translation *v, sunder_separation *out)
+{
+    if (!v->small) return false;
+    const long e = g->placed.lattice.exponent;
+    char buffer[3 * LONGEST], *const end = buffer + sizeof buffer;
+    char *const norm = put_norm(end, v->x, v->y, v->w, e),
+                *const dy = norm ? put_coordinate(norm, v->y, v->w, e) : NULL,
+                *const dx = dy ? put_coordinate(dy, v->x, v->w, e) : NULL;
+    if (!dx) return false;
+    const size_t bytes = (size_t)(end - dx);
+    char *block = sunder_i_alloc(bytes, 1);
+    if (!block) return true;
+    memcpy(block, dx, bytes);
+    point_into(block, (size_t)(dy - dx), (size_t)(norm - dy), out);
+    return true;
+}
+
+/* Of texts that are each a block of its own; they are freed. */
+static void join(char *text[3], sunder_separation *out)
+{
+    size_t bytes[3];
+    for (int k = 0; k < 3; k++) bytes[k] = strlen(text[k]) + 1;
+    char *block = sunder_i_alloc(bytes[0] + bytes[1] + bytes[2], 1);
+    if (!block) return;
+    memcpy(block, text[0], bytes[0]);
+    memcpy(block + bytes[0], text[1], bytes[1]);
+    memcpy(block + bytes[0] + bytes[1], text[2], bytes[2]);
+    point_into(block, bytes[0], bytes[1], out);
+}
+
+static void long_texts(sunder_i_operands *g, const sunder_i_exact_translation *v, sunder_separation *out)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    if (v->small) {
-        const sunder_i_u128 n = (sunder_i_u128)(v->x * v->x) + (sunder_i_u128)(v->y * v->y);
-        bool fit;
-        char *text = quick_text(false, n, (sunder_i_u128)(v->w * v->w), 2 * l->exponent, &fit);
-        if (fit) return text;
-    }
-    const sunder_i_rational_point big = sunder_i_exact_translation_point(g, v);
-    return sunder_i_big_ratio_text(&l->arena, sunder_i_rational_dot(&l->arena, big, big),
-                                   sunder_i_big_mul(&l->arena, big.w, big.w), 2 * l->exponent);
+    sunder_i_arena *a = &l->arena;
+    const sunder_i_rational_point p = sunder_i_exact_translation_point(g, v);
+    char *text[3];
+    for (int k = 0; k < 2; k++) text[k] = sunder_i_big_ratio_text(a, sunder_i_rational_axis(&p, k), p.w, l->exponent);
+    text[2] =
+        sunder_i_big_ratio_text(a, sunder_i_rational_dot(a, p, p), sunder_i_big_mul(a, p.w, p.w), 2 * l->exponent);
+    if (text[0] && text[1] && text[2]) join(text, out);
+    for (int k = 0; k < 3; k++) sunder_i_free(text[k]);
 }
 
 sunder_status sunder_i_answer_texts(sunder_i_operands *g, const sunder_i_exact_translation *v, sunder_separation *out,
                                     sunder_error *err)
 {
-    out->dx_text = coordinate_text(g, v, 0);
-    out->dy_text = coordinate_text(g, v, 1);
-    out->distance_squared_text = norm_text(g, v);
-    if (out->dx_text && out->dy_text && out->distance_squared_text && !g->placed.lattice.arena.failed) return SUNDER_OK;
+    if (!short_texts(g, v, out)) long_texts(g, v, out);
+    if (out->dx_text && !g->placed.lattice.arena.failed) return SUNDER_OK;
     sunder_separation_clear(out);
     return sunder_i_no_memory(err);
 }

@@ -63,10 +63,27 @@ bool sunder_i_cone_of(const sunder_i_operands *g, int side, uint32_t v, sunder_i
 
 static bool make_room(sunder_i_operands *g, uint32_t n, sunder_i_cones *c)
 {
-    uint32_t *block = sunder_i_arena_alloc(&g->placed.lattice.arena, n, 4 * sizeof *block);
+    const size_t room = (size_t)n + SUNDER_I_LANES - 1;
+    uint32_t *block = sunder_i_arena_alloc(&g->placed.lattice.arena, room, 4 * sizeof *block);
     if (!block) return false;
-    *c = (sunder_i_cones){.direction = block, .vertex = block + n, .cone = (sunder_i_cone *)(block + 2 * (size_t)n)};
+    *c =
+        (sunder_i_cones){.direction = block, .vertex = block + room, .at = block + 2 * room, .width = block + 3 * room};
+    for (uint32_t k = n; k < room; k++) c->at[k] = c->width[k] = 0;
     return true;
+}
+
+static inline sunder_i_cone cone_at(const sunder_i_cones *c, uint32_t k)
+{
+    return (sunder_i_cone){c->at[k], c->width[k]};
+}
+
+/* Cone number c->n, which stays if `has`, and else is written over by the next. */
+static inline void put_cone(sunder_i_cones *c, uint32_t v, sunder_i_cone cone, bool has)
+{
+    c->vertex[c->n] = v;
+    c->at[c->n] = cone.at;
+    c->width[c->n] = cone.width;
+    c->n += has;
 }
 
 /* ---- Sectors ---- */
@@ -90,7 +107,7 @@ static int choose_sectors(const sunder_i_cones *c)
     for (; shift <= 28; shift += 2) {
         uint64_t listed = 0;
         for (uint32_t k = 0, n; k < c->n && listed <= (uint64_t)LISTED_MOST * c->n; k++) {
-            sectors_of(c->cone[k], shift, &n);
+            sectors_of(cone_at(c, k), shift, &n);
             listed += n;
         }
         if (listed <= (uint64_t)LISTED_MOST * c->n) return shift;
@@ -108,14 +125,14 @@ static bool list_sectors(sunder_i_operands *g, sunder_i_cones *c)
     if (!end) return false;
     memset(end, 0, ((size_t)sectors + 1) * sizeof *end);
     for (uint32_t k = 0; k < c->n; k++) {
-        uint32_t n, at = sectors_of(c->cone[k], shift, &n);
+        uint32_t n, at = sectors_of(cone_at(c, k), shift, &n);
         for (; n > 0; n--, at = (at + 1) % sectors) end[at + 1]++;
     }
     for (uint32_t i = 0; i < sectors; i++) end[i + 1] += end[i];
     c->sector = sunder_i_arena_alloc(&g->placed.lattice.arena, (size_t)end[sectors] + 1, sizeof *c->sector);
     if (!c->sector) return false;
     for (uint32_t k = 0; k < c->n; k++) {
-        uint32_t n, at = sectors_of(c->cone[k], shift, &n);
+        uint32_t n, at = sectors_of(cone_at(c, k), shift, &n);
         for (; n > 0; n--, at = (at + 1) % sectors) c->sector[end[at]++] = k;
     }
     c->sector_end = end; /* end[i] has become the end of sector i */
@@ -129,18 +146,18 @@ static bool find_exact(sunder_i_operands *g, int side, sunder_i_cones *c)
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side];
-    uint32_t *direction = c->direction, n = 0;
+    uint32_t *direction = c->direction;
     for (uint32_t v = 0; v < s->vertices; v++) {
         const double *a = xy + 2 * (size_t)v, *b = xy + 2 * (size_t)s->next[v];
         const double dx = b[0] - a[0], dy = b[1] - a[1], size = fabs(dx) + fabs(dy);
         if (size == 0) return false;
         direction[v] = direction_number(dx, dy, size);
     }
-    for (uint32_t v = 0; v < s->vertices; v++) { /* what is written stays if the vertex has a cone */
-        c->vertex[n] = v;
-        n += cone_between(direction[s->prev[v]], direction[v], CUT_OFF, &c->cone[n]);
+    for (uint32_t v = 0; v < s->vertices; v++) {
+        sunder_i_cone cone;
+        const bool has = cone_between(direction[s->prev[v]], direction[v], CUT_OFF, &cone);
+        put_cone(c, v, cone, has);
     }
-    c->n = n;
     return true;
 }
 
@@ -154,8 +171,9 @@ static bool find_coarse(sunder_i_operands *g, int side, sunder_i_cones *c)
         const sunder_i_direction d = edge_direction(g, side, v);
         c->direction[v] = d.at;
         c->vague[v] = d.vague;
-        c->vertex[c->n] = v;
-        c->n += sunder_i_cone_of(g, side, v, &c->cone[c->n]);
+        sunder_i_cone cone;
+        const bool has = sunder_i_cone_of(g, side, v, &cone);
+        put_cone(c, v, cone, has);
     }
     return true;
 }
@@ -172,7 +190,6 @@ bool sunder_i_cones_find(sunder_i_operands *g, int side, sunder_i_cones *c)
 
 uint32_t sunder_i_cones_met(const sunder_i_cones *c, sunder_i_direction edge, uint32_t *met, uint32_t *looked_at)
 {
-    const sunder_i_cone *cone = c->cone;
     uint32_t n = 0;
     /* Without branches: which corners pass is anyone's guess. */
     if (c->sectors && !edge.vague) {
@@ -180,7 +197,7 @@ uint32_t sunder_i_cones_met(const sunder_i_cones *c, sunder_i_direction edge, ui
         const uint32_t first = at ? c->sector_end[at - 1] : 0, last = c->sector_end[at];
         for (uint32_t i = first; i < last; i++) {
             met[n] = c->sector[i];
-            n += sunder_i_cone_meets(cone[c->sector[i]], edge);
+            n += sunder_i_cone_meets(cone_at(c, c->sector[i]), edge);
         }
         *looked_at = last - first;
         return n;
@@ -188,8 +205,7 @@ uint32_t sunder_i_cones_met(const sunder_i_cones *c, sunder_i_direction edge, ui
     const uint32_t all = *looked_at = c->n;
     for (uint32_t k = 0; k < all; k++) {
         met[n] = k;
-        n += edge.at - cone[k].at <= cone[k].width;
+        n += sunder_i_cone_meets(cone_at(c, k), edge);
     }
-    for (uint32_t k = 0; k < all && edge.vague; k++) met[n = k] = k;
-    return edge.vague ? all : n;
+    return n;
 }

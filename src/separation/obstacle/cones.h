@@ -4,6 +4,7 @@
 #define SUNDER_I_CONES_H
 
 #include "separation/operands/operands.h"
+#include "spatial/lanes.h"
 
 /* The direction of an edge: a number that grows with the angle, a whole turn being 2^32, so that differences come round
  * by themselves. vague: the ends are so near to each other, for what is known of them, that it may be any. */
@@ -34,7 +35,7 @@ typedef struct sunder_i_cones {
     uint32_t *direction; /* of the edge that leaves each vertex, also those that have no cone */
     bool *vague;         /* NULL: none of them is */
     uint32_t n, *vertex;
-    sunder_i_cone *cone;
+    uint32_t *at, *width; /* of each cone; past the last stand SUNDER_I_LANES - 1 more that may be read */
     /* All directions in equal sectors, a power of two: `sector` lists cones that an edge in that sector may meet,
      * ascending. Not made where it saves nothing (sectors == 0). */
     uint32_t sectors, *sector_end, *sector;
@@ -48,6 +49,20 @@ static inline sunder_i_direction sunder_i_cones_edge(const sunder_i_cones *cones
 
 /* Memory: the lattice's arena; false if it is out. */
 bool sunder_i_cones_find(sunder_i_operands *operands, int side, sunder_i_cones *cones);
+
+/* Of so few cones those that an edge meets, and perhaps more, are the bits of a word. */
+#define SUNDER_I_CONES_FEW 32
+
+static inline uint32_t sunder_i_cones_met_few(const sunder_i_cones *c, sunder_i_direction edge)
+{
+    uint32_t met = 0;
+    for (uint32_t k = 0; k < c->n; k += SUNDER_I_LANES) {
+        const sunder_i_lanes from = sunder_i_lanes_at(c->at + k), width = sunder_i_lanes_at(c->width + k);
+        met |= sunder_i_lanes_set(sunder_i_lanes_up_to(edge.at - from, width)) << k;
+    }
+    const uint32_t all = (uint32_t)(((uint64_t)1 << c->n) - 1);
+    return edge.vague ? all : met & all;
+}
 
 /* The cones that an edge meets, ascending, and perhaps more. met: room for cones->n + 1. Returns how many; *looked_at:
  * of how many it was asked. */

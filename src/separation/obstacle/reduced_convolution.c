@@ -38,42 +38,87 @@ static bool out_of_reach(const double *a, const double *b, const double box[4], 
     return false;
 }
 
-/* The edges of operand `side` at the corners of the other. What is in doubt about their directions is let in, since a
- * superset of the boundary serves as well. */
-static bool pair_edges(sunder_i_operands *g, int side, const sunder_i_cones *own, const sunder_i_cones *c, double limit,
-                       sunder_i_candidates *h)
+/* An edge of operand `side`, at the corners of the other; no segment is to be farther off than `reach`. */
+typedef struct edge {
+    int side;
+    uint32_t tail;
+    double x, y, dx, dy, inverse, reach;
+    const double *other; /* coordinates of the other operand */
+} edge;
+
+/* That from p to q. */
+static inline void take_edge(edge *e, uint32_t tail, const double *p, const double *q)
+{
+    e->tail = tail;
+    e->x = p[0];
+    e->y = p[1];
+    e->dx = q[0] - p[0];
+    e->dy = q[1] - p[1];
+    e->inverse = 1 / (e->dx * e->dx + e->dy * e->dy);
+}
+
+/* The edge at vertex v, if it comes near enough. There is room for it. */
+static inline void add(const sunder_i_operands *g, const edge *e, uint32_t v, sunder_i_candidates *h)
+{
+    const double x = e->x + e->other[2 * (size_t)v], y = e->y + e->other[2 * (size_t)v + 1];
+    const double square = sunder_i_segment_square(x, y, e->dx, e->dy, e->inverse);
+    if (square > e->reach * e->reach) return;
+    if (g->board && sunder_i_board_segment(g->board, g->error, x, y, e->dx, e->dy)) return;
+    h->item[h->n++] = (sunder_i_candidate){square, e->tail, v, e->side};
+}
+
+/* The edges of operand `side` at the corners of the other, which has few. What is in doubt about their directions is let
+ * in, since a superset of the boundary serves as well. */
+static bool pair_edges_with_few(sunder_i_operands *g, int side, const sunder_i_cones *own, const sunder_i_cones *c,
+                                double limit, sunder_i_candidates *h)
 {
     const sunder_shape *s = g->shape[side];
-    const double *xy = g->xy[side], *other = g->xy[!side], reach = limit + 8 * g->error;
-    const bool many = c->n > 16; /* else the test costs more than it saves */
+    const double *xy = g->xy[side];
+    edge e = {.side = side, .reach = limit + 8 * g->error, .other = g->xy[!side]};
+    for (uint32_t v = 0; v < s->vertices; v++) {
+        if (s->next[v] == v) continue; /* a point, which has none */
+        uint32_t met = sunder_i_cones_met_few(c, sunder_i_cones_edge(own, v));
+        if (!sunder_i_steps(4)) return false;
+        if (met == 0) continue;
+        if (!make_room(g, h, c->n)) return false;
+        take_edge(&e, v, xy + 2 * (size_t)v, xy + 2 * (size_t)s->next[v]);
+        for (; met; met &= met - 1) add(g, &e, c->vertex[__builtin_ctz(met)], h);
+    }
+    g->placed.lattice.counts.orientation_tests += 2 * (uint64_t)s->vertices * c->n;
+    return true;
+}
+
+static bool pair_edges_with_many(sunder_i_operands *g, int side, const sunder_i_cones *own, const sunder_i_cones *c,
+                                 double limit, sunder_i_candidates *h)
+{
+    const sunder_shape *s = g->shape[side];
+    const double *xy = g->xy[side];
+    edge e = {.side = side, .reach = limit + 8 * g->error, .other = g->xy[!side]};
     uint32_t *met = sunder_i_arena_alloc(&g->placed.lattice.arena, (size_t)c->n + 1, sizeof *met);
     if (!met) return false;
     uint64_t asked = 0;
-    for (uint32_t e = 0; e < s->vertices; e++) {
-        const double *a = xy + 2 * (size_t)e, *b = xy + 2 * (size_t)s->next[e];
-        if (s->next[e] == e) continue; /* a point, which has none */
-        if (many && out_of_reach(a, b, g->box[!side], reach)) {
-            if (!sunder_i_step()) return false;
-            continue;
-        }
+    for (uint32_t v = 0; v < s->vertices; v++) {
+        const double *p = xy + 2 * (size_t)v, *q = xy + 2 * (size_t)s->next[v];
+        if (!sunder_i_step()) return false;
+        if (s->next[v] == v || out_of_reach(p, q, g->box[!side], e.reach)) continue;
         uint32_t looked_at;
-        const uint32_t n = sunder_i_cones_met(c, sunder_i_cones_edge(own, e), met, &looked_at);
+        const uint32_t n = sunder_i_cones_met(c, sunder_i_cones_edge(own, v), met, &looked_at);
         asked += looked_at;
-        if (!sunder_i_steps(looked_at / 32 + n + 1)) return false;
+        if (!sunder_i_steps(looked_at / 32 + n)) return false;
         if (n == 0) continue;
         if (!make_room(g, h, n)) return false;
-        const double dx = b[0] - a[0], dy = b[1] - a[1], inverse = 1 / (dx * dx + dy * dy);
-        for (uint32_t m = 0; m < n; m++) {
-            const uint32_t v = c->vertex[met[m]];
-            const double x = a[0] + other[2 * (size_t)v], y = a[1] + other[2 * (size_t)v + 1];
-            const double square = sunder_i_segment_square(x, y, dx, dy, inverse);
-            if (square > reach * reach || (g->board && sunder_i_board_segment(g->board, g->error, x, y, dx, dy)))
-                continue;
-            h->item[h->n++] = (sunder_i_candidate){square, e, v, side};
-        }
+        take_edge(&e, v, p, q);
+        for (uint32_t m = 0; m < n; m++) add(g, &e, c->vertex[met[m]], h);
     }
     g->placed.lattice.counts.orientation_tests += 2 * asked;
     return true;
+}
+
+static bool pair_edges(sunder_i_operands *g, int side, const sunder_i_cones *own, const sunder_i_cones *c, double limit,
+                       sunder_i_candidates *h)
+{
+    return c->n <= SUNDER_I_CONES_FEW ? pair_edges_with_few(g, side, own, c, limit, h)
+                                      : pair_edges_with_many(g, side, own, c, limit, h);
 }
 
 static bool before(const void *a, const void *b)

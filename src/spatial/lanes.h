@@ -1,0 +1,46 @@
+/* Four whole numbers at a time, whatever the machine makes of it. */
+#ifndef SUNDER_I_LANES_H
+#define SUNDER_I_LANES_H
+
+#include <stdint.h>
+#include <string.h>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
+#define SUNDER_I_LANES 4
+typedef uint32_t sunder_i_lanes __attribute__((vector_size(4 * SUNDER_I_LANES)));
+typedef int32_t sunder_i_signed_lanes __attribute__((vector_size(4 * SUNDER_I_LANES)));
+
+static inline sunder_i_lanes sunder_i_lanes_at(const uint32_t *v)
+{
+    sunder_i_lanes l;
+    memcpy(&l, v, sizeof l);
+    return l;
+}
+
+static inline sunder_i_signed_lanes sunder_i_signed_lanes_at(const int32_t *v)
+{
+    sunder_i_signed_lanes l;
+    memcpy(&l, v, sizeof l);
+    return l;
+}
+
+/* Where a <= b: -1, else 0. Machines that compare signed numbers alone are given these. */
+static inline sunder_i_signed_lanes sunder_i_lanes_up_to(sunder_i_lanes a, sunder_i_lanes b)
+{
+    const uint32_t half = 0x80000000u;
+    return (sunder_i_signed_lanes)(a ^ half) <= (sunder_i_signed_lanes)(b ^ half);
+}
+
+/* The set of those that are -1, and not 0, in four bits. */
+static inline uint32_t sunder_i_lanes_set(sunder_i_signed_lanes l)
+{
+#ifdef __SSE__
+    return (uint32_t)_mm_movemask_ps((__m128)l);
+#else
+    return (uint32_t)((l[0] & 1) | (l[1] & 2) | (l[2] & 4) | (l[3] & 8));
+#endif
+}
+
+#endif
