@@ -137,21 +137,34 @@ sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, 
 sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32_t n, bool turned,
                                             const sunder_i_pieces *pieces)
 {
-    const layout l = {.raw_vertices = raw,
-                      .raw_rings = 1,
-                      .corners = pieces->corners,
-                      .few = true,
-                      .whole = pieces->pieces == 1,
-                      .clean = !turned,
-                      .unshared = true};
-    const sunder_shape head = {.raw_polygons = 1, .vertices = n, .rings = 1, .polygons = 1, .pieces = pieces->pieces};
-    sunder_shape *s = allocate(&head, &l);
+    const bool whole = pieces->pieces == 1;
+    const size_t doubles = 2 * (raw + (turned ? n : 0)), numbers = whole ? 0 : (size_t)pieces->pieces + pieces->corners;
+    const sunder_i_few_corners few = sunder_i_few_corners_of(n);
+    sunder_shape *s = sunder_i_alloc(sizeof *s + doubles * sizeof *xy + numbers * sizeof *pieces->piece_end, 1);
     if (!s) return NULL;
-    copy(s->raw_xy, xy, 2 * raw, sizeof *xy);
-    for (uint32_t i = 0; turned && i < n; i++) memcpy(s->xy + 2 * i, xy + 2 * (n - 1 - i), 2 * sizeof *xy);
-    if (!l.whole) {
-        copy(s->piece_end, pieces->piece_end, pieces->pieces, sizeof *pieces->piece_end);
-        copy(s->piece_vertex, pieces->piece_vertex, pieces->corners, sizeof *pieces->piece_vertex);
+    double *const raw_xy = (double *)(void *)(s + 1), *const own_xy = turned ? raw_xy + 2 * raw : raw_xy;
+    uint32_t *const ends = (uint32_t *)(void *)(raw_xy + doubles);
+    *s = (sunder_shape){.raw_xy = raw_xy,
+                        .raw_ring_end = sunder_i_few_long(raw),
+                        .raw_poly_end = sunder_i_few_long(1),
+                        .raw_polygons = 1,
+                        .vertices = n,
+                        .rings = 1,
+                        .polygons = 1,
+                        .pieces = pieces->pieces,
+                        .xy = own_xy,
+                        .ring_end = sunder_i_few(n),
+                        .poly_end = sunder_i_few(1),
+                        .next = few.next,
+                        .prev = few.prev,
+                        .shared = few.unshared,
+                        .piece_end = whole ? sunder_i_few(n) : ends,
+                        .piece_vertex = whole ? few.corner : ends + pieces->pieces};
+    memcpy(raw_xy, xy, 2 * raw * sizeof *xy);
+    for (uint32_t i = 0; turned && i < n; i++) memcpy(own_xy + 2 * i, xy + 2 * (n - 1 - i), 2 * sizeof *xy);
+    if (!whole) {
+        memcpy(ends, pieces->piece_end, pieces->pieces * sizeof *ends);
+        memcpy(ends + pieces->pieces, pieces->piece_vertex, pieces->corners * sizeof *ends);
     }
     return s;
 }

@@ -135,6 +135,12 @@ static bool read_rings(polygon *p)
 
 /* ---- Is it sound? ---- */
 
+/* At all nodes? */
+static bool turns_left(const sunder_i_small_walk *w)
+{
+    return w->convex == (uint32_t)(((uint64_t)1 << w->nodes) - 1);
+}
+
 /* Are both ends of edge f, u and v from its ends, strictly on one side of edge e? */
 static inline bool on_one_side(bool brief, sunder_i_point e, sunder_i_point u, sunder_i_point v)
 {
@@ -215,6 +221,8 @@ static inline uint32_t near_edges(const boxes *b, uint32_t e, uint32_t n)
 static bool is_simple(const polygon *p)
 {
     const sunder_i_small_walk *w = &p->w;
+    /* Three or four turns to the left, each of less than half a turn, make up one whole turn: a convex ring. */
+    if (w->nodes <= 4 && turns_left(w)) return true;
     boxes b;
     find_boxes(p, &b);
     for (uint32_t e = 0; e + 1 < w->nodes; e++) {
@@ -326,7 +334,7 @@ static bool bridge(polygon *p, made_rings *m)
 
 static void find_pieces(sunder_i_small_walk *w, sunder_i_pieces *out)
 {
-    if (w->convex != (uint32_t)(((uint64_t)1 << w->nodes) - 1)) {
+    if (!turns_left(w)) {
         sunder_i_small_pieces(w, out);
         return;
     }

@@ -68,12 +68,13 @@ static bool quick_root(sunder_i_u128 n, sunder_i_i128 w, long exponent, double *
     const long double root = sqrtl(wide) / (long double)(int64_t)w;
     const double d = (double)root;
     const long double doubt = root * 0x1p-61L, off = root - d;
-    const long double half_ulp = (long double)(nextafter(d, INFINITY) - d) / 2;
-    const long double half_below = (long double)(d - nextafter(d, 0)) / 2;
+    const double below = d > 0 ? sunder_i_box_step(d, false) : 0;
+    const long double half_ulp = (long double)(sunder_i_box_step(d, true) - d) / 2;
+    const long double half_below = (long double)(d - below) / 2;
     if (off > half_ulp - doubt || off < doubt - half_below) return false;
     /* Roots are above 2^-64 or zero and below 2^64: scaling is exact. */
     *nearest = d * sunder_i_power_of_two(exponent);
-    *down = (off > doubt ? d : nextafter(d, 0)) * sunder_i_power_of_two(exponent);
+    *down = (off > doubt ? d : below) * sunder_i_power_of_two(exponent);
     return true;
 }
 

@@ -19,16 +19,19 @@ void sunder_i_operands_fill_boxes(sunder_i_operands *g, int side)
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side];
-    double *all = g->box[side];
+    double all[4];
     sunder_i_box_clear(all);
-    uint32_t c = 0;
+    const uint32_t *corner = s->piece_vertex;
     for (uint32_t i = 0; i < s->pieces; i++) {
-        double *box = g->piece_box[side] + 4 * (size_t)i;
+        const uint32_t *const end = s->piece_vertex + s->piece_end[i];
+        double box[4];
         sunder_i_box_clear(box);
-        for (; c < s->piece_end[i]; c++) sunder_i_box_include(box, xy + 2 * (size_t)s->piece_vertex[c]);
+        for (; corner < end; corner++) sunder_i_box_include(box, xy + 2 * (size_t)*corner);
         sunder_i_box_join(all, box);
+        memcpy(g->piece_box[side] + 4 * (size_t)i, box, sizeof box);
         g->turned[side][i].n = 0;
     }
+    memcpy(g->box[side], all, sizeof all);
     for (int k = 0; k < 4; k++)
         if (fabs(all[k]) > g->magnitude) g->magnitude = fabs(all[k]);
 }

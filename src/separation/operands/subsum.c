@@ -10,19 +10,20 @@
 #include <math.h>
 #include <string.h>
 
-static bool touches_disc(const double box[4], double radius)
+/* Does a box come within the radius, being so far off in x and in y? */
+static inline bool touches_disc(const double d[2], double radius)
 {
-    double d[2];
-    sunder_i_box_distance(box, d);
     const double x = d[0], y = d[1];
     return x <= radius && y <= radius && (x + y <= radius || x * x + y * y <= radius * radius * (1 + 0x1p-50));
 }
 
 /* Which of the subsums matter: 0 none, 1 comes within reach, 2 may cover the origin. */
-static int nearness(const sunder_i_operands *g, uint32_t i, uint32_t j, double reach, double box[4])
+static inline int nearness(const sunder_i_operands *g, uint32_t i, uint32_t j, double reach, double box[4])
 {
+    double d[2];
     sunder_i_box_sum(g->piece_box[0] + 4 * (size_t)i, g->piece_box[1] + 4 * (size_t)j, box);
-    return touches_disc(box, 2 * g->error) ? 2 : touches_disc(box, reach) ? 1 : 0;
+    sunder_i_box_distance(box, d);
+    return touches_disc(d, 2 * g->error) ? 2 : touches_disc(d, reach) ? 1 : 0;
 }
 
 /* Among many, the fat ones come first: they cover the most, and the search asks in this order. */
@@ -68,7 +69,7 @@ bool sunder_i_operands_reach(sunder_i_operands *g, double radius)
             if (how == 0) continue;
             sunder_i_subsum *s = g->subsum + all++;
             if (how == 2) {
-                *s = g->subsum[near];
+                if (near + 1 < all) *s = g->subsum[near];
                 s = g->subsum + near++;
             }
             s->i = i;
@@ -136,18 +137,6 @@ bool sunder_i_operands_turn(sunder_i_operands *g)
 
 /* ---- The merge ---- */
 
-/* As SUNDER_I_MERGE_NEXT() asks. */
-static inline int narrow_order(sunder_i_point u, sunder_i_point v)
-{
-    return -sunder_i_i128_sign(sunder_i_narrow_cross(u, v));
-}
-
-static inline int brief_order(sunder_i_point u, sunder_i_point v)
-{
-    const int64_t cross = sunder_i_brief_cross(u, v);
-    return (cross < 0) - (cross > 0);
-}
-
 /* Both start at their lowest corners, so that their sides are sorted by angle in [0, 2 pi), and the two sides at hand
  * are never pi or more apart: the side before the further one came before the other, and turns by less than pi. */
 static uint32_t merge(sunder_i_operands *g, const sunder_i_turned_piece *a, const sunder_i_turned_piece *b,
@@ -163,29 +152,30 @@ static uint32_t merge(sunder_i_operands *g, const sunder_i_turned_piece *a, cons
     return n;
 }
 
-/* The same on a narrow lattice, with the doubles. */
+/* The merge (merge.h) of native integers: corners follow from sides, so only sides are merged. Without branches: whose
+ * side comes next is anyone's guess. */
 static inline __attribute__((always_inline)) uint32_t narrow_merge(const sunder_i_turned_piece *a,
                                                                    const sunder_i_turned_piece *b, bool brief,
-                                                                   double per_length, double fixed, sunder_i_subsum *s)
+                                                                   sunder_i_point *corner, sunder_i_point *side)
 {
+    const sunder_i_point *u = a->side, *v = b->side, *const u_end = u + a->n, *const v_end = v + b->n;
+    sunder_i_point at = {a->corner[0].x + b->corner[0].x, a->corner[0].y + b->corner[0].y};
     uint32_t n = 0;
-    sunder_i_merge m = sunder_i_merge_of(a->n, b->n);
-    sunder_i_point c = {a->corner[0].x + b->corner[0].x, a->corner[0].y + b->corner[0].y};
-    while (SUNDER_I_MERGE_NEXT(&m, brief ? brief_order(a->side[m.next_a], b->side[m.next_b])
-                                         : narrow_order(a->side[m.next_a], b->side[m.next_b]))) {
-        sunder_i_point d = m.of_a ? a->side[m.a] : b->side[m.b];
-        if (m.of_a && m.of_b) d = (sunder_i_point){d.x + b->side[m.b].x, d.y + b->side[m.b].y};
-        const double x = (double)d.x, y = (double)d.y;
-        s->corner[n] = c;
-        s->side[n] = d;
-        s->cx[n] = (double)c.x;
-        s->cy[n] = (double)c.y;
-        s->sx[n] = x;
-        s->sy[n] = y;
-        s->bound[n] = (fabs(x) + fabs(y)) * per_length + fixed;
-        c.x += d.x;
-        c.y += d.y;
-        n++;
+    while (u < u_end && v < v_end) {
+        const int64_t turn = brief ? sunder_i_brief_cross(*u, *v) : sunder_i_i128_sign(sunder_i_narrow_cross(*u, *v));
+        const int64_t of_a = ~(turn >> 63), of_b = (turn - 1) >> 63; /* -1: turn >= 0, turn <= 0; else 0 */
+        const sunder_i_point d = {(u->x & of_a) + (v->x & of_b), (u->y & of_a) + (v->y & of_b)};
+        u -= of_a;
+        v -= of_b;
+        corner[n] = at;
+        side[n++] = d;
+        at = (sunder_i_point){at.x + d.x, at.y + d.y};
+    }
+    const sunder_i_point *left = u < u_end ? u : v, *const end = u < u_end ? u_end : v_end;
+    for (; left < end; left++) { /* of one of them */
+        corner[n] = at;
+        side[n++] = *left;
+        at = (sunder_i_point){at.x + left->x, at.y + left->y};
     }
     return n;
 }
@@ -206,6 +196,32 @@ static const char *check(sunder_i_operands *g, const sunder_i_subsum *s)
 }
 #endif
 
+static void narrow_doubles(sunder_i_subsum *s, uint32_t n)
+{
+    s->plain = true;
+    double *cx = s->cx, *cy = s->cy, *sx = s->sx, *sy = s->sy;
+    for (uint32_t k = 0; k < n; k++) {
+        const sunder_i_point c = s->corner[k], d = s->side[k];
+        cx[k] = (double)c.x;
+        cy[k] = (double)c.y;
+        sx[k] = (double)d.x;
+        sy[k] = (double)d.y;
+    }
+}
+
+static void fill_doubles(const sunder_i_lattice *l, sunder_i_subsum *s, uint32_t n)
+{
+    s->plain = true;
+    for (uint32_t k = 0; k < n; k++) {
+        const sunder_i_point c = s->corner[k], d = s->side[k];
+        s->plain = s->plain && sunder_i_point_is_plain(c) && sunder_i_point_is_plain(d);
+        s->cx[k] = sunder_i_approx(l, c.x);
+        s->cy[k] = sunder_i_approx(l, c.y);
+        s->sx[k] = sunder_i_approx(l, d.x);
+        s->sy[k] = sunder_i_approx(l, d.y);
+    }
+}
+
 bool sunder_i_subsum_make(sunder_i_operands *g, sunder_i_subsum *s)
 {
     sunder_i_lattice *l = &g->placed.lattice;
@@ -221,20 +237,15 @@ bool sunder_i_subsum_make(sunder_i_operands *g, sunder_i_subsum *s)
     s->sx = s->cy + most;
     s->sy = s->sx + most;
     s->bound = s->sy + most;
-    const double per_length = 2 * g->error, fixed = 16 * g->magnitude * g->rough;
-    const uint32_t n = g->brief    ? narrow_merge(a, b, true, per_length, fixed, s)
-                       : l->narrow ? narrow_merge(a, b, false, per_length, fixed, s)
+    const uint32_t n = g->brief    ? narrow_merge(a, b, true, s->corner, s->side)
+                       : l->narrow ? narrow_merge(a, b, false, s->corner, s->side)
                                    : merge(g, a, b, s->corner, s->side);
-    s->plain = true;
-    for (uint32_t k = 0; k < n && !l->narrow; k++) {
-        const sunder_i_point c = s->corner[k], d = s->side[k];
-        s->plain = s->plain && sunder_i_point_is_plain(c) && sunder_i_point_is_plain(d);
-        s->cx[k] = sunder_i_approx(l, c.x);
-        s->cy[k] = sunder_i_approx(l, c.y);
-        s->sx[k] = sunder_i_approx(l, d.x);
-        s->sy[k] = sunder_i_approx(l, d.y);
-        s->bound[k] = (fabs(s->sx[k]) + fabs(s->sy[k])) * per_length + fixed;
-    }
+    if (l->narrow)
+        narrow_doubles(s, n);
+    else
+        fill_doubles(l, s, n);
+    const double per_length = 2 * g->error, fixed = 16 * g->magnitude * g->rough;
+    for (uint32_t k = 0; k < n; k++) s->bound[k] = (fabs(s->sx[k]) + fabs(s->sy[k])) * per_length + fixed;
     s->sides = n;
     SUNDER_I_CHECK(check(g, s), n);
     return !l->arena.failed;

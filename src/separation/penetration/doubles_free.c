@@ -19,16 +19,18 @@ typedef struct dyadic {
 /* Native: v = m 2^f lattice units with |m| < 2^53. */
 static bool native_units(double v, long exponent, int64_t *m, long *f)
 {
-    int e;
-    *m = (int64_t)ldexp(frexp(v, &e), 53);
-    *f = e - 53 - exponent;
-    if (*m == 0) {
-        *f = 0;
-        return true;
-    }
-    const int z = __builtin_ctzll((uint64_t)(*m < 0 ? -*m : *m));
-    *m /= (int64_t)1 << z;
-    *f += z;
+    uint64_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    const int field = (int)(bits >> 52 & 0x7ff);
+    *m = 0;
+    *f = 0;
+    if (v == 0) return true;
+    if (field == 0) return false; /* below all doubles of full length */
+    const uint64_t magnitude = (bits & (((uint64_t)1 << 52) - 1)) | (uint64_t)1 << 52;
+    const int z = __builtin_ctzll(magnitude);
+    *m = (int64_t)(magnitude >> z);
+    if (v < 0) *m = -*m;
+    *f = field - 1075 + z - exponent;
     return *f > -64 && *f < 64;
 }
 
@@ -36,7 +38,7 @@ static dyadic dyadic_of(sunder_i_operands *g, double dx, double dy)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     dyadic d;
-    memset(&d, 0, sizeof d);
+    d.native = false;
     int64_t mx, my;
     long fx, fy;
     if (l->small && l->approx_shift == 0 && native_units(dx, l->exponent, &mx, &fx) &&
@@ -47,8 +49,8 @@ static dyadic dyadic_of(sunder_i_operands *g, double dx, double dy)
             d.bits = (unsigned)-low;
             d.x = mx * ((sunder_i_i128)1 << (fx - low));
             d.y = my * ((sunder_i_i128)1 << (fy - low));
-            d.ax = ldexp((double)mx, (int)fx);
-            d.ay = ldexp((double)my, (int)fy);
+            d.ax = (double)mx * sunder_i_power_of_two(fx);
+            d.ay = (double)my * sunder_i_power_of_two(fy);
             return d;
         }
     }
@@ -67,6 +69,9 @@ static int dyadic_side(sunder_i_operands *g, const dyadic *d, const sunder_i_sub
         /* |corner| < 2^61 and bits < 64, so differences stay below 2^126. */
         const sunder_i_i128 one = (sunder_i_i128)1 << d->bits;
         const sunder_i_i128 x = d->x - s->corner[k].x * one, y = d->y - s->corner[k].y * one;
+        const sunder_i_i128 most = (sunder_i_i128)1 << 94;
+        if (g->brief && x < most && x > -most && y < most && y > -most) /* times a side, below 2^30, 2^124 */
+            return sunder_i_i128_sign(s->side[k].x * y - s->side[k].y * x);
         return sunder_i_cmp_products(s->side[k].x, y, s->side[k].y, x);
     }
     if (l->arena.failed) return 0;

@@ -30,24 +30,25 @@ static bool side_parts(sunder_i_operands *g, const sunder_i_free_point *f, const
 {
     const sunder_i_point *at = g->at[p->side];
     const double *xy = g->xy[p->side], *other = g->xy[q->side];
-    const double per_length = 4 * g->error, fixed = 32 * g->magnitude * g->rough;
+    /* The ends are each off by 2^-53 of the magnitude: the error of u counts like a rough one. */
+    const double per_length = 4 * g->error;
+    const double fixed = 32 * g->magnitude * g->rough + g->magnitude * g->magnitude * 0x1p-47;
     if (p->n < 2) return false; /* a point has no sides */
+    uint32_t a = p->corner[p->n - 1];
     for (uint32_t k = 0; k < p->n; k++) {
-        const uint32_t a = p->corner[k], b = sunder_i_piece_next(p, k);
+        const uint32_t b = p->corner[k];
         const double ux = xy[2 * b] - xy[2 * a], uy = xy[2 * b + 1] - xy[2 * a + 1];
-        /* The ends are each off by 2^-53 of the magnitude: the error of u counts like a rough one. */
-        const double bound = (fabs(ux) + fabs(uy)) * per_length + fixed + g->magnitude * g->magnitude * 0x1p-47;
+        const double bound = (fabs(ux) + fabs(uy)) * per_length + fixed;
         const double x = f->x - xy[2 * a], y = f->y - xy[2 * a + 1];
-        bool parts = true;
-        for (uint32_t m = 0; m < q->n && parts; m++) {
+        uint32_t m = 0;
+        for (; m < q->n; m++) {
             const uint32_t c = q->corner[m];
             const double v = ux * (y - other[2 * c + 1]) - uy * (x - other[2 * c]);
-            if (v > bound)
-                parts = false;
-            else if (v >= -bound)
-                parts = exact_side(g, f, at[a], at[b], g->at[q->side][c]) <= 0;
+            if (v < -bound) continue;
+            if (v > bound || exact_side(g, f, at[a], at[b], g->at[q->side][c]) > 0) break;
         }
-        if (parts) return true;
+        if (m == q->n) return true;
+        a = b;
     }
     return false;
 }
