@@ -60,8 +60,9 @@ static bool quick_ratio(sunder_i_i128 num, sunder_i_i128 den, long exponent, dou
 
 /* sqrt(n) / w * 2^exponent, from long doubles: correctly rounded where they leave no doubt. Every step is off by at
  * most half an ulp of the format (2^-64 relative), four steps in all. Where long doubles are no longer than doubles
- * (or SUNDER_NO_LONG_DOUBLE says to take them so, as a test does) all roots go the slow way. */
-static bool quick_root(sunder_i_u128 n, sunder_i_i128 w, long exponent, double *nearest, double *down)
+ * (or SUNDER_NO_LONG_DOUBLE says to take them so, as a test does) all roots go the slow way. Clear: so do those that may
+ * be doubles, since of these the lower bound is the double before here. */
+static bool quick_root(sunder_i_u128 n, sunder_i_i128 w, long exponent, bool clear, double *nearest, double *down)
 {
     if (LONG_BITS < 64 || exponent < -400 || exponent > 400) return false;
     const long double wide = (long double)(uint64_t)(n >> 64) * 0x1p64L + (long double)(uint64_t)n;
@@ -72,6 +73,7 @@ static bool quick_root(sunder_i_u128 n, sunder_i_i128 w, long exponent, double *
     const long double half_ulp = (long double)(sunder_i_box_step(d, true) - d) / 2;
     const long double half_below = (long double)(d - below) / 2;
     if (off > half_ulp - doubt || off < doubt - half_below) return false;
+    if (clear && off <= doubt && off >= -doubt) return false; /* it may be a double itself */
     /* Roots are above 2^-64 or zero and below 2^64: scaling is exact. */
     *nearest = d * sunder_i_power_of_two(exponent);
     *down = (off > doubt ? d : below) * sunder_i_power_of_two(exponent);
@@ -104,7 +106,7 @@ void sunder_i_answer_numbers(sunder_i_operands *g, const sunder_i_exact_translat
     const long e = l->exponent;
     if (v->small && quick_ratio(v->x, v->w, e, &out->dx) && quick_ratio(v->y, v->w, e, &out->dy)) {
         const sunder_i_u128 n = (sunder_i_u128)(v->x * v->x) + (sunder_i_u128)(v->y * v->y);
-        if (!v->long_root && quick_root(n, v->w, e, &out->distance, &out->lower_bound)) return;
+        if (quick_root(n, v->w, e, v->clear_root, &out->distance, &out->lower_bound)) return;
     }
     const sunder_i_rational_point big = sunder_i_exact_translation_point(g, v);
     sunder_i_rational_doubles(&l->arena, big, e, &out->dx, &out->dy);

@@ -22,7 +22,7 @@ static sunder_i_exact_translation translation_of(sunder_i_operands *g, const sun
         const sunder_i_fraction t = {num / common, den / common, f->t.value};
         const sunder_i_hpoint reduced = sunder_i_hpoint_at(l, f->line.a, f->line.b, &t);
         sunder_i_exact_translation v = sunder_i_exact_translation_of(g, &reduced);
-        v.long_root = true;
+        v.clear_root = true;
         return v;
     }
     return sunder_i_exact_translation_of(g, &point);

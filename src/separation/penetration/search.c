@@ -3,6 +3,7 @@
  * come in the order of their distances, and the search ends when the next one is farther than the best free point. */
 #include "separation/penetration/search.h"
 #include "base/invariant.h"
+#include "separation/answer/answer.h"
 #include "separation/obstacle/board.h"
 #include "separation/obstacle/reduced_convolution.h"
 #include "separation/squares/squares.h"
@@ -22,13 +23,22 @@ typedef struct search {
     double from, to;      /* the part of the line at hand that is in the square, or all of it */
 } search;
 
+/* x^2 + y^2 of a short point, below 2^127. */
+static sunder_i_i128 short_norm(const sunder_i_hpoint *p)
+{
+    const sunder_i_u128 x = p->x.limb[0], y = p->y.limb[0];
+    return (sunder_i_i128)(x * x + y * y);
+}
+
 /* Order of the distances of two points from the origin. Degree 10 over 8. */
 static int norm_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
+    l->counts.exact_fallbacks++;
+    if (sunder_i_hpoint_is_short(a) && sunder_i_hpoint_is_short(b))
+        return sunder_i_cmp_products(short_norm(a), b->w * b->w, short_norm(b), a->w * a->w);
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
     const sunder_i_rational_point p = sunder_i_hpoint_read(m, l, a), q = sunder_i_hpoint_read(m, l, b);
-    l->counts.exact_fallbacks++;
     const int c = sunder_i_ratio_cmp(m, (sunder_i_ratio){sunder_i_rational_dot(m, p, p), sunder_i_big_mul(m, p.w, p.w)},
                                      (sunder_i_ratio){sunder_i_rational_dot(m, q, q), sunder_i_big_mul(m, q.w, q.w)});
     sunder_i_lattice_end(l, mark);
