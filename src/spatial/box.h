@@ -80,7 +80,10 @@ static inline bool sunder_i_box_sum_near_point(const double a[4], const double b
 /* How far the box is from the origin, in either coordinate. */
 static inline void sunder_i_box_distance(const double box[4], double out[2])
 {
-    for (int k = 0; k < 2; k++) out[k] = box[k] > 0 ? box[k] : box[k + 2] < 0 ? -box[k + 2] : 0;
+    for (int k = 0; k < 2; k++) { /* without branches */
+        const double beyond = box[k] > -box[k + 2] ? box[k] : -box[k + 2];
+        out[k] = beyond > 0 ? beyond : 0;
+    }
 }
 
 /* nextafter() downwards, or (up) upwards: numbers of one sign follow each other as their bits do. */

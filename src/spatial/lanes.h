@@ -1,11 +1,11 @@
-/* Four whole numbers at a time, whatever the machine makes of it. */
+/* Four whole numbers or two doubles at a time, whatever the machine makes of it. */
 #ifndef SUNDER_I_LANES_H
 #define SUNDER_I_LANES_H
 
 #include <stdint.h>
 #include <string.h>
-#ifdef __SSE__
-#include <xmmintrin.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
 #endif
 
 #define SUNDER_I_LANES 4
@@ -36,10 +36,40 @@ static inline sunder_i_signed_lanes sunder_i_lanes_up_to(sunder_i_lanes a, sunde
 /* The set of those that are -1, and not 0, in four bits. */
 static inline uint32_t sunder_i_lanes_set(sunder_i_signed_lanes l)
 {
-#ifdef __SSE__
+#ifdef __SSE2__
     return (uint32_t)_mm_movemask_ps((__m128)l);
 #else
     return (uint32_t)((l[0] & 1) | (l[1] & 2) | (l[2] & 4) | (l[3] & 8));
+#endif
+}
+
+#define SUNDER_I_DOUBLES 2
+typedef double sunder_i_doubles __attribute__((vector_size(8 * SUNDER_I_DOUBLES)));
+typedef int64_t sunder_i_double_masks __attribute__((vector_size(8 * SUNDER_I_DOUBLES)));
+
+static inline sunder_i_doubles sunder_i_doubles_at(const double *v)
+{
+    sunder_i_doubles d;
+    memcpy(&d, v, sizeof d);
+    return d;
+}
+
+static inline uint32_t sunder_i_doubles_set(sunder_i_double_masks m)
+{
+#ifdef __SSE2__
+    return (uint32_t)_mm_movemask_pd((__m128d)m);
+#else
+    return (uint32_t)((m[0] & 1) | (m[1] & 2));
+#endif
+}
+
+/* t, but 0 where it is below that or no number, and 1 where it is above. Without branches, which compilers put in. */
+static inline double sunder_i_clamped(double t)
+{
+#ifdef __SSE2__
+    return _mm_cvtsd_f64(_mm_min_sd(_mm_max_sd(_mm_set_sd(t), _mm_setzero_pd()), _mm_set_sd(1)));
+#else
+    return t > 0 ? t < 1 ? t : 1 : 0;
 #endif
 }
 

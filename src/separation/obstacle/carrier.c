@@ -135,11 +135,13 @@ static sunder_i_fan_answer inside_fan(const sunder_i_subsum *s, double x, double
     return sunder_i_fan_says(&fan, (double[3]){-side_says(s, low, x, y), -left, -right}, 0, 0);
 }
 
-static bool inside_exactly(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t,
-                           const sunder_i_subsum *s)
+static bool inside_one_by_one(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
+                              double y, const sunder_i_subsum *s)
 {
-    for (uint32_t k = 0; k < s->sides; k++)
-        if (sunder_i_carrier_side(g, line, t, s, k) <= 0) return false;
+    for (uint32_t k = 0; k < s->sides; k++) {
+        const int says = side_says(s, k, x, y);
+        if (says < 0 || (says == 0 && sunder_i_carrier_side(g, line, t, s, k) <= 0)) return false;
+    }
     return true;
 }
 
@@ -151,18 +153,12 @@ static inline bool inside(sunder_i_operands *g, const sunder_i_carrier *line, co
         const sunder_i_fan_answer where = inside_fan(s, x, y, g->error);
         if (where != SUNDER_I_FAN_DOUBT) return where == SUNDER_I_FAN_INSIDE;
     }
-    /* Sides that doubles leave in doubt are asked after all others have spoken. */
     g->placed.lattice.counts.orientation_tests += s->sides;
-    uint32_t doubt[SUNDER_I_SIDES_MANY], n = 0;
-    for (uint32_t k = 0; k < s->sides; k++) {
-        const double v = s->sx[k] * (y - s->cy[k]) - s->sy[k] * (x - s->cx[k]);
-        if (v > s->bound[k]) continue;
-        if (v < -s->bound[k]) return false;
-        if (n == SUNDER_I_SIDES_MANY) return inside_exactly(g, line, t, s);
-        doubt[n++] = k;
-    }
-    for (uint32_t i = 0; i < n; i++)
-        if (sunder_i_carrier_side(g, line, t, s, doubt[i]) <= 0) return false;
+    if (s->sides > SUNDER_I_SIDES_IN_A_WORD) return inside_one_by_one(g, line, t, x, y, s);
+    uint32_t doubt;
+    if (!sunder_i_subsum_may_hold(s, x, y, 1, &doubt)) return false;
+    for (; doubt; doubt &= doubt - 1)
+        if (sunder_i_carrier_side(g, line, t, s, (uint32_t)__builtin_ctz(doubt)) <= 0) return false;
     return true;
 }
 

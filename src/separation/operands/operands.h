@@ -11,6 +11,7 @@
 #include "predicate/narrow.h"
 #include "shape/shape.h"
 #include "spatial/box.h"
+#include "spatial/lanes.h"
 
 /* Sides shorter than this, in units, are left out of what is concluded in doubles: their squares come near to the end
  * of the range of doubles, 2^-1022, and what is divided by them is not known to a few ulps any more. */
@@ -25,8 +26,32 @@ typedef struct sunder_i_subsum {
     sunder_i_point *corner, *side; /* side[k] = corner[k + 1] - corner[k] */
     double *cx, *cy, *sx, *sy;     /* the same as doubles */
     double *bound; /* side k has the point on its left for certain if cross(side, x - corner) > bound[k] */
+                   /* Behind the last side stands one more, where there is an odd number of them, that has all on its
+                    * left. */
     bool plain;    /* all corners and sides are plain numbers */
 } sunder_i_subsum;
+
+/* Sides with more of them are asked one by one, or by halving. */
+#define SUNDER_I_SIDES_IN_A_WORD 32
+
+/* What doubles say of a point and a subsum of that many sides or fewer: false if a side has it on its right by more than
+ * so many bounds; else the set of sides in doubt, all others having it on their left for certain. Without branches:
+ * which side it is is anyone's guess. */
+static inline bool sunder_i_subsum_may_hold(const sunder_i_subsum *s, double x, double y, double bounds,
+                                            uint32_t *in_doubt)
+{
+    sunder_i_double_masks right = {0, 0};
+    uint32_t doubt = 0;
+    for (uint32_t k = 0; k < s->sides; k += SUNDER_I_DOUBLES) {
+        const sunder_i_doubles bound = sunder_i_doubles_at(s->bound + k);
+        const sunder_i_doubles v = sunder_i_doubles_at(s->sx + k) * (y - sunder_i_doubles_at(s->cy + k)) -
+                                   sunder_i_doubles_at(s->sy + k) * (x - sunder_i_doubles_at(s->cx + k));
+        right |= v < -bounds * bound;
+        doubt |= sunder_i_doubles_set(v <= bound) << k;
+    }
+    *in_doubt = doubt;
+    return sunder_i_doubles_set(right) == 0;
+}
 
 /* A convex piece that starts at its lowest corner; the first corner stands again at the end. */
 typedef struct sunder_i_turned_piece {
@@ -127,8 +152,8 @@ static inline uint32_t sunder_i_piece_next(const sunder_i_operand_piece *piece, 
  * distance itself is good to 4 times the operands' error, if it is that of a sum of vertices from such a segment. */
 static inline double sunder_i_segment_square(double ax, double ay, double dx, double dy, double inverse)
 {
-    double t = -(ax * dx + ay * dy) * inverse;
-    t = t > 0 ? t < 1 ? t : 1 : 0; /* 0 too where a length is lost in the doubles */
+    /* 0 too where a length is lost in the doubles. */
+    const double t = sunder_i_clamped(-(ax * dx + ay * dy) * inverse);
     const double x = ax + t * dx, y = ay + t * dy;
     return x * x + y * y;
 }

@@ -7,6 +7,7 @@
 #include "base/watch.h"
 #include "convex/merge.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -227,7 +228,7 @@ bool sunder_i_subsum_make(sunder_i_operands *g, sunder_i_subsum *s)
     sunder_i_lattice *l = &g->placed.lattice;
     const sunder_i_turned_piece *a = turn_piece(g, 0, s->i), *b = turn_piece(g, 1, s->j);
     if (!a || !b) return false;
-    const size_t most = (size_t)a->n + b->n;
+    const size_t most = ((size_t)a->n + b->n + SUNDER_I_DOUBLES - 1) & ~(size_t)(SUNDER_I_DOUBLES - 1);
     sunder_i_point *points = sunder_i_arena_alloc(&l->arena, most, 2 * sizeof *points + 5 * sizeof *s->cx);
     if (!points) return false;
     s->corner = points;
@@ -246,6 +247,11 @@ bool sunder_i_subsum_make(sunder_i_operands *g, sunder_i_subsum *s)
         fill_doubles(l, s, n);
     const double per_length = 2 * g->error, fixed = 16 * g->magnitude * g->rough;
     for (uint32_t k = 0; k < n; k++) s->bound[k] = (fabs(s->sx[k]) + fabs(s->sy[k])) * per_length + fixed;
+    if (n % SUNDER_I_DOUBLES) { /* most of these is a corner far below of a side to the right */
+        s->cx[n] = s->sy[n] = s->bound[n] = 0;
+        s->cy[n] = -DBL_MAX;
+        s->sx[n] = 1;
+    }
     s->sides = n;
     SUNDER_I_CHECK(check(g, s), n);
     return !l->arena.failed;

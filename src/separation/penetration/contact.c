@@ -32,12 +32,19 @@ static where cone_of(sunder_i_operands *g, const sunder_i_free_point *f, sunder_
 {
     if (!sunder_i_box_near_point(s->box, f->x, f->y, 4 * g->error)) return OFF;
     if (!s->sides && !sunder_i_subsum_make(g, s)) return OFF;
-    uint32_t on[2], n = 0;
+    uint32_t on[2], n = 0, doubt = 0;
+    const bool few = s->sides <= SUNDER_I_SIDES_IN_A_WORD;
     bool beside = false;
-    for (uint32_t k = 0; k < s->sides; k++) {
-        const double v = s->sx[k] * (f->y - s->cy[k]) - s->sy[k] * (f->x - s->cx[k]);
-        if (v > s->bound[k]) continue;
-        if (v < -2 * s->bound[k]) return OFF;
+    if (few && !sunder_i_subsum_may_hold(s, f->x, f->y, 2, &doubt)) return OFF;
+    for (uint32_t k = 0; few ? doubt != 0 : k < s->sides; k++) {
+        if (few) {
+            k = (uint32_t)__builtin_ctz(doubt);
+            doubt &= doubt - 1;
+        } else {
+            const double v = s->sx[k] * (f->y - s->cy[k]) - s->sy[k] * (f->x - s->cx[k]);
+            if (v > s->bound[k]) continue;
+            if (v < -2 * s->bound[k]) return OFF;
+        }
         const int side = beside ? -1 : sunder_i_carrier_side(g, &f->line, &f->t, s, k);
         beside |= side < 0;
         if (side == 0 && n < 2) on[n++] = k;
