@@ -7,8 +7,8 @@
 
 typedef struct mesh {
     uint32_t halves;
-    uint8_t origin[SUNDER_I_SMALL_HALVES], twin[SUNDER_I_SMALL_HALVES]; /* as in sunder_i_mesh, but nodes */
-    uint8_t next[SUNDER_I_SMALL_HALVES], prev[SUNDER_I_SMALL_HALVES];
+    uint8_t origin[SUNDER_I_SMALL_HALVES], next[SUNDER_I_SMALL_HALVES], prev[SUNDER_I_SMALL_HALVES]; /* of nodes */
+    uint8_t twin[NONE + 1]; /* that of NONE may be written */
 } mesh;
 
 typedef struct cutter {
@@ -28,13 +28,13 @@ static bool is_ear(const cutter *c, uint32_t b)
     const uint32_t a = w->prev[b], d = w->next[b];
     uint32_t left = c->blunt & ~(1u << a | 1u << d);
     if (!left) return true;
-    const sunder_i_point p = w->at[a], q = w->at[b], r = w->at[d];
-    const sunder_i_point ab = sunder_i_narrow_sub(q, p), bd = sunder_i_narrow_sub(r, q), da = sunder_i_narrow_sub(p, r);
+    const sunder_i_point p = w->at[a], r = w->at[d], da = sunder_i_narrow_sub(p, r);
     for (; left; left &= left - 1) {
         const sunder_i_point v = w->at[__builtin_ctz(left)];
-        if (sunder_i_small_not_right(w->brief, da, sunder_i_narrow_sub(v, r)) &&
-            sunder_i_small_left(w->brief, ab, sunder_i_narrow_sub(v, p)) &&
-            sunder_i_small_left(w->brief, bd, sunder_i_narrow_sub(v, q)))
+        if (!sunder_i_small_not_right(w->brief, da, sunder_i_narrow_sub(v, r))) continue;
+        const sunder_i_point q = w->at[b], qv = sunder_i_narrow_sub(v, q);
+        if (sunder_i_small_left(w->brief, sunder_i_narrow_sub(q, p), qv) &&
+            sunder_i_small_left(w->brief, sunder_i_narrow_sub(r, q), qv))
             return false;
     }
     return true;
@@ -50,7 +50,7 @@ static inline void link_side(cutter *c, uint32_t h, uint32_t node)
         *met = (uint8_t)h;
     }
     c->m->twin[h] = beyond;
-    if (beyond != NONE) c->m->twin[beyond] = (uint8_t)h;
+    c->m->twin[beyond] = (uint8_t)h;
 }
 
 static inline uint32_t add_triangle(cutter *c, uint32_t b)
@@ -143,7 +143,7 @@ static void merge(const sunder_i_small_walk *w, mesh *m)
     const uint32_t first = w->bridges ? 0 : 2, step = w->bridges ? 1 : 3;
     for (uint32_t h = first; h < m->halves; h += step) {
         const uint8_t g = m->twin[h];
-        if (g == NONE || g < h || !convex_without(w, m, h, g) || !convex_without(w, m, g, h)) continue;
+        if (g == NONE || g < h || !(convex_without(w, m, h, g) & convex_without(w, m, g, h))) continue;
         m->next[m->prev[h]] = m->next[g];
         m->prev[m->next[g]] = m->prev[h];
         m->next[m->prev[g]] = m->next[h];

@@ -6,6 +6,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 /* The box of nothing: it meets no other, and what is joined to it is all there is. */
 static inline void sunder_i_box_clear(double box[4])
@@ -23,22 +26,26 @@ static inline void sunder_i_box_of_segment(const double a[2], const double b[2],
     }
 }
 
-/* The least box that holds this one and a point, and this one and another. Without branches: which coordinates are
- * beyond the others is anyone's guess. */
-static inline void sunder_i_box_include(double box[4], const double at[2])
+/* The least box that holds this one and the box from `low` to `high`. Without branches: which coordinates are beyond the
+ * others is anyone's guess. */
+static inline void sunder_i_box_widen(double box[4], const double low[2], const double high[2])
 {
-    box[0] = at[0] < box[0] ? at[0] : box[0];
-    box[1] = at[1] < box[1] ? at[1] : box[1];
-    box[2] = at[0] > box[2] ? at[0] : box[2];
-    box[3] = at[1] > box[3] ? at[1] : box[3];
+#ifdef __SSE2__
+    _mm_storeu_pd(box, _mm_min_pd(_mm_loadu_pd(low), _mm_loadu_pd(box)));
+    _mm_storeu_pd(box + 2, _mm_max_pd(_mm_loadu_pd(high), _mm_loadu_pd(box + 2)));
+#else
+    for (int k = 0; k < 2; k++) {
+        box[k] = low[k] < box[k] ? low[k] : box[k];
+        box[k + 2] = high[k] > box[k + 2] ? high[k] : box[k + 2];
+    }
+#endif
 }
 
+/* And a point, and another box. */
+static inline void sunder_i_box_include(double box[4], const double at[2]) { sunder_i_box_widen(box, at, at); }
 static inline void sunder_i_box_join(double box[4], const double other[4])
 {
-    box[0] = other[0] < box[0] ? other[0] : box[0];
-    box[1] = other[1] < box[1] ? other[1] : box[1];
-    box[2] = other[2] > box[2] ? other[2] : box[2];
-    box[3] = other[3] > box[3] ? other[3] : box[3];
+    sunder_i_box_widen(box, other, other + 2);
 }
 
 static inline bool sunder_i_box_meet(const double a[4], const double b[4])
