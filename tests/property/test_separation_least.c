@@ -218,12 +218,16 @@ static int kind_of(sunder_contact contact)
     return contact == SUNDER_CONTACT_DEGENERATE_POINT ? 2 : contact == SUNDER_CONTACT_DEGENERATE_SEGMENT ? 1 : 0;
 }
 
+/* By native integers of 64 bits; by big ones; or by native ones of 128, for the same pair so many times as large. */
+typedef enum rung { BRIEF, WIDE, NARROW } rung;
+#define LARGER 2147483659.0 /* odd, so that it does not go into the unit */
+
 static void expect_answer(const polyset *p, const polyset *q, const sunder_shape *a, const sunder_shape *b,
-                          const mpq_t x, const mpq_t y, bool wide)
+                          const mpq_t x, const mpq_t y, rung by)
 {
     sunder_separation s;
     sunder_error err = {0};
-    const sunder_i_least_options options = {.upper = INFINITY, .texts = true, .force_wide = wide};
+    const sunder_i_least_options options = {.upper = INFINITY, .texts = true, .force_wide = by == WIDE};
     if (sunder_i_least(a, b, &options, &s, NULL, &err)) fail_msg("%s", err.message);
     mpq_t u, v;
     mpq_inits(u, v, NULL);
@@ -239,7 +243,7 @@ static void expect_answer(const polyset *p, const polyset *q, const sunder_shape
     }
     const bool moved = mpq_sgn(x) || mpq_sgn(y);
     assert_int_equal(s.contact != SUNDER_CONTACT_NONE, moved);
-    if (moved && !wide && surroundings(p, q, x, y) != kind_of(s.contact)) {
+    if (moved && by == BRIEF && surroundings(p, q, x, y) != kind_of(s.contact)) {
         print_error("contact %s at (%s, %s)\n", sunder_contact_string(s.contact), s.dx_text, s.dy_text);
         print_shape(p);
         print_shape(q);
@@ -257,7 +261,7 @@ static void expect_answer(const polyset *p, const polyset *q, const sunder_shape
     mpq_mul(t, t, t);
     assert_true(mpq_cmp(t, norm) <= 0);
     /* The doubles, asked again by the oracle. */
-    if (!wide) {
+    if (by == BRIEF) {
         mpq_set_d(u, s.dx);
         mpq_set_d(v, s.dy);
         assert_int_equal(s.rounded_is_free, !interiors_meet(p, q, (const mpq_t *)&u, (const mpq_t *)&v));
@@ -278,7 +282,28 @@ static bool integers_only(const polyset *s)
     return true;
 }
 
-static void one_pair(const polyset *p, const polyset *q, size_t kinds[3])
+/* Convex ones, slivers, and a large one beside a small one, besides what the kinds have. */
+static void vary(polyset *p, polyset *q, rng *r)
+{
+    const int way = (int)rng_int(r, 0, 7);
+    if (way == 0) {
+        polyset_free(p);
+        polyset_free(q);
+        polyset_init(p);
+        polyset_init(q);
+        random_convex(p, r, (int)rng_int(r, 3, 8), 20);
+        random_convex(q, r, (int)rng_int(r, 3, 6), 12);
+    } else if (way == 1) {
+        const double k = (double)rng_int(r, 5, 40), m = (double)rng_int(r, 5, 40);
+        polyset_map(p, 1, k, 0, 1);
+        polyset_map(q, 1, rng_once_in(r, 2) ? k : m, 0, 1);
+    } else if (way == 2) {
+        polyset_scale(rng_once_in(r, 2) ? p : q, 50, 50);
+    }
+}
+
+/* Scales both in the end. */
+static void one_pair(polyset *p, polyset *q, size_t kinds[3])
 {
     sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
     assert_non_null(a);
@@ -286,10 +311,22 @@ static void one_pair(const polyset *p, const polyset *q, size_t kinds[3])
     mpq_t x, y;
     mpq_inits(x, y, NULL);
     oracle(p, q, x, y);
-    expect_answer(p, q, a, b, x, y, false);
-    expect_answer(p, q, a, b, x, y, true);
+    expect_answer(p, q, a, b, x, y, BRIEF);
+    expect_answer(p, q, a, b, x, y, WIDE);
     if (mpq_sgn(x) || mpq_sgn(y)) kinds[surroundings(p, q, x, y)]++;
-    mpq_clears(x, y, NULL);
+    sunder_shape_free(a);
+    sunder_shape_free(b);
+    mpq_t larger;
+    mpq_init(larger);
+    mpq_set_d(larger, LARGER);
+    mpq_mul(x, x, larger);
+    mpq_mul(y, y, larger);
+    polyset_scale(p, LARGER, LARGER);
+    polyset_scale(q, LARGER, LARGER);
+    a = polyset_shape(p);
+    b = polyset_shape(q);
+    expect_answer(p, q, a, b, x, y, NARROW);
+    mpq_clears(x, y, larger, NULL);
     sunder_shape_free(a);
     sunder_shape_free(b);
 }
@@ -305,6 +342,7 @@ static void least_is_least(void **state)
         polyset p, q;
         random_pair(&p, &q, &r, KINDS[i % (sizeof KINDS / sizeof *KINDS)]);
         polyset_negate(&q); /* generated for sums */
+        vary(&p, &q, &r);
         bring_together(&p, &q, &r);
         if (p.vertices * q.vertices <= 120 && p.polygons <= 64 && q.polygons <= 64 && integers_only(&p) &&
             integers_only(&q)) {

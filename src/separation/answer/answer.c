@@ -60,8 +60,8 @@ static bool quick_ratio(sunder_i_i128 num, sunder_i_i128 den, long exponent, dou
 
 /* sqrt(n) / w * 2^exponent, from long doubles: correctly rounded where they leave no doubt. Every step is off by at
  * most half an ulp of the format (2^-64 relative), four steps in all. Where long doubles are no longer than doubles
- * (or SUNDER_NO_LONG_DOUBLE says to take them so, as a test does) all roots go the slow way. Clear: so do those that may
- * be doubles, since of these the lower bound is the double before here. */
+ * (or SUNDER_NO_LONG_DOUBLE says to take them so, as a test does) all roots go the slow way. Clear: so do those that
+ * may be doubles, since of these the lower bound is the double before here. */
 static bool quick_root(sunder_i_u128 n, sunder_i_i128 w, long exponent, bool clear, double *nearest, double *down)
 {
     if (LONG_BITS < 64 || exponent < -400 || exponent > 400) return false;

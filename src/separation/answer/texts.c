@@ -32,8 +32,8 @@ static char *put_digits(char *end, sunder_i_u128 v)
     return put_low_digits(end, (uint64_t)v, 1);
 }
 
-/* num / den * 2^exponent, both odd and without a common divisor (num may be 0), before `end`; NULL if that is not short.
- */
+/* num / den * 2^exponent, both odd and without a common divisor (num may be 0), before `end`; NULL if that is not
+ * short. */
 static char *put_fraction(char *end, bool negative, sunder_i_u128 num, sunder_i_u128 den, long exponent)
 {
     if (num == 0) {

@@ -67,8 +67,8 @@ static inline void add(const sunder_i_operands *g, const edge *e, uint32_t v, su
     h->item[h->n++] = (sunder_i_candidate){square, e->tail, v, e->side};
 }
 
-/* The edges of operand `side` at the corners of the other, which has few. What is in doubt about their directions is let
- * in, since a superset of the boundary serves as well. */
+/* The edges of operand `side` at the corners of the other, which has few. What is in doubt about their directions is
+ * let in, since a superset of the boundary serves as well. */
 static bool pair_edges_with_few(sunder_i_operands *g, int side, const sunder_i_cones *own, const sunder_i_cones *c,
                                 double limit, sunder_i_candidates *h)
 {

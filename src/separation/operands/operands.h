@@ -18,7 +18,8 @@
 #define SUNDER_I_SHORTEST 0x1p-480
 
 /* R_ij = P_i + (-Q_j): the convex subsums that a sum is the union of (convex/subsums.h), one by one, since a pair needs
- * few of them. Counter-clockwise from its lowest corner, strictly convex. Arrays are of size sides, in one block. */
+ * few of them. Counter-clockwise from its lowest corner, strictly convex. Arrays are of size sides, in one block;
+ * where that is odd one side more, that has all on its left, stands in those of doubles. */
 typedef struct sunder_i_subsum {
     uint32_t i, j;  /* the pieces of P and of Q */
     uint32_t sides; /* 0: not made yet */
@@ -26,17 +27,15 @@ typedef struct sunder_i_subsum {
     sunder_i_point *corner, *side; /* side[k] = corner[k + 1] - corner[k] */
     double *cx, *cy, *sx, *sy;     /* the same as doubles */
     double *bound; /* side k has the point on its left for certain if cross(side, x - corner) > bound[k] */
-                   /* Behind the last side stands one more, where there is an odd number of them, that has all on its
-                    * left. */
     bool plain;    /* all corners and sides are plain numbers */
 } sunder_i_subsum;
 
 /* Sides with more of them are asked one by one, or by halving. */
 #define SUNDER_I_SIDES_IN_A_WORD 32
 
-/* What doubles say of a point and a subsum of that many sides or fewer: false if a side has it on its right by more than
- * so many bounds; else the set of sides in doubt, all others having it on their left for certain. Without branches:
- * which side it is is anyone's guess. */
+/* What doubles say of a point and a subsum of that many sides or fewer: false if a side has it on its right by more
+ * than so many bounds; else the set of sides in doubt, all others having it on their left for certain. Without
+ * branches: which side it is is anyone's guess. */
 static inline bool sunder_i_subsum_may_hold(const sunder_i_subsum *s, double x, double y, double bounds,
                                             uint32_t *in_doubt)
 {

@@ -77,11 +77,20 @@ static void offer(search *s, const sunder_i_carrier *line, const sunder_i_fracti
     if (distance + 8 * s->g->error < s->limit) s->limit = distance + 8 * s->g->error;
 }
 
+/* Does the subsum hold the end of the segment, for certain? Then, being convex, all up to there. */
+static bool holds_end(const sunder_i_carrier *line, const sunder_i_subsum *subsum, bool forwards)
+{
+    const double x = forwards ? line->ax + line->dx : line->ax, y = forwards ? line->ay + line->dy : line->ay;
+    uint32_t doubt;
+    return subsum->sides <= SUNDER_I_SIDES_IN_A_WORD && sunder_i_subsum_may_hold(subsum, x, y, 1, &doubt) && doubt == 0;
+}
+
 /* From t, which subsum `cover` has in its interior, along the line to the first free point; none beyond the limit. */
 static void walk(search *s, const sunder_i_carrier *line, long cover, bool forwards)
 {
     sunder_i_operands *g = s->g;
     for (;;) {
+        if (holds_end(line, g->subsum + cover, forwards)) return;
         const sunder_i_fraction t = sunder_i_carrier_exit(g, line, g->subsum + cover, forwards);
         if (forwards ? sunder_i_carrier_cmp(g, &t, &s->one) > 0 : sunder_i_carrier_cmp(g, &t, &s->zero) < 0) return;
         if (s->square && (forwards ? t.value > s->to : t.value < s->from)) return;
