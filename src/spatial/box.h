@@ -26,8 +26,8 @@ static inline void sunder_i_box_of_segment(const double a[2], const double b[2],
     }
 }
 
-/* The least box that holds this one and the box from `low` to `high`. Without branches: which coordinates are beyond the
- * others is anyone's guess. */
+/* The least box that holds this one and the box from `low` to `high`. Without branches: which coordinates are beyond
+ * the others is anyone's guess. */
 static inline void sunder_i_box_widen(double box[4], const double low[2], const double high[2])
 {
 #ifdef __SSE2__

@@ -34,8 +34,8 @@ typedef struct sunder_i_near_subsums {
 sunder_contact sunder_i_free_point_contact(sunder_i_operands *operands, const sunder_i_free_point *nearest,
                                            sunder_i_near_subsums *near);
 
-/* Is the translation by the doubles (dx, dy), nearest to that point, covered by no listed subsum? Exact. The listed ones
- * reach that far. */
+/* Is the translation by the doubles (dx, dy), nearest to that point, covered by no listed subsum? Exact. The listed
+ * ones reach that far. */
 bool sunder_i_doubles_free(sunder_i_operands *operands, const sunder_i_free_point *nearest,
                            const sunder_i_near_subsums *near, double dx, double dy);
 
