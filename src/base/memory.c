@@ -86,16 +86,6 @@ bool sunder_i_enlarge(void *array, size_t *capacity, size_t need, size_t size)
     return true;
 }
 
-bool sunder_i_trim(void *array, size_t n, size_t size)
-{
-    void *old;
-    memcpy(&old, array, sizeof old);
-    if (!old) return true;
-    void *less = sunder_i_realloc(old, n, size);
-    if (less) memcpy(array, &less, sizeof less);
-    return less != NULL;
-}
-
 /* ---- Arenas ---- */
 
 typedef struct sunder_i_chunk {

@@ -28,9 +28,6 @@ static inline bool sunder_i_reserve(void *array, size_t *capacity, size_t need, 
     return need <= *capacity || sunder_i_enlarge(array, capacity, need, size);
 }
 
-/* Gives back what a growing array has beyond n elements; false if memory is out, with the array as it was. */
-bool sunder_i_trim(void *array, size_t n, size_t size);
-
 struct sunder_i_chunk;
 
 typedef struct sunder_i_arena {

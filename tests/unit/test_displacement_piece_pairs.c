@@ -21,7 +21,10 @@ typedef struct world {
     sunder_i_search search;
     sunder_i_body body[3];
     sunder_i_body_piece piece[3 * MOST];
+    size_t pieces;
     double run[4 * (3 * MOST / SUNDER_I_RUN)];
+    sunder_i_body_pieces of[3];
+    _Atomic(sunder_i_body_pieces *) made[3];
     uint32_t number[2];
 } world;
 
@@ -29,18 +32,21 @@ typedef struct world {
 static void add_body(rng *r, world *w, size_t b, size_t n)
 {
     sunder_i_body *body = &w->body[b];
-    *body = (sunder_i_body){.piece = (uint32_t)w->model.pieces, .pieces = (uint32_t)n, .clear = INFINITY};
+    *body = (sunder_i_body){.piece = (uint32_t)w->pieces, .pieces = (uint32_t)n, .clear = INFINITY};
+    w->of[b].piece = w->piece + w->pieces;
+    w->of[b].run = w->run;
+    w->made[b] = &w->of[b];
     for (size_t c = 0; c < 2; c++) body->origin[c] = (double)rng_int(r, -400, 400) / 4;
     sunder_i_box_clear(body->box);
     const int64_t wide = rng_once_in(r, 3) ? 20 : 400;
     for (size_t k = 0; k < n; k++) {
-        sunder_i_body_piece *p = &w->piece[w->model.pieces];
+        sunder_i_body_piece *p = &w->piece[w->pieces];
         for (size_t c = 0; c < 2; c++) {
             p->box[c] = (double)rng_int(r, -wide, wide) / 4 + (rng_once_in(r, 2) ? 0.1 : 0);
             p->box[c + 2] = p->box[c] + (double)rng_int(r, 0, 40) / 4;
         }
         sunder_i_box_join(body->box, p->box);
-        sunder_i_box_join(w->run + 4 * (w->model.pieces++ / SUNDER_I_RUN), p->box);
+        sunder_i_box_join(w->run + 4 * (w->pieces++ / SUNDER_I_RUN), p->box);
     }
 }
 
@@ -55,8 +61,7 @@ static void make(rng *r, world *w)
 {
     memset(w, 0, sizeof *w);
     for (size_t k = 0; k < sizeof w->run / sizeof *w->run / 4; k++) sunder_i_box_clear(w->run + 4 * k);
-    w->model.piece = w->piece;
-    w->model.run = w->run;
+    w->model.made = w->made;
     w->model.body = w->body;
     w->model.rules.jumps = true;
     for (size_t b = 0; b < 3; b++) add_body(r, w, b, draw_number(r));
@@ -75,7 +80,8 @@ typedef struct found {
 static void note(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
 {
     found *f = context;
-    assert_int_equal(part->key, (uint64_t)(part->a - s->model->piece) << 32 | (uint64_t)(part->b - s->model->piece));
+    const sunder_i_body_piece *all = ((const world *)s->model)->piece; /* the model is its first member */
+    assert_int_equal(part->key, (uint64_t)(part->a - all) << 32 | (uint64_t)(part->b - all));
     if (f->n < sizeof f->key / sizeof *f->key) f->key[f->n++] = part->key;
     f->all++;
 }

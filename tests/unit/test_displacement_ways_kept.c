@@ -32,10 +32,11 @@ static bool check_pair(rng *r, sunder_i_branching *kept, sunder_i_branching *ane
     const sunder_i_model *model = kept->model;
     const sunder_i_body *p = &model->body[rng_int(r, 0, (int64_t)model->bodies - 1)],
                         *q = &model->body[rng_int(r, 0, (int64_t)model->bodies - 1)];
-    const sunder_i_body_piece *a = &model->piece[p->piece + (uint32_t)rng_int(r, 0, p->pieces - 1)],
-                              *b = &model->piece[q->piece + (uint32_t)rng_int(r, 0, q->pieces - 1)];
+    const sunder_i_body_pieces *of_p = sunder_i_pieces_of(model, p), *of_q = sunder_i_pieces_of(model, q);
+    const sunder_i_body_piece *a = &of_p->piece[rng_int(r, 0, p->pieces - 1)],
+                              *b = &of_q->piece[rng_int(r, 0, q->pieces - 1)];
     const bool shadow = rng_once_in(r, 3);
-    if (shadow) a = &model->anchor[a->feature];
+    if (shadow) a = &of_p->anchor[0]; /* features here stand alone */
     const double clearance = shadow ? 0 : (double)rng_int(r, -1, 1);
     size_t n;
     const sunder_i_way *way = sunder_i_branching_keep_ways(kept, p, a, q, b, clearance, shadow, &n);

@@ -15,18 +15,23 @@ typedef struct looking {
     sunder_i_model *model;
     sunder_i_list near, about; /* leaves of the tree: about a run, and of those about one feature */
     size_t capacity;           /* of model->held */
+    double *outline;           /* of one that is near, and scratch */
+    size_t room;
 } looking;
 
 /* At most how far the outline of g, of a body with that origin, is from a: 0 where it holds it. Beyond one of its sides
- * it is as far at least. */
-static double distance_to_outline(const sunder_i_model *model, uint32_t g, const double a[2])
+ * it is as far at least. Less than 0 if memory is out. */
+static double distance_to_outline(looking *l, uint32_t g, const double a[2])
 {
-    const sunder_i_body_piece *outline = sunder_i_hull_of(model, g);
-    const double *origin = model->body[model->body_of[g]].origin, *corner = model->corner + 2 * (size_t)outline->corner;
+    const sunder_i_model *model = l->model;
+    const size_t vertices = sunder_i_thing_shape(model, g)->vertices;
+    if (!sunder_i_reserve(&l->outline, &l->room, 4 * vertices + 2, sizeof *l->outline)) return -1;
+    const double *origin = model->body[model->body_of[g]].origin, *corner = l->outline;
+    const size_t n = sunder_i_outline_of(model, g, l->outline + 2 * vertices + 2, l->outline);
     const double at[2] = {a[0] - origin[0], a[1] - origin[1]};
     double most = 0;
-    for (uint32_t k = 0; k < outline->corners; k++) {
-        const double *p = corner + 2 * (size_t)k, *q = corner + 2 * (size_t)(k + 1 < outline->corners ? k + 1 : 0);
+    for (size_t k = 0; k < n; k++) {
+        const double *p = corner + 2 * k, *q = corner + 2 * (k + 1 < n ? k + 1 : 0);
         const double e[2] = {q[0] - p[0], q[1] - p[1]}, over = e[1] * (at[0] - p[0]) - e[0] * (at[1] - p[1]);
         if (over > 0) most = fmax(most, over / sqrt(e[0] * e[0] + e[1] * e[1]));
     }
@@ -44,8 +49,11 @@ static sunder_status look_at(looking *l, uint32_t f, uint32_t g, double *clear, 
         const sunder_status status = sunder_i_holds(sunder_i_thing_shape(model, g), a, &holds, err);
         if (status) return status;
     }
-    if (!holds) *clear = fmin(*clear, distance_to_outline(model, g, a));
-    if (!holds) return SUNDER_OK;
+    if (!holds) {
+        const double distance = distance_to_outline(l, g, a);
+        *clear = fmin(*clear, distance);
+        return distance < 0 ? sunder_i_no_memory(err) : SUNDER_OK;
+    }
     if (!sunder_i_reserve(&model->held, &l->capacity, model->held_n + 1, sizeof *model->held))
         return sunder_i_no_memory(err);
     model->held[model->held_n++] = (sunder_i_id_pair){f, g};
@@ -116,6 +124,7 @@ static sunder_status look_about_all(sunder_i_model *model, sunder_error *err)
     }
     sunder_i_free(l.near.item);
     sunder_i_free(l.about.item);
+    sunder_i_free(l.outline);
     if (model->held_n) qsort(model->held, model->held_n, sizeof *model->held, sunder_i_by_id_pair);
     return status;
 }
@@ -126,27 +135,19 @@ sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err)
     const sunder_status status = sunder_i_model_find_sides(model, err);
     if (status || model->rules.jumps) return status;
     model->anchor_at = sunder_i_calloc(2 * n, sizeof *model->anchor_at);
-    model->anchor = sunder_i_calloc(model->things, sizeof *model->anchor);
     model->clear = sunder_i_calloc(n, sizeof *model->clear);
-    if (!model->anchor_at || !model->anchor || !model->clear) return sunder_i_no_memory(err);
-    if (model->corners + n >= UINT32_MAX)
-        return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", model->corners + n);
-    double *corner = sunder_i_realloc(model->corner, 2 * (model->corners + n), sizeof *corner);
-    if (!corner) return sunder_i_no_memory(err);
-    model->corner = corner;
+    if (!model->anchor_at || !model->clear) return sunder_i_no_memory(err);
     for (size_t b = 0; b < model->bodies; b++) {
         sunder_i_body *body = &model->body[b];
         sunder_i_box_clear(body->anchors);
         for (uint32_t m = 0; m < body->members; m++) {
             const uint32_t f = model->member[body->member + m];
             if (sunder_i_is_barrier(model, f)) continue;
-            double *at = model->anchor_at + 2 * (size_t)f, *to = corner + 2 * model->corners;
-            sunder_i_body_piece *anchor = &model->anchor[f];
+            double *at = model->anchor_at + 2 * (size_t)f;
             if (!model->present[f]) continue;
             sunder_shape_anchor(sunder_i_thing_shape(model, f), at);
-            *anchor = (sunder_i_body_piece){.corner = (uint32_t)model->corners++, .corners = 1, .feature = f};
-            for (int c = 0; c < 2; c++) to[c] = anchor->box[c] = anchor->box[c + 2] = at[c] - body->origin[c];
-            sunder_i_box_join(body->anchors, anchor->box);
+            const double from_origin[2] = {at[0] - body->origin[0], at[1] - body->origin[1]};
+            sunder_i_box_include(body->anchors, from_origin);
         }
     }
     return look_about_all(model, err);

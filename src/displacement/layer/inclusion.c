@@ -138,18 +138,18 @@ sunder_status sunder_i_inclusions_choose(sunder_i_model *model, const sunder_i_r
 
 /* ---- Walls ------------------------------------------------------------------------------------------------------- */
 
-static void add_walls(sunder_i_model *model, sunder_i_body *body, uint32_t f, double *corner, size_t *corners)
+static void add_walls(sunder_i_model *model, sunder_i_body *body, uint32_t f)
 {
     const sunder_shape *shape = sunder_i_thing_shape(model, f);
     for (uint32_t v = 0; v < shape->vertices; v++) {
+        double *p = model->wall_corner + 4 * model->walls;
         sunder_i_body_piece *wall = &model->wall[model->walls++];
         wall->feature = f;
-        wall->corner = (uint32_t)*corners;
+        wall->corner = p;
         wall->corners = 2;
         const uint32_t ends[2] = {v, shape->next[v]};
-        for (int e = 0; e < 2; e++, ++*corners)
-            for (size_t c = 0; c < 2; c++) corner[2 * *corners + c] = shape->xy[2 * ends[e] + c] - body->origin[c];
-        const double *p = corner + 2 * (size_t)wall->corner;
+        for (size_t e = 0; e < 2; e++)
+            for (size_t c = 0; c < 2; c++) p[2 * e + c] = shape->xy[2 * ends[e] + c] - body->origin[c];
         for (size_t c = 0; c < 2; c++) {
             wall->box[c] = fmin(p[c], p[c + 2]);
             wall->box[c + 2] = fmax(p[c], p[c + 2]);
@@ -169,22 +169,19 @@ sunder_status sunder_i_inclusion_walls(sunder_i_model *model, sunder_error *err)
     for (size_t f = 0; f < model->features; f++)
         if (holds[f]) edges += sunder_i_thing_shape(model, f)->vertices;
     sunder_status status = SUNDER_OK;
-    double *corner = NULL;
-    /* Corners are numbered in 32 bits, and walls are told apart in the keys of constraints by 30. */
-    if (!status && (model->corners + 2 * edges >= UINT32_MAX || edges >= UINT32_C(1) << 30))
-        status = sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", model->corners + 2 * edges);
+    /* Walls are told apart in the keys of constraints by 30 bits. */
+    if (edges >= UINT32_C(1) << 30) status = sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", edges);
     if (!status) {
-        corner = sunder_i_realloc(model->corner, 2 * (model->corners + 2 * edges), sizeof *corner);
-        if (corner) model->corner = corner;
         model->wall = sunder_i_alloc(edges, sizeof *model->wall);
-        if (!corner || !model->wall) status = sunder_i_no_memory(err);
+        model->wall_corner = sunder_i_alloc(4 * edges, sizeof *model->wall_corner);
+        if (!model->wall || !model->wall_corner) status = sunder_i_no_memory(err);
     }
     for (size_t b = 0; !status && b < model->bodies; b++) {
         sunder_i_body *body = &model->body[b];
         body->wall = (uint32_t)model->walls;
         for (uint32_t m = 0; m < body->members; m++)
             if (model->member[body->member + m] < model->features && holds[model->member[body->member + m]])
-                add_walls(model, body, model->member[body->member + m], model->corner, &model->corners);
+                add_walls(model, body, model->member[body->member + m]);
     }
     sunder_i_free(holds);
     return status;

@@ -16,7 +16,7 @@
 
 typedef struct joining {
     sunder_i_model *model;
-    size_t capacity, corner_capacity;
+    size_t capacity;
     sunder_i_list near;
     bool failed;
 } joining;
@@ -70,19 +70,18 @@ static void add(joining *j, uint32_t f, uint32_t g, const edge *e, const edge *o
     if (!find_common(e, of_g, &u, &v)) return;
     const double corner[8] = {u.x, u.y, of_g->beyond.x, of_g->beyond.y, v.x, v.y, e->beyond.x, e->beyond.y};
     if (!sunder_i_seam_between(corner, at)) return;
-    if (model->corners + 4 >= UINT32_MAX ||
-        !sunder_i_reserve(&model->joint, &j->capacity, model->joints + 1, sizeof *model->joint) ||
-        !sunder_i_reserve(&model->corner, &j->corner_capacity, 2 * (model->corners + 4), sizeof *model->corner)) {
+    if (model->joints + 1 >= UINT32_MAX ||
+        !sunder_i_reserve(&model->joint, &j->capacity, model->joints + 1, sizeof *model->joint)) {
         j->failed = true;
         return;
     }
     const double *origin = model->body[model->body_of[f]].origin;
     sunder_i_joint *joint = &model->joint[model->joints++];
-    *joint = (sunder_i_joint){.piece = {.corner = (uint32_t)model->corners, .corners = 4, .feature = f}, .other = g};
+    *joint = (sunder_i_joint){.piece = {.corners = 4, .feature = f}, .other = g};
     memcpy(joint->at, at, sizeof at);
     sunder_i_box_clear(joint->piece.box);
     for (size_t k = 0; k < 4; k++) {
-        double *to = model->corner + 2 * model->corners++;
+        double *to = joint->corner + 2 * k;
         for (size_t c = 0; c < 2; c++) to[c] = at[2 * k + c] - origin[c];
         sunder_i_box_include(joint->piece.box, to);
     }
@@ -141,8 +140,6 @@ sunder_status sunder_i_model_find_joints(sunder_i_model *model, const uint32_t *
     joining j = {.model = model};
     for (size_t k = 0; k < n && !j.failed; k++) join_members(&j, body[k]);
     sunder_i_free(j.near.item);
-    /* Few bodies have joints, and all have corners: twice the room for these would be the largest array of all. */
-    j.failed = j.failed || !sunder_i_trim(&model->joint, model->joints, sizeof *model->joint) ||
-               !sunder_i_trim(&model->corner, 2 * model->corners, sizeof *model->corner);
+    for (size_t k = 0; k < model->joints; k++) model->joint[k].piece.corner = model->joint[k].corner;
     return j.failed ? sunder_i_no_memory(err) : SUNDER_OK;
 }

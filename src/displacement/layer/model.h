@@ -10,12 +10,13 @@
 #include "displacement/layer/seamless.h"
 #include "spatial/rtree.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 
 /* A body is what moves as one: a block, or a feature that stands alone. Bodies are numbered by their first members. */
 typedef struct sunder_i_body {
     uint32_t member, members; /* its features: members of them in sunder_i_model.member from there */
-    uint32_t piece, pieces;   /* its convex pieces in sunder_i_model.piece */
+    uint32_t piece, pieces;   /* its convex pieces: how they are numbered among all, from that one on */
     uint32_t wall, walls;     /* the edges of its members that keep others inside, in sunder_i_model.wall */
     uint32_t seam, seams;     /* pieces that cover what is between its pieces, in sunder_i_model.seam */
     uint32_t joint, joints;   /* what covers the walls that its members share, in sunder_i_model.joint */
@@ -33,26 +34,42 @@ typedef struct sunder_i_body {
 
 /* One convex piece of a body, counter-clockwise; a wall is one without area, of two corners. */
 typedef struct sunder_i_body_piece {
-    uint32_t corner, corners; /* in sunder_i_model.corner */
-    uint32_t feature;
-    double box[4]; /* relative to the body's origin */
+    const double *corner; /* [2 * corners] relative to the body's origin, as is the box; of an anchor that is it */
+    uint32_t corners, feature;
+    double box[4];
 } sunder_i_body_piece;
 
 /* Pieces that have a box in common, besides their own: whoever looks for some of a body's hundreds passes by the rest
  * so many at a time. */
 #define SUNDER_I_RUN 8u
 
+/* What the search looks at of one body: made when somebody first does (body_pieces.c). In a large layer most stand
+ * where nobody comes.
+ *
+ *     piece    [pieces] convex; those of a feature in the order of its shape's
+ *     anchor   [members] each as a piece of one corner, of none where there is none; NULL: jumps are allowed
+ *     run      [4 * runs] boxes of those runs of SUNDER_I_RUN that are all of this body: they begin at multiples of
+ *              that, from first_run of it on
+ *     outline  [members] their convex hulls, where somebody asked for them */
+typedef struct sunder_i_body_pieces {
+    const sunder_i_body_piece *piece, *anchor;
+    const double *run;
+    uint32_t first_run;
+    _Atomic(sunder_i_body_piece *) outline;
+} sunder_i_body_pieces;
+
 /* What covers a wall that two members of a block share, within the two. */
 typedef struct sunder_i_joint {
     sunder_i_body_piece piece; /* its feature is the one, `other` the other */
     uint32_t other;
-    double at[8]; /* its four corners as they are */
+    double at[8], corner[8]; /* its four corners as they are, and from the body's origin */
 } sunder_i_joint;
 
 /* A line of a barrier that features may not cross. */
 typedef struct sunder_i_side {
     sunder_i_body_piece piece; /* of two corners; its feature is the part of the barrier */
     const double *from, *to;   /* its ends; of a rational area the nearest doubles */
+    double corner[4];          /* the same from the body's origin */
     const sunder_shape
         *area; /* which has it as the edge from that vertex, and lies on its left; NULL: it bounds none */
     uint32_t vertex;
@@ -82,23 +99,17 @@ struct sunder_i_model {
     sunder_i_rules rules;
     sunder_shape *disc; /* rules.disc */
     const sunder_i_barriers *barriers;
-    size_t bodies, pieces;
+    size_t bodies;
     size_t features, things; /* features come first, then parts of barriers, which are fixed bodies each */
     uint32_t *body_of;       /* [things] */
     uint32_t *member;        /* [things] things by body */
     sunder_i_body *body;
-    sunder_i_body_piece *piece;
-    double *run;               /* [4 * (pieces / SUNDER_I_RUN)] the boxes of runs of pieces, whosesoever */
-    uint32_t *outline;         /* [things] see sunder_i_hull_of() */
-    sunder_i_body_piece *hull; /* the outlines that are no pieces; the first one has no corners */
-    double *corner;            /* [2 * corners] relative to the body's origin */
-    size_t corners;
+    _Atomic(sunder_i_body_pieces *) *made; /* [bodies] see sunder_i_pieces_of() */
     /* Where jumps are not allowed; else NULL: */
-    sunder_i_body_piece *anchor; /* [things] each anchor as a piece of one corner; barriers have none */
-    double *anchor_at;           /* [2 * features] the anchors as they are */
-    double *clear;               /* [features] nothing of another body that does not hold the anchor is nearer to it */
-    sunder_i_body_piece *seam;   /* convex pieces of features about the diagonals between their pieces; seams.c */
-    double *seam_at;             /* [8 * seams] their four corners as they are */
+    double *anchor_at;         /* [2 * features] the anchors as they are */
+    double *clear;             /* [features] nothing of another body that does not hold the anchor is nearer to it */
+    sunder_i_body_piece *seam; /* convex pieces of features about the diagonals between their pieces; seams.c */
+    double *seam_at, *seam_corner; /* [8 * seams] their four corners as they are, and from the bodies' origins */
     size_t seams;
     bool has_seams;        /* of all bodies */
     sunder_i_joint *joint; /* of the bodies that were asked for; joints.c */
@@ -120,6 +131,7 @@ struct sunder_i_model {
     double *went;                /* [4 * bodies] the box of all moves that each ever had, likewise */
     const sunder_i_rtree *standing; /* as they stand now: the placement's; lent */
     sunder_i_body_piece *wall;      /* edges of features that hold others; see inclusion.c */
+    double *wall_corner;            /* [4 * walls] */
     size_t walls;
     sunder_i_inclusion *inclusion; /* pairs that may overlap, because one lies in the other; sorted */
     size_t inclusions;
@@ -156,14 +168,6 @@ static inline uint32_t sunder_i_barrier_of(const sunder_i_model *model, uint32_t
 static inline const sunder_shape *sunder_i_thing_shape(const sunder_i_model *model, size_t thing)
 {
     return sunder_i_feature(model->layer, thing)->shape;
-}
-
-/* The convex hull of a thing, for where its pieces are too many: its piece, if that is it. Of one that is not there it
- * has no corners. */
-static inline const sunder_i_body_piece *sunder_i_hull_of(const sunder_i_model *model, uint32_t thing)
-{
-    const uint32_t at = model->outline[thing];
-    return at < model->pieces ? &model->piece[at] : &model->hull[UINT32_MAX - at];
 }
 
 /* The box of a thing as it stood at the start; of one that was not there no more than zeros. */
@@ -238,13 +242,10 @@ void sunder_i_model_free(sunder_i_model *model);
 
 /* ---- bodies.c ---------------------------------------------------------------------------------------------------- */
 
-/* The convex pieces, for the search. */
+/* The numbers of the convex pieces, and the bodies' boxes. */
 sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err);
-/* The corners of a piece, an anchor or a side, where they stood in the layer: as given; of repaired shapes the nearest
- * doubles. out: room for all of the piece's. */
-void sunder_i_piece_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out);
-/* The convex hull of n points, counter-clockwise, in out (room for n + 1), in doubles. The points are sorted. */
-size_t sunder_i_convex_hull(double *point, size_t n, double *out);
+/* The body that has the piece of that number. */
+uint32_t sunder_i_body_of_piece(const sunder_i_model *model, uint32_t piece);
 /* A relative move of two bodies that is longer leaves them apart by more than the gap. */
 double sunder_i_farthest_near(const sunder_i_model *model, uint32_t p, uint32_t q);
 /* Unites the members of these bodies, those that are blocks and have not been. */
@@ -253,6 +254,29 @@ sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, 
 const sunder_shape *sunder_i_model_shape(const sunder_i_model *model, uint32_t body);
 /* A lower bound of the weight of a body. */
 double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body);
+
+/* ---- body_pieces.c ----------------------------------------------------------------------------------------------- */
+
+/* Makes them for sunder_i_pieces_of(). */
+const sunder_i_body_pieces *sunder_i_pieces_make(const sunder_i_model *model, const sunder_i_body *body);
+/* The pieces of a body, after all are cut and anchored; they stay. NULL if memory is out. Any number of threads may ask
+ * at a time. */
+static inline const sunder_i_body_pieces *sunder_i_pieces_of(const sunder_i_model *model, const sunder_i_body *body)
+{
+    const sunder_i_body_pieces *made = atomic_load_explicit(&model->made[body - model->body], memory_order_acquire);
+    return made ? made : sunder_i_pieces_make(model, body);
+}
+/* The same of the outlines of its members, one of each, for where their pieces are too many: convex hulls. */
+const sunder_i_body_piece *sunder_i_outlines_of(const sunder_i_model *model, const sunder_i_body *body);
+/* The outline of a thing that is there from its body's origin, how many corners; out: room for one more than its shape
+ * has, point: scratch for all of these. */
+size_t sunder_i_outline_of(const sunder_i_model *model, uint32_t thing, double *point, double *out);
+void sunder_i_pieces_free(sunder_i_body_pieces *pieces);
+/* The corners of a piece, an anchor or a side, where they stood in the layer: as given; of repaired shapes the nearest
+ * doubles. out: room for all of the piece's. */
+void sunder_i_piece_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out);
+/* The convex hull of n points, counter-clockwise, in out (room for n + 1), in doubles. The points are sorted. */
+size_t sunder_i_convex_hull(double *point, size_t n, double *out);
 
 /* ---- anchors.c --------------------------------------------------------------------------------------------------- */
 
@@ -266,13 +290,13 @@ bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);
 /* Is there a barrier without area that owes nothing, so that it could hide on a diagonal? */
 bool sunder_i_has_bare_barriers(const sunder_i_model *model);
 /* The seams of all bodies, or of these, but where they are known; after the pieces are cut. Proofs ask for them, the
- * search does not. Pointers into model->corner are void then. */
+ * search does not. Pointers to seams are void then. */
 sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err);
 sunder_status sunder_i_model_find_seams_of(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 
 /* ---- joints.c ---------------------------------------------------------------------------------------------------- */
 
-/* The joints of these bodies, ascending; once. Pointers into model->corner are void then. */
+/* The joints of these bodies, ascending; once. Pointers to joints are void then. */
 sunder_status sunder_i_model_find_joints(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 
 /* ---- within_limit.c ---------------------------------------------------------------------------------------------- */

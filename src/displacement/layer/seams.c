@@ -34,24 +34,20 @@ static bool add_seams(gathering *g, uint32_t f)
     return ok;
 }
 
-/* Corners of the seams from `first` on, from the bodies' origins, behind all others. */
+/* Corners of the seams from `first` on, from the bodies' origins. */
 static sunder_status put_corners(sunder_i_model *model, size_t first, sunder_error *err)
 {
-    if (!sunder_i_trim(&model->seam, model->seams, sizeof *model->seam) ||
-        !sunder_i_trim(&model->seam_at, 8 * model->seams, sizeof *model->seam_at))
-        return sunder_i_no_memory(err);
-    const size_t corners = model->corners + 4 * (model->seams - first);
-    if (corners >= UINT32_MAX) return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
-    double *corner = sunder_i_realloc(model->corner, 2 * corners, sizeof *corner);
+    if (model->seams >= UINT32_MAX) return sunder_i_fail(err, SUNDER_ESIZE, "too many seams: %zu", model->seams);
+    double *corner = sunder_i_realloc(model->seam_corner, 8 * model->seams, sizeof *corner);
     if (!corner) return sunder_i_no_memory(err);
-    model->corner = corner;
+    model->seam_corner = corner;
+    for (size_t k = 0; k < model->seams; k++) model->seam[k].corner = corner + 8 * k;
     for (size_t k = first; k < model->seams; k++) {
         sunder_i_body_piece *seam = &model->seam[k];
         const double *origin = model->body[model->body_of[seam->feature]].origin;
-        seam->corner = (uint32_t)model->corners;
         sunder_i_box_clear(seam->box);
         for (size_t i = 0; i < 4; i++) {
-            double *to = corner + 2 * model->corners++;
+            double *to = corner + 8 * k + 2 * i;
             for (size_t c = 0; c < 2; c++) to[c] = model->seam_at[8 * k + 2 * i + c] - origin[c];
             sunder_i_box_include(seam->box, to);
         }

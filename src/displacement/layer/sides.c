@@ -65,14 +65,13 @@ static void box_of_line(const sunder_i_side *side, double box[4])
 }
 
 /* As a piece of its part's body. */
-static void put_piece(sunder_i_model *model, const sunder_i_body *body, uint32_t part, sunder_i_side *side)
+static void put_piece(const sunder_i_model *model, const sunder_i_body *body, uint32_t part, sunder_i_side *side)
 {
     sunder_i_body_piece *piece = &side->piece;
-    *piece = (sunder_i_body_piece){
-        .corner = (uint32_t)model->corners, .corners = 2, .feature = (uint32_t)model->features + part};
+    *piece = (sunder_i_body_piece){.corner = side->corner, .corners = 2, .feature = (uint32_t)model->features + part};
     sunder_i_box_clear(piece->box);
     for (int e = 0; e < 2; e++) {
-        double *to = model->corner + 2 * model->corners++;
+        double *to = side->corner + 2 * e;
         for (int c = 0; c < 2; c++) to[c] = (e ? side->to : side->from)[c] - body->origin[c];
         sunder_i_box_include(piece->box, to);
     }
@@ -84,12 +83,7 @@ static sunder_status take_all_lines(sunder_i_model *model, sunder_error *err)
     size_t n = 0;
     for (uint32_t k = 0; k < parts; k++) n += take_part(model, k, NULL);
     if (n == 0) return SUNDER_OK;
-    const size_t corners = model->corners + 2 * n + model->features;
-    if (corners >= UINT32_MAX || n >= UINT32_C(1) << 30)
-        return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
-    double *corner = sunder_i_realloc(model->corner, 2 * corners, sizeof *corner);
-    if (!corner) return sunder_i_no_memory(err);
-    model->corner = corner;
+    if (n >= UINT32_C(1) << 30) return sunder_i_fail(err, SUNDER_ESIZE, "too many sides: %zu", n);
     model->side = sunder_i_alloc(n, sizeof *model->side);
     if (!model->side) return sunder_i_no_memory(err);
     for (uint32_t k = 0; k < parts; k++) {
@@ -153,11 +147,9 @@ static void put_anchors(sunder_i_model *model)
             const uint32_t f = model->member[body->member + m];
             if (sunder_i_is_barrier(model, f) || !model->present[f]) continue;
             sunder_i_body_piece *anchor = &model->side_anchor[f];
-            double *to = model->corner + 2 * model->corners;
-            *anchor = (sunder_i_body_piece){.corner = (uint32_t)model->corners++, .corners = 1, .feature = f};
+            *anchor = (sunder_i_body_piece){.corner = anchor->box, .corners = 1, .feature = f};
             for (int c = 0; c < 2; c++)
-                to[c] = anchor->box[c] = anchor->box[c + 2] =
-                    model->side_at[2 * (size_t)f + (size_t)c] - body->origin[c];
+                anchor->box[c] = anchor->box[c + 2] = model->side_at[2 * (size_t)f + (size_t)c] - body->origin[c];
             sunder_i_box_join(box, anchor->box);
         }
     }

@@ -42,6 +42,7 @@ typedef struct listing {
     const sunder_i_model *model;
     const sunder_i_waived *waived;
     const sunder_i_body *p, *q;
+    const sunder_i_body_pieces *of_p, *of_q;
     double offset[2], reach;
     double window[4]; /* of u that are asked about */
     size_t most;      /* pieces */
@@ -87,13 +88,11 @@ static bool begin_piece(listing *l, const sunder_i_body_piece *a, const sunder_i
                         sunder_i_forbidden_piece *piece, size_t *n)
 {
     sunder_i_forbidden *f = l->out;
-    const double *corner = l->model->corner;
     const size_t most = (size_t)a->corners + b->corners;
     if (!sunder_i_reserve(&f->piece, &f->piece_capacity, f->pieces + 1, sizeof *f->piece) ||
         !sunder_i_reserve(&f->edge, &f->edge_capacity, f->edges + most, sizeof *f->edge) || !sunder_i_steps(1))
         return false;
-    *n = sunder_i_obstacle_corners(corner + 2 * (size_t)a->corner, a->corners, corner + 2 * (size_t)b->corner,
-                                   b->corners, l->offset, &l->scratch);
+    *n = sunder_i_obstacle_corners(a->corner, a->corners, b->corner, b->corners, l->offset, &l->scratch);
     if (*n == 0) return false;
     *piece = (sunder_i_forbidden_piece){.edge = (uint32_t)f->edges, .a = a, .b = b, .clearance = NAN};
     piece->edges = (uint32_t)sunder_i_obstacle_edges(l->scratch.xy, *n, f->edge + f->edges);
@@ -208,16 +207,15 @@ static bool is_full(const listing *l) { return l->out->pieces > l->most; }
 
 static bool add_pieces(listing *l)
 {
-    const sunder_i_model *model = l->model;
-    const double gap = model->rules.gap, *w = l->window;
-    for (uint32_t k = l->p->piece; k < l->p->piece + l->p->pieces && !is_full(l); k++) {
-        const sunder_i_body_piece *a = &model->piece[k];
+    const double gap = l->model->rules.gap, *w = l->window;
+    for (uint32_t k = 0; k < l->p->pieces && !is_full(l); k++) {
+        const sunder_i_body_piece *a = &l->of_p->piece[k];
         const double box[4] = {a->box[0] - l->offset[0] - w[2] - gap, a->box[1] - l->offset[1] - w[3] - gap,
                                a->box[2] - l->offset[0] - w[0] + gap, a->box[3] - l->offset[1] - w[1] + gap};
         if (!sunder_i_steps(1 + l->q->pieces / 8)) return false;
         if (!sunder_i_box_meet(box, l->q->box)) continue;
-        for (uint32_t m = l->q->piece; m < l->q->piece + l->q->pieces; m++) {
-            const sunder_i_body_piece *b = &model->piece[m];
+        for (uint32_t m = 0; m < l->q->pieces; m++) {
+            const sunder_i_body_piece *b = &l->of_q->piece[m];
             const sunder_i_waiver *waiver;
             if (!sunder_i_box_meet(box, b->box) || !owe(l, a->feature, b->feature, &waiver)) continue;
             if (!add_piece(l, a, b, waiver)) return false;
@@ -237,6 +235,7 @@ static bool hides_in_seams(const listing *l, const sunder_i_body *of, const sund
 static bool add_covers(listing *l, const sunder_i_body *of, const sunder_i_body *other, bool swapped)
 {
     const sunder_i_model *model = l->model;
+    const sunder_i_body_pieces *pieces = swapped ? l->of_p : l->of_q;
     const double sign = swapped ? 1 : -1;
     if (!hides_in_seams(l, of, other)) return true;
     for (uint32_t k = of->seam; k < of->seam + of->seams && !is_full(l); k++) {
@@ -244,8 +243,8 @@ static bool add_covers(listing *l, const sunder_i_body *of, const sunder_i_body 
         double box[4];
         for (uint32_t c = 0; c < 4; c++)
             box[c] = seam->box[c] + sign * l->offset[c & 1] + (c < 2 ? -l->reach : l->reach);
-        for (uint32_t m = other->piece; m < other->piece + other->pieces; m++) {
-            const sunder_i_body_piece *flat = &model->piece[m];
+        for (uint32_t m = 0; m < other->pieces; m++) {
+            const sunder_i_body_piece *flat = &pieces->piece[m];
             const sunder_i_waiver *waiver;
             if (flat->corners > 2 || !sunder_i_box_meet(box, flat->box)) continue;
             if (!owe(l, seam->feature, flat->feature, &waiver)) continue;
@@ -293,22 +292,23 @@ static bool may_cast(const listing *l, const sunder_i_body_piece *anchor, const 
                    : sunder_i_shadow_may_reach(anchor->box, piece->box, l->offset, way);
 }
 
-/* The shadow of one piece from the anchor of f. */
-static bool add_shadow_of(listing *l, uint32_t f, const sunder_i_body_piece *piece, bool swapped)
+/* The shadow of one piece from that anchor. */
+static bool add_shadow_of(listing *l, const sunder_i_body_piece *anchor, const sunder_i_body_piece *piece, bool swapped)
 {
-    const sunder_i_body_piece *anchor = &l->model->anchor[f];
-    if (!may_cast(l, anchor, piece, swapped) || sunder_i_is_held(l->model, f, piece->feature)) return true;
+    if (!may_cast(l, anchor, piece, swapped) || sunder_i_is_held(l->model, anchor->feature, piece->feature))
+        return true;
     return add_shadow(l, swapped ? piece : anchor, swapped ? anchor : piece);
 }
 
 /* Those of what covers diagonals and shared walls. */
-static bool add_seams(listing *l, uint32_t f, const sunder_i_body *other, bool swapped)
+static bool add_seams(listing *l, const sunder_i_body_piece *anchor, const sunder_i_body *other, bool swapped)
 {
     const sunder_i_model *model = l->model;
     for (uint32_t k = other->seam; k < other->seam + other->seams; k++)
-        if (!add_shadow_of(l, f, &model->seam[k], swapped)) return false;
+        if (!add_shadow_of(l, anchor, &model->seam[k], swapped)) return false;
     for (uint32_t k = other->joint; k < other->joint + other->joints; k++)
-        if (!sunder_i_is_held(model, f, model->joint[k].other) && !add_shadow_of(l, f, &model->joint[k].piece, swapped))
+        if (!sunder_i_is_held(model, anchor->feature, model->joint[k].other) &&
+            !add_shadow_of(l, anchor, &model->joint[k].piece, swapped))
             return false;
     return true;
 }
@@ -317,14 +317,15 @@ static bool add_seams(listing *l, uint32_t f, const sunder_i_body *other, bool s
 static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_body *other, bool swapped)
 {
     const sunder_i_model *model = l->model;
+    const sunder_i_body_pieces *from = swapped ? l->of_q : l->of_p, *of = swapped ? l->of_p : l->of_q;
     const bool counts = l->seams || (l->waived->seamed && l->waived->seamed[other - model->body]);
     if (sunder_i_is_barrier_body(model, other)) return true;
     for (uint32_t m = 0; m < p->members && !is_full(l); m++) {
-        const uint32_t f = model->member[p->member + m];
-        if (!model->anchor[f].corners) continue;
-        for (uint32_t k = other->piece; k < other->piece + other->pieces; k++)
-            if (!add_shadow_of(l, f, &model->piece[k], swapped)) return false;
-        if (counts && !add_seams(l, f, other, swapped)) return false;
+        const sunder_i_body_piece *anchor = &from->anchor[m];
+        if (!anchor->corners) continue;
+        for (uint32_t k = 0; k < other->pieces; k++)
+            if (!add_shadow_of(l, anchor, &of->piece[k], swapped)) return false;
+        if (counts && !add_seams(l, anchor, other, swapped)) return false;
     }
     return true;
 }
@@ -354,13 +355,17 @@ static bool add_all(listing *l)
     return l->model->rules.jumps || (add_shadows_from(l, l->p, l->q, false) && add_shadows_from(l, l->q, l->p, true));
 }
 
-static void begin(listing *l, uint32_t p, uint32_t q)
+/* False if memory is out. */
+static bool begin(listing *l, uint32_t p, uint32_t q)
 {
     *l->out = (sunder_i_forbidden){0};
     l->p = &l->model->body[p];
     l->q = &l->model->body[q];
     for (size_t c = 0; c < 2; c++) l->offset[c] = l->q->origin[c] - l->p->origin[c];
     for (size_t c = 0; c < 4; c++) l->window[c] = c < 2 ? -l->reach : l->reach;
+    l->of_p = sunder_i_pieces_of(l->model, l->p);
+    l->of_q = sunder_i_pieces_of(l->model, l->q);
+    return l->of_p && l->of_q;
 }
 
 static void end(listing *l, double reach)
@@ -379,8 +384,7 @@ bool sunder_i_forbidden_init(sunder_i_forbidden *f, const sunder_i_model *model,
                              uint32_t p, uint32_t q, double reach)
 {
     listing l = {.out = f, .model = model, .waived = waived, .reach = reach, .most = MOST_PIECES};
-    begin(&l, p, q);
-    bool ok = add_all(&l);
+    bool ok = begin(&l, p, q) && add_all(&l);
     while (ok && is_full(&l) && l.reach > model->rules.gap) {
         f->pieces = f->edges = 0;
         l.reach /= 2;
@@ -396,9 +400,9 @@ bool sunder_i_forbidden_init_near(sunder_i_forbidden *f, const sunder_i_model *m
 {
     listing l = {.out = f, .model = model, .waived = waived, .most = SIZE_MAX};
     l.reach = fabs(u[0]) + fabs(u[1]) + hair;
-    begin(&l, p, q);
+    const bool begun = begin(&l, p, q);
     for (size_t c = 0; c < 4; c++) l.window[c] = u[c & 1] + (c < 2 ? -hair : hair);
-    const bool ok = add_all(&l);
+    const bool ok = begun && add_all(&l);
     end(&l, l.reach);
     return ok;
 }
@@ -408,8 +412,7 @@ bool sunder_i_forbidden_with_seams(sunder_i_forbidden *f, const sunder_i_model *
 {
     const sunder_i_waived none = {0};
     listing l = {.out = f, .model = model, .waived = &none, .reach = reach, .most = most, .seams = true};
-    begin(&l, p, q);
-    const bool ok = add_all(&l);
+    const bool ok = begin(&l, p, q) && add_all(&l);
     end(&l, reach);
     return ok;
 }

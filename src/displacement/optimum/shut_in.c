@@ -19,14 +19,14 @@
 typedef struct looking {
     const sunder_i_model *model;
     const sunder_i_body *p, *q;
+    const sunder_i_body_pieces *of_p, *of_q;
     double offset[2]; /* of q's origin from p's */
 } looking;
 
 /* Does the ray from u along dir meet the convex piece, moved by shift? */
-static bool meets(const sunder_i_model *model, const sunder_i_body_piece *piece, const double shift[2],
-                  const double u[2], const double dir[2])
+static bool meets(const sunder_i_body_piece *piece, const double shift[2], const double u[2], const double dir[2])
 {
-    const double *corner = model->corner + 2 * (size_t)piece->corner;
+    const double *corner = piece->corner;
     bool left = false, right = false, ahead = false;
     for (uint32_t k = 0; k < piece->corners; k++) {
         const double x = corner[2 * k] + shift[0] - u[0], y = corner[2 * k + 1] + shift[1] - u[1];
@@ -38,16 +38,16 @@ static bool meets(const sunder_i_model *model, const sunder_i_body_piece *piece,
     return left && right && ahead;
 }
 
-/* Does an anchor of `of` that goes along dir run into `other`, which stands `shift` off? */
-static bool runs_into(const sunder_i_model *model, const sunder_i_body *of, const sunder_i_body *other,
-                      const double shift[2], const double dir[2])
+/* Does an anchor of the one that goes along dir run into the other, which stands `shift` off? */
+static bool runs_into(const looking *l, bool p_runs, const double shift[2], const double dir[2])
 {
+    const sunder_i_body *of = p_runs ? l->p : l->q, *other = p_runs ? l->q : l->p;
+    const sunder_i_body_piece *piece = (p_runs ? l->of_q : l->of_p)->piece;
     for (uint32_t m = 0; m < of->members; m++) {
-        const uint32_t f = model->member[of->member + m];
-        const sunder_i_body_piece *anchor = &model->anchor[f];
-        for (uint32_t k = other->piece; k < other->piece + other->pieces && anchor->corners; k++)
-            if (meets(model, &model->piece[k], shift, anchor->box, dir) &&
-                !sunder_i_is_held(model, f, model->piece[k].feature))
+        const sunder_i_body_piece *anchor = &(p_runs ? l->of_p : l->of_q)->anchor[m];
+        for (uint32_t k = 0; k < other->pieces && anchor->corners; k++)
+            if (meets(&piece[k], shift, anchor->box, dir) &&
+                !sunder_i_is_held(l->model, anchor->feature, piece[k].feature))
                 return true;
     }
     return false;
@@ -56,7 +56,7 @@ static bool runs_into(const sunder_i_model *model, const sunder_i_body *of, cons
 static bool is_open(const looking *l, const double dir[2])
 {
     const double to_p[2] = {-l->offset[0], -l->offset[1]}, back[2] = {-dir[0], -dir[1]};
-    return !runs_into(l->model, l->q, l->p, to_p, dir) && !runs_into(l->model, l->p, l->q, l->offset, back);
+    return !runs_into(l, false, to_p, dir) && !runs_into(l, true, l->offset, back);
 }
 
 /* Is there an open direction among so many, straight out first? */
@@ -100,7 +100,10 @@ bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q
 {
     looking l = {.model = model, .p = &model->body[p], .q = &model->body[q]};
     for (size_t c = 0; c < 2; c++) l.offset[c] = l.q->origin[c] - l.p->origin[c];
-    return !any_is_open(&l);
+    l.of_p = sunder_i_pieces_of(model, l.p);
+    l.of_q = sunder_i_pieces_of(model, l.q);
+    /* Where memory is out whoever asks more closely says so. */
+    return !l.of_p || !l.of_q || !any_is_open(&l);
 }
 
 /* What the two bodies forbid each other, and how far they are asked about. */

@@ -47,8 +47,10 @@ static bool lower_by_body(sunder_i_tight *f, const sunder_i_body *body, int *exp
     const double owed = sunder_i_owed_below(model, thing, thing);
     lower(exponent, owed);
     *known = owed == sunder_i_owed_above(model, thing, thing);
-    for (uint32_t p = body->piece; *known && p < body->piece + body->pieces; p++)
-        if (!lower_by_piece(f, &model->piece[p], exponent)) return false;
+    const sunder_i_body_pieces *of = sunder_i_pieces_of(model, body);
+    if (!of) return false;
+    for (uint32_t p = 0; *known && p < body->pieces; p++)
+        if (!lower_by_piece(f, &of->piece[p], exponent)) return false;
     return true;
 }
 

@@ -273,13 +273,16 @@ static sunder_status search_wall(sunder_i_branching *c, unsigned level, sunder_i
  * one that the candidate's slack leaves deepest; false: it parts them all. */
 static bool find_left(sunder_i_branching *c, sunder_i_violation *deepest)
 {
-    const sunder_i_body *p = &c->model->body[c->between];
     *deepest = (sunder_i_violation){.depth = 2 * c->hair};
+    if (c->walls == 0) return false;
+    const sunder_i_body *p = &c->model->body[c->between];
+    const sunder_i_body_pieces *pieces = sunder_i_pieces_of(c->model, p);
+    if (!pieces) c->failed = true;
     for (size_t k = 0; k < c->walls && !c->failed; k++)
-        for (uint32_t l = p->piece; l < p->piece + p->pieces && c->wall[k].slack && !c->failed; l++) {
+        for (uint32_t l = 0; l < p->pieces && c->wall[k].slack && !c->failed; l++) {
             sunder_i_violation o = {.p = c->between,
                                     .q = c->model->body_of[c->wall[k].b->feature],
-                                    .a = &c->model->piece[l],
+                                    .a = &pieces->piece[l],
                                     .b = c->wall[k].b,
                                     .clearance = c->wall[k].clearance,
                                     .slack = c->wall[k].slack,

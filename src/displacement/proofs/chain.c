@@ -269,16 +269,18 @@ static bool ask_things(finding *f, uint32_t a, uint32_t b)
     f->g->of.b = f->q->b;
     const bool owe = sunder_i_branching_owe(&f->g->branching, a, b, &clearance);
     f->g->of.a = f->g->of.b = SUNDER_I_NOBODY;
-    for (uint32_t k = p->piece; k < p->piece + p->pieces && owe; k++) {
-        const sunder_i_body_piece *one = &model->piece[k];
+    const sunder_i_body_pieces *of_p = sunder_i_pieces_of(model, p), *of_r = sunder_i_pieces_of(model, r);
+    if (!of_p || !of_r) return false;
+    for (uint32_t k = 0; k < p->pieces && owe; k++) {
+        const sunder_i_body_piece *one = &of_p->piece[k];
         double box[4], s[2], t[2];
         sunder_i_chains_stand(f->g, i, s);
         sunder_i_chains_stand(f->g, j, t);
         for (uint32_t x = 0; x < 4; x++)
             box[x] = one->box[x] + (p->origin[x & 1] + s[x & 1] - r->origin[x & 1] - t[x & 1]) +
                      (x < 2 ? -model->rules.gap : model->rules.gap);
-        for (uint32_t l = r->piece; l < r->piece + r->pieces && one->feature == a && !f->decision->proof; l++) {
-            const sunder_i_body_piece *other = &model->piece[l];
+        for (uint32_t l = 0; l < r->pieces && one->feature == a && !f->decision->proof; l++) {
+            const sunder_i_body_piece *other = &of_r->piece[l];
             f->g->work++;
             if (other->feature != b || !sunder_i_box_meet(box, other->box)) continue;
             const sunder_i_chain_link pair = {.i = i, .j = j, .a = one, .b = other, .clearance = clearance};

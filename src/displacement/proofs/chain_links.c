@@ -164,16 +164,18 @@ static bool link_bodies(sunder_i_chains *g, uint32_t i, uint32_t j)
     const sunder_i_model *model = g->of.model;
     const sunder_i_body *p = &model->body[i], *q = &model->body[j];
     const double reach = sunder_i_limit_of(p) + sunder_i_limit_of(q) + model->rules.gap;
-    for (uint32_t k = p->piece; k < p->piece + p->pieces; k++) {
-        const sunder_i_body_piece *a = &model->piece[k];
+    const sunder_i_body_pieces *of_p = sunder_i_pieces_of(model, p), *of_q = sunder_i_pieces_of(model, q);
+    if (!of_p || !of_q) return false;
+    for (uint32_t k = 0; k < p->pieces; k++) {
+        const sunder_i_body_piece *a = &of_p->piece[k];
         double box[4];
         for (uint32_t x = 0; x < 4; x++)
             box[x] = a->box[x] + (p->origin[x & 1] - q->origin[x & 1]) + (x < 2 ? -reach : reach);
         g->work++;
         if (!sunder_i_box_meet(box, q->box)) continue;
         g->work += q->pieces / 4;
-        for (uint32_t l = q->piece; l < q->piece + q->pieces; l++)
-            if (sunder_i_box_meet(box, model->piece[l].box) && !link_pieces(g, i, a, j, &model->piece[l])) return false;
+        for (uint32_t l = 0; l < q->pieces; l++)
+            if (sunder_i_box_meet(box, of_q->piece[l].box) && !link_pieces(g, i, a, j, &of_q->piece[l])) return false;
     }
     return true;
 }

@@ -84,7 +84,7 @@ size_t sunder_i_branching_chord_ways(sunder_i_branching *c, const sunder_i_body 
 {
     double at[4];
     for (int k = 0; k < 4; k++) at[k] = chord[k] - q->origin[k & 1];
-    const sunder_i_parting parting = {.a = c->model->corner + 2 * (size_t)anchor->corner,
+    const sunder_i_parting parting = {.a = anchor->corner,
                                       .b = at,
                                       .na = 1,
                                       .nb = 2,
@@ -120,7 +120,7 @@ static bool find_spoke(const sunder_i_plane *g, const sunder_i_plane_obstacle *o
     const sunder_i_model *model = g->c->model;
     if (!o->shadow || !sunder_i_is_barrier_body(model, &model->body[o->q])) return false;
     const double *a = model->side_at + 2 * (size_t)o->a->feature;
-    const double *c = model->corner + 2 * (size_t)o->b->corner, *q = model->body[o->q].origin;
+    const double *c = o->b->corner, *q = model->body[o->q].origin;
     for (int k = 0; k < 2; k++) {
         const double end[2] = {c[2 * k] + q[0], c[2 * k + 1] + q[1]};
         if (!is_beside(a, end, u)) continue;

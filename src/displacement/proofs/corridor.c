@@ -337,11 +337,13 @@ static void look_at_overlap(looking *g, uint32_t f, const sunder_i_requirement *
     if (find_hull(model, f, &hull, &corners))
         for (size_t n = 0; n < c->near.n && !g->status; n++) {
             const sunder_i_body *q = &model->body[model->body_of[c->near.item[n]]];
+            const sunder_i_body_pieces *of_p = sunder_i_pieces_of(model, p), *of_q = sunder_i_pieces_of(model, q);
             sunder_i_branching_join(c, model->body_of[c->near.item[n]]);
-            for (uint32_t k = p->piece; k < p->piece + p->pieces; k++)
-                for (uint32_t l = q->piece; l < q->piece + q->pieces && !g->status; l++)
-                    if (model->piece[k].feature == f)
-                        look_at_depth(g, &model->piece[k], &model->piece[l], r, hull, corners);
+            if (!of_p || !of_q) g->status = sunder_i_no_memory(g->err);
+            for (uint32_t k = 0; k < p->pieces && !g->status; k++)
+                for (uint32_t l = 0; l < q->pieces && !g->status; l++)
+                    if (of_p->piece[k].feature == f)
+                        look_at_depth(g, &of_p->piece[k], &of_q->piece[l], r, hull, corners);
         }
     sunder_i_free(hull);
 }
@@ -352,16 +354,18 @@ static void look_at_pair(looking *g, uint32_t f, uint32_t standing, double clear
     const sunder_i_model *model = g->branching->model;
     const sunder_i_body *p = &model->body[g->mover], *q = &model->body[model->body_of[standing]];
     const double reach = fabs(clearance) + g->branching->hair;
+    const sunder_i_body_pieces *of_p = sunder_i_pieces_of(model, p), *of_q = sunder_i_pieces_of(model, q);
     sunder_i_branching_join(g->branching, model->body_of[standing]); /* which tells how large a hair is */
-    for (uint32_t k = p->piece; k < p->piece + p->pieces; k++) {
-        const sunder_i_body_piece *a = &model->piece[k];
+    if (!of_p || !of_q) g->status = sunder_i_no_memory(g->err);
+    for (uint32_t k = 0; k < p->pieces && !g->status; k++) {
+        const sunder_i_body_piece *a = &of_p->piece[k];
         double box[4];
         if (a->feature != f) continue;
         for (uint32_t x = 0; x < 4; x++)
             box[x] = a->box[x] + (p->origin[x & 1] - q->origin[x & 1]) + (x < 2 ? -reach : reach);
-        for (uint32_t l = q->piece; l < q->piece + q->pieces && !g->status; l++)
-            if (model->piece[l].feature == standing && sunder_i_box_meet(box, model->piece[l].box))
-                look_at(g, a, &model->piece[l], clearance);
+        for (uint32_t l = 0; l < q->pieces && !g->status; l++)
+            if (of_q->piece[l].feature == standing && sunder_i_box_meet(box, of_q->piece[l].box))
+                look_at(g, a, &of_q->piece[l], clearance);
     }
 }
 

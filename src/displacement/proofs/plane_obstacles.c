@@ -56,14 +56,16 @@ static bool find_pieces(const finding *w, uint32_t other)
     }
     ++*looked;
     if (p->pieces == 0 || q->pieces == 0 || !sunder_i_box_meet(box, q->box)) return true;
-    for (uint32_t k = p->piece; k < p->piece + p->pieces; k++) {
-        const sunder_i_body_piece *a = &model->piece[k];
+    const sunder_i_body_pieces *of_p = sunder_i_pieces_of(model, p), *of_q = sunder_i_pieces_of(model, q);
+    if (!of_p || !of_q) return false;
+    for (uint32_t k = 0; k < p->pieces; k++) {
+        const sunder_i_body_piece *a = &of_p->piece[k];
         for (uint32_t x = 0; x < 4; x++) box[x] = a->box[x] + shift[x];
         ++*looked;
         if (!sunder_i_box_meet(box, q->box)) continue;
         *looked += q->pieces / 4;
-        for (uint32_t l = q->piece; l < q->piece + q->pieces; l++) {
-            const sunder_i_body_piece *b = &model->piece[l];
+        for (uint32_t l = 0; l < q->pieces; l++) {
+            const sunder_i_body_piece *b = &of_q->piece[l];
             if (sunder_i_box_meet(box, b->box) &&
                 !append(w, &(sunder_i_plane_obstacle){.a = a, .b = b, .q = other}, a->feature, b->feature, false))
                 return false;
@@ -89,13 +91,15 @@ static bool find_jumps(const finding *w, uint32_t q, bool swapped)
 {
     const sunder_i_model *model = w->model;
     const sunder_i_body *of = &model->body[swapped ? q : w->p], *other = &model->body[swapped ? w->p : q];
+    const sunder_i_body_pieces *from = sunder_i_pieces_of(model, of), *pieces = sunder_i_pieces_of(model, other);
+    if (!from || !pieces) return false;
     for (uint32_t m = 0; m < of->members; m++) {
         const uint32_t f = model->member[of->member + m];
-        const sunder_i_body_piece *anchor = &model->anchor[f];
+        const sunder_i_body_piece *anchor = &from->anchor[m];
         w->kept->looked[JUMPS] += 1 + (other->pieces + other->seams) / 4;
         for (uint32_t l = 0; l < other->pieces + other->seams && anchor->corners; l++) {
             const sunder_i_body_piece *piece =
-                l < other->pieces ? &model->piece[other->piece + l] : &model->seam[other->seam + l - other->pieces];
+                l < other->pieces ? &pieces->piece[l] : &model->seam[other->seam + l - other->pieces];
             if (!find_shadow(w, q, anchor, piece, swapped, f, false)) return false;
         }
     }

@@ -16,6 +16,14 @@
 
 static bool is_rational(const sunder_i_model *model, uint32_t f) { return sunder_i_thing_shape(model, f)->rational; }
 
+/* The pieces of a body; NULL, and noted, if memory is out. */
+static const sunder_i_body_pieces *pieces_of(sunder_i_branching *c, const sunder_i_body *body)
+{
+    const sunder_i_body_pieces *pieces = sunder_i_pieces_of(c->model, body);
+    if (!pieces) c->failed = true;
+    return pieces;
+}
+
 size_t sunder_i_branching_fill_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
                                     const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
                                     const double *at)
@@ -23,8 +31,8 @@ size_t sunder_i_branching_fill_ways(sunder_i_branching *c, const sunder_i_body *
     const sunder_i_model *model = c->model;
     const double reach = sunder_i_branching_limit(c, p) + sunder_i_branching_limit(c, q),
                  coarse = isfinite(reach) ? c->subproblem->coarse * reach : 0;
-    sunder_i_parting parting = {.a = model->corner + 2 * (size_t)a->corner,
-                                .b = model->corner + 2 * (size_t)b->corner,
+    sunder_i_parting parting = {.a = a->corner,
+                                .b = b->corner,
                                 .na = a->corners,
                                 .nb = b->corners,
                                 .offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]},
@@ -110,14 +118,16 @@ static void look_at(sunder_i_branching *c, const standing *s, const standing *r,
     }
     c->looked++;
     if (p->pieces == 0 || q->pieces == 0 || !sunder_i_box_meet(box, q->box)) return;
-    for (uint32_t k = p->piece; k < p->piece + p->pieces; k++) {
-        const sunder_i_body_piece *a = &c->model->piece[k];
+    const sunder_i_body_pieces *of_p = pieces_of(c, p), *of_q = pieces_of(c, q);
+    if (!of_p || !of_q) return;
+    for (uint32_t k = 0; k < p->pieces; k++) {
+        const sunder_i_body_piece *a = &of_p->piece[k];
         for (uint32_t x = 0; x < 4; x++) box[x] = a->box[x] + shift[x];
         c->looked++;
         if (!sunder_i_box_meet(box, q->box)) continue;
         c->looked += q->pieces / 4;
-        for (uint32_t l = q->piece; l < q->piece + q->pieces; l++) {
-            const sunder_i_body_piece *b = &c->model->piece[l];
+        for (uint32_t l = 0; l < q->pieces; l++) {
+            const sunder_i_body_piece *b = &of_q->piece[l];
             if (!sunder_i_box_meet(box, b->box)) continue;
             if (!sunder_i_branching_owe(c, a->feature, b->feature, &clearance)) continue;
             if (has_slack(c, p, q, clearance)) continue;
@@ -156,15 +166,17 @@ static void look_at_part(sunder_i_branching *c, const standing *s, uint32_t f, u
 {
     const sunder_i_model *model = c->model;
     const sunder_i_body *p = s->body, *q = &model->body[model->body_of[part]];
-    for (uint32_t k = p->piece; k < p->piece + p->pieces; k++) {
-        const sunder_i_body_piece *a = &model->piece[k];
+    const sunder_i_body_pieces *of_p = pieces_of(c, p), *of_q = pieces_of(c, q);
+    if (!of_p || !of_q) return;
+    for (uint32_t k = 0; k < p->pieces; k++) {
+        const sunder_i_body_piece *a = &of_p->piece[k];
         double box[4];
         for (uint32_t x = 0; x < 4; x++) box[x] = a->box[x] + p->origin[x & 1] - q->origin[x & 1] - u[x & 1];
         c->looked++;
         if (a->feature != f || !sunder_i_box_meet(box, q->box)) continue;
         c->looked += q->pieces / 4;
-        for (uint32_t l = q->piece; l < q->piece + q->pieces; l++) {
-            const sunder_i_body_piece *b = &model->piece[l];
+        for (uint32_t l = 0; l < q->pieces; l++) {
+            const sunder_i_body_piece *b = &of_q->piece[l];
             if (!sunder_i_box_meet(box, b->box)) continue;
             const double depth = find_depth(c, p, a, q, b, 0, false, u);
             if (depth > worst->depth)
@@ -211,13 +223,15 @@ static void look_past(sunder_i_branching *c, const standing *s, const standing *
     sunder_i_shadow_way(u, 0, way);
     c->looked++;
     if (!sunder_i_shadow_may_reach(swapped ? p->box : p->anchors, swapped ? q->anchors : q->box, offset, way)) return;
+    const sunder_i_body_pieces *from = pieces_of(c, of), *pieces = pieces_of(c, other);
+    if (!from || !pieces) return;
     for (uint32_t m = 0; m < of->members; m++) {
         const uint32_t f = model->member[of->member + m];
-        const sunder_i_body_piece *anchor = &model->anchor[f];
+        const sunder_i_body_piece *anchor = &from->anchor[m];
         c->looked += 1 + (other->pieces + other->seams) / 4;
         for (uint32_t l = 0; l < other->pieces + other->seams && anchor->corners; l++) {
             const sunder_i_body_piece *piece =
-                l < other->pieces ? &model->piece[other->piece + l] : &model->seam[other->seam + l - other->pieces];
+                l < other->pieces ? &pieces->piece[l] : &model->seam[other->seam + l - other->pieces];
             if (sunder_i_shadow_may_reach((swapped ? piece : anchor)->box, (swapped ? anchor : piece)->box, offset,
                                           way) &&
                 sunder_i_branching_shades(c, f, piece->feature))

@@ -14,9 +14,18 @@ struct sunder_i_ways_kept {
     size_t n, capacity;
 };
 
+/* By what the piece is, not by where it is kept: that is another place in every run. */
+static uint64_t mix(const sunder_i_body_piece *piece)
+{
+    uint64_t bits[4], mixed = piece->feature;
+    memcpy(bits, piece->box, sizeof bits);
+    for (int c = 0; c < 4; c++) mixed = mixed * UINT64_C(0x9e3779b97f4a7c15) + (bits[c] ^ bits[c] >> 32);
+    return mixed;
+}
+
 static size_t place_of(const sunder_i_body_piece *a, const sunder_i_body_piece *b)
 {
-    const uint64_t mixed = (uint64_t)a->corner * UINT64_C(0x9e3779b97f4a7c15) + b->corner;
+    const uint64_t mixed = (mix(a) ^ mix(a) >> 29) * UINT64_C(0x9e3779b97f4a7c15) + mix(b);
     return (size_t)((mixed * UINT64_C(0xd1342543de82ef95)) >> (64 - WAYS_KEPT_BITS));
 }
 

@@ -61,8 +61,8 @@ static bool find_part(const sunder_i_search *s, acting *a)
     const sunder_i_model *model = s->model;
     const sunder_i_constraint *c = a->constraint;
     if (c->key >> 60) return false;
-    const sunder_i_body_piece *p = &model->piece[c->key >> 32], *q = &model->piece[c->key & UINT32_MAX];
-    const uint32_t body[2] = {model->body_of[p->feature], model->body_of[q->feature]};
+    const uint32_t body[2] = {sunder_i_body_of_piece(model, (uint32_t)(c->key >> 32)),
+                              sunder_i_body_of_piece(model, (uint32_t)c->key)};
     double reach;
     a->i = sunder_i_search_place_of(s, body[0]);
     a->j = sunder_i_search_place_of(s, body[1]);

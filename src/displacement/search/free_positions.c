@@ -15,10 +15,12 @@
 /* What a body is made of: its pieces, or the outlines of its members where pieces would be too many. */
 static uint32_t parts_of(const sunder_i_body *body, bool coarse) { return coarse ? body->members : body->pieces; }
 
-static const sunder_i_body_piece *part_of(const sunder_i_model *model, const sunder_i_body *body, bool coarse,
-                                          uint32_t k)
+static const sunder_i_body_piece *find_parts(sunder_i_search *s, const sunder_i_body *body, bool coarse)
 {
-    return coarse ? sunder_i_hull_of(model, model->member[body->member + k]) : &model->piece[body->piece + k];
+    const sunder_i_body_pieces *fine = coarse ? NULL : sunder_i_pieces_of(s->model, body);
+    const sunder_i_body_piece *part = coarse ? sunder_i_outlines_of(s->model, body) : fine ? fine->piece : NULL;
+    if (!part) s->failed = true;
+    return part;
 }
 
 static void add_wall(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
@@ -33,13 +35,10 @@ static void add_wall(sunder_i_search *s, const sunder_i_piece_pair *part, void *
 static void add_walls(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, const sunder_i_body *q,
                       const double offset[2], const double v[2], double reach, bool relaxed)
 {
-    const sunder_i_model *model = s->model;
     sunder_i_piece_pair part = {.offset = {offset[0], offset[1]}, .relaxed = relaxed};
     const double back[2] = {-v[0], -v[1]};
-    if (p->walls)
-        sunder_i_search_visit(s, model->wall + p->wall, p->walls, q, v, reach, &part, false, true, add_wall, o);
-    if (q->walls)
-        sunder_i_search_visit(s, model->wall + q->wall, q->walls, p, back, reach, &part, true, true, add_wall, o);
+    if (p->walls) sunder_i_search_walls(s, p, q, v, reach, &part, false, add_wall, o);
+    if (q->walls) sunder_i_search_walls(s, q, p, back, reach, &part, true, add_wall, o);
 }
 
 /* Shadows as obstacles: moved by `shift`, and as far as they matter. */
@@ -124,21 +123,22 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
         sunder_i_search_is_relaxed(s, (uint32_t)(p - model->body), (uint32_t)(q - model->body), &shift);
     const double r = reach + s->gap + shift;
     const uint32_t np = parts_of(p, coarse_p), nq = parts_of(q, coarse_q);
+    const sunder_i_body_piece *of_p = find_parts(s, p, coarse_p), *of_q = find_parts(s, q, coarse_q);
+    if (!of_p || !of_q) return;
     if ((p->walls || q->walls) && (relaxed || model->inclusions)) add_walls(s, o, p, q, offset, v, r, relaxed);
     for (uint32_t k = 0; k < np; k++) {
-        const sunder_i_body_piece *a = part_of(model, p, coarse_p, k);
+        const sunder_i_body_piece *a = &of_p[k];
         const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};
         if (a->corners == 0 || !sunder_i_box_meet(box, q->box)) continue;
         for (uint32_t l = 0; l < nq; l++) {
-            const sunder_i_body_piece *b = part_of(model, q, coarse_q, l);
+            const sunder_i_body_piece *b = &of_q[l];
             if (b->corners == 0 || !sunder_i_box_meet(box, b->box) ||
                 sunder_i_is_included(model, a->feature, b->feature))
                 continue;
             const sunder_i_relaxation *relaxation = relaxed ? sunder_i_search_relaxation(s, a, b) : NULL;
             if (relaxation && relaxation->inside) continue;
             const size_t n =
-                sunder_i_obstacle_corners(model->corner + 2 * (size_t)a->corner, a->corners,
-                                          model->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
+                sunder_i_obstacle_corners(a->corner, a->corners, b->corner, b->corners, offset, &s->scratch);
             if (n == 0) {
                 s->failed = true;
                 return;
@@ -310,7 +310,7 @@ static size_t count_others(const others *all) { return all->search->about.n + al
 /* How many pieces of others lie within reach of body i, by their boxes. */
 static uint64_t count_around(const others *all, const double at[2], double reach)
 {
-    const sunder_i_search *s = all->search;
+    sunder_i_search *s = all->search;
     const sunder_i_model *model = s->model;
     const sunder_i_body *p = &model->body[s->body[all->i]];
     uint64_t n = 0;
@@ -323,7 +323,8 @@ static uint64_t count_around(const others *all, const double at[2], double reach
             box[c] = p->box[c] + p->origin[c & 1] + at[c & 1] - q->origin[c & 1] - t[c & 1] +
                      (c < 2 ? -1 : 1) * (reach + s->gap);
         if (!sunder_i_box_meet(box, q->box)) continue;
-        for (uint32_t l = 0; l < q->pieces; l++) n += sunder_i_box_meet(box, model->piece[q->piece + l].box);
+        const sunder_i_body_piece *piece = find_parts(s, q, false);
+        for (uint32_t l = 0; piece && l < q->pieces; l++) n += sunder_i_box_meet(box, piece[l].box);
     }
     return n;
 }

@@ -77,23 +77,26 @@ static bool are_exempt(const sunder_i_search *s, const sunder_i_body_piece *a, c
 typedef struct visiting {
     sunder_i_search *s;
     sunder_i_piece_pair *part;
-    bool swapped, walls;
+    const sunder_i_body_piece *from; /* n parts of one body, or walls, numbered from `first` on ... */
+    uint32_t n, first;
+    const sunder_i_body_pieces *of; /* ... whose pieces these are; NULL: walls */
+    const sunder_i_body *other;
+    const sunder_i_body_pieces *facing; /* pieces of that */
+    bool swapped;
     sunder_i_visit_piece_pair call;
     void *context;
 } visiting;
 
-/* A part of `from` with its box, and piece l of the other body. Inline, as what calls it: the innermost loops of the
+/* Part k of `from` with its box, and piece l of the other body. Inline, as what calls it: the innermost loops of the
  * search. */
-static inline void visit_piece(const visiting *to, const sunder_i_body_piece *a, const double box[4], uint32_t l)
+static inline void visit_piece(const visiting *to, uint32_t k, const double box[4], uint32_t l)
 {
-    const sunder_i_model *model = to->s->model;
-    const sunder_i_body_piece *b = &model->piece[l];
+    const sunder_i_body_piece *a = &to->from[k], *b = &to->facing->piece[l];
     sunder_i_piece_pair *part = to->part;
     if (!sunder_i_box_meet(box, b->box)) return;
     part->relaxation = NULL;
-    if (to->walls ? !keeps(to->s, a, b, part) : are_exempt(to->s, a, b, part)) return;
-    part->key =
-        to->walls ? UINT64_C(1) << 62 | (uint64_t)(a - model->wall) << 32 | l : (uint64_t)(a - model->piece) << 32 | l;
+    if (to->of ? are_exempt(to->s, a, b, part) : !keeps(to->s, a, b, part)) return;
+    part->key = (uint64_t)!to->of << 62 | (uint64_t)(to->first + k) << 32 | (to->other->piece + l);
     part->a = to->swapped ? b : a;
     part->b = to->swapped ? a : b;
     to->call(to->s, part, to->context);
@@ -105,25 +108,24 @@ static inline void box_seen(const sunder_i_body_piece *a, const double v[2], dou
     for (int c = 0; c < 4; c++) box[c] = a->box[c] - v[c & 1] + (c < 2 ? -reach : reach);
 }
 
-/* Does a run of pieces begin here, and end before `end`, that has nothing to do with the box? */
-static inline bool is_run_beside(const sunder_i_model *model, uint32_t l, uint32_t end, const double box[4])
+/* Does a run of pieces begin with that of this number, one of `left` more, that has nothing to do with the box? */
+static inline bool is_run_beside(const sunder_i_body_pieces *of, uint32_t number, uint32_t left, const double box[4])
 {
-    return l % SUNDER_I_RUN == 0 && end - l >= SUNDER_I_RUN &&
-           !sunder_i_box_meet(model->run + 4 * (size_t)(l / SUNDER_I_RUN), box);
+    return number % SUNDER_I_RUN == 0 && left >= SUNDER_I_RUN &&
+           !sunder_i_box_meet(of->run + 4 * (size_t)(number / SUNDER_I_RUN - of->first_run), box);
 }
 
-/* Pieces of a body whose boxes meet the box, ascending; MOST_FACING + 1 if there are more than that. */
-static inline uint32_t find_facing(const sunder_i_model *model, const sunder_i_body *body, const double box[4],
-                                   uint32_t piece[MOST_FACING])
+/* Pieces of the other whose boxes meet the box, ascending; MOST_FACING + 1 if there are more than that. */
+static inline uint32_t find_facing(const visiting *to, const double box[4], uint32_t piece[MOST_FACING])
 {
-    const uint32_t end = body->piece + body->pieces;
+    const sunder_i_body *body = to->other;
     uint32_t n = 0;
-    for (uint32_t l = body->piece; l < end; l++) {
-        if (is_run_beside(model, l, end, box)) {
+    for (uint32_t l = 0; l < body->pieces; l++) {
+        if (is_run_beside(to->facing, body->piece + l, body->pieces - l, box)) {
             l += SUNDER_I_RUN - 1;
             continue;
         }
-        if (!sunder_i_box_meet(box, model->piece[l].box)) continue;
+        if (!sunder_i_box_meet(box, to->facing->piece[l].box)) continue;
         if (n == MOST_FACING) return n + 1;
         piece[n++] = l;
     }
@@ -140,73 +142,101 @@ static inline void box_of_other(const sunder_i_body *other, const double v[2], d
     for (int c = 0; c < 4; c++) box[c] = other->box[c] + v[c & 1] + (c < 2 ? -grown : grown);
 }
 
-/* The first of the parts, as many as face the other body in one go: returns how many it is done with. Blocks have
+/* Of the parts from `begin` on as many as face the other body in one go: returns with which to go on. Blocks have
  * hundreds of pieces of which few face each other, so those of the other that none of these parts comes near are left
  * out beforehand. */
-static inline uint32_t visit_some(const visiting *to, const sunder_i_body_piece *from, uint32_t n,
-                                  const sunder_i_body *other, const double v[2], double reach)
+static inline uint32_t visit_some(const visiting *to, uint32_t begin, const double v[2], double reach)
 {
     sunder_i_search *s = to->s;
-    const uint32_t first = to->walls ? 0 : (uint32_t)(from - s->model->piece);
     double box[PARTS_AT_ONCE][4], all[4], seen[4];
-    uint32_t part[PARTS_AT_ONCE], piece[MOST_FACING], parts = 0, done = 0;
+    uint32_t part[PARTS_AT_ONCE], piece[MOST_FACING], parts = 0, k = begin;
     sunder_i_box_clear(all);
-    box_of_other(other, v, reach, seen);
-    for (; done < n && parts < PARTS_AT_ONCE; done++) {
-        if (!to->walls && is_run_beside(s->model, first + done, first + n, seen)) {
-            done += SUNDER_I_RUN - 1;
+    box_of_other(to->other, v, reach, seen);
+    for (; k < to->n && parts < PARTS_AT_ONCE; k++) {
+        if (to->of && is_run_beside(to->of, to->first + k, to->n - k, seen)) {
+            k += SUNDER_I_RUN - 1;
             continue;
         }
-        if (!sunder_i_box_meet(from[done].box, seen)) continue;
-        box_seen(&from[done], v, reach, box[parts]);
-        if (!sunder_i_box_meet(box[parts], other->box)) continue;
+        if (!sunder_i_box_meet(to->from[k].box, seen)) continue;
+        box_seen(&to->from[k], v, reach, box[parts]);
+        if (!sunder_i_box_meet(box[parts], to->other->box)) continue;
         sunder_i_box_join(all, box[parts]);
-        part[parts++] = done;
+        part[parts++] = k;
     }
-    if (!sunder_i_steps(done * (1 + (size_t)other->pieces / 8))) s->failed = true;
-    if (parts == 0) return done;
-    const uint32_t facing = find_facing(s->model, other, all, piece);
-    for (uint32_t k = 0; k < parts; k++) {
-        const sunder_i_body_piece *a = &from[part[k]];
+    if (!sunder_i_steps((k - begin) * (1 + (size_t)to->other->pieces / 8))) s->failed = true;
+    if (parts == 0) return k;
+    const uint32_t facing = find_facing(to, all, piece);
+    for (uint32_t i = 0; i < parts; i++)
         if (facing <= MOST_FACING)
-            for (uint32_t l = 0; l < facing && !s->failed; l++) visit_piece(to, a, box[k], piece[l]);
+            for (uint32_t l = 0; l < facing && !s->failed; l++) visit_piece(to, part[i], box[i], piece[l]);
         else
-            for (uint32_t l = 0; l < other->pieces && !s->failed; l++) visit_piece(to, a, box[k], other->piece + l);
-    }
-    return done;
+            for (uint32_t l = 0; l < to->other->pieces && !s->failed; l++) visit_piece(to, part[i], box[i], l);
+    return k;
 }
 
 /* All of them, where there are few. */
-static inline void visit_each(const visiting *to, const sunder_i_body_piece *from, uint32_t n,
-                              const sunder_i_body *other, const double v[2], double reach)
+static inline void visit_each(const visiting *to, const double v[2], double reach)
 {
     sunder_i_search *s = to->s;
-    for (uint32_t k = 0; k < n; k++) {
+    for (uint32_t k = 0; k < to->n; k++) {
         double box[4];
-        box_seen(&from[k], v, reach, box);
-        if (!sunder_i_box_meet(box, other->box)) continue;
-        for (uint32_t l = 0; l < other->pieces && !s->failed; l++) visit_piece(to, &from[k], box, other->piece + l);
+        box_seen(&to->from[k], v, reach, box);
+        if (!sunder_i_box_meet(box, to->other->box)) continue;
+        for (uint32_t l = 0; l < to->other->pieces && !s->failed; l++) visit_piece(to, k, box, l);
     }
-    if (!sunder_i_steps(n * (1 + (size_t)other->pieces / 8))) s->failed = true;
+    if (!sunder_i_steps(to->n * (1 + (size_t)to->other->pieces / 8))) s->failed = true;
 }
 
-/* Parts of `from` that may stand within `reach` of parts of `to` at `v`; walls: `from` holds what it is in. */
-static inline void visit_all(sunder_i_search *s, const sunder_i_body_piece *from, uint32_t n,
-                             const sunder_i_body *other, const double v[2], double reach, sunder_i_piece_pair *part,
-                             bool swapped, bool walls, sunder_i_visit_piece_pair call, void *context)
+/* Parts of the one that may stand within `reach` of parts of the other at `v`. */
+static inline void visit_all(const visiting *to, const double v[2], double reach)
 {
-    const visiting to = {s, part, swapped, walls, call, context};
-    if (n <= FEW_PARTS && other->pieces <= FEW_PARTS)
-        visit_each(&to, from, n, other, v, reach);
+    if (to->n <= FEW_PARTS && to->other->pieces <= FEW_PARTS)
+        visit_each(to, v, reach);
     else
-        for (uint32_t done = 0; done < n;) done += visit_some(&to, from + done, n - done, other, v, reach);
+        for (uint32_t k = 0; k < to->n;) k = visit_some(to, k, v, reach);
 }
 
-void sunder_i_search_visit(sunder_i_search *s, const sunder_i_body_piece *from, uint32_t n, const sunder_i_body *other,
-                           const double v[2], double reach, sunder_i_piece_pair *part, bool swapped, bool walls,
+void sunder_i_search_walls(sunder_i_search *s, const sunder_i_body *holder, const sunder_i_body *other,
+                           const double v[2], double reach, sunder_i_piece_pair *part, bool swapped,
                            sunder_i_visit_piece_pair visit, void *context)
 {
-    visit_all(s, from, n, other, v, reach, part, swapped, walls, visit, context);
+    const sunder_i_body_pieces *facing = sunder_i_pieces_of(s->model, other);
+    const visiting to = {.s = s,
+                         .part = part,
+                         .from = s->model->wall + holder->wall,
+                         .n = holder->walls,
+                         .first = holder->wall,
+                         .other = other,
+                         .facing = facing,
+                         .swapped = swapped,
+                         .call = visit,
+                         .context = context};
+    if (facing)
+        visit_all(&to, v, reach);
+    else
+        s->failed = true;
+}
+
+/* The same of pieces of both. */
+static void visit_pieces(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *q, const double v[2],
+                         double reach, sunder_i_piece_pair *part, sunder_i_visit_piece_pair visit, void *context)
+{
+    const sunder_i_body_pieces *of = sunder_i_pieces_of(s->model, p), *facing = sunder_i_pieces_of(s->model, q);
+    if (!of || !facing) {
+        s->failed = true;
+        return;
+    }
+    const visiting to = {.s = s,
+                         .part = part,
+                         .from = of->piece,
+                         .n = p->pieces,
+                         .first = p->piece,
+                         .of = of,
+                         .other = q,
+                         .facing = facing,
+                         .call = visit,
+                         .context = context};
+    visit_all(&to, v, reach);
 }
 
 void sunder_i_search_piece_pairs(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach,
@@ -219,15 +249,13 @@ void sunder_i_search_piece_pairs(sunder_i_search *s, uint32_t i, uint32_t j, con
     double shift = 0;
     part.relaxed = yields && sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift);
     reach += shift;
-    visit_all(s, model->piece + p->piece, p->pieces, q, v, reach, &part, false, false, visit, context);
+    visit_pieces(s, p, q, v, reach, &part, visit, context);
     /* Shadows are seldom in the way: no more of them than that are looked for ahead. */
     const double ahead = fmin(reach - shift - s->gap, s->gap / LEAST_REACH);
     sunder_i_search_body_shadows(s, p, q, u, s->gap - model->rules.gap + ahead, visit, context);
     if (!part.relaxed && model->inclusions == 0) return;
-    if (p->walls)
-        sunder_i_search_visit(s, model->wall + p->wall, p->walls, q, v, reach, &part, false, true, visit, context);
-    if (q->walls)
-        sunder_i_search_visit(s, model->wall + q->wall, q->walls, p, back, reach, &part, true, true, visit, context);
+    if (p->walls) sunder_i_search_walls(s, p, q, v, reach, &part, false, visit, context);
+    if (q->walls) sunder_i_search_walls(s, q, p, back, reach, &part, true, visit, context);
 }
 
 double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double *corner, size_t n)
@@ -241,9 +269,8 @@ double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_
 /* A + (-B), as it is. */
 static size_t make_obstacle(sunder_i_search *s, const sunder_i_piece_pair *part)
 {
-    const double *corner = s->model->corner;
-    return sunder_i_obstacle_corners(corner + 2 * (size_t)part->a->corner, part->a->corners,
-                                     corner + 2 * (size_t)part->b->corner, part->b->corners, part->offset, &s->scratch);
+    const sunder_i_body_piece *a = part->a, *b = part->b;
+    return sunder_i_obstacle_corners(a->corner, a->corners, b->corner, b->corners, part->offset, &s->scratch);
 }
 
 /* What two pieces without a relaxation owe each other, n edges of its obstacle given. */

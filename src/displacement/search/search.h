@@ -140,11 +140,11 @@ typedef void (*sunder_i_visit_piece_pair)(sunder_i_search *search, const sunder_
  * that come as near; yields: they are held to their relaxations, where there are any. */
 void sunder_i_search_piece_pairs(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
                                  bool yields, sunder_i_visit_piece_pair visit, void *context);
-/* Of that: what `from` (n pieces of one body, or walls) has within reach of the pieces of `other`, which stands at v
- * from it. part->offset is the caller's; swapped: `from` is of j. */
-void sunder_i_search_visit(sunder_i_search *search, const sunder_i_body_piece *from, uint32_t n,
-                           const sunder_i_body *other, const double v[2], double reach, sunder_i_piece_pair *part,
-                           bool swapped, bool walls, sunder_i_visit_piece_pair visit, void *context);
+/* Of that: the walls of `holder` that are within reach of the pieces of `other`, which stands at v from it.
+ * part->offset is the caller's; swapped: the holder is j. */
+void sunder_i_search_walls(sunder_i_search *search, const sunder_i_body *holder, const sunder_i_body *other,
+                           const double v[2], double reach, sunder_i_piece_pair *part, bool swapped,
+                           sunder_i_visit_piece_pair visit, void *context);
 /* The relaxation that pieces a and b are held to; NULL: none, they owe each other the gap. */
 const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *search, const sunder_i_body_piece *a,
                                                       const sunder_i_body_piece *b);

@@ -34,21 +34,26 @@ static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_
                        void *context)
 {
     const sunder_i_model *model = s->model;
+    const sunder_i_body_pieces *of = sunder_i_pieces_of(model, p), *pieces = sunder_i_pieces_of(model, other);
+    if (!of || !pieces) {
+        s->failed = true;
+        return;
+    }
     for (uint32_t m = 0; m < p->members; m++) {
         const uint32_t f = model->member[p->member + m];
-        const sunder_i_body_piece *anchor = &model->anchor[f];
+        const sunder_i_body_piece *anchor = &of->anchor[m];
         if (!anchor->corners || model->clear[f] > far ||
             !may_reach(anchor->box, other->box, part->offset, way, swapped))
             continue;
-        for (uint32_t l = other->piece; l < other->piece + other->pieces && !s->failed; l++) {
-            const sunder_i_body_piece *piece = &model->piece[l];
+        for (uint32_t l = 0; l < other->pieces && !s->failed; l++) {
+            const sunder_i_body_piece *piece = &pieces->piece[l];
             const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
             if (!sunder_i_shadow_may_reach(a->box, b->box, part->offset, way) ||
                 sunder_i_is_held(model, f, piece->feature))
                 continue;
             part->a = a;
             part->b = b;
-            part->key = UINT64_C(1) << 61 | (uint64_t)f << 32 | l;
+            part->key = UINT64_C(1) << 61 | (uint64_t)f << 32 | (other->piece + l);
             visit(s, part, context);
         }
         if (!sunder_i_steps(1 + other->pieces / 8)) s->failed = true;

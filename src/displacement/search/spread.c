@@ -13,14 +13,16 @@
 #include <string.h>
 
 /* The mean of its members' anchors, from the origin of the first body. */
-static void anchor_of(const sunder_i_search *s, uint32_t k, double out[2])
+static void anchor_of(sunder_i_search *s, uint32_t k, double out[2])
 {
     const sunder_i_model *model = s->model;
     const sunder_i_body *b = &model->body[s->body[k]], *first = &model->body[s->body[0]];
+    const sunder_i_body_pieces *pieces = sunder_i_pieces_of(model, b);
     uint32_t n = 0;
     out[0] = out[1] = 0;
-    for (uint32_t m = 0; m < b->members; m++) {
-        const sunder_i_body_piece *anchor = &model->anchor[model->member[b->member + m]];
+    if (!pieces) s->failed = true;
+    for (uint32_t m = 0; m < b->members && pieces; m++) {
+        const sunder_i_body_piece *anchor = &pieces->anchor[m];
         if (!anchor->corners) continue;
         for (int c = 0; c < 2; c++) out[c] += anchor->box[c];
         n++;
@@ -30,7 +32,7 @@ static void anchor_of(const sunder_i_search *s, uint32_t k, double out[2])
 
 /* Who does not move is the centre, if there is such a body; else it is in the middle of those that do. False where a
  * limit would hold some back. */
-static bool find_centre(const sunder_i_search *s, double centre[2])
+static bool find_centre(sunder_i_search *s, double centre[2])
 {
     double sum[2] = {0, 0}, at[2];
     size_t n = 0;

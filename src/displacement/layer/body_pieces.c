@@ -1,0 +1,267 @@
+/* What the search looks at of a body: its convex pieces in doubles, its members' anchors, their convex outlines.
+ *
+ * All of a layer would take more room than its shapes do, and of most bodies of a large one nobody asks: they have no
+ * part in a conflict, and none that has comes near. So a body's pieces are made when they are first asked for. What is
+ * made depends on the body alone, so it is the same whoever asks first; where several threads do at a time one of them
+ * leaves its own to all. What is made stays until the model goes. */
+#include "displacement/layer/model.h"
+
+#include "base/invariant.h"
+#include "base/sort.h"
+#include "shape/shape.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Outlines ---------------------------------------------------------------------------------------------------- */
+
+static int by_place(const void *a, const void *b)
+{
+    const double *p = a, *q = b;
+    if (p[0] != q[0]) return p[0] < q[0] ? -1 : 1;
+    return p[1] < q[1] ? -1 : p[1] > q[1];
+}
+
+/* Does it turn left at b, in doubles? */
+static inline bool turns(const double *a, const double *b, const double *c)
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0;
+}
+
+/* Andrew's monotone chain. */
+size_t sunder_i_convex_hull(double *p, size_t n, double *out)
+{
+    sunder_i_sort_few(p, n, 2 * sizeof *p, by_place);
+    size_t m = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        const size_t bottom = m;
+        for (size_t k = 0; k < n; k++) {
+            const double *c = p + 2 * (pass ? n - 1 - k : k);
+            while (m >= bottom + 2 && !turns(out + 2 * (m - 2), out + 2 * (m - 1), c)) m--;
+            memcpy(out + 2 * m++, c, 2 * sizeof *c);
+        }
+        m--; /* the last is the first of the other chain */
+    }
+    return m;
+}
+
+/* A corner of a shape from that origin. */
+static inline void from_origin(const sunder_shape *shape, uint32_t v, const double origin[2], double out[2])
+{
+    for (size_t c = 0; c < 2; c++) out[c] = shape->xy[2 * (size_t)v + c] - origin[c];
+}
+
+/* Most features are convex, and their piece is their outline: it has all corners, and turns at each in doubles, too. */
+static bool is_its_outline(const sunder_shape *shape, const double *corner)
+{
+    const uint32_t n = shape->vertices;
+    if (n < 3) return false;
+    const double *b = corner + 2 * (size_t)(n - 1), *a = b - 2;
+    for (uint32_t k = 0; k < n; k++) {
+        const double *c = corner + 2 * (size_t)k;
+        if (!turns(a, b, c)) return false;
+        a = b;
+        b = c;
+    }
+    return true;
+}
+
+size_t sunder_i_outline_of(const sunder_i_model *model, uint32_t thing, double *point, double *out)
+{
+    const sunder_shape *shape = sunder_i_thing_shape(model, thing);
+    const double *origin = model->body[model->body_of[thing]].origin;
+    const uint32_t n = shape->vertices;
+    if (!sunder_i_is_barrier(model, thing) && shape->pieces == 1 && shape->piece_end[0] == n) {
+        for (uint32_t k = 0; k < n; k++) from_origin(shape, shape->piece_vertex[k], origin, out + 2 * (size_t)k);
+        if (is_its_outline(shape, out)) return n;
+    }
+    for (uint32_t v = 0; v < n; v++) from_origin(shape, v, origin, point + 2 * (size_t)v);
+    return sunder_i_convex_hull(point, n, out);
+}
+
+/* ---- Making ------------------------------------------------------------------------------------------------------ */
+
+static uint32_t corners_of(const sunder_shape *shape)
+{
+    return shape->pieces ? shape->piece_end[shape->pieces - 1] : 0;
+}
+
+/* The pieces of a member, and their corners; they come behind those. */
+static void cut_member(const sunder_i_model *model, const sunder_i_body *body, uint32_t f, sunder_i_body_piece **piece,
+                       double **corner)
+{
+    const sunder_shape *shape = sunder_i_thing_shape(model, f);
+    const double beyond = sunder_i_reach_beyond(model, f);
+    uint32_t from = 0;
+    for (uint32_t p = 0; p < shape->pieces; p++) {
+        sunder_i_body_piece *to = (*piece)++;
+        *to = (sunder_i_body_piece){.corner = *corner, .corners = shape->piece_end[p] - from, .feature = f};
+        sunder_i_box_clear(to->box);
+        for (; from < shape->piece_end[p]; from++, *corner += 2) {
+            from_origin(shape, shape->piece_vertex[from], body->origin, *corner);
+            sunder_i_box_include(to->box, *corner);
+        }
+        if (beyond > 0) sunder_i_box_grow(to->box, beyond, to->box);
+    }
+}
+
+static void put_anchor(const sunder_i_model *model, const sunder_i_body *body, uint32_t f, sunder_i_body_piece *anchor)
+{
+    *anchor = (sunder_i_body_piece){.corner = anchor->box, .feature = f};
+    if (sunder_i_is_barrier(model, f) || !model->present[f]) return;
+    anchor->corners = 1;
+    for (int c = 0; c < 4; c++) anchor->box[c] = model->anchor_at[2 * (size_t)f + (c & 1)] - body->origin[c & 1];
+}
+
+/* So many runs lie within the body's pieces. */
+static uint32_t count_runs(const sunder_i_body *body, uint32_t *first)
+{
+    const uint32_t end = (body->piece + body->pieces) / SUNDER_I_RUN;
+    *first = body->piece / SUNDER_I_RUN + (body->piece % SUNDER_I_RUN != 0);
+    return end > *first ? end - *first : 0;
+}
+
+static void box_runs(const sunder_i_body *body, const sunder_i_body_piece *piece, uint32_t first, uint32_t runs,
+                     double *box)
+{
+    for (uint32_t k = 0; k < runs; k++, box += 4) {
+        sunder_i_box_clear(box);
+        const uint32_t begin = (first + k) * SUNDER_I_RUN - body->piece;
+        for (uint32_t l = begin; l < begin + SUNDER_I_RUN; l++) sunder_i_box_join(box, piece[l].box);
+    }
+}
+
+#ifndef NDEBUG
+static const char *check(const sunder_i_body *body, const sunder_i_body_pieces *made)
+{
+    double box[4];
+    sunder_i_box_clear(box);
+    for (uint32_t k = 0; k < body->pieces; k++) sunder_i_box_join(box, made->piece[k].box);
+    for (int c = 0; c < 4; c++)
+        if (body->box[c] != box[c]) return "a body's box is not that of its pieces";
+    return NULL;
+}
+#endif
+
+/* All in one block: the struct, pieces, anchors, corners, runs. NULL if memory is out. */
+static sunder_i_body_pieces *make(const sunder_i_model *model, const sunder_i_body *body)
+{
+    size_t corners = 0;
+    uint32_t first_run;
+    const uint32_t runs = count_runs(body, &first_run), anchors = model->anchor_at ? body->members : 0;
+    const uint32_t *member = model->member + body->member;
+    for (uint32_t m = 0; m < body->members; m++)
+        if (model->present[member[m]]) corners += corners_of(sunder_i_thing_shape(model, member[m]));
+    const size_t of_pieces = ((size_t)body->pieces + anchors) * sizeof(sunder_i_body_piece),
+                 of_doubles = (2 * corners + 4 * (size_t)runs) * sizeof(double);
+    sunder_i_body_pieces *made = sunder_i_alloc(sizeof *made + of_pieces + of_doubles, 1);
+    if (!made) return NULL;
+    sunder_i_body_piece *piece = (sunder_i_body_piece *)(made + 1), *anchor = piece + body->pieces, *at = piece;
+    double *corner = (double *)(anchor + anchors), *run = corner + 2 * corners;
+    *made = (sunder_i_body_pieces){
+        .piece = piece, .anchor = model->anchor_at ? anchor : NULL, .run = run, .first_run = first_run};
+    for (uint32_t m = 0; m < body->members; m++) {
+        if (model->present[member[m]]) cut_member(model, body, member[m], &at, &corner);
+        if (anchors) put_anchor(model, body, member[m], &anchor[m]);
+    }
+    box_runs(body, piece, first_run, runs, run);
+    SUNDER_I_CHECK(check(body, made), body->pieces);
+    return made;
+}
+
+const sunder_i_body_pieces *sunder_i_pieces_make(const sunder_i_model *model, const sunder_i_body *body)
+{
+    sunder_i_body_pieces *made = make(model, body), *before = NULL;
+    if (!made || atomic_compare_exchange_strong(&model->made[body - model->body], &before, made)) return made;
+    sunder_i_free(made);
+    return before;
+}
+
+/* In one block: pieces, corners, and scratch. */
+static sunder_i_body_piece *make_outlines(const sunder_i_model *model, const sunder_i_body *body)
+{
+    const uint32_t *member = model->member + body->member;
+    size_t corners = 0, most = 0;
+    for (uint32_t m = 0; m < body->members; m++) {
+        const size_t n = model->present[member[m]] ? sunder_i_thing_shape(model, member[m])->vertices : 0;
+        corners += n + 1;
+        most = n > most ? n : most;
+    }
+    sunder_i_body_piece *outline =
+        sunder_i_alloc(body->members * sizeof *outline + 2 * (corners + most) * sizeof(double), 1);
+    if (!outline) return NULL;
+    double *corner = (double *)(outline + body->members), *point = corner + 2 * corners;
+    for (uint32_t m = 0; m < body->members; m++) {
+        outline[m] = (sunder_i_body_piece){.corner = corner, .feature = member[m]};
+        sunder_i_box_clear(outline[m].box);
+        if (model->present[member[m]])
+            outline[m].corners = (uint32_t)sunder_i_outline_of(model, member[m], point, corner);
+        for (uint32_t k = 0; k < outline[m].corners; k++, corner += 2) sunder_i_box_include(outline[m].box, corner);
+    }
+    return outline;
+}
+
+const sunder_i_body_piece *sunder_i_outlines_of(const sunder_i_model *model, const sunder_i_body *body)
+{
+    if (!sunder_i_pieces_of(model, body)) return NULL;
+    sunder_i_body_pieces *of = atomic_load(&model->made[body - model->body]);
+    sunder_i_body_piece *before = atomic_load_explicit(&of->outline, memory_order_acquire);
+    if (before) return before;
+    sunder_i_body_piece *outline = make_outlines(model, body);
+    if (!outline || atomic_compare_exchange_strong(&of->outline, &before, outline)) return outline;
+    sunder_i_free(outline);
+    return before;
+}
+
+void sunder_i_pieces_free(sunder_i_body_pieces *pieces)
+{
+    if (pieces) sunder_i_free(pieces->outline);
+    sunder_i_free(pieces);
+}
+
+/* ---- As given ---------------------------------------------------------------------------------------------------- */
+
+/* The corners of an anchor, a side, a seam or a joint; false if it is a piece of a shape. */
+static bool anchor_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out)
+{
+    const uint32_t f = piece->feature;
+    const bool barrier = sunder_i_is_barrier(model, f);
+    const double *at = NULL;
+    if (!barrier && piece->corner == piece->box) at = model->anchor_at;
+    if (!barrier && model->side_anchor && piece == &model->side_anchor[f]) at = model->side_at;
+    if (at) memcpy(out, at + 2 * (size_t)f, 2 * sizeof *out);
+    const sunder_i_body *body = &model->body[model->body_of[f]];
+    for (uint32_t k = body->side; barrier && !at && k < body->side + body->sides; k++) {
+        const sunder_i_side *side = &model->side[k];
+        if (piece != &side->piece) continue;
+        memcpy(out, side->from, 2 * sizeof *out);
+        memcpy(out + 2, side->to, 2 * sizeof *out);
+        at = out;
+    }
+    for (uint32_t k = body->seam; !at && k < body->seam + body->seams; k++) {
+        if (piece != &model->seam[k]) continue;
+        memcpy(out, model->seam_at + 8 * (size_t)k, 8 * sizeof *out);
+        at = out;
+    }
+    for (uint32_t k = body->joint; !at && k < body->joint + body->joints; k++) {
+        if (piece != &model->joint[k].piece) continue;
+        memcpy(out, model->joint[k].at, sizeof model->joint[k].at);
+        at = out;
+    }
+    return at;
+}
+
+void sunder_i_piece_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out)
+{
+    const uint32_t f = piece->feature;
+    if (anchor_as_given(model, piece, out)) return;
+    /* Pieces of a feature are in the order of the shape's; and whoever has one had them made. */
+    const sunder_shape *shape = sunder_i_thing_shape(model, f);
+    const sunder_i_body_piece *first = piece, *all = atomic_load(&model->made[model->body_of[f]])->piece;
+    while (first > all && first[-1].feature == f) first--;
+    const size_t p = (size_t)(piece - first);
+    const uint32_t from = p ? shape->piece_end[p - 1] : 0;
+    for (uint32_t k = 0; k < piece->corners; k++)
+        memcpy(out + 2 * (size_t)k, shape->xy + 2 * (size_t)shape->piece_vertex[from + k], 2 * sizeof *out);
+}

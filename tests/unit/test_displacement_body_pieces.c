@@ -1,0 +1,148 @@
+/* What the search looks at of a body: nothing until somebody asks, and then the same whoever asks, from however many
+ * threads: pieces from the body's origin, in the order of the shapes', with boxes that make the body's; anchors; and
+ * outlines, convex. */
+#include "random.h"
+#include "scene.h"
+#include "scene_model.h"
+
+#include "base/parallel.h"
+#include "shape/shape.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* A wall shared makes one body of the first two; the third is no convex shape, and has more pieces than a run. */
+static void draw(scene *s)
+{
+    scene_begin(s, 1);
+    scene_add(s, "POLYGON ((10 10, 20 10, 20 30, 10 30, 10 10))");
+    scene_add(s, "POLYGON ((20 10, 40 10, 40 20, 30 20, 30 30, 20 30, 20 10))");
+    scene_add(s, "POLYGON ((100 0, 104 0, 104 9, 108 9, 108 0, 112 0, 112 9, 116 9, 116 0, 120 0, 120 9, 124 9, 124 0, "
+                 "128 0, 128 9, 132 9, 132 0, 136 0, 136 9, 140 9, 140 0, 144 0, 144 12, 100 12, 100 0))");
+    scene_add(s, "POLYGON ((0.1 50.1, 4.3 50.1, 4.3 54.7, 0.1 54.7, 0.1 50.1))");
+}
+
+static void check_piece(const sunder_i_model *model, const sunder_i_body *body, const sunder_i_body_piece *piece)
+{
+    double given[2 * 32], box[4];
+    assert_true(piece->corners <= 32);
+    sunder_i_piece_as_given(model, piece, given);
+    sunder_i_box_clear(box);
+    for (uint32_t k = 0; k < 2 * piece->corners; k++) assert_true(piece->corner[k] == given[k] - body->origin[k & 1]);
+    for (uint32_t k = 0; k < piece->corners; k++) sunder_i_box_include(box, piece->corner + 2 * (size_t)k);
+    assert_memory_equal(box, piece->box, sizeof box);
+}
+
+static void check_runs(const sunder_i_body *body, const sunder_i_body_pieces *pieces)
+{
+    for (uint32_t l = 0; l + SUNDER_I_RUN <= body->pieces; l++) {
+        double box[4];
+        if ((body->piece + l) % SUNDER_I_RUN) continue;
+        sunder_i_box_clear(box);
+        for (uint32_t k = l; k < l + SUNDER_I_RUN; k++) sunder_i_box_join(box, pieces->piece[k].box);
+        assert_memory_equal(pieces->run + 4 * ((body->piece + l) / SUNDER_I_RUN - pieces->first_run), box, sizeof box);
+    }
+}
+
+static void check_outlines(const sunder_i_model *model, const sunder_i_body *body)
+{
+    const sunder_i_body_piece *outline = sunder_i_outlines_of(model, body);
+    assert_ptr_equal(outline, sunder_i_outlines_of(model, body));
+    for (uint32_t m = 0; m < body->members; m++) {
+        const double *at = outline[m].corner;
+        const uint32_t n = outline[m].corners;
+        assert_int_equal(outline[m].feature, model->member[body->member + m]);
+        assert_true(n >= 4);
+        for (uint32_t k = 0; k < n; k++) {
+            const double *p = at + 2 * k, *q = at + 2 * ((k + 1) % n), *r = at + 2 * ((k + 2) % n);
+            assert_true((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]) > 0);
+        }
+    }
+}
+
+static void test_made_when_asked(void **state)
+{
+    (void)state;
+    scene s;
+    scene_model of;
+    draw(&s);
+    scene_model_related(&of, &s);
+    const sunder_i_model *model = &of.model;
+    uint32_t number = 0;
+    assert_int_equal(model->bodies, 3);
+    for (size_t b = 0; b < model->bodies; b++) {
+        const sunder_i_body *body = &model->body[b];
+        assert_null(model->made[b]);
+        const sunder_i_body_pieces *pieces = sunder_i_pieces_of(model, body);
+        double box[4];
+        assert_ptr_equal(pieces, sunder_i_pieces_of(model, body));
+        assert_int_equal(body->piece, number);
+        sunder_i_box_clear(box);
+        for (uint32_t k = 0; k < body->pieces; k++) {
+            check_piece(model, body, &pieces->piece[k]);
+            sunder_i_box_join(box, pieces->piece[k].box);
+            assert_int_equal(sunder_i_body_of_piece(model, number++), b);
+        }
+        assert_memory_equal(box, body->box, sizeof box);
+        for (uint32_t m = 0; m < body->members; m++) check_piece(model, body, &pieces->anchor[m]);
+        check_runs(body, pieces);
+        check_outlines(model, body);
+    }
+    assert_true(model->most_pieces >= 2 * SUNDER_I_RUN - 1);
+    scene_model_end(&of);
+    scene_end(&s);
+}
+
+enum { ASKING = 4000 };
+
+typedef struct asking {
+    const sunder_i_model *model;
+    const sunder_i_body_pieces *got[ASKING];
+    const sunder_i_body_piece *outline[ASKING];
+} asking;
+
+static sunder_status ask(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    asking *a = context;
+    (void)err;
+    for (size_t k = begin; k < end; k++) {
+        const sunder_i_body *body = &a->model->body[k % a->model->bodies];
+        a->got[k] = sunder_i_pieces_of(a->model, body);
+        a->outline[k] = sunder_i_outlines_of(a->model, body);
+    }
+    return SUNDER_OK;
+}
+
+static void test_many_ask(void **state)
+{
+    (void)state;
+    static asking a;
+    sunder_error err;
+    scene s;
+    draw(&s);
+    for (int round = 0; round < 20; round++) {
+        scene_model of;
+        scene_model_related(&of, &s);
+        a.model = &of.model;
+        assert_int_equal(sunder_i_parallel(4, ASKING, 1, ask, &a, &err), SUNDER_OK);
+        for (size_t k = 0; k < ASKING; k++) {
+            assert_non_null(a.got[k]);
+            assert_ptr_equal(a.got[k], a.got[k % of.model.bodies]);
+            assert_ptr_equal(a.outline[k], a.outline[k % of.model.bodies]);
+        }
+        scene_model_end(&of);
+    }
+    scene_end(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_made_when_asked), cmocka_unit_test(test_many_ask)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
