@@ -44,7 +44,7 @@ static bool mesh_init(mesh *m, const sunder_shape *shape)
     m->prev = sunder_i_alloc(m->n, sizeof *m->prev);
     m->slot = sunder_i_alloc(slots, sizeof *m->slot);
     if (!m->origin || !m->next || !m->prev || !m->slot) return false;
-    memcpy(m->origin, shape->piece_vertex, m->n * sizeof *m->origin);
+    memcpy(m->origin, sunder_i_piece_vertices(shape), m->n * sizeof *m->origin);
     memset(m->slot, 0xff, slots * sizeof *m->slot);
     for (uint32_t i = 0, first = 0; i < shape->pieces; first = shape->piece_end[i++])
         for (uint32_t h = first; h < shape->piece_end[i]; h++) {

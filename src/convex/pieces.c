@@ -36,8 +36,8 @@ void sunder_i_convex_pieces_add_shape(sunder_i_convex_pieces *list, const sunder
     for (uint32_t i = 0, k = 0; i < shape->pieces; i++) {
         const uint32_t first = k;
         for (; k < shape->piece_end[i]; k++) {
-            const uint32_t u = shape->piece_vertex[k];
-            const uint32_t v = shape->piece_vertex[k + 1 < shape->piece_end[i] ? k + 1 : first];
+            const uint32_t u = sunder_i_piece_vertices(shape)[k];
+            const uint32_t v = sunder_i_piece_vertices(shape)[k + 1 < shape->piece_end[i] ? k + 1 : first];
             sunder_i_convex_pieces_add_corner(list, at[u], sunder_i_is_boundary(shape, u, v));
         }
         list->end[list->n++] = list->corners;

@@ -10,6 +10,7 @@
 #include "spatial/rtree.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Members that meet so many others, on the average, make large groups, if not one. */
 #define MOST_MEETINGS 32
@@ -25,16 +26,19 @@ typedef struct grouper {
     sunder_i_members_left *left;
 } grouper;
 
-static uint32_t first_ring(const sunder_shape *s, uint32_t polygon) { return polygon ? s->poly_end[polygon - 1] : 0; }
-static uint32_t first_vertex(const sunder_shape *s, uint32_t ring) { return ring ? s->ring_end[ring - 1] : 0; }
+static uint32_t first_ring(const sunder_shape *s, uint32_t polygon)
+{
+    return polygon ? s->cleaned->poly_end[polygon - 1] : 0;
+}
+static uint32_t first_vertex(const sunder_shape *s, uint32_t ring) { return ring ? s->cleaned->ring_end[ring - 1] : 0; }
 
 /* One ring that turns left everywhere. */
 static bool is_convex(const sunder_shape *s, const sunder_i_point *at, uint32_t polygon)
 {
     const uint32_t ring = first_ring(s, polygon);
-    if (s->poly_end[polygon] - ring > 1) return false;
-    for (uint32_t v = first_vertex(s, ring); v < s->ring_end[ring]; v++)
-        if (sunder_i_narrow_orient(at[s->prev[v]], at[v], at[s->next[v]]) <= 0) return false;
+    if (s->cleaned->poly_end[polygon] - ring > 1) return false;
+    for (uint32_t v = first_vertex(s, ring); v < s->cleaned->ring_end[ring]; v++)
+        if (sunder_i_narrow_orient(at[s->cleaned->prev[v]], at[v], at[s->cleaned->next[v]]) <= 0) return false;
     return true;
 }
 
@@ -46,7 +50,7 @@ static void add_box(const sunder_shape *s, const sunder_i_point *at, uint32_t po
 {
     const uint32_t ring = first_ring(s, polygon), begin = first_vertex(s, ring);
     sunder_i_point low = at[begin], high = low;
-    for (uint32_t v = begin + 1; v < s->ring_end[ring]; v++) {
+    for (uint32_t v = begin + 1; v < s->cleaned->ring_end[ring]; v++) {
         if (at[v].x < low.x) low.x = at[v].x;
         if (at[v].x > high.x) high.x = at[v].x;
         if (at[v].y < low.y) low.y = at[v].y;
@@ -118,7 +122,7 @@ static bool make_rounds(const grouper *g, uint32_t from, uint32_t to, sunder_i_r
         const sunder_i_round turned = {g->one, g->many, g->at_one, g->at_many, 0, m};
         if (!g->one_convex && !is_convex(g->many, g->at_many, m)) return false;
         round[i - from] = g->one_convex ? straight : turned;
-        rings += g->one_convex ? g->many->poly_end[m] - first_ring(g->many, m) : g->one->rings;
+        rings += g->one_convex ? g->many->cleaned->poly_end[m] - first_ring(g->many, m) : g->one->cleaned->rings;
     }
     return rings <= SUNDER_I_MOST_CURVES;
 }
@@ -154,7 +158,7 @@ sunder_status sunder_i_members_sum(sunder_sum *sum, const sunder_shape *many, co
                                    sunder_error *err)
 {
     sunder_i_arena arena = {0};
-    const uint32_t n = many->polygons;
+    const uint32_t n = many->cleaned->polygons;
     *left = (sunder_i_members_left){NULL, n};
     if (!sum->lattice.narrow || many->flat || one->flat) return SUNDER_OK;
     grouper g = {.many = many,
@@ -184,33 +188,31 @@ sunder_status sunder_i_members_sum(sunder_sum *sum, const sunder_shape *many, co
 
 bool sunder_i_members_view_init(const sunder_shape *many, const bool *polygon, sunder_shape *view)
 {
-    uint32_t *end = sunder_i_alloc(many->pieces, sizeof *end), pieces = 0, corners = 0, at = 0;
-    uint32_t *vertex = sunder_i_alloc(many->pieces ? many->piece_end[many->pieces - 1] : 0, sizeof *vertex);
+    const size_t room = many->pieces ? many->piece_end[many->pieces - 1] : 0;
+    const uint32_t *from = sunder_i_piece_vertices(many);
+    uint32_t *end = sunder_i_alloc(many->pieces + room, sizeof *end), pieces = 0, corners = 0, at = 0;
     bool *wanted = sunder_i_alloc(many->vertices, sizeof *wanted);
     *view = *many;
     view->piece_end = end;
-    view->piece_vertex = vertex;
-    if (!end || !vertex || !wanted) {
+    if (!end || !wanted) {
         sunder_i_free(wanted);
         sunder_i_members_view_free(view);
         return false;
     }
-    for (uint32_t p = 0; p < many->polygons; p++)
-        for (const uint32_t past = many->ring_end[many->poly_end[p] - 1]; at < past; at++) wanted[at] = polygon[p];
+    for (uint32_t p = 0; p < many->cleaned->polygons; p++)
+        for (const uint32_t past = many->cleaned->ring_end[many->cleaned->poly_end[p] - 1]; at < past; at++)
+            wanted[at] = polygon[p];
+    uint32_t *vertex = end + many->pieces;
     for (uint32_t i = 0, k = 0; i < many->pieces; i++) {
-        const bool takes = wanted[many->piece_vertex[k]];
+        const bool takes = wanted[from[k]];
         for (; k < many->piece_end[i]; k++)
-            if (takes) vertex[corners++] = many->piece_vertex[k];
+            if (takes) vertex[corners++] = from[k];
         if (takes) end[pieces++] = corners;
     }
+    memmove(end + pieces, vertex, corners * sizeof *end); /* corners come right behind the ends */
     view->pieces = pieces;
     sunder_i_free(wanted);
     return true;
 }
 
-void sunder_i_members_view_free(sunder_shape *view)
-{
-    void *end = (void *)(uintptr_t)view->piece_end, *vertex = (void *)(uintptr_t)view->piece_vertex;
-    sunder_i_free(end);
-    sunder_i_free(vertex);
-}
+void sunder_i_members_view_free(sunder_shape *view) { sunder_i_free((void *)(uintptr_t)view->piece_end); }

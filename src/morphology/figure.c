@@ -31,13 +31,13 @@ bool sunder_i_figure_of_shape(sunder_i_lattice *lattice, const sunder_shape *sha
                               sunder_i_figure *out)
 {
     sunder_i_figure f = {0};
-    if (make_room(&f, shape->vertices, shape->vertices, shape->rings)) {
+    if (make_room(&f, shape->vertices, shape->vertices, shape->cleaned->rings)) {
         for (uint32_t v = 0; v < shape->vertices; v++) {
             f.ring[v] = v;
-            f.touches = f.touches || shape->shared[v];
+            f.touches = f.touches || shape->cleaned->shared[v];
             f.at[v] = read_point(&f.arena, lattice, at[v]);
         }
-        for (uint32_t r = 0; r < shape->rings; r++) f.ring_end[r] = shape->ring_end[r];
+        for (uint32_t r = 0; r < shape->cleaned->rings; r++) f.ring_end[r] = shape->cleaned->ring_end[r];
     }
     const bool ok = !f.arena.failed && !lattice->arena.failed;
     if (ok)
@@ -125,7 +125,7 @@ bool sunder_i_structuring_element_of_shape(sunder_i_lattice *lattice, const sund
     p.plain = true;
     p.inner = sunder_i_arena_alloc(arena, p.pieces + 1u, sizeof *p.inner);
     for (size_t i = 0; i < corners && !arena->failed; i++) {
-        p.corner[i] = read_point(arena, lattice, at[shape->piece_vertex[i]]);
+        p.corner[i] = read_point(arena, lattice, at[sunder_i_piece_vertices(shape)[i]]);
         if (reflected) p.corner[i] = sunder_i_rational_neg(p.corner[i]); /* a half turn: still counter-clockwise */
     }
     for (uint32_t j = 0; j < p.pieces && !arena->failed; j++) {

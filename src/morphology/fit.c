@@ -75,7 +75,7 @@ static bool piece_is_near(const fit *f, const sunder_shape *shape, const double 
     double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY}, near[4];
     for (size_t i = first; i < end; i++)
         for (int c = 0; c < 2; c++) {
-            const double v = shape->xy[2 * (size_t)shape->piece_vertex[i] + (size_t)c] + (t ? t[c] : 0);
+            const double v = shape->xy[2 * (size_t)sunder_i_piece_vertices(shape)[i] + (size_t)c] + (t ? t[c] : 0);
             box[c] = fmin(box[c], v);
             box[c + 2] = fmax(box[c + 2], v);
         }
@@ -94,7 +94,7 @@ static sunder_status draw_region(fit *f, int i, const sunder_shape *shape, const
         const sunder_i_mark mark = sunder_i_arena_mark(&f->scratch);
         sunder_i_rational_point *corner = sunder_i_arena_alloc(&f->scratch, end - first, sizeof *corner);
         for (size_t k = first; corner && k < end; k++)
-            corner[k - first] = sunder_i_rational_get(&f->scratch, f->lattice, at[shape->piece_vertex[k]]);
+            corner[k - first] = sunder_i_rational_get(&f->scratch, f->lattice, at[sunder_i_piece_vertices(shape)[k]]);
         if (f->scratch.failed) return sunder_i_no_memory(err);
         status = sunder_i_planar_map_insert_polygon(f->region[i], corner, NULL, end - first, err);
         sunder_i_arena_release(&f->scratch, mark);

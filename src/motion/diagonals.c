@@ -31,7 +31,7 @@ static size_t inner_sides(const sunder_shape *shape, side *out)
 {
     size_t n = 0;
     for (uint32_t i = 0, first = 0; i < shape->pieces; first = shape->piece_end[i++]) {
-        const uint32_t *corner = shape->piece_vertex + first, m = shape->piece_end[i] - first;
+        const uint32_t *corner = sunder_i_piece_vertices(shape) + first, m = shape->piece_end[i] - first;
         for (uint32_t k = 0; k < m; k++) {
             const uint32_t u = corner[k], v = corner[(k + 1) % m];
             if (!sunder_i_is_boundary(shape, u, v)) out[n++] = (side){u, v, corner[(k + 2) % m]};
@@ -68,7 +68,7 @@ static unsigned bits_of(const double *xy, const uint32_t corner[4])
 static bool has_exact(const sunder_shape *shape, const uint32_t corner[4])
 {
     bool any = false;
-    for (int i = 0; i < 4 && shape->rational; i++) any = any || shape->exact[corner[i]].den.size;
+    for (int i = 0; i < 4 && shape->rational; i++) any = any || shape->numbers->exact[corner[i]].den.size;
     return any;
 }
 

@@ -147,6 +147,6 @@ void sunder_shape_anchor(const sunder_shape *shape, double xy[2])
     }
     uint32_t from;
     const uint32_t largest = sunder_i_largest_piece(shape, &from);
-    const uint32_t *corner = shape->piece_vertex + from, n = shape->piece_end[largest] - from;
+    const uint32_t *corner = sunder_i_piece_vertices(shape) + from, n = shape->piece_end[largest] - from;
     if (!sunder_i_anchor_in_doubles(shape, corner, n, xy)) sunder_i_anchor_exactly(shape, corner, n, xy);
 }

@@ -17,12 +17,12 @@ static void *carve(unsigned char *block, size_t *used, size_t n, size_t size)
 /* Which arrays a shape has of its own. */
 typedef struct layout {
     size_t raw_vertices, raw_rings;
+    uint32_t raw_polygons;
     uint32_t corners; /* of pieces */
     bool numbers;     /* some corner may be no pair of doubles */
-    bool few;         /* its rings are one of few corners: links and ends are those of all such */
+    bool few;         /* its rings are one of few corners, which stand in different places: it is as all such */
     bool whole;       /* and it is its only piece, from its first corner on */
     bool clean;       /* and the ring as given begins with its corners */
-    bool unshared;    /* and they all stand in different places */
 } layout;
 
 static bool have_places_of_their_own(const sunder_i_rings *r)
@@ -43,66 +43,90 @@ static bool is_identity(const uint32_t *number, uint32_t n)
 static layout plan(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
                    const sunder_i_rings *r, const sunder_i_pieces *pieces)
 {
-    layout l = {.raw_rings = polygons ? poly_end[polygons - 1] : 0, .corners = pieces->corners, .numbers = r->rounded};
+    layout l = {.raw_rings = polygons ? poly_end[polygons - 1] : 0,
+                .raw_polygons = (uint32_t)polygons,
+                .corners = pieces->corners,
+                .numbers = r->rounded};
     l.raw_vertices = l.raw_rings ? ring_end[l.raw_rings - 1] : 0;
     l.few = r->rings == 1 && r->polygons == 1 && r->vertices >= 3 && r->vertices <= SUNDER_I_FEW_CORNERS &&
-            polygons == 1 && l.raw_rings == 1 && l.raw_vertices <= SUNDER_I_FEW_CORNERS + 1;
+            polygons == 1 && l.raw_rings == 1 && l.raw_vertices <= SUNDER_I_FEW_CORNERS + 1 &&
+            have_places_of_their_own(r);
     if (!l.few) return l;
     l.whole = pieces->pieces == 1 && pieces->corners == r->vertices && is_identity(pieces->piece_vertex, r->vertices);
     l.clean =
         !r->rounded && l.raw_vertices >= r->vertices && memcmp(xy, r->xy, 2 * (size_t)r->vertices * sizeof *xy) == 0;
-    l.unshared = have_places_of_their_own(r);
     return l;
 }
 
-static size_t lay_out(sunder_shape *s, unsigned char *block, const sunder_shape *n, const layout *l)
+/* Arrays that are to be filled. */
+typedef struct arrays {
+    size_t *given_ring_end, *given_poly_end;
+    uint32_t *ring_end, *poly_end, *next, *prev, *piece_end;
+    bool *shared;
+} arrays;
+
+/* The rings of the shape, the one way and the other; heads: where they are described, counts filled in. */
+static void lay_out_rings(sunder_shape *s, unsigned char *block, size_t *used, const layout *l,
+                          const sunder_i_cleaned *head, arrays *to)
 {
-    size_t used = sizeof *s;
+    sunder_i_given *given = carve(block, used, 1, sizeof *given);
+    sunder_i_cleaned *cleaned = carve(block, used, 1, sizeof *cleaned);
+    to->given_ring_end = carve(block, used, l->raw_rings, sizeof *to->given_ring_end);
+    to->given_poly_end = carve(block, used, l->raw_polygons, sizeof *to->given_poly_end);
+    to->ring_end = carve(block, used, head->rings, sizeof *to->ring_end);
+    to->poly_end = carve(block, used, head->polygons, sizeof *to->poly_end);
+    to->next = carve(block, used, s->vertices, sizeof *to->next);
+    to->prev = carve(block, used, s->vertices, sizeof *to->prev);
+    if (!block) return;
+    *given = (sunder_i_given){to->given_ring_end, to->given_poly_end, l->raw_polygons};
+    *cleaned = (sunder_i_cleaned){to->ring_end, to->poly_end, to->next, to->prev, NULL, head->rings, head->polygons};
+    s->given = given;
+    s->cleaned = cleaned;
+}
+
+/* Where its marks are, of which places are shared. */
+static void set_shared(sunder_shape *s, const bool *shared) { ((sunder_i_cleaned *)s->cleaned)->shared = shared; }
+
+/* With block NULL it only counts. */
+static size_t lay_out(sunder_shape *s, unsigned char *block, const layout *l, const sunder_i_cleaned *head, arrays *to)
+{
+    size_t used = sizeof *s + 2 * l->raw_vertices * sizeof *s->raw_xy;
+    *to = (arrays){NULL};
     s->numbers = l->numbers ? carve(block, &used, 1, sizeof *s->numbers) : NULL;
-    s->raw_xy = carve(block, &used, 2 * l->raw_vertices, sizeof *s->raw_xy);
-    s->xy = l->clean ? s->raw_xy : carve(block, &used, 2 * (size_t)n->vertices, sizeof *s->xy);
+    double *xy = l->clean ? NULL : carve(block, &used, 2 * (size_t)s->vertices, sizeof *s->xy);
+    if (!l->few) lay_out_rings(s, block, &used, l, head, to);
+    if (!l->whole) to->piece_end = carve(block, &used, (size_t)s->pieces + l->corners, sizeof *to->piece_end);
+    if (!l->few) to->shared = carve(block, &used, s->vertices, sizeof *to->shared);
+    if (!block) return used;
+    s->xy = l->clean ? s->raw_xy : xy;
+    s->piece_end = l->whole ? sunder_i_few_whole(s->vertices) : to->piece_end;
     if (l->few) {
-        const sunder_i_few_corners few = sunder_i_few_corners_of(n->vertices);
-        s->raw_ring_end = sunder_i_few_long(l->raw_vertices);
-        s->raw_poly_end = sunder_i_few_long(1);
-        s->ring_end = sunder_i_few(n->vertices);
-        s->poly_end = sunder_i_few(1);
-        s->next = few.next;
-        s->prev = few.prev;
-        s->piece_end = sunder_i_few(n->vertices);
-        s->piece_vertex = few.corner;
-        s->shared = few.unshared;
+        s->given = sunder_i_few_given(l->raw_vertices);
+        s->cleaned = sunder_i_few_cleaned(s->vertices);
     } else {
-        s->raw_ring_end = carve(block, &used, l->raw_rings, sizeof *s->raw_ring_end);
-        s->raw_poly_end = carve(block, &used, n->raw_polygons, sizeof *s->raw_poly_end);
-        s->ring_end = carve(block, &used, n->rings, sizeof *s->ring_end);
-        s->poly_end = carve(block, &used, n->polygons, sizeof *s->poly_end);
-        s->next = carve(block, &used, n->vertices, sizeof *s->next);
-        s->prev = carve(block, &used, n->vertices, sizeof *s->prev);
+        set_shared(s, to->shared);
     }
-    if (!l->whole) {
-        s->piece_end = carve(block, &used, n->pieces, sizeof *s->piece_end);
-        s->piece_vertex = carve(block, &used, l->corners, sizeof *s->piece_vertex);
-    }
-    if (!l->unshared) s->shared = carve(block, &used, n->vertices, sizeof *s->shared);
     return used;
 }
 
-/* `to` is an array of the shape's own block, so it may be written. */
-static void copy(const void *to, const void *from, size_t n, size_t size)
+static void copy(void *to, const void *from, size_t n, size_t size)
 {
-    if (n) memcpy((void *)to, from, n * size);
+    if (n) memcpy(to, from, n * size);
 }
 
 /* The shape with its arrays, which are to be filled; NULL if memory is out. */
-static sunder_shape *allocate(const sunder_shape *head, const layout *l)
+static sunder_shape *allocate(uint32_t vertices, const sunder_i_pieces *pieces, const layout *l,
+                              const sunder_i_cleaned *head, arrays *to)
 {
-    sunder_shape counted = *head;
-    sunder_shape *s = sunder_i_alloc(lay_out(&counted, NULL, head, l), 1);
+    sunder_shape counted = {.vertices = vertices, .pieces = pieces->pieces};
+    sunder_shape *s = sunder_i_alloc(lay_out(&counted, NULL, l, head, to), 1);
     if (!s) return NULL;
-    *s = *head;
-    lay_out(s, (unsigned char *)s, head, l);
+    *s = counted;
+    lay_out(s, (unsigned char *)s, l, head, to);
     if (s->numbers) *s->numbers = (sunder_i_numbers){0};
+    if (l->whole) return s;
+    copy(to->piece_end, pieces->piece_end, pieces->pieces, sizeof *pieces->piece_end);
+    copy(to->piece_end + pieces->pieces, pieces->piece_vertex, pieces->corners, sizeof *pieces->piece_vertex);
     return s;
 }
 
@@ -110,27 +134,19 @@ sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, 
                                       const sunder_i_rings *r, const sunder_i_pieces *pieces)
 {
     const layout l = plan(xy, ring_end, poly_end, polygons, r, pieces);
-    sunder_shape head = {.raw_polygons = (uint32_t)polygons,
-                         .vertices = r->vertices,
-                         .rings = r->rings,
-                         .polygons = r->polygons,
-                         .pieces = pieces->pieces};
-    sunder_shape *s = allocate(&head, &l);
+    const sunder_i_cleaned head = {.rings = r->rings, .polygons = r->polygons};
+    arrays to;
+    sunder_shape *s = allocate(r->vertices, pieces, &l, &head, &to);
     if (!s) return NULL;
     copy(s->raw_xy, xy, 2 * l.raw_vertices, sizeof *xy);
     if (!l.clean) copy(s->xy, r->xy, 2 * (size_t)r->vertices, sizeof *r->xy);
-    if (!l.few) {
-        copy(s->raw_ring_end, ring_end, l.raw_rings, sizeof *ring_end);
-        copy(s->raw_poly_end, poly_end, polygons, sizeof *poly_end);
-        copy(s->ring_end, r->ring_end, r->rings, sizeof *r->ring_end);
-        copy(s->poly_end, r->poly_end, r->polygons, sizeof *r->poly_end);
-        copy(s->next, r->next, r->vertices, sizeof *r->next);
-        copy(s->prev, r->prev, r->vertices, sizeof *r->prev);
-    }
-    if (!l.whole) {
-        copy(s->piece_end, pieces->piece_end, pieces->pieces, sizeof *pieces->piece_end);
-        copy(s->piece_vertex, pieces->piece_vertex, pieces->corners, sizeof *pieces->piece_vertex);
-    }
+    if (l.few) return s;
+    copy(to.given_ring_end, ring_end, l.raw_rings, sizeof *ring_end);
+    copy(to.given_poly_end, poly_end, polygons, sizeof *poly_end);
+    copy(to.ring_end, r->ring_end, r->rings, sizeof *r->ring_end);
+    copy(to.poly_end, r->poly_end, r->polygons, sizeof *r->poly_end);
+    copy(to.next, r->next, r->vertices, sizeof *r->next);
+    copy(to.prev, r->prev, r->vertices, sizeof *r->prev);
     return s;
 }
 
@@ -139,27 +155,16 @@ sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32
 {
     const bool whole = pieces->pieces == 1;
     const size_t doubles = 2 * (raw + (turned ? n : 0)), numbers = whole ? 0 : (size_t)pieces->pieces + pieces->corners;
-    const sunder_i_few_corners few = sunder_i_few_corners_of(n);
     sunder_shape *s = sunder_i_alloc(sizeof *s + doubles * sizeof *xy + numbers * sizeof *pieces->piece_end, 1);
     if (!s) return NULL;
-    double *const raw_xy = (double *)(void *)(s + 1), *const own_xy = turned ? raw_xy + 2 * raw : raw_xy;
+    double *const raw_xy = s->raw_xy, *const own_xy = turned ? raw_xy + 2 * raw : raw_xy;
     uint32_t *const ends = (uint32_t *)(void *)(raw_xy + doubles);
-    *s = (sunder_shape){.raw_xy = raw_xy,
-                        .raw_ring_end = sunder_i_few_long(raw),
-                        .raw_poly_end = sunder_i_few_long(1),
-                        .raw_polygons = 1,
-                        .vertices = n,
-                        .rings = 1,
-                        .polygons = 1,
-                        .pieces = pieces->pieces,
+    *s = (sunder_shape){.given = sunder_i_few_given(raw),
+                        .cleaned = sunder_i_few_cleaned(n),
+                        .piece_end = whole ? sunder_i_few_whole(n) : ends,
                         .xy = own_xy,
-                        .ring_end = sunder_i_few(n),
-                        .poly_end = sunder_i_few(1),
-                        .next = few.next,
-                        .prev = few.prev,
-                        .shared = few.unshared,
-                        .piece_end = whole ? sunder_i_few(n) : ends,
-                        .piece_vertex = whole ? few.corner : ends + pieces->pieces};
+                        .vertices = n,
+                        .pieces = pieces->pieces};
     memcpy(raw_xy, xy, 2 * raw * sizeof *xy);
     for (uint32_t i = 0; turned && i < n; i++) memcpy(own_xy + 2 * i, xy + 2 * (n - 1 - i), 2 * sizeof *xy);
     if (!whole) {
@@ -173,9 +178,9 @@ sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32
  * the nearest doubles differ. */
 static bool *own_marks(sunder_shape *s)
 {
-    const bool few = s->vertices >= 3 && s->vertices <= SUNDER_I_FEW_CORNERS &&
-                     s->shared == sunder_i_few_corners_of(s->vertices).unshared;
-    return few ? NULL : (bool *)s->shared;
+    const bool few =
+        s->vertices >= 3 && s->vertices <= SUNDER_I_FEW_CORNERS && s->cleaned == sunder_i_few_cleaned(s->vertices);
+    return few ? NULL : (bool *)s->cleaned->shared;
 }
 
 void sunder_i_shape_copy_shared(sunder_shape *s, const bool *shared)
@@ -211,7 +216,7 @@ static bool same_place(const sunder_shape *s, uint32_t i, uint32_t j)
         return false;
     if (!s->rational) return true;
     /* In lowest terms one place has one set of numbers. */
-    const sunder_i_exact *a = &s->exact[i], *b = &s->exact[j];
+    const sunder_i_exact *a = &s->numbers->exact[i], *b = &s->numbers->exact[j];
     return a->exponent == b->exponent && sunder_i_big_cmp(a->den, b->den) == 0 &&
            sunder_i_big_cmp(a->num[0], b->num[0]) == 0 && sunder_i_big_cmp(a->num[1], b->num[1]) == 0;
 }

@@ -10,9 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-size_t sunder_shape_polygons(const sunder_shape *shape) { return shape->polygons; }
+size_t sunder_shape_polygons(const sunder_shape *shape) { return shape->cleaned->polygons; }
 size_t sunder_shape_vertices(const sunder_shape *shape) { return shape->vertices; }
-bool sunder_shape_is_empty(const sunder_shape *shape) { return shape->polygons == 0; }
+bool sunder_shape_is_empty(const sunder_shape *shape) { return shape->cleaned->polygons == 0; }
 bool sunder_shape_repaired(const sunder_shape *shape) { return shape->repaired; }
 
 bool sunder_shape_touches(const sunder_shape *shape) { return shape->touches; }
@@ -24,7 +24,7 @@ double sunder_shape_area(const sunder_shape *shape)
     if (shape->rational) return shape->numbers->area;
     sunder_i_accumulator twice = {{0}};
     for (uint32_t i = 0; i < shape->vertices; i++) {
-        const double *a = shape->xy + 2 * (size_t)i, *b = shape->xy + 2 * (size_t)shape->next[i];
+        const double *a = shape->xy + 2 * (size_t)i, *b = shape->xy + 2 * (size_t)shape->cleaned->next[i];
         sunder_i_accumulator_add(&twice, a[0], b[1]);
         sunder_i_accumulator_sub(&twice, a[1], b[0]);
     }
@@ -49,7 +49,7 @@ uint32_t sunder_i_largest_piece(const sunder_shape *shape, uint32_t *from)
     uint32_t largest = 0;
     *from = 0;
     for (uint32_t i = 0, at = 0; i < shape->pieces; at = shape->piece_end[i++]) {
-        const double area = rough_area(shape, shape->piece_vertex + at, shape->piece_end[i] - at);
+        const double area = rough_area(shape, sunder_i_piece_vertices(shape) + at, shape->piece_end[i] - at);
         if (!(area > most)) continue;
         most = area;
         largest = i;

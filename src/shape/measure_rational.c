@@ -29,7 +29,7 @@ static sunder_i_big sum_edges(sunder_i_arena *arena, const sunder_shape *shape, 
     *lost = 0;
     sunder_i_arena_init(&scratch);
     for (uint32_t i = 0; i < shape->vertices && !arena->failed; i++) {
-        const sunder_i_point a = placed->p[i], b = placed->p[shape->next[i]];
+        const sunder_i_point a = placed->p[i], b = placed->p[shape->cleaned->next[i]];
         if (sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b)) {
             const sunder_i_i128 term = sunder_i_det_i128(sunder_i_narrow_cross(a, b)), before = run;
             if (!__builtin_add_overflow(before, term, &run)) continue;
@@ -77,7 +77,7 @@ static sunder_i_big whole_area(sunder_i_arena *arena, const sunder_shape *shape,
                                sunder_i_big *den)
 {
     const uint32_t n = shape->piece_end[shape->pieces - 1];
-    const common c = over_one(arena, &placed->lattice, placed->p, shape->piece_vertex, n);
+    const common c = over_one(arena, &placed->lattice, placed->p, sunder_i_piece_vertices(shape), n);
     sunder_i_big sum = {NULL, 0};
     *den = c.den;
     for (uint32_t i = 0, first = 0; i < shape->pieces && !arena->failed; first = shape->piece_end[i++])
@@ -159,7 +159,7 @@ bool sunder_i_shape_measure_pieces(sunder_shape *shape)
     sunder_i_arena_init(&arena);
     uint32_t from;
     const uint32_t largest = sunder_i_largest_piece(shape, &from);
-    centroid(&placed.lattice, &arena, placed.p, shape->piece_vertex + from, shape->piece_end[largest] - from,
+    centroid(&placed.lattice, &arena, placed.p, sunder_i_piece_vertices(shape) + from, shape->piece_end[largest] - from,
              placed.origin_p, shape->numbers->anchor);
     shape->numbers->area = area_of(&arena, shape, &placed);
     const bool good = !arena.failed && !placed.lattice.arena.failed;

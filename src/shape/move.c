@@ -12,20 +12,20 @@ static sunder_shape *copy_shape(const sunder_shape *s)
 {
     /* Which is only read. */
     const sunder_i_rings r = {.vertices = s->vertices,
-                              .rings = s->rings,
-                              .polygons = s->polygons,
+                              .rings = s->cleaned->rings,
+                              .polygons = s->cleaned->polygons,
                               .xy = s->xy,
                               .rounded = s->rational,
-                              .ring_end = (uint32_t *)s->ring_end,
-                              .poly_end = (uint32_t *)s->poly_end,
-                              .next = (uint32_t *)s->next,
-                              .prev = (uint32_t *)s->prev};
+                              .ring_end = (uint32_t *)s->cleaned->ring_end,
+                              .poly_end = (uint32_t *)s->cleaned->poly_end,
+                              .next = (uint32_t *)s->cleaned->next,
+                              .prev = (uint32_t *)s->cleaned->prev};
     const sunder_i_pieces pieces = {s->pieces, s->pieces ? s->piece_end[s->pieces - 1] : 0, (uint32_t *)s->piece_end,
-                                    (uint32_t *)s->piece_vertex};
+                                    (uint32_t *)sunder_i_piece_vertices(s)};
     sunder_shape *c =
-        sunder_i_shape_assemble(s->raw_xy, s->raw_ring_end, s->raw_poly_end, s->raw_polygons, &r, &pieces);
+        sunder_i_shape_assemble(s->raw_xy, s->given->ring_end, s->given->poly_end, s->given->polygons, &r, &pieces);
     if (!c) return NULL;
-    sunder_i_shape_copy_shared(c, s->shared);
+    sunder_i_shape_copy_shared(c, s->cleaned->shared);
     c->repaired = s->repaired;
     c->touches = s->touches;
     return c;
@@ -40,9 +40,9 @@ sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out
     bool good = true;
     for (size_t i = 0; c->xy != c->raw_xy && i < 2 * (size_t)c->vertices; i++) c->xy[i] = 0 - c->xy[i];
     if (shape->rational) {
-        good = sunder_i_shape_set_rational(c, shape->exact);
+        good = sunder_i_shape_set_rational(c, shape->numbers->exact);
         for (uint32_t v = 0; good && v < c->vertices; v++)
-            for (int k = 0; k < 2; k++) c->exact[v].num[k] = sunder_i_big_neg(c->exact[v].num[k]);
+            for (int k = 0; k < 2; k++) c->numbers->exact[v].num[k] = sunder_i_big_neg(c->numbers->exact[v].num[k]);
         good = good && sunder_i_shape_measure_rational(c);
     } else {
         sunder_i_shape_measure(c, NULL);
@@ -82,7 +82,7 @@ static bool move_rational(const sunder_shape *shape, const double d[2], sunder_s
     sunder_i_arena_init(&arena);
     sunder_i_exact *exact = sunder_i_arena_alloc(&arena, shape->vertices, sizeof *exact);
     for (uint32_t v = 0; exact && v < shape->vertices; v++) {
-        const sunder_i_exact *from = &shape->exact[v];
+        const sunder_i_exact *from = &shape->numbers->exact[v];
         exact[v] = *from;
         double *xy = c->xy + 2 * (size_t)v;
         if (from->den.size)
@@ -130,7 +130,7 @@ static sunder_status move_rounded(const sunder_shape *shape, const double d[2], 
                                    d[0], d[1]);
     }
     if (!status)
-        status = sunder_shape_from_rings(xy, shape->raw_ring_end, shape->raw_poly_end, shape->raw_polygons,
+        status = sunder_shape_from_rings(xy, shape->given->ring_end, shape->given->poly_end, shape->given->polygons,
                                          SUNDER_VALIDITY_EVEN_ODD, out, err);
     sunder_i_free(xy);
     return status;

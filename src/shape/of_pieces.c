@@ -23,8 +23,8 @@ static const double *corner_of(const sunder_i_piece_of *p, uint32_t k, const sun
 {
     *exact = NULL;
     if (!p->shape) return p->xy + 2 * (size_t)k;
-    const uint32_t v = p->shape->piece_vertex[first_corner(p) + k];
-    if (p->shape->rational && p->shape->exact[v].den.size) *exact = &p->shape->exact[v];
+    const uint32_t v = sunder_i_piece_vertices(p->shape)[first_corner(p) + k];
+    if (p->shape->rational && p->shape->numbers->exact[v].den.size) *exact = &p->shape->numbers->exact[v];
     return p->shape->xy + 2 * (size_t)v;
 }
 
@@ -45,17 +45,19 @@ typedef struct arrays {
 } arrays;
 
 /* Room for all arrays, in the shape's arena. */
-static bool make_room(sunder_shape *s, arrays *to)
+static bool make_room(sunder_shape *s, sunder_i_cleaned *cleaned, arrays *to)
 {
     sunder_i_arena *a = &s->numbers->arena;
     s->xy = sunder_i_arena_alloc(a, s->vertices, 2 * sizeof *s->xy);
-    s->ring_end = s->piece_end = to->ring_end = sunder_i_arena_alloc(a, s->pieces, sizeof *to->ring_end);
-    s->poly_end = to->poly_end = sunder_i_arena_alloc(a, s->pieces, sizeof *to->poly_end);
-    s->next = to->next = sunder_i_arena_alloc(a, s->vertices, sizeof *to->next);
-    s->prev = to->prev = sunder_i_arena_alloc(a, s->vertices, sizeof *to->prev);
-    s->piece_vertex = to->corner = sunder_i_arena_alloc(a, s->vertices, sizeof *to->corner);
-    s->shared = to->shared = sunder_i_arena_alloc(a, s->vertices, sizeof *to->shared);
-    if (s->rational) s->exact = sunder_i_arena_alloc(a, s->vertices, sizeof *s->exact);
+    s->piece_end = to->ring_end = sunder_i_arena_alloc(a, s->pieces + (size_t)s->vertices, sizeof *to->ring_end);
+    to->corner = to->ring_end ? to->ring_end + s->pieces : NULL;
+    to->poly_end = sunder_i_arena_alloc(a, s->pieces, sizeof *to->poly_end);
+    to->next = sunder_i_arena_alloc(a, s->vertices, sizeof *to->next);
+    to->prev = sunder_i_arena_alloc(a, s->vertices, sizeof *to->prev);
+    to->shared = sunder_i_arena_alloc(a, s->vertices, sizeof *to->shared);
+    *cleaned = (sunder_i_cleaned){to->ring_end, to->poly_end, to->next, to->prev, to->shared, s->pieces, s->pieces};
+    s->cleaned = cleaned;
+    if (s->rational) s->numbers->exact = sunder_i_arena_alloc(a, s->vertices, sizeof *s->numbers->exact);
     return !a->failed;
 }
 
@@ -71,7 +73,7 @@ static void fill(sunder_shape *s, const arrays *to, const sunder_i_piece_of *pie
             to->prev[at] = k ? at - 1 : first + n - 1;
             to->corner[at] = at;
             to->shared[at] = true;
-            if (s->rational) s->exact[at] = exact ? *exact : (sunder_i_exact){.den = {NULL, 0}};
+            if (s->rational) s->numbers->exact[at] = exact ? *exact : (sunder_i_exact){.den = {NULL, 0}};
         }
         to->ring_end[i] = at;
         to->poly_end[i] = i + 1;
@@ -100,17 +102,21 @@ sunder_status sunder_i_shape_of_pieces(const sunder_i_piece_of *piece, size_t n,
     size_t corners = 0;
     for (size_t i = 0; i < n; i++) corners += corners_of(&piece[i]);
     if (corners >= UINT32_MAX / 2) return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
-    sunder_shape *s = sunder_i_calloc(1, sizeof *s + sizeof *s->numbers);
+    static const sunder_i_given none = {NULL, NULL, 0};
+    sunder_i_cleaned *cleaned;
+    sunder_shape *s = sunder_i_calloc(1, sizeof *s + sizeof *s->numbers + sizeof *cleaned);
     if (!s) return sunder_i_no_memory(err);
+    s->given = &none;
     s->numbers = (sunder_i_numbers *)(s + 1);
+    cleaned = (sunder_i_cleaned *)(s->numbers + 1);
     s->vertices = (uint32_t)corners;
-    s->pieces = s->rings = s->polygons = (uint32_t)n;
+    s->pieces = (uint32_t)n;
     for (size_t i = 0; i < n; i++) {
         s->flat = s->flat || corners_of(&piece[i]) < 3;
         s->rational = s->rational || (piece[i].shape && piece[i].shape->rational);
     }
     arrays to;
-    if (!make_room(s, &to)) {
+    if (!make_room(s, cleaned, &to)) {
         sunder_shape_free(s);
         return sunder_i_no_memory(err);
     }

@@ -30,40 +30,48 @@ typedef struct sunder_i_exact {
 /* What only shapes have of which some corner is no pair of doubles, and those made of pieces (of_pieces.c): few. */
 typedef struct sunder_i_numbers {
     sunder_i_arena arena;   /* of the numbers of corners */
-    double area, anchor[2]; /* of rational shapes, worked out when made, while failing was possible
-                             * (measure_rational.c) */
+    sunder_i_exact *exact;  /* [vertices] of rational shapes */
+    double area, anchor[2]; /* of these, worked out when made, while failing was possible (measure_rational.c) */
 } sunder_i_numbers;
 
-/* Layers have millions of them, most with one ring of few corners: what is the same for all of these they share
- * (few_corners.h), and a ring that was clean as it was given is kept once. */
-struct sunder_shape {
-    /* as given */
-    double *raw_xy;
-    const size_t *raw_ring_end, *raw_poly_end;
-    uint32_t raw_polygons;
+/* How the coordinates given make rings. */
+typedef struct sunder_i_given {
+    const size_t *ring_end, *poly_end;
+    uint32_t polygons;
+} sunder_i_given;
 
-    /* cleaned */
-    uint32_t vertices, rings, polygons;
-    uint32_t pieces;
-    int low_bit;                 /* coordinates are multiples of 2^low_bit; if rational, those that were given */
-    double *xy;                  /* [2 * vertices] the coordinates; of corners that are no doubles the nearest ones; may
-                                  * be raw_xy */
-    double box[4];               /* rounded outward if rational */
+/* How the vertices of the cleaned form make rings, of the polygons one after the other. */
+typedef struct sunder_i_cleaned {
     const uint32_t *ring_end;    /* [rings] index past the last vertex of each ring */
     const uint32_t *poly_end;    /* [polygons] index past the last ring of each; its first ring is the outer one */
     const uint32_t *next, *prev; /* [vertices] along the ring */
     const bool *shared;          /* [vertices] another vertex stands at the same place */
+    uint32_t rings, polygons;
+} sunder_i_cleaned;
 
-    /* convex pieces */
-    const uint32_t *piece_end;    /* [pieces] index past the last corner of each */
-    const uint32_t *piece_vertex; /* corners, counter-clockwise */
-
+/* The input as given, and the cleaned form. Layers have millions of shapes, most with one ring of few corners: what is
+ * the same for all of these they share (few_corners.h), and a ring that was clean as it was given is kept once. */
+struct sunder_shape {
+    const sunder_i_given *given;
+    const sunder_i_cleaned *cleaned;
+    const uint32_t *piece_end; /* [pieces] index past the last corner of each convex piece; behind them these corners */
+    double *xy;                /* [2 * vertices] the coordinates of the cleaned form; of corners that are no doubles the
+                                * nearest ones; may be raw_xy */
+    sunder_i_numbers *numbers; /* in the shape's own block; NULL: it has none */
+    double box[4];             /* rounded outward if rational */
+    uint32_t vertices, pieces; /* of the cleaned form */
+    int low_bit;               /* coordinates are multiples of 2^low_bit; if rational, those that were given */
     bool touches;              /* as given, rings of one polygon meet somewhere, or a ring meets itself */
     bool flat;                 /* made of convex pieces, with or without area (of_pieces.c) */
     bool repaired, rational;   /* rational: some corner is no pair of doubles */
-    sunder_i_exact *exact;     /* [vertices] of rational shapes, else NULL */
-    sunder_i_numbers *numbers; /* in the shape's own block; NULL: it has none */
+    double raw_xy[];           /* as given */
 };
+
+/* The corners of all pieces, one piece after the other: numbers of vertices, counter-clockwise. */
+static inline const uint32_t *sunder_i_piece_vertices(const sunder_shape *shape)
+{
+    return shape->piece_end + shape->pieces;
+}
 
 /* What a lattice has to hold for the shape; of a rational one the box, and the low bit of what was given. */
 static inline sunder_i_extent sunder_i_shape_extent(const sunder_shape *s)
@@ -100,14 +108,14 @@ sunder_i_point sunder_i_place_exact(sunder_i_lattice *lattice, const sunder_i_ex
  * exactly when next[u] == v; else it is a diagonal, and (v, u) is a side of another piece. */
 static inline bool sunder_i_is_boundary(const sunder_shape *shape, uint32_t u, uint32_t v)
 {
-    return shape->next[u] == v;
+    return shape->cleaned->next[u] == v;
 }
 
 /* How many vertices the rings have as they were given. */
 static inline size_t sunder_i_shape_raw_vertices(const sunder_shape *s)
 {
-    const size_t rings = s->raw_polygons ? s->raw_poly_end[s->raw_polygons - 1] : 0;
-    return rings ? s->raw_ring_end[rings - 1] : 0;
+    const size_t rings = s->given->polygons ? s->given->poly_end[s->given->polygons - 1] : 0;
+    return rings ? s->given->ring_end[rings - 1] : 0;
 }
 
 /* Area and anchor of a rational shape that is complete but for them. False if memory is out. */

@@ -145,7 +145,7 @@ static int in_set(const polyset *set, int64_t x, int64_t y)
 /* Coordinate i of the cleaned form, exactly. */
 static void coordinate(mpq_t r, const sunder_shape *s, size_t i)
 {
-    const sunder_i_exact *v = s->rational ? &s->exact[i / 2] : NULL;
+    const sunder_i_exact *v = s->rational ? &s->numbers->exact[i / 2] : NULL;
     if (!v || v->den.size == 0) {
         mpq_set_d(r, s->xy[i]);
         return;
@@ -189,8 +189,8 @@ static bool in_pieces(const sunder_shape *s, mpq_t *at, int64_t x, int64_t y)
     for (uint32_t i = 0, lo = 0; i < s->pieces && !found; lo = s->piece_end[i++]) {
         bool in = true;
         for (uint32_t k = lo; k < s->piece_end[i] && in; k++) {
-            mpq_t *a = at + 2 * (size_t)s->piece_vertex[k];
-            mpq_t *b = at + 2 * (size_t)s->piece_vertex[k + 1 < s->piece_end[i] ? k + 1 : lo];
+            mpq_t *a = at + 2 * (size_t)sunder_i_piece_vertices(s)[k];
+            mpq_t *b = at + 2 * (size_t)sunder_i_piece_vertices(s)[k + 1 < s->piece_end[i] ? k + 1 : lo];
             mpq_sub(u, b[0], a[0]);
             mpq_sub(v, p[1], a[1]);
             mpq_mul(w, u, v);
@@ -236,8 +236,8 @@ static void check_wide(const polyset *set, const sunder_shape *s, uint64_t i)
         explain(set, i, err.message);
     const char *fault = sunder_i_shape_check(t);
     if (fault) explain(set, i, fault);
-    if (t->vertices != s->vertices || t->rings != s->rings || t->polygons != s->polygons ||
-        sunder_shape_area(t) != sunder_shape_area(s))
+    if (t->vertices != s->vertices || t->cleaned->rings != s->cleaned->rings ||
+        t->cleaned->polygons != s->cleaned->polygons || sunder_shape_area(t) != sunder_shape_area(s))
         explain(set, i, "a wide lattice gives another set");
     for (size_t k = 0; k < 2 * (size_t)s->vertices; k++)
         if (t->xy[k] != s->xy[k] * (k & 1 ? 0x1p100 : 0x1p-100)) explain(set, i, "a wide lattice gives another corner");

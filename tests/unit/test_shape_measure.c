@@ -72,7 +72,7 @@ static bool area_is_nearest(const sunder_shape *s, double area)
     mpq_init(sum);
     const double o[2] = {0, 0};
     for (uint32_t i = 0; i < s->vertices; i++)
-        add_triangle(sum, NULL, o, s->xy + 2 * (size_t)i, s->xy + 2 * (size_t)s->next[i]);
+        add_triangle(sum, NULL, o, s->xy + 2 * (size_t)i, s->xy + 2 * (size_t)s->cleaned->next[i]);
     mpq_div_2exp(sum, sum, 1);
     const bool nearest = is_nearest(sum, area);
     mpq_clear(sum);
@@ -86,10 +86,10 @@ static bool anchor_is_a_centroid(const sunder_shape *s, const double anchor[2])
     for (uint32_t i = 0, at = 0; i < s->pieces && !found; at = s->piece_end[i++]) {
         mpq_t sum, moment[2], o;
         mpq_inits(sum, moment[0], moment[1], o, NULL);
-        const double *first = s->xy + 2 * (size_t)s->piece_vertex[at];
+        const double *first = s->xy + 2 * (size_t)sunder_i_piece_vertices(s)[at];
         for (uint32_t k = at + 1; k + 1 < s->piece_end[i]; k++)
-            add_triangle(sum, moment, first, s->xy + 2 * (size_t)s->piece_vertex[k],
-                         s->xy + 2 * (size_t)s->piece_vertex[k + 1]);
+            add_triangle(sum, moment, first, s->xy + 2 * (size_t)sunder_i_piece_vertices(s)[k],
+                         s->xy + 2 * (size_t)sunder_i_piece_vertices(s)[k + 1]);
         found = true;
         for (int k = 0; k < 2; k++) {
             mpq_set_ui(o, 3, 1);
@@ -111,8 +111,8 @@ static bool is_anchored_in_doubles(const sunder_shape *s)
     uint32_t from;
     if (s->pieces == 0 || s->rational) return false;
     const uint32_t largest = sunder_i_largest_piece(s, &from), n = s->piece_end[largest] - from;
-    if (!sunder_i_anchor_in_doubles(s, s->piece_vertex + from, n, quick)) return false;
-    sunder_i_anchor_exactly(s, s->piece_vertex + from, n, exact);
+    if (!sunder_i_anchor_in_doubles(s, sunder_i_piece_vertices(s) + from, n, quick)) return false;
+    sunder_i_anchor_exactly(s, sunder_i_piece_vertices(s) + from, n, exact);
     assert_true(quick[0] == exact[0] && quick[1] == exact[1]);
     return true;
 }

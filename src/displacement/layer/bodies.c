@@ -17,7 +17,7 @@ static void box_of_pieces(const sunder_i_model *model, uint32_t thing, const dou
     if (shape->rational) {
         sunder_i_box_clear(box);
         for (uint32_t k = 0; k < shape->piece_end[shape->pieces - 1]; k++) {
-            const double *xy = shape->xy + 2 * (size_t)shape->piece_vertex[k];
+            const double *xy = shape->xy + 2 * (size_t)sunder_i_piece_vertices(shape)[k];
             sunder_i_box_include(box, (double[]){xy[0] - origin[0], xy[1] - origin[1]});
         }
     }
@@ -93,10 +93,10 @@ static sunder_status unite(sunder_i_model *model, uint32_t b, sunder_error *err)
         const uint32_t f = model->member[body->member + m];
         if (!model->present[f]) continue;
         const sunder_shape *s = sunder_i_thing_shape(model, f);
-        const size_t r = s->raw_polygons ? s->raw_poly_end[s->raw_polygons - 1] : 0;
-        polygons += s->raw_polygons;
+        const size_t r = s->given->polygons ? s->given->poly_end[s->given->polygons - 1] : 0;
+        polygons += s->given->polygons;
         rings += r;
-        corners += r ? s->raw_ring_end[r - 1] : 0;
+        corners += r ? s->given->ring_end[r - 1] : 0;
     }
     double *xy = sunder_i_alloc(2 * corners, sizeof *xy);
     size_t *ring_end = sunder_i_alloc(rings, sizeof *ring_end), *poly_end = sunder_i_alloc(polygons, sizeof *poly_end);
@@ -106,9 +106,10 @@ static sunder_status unite(sunder_i_model *model, uint32_t b, sunder_error *err)
         const uint32_t f = model->member[body->member + m];
         if (!model->present[f]) continue;
         const sunder_shape *s = sunder_i_thing_shape(model, f);
-        const size_t r = s->raw_polygons ? s->raw_poly_end[s->raw_polygons - 1] : 0, n = r ? s->raw_ring_end[r - 1] : 0;
-        for (size_t k = 0; k < s->raw_polygons; k++) poly_end[polygons++] = rings + s->raw_poly_end[k];
-        for (size_t k = 0; k < r; k++) ring_end[rings + k] = corners + s->raw_ring_end[k];
+        const size_t r = s->given->polygons ? s->given->poly_end[s->given->polygons - 1] : 0,
+                     n = r ? s->given->ring_end[r - 1] : 0;
+        for (size_t k = 0; k < s->given->polygons; k++) poly_end[polygons++] = rings + s->given->poly_end[k];
+        for (size_t k = 0; k < r; k++) ring_end[rings + k] = corners + s->given->ring_end[k];
         if (n) memcpy(xy + 2 * corners, s->raw_xy, 2 * n * sizeof *xy);
         rings += r;
         corners += n;

@@ -73,7 +73,8 @@ size_t sunder_i_outline_of(const sunder_i_model *model, uint32_t thing, double *
     const double *origin = model->body[model->body_of[thing]].origin;
     const uint32_t n = shape->vertices;
     if (!sunder_i_is_barrier(model, thing) && shape->pieces == 1 && shape->piece_end[0] == n) {
-        for (uint32_t k = 0; k < n; k++) from_origin(shape, shape->piece_vertex[k], origin, out + 2 * (size_t)k);
+        for (uint32_t k = 0; k < n; k++)
+            from_origin(shape, sunder_i_piece_vertices(shape)[k], origin, out + 2 * (size_t)k);
         if (is_its_outline(shape, out)) return n;
     }
     for (uint32_t v = 0; v < n; v++) from_origin(shape, v, origin, point + 2 * (size_t)v);
@@ -99,7 +100,7 @@ static void cut_member(const sunder_i_model *model, const sunder_i_body *body, u
         *to = (sunder_i_body_piece){.corner = *corner, .corners = shape->piece_end[p] - from, .feature = f};
         sunder_i_box_clear(to->box);
         for (; from < shape->piece_end[p]; from++, *corner += 2) {
-            from_origin(shape, shape->piece_vertex[from], body->origin, *corner);
+            from_origin(shape, sunder_i_piece_vertices(shape)[from], body->origin, *corner);
             sunder_i_box_include(to->box, *corner);
         }
         if (beyond > 0) sunder_i_box_grow(to->box, beyond, to->box);
@@ -263,5 +264,5 @@ void sunder_i_piece_as_given(const sunder_i_model *model, const sunder_i_body_pi
     const size_t p = (size_t)(piece - first);
     const uint32_t from = p ? shape->piece_end[p - 1] : 0;
     for (uint32_t k = 0; k < piece->corners; k++)
-        memcpy(out + 2 * (size_t)k, shape->xy + 2 * (size_t)shape->piece_vertex[from + k], 2 * sizeof *out);
+        memcpy(out + 2 * (size_t)k, shape->xy + 2 * (size_t)sunder_i_piece_vertices(shape)[from + k], 2 * sizeof *out);
 }

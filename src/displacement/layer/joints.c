@@ -27,7 +27,10 @@ typedef struct edge {
 } edge;
 
 /* Is that vertex a double? */
-static bool is_exact(const sunder_shape *shape, uint32_t v) { return !shape->rational || !shape->exact[v].den.size; }
+static bool is_exact(const sunder_shape *shape, uint32_t v)
+{
+    return !shape->rational || !shape->numbers->exact[v].den.size;
+}
 
 static sunder_point point_of(const sunder_shape *shape, uint32_t v)
 {
@@ -96,7 +99,7 @@ static void look_along(joining *j, uint32_t f, uint32_t g, const edge *e)
         const uint32_t n = shape->piece_end[p] - from;
         for (uint32_t k = 0; k < n && !j->failed; k++) {
             edge of_g;
-            if (edge_of(shape, shape->piece_vertex + from, n, k, &of_g)) add(j, f, g, e, &of_g);
+            if (edge_of(shape, sunder_i_piece_vertices(shape) + from, n, k, &of_g)) add(j, f, g, e, &of_g);
         }
     }
 }
@@ -111,7 +114,7 @@ static void join(joining *j, uint32_t f, uint32_t g)
         for (uint32_t k = 0; k < n; k++) {
             edge e;
             double own[4];
-            if (!edge_of(shape, shape->piece_vertex + from, n, k, &e)) continue;
+            if (!edge_of(shape, sunder_i_piece_vertices(shape) + from, n, k, &e)) continue;
             sunder_i_box_of_segment((double[]){e.from.x, e.from.y}, (double[]){e.to.x, e.to.y}, own);
             if (sunder_i_box_meet(own, box)) look_along(j, f, g, &e);
         }

@@ -14,11 +14,11 @@
 /* Do the two have the same rings, but for where they stand? */
 static bool same_rings(const sunder_shape *p, const sunder_shape *q)
 {
-    if (p->raw_polygons != q->raw_polygons) return false;
-    if (p->raw_polygons == 0) return true;
-    const size_t rings = p->raw_poly_end[p->raw_polygons - 1];
-    return memcmp(p->raw_poly_end, q->raw_poly_end, p->raw_polygons * sizeof *p->raw_poly_end) == 0 &&
-           memcmp(p->raw_ring_end, q->raw_ring_end, rings * sizeof *p->raw_ring_end) == 0;
+    if (p->given->polygons != q->given->polygons) return false;
+    if (p->given->polygons == 0) return true;
+    const size_t rings = p->given->poly_end[p->given->polygons - 1];
+    return memcmp(p->given->poly_end, q->given->poly_end, p->given->polygons * sizeof *p->given->poly_end) == 0 &&
+           memcmp(p->given->ring_end, q->given->ring_end, rings * sizeof *p->given->ring_end) == 0;
 }
 
 /* Coordinate c of every vertex, before and after. */

@@ -36,7 +36,8 @@ static size_t take_lines(const sunder_i_piece_of *of, sunder_i_side *side)
     size_t lines = 0;
     for (uint32_t k = 0; k < n; k++) {
         const uint32_t next = k + 1 < n ? k + 1 : 0;
-        const uint32_t v = s ? s->piece_vertex[first + k] : k, w = s ? s->piece_vertex[first + next] : next;
+        const uint32_t v = s ? sunder_i_piece_vertices(s)[first + k] : k,
+                       w = s ? sunder_i_piece_vertices(s)[first + next] : next;
         if (n == 1 || (n == 2 && k) || (n > 2 && !sunder_i_is_boundary(s, v, w))) continue;
         const double *xy = s ? s->xy : of->xy;
         if (side)

@@ -109,7 +109,8 @@ static size_t corners_of(const sunder_shape *shape, uint32_t piece, const double
     const uint32_t from = piece ? shape->piece_end[piece - 1] : 0;
     size_t n = 0;
     for (uint32_t k = from; k < shape->piece_end[piece]; k++, n++)
-        for (uint32_t c = 0; c < 2; c++) out[2 * n + c] = shape->xy[2 * shape->piece_vertex[k] + c] - origin[c];
+        for (uint32_t c = 0; c < 2; c++)
+            out[2 * n + c] = shape->xy[2 * sunder_i_piece_vertices(shape)[k] + c] - origin[c];
     return n;
 }
 

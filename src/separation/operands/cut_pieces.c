@@ -6,6 +6,8 @@
  * subsums holds as before: it does so for any pieces that make up an operand. */
 #include "separation/operands/operands.h"
 
+#include <string.h>
+
 #define MOST 16 /* corners of a part; by measurement on discs and stars */
 
 typedef struct cutting {
@@ -34,18 +36,17 @@ static bool cut_operand(sunder_i_operands *g, int side)
     sunder_i_arena *arena = &g->placed.lattice.arena;
     const size_t corners = s->piece_end[s->pieces - 1], most = s->pieces + corners;
     sunder_shape *out = sunder_i_arena_alloc(arena, 1, sizeof *out);
-    uint32_t *end = sunder_i_arena_alloc(arena, most, sizeof *end);
-    uint32_t *vertex = sunder_i_arena_alloc(arena, 3 * corners, sizeof *vertex);
-    if (!vertex) return false;
+    uint32_t *end = sunder_i_arena_alloc(arena, most + 3 * corners, sizeof *end);
+    if (!end) return false;
     *out = *s;
     out->piece_end = end;
-    out->piece_vertex = vertex;
-    cutting c = {.end = end, .vertex = vertex};
+    cutting c = {.end = end, .vertex = end + most};
     for (uint32_t i = 0, first = 0; i < s->pieces; first = s->piece_end[i++]) {
         if (!sunder_i_steps(s->piece_end[i] - first)) return false;
-        c.corner = s->piece_vertex + first;
+        c.corner = sunder_i_piece_vertices(s) + first;
         cut(&c, 0, s->piece_end[i] - first - 1);
     }
+    memmove(end + c.parts, c.vertex, c.corners * sizeof *end); /* corners come right behind the ends */
     out->pieces = c.parts;
     g->shape[side] = out;
     g->piece_box[side] = sunder_i_arena_alloc(arena, 4 * (size_t)out->pieces, sizeof(double));

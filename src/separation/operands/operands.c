@@ -21,9 +21,9 @@ void sunder_i_operands_fill_boxes(sunder_i_operands *g, int side)
     const double *xy = g->xy[side];
     double all[4];
     sunder_i_box_clear(all);
-    const uint32_t *corner = s->piece_vertex;
+    const uint32_t *corner = sunder_i_piece_vertices(s);
     for (uint32_t i = 0; i < s->pieces; i++) {
-        const uint32_t *const end = s->piece_vertex + s->piece_end[i];
+        const uint32_t *const end = sunder_i_piece_vertices(s) + s->piece_end[i];
         double box[4];
         sunder_i_box_clear(box);
         for (; corner < end; corner++) sunder_i_box_include(box, xy + 2 * (size_t)*corner);

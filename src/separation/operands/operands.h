@@ -138,7 +138,7 @@ static inline sunder_i_operand_piece sunder_i_operands_piece(const sunder_i_oper
 {
     const sunder_shape *s = g->shape[side];
     const uint32_t first = i ? s->piece_end[i - 1] : 0;
-    return (sunder_i_operand_piece){side, s->piece_vertex + first, s->piece_end[i] - first};
+    return (sunder_i_operand_piece){side, sunder_i_piece_vertices(s) + first, s->piece_end[i] - first};
 }
 
 /* The corner after the k-th. */

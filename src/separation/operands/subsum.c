@@ -111,7 +111,7 @@ static const sunder_i_turned_piece *turn_piece(sunder_i_operands *g, int side, u
     if (r->n) return r;
     const sunder_shape *s = g->shape[side];
     const uint32_t first = piece ? s->piece_end[piece - 1] : 0, n = s->piece_end[piece] - first;
-    const uint32_t *c = s->piece_vertex + first;
+    const uint32_t *c = sunder_i_piece_vertices(s) + first;
     const sunder_i_point *at = g->at[side];
     sunder_i_point *block = sunder_i_arena_alloc(&g->placed.lattice.arena, 2 * (size_t)n + 1, sizeof *block);
     if (!block) return NULL;

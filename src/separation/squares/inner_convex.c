@@ -45,7 +45,7 @@ static void add_pieces(sunder_i_inner_convex *b, const sunder_i_operands *g, int
 {
     const sunder_shape *s = g->shape[side];
     for (uint32_t i = 0, k = 0; i < s->pieces; k = s->piece_end[i++])
-        add_set(b, g, g->xy[side], s->piece_vertex + k, s->piece_end[i] - k);
+        add_set(b, g, g->xy[side], sunder_i_piece_vertices(s) + k, s->piece_end[i] - k);
 }
 
 /* On a narrow lattice its corners become points of that, inward; false if nothing is left. */
