@@ -1,6 +1,7 @@
 /* main.c: which command, with which options. */
 #include "base/interrupt.h"
 #include "base/message.h"
+#include "base/resources.h"
 #include "base/spelling.h"
 #include "commands/commands.h"
 #include "commands/config.h"
@@ -146,6 +147,7 @@ static void hold_standard_streams(void)
 
 int main(int argc, char **argv)
 {
+    gis_memory_begin();
     hold_standard_streams();
     gis_error none;
     CPLSetErrorHandler(hear_gdal);

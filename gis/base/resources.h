@@ -8,6 +8,8 @@
 double gis_clock(void);
 /* The greatest amount of memory that the process has held, in bytes; 0: the system does not say. */
 uint64_t gis_peak_rss(void);
+/* Before anything is allocated: large arrays come from the system one by one, and go back to it when they are freed. */
+void gis_memory_begin(void);
 /* Memory that was freed goes back to the system, as far as the C library would keep it: what comes next is of another
  * kind, and would be held beside it. */
 void gis_memory_back(void);
