@@ -265,7 +265,18 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
     status = sunder_i_report_worlds(report, s, err);
     if (status) return status;
     report->summary.seconds_verify = sunder_i_now() - solved;
-    return sunder_i_report_renumber(report, s->layer.number, err);
+    return SUNDER_OK;
+}
+
+/* In the caller's numbers. That takes room for all moves once more, so what they were found with goes first. */
+static sunder_status renumber(sunder_i_solver *s, sunder_report *report, sunder_error *err)
+{
+    uint32_t *number = s->layer.number;
+    s->layer.number = NULL;
+    sunder_i_solver_free(s);
+    const sunder_status status = sunder_i_report_renumber(report, number, err);
+    sunder_i_free(number);
+    return status;
 }
 
 static sunder_status separate(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
@@ -274,7 +285,9 @@ static sunder_status separate(sunder_i_solver *s, const sunder_layer *layer, con
     const double began = sunder_i_now();
     sunder_status status = work(s, layer, options, report, err);
     if (!status) status = conclude(s, options, *report, began, err);
-    if (!status) sunder_i_progress(&s->model.rules, 1);
+    const sunder_i_rules rules = s->model.rules;
+    if (!status) status = renumber(s, *report, err);
+    if (!status) sunder_i_progress(&rules, 1);
     return status;
 }
 

@@ -12,6 +12,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void free_clusters(sunder_i_solver *s)
 {
@@ -60,6 +61,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_groups_free(&s->groups);
     sunder_i_ordered_clear(&s->layer);
     sunder_i_barriers_free(&s->barriers);
+    memset(s, 0, sizeof *s);
 }
 
 sunder_status sunder_i_solver_init(sunder_i_solver *s, sunder_error *err)
