@@ -56,19 +56,18 @@ static sunder_conflict *add(comparison *c, sunder_conflict_kind kind, size_t a, 
 /* The way of the anchor of a, as seen from what moved by s. */
 static void draw(const comparison *c, size_t a, const double s[2], sunder_conflict *out)
 {
-    sunder_shape_anchor(c->before->feature[a].shape, out->from);
+    sunder_shape_anchor(c->before->shape[a], out->from);
     for (int k = 0; k < 2; k++) out->to[k] = out->from[k] + (c->move[2 * a + (size_t)k] - s[k]);
 }
 
 static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
 {
-    const sunder_feature *was = &c->before->feature[f], *is = &c->after->feature[f];
+    const sunder_shape *was = c->before->shape[f], *is = c->after->shape[f];
     const double none[2] = {0, 0}, *t = c->move + 2 * (size_t)f;
-    const bool there = was->shape && !sunder_shape_is_empty(was->shape),
-               still = is->shape && !sunder_shape_is_empty(is->shape);
-    c->translated[f] = there == still && (!there || sunder_i_move_between(was->shape, is->shape, c->move + 2 * f));
+    const bool there = was && !sunder_shape_is_empty(was), still = is && !sunder_shape_is_empty(is);
+    c->translated[f] = there == still && (!there || sunder_i_move_between(was, is, c->move + 2 * f));
     /* What was given is not what was written of a set that had to be repaired: then its move is not known. */
-    if (!c->translated[f] && there && still && sunder_shape_repaired(was->shape)) return SUNDER_OK;
+    if (!c->translated[f] && there && still && sunder_shape_repaired(was)) return SUNDER_OK;
     if (!c->translated[f])
         return add(c, SUNDER_CONFLICT_NOT_A_TRANSLATE, f, SIZE_MAX) ? SUNDER_OK : sunder_i_no_memory(err);
     const sunder_i_body *body = &c->model.body[c->model.body_of[f]];
@@ -136,7 +135,7 @@ static sunder_status place_after(comparison *c, sunder_error *err)
     double *box = sunder_i_rtree_boxes(&p->tree, c->model.things);
     sunder_status status = box ? SUNDER_OK : sunder_i_no_memory(err);
     for (uint32_t f = 0; f < c->model.features && !status; f++) {
-        const sunder_shape *shape = c->after->feature[f].shape;
+        const sunder_shape *shape = c->after->shape[f];
         c->model.present[f] = c->model.present[f] && shape && !sunder_shape_is_empty(shape);
         if (!c->model.present[f]) continue;
         sunder_shape_box(shape, box + 4 * (size_t)f);
@@ -161,8 +160,8 @@ static sunder_status is_worse(const comparison *c, const sunder_i_relation *r, b
         return sunder_i_barrier_worsened(&c->model, &home, &now, r->b, worse, err);
     }
     if (!sunder_i_is_conflict_of_bodies(&c->model, r) || (was && was->contained && r->contained)) return SUNDER_OK;
-    const sunder_i_pair before = {c->before->feature[r->a].shape, c->before->feature[r->b].shape, NULL, NULL},
-                        after = {c->after->feature[r->a].shape, c->after->feature[r->b].shape, NULL, NULL};
+    const sunder_i_pair before = {c->before->shape[r->a], c->before->shape[r->b], NULL, NULL},
+                        after = {c->after->shape[r->a], c->after->shape[r->b], NULL, NULL};
     return sunder_i_pair_worsened(&before, &after, worse, err);
 }
 
@@ -203,8 +202,8 @@ static sunder_status check_pairs(comparison *c, sunder_report *report, sunder_er
             found->before = stance.distance;
             continue;
         }
-        status = sunder_pair_distance(c->before->feature[told->a].shape, c->before->feature[told->b].shape,
-                                      &found->before, on_a, on_b, err);
+        status =
+            sunder_pair_distance(c->before->shape[told->a], c->before->shape[told->b], &found->before, on_a, on_b, err);
     }
     return status;
 }
@@ -238,7 +237,7 @@ static sunder_status compare(comparison *c, const sunder_layer_options *options,
     sunder_status status = begin(c, options, err);
     if (!status) status = sunder_i_report_new(&c->model, report, err);
     for (uint32_t f = 0; f < c->before->n && !status; f++) {
-        if (c->before->feature[f].ignored)
+        if (sunder_i_demands(c->before, f)->ignored)
             c->translated[f] = true;
         else
             status = check_feature(c, f, err);

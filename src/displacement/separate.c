@@ -38,7 +38,7 @@ static sunder_status relate(sunder_i_solver *s, bool movers_only, sunder_error *
     sunder_i_changes movers;
     sunder_status status = sunder_i_changes_init(&movers, s->model.things) ? SUNDER_OK : sunder_i_no_memory(err);
     for (uint32_t f = 0; f < s->model.features && !status; f++)
-        if (s->model.present[f] && !sunder_i_feature(&s->layer, f)->fixed) sunder_i_changes_add(&movers, f);
+        if (s->model.present[f] && !sunder_i_feature(&s->layer, f).fixed) sunder_i_changes_add(&movers, f);
     if (!status && !sunder_i_changes_sort(&movers)) status = sunder_i_no_memory(err);
     if (!status) status = sunder_i_placement_relate(&s->model, &s->placement, &movers, NULL, &s->start, err);
     sunder_i_changes_free(&movers);

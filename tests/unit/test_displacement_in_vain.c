@@ -107,7 +107,7 @@ static sunder_status solve_in_vain(const sunder_layer *layer, const sunder_layer
 {
     double box[4];
     (void)spared, (void)n, (void)err;
-    sunder_shape_box(layer->feature[0].shape, box);
+    sunder_shape_box(layer->shape[0], box);
     (options->gap < 2 ? asked_gap : asked_limit)[box[1] > 1000]++;
     asked_proof[box[1] > 1000] += *proof == SUNDER_I_PROOF_WANTED;
     if (*proof == SUNDER_I_PROOF_WANTED) *proof = SUNDER_I_PROOF_IN_VAIN;

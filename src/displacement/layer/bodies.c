@@ -162,6 +162,6 @@ double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *b
 {
     double w = 0;
     for (uint32_t k = 0; k < body->members; k++)
-        w += sunder_i_feature(model->layer, model->member[body->member + k])->weight;
+        w += sunder_i_feature(model->layer, model->member[body->member + k]).weight;
     return body->members > 1 ? w * (1 - body->members * 0x1p-52) : w;
 }

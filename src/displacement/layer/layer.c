@@ -7,6 +7,40 @@
 #include <math.h>
 #include <string.h>
 
+static bool are_alike(const sunder_feature *f, const sunder_feature *g)
+{
+    return f->weight == g->weight && f->max_shift == g->max_shift && f->block == g->block && f->fixed == g->fixed &&
+           f->ignored == g->ignored;
+}
+
+/* How often features that follow each other differ in what is asked of them, and one more. */
+static size_t count_demands(const sunder_feature *feature, size_t n)
+{
+    size_t demands = 1;
+    for (size_t i = 1; i < n; i++) demands += !are_alike(&feature[i], &feature[i - 1]);
+    return demands;
+}
+
+/* False if memory is out. */
+static bool take_features(sunder_layer *layer, const sunder_feature *feature, size_t n)
+{
+    const size_t demands = count_demands(feature, n);
+    layer->n = n;
+    layer->shape = sunder_i_alloc(n, sizeof *layer->shape);
+    layer->demands = sunder_i_alloc(demands, sizeof *layer->demands);
+    if (demands > 1) layer->demand = sunder_i_alloc(n, sizeof *layer->demand);
+    if (!layer->shape || !layer->demands || (demands > 1 && !layer->demand)) return false;
+    uint32_t at = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (i && !are_alike(&feature[i], &feature[i - 1])) at++;
+        layer->shape[i] = feature[i].shape;
+        layer->demands[at] = feature[i];
+        layer->demands[at].shape = NULL;
+        if (layer->demand) layer->demand[i] = at;
+    }
+    return true;
+}
+
 sunder_status sunder_layer_new(const sunder_feature *features, size_t n, sunder_layer **out, sunder_error *err)
 {
     if (n >= SUNDER_I_NOBODY) return sunder_i_fail(err, SUNDER_EARG, "too many features: %zu", n);
@@ -19,15 +53,11 @@ sunder_status sunder_layer_new(const sunder_feature *features, size_t n, sunder_
             return sunder_i_fail(err, SUNDER_EARG, "feature %zu: the limit of moves, %g, is negative or not a number",
                                  i, f->max_shift);
     }
-    sunder_layer *layer = sunder_i_alloc(1, sizeof *layer);
-    sunder_feature *copy = sunder_i_alloc(n, sizeof *copy);
-    if (!layer || !copy) {
-        sunder_i_free(layer);
-        sunder_i_free(copy);
+    sunder_layer *layer = sunder_i_calloc(1, sizeof *layer);
+    if (!layer || !take_features(layer, features, n)) {
+        sunder_layer_free(layer);
         return sunder_i_no_memory(err);
     }
-    if (n) memcpy(copy, features, n * sizeof *copy);
-    *layer = (sunder_layer){.feature = copy, .n = n};
     *out = layer;
     return SUNDER_OK;
 }
@@ -70,7 +100,9 @@ sunder_status sunder_layer_set_barriers(sunder_layer *layer, const sunder_barrie
 void sunder_layer_free(sunder_layer *layer)
 {
     if (!layer) return;
-    sunder_i_free(layer->feature);
+    sunder_i_free((void *)layer->shape);
+    sunder_i_free(layer->demand);
+    sunder_i_free(layer->demands);
     sunder_i_free(layer->barrier);
     sunder_i_free(layer);
 }

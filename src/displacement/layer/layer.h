@@ -8,21 +8,38 @@
 
 #define SUNDER_I_NOBODY UINT32_MAX
 
+/* Of most features of a layer the same is asked, so that is kept by itself, once for as many as follow each other. */
 struct sunder_layer {
-    sunder_feature *feature;
+    const sunder_shape **shape; /* [n] */
+    uint32_t *demand;           /* [n] which of `demands`; NULL: the first, of all */
+    sunder_feature *demands;    /* features without their shapes */
     size_t n;
     sunder_barrier *barrier;
     size_t barriers;
     /* Of a layer in the order of work (order.c), which has no features of its own; else NULL: */
-    const sunder_feature *given; /* [n] of the layer as it was given, in its order */
+    const sunder_layer *given; /* as it was given, in its order */
     uint32_t *number; /* [n + parts] what each was: of a part of a barrier n + the barrier, as the interface counts */
     sunder_feature *part; /* [parts] */
 };
 
-/* What is asked of a feature of a layer in the order of work, or of a part behind them. */
-static inline const sunder_feature *sunder_i_feature(const sunder_layer *layer, size_t thing)
+/* What is asked of feature k of a layer as it was given, but for its shape; and with it. */
+static inline const sunder_feature *sunder_i_demands(const sunder_layer *given, size_t k)
 {
-    return thing < layer->n ? &layer->given[layer->number[thing]] : &layer->part[thing - layer->n];
+    return &given->demands[given->demand ? given->demand[k] : 0];
+}
+
+static inline sunder_feature sunder_i_given_feature(const sunder_layer *given, size_t k)
+{
+    sunder_feature feature = *sunder_i_demands(given, k);
+    feature.shape = given->shape[k];
+    return feature;
+}
+
+/* The same of a feature of a layer in the order of work, or of a part behind them. */
+static inline sunder_feature sunder_i_feature(const sunder_layer *layer, size_t thing)
+{
+    return thing < layer->n ? sunder_i_given_feature(layer->given, layer->number[thing])
+                            : layer->part[thing - layer->n];
 }
 
 /* Is the feature there at all (not ignored, not empty)? */

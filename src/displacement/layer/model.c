@@ -81,11 +81,11 @@ static sunder_status build_tree(sunder_i_model *model, sunder_error *err)
     double *boxes = sunder_i_alloc(4 * model->things, sizeof *boxes);
     if (!boxes) return sunder_i_no_memory(err);
     for (size_t f = 0; f < model->things; f++) {
-        const sunder_feature *feature = sunder_i_feature(model->layer, f);
+        const sunder_feature feature = sunder_i_feature(model->layer, f);
         double *box = boxes + 4 * f;
-        model->present[f] = sunder_i_is_present(feature);
+        model->present[f] = sunder_i_is_present(&feature);
         if (!model->present[f]) continue;
-        sunder_shape_box(feature->shape, box);
+        sunder_shape_box(feature.shape, box);
         const double beyond = sunder_i_reach_beyond(model, (uint32_t)f);
         if (beyond > 0) sunder_i_box_grow(box, beyond, box);
     }
@@ -139,9 +139,9 @@ static bool unite_labelled(const sunder_layer *layer, uint32_t *parent)
     if (!labels) return false;
     size_t k = 0;
     for (size_t f = 0; f < layer->n; f++) {
-        const sunder_feature *feature = sunder_i_feature(layer, f);
-        if (feature->block < 0 || feature->ignored) continue;
-        labels[k].block = feature->block;
+        const sunder_feature feature = sunder_i_feature(layer, f);
+        if (feature.block < 0 || feature.ignored) continue;
+        labels[k].block = feature.block;
         labels[k++].feature = (uint32_t)f;
     }
     qsort(labels, k, sizeof *labels, by_label);
@@ -172,12 +172,12 @@ static void number_bodies(sunder_i_model *model, uint32_t *parent)
         body->limit = INFINITY;
     }
     for (size_t f = 0; f < model->things; f++) {
-        const sunder_feature *feature = sunder_i_feature(model->layer, f);
+        const sunder_feature feature = sunder_i_feature(model->layer, f);
         sunder_i_body *body = &model->body[model->body_of[f]];
         model->member[body->member + body->members++] = (uint32_t)f;
-        body->weight += feature->weight;
-        body->limit = fmin(body->limit, feature->max_shift);
-        body->fixed = body->fixed || feature->fixed || feature->ignored || feature->max_shift == 0;
+        body->weight += feature.weight;
+        body->limit = fmin(body->limit, feature.max_shift);
+        body->fixed = body->fixed || feature.fixed || feature.ignored || feature.max_shift == 0;
     }
 }
 

@@ -167,7 +167,8 @@ static inline uint32_t sunder_i_barrier_of(const sunder_i_model *model, uint32_t
 /* The shape of a thing, as it is given. */
 static inline const sunder_shape *sunder_i_thing_shape(const sunder_i_model *model, size_t thing)
 {
-    return sunder_i_feature(model->layer, thing)->shape;
+    const sunder_layer *layer = model->layer;
+    return thing < layer->n ? layer->given->shape[layer->number[thing]] : layer->part[thing - layer->n].shape;
 }
 
 /* The box of a thing as it stood at the start; of one that was not there no more than zeros. */

@@ -13,7 +13,8 @@
 
 typedef struct ranked {
     double box[4];
-    const sunder_feature *feature;
+    const sunder_shape *shape;
+    const sunder_feature *demands;
     uint32_t number;
 } ranked;
 
@@ -43,8 +44,8 @@ static int by_place(const void *x, const void *y)
     const ranked *a = x, *b = y;
     int order = 0;
     for (int c = 0; c < 4 && order == 0; c++) order = by_double(a->box[side[c]], b->box[side[c]]);
-    if (order == 0) order = by_shape(a->feature->shape, b->feature->shape);
-    if (order == 0) order = by_demands(a->feature, b->feature);
+    if (order == 0) order = by_shape(a->shape, b->shape);
+    if (order == 0) order = by_demands(a->demands, b->demands);
     return order ? order : a->number < b->number ? -1 : a->number > b->number;
 }
 
@@ -70,15 +71,15 @@ sunder_status sunder_i_order_layer(const sunder_layer *layer, const sunder_i_bar
 {
     const size_t n = layer->n;
     ranked *list = sunder_i_alloc(n, sizeof *list);
-    *out = *layer;
-    out->feature = NULL;
-    out->given = layer->feature;
+    *out = (sunder_layer){.n = n, .barrier = layer->barrier, .barriers = layer->barriers, .given = layer};
     out->part = sunder_i_alloc(barriers->parts, sizeof *out->part);
     out->number = sunder_i_alloc(n + barriers->parts, sizeof *out->number);
     const bool ok = list && out->part && out->number;
     for (size_t k = 0; ok && k < n; k++) {
-        list[k] = (ranked){{INFINITY, INFINITY, INFINITY, INFINITY}, &layer->feature[k], (uint32_t)k};
-        if (sunder_i_is_present(list[k].feature)) sunder_shape_box(list[k].feature->shape, list[k].box);
+        const sunder_feature feature = sunder_i_given_feature(layer, k);
+        list[k] =
+            (ranked){{INFINITY, INFINITY, INFINITY, INFINITY}, feature.shape, sunder_i_demands(layer, k), (uint32_t)k};
+        if (sunder_i_is_present(&feature)) sunder_shape_box(feature.shape, list[k].box);
     }
     if (ok && n && !as_given) qsort(list, n, sizeof *list, by_place);
     for (size_t k = 0; ok && k < n; k++) out->number[k] = list[k].number;

@@ -20,7 +20,7 @@ static inline sunder_i_translate sunder_i_standing(const sunder_i_model *model, 
                                                    uint32_t thing)
 {
     if (sunder_i_is_barrier(model, thing)) return (sunder_i_translate){.shape = sunder_i_thing_shape(model, thing)};
-    const sunder_shape *own = placement->given ? placement->given->feature[thing].shape : placement->rounded[thing];
+    const sunder_shape *own = placement->given ? placement->given->shape[thing] : placement->rounded[thing];
     if (own)
         return (sunder_i_translate){.shape = own,
                                     .seamless = placement->seamless ? placement->seamless[thing].shape : NULL};

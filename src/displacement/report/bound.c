@@ -23,7 +23,7 @@ static double weight_below(const sunder_i_model *model, const sunder_i_body *bod
 {
     double w = 0;
     for (uint32_t k = 0; k < body->members; k++) {
-        const double own = sunder_i_feature(model->layer, model->member[body->member + k])->weight;
+        const double own = sunder_i_feature(model->layer, model->member[body->member + k]).weight;
         w = k ? down(w + own) : own;
     }
     return w;

@@ -97,7 +97,7 @@ static sunder_status take_part(const sunder_i_solver *s, sunder_i_surroundings *
     const sunder_i_model *model = &s->model;
     const uint32_t f = a->feature.item[k], b = model->body_of[f];
     const sunder_i_translate at = sunder_i_standing(model, &s->placement, f);
-    a->as[k] = *sunder_i_feature(model->layer, f);
+    a->as[k] = sunder_i_feature(model->layer, f);
     a->as[k].block = b;
     if (k < a->moving) {
         a->as[k].max_shift = model->body[b].limit;
@@ -337,14 +337,18 @@ static bool list_spared(const sunder_i_questions *g, const sunder_i_surroundings
 static sunder_status make_layer(const sunder_i_questions *g, const sunder_i_surroundings *a,
                                 const sunder_i_supposition *what, sunder_layer **layer, sunder_error *err)
 {
-    sunder_status status = sunder_layer_new(a->as, a->feature.n, layer, err);
-    if (!status) status = set_barriers(g->solver, a, what->gone, *layer, err);
-    for (size_t k = 0; k < a->feature.n && !status; k++) {
-        sunder_feature *f = &(*layer)->feature[k];
+    const size_t n = a->feature.n;
+    sunder_feature *feature = sunder_i_alloc(n, sizeof *feature);
+    if (!feature) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < n; k++) {
+        sunder_feature *f = &feature[k];
+        *f = a->as[k];
         if (k < a->moving) f->max_shift = fmin(fmax(f->max_shift, what->limit), a->farthest);
         f->ignored = f->ignored || a->feature.item[k] == what->gone;
     }
-    return status;
+    sunder_status status = sunder_layer_new(feature, n, layer, err);
+    sunder_i_free(feature);
+    return status ? status : set_barriers(g->solver, a, what->gone, *layer, err);
 }
 
 /* Is there a solution that leaves those pairs, sorted, as they are? */

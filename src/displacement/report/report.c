@@ -28,13 +28,11 @@ sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **o
     r->summary.features = n;
     r->summary.max_feature = SIZE_MAX;
     for (size_t f = 0; f < n; f++) {
-        const sunder_feature *feature = sunder_i_feature(model->layer, f);
-        if (feature->shape) r->summary.vertices += sunder_shape_vertices(feature->shape);
+        const sunder_feature feature = sunder_i_feature(model->layer, f);
+        if (feature.shape) r->summary.vertices += sunder_shape_vertices(feature.shape);
         const bool fixed = model->body[model->body_of[f]].fixed;
-        r->status[f] = feature->ignored ? SUNDER_FEATURE_SKIPPED
-                       : fixed          ? SUNDER_FEATURE_FIXED
-                                        : SUNDER_FEATURE_UNMOVED;
-        if (feature->ignored) r->summary.skipped++;
+        r->status[f] = feature.ignored ? SUNDER_FEATURE_SKIPPED : fixed ? SUNDER_FEATURE_FIXED : SUNDER_FEATURE_UNMOVED;
+        if (feature.ignored) r->summary.skipped++;
     }
     *out = r;
     return SUNDER_OK;
@@ -53,7 +51,7 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
         report->status[f] = SUNDER_FEATURE_MOVED;
         s->moved++;
         sunder_total_add(&total, length);
-        sunder_total_add(&cost, sunder_i_feature(model->layer, f)->weight * (t[0] * t[0] + t[1] * t[1]));
+        sunder_total_add(&cost, sunder_i_feature(model->layer, f).weight * (t[0] * t[0] + t[1] * t[1]));
         if (length > s->max) {
             s->max = length;
             s->max_feature = f;
