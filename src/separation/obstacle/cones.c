@@ -55,7 +55,8 @@ static inline bool cone_between(uint32_t in, uint32_t out, uint32_t slack, sunde
 
 bool sunder_i_cone_of(const sunder_i_operands *g, int side, uint32_t v, sunder_i_cone *out)
 {
-    const sunder_i_direction a = edge_direction(g, side, g->shape[side]->cleaned->prev[v]), b = edge_direction(g, side, v);
+    const sunder_i_direction a = edge_direction(g, side, g->shape[side]->cleaned->prev[v]),
+                             b = edge_direction(g, side, v);
     if (!a.vague && !b.vague) return cone_between(a.at, b.at, slack_of(g), out);
     *out = (sunder_i_cone){0, UINT32_MAX};
     return true;
