@@ -3,7 +3,7 @@
  * Bodies in contact stand beside each other, so that of thousands those in contact with somebody beyond a straight line
  * are few. They part the others into two halves that know nothing of each other, and are eliminated after both, each of
  * which is divided likewise. For a square grid that takes the least there is, up to a constant: for one of 20,000, each
- * in contact with eight, 27 million products where minimum degree takes 48, and a tenth of the time to find; below some
+ * in contact with eight, 27 million products where minimum degree takes 48, and 0.08 s to find for 0.52; below some
  * thousands there is little between them. Where somebody is in contact with hundreds, as an outline is that holds a
  * quarter, no line parts them with few: that is left to minimum degree. */
 #include "displacement/programs/elimination.h"
