@@ -17,6 +17,10 @@ bool sunder_i_elimination_init(sunder_i_elimination *e, size_t n, const sunder_i
                                uint32_t *rank);
 void sunder_i_elimination_free(sunder_i_elimination *e);
 
+/* All, by one of the methods below: by place, if that is known, where there are many; in postorder of the elimination
+ * tree. place: NULL, or [2 n] where they stand. False if memory is out. */
+bool sunder_i_eliminate(sunder_i_elimination *e, const double *place);
+
 /* Who has fewest neighbours left first (minimum_degree.c). False if memory is out. */
 bool sunder_i_minimum_degree(sunder_i_elimination *e);
 /* By halves of the plane, who parts two halves after both (dissection.c); place: [2 n] where they stand. *done: false

@@ -2,7 +2,8 @@
  *
  * Columns that have the same rows below them are updated from, and used, as one: what they take from an entry of
  * another column is summed up before it is stored. For a grid of 20,000 that, and the order among equal degrees, took
- * the factor from 0.22 to 0.11 s; a few rows at a time, in the widest registers that there are, to two thirds of that. */
+ * the factor from 0.22 to 0.11 s; a few rows at a time, in the widest registers that there are, to two thirds of
+ * that. */
 #include "displacement/programs/sparse.h"
 
 #include <math.h>
