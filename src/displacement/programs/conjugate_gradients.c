@@ -5,7 +5,10 @@
  * where such a step would make one negative it stops there and takes a short projected gradient step instead; where the
  * zero forces ask for more than the positive ones are out of balance it lets them in. Each constraint is scaled so that
  * its diagonal in G is 1. G is never formed: a product with it is a push of the bodies and a look at the stretch of
- * each constraint. */
+ * each constraint.
+ *
+ * Which forces are positive, and which way a step goes, nobody can foresee: so loops over all constraints choose between
+ * two numbers that both are worked out, where they can, and do not branch. */
 #include "displacement/programs/links.h"
 #include "displacement/programs/tuning.h"
 
@@ -27,6 +30,7 @@ typedef struct dual {
     double *scale;             /* [n] sqrt(mass_i + mass_j); 0 for what cannot move */
     double *f, *g, *step, *gs; /* [n] forces, gradient Gf - d, direction, G times it */
     double *t;                 /* [2 * (bodies + 1)] */
+    uint32_t *pushing;         /* [n] scratch: those of which something is not zero */
     sunder_i_link *link;       /* [n] */
     imbalance seen;            /* at the forces as they are ... */
     bool is_seen;              /* ... if it is known */
@@ -40,8 +44,15 @@ static void push_all(dual *q, const double *v)
     const double *scale = q->scale;
     double *t = q->t;
     memset(t, 0, 2 * p->bodies * sizeof *t);
-    for (size_t k = 0; k < q->n; k++)
-        if (v[k] != 0) sunder_i_link_push(&link[k], v[k] / scale[k], t);
+    size_t pushing = 0;
+    for (uint32_t k = 0; k < q->n; k++) {
+        q->pushing[pushing] = k;
+        pushing += v[k] != 0;
+    }
+    for (size_t i = 0; i < pushing; i++) {
+        const uint32_t k = q->pushing[i];
+        sunder_i_link_push(&link[k], v[k] / scale[k], t);
+    }
     t[2 * p->bodies] = t[2 * p->bodies + 1] = 0; /* the ground */
     q->p->work += 2 * q->n;
 }
@@ -99,7 +110,7 @@ typedef struct direction {
 } direction;
 
 /* G times the step to q->gs, and on the same way all sums along it: each is added up by itself, in its order, and none
- * waits for another. */
+ * waits for another. What no force bars is told by a product, a hair more than it may be; few are divided. */
 static direction look_along(dual *q)
 {
     const double *step = q->step, *f = q->f, *g = q->g;
@@ -110,7 +121,7 @@ static direction look_along(dual *q)
         curvature += step[k] * product;
         square += step[k] * step[k];
         slope += g[k] * step[k];
-        if (step[k] > 0) feasible = least(feasible, f[k] / step[k]);
+        if (f[k] < feasible * step[k] * (1 + 0x1p-50)) feasible = least(feasible, f[k] / step[k]);
     }
     return (direction){curvature > 0x1p-44 * square ? curvature : 0, slope, feasible};
 }
@@ -123,13 +134,12 @@ static void restart(dual *q)
 
 static inline void note_imbalance(imbalance *i, double f, double g, double scale, double short_step)
 {
-    if (f > 0) {
-        i->cut += least(f / short_step, g) * g;
-        i->worst = most(i->worst, fabs(g) * scale);
-    } else if (g < 0) {
-        i->zero += g * g;
-        i->worst = most(i->worst, -g * scale);
-    }
+    const bool positive = f > 0;
+    const double cut = least(f / short_step, g) * g; /* of a force of 0 the square of g, if it calls for more, or 0 */
+    const double off = positive ? fabs(g) : most(0, -g);
+    i->cut += positive ? cut : 0;
+    i->zero += positive ? 0 : cut;
+    i->worst = most(i->worst, off * scale);
 }
 
 static imbalance look(const dual *q, double short_step)
@@ -148,7 +158,8 @@ static double go(dual *q, double taken, double short_step)
     for (size_t k = 0; k < q->n; k++) {
         const double f = q->f[k] = most(0, q->f[k] - taken * q->step[k]);
         const double g = q->g[k] -= taken * q->gs[k];
-        if (f > 0) along += g * q->gs[k];
+        const double product = g * q->gs[k];
+        along += f > 0 ? product : 0;
         note_imbalance(&i, f, g, q->scale[k], short_step);
     }
     q->seen = i;
@@ -246,7 +257,7 @@ bool sunder_i_quadratic_gradient(sunder_i_quadratic *p, double softness, double 
 {
     if (p->n == 0) return true;
     double *memory = sunder_i_calloc(5 * p->n + 2 * (p->bodies + 1), sizeof *memory);
-    sunder_i_link *link = sunder_i_alloc(p->n, sizeof *link);
+    sunder_i_link *link = sunder_i_alloc(p->n, sizeof *link + sizeof(uint32_t));
     if (!memory || !link) {
         sunder_i_free(memory);
         sunder_i_free(link);
@@ -262,7 +273,8 @@ bool sunder_i_quadratic_gradient(sunder_i_quadratic *p, double softness, double 
               .step = memory + 3 * p->n,
               .gs = memory + 4 * p->n,
               .t = memory + 5 * p->n,
-              .link = link};
+              .link = link,
+              .pushing = (uint32_t *)(void *)(link + p->n)};
     for (size_t k = 0; k < p->n; k++) {
         const sunder_i_constraint *c = &p->constraint[k];
         q.scale[k] = sqrt(sunder_i_mass(p, c->i) + sunder_i_mass(p, c->j));
