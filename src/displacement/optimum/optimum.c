@@ -284,6 +284,7 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
         /* Whoever patience has sent to another side stands among others now: the next round knows whom to ask. */
         if (status || (g->shaken && g->improved)) return status;
     }
+    if (free_crowd && movers > LARGE_FREE_CROWD) return SUNDER_OK;
     const size_t n = g->n;
     const sunder_i_task task = {.model = model,
                                 .waived = waived,
