@@ -1,6 +1,11 @@
-/* Independent work on several threads. Which thread does what is left to chance; where the result goes is not. */
+/* Independent work on several threads. Which thread does what is left to chance; where the result goes is not.
+ *
+ * Work may ask for threads itself: it gets those that have no more to do where it is done. So the last of many items, if
+ * it is a large one, is not left to one thread while the others wait, and no more threads run than were asked for. */
 #include "base/parallel.h"
 
+#include "base/memory.h"
+#include "base/sort.h"
 #include "base/watch.h"
 
 #include <pthread.h>
@@ -12,13 +17,18 @@ typedef struct job {
     void *context;
     sunder_i_watch *watch; /* of the thread whose work it is */
     size_t n, grain;
-    atomic_size_t next; /* first item not handed out */
+    const uint64_t *order; /* [n] items in the low halves; NULL: as they are numbered */
+    atomic_size_t next;    /* first item not handed out */
     atomic_bool failed;
+    atomic_size_t idle;   /* threads that were to be had, and have nothing to do */
     pthread_mutex_t lock; /* of what follows */
     size_t failed_at;     /* the least failing item so far */
     sunder_status status;
     sunder_error error;
 } job;
+
+/* What the calling thread works for; NULL: nothing that was handed out. */
+static _Thread_local job *here;
 
 static void fail(job *j, size_t begin, sunder_status status, const sunder_error *error)
 {
@@ -32,46 +42,80 @@ static void fail(job *j, size_t begin, sunder_status status, const sunder_error 
     pthread_mutex_unlock(&j->lock);
 }
 
+/* So many of those that are idle, or fewer. */
+static size_t take_idle(job *j, size_t most)
+{
+    size_t idle = atomic_load(&j->idle), taken;
+    do {
+        taken = idle < most ? idle : most;
+    } while (!atomic_compare_exchange_weak(&j->idle, &idle, idle - taken));
+    return taken;
+}
+
 static void *run(void *argument)
 {
-    job *j = argument;
+    job *j = argument, *outer = here;
     sunder_i_watch_join(j->watch);
+    here = j;
     while (!atomic_load(&j->failed)) {
-        const size_t begin = atomic_fetch_add(&j->next, j->grain);
-        if (begin >= j->n) break;
-        const size_t end = j->n - begin < j->grain ? j->n : begin + j->grain;
+        const size_t at = atomic_fetch_add(&j->next, j->grain);
+        if (at >= j->n) break;
+        const size_t begin = j->order ? (size_t)(uint32_t)j->order[at] : at;
+        const size_t end = j->n - at < j->grain ? j->n : begin + j->grain;
         sunder_error error;
         memset(&error, 0, sizeof error);
         const sunder_status status = j->work(j->context, begin, end, &error);
         if (status) fail(j, begin, status, &error);
     }
+    here = outer;
+    atomic_fetch_add(&j->idle, 1);
     return NULL;
+}
+
+/* j->work, context, n, grain and order are given. */
+static sunder_status run_on(unsigned threads, job *j, sunder_error *err)
+{
+    enum { MOST = 256 };
+    j->watch = sunder_i_watch_here();
+    j->failed_at = SIZE_MAX;
+    atomic_init(&j->next, 0);
+    atomic_init(&j->failed, false);
+    pthread_mutex_init(&j->lock, NULL);
+    job *outer = here;
+    const size_t parts = (j->n - 1) / j->grain + 1;
+    size_t most = threads > 1 ? threads - 1 : 0, started = 0;
+    if (most > MOST) most = MOST;
+    if (outer) most = take_idle(outer, most);
+    const size_t helpers = most < parts - 1 ? most : parts - 1;
+    atomic_init(&j->idle, most - helpers);
+    pthread_t helper[MOST];
+    /* A thread that cannot be had is no error: those that run take its share. */
+    while (started < helpers && pthread_create(&helper[started], NULL, run, j) == 0) started++;
+    run(j);
+    for (size_t i = 0; i < started; i++) pthread_join(helper[i], NULL);
+    if (outer) atomic_fetch_add(&outer->idle, most);
+    pthread_mutex_destroy(&j->lock);
+    if (j->status && err) *err = j->error;
+    return j->status;
 }
 
 sunder_status sunder_i_parallel(unsigned threads, size_t n, size_t grain, sunder_i_work work, void *context,
                                 sunder_error *err)
 {
-    enum { MOST = 256 };
-    if (n == 0) return SUNDER_OK;
-    job j = {.work = work,
-             .context = context,
-             .watch = sunder_i_watch_here(),
-             .n = n,
-             .grain = grain ? grain : 1,
-             .failed_at = SIZE_MAX};
-    atomic_init(&j.next, 0);
-    atomic_init(&j.failed, false);
-    pthread_mutex_init(&j.lock, NULL);
-    const size_t parts = (n - 1) / j.grain + 1;
-    size_t helpers = threads > 1 ? threads - 1 : 0, started = 0;
-    if (helpers > MOST) helpers = MOST;
-    if (helpers > parts - 1) helpers = parts - 1;
-    pthread_t helper[MOST];
-    /* A thread that cannot be had is no error: those that run take its share. */
-    while (started < helpers && pthread_create(&helper[started], NULL, run, &j) == 0) started++;
-    run(&j);
-    for (size_t i = 0; i < started; i++) pthread_join(helper[i], NULL);
-    pthread_mutex_destroy(&j.lock);
-    if (j.status && err) *err = j.error;
-    return j.status;
+    job j = {.work = work, .context = context, .n = n, .grain = grain ? grain : 1};
+    return n ? run_on(threads, &j, err) : SUNDER_OK;
+}
+
+sunder_status sunder_i_parallel_largest_first(unsigned threads, const size_t *size, size_t n, sunder_i_work work,
+                                              void *context, sunder_error *err)
+{
+    if (threads <= 1) return sunder_i_parallel(threads, n, 1, work, context, err);
+    uint64_t *order = sunder_i_alloc(n, sizeof *order);
+    for (size_t k = 0; k < n && order; k++)
+        order[k] = (uint64_t)(UINT32_MAX - (size[k] < UINT32_MAX ? size[k] : UINT32_MAX)) << 32 | k;
+    job j = {.work = work, .context = context, .n = n, .grain = 1, .order = order};
+    const bool ok = order && sunder_i_sort_keys(order, n);
+    const sunder_status status = !ok ? sunder_i_no_memory(err) : n ? run_on(threads, &j, err) : SUNDER_OK;
+    sunder_i_free(order);
+    return status;
 }

@@ -301,7 +301,7 @@ static double prove_copies(const market *m)
     static sunder_i_payer payer[COPIES];
     double bound;
     for (size_t k = 0; k < COPIES; k++) payer[k] = m->payer;
-    assert_true(sunder_i_prices_prove(&m->prices, payer, COPIES, &bound));
+    assert_true(sunder_i_prices_prove(&m->prices, payer, COPIES, 1, &bound));
     return bound;
 }
 
@@ -383,7 +383,7 @@ static void test_border(void **state)
         sunder_i_payer payer[6];
         for (size_t i = 0; i < 6; i++) payer[i] = (sunder_i_payer){1, INFINITY, m.payer.masses};
         for (size_t i = 0; i < 41 * 41; i++) price[i] = (float)(40 * rng_unit(&g));
-        assert_true(sunder_i_prices_ascend(&grid, payer, 6, 1, (unsigned)k, price));
+        assert_true(sunder_i_prices_ascend(&grid, payer, 6, 1, (unsigned)k, 1, price));
         for (size_t i = 0; i < 41 * 41; i++) {
             const size_t x = i % 41, y = i / 41;
             if (x < 2 || y < 2 || x > 38 || y > 38) assert_true(price[i] == 0);
@@ -446,13 +446,44 @@ static void test_places(void **state)
         const double patience = 0.05 + 3 * rng_unit(&g);
         double mean[2], move[2];
         find_mean(&grid, &m.payer, price, patience * m.payer.weight, mean);
-        assert_true(sunder_i_prices_places(&grid, &m.payer, 1, patience, price, move));
+        assert_true(sunder_i_prices_places(&grid, &m.payer, 1, patience, 1, price, move));
         assert_true(hypot(move[0] - mean[0], move[1] - mean[1]) <= 1e-3 * grid.side);
         assert_true(hypot(move[0], move[1]) <= m.payer.limit);
         moved += hypot(move[0], move[1]) > grid.side;
         sunder_i_masses_free(&m.payer.masses);
     }
     assert_true(moved > test_count(60) / 4);
+}
+
+/* More payers than are asked at once: prices, places and what is proved are the same bits on any number of threads. */
+static void test_threads(void **state)
+{
+    (void)state;
+    enum { PAYERS = 1300, SIDE = 61 };
+    static market m;
+    static sunder_i_payer payer[PAYERS];
+    static float price[2][SIDE * SIDE];
+    static uint32_t rounded[SIDE * SIDE];
+    static double move[2][2 * PAYERS];
+    double bound[2];
+    rng g = rng_start(test_seed(), 9000);
+    draw_body(&g, 3, 0, 0, &m.body);
+    const sunder_i_grid grid = {.side = 1, .x = -30, .y = -30, .columns = SIDE, .rows = SIDE};
+    assert_true(sunder_i_masses_make(&m.body.outline, &grid, &m.payer.masses));
+    for (size_t k = 0; k < PAYERS; k++) payer[k] = (sunder_i_payer){1 + 3 * rng_unit(&g), INFINITY, m.payer.masses};
+    for (int run = 0; run < 2; run++) {
+        const unsigned threads = run ? 3 : 1;
+        memset(price[run], 0, sizeof price[run]);
+        assert_true(sunder_i_prices_ascend(&grid, payer, PAYERS, 1, 4, threads, price[run]));
+        assert_true(sunder_i_prices_places(&grid, payer, PAYERS, 1, threads, price[run], move[run]));
+        for (size_t k = 0; k < SIDE * SIDE; k++) rounded[k] = (uint32_t)price[run][k];
+        const sunder_i_prices prices = {grid, 1, rounded};
+        assert_true(sunder_i_prices_prove(&prices, payer, PAYERS, threads, &bound[run]));
+    }
+    assert_memory_equal(price[0], price[1], sizeof price[0]);
+    assert_memory_equal(move[0], move[1], sizeof move[0]);
+    assert_true(bound[0] > 0 && bound[0] == bound[1]);
+    sunder_i_masses_free(&m.payer.masses);
 }
 
 /* ---- Memory ------------------------------------------------------------------------------------------------------ */
@@ -465,8 +496,8 @@ static bool attempt(void *context)
     sunder_i_payer payer[5];
     const bool made = sunder_i_masses_make(&m->body.outline, &m->prices.grid, &m->payer.masses);
     for (size_t k = 0; k < 5; k++) payer[k] = (sunder_i_payer){1, INFINITY, m->payer.masses};
-    const bool ok = made && sunder_i_prices_ascend(&m->prices.grid, payer, 5, 1, 3, price) &&
-                    sunder_i_prices_prove(&m->prices, payer, 5, &bound);
+    const bool ok = made && sunder_i_prices_ascend(&m->prices.grid, payer, 5, 1, 3, 1, price) &&
+                    sunder_i_prices_prove(&m->prices, payer, 5, 1, &bound);
     sunder_i_masses_free(&m->payer.masses);
     return ok;
 }
@@ -485,6 +516,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_masses), cmocka_unit_test(test_prices),
                                        cmocka_unit_test(test_limits), cmocka_unit_test(test_border),
-                                       cmocka_unit_test(test_places), cmocka_unit_test(test_memory)};
+                                       cmocka_unit_test(test_places), cmocka_unit_test(test_threads),
+                                       cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,7 +22,8 @@ static bool prove(const sunder_i_climb *l, sunder_i_prices *best, double *bound)
 {
     sunder_i_prices own = {.grid = l->grid};
     double proved = 0;
-    const bool ok = round_prices(l->price, &own) && sunder_i_prices_prove(&own, l->payer, l->payers, &proved);
+    const bool ok = round_prices(l->price, &own) &&
+                    sunder_i_prices_prove(&own, l->payer, l->payers, l->model->rules.threads, &proved);
     if (ok && proved > *bound) {
         sunder_i_free(best->price);
         *best = own;

@@ -72,20 +72,21 @@ void sunder_i_masses_free(sunder_i_masses *masses);
 
 /* Raises prices (of a unit of area, [nodes]) towards those that prove most, in doubles. rounds: how often all payers
  * are asked at most. patience: how far from a payer's cheapest place others count, as a share of a square moved by its
- * side. False if memory is out. */
+ * side. The number of threads changes nothing but the time. False if memory is out. */
 bool sunder_i_prices_ascend(const sunder_i_grid *grid, const sunder_i_payer *payer, size_t n, double patience,
-                            unsigned rounds, float *price);
+                            unsigned rounds, unsigned threads, float *price);
 
 /* Where each payer is in the mean, as softly: [2 * n] moves. False if memory is out. */
 bool sunder_i_prices_places(const sunder_i_grid *grid, const sunder_i_payer *payer, size_t n, double patience,
-                            const float *price, double *move);
+                            unsigned threads, const float *price, double *move);
 
 /* ---- least.c ----------------------------------------------------------------------------------------------------- */
 
 /* What the prices prove: the sum over payers of the least that each pays, moving and standing, less the worth of all
  * area; rounded downwards. 0 where the numbers get too large, or where the two outermost rows or columns have a price.
  * False if memory is out. */
-bool sunder_i_prices_prove(const sunder_i_prices *prices, const sunder_i_payer *payer, size_t n, double *bound);
+bool sunder_i_prices_prove(const sunder_i_prices *prices, const sunder_i_payer *payer, size_t n, unsigned threads,
+                           double *bound);
 
 /* ---- areas.c ----------------------------------------------------------------------------------------------------- */
 
@@ -97,8 +98,9 @@ sunder_status sunder_i_areas_bound(const sunder_i_model *model, const uint32_t *
 /* ---- places.c ---------------------------------------------------------------------------------------------------- */
 
 /* Where bodies may begin to be taken apart: [2 * n] moves; *found: false where there are none, and they are as they
- * were, or have no meaning if it fails. Members are to be united. */
-sunder_status sunder_i_areas_places(const sunder_i_model *model, const uint32_t *body, size_t n, double *move,
-                                    bool *found, sunder_error *err);
+ * were, or have no meaning if it fails; rough: of the coarsest grid alone, a tenth of the work. Members are to be
+ * united. */
+sunder_status sunder_i_areas_places(const sunder_i_model *model, const uint32_t *body, size_t n, bool rough,
+                                    double *move, bool *found, sunder_error *err);
 
 #endif

@@ -9,6 +9,7 @@
 #include "displacement/areas/tuning.h"
 #include "displacement/areas/window.h"
 
+#include "base/parallel.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -18,20 +19,36 @@
 typedef struct part {
     int64_t dx, dy;
     double paid;  /* there */
-    double share; /* of 1; weigh_shares() */
+    double share; /* of 1 */
 } part;
+
+/* Where one payer is, and what it pays. */
+typedef struct answer {
+    part *part; /* [parts] */
+    size_t parts, capacity;
+    double value;
+} answer;
 
 typedef struct ascent {
     const sunder_i_grid *grid;
     const sunder_i_payer *payer;
     size_t n;
     double patience;
+    unsigned threads;
     float *price, *half; /* [nodes] what is wished for, blurred; scratch */
-    double *glance;      /* of one payer: what it pays at every GLANCES-th place, either way */
-    part *part;          /* [parts] of one payer */
-    size_t parts, part_capacity, glance_capacity;
-    double farthest; /* the square of how far it may go, in squares */
+    answer *answer;      /* [AT_ONCE] of payers that are asked together */
 } ascent;
+
+/* Asking one payer. */
+typedef struct asking {
+    const ascent *ascent;
+    const sunder_i_payer *payer;
+    const float *price;
+    answer *answer;
+    double farthest; /* the square of how far it may go, in squares */
+    double *glance;  /* what it pays at every GLANCES-th place, either way */
+    size_t glance_capacity;
+} asking;
 
 /* The sum of mass times price over n nodes of a row; in four sums that do not wait for each other. */
 static float price_of_row(const int32_t *mass, const float *price, size_t n)
@@ -67,30 +84,35 @@ static void occupy(const ascent *a, const sunder_i_masses *m, double share, int6
     }
 }
 
-/* How far a payer looks, in squares: where the way costs more than to stay, nothing is cheaper. */
-static int64_t reach_of(const ascent *a, const sunder_i_payer *payer, double stays, double heat)
+/* It is where it answered; slope: what is asked for there. */
+static void occupy_all(const ascent *a, const sunder_i_masses *m, const answer *s, float *slope)
 {
-    const double reach = sqrt((stays + TOO_DEAR * heat) / payer->weight);
-    return (int64_t)fmin(reach, payer->limit / a->grid->side);
+    for (const part *p = s->part; p < s->part + s->parts; p++)
+        if (p->share > LITTLE) occupy(a, m, p->share, p->dx, p->dy, slope);
+}
+
+/* How far the payer looks, in squares: where the way costs more than to stay, nothing is cheaper. */
+static int64_t reach_of(const asking *a, double stays, double heat)
+{
+    const double reach = sqrt((stays + TOO_DEAR * heat) / a->payer->weight);
+    return (int64_t)fmin(reach, a->payer->limit / a->ascent->grid->side);
 }
 
 /* Way and price of one place; the way alone where that is too dear to count. Nothing is beyond its limit. */
-static double paid_at(const ascent *a, const sunder_i_payer *payer, const float *price, int64_t dx, int64_t dy,
-                      double most)
+static double paid_at(const asking *a, int64_t dx, int64_t dy, double most)
 {
-    const double square = (double)(dx * dx + dy * dy), way = payer->weight * square;
+    const double square = (double)(dx * dx + dy * dy), way = a->payer->weight * square;
     if (square > a->farthest) return INFINITY;
-    return way < most ? way + price_of(a, &payer->masses, price, dx, dy) : way;
+    return way < most ? way + price_of(a->ascent, &a->payer->masses, a->price, dx, dy) : way;
 }
 
 /* Looks at one place in GLANCES^2, `half` of them from the middle: the least that is paid. */
-static double glance(const ascent *a, const sunder_i_payer *payer, const float *price, double stays, double doubt,
-                     int64_t half)
+static double glance(const asking *a, double stays, double doubt, int64_t half)
 {
     double least = stays, *seen = a->glance;
     for (int64_t y = -half; y <= half; y++)
         for (int64_t x = -half; x <= half; x++, seen++) {
-            *seen = paid_at(a, payer, price, GLANCES * x, GLANCES * y, least + doubt);
+            *seen = paid_at(a, GLANCES * x, GLANCES * y, least + doubt);
             if (*seen < least) least = *seen;
         }
     return least;
@@ -106,96 +128,108 @@ static bool may_be_cheap(const double *seen, size_t across, double most)
 }
 
 /* The places of one cell that may count. False if memory is out. */
-static bool list_cell(ascent *a, const sunder_i_payer *payer, const float *price, int64_t x, int64_t y, double doubt,
-                      double *least)
+static bool list_cell(asking *a, int64_t x, int64_t y, double doubt, double *least)
 {
-    if (!sunder_i_reserve(&a->part, &a->part_capacity, a->parts + GLANCES * GLANCES, sizeof *a->part)) return false;
+    answer *s = a->answer;
+    if (!sunder_i_reserve(&s->part, &s->capacity, s->parts + GLANCES * GLANCES, sizeof *s->part)) return false;
     for (int64_t dy = GLANCES * y; dy < GLANCES * (y + 1); dy++)
         for (int64_t dx = GLANCES * x; dx < GLANCES * (x + 1); dx++) {
-            const double paid = paid_at(a, payer, price, dx, dy, *least + doubt);
+            const double paid = paid_at(a, dx, dy, *least + doubt);
             if (paid >= *least + doubt) continue;
             if (paid < *least) *least = paid;
-            a->part[a->parts++] = (part){dx, dy, paid, 0};
+            s->part[s->parts++] = (part){dx, dy, paid, 0};
         }
     return true;
 }
 
-/* Of places that count each one's share, from what is paid there; *value: what the payer pays, softly. */
-static void weigh_shares(ascent *a, double heat, double least, double *value)
+/* Of places that count each one's share, from what is paid there; and what the payer pays, softly. */
+static void weigh_shares(answer *s, double heat, double least)
 {
     double sum = 0;
     size_t n = 0;
-    for (size_t k = 0; k < a->parts; k++) {
-        if (a->part[k].paid >= least + TOO_DEAR * heat) continue;
-        a->part[n] = a->part[k];
-        a->part[n].share = exp((least - a->part[k].paid) / heat);
-        sum += a->part[n++].share;
+    for (size_t k = 0; k < s->parts; k++) {
+        if (s->part[k].paid >= least + TOO_DEAR * heat) continue;
+        s->part[n] = s->part[k];
+        s->part[n].share = exp((least - s->part[k].paid) / heat);
+        sum += s->part[n++].share;
     }
-    a->parts = n;
-    for (size_t k = 0; k < n; k++) a->part[k].share /= sum;
-    *value = least - heat * log(sum);
+    s->parts = n;
+    for (size_t k = 0; k < n; k++) s->part[k].share /= sum;
+    s->value = least - heat * log(sum);
 }
 
-/* The payer's places, each with its share of it: a->part. False if memory is out. */
-static bool find_shares(ascent *a, const sunder_i_payer *payer, const float *price, double stays, double *value)
+/* The payer's places, each with its share of it. False if memory is out. */
+static bool find_shares(asking *a, double stays)
 {
-    const double heat = a->patience * payer->weight, doubt = TOO_DEAR * heat;
-    const int64_t half = reach_of(a, payer, stays, heat) / GLANCES + 1;
+    const sunder_i_payer *payer = a->payer;
+    const double heat = a->ascent->patience * payer->weight, doubt = TOO_DEAR * heat;
+    const int64_t half = reach_of(a, stays, heat) / GLANCES + 1;
     const size_t across = (size_t)(2 * half + 1);
     if (!sunder_i_reserve(&a->glance, &a->glance_capacity, across * across, sizeof *a->glance)) return false;
-    const double limit = payer->limit / a->grid->side;
+    const double limit = payer->limit / a->ascent->grid->side;
     a->farthest = limit * limit;
-    double least = glance(a, payer, price, stays, doubt, half);
-    a->parts = 0;
+    double least = glance(a, stays, doubt, half);
     for (int64_t y = -half; y < half; y++)
         for (int64_t x = -half; x < half; x++) {
             const double *seen = a->glance + (size_t)(y + half) * across + (size_t)(x + half);
             if (!may_be_cheap(seen, across, least + doubt)) continue;
-            if (!list_cell(a, payer, price, x, y, doubt, &least)) return false;
+            if (!list_cell(a, x, y, doubt, &least)) return false;
         }
-    weigh_shares(a, heat, least, value);
+    weigh_shares(a->answer, heat, least);
     return true;
 }
 
-/* What it pays, softly; slope: where it is then. False if memory is out. */
-static bool ask_payer(ascent *a, const sunder_i_payer *payer, const float *price, float *slope, double *value)
+/* Where there is nothing to pay it stays whole. False if memory is out. */
+static bool ask_payer(asking *a)
 {
-    const double stays = price_of(a, &payer->masses, price, 0, 0);
-    *value = 0;
-    if (!(stays > 0)) {
-        occupy(a, &payer->masses, 1, 0, 0, slope);
-        return true;
-    }
-    if (!find_shares(a, payer, price, stays, value)) return false;
-    for (const part *s = a->part; s < a->part + a->parts; s++)
-        if (s->share > LITTLE) occupy(a, &payer->masses, s->share, s->dx, s->dy, slope);
+    answer *s = a->answer;
+    const double stays = price_of(a->ascent, &a->payer->masses, a->price, 0, 0);
+    s->parts = 0;
+    if (stays > 0) return find_shares(a, stays);
+    if (!sunder_i_reserve(&s->part, &s->capacity, 1, sizeof *s->part)) return false;
+    s->part[s->parts++] = (part){.share = 1};
+    s->value = 0;
     return true;
 }
 
-/* Where it is in the mean. */
-static bool find_mean(ascent *a, const sunder_i_payer *payer, const float *price, double move[2])
+/* Payers that are asked at once, from the first of them. */
+typedef struct batch {
+    const ascent *ascent;
+    const float *price;
+    size_t first;
+} batch;
+
+static sunder_status ask_some(void *context, size_t begin, size_t end, sunder_error *err)
 {
-    const double stays = price_of(a, &payer->masses, price, 0, 0);
-    move[0] = move[1] = 0;
-    if (!(stays > 0)) return true;
-    double value;
-    if (!find_shares(a, payer, price, stays, &value)) return false;
-    for (const part *s = a->part; s < a->part + a->parts; s++) {
-        move[0] += s->share * (double)s->dx * a->grid->side;
-        move[1] += s->share * (double)s->dy * a->grid->side;
+    const batch *b = context;
+    asking a = {.ascent = b->ascent, .price = b->price};
+    bool ok = true;
+    for (size_t k = begin; k < end && ok; k++) {
+        a.payer = &b->ascent->payer[b->first + k];
+        a.answer = &b->ascent->answer[k];
+        ok = sunder_i_step() && ask_payer(&a);
     }
-    return true;
+    sunder_i_free(a.glance);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+/* Asks payers from the first on, as many at once as there is room for the answers of: their number; 0 if memory is
+ * out. */
+static size_t ask_at_once(const ascent *a, const float *price, size_t first)
+{
+    batch b = {a, price, first};
+    const size_t n = a->n - first < AT_ONCE ? a->n - first : AT_ONCE;
+    return sunder_i_parallel(a->threads, n, SUNDER_I_GRAIN_PAIRS, ask_some, &b, NULL) ? 0 : n;
 }
 
 /* Each node's mean with its neighbours, 1 : 2 : 1 along one axis: from in[] to out[], [nodes]; beyond the border all
  * are 0. */
-static void blur_along(const sunder_i_grid *l, size_t stride, const float *in, float *out)
+static void blur_along(const sunder_i_grid *l, size_t stride, const float *restrict in, float *restrict out)
 {
-    const size_t nodes = sunder_i_grid_nodes(l);
-    for (size_t k = 0; k < nodes; k++) {
-        const float before = k >= stride ? in[k - stride] : 0, after = k + stride < nodes ? in[k + stride] : 0;
-        out[k] = (before + 2 * in[k] + after) / 4;
-    }
+    const size_t nodes = sunder_i_grid_nodes(l), last = nodes - stride; /* a grid is wider than its borders */
+    for (size_t k = 0; k < stride; k++) out[k] = (2 * in[k] + in[k + stride]) / 4;
+    for (size_t k = stride; k < last; k++) out[k] = (in[k - stride] + 2 * in[k] + in[k + stride]) / 4;
+    for (size_t k = last; k < nodes; k++) out[k] = (in[k - stride] + 2 * in[k]) / 4;
 }
 
 /* The same along both, BLURRED times. It is its own transpose; what is asked for has room about it for what it
@@ -219,28 +253,39 @@ static bool ask_all(ascent *a, const float *wish, float *slope, double *value)
         *value -= a->price[k];
         slope[k] = -1;
     }
-    for (size_t k = 0; k < a->n; k++) {
-        double own;
-        if (!sunder_i_step() || !ask_payer(a, &a->payer[k], a->price, slope, &own)) return false;
-        *value += own;
+    /* Sums are taken in the order of payers, whichever thread asked them. */
+    for (size_t first = 0, n; first < a->n; first += n) {
+        n = ask_at_once(a, a->price, first);
+        if (!n) return false;
+        for (size_t k = 0; k < n; k++) {
+            *value += a->answer[k].value;
+            occupy_all(a, &a->payer[first + k].masses, &a->answer[k], slope);
+        }
     }
     blur(a, slope);
     return true;
 }
 
-/* Nodes at the border have no price: two rows and columns on each side, and what blurring spreads. */
-static bool is_inner(const sunder_i_grid *l, size_t node)
+/* Nodes at the border have no price: two rows and columns on each side, and what blurring spreads. Of row j the first
+ * inner node and the end of them; none of some rows. */
+static void inner_nodes(const sunder_i_grid *l, size_t j, size_t *first, size_t *end)
 {
-    const size_t i = node % l->columns, j = node / l->columns, border = SUNDER_I_GRID_BORDER;
-    return i >= border && j >= border && i + border < l->columns && j + border < l->rows;
+    const size_t border = SUNDER_I_GRID_BORDER, row = j * l->columns;
+    const bool any = j >= border && j + border < l->rows && l->columns > 2 * border;
+    *first = any ? row + border : row + l->columns;
+    *end = any ? row + l->columns - border : *first;
 }
 
 /* What a coarser grid's prices, which are blurred, ask for beyond inner nodes is nothing that this grid may ask for: a
  * step that is shortened would leave some of it, level after level nearer to the border. */
 static void keep_inner(const sunder_i_grid *l, float *price)
 {
-    for (size_t k = 0; k < sunder_i_grid_nodes(l); k++)
-        if (!is_inner(l, k)) price[k] = 0;
+    for (size_t j = 0; j < l->rows; j++) {
+        size_t first, end;
+        inner_nodes(l, j, &first, &end);
+        for (size_t k = j * l->columns; k < first; k++) price[k] = 0;
+        for (size_t k = end; k < (j + 1) * l->columns; k++) price[k] = 0;
+    }
 }
 
 typedef struct place {
@@ -248,14 +293,26 @@ typedef struct place {
     double value;
 } place;
 
+/* To `to` of one node. */
+static inline void propose_node(const place *at, size_t k, double to, float *step, double *gain)
+{
+    step[k] = (float)to - at->price[k];
+    *gain += (double)step[k] * (double)at->slope[k];
+}
+
 /* The step from `at`, so long, as far as prices stay at 0 or more; *gain: what it promises at first. */
 static void propose(const sunder_i_grid *l, const place *at, double length, float *step, double *gain)
 {
     *gain = 0;
-    for (size_t k = 0; k < sunder_i_grid_nodes(l); k++) {
-        const double to = is_inner(l, k) ? fmax((double)at->price[k] + length * (double)at->slope[k], 0) : 0;
-        step[k] = (float)to - at->price[k];
-        *gain += (double)step[k] * (double)at->slope[k];
+    for (size_t j = 0; j < l->rows; j++) {
+        size_t first, end, k = j * l->columns;
+        inner_nodes(l, j, &first, &end);
+        for (; k < first; k++) propose_node(at, k, 0, step, gain);
+        for (; k < end; k++) {
+            const double to = (double)at->price[k] + length * (double)at->slope[k];
+            propose_node(at, k, to > 0 ? to : 0, step, gain);
+        }
+        for (; k < (j + 1) * l->columns; k++) propose_node(at, k, 0, step, gain);
     }
 }
 
@@ -303,13 +360,25 @@ static bool climb(ascent *a, place *at, place *other, float *step, unsigned roun
     return true;
 }
 
+static bool begin_answers(ascent *a)
+{
+    a->answer = sunder_i_calloc(AT_ONCE, sizeof *a->answer);
+    return a->answer;
+}
+
+static void end_answers(ascent *a)
+{
+    for (size_t k = 0; k < AT_ONCE && a->answer; k++) sunder_i_free(a->answer[k].part);
+    sunder_i_free(a->answer);
+}
+
 bool sunder_i_prices_ascend(const sunder_i_grid *grid, const sunder_i_payer *payer, size_t n, double patience,
-                            unsigned rounds, float *price)
+                            unsigned rounds, unsigned threads, float *price)
 {
     const size_t nodes = sunder_i_grid_nodes(grid);
-    ascent a = {.grid = grid, .payer = payer, .n = n, .patience = patience};
+    ascent a = {.grid = grid, .payer = payer, .n = n, .patience = patience, .threads = threads};
     float *work = sunder_i_alloc(7 * nodes, sizeof *work);
-    bool ok = work;
+    bool ok = work && begin_answers(&a);
     if (ok) {
         a.price = work + 5 * nodes;
         a.half = work + 6 * nodes;
@@ -320,19 +389,31 @@ bool sunder_i_prices_ascend(const sunder_i_grid *grid, const sunder_i_payer *pay
         if (ok) memcpy(price, at.price, nodes * sizeof *price);
         if (ok) blur(&a, price);
     }
-    sunder_i_free(a.glance);
-    sunder_i_free(a.part);
+    end_answers(&a);
     sunder_i_free(work);
     return ok;
 }
 
-bool sunder_i_prices_places(const sunder_i_grid *grid, const sunder_i_payer *payer, size_t n, double patience,
-                            const float *price, double *move)
+/* In the mean of where it answered. */
+static void find_mean(const ascent *a, const answer *s, double move[2])
 {
-    ascent a = {.grid = grid, .payer = payer, .n = n, .patience = patience};
-    bool ok = true;
-    for (size_t k = 0; k < n && ok; k++) ok = sunder_i_step() && find_mean(&a, &payer[k], price, move + 2 * k);
-    sunder_i_free(a.glance);
-    sunder_i_free(a.part);
+    move[0] = move[1] = 0;
+    for (const part *p = s->part; p < s->part + s->parts; p++) {
+        move[0] += p->share * (double)p->dx * a->grid->side;
+        move[1] += p->share * (double)p->dy * a->grid->side;
+    }
+}
+
+bool sunder_i_prices_places(const sunder_i_grid *grid, const sunder_i_payer *payer, size_t n, double patience,
+                            unsigned threads, const float *price, double *move)
+{
+    ascent a = {.grid = grid, .payer = payer, .n = n, .patience = patience, .threads = threads};
+    bool ok = begin_answers(&a);
+    for (size_t first = 0, asked; first < n && ok; first += asked) {
+        asked = ask_at_once(&a, price, first);
+        ok = asked;
+        for (size_t k = 0; k < asked; k++) find_mean(&a, &a.answer[k], move + 2 * (first + k));
+    }
+    end_answers(&a);
     return ok;
 }

@@ -150,5 +150,6 @@ bool sunder_i_climb_on(sunder_i_climb *l)
     const double across = l->size / l->side;
     l->patience = PATIENCE * across * across;
     l->side /= 2;
-    return price && sunder_i_prices_ascend(&grid, l->payer, l->payers, l->patience, rounds[LEVELS - l->left], price);
+    return price && sunder_i_prices_ascend(&grid, l->payer, l->payers, l->patience, rounds[LEVELS - l->left],
+                                           l->model->rules.threads, price);
 }

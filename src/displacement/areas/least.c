@@ -9,6 +9,7 @@
 #include "displacement/areas/areas.h"
 #include "displacement/areas/window.h"
 
+#include "base/parallel.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -215,7 +216,32 @@ static void add(sunder_total *total, int64_t value)
     sunder_total_add(total, (double)(value & INT64_C(0xffffffff)));
 }
 
-bool sunder_i_prices_prove(const sunder_i_prices *prices, const sunder_i_payer *payer, size_t n, double *bound)
+typedef struct questions {
+    const field *field;
+    const sunder_i_payer *payer;
+    int64_t *paid; /* [payers] */
+} questions;
+
+static sunder_status ask_some(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const questions *q = context;
+    for (size_t k = begin; k < end; k++)
+        if (!sunder_i_step() || !ask_payer(q->field, &q->payer[k], &q->paid[k])) return sunder_i_no_memory(err);
+    return SUNDER_OK;
+}
+
+/* What all pay, added to the total. False if memory is out. */
+static bool ask_all(const field *f, const sunder_i_payer *payer, size_t n, unsigned threads, sunder_total *total)
+{
+    questions q = {f, payer, sunder_i_alloc(n, sizeof *q.paid)};
+    const bool ok = q.paid && !sunder_i_parallel(threads, n, SUNDER_I_GRAIN_PAIRS, ask_some, &q, NULL);
+    for (size_t k = 0; k < n && ok; k++) add(total, q.paid[k]);
+    sunder_i_free(q.paid);
+    return ok;
+}
+
+bool sunder_i_prices_prove(const sunder_i_prices *prices, const sunder_i_payer *payer, size_t n, unsigned threads,
+                           double *bound)
 {
     const size_t nodes = sunder_i_grid_nodes(&prices->grid);
     *bound = 0;
@@ -226,11 +252,7 @@ bool sunder_i_prices_prove(const sunder_i_prices *prices, const sunder_i_payer *
     if (ok) find_kinks(&f);
     for (size_t k = 0; k < nodes; k++)
         sunder_total_add(&total, -(double)prices->price[k] * (double)SUNDER_I_MASS_OF_SQUARE * PARTS_SQUARE);
-    for (size_t k = 0; ok && k < n; k++) {
-        int64_t paid;
-        ok = sunder_i_step() && ask_payer(&f, &payer[k], &paid);
-        if (ok) add(&total, paid);
-    }
+    ok = ok && ask_all(&f, payer, n, threads, &total);
     sunder_i_free(f.kink);
     if (!ok) return false;
     const double part = prices->grid.side * prices->grid.side * prices->unit / (double)SUNDER_I_MASS_OF_SQUARE;

@@ -7,17 +7,18 @@
 
 #include <math.h>
 
-sunder_status sunder_i_areas_places(const sunder_i_model *model, const uint32_t *body, size_t n, double *move,
-                                    bool *found, sunder_error *err)
+sunder_status sunder_i_areas_places(const sunder_i_model *model, const uint32_t *body, size_t n, bool rough,
+                                    double *move, bool *found, sunder_error *err)
 {
     sunder_i_climb l;
     *found = false;
     sunder_status status = sunder_i_climb_init(&l, model, body, n, ROOM_ABOUT * sqrt((double)n), err);
     /* The finest tells how much is proved, and no places. */
-    while (!status && l.left > 1)
+    const unsigned last = rough && l.left > 1 ? l.left - 1 : 1;
+    while (!status && l.left > last)
         if (!sunder_i_climb_on(&l)) status = sunder_i_no_memory(err);
     if (!status && l.price && l.payers == n) {
-        *found = sunder_i_prices_places(&l.grid, l.payer, n, l.patience, l.price, move);
+        *found = sunder_i_prices_places(&l.grid, l.payer, n, l.patience, model->rules.threads, l.price, move);
         if (!*found) status = sunder_i_no_memory(err);
     }
     sunder_i_climb_free(&l);

@@ -32,6 +32,8 @@
 #define TOO_DEAR 12
 /* One place in so many, either way, is looked at to see what the least is about. */
 #define GLANCES 4
+/* Payers that are asked before what they answer is added up. */
+#define AT_ONCE 1024
 /* A share of the payer that counts for nothing. */
 #define LITTLE 1e-5
 

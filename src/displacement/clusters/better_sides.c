@@ -83,8 +83,7 @@ sunder_status sunder_i_solver_improve(sunder_i_solver *s, sunder_error *err)
     sunder_status status = sunder_i_solver_gather(s, err);
     if (!status) status = join_guests(s, err);
     if (!status) status = sunder_i_solver_unite_blocks(s, err);
-    if (!status)
-        status = sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, improve_clusters, s, err);
+    if (!status) status = sunder_i_solver_for_clusters(s, improve_clusters, s, err);
     if (status) return status;
     sunder_i_solver_commit(s);
     for (size_t k = 0; k < s->clusters; k++) {

@@ -271,6 +271,18 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
     return SUNDER_OK;
 }
 
+sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *s, sunder_i_work work, void *context,
+                                           sunder_error *err)
+{
+    size_t *size = sunder_i_alloc(s->clusters, sizeof *size);
+    if (!size) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < s->clusters; k++) size[k] = s->cluster[k].n;
+    const sunder_status status =
+        sunder_i_parallel_largest_first(s->model.rules.threads, size, s->clusters, work, context, err);
+    sunder_i_free(size);
+    return status;
+}
+
 sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *s, sunder_error *err)
 {
     bool *seen = sunder_i_calloc(s->model.bodies, sizeof *seen);

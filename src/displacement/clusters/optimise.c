@@ -377,13 +377,24 @@ static bool join(sunder_i_solver *s, bool *any)
     return ok;
 }
 
+static sunder_status prove_each(sunder_i_solver *s, sunder_error *err)
+{
+    const sunder_i_groups *groups = &s->groups;
+    size_t *size = sunder_i_alloc(groups->n, sizeof *size);
+    if (!size) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < groups->n; k++) size[k] = groups->group[k].n;
+    const sunder_status status =
+        sunder_i_parallel_largest_first(s->model.rules.threads, size, groups->n, prove_groups, s, err);
+    sunder_i_free(size);
+    return status;
+}
+
 /* One round over the groups as they stand: *again, if there should be one more. */
 static sunder_status prove_all(sunder_i_solver *s, bool *again, sunder_error *err)
 {
     bool moved = false;
     hold(s);
-    sunder_status status =
-        sunder_i_parallel(s->model.rules.threads, s->groups.n, SUNDER_I_GRAIN_WHOLE, prove_groups, s, err);
+    sunder_status status = prove_each(s, err);
     if (!status) charge(s);
     if (!status) status = join(s, again) ? take_over(s, &moved, err) : sunder_i_no_memory(err);
     *again = *again || moved;

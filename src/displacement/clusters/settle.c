@@ -7,7 +7,6 @@
 #include "displacement/clusters/tuning.h"
 #include "displacement/layer/resolution.h"
 
-#include "base/parallel.h"
 #include "base/union_find.h"
 
 #include <string.h>
@@ -167,9 +166,7 @@ sunder_status sunder_i_solver_settle(sunder_i_solver *s, double from, double to,
             return sunder_i_cancelled(err);
         status = sunder_i_solver_gather(s, err);
         if (!status) status = sunder_i_solver_unite_blocks(s, err);
-        if (!status)
-            status =
-                sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, solve_clusters, s, err);
+        if (!status) status = sunder_i_solver_for_clusters(s, solve_clusters, s, err);
         s->hopeless = !status && is_hopeless(s);
         if (status || s->hopeless) return status;
         sunder_i_solver_commit(s);

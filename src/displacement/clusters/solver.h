@@ -9,6 +9,7 @@
 #include "displacement/optimum/optimum.h"
 #include "displacement/search/cluster.h"
 
+#include "base/parallel.h"
 #include "separation/separation.h"
 
 typedef struct sunder_i_cluster_member {
@@ -108,6 +109,9 @@ static inline uint32_t sunder_i_reader_for(const sunder_i_solver *solver, const 
 {
     return solver->member[cluster->body - solver->body].root;
 }
+/* Work on all clusters as they were last gathered, by their numbers. */
+sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder_i_work work, void *context,
+                                           sunder_error *err);
 /* Clusters from the edges, afresh. */
 sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err);
 /* Unites those blocks of clusters of which the search may ask for the union. A fixed one may be a member of several

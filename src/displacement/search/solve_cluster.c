@@ -84,7 +84,7 @@ static sunder_status begin_crowd(sunder_i_search *s, const sunder_i_cluster *clu
 {
     bool found;
     if (s->failed || !cluster->crowd) return SUNDER_OK;
-    return sunder_i_areas_places(s->model, s->body, s->n, s->t, &found, err);
+    return sunder_i_areas_places(s->model, s->body, s->n, false, s->t, &found, err);
 }
 
 sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,
