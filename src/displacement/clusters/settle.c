@@ -166,6 +166,7 @@ sunder_status sunder_i_solver_settle(sunder_i_solver *s, double from, double to,
             return sunder_i_cancelled(err);
         status = sunder_i_solver_gather(s, err);
         if (!status) status = sunder_i_solver_unite_blocks(s, err);
+        if (!status) status = sunder_i_solver_grow_crowds(s, err);
         if (!status) status = sunder_i_solver_for_clusters(s, solve_clusters, s, err);
         s->hopeless = !status && is_hopeless(s);
         if (status || s->hopeless) return status;

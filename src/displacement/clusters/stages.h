@@ -50,6 +50,11 @@ sunder_status sunder_i_solver_move_inside(sunder_i_solver *solver, sunder_error 
 /* What lies in two that are in conflict is kept in one of them. */
 sunder_status sunder_i_solver_choose_holders(sunder_i_solver *solver, sunder_error *err);
 
+/* ---- grow_crowds.c ----------------------------------------------------------------------------------------------- */
+
+/* Crowds that are to be solved take in whom they will run into. After clusters were gathered, and blocks united. */
+sunder_status sunder_i_solver_grow_crowds(sunder_i_solver *solver, sunder_error *err);
+
 /* ---- settle.c ---------------------------------------------------------------------------------------------------- */
 
 /* Solves clusters until nothing is in conflict but what was given up. Progress goes from `from` to `to`. */
