@@ -38,7 +38,7 @@ static bool is_far(sunder_i_arena *arena, const heading *u, const sunder_i_struc
         const sunder_i_i128 turn = (sunder_i_i128)a.x * b.y - (sunder_i_i128)a.y * b.x;
         return turn ? turn > 0 : (sunder_i_i128)a.x * b.x + (sunder_i_i128)a.y * b.y > 0;
     }
-    const int turn = sunder_i_big_sign(sunder_i_rational_cross(arena, u->vector, p->side[i]));
+    const int turn = sunder_i_rational_cross_sign(arena, u->vector, p->side[i]);
     return turn ? turn > 0 : sunder_i_big_sign(sunder_i_rational_dot(arena, u->vector, p->side[i])) > 0;
 }
 

@@ -1,7 +1,7 @@
 /* A number of height h is lo + hi r with lo, hi of height h - 1 and r the root h - 1: all goes by halves. The sign of
  * lo + hi r, where the two disagree, is that of lo times that of lo^2 - hi^2 r^2, one root less: no bound on the
- * separation of roots is needed. Each root doubles the lengths; two are the rule here, and four come up where two
- * points with two roots each are compared. */
+ * separation of roots is needed, and squares are made only where the topmost bits do not tell. Each root doubles the
+ * lengths; two are the rule here, and four come up where two points with two roots each are compared. */
 #include "number/surd.h"
 
 #define PARTS(height) ((size_t)1 << (height))
@@ -134,6 +134,20 @@ sunder_i_surd sunder_i_surd_mul(sunder_i_arena *arena, const sunder_i_roots *roo
     return join_halves(arena, low, high, a.height);
 }
 
+sunder_i_ball sunder_i_surd_ball(const sunder_i_roots *roots, sunder_i_surd a)
+{
+    sunder_i_ball root[SUNDER_I_SURD_ROOTS], sum = sunder_i_ball_big(a.part[0]);
+    for (int i = 0; i < a.height; i++) root[i] = sunder_i_ball_sqrt(sunder_i_surd_ball(roots, roots->square[i]));
+    for (size_t k = 1; k < PARTS(a.height); k++) {
+        if (!a.part[k].size) continue;
+        sunder_i_ball product = sunder_i_ball_big(a.part[k]);
+        for (int i = 0; i < a.height; i++)
+            if (k >> i & 1) product = sunder_i_ball_mul(product, root[i]);
+        sum = sunder_i_ball_add(sum, product);
+    }
+    return sum;
+}
+
 int sunder_i_surd_sign(sunder_i_arena *arena, const sunder_i_roots *roots, sunder_i_surd a)
 {
     a = trimmed(a);
@@ -142,6 +156,8 @@ int sunder_i_surd_sign(sunder_i_arena *arena, const sunder_i_roots *roots, sunde
     const int u = sunder_i_surd_sign(arena, roots, low), v = sunder_i_surd_sign(arena, roots, high);
     if (v == 0 || u == v) return u;
     if (u == 0) return v;
+    const int rough = sunder_i_ball_sign(sunder_i_surd_ball(roots, a));
+    if (rough) return rough;
     const sunder_i_surd square = sunder_i_surd_mul(arena, roots, high, high);
     const sunder_i_surd d = sunder_i_surd_sub(arena, sunder_i_surd_mul(arena, roots, low, low),
                                               sunder_i_surd_mul(arena, roots, square, roots->square[a.height - 1]));

@@ -8,7 +8,7 @@
 #ifndef SUNDER_I_SURD_H
 #define SUNDER_I_SURD_H
 
-#include "number/big.h"
+#include "number/ball.h"
 
 #define SUNDER_I_SURD_ROOTS 4
 
@@ -32,6 +32,8 @@ sunder_i_surd sunder_i_surd_scale(sunder_i_arena *arena, sunder_i_surd a, sunder
 sunder_i_surd sunder_i_surd_shl(sunder_i_arena *arena, sunder_i_surd a, unsigned long shift);
 sunder_i_surd sunder_i_surd_mul(sunder_i_arena *arena, const sunder_i_roots *roots, sunder_i_surd a, sunder_i_surd b);
 
+/* Its value, from the topmost bits of its parts. */
+sunder_i_ball sunder_i_surd_ball(const sunder_i_roots *roots, sunder_i_surd a);
 int sunder_i_surd_sign(sunder_i_arena *arena, const sunder_i_roots *roots, sunder_i_surd a);
 /* An integer within 2 of a * 2^bits. */
 sunder_i_big sunder_i_surd_scaled(sunder_i_arena *arena, const sunder_i_roots *roots, sunder_i_surd a,

@@ -169,7 +169,7 @@ static __attribute__((noinline)) int exact_product(sunder_i_lattice *l, sunder_i
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
     const sunder_i_rational_point p = sunder_i_rational_get(m, l, u), q = sunder_i_rational_get(m, l, v);
-    const int s = sunder_i_big_sign(cross ? sunder_i_rational_cross(m, p, q) : sunder_i_rational_dot(m, p, q));
+    const int s = cross ? sunder_i_rational_cross_sign(m, p, q) : sunder_i_big_sign(sunder_i_rational_dot(m, p, q));
     sunder_i_lattice_end(l, mark);
     return s;
 }

@@ -2,6 +2,10 @@
  * for first: nearly all are. */
 #include "predicate/rational_point.h"
 
+#include "number/ball.h"
+
+#include <stdlib.h>
+
 static bool equal(sunder_i_big a, sunder_i_big b)
 {
     if (a.size != b.size) return false;
@@ -79,9 +83,62 @@ int sunder_i_rational_cmp(sunder_i_arena *arena, const sunder_i_rational_point *
     return sunder_i_big_cmp(sunder_i_times(arena, a, v->w), sunder_i_times(arena, b, u->w));
 }
 
+/* Of so many limbs a product takes longer than its topmost bits. */
+#define LONG_LIMBS 8
+
+static bool is_long(const sunder_i_rational_point *u)
+{
+    const long x = labs(u->x.size), y = labs(u->y.size);
+    return (x > y ? x : y) >= LONG_LIMBS;
+}
+
+typedef struct rough_point {
+    sunder_i_ball x, y, w;
+} rough_point;
+
+static rough_point roughly(const sunder_i_rational_point *u)
+{
+    return (rough_point){sunder_i_ball_big(u->x), sunder_i_ball_big(u->y), sunder_i_ball_big(u->w)};
+}
+
+/* v - u, times both denominators. */
+static rough_point rough_way(const rough_point *u, const rough_point *v)
+{
+    return (rough_point){sunder_i_ball_sub(sunder_i_ball_mul(v->x, u->w), sunder_i_ball_mul(u->x, v->w)),
+                         sunder_i_ball_sub(sunder_i_ball_mul(v->y, u->w), sunder_i_ball_mul(u->y, v->w)), u->w};
+}
+
+/* The sign of u x v where the topmost bits tell, else 0. */
+static int rough_cross_sign(const rough_point *u, const rough_point *v)
+{
+    return sunder_i_ball_sign(sunder_i_ball_sub(sunder_i_ball_mul(u->x, v->y), sunder_i_ball_mul(u->y, v->x)));
+}
+
+static int rough_orient(const sunder_i_rational_point *a, const sunder_i_rational_point *b,
+                        const sunder_i_rational_point *c)
+{
+    const rough_point p = roughly(a), q = roughly(b), r = roughly(c);
+    const rough_point u = rough_way(&p, &q), v = rough_way(&p, &r);
+    return rough_cross_sign(&u, &v);
+}
+
+int sunder_i_rational_cross_sign(sunder_i_arena *arena, sunder_i_rational_point u, sunder_i_rational_point v)
+{
+    if (is_long(&u) || is_long(&v)) {
+        const rough_point p = roughly(&u), q = roughly(&v);
+        const int sign = rough_cross_sign(&p, &q);
+        if (sign) return sign;
+    }
+    return sunder_i_big_sign(sunder_i_rational_cross(arena, u, v));
+}
+
+/* Points that are near each other tell the side by their differences alone, of all whose bits the topmost are taken. */
 int sunder_i_rational_orient(sunder_i_arena *arena, sunder_i_rational_point a, sunder_i_rational_point b,
                              sunder_i_rational_point c)
 {
-    return sunder_i_big_sign(
-        sunder_i_rational_cross(arena, sunder_i_rational_sub(arena, b, a), sunder_i_rational_sub(arena, c, a)));
+    if (is_long(&a) || is_long(&b) || is_long(&c)) {
+        const int sign = rough_orient(&a, &b, &c);
+        if (sign) return sign;
+    }
+    return sunder_i_rational_cross_sign(arena, sunder_i_rational_sub(arena, b, a), sunder_i_rational_sub(arena, c, a));
 }

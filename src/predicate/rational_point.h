@@ -60,6 +60,8 @@ static inline sunder_i_rational_point sunder_i_rational_neg(sunder_i_rational_po
     return (sunder_i_rational_point){sunder_i_big_neg(u.x), sunder_i_big_neg(u.y), u.w};
 }
 
+/* The sign of the cross product. */
+int sunder_i_rational_cross_sign(sunder_i_arena *arena, sunder_i_rational_point u, sunder_i_rational_point v);
 /* Cross and dot product, times both denominators. */
 static inline sunder_i_big sunder_i_rational_cross(sunder_i_arena *arena, sunder_i_rational_point u,
                                                    sunder_i_rational_point v)

@@ -256,6 +256,11 @@ int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_su
 {
     sunder_i_arena *a = arena_of(problem);
     const sunder_i_mark mark = sunder_i_arena_mark(a);
+    int order = 1;
+    if (sunder_i_gap_roughly_side(problem, s, k, at, &order, inward, flat)) {
+        sunder_i_arena_release(a, mark);
+        return order;
+    }
     const sunder_i_point point[2] = {s->corner[k], s->side[k]};
     const sunder_i_gap_problem q = over_one(problem, point, 2), *const p = &q;
     const sunder_i_roots *roots = &at->roots;
@@ -265,7 +270,7 @@ int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_su
     const sunder_i_surd turn = difference(p, scale(p, vy, d.x), scale(p, vx, d.y));
     const sunder_i_surd along = sum(p, scale(p, vx, d.x), scale(p, vy, d.y));
     const sunder_i_big gw = mul(p, p->gap, at->w), limit = mul(p, gw, gw), square = dot(p, d, d);
-    int order = 1;
+    order = 1;
     *inward = sunder_i_surd_sign(a, roots, turn) > 0;
     *flat = false;
     if (sunder_i_surd_sign(a, roots, along) <= 0) { /* the corner */

@@ -94,6 +94,9 @@ bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_g
  * left of the side. *flat: a point inside the side is nearest, not its corner. Exact. */
 int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
                           const sunder_i_surd_point *at, bool *inward, bool *flat);
+/* The same where the topmost bits tell it, else false; also where two of these are equal (roughly.c). */
+bool sunder_i_gap_roughly_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
+                               const sunder_i_surd_point *at, int *order, bool *inward, bool *flat);
 /* The same for all of the (closed) subsum; *k: the side, if it is not above. */
 int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_surd_point *at,
                      uint32_t *k, bool *flat);

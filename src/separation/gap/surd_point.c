@@ -25,8 +25,19 @@ static sunder_i_surd norm(sunder_i_arena *a, const sunder_i_roots *roots, sunder
     return sunder_i_surd_add(a, sunder_i_surd_mul(a, roots, x, x), sunder_i_surd_mul(a, roots, y, y));
 }
 
+/* The same of a point, from the topmost bits. */
+static sunder_i_ball rough_norm(const sunder_i_surd_point *u)
+{
+    const sunder_i_ball x = sunder_i_surd_ball(&u->roots, u->x), y = sunder_i_surd_ball(&u->roots, u->y);
+    const sunder_i_ball w = sunder_i_ball_big(u->w);
+    return sunder_i_ball_div(sunder_i_ball_add(sunder_i_ball_mul(x, x), sunder_i_ball_mul(y, y)),
+                             sunder_i_ball_mul(w, w));
+}
+
 int sunder_i_surd_point_cmp(sunder_i_operands *g, const sunder_i_surd_point *u, const sunder_i_surd_point *v)
 {
+    const int rough = sunder_i_ball_sign(sunder_i_ball_sub(rough_norm(u), rough_norm(v)));
+    if (rough) return rough;
     sunder_i_arena *a = &g->placed.lattice.arena;
     const sunder_i_mark mark = sunder_i_arena_mark(a);
     sunder_i_roots roots = u->roots;

@@ -82,7 +82,7 @@ static int dyadic_side(sunder_i_operands *g, const dyadic *d, const sunder_i_sub
         at = (sunder_i_rational_point){sunder_i_big_i128(m, d->x), sunder_i_big_i128(m, d->y),
                                        sunder_i_big_shl(m, sunder_i_big_i64(m, 1), d->bits)};
     const sunder_i_rational_point v = sunder_i_rational_sub(m, at, sunder_i_rational_get(m, l, s->corner[k]));
-    const int sign = sunder_i_big_sign(sunder_i_rational_cross(m, sunder_i_rational_get(m, l, s->side[k]), v));
+    const int sign = sunder_i_rational_cross_sign(m, sunder_i_rational_get(m, l, s->side[k]), v);
     sunder_i_lattice_end(l, mark);
     return sign;
 }

@@ -1,0 +1,78 @@
+/* Is the gap kept from a side? By the topmost bits of a point, in balls: coordinates that span the range of doubles
+ * make exact numbers of ten thousand bits, and nearly all that is asked of them is not close. */
+#include "separation/gap/gap.h"
+
+#include "predicate/rational_point.h"
+
+typedef struct rough_vector {
+    sunder_i_ball x, y;
+} rough_vector;
+
+static rough_vector over(sunder_i_ball x, sunder_i_ball y, sunder_i_big w)
+{
+    if (sunder_i_big_is_one(w)) return (rough_vector){x, y};
+    const sunder_i_ball b = sunder_i_ball_big(w);
+    return (rough_vector){sunder_i_ball_div(x, b), sunder_i_ball_div(y, b)};
+}
+
+static rough_vector rough_point(sunder_i_rational_point v)
+{
+    return over(sunder_i_ball_big(v.x), sunder_i_ball_big(v.y), v.w);
+}
+
+static sunder_i_ball dot(rough_vector u, rough_vector v)
+{
+    return sunder_i_ball_add(sunder_i_ball_mul(u.x, v.x), sunder_i_ball_mul(u.y, v.y));
+}
+
+static sunder_i_ball cross(rough_vector u, rough_vector v)
+{
+    return sunder_i_ball_sub(sunder_i_ball_mul(u.x, v.y), sunder_i_ball_mul(u.y, v.x));
+}
+
+static int cmp(sunder_i_ball a, sunder_i_ball b) { return sunder_i_ball_sign(sunder_i_ball_sub(a, b)); }
+
+/* By the way v from the corner of a side d to the point. */
+static bool decide(const sunder_i_gap_problem *p, rough_vector v, rough_vector d, int *order, bool *inward, bool *flat)
+{
+    const sunder_i_ball square = dot(d, d), along = dot(v, d), height = cross(d, v);
+    const sunder_i_ball gap = sunder_i_ball_shift(sunder_i_ball_big(p->gap), -(long)p->gap_bits);
+    const sunder_i_ball limit = sunder_i_ball_mul(gap, gap);
+    const int turn = sunder_i_ball_sign(height), before = sunder_i_ball_sign(along);
+    *inward = turn > 0;
+    *flat = false;
+    if (!turn || !before) return false;
+    if (before < 0) {
+        *order = cmp(dot(v, v), limit);
+    } else {
+        const int beyond = cmp(along, square);
+        *flat = beyond < 0;
+        *order = *flat ? cmp(sunder_i_ball_mul(height, height), sunder_i_ball_mul(limit, square)) : beyond;
+    }
+    return *order != 0;
+}
+
+/* The way from c to the point, which is taken exactly before any bit is dropped: they may be near each other. */
+static rough_vector exact_way(sunder_i_arena *a, const sunder_i_surd_point *at, sunder_i_rational_point c)
+{
+    const sunder_i_surd x =
+        sunder_i_surd_sub(a, sunder_i_surd_scale(a, at->x, c.w), sunder_i_surd_big(a, sunder_i_times(a, c.x, at->w)));
+    const sunder_i_surd y =
+        sunder_i_surd_sub(a, sunder_i_surd_scale(a, at->y, c.w), sunder_i_surd_big(a, sunder_i_times(a, c.y, at->w)));
+    return over(sunder_i_surd_ball(&at->roots, x), sunder_i_surd_ball(&at->roots, y), sunder_i_times(a, at->w, c.w));
+}
+
+bool sunder_i_gap_roughly_side(const sunder_i_gap_problem *p, const sunder_i_subsum *s, uint32_t k,
+                               const sunder_i_surd_point *at, int *order, bool *inward, bool *flat)
+{
+    const sunder_i_lattice *l = &p->operands->placed.lattice;
+    sunder_i_arena *a = &p->operands->placed.lattice.arena;
+    if (a->failed) return false;
+    const sunder_i_rational_point corner = sunder_i_rational_get(a, l, s->corner[k]);
+    const rough_vector c = rough_point(corner), d = rough_point(sunder_i_rational_get(a, l, s->side[k]));
+    const rough_vector t = over(sunder_i_surd_ball(&at->roots, at->x), sunder_i_surd_ball(&at->roots, at->y), at->w);
+    const rough_vector v = {sunder_i_ball_sub(t.x, c.x), sunder_i_ball_sub(t.y, c.y)};
+    if (decide(p, v, d, order, inward, flat)) return true;
+    const rough_vector way = exact_way(a, at, corner);
+    return !a->failed && decide(p, way, d, order, inward, flat);
+}
