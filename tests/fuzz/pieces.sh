@@ -3,19 +3,25 @@
 # executions and seconds to a tally; so hours can be put together of minutes, on a machine that has other work.
 #
 #   pieces.sh SECONDS [NAME ...]   a piece of so long for each of the targets (all): built if need be, one process at a time
-#   pieces.sh --keep               of what was found what is needed to cover as much, into corpus/NAME.tar.gz
+#   pieces.sh --keep               of what was found what is needed to cover as much, into corpus/NAME.tar.gz; the next pieces
+#                                  begin with that alone, for each runs all of its inputs before anything new
 #   pieces.sh --record             RECORD.md, of the tallies
 #
 # SUNDER_FUZZ_AS_BUILT=yes takes the targets as they were built last; SUNDER_FUZZ_NICE is how nice they are to other work (19).
 # State is in SUNDER_FUZZ_STATE (<build>/fuzz/pieces): inputs, tallies, and in found/ what went wrong; where there is none it
 # begins with what RECORD.md and corpus/ have. A target is done at ten million executions if it makes more than 2000 of them
-# in a second, else after eight hours of one core.
+# in a second, else after eight hours of one core. Which of the two it is its latest pieces tell, a quarter of an hour of
+# them, for what made it slow may have been mended since.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 here=$root/tests/fuzz
 export SUNDER_SOURCE=$root SUNDER_BUILD=${SUNDER_BUILD:-$root/build/release}
 state=${SUNDER_FUZZ_STATE:-$SUNDER_BUILD/fuzz/pieces}
 quick=2000 executions_wanted=10000000 hours_wanted=8
+# awk: what all pieces that take() was told of come to, and how many executions the latest of them made in a second
+# shellcheck disable=SC2016 # the words are those of awk
+tally='function take() { n += $2; s += $3; executions[++pieces] = $2; seconds[pieces] = $3 }
+    function pace(  i, e, t) { for (i = pieces; i && t < 900; --i) { e += executions[i]; t += seconds[i] } return t ? e / t : 0 }'
 mkdir -p "$state/found"
 
 targets() { for file in "$here"/fuzz_*.c; do basename "$file" .c; done; }
@@ -66,9 +72,9 @@ piece() { # NAME SECONDS
 }
 
 done_with() { # NAME: are the executions or the hours reached?
-    awk -v name="$1" -v quick=$quick -v most=$executions_wanted -v hours=$hours_wanted '
-        $1 == name { n += $2; s += $3 }
-        END { exit !(s > 0 && (n / s > quick ? n >= most : s >= 3600 * hours)) }' "$state/tally" 2>/dev/null
+    awk -v name="$1" -v quick=$quick -v most=$executions_wanted -v hours=$hours_wanted "$tally"'
+        $1 == name { take() }
+        END { exit !(s > 0 && (pace() > quick ? n >= most : s >= 3600 * hours)) }' "$state/tally" 2>/dev/null
 }
 
 keep() {
@@ -82,6 +88,8 @@ keep() {
         nice -n "${SUNDER_FUZZ_NICE:-19}" "$SUNDER_BUILD/fuzz/$name" -merge=1 -max_len=600 -rss_limit_mb=4096 "$smaller" "$state/$name" >"$state/$name.merge" 2>&1
         tar --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -C "$smaller" -cf - . | gzip -9n >"$here/corpus/$name.tar.gz"
         echo "$name: $(find "$smaller" -type f | wc -l) of $(find "$state/$name" -type f | wc -l) inputs, $(wc -c <"$here/corpus/$name.tar.gz") bytes"
+        rm -rf "${state:?}/$name"
+        mv "$smaller" "$state/$name"
     done
 }
 
@@ -90,21 +98,21 @@ record() {
         echo "# Fuzzing on record"
         echo
         echo "Written by \`bash tests/fuzz/pieces.sh --record\` on $(date +%F): all pieces of this state, on $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -n 1), with $(clang --version | head -n 1)."
-        echo "Wanted: ten million executions of a target that makes more than $quick of them in a second of a core, eight hours of a core for the others."
+        echo "Wanted: ten million executions of a target that makes more than $quick of them in a second of a core, eight hours of a core for the others; the pace is that of the latest quarter of an hour of pieces, or little more."
         echo "Edges are of the code that is built with the sanitizers, which is more than a target can come to: the whole library, of the program the folders of the readers."
         echo
         echo "| target | executions | hours of a core | in a second | edges covered, of | inputs kept | commits | wanted |"
         echo "|---|---|---|---|---|---|---|---|"
         for name in $(targets); do
             awk -v name="$name" -v quick=$quick -v most=$executions_wanted -v hours=$hours_wanted \
-                -v inputs="$(tar -tzf "$here/corpus/$name.tar.gz" 2>/dev/null | grep -vc '/$')" '
-                $1 == name { n += $2; s += $3; run = $4; all = $5; of = split($6, commit, ",")
+                -v inputs="$(tar -tzf "$here/corpus/$name.tar.gz" 2>/dev/null | grep -vc '/$')" "$tally"'
+                $1 == name { take(); run = $4; all = $5; of = split($6, commit, ",")
                     for (c = 1; c <= of; ++c) if (!(commit[c] in seen)) { seen[commit[c]]; commits = commits (commits ? ", " : "") commit[c] } }
                 END {
                     if (!s) exit
-                    if (n / s > quick) wanted = n >= most ? "reached" : sprintf("%.0f %% of the executions", 100 * n / most)
+                    if (pace() > quick) wanted = n >= most ? "reached" : sprintf("%.0f %% of the executions", 100 * n / most)
                     else wanted = s >= 3600 * hours ? "reached" : sprintf("%.0f %% of the hours", 100 * s / 3600 / hours)
-                    printf "| `%s` | %d | %.3f | %d | %d of %d | %d | %s | %s |\n", name, n, s / 3600, n / s, run, all, inputs, commits, wanted
+                    printf "| `%s` | %d | %.3f | %d | %d of %d | %d | %s | %s |\n", name, n, s / 3600, pace(), run, all, inputs, commits, wanted
                 }' "$state/tally"
         done
     } >"$here/RECORD.md"
