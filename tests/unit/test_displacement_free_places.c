@@ -1,7 +1,7 @@
 /* Free places in crowds of convex obstacles, which the search takes through cells: the nearest one is free, and as near
  * as the nearest of all feet of perpendiculars and all crossings of sides that are free, each tested against all. */
 #include "base/watch.h"
-#include "displacement/obstacles/free_places.h"
+#include "displacement/obstacles/grown_cache.h"
 #include "random.h"
 
 #include <math.h>
@@ -161,6 +161,48 @@ static void test_corners(void **state)
     sunder_i_obstacles_free(&o);
 }
 
+/* What was kept is added again as it was, whatever was added before, until there is too much of it. */
+static void test_kept(void **state)
+{
+    (void)state;
+    enum { ROUNDS = 40 };
+    sunder_i_grown_cache cache = {0};
+    size_t found = 0;
+    for (uint64_t round = 0; round < ROUNDS; round++) {
+        rng r = rng_start(2, round / 2);
+        static crowd c;
+        sunder_i_obstacles o = {0}, again = {0};
+        draw(&r, &c);
+        for (size_t k = 0; k < c.n; k++) {
+            const sunder_i_grown_key key = {k, {c.target[0], c.target[1]}, 0.1};
+            sunder_i_obstacles_add(&o, c.corner[k][0], c.corners[k], key.gap);
+            assert_true(o.n == k + 1);
+            if (sunder_i_grown_cache_add(&cache, &key, &again)) {
+                found++;
+                assert_true(round % 2);
+            } else {
+                sunder_i_obstacles_add(&again, c.corner[k][0], c.corners[k], key.gap);
+                assert_true(sunder_i_grown_cache_keep(&cache, &key, &again));
+            }
+        }
+        assert_true(again.n == o.n && again.walls == o.walls);
+        for (size_t k = 0; k < o.n; k++) {
+            assert_int_equal(again.obstacle[k].wall, o.obstacle[k].wall);
+            assert_memory_equal(again.obstacle[k].box, o.obstacle[k].box, sizeof o.obstacle[k].box);
+        }
+        for (size_t k = 0; k < o.walls; k++) {
+            assert_int_equal(again.wall[k].obstacle, o.wall[k].obstacle);
+            assert_memory_equal(again.wall[k].from, o.wall[k].from, sizeof o.wall[k].from);
+            assert_memory_equal(again.wall[k].to, o.wall[k].to, sizeof o.wall[k].to);
+        }
+        assert_memory_equal(again.line, o.line, o.walls * sizeof *o.line);
+        sunder_i_obstacles_free(&o);
+        sunder_i_obstacles_free(&again);
+    }
+    assert_true(found > 100);
+    sunder_i_grown_cache_free(&cache);
+}
+
 static bool go_on_once(void *user)
 {
     bool *asked = user, go_on = !*asked;
@@ -196,6 +238,6 @@ static void test_stopped(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_crowds), cmocka_unit_test(test_corners),
-                                       cmocka_unit_test(test_stopped)};
+                                       cmocka_unit_test(test_kept), cmocka_unit_test(test_stopped)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -264,8 +264,11 @@ static double distance_of(const harvest *h, size_t shelf)
 /* Feet on the walls, then crossings of walls. */
 static void search(harvest *h, walls *all)
 {
-    for (size_t k = 0; k < SHELVES && distance_of(h, k) <= reach_of(h); k++)
+    for (size_t k = 0; k < SHELVES; k++) {
+        if (all->first[k] == all->first[k + 1]) continue;
+        if (!(distance_of(h, k) <= reach_of(h))) break;
         if (!search_shelf(h, all, k)) return;
+    }
     for (size_t k = 0; k < all->left_out; k++)
         if (all->covered[k] <= reach_of(h)) h->work += work_of(h->obstacles->n);
     for (size_t k = 0; k < all->bares && k < MOST_CROSSED && all->bare[k].distance <= reach_of(h); k++)
@@ -292,6 +295,15 @@ static bool is_beyond(const sunder_i_obstacle *obstacle, const double target[2],
     return sum > square;
 }
 
+/* Is the line of the wall farther from the target than that, by more than rounding makes of it? */
+static bool is_line_beyond(const sunder_i_obstacle_side *wall, const double target[2], double limit)
+{
+    const double x = wall->n[0] * target[0], y = wall->n[1] * target[1];
+    const double size =
+        fabs(x) + fabs(y) + fabs(wall->from[0]) + fabs(wall->from[1]) + fabs(wall->to[0]) + fabs(wall->to[1]);
+    return fabs(x + y - wall->h) > limit * (1 + 0x1p-20) + 0x1p-40 * size;
+}
+
 /* Walls that may matter, of those within the limit, by about how far they are: into list. Most are farther off, by
  * squares, which are told apart from the limit's by more than rounding makes of them. Returns how many. */
 static size_t gather(const harvest *h, near_wall *list, walls *all)
@@ -305,6 +317,7 @@ static size_t gather(const harvest *h, near_wall *list, walls *all)
         for (size_t k = obstacle->wall; k < obstacle->wall + obstacle->walls; k++) {
             const sunder_i_obstacle_side *w = &o->wall[k];
             double x[2];
+            if (is_line_beyond(w, h->target, h->limit)) continue;
             nearest_on(w, h->target, x);
             const double dx = x[0] - h->target[0], dy = x[1] - h->target[1];
             if (dx * dx + dy * dy > beyond) continue;
@@ -344,14 +357,16 @@ size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2],
     harvest h = {.obstacles = o, .target = target, .limit = limit, .spread = spread, .place = places};
     h.distance = distance;
     h.most = most < MOST_PLACES ? most : MOST_PLACES;
-    h.order = sunder_i_alloc(o->n, sizeof *h.order);
-    walls all = {.near = sunder_i_alloc(o->walls, sizeof *all.near),
-                 .bare = sunder_i_alloc(o->walls, sizeof *all.bare),
-                 .covered = sunder_i_alloc(o->walls, sizeof *all.covered)};
-    near_wall *list = sunder_i_alloc(o->walls, sizeof *list);
-    if (!h.order || !all.bare || !all.near || !all.covered || !list || o->failed) {
+    const size_t each = 2 * sizeof(near_wall) + sizeof(sunder_i_obstacle_side) + sizeof(double);
+    char *memory = sunder_i_alloc(o->walls * each + o->n * sizeof *h.order, 1);
+    if (!memory || o->failed) {
         *failed = true;
     } else if (h.most) {
+        walls all = {.near = (near_wall *)(void *)memory};
+        near_wall *list = all.near + o->walls;
+        all.bare = (sunder_i_obstacle_side *)(void *)(list + o->walls);
+        all.covered = (double *)(void *)(all.bare + o->walls);
+        h.order = (uint32_t *)(void *)(all.covered + o->walls);
         for (size_t k = 0; k < o->n; k++) h.order[k] = (uint32_t)k;
         offer(&h, target);
         if (h.n == 0 && !sunder_i_cells_make(o, target, limit, &h.cells)) *failed = true;
@@ -364,10 +379,6 @@ size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2],
     SUNDER_I_CHECK(check(&h), h.n);
     *steps += h.work + 2 * o->walls;
     sunder_i_cells_free(&h.cells);
-    sunder_i_free(h.order);
-    sunder_i_free(all.bare);
-    sunder_i_free(all.near);
-    sunder_i_free(all.covered);
-    sunder_i_free(list);
+    sunder_i_free(memory);
     return h.n;
 }

@@ -31,21 +31,25 @@ double sunder_i_obstacle_slack(const sunder_i_obstacle *obstacle)
 }
 
 /* A wall with normal n through the corner c, ends to be filled in: for now it starts at that corner, which
- * close_walls() moves out. */
+ * close_walls() moves out. There is room for it. */
 static inline void add_normal(sunder_i_obstacles *o, const double n[2], const double c[2], double gap)
 {
-    if (o->failed || (o->walls == o->wall_capacity &&
-                      !sunder_i_reserve(&o->wall, &o->wall_capacity, o->walls + 1, sizeof *o->wall))) {
-        o->failed = true;
-        return;
-    }
     o->wall[o->walls++] = (sunder_i_obstacle_side){
         .n = {n[0], n[1]}, .h = n[0] * c[0] + n[1] * c[1] + gap, .from = {c[0], c[1]}, .obstacle = (uint32_t)o->n};
 }
 
-/* By how much normals may turn at a round corner, and the cosine of that. */
+/* Room for so many walls more. */
+static bool reserve_walls(sunder_i_obstacles *o, size_t more)
+{
+    const size_t need = o->walls + more, first = need > FEWEST_WALLS ? need : FEWEST_WALLS;
+    if (!sunder_i_reserve(&o->wall, &o->wall_capacity, o->wall ? need : first, sizeof *o->wall)) o->failed = true;
+    return !o->failed;
+}
+
+/* By how much normals may turn at a round corner, and the cosine of that; of a polygon of so many corners. */
 typedef struct roundness {
     double turn, cosine;
+    size_t corners;
 } roundness;
 
 /* Where the gap is next to nothing beside the polygon (the margin of a
@@ -57,7 +61,7 @@ static roundness find_roundness(const double *d, size_t n, double gap)
     for (size_t k = 0; k < n; k++) sunder_i_box_include(box, d + 2 * k);
     const bool next_to_nothing = gap < NEXT_TO_NOTHING * (box[2] - box[0] + box[3] - box[1]);
     const double turn = next_to_nothing ? CORNER_TURN_AT_MOST : CORNER_TURN;
-    return (roundness){turn, cos(turn)};
+    return (roundness){turn, cos(turn), n};
 }
 
 /* The normals between those of two edges that meet in c. */
@@ -69,10 +73,22 @@ static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2
     const double turn = atan2(sine, cosine);
     const double angle = turn < -FLAT ? turn + 2 * PI : turn; /* a flat piece turns by half a circle */
     const int steps = (int)ceil(angle / most->turn);
+    /* Beside these there is to be room for the corners' own. */
+    if (steps < 2 || !reserve_walls(o, (size_t)steps + most->corners)) return;
     for (int k = 1; k < steps; k++) {
         const double a = angle * k / steps, t[2] = {n[0] * cos(a) - n[1] * sin(a), n[0] * sin(a) + n[1] * cos(a)};
         add_normal(o, t, c, gap);
     }
+}
+
+/* The lines of the obstacle whose walls and box are there. */
+static void end_obstacle(sunder_i_obstacles *o)
+{
+    const sunder_i_obstacle *obstacle = &o->obstacle[o->n];
+    const double slack = sunder_i_obstacle_slack(obstacle);
+    for (size_t k = obstacle->wall; k < o->walls; k++)
+        o->line[k] = (sunder_i_obstacle_line){{o->wall[k].n[0], o->wall[k].n[1]}, o->wall[k].h - slack};
+    o->n++;
 }
 
 /* Consecutive walls meet: at the corner itself without a gap, else where their lines cross, the corner moved out along
@@ -91,10 +107,7 @@ static void close_walls(sunder_i_obstacles *o, size_t first, double gap)
         for (int i = 0; i < 2; i++) w->from[i] = before->to[i] = c[i];
         sunder_i_box_include(obstacle->box, c);
     }
-    const double slack = sunder_i_obstacle_slack(obstacle);
-    for (size_t k = first; k < o->walls; k++)
-        o->line[k] = (sunder_i_obstacle_line){{o->wall[k].n[0], o->wall[k].n[1]}, o->wall[k].h - slack};
-    o->n++;
+    end_obstacle(o);
 }
 
 void sunder_i_obstacles_add(sunder_i_obstacles *o, const double *d, size_t n, double gap)
@@ -104,11 +117,12 @@ void sunder_i_obstacles_add(sunder_i_obstacles *o, const double *d, size_t n, do
         o->failed = true;
         return;
     }
+    if (!reserve_walls(o, n)) return;
     double before[2] = {0, 0}, first_normal[2] = {0, 0};
     const double *first_corner = d;
     const roundness most = find_roundness(d, n, gap);
     bool any = false;
-    for (size_t k = 0; k < n; k++) {
+    for (size_t k = 0; k < n && !o->failed; k++) {
         const double *p = d + 2 * k, *q = d + 2 * (k + 1 < n ? k + 1 : 0);
         const double ex = q[0] - p[0], ey = q[1] - p[1], length = sqrt(ex * ex + ey * ey);
         if (!(length > 0)) continue;
@@ -128,8 +142,27 @@ void sunder_i_obstacles_add(sunder_i_obstacles *o, const double *d, size_t n, do
         o->walls = first; /* no area, no gap: no obstacle */
         return;
     }
-    if (sunder_i_reserve(&o->line, &o->line_capacity, o->walls, sizeof *o->line))
+    if (sunder_i_reserve(&o->line, &o->line_capacity, o->wall_capacity, sizeof *o->line))
         close_walls(o, first, gap);
     else
         o->failed = true;
+}
+
+void sunder_i_obstacles_add_known(sunder_i_obstacles *o, const sunder_i_obstacle_side *wall, uint32_t walls,
+                                  const double box[4])
+{
+    if (!sunder_i_reserve(&o->obstacle, &o->obstacle_capacity, o->n + 1, sizeof *o->obstacle)) o->failed = true;
+    if (o->failed || !reserve_walls(o, walls)) return;
+    if (!sunder_i_reserve(&o->line, &o->line_capacity, o->wall_capacity, sizeof *o->line)) {
+        o->failed = true;
+        return;
+    }
+    sunder_i_obstacle *obstacle = &o->obstacle[o->n];
+    obstacle->wall = (uint32_t)o->walls;
+    obstacle->walls = walls;
+    memcpy(obstacle->box, box, sizeof obstacle->box);
+    memcpy(o->wall + o->walls, wall, walls * sizeof *wall);
+    for (size_t k = o->walls; k < o->walls + walls; k++) o->wall[k].obstacle = (uint32_t)o->n;
+    o->walls += walls;
+    end_obstacle(o);
 }

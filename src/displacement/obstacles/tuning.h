@@ -14,6 +14,8 @@
 #define CORNER_TURN_AT_MOST (PI / 2 + FLAT)
 /* A turn to the right by no more than this is none: rounding of normals, where two sides lie on one line. */
 #define FLAT 1e-3
+/* Room for so many walls is made at once: of most searches that is all. */
+#define FEWEST_WALLS 128
 /* Crossings are looked for among at most this many sides, the nearest to the target: it bounds the work where a block
  * stands amid hundreds of neighbours. */
 #define MOST_CROSSED 1500
@@ -40,6 +42,13 @@
 
 /* Nearer to a corner than this share of the perimeter the direction to it is noise. */
 #define AT_A_CORNER 1e-9
+
+/* ---- Those that are kept (grown_cache.c) ------------------------------------------------------------------------- */
+
+/* Beyond so many walls all are thrown away: a megabyte. */
+#define MOST_GROWN 16384u
+#define FEWEST_GROWN 32u
+#define FEWEST_GROWN_WALLS 256u
 
 /* ---- The cache --------------------------------------------------------------------------------------------------- */
 

@@ -110,6 +110,25 @@ static bool are_near(const sunder_i_body *p, const sunder_i_body *q, const doubl
     return sunder_i_box_meet(box, q->box);
 }
 
+/* Adds the obstacle of two parts. pieces: that is what they are; else outlines, which are not kept. */
+static void add_obstacle(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body_piece *a,
+                         const sunder_i_body_piece *b, const sunder_i_relaxation *relaxation, bool pieces,
+                         const sunder_i_grown_key *key)
+{
+    const bool kept = pieces && !relaxation;
+    if (kept && sunder_i_grown_cache_add(&s->grown, key, o)) return;
+    const size_t n = sunder_i_obstacle_corners(a->corner, a->corners, b->corner, b->corners, key->offset, &s->scratch);
+    double gap = key->gap;
+    if (n == 0) {
+        s->failed = true;
+        return;
+    }
+    if (relaxation) gap = fmin(gap, sunder_i_search_shift(relaxation, b->feature, s->scratch.xy, n) + 2 * s->tolerance);
+    const size_t before = o->n;
+    sunder_i_obstacles_add(o, s->scratch.xy, n, gap);
+    if (kept && o->n > before && !sunder_i_grown_cache_keep(&s->grown, key, o)) s->failed = true;
+}
+
 /* Adds the obstacles that parts of p make for parts of q, which stands at u, of parts within reach. */
 static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, bool coarse_p,
                           const sunder_i_body *q, bool coarse_q, const double offset[2], const double u[2],
@@ -137,17 +156,13 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
                 continue;
             const sunder_i_relaxation *relaxation = relaxed ? sunder_i_search_relaxation(s, a, b) : NULL;
             if (relaxation && relaxation->inside) continue;
-            const size_t n =
-                sunder_i_obstacle_corners(a->corner, a->corners, b->corner, b->corners, offset, &s->scratch);
-            if (n == 0) {
-                s->failed = true;
-                return;
-            }
-            s->steps += OBSTACLE_WORK;
-            double gap = sunder_i_search_owed(s, a, b);
-            if (relaxation) gap = fmin(gap, sunder_i_search_shift(relaxation, b->feature, s->scratch.xy, n));
             /* A little more room than is asked, so that no rounding makes a clash of it. */
-            sunder_i_obstacles_add(o, s->scratch.xy, n, gap + 2 * s->tolerance);
+            const sunder_i_grown_key key = {(uint64_t)(p->piece + k) << 32 | (q->piece + l),
+                                            {offset[0], offset[1]},
+                                            sunder_i_search_owed(s, a, b) + 2 * s->tolerance};
+            s->steps += OBSTACLE_WORK;
+            add_obstacle(s, o, a, b, relaxation, !coarse_p && !coarse_q, &key);
+            if (s->failed) return;
         }
     }
 }

@@ -90,6 +90,7 @@ void sunder_i_search_free(sunder_i_search *s)
     sunder_i_free(s->went);
     sunder_i_free(s->about.item);
     sunder_i_free(s->scratch.xy);
+    sunder_i_grown_cache_free(&s->grown);
     sunder_i_obstacle_cache_free(&s->cache);
     sunder_i_measures_free(&s->measures);
     sunder_i_obstacles_free(&s->obstacles);

@@ -4,6 +4,7 @@
 
 #include "displacement/layer/inclusion.h"
 #include "displacement/obstacles/free_places.h"
+#include "displacement/obstacles/grown_cache.h"
 #include "displacement/obstacles/obstacle_cache.h"
 #include "displacement/obstacles/shadow.h"
 #include "displacement/programs/quadratic.h"
@@ -51,6 +52,7 @@ typedef struct sunder_i_search {
     sunder_i_list about;                          /* of the last question who is about */
     sunder_i_scratch scratch;
     sunder_i_obstacles obstacles;    /* about what a free place is looked for */
+    sunder_i_grown_cache grown;      /* obstacles of pieces as they stood there */
     sunder_i_obstacle_cache cache;   /* obstacles of pairs of pieces */
     sunder_i_measures measures;      /* what pairs miss */
     sunder_i_obstacle_edge *shifted; /* one that is not kept there */
