@@ -56,7 +56,13 @@ static inline bool sunder_i_box_meet(const double a[4], const double b[4])
 /* The same without branches, for many boxes of which nobody can guess which do. */
 static inline bool sunder_i_box_meet_any(const double a[4], const double b[4])
 {
+#ifdef __SSE2__
+    const __m128d a_before_b = _mm_cmple_pd(_mm_loadu_pd(a), _mm_loadu_pd(b + 2)),
+                  b_before_a = _mm_cmple_pd(_mm_loadu_pd(b), _mm_loadu_pd(a + 2));
+    return _mm_movemask_pd(_mm_and_pd(a_before_b, b_before_a)) == 3;
+#else
     return (a[0] <= b[2]) & (b[0] <= a[2]) & (a[1] <= b[3]) & (b[1] <= a[3]);
+#endif
 }
 
 /* The same where both may be off: do they come that near to each other? */

@@ -256,13 +256,13 @@ static void iterate(dual *q, double tolerance, unsigned steps)
 bool sunder_i_quadratic_gradient(sunder_i_quadratic *p, double softness, double tolerance, unsigned steps)
 {
     if (p->n == 0) return true;
-    double *memory = sunder_i_calloc(5 * p->n + 2 * (p->bodies + 1), sizeof *memory);
-    sunder_i_link *link = sunder_i_alloc(p->n, sizeof *link + sizeof(uint32_t));
-    if (!memory || !link) {
-        sunder_i_free(memory);
-        sunder_i_free(link);
-        return false;
-    }
+    const size_t numbers = 5 * p->n + 2 * (p->bodies + 1),
+                 need = numbers * sizeof(double) + p->n * (sizeof(sunder_i_link) + sizeof(uint32_t));
+    _Alignas(double) char few[ON_THE_STACK];
+    double *memory = need <= sizeof few ? (double *)(void *)few : sunder_i_alloc(need, 1);
+    if (!memory) return false;
+    memset(memory, 0, numbers * sizeof *memory);
+    sunder_i_link *link = (sunder_i_link *)(void *)(memory + numbers);
     sunder_i_links_make(p, link);
     dual q = {.p = p,
               .n = p->n,
@@ -282,7 +282,6 @@ bool sunder_i_quadratic_gradient(sunder_i_quadratic *p, double softness, double 
     }
     iterate(&q, tolerance / 2, steps);
     store(&q);
-    sunder_i_free(memory);
-    sunder_i_free(link);
+    if (need > sizeof few) sunder_i_free(memory);
     return true;
 }

@@ -123,7 +123,9 @@ static void sweep_acting(sweeping *s)
 static bool sweep(sunder_i_quadratic *p, double softness, double tolerance)
 {
     const size_t places = 2 * (p->bodies + 1);
-    char *memory = sunder_i_alloc(p->n * (sizeof(sunder_i_link) + sizeof(uint32_t)) + places * sizeof(double), 1);
+    const size_t need = p->n * (sizeof(sunder_i_link) + sizeof(uint32_t)) + places * sizeof(double);
+    _Alignas(double) char few[ON_THE_STACK];
+    char *memory = need <= sizeof few ? few : sunder_i_alloc(need, 1);
     if (!memory) return false;
     sweeping s = {.p = p, .softness = softness, .link = (sunder_i_link *)(void *)memory};
     s.t = (double *)(void *)(s.link + p->n);
@@ -141,7 +143,7 @@ static bool sweep(sunder_i_quadratic *p, double softness, double tolerance)
         else if (sweep_all(&s) <= tolerance)
             break;
     }
-    sunder_i_free(memory);
+    if (need > sizeof few) sunder_i_free(memory);
     return true;
 }
 

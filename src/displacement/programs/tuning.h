@@ -8,6 +8,8 @@
 /* Programs with more constraints go to the interior point method at once: the dual methods are quick for the dozens of
  * contacts of almost every cluster, and had not ended after minutes for one of 300 blocks of a dense old town. */
 #define MOST_QUICK 1500
+/* What a small program takes is kept on the stack, up to so many bytes: most have a dozen constraints. */
+#define ON_THE_STACK 4096
 /* Passes of Hildreth's method, every fourth over all constraints, the others over those that act: enough to tell which
  * act, the forces are left to what follows. */
 #define SWEEPS 40

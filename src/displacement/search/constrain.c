@@ -194,7 +194,7 @@ bool sunder_i_search_constrain_further(sunder_i_search *s)
     const bool beyond = sunder_i_search_constrain_limits(s);
     sort_constraints(s);
     const size_t before = s->program.n;
-    sunder_i_constraint *known = sunder_i_alloc(before, sizeof *known);
+    sunder_i_constraint few[FEW_KNOWN], *known = before <= FEW_KNOWN ? few : sunder_i_alloc(before, sizeof *known);
     if (!known) {
         s->failed = true;
         return false;
@@ -202,7 +202,7 @@ bool sunder_i_search_constrain_further(sunder_i_search *s)
     if (before) memcpy(known, s->program.constraint, before * sizeof *known);
     constrain_met(s, known, before);
     const bool more = beyond || s->program.n > before;
-    sunder_i_free(known);
+    if (known != few) sunder_i_free(known);
     sort_constraints(s);
     return more;
 }

@@ -1,5 +1,6 @@
 /* Which bodies of a cluster stand near each other: a sweep over their boxes from left to right. */
 #include "displacement/search/search.h"
+#include "displacement/search/tuning.h"
 
 #include "base/sort.h"
 
@@ -17,7 +18,7 @@ static int by_left(const void *a, const void *b)
 static bool sort_boxes(sunder_i_search *s, const double *t, double reach, bool or_home)
 {
     const double *o = s->model->body[s->body[0]].origin;
-    const double **left = sunder_i_alloc(s->n, sizeof *left);
+    const double *few[FEW_BODIES], **left = s->n <= FEW_BODIES ? few : sunder_i_alloc(s->n, sizeof *left);
     if (!left) return false;
     for (size_t k = 0; k < s->n; k++) {
         const sunder_i_body *b = &s->model->body[s->body[k]];
@@ -32,7 +33,7 @@ static bool sort_boxes(sunder_i_search *s, const double *t, double reach, bool o
     }
     sunder_i_sort_few(left, s->n, sizeof *left, by_left);
     for (size_t k = 0; k < s->n; k++) s->order[k] = (uint32_t)((size_t)(left[k] - s->box) / 4);
-    sunder_i_free(left);
+    if (left != few) sunder_i_free(left);
     return true;
 }
 

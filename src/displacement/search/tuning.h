@@ -69,6 +69,14 @@
 /* Descents after jumps, before pairs are given up. */
 #define MOST_JUMPS 3
 
+/* No more than so many constraints are remembered on the stack (constrain.c). */
+#define FEW_KNOWN 32
+
+/* ---- Who stands near whom (near.c) ------------------------------------------------------------------------------- */
+
+/* No more than so many bodies are sorted on the stack. */
+#define FEW_BODIES 64
+
 /* ---- Pieces that face each other (piece_pairs.c) ----------------------------------------------------------------- */
 
 /* So many parts of the one body are looked at in one go, with no more than so many pieces of the other beforehand: both
