@@ -261,6 +261,7 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
     if (!status) status = sunder_i_report_crowd_needs(report, s, false, err);
     if (!status) status = sunder_i_solver_is_upheld(s, &report->summary.verified, err);
     if (status) return status;
+    sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
     sunder_i_report_moves(report, &s->model);
     status = sunder_i_report_worlds(report, s, err);
     if (status) return status;

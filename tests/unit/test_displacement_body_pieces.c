@@ -99,6 +99,36 @@ static void test_made_when_asked(void **state)
     scene_end(&s);
 }
 
+/* What was forgotten is made again as it was. */
+static void test_forgotten(void **state)
+{
+    (void)state;
+    scene s;
+    scene_model of;
+    draw(&s);
+    scene_model_related(&of, &s);
+    for (size_t b = 0; b < of.model.bodies; b++) {
+        const sunder_i_body *body = &of.model.body[b];
+        double corner[2 * 64];
+        size_t n = 0;
+        const sunder_i_body_pieces *pieces = sunder_i_pieces_of(&of.model, body);
+        for (uint32_t k = 0; k < body->pieces; n += pieces->piece[k++].corners)
+            memcpy(corner + 2 * n, pieces->piece[k].corner, 2 * pieces->piece[k].corners * sizeof *corner);
+        assert_non_null(sunder_i_outlines_of(&of.model, body));
+        sunder_i_pieces_forget(&of.model, SIZE_MAX);
+        assert_ptr_equal(of.model.made[b], pieces);
+        sunder_i_pieces_forget(&of.model, 0);
+        assert_null(of.model.made[b]);
+        pieces = sunder_i_pieces_of(&of.model, body);
+        n = 0;
+        for (uint32_t k = 0; k < body->pieces; n += pieces->piece[k++].corners)
+            assert_memory_equal(corner + 2 * n, pieces->piece[k].corner, 2 * pieces->piece[k].corners * sizeof *corner);
+        check_outlines(&of.model, body);
+    }
+    scene_model_end(&of);
+    scene_end(&s);
+}
+
 enum { ASKING = 4000 };
 
 typedef struct asking {
@@ -143,6 +173,7 @@ static void test_many_ask(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_made_when_asked), cmocka_unit_test(test_many_ask)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_made_when_asked), cmocka_unit_test(test_forgotten),
+                                       cmocka_unit_test(test_many_ask)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -85,6 +85,7 @@ sunder_status sunder_i_solver_improve(sunder_i_solver *s, sunder_error *err)
     if (!status) status = sunder_i_solver_unite_blocks(s, err);
     if (!status) status = sunder_i_solver_for_clusters(s, improve_clusters, s, err);
     if (status) return status;
+    sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
     sunder_i_solver_commit(s);
     for (size_t k = 0; k < s->clusters; k++) {
         const sunder_i_cluster *c = &s->cluster[k];

@@ -32,6 +32,7 @@ void sunder_i_groups_free(sunder_i_groups *g)
 
 typedef struct gathering {
     const sunder_i_solver *solver;
+    sunder_i_model *model; /* of that: what was looked at is forgotten on the way */
     uint32_t *parent;
     bool *counts;        /* [bodies] what moved, or is in conflict, and what is in contact with such */
     sunder_i_list queue; /* of these, those whose contacts are to be looked for */
@@ -112,8 +113,10 @@ static bool flood(gathering *g)
         sunder_i_union_join(g->parent, joined->a, joined->b);
         if (!count(g, joined->a) || !count(g, joined->b)) return false;
     }
-    for (size_t k = 0; k < g->queue.n; k++)
+    for (size_t k = 0; k < g->queue.n; k++) {
         if (!sunder_i_step() || !join_contacts(g, g->queue.item[k])) return false;
+        sunder_i_pieces_forget(g->model, SUNDER_I_PIECES_HELD);
+    }
     return true;
 }
 
@@ -265,6 +268,7 @@ static sunder_status make_groups(const gathering *g, sunder_i_groups *groups, su
 sunder_status sunder_i_solver_gather_groups(sunder_i_solver *s, sunder_error *err)
 {
     gathering g = {.solver = s,
+                   .model = &s->model,
                    .parent = sunder_i_alloc(s->model.bodies, sizeof *g.parent),
                    .counts = sunder_i_calloc(s->model.bodies, sizeof *g.counts)};
     if (!s->groups.spent) s->groups.spent = sunder_i_calloc(s->model.bodies, sizeof *s->groups.spent);

@@ -170,6 +170,7 @@ sunder_status sunder_i_solver_settle(sunder_i_solver *s, double from, double to,
         if (!status) status = sunder_i_solver_for_clusters(s, solve_clusters, s, err);
         s->hopeless = !status && is_hopeless(s);
         if (status || s->hopeless) return status;
+        sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
         sunder_i_solver_commit(s);
         note_solved(s);
         for (size_t k = 0; k < s->members; k++) s->carrier[s->body[k]] = SUNDER_I_NOBODY;

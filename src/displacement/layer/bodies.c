@@ -55,9 +55,8 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
     for (size_t f = 0; f < model->things; f++)
         if (model->present[f]) pieces += sunder_i_thing_shape(model, f)->pieces;
     if (pieces >= UINT32_MAX) return sunder_i_fail(err, SUNDER_ESIZE, "too many pieces: %zu", pieces);
-    model->made = sunder_i_calloc(model->bodies, sizeof *model->made);
     model->whole = sunder_i_calloc(model->bodies, sizeof *model->whole);
-    if (!model->made || !model->whole) return sunder_i_no_memory(err);
+    if (!sunder_i_pieces_begin(model) || !model->whole) return sunder_i_no_memory(err);
     cut_all(model);
     return sunder_i_inclusion_walls(model, err);
 }

@@ -3,7 +3,9 @@
  * All of a layer would take more room than its shapes do, and of most bodies of a large one nobody asks: they have no
  * part in a conflict, and none that has comes near. So a body's pieces are made when they are first asked for. What is
  * made depends on the body alone, so it is the same whoever asks first; where several threads do at a time one of them
- * leaves its own to all. What is made stays until the model goes. */
+ * leaves its own to all. What is made stays until the model goes, or, where it is much, until a stage is over and
+ * nobody looks at any (sunder_i_pieces_forget): of what a stage looks at the next one looks at a part, and to make it
+ * once more is next to nothing beside looking for a place. So it all lies in chunks that go at once. */
 #include "displacement/layer/model.h"
 
 #include "base/invariant.h"
@@ -11,8 +13,15 @@
 #include "shape/shape.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+
+struct sunder_i_pieces_store {
+    pthread_mutex_t lock;
+    sunder_i_arena arena;
+    size_t held; /* bytes */
+};
 
 /* ---- Outlines ---------------------------------------------------------------------------------------------------- */
 
@@ -145,6 +154,16 @@ static const char *check(const sunder_i_body *body, const sunder_i_body_pieces *
 }
 #endif
 
+/* NULL if memory is out. */
+static void *take_room(struct sunder_i_pieces_store *store, size_t bytes)
+{
+    pthread_mutex_lock(&store->lock);
+    void *room = sunder_i_arena_alloc(&store->arena, bytes, 1);
+    store->held += bytes;
+    pthread_mutex_unlock(&store->lock);
+    return room;
+}
+
 /* All in one block: the struct, pieces, anchors, corners, runs. NULL if memory is out. */
 static sunder_i_body_pieces *make(const sunder_i_model *model, const sunder_i_body *body)
 {
@@ -156,7 +175,7 @@ static sunder_i_body_pieces *make(const sunder_i_model *model, const sunder_i_bo
         if (model->present[member[m]]) corners += corners_of(sunder_i_thing_shape(model, member[m]));
     const size_t of_pieces = ((size_t)body->pieces + anchors) * sizeof(sunder_i_body_piece),
                  of_doubles = (2 * corners + 4 * (size_t)runs) * sizeof(double);
-    sunder_i_body_pieces *made = sunder_i_alloc(sizeof *made + of_pieces + of_doubles, 1);
+    sunder_i_body_pieces *made = take_room(model->store, sizeof *made + of_pieces + of_doubles);
     if (!made) return NULL;
     sunder_i_body_piece *piece = (sunder_i_body_piece *)(made + 1), *anchor = piece + body->pieces, *at = piece;
     double *corner = (double *)(anchor + anchors), *run = corner + 2 * corners;
@@ -175,7 +194,6 @@ const sunder_i_body_pieces *sunder_i_pieces_make(const sunder_i_model *model, co
 {
     sunder_i_body_pieces *made = make(model, body), *before = NULL;
     if (!made || atomic_compare_exchange_strong(&model->made[body - model->body], &before, made)) return made;
-    sunder_i_free(made);
     return before;
 }
 
@@ -215,10 +233,43 @@ const sunder_i_body_piece *sunder_i_outlines_of(const sunder_i_model *model, con
     return before;
 }
 
-void sunder_i_pieces_free(sunder_i_body_pieces *pieces)
+/* ---- Kept, and forgotten ----------------------------------------------------------------------------------------- */
+
+bool sunder_i_pieces_begin(sunder_i_model *model)
 {
-    if (pieces) sunder_i_free(pieces->outline);
-    sunder_i_free(pieces);
+    model->made = sunder_i_calloc(model->bodies, sizeof *model->made);
+    model->store = sunder_i_calloc(1, sizeof *model->store);
+    if (!model->made || !model->store) return false;
+    sunder_i_arena_init(&model->store->arena);
+    pthread_mutex_init(&model->store->lock, NULL);
+    return true;
+}
+
+static void forget(sunder_i_model *model)
+{
+    for (size_t b = 0; b < model->bodies; b++) {
+        sunder_i_body_pieces *pieces = atomic_load_explicit(&model->made[b], memory_order_relaxed);
+        if (!pieces) continue;
+        sunder_i_free(pieces->outline);
+        atomic_store_explicit(&model->made[b], NULL, memory_order_relaxed);
+    }
+    sunder_i_arena_free(&model->store->arena);
+    model->store->held = 0;
+}
+
+void sunder_i_pieces_forget(sunder_i_model *model, size_t most)
+{
+    if (model->store->held > most) forget(model);
+}
+
+void sunder_i_pieces_end(sunder_i_model *model)
+{
+    if (model->made && model->store) {
+        forget(model);
+        pthread_mutex_destroy(&model->store->lock);
+    }
+    sunder_i_free(model->made);
+    sunder_i_free(model->store);
 }
 
 /* ---- As given ---------------------------------------------------------------------------------------------------- */

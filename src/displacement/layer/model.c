@@ -14,8 +14,7 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_shape_free(model->disc);
     sunder_i_free(model->read);
     sunder_i_free(model->went);
-    for (size_t b = 0; model->made && b < model->bodies; b++) sunder_i_pieces_free(model->made[b]);
-    sunder_i_free(model->made);
+    sunder_i_pieces_end(model);
     sunder_i_free(model->body_of);
     sunder_i_free(model->member);
     sunder_i_free(model->body);

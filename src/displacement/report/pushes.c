@@ -161,7 +161,10 @@ sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *s, 
     if (status) return status;
     pressing p = {.solver = s, .waived = {.pair = s->groups.waived, .n = s->groups.waived_n}, .report = report};
     bool ok = true;
-    for (size_t k = 0; k < s->groups.n && ok; k++) ok = press(&p, &s->groups.group[k]);
+    for (size_t k = 0; k < s->groups.n && ok; k++) {
+        ok = press(&p, &s->groups.group[k]);
+        sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
+    }
     sunder_i_free(p.program.constraint);
     sunder_i_free(p.push);
     sunder_i_free(p.near.item);
