@@ -67,10 +67,10 @@ static sunder_status start(sunder_i_solver *s, const sunder_layer *layer, const 
     return sunder_i_count_thin_overlaps(&s->model, &s->placement, &s->start, *report, err);
 }
 
-/* Most layers leave nothing to be proved. */
-static sunder_status find_seams_for_proofs(sunder_i_solver *s, bool wanted, sunder_error *err)
+/* Most layers leave nothing to be proved, or little. */
+static sunder_status find_seams_for_proofs(sunder_i_solver *s, sunder_error *err)
 {
-    return wanted ? sunder_i_model_find_seams(&s->model, err) : SUNDER_OK;
+    return s->model.given_up_n ? sunder_i_report_find_seams(s, err) : SUNDER_OK;
 }
 
 /* What else is settled beforehand: the bodies in doubles, relations as they stand. */
@@ -78,7 +78,7 @@ static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
 {
     sunder_status status = sunder_i_model_cut(&s->model, err);
     if (!status) status = sunder_i_model_anchor(&s->model, err);
-    if (!status) status = find_seams_for_proofs(s, sunder_i_has_bare_barriers(&s->model), err);
+    if (!status && sunder_i_has_bare_barriers(&s->model)) status = sunder_i_model_find_seams(&s->model, err);
     if (!status) status = sunder_i_solver_find_shut_in(s, err);
     if (!status) status = sunder_i_solver_init(s, err);
     if (status) return status;
@@ -127,7 +127,7 @@ static sunder_status ask_one_by_one(sunder_i_solver *s, double from, double to, 
     bool again = true;
     sunder_status status = SUNDER_OK;
     for (int round = 0; round < ASKED_ALONE && again && !status; round++) {
-        status = find_seams_for_proofs(s, s->model.given_up_n > 0, err);
+        status = find_seams_for_proofs(s, err);
         if (!status) status = sunder_i_solver_ask_one_by_one(s, &again, err);
         if (!status && again) status = sunder_i_solver_settle(s, from, to, err);
     }
@@ -146,7 +146,7 @@ static sunder_status seek(sunder_i_solver *s, double from, double to, sunder_err
     sunder_status status = sunder_i_solver_choose_holders(s, err);
     if (!status) status = sunder_i_solver_settle(s, from, from + 3 * step, err);
     for (int round = 0; round < RECONSIDERED && again && !status; round++) {
-        status = find_seams_for_proofs(s, s->model.given_up_n > 0, err);
+        status = find_seams_for_proofs(s, err);
         if (!status) status = sunder_i_solver_reconsider(s, &again, err);
         if (!status && again) status = sunder_i_solver_settle(s, from + 3 * step, from + 4 * step, err);
     }

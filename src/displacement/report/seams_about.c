@@ -7,6 +7,7 @@
  * no farther than what takes them apart for certain (alone.c). Looked at is whoever is within the gap of where one may
  * go, and, where the moves of two are asked about as one, what cannot move within the gap of where both may go
  * (proofs/plane_obstacles.c). Seams of others are never looked at: nothing changes if there are more of them. */
+#include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
 #include "base/union_find.h"
@@ -52,6 +53,13 @@ static void ask_cluster(looking *l, uint32_t b, double without)
     }
 }
 
+static void ask_pair(looking *l, uint32_t i, uint32_t j)
+{
+    const double without = 2 * sunder_i_farthest_near(&l->solver->model, i, j);
+    ask_cluster(l, i, without);
+    ask_cluster(l, j, without);
+}
+
 static void ask_all(looking *l)
 {
     const sunder_i_solver *s = l->solver;
@@ -64,11 +72,34 @@ static void ask_all(looking *l)
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
-        if (!r->near || i == j) continue;
-        const double without = 2 * sunder_i_farthest_near(model, i, j);
-        ask_cluster(l, i, without);
-        ask_cluster(l, j, without);
+        if (r->near && i != j) ask_pair(l, i, j);
     }
+}
+
+/* While it is sought: all conflicts that hang together with one that was given up, since these are asked about together
+ * (clusters/reconsider.c), and the clusters of the two, since those are by themselves. */
+static bool ask_given_up(looking *l)
+{
+    const sunder_i_solver *s = l->solver;
+    const sunder_i_model *model = &s->model;
+    if (model->given_up_n == 0) return true;
+    uint32_t *root = sunder_i_alloc(model->bodies, sizeof *root);
+    bool *asked = sunder_i_calloc(model->bodies, sizeof *asked);
+    if (root && asked) sunder_i_solver_join_conflicts(s, root);
+    for (size_t k = 0; k < model->given_up_n && root && asked; k++) {
+        const uint32_t i = model->given_up[k].a, j = model->given_up[k].b;
+        asked[root[i]] = asked[root[j]] = true;
+        ask_pair(l, i, j);
+    }
+    for (size_t k = 0; k < s->start.n && root && asked; k++) {
+        const sunder_i_relation *r = &s->start.pair[k];
+        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+        if (sunder_i_is_conflict_of_bodies(model, r) && (asked[root[i]] || asked[root[j]])) ask_pair(l, i, j);
+    }
+    const bool ok = root && asked;
+    sunder_i_free(root);
+    sunder_i_free(asked);
+    return ok;
 }
 
 /* Who stands within reach of a feature, of those that cannot move or of all. *left: how much may be looked up still.
@@ -129,7 +160,8 @@ sunder_status sunder_i_report_find_seams(sunder_i_solver *s, sunder_error *err)
                  .gathered = sunder_i_calloc(s->model.bodies, sizeof *l.gathered)};
     sunder_status status = l.far && l.met && l.gathered ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) ask_all(&l);
-    if (l.any) status = find_some(&l, &s->model, err);
+    if (!status && !ask_given_up(&l)) status = sunder_i_no_memory(err);
+    if (!status && l.any) status = find_some(&l, &s->model, err);
     sunder_i_free(l.far);
     sunder_i_free(l.met);
     sunder_i_free(l.gathered);
