@@ -261,8 +261,8 @@ double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *b
 
 /* Makes them for sunder_i_pieces_of(). */
 const sunder_i_body_pieces *sunder_i_pieces_make(const sunder_i_model *model, const sunder_i_body *body);
-/* The pieces of a body, after all are cut and anchored; they stay until they are forgotten. NULL if memory is out. Any number of threads may ask
- * at a time. */
+/* The pieces of a body, after all are cut and anchored; they stay until they are forgotten. NULL if memory is out. Any
+ * number of threads may ask at a time. */
 static inline const sunder_i_body_pieces *sunder_i_pieces_of(const sunder_i_model *model, const sunder_i_body *body)
 {
     const sunder_i_body_pieces *made = atomic_load_explicit(&model->made[body - model->body], memory_order_acquire);
@@ -273,11 +273,11 @@ const sunder_i_body_piece *sunder_i_outlines_of(const sunder_i_model *model, con
 /* The outline of a thing that is there from its body's origin, how many corners; out: room for one more than its shape
  * has, point: scratch for all of these. */
 size_t sunder_i_outline_of(const sunder_i_model *model, uint32_t thing, double *point, double *out);
-/* None are made yet, of bodies that are known. False if memory is out; sunder_i_pieces_end() takes what is there. */
+/* None are made yet, of bodies that are known. False if memory is out: sunder_i_pieces_end() frees what is there. */
 bool sunder_i_pieces_begin(sunder_i_model *model);
 void sunder_i_pieces_end(sunder_i_model *model);
-/* When nobody looks at pieces, between two stages or two questions: those that were made go if they hold more bytes than
- * that, and are made again when they are asked for. */
+/* When nobody looks at pieces, between two stages or two questions: those that were made go if they hold more bytes
+ * than that, and are made again when they are asked for. */
 void sunder_i_pieces_forget(sunder_i_model *model, size_t most);
 /* Less is not worth forgetting. */
 #define SUNDER_I_PIECES_HELD ((size_t)16 << 20)
