@@ -1,7 +1,8 @@
 /* Independent work on several threads. Which thread does what is left to chance; where the result goes is not.
  *
- * Work may ask for threads itself: it gets those that have no more to do where it is done. So the last of many items, if
- * it is a large one, is not left to one thread while the others wait, and no more threads run than were asked for. */
+ * Work may ask for threads itself: it gets those that have no more to do where it is done. So the last of many items,
+ * if it is a large one, is not left to one thread while the others wait, and no more threads run than were asked for.
+ */
 #include "base/parallel.h"
 
 #include "base/memory.h"

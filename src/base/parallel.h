@@ -21,8 +21,8 @@ enum {
  * more than those that have no more to do there. The error of the first failing piece is returned. */
 sunder_status sunder_i_parallel(unsigned threads, size_t n, size_t grain, sunder_i_work work, void *context,
                                 sunder_error *err);
-/* The same of whole items, the largest first, so that no thread begins with a large one when others have nothing more to
- * do; on one thread in their order. size: [n] */
+/* The same of whole items, the largest first, so that no thread begins with a large one when others have nothing more
+ * to do; on one thread in their order. size: [n] */
 sunder_status sunder_i_parallel_largest_first(unsigned threads, const size_t *size, size_t n, sunder_i_work work,
                                               void *context, sunder_error *err);
 

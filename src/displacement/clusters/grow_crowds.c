@@ -1,8 +1,9 @@
 /* Crowds take in whom they will run into before any of them is solved.
  *
- * What lies on each other in thousands comes apart over the ground of hundreds more, which a crowd finds out when it is
- * solved: then all of it begins anew with them, and what was solved so far was in vain. Prices of area, on a coarse grid,
- * tell as much in a fraction of the time: whose rough place is near somebody of another cluster, or alone, takes him in.
+ * What lies on each other in thousands comes apart over the ground of hundreds more, which a crowd finds out when it
+ * is solved: then all of it begins anew with them, and what was solved so far was in vain. Prices of area, on a coarse
+ * grid, tell as much in a fraction of the time: whose rough place is near somebody of another cluster, or alone, takes
+ * him in.
  * Of Italy's 10,000 symbols one crowd of 1,750 was solved, then 3,032, and then 4,323; now 4,400 are at once.
  *
  * Boxes decide, and nothing is exact: who is taken in without need is solved with the crowd as he would be without it,

@@ -19,9 +19,9 @@
  * ones twice as many. Of Germany's and Europe's symbols all that began anew twice as many cost 6 and 8 % more; Italy's
  * crowd of 4,370 costs no less where it begins anew at any growth, in half as much time again. */
 #define LARGE_GROWN_CROWD 1000
-/* How often such take in whom they will run into before they are solved; a body counts as larger by so much of its size
- * on every side there, since rough places are no nearer than that. Of Italy's symbols a crowd of 1,750 takes in 1,400 so
- * if a quarter is added, and 2,650 with half, of 2,900 that it runs into in the end. */
+/* How often such take in whom they will run into before they are solved; a body counts as larger by so much of its
+ * size on every side there, since rough places are no nearer than that. Of Italy's symbols a crowd of 1,750 takes in
+ * 1,400 so if a quarter is added, and 2,650 with half, of 2,900 that it runs into in the end. */
 #define CROWDS_GROWN 8
 #define CROWD_GROWN_BY 0.5
 

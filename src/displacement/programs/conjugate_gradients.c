@@ -7,8 +7,8 @@
  * its diagonal in G is 1. G is never formed: a product with it is a push of the bodies and a look at the stretch of
  * each constraint.
  *
- * Which forces are positive, and which way a step goes, nobody can foresee: so loops over all constraints choose between
- * two numbers that both are worked out, where they can, and do not branch. */
+ * Which forces are positive, and which way a step goes, nobody can foresee: so loops over all constraints choose
+ * between two numbers that both are worked out, where they can, and do not branch. */
 #include "displacement/programs/links.h"
 #include "displacement/programs/tuning.h"
 
