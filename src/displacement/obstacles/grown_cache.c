@@ -4,6 +4,7 @@
 
 #include "base/invariant.h"
 #include "base/list.h"
+#include "base/mix.h"
 
 #include <string.h>
 
@@ -20,18 +21,10 @@ void sunder_i_grown_cache_free(sunder_i_grown_cache *cache)
     memset(cache, 0, sizeof *cache);
 }
 
-static uint64_t mix(uint64_t so_far, double x)
-{
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    so_far = (so_far ^ bits) * UINT64_C(0x9e3779b97f4a7c15); /* odd, its bits without pattern */
-    return so_far ^ so_far >> 32;
-}
-
 /* Where that key is, or would be. */
 static grown *slot_of(const sunder_i_grown_cache *cache, const sunder_i_grown_key *key)
 {
-    const uint64_t h = mix(mix(mix(key->pieces, key->offset[0]), key->offset[1]), key->gap);
+    const uint64_t h = sunder_i_mix(sunder_i_mix(sunder_i_mix(key->pieces, key->offset[0]), key->offset[1]), key->gap);
     size_t k = (size_t)(h >> 16) & (cache->slots - 1);
     while (cache->slot[k].n && memcmp(&cache->slot[k].key, key, sizeof *key)) k = (k + 1) & (cache->slots - 1);
     return &cache->slot[k];

@@ -69,7 +69,8 @@ void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relati
 
 /* ---- seams_about.c ----------------------------------------------------------------------------------------------- */
 
-/* The seams of all bodies that questions about what is left in conflict may come to; before any is asked. */
+/* The seams of all bodies that questions about what is left in conflict, or was given up so far, may come to; before
+ * any is asked, while it is sought or reported. */
 sunder_status sunder_i_report_find_seams(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- alone.c ----------------------------------------------------------------------------------------------------- */

@@ -1,0 +1,17 @@
+/* Numbers mixed into one from which a place in a table is taken. */
+#ifndef SUNDER_I_MIX_H
+#define SUNDER_I_MIX_H
+
+#include <stdint.h>
+#include <string.h>
+
+/* With the bits of one more double; the upper half is mixed best. */
+static inline uint64_t sunder_i_mix(uint64_t so_far, double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    so_far = (so_far ^ bits) * UINT64_C(0x9e3779b97f4a7c15); /* odd, its bits without pattern */
+    return so_far ^ so_far >> 32;
+}
+
+#endif
