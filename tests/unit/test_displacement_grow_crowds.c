@@ -1,9 +1,7 @@
 /* A large crowd takes in, before it is solved, whom it needs the ground of: others that may go anywhere, alone or in
  * small crowds, and nobody else. */
 #include "random.h"
-#include "scene_model.h"
-
-#include "displacement/clusters/stages.h"
+#include "scene_solver.h"
 
 #include "base/union_find.h"
 
@@ -47,35 +45,18 @@ static void add_heap(crowd *c, rng *g, size_t n, double x, double y, double with
     for (size_t k = 0; k < n; k++) add_square(c, x + within * rng_unit(g), y + within * rng_unit(g));
 }
 
-static void join_conflicts(sunder_i_solver *s)
-{
-    for (size_t k = 0; k < s->start.n; k++) {
-        const sunder_i_relation *r = &s->start.pair[k];
-        if (sunder_i_is_conflict_of_bodies(&s->model, r))
-            assert_true(sunder_i_solver_add_edge(s, s->model.body_of[r->a], s->model.body_of[r->b]));
-    }
-}
-
 static void begin(crowd *c)
 {
     sunder_error err;
     scene_model_related_features(&c->of, c->feature, c->n, &c->options);
-    c->solver.model = c->of.model;
-    c->solver.model.standing = &c->of.placement.tree;
-    c->solver.placement = c->of.placement;
-    c->solver.start = c->of.start;
-    assert_int_equal(sunder_i_solver_init(&c->solver, &err), SUNDER_OK);
-    join_conflicts(&c->solver);
+    scene_solver_begin(&c->solver, &c->of);
     assert_int_equal(sunder_i_solver_gather(&c->solver, &err), SUNDER_OK);
     assert_int_equal(sunder_i_solver_unite_blocks(&c->solver, &err), SUNDER_OK);
 }
 
 static void end(crowd *c)
 {
-    c->solver.model = (sunder_i_model){0};
-    c->solver.placement = (sunder_i_placement){0};
-    c->solver.start = (sunder_i_relations){0};
-    sunder_i_solver_free(&c->solver);
+    scene_solver_end(&c->solver);
     scene_model_end(&c->of);
 }
 

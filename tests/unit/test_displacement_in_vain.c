@@ -2,7 +2,7 @@
  * (displacement/report/needs), is there a proof that it has no room (displacement/report/no_room), and has one by
  * itself a solution (displacement/clusters/one_by_one)? */
 #include "polyset.h"
-#include "scene_model.h"
+#include "scene_solver.h"
 
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
@@ -40,19 +40,8 @@ static void add_square(crowd *c, double x, double y, double limit)
     c->feature[c->n++] = (sunder_feature){.shape = shape, .weight = 1, .max_shift = limit, .block = -1};
 }
 
-/* Who is too close hangs together. */
-static void join_all(sunder_i_solver *solver)
-{
-    for (size_t k = 0; k < solver->start.n; k++) {
-        const sunder_i_relation *r = &solver->start.pair[k];
-        if (sunder_i_is_conflict_of_bodies(&solver->model, r))
-            assert_true(sunder_i_solver_add_edge(solver, solver->model.body_of[r->a], solver->model.body_of[r->b]));
-    }
-}
-
 static void set_up(crowd *c, size_t side, double limit)
 {
-    sunder_error err;
     memset(c, 0, sizeof *c);
     c->feature = calloc(side * side + 2, sizeof *c->feature);
     assert_non_null(c->feature);
@@ -62,20 +51,12 @@ static void set_up(crowd *c, size_t side, double limit)
     for (size_t k = 0; k < side * side; k++) add_square(c, 11 * (double)(k % side), 11 * (double)(k / side), limit);
     for (size_t k = 0; k < 2; k++) add_square(c, 11 * (double)k, 2000, limit);
     scene_model_related_features(&c->of, c->feature, c->n, &c->options);
-    c->solver.model = c->of.model;
-    c->solver.model.standing = &c->of.placement.tree;
-    c->solver.placement = c->of.placement;
-    c->solver.start = c->of.start;
-    assert_int_equal(sunder_i_solver_init(&c->solver, &err), SUNDER_OK);
-    join_all(&c->solver);
+    scene_solver_begin(&c->solver, &c->of);
 }
 
 static void end(crowd *c)
 {
-    c->solver.model = (sunder_i_model){0};
-    c->solver.placement = (sunder_i_placement){0};
-    c->solver.start = (sunder_i_relations){0};
-    sunder_i_solver_free(&c->solver);
+    scene_solver_end(&c->solver);
     scene_model_end(&c->of);
     for (size_t k = 0; k < c->n; k++) sunder_shape_free((sunder_shape *)(uintptr_t)c->feature[k].shape);
     free(c->feature);

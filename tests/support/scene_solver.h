@@ -1,0 +1,16 @@
+/* A solver over a scene's model, its conflicts joined: what unit tests of clusters begin with. What fails, fails the
+ * test. */
+#ifndef SUNDER_TESTS_SCENE_SOLVER_H
+#define SUNDER_TESTS_SCENE_SOLVER_H
+
+#include "scene_model.h"
+
+#include "displacement/clusters/stages.h"
+
+/* Of a model that is related, which stays the scene's; who is too close hangs together, and no clusters are gathered.
+ */
+void scene_solver_begin(sunder_i_solver *solver, scene_model *of);
+/* Before the model ends. */
+void scene_solver_end(sunder_i_solver *solver);
+
+#endif
