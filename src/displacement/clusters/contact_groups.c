@@ -206,10 +206,12 @@ static bool hand_on(const sunder_i_model *model, sunder_i_groups *old, sunder_i_
     bool ok = true;
     for (size_t k = 0; k < old->n && ok; k++) {
         sunder_i_group *g = &old->group[k];
-        const uint32_t heir = g->bound > 0 ? heir_of(model, g, now->of) : SUNDER_I_NOBODY;
+        const uint32_t heir = g->bound > 0 || g->shaken_at > 0 ? heir_of(model, g, now->of) : SUNDER_I_NOBODY;
         if (heir == SUNDER_I_NOBODY) continue;
         sunder_i_group *to = &now->group[at[heir]];
         if (to->done) continue;
+        to->shaken_at += g->shaken_at;
+        if (!(g->bound > 0)) continue;
         to->bound = to->bound > 0 ? nextafter(to->bound + g->bound, -INFINITY) : g->bound;
         to->asked += g->asked;
         for (size_t m = 0; m < g->n && ok; m++)

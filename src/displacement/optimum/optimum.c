@@ -280,7 +280,9 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
         return asked ? SUNDER_OK : prove_crowd(model, waived, g, steps, err);
     }
     if (movers > BRANCHED) {
-        const sunder_status status = sunder_i_group_shake(model, waived, g, steps / (asked ? 2 * AGAIN : 2), err);
+        const bool again = g->shaken_at >= ASKED_SHARE * before;
+        const sunder_status status = sunder_i_group_shake(model, waived, g, steps / (again ? 2 * AGAIN : 2), err);
+        if (!again) g->shaken_at = before;
         /* Whoever patience has sent to another side stands among others now: the next round knows whom to ask. */
         if (status || (g->shaken && g->improved)) return status;
     }

@@ -20,6 +20,7 @@ typedef struct sunder_i_group {
     double *move;         /* [2 * n] as they stand; better ones, rounded, where such are found; owned */
     double cost, bound;   /* of the moves, rounded upwards; what no layout beats, rounded downwards */
     double asked;         /* what it cost when all that is of use was asked of those whose bound it has */
+    double shaken_at;     /* what it cost when it, or those it is made of, were shaken with all the steps */
     bool held;            /* its moves are to stay */
     bool tight, blunt;    /* its moves leave no room for rounding; such did not hold, and are not looked for again */
     bool done, improved;  /* it was looked into; the moves are not what they were */

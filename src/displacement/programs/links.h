@@ -11,6 +11,9 @@ typedef struct sunder_i_link {
     double n[2], mass[2]; /* of i, of j */
 } sunder_i_link;
 
+/* x and y, which are taken together. */
+typedef double sunder_i_two __attribute__((vector_size(16), aligned(8), may_alias));
+
 /* link[p->n] */
 static inline void sunder_i_links_make(const sunder_i_quadratic *p, sunder_i_link *link)
 {
@@ -26,19 +29,19 @@ static inline void sunder_i_links_make(const sunder_i_quadratic *p, sunder_i_lin
 /* sunder_i_stretch(); t: [2 * (bodies + 1)], zero at the ground. */
 static inline double sunder_i_link_stretch(const sunder_i_link *link, const double *t)
 {
-    const double *to = t + 2 * (size_t)link->j, *from = t + 2 * (size_t)link->i;
-    return (link->n[0] * to[0] + link->n[1] * to[1]) - (link->n[0] * from[0] + link->n[1] * from[1]);
+    const sunder_i_two *at = (const sunder_i_two *)(const void *)t, n = *(const sunder_i_two *)(const void *)link->n;
+    const sunder_i_two to = n * at[link->j], from = n * at[link->i];
+    return (to[0] + to[1]) - (from[0] + from[1]);
 }
 
 /* sunder_i_push(). What it does to the ground is to be undone: forces may outgrow all numbers. */
 static inline void sunder_i_link_push(const sunder_i_link *link, double force, double *t)
 {
-    double *to = t + 2 * (size_t)link->j, *from = t + 2 * (size_t)link->i;
+    sunder_i_two *at = (sunder_i_two *)(void *)t;
+    const sunder_i_two n = *(const sunder_i_two *)(const void *)link->n;
     const double on_j = link->mass[1] * force, on_i = link->mass[0] * force;
-    to[0] += on_j * link->n[0];
-    to[1] += on_j * link->n[1];
-    from[0] -= on_i * link->n[0];
-    from[1] -= on_i * link->n[1];
+    at[link->j] += on_j * n;
+    at[link->i] -= on_i * n;
 }
 
 #endif

@@ -76,9 +76,9 @@ static void constrain_part(sunder_i_search *s, const sunder_i_piece_pair *part, 
     const sunder_i_constraint *before = look_up(s->old, s->old_n, part->key);
     double d = h.support + gap;
     /* What the position misses by less than counts as a miss is forgiven: else an exact fit, missed by a hair on two
-     * sides, would be a contradiction. */
+     * sides, would be a contradiction. (What is missed roughly is made good: forgiven each round it would add up.) */
     const double now = h.n[0] * at->u[0] + h.n[1] * at->u[1];
-    if (now < d && now >= d - s->tolerance) d = now;
+    if (!s->roughly && now < d && now >= d - s->tolerance) d = now;
     /* What does not move counts where it stands. */
     uint32_t ends[2] = {pair->i, pair->j};
     for (int e = 0; e < 2; e++) {
@@ -137,7 +137,14 @@ static void constrain(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
             reach = fmax(reach, kept_too_much(s, i, j));
         }
     }
-    constrain_pair(s, i, j, &(sighting){u, u, reach, yields, NULL, 0});
+    const double *side = u;
+    double ahead[2];
+    if (s->lead) {
+        bool other;
+        for (size_t c = 0; c < 2; c++) ahead[c] = s->lead[2 * (size_t)j + c] - s->lead[2 * (size_t)i + c];
+        if (sunder_i_search_pair(s, i, j, ahead, &other) <= s->tolerance && other == yields) side = ahead;
+    }
+    constrain_pair(s, i, j, &(sighting){u, side, reach, yields, NULL, 0});
 }
 
 /* Mostly they are sorted already. */

@@ -193,69 +193,157 @@ static double most_cost(const sunder_i_search *s)
 
 /* ---- The sequence ------------------------------------------------------------------------------------------------ */
 
-bool sunder_i_search_descend(sunder_i_search *s)
+/* A way down, between two rounds. */
+typedef struct descent {
+    sunder_i_search *s;
+    double *best;                    /* [2 n] of the places that clash the one that misses least */
+    double *lead;                    /* [2 n] of a large crowd; NULL */
+    double reach, farthest;          /* how far is looked, and how far at most */
+    double cost;                     /* where they stand, once it is free */
+    double softness;                 /* of the next compromise */
+    double missed, left;             /* the least that a program missed, and that was missed where it ended */
+    bool is_free, is_led;            /* where they stand; are the next sides those of `lead`? */
+    int clashing, idle, led_in_vain; /* rounds that clashed, that gained nothing on it, and that are not led */
+} descent;
+
+static bool is_large(const sunder_i_search *s) { return sunder_i_search_movers(s) > LARGE_CROWD_LED; }
+
+static void descent_free(descent *d)
 {
-    s->program.most_cost = most_cost(s);
-    const bool crowd = sunder_i_search_movers(s) > LARGE_CROWD;
-    const double longest_reach = fmax(s->gap / 2, s->extent / (crowd ? PART_OF_CROWD : SMALL_PART));
+    sunder_i_free(d->best);
+    sunder_i_free(d->lead);
+}
+
+static bool descent_init(descent *d, sunder_i_search *s)
+{
+    const bool crowd = sunder_i_search_movers(s) > LARGE_CROWD, large = is_large(s);
+    const double part = large ? PART_OF_LARGE_CROWD : crowd ? PART_OF_CROWD : SMALL_PART;
+    const double farthest = fmax(s->gap / 2, s->extent / part);
     /* At least a margin: who was put in a free place stands beside its pieces, a hair farther than is asked. A crowd
      * that is no longer at home is in contact all over. */
-    double reach = fmax(crowd && is_under_way(s) ? longest_reach : s->gap, 4 * s->tolerance), cost = INFINITY,
-           softness = SOFT;
-    bool free_now = false;
-    int clashing_rounds = 0, idle = 0;
-    double least_missed = INFINITY, least_left = INFINITY;
-    double *best = sunder_i_alloc(2 * s->n, sizeof *best);
-    if (!best) s->failed = true;
-    for (int round = 0; round < MOST_ROUNDS && !is_out_of_patience(s) && !s->failed; round++) {
-        const uint64_t before = sunder_i_search_work(s);
-        const bool clashing = sunder_i_search_constrain(s, reach, false);
-        if (s->failed) break;
-        double v;
-        if (clashing) {
-            v = compromise(s, softness);
-            softness = fmax(softness / HARDENING, HARDEST);
-        } else {
-            v = solve_lazily(s, 0);
-            if (v > s->tolerance) {
-                stop_short(s);
-                SUNDER_I_CHECK(check_next(s), s->n);
-            }
-        }
-        if (s->failed) break;
-        const double left = look_at_end(s);
-        const bool free_next = left <= s->tolerance;
-        const double next_cost = sunder_i_search_cost(s, s->next);
-        const double step = longest_step(s);
-        if (s->back && free_next && is_back(s)) {
-            s->steps += sunder_i_search_work(s) - before; /* the round that would follow; it counts as work */
-            break;
-        }
-        if (free_now && free_next && next_cost - HOPEFUL * (cost - next_cost) > s->hope) break;
-        if (free_now && (!free_next || next_cost >= cost - s->settled * cost)) {
-            /* The last round; one that ends in a clash was stuck numerically, and what stands is free. */
-            if (free_next && next_cost < cost) memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
-            sunder_i_free(best);
-            return true;
-        }
-        memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
-        if (!free_next && left < least_left) {
-            least_left = left;
-            memcpy(best, s->t, 2 * s->n * sizeof *best);
-        }
-        free_now = free_next;
-        cost = next_cost;
-        reach = fmin(fmax(STEPS_AHEAD * step, s->gap / LEAST_REACH), longest_reach);
-        if (free_now) continue;
-        idle = v > least_missed / 2 ? idle + 1 : 0;
-        least_missed = fmin(least_missed, v);
-        if (++clashing_rounds >= s->clashing || idle >= MOST_IDLE) break;
+    *d = (descent){.s = s,
+                   .best = sunder_i_alloc(2 * s->n, sizeof *d->best),
+                   .lead = large ? sunder_i_alloc(2 * s->n, sizeof *d->lead) : NULL,
+                   .reach = fmax(crowd && is_under_way(s) ? farthest : s->gap, 4 * s->tolerance),
+                   .farthest = farthest,
+                   .cost = INFINITY,
+                   .softness = SOFT,
+                   .missed = INFINITY,
+                   .left = INFINITY};
+    return d->best && (d->lead || !large);
+}
+
+/* The next round's sides are those of where this way leads: as much farther as it has come. Round things roll along each
+ * other, so that sides turn a little each round, and always the same way. */
+static void lead_on(descent *d, bool is_free)
+{
+    const sunder_i_search *s = d->s;
+    d->is_led = d->lead && d->is_free && is_free && d->led_in_vain == 0;
+    if (d->led_in_vain > 0) d->led_in_vain--;
+    for (size_t k = 0; k < 2 * s->n && d->is_led; k++) d->lead[k] = s->next[k] + (s->next[k] - s->t[k]);
+}
+
+/* It led astray: the next rounds take the sides of where they stand. */
+static void lead_no_more(descent *d)
+{
+    d->is_led = false;
+    d->led_in_vain = NOT_LED;
+}
+
+/* Solves the program about where they stand. Returns what it misses. */
+static double solve_round(descent *d, bool clashing)
+{
+    sunder_i_search *s = d->s;
+    if (clashing) {
+        const double v = compromise(s, d->softness);
+        d->softness = fmax(d->softness / HARDENING, HARDEST);
+        return v;
     }
-    if (!free_now && least_left < INFINITY && !s->failed) {
-        memcpy(s->t, best, 2 * s->n * sizeof *best);
+    const double v = solve_lazily(s, 0);
+    if (v > s->tolerance && !d->is_led) {
+        stop_short(s);
+        SUNDER_I_CHECK(check_next(s), s->n);
     }
-    sunder_i_free(best);
-    return free_now && !s->failed;
+    return v;
+}
+
+/* Goes to s->next, which is free or not. */
+static void take_step(descent *d, bool is_free, double left, double cost)
+{
+    sunder_i_search *s = d->s;
+    const double step = longest_step(s);
+    lead_on(d, is_free);
+    memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
+    if (!is_free && left < d->left) {
+        d->left = left;
+        memcpy(d->best, s->t, 2 * s->n * sizeof *d->best);
+    }
+    d->is_free = is_free;
+    d->cost = cost;
+    d->reach = fmin(fmax(STEPS_AHEAD * step, s->gap / LEAST_REACH), d->farthest);
+}
+
+typedef enum outcome { ON, SETTLED_DOWN, IN_VAIN } outcome;
+
+static outcome go_round(descent *d)
+{
+    sunder_i_search *s = d->s;
+    const uint64_t before = sunder_i_search_work(s);
+    s->lead = d->is_led ? d->lead : NULL;
+    const bool clashing = sunder_i_search_constrain(s, d->reach, false);
+    s->lead = NULL;
+    if (s->failed) return IN_VAIN;
+    const double v = solve_round(d, clashing);
+    if (s->failed) return IN_VAIN;
+    const double left = look_at_end(s), cost = sunder_i_search_cost(s, s->next);
+    const bool is_free = left <= s->tolerance, settled = !is_free || cost >= d->cost - s->settled * d->cost;
+    if (s->back && is_free && is_back(s)) {
+        s->steps += sunder_i_search_work(s) - before; /* the round that would follow; it counts as work */
+        return IN_VAIN;
+    }
+    if (d->is_free && is_free && cost - HOPEFUL * (d->cost - cost) > s->hope) return IN_VAIN;
+    if (d->is_led && (settled || v > s->tolerance)) {
+        lead_no_more(d);
+        if (!is_free || v > s->tolerance || !(cost < d->cost)) return ON;
+    } else if (d->is_free && settled) {
+        /* The last round; one that ends in a clash was stuck numerically, and what stands is free. */
+        if (is_free && cost < d->cost) memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
+        return SETTLED_DOWN;
+    }
+    take_step(d, is_free, left, cost);
+    if (is_free) return ON;
+    d->idle = v > d->missed / 2 ? d->idle + 1 : 0;
+    d->missed = fmin(d->missed, v);
+    return ++d->clashing >= s->clashing || d->idle >= MOST_IDLE ? IN_VAIN : ON;
+}
+
+/* From s->t, to where nothing is gained any more. */
+static bool go_down(sunder_i_search *s)
+{
+    descent d;
+    if (!descent_init(&d, s)) s->failed = true;
+    outcome last = ON;
+    for (int round = 0; round < MOST_ROUNDS && last == ON && !is_out_of_patience(s) && !s->failed; round++)
+        last = go_round(&d);
+    if (last != SETTLED_DOWN && !d.is_free && d.left < INFINITY && !s->failed)
+        memcpy(s->t, d.best, 2 * s->n * sizeof *s->t);
+    descent_free(&d);
+    return last == SETTLED_DOWN || (d.is_free && !s->failed);
+}
+
+bool sunder_i_search_descend(sunder_i_search *s)
+{
+    const double tolerance = s->tolerance, settled = s->settled;
+    s->program.most_cost = most_cost(s);
+    if (!is_large(s)) return go_down(s);
+    s->tolerance = fmax(tolerance, ROUGHLY * s->extent);
+    s->settled = fmax(settled, ROUGHLY_SETTLED);
+    s->roughly = true;
+    const bool found = go_down(s);
+    s->roughly = false;
+    s->tolerance = tolerance;
+    s->settled = settled;
+    return found && go_down(s);
 }
 
 bool sunder_i_search_make_good(sunder_i_search *s)

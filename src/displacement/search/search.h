@@ -23,7 +23,8 @@ typedef struct sunder_i_search {
     size_t n, own;              /* ascending up to `own`, and from there on */
     uint32_t *listed;           /* their list, where it is the search's own */
     double gap;                 /* the gap and the margin */
-    double tolerance;           /* a violation below this counts as none: a quarter of the margin */
+    double tolerance;           /* a violation below this counts as none: a quarter of the margin, or ... */
+    bool roughly;               /* ... so much that it is to be made good yet */
     double *mass;               /* [n] 1 / (2 weight), or 0 */
     double *place;              /* [2 n] of a large crowd: where each comes from; NULL */
     bool *away;                 /* [n] taken out: not there for others that look for room */
@@ -62,6 +63,7 @@ typedef struct sunder_i_search {
     uint64_t steps, effort; /* work done, in constraints looked at; how much may be done for better sides */
     int clashing;           /* rounds that end in a clash before a descent gives up */
     uint64_t patience;      /* a descent gives up when so much has been done ... */
+    const double *lead;     /* [2 n] pairs that are free here get the sides that they have here; NULL */
     const double *back;     /* [2 n] ... or when it comes back to here; NULL */
     double hope;            /* ... or, from a free position, when it is not going to cost less than this; INFINITY */
     bool failed;            /* memory is out */
