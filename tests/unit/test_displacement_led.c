@@ -1,0 +1,148 @@
+/* displacement/search: a pair that is free where its way leads gets the sides that it has there, another those of where
+ * it stands; what is missed roughly is not forgiven; and a large crowd that goes down roughly first stands free in the
+ * end to the last digit, and has nothing left to gain. */
+#include "polyset.h"
+#include "scene_model.h"
+
+#include "displacement/search/stages.h"
+#include "displacement/search/tuning.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { SIDE = 33, MOST = SIDE * SIDE, CORNERS = 12 };
+
+/* Round things of a radius of 6 in a field of so many by so many, so far from each other. */
+typedef struct field {
+    sunder_feature feature[MOST];
+    size_t n;
+    uint32_t body[MOST];
+    double move[2 * MOST];
+    scene_model of;
+    sunder_i_search search;
+} field;
+
+static sunder_shape *make_round(double x, double y)
+{
+    char wkt[CORNERS * 60 + 100];
+    size_t at = (size_t)snprintf(wkt, sizeof wkt, "POLYGON ((");
+    for (int k = 0; k <= CORNERS; k++) {
+        const double angle = 6.283185307179586 * (k % CORNERS) / CORNERS;
+        at += (size_t)snprintf(wkt + at, sizeof wkt - at, "%s%.17g %.17g", k ? ", " : "", x + 6 * cos(angle),
+                               y + 6 * sin(angle));
+    }
+    snprintf(wkt + at, sizeof wkt - at, "))");
+    sunder_shape *shape = polyset_shape_of_wkt(wkt);
+    assert_non_null(shape);
+    return shape;
+}
+
+static field *begin(size_t columns, size_t rows, double apart)
+{
+    field *f = calloc(1, sizeof *f);
+    assert_non_null(f);
+    sunder_layer_options options;
+    sunder_layer_options_init(&options);
+    options.gap = 1;
+    options.no_blocks = options.allow_jumps = true;
+    for (f->n = 0; f->n < columns * rows; f->n++) {
+        /* Rows are shifted by some of the distance, each by another. */
+        const double row = (double)(f->n / columns), x = apart * ((double)(f->n % columns) + fmod(0.381 * row, 1));
+        f->body[f->n] = (uint32_t)f->n;
+        f->feature[f->n] =
+            (sunder_feature){.shape = make_round(x, apart * row), .weight = 1, .max_shift = INFINITY, .block = -1};
+    }
+    scene_model_related_features(&f->of, f->feature, f->n, &options);
+    assert_true(sunder_i_search_init(&f->search, &f->of.model, f->body, f->n, 0x1p-30, f->move));
+    assert_int_equal(sunder_i_search_movers(&f->search), f->n);
+    return f;
+}
+
+static void end(field *f)
+{
+    sunder_i_search_free(&f->search);
+    scene_model_end(&f->of);
+    for (size_t k = 0; k < f->n; k++) sunder_shape_free((sunder_shape *)(uintptr_t)f->feature[k].shape);
+    free(f);
+}
+
+/* How far to the right the sides that one pair owes each other look, on the whole; in [-1, 1]. */
+static double look_right(sunder_i_search *s, const double *lead)
+{
+    double right = 0;
+    s->lead = lead;
+    assert_false(sunder_i_search_constrain(s, 10, false));
+    s->lead = NULL;
+    assert_true(s->program.n > 0);
+    for (size_t k = 0; k < s->program.n; k++) right += s->program.constraint[k].n[0] / (double)s->program.n;
+    return right;
+}
+
+static void test_sides_of_the_way(void **state)
+{
+    (void)state;
+    field *f = begin(2, 1, 20);
+    sunder_i_search *s = &f->search;
+    const double above[] = {0, 0, -20, 20}, within[] = {0, 0, -15, 3}, as_is[4] = {0};
+    assert_true(look_right(s, NULL) > 0.9);
+    assert_true(look_right(s, as_is) > 0.9);
+    assert_true(look_right(s, within) > 0.9);
+    assert_true(fabs(look_right(s, above)) < 0.1 && s->program.constraint[0].n[1] > 0.9);
+    end(f);
+}
+
+static void test_what_is_missed_roughly(void **state)
+{
+    (void)state;
+    field *f = begin(2, 1, 13 - 0x1p-12);
+    sunder_i_search *s = &f->search;
+    s->tolerance = 0x1p-8;
+    for (int roughly = 0; roughly < 2; roughly++) {
+        double most = 0;
+        s->roughly = roughly;
+        assert_false(sunder_i_search_constrain(s, 1, false));
+        for (size_t k = 0; k < s->program.n; k++) {
+            const sunder_i_constraint *c = &s->program.constraint[k];
+            most = fmax(most, c->d - sunder_i_stretch(c, s->t));
+        }
+        assert_true(roughly ? most > 0x1p-13 && most < 0x1p-11 : most <= 0);
+    }
+    end(f);
+}
+
+static void test_a_large_crowd(void **state)
+{
+    (void)state;
+    double found[2 * MOST];
+    assert_true(MOST > LARGE_CROWD_LED);
+    for (int run = 0; run < 2; run++) {
+        field *f = begin(SIDE, SIDE, 12.5);
+        sunder_i_search *s = &f->search;
+        const double tolerance = s->tolerance, settled = s->settled;
+        assert_true(sunder_i_search_descend(s));
+        assert_true(s->tolerance == tolerance && s->settled == settled && !s->roughly && !s->lead);
+        assert_true(sunder_i_search_look(s, s->t) <= s->tolerance);
+        if (run) assert_memory_equal(found, s->t, sizeof found);
+        memcpy(found, s->t, sizeof found);
+        const double cost = sunder_i_search_cost(s, s->t);
+        assert_true(cost > 0 && sunder_i_search_descend(s));
+        assert_true(sunder_i_search_cost(s, s->t) > (1 - 4 * SETTLED) * cost);
+        end(f);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sides_of_the_way),
+                                       cmocka_unit_test(test_what_is_missed_roughly),
+                                       cmocka_unit_test(test_a_large_crowd)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
