@@ -5,7 +5,8 @@
  * would stand if the least translation from here had parted it, so that all pieces of the pair agree on the side. The
  * program's solution is feasible for the true shapes, since support constraints are global; from a feasible position
  * every round is feasible and no dearer than the last. Pieces farther off than the reach are left out until they are
- * found in the way.
+ * found in the way. A large crowd goes down roughly first, and takes its sides from where its way leads; a round that
+ * was led in vain is made again.
  *
  * Pairs that clash may ask for contradictory sides. Then the program is solved softly, and the compromise is the next
  * reference position. */
@@ -233,8 +234,8 @@ static bool descent_init(descent *d, sunder_i_search *s)
     return d->best && (d->lead || !large);
 }
 
-/* The next round's sides are those of where this way leads: as much farther as it has come. Round things roll along each
- * other, so that sides turn a little each round, and always the same way. */
+/* The next round's sides are those of where this way leads: as much farther as it has come. Round things roll along
+ * each other, so that sides turn a little each round, and always the same way. */
 static void lead_on(descent *d, bool is_free)
 {
     const sunder_i_search *s = d->s;
