@@ -139,10 +139,23 @@ static void test_a_large_crowd(void **state)
     }
 }
 
+/* One who has a limit: nobody goes down roughly, but finds the way all the same. */
+static void test_with_a_limit(void **state)
+{
+    (void)state;
+    field *f = begin(SIDE, SIDE, 12.9);
+    sunder_i_search *s = &f->search;
+    f->of.model.body[7].limit = 40;
+    assert_true(sunder_i_search_descend(s));
+    assert_true(sunder_i_search_look(s, s->t) <= s->tolerance);
+    assert_true(hypot(s->t[14], s->t[15]) <= 40);
+    end(f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_sides_of_the_way),
                                        cmocka_unit_test(test_what_is_missed_roughly),
-                                       cmocka_unit_test(test_a_large_crowd)};
+                                       cmocka_unit_test(test_a_large_crowd), cmocka_unit_test(test_with_a_limit)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,8 +5,8 @@
  * would stand if the least translation from here had parted it, so that all pieces of the pair agree on the side. The
  * program's solution is feasible for the true shapes, since support constraints are global; from a feasible position
  * every round is feasible and no dearer than the last. Pieces farther off than the reach are left out until they are
- * found in the way. A large crowd goes down roughly first, and takes its sides from where its way leads; a round that
- * was led in vain is made again.
+ * found in the way. A large crowd without limits goes down roughly first, and takes its sides from where its way leads;
+ * a round that was led in vain is made again.
  *
  * Pairs that clash may ask for contradictory sides. Then the program is solved softly, and the compromise is the next
  * reference position. */
@@ -207,7 +207,14 @@ typedef struct descent {
     int clashing, idle, led_in_vain; /* rounds that clashed, that gained nothing on it, and that are not led */
 } descent;
 
-static bool is_large(const sunder_i_search *s) { return sunder_i_search_movers(s) > LARGE_CROWD_LED; }
+/* Within limits ways are short, and what is missed roughly may be all that there is. */
+static bool is_large(const sunder_i_search *s)
+{
+    if (sunder_i_search_movers(s) <= LARGE_CROWD_LED) return false;
+    for (uint32_t k = 0; k < s->n; k++)
+        if (s->mass[k] > 0 && sunder_i_search_limit(s, k) < INFINITY) return false;
+    return true;
+}
 
 static void descent_free(descent *d)
 {
