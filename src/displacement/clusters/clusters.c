@@ -135,7 +135,7 @@ const uint32_t *sunder_i_solver_members(const sunder_i_solver *s, uint32_t root,
 {
     const size_t first = first_member(s, root);
     *n = first_member(s, root + 1) - first;
-    return s->body + first;
+    return *n ? s->body + first : NULL;
 }
 
 sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *s, uint32_t body)

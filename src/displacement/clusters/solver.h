@@ -93,7 +93,7 @@ void sunder_i_solver_join_conflicts(const sunder_i_solver *solver, uint32_t *roo
 bool sunder_i_solver_add_edge(sunder_i_solver *solver, uint32_t i, uint32_t j);
 /* Was the body a member of the cluster of that root when they were last gathered? */
 bool sunder_i_solver_has_member(const sunder_i_solver *solver, uint32_t root, uint32_t body);
-/* The members of the cluster of that root, ascending; none if it is no cluster's. */
+/* The members of the cluster of that root, ascending; NULL and none if it is no cluster's. */
 const uint32_t *sunder_i_solver_members(const sunder_i_solver *solver, uint32_t root, size_t *n);
 /* The cluster that the body is of, as they were last gathered; NULL: none. */
 sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *solver, uint32_t body);
