@@ -17,7 +17,8 @@
 
 #include <cmocka.h>
 
-/* A wall shared makes one body of the first two; the third is no convex shape, and has more pieces than a run. */
+/* A wall shared makes one body of the first two; the third is no convex shape, and has more pieces than a run;
+ * the last is a row of six. */
 static void draw(scene *s)
 {
     scene_begin(s, 1);
@@ -26,6 +27,7 @@ static void draw(scene *s)
     scene_add(s, "POLYGON ((100 0, 104 0, 104 9, 108 9, 108 0, 112 0, 112 9, 116 9, 116 0, 120 0, 120 9, 124 9, 124 0, "
                  "128 0, 128 9, 132 9, 132 0, 136 0, 136 9, 140 9, 140 0, 144 0, 144 12, 100 12, 100 0))");
     scene_add(s, "POLYGON ((0.1 50.1, 4.3 50.1, 4.3 54.7, 0.1 54.7, 0.1 50.1))");
+    for (int k = 0; k < 6; k++) scene_add_box(s, 200 + 4 * k, k, 4, 7);
 }
 
 static void check_piece(const sunder_i_model *model, const sunder_i_body *body, const sunder_i_body_piece *piece)
@@ -66,6 +68,16 @@ static void check_outlines(const sunder_i_model *model, const sunder_i_body *bod
     }
 }
 
+/* The box of a body's anchors is that of its anchors as pieces, be they few or many. */
+static void check_anchors(const sunder_i_model *model, const sunder_i_body *body, const sunder_i_body_pieces *pieces)
+{
+    double box[4], all[4];
+    sunder_i_box_clear(all);
+    for (uint32_t m = 0; m < body->members; m++) sunder_i_box_join(all, pieces->anchor[m].box);
+    sunder_i_anchors(model, body, box);
+    assert_memory_equal(box, all, sizeof box);
+}
+
 static void test_made_when_asked(void **state)
 {
     (void)state;
@@ -74,8 +86,8 @@ static void test_made_when_asked(void **state)
     draw(&s);
     scene_model_related(&of, &s);
     const sunder_i_model *model = &of.model;
-    uint32_t number = 0;
-    assert_int_equal(model->bodies, 3);
+    uint32_t number = 0, most_members = 0;
+    assert_int_equal(model->bodies, 4);
     for (size_t b = 0; b < model->bodies; b++) {
         const sunder_i_body *body = &model->body[b];
         assert_null(model->made[b]);
@@ -91,9 +103,12 @@ static void test_made_when_asked(void **state)
         }
         assert_memory_equal(box, body->box, sizeof box);
         for (uint32_t m = 0; m < body->members; m++) check_piece(model, body, &pieces->anchor[m]);
+        check_anchors(model, body, pieces);
         check_runs(body, pieces);
         check_outlines(model, body);
+        most_members = body->members > most_members ? body->members : most_members;
     }
+    assert_true(most_members > 4); /* so many have a box that is kept */
     assert_true(model->most_pieces >= 2 * SUNDER_I_RUN - 1);
     scene_model_end(&of);
     scene_end(&s);

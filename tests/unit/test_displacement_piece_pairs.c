@@ -32,7 +32,8 @@ typedef struct world {
 static void add_body(rng *r, world *w, size_t b, size_t n)
 {
     sunder_i_body *body = &w->body[b];
-    *body = (sunder_i_body){.piece = (uint32_t)w->pieces, .pieces = (uint32_t)n, .clear = INFINITY};
+    *body = (sunder_i_body){
+        .piece = (uint32_t)w->pieces, .pieces = (uint32_t)n, .has = &sunder_i_no_extras, .clear = INFINITY};
     w->of[b].piece = w->piece + w->pieces;
     w->of[b].run = w->run;
     w->made[b] = &w->of[b];

@@ -33,6 +33,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_model_free(&s->model);
     sunder_i_free(s->start.pair);
     sunder_i_free(s->depth);
+    sunder_i_free(s->depth_at);
     sunder_i_free(s->now.pair);
     sunder_i_free(s->entry);
     sunder_i_free(s->edge);

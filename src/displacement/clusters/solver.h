@@ -45,7 +45,9 @@ typedef struct sunder_i_solver {
     sunder_i_model model;
     sunder_i_placement placement;
     sunder_i_relations start, now;
-    sunder_i_depth *depth; /* [start.n] of those that were asked about; NULL: nobody was */
+    sunder_i_depth *depth; /* [depths] of those pairs of start that were asked about, which are few ... */
+    size_t depths, depth_capacity;
+    uint32_t *depth_at;    /* [start.n] ... where that of each is, and one more; 0: nobody asked. NULL: of none */
     sunder_i_jumps jumps;  /* as the features stand */
     sunder_i_entry *entry; /* pairs that cannot be parted, but go inside */
     size_t entries, entry_capacity;

@@ -52,6 +52,20 @@ static sunder_status is_worse_to_barrier(const sunder_i_solver *s, const sunder_
     return sunder_i_barrier_worsened(&s->model, &home, &now, r->b, worse, err);
 }
 
+/* What is known of how deep the pair stood at the start, until another is asked about; NULL if memory is out. */
+static sunder_i_depth *depth_of(sunder_i_solver *s, const sunder_i_relation *was)
+{
+    if (!s->depth_at) s->depth_at = sunder_i_calloc(s->start.n, sizeof *s->depth_at);
+    if (!s->depth_at) return NULL;
+    uint32_t *at = &s->depth_at[was - s->start.pair];
+    if (*at == 0) {
+        if (!sunder_i_reserve(&s->depth, &s->depth_capacity, s->depths + 1, sizeof *s->depth)) return NULL;
+        s->depth[s->depths++] = (sunder_i_depth){0};
+        *at = (uint32_t)s->depths;
+    }
+    return &s->depth[*at - 1];
+}
+
 sunder_status sunder_i_solver_is_worse(sunder_i_solver *s, const sunder_i_relation *r, bool *worse, sunder_error *err)
 {
     const sunder_i_relation *was = sunder_i_relations_find(&s->start, r->a, r->b);
@@ -63,9 +77,8 @@ sunder_status sunder_i_solver_is_worse(sunder_i_solver *s, const sunder_i_relati
     const sunder_i_pair before = {sunder_i_thing_shape(&s->model, r->a), sunder_i_thing_shape(&s->model, r->b), NULL,
                                   NULL},
                         now = {a.shape, b.shape, a.t, b.t};
-    if (!s->depth) s->depth = sunder_i_calloc(s->start.n, sizeof *s->depth);
-    if (!s->depth) return sunder_i_no_memory(err);
-    return sunder_i_pair_worsened_since(&before, &s->depth[was - s->start.pair], &now, worse, err);
+    sunder_i_depth *depth = depth_of(s, was);
+    return depth ? sunder_i_pair_worsened_since(&before, depth, &now, worse, err) : sunder_i_no_memory(err);
 }
 
 /* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */

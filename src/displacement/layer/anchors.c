@@ -139,16 +139,12 @@ sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err)
     if (!model->anchor_at || !model->clear) return sunder_i_no_memory(err);
     for (size_t b = 0; b < model->bodies; b++) {
         sunder_i_body *body = &model->body[b];
-        sunder_i_box_clear(body->anchors);
         for (uint32_t m = 0; m < body->members; m++) {
             const uint32_t f = model->member[body->member + m];
-            if (sunder_i_is_barrier(model, f)) continue;
-            double *at = model->anchor_at + 2 * (size_t)f;
-            if (!model->present[f]) continue;
-            sunder_shape_anchor(sunder_i_thing_shape(model, f), at);
-            const double from_origin[2] = {at[0] - body->origin[0], at[1] - body->origin[1]};
-            sunder_i_box_include(body->anchors, from_origin);
+            if (sunder_i_is_barrier(model, f) || !model->present[f]) continue;
+            sunder_shape_anchor(sunder_i_thing_shape(model, f), model->anchor_at + 2 * (size_t)f);
         }
+        if (!sunder_i_keep_anchors(model, body)) return sunder_i_no_memory(err);
     }
     return look_about_all(model, err);
 }

@@ -284,19 +284,19 @@ static bool anchor_as_given(const sunder_i_model *model, const sunder_i_body_pie
     if (!barrier && model->side_anchor && piece == &model->side_anchor[f]) at = model->side_at;
     if (at) memcpy(out, at + 2 * (size_t)f, 2 * sizeof *out);
     const sunder_i_body *body = &model->body[model->body_of[f]];
-    for (uint32_t k = body->side; barrier && !at && k < body->side + body->sides; k++) {
+    for (uint32_t k = body->has->side; barrier && !at && k < body->has->side + body->has->sides; k++) {
         const sunder_i_side *side = &model->side[k];
         if (piece != &side->piece) continue;
         memcpy(out, side->from, 2 * sizeof *out);
         memcpy(out + 2, side->to, 2 * sizeof *out);
         at = out;
     }
-    for (uint32_t k = body->seam; !at && k < body->seam + body->seams; k++) {
+    for (uint32_t k = body->has->seam; !at && k < body->has->seam + body->has->seams; k++) {
         if (piece != &model->seam[k]) continue;
         memcpy(out, model->seam_at + 8 * (size_t)k, 8 * sizeof *out);
         at = out;
     }
-    for (uint32_t k = body->joint; !at && k < body->joint + body->joints; k++) {
+    for (uint32_t k = body->has->joint; !at && k < body->has->joint + body->has->joints; k++) {
         if (piece != &model->joint[k].piece) continue;
         memcpy(out, model->joint[k].at, sizeof model->joint[k].at);
         at = out;

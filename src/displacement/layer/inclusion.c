@@ -138,7 +138,7 @@ sunder_status sunder_i_inclusions_choose(sunder_i_model *model, const sunder_i_r
 
 /* ---- Walls ------------------------------------------------------------------------------------------------------- */
 
-static void add_walls(sunder_i_model *model, sunder_i_body *body, uint32_t f)
+static void add_walls(sunder_i_model *model, const sunder_i_body *body, uint32_t f)
 {
     const sunder_shape *shape = sunder_i_thing_shape(model, f);
     for (uint32_t v = 0; v < shape->vertices; v++) {
@@ -154,7 +154,6 @@ static void add_walls(sunder_i_model *model, sunder_i_body *body, uint32_t f)
             wall->box[c] = fmin(p[c], p[c + 2]);
             wall->box[c + 2] = fmax(p[c], p[c + 2]);
         }
-        body->walls++;
     }
 }
 
@@ -178,10 +177,18 @@ sunder_status sunder_i_inclusion_walls(sunder_i_model *model, sunder_error *err)
     }
     for (size_t b = 0; !status && b < model->bodies; b++) {
         sunder_i_body *body = &model->body[b];
-        body->wall = (uint32_t)model->walls;
+        const size_t first = model->walls;
         for (uint32_t m = 0; m < body->members; m++)
             if (model->member[body->member + m] < model->features && holds[model->member[body->member + m]])
                 add_walls(model, body, model->member[body->member + m]);
+        if (model->walls == first) continue;
+        sunder_i_extras *extras = sunder_i_own_extras(model, body);
+        if (extras) {
+            extras->wall = (uint32_t)first;
+            extras->walls = (uint32_t)(model->walls - first);
+        } else {
+            status = sunder_i_no_memory(err);
+        }
     }
     sunder_i_free(holds);
     return status;

@@ -126,7 +126,7 @@ static void join_members(joining *j, uint32_t b)
 {
     sunder_i_model *model = j->model;
     sunder_i_body *body = &model->body[b];
-    body->joint = (uint32_t)model->joints;
+    const size_t first = model->joints;
     for (uint32_t m = 0; m < body->members && body->members > 1 && !j->failed; m++) {
         const uint32_t f = model->member[body->member + m];
         j->near.n = 0;
@@ -135,7 +135,14 @@ static void join_members(joining *j, uint32_t b)
         for (size_t k = 0; k < j->near.n && !j->failed; k++)
             if (j->near.item[k] > f && model->body_of[j->near.item[k]] == b) join(j, f, j->near.item[k]);
     }
-    body->joints = (uint32_t)model->joints - body->joint;
+    if (model->joints == first || j->failed) return;
+    sunder_i_extras *extras = sunder_i_own_extras(model, body);
+    if (!extras) {
+        j->failed = true;
+        return;
+    }
+    extras->joint = (uint32_t)first;
+    extras->joints = (uint32_t)(model->joints - first);
 }
 
 sunder_status sunder_i_model_find_joints(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err)

@@ -129,7 +129,7 @@ static bool find_parts(const sunder_i_jumps *jumps, const sunder_i_model *model,
     if (!sunder_i_look_about(model, &model->tree, box, near)) return false;
     size_t kept = before;
     for (size_t k = before; k < near->n; k++)
-        if (model->body[model->body_of[near->item[k]]].sides) near->item[kept++] = near->item[k];
+        if (model->body[model->body_of[near->item[k]]].has->sides) near->item[kept++] = near->item[k];
     near->n = kept;
     return true;
 }

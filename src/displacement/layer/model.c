@@ -18,6 +18,7 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_free(model->body_of);
     sunder_i_free(model->member);
     sunder_i_free(model->body);
+    sunder_i_arena_free(&model->extras);
     sunder_i_free(model->anchor_at);
     sunder_i_free(model->held);
     sunder_i_free(model->clear);
@@ -169,6 +170,7 @@ static void number_bodies(sunder_i_model *model, uint32_t *parent)
         next += body->members;
         body->members = 0;
         body->limit = INFINITY;
+        body->has = &sunder_i_no_extras;
     }
     for (size_t f = 0; f < model->things; f++) {
         const sunder_feature feature = sunder_i_feature(model->layer, f);

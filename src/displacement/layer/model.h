@@ -13,23 +13,28 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
+/* What few bodies have (extras.c). */
+typedef struct sunder_i_extras {
+    uint32_t wall, walls;   /* the edges of its members that keep others inside, in sunder_i_model.wall */
+    uint32_t seam, seams;   /* pieces that cover what is between its pieces, in sunder_i_model.seam */
+    uint32_t joint, joints; /* what covers the walls that its members share, in sunder_i_model.joint */
+    uint32_t side, sides;   /* of a part of a barrier: its lines that may not be crossed, in sunder_i_model.side */
+    double anchors[4];      /* the box of its members' anchors, where these are many (sunder_i_anchors()) */
+} sunder_i_extras;
+
 /* A body is what moves as one: a block, or a feature that stands alone. Bodies are numbered by their first members. */
 typedef struct sunder_i_body {
-    uint32_t member, members; /* its features: members of them in sunder_i_model.member from there */
-    uint32_t piece, pieces;   /* its convex pieces: how they are numbered among all, from that one on */
-    uint32_t wall, walls;     /* the edges of its members that keep others inside, in sunder_i_model.wall */
-    uint32_t seam, seams;     /* pieces that cover what is between its pieces, in sunder_i_model.seam */
-    uint32_t joint, joints;   /* what covers the walls that its members share, in sunder_i_model.joint */
-    uint32_t side, sides;     /* of a part of a barrier: its lines that may not be crossed, in sunder_i_model.side */
-    double weight;            /* the sum of its members' */
-    double limit;             /* the strictest of its members' */
-    bool fixed;               /* limit 0 counts too */
-    bool has_seams;           /* they were looked for */
-    bool pinned;              /* stays where it came from: rounding would make a pair of it stand worse (uphold.c) */
-    double origin[2];         /* its corners are stored relative to this */
-    double box[4];            /* of its pieces, relative to the origin */
-    double anchors[4];        /* of its members' anchors, likewise */
-    double clear;             /* the least of its members', in sunder_i_model.clear; INFINITY where jumps are allowed */
+    uint32_t member, members;   /* its features: members of them in sunder_i_model.member from there */
+    uint32_t piece, pieces;     /* its convex pieces: how they are numbered among all, from that one on */
+    double weight;              /* the sum of its members' */
+    double limit;               /* the strictest of its members' */
+    const sunder_i_extras *has; /* besides; never NULL */
+    bool fixed;                 /* limit 0 counts too */
+    bool has_seams;             /* they were looked for */
+    bool pinned;                /* stays where it came from: rounding would make a pair of it stand worse (uphold.c) */
+    double origin[2];           /* its corners are stored relative to this */
+    double box[4];              /* of its pieces, relative to the origin */
+    double clear; /* the least of its members', in sunder_i_model.clear; INFINITY where jumps are allowed */
 } sunder_i_body;
 
 /* One convex piece of a body, counter-clockwise; a wall is one without area, of two corners. */
@@ -104,6 +109,7 @@ struct sunder_i_model {
     uint32_t *body_of;       /* [things] */
     uint32_t *member;        /* [things] things by body */
     sunder_i_body *body;
+    sunder_i_arena extras;                 /* what bodies have besides */
     _Atomic(sunder_i_body_pieces *) *made; /* [bodies] see sunder_i_pieces_of() */
     struct sunder_i_pieces_store *store;   /* where these are */
     /* Where jumps are not allowed; else NULL: */
@@ -256,6 +262,18 @@ sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, 
 const sunder_shape *sunder_i_model_shape(const sunder_i_model *model, uint32_t body);
 /* A lower bound of the weight of a body. */
 double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body);
+
+/* ---- extras.c ---------------------------------------------------------------------------------------------------- */
+
+/* What a body without any of it has. */
+extern const sunder_i_extras sunder_i_no_extras;
+/* A body's own, to be written to; NULL if memory is out. */
+sunder_i_extras *sunder_i_own_extras(sunder_i_model *model, sunder_i_body *body);
+/* The box of the anchors of a body's members, from its origin; where jumps are not allowed. */
+void sunder_i_anchors(const sunder_i_model *model, const sunder_i_body *body, double box[4]);
+/* Sees to it that sunder_i_anchors() has little to do for this body, once the anchors are known. False if memory is
+ * out. */
+bool sunder_i_keep_anchors(sunder_i_model *model, sunder_i_body *body);
 
 /* ---- body_pieces.c ----------------------------------------------------------------------------------------------- */
 

@@ -71,12 +71,16 @@ static bool add_body(gathering *g, sunder_i_body *body)
     sunder_i_model *model = g->model;
     if (body->has_seams) return true;
     body->has_seams = true;
-    body->seam = (uint32_t)model->seams;
+    const size_t first = model->seams;
     for (uint32_t m = 0; m < body->members; m++) {
         const uint32_t f = model->member[body->member + m];
         if (!sunder_i_is_barrier(model, f) && model->present[f] && !add_seams(g, f)) return false;
     }
-    body->seams = (uint32_t)model->seams - body->seam;
+    if (model->seams == first) return true;
+    sunder_i_extras *extras = sunder_i_own_extras(model, body);
+    if (!extras) return false;
+    extras->seam = (uint32_t)first;
+    extras->seams = (uint32_t)(model->seams - first);
     return true;
 }
 

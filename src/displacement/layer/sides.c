@@ -89,9 +89,13 @@ static sunder_status take_all_lines(sunder_i_model *model, sunder_error *err)
     if (!model->side) return sunder_i_no_memory(err);
     for (uint32_t k = 0; k < parts; k++) {
         sunder_i_body *body = &model->body[model->body_of[model->features + k]];
-        body->side = (uint32_t)model->sides;
-        body->sides = (uint32_t)take_part(model, k, model->side + model->sides);
-        for (uint32_t i = 0; i < body->sides; i++) put_piece(model, body, k, &model->side[model->sides++]);
+        const uint32_t first = (uint32_t)model->sides, sides = (uint32_t)take_part(model, k, model->side + first);
+        if (sides == 0) continue;
+        sunder_i_extras *extras = sunder_i_own_extras(model, body);
+        if (!extras) return sunder_i_no_memory(err);
+        extras->side = first;
+        extras->sides = sides;
+        for (uint32_t i = 0; i < sides; i++) put_piece(model, body, k, &model->side[model->sides++]);
     }
     return SUNDER_OK;
 }
@@ -107,7 +111,7 @@ static bool find_lines(const sunder_i_model *model, const double box[4], sunder_
     if (near->n) qsort(near->item, near->n, sizeof *near->item, sunder_i_by_number);
     for (size_t k = 0; k < near->n; k++) {
         const sunder_i_body *body = &model->body[model->body_of[near->item[k]]];
-        for (uint32_t i = body->side; i < body->side + body->sides; i++) {
+        for (uint32_t i = body->has->side; i < body->has->side + body->has->sides; i++) {
             double own[4];
             box_of_line(&model->side[i], own);
             if (!sunder_i_box_meet(own, box)) continue;
@@ -190,7 +194,7 @@ sunder_status sunder_i_crosses_side(const sunder_i_model *model, uint32_t f, con
     *crosses = false;
     if (t[0] == 0 && t[1] == 0) return SUNDER_OK;
     sunder_i_passage_box(&way, box);
-    for (uint32_t k = body->side; k < body->side + body->sides && !status && !*crosses; k++) {
+    for (uint32_t k = body->has->side; k < body->has->side + body->has->sides && !status && !*crosses; k++) {
         const sunder_i_side *side = &model->side[k];
         box_of_line(side, own);
         if (!sunder_i_box_meet(own, box)) continue;

@@ -228,7 +228,7 @@ static bool add_pieces(listing *l)
 static bool hides_in_seams(const listing *l, const sunder_i_body *of, const sunder_i_body *other)
 {
     const uint32_t part = l->model->member[other->member];
-    return of->seams && sunder_i_is_barrier(l->model, part) && sunder_i_owed_below(l->model, part, part) == 0;
+    return of->has->seams && sunder_i_is_barrier(l->model, part) && sunder_i_owed_below(l->model, part, part) == 0;
 }
 
 /* What covers the diagonals of one body, and pieces of the other without area; swapped: it is the second of the two. */
@@ -238,7 +238,7 @@ static bool add_covers(listing *l, const sunder_i_body *of, const sunder_i_body 
     const sunder_i_body_pieces *pieces = swapped ? l->of_p : l->of_q;
     const double sign = swapped ? 1 : -1;
     if (!hides_in_seams(l, of, other)) return true;
-    for (uint32_t k = of->seam; k < of->seam + of->seams && !is_full(l); k++) {
+    for (uint32_t k = of->has->seam; k < of->has->seam + of->has->seams && !is_full(l); k++) {
         const sunder_i_body_piece *seam = &model->seam[k];
         double box[4];
         for (uint32_t c = 0; c < 4; c++)
@@ -304,9 +304,9 @@ static bool add_shadow_of(listing *l, const sunder_i_body_piece *anchor, const s
 static bool add_seams(listing *l, const sunder_i_body_piece *anchor, const sunder_i_body *other, bool swapped)
 {
     const sunder_i_model *model = l->model;
-    for (uint32_t k = other->seam; k < other->seam + other->seams; k++)
+    for (uint32_t k = other->has->seam; k < other->has->seam + other->has->seams; k++)
         if (!add_shadow_of(l, anchor, &model->seam[k], swapped)) return false;
-    for (uint32_t k = other->joint; k < other->joint + other->joints; k++)
+    for (uint32_t k = other->has->joint; k < other->has->joint + other->has->joints; k++)
         if (!sunder_i_is_held(model, anchor->feature, model->joint[k].other) &&
             !add_shadow_of(l, anchor, &model->joint[k].piece, swapped))
             return false;
@@ -334,11 +334,11 @@ static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_
 static bool add_sides(listing *l, const sunder_i_body *p, const sunder_i_body *part, bool swapped)
 {
     const sunder_i_model *model = l->model;
-    for (uint32_t m = 0; m < p->members && part->sides && !is_full(l); m++) {
+    for (uint32_t m = 0; m < p->members && part->has->sides && !is_full(l); m++) {
         const uint32_t f = model->member[p->member + m];
         const sunder_i_body_piece *anchor = &model->side_anchor[f];
         if (!anchor->corners) continue;
-        for (uint32_t k = part->side; k < part->side + part->sides; k++) {
+        for (uint32_t k = part->has->side; k < part->has->side + part->has->sides; k++) {
             const sunder_i_side *side = &model->side[k];
             if (may_cast(l, anchor, &side->piece, swapped) && sunder_i_side_faces(model, side, f) &&
                 !add_shadow(l, swapped ? &side->piece : anchor, swapped ? anchor : &side->piece))

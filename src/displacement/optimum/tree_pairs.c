@@ -1,5 +1,5 @@
 /* Pairs of a task: what they may not do, made where they are first met, and who is in conflict at a node's least. */
-#include "displacement/obstacles/shadow.h"
+#include "displacement/obstacles/anchor_reach.h"
 #include "displacement/optimum/contact.h"
 #include "displacement/optimum/tree.h"
 #include "displacement/optimum/tuning.h"
@@ -59,10 +59,10 @@ static bool may_pass(const sunder_i_model *model, const sunder_i_body *p, const 
                  u[2] = {v[0] - t[0], v[1] - t[1]};
     double way[4];
     sunder_i_shadow_way(u, 0, way);
-    if (p->sides && sunder_i_shadow_may_reach(p->box, sunder_i_side_anchors(model, q), offset, way)) return true;
-    if (q->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, way)) return true;
-    return !model->rules.jumps && (sunder_i_shadow_may_reach(p->anchors, q->box, offset, way) ||
-                                   sunder_i_shadow_may_reach(p->box, q->anchors, offset, way));
+    if (p->has->sides && sunder_i_shadow_may_reach(p->box, sunder_i_side_anchors(model, q), offset, way)) return true;
+    if (q->has->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, way)) return true;
+    return !model->rules.jumps && (sunder_i_anchors_may_reach(model, p, q, false, offset, way) ||
+                                   sunder_i_anchors_may_reach(model, p, q, true, offset, way));
 }
 
 /* Do the boxes of the two stand within the gap of each other? */

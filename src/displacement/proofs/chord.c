@@ -30,7 +30,7 @@ static int side_of(const double p[2], const double q[2], const double u[2])
 const sunder_i_side *sunder_i_branching_side_of(const sunder_i_model *model, const sunder_i_body_piece *piece)
 {
     const sunder_i_body *of = &model->body[model->body_of[piece->feature]];
-    for (uint32_t k = of->side; k < of->side + of->sides; k++)
+    for (uint32_t k = of->has->side; k < of->has->side + of->has->sides; k++)
         if (piece == &model->side[k].piece) return &model->side[k];
     return NULL;
 }

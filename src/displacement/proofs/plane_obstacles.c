@@ -96,10 +96,10 @@ static bool find_jumps(const finding *w, uint32_t q, bool swapped)
     for (uint32_t m = 0; m < of->members; m++) {
         const uint32_t f = model->member[of->member + m];
         const sunder_i_body_piece *anchor = &from->anchor[m];
-        w->kept->looked[JUMPS] += 1 + (other->pieces + other->seams) / 4;
-        for (uint32_t l = 0; l < other->pieces + other->seams && anchor->corners; l++) {
+        w->kept->looked[JUMPS] += 1 + (other->pieces + other->has->seams) / 4;
+        for (uint32_t l = 0; l < other->pieces + other->has->seams && anchor->corners; l++) {
             const sunder_i_body_piece *piece =
-                l < other->pieces ? &pieces->piece[l] : &model->seam[other->seam + l - other->pieces];
+                l < other->pieces ? &pieces->piece[l] : &model->seam[other->has->seam + l - other->pieces];
             if (!find_shadow(w, q, anchor, piece, swapped, f, false)) return false;
         }
     }
@@ -111,11 +111,11 @@ static bool find_sides(const finding *w, uint32_t part)
 {
     const sunder_i_model *model = w->model;
     const sunder_i_body *of = &model->body[w->p], *q = &model->body[part];
-    for (uint32_t m = 0; m < of->members && q->sides; m++) {
+    for (uint32_t m = 0; m < of->members && q->has->sides; m++) {
         const uint32_t f = model->member[of->member + m];
         const sunder_i_body_piece *anchor = &model->side_anchor[f];
-        w->kept->looked[SIDES] += 1 + q->sides / 4;
-        for (uint32_t l = q->side; l < q->side + q->sides && anchor->corners; l++) {
+        w->kept->looked[SIDES] += 1 + q->has->sides / 4;
+        for (uint32_t l = q->has->side; l < q->has->side + q->has->sides && anchor->corners; l++) {
             const sunder_i_side *side = &model->side[l];
             if (sunder_i_side_faces(model, side, f) && !find_shadow(w, part, anchor, &side->piece, false, f, true))
                 return false;

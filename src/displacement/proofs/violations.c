@@ -3,7 +3,7 @@
 #include "displacement/layer/barriers.h"
 #include "displacement/layer/reads.h"
 #include "displacement/layer/sides.h"
-#include "displacement/obstacles/shadow.h"
+#include "displacement/obstacles/anchor_reach.h"
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
 
@@ -222,16 +222,16 @@ static void look_past(sunder_i_branching *c, const standing *s, const standing *
     double way[4];
     sunder_i_shadow_way(u, 0, way);
     c->looked++;
-    if (!sunder_i_shadow_may_reach(swapped ? p->box : p->anchors, swapped ? q->anchors : q->box, offset, way)) return;
+    if (!sunder_i_anchors_may_reach(model, p, q, swapped, offset, way)) return;
     const sunder_i_body_pieces *from = pieces_of(c, of), *pieces = pieces_of(c, other);
     if (!from || !pieces) return;
     for (uint32_t m = 0; m < of->members; m++) {
         const uint32_t f = model->member[of->member + m];
         const sunder_i_body_piece *anchor = &from->anchor[m];
-        c->looked += 1 + (other->pieces + other->seams) / 4;
-        for (uint32_t l = 0; l < other->pieces + other->seams && anchor->corners; l++) {
+        c->looked += 1 + (other->pieces + other->has->seams) / 4;
+        for (uint32_t l = 0; l < other->pieces + other->has->seams && anchor->corners; l++) {
             const sunder_i_body_piece *piece =
-                l < other->pieces ? &pieces->piece[l] : &model->seam[other->seam + l - other->pieces];
+                l < other->pieces ? &pieces->piece[l] : &model->seam[other->has->seam + l - other->pieces];
             if (sunder_i_shadow_may_reach((swapped ? piece : anchor)->box, (swapped ? anchor : piece)->box, offset,
                                           way) &&
                 sunder_i_branching_shades(c, f, piece->feature))
@@ -257,8 +257,8 @@ static void look_across(sunder_i_branching *c, const standing *s, const standing
     for (uint32_t m = 0; m < of->members; m++) {
         const uint32_t f = model->member[of->member + m];
         const sunder_i_body_piece *anchor = &model->side_anchor[f];
-        c->looked += 1 + part->sides / 4;
-        for (uint32_t l = part->side; l < part->side + part->sides && anchor->corners; l++) {
+        c->looked += 1 + part->has->sides / 4;
+        for (uint32_t l = part->has->side; l < part->has->side + part->has->sides && anchor->corners; l++) {
             const sunder_i_side *side = &model->side[l];
             if (sunder_i_shadow_may_reach((swapped ? &side->piece : anchor)->box,
                                           (swapped ? anchor : &side->piece)->box, offset, way) &&
@@ -272,7 +272,7 @@ static void look_at_all(sunder_i_branching *c, const standing *s, const standing
 {
     look_at(c, s, r, worst);
     if (c->subproblem->any_way) return;
-    if (s->body->sides || r->body->sides) look_across(c, s, r, s->body->sides > 0, worst);
+    if (s->body->has->sides || r->body->has->sides) look_across(c, s, r, s->body->has->sides > 0, worst);
     if (c->model->rules.jumps || c->subproblem->any_jump || sunder_i_is_barrier_body(c->model, s->body) ||
         sunder_i_is_barrier_body(c->model, r->body))
         return;

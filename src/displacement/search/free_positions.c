@@ -37,8 +37,8 @@ static void add_walls(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_
 {
     sunder_i_piece_pair part = {.offset = {offset[0], offset[1]}, .relaxed = relaxed};
     const double back[2] = {-v[0], -v[1]};
-    if (p->walls) sunder_i_search_walls(s, p, q, v, reach, &part, false, add_wall, o);
-    if (q->walls) sunder_i_search_walls(s, q, p, back, reach, &part, true, add_wall, o);
+    if (p->has->walls) sunder_i_search_walls(s, p, q, v, reach, &part, false, add_wall, o);
+    if (q->has->walls) sunder_i_search_walls(s, q, p, back, reach, &part, true, add_wall, o);
 }
 
 /* Shadows as obstacles: moved by `shift`, and as far as they matter. */
@@ -144,7 +144,8 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
     const uint32_t np = parts_of(p, coarse_p), nq = parts_of(q, coarse_q);
     const sunder_i_body_piece *of_p = find_parts(s, p, coarse_p), *of_q = find_parts(s, q, coarse_q);
     if (!of_p || !of_q) return;
-    if ((p->walls || q->walls) && (relaxed || model->inclusions)) add_walls(s, o, p, q, offset, v, r, relaxed);
+    if ((p->has->walls || q->has->walls) && (relaxed || model->inclusions))
+        add_walls(s, o, p, q, offset, v, r, relaxed);
     for (uint32_t k = 0; k < np; k++) {
         const sunder_i_body_piece *a = &of_p[k];
         const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};
@@ -297,7 +298,7 @@ static bool find_others(sunder_i_search *s, const sunder_i_body *p, const double
 /* How many shadows two bodies may cast. */
 static uint64_t count_shadows(const sunder_i_body *p, const sunder_i_body *q)
 {
-    return (uint64_t)p->members * (q->pieces + q->sides) + (uint64_t)q->members * (p->pieces + p->sides);
+    return (uint64_t)p->members * (q->pieces + q->has->sides) + (uint64_t)q->members * (p->pieces + p->has->sides);
 }
 
 /* The others about body i: those of the search, as its list `about` names them, and foreign ones. */

@@ -203,9 +203,9 @@ void sunder_i_search_walls(sunder_i_search *s, const sunder_i_body *holder, cons
     const sunder_i_body_pieces *facing = sunder_i_pieces_of(s->model, other);
     const visiting to = {.s = s,
                          .part = part,
-                         .from = s->model->wall + holder->wall,
-                         .n = holder->walls,
-                         .first = holder->wall,
+                         .from = s->model->wall + holder->has->wall,
+                         .n = holder->has->walls,
+                         .first = holder->has->wall,
                          .other = other,
                          .facing = facing,
                          .swapped = swapped,
@@ -254,8 +254,8 @@ void sunder_i_search_piece_pairs(sunder_i_search *s, uint32_t i, uint32_t j, con
     const double ahead = fmin(reach - shift - s->gap, s->gap / LEAST_REACH);
     sunder_i_search_body_shadows(s, p, q, u, s->gap - model->rules.gap + ahead, visit, context);
     if (!part.relaxed && model->inclusions == 0) return;
-    if (p->walls) sunder_i_search_walls(s, p, q, v, reach, &part, false, visit, context);
-    if (q->walls) sunder_i_search_walls(s, q, p, back, reach, &part, true, visit, context);
+    if (p->has->walls) sunder_i_search_walls(s, p, q, v, reach, &part, false, visit, context);
+    if (q->has->walls) sunder_i_search_walls(s, q, p, back, reach, &part, true, visit, context);
 }
 
 double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double *corner, size_t n)

@@ -179,7 +179,7 @@ static inline void sunder_i_search_body_shadows(sunder_i_search *search, const s
                                                 void *context)
 {
     const double far = (u[0] < 0 ? -u[0] : u[0]) + (u[1] < 0 ? -u[1] : u[1]) + reach;
-    if (p->clear > far && q->clear > far && p->sides + q->sides == 0) return;
+    if (p->clear > far && q->clear > far && p->has->sides + q->has->sides == 0) return;
     sunder_i_search_visit_shadows(search, p, q, u, reach, visit, context);
 }
 /* Every pair of bodies, one of them movable, that may have passed each other on their way from home to t, or are

@@ -9,6 +9,7 @@
  * Most pairs never come near any of it: relative moves are short, and K lies as far from the origin as the anchor does
  * from B. That is asked of boxes first. */
 #include "displacement/layer/sides.h"
+#include "displacement/obstacles/anchor_reach.h"
 #include "displacement/search/search.h"
 
 #include "base/sort.h"
@@ -70,7 +71,7 @@ static void visit_sides(sunder_i_search *s, const sunder_i_body *p, const sunder
         const uint32_t f = model->member[p->member + m];
         const sunder_i_body_piece *anchor = &model->side_anchor[f];
         if (!anchor->corners || !may_reach(anchor->box, other->box, part->offset, way, swapped)) continue;
-        for (uint32_t l = other->side; l < other->side + other->sides && !s->failed; l++) {
+        for (uint32_t l = other->has->side; l < other->has->side + other->has->sides && !s->failed; l++) {
             const sunder_i_side *side = &model->side[l];
             part->a = swapped ? &side->piece : anchor;
             part->b = swapped ? anchor : &side->piece;
@@ -80,7 +81,7 @@ static void visit_sides(sunder_i_search *s, const sunder_i_body *p, const sunder
             part->key = UINT64_C(3) << 60 | (uint64_t)f << 30 | l;
             visit(s, part, context);
         }
-        if (!sunder_i_steps(1 + other->sides / 8)) s->failed = true;
+        if (!sunder_i_steps(1 + other->has->sides / 8)) s->failed = true;
     }
     if (!sunder_i_steps(1 + p->members / 8)) s->failed = true;
 }
@@ -89,9 +90,9 @@ static void visit_sides(sunder_i_search *s, const sunder_i_body *p, const sunder
 static bool may_cross(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q,
                       const double offset[2], const double way[4], bool *swapped)
 {
-    *swapped = p->sides > 0;
-    if (p->sides) return sunder_i_shadow_may_reach(p->box, sunder_i_side_anchors(model, q), offset, way);
-    return q->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, way);
+    *swapped = p->has->sides > 0;
+    if (p->has->sides) return sunder_i_shadow_may_reach(p->box, sunder_i_side_anchors(model, q), offset, way);
+    return q->has->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, way);
 }
 
 /* May one of them jump over the other, were it not for the rule? */
@@ -109,8 +110,8 @@ void sunder_i_search_visit_shadows(sunder_i_search *s, const sunder_i_body *p, c
     bool swapped;
     sunder_i_shadow_way(u, reach, way);
     const bool crosses = may_cross(s->model, p, q, offset, way, &swapped), jumps = may_jump(s->model, p, q),
-               from_p = jumps && p->clear <= far && sunder_i_shadow_may_reach(p->anchors, q->box, offset, way),
-               from_q = jumps && q->clear <= far && sunder_i_shadow_may_reach(p->box, q->anchors, offset, way);
+               from_p = jumps && p->clear <= far && sunder_i_anchors_may_reach(s->model, p, q, false, offset, way),
+               from_q = jumps && q->clear <= far && sunder_i_anchors_may_reach(s->model, p, q, true, offset, way);
     if (!crosses && !from_p && !from_q) return;
     sunder_i_piece_pair part = {.offset = {offset[0], offset[1]}, .inclusion = SUNDER_I_LAPSED, .shadow = true};
     if (crosses) visit_sides(s, swapped ? q : p, swapped ? p : q, way, &part, swapped, visit, context);
@@ -158,8 +159,8 @@ bool sunder_i_search_may_pass(const sunder_i_search *s, const double *t, uint32_
     sunder_i_shadow_way(u, reach - s->model->rules.gap, way);
     if (may_cross(s->model, p, q, offset, way, &swapped)) return true;
     if (!may_jump(s->model, p, q)) return false;
-    return sunder_i_shadow_may_reach(p->anchors, q->box, offset, way) ||
-           sunder_i_shadow_may_reach(p->box, q->anchors, offset, way);
+    return sunder_i_anchors_may_reach(s->model, p, q, false, offset, way) ||
+           sunder_i_anchors_may_reach(s->model, p, q, true, offset, way);
 }
 
 /* Who passed another, and stands clear of it by more than the gap, has gone farther than this and the gap: to the
