@@ -114,7 +114,7 @@ static sunder_status tell_jump(comparison *c, uint32_t f, uint32_t g, sunder_err
 /* Who crossed which sides; who jumped, and over whom: the one, or both over each other. */
 static sunder_status check_ways(comparison *c, sunder_error *err)
 {
-    c->jumps.own = c->move;
+    c->jumps.ways.own = c->move;
     sunder_status status = sunder_i_jumps_update(&c->jumps, &c->model, NULL, err);
     for (size_t k = 0; k < c->jumps.n && !status; k++) {
         const uint32_t a = c->jumps.pair[k].a, b = c->jumps.pair[k].b;

@@ -71,19 +71,12 @@ static sunder_status sort_places(const double *box, const bool *present, size_t 
     return SUNDER_OK;
 }
 
-/* The first of a node's children on the level below, and the end of them. */
-static size_t children(const sunder_i_rtree *tree, unsigned level, size_t node, size_t *end)
-{
-    const size_t first = tree->level[level - 1] + (node - tree->level[level]) * FANOUT;
-    *end = first + FANOUT < tree->level[level] ? first + FANOUT : tree->level[level];
-    return first;
-}
-
 static void hull_of_children(const sunder_i_rtree *tree, unsigned level, size_t node, double box[4])
 {
     size_t end;
     sunder_i_box_clear(box);
-    for (size_t c = children(tree, level, node, &end); c < end; c++) sunder_i_box_join(box, tree->box + 4 * c);
+    for (size_t c = sunder_i_rtree_children(tree, level, node, &end); c < end; c++)
+        sunder_i_box_join(box, tree->box + 4 * c);
 }
 
 static double size_of(const double box[4]) { return box[2] - box[0] + (box[3] - box[1]); }
@@ -215,7 +208,7 @@ static inline bool query(const sunder_i_rtree *tree, const double box[4], bool i
     while (depth) {
         const size_t node = stack[--depth].node;
         const unsigned l = stack[depth].level;
-        const size_t first = children(tree, l, node, &end);
+        const size_t first = sunder_i_rtree_children(tree, l, node, &end);
         if (l == 1) {
             if (!take_leaves(tree, first, end, box, items, hits)) return false;
             continue;
@@ -250,6 +243,6 @@ const double *sunder_i_rtree_run(const sunder_i_rtree *tree, size_t run, size_t 
     const size_t node = tree->levels > 1 ? tree->level[1] + run : 0;
     *first = 0;
     *end = 1;
-    if (tree->levels > 1) *first = children(tree, 1, node, end);
+    if (tree->levels > 1) *first = sunder_i_rtree_children(tree, 1, node, end);
     return tree->box + 4 * node;
 }

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "spatial/box.h"
 
-/* Leaves of a node of the lowest level: leaf / SUNDER_I_RTREE_RUN tells which. */
+/* Children of a node, and leaves of one of the lowest level: leaf / SUNDER_I_RTREE_RUN tells which. */
 #define SUNDER_I_RTREE_RUN 16u
 
 /* A packed R-tree over boxes; it serves as well when some of them move. */
@@ -22,6 +22,14 @@ typedef struct sunder_i_rtree {
     size_t leaves;
     double sprawl, packed; /* sum of width and height of all nodes that are no leaves: now, and when it was built */
 } sunder_i_rtree;
+
+/* The first of a node's children on the level below, and the end of them. */
+static inline size_t sunder_i_rtree_children(const sunder_i_rtree *tree, unsigned level, size_t node, size_t *end)
+{
+    const size_t first = tree->level[level - 1] + (node - tree->level[level]) * SUNDER_I_RTREE_RUN;
+    *end = first + SUNDER_I_RTREE_RUN < tree->level[level] ? first + SUNDER_I_RTREE_RUN : tree->level[level];
+    return first;
+}
 
 /* Boxes of the items for which present[i] (NULL: all). */
 sunder_status sunder_i_rtree_build(const double *box, const bool *present, size_t n, sunder_i_rtree *out,

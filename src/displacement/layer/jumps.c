@@ -20,7 +20,7 @@
 void sunder_i_jumps_free(sunder_i_jumps *jumps)
 {
     sunder_i_free(jumps->pair);
-    sunder_i_rtree_free(&jumps->tree);
+    sunder_i_way_tree_free(&jumps->ways);
     memset(jumps, 0, sizeof *jumps);
 }
 
@@ -28,7 +28,7 @@ void sunder_i_jumps_free(sunder_i_jumps *jumps)
 
 static const double *move_of(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f)
 {
-    return jumps->own ? jumps->own + 2 * (size_t)f : model->move + 2 * (size_t)model->body_of[f];
+    return sunder_i_move_of(&jumps->ways, model, f);
 }
 
 static bool has_moved(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f)
@@ -37,61 +37,12 @@ static bool has_moved(const sunder_i_jumps *jumps, const sunder_i_model *model, 
     return t[0] != 0 || t[1] != 0;
 }
 
-/* From home to where the feature stands, rounded outward. */
-static void find_way(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, double way[4])
+/* Whose way came near that of f. */
+static bool find_near(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, sunder_i_list *near)
 {
-    const double *home = sunder_i_home_box(model, f), *t = move_of(jumps, model, f);
-    memcpy(way, home, 4 * sizeof *way);
-    for (int c = 0; c < 4 && has_moved(jumps, model, f); c++) {
-        const double out = c < 2 ? -INFINITY : INFINITY, there = nextafter(home[c] + t[c & 1], out);
-        way[c] = c < 2 ? fmin(home[c], there) : fmax(home[c], there);
-    }
-}
-
-/* The tree of where all stand at home, which there is already, and in it those that have moved. */
-static sunder_status begin_at_home(sunder_i_jumps *jumps, const sunder_i_model *model, sunder_error *err)
-{
-    jumps->tree = sunder_i_rtree_lend(&model->tree);
-    const sunder_status status = sunder_i_rtree_own(&jumps->tree, err);
-    for (uint32_t f = 0; f < model->features && !status; f++) {
-        double way[4];
-        if (!model->present[f] || !has_moved(jumps, model, f)) continue;
-        find_way(jumps, model, f, way);
-        sunder_i_rtree_move(&jumps->tree, f, way);
-    }
-    return status;
-}
-
-static sunder_status build(sunder_i_jumps *jumps, const sunder_i_model *model, sunder_error *err)
-{
-    const size_t n = model->features;
-    double *way = sunder_i_alloc(4 * n, sizeof *way);
-    if (!way) return sunder_i_no_memory(err);
-    for (uint32_t f = 0; f < n; f++)
-        if (model->present[f]) find_way(jumps, model, f, way + 4 * (size_t)f);
-    const sunder_status status = sunder_i_rtree_build(way, model->present, n, &jumps->tree, err);
-    sunder_i_free(way);
-    return status;
-}
-
-/* Parts of barriers have no ways, and are not in it. */
-static sunder_status begin(sunder_i_jumps *jumps, const sunder_i_model *model, sunder_error *err)
-{
-    return model->things == model->features ? begin_at_home(jumps, model, err) : build(jumps, model, err);
-}
-
-static sunder_status follow(sunder_i_jumps *jumps, const sunder_i_model *model, const uint32_t *moved, size_t n,
-                            sunder_error *err)
-{
-    for (size_t k = 0; k < n; k++) {
-        double way[4];
-        find_way(jumps, model, moved[k], way);
-        if (memcmp(sunder_i_rtree_box(&jumps->tree, moved[k]), way, sizeof way))
-            sunder_i_rtree_move(&jumps->tree, moved[k], way);
-    }
-    if (!sunder_i_rtree_is_worn(&jumps->tree)) return SUNDER_OK;
-    sunder_i_rtree_free(&jumps->tree);
-    return build(jumps, model, err);
+    double way[4];
+    sunder_i_way_box(&jumps->ways, model, f, way);
+    return sunder_i_way_tree_look_about(&jumps->ways, model, way, near);
 }
 
 /* ---- Pairs ------------------------------------------------------------------------------------------------------- */
@@ -174,7 +125,7 @@ static sunder_status find_jumped(const pair_search *s, uint32_t f, sunder_i_list
     near->n = 0;
     sunder_i_reading reading;
     sunder_i_reads_begin(&reading, s->model, s->model->body_of[f]);
-    const bool ok = sunder_i_look_about(s->model, &s->jumps->tree, sunder_i_rtree_box(&s->jumps->tree, f), near);
+    const bool ok = find_near(s->jumps, s->model, f, near);
     sunder_i_reads_end(&reading);
     if (!ok) return sunder_i_no_memory(err);
     for (size_t i = 0; i < near->n && !status; i++) {
@@ -226,7 +177,9 @@ sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model 
                                     sunder_error *err)
 {
     if (!sunder_i_forbids_ways(model)) return SUNDER_OK;
-    sunder_status status = sunder_i_jumps_begun(jumps) || model->rules.jumps ? SUNDER_OK : begin(jumps, model, err);
+    sunder_status status = sunder_i_jumps_begun(jumps) || model->rules.jumps
+                               ? SUNDER_OK
+                               : sunder_i_way_tree_begin(&jumps->ways, model, err);
     const size_t most = changes ? changes->list.n : model->features;
     uint32_t *asked = sunder_i_alloc(most, sizeof *asked);
     if (!status && !asked) status = sunder_i_no_memory(err);
@@ -235,7 +188,7 @@ sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model 
         const uint32_t f = changes ? changes->list.item[k] : (uint32_t)k;
         if (f < model->features && model->present[f]) asked[n++] = f;
     }
-    if (!status && sunder_i_jumps_begun(jumps)) status = follow(jumps, model, asked, n, err);
+    if (!status && sunder_i_jumps_begun(jumps)) status = sunder_i_way_tree_follow(&jumps->ways, model, asked, n, err);
     pair_search s = {jumps, model, changes ? changes->is : NULL, asked, NULL};
     const size_t present = n;
     n = 0;
@@ -256,10 +209,10 @@ sunder_status sunder_i_jumps_follow(sunder_i_jumps *jumps, const sunder_i_model 
 {
     const sunder_i_body *b = &model->body[body];
     if (model->rules.jumps) return SUNDER_OK;
-    sunder_status status = sunder_i_jumps_begun(jumps) ? SUNDER_OK : begin(jumps, model, err);
+    sunder_status status = sunder_i_jumps_begun(jumps) ? SUNDER_OK : sunder_i_way_tree_begin(&jumps->ways, model, err);
     for (uint32_t m = 0; m < b->members && !status; m++) {
         const uint32_t f = model->member[b->member + m];
-        if (model->present[f]) status = follow(jumps, model, &f, 1, err);
+        if (model->present[f]) status = sunder_i_way_tree_follow(&jumps->ways, model, &f, 1, err);
     }
     return status;
 }
@@ -274,9 +227,7 @@ sunder_status sunder_i_jumps_of_body(const sunder_i_jumps *jumps, const sunder_i
         const uint32_t f = model->member[b->member + m];
         if (!model->present[f]) continue;
         near->n = 0;
-        if (sunder_i_jumps_begun(jumps) &&
-            !sunder_i_look_about(model, &jumps->tree, sunder_i_rtree_box(&jumps->tree, f), near))
-            return sunder_i_no_memory(err);
+        if (sunder_i_jumps_begun(jumps) && !find_near(jumps, model, f, near)) return sunder_i_no_memory(err);
         for (size_t k = 0; k < near->n && !status && !*any; k++)
             status = ask_both(jumps, model, f, near->item[k], any, err);
         near->n = 0;
