@@ -236,6 +236,7 @@ static sunder_status compare(comparison *c, const sunder_layer_options *options,
     const double began = sunder_i_now();
     sunder_status status = begin(c, options, err);
     if (!status) status = sunder_i_report_new(&c->model, report, err);
+    if (!status) status = sunder_i_report_features(*report, &c->model, err);
     for (uint32_t f = 0; f < c->before->n && !status; f++) {
         if (sunder_i_demands(c->before, f)->ignored)
             c->translated[f] = true;

@@ -262,8 +262,11 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
     if (!status) status = sunder_i_solver_is_upheld(s, &report->summary.verified, err);
     if (status) return status;
     sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
-    sunder_i_report_moves(report, &s->model);
-    status = sunder_i_report_worlds(report, s, err);
+    /* What says how all stand is needed no longer, unless another layer may come to lie beside this one. */
+    if (!s->model.rules.keep_worlds) sunder_i_placement_free(&s->model, &s->placement);
+    status = sunder_i_report_features(report, &s->model, err);
+    if (!status) sunder_i_report_moves(report, &s->model);
+    if (!status) status = sunder_i_report_worlds(report, s, err);
     if (status) return status;
     report->summary.seconds_verify = sunder_i_now() - solved;
     return SUNDER_OK;
@@ -298,6 +301,7 @@ static sunder_status check(sunder_i_solver *s, const sunder_layer *layer, const 
     const double began = sunder_i_now();
     sunder_status status = start(s, layer, options, TO_CHECK, report, err);
     if (!status) status = sunder_i_report_conflicts(*report, &s->model, &s->placement, &s->start, false, err);
+    if (!status) status = sunder_i_report_features(*report, &s->model, err);
     if (!status) status = sunder_i_report_renumber(*report, s->layer.number, err);
     if (status) return status;
     sunder_layer_summary *summary = &(*report)->summary;

@@ -231,11 +231,18 @@ static void index_groups(const sunder_i_groups *old, uint32_t *at, size_t bodies
     for (size_t k = 0; k < old->n; k++) at[old->group[k].number] = (uint32_t)k;
 }
 
+static size_t count_groups(const gathering *g)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < g->members; k++) n += k == 0 || g->member[k].a != g->member[k - 1].a;
+    return n;
+}
+
 static sunder_status make_groups(const gathering *g, sunder_i_groups *groups, sunder_error *err)
 {
     const sunder_i_solver *s = g->solver;
     uint32_t *at = sunder_i_alloc(s->model.bodies, sizeof *at);
-    sunder_i_groups made = {.group = sunder_i_calloc(g->members, sizeof *made.group),
+    sunder_i_groups made = {.group = sunder_i_calloc(count_groups(g), sizeof *made.group),
                             .of = sunder_i_alloc(s->model.bodies, sizeof *made.of)};
     sunder_status status = made.group && made.of && at ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) index_groups(groups, at, s->model.bodies);

@@ -293,7 +293,7 @@ static bool anchor_as_given(const sunder_i_model *model, const sunder_i_body_pie
     }
     for (uint32_t k = body->has->seam; !at && k < body->has->seam + body->has->seams; k++) {
         if (piece != &model->seam[k]) continue;
-        memcpy(out, model->seam_at + 8 * (size_t)k, 8 * sizeof *out);
+        sunder_i_seam_again(sunder_i_thing_shape(model, f), model->seam_diagonal + 4 * (size_t)k, out);
         at = out;
     }
     for (uint32_t k = body->has->joint; !at && k < body->has->joint + body->has->joints; k++) {

@@ -23,7 +23,7 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_free(model->held);
     sunder_i_free(model->clear);
     sunder_i_free(model->seam);
-    sunder_i_free(model->seam_at);
+    sunder_i_free(model->seam_diagonal);
     sunder_i_free(model->seam_corner);
     sunder_i_free(model->joint);
     sunder_i_free(model->side);
@@ -106,12 +106,9 @@ sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_barr
     model->things = n;
     model->body_of = sunder_i_alloc(n, sizeof *model->body_of);
     model->member = sunder_i_alloc(n, sizeof *model->member);
-    model->body = sunder_i_calloc(n, sizeof *model->body);
     model->present = sunder_i_calloc(n, sizeof *model->present);
-    model->move = sunder_i_calloc(2 * n, sizeof *model->move);
     model->inexact = sunder_i_calloc(n, sizeof *model->inexact);
-    if (!model->body_of || !model->member || !model->body || !model->present || !model->move || !model->inexact)
-        return sunder_i_no_memory(err);
+    if (!model->body_of || !model->member || !model->present || !model->inexact) return sunder_i_no_memory(err);
     sunder_status status = build_tree(model, err);
     if (!status) status = sunder_i_thin_disc(rules->tolerance, &model->disc, err);
     model->rules.disc = model->disc;
@@ -152,17 +149,21 @@ static bool unite_labelled(const sunder_layer *layer, uint32_t *parent)
     return true;
 }
 
-/* Numbers the sets by their least members and fills the bodies. */
-static void number_bodies(sunder_i_model *model, uint32_t *parent)
+/* Numbers the sets by their least members and fills the bodies, of which there may be far fewer than things. False if
+ * memory is out. */
+static bool number_bodies(sunder_i_model *model, uint32_t *parent)
 {
     uint32_t bodies = 0;
     for (size_t f = 0; f < model->things; f++) {
         const uint32_t root = sunder_i_union_find(parent, (uint32_t)f);
         /* The least member is its own root, and comes first. */
         model->body_of[f] = root == f ? bodies++ : model->body_of[root];
-        model->body[model->body_of[f]].members++;
     }
+    model->body = sunder_i_calloc(bodies, sizeof *model->body);
+    model->move = sunder_i_calloc(2 * (size_t)bodies, sizeof *model->move);
+    if (!model->body || !model->move) return false;
     model->bodies = bodies;
+    for (size_t f = 0; f < model->things; f++) model->body[model->body_of[f]].members++;
     uint32_t next = 0;
     for (uint32_t b = 0; b < bodies; b++) {
         sunder_i_body *body = &model->body[b];
@@ -180,6 +181,7 @@ static void number_bodies(sunder_i_model *model, uint32_t *parent)
         body->limit = fmin(body->limit, feature.max_shift);
         body->fixed = body->fixed || feature.fixed || feature.ignored || feature.max_shift == 0;
     }
+    return true;
 }
 
 #ifndef NDEBUG
@@ -225,7 +227,7 @@ sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relation
     }
     sunder_status status = unite_labelled(model->layer, parent) ? sunder_i_inclusions_init(model, relations, err)
                                                                 : sunder_i_no_memory(err);
-    if (!status) number_bodies(model, parent);
+    if (!status && !number_bodies(model, parent)) status = sunder_i_no_memory(err);
     if (!status && model->rules.keep_worlds && !keep_reads(model)) status = sunder_i_no_memory(err);
     SUNDER_I_CHECK(status ? NULL : check(model), model->things);
     sunder_i_free(parent);

@@ -116,7 +116,8 @@ struct sunder_i_model {
     double *anchor_at;         /* [2 * features] the anchors as they are */
     double *clear;             /* [features] nothing of another body that does not hold the anchor is nearer to it */
     sunder_i_body_piece *seam; /* convex pieces of features about the diagonals between their pieces; seams.c */
-    double *seam_at, *seam_corner; /* [8 * seams] their four corners as they are, and from the bodies' origins */
+    double *seam_corner;       /* [8 * seams] their four corners, from the bodies' origins */
+    uint32_t *seam_diagonal;   /* [4 * seams] by which the corners as they are are found (sunder_i_seam_again()) */
     size_t seams;
     bool has_seams;        /* of all bodies */
     sunder_i_joint *joint; /* of the bodies that were asked for; joints.c */

@@ -88,23 +88,28 @@ static bool all_doubles(const sunder_shape *shape, const uint32_t corner[4])
     return true;
 }
 
-bool sunder_i_seams_find(const sunder_shape *shape, double **corner, size_t *n)
+bool sunder_i_seams_find(const sunder_shape *shape, sunder_i_seam **seam, size_t *n)
 {
     sunder_i_diagonals diagonals;
     *n = 0;
-    *corner = NULL;
+    *seam = NULL;
     if (shape->pieces < 2) return true;
     if (!sunder_i_diagonals_find(shape, &diagonals)) return false;
-    *corner = sunder_i_alloc(8 * diagonals.n, sizeof **corner);
-    bool ok = *corner != NULL;
+    *seam = sunder_i_alloc(diagonals.n, sizeof **seam);
+    bool ok = *seam != NULL;
     for (size_t i = 0; i < diagonals.n && ok; i++) {
-        if (all_doubles(shape, diagonals.corner[i]) &&
-            find_quadrilateral(shape->xy, diagonals.corner[i], *corner + 8 * *n))
-            ++*n;
+        sunder_i_seam *one = *seam + *n;
+        memcpy(one->diagonal, diagonals.corner[i], sizeof one->diagonal);
+        *n += all_doubles(shape, one->diagonal) && find_quadrilateral(shape->xy, one->diagonal, one->corner);
         ok = sunder_i_steps(SEAM_STEPS);
     }
     sunder_i_diagonals_free(&diagonals);
     return ok;
+}
+
+void sunder_i_seam_again(const sunder_shape *shape, const uint32_t diagonal[4], double corner[8])
+{
+    find_quadrilateral(shape->xy, diagonal, corner);
 }
 
 /* The pieces of the shape, and the quadrilaterals. */

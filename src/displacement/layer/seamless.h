@@ -12,9 +12,17 @@ typedef struct sunder_i_seamless {
 
 /* Of a shape, which is borrowed. Failure leaves what sunder_i_seamless_free() takes. */
 sunder_status sunder_i_seamless_make(const sunder_shape *shape, sunder_i_seamless *out, sunder_error *err);
-/* The quadrilaterals alone that cover the shape's diagonals, *n of them: 8 doubles each, counter-clockwise, in *corner,
- * which is the caller's. False if memory is out. */
-bool sunder_i_seams_find(const sunder_shape *shape, double **corner, size_t *n);
+/* A quadrilateral that covers a diagonal, counter-clockwise; and that by which it is found again: the numbers of the
+ * diagonal's ends and of the corners beside it, as sunder_i_diagonals has them. */
+typedef struct sunder_i_seam {
+    double corner[8];
+    uint32_t diagonal[4];
+} sunder_i_seam;
+
+/* Those alone, of all diagonals that have one, *n of them in *seam, which is the caller's. False if memory is out. */
+bool sunder_i_seams_find(const sunder_shape *shape, sunder_i_seam **seam, size_t *n);
+/* The corners of one of these again. */
+void sunder_i_seam_again(const sunder_shape *shape, const uint32_t diagonal[4], double corner[8]);
 /* One about a segment uv that two convex pieces share: corner has u, a corner of the piece on its right, v, and one of
  * the piece on its left. False if no doubles make one. */
 bool sunder_i_seam_between(const double corner[8], double out[8]);

@@ -15,43 +15,58 @@
 
 typedef struct gathering {
     sunder_i_model *model;
-    size_t capacity, at_capacity;
+    size_t capacity, of_diagonals, of_corners;
 } gathering;
+
+/* The seam's corners from its body's origin, and their box. */
+static void put(sunder_i_model *model, uint32_t f, const sunder_i_seam *seam)
+{
+    const double *origin = model->body[model->body_of[f]].origin;
+    sunder_i_body_piece *piece = &model->seam[model->seams];
+    double *to = model->seam_corner + 8 * model->seams;
+    memcpy(model->seam_diagonal + 4 * model->seams++, seam->diagonal, sizeof seam->diagonal);
+    *piece = (sunder_i_body_piece){.corners = 4, .feature = f};
+    sunder_i_box_clear(piece->box);
+    for (size_t i = 0; i < 8; i++) to[i] = seam->corner[i] - origin[i & 1];
+    for (size_t i = 0; i < 8; i += 2) sunder_i_box_include(piece->box, to + i);
+}
 
 static bool add_seams(gathering *g, uint32_t f)
 {
     sunder_i_model *model = g->model;
-    double *corner;
+    sunder_i_seam *seam;
     size_t n;
-    bool ok = sunder_i_seams_find(sunder_i_thing_shape(model, f), &corner, &n);
-    ok = ok && sunder_i_reserve(&model->seam, &g->capacity, model->seams + n, sizeof *model->seam) &&
-         sunder_i_reserve(&model->seam_at, &g->at_capacity, 8 * (model->seams + n), sizeof *model->seam_at);
-    for (size_t k = 0; k < n && ok; k++) {
-        model->seam[model->seams] = (sunder_i_body_piece){.corners = 4, .feature = f};
-        memcpy(model->seam_at + 8 * model->seams++, corner + 8 * k, 8 * sizeof *corner);
-    }
-    sunder_i_free(corner);
+    bool ok = sunder_i_seams_find(sunder_i_thing_shape(model, f), &seam, &n);
+    const size_t all = model->seams + n;
+    ok = ok && sunder_i_reserve(&model->seam, &g->capacity, all, sizeof *model->seam) &&
+         sunder_i_reserve(&model->seam_diagonal, &g->of_diagonals, 4 * all, sizeof *model->seam_diagonal) &&
+         sunder_i_reserve(&model->seam_corner, &g->of_corners, 8 * all, sizeof *model->seam_corner);
+    for (size_t k = 0; k < n && ok; k++) put(model, f, &seam[k]);
+    sunder_i_free(seam);
     return ok;
 }
 
-/* Corners of the seams from `first` on, from the bodies' origins. */
-static sunder_status put_corners(sunder_i_model *model, size_t first, sunder_error *err)
+/* No more room than all seams take, of which large layers have many. */
+static bool fit(void *array, size_t n, size_t size)
 {
-    if (model->seams >= UINT32_MAX) return sunder_i_fail(err, SUNDER_ESIZE, "too many seams: %zu", model->seams);
-    double *corner = sunder_i_realloc(model->seam_corner, 8 * model->seams, sizeof *corner);
-    if (!corner) return sunder_i_no_memory(err);
-    model->seam_corner = corner;
-    for (size_t k = 0; k < model->seams; k++) model->seam[k].corner = corner + 8 * k;
-    for (size_t k = first; k < model->seams; k++) {
-        sunder_i_body_piece *seam = &model->seam[k];
-        const double *origin = model->body[model->body_of[seam->feature]].origin;
-        sunder_i_box_clear(seam->box);
-        for (size_t i = 0; i < 4; i++) {
-            double *to = corner + 8 * k + 2 * i;
-            for (size_t c = 0; c < 2; c++) to[c] = model->seam_at[8 * k + 2 * i + c] - origin[c];
-            sunder_i_box_include(seam->box, to);
-        }
-    }
+    void *had, *fits;
+    memcpy(&had, array, sizeof had);
+    if (!had) return true;
+    fits = sunder_i_realloc(had, n, size);
+    if (fits) memcpy(array, &fits, sizeof fits);
+    return fits != NULL;
+}
+
+/* Where their corners are, now that these are all there. */
+static sunder_status settle_seams(sunder_i_model *model, sunder_error *err)
+{
+    const size_t n = model->seams;
+    if (n >= UINT32_MAX) return sunder_i_fail(err, SUNDER_ESIZE, "too many seams: %zu", n);
+    if (!fit(&model->seam, n, sizeof *model->seam) ||
+        !fit(&model->seam_diagonal, 4 * n, sizeof *model->seam_diagonal) ||
+        !fit(&model->seam_corner, 8 * n, sizeof *model->seam_corner))
+        return sunder_i_no_memory(err);
+    for (size_t k = 0; k < n; k++) model->seam[k].corner = model->seam_corner + 8 * k;
     return SUNDER_OK;
 }
 
@@ -86,21 +101,19 @@ static bool add_body(gathering *g, sunder_i_body *body)
 
 sunder_status sunder_i_model_find_seams_of(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err)
 {
-    const size_t first = model->seams;
-    gathering g = {model, first, 8 * first};
+    gathering g = {model, model->seams, 4 * model->seams, 8 * model->seams};
     if (model->has_seams || are_idle(model)) return SUNDER_OK;
     for (size_t k = 0; k < n; k++)
         if (!add_body(&g, &model->body[body[k]])) return sunder_i_no_memory(err);
-    return put_corners(model, first, err);
+    return settle_seams(model, err);
 }
 
 sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err)
 {
-    const size_t first = model->seams;
-    gathering g = {model, first, 8 * first};
+    gathering g = {model, model->seams, 4 * model->seams, 8 * model->seams};
     if (model->has_seams || are_idle(model)) return SUNDER_OK;
     model->has_seams = true;
     for (size_t b = 0; b < model->bodies; b++)
         if (!add_body(&g, &model->body[b])) return sunder_i_no_memory(err);
-    return put_corners(model, first, err);
+    return settle_seams(model, err);
 }

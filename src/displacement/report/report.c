@@ -6,18 +6,18 @@
 
 sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **out, sunder_error *err)
 {
-    const size_t n = model->features;
     sunder_report *r = sunder_i_calloc(1, sizeof *r);
     if (!r) return sunder_i_no_memory(err);
-    r->n = n;
+    r->n = model->features;
     r->stripped = model->rules.drop_proofs;
-    r->move = sunder_i_calloc(2 * n, sizeof *r->move);
-    r->status = sunder_i_calloc(n, sizeof *r->status);
-    r->block = sunder_i_calloc(n, sizeof *r->block);
-    if (!r->move || !r->status || !r->block) {
-        sunder_report_free(r);
-        return sunder_i_no_memory(err);
-    }
+    r->summary.features = model->features;
+    r->summary.max_feature = SIZE_MAX;
+    *out = r;
+    return SUNDER_OK;
+}
+
+static void report_blocks(sunder_report *r, const sunder_i_model *model)
+{
     for (size_t b = 0; b < model->bodies; b++) {
         const sunder_i_body *body = &model->body[b];
         const int64_t number = body->members > 1 ? (int64_t)model->member[body->member] : -1;
@@ -25,8 +25,16 @@ sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **o
         for (uint32_t k = 0; k < body->members; k++) r->block[model->member[body->member + k]] = number;
         r->summary.blocks += body->members > 1;
     }
-    r->summary.features = n;
-    r->summary.max_feature = SIZE_MAX;
+}
+
+sunder_status sunder_i_report_features(sunder_report *r, const sunder_i_model *model, sunder_error *err)
+{
+    const size_t n = model->features;
+    r->move = sunder_i_calloc(2 * n, sizeof *r->move);
+    r->status = sunder_i_calloc(n, sizeof *r->status);
+    r->block = sunder_i_calloc(n, sizeof *r->block);
+    if (!r->move || !r->status || !r->block) return sunder_i_no_memory(err);
+    report_blocks(r, model);
     for (size_t f = 0; f < n; f++) {
         const sunder_feature feature = sunder_i_feature(model->layer, f);
         if (feature.shape) r->summary.vertices += sunder_shape_vertices(feature.shape);
@@ -34,8 +42,20 @@ sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **o
         r->status[f] = feature.ignored ? SUNDER_FEATURE_SKIPPED : fixed ? SUNDER_FEATURE_FIXED : SUNDER_FEATURE_UNMOVED;
         if (feature.ignored) r->summary.skipped++;
     }
-    *out = r;
     return SUNDER_OK;
+}
+
+/* Those left in conflict that might have moved. */
+static void report_blocked(sunder_report *report, const sunder_i_model *model)
+{
+    for (size_t k = 0; k < report->conflicts; k++) {
+        const sunder_conflict *c = &report->conflict[k];
+        if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
+        const size_t pair[2] = {c->a, c->b};
+        for (int e = 0; e < 2; e++)
+            if (!model->body[model->body_of[pair[e]]].fixed) report->status[pair[e]] = SUNDER_FEATURE_BLOCKED;
+    }
+    for (size_t f = 0; f < model->features; f++) report->summary.blocked += report->status[f] == SUNDER_FEATURE_BLOCKED;
 }
 
 void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
@@ -61,14 +81,7 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
     s->total = sunder_total_nearest(&total);
     s->cost = sunder_total_nearest(&cost);
     if (s->moved) s->mean = s->total / (double)s->moved;
-    for (size_t k = 0; k < report->conflicts; k++) {
-        const sunder_conflict *c = &report->conflict[k];
-        if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
-        const size_t pair[2] = {c->a, c->b};
-        for (int e = 0; e < 2; e++)
-            if (!model->body[model->body_of[pair[e]]].fixed) report->status[pair[e]] = SUNDER_FEATURE_BLOCKED;
-    }
-    for (size_t f = 0; f < model->features; f++) s->blocked += report->status[f] == SUNDER_FEATURE_BLOCKED;
+    report_blocked(report, model);
 }
 
 void sunder_report_free(sunder_report *r)

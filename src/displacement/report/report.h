@@ -39,7 +39,11 @@ struct sunder_report {
     sunder_layer_summary summary;
 };
 
+/* A report of nothing as yet. */
 sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **out, sunder_error *err);
+/* Room for what is said of each feature, which is much in a large layer: blocks, and statuses of those that have not
+ * moved. Once. */
+sunder_status sunder_i_report_features(sunder_report *report, const sunder_i_model *model, sunder_error *err);
 /* Moves, statuses and their sums, which are exact until they are rounded once: so they are the same however the work
  * was shared out and however features were listed. */
 void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model);
