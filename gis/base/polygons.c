@@ -121,7 +121,8 @@ double gis_polygons_area(const gis_polygons *set)
 static void reverse(double *xy, size_t n)
 {
     /* A closed ring has its first vertex at the end, too; of an open one it stays where it is. */
-    bool closed = n > 1 && xy[0] == xy[2 * n - 2] && xy[1] == xy[2 * n - 1];
+    if (n < 2) return;
+    bool closed = xy[0] == xy[2 * n - 2] && xy[1] == xy[2 * n - 1];
     for (size_t i = closed ? 0 : 1, j = n - 1; i < j; i++, j--)
         for (size_t c = 0; c < 2; c++) {
             double kept = xy[2 * i + c];

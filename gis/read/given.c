@@ -21,13 +21,25 @@ static unsigned char *put_head(unsigned char *to, uint32_t type)
     return put_number(to, type);
 }
 
+/* Does the ring end with its first vertex once more, as it has to be written? */
+static bool is_closed(const double *xy, size_t n) { return n > 1 && memcmp(xy, xy + 2 * (n - 1), POINT) == 0; }
+
+/* How many vertices all rings have as they are written. */
+static size_t count_vertices(const double *xy, const size_t *ring_end, size_t rings)
+{
+    size_t vertices = rings ? ring_end[rings - 1] : 0;
+    for (size_t r = 0, first = 0; r < rings; first = ring_end[r++])
+        vertices += ring_end[r] > first && !is_closed(xy + 2 * first, ring_end[r] - first);
+    return vertices;
+}
+
 size_t gis_given_bytes(const sunder_shape *shape, bool multi)
 {
     const double *xy;
     const size_t *ring_end, *poly_end, polygons = sunder_shape_given(shape, &xy, &ring_end, &poly_end),
                                        rings = polygons ? poly_end[polygons - 1] : 0;
     return (multi ? HEAD + COUNT : 0) + polygons * (HEAD + COUNT) + rings * COUNT +
-           (rings ? ring_end[rings - 1] : 0) * POINT;
+           count_vertices(xy, ring_end, rings) * POINT;
 }
 
 void gis_given_write(const sunder_shape *shape, bool multi, unsigned char *to)
@@ -40,7 +52,10 @@ void gis_given_write(const sunder_shape *shape, bool multi, unsigned char *to)
         to = put_number(put_head(to, wkbPolygon), (uint32_t)(poly_end[p] - ring));
         for (; ring < poly_end[p]; vertex = ring_end[ring++]) {
             const size_t n = ring_end[ring] - vertex;
-            to = put(put_number(to, (uint32_t)n), xy + 2 * vertex, n * POINT);
+            const double *first = xy + 2 * vertex;
+            const bool open = n && !is_closed(first, n);
+            to = put(put_number(to, (uint32_t)(n + open)), first, n * POINT);
+            if (open) to = put(to, first, POINT);
         }
     }
 }

@@ -1,4 +1,5 @@
-/* given.h: the polygons of a shape as they were given, as well-known binary: ISO's, in the machine's own order. */
+/* given.h: the polygons of a shape as they were given, as well-known binary: ISO's, in the machine's own order;
+ * rings that lack the closing vertex are closed. */
 #ifndef GIS_GIVEN_H
 #define GIS_GIVEN_H
 

@@ -1,7 +1,7 @@
 /* packed.c: see packed.h. A record is: the FID; how many bytes of geometry, and these, as ISO well-known binary in the
  * machine's own order; of each field a byte that says whether it is set, and its value. Nothing in it is aligned. One
- * that borrows its vertices has in place of the geometry a byte, whether it is a MultiPolygon, and the address of the
- * shape; the highest bit of the number of bytes says so. */
+ * that borrows its vertices has no geometry, and in place of the number of bytes that of the shape; the highest bit
+ * says so, and the next one that it is a MultiPolygon. */
 #include "read/packed.h"
 
 #include "base/array.h"
@@ -17,6 +17,8 @@ enum { UNSET, EMPTY, VALUE }; /* of a field: not set, null, or what follows */
 enum { CHUNK = 1 << 20 };
 
 #define BORROWS UINT32_C(0x80000000) /* no geometry has so many bytes: they fit an int */
+#define BORROWS_MULTI UINT32_C(0x40000000)
+#define MOST_BORROWED BORROWS_MULTI /* shapes are numbered by what is left */
 
 /* ---- Room -------------------------------------------------------------------------------------------------------- */
 
@@ -189,25 +191,25 @@ static uint32_t number_at(const unsigned char **at)
 typedef struct place {
     const unsigned char *geometry; /* from its own byte of order on; NULL: its vertices are borrowed */
     const unsigned char *values;   /* behind it */
-    size_t bytes;
-    bool multi; /* of those that are borrowed */
-    const sunder_shape *shape;
+    size_t bytes;                  /* of its own */
+    bool multi;                    /* of those that are borrowed */
+    uint32_t shape;                /* and whose they are */
 } place;
 
 static place place_of(const unsigned char *record)
 {
     place p = {0};
     record += sizeof(GIntBig);
-    const uint32_t bytes = number_at(&record);
-    p.bytes = bytes & ~BORROWS;
-    if (!(bytes & BORROWS)) {
+    const uint32_t number = number_at(&record);
+    if (number & BORROWS) {
+        p.multi = number & BORROWS_MULTI;
+        p.shape = number & ~(BORROWS | BORROWS_MULTI);
+        p.values = record;
+    } else {
+        p.bytes = number;
         p.geometry = record;
-        p.values = record + bytes;
-        return p;
+        p.values = record + number;
     }
-    p.multi = *record++;
-    memcpy(&p.shape, record, sizeof p.shape);
-    p.values = record + sizeof p.shape;
     return p;
 }
 
@@ -276,8 +278,10 @@ static const unsigned char *geometry_of(gis_packed *packed, const unsigned char 
     const place p = place_of(record);
     *bytes = p.bytes;
     if (p.geometry) return p.geometry;
-    if (!gis_array_reserve(&packed->moved, &packed->moved_room, p.bytes, 1)) return NULL;
-    gis_given_write(p.shape, p.multi, packed->moved);
+    const sunder_shape *shape = packed->shape[p.shape];
+    *bytes = gis_given_bytes(shape, p.multi);
+    if (!gis_array_reserve(&packed->moved, &packed->moved_room, *bytes, 1)) return NULL;
+    gis_given_write(shape, p.multi, packed->moved);
     return packed->moved;
 }
 
@@ -292,7 +296,9 @@ static bool visit_appending(void *user, const unsigned char *points, size_t n, b
     gis_polygons *set = to->set;
     if (!gis_polygons_reserve(set, n, to->error)) return false;
     memcpy(set->xy + 2 * set->vertices, points, 2 * n * sizeof(double));
-    set->vertices += n;
+    /* Shapes keep what they are given: the closing vertex would be kept with millions of rings, and says nothing. */
+    const double *first = set->xy + 2 * set->vertices;
+    set->vertices += n - (n > 1 && memcmp(first, first + 2 * (n - 1), 2 * sizeof *first) == 0);
     return gis_polygons_end_ring(set, to->error) && (!last || gis_polygons_end_polygon(set, to->error));
 }
 
@@ -317,21 +323,20 @@ static bool is_given(gis_packed *packed, const place *p, bool multi, const sunde
     return true;
 }
 
-const unsigned char *gis_packed_add_borrowing(gis_packed *packed, const unsigned char *record,
-                                              const sunder_shape *shape)
+const unsigned char *gis_packed_add_borrowing(gis_packed *packed, const unsigned char *record, size_t i)
 {
     const place p = place_of(record);
-    const unsigned char multi = gis_packed_is_multi(record), *end = p.values;
-    for (int i = 0; i < packed->fields; i++) end = pass_value(packed->type[i], end);
+    const sunder_shape *shape = i < MOST_BORROWED ? packed->shape[i] : NULL;
+    const bool multi = gis_packed_is_multi(record);
+    const unsigned char *end = p.values;
+    for (int k = 0; k < packed->fields; k++) end = pass_value(packed->type[k], end);
     const size_t values = (size_t)(end - p.values), size = (size_t)(end - record);
     bool same = false;
     if (shape && !is_given(packed, &p, multi, shape, &same)) return NULL;
-    unsigned char *const at =
-        take(packed, same ? sizeof(GIntBig) + sizeof(uint32_t) + sizeof multi + sizeof shape + values : size);
+    unsigned char *const at = take(packed, same ? sizeof(GIntBig) + sizeof(uint32_t) + values : size);
     if (!at || !same) return at ? put(at, record, size) - size : NULL;
-    const uint32_t bytes = (uint32_t)p.bytes | BORROWS;
-    unsigned char *to = put(put(at, record, sizeof(GIntBig)), &bytes, sizeof bytes);
-    put(put(put(to, &multi, sizeof multi), &shape, sizeof shape), p.values, values);
+    const uint32_t number = (uint32_t)i | BORROWS | (multi ? BORROWS_MULTI : 0);
+    put(put(put(at, record, sizeof(GIntBig)), &number, sizeof number), p.values, values);
     return at;
 }
 

@@ -23,7 +23,8 @@ typedef struct gis_packed {
     size_t chunks, capacity, used, room; /* of the last chunk */
     OGRFeatureH made;
     const unsigned char *made_of;
-    unsigned char *moved; /* room for a geometry */
+    sunder_shape *const *shape; /* lent: those of whom records borrow their vertices */
+    unsigned char *moved;       /* room for a geometry */
     size_t moved_room;
 } gis_packed;
 
@@ -37,11 +38,10 @@ bool gis_packed_add(gis_packed *packed, OGRFeatureH feature, const unsigned char
  * out. */
 const unsigned char *gis_packed_add_row(gis_packed *packed, GIntBig fid, const unsigned char *geometry, size_t bytes,
                                         const gis_value *values);
-/* The same of a record of the same layer that has its geometry. Where the shape was given just that, the new record has
- * no vertices of its own, and takes them from the shape, which has to outlive it: most of what a layer takes is
- * these. */
-const unsigned char *gis_packed_add_borrowing(gis_packed *packed, const unsigned char *record,
-                                              const sunder_shape *shape);
+/* The same of a record of the same layer that has its geometry. Where packed->shape[i] (NULL: there is none) was given
+ * just that, the new record has no vertices of its own, and takes them from that shape, which has to outlive it: most
+ * of what a layer takes is these. */
+const unsigned char *gis_packed_add_borrowing(gis_packed *packed, const unsigned char *record, size_t i);
 void gis_packed_clear(gis_packed *packed);
 
 GIntBig gis_packed_fid(const unsigned char *record);

@@ -534,12 +534,13 @@ bool gis_source_borrow(gis_source *source, sunder_shape *const *shape, gis_error
 {
     gis_packed lean;
     if (!source->may_pack || !gis_packed_begin(&lean, source->layer, error)) return !source->may_pack;
+    lean.shape = shape;
     /* Once more only where all of it succeeds: what is there is good until then. */
     const unsigned char **record = malloc((source->n + 1) * sizeof *record);
     bool ok = record != NULL;
     for (size_t i = 0; i < source->n && ok; i++) {
         const gis_read_feature read = read_of(source, i);
-        record[i] = read.feature ? NULL : gis_packed_add_borrowing(&lean, read.record, shape[i]);
+        record[i] = read.feature ? NULL : gis_packed_add_borrowing(&lean, read.record, i);
         ok = read.feature || record[i];
     }
     for (size_t i = 0; i < source->n && ok; i++)

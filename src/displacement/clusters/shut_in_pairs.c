@@ -105,25 +105,31 @@ static sunder_status judge_some(void *context, size_t begin, size_t end, sunder_
     return status;
 }
 
-/* The conflicts between these bodies, n pairs, sorted: by pairs of bodies, whose first ones are told. Returns how many
- * conflicts. */
-static size_t list_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, matter *out,
-                             size_t *first, size_t *pairs)
+/* The conflicts between these bodies, n pairs, sorted; how many. out NULL: they are counted only. */
+static size_t find_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, matter *out)
 {
     size_t found = 0;
     for (size_t k = 0; k < s->start.n; k++) {
         const sunder_i_relation *r = &s->start.pair[k];
         if (!sunder_i_is_open_conflict(&s->model, r) || sunder_i_is_barrier(&s->model, r->b)) continue;
         const sunder_i_id_pair bodies = bodies_of(&s->model, r);
-        if (bsearch(&bodies, list, n, sizeof bodies, sunder_i_by_id_pair))
-            out[found++] = (matter){.bodies = bodies, .pair = {r->a, r->b}};
+        if (!bsearch(&bodies, list, n, sizeof bodies, sunder_i_by_id_pair)) continue;
+        if (out) out[found] = (matter){.bodies = bodies, .pair = {r->a, r->b}};
+        found++;
     }
+    return found;
+}
+
+/* The same by pairs of bodies, whose first ones are told. */
+static void list_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, matter *out, size_t *first,
+                           size_t *pairs)
+{
+    const size_t found = find_conflicts(s, list, n, out);
     if (found) qsort(out, found, sizeof *out, by_bodies);
     *pairs = 0;
     for (size_t k = 0; k < found; k++)
         if (k == 0 || sunder_i_by_id_pair(&out[k - 1].bodies, &out[k].bodies)) first[(*pairs)++] = k;
     first[*pairs] = found;
-    return found;
 }
 
 static sunder_status leave(sunder_i_model *model, const matter *m, sunder_i_relaxations *more, sunder_error *err)
@@ -141,13 +147,17 @@ static sunder_status relax(sunder_i_solver *s, const sunder_i_id_pair *list, siz
 {
     sunder_i_model *model = &s->model;
     sunder_i_relaxations more = {0};
-    matter *found = sunder_i_alloc(s->start.n, sizeof *found);
-    size_t *first = sunder_i_alloc(s->start.n + 1, sizeof *first), pairs = 0;
-    sunder_status status = found && first ? SUNDER_OK : sunder_i_no_memory(err);
-    const size_t conflicts = status ? 0 : list_conflicts(s, list, n, found, first, &pairs);
+    const size_t conflicts = find_conflicts(s, list, n, NULL);
+    matter *found = sunder_i_alloc(conflicts, sizeof *found);
+    size_t *first = sunder_i_alloc(conflicts + 1, sizeof *first), pairs = 0;
+    model->shut_in = sunder_i_alloc(conflicts, sizeof *model->shut_in);
+    model->given_up = sunder_i_alloc(conflicts, sizeof *model->given_up);
+    const bool ok = found && first && model->shut_in && model->given_up;
+    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    if (ok) list_conflicts(s, list, n, found, first, &pairs);
     judging_features g = {model, found, first};
     if (!status) status = sunder_i_parallel(model->rules.threads, pairs, SUNDER_I_GRAIN_WHOLE, judge_some, &g, err);
-    if (conflicts) qsort(found, conflicts, sizeof *found, by_pair);
+    if (ok && conflicts) qsort(found, conflicts, sizeof *found, by_pair);
     for (size_t k = 0; k < conflicts && !status; k++) status = leave(model, &found[k], &more, err);
     for (size_t k = 0; k < more.n && !status; k++)
         if (!sunder_i_relaxations_add(&model->relaxations, &more.item[k])) status = sunder_i_no_memory(err);
@@ -188,10 +198,9 @@ sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *s, sunder_error *err
     for (size_t k = 0; k < n && !status; k++)
         if (g.shut[k]) pair[out++] = pair[k];
     if (!status && out) {
-        model->shut_in = sunder_i_alloc(s->start.n, sizeof *model->shut_in);
-        model->given_up = sunder_i_alloc(s->start.n, sizeof *model->given_up);
-        status = model->shut_in && model->given_up ? relax(s, pair, out, err) : sunder_i_no_memory(err);
-        model->confined = pair;
+        status = relax(s, pair, out, err);
+        sunder_i_id_pair *confined = sunder_i_realloc(pair, out, sizeof *pair);
+        model->confined = confined ? confined : pair;
         model->confined_n = out;
         pair = NULL;
     }

@@ -299,7 +299,7 @@ void sunder_i_pieces_end(sunder_i_model *model);
  * than that, and are made again when they are asked for. */
 void sunder_i_pieces_forget(sunder_i_model *model, size_t most);
 /* Less is not worth forgetting. */
-#define SUNDER_I_PIECES_HELD ((size_t)16 << 20)
+#define SUNDER_I_PIECES_HELD ((size_t)4 << 20)
 /* The corners of a piece, an anchor or a side, where they stood in the layer: as given; of repaired shapes the nearest
  * doubles. out: room for all of the piece's. */
 void sunder_i_piece_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out);
