@@ -40,7 +40,7 @@ static void take_edge_ranks(operand *o)
 static bool holds(const operand *o, uint32_t v, uint32_t r, uint32_t classes)
 {
     const sunder_shape *s = o->shape;
-    const uint32_t full = 2 * classes, in = o->edge_rank[s->cleaned->prev[v]], out = o->edge_rank[v];
+    const uint32_t full = 2 * classes, in = o->edge_rank[s->form->cleaned.prev[v]], out = o->edge_rank[v];
     const uint32_t turn = out >= in ? out - in : out + full - in;
     const uint32_t step = r >= in ? r - in : r + full - in;
     return turn < classes && step <= turn;

@@ -10,7 +10,7 @@ void sunder_i_make_shape_pieces(sunder_i_maker *m)
     uint32_t at = 0;
     for (uint32_t i = 0; i < s->pieces; i++) {
         /* Pieces stand in the order of the members that they belong to. */
-        while (s->cleaned->ring_end[s->cleaned->poly_end[m->polygon] - 1] <= sunder_i_piece_vertices(s)[at])
+        while (s->form->cleaned.ring_end[s->form->cleaned.poly_end[m->polygon] - 1] <= sunder_i_piece_vertices(s)[at])
             m->polygon++;
         sunder_i_maker_add_vertices(m, sunder_i_piece_vertices(s) + at, s->piece_end[i] - at);
         at = s->piece_end[i];

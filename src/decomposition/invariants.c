@@ -36,7 +36,7 @@ static sunder_i_ratio ring_area(sunder_i_lattice *l, const sunder_shape *s, cons
     sunder_i_ratio sum = {{NULL, 0}, sunder_i_big_i64(a, 1)};
     for (uint32_t v = lo; v < hi; v++) {
         const sunder_i_rational_point p = sunder_i_rational_get(a, l, at[v]),
-                                      q = sunder_i_rational_get(a, l, at[s->cleaned->next[v]]);
+                                      q = sunder_i_rational_get(a, l, at[s->form->cleaned.next[v]]);
         sum = add(a, sum, (sunder_i_ratio){sunder_i_rational_cross(a, p, q), sunder_i_big_mul(a, p.w, q.w)});
     }
     return sum;
@@ -93,9 +93,10 @@ static const char *check_area(sunder_i_lattice *l, const sunder_shape *s, const 
     sunder_i_arena *a = &l->arena;
     sunder_i_ratio sum = {{NULL, 0}, sunder_i_big_i64(a, 1)};
     sunder_i_ratio want = sum;
-    const uint32_t ring_lo = polygon ? s->cleaned->poly_end[polygon - 1] : 0;
-    for (uint32_t r = ring_lo; r < s->cleaned->poly_end[polygon]; r++)
-        want = add(a, want, ring_area(l, s, at, r ? s->cleaned->ring_end[r - 1] : 0, s->cleaned->ring_end[r]));
+    const uint32_t ring_lo = polygon ? s->form->cleaned.poly_end[polygon - 1] : 0;
+    for (uint32_t r = ring_lo; r < s->form->cleaned.poly_end[polygon]; r++)
+        want =
+            add(a, want, ring_area(l, s, at, r ? s->form->cleaned.ring_end[r - 1] : 0, s->form->cleaned.ring_end[r]));
     for (; *i < d->pieces && d->member[*i] == polygon; ++*i) sum = add(a, sum, piece_area(a, d, *i));
     if (sunder_i_ratio_cmp(a, sum, want) != 0) return "the pieces of a member do not have its area";
     return NULL;
@@ -110,7 +111,7 @@ const char *sunder_i_decomposition_check(sunder_i_lattice *l, const sunder_shape
     for (uint32_t i = 0; i < d->corners && !wrong; i++) wrong = check_corner(l, s, at, d, i);
     for (uint32_t i = 0; i < d->pieces && !wrong; i++) wrong = check_piece(l, d, i);
     uint32_t i = 0;
-    for (uint32_t polygon = 0; polygon < s->cleaned->polygons && !wrong; polygon++)
+    for (uint32_t polygon = 0; polygon < s->form->cleaned.polygons && !wrong; polygon++)
         wrong = check_area(l, s, at, d, polygon, &i);
     if (!wrong && i != d->pieces) wrong = "pieces do not stand in the order of their members";
     l->counts = counts;

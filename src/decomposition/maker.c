@@ -23,13 +23,13 @@ bool sunder_i_maker_init(sunder_i_maker *m, sunder_i_lattice *lattice, const sun
     sunder_i_rings *r = &m->rings;
     r->lattice = lattice;
     r->vertices = shape->vertices;
-    r->rings = shape->cleaned->rings;
-    r->polygons = shape->cleaned->polygons;
+    r->rings = shape->form->cleaned.rings;
+    r->polygons = shape->form->cleaned.polygons;
     /* Lent by the shape, and only read. */
-    r->ring_end = (uint32_t *)shape->cleaned->ring_end;
-    r->poly_end = (uint32_t *)shape->cleaned->poly_end;
-    r->next = (uint32_t *)shape->cleaned->next;
-    r->prev = (uint32_t *)shape->cleaned->prev;
+    r->ring_end = (uint32_t *)shape->form->cleaned.ring_end;
+    r->poly_end = (uint32_t *)shape->form->cleaned.poly_end;
+    r->next = (uint32_t *)shape->form->cleaned.next;
+    r->prev = (uint32_t *)shape->form->cleaned.prev;
     r->at = sunder_i_alloc(shape->vertices, sizeof *r->at);
     r->xy = sunder_i_alloc(2 * (size_t)shape->vertices, sizeof *r->xy);
     if (!r->at || !r->xy) return false;

@@ -24,7 +24,7 @@ typedef struct side {
 
 static side side_from(sunder_i_lattice *l, const sunder_shape *shape, const sunder_i_point *at, uint32_t v)
 {
-    const sunder_i_point from = at[v], to = at[shape->cleaned->next[v]];
+    const sunder_i_point from = at[v], to = at[shape->form->cleaned.next[v]];
     return (side){sunder_i_point_sub_inline(l, to, from), sunder_i_point_cmp_inline(l, to, from) < 0};
 }
 
@@ -52,8 +52,8 @@ sunder_status sunder_i_convex_operands_sum(sunder_sum *sum, const sunder_shape *
     side s = side_from(l, p, at_p, i), t = side_from(l, q, at_q, j);
     while (SUNDER_I_MERGE_NEXT(&m, order(l, &s, &t))) {
         sunder_i_hpoint_of_sum(l, at_p[i], at_q[j], &sum->vertex[n++]);
-        if (m.of_a) s = side_from(l, p, at_p, i = p->cleaned->next[i]);
-        if (m.of_b) t = side_from(l, q, at_q, j = q->cleaned->next[j]);
+        if (m.of_a) s = side_from(l, p, at_p, i = p->form->cleaned.next[i]);
+        if (m.of_b) t = side_from(l, q, at_q, j = q->form->cleaned.next[j]);
     }
     if (l->arena.failed) return sunder_i_no_memory(err);
     for (uint32_t v = 0; v < n; v++) sum->ring_vertex[v] = v;

@@ -351,7 +351,8 @@ sunder_status sunder_i_convolution_sum(sunder_sum *sum, const sunder_shape *p, c
                                        const sunder_shape *q, const sunder_i_point *at_q, bool *done, sunder_error *err)
 {
     *done = false;
-    if (!sum->lattice.narrow || p->cleaned->polygons != 1 || p->cleaned->rings > SUNDER_I_MOST_CURVES || q->pieces != 1)
+    if (!sum->lattice.narrow || p->form->cleaned.polygons != 1 || p->form->cleaned.rings > SUNDER_I_MOST_CURVES ||
+        q->pieces != 1)
         return SUNDER_OK;
     const sunder_i_round round = {p, q, at_p, at_q, 0, 0};
     sunder_i_traced traced = {.sum = sum};

@@ -14,19 +14,19 @@ typedef struct sunder_i_round {
 
 static inline uint32_t sunder_i_round_first_ring(const sunder_i_round *r)
 {
-    return r->polygon ? r->p->cleaned->poly_end[r->polygon - 1] : 0;
+    return r->polygon ? r->p->form->cleaned.poly_end[r->polygon - 1] : 0;
 }
 
 /* The convex polygon has one ring. */
 static inline uint32_t sunder_i_round_first_corner(const sunder_i_round *r)
 {
-    const uint32_t ring = r->q->cleaned->poly_end[r->convex] - 1;
-    return ring ? r->q->cleaned->ring_end[ring - 1] : 0;
+    const uint32_t ring = r->q->form->cleaned.poly_end[r->convex] - 1;
+    return ring ? r->q->form->cleaned.ring_end[ring - 1] : 0;
 }
 
 static inline uint32_t sunder_i_round_corners(const sunder_i_round *r)
 {
-    return r->q->cleaned->ring_end[r->q->cleaned->poly_end[r->convex] - 1] - sunder_i_round_first_corner(r);
+    return r->q->form->cleaned.ring_end[r->q->form->cleaned.poly_end[r->convex] - 1] - sunder_i_round_first_corner(r);
 }
 
 /* What has been traced so far: rings of components that are apart, over the vertices of a sum. */

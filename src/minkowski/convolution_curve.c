@@ -25,7 +25,7 @@ static bool same(sunder_i_point a, sunder_i_point b) { return a.x == b.x && a.y 
 static uint32_t after(const mover *t, uint32_t j) { return j + 1 < t->m ? j + 1 : 0; }
 static uint32_t before(const mover *t, uint32_t j) { return j ? j - 1 : t->m - 1; }
 static uint32_t next_of(const mover *t, uint32_t v) { return t->next[v] - t->start; }
-static uint32_t prev_of(const mover *t, uint32_t v) { return t->round->p->cleaned->prev[t->start + v] - t->start; }
+static uint32_t prev_of(const mover *t, uint32_t v) { return t->round->p->form->cleaned.prev[t->start + v] - t->start; }
 
 /* The sign of the turn from d to the side of Q that ends in corner j. */
 static int turn_to(const mover *t, sunder_i_point d, uint32_t j)
@@ -72,12 +72,15 @@ static void size_of(const sunder_i_point *at, uint32_t n, int64_t size[2])
 
 static uint32_t first_ring(const mover *t) { return sunder_i_round_first_ring(t->round); }
 
-static uint32_t rings_of(const mover *t) { return t->round->p->cleaned->poly_end[t->round->polygon] - first_ring(t); }
+static uint32_t rings_of(const mover *t)
+{
+    return t->round->p->form->cleaned.poly_end[t->round->polygon] - first_ring(t);
+}
 
 /* Ring r of P. */
 static uint32_t ring_end(const mover *t, uint32_t r)
 {
-    return t->round->p->cleaned->ring_end[first_ring(t) + r] - t->start;
+    return t->round->p->form->cleaned.ring_end[first_ring(t) + r] - t->start;
 }
 static uint32_t ring_begin(const mover *t, uint32_t r) { return r ? ring_end(t, r - 1) : 0; }
 
@@ -111,7 +114,7 @@ static bool find_corners(mover *t, uint32_t start)
     do {
         const sunder_i_point e = sunder_i_narrow_sub(t->at[next_of(t, v)], t->at[v]);
         const sunder_i_det bend = sunder_i_narrow_cross(d, e);
-        if (bend == 0 || t->round->p->cleaned->shared[t->start + v]) return false;
+        if (bend == 0 || t->round->p->form->cleaned.shared[t->start + v]) return false;
         t->reflex[v] = bend < 0;
         j = walk_to(t, j, e, bend < 0);
         t->last[v] = j;
@@ -214,14 +217,14 @@ static void add_links(mover *t)
 /* The numbers of one round; those of the next one follow. */
 static mover mover_of(sunder_i_convolution *c, const sunder_i_round *round)
 {
-    const uint32_t ring = sunder_i_round_first_ring(round), end = round->p->cleaned->poly_end[round->polygon];
-    const uint32_t start = ring ? round->p->cleaned->ring_end[ring - 1] : 0;
+    const uint32_t ring = sunder_i_round_first_ring(round), end = round->p->form->cleaned.poly_end[round->polygon];
+    const uint32_t start = ring ? round->p->form->cleaned.ring_end[ring - 1] : 0;
     const mover t = {.curve = c,
                      .round = round,
                      .at = round->at_p + start,
-                     .next = round->p->cleaned->next + start,
+                     .next = round->p->form->cleaned.next + start,
                      .start = start,
-                     .n = round->p->cleaned->ring_end[end - 1] - start,
+                     .n = round->p->form->cleaned.ring_end[end - 1] - start,
                      .base = c->vertices,
                      .ring = c->rings,
                      .m = sunder_i_round_corners(round)};
@@ -254,7 +257,8 @@ static bool make_own_room(mover *t)
     t->to = sunder_i_arena_alloc(m, t->n, sizeof *t->to);
     t->backwards = sunder_i_arena_alloc(m, t->n, sizeof *t->backwards);
     if (m->failed) return false;
-    for (uint32_t j = 0, v = sunder_i_round_first_corner(t->round); j < t->m; j++, v = t->round->q->cleaned->next[v])
+    for (uint32_t j = 0, v = sunder_i_round_first_corner(t->round); j < t->m;
+         j++, v = t->round->q->form->cleaned.next[v])
         t->q[j] = t->round->at_q[v];
     return true;
 }

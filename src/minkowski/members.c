@@ -28,17 +28,21 @@ typedef struct grouper {
 
 static uint32_t first_ring(const sunder_shape *s, uint32_t polygon)
 {
-    return polygon ? s->cleaned->poly_end[polygon - 1] : 0;
+    return polygon ? s->form->cleaned.poly_end[polygon - 1] : 0;
 }
-static uint32_t first_vertex(const sunder_shape *s, uint32_t ring) { return ring ? s->cleaned->ring_end[ring - 1] : 0; }
+static uint32_t first_vertex(const sunder_shape *s, uint32_t ring)
+{
+    return ring ? s->form->cleaned.ring_end[ring - 1] : 0;
+}
 
 /* One ring that turns left everywhere. */
 static bool is_convex(const sunder_shape *s, const sunder_i_point *at, uint32_t polygon)
 {
     const uint32_t ring = first_ring(s, polygon);
-    if (s->cleaned->poly_end[polygon] - ring > 1) return false;
-    for (uint32_t v = first_vertex(s, ring); v < s->cleaned->ring_end[ring]; v++)
-        if (sunder_i_narrow_orient(at[s->cleaned->prev[v]], at[v], at[s->cleaned->next[v]]) <= 0) return false;
+    if (s->form->cleaned.poly_end[polygon] - ring > 1) return false;
+    for (uint32_t v = first_vertex(s, ring); v < s->form->cleaned.ring_end[ring]; v++)
+        if (sunder_i_narrow_orient(at[s->form->cleaned.prev[v]], at[v], at[s->form->cleaned.next[v]]) <= 0)
+            return false;
     return true;
 }
 
@@ -50,7 +54,7 @@ static void add_box(const sunder_shape *s, const sunder_i_point *at, uint32_t po
 {
     const uint32_t ring = first_ring(s, polygon), begin = first_vertex(s, ring);
     sunder_i_point low = at[begin], high = low;
-    for (uint32_t v = begin + 1; v < s->cleaned->ring_end[ring]; v++) {
+    for (uint32_t v = begin + 1; v < s->form->cleaned.ring_end[ring]; v++) {
         if (at[v].x < low.x) low.x = at[v].x;
         if (at[v].x > high.x) high.x = at[v].x;
         if (at[v].y < low.y) low.y = at[v].y;
@@ -122,7 +126,8 @@ static bool make_rounds(const grouper *g, uint32_t from, uint32_t to, sunder_i_r
         const sunder_i_round turned = {g->one, g->many, g->at_one, g->at_many, 0, m};
         if (!g->one_convex && !is_convex(g->many, g->at_many, m)) return false;
         round[i - from] = g->one_convex ? straight : turned;
-        rings += g->one_convex ? g->many->cleaned->poly_end[m] - first_ring(g->many, m) : g->one->cleaned->rings;
+        rings +=
+            g->one_convex ? g->many->form->cleaned.poly_end[m] - first_ring(g->many, m) : g->one->form->cleaned.rings;
     }
     return rings <= SUNDER_I_MOST_CURVES;
 }
@@ -158,7 +163,7 @@ sunder_status sunder_i_members_sum(sunder_sum *sum, const sunder_shape *many, co
                                    sunder_error *err)
 {
     sunder_i_arena arena = {0};
-    const uint32_t n = many->cleaned->polygons;
+    const uint32_t n = many->form->cleaned.polygons;
     *left = (sunder_i_members_left){NULL, n};
     if (!sum->lattice.narrow || many->flat || one->flat) return SUNDER_OK;
     grouper g = {.many = many,
@@ -199,8 +204,8 @@ bool sunder_i_members_view_init(const sunder_shape *many, const bool *polygon, s
         sunder_i_members_view_free(view);
         return false;
     }
-    for (uint32_t p = 0; p < many->cleaned->polygons; p++)
-        for (const uint32_t past = many->cleaned->ring_end[many->cleaned->poly_end[p] - 1]; at < past; at++)
+    for (uint32_t p = 0; p < many->form->cleaned.polygons; p++)
+        for (const uint32_t past = many->form->cleaned.ring_end[many->form->cleaned.poly_end[p] - 1]; at < past; at++)
             wanted[at] = polygon[p];
     uint32_t *vertex = end + many->pieces;
     for (uint32_t i = 0, k = 0; i < many->pieces; i++) {

@@ -80,12 +80,12 @@ static sunder_status unite_rest(sunder_sum *sum, const operands *o, bool of_p, c
 static sunder_status sum_members(sunder_sum *sum, const operands *o, bool *done, const sunder_sum_options *options,
                                  sunder_error *err)
 {
-    const bool of_p = o->p->cleaned->polygons > 1;
+    const bool of_p = o->p->form->cleaned.polygons > 1;
     const sunder_i_placed *at = o->at;
     sunder_i_members_left left;
     sunder_status status = of_p ? sunder_i_members_sum(sum, o->p, at->p, o->q, at->q, &left, err)
                                 : sunder_i_members_sum(sum, o->q, at->q, o->p, at->p, &left, err);
-    *done = status == SUNDER_OK && left.n < (of_p ? o->p : o->q)->cleaned->polygons;
+    *done = status == SUNDER_OK && left.n < (of_p ? o->p : o->q)->form->cleaned.polygons;
     if (*done && left.n > 0) status = unite_rest(sum, o, of_p, &left, options, err);
     sunder_i_free(left.polygon);
     return status;
@@ -97,17 +97,17 @@ static sunder_status try_special(sunder_sum *sum, const operands *o, bool *done,
 {
     const sunder_shape *p = o->p, *q = o->q;
     const sunder_i_placed *at = o->at;
-    const bool single = p->cleaned->polygons == 1 && q->cleaned->polygons == 1;
+    const bool single = p->form->cleaned.polygons == 1 && q->form->cleaned.polygons == 1;
     sunder_status status = SUNDER_OK;
     *done = sunder_i_are_convex(p, q);
-    if (p->cleaned->polygons == 0 || q->cleaned->polygons == 0) return SUNDER_OK;
+    if (p->form->cleaned.polygons == 0 || q->form->cleaned.polygons == 0) return SUNDER_OK;
     if (*done) return sunder_i_convex_operands_sum(sum, p, at->p, q, at->q, err);
     if (single && q->pieces == 1)
         status = sunder_i_convolution_sum(sum, p, at->p, q, at->q, done, err);
     else if (single && p->pieces == 1)
         status = sunder_i_convolution_sum(sum, q, at->q, p, at->p, done, err);
     if (status == SUNDER_OK && !*done) status = sunder_i_rectilinear_sum(sum, p, at->p, q, at->q, done, err);
-    if (status == SUNDER_OK && !*done && !single && (p->cleaned->polygons == 1 || q->cleaned->polygons == 1))
+    if (status == SUNDER_OK && !*done && !single && (p->form->cleaned.polygons == 1 || q->form->cleaned.polygons == 1))
         status = sum_members(sum, o, done, options, err);
     return status;
 }

@@ -31,13 +31,13 @@ bool sunder_i_figure_of_shape(sunder_i_lattice *lattice, const sunder_shape *sha
                               sunder_i_figure *out)
 {
     sunder_i_figure f = {0};
-    if (make_room(&f, shape->vertices, shape->vertices, shape->cleaned->rings)) {
+    if (make_room(&f, shape->vertices, shape->vertices, shape->form->cleaned.rings)) {
         for (uint32_t v = 0; v < shape->vertices; v++) {
             f.ring[v] = v;
-            f.touches = f.touches || shape->cleaned->shared[v];
+            f.touches = f.touches || shape->form->cleaned.shared[v];
             f.at[v] = read_point(&f.arena, lattice, at[v]);
         }
-        for (uint32_t r = 0; r < shape->cleaned->rings; r++) f.ring_end[r] = shape->cleaned->ring_end[r];
+        for (uint32_t r = 0; r < shape->form->cleaned.rings; r++) f.ring_end[r] = shape->form->cleaned.ring_end[r];
     }
     const bool ok = !f.arena.failed && !lattice->arena.failed;
     if (ok)

@@ -40,7 +40,7 @@ static sunder_status first_stage(const sunder_shape *p, const sunder_shape *b, b
 {
     *out = NULL;
     if (close) return sunder_minkowski_sum(p, b, options, out, err);
-    return p->cleaned->polygons > 1 ? sunder_i_union_of_members(p, b, options, out, err) : SUNDER_OK;
+    return p->form->cleaned.polygons > 1 ? sunder_i_union_of_members(p, b, options, out, err) : SUNDER_OK;
 }
 
 /* Erode, open and close. */
@@ -48,7 +48,7 @@ static sunder_status shrink(const sunder_shape *p, const sunder_shape *b, sunder
                             const sunder_sum_options *asked, sunder_sum **out, sunder_error *err)
 {
     const double ready = 0.2;
-    const bool connected = b->cleaned->polygons == 1;
+    const bool connected = b->form->cleaned.polygons == 1;
     stage s;
     sunder_sum *whole;
     sunder_i_morphology_operands operands;
@@ -79,7 +79,8 @@ sunder_status sunder_shape_union(const sunder_shape *shape, const sunder_sum_opt
 sunder_status sunder_morphology(const sunder_shape *p, const sunder_shape *b, sunder_operation operation,
                                 const sunder_sum_options *options, sunder_sum **out, sunder_error *err)
 {
-    if (b->cleaned->polygons == 0) return sunder_i_fail(err, SUNDER_EARG, "the shape to grow or shrink by has no area");
+    if (b->form->cleaned.polygons == 0)
+        return sunder_i_fail(err, SUNDER_EARG, "the shape to grow or shrink by has no area");
     if ((unsigned)operation > SUNDER_OPERATION_CLOSE)
         return sunder_i_fail(err, SUNDER_EARG, "there is no such operation");
     if (operation == SUNDER_OPERATION_DILATE) return sunder_minkowski_sum(p, b, options, out, err);

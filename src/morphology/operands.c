@@ -18,7 +18,7 @@ static bool fill(const sunder_shape *p, const sunder_shape *b, sunder_i_placed *
     operands->lattice = empty_like(l);
     return sunder_i_structuring_element_of_shape(l, b, placed->q, false, &operands->element) &&
            sunder_i_structuring_element_of_shape(l, b, placed->q, true, &operands->reflected) &&
-           (p->cleaned->polygons > 1 || sunder_i_figure_of_shape(l, p, placed->p, &operands->figure));
+           (p->form->cleaned.polygons > 1 || sunder_i_figure_of_shape(l, p, placed->p, &operands->figure));
 }
 
 sunder_status sunder_i_morphology_operands_make(const sunder_shape *p, const sunder_shape *b,

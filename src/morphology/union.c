@@ -53,7 +53,7 @@ static sunder_status unite_pieces(const sunder_shape *shape, const sunder_i_poin
     sunder_i_convex_pieces_add_shape(&pieces, shape, at);
     sunder_status status = SUNDER_OK;
     if (sunder_i_convex_pieces_rank(&sum->lattice, list, 1, &directions)) {
-        if (shape->cleaned->polygons > 1) status = sunder_i_drop_contained_sides(&pieces, err);
+        if (shape->form->cleaned.polygons > 1) status = sunder_i_drop_contained_sides(&pieces, err);
         if (status == SUNDER_OK) status = sunder_i_outline_find(&pieces, options, NULL, NULL, sum, err);
     } else
         status = sunder_i_no_memory(err);
@@ -87,7 +87,7 @@ sunder_status sunder_i_union_of_members(const sunder_shape *shape, const sunder_
 sunder_status sunder_i_without_seams(const sunder_shape *shape, sunder_shape **out, sunder_error *err)
 {
     *out = NULL;
-    if (shape->cleaned->polygons < 2) return SUNDER_OK;
+    if (shape->form->cleaned.polygons < 2) return SUNDER_OK;
     sunder_sum *sum;
     sunder_status status = sunder_shape_union(shape, NULL, &sum, err);
     if (status != SUNDER_OK) return status;

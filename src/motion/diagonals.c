@@ -68,7 +68,7 @@ static unsigned bits_of(const double *xy, const uint32_t corner[4])
 static bool has_exact(const sunder_shape *shape, const uint32_t corner[4])
 {
     bool any = false;
-    for (int i = 0; i < 4 && shape->rational; i++) any = any || shape->numbers->exact[corner[i]].den.size;
+    for (int i = 0; i < 4 && shape->rational; i++) any = any || shape->form->numbers->exact[corner[i]].den.size;
     return any;
 }
 

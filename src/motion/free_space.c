@@ -109,8 +109,8 @@ static sunder_i_point put_double(sunder_i_lattice *l, const double xy[2], const 
 
 static sunder_i_point put_vertex(sunder_i_lattice *l, const sunder_shape *shape, uint32_t v, const double origin[2])
 {
-    if (shape->rational && shape->numbers->exact[v].den.size)
-        return sunder_i_place_exact(l, &shape->numbers->exact[v], NULL, origin);
+    if (shape->rational && shape->form->numbers->exact[v].den.size)
+        return sunder_i_place_exact(l, &shape->form->numbers->exact[v], NULL, origin);
     return put_double(l, shape->xy + 2 * (size_t)v, origin);
 }
 

@@ -31,7 +31,7 @@ static int64_t coordinate(const sunder_i_point *p, int axis) { return axis ? p->
 bool sunder_i_is_rectilinear(const sunder_shape *shape, const sunder_i_point *at)
 {
     for (uint32_t v = 0; v < shape->vertices; v++) {
-        const sunder_i_point a = at[v], b = at[shape->cleaned->next[v]];
+        const sunder_i_point a = at[v], b = at[shape->form->cleaned.next[v]];
         if (a.x != b.x && a.y != b.y) return false;
     }
     return true;
@@ -42,14 +42,14 @@ static int64_t place_of(const cutter *c, uint32_t edge) { return coordinate(&c->
 static int64_t low_of(const cutter *c, uint32_t edge)
 {
     const int64_t a = coordinate(&c->at[edge], !c->axis),
-                  b = coordinate(&c->at[c->shape->cleaned->next[edge]], !c->axis);
+                  b = coordinate(&c->at[c->shape->form->cleaned.next[edge]], !c->axis);
     return a < b ? a : b;
 }
 
 static int64_t high_of(const cutter *c, uint32_t edge)
 {
     const int64_t a = coordinate(&c->at[edge], !c->axis),
-                  b = coordinate(&c->at[c->shape->cleaned->next[edge]], !c->axis);
+                  b = coordinate(&c->at[c->shape->form->cleaned.next[edge]], !c->axis);
     return a < b ? b : a;
 }
 
@@ -123,7 +123,7 @@ static void cut_polygon(cutter *c, uint32_t first, uint32_t end)
 {
     size_t n = 0;
     for (uint32_t v = first; v < end; v++)
-        if (place_of(c, v) == place_of(c, c->shape->cleaned->next[v])) c->edge[n++] = v;
+        if (place_of(c, v) == place_of(c, c->shape->form->cleaned.next[v])) c->edge[n++] = v;
     c->no_memory |= !sunder_i_sort_indices(c->edge, n, compare, c);
     c->spans = 0;
     for (size_t i = 0; i < n && !c->no_memory && c->looks < MOST_LOOKS;) {
@@ -154,8 +154,8 @@ static bool cut_along(const sunder_shape *shape, const sunder_i_point *at, int a
                 .no_memory = arena.failed};
     memset(out, 0, sizeof *out);
     uint32_t first = 0;
-    for (uint32_t p = 0; p < shape->cleaned->polygons && !c.no_memory; p++) {
-        const uint32_t end = shape->cleaned->ring_end[shape->cleaned->poly_end[p] - 1];
+    for (uint32_t p = 0; p < shape->form->cleaned.polygons && !c.no_memory; p++) {
+        const uint32_t end = shape->form->cleaned.ring_end[shape->form->cleaned.poly_end[p] - 1];
         cut_polygon(&c, first, end);
         first = end;
     }

@@ -18,7 +18,7 @@ static uint32_t *edges_near(sunder_i_operands *g, int side, double reach, uint32
     if (!list) return NULL;
     for (uint32_t v = 0; v < s->vertices; v++) {
         double box[4];
-        sunder_i_box_of_segment(g->xy[side] + 2 * v, g->xy[side] + 2 * s->cleaned->next[v], box);
+        sunder_i_box_of_segment(g->xy[side] + 2 * v, g->xy[side] + 2 * s->form->cleaned.next[v], box);
         if (sunder_i_box_near(box, g->box[!side], reach)) list[(*n)++] = v;
     }
     return list;
@@ -29,7 +29,7 @@ typedef enum nearness { FAR, NEAR, IN_DOUBT } nearness;
 /* Is a point of edge i of P nearer than `units` to one of edge j of Q? The interiors are disjoint. In doubles. */
 static nearness edges_near_each_other(const sunder_i_operands *g, uint32_t i, uint32_t j, double units)
 {
-    const uint32_t in = g->shape[0]->cleaned->next[i], jn = g->shape[1]->cleaned->next[j];
+    const uint32_t in = g->shape[0]->form->cleaned.next[i], jn = g->shape[1]->form->cleaned.next[j];
     const double *a = g->xy[0] + 2 * i, *b = g->xy[0] + 2 * in, *c = g->xy[1] + 2 * j, *d = g->xy[1] + 2 * jn;
     const double doubt = 16 * g->error + 0x1p-50 * units, reach = units + doubt;
     double ab[4], cd[4];
@@ -46,14 +46,14 @@ static nearness edges_near_each_other(const sunder_i_operands *g, uint32_t i, ui
 
 static bool exactly_near(sunder_i_operands *g, uint32_t i, uint32_t j, int64_t gap)
 {
-    const uint32_t in = g->shape[0]->cleaned->next[i], jn = g->shape[1]->cleaned->next[j];
+    const uint32_t in = g->shape[0]->form->cleaned.next[i], jn = g->shape[1]->form->cleaned.next[j];
     return sunder_i_segment_distance_cmp(&g->placed.lattice, g->at[0][i], g->at[0][in], g->at[1][j], g->at[1][jn],
                                          gap) < 0;
 }
 
 static bool exactly_touch(sunder_i_operands *g, uint32_t i, uint32_t j)
 {
-    const uint32_t in = g->shape[0]->cleaned->next[i], jn = g->shape[1]->cleaned->next[j];
+    const uint32_t in = g->shape[0]->form->cleaned.next[i], jn = g->shape[1]->form->cleaned.next[j];
     return sunder_i_segments_meet(&g->placed.lattice, g->at[0][i], g->at[0][in], g->at[1][j], g->at[1][jn]) !=
            SUNDER_I_APART;
 }

@@ -68,7 +68,7 @@ static bool intervals_cover(sunder_i_lattice *l, interval *v, uint32_t n, const 
 static bool edge_harmless(sunder_i_operands *g, uint32_t i, uint32_t e, interval *buffer)
 {
     const sunder_shape *q = g->shape[1];
-    const uint32_t next = q->cleaned->next[e];
+    const uint32_t next = q->form->cleaned.next[e];
     double box[4];
     sunder_i_box_of_segment(g->xy[1] + 2 * e, g->xy[1] + 2 * next, box);
     const sunder_i_point a = g->at[1][e], b = g->at[1][next];

@@ -47,8 +47,8 @@ static double to_segment(sunder_i_operands *g, sunder_i_point p, sunder_i_point 
 /* The least over the four ends; *which says which: 0 a, 1 b (ends of P's edge), 2 c, 3 d. */
 static double edge_square(sunder_i_operands *g, uint32_t i, uint32_t j, int *which, double *t)
 {
-    const sunder_i_point a = g->at[0][i], b = g->at[0][g->shape[0]->cleaned->next[i]];
-    const sunder_i_point c = g->at[1][j], d = g->at[1][g->shape[1]->cleaned->next[j]];
+    const sunder_i_point a = g->at[0][i], b = g->at[0][g->shape[0]->form->cleaned.next[i]];
+    const sunder_i_point c = g->at[1][j], d = g->at[1][g->shape[1]->form->cleaned.next[j]];
     const sunder_i_point end[4] = {a, b, c, d};
     double best = INFINITY;
     for (int k = 0; k < 4; k++) {
@@ -92,12 +92,12 @@ static void compare_edges(sunder_i_operands *g, uint32_t from, uint32_t to, uint
 {
     const sunder_shape *p = g->shape[0], *q = g->shape[1];
     for (uint32_t i = from; i < to; i++) {
-        const double *a = g->xy[0] + 2 * i, *b = g->xy[0] + 2 * p->cleaned->next[i];
+        const double *a = g->xy[0] + 2 * i, *b = g->xy[0] + 2 * p->form->cleaned.next[i];
         const double reach = sqrt(best->square) + 4 * g->error;
         if (box_square(a, b, box, box + 2) > reach * reach) continue;
         for (uint32_t j = first; j < last; j++) {
             const double now = sqrt(best->square) + 4 * g->error;
-            if (box_square(a, b, g->xy[1] + 2 * j, g->xy[1] + 2 * q->cleaned->next[j]) <= now * now)
+            if (box_square(a, b, g->xy[1] + 2 * j, g->xy[1] + 2 * q->form->cleaned.next[j]) <= now * now)
                 offer(g, i, j, best);
         }
     }
@@ -117,7 +117,7 @@ static double (*block_boxes(sunder_i_operands *g, int side, uint32_t blocks))[4]
         b[2] = b[3] = -INFINITY;
         for (uint32_t e = k * BLOCK; e < (k + 1) * BLOCK && e < s->vertices; e++)
             for (int end = 0; end < 2; end++) {
-                const double *v = g->xy[side] + 2 * (end ? s->cleaned->next[e] : e);
+                const double *v = g->xy[side] + 2 * (end ? s->form->cleaned.next[e] : e);
                 for (int c = 0; c < 2; c++) {
                     if (v[c] < b[c]) b[c] = v[c];
                     if (v[c] > b[c + 2]) b[c + 2] = v[c];
@@ -190,7 +190,7 @@ static vector outside(sunder_i_operands *g, vector v)
 
 static vector link_point(sunder_i_operands *g, int side, uint32_t edge, double t)
 {
-    const double *a = g->xy[side] + 2 * edge, *b = g->xy[side] + 2 * g->shape[side]->cleaned->next[edge];
+    const double *a = g->xy[side] + 2 * edge, *b = g->xy[side] + 2 * g->shape[side]->form->cleaned.next[edge];
     return outside(g, (vector){a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])});
 }
 
@@ -276,8 +276,8 @@ sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const
         sunder_i_lattice *l = &g.placed.lattice;
         d = sqrt(k.square) * g.unit;
         /* Zero exactly where they touch. */
-        if (sunder_i_segments_meet(l, g.at[0][k.i], g.at[0][p->cleaned->next[k.i]], g.at[1][k.j],
-                                   g.at[1][q->cleaned->next[k.j]]) != SUNDER_I_APART)
+        if (sunder_i_segments_meet(l, g.at[0][k.i], g.at[0][p->form->cleaned.next[k.i]], g.at[1][k.j],
+                                   g.at[1][q->form->cleaned.next[k.j]]) != SUNDER_I_APART)
             d = 0;
         else if (d == 0)
             d = 0x1p-1074;

@@ -45,7 +45,7 @@ static bool holds_doubles(const sunder_shape *p, const double at[2])
 static bool meets_doubles(const sunder_i_passage *way, const double way_box[4], const sunder_shape *p)
 {
     for (uint32_t v = 0; v < p->vertices; v++) {
-        const double *c = corner(p, v), *d = corner(p, p->cleaned->next[v]);
+        const double *c = corner(p, v), *d = corner(p, p->form->cleaned.next[v]);
         double box[4];
         sunder_i_box_of_segment(c, d, box);
         if (sunder_i_box_meet(way_box, box) && sunder_i_passage_meets(way, c, d)) return true;
@@ -76,7 +76,7 @@ static sunder_i_rational_point put_double(sunder_i_arena *arena, const double xy
 
 static sunder_i_rational_point put_corner(sunder_i_arena *arena, const sunder_shape *p, uint32_t v, long unit)
 {
-    const sunder_i_exact *e = &p->numbers->exact[v];
+    const sunder_i_exact *e = &p->form->numbers->exact[v];
     if (e->den.size == 0) return put_double(arena, corner(p, v), unit);
     const unsigned long up = (unsigned long)(e->exponent - unit);
     return (sunder_i_rational_point){sunder_i_big_shl(arena, e->num[0], up), sunder_i_big_shl(arena, e->num[1], up),
@@ -86,8 +86,8 @@ static sunder_i_rational_point put_corner(sunder_i_arena *arena, const sunder_sh
 /* No unit of a coordinate of vertex v is lower, nor than unit. */
 static long lower_unit(const sunder_shape *p, uint32_t v, long unit)
 {
-    if (p->numbers->exact[v].den.size)
-        return p->numbers->exact[v].exponent < unit ? p->numbers->exact[v].exponent : unit;
+    if (p->form->numbers->exact[v].den.size)
+        return p->form->numbers->exact[v].exponent < unit ? p->form->numbers->exact[v].exponent : unit;
     for (int c = 0; c < 2; c++) {
         const int bit = sunder_i_low_bit(corner(p, v)[c]);
         if (bit < unit) unit = bit;
@@ -164,7 +164,7 @@ static bool meets_rational(rationals *r, const sunder_shape *p)
 {
     for (uint32_t v = 0; v < p->vertices && !r->arena.failed; v++) {
         const sunder_i_mark mark = sunder_i_arena_mark(&r->arena);
-        const bool meets = meets_edge(r, v, p->cleaned->next[v]);
+        const bool meets = meets_edge(r, v, p->form->cleaned.next[v]);
         sunder_i_arena_release(&r->arena, mark);
         if (meets) return true;
     }
@@ -213,8 +213,9 @@ sunder_status sunder_i_passes(const sunder_i_passage *way, const sunder_shape *p
 sunder_status sunder_i_enters_by_edge(const sunder_i_passage *way, const sunder_shape *p, uint32_t v, bool *enters,
                                       sunder_error *err)
 {
-    const uint32_t end[2] = {v, p->cleaned->next[v]};
-    if (!p->rational || (p->numbers->exact[end[0]].den.size == 0 && p->numbers->exact[end[1]].den.size == 0)) {
+    const uint32_t end[2] = {v, p->form->cleaned.next[v]};
+    if (!p->rational ||
+        (p->form->numbers->exact[end[0]].den.size == 0 && p->form->numbers->exact[end[1]].den.size == 0)) {
         const sunder_point c = point_of(corner(p, end[0])), d = point_of(corner(p, end[1])), at = point_of(way->from);
         *enters = sunder_orient(&c, &d, &at) < 0 && sunder_i_passage_meets(way, corner(p, end[0]), corner(p, end[1]));
         return SUNDER_OK;

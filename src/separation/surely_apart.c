@@ -56,7 +56,7 @@ static bool parts_along(const sunder_shape *s, const corners *at, const corners 
                         const double way[2], double far, double size)
 {
     for (uint32_t v = 0; v < s->vertices; v++) {
-        const double *a = at->xy + 2 * v, *b = at->xy + 2 * s->cleaned->next[v];
+        const double *a = at->xy + 2 * v, *b = at->xy + 2 * s->form->cleaned.next[v];
         double n[2] = {b[1] - a[1], a[0] - b[0]};
         if (n[0] * way[0] + n[1] * way[1] < 0) {
             n[0] = -n[0];

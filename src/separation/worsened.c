@@ -37,7 +37,7 @@ static square end_square(sunder_i_operands *g, int side, uint32_t v, uint32_t ed
     const sunder_i_rational_point c = sunder_i_rational_get(m, l, g->at[side][v]);
     const sunder_i_rational_point a = sunder_i_rational_get(m, l, g->at[1 - side][edge]);
     const sunder_i_rational_point b =
-        sunder_i_rational_get(m, l, g->at[1 - side][g->shape[1 - side]->cleaned->next[edge]]);
+        sunder_i_rational_get(m, l, g->at[1 - side][g->shape[1 - side]->form->cleaned.next[edge]]);
     const sunder_i_rational_point e = sunder_i_rational_sub(m, b, a), u = sunder_i_rational_sub(m, c, a);
     const sunder_i_rational_point w = sunder_i_rational_sub(m, c, b);
     const bool beyond_a = sunder_i_big_sign(sunder_i_rational_dot(m, u, e)) > 0;
@@ -67,7 +67,7 @@ static square least_square(sunder_i_operands *g)
                 for (uint32_t e = 0; e < g->shape[1 - side]->vertices; e++) {
                     const double *xy = g->xy[1 - side];
                     const double d = sqrt(sunder_i_point_square(g->xy[side] + 2 * v, xy + 2 * e,
-                                                                xy + 2 * g->shape[1 - side]->cleaned->next[e]));
+                                                                xy + 2 * g->shape[1 - side]->form->cleaned.next[e]));
                     if (pass == 0) least = fmin(least, d);
                     if (pass == 0 || d > most) continue;
                     const square s = end_square(g, side, v, e);

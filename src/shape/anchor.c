@@ -142,7 +142,7 @@ void sunder_shape_anchor(const sunder_shape *shape, double xy[2])
     xy[0] = xy[1] = 0;
     if (shape->pieces == 0) return;
     if (shape->rational) {
-        memcpy(xy, shape->numbers->anchor, sizeof shape->numbers->anchor);
+        memcpy(xy, shape->form->numbers->anchor, sizeof shape->form->numbers->anchor);
         return;
     }
     uint32_t from;

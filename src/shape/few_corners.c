@@ -4,14 +4,14 @@
 /* Of each n: the last corner, all of them, the first one again. So from the first of these numbers on stands who comes
  * before each corner, from the third on who comes after each. */
 static const uint32_t round_about[] = {
-    2, 0, 1, 2, 0,                                              /* 3 */
-    3, 0, 1, 2, 3, 0,                                           /* 4 */
-    4, 0, 1, 2, 3, 4, 0,                                        /* 5 */
-    5, 0, 1, 2, 3, 4, 5, 0,                                     /* 6 */
-    6, 0, 1, 2, 3, 4, 5, 6, 0,                                  /* 7 */
-    7, 0, 1, 2, 3, 4, 5, 6, 7, 0,                               /* 8 */
-    8, 0, 1, 2, 3, 4, 5, 6, 7, 8, 0,                            /* 9 */
-    9, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0,                         /* 10 */
+    2,  0, 1, 2, 0,                                             /* 3 */
+    3,  0, 1, 2, 3, 0,                                          /* 4 */
+    4,  0, 1, 2, 3, 4, 0,                                       /* 5 */
+    5,  0, 1, 2, 3, 4, 5, 0,                                    /* 6 */
+    6,  0, 1, 2, 3, 4, 5, 6, 0,                                 /* 7 */
+    7,  0, 1, 2, 3, 4, 5, 6, 7, 0,                              /* 8 */
+    8,  0, 1, 2, 3, 4, 5, 6, 7, 8, 0,                           /* 9 */
+    9,  0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0,                        /* 10 */
     10, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 0,                    /* 11 */
     11, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 0,                /* 12 */
     12, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0,            /* 13 */
@@ -22,20 +22,20 @@ static const uint32_t round_about[] = {
 
 /* Of each n the number itself, and all corners. */
 static const uint32_t whole[] = {
-    3, 0, 1, 2,                                                 /* 3 */
-    4, 0, 1, 2, 3,                                              /* 4 */
-    5, 0, 1, 2, 3, 4,                                           /* 5 */
-    6, 0, 1, 2, 3, 4, 5,                                        /* 6 */
-    7, 0, 1, 2, 3, 4, 5, 6,                                     /* 7 */
-    8, 0, 1, 2, 3, 4, 5, 6, 7,                                  /* 8 */
-    9, 0, 1, 2, 3, 4, 5, 6, 7, 8,                               /* 9 */
-    10, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9,                           /* 10 */
-    11, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10,                       /* 11 */
-    12, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11,                   /* 12 */
-    13, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12,               /* 13 */
-    14, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13,           /* 14 */
-    15, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14,       /* 15 */
-    16, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15    /* 16 */
+    3,  0, 1, 2,                                             /* 3 */
+    4,  0, 1, 2, 3,                                          /* 4 */
+    5,  0, 1, 2, 3, 4,                                       /* 5 */
+    6,  0, 1, 2, 3, 4, 5,                                    /* 6 */
+    7,  0, 1, 2, 3, 4, 5, 6,                                 /* 7 */
+    8,  0, 1, 2, 3, 4, 5, 6, 7,                              /* 8 */
+    9,  0, 1, 2, 3, 4, 5, 6, 7, 8,                           /* 9 */
+    10, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9,                        /* 10 */
+    11, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10,                    /* 11 */
+    12, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11,                /* 12 */
+    13, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12,            /* 13 */
+    14, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13,        /* 14 */
+    15, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14,    /* 15 */
+    16, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 /* 16 */
 };
 
 static const uint32_t count[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
@@ -47,20 +47,26 @@ static const bool none[SUNDER_I_FEW_CORNERS];
 #define WHOLE(n) ((n) * ((n) + 1) / 2 - 6)
 
 #define CLEANED(n)                                                                                                     \
-    [n] = {&count[n], &count[1], round_about + ROUND(n) + 2, round_about + ROUND(n), none, 1, 1}
+    {                                                                                                                  \
+        &count[n], &count[1], round_about + ROUND(n) + 2, round_about + ROUND(n), none, 1, 1                           \
+    }
+#define GIVEN(n)                                                                                                       \
+    {                                                                                                                  \
+        &long_count[n], &long_count[1], 1                                                                              \
+    }
+#define FORM(n, given_n) [given_n] = {GIVEN(given_n), CLEANED(n), NULL}
 
-static const sunder_i_cleaned cleaned[] = {
-    CLEANED(3),  CLEANED(4),  CLEANED(5),  CLEANED(6),  CLEANED(7),  CLEANED(8),  CLEANED(9),
-    CLEANED(10), CLEANED(11), CLEANED(12), CLEANED(13), CLEANED(14), CLEANED(15), CLEANED(16)};
+/* Of n corners, of whatever number given. */
+#define FORMS(n)                                                                                                       \
+    [n] = {FORM(n, 3),  FORM(n, 4),  FORM(n, 5),  FORM(n, 6),  FORM(n, 7),  FORM(n, 8),  FORM(n, 9), FORM(n, 10),      \
+           FORM(n, 11), FORM(n, 12), FORM(n, 13), FORM(n, 14), FORM(n, 15), FORM(n, 16), FORM(n, 17)}
 
-#define GIVEN(n) [n] = {&long_count[n], &long_count[1], 1}
+static const sunder_i_form form[][SUNDER_I_FEW_CORNERS + 2] = {FORMS(3),  FORMS(4),  FORMS(5),  FORMS(6),  FORMS(7),
+                                                               FORMS(8),  FORMS(9),  FORMS(10), FORMS(11), FORMS(12),
+                                                               FORMS(13), FORMS(14), FORMS(15), FORMS(16)};
 
-static const sunder_i_given given[] = {GIVEN(0),  GIVEN(1),  GIVEN(2),  GIVEN(3),  GIVEN(4),  GIVEN(5),
-                                       GIVEN(6),  GIVEN(7),  GIVEN(8),  GIVEN(9),  GIVEN(10), GIVEN(11),
-                                       GIVEN(12), GIVEN(13), GIVEN(14), GIVEN(15), GIVEN(16), GIVEN(17)};
+const sunder_i_form *sunder_i_few_form(uint32_t n, size_t given) { return &form[n][given]; }
 
-const sunder_i_cleaned *sunder_i_few_cleaned(uint32_t n) { return &cleaned[n]; }
+bool sunder_i_is_few_form(const sunder_i_form *of) { return of->cleaned.shared == none; }
 
 const uint32_t *sunder_i_few_whole(uint32_t n) { return whole + WHOLE(n); }
-
-const sunder_i_given *sunder_i_few_given(size_t n) { return &given[n]; }

@@ -7,11 +7,11 @@
 /* Buildings have more corners seldom. */
 #define SUNDER_I_FEW_CORNERS 16
 
-/* One ring of n corners, 3 to SUNDER_I_FEW_CORNERS, numbered from 0 along it, which stand in different places. */
-const sunder_i_cleaned *sunder_i_few_cleaned(uint32_t n);
+/* One ring of n corners, 3 to SUNDER_I_FEW_CORNERS, numbered from 0 along it, which stand in different places and are
+ * doubles; it was given with so many vertices, n to SUNDER_I_FEW_CORNERS + 1. */
+const sunder_i_form *sunder_i_few_form(uint32_t n, size_t given);
+/* Is it one of these? */
+bool sunder_i_is_few_form(const sunder_i_form *of);
 /* All of them as one piece: its end, and behind that its corners. */
 const uint32_t *sunder_i_few_whole(uint32_t n);
-/* One ring of n vertices as given, at most SUNDER_I_FEW_CORNERS + 1. */
-const sunder_i_given *sunder_i_few_given(size_t n);
-
 #endif

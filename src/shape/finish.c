@@ -49,12 +49,11 @@ static layout plan(const double *xy, const size_t *ring_end, const size_t *poly_
                 .numbers = r->rounded};
     l.raw_vertices = l.raw_rings ? ring_end[l.raw_rings - 1] : 0;
     l.few = r->rings == 1 && r->polygons == 1 && r->vertices >= 3 && r->vertices <= SUNDER_I_FEW_CORNERS &&
-            polygons == 1 && l.raw_rings == 1 && l.raw_vertices <= SUNDER_I_FEW_CORNERS + 1 &&
-            have_places_of_their_own(r);
+            polygons == 1 && l.raw_rings == 1 && l.raw_vertices >= 3 && l.raw_vertices <= SUNDER_I_FEW_CORNERS + 1 &&
+            !r->rounded && have_places_of_their_own(r);
     if (!l.few) return l;
     l.whole = pieces->pieces == 1 && pieces->corners == r->vertices && is_identity(pieces->piece_vertex, r->vertices);
-    l.clean =
-        !r->rounded && l.raw_vertices >= r->vertices && memcmp(xy, r->xy, 2 * (size_t)r->vertices * sizeof *xy) == 0;
+    l.clean = l.raw_vertices >= r->vertices && memcmp(xy, r->xy, 2 * (size_t)r->vertices * sizeof *xy) == 0;
     return l;
 }
 
@@ -69,8 +68,8 @@ typedef struct arrays {
 static void lay_out_rings(sunder_shape *s, unsigned char *block, size_t *used, const layout *l,
                           const sunder_i_cleaned *head, arrays *to)
 {
-    sunder_i_given *given = carve(block, used, 1, sizeof *given);
-    sunder_i_cleaned *cleaned = carve(block, used, 1, sizeof *cleaned);
+    sunder_i_numbers *numbers = l->numbers ? carve(block, used, 1, sizeof *numbers) : NULL;
+    sunder_i_form *form = carve(block, used, 1, sizeof *form);
     to->given_ring_end = carve(block, used, l->raw_rings, sizeof *to->given_ring_end);
     to->given_poly_end = carve(block, used, l->raw_polygons, sizeof *to->given_poly_end);
     to->ring_end = carve(block, used, head->rings, sizeof *to->ring_end);
@@ -78,21 +77,22 @@ static void lay_out_rings(sunder_shape *s, unsigned char *block, size_t *used, c
     to->next = carve(block, used, s->vertices, sizeof *to->next);
     to->prev = carve(block, used, s->vertices, sizeof *to->prev);
     if (!block) return;
-    *given = (sunder_i_given){to->given_ring_end, to->given_poly_end, l->raw_polygons};
-    *cleaned = (sunder_i_cleaned){to->ring_end, to->poly_end, to->next, to->prev, NULL, head->rings, head->polygons};
-    s->given = given;
-    s->cleaned = cleaned;
+    if (numbers) *numbers = (sunder_i_numbers){0};
+    *form =
+        (sunder_i_form){.given = {to->given_ring_end, to->given_poly_end, l->raw_polygons},
+                        .cleaned = {to->ring_end, to->poly_end, to->next, to->prev, NULL, head->rings, head->polygons},
+                        .numbers = numbers};
+    s->form = form;
 }
 
 /* Where its marks are, of which places are shared. */
-static void set_shared(sunder_shape *s, const bool *shared) { ((sunder_i_cleaned *)s->cleaned)->shared = shared; }
+static void set_shared(sunder_shape *s, const bool *shared) { ((sunder_i_form *)s->form)->cleaned.shared = shared; }
 
 /* With block NULL it only counts. */
 static size_t lay_out(sunder_shape *s, unsigned char *block, const layout *l, const sunder_i_cleaned *head, arrays *to)
 {
     size_t used = sizeof *s + 2 * l->raw_vertices * sizeof *s->raw_xy;
     *to = (arrays){NULL};
-    s->numbers = l->numbers ? carve(block, &used, 1, sizeof *s->numbers) : NULL;
     double *xy = l->clean ? NULL : carve(block, &used, 2 * (size_t)s->vertices, sizeof *s->xy);
     if (!l->few) lay_out_rings(s, block, &used, l, head, to);
     if (!l->whole) to->piece_end = carve(block, &used, (size_t)s->pieces + l->corners, sizeof *to->piece_end);
@@ -101,8 +101,7 @@ static size_t lay_out(sunder_shape *s, unsigned char *block, const layout *l, co
     s->xy = l->clean ? s->raw_xy : xy;
     s->piece_end = l->whole ? sunder_i_few_whole(s->vertices) : to->piece_end;
     if (l->few) {
-        s->given = sunder_i_few_given(l->raw_vertices);
-        s->cleaned = sunder_i_few_cleaned(s->vertices);
+        s->form = sunder_i_few_form(s->vertices, l->raw_vertices);
     } else {
         set_shared(s, to->shared);
     }
@@ -123,7 +122,6 @@ static sunder_shape *allocate(uint32_t vertices, const sunder_i_pieces *pieces, 
     if (!s) return NULL;
     *s = counted;
     lay_out(s, (unsigned char *)s, l, head, to);
-    if (s->numbers) *s->numbers = (sunder_i_numbers){0};
     if (l->whole) return s;
     copy(to->piece_end, pieces->piece_end, pieces->pieces, sizeof *pieces->piece_end);
     copy(to->piece_end + pieces->pieces, pieces->piece_vertex, pieces->corners, sizeof *pieces->piece_vertex);
@@ -159,8 +157,7 @@ sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32
     if (!s) return NULL;
     double *const raw_xy = s->raw_xy, *const own_xy = turned ? raw_xy + 2 * raw : raw_xy;
     uint32_t *const ends = (uint32_t *)(void *)(raw_xy + doubles);
-    *s = (sunder_shape){.given = sunder_i_few_given(raw),
-                        .cleaned = sunder_i_few_cleaned(n),
+    *s = (sunder_shape){.form = sunder_i_few_form(n, raw),
                         .piece_end = whole ? sunder_i_few_whole(n) : ends,
                         .xy = own_xy,
                         .vertices = n,
@@ -178,9 +175,7 @@ sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32
  * the nearest doubles differ. */
 static bool *own_marks(sunder_shape *s)
 {
-    const bool few =
-        s->vertices >= 3 && s->vertices <= SUNDER_I_FEW_CORNERS && s->cleaned == sunder_i_few_cleaned(s->vertices);
-    return few ? NULL : (bool *)s->cleaned->shared;
+    return sunder_i_is_few_form(s->form) ? NULL : (bool *)s->form->cleaned.shared;
 }
 
 void sunder_i_shape_copy_shared(sunder_shape *s, const bool *shared)
@@ -216,7 +211,7 @@ static bool same_place(const sunder_shape *s, uint32_t i, uint32_t j)
         return false;
     if (!s->rational) return true;
     /* In lowest terms one place has one set of numbers. */
-    const sunder_i_exact *a = &s->numbers->exact[i], *b = &s->numbers->exact[j];
+    const sunder_i_exact *a = &s->form->numbers->exact[i], *b = &s->form->numbers->exact[j];
     return a->exponent == b->exponent && sunder_i_big_cmp(a->den, b->den) == 0 &&
            sunder_i_big_cmp(a->num[0], b->num[0]) == 0 && sunder_i_big_cmp(a->num[1], b->num[1]) == 0;
 }
@@ -263,6 +258,6 @@ bool sunder_i_shape_mark_shared(sunder_shape *s, sunder_i_arena *arena)
 void sunder_shape_free(sunder_shape *shape)
 {
     if (!shape) return;
-    if (shape->numbers) sunder_i_arena_free(&shape->numbers->arena);
+    if (shape->form && shape->form->numbers) sunder_i_arena_free(&shape->form->numbers->arena);
     sunder_i_free(shape);
 }

@@ -23,26 +23,29 @@ static int turn(const checker *c, uint32_t a, uint32_t b, uint32_t d)
 
 static bool same(const checker *c, uint32_t a, uint32_t b) { return sunder_i_point_equal(c->l, c->at[a], c->at[b]); }
 
-static uint32_t ring_begin(const sunder_shape *s, uint32_t ring) { return ring ? s->cleaned->ring_end[ring - 1] : 0; }
+static uint32_t ring_begin(const sunder_shape *s, uint32_t ring)
+{
+    return ring ? s->form->cleaned.ring_end[ring - 1] : 0;
+}
 
 static const char *check_links(checker *c)
 {
     const sunder_shape *s = c->s;
     uint32_t v = 0, ring = 0;
-    for (uint32_t p = 0; p < s->cleaned->polygons; p++) {
-        if (s->cleaned->poly_end[p] <= ring) return "a polygon has no ring";
-        for (; ring < s->cleaned->poly_end[p]; ring++) {
-            if (ring >= s->cleaned->rings || s->cleaned->ring_end[ring] < v + 3)
+    for (uint32_t p = 0; p < s->form->cleaned.polygons; p++) {
+        if (s->form->cleaned.poly_end[p] <= ring) return "a polygon has no ring";
+        for (; ring < s->form->cleaned.poly_end[p]; ring++) {
+            if (ring >= s->form->cleaned.rings || s->form->cleaned.ring_end[ring] < v + 3)
                 return "a ring has under three vertices";
-            const uint32_t first = v, end = s->cleaned->ring_end[ring];
+            const uint32_t first = v, end = s->form->cleaned.ring_end[ring];
             for (; v < end; v++) {
                 c->polygon[v] = p;
-                if (s->cleaned->next[v] != (v + 1 < end ? v + 1 : first)) return "next is not along the ring";
-                if (s->cleaned->prev[s->cleaned->next[v]] != v) return "prev is not the reverse of next";
+                if (s->form->cleaned.next[v] != (v + 1 < end ? v + 1 : first)) return "next is not along the ring";
+                if (s->form->cleaned.prev[s->form->cleaned.next[v]] != v) return "prev is not the reverse of next";
             }
         }
     }
-    return v == s->vertices && ring == s->cleaned->rings ? NULL : "the counts do not agree";
+    return v == s->vertices && ring == s->form->cleaned.rings ? NULL : "the counts do not agree";
 }
 
 static bool boxes_apart(const sunder_shape *s, uint32_t a, uint32_t b, uint32_t g, uint32_t h)
@@ -58,7 +61,7 @@ static bool boxes_apart(const sunder_shape *s, uint32_t a, uint32_t b, uint32_t 
 /* Is the direction v -> d in the closed sector of the interior at v? */
 static bool in_sector(const checker *c, uint32_t v, uint32_t d)
 {
-    const uint32_t u = c->s->cleaned->next[v], w = c->s->cleaned->prev[v];
+    const uint32_t u = c->s->form->cleaned.next[v], w = c->s->form->cleaned.prev[v];
     const bool left = turn(c, v, u, d) >= 0, right = turn(c, v, d, w) >= 0;
     return turn(c, v, u, w) > 0 ? left && right : left || right;
 }
@@ -66,7 +69,7 @@ static bool in_sector(const checker *c, uint32_t v, uint32_t d)
 static const char *check_edge_pair(const checker *c, uint32_t e, uint32_t f)
 {
     const sunder_shape *s = c->s;
-    const uint32_t a = e, b = s->cleaned->next[e], g = f, h = s->cleaned->next[f];
+    const uint32_t a = e, b = s->form->cleaned.next[e], g = f, h = s->form->cleaned.next[f];
     if (boxes_apart(s, a, b, g, h)) return NULL;
     switch (sunder_i_segments_meet(c->l, c->at[a], c->at[b], c->at[g], c->at[h])) {
     case SUNDER_I_CROSS: return "edges cross";
@@ -79,7 +82,7 @@ static const char *check_edge_pair(const checker *c, uint32_t e, uint32_t f)
             return "a vertex touches an edge from inside";
         return NULL;
     default:
-        if (same(c, a, g) && (in_sector(c, a, h) || in_sector(c, a, s->cleaned->prev[g]) || in_sector(c, g, b)))
+        if (same(c, a, g) && (in_sector(c, a, h) || in_sector(c, a, s->form->cleaned.prev[g]) || in_sector(c, g, b)))
             return "sectors at one place overlap";
         return NULL;
     }
@@ -89,9 +92,9 @@ static const char *check_edges(checker *c)
 {
     const sunder_shape *s = c->s;
     for (uint32_t e = 0; e < s->vertices; e++) {
-        if (turn(c, s->cleaned->prev[e], e, s->cleaned->next[e]) == 0) return "a collinear vertex";
+        if (turn(c, s->form->cleaned.prev[e], e, s->form->cleaned.next[e]) == 0) return "a collinear vertex";
         for (uint32_t f = e + 1; f < s->vertices && c->polygon[f] == c->polygon[e]; f++) {
-            if (s->cleaned->next[e] == f || s->cleaned->next[f] == e) continue;
+            if (s->form->cleaned.next[e] == f || s->form->cleaned.next[f] == e) continue;
             const char *fault = check_edge_pair(c, e, f);
             if (fault) return fault;
         }
@@ -105,7 +108,7 @@ static const char *check_shared(checker *c)
     for (uint32_t v = 0; v < s->vertices; v++) {
         bool found = false;
         for (uint32_t w = 0; w < s->vertices && !found; w++) found = w != v && same(c, v, w);
-        if (found != s->cleaned->shared[v]) return "shared is wrong";
+        if (found != s->form->cleaned.shared[v]) return "shared is wrong";
     }
     return NULL;
 }
@@ -176,13 +179,14 @@ static const char *check_sides(const checker *c)
 {
     const sunder_shape *s = c->s;
     for (uint32_t v = 0; v < s->vertices; v++)
-        if (count_side(s, v, s->cleaned->next[v]) != 1) return "a boundary edge is not the side of exactly one piece";
+        if (count_side(s, v, s->form->cleaned.next[v]) != 1)
+            return "a boundary edge is not the side of exactly one piece";
     for (uint32_t i = 0, lo = 0; i < s->pieces; lo = s->piece_end[i++])
         for (uint32_t k = lo; k < s->piece_end[i]; k++) {
             const uint32_t a = sunder_i_piece_vertices(s)[k],
                            b = sunder_i_piece_vertices(s)[k + 1 < s->piece_end[i] ? k + 1 : lo];
             if (c->polygon[a] != c->polygon[b]) return "a piece spans two polygons";
-            if (s->cleaned->next[a] != b && (count_side(s, a, b) != 1 || count_side(s, b, a) != 1))
+            if (s->form->cleaned.next[a] != b && (count_side(s, a, b) != 1 || count_side(s, b, a) != 1))
                 return "a diagonal is not the side of exactly two pieces";
         }
     return NULL;
@@ -208,13 +212,13 @@ static const char *check_pieces(checker *c)
 static const char *check_areas(checker *c)
 {
     const sunder_shape *s = c->s;
-    for (uint32_t p = 0; p < s->cleaned->polygons; p++) {
+    for (uint32_t p = 0; p < s->form->cleaned.polygons; p++) {
         sum all = {{NULL, 0}, sunder_i_big_i64(&c->arena, 1)};
-        const uint32_t first = p ? s->cleaned->poly_end[p - 1] : 0;
-        for (uint32_t ring = first; ring < s->cleaned->poly_end[p]; ring++) {
+        const uint32_t first = p ? s->form->cleaned.poly_end[p - 1] : 0;
+        for (uint32_t ring = first; ring < s->form->cleaned.poly_end[p]; ring++) {
             const uint32_t lo = ring_begin(s, ring);
             sum own = {{NULL, 0}, sunder_i_big_i64(&c->arena, 1)};
-            add_area(c, NULL, lo, s->cleaned->ring_end[ring] - lo, 1, &own);
+            add_area(c, NULL, lo, s->form->cleaned.ring_end[ring] - lo, 1, &own);
             if (sunder_i_big_sign(own.num) != (ring == first ? 1 : -1)) return "a ring is turned the wrong way";
             add_term(&c->arena, &all, own.num, own.den);
         }
@@ -230,7 +234,8 @@ static const char *check_numbers(checker *c)
 {
     const sunder_shape *s = c->s;
     for (size_t i = 0; i < 2 * (size_t)s->vertices; i++) {
-        const sunder_i_exact *v = s->rational && s->numbers->exact[i / 2].den.size ? &s->numbers->exact[i / 2] : NULL;
+        const sunder_i_exact *v =
+            s->rational && s->form->numbers->exact[i / 2].den.size ? &s->form->numbers->exact[i / 2] : NULL;
         if (v && (sunder_i_big_sign(v->den) <= 0 || sunder_i_big_twos(v->den) != 0)) return "a denominator is not odd";
         if (v && sunder_i_big_ratio(&c->arena, v->num[i & 1], v->den, v->exponent) != s->xy[i])
             return "a coordinate is not the nearest double";
@@ -242,7 +247,8 @@ static const char *check_numbers(checker *c)
 const char *sunder_i_shape_check(const sunder_shape *shape)
 {
     sunder_i_placed placed;
-    if (shape->cleaned->polygons == 0) return shape->vertices || shape->pieces ? "an empty shape has vertices" : NULL;
+    if (shape->form->cleaned.polygons == 0)
+        return shape->vertices || shape->pieces ? "an empty shape has vertices" : NULL;
     if (sunder_i_place(shape, NULL, NULL, &placed, NULL)) return NULL;
     checker c = {.s = shape, .l = &placed.lattice, .at = placed.p};
     c.polygon = sunder_i_alloc(shape->vertices, sizeof *c.polygon);

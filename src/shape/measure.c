@@ -10,9 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-size_t sunder_shape_polygons(const sunder_shape *shape) { return shape->cleaned->polygons; }
+size_t sunder_shape_polygons(const sunder_shape *shape) { return shape->form->cleaned.polygons; }
 size_t sunder_shape_vertices(const sunder_shape *shape) { return shape->vertices; }
-bool sunder_shape_is_empty(const sunder_shape *shape) { return shape->cleaned->polygons == 0; }
+bool sunder_shape_is_empty(const sunder_shape *shape) { return shape->form->cleaned.polygons == 0; }
 bool sunder_shape_repaired(const sunder_shape *shape) { return shape->repaired; }
 
 bool sunder_shape_touches(const sunder_shape *shape) { return shape->touches; }
@@ -21,10 +21,10 @@ void sunder_shape_box(const sunder_shape *shape, double box[4]) { memcpy(box, sh
 /* Rings run with the interior on their left, so their signed areas add up to that of the members. */
 double sunder_shape_area(const sunder_shape *shape)
 {
-    if (shape->rational) return shape->numbers->area;
+    if (shape->rational) return shape->form->numbers->area;
     sunder_i_accumulator twice = {{0}};
     for (uint32_t i = 0; i < shape->vertices; i++) {
-        const double *a = shape->xy + 2 * (size_t)i, *b = shape->xy + 2 * (size_t)shape->cleaned->next[i];
+        const double *a = shape->xy + 2 * (size_t)i, *b = shape->xy + 2 * (size_t)shape->form->cleaned.next[i];
         sunder_i_accumulator_add(&twice, a[0], b[1]);
         sunder_i_accumulator_sub(&twice, a[1], b[0]);
     }

@@ -29,7 +29,7 @@ static sunder_i_big sum_edges(sunder_i_arena *arena, const sunder_shape *shape, 
     *lost = 0;
     sunder_i_arena_init(&scratch);
     for (uint32_t i = 0; i < shape->vertices && !arena->failed; i++) {
-        const sunder_i_point a = placed->p[i], b = placed->p[shape->cleaned->next[i]];
+        const sunder_i_point a = placed->p[i], b = placed->p[shape->form->cleaned.next[i]];
         if (sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b)) {
             const sunder_i_i128 term = sunder_i_det_i128(sunder_i_narrow_cross(a, b)), before = run;
             if (!__builtin_add_overflow(before, term, &run)) continue;
@@ -160,8 +160,8 @@ bool sunder_i_shape_measure_pieces(sunder_shape *shape)
     uint32_t from;
     const uint32_t largest = sunder_i_largest_piece(shape, &from);
     centroid(&placed.lattice, &arena, placed.p, sunder_i_piece_vertices(shape) + from, shape->piece_end[largest] - from,
-             placed.origin_p, shape->numbers->anchor);
-    shape->numbers->area = area_of(&arena, shape, &placed);
+             placed.origin_p, shape->form->numbers->anchor);
+    shape->form->numbers->area = area_of(&arena, shape, &placed);
     const bool good = !arena.failed && !placed.lattice.arena.failed;
     sunder_i_arena_free(&arena);
     sunder_i_placed_free(&placed);

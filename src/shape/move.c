@@ -12,20 +12,20 @@ static sunder_shape *copy_shape(const sunder_shape *s)
 {
     /* Which is only read. */
     const sunder_i_rings r = {.vertices = s->vertices,
-                              .rings = s->cleaned->rings,
-                              .polygons = s->cleaned->polygons,
+                              .rings = s->form->cleaned.rings,
+                              .polygons = s->form->cleaned.polygons,
                               .xy = s->xy,
                               .rounded = s->rational,
-                              .ring_end = (uint32_t *)s->cleaned->ring_end,
-                              .poly_end = (uint32_t *)s->cleaned->poly_end,
-                              .next = (uint32_t *)s->cleaned->next,
-                              .prev = (uint32_t *)s->cleaned->prev};
+                              .ring_end = (uint32_t *)s->form->cleaned.ring_end,
+                              .poly_end = (uint32_t *)s->form->cleaned.poly_end,
+                              .next = (uint32_t *)s->form->cleaned.next,
+                              .prev = (uint32_t *)s->form->cleaned.prev};
     const sunder_i_pieces pieces = {s->pieces, s->pieces ? s->piece_end[s->pieces - 1] : 0, (uint32_t *)s->piece_end,
                                     (uint32_t *)sunder_i_piece_vertices(s)};
-    sunder_shape *c =
-        sunder_i_shape_assemble(s->raw_xy, s->given->ring_end, s->given->poly_end, s->given->polygons, &r, &pieces);
+    sunder_shape *c = sunder_i_shape_assemble(s->raw_xy, s->form->given.ring_end, s->form->given.poly_end,
+                                              s->form->given.polygons, &r, &pieces);
     if (!c) return NULL;
-    sunder_i_shape_copy_shared(c, s->cleaned->shared);
+    sunder_i_shape_copy_shared(c, s->form->cleaned.shared);
     c->repaired = s->repaired;
     c->touches = s->touches;
     return c;
@@ -40,9 +40,10 @@ sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out
     bool good = true;
     for (size_t i = 0; c->xy != c->raw_xy && i < 2 * (size_t)c->vertices; i++) c->xy[i] = 0 - c->xy[i];
     if (shape->rational) {
-        good = sunder_i_shape_set_rational(c, shape->numbers->exact);
+        good = sunder_i_shape_set_rational(c, shape->form->numbers->exact);
         for (uint32_t v = 0; good && v < c->vertices; v++)
-            for (int k = 0; k < 2; k++) c->numbers->exact[v].num[k] = sunder_i_big_neg(c->numbers->exact[v].num[k]);
+            for (int k = 0; k < 2; k++)
+                c->form->numbers->exact[v].num[k] = sunder_i_big_neg(c->form->numbers->exact[v].num[k]);
         good = good && sunder_i_shape_measure_rational(c);
     } else {
         sunder_i_shape_measure(c, NULL);
@@ -82,7 +83,7 @@ static bool move_rational(const sunder_shape *shape, const double d[2], sunder_s
     sunder_i_arena_init(&arena);
     sunder_i_exact *exact = sunder_i_arena_alloc(&arena, shape->vertices, sizeof *exact);
     for (uint32_t v = 0; exact && v < shape->vertices; v++) {
-        const sunder_i_exact *from = &shape->numbers->exact[v];
+        const sunder_i_exact *from = &shape->form->numbers->exact[v];
         exact[v] = *from;
         double *xy = c->xy + 2 * (size_t)v;
         if (from->den.size)
@@ -130,8 +131,8 @@ static sunder_status move_rounded(const sunder_shape *shape, const double d[2], 
                                    d[0], d[1]);
     }
     if (!status)
-        status = sunder_shape_from_rings(xy, shape->given->ring_end, shape->given->poly_end, shape->given->polygons,
-                                         SUNDER_VALIDITY_EVEN_ODD, out, err);
+        status = sunder_shape_from_rings(xy, shape->form->given.ring_end, shape->form->given.poly_end,
+                                         shape->form->given.polygons, SUNDER_VALIDITY_EVEN_ODD, out, err);
     sunder_i_free(xy);
     return status;
 }

@@ -24,7 +24,7 @@ static const double *corner_of(const sunder_i_piece_of *p, uint32_t k, const sun
     *exact = NULL;
     if (!p->shape) return p->xy + 2 * (size_t)k;
     const uint32_t v = sunder_i_piece_vertices(p->shape)[first_corner(p) + k];
-    if (p->shape->rational && p->shape->numbers->exact[v].den.size) *exact = &p->shape->numbers->exact[v];
+    if (p->shape->rational && p->shape->form->numbers->exact[v].den.size) *exact = &p->shape->form->numbers->exact[v];
     return p->shape->xy + 2 * (size_t)v;
 }
 
@@ -45,9 +45,9 @@ typedef struct arrays {
 } arrays;
 
 /* Room for all arrays, in the shape's arena. */
-static bool make_room(sunder_shape *s, sunder_i_cleaned *cleaned, arrays *to)
+static bool make_room(sunder_shape *s, sunder_i_form *form, arrays *to)
 {
-    sunder_i_arena *a = &s->numbers->arena;
+    sunder_i_arena *a = &form->numbers->arena;
     s->xy = sunder_i_arena_alloc(a, s->vertices, 2 * sizeof *s->xy);
     s->piece_end = to->ring_end = sunder_i_arena_alloc(a, s->pieces + (size_t)s->vertices, sizeof *to->ring_end);
     to->corner = to->ring_end ? to->ring_end + s->pieces : NULL;
@@ -55,9 +55,9 @@ static bool make_room(sunder_shape *s, sunder_i_cleaned *cleaned, arrays *to)
     to->next = sunder_i_arena_alloc(a, s->vertices, sizeof *to->next);
     to->prev = sunder_i_arena_alloc(a, s->vertices, sizeof *to->prev);
     to->shared = sunder_i_arena_alloc(a, s->vertices, sizeof *to->shared);
-    *cleaned = (sunder_i_cleaned){to->ring_end, to->poly_end, to->next, to->prev, to->shared, s->pieces, s->pieces};
-    s->cleaned = cleaned;
-    if (s->rational) s->numbers->exact = sunder_i_arena_alloc(a, s->vertices, sizeof *s->numbers->exact);
+    form->cleaned =
+        (sunder_i_cleaned){to->ring_end, to->poly_end, to->next, to->prev, to->shared, s->pieces, s->pieces};
+    if (s->rational) form->numbers->exact = sunder_i_arena_alloc(a, s->vertices, sizeof *form->numbers->exact);
     return !a->failed;
 }
 
@@ -73,7 +73,7 @@ static void fill(sunder_shape *s, const arrays *to, const sunder_i_piece_of *pie
             to->prev[at] = k ? at - 1 : first + n - 1;
             to->corner[at] = at;
             to->shared[at] = true;
-            if (s->rational) s->numbers->exact[at] = exact ? *exact : (sunder_i_exact){.den = {NULL, 0}};
+            if (s->rational) s->form->numbers->exact[at] = exact ? *exact : (sunder_i_exact){.den = {NULL, 0}};
         }
         to->ring_end[i] = at;
         to->poly_end[i] = i + 1;
@@ -102,13 +102,12 @@ sunder_status sunder_i_shape_of_pieces(const sunder_i_piece_of *piece, size_t n,
     size_t corners = 0;
     for (size_t i = 0; i < n; i++) corners += corners_of(&piece[i]);
     if (corners >= UINT32_MAX / 2) return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
-    static const sunder_i_given none = {NULL, NULL, 0};
-    sunder_i_cleaned *cleaned;
-    sunder_shape *s = sunder_i_calloc(1, sizeof *s + sizeof *s->numbers + sizeof *cleaned);
+    sunder_i_form *form;
+    sunder_shape *s = sunder_i_calloc(1, sizeof *s + sizeof *form->numbers + sizeof *form);
     if (!s) return sunder_i_no_memory(err);
-    s->given = &none;
-    s->numbers = (sunder_i_numbers *)(s + 1);
-    cleaned = (sunder_i_cleaned *)(s->numbers + 1);
+    sunder_i_numbers *numbers = (sunder_i_numbers *)(s + 1);
+    s->form = form = (sunder_i_form *)(numbers + 1);
+    form->numbers = numbers;
     s->vertices = (uint32_t)corners;
     s->pieces = (uint32_t)n;
     for (size_t i = 0; i < n; i++) {
@@ -116,7 +115,7 @@ sunder_status sunder_i_shape_of_pieces(const sunder_i_piece_of *piece, size_t n,
         s->rational = s->rational || (piece[i].shape && piece[i].shape->rational);
     }
     arrays to;
-    if (!make_room(s, cleaned, &to)) {
+    if (!make_room(s, form, &to)) {
         sunder_shape_free(s);
         return sunder_i_no_memory(err);
     }

@@ -123,8 +123,8 @@ static void place_corners(sunder_i_lattice *l, const sunder_shape *shape, const 
                           sunder_i_point *out)
 {
     for (uint32_t i = 0; i < shape->vertices; i++)
-        if (shape->numbers->exact[i].den.size)
-            out[i] = sunder_i_place_exact(l, &shape->numbers->exact[i], shift, origin);
+        if (shape->form->numbers->exact[i].den.size)
+            out[i] = sunder_i_place_exact(l, &shape->form->numbers->exact[i], shift, origin);
 }
 
 /* ---- Shapes ---- */
@@ -142,7 +142,7 @@ static void place_doubles(sunder_i_lattice *l, const sunder_shape *shape, const 
         return;
     }
     for (uint32_t i = 0; i < shape->vertices; i++) {
-        if (shape->rational && shape->numbers->exact[i].den.size) continue;
+        if (shape->rational && shape->form->numbers->exact[i].den.size) continue;
         out[i].x = sunder_i_lattice_int(l, shape->xy[2 * (size_t)i], from[0]);
         out[i].y = sunder_i_lattice_int(l, shape->xy[2 * (size_t)i + 1], from[1]);
         if (adds) out[i] = sunder_i_point_add(l, out[i], add);

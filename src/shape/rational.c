@@ -54,12 +54,12 @@ bool sunder_i_exact_is_double(sunder_i_arena *arena, const sunder_i_exact *v)
 
 bool sunder_i_shape_set_rational(sunder_shape *s, const sunder_i_exact *exact)
 {
-    sunder_i_arena *arena = &s->numbers->arena;
+    sunder_i_arena *arena = &s->form->numbers->arena;
     s->rational = true;
-    s->numbers->exact = sunder_i_arena_alloc(arena, s->vertices, sizeof *s->numbers->exact);
-    for (uint32_t v = 0; s->numbers->exact && v < s->vertices; v++) {
+    s->form->numbers->exact = sunder_i_arena_alloc(arena, s->vertices, sizeof *s->form->numbers->exact);
+    for (uint32_t v = 0; s->form->numbers->exact && v < s->vertices; v++) {
         const sunder_i_exact *from = &exact[v];
-        s->numbers->exact[v] =
+        s->form->numbers->exact[v] =
             (sunder_i_exact){{sunder_i_big_copy(arena, from->num[0]), sunder_i_big_copy(arena, from->num[1])},
                              sunder_i_big_copy(arena, from->den),
                              from->exponent};
@@ -70,7 +70,7 @@ bool sunder_i_shape_set_rational(sunder_shape *s, const sunder_i_exact *exact)
 /* The coordinates of vertex v: to nearest, down and up. */
 static void round_vertex(sunder_i_arena *arena, sunder_shape *s, uint32_t v, double down[2], double up[2])
 {
-    const sunder_i_exact *from = &s->numbers->exact[v];
+    const sunder_i_exact *from = &s->form->numbers->exact[v];
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
     for (size_t k = 0; k < 2; k++) {
         double *xy = s->xy + 2 * (size_t)v;
@@ -101,7 +101,7 @@ bool sunder_i_shape_measure_rational(sunder_shape *s)
     sunder_i_extent extent = {0};
     sunder_i_extent_add(&extent, s->raw_xy, sunder_i_shape_raw_vertices(s));
     for (uint32_t v = 0; v < s->vertices; v++)
-        if (!s->numbers->exact[v].den.size) sunder_i_extent_add(&extent, s->xy + 2 * (size_t)v, 1);
+        if (!s->form->numbers->exact[v].den.size) sunder_i_extent_add(&extent, s->xy + 2 * (size_t)v, 1);
     s->low_bit = extent.low_bit;
     const bool good = !scratch.failed;
     sunder_i_arena_free(&scratch);

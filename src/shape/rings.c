@@ -37,14 +37,14 @@ bool sunder_i_rings_grow(sunder_i_rings *r, sunder_i_arena *arena, size_t vertic
 
 size_t sunder_shape_rings(const sunder_shape *shape, size_t polygon)
 {
-    return shape->cleaned->poly_end[polygon] - (polygon ? shape->cleaned->poly_end[polygon - 1] : 0);
+    return shape->form->cleaned.poly_end[polygon] - (polygon ? shape->form->cleaned.poly_end[polygon - 1] : 0);
 }
 
 const double *sunder_shape_ring(const sunder_shape *shape, size_t polygon, size_t ring, size_t *n)
 {
-    const size_t r = (polygon ? shape->cleaned->poly_end[polygon - 1] : 0) + ring;
-    const size_t begin = r ? shape->cleaned->ring_end[r - 1] : 0;
-    *n = shape->cleaned->ring_end[r] - begin;
+    const size_t r = (polygon ? shape->form->cleaned.poly_end[polygon - 1] : 0) + ring;
+    const size_t begin = r ? shape->form->cleaned.ring_end[r - 1] : 0;
+    *n = shape->form->cleaned.ring_end[r] - begin;
     return shape->xy + 2 * begin;
 }
 
@@ -52,7 +52,7 @@ size_t sunder_shape_given(const sunder_shape *shape, const double **xy, const si
                           const size_t **poly_end)
 {
     *xy = shape->raw_xy;
-    *ring_end = shape->given->ring_end;
-    *poly_end = shape->given->poly_end;
-    return shape->given->polygons;
+    *ring_end = shape->form->given.ring_end;
+    *poly_end = shape->form->given.poly_end;
+    return shape->form->given.polygons;
 }

@@ -49,15 +49,20 @@ typedef struct sunder_i_cleaned {
     uint32_t rings, polygons;
 } sunder_i_cleaned;
 
+/* What describes a shape's coordinates. */
+typedef struct sunder_i_form {
+    sunder_i_given given;
+    sunder_i_cleaned cleaned;
+    sunder_i_numbers *numbers; /* in the shape's own block; NULL: it has none */
+} sunder_i_form;
+
 /* The input as given, and the cleaned form. Layers have millions of shapes, most with one ring of few corners: what is
  * the same for all of these they share (few_corners.h), and a ring that was clean as it was given is kept once. */
 struct sunder_shape {
-    const sunder_i_given *given;
-    const sunder_i_cleaned *cleaned;
+    const sunder_i_form *form;
     const uint32_t *piece_end; /* [pieces] index past the last corner of each convex piece; behind them these corners */
     double *xy;                /* [2 * vertices] the coordinates of the cleaned form; of corners that are no doubles the
                                 * nearest ones; may be raw_xy */
-    sunder_i_numbers *numbers; /* in the shape's own block; NULL: it has none */
     double box[4];             /* rounded outward if rational */
     uint32_t vertices, pieces; /* of the cleaned form */
     int low_bit;               /* coordinates are multiples of 2^low_bit; if rational, those that were given */
@@ -108,14 +113,14 @@ sunder_i_point sunder_i_place_exact(sunder_i_lattice *lattice, const sunder_i_ex
  * exactly when next[u] == v; else it is a diagonal, and (v, u) is a side of another piece. */
 static inline bool sunder_i_is_boundary(const sunder_shape *shape, uint32_t u, uint32_t v)
 {
-    return shape->cleaned->next[u] == v;
+    return shape->form->cleaned.next[u] == v;
 }
 
 /* How many vertices the rings have as they were given. */
 static inline size_t sunder_i_shape_raw_vertices(const sunder_shape *s)
 {
-    const size_t rings = s->given->polygons ? s->given->poly_end[s->given->polygons - 1] : 0;
-    return rings ? s->given->ring_end[rings - 1] : 0;
+    const size_t rings = s->form->given.polygons ? s->form->given.poly_end[s->form->given.polygons - 1] : 0;
+    return rings ? s->form->given.ring_end[rings - 1] : 0;
 }
 
 /* Area and anchor of a rational shape that is complete but for them. False if memory is out. */

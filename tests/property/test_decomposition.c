@@ -110,11 +110,11 @@ static int in_member(subject *s, uint32_t member, const qpoint *x)
 {
     const sunder_shape *shape = s->shape;
     unsigned crossings = 0;
-    const uint32_t ring_lo = member ? shape->cleaned->poly_end[member - 1] : 0,
-                   ring_hi = shape->cleaned->poly_end[member];
-    for (uint32_t v = ring_lo ? shape->cleaned->ring_end[ring_lo - 1] : 0; v < shape->cleaned->ring_end[ring_hi - 1];
-         v++)
-        if (!count_crossing(s, &s->vertex[v], &s->vertex[shape->cleaned->next[v]], x, &crossings)) return 0;
+    const uint32_t ring_lo = member ? shape->form->cleaned.poly_end[member - 1] : 0,
+                   ring_hi = shape->form->cleaned.poly_end[member];
+    for (uint32_t v = ring_lo ? shape->form->cleaned.ring_end[ring_lo - 1] : 0;
+         v < shape->form->cleaned.ring_end[ring_hi - 1]; v++)
+        if (!count_crossing(s, &s->vertex[v], &s->vertex[shape->form->cleaned.next[v]], x, &crossings)) return 0;
     return crossings & 1 ? 1 : -1;
 }
 
@@ -181,11 +181,11 @@ static const char *prove_piece(subject *s, uint32_t i)
     const bool inside = in_piece(s, i, &middle) == 1 && in_member(s, member, &middle) == 1;
     qpoint_clear(&middle);
     if (!inside) return "its middle lies outside";
-    const uint32_t ring_lo = member ? shape->cleaned->poly_end[member - 1] : 0,
-                   ring_hi = shape->cleaned->poly_end[member];
-    for (uint32_t v = ring_lo ? shape->cleaned->ring_end[ring_lo - 1] : 0; v < shape->cleaned->ring_end[ring_hi - 1];
-         v++)
-        if (enters(s, &s->vertex[v], &s->vertex[shape->cleaned->next[v]], i)) return "an edge runs through it";
+    const uint32_t ring_lo = member ? shape->form->cleaned.poly_end[member - 1] : 0,
+                   ring_hi = shape->form->cleaned.poly_end[member];
+    for (uint32_t v = ring_lo ? shape->form->cleaned.ring_end[ring_lo - 1] : 0;
+         v < shape->form->cleaned.ring_end[ring_hi - 1]; v++)
+        if (enters(s, &s->vertex[v], &s->vertex[shape->form->cleaned.next[v]], i)) return "an edge runs through it";
     for (uint32_t j = 0; j < i; j++)
         if (s->d.member[j] == member && !keeps_off(s, i, j) && !keeps_off(s, j, i)) return "it overlaps another";
     return NULL;
@@ -204,7 +204,7 @@ static bool areas_agree(subject *s)
             mpq_add(total, total, s->side);
         }
     for (uint32_t v = 0; v < s->shape->vertices; v++) {
-        orient(s, &o, &s->vertex[v], &s->vertex[s->shape->cleaned->next[v]]);
+        orient(s, &o, &s->vertex[v], &s->vertex[s->shape->form->cleaned.next[v]]);
         mpq_sub(total, total, s->side);
     }
     const bool agree = mpq_sgn(total) == 0;
@@ -301,15 +301,15 @@ typedef struct tally {
 static void tally_member(subject *s, uint32_t member, tally *t)
 {
     const sunder_shape *shape = s->shape;
-    const uint32_t ring_lo = member ? shape->cleaned->poly_end[member - 1] : 0,
-                   ring_hi = shape->cleaned->poly_end[member];
+    const uint32_t ring_lo = member ? shape->form->cleaned.poly_end[member - 1] : 0,
+                   ring_hi = shape->form->cleaned.poly_end[member];
     memset(t, 0, sizeof *t);
     t->holes = ring_hi - ring_lo - 1;
-    for (uint32_t v = ring_lo ? shape->cleaned->ring_end[ring_lo - 1] : 0; v < shape->cleaned->ring_end[ring_hi - 1];
-         v++) {
+    for (uint32_t v = ring_lo ? shape->form->cleaned.ring_end[ring_lo - 1] : 0;
+         v < shape->form->cleaned.ring_end[ring_hi - 1]; v++) {
         t->vertices++;
-        t->reflex +=
-            orient(s, &s->vertex[shape->cleaned->prev[v]], &s->vertex[v], &s->vertex[shape->cleaned->next[v]]) < 0;
+        t->reflex += orient(s, &s->vertex[shape->form->cleaned.prev[v]], &s->vertex[v],
+                            &s->vertex[shape->form->cleaned.next[v]]) < 0;
     }
     for (uint32_t i = 0; i < s->d.pieces; i++) t->pieces += s->d.member[i] == member;
 }
@@ -317,7 +317,7 @@ static void tally_member(subject *s, uint32_t member, tally *t)
 static bool counts_hold(subject *s, sunder_decomposition kind, uint32_t *pieces_of_best)
 {
     bool ok = true;
-    for (uint32_t member = 0; member < s->shape->cleaned->polygons; member++) {
+    for (uint32_t member = 0; member < s->shape->form->cleaned.polygons; member++) {
         tally t;
         tally_member(s, member, &t);
         uint32_t most = t.vertices - 2 + 2 * t.holes;
@@ -397,8 +397,8 @@ static char *try_shape(const polyset *raw, sunder_shape *shape, rng *r, bool wid
     const sunder_i_place_options options = {.force_wide = wide, .reflect_q = true};
     assert_int_equal(sunder_i_place(shape, shape, &options, &s.placed, NULL), SUNDER_OK);
     subject_load(&s);
-    uint32_t *best = test_alloc(shape->cleaned->polygons + 1, sizeof *best);
-    memset(best, 0, (shape->cleaned->polygons + 1) * sizeof *best);
+    uint32_t *best = test_alloc(shape->form->cleaned.polygons + 1, sizeof *best);
+    memset(best, 0, (shape->form->cleaned.polygons + 1) * sizeof *best);
     char *message = NULL;
     static const int order[KINDS] = {4, 0, 1, 2, 3, 5}; /* the optimal one first: others are compared with it */
     for (int i = 0; i < KINDS && !message; i++) {

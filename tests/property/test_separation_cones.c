@@ -65,8 +65,8 @@ static void check_cones(sunder_i_operands *g, size_t *asked, size_t *all)
         uint32_t *met = malloc((c.n + 1) * sizeof *met), looked_at;
         bool *seen = malloc(other->vertices * sizeof *seen);
         for (uint32_t e = 0; e < own->vertices; e += 1 + own->vertices / 40) {
-            const double *a = own->xy + 2 * (size_t)e, *b = own->xy + 2 * (size_t)own->cleaned->next[e];
-            const double *x = g->xy[side] + 2 * (size_t)e, *y = g->xy[side] + 2 * (size_t)own->cleaned->next[e];
+            const double *a = own->xy + 2 * (size_t)e, *b = own->xy + 2 * (size_t)own->form->cleaned.next[e];
+            const double *x = g->xy[side] + 2 * (size_t)e, *y = g->xy[side] + 2 * (size_t)own->form->cleaned.next[e];
             const uint32_t n =
                 sunder_i_cones_met(&c, sunder_i_direction_of(g, y[0] - x[0], y[1] - x[1]), met, &looked_at);
             memset(seen, 0, other->vertices * sizeof *seen);
@@ -75,8 +75,9 @@ static void check_cones(sunder_i_operands *g, size_t *asked, size_t *all)
                 seen[c.vertex[met[k]]] = true;
             }
             for (uint32_t v = 0; v < other->vertices; v++) {
-                const double *at = other->xy + 2 * (size_t)v, *from = other->xy + 2 * (size_t)other->cleaned->prev[v],
-                             *to = other->xy + 2 * (size_t)other->cleaned->next[v];
+                const double *at = other->xy + 2 * (size_t)v,
+                             *from = other->xy + 2 * (size_t)other->form->cleaned.prev[v],
+                             *to = other->xy + 2 * (size_t)other->form->cleaned.next[v];
                 if (turn(from, at, at, to) > 0 && turn(from, at, a, b) >= 0 && turn(a, b, at, to) >= 0)
                     assert_true(seen[v]);
             }

@@ -151,7 +151,7 @@ static void test_cut(void **state)
             }
         }
         for (uint32_t v = 0; v < shape->vertices; v++) {
-            const sunder_i_point a = at.p[v], b = at.p[shape->cleaned->next[v]];
+            const sunder_i_point a = at.p[v], b = at.p[shape->form->cleaned.next[v]];
             want += a.x * b.y - a.y * b.x;
         }
         assert_int_equal(area, want);

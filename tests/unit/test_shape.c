@@ -219,8 +219,9 @@ static void test_check_finds(void **state)
     (void)state;
     sunder_shape *s = sound("POLYGON((0 0,9 0,9 9,4 4,0 9),(4 0,5 1,4 2))");
     double *const xy = s->xy;
-    bool *const shared = (bool *)s->cleaned->shared; /* arrays of its own: it has two rings */
-    uint32_t *const piece_vertex = (uint32_t *)sunder_i_piece_vertices(s), *const along = (uint32_t *)s->cleaned->next;
+    bool *const shared = (bool *)s->form->cleaned.shared; /* arrays of its own: it has two rings */
+    uint32_t *const piece_vertex = (uint32_t *)sunder_i_piece_vertices(s), *const along =
+                                                                               (uint32_t *)s->form->cleaned.next;
     const double keep = xy[1];
     xy[1] = -1;
     assert_non_null(sunder_i_shape_check(s)); /* out of its box, no longer at a shared place */
@@ -236,7 +237,7 @@ static void test_check_finds(void **state)
     s->pieces--;
     assert_non_null(sunder_i_shape_check(s));
     s->pieces = pieces;
-    const uint32_t next = s->cleaned->next[0];
+    const uint32_t next = s->form->cleaned.next[0];
     along[0] = along[next];
     assert_non_null(sunder_i_shape_check(s));
     along[0] = next;
@@ -366,7 +367,7 @@ static void check_disc(double radius, unsigned n, bool inside)
     assert_int_equal(s->pieces, 1);
     const long double tight = inside ? 1 : 1 / cosl(acosl(-1.0L) / n);
     for (uint32_t i = 0; i < n; i++) {
-        const uint32_t j = s->cleaned->next[i];
+        const uint32_t j = s->form->cleaned.next[i];
         const long double ax = s->xy[2 * i], ay = s->xy[2 * i + 1], bx = s->xy[2 * j], by = s->xy[2 * j + 1];
         const long double corner = hypotl(ax, ay) / radius;
         if (inside) {

@@ -145,7 +145,7 @@ static int in_set(const polyset *set, int64_t x, int64_t y)
 /* Coordinate i of the cleaned form, exactly. */
 static void coordinate(mpq_t r, const sunder_shape *s, size_t i)
 {
-    const sunder_i_exact *v = s->rational ? &s->numbers->exact[i / 2] : NULL;
+    const sunder_i_exact *v = s->rational ? &s->form->numbers->exact[i / 2] : NULL;
     if (!v || v->den.size == 0) {
         mpq_set_d(r, s->xy[i]);
         return;
@@ -236,8 +236,8 @@ static void check_wide(const polyset *set, const sunder_shape *s, uint64_t i)
         explain(set, i, err.message);
     const char *fault = sunder_i_shape_check(t);
     if (fault) explain(set, i, fault);
-    if (t->vertices != s->vertices || t->cleaned->rings != s->cleaned->rings ||
-        t->cleaned->polygons != s->cleaned->polygons || sunder_shape_area(t) != sunder_shape_area(s))
+    if (t->vertices != s->vertices || t->form->cleaned.rings != s->form->cleaned.rings ||
+        t->form->cleaned.polygons != s->form->cleaned.polygons || sunder_shape_area(t) != sunder_shape_area(s))
         explain(set, i, "a wide lattice gives another set");
     for (size_t k = 0; k < 2 * (size_t)s->vertices; k++)
         if (t->xy[k] != s->xy[k] * (k & 1 ? 0x1p100 : 0x1p-100)) explain(set, i, "a wide lattice gives another corner");

@@ -72,7 +72,7 @@ static bool area_is_nearest(const sunder_shape *s, double area)
     mpq_init(sum);
     const double o[2] = {0, 0};
     for (uint32_t i = 0; i < s->vertices; i++)
-        add_triangle(sum, NULL, o, s->xy + 2 * (size_t)i, s->xy + 2 * (size_t)s->cleaned->next[i]);
+        add_triangle(sum, NULL, o, s->xy + 2 * (size_t)i, s->xy + 2 * (size_t)s->form->cleaned.next[i]);
     mpq_div_2exp(sum, sum, 1);
     const bool nearest = is_nearest(sum, area);
     mpq_clear(sum);

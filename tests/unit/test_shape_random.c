@@ -127,7 +127,7 @@ static void truth(mpq_t r, const sunder_shape *s, size_t i, const double *shift,
 {
     mpq_t d;
     mpq_init(d);
-    const sunder_i_exact *v = s->rational ? &s->numbers->exact[i / 2] : NULL;
+    const sunder_i_exact *v = s->rational ? &s->form->numbers->exact[i / 2] : NULL;
     if (v && v->den.size) {
         mpz_from_big(mpq_numref(r), v->num[i & 1]);
         mpz_from_big(mpq_denref(r), v->den);

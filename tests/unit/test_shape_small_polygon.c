@@ -85,9 +85,9 @@ static drawn one_ring(const double *xy, size_t n)
 
 static bool same(const sunder_shape *s, const sunder_shape *t)
 {
-    if (s->vertices != t->vertices || s->pieces != t->pieces || s->cleaned->rings != t->cleaned->rings ||
-        s->cleaned->polygons != t->cleaned->polygons || s->low_bit != t->low_bit || s->touches != t->touches ||
-        s->repaired != t->repaired)
+    if (s->vertices != t->vertices || s->pieces != t->pieces || s->form->cleaned.rings != t->form->cleaned.rings ||
+        s->form->cleaned.polygons != t->form->cleaned.polygons || s->low_bit != t->low_bit ||
+        s->touches != t->touches || s->repaired != t->repaired)
         return false;
     for (int k = 0; k < 4; k++) /* zeros may differ in sign: boxes begin with another corner */
         if (s->box[k] != t->box[k]) return false;
@@ -96,11 +96,13 @@ static bool same(const sunder_shape *s, const sunder_shape *t)
            memcmp(sunder_i_piece_vertices(s), sunder_i_piece_vertices(t),
                   corners * sizeof *sunder_i_piece_vertices(s)) == 0 &&
            memcmp(s->xy, t->xy, 2 * s->vertices * sizeof *s->xy) == 0 &&
-           memcmp(s->cleaned->next, t->cleaned->next, s->vertices * sizeof *s->cleaned->next) == 0 &&
-           memcmp(s->cleaned->prev, t->cleaned->prev, s->vertices * sizeof *s->cleaned->prev) == 0 &&
-           memcmp(s->cleaned->shared, t->cleaned->shared, s->vertices * sizeof *s->cleaned->shared) == 0 &&
-           memcmp(s->cleaned->ring_end, t->cleaned->ring_end, s->cleaned->rings * sizeof *s->cleaned->ring_end) == 0 &&
-           s->cleaned->poly_end[0] == t->cleaned->poly_end[0];
+           memcmp(s->form->cleaned.next, t->form->cleaned.next, s->vertices * sizeof *s->form->cleaned.next) == 0 &&
+           memcmp(s->form->cleaned.prev, t->form->cleaned.prev, s->vertices * sizeof *s->form->cleaned.prev) == 0 &&
+           memcmp(s->form->cleaned.shared, t->form->cleaned.shared, s->vertices * sizeof *s->form->cleaned.shared) ==
+               0 &&
+           memcmp(s->form->cleaned.ring_end, t->form->cleaned.ring_end,
+                  s->form->cleaned.rings * sizeof *s->form->cleaned.ring_end) == 0 &&
+           s->form->cleaned.poly_end[0] == t->form->cleaned.poly_end[0];
 }
 
 /* Of a small way that refuses what it should not, the comparison would say nothing: it is counted. */
@@ -129,7 +131,7 @@ static void test_against_the_general_way(void **state)
             assert_non_null(by_itself);
             small++;
             many += by_itself->pieces > 1;
-            holed += by_itself->cleaned->rings > 1;
+            holed += by_itself->form->cleaned.rings > 1;
             long_ones += by_itself->vertices > 16;
         }
         refused += a != SUNDER_OK;
@@ -194,7 +196,7 @@ static void test_holes(void **state)
     memcpy(d.xy, outer, sizeof outer);
     memcpy(d.xy + 8, hole[0], sizeof hole[0]);
     assert_true(take(&d, &s)); /* both run the same way as given */
-    assert_int_equal(s->cleaned->rings, 2);
+    assert_int_equal(s->form->cleaned.rings, 2);
     assert_null(sunder_i_shape_check(s));
     sunder_shape_free(s);
     for (int k = 1; k < 6; k += k == 2 ? 3 : 1) { /* outside, on the wall, round it all */

@@ -92,10 +92,10 @@ static sunder_status unite(sunder_i_model *model, uint32_t b, sunder_error *err)
         const uint32_t f = model->member[body->member + m];
         if (!model->present[f]) continue;
         const sunder_shape *s = sunder_i_thing_shape(model, f);
-        const size_t r = s->given->polygons ? s->given->poly_end[s->given->polygons - 1] : 0;
-        polygons += s->given->polygons;
+        const size_t r = s->form->given.polygons ? s->form->given.poly_end[s->form->given.polygons - 1] : 0;
+        polygons += s->form->given.polygons;
         rings += r;
-        corners += r ? s->given->ring_end[r - 1] : 0;
+        corners += r ? s->form->given.ring_end[r - 1] : 0;
     }
     double *xy = sunder_i_alloc(2 * corners, sizeof *xy);
     size_t *ring_end = sunder_i_alloc(rings, sizeof *ring_end), *poly_end = sunder_i_alloc(polygons, sizeof *poly_end);
@@ -105,10 +105,10 @@ static sunder_status unite(sunder_i_model *model, uint32_t b, sunder_error *err)
         const uint32_t f = model->member[body->member + m];
         if (!model->present[f]) continue;
         const sunder_shape *s = sunder_i_thing_shape(model, f);
-        const size_t r = s->given->polygons ? s->given->poly_end[s->given->polygons - 1] : 0,
-                     n = r ? s->given->ring_end[r - 1] : 0;
-        for (size_t k = 0; k < s->given->polygons; k++) poly_end[polygons++] = rings + s->given->poly_end[k];
-        for (size_t k = 0; k < r; k++) ring_end[rings + k] = corners + s->given->ring_end[k];
+        const size_t r = s->form->given.polygons ? s->form->given.poly_end[s->form->given.polygons - 1] : 0,
+                     n = r ? s->form->given.ring_end[r - 1] : 0;
+        for (size_t k = 0; k < s->form->given.polygons; k++) poly_end[polygons++] = rings + s->form->given.poly_end[k];
+        for (size_t k = 0; k < r; k++) ring_end[rings + k] = corners + s->form->given.ring_end[k];
         if (n) memcpy(xy + 2 * corners, s->raw_xy, 2 * n * sizeof *xy);
         rings += r;
         corners += n;

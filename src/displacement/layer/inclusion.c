@@ -105,7 +105,7 @@ static double depth_in(const sunder_i_model *model, uint32_t f, uint32_t holder)
     const double *box = sunder_i_home_box(model, f), x = (box[0] + box[2]) / 2, y = (box[1] + box[3]) / 2;
     double least = INFINITY;
     for (uint32_t v = 0; v < shape->vertices; v++) {
-        const double *p = shape->xy + 2 * (size_t)v, *q = shape->xy + 2 * (size_t)shape->cleaned->next[v];
+        const double *p = shape->xy + 2 * (size_t)v, *q = shape->xy + 2 * (size_t)shape->form->cleaned.next[v];
         const double ex = q[0] - p[0], ey = q[1] - p[1], wx = x - p[0], wy = y - p[1];
         const double s = fmin(1, fmax(0, (wx * ex + wy * ey) / (ex * ex + ey * ey)));
         const double dx = wx - s * ex, dy = wy - s * ey;
@@ -147,7 +147,7 @@ static void add_walls(sunder_i_model *model, const sunder_i_body *body, uint32_t
         wall->feature = f;
         wall->corner = p;
         wall->corners = 2;
-        const uint32_t ends[2] = {v, shape->cleaned->next[v]};
+        const uint32_t ends[2] = {v, shape->form->cleaned.next[v]};
         for (size_t e = 0; e < 2; e++)
             for (size_t c = 0; c < 2; c++) p[2 * e + c] = shape->xy[2 * ends[e] + c] - body->origin[c];
         for (size_t c = 0; c < 2; c++) {

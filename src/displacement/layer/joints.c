@@ -29,7 +29,7 @@ typedef struct edge {
 /* Is that vertex a double? */
 static bool is_exact(const sunder_shape *shape, uint32_t v)
 {
-    return !shape->rational || !shape->numbers->exact[v].den.size;
+    return !shape->rational || !shape->form->numbers->exact[v].den.size;
 }
 
 static sunder_point point_of(const sunder_shape *shape, uint32_t v)

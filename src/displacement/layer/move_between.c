@@ -14,11 +14,12 @@
 /* Do the two have the same rings, but for where they stand? */
 static bool same_rings(const sunder_shape *p, const sunder_shape *q)
 {
-    if (p->given->polygons != q->given->polygons) return false;
-    if (p->given->polygons == 0) return true;
-    const size_t rings = p->given->poly_end[p->given->polygons - 1];
-    return memcmp(p->given->poly_end, q->given->poly_end, p->given->polygons * sizeof *p->given->poly_end) == 0 &&
-           memcmp(p->given->ring_end, q->given->ring_end, rings * sizeof *p->given->ring_end) == 0;
+    if (p->form->given.polygons != q->form->given.polygons) return false;
+    if (p->form->given.polygons == 0) return true;
+    const size_t rings = p->form->given.poly_end[p->form->given.polygons - 1];
+    return memcmp(p->form->given.poly_end, q->form->given.poly_end,
+                  p->form->given.polygons * sizeof *p->form->given.poly_end) == 0 &&
+           memcmp(p->form->given.ring_end, q->form->given.ring_end, rings * sizeof *p->form->given.ring_end) == 0;
 }
 
 /* Coordinate c of every vertex, before and after. */

@@ -78,7 +78,7 @@ static bool collect(const sunder_i_translate *const of[2], overlap_sides *out)
             overlap_side s = {.which = i};
             for (int c = 0; c < 2; c++) {
                 s.a[c] = shape->xy[2 * (size_t)v + (size_t)c] + of[i]->t[c];
-                s.b[c] = shape->xy[2 * (size_t)shape->cleaned->next[v] + (size_t)c] + of[i]->t[c];
+                s.b[c] = shape->xy[2 * (size_t)shape->form->cleaned.next[v] + (size_t)c] + of[i]->t[c];
             }
             if (fmax(s.a[0], s.b[0]) >= out->box[0] && fmax(s.a[1], s.b[1]) >= out->box[1] &&
                 fmin(s.a[1], s.b[1]) <= out->box[3])

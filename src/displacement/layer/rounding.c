@@ -33,9 +33,9 @@ static bool sum_is_exact(double x, double t)
 
 static size_t raw_vertices(const sunder_shape *shape)
 {
-    if (shape->given->polygons == 0) return 0;
-    const size_t rings = shape->given->poly_end[shape->given->polygons - 1];
-    return rings ? shape->given->ring_end[rings - 1] : 0;
+    if (shape->form->given.polygons == 0) return 0;
+    const size_t rings = shape->form->given.poly_end[shape->form->given.polygons - 1];
+    return rings ? shape->form->given.ring_end[rings - 1] : 0;
 }
 
 /* The coarsest unit of one coordinate (0 or 1) of the body's corners, where they are and after t. */

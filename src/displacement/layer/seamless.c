@@ -84,7 +84,7 @@ bool sunder_i_seam_between(const double corner[8], double out[8])
 static bool all_doubles(const sunder_shape *shape, const uint32_t corner[4])
 {
     for (int k = 0; k < 4; k++)
-        if (shape->rational && shape->numbers->exact[corner[k]].den.size) return false;
+        if (shape->rational && shape->form->numbers->exact[corner[k]].den.size) return false;
     return true;
 }
 

@@ -17,7 +17,7 @@
 
 /* ---- On one lattice ---------------------------------------------------------------------------------------------- */
 
-static bool is_exact(const sunder_shape *s, uint32_t v) { return s->rational && s->numbers->exact[v].den.size; }
+static bool is_exact(const sunder_shape *s, uint32_t v) { return s->rational && s->form->numbers->exact[v].den.size; }
 
 /* A line's ends; those that are no doubles lie within a unit of the nearest ones. */
 static void add_extent(sunder_i_extent *all, const sunder_i_side *side)
@@ -52,7 +52,7 @@ static sunder_i_rational_point put(sunder_i_side_cut *c, const sunder_shape *s, 
 {
     sunder_i_point at;
     if (s && is_exact(s, v)) {
-        at = sunder_i_place_exact(&c->lattice, &s->numbers->exact[v], NULL, c->origin);
+        at = sunder_i_place_exact(&c->lattice, &s->form->numbers->exact[v], NULL, c->origin);
     } else {
         at.x = sunder_i_lattice_int(&c->lattice, xy[0], c->origin[0]);
         at.y = sunder_i_lattice_int(&c->lattice, xy[1], c->origin[1]);
@@ -69,7 +69,7 @@ static void put_line(sunder_i_side_cut *c, const sunder_i_side *side, sunder_i_r
 {
     const sunder_shape *s = side->area;
     end[0] = put(c, s, side->vertex, side->from);
-    end[1] = put(c, s, s ? s->cleaned->next[side->vertex] : 0, side->to);
+    end[1] = put(c, s, s ? s->form->cleaned.next[side->vertex] : 0, side->to);
 }
 
 /* Any doubles, which need not be multiples of the lattice's unit. */
@@ -225,7 +225,7 @@ static sunder_status cut_member(sunder_i_side_cut *c, uint32_t first, uint32_t l
     segment *list = sunder_i_alloc(last - first + c->sides, sizeof *list);
     if (!list) return sunder_i_no_memory(err);
     for (uint32_t v = first; v < last; v++)
-        list[n++] = (segment){put_vertex(c, v), put_vertex(c, c->shape->cleaned->next[v]), false};
+        list[n++] = (segment){put_vertex(c, v), put_vertex(c, c->shape->form->cleaned.next[v]), false};
     for (size_t k = 0; k < c->sides; k++, n++) {
         sunder_i_rational_point end[2];
         put_line(c, c->side[k], end);
@@ -242,7 +242,7 @@ static sunder_status cut_member(sunder_i_side_cut *c, uint32_t first, uint32_t l
 /* The end of a polygon's vertices. */
 static uint32_t vertices_to(const sunder_shape *s, uint32_t polygon)
 {
-    return s->cleaned->ring_end[s->cleaned->poly_end[polygon] - 1];
+    return s->form->cleaned.ring_end[s->form->cleaned.poly_end[polygon] - 1];
 }
 
 sunder_status sunder_i_side_cut_make(const sunder_shape *shape, const sunder_i_side *const *side, size_t n,
@@ -253,16 +253,16 @@ sunder_status sunder_i_side_cut_make(const sunder_shape *shape, const sunder_i_s
     out->side = side;
     out->sides = n;
     begin(out);
-    out->map = sunder_i_calloc(shape->cleaned->polygons, sizeof(sunder_i_planar_map *));
+    out->map = sunder_i_calloc(shape->form->cleaned.polygons, sizeof(sunder_i_planar_map *));
     sunder_status status = out->map ? SUNDER_OK : sunder_i_no_memory(err);
-    for (uint32_t k = 0; k < shape->cleaned->polygons && !status; k++)
+    for (uint32_t k = 0; k < shape->form->cleaned.polygons && !status; k++)
         status = cut_member(out, k ? vertices_to(shape, k - 1) : 0, vertices_to(shape, k), &out->map[k], err);
     return status;
 }
 
 void sunder_i_side_cut_free(sunder_i_side_cut *c)
 {
-    for (uint32_t k = 0; c->map && k < c->shape->cleaned->polygons; k++) sunder_i_planar_map_free(c->map[k]);
+    for (uint32_t k = 0; c->map && k < c->shape->form->cleaned.polygons; k++) sunder_i_planar_map_free(c->map[k]);
     sunder_i_free(c->map);
     sunder_i_free(c->part);
     sunder_i_arena_free(&c->arena);

@@ -22,7 +22,7 @@ static bool find_centers(sunder_i_gap_problem *p)
     size_t n = 0;
     for (size_t i = 0; i < p->segments; i++) {
         const sunder_i_candidate *c = p->segment + i;
-        const uint32_t end[2] = {c->edge, g->shape[c->side]->cleaned->next[c->edge]};
+        const uint32_t end[2] = {c->edge, g->shape[c->side]->form->cleaned.next[c->edge]};
         for (int k = 0; k < 2; k++) {
             const uint32_t u = c->side ? c->vertex : end[k], v = c->side ? end[k] : c->vertex;
             key[n++] = (uint64_t)u << 32 | v;

@@ -59,7 +59,7 @@ static double side_key(const sunder_i_gap_state *s, size_t segment)
 {
     const sunder_i_candidate *c = s->p->segment + segment;
     const double *xy = s->g->xy[c->side], *q = s->g->xy[!c->side] + 2 * c->vertex;
-    const double *a = xy + 2 * c->edge, *b = xy + 2 * s->g->shape[c->side]->cleaned->next[c->edge];
+    const double *a = xy + 2 * c->edge, *b = xy + 2 * s->g->shape[c->side]->form->cleaned.next[c->edge];
     const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy, f = s->p->gap_units / sqrt(square);
     const double x = a[0] + q[0] + f * dy, y = a[1] + q[1] - f * dx;
     double t = -(x * dx + y * dy) / square;

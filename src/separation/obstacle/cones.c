@@ -41,7 +41,8 @@ sunder_i_direction sunder_i_direction_of(const sunder_i_operands *g, double dx, 
 
 static sunder_i_direction edge_direction(const sunder_i_operands *g, int side, uint32_t v)
 {
-    const double *xy = g->xy[side], *a = xy + 2 * (size_t)v, *b = xy + 2 * (size_t)g->shape[side]->cleaned->next[v];
+    const double *xy = g->xy[side], *a = xy + 2 * (size_t)v,
+                 *b = xy + 2 * (size_t)g->shape[side]->form->cleaned.next[v];
     return sunder_i_direction_of(g, b[0] - a[0], b[1] - a[1]);
 }
 
@@ -55,7 +56,7 @@ static inline bool cone_between(uint32_t in, uint32_t out, uint32_t slack, sunde
 
 bool sunder_i_cone_of(const sunder_i_operands *g, int side, uint32_t v, sunder_i_cone *out)
 {
-    const sunder_i_direction a = edge_direction(g, side, g->shape[side]->cleaned->prev[v]),
+    const sunder_i_direction a = edge_direction(g, side, g->shape[side]->form->cleaned.prev[v]),
                              b = edge_direction(g, side, v);
     if (!a.vague && !b.vague) return cone_between(a.at, b.at, slack_of(g), out);
     *out = (sunder_i_cone){0, UINT32_MAX};
@@ -149,14 +150,14 @@ static bool find_exact(sunder_i_operands *g, int side, sunder_i_cones *c)
     const double *xy = g->xy[side];
     uint32_t *direction = c->direction;
     for (uint32_t v = 0; v < s->vertices; v++) {
-        const double *a = xy + 2 * (size_t)v, *b = xy + 2 * (size_t)s->cleaned->next[v];
+        const double *a = xy + 2 * (size_t)v, *b = xy + 2 * (size_t)s->form->cleaned.next[v];
         const double dx = b[0] - a[0], dy = b[1] - a[1], size = fabs(dx) + fabs(dy);
         if (size == 0) return false;
         direction[v] = direction_number(dx, dy, size);
     }
     for (uint32_t v = 0; v < s->vertices; v++) {
         sunder_i_cone cone;
-        const bool has = cone_between(direction[s->cleaned->prev[v]], direction[v], CUT_OFF, &cone);
+        const bool has = cone_between(direction[s->form->cleaned.prev[v]], direction[v], CUT_OFF, &cone);
         put_cone(c, v, cone, has);
     }
     return true;

@@ -76,12 +76,12 @@ static bool pair_edges_with_few(sunder_i_operands *g, int side, const sunder_i_c
     const double *xy = g->xy[side];
     edge e = {.side = side, .reach = limit + 8 * g->error, .other = g->xy[!side]};
     for (uint32_t v = 0; v < s->vertices; v++) {
-        if (s->cleaned->next[v] == v) continue; /* a point, which has none */
+        if (s->form->cleaned.next[v] == v) continue; /* a point, which has none */
         uint32_t met = sunder_i_cones_met_few(c, sunder_i_cones_edge(own, v));
         if (!sunder_i_steps(4)) return false;
         if (met == 0) continue;
         if (!make_room(g, h, c->n)) return false;
-        take_edge(&e, v, xy + 2 * (size_t)v, xy + 2 * (size_t)s->cleaned->next[v]);
+        take_edge(&e, v, xy + 2 * (size_t)v, xy + 2 * (size_t)s->form->cleaned.next[v]);
         for (; met; met &= met - 1) add(g, &e, c->vertex[__builtin_ctz(met)], h);
     }
     g->placed.lattice.counts.orientation_tests += 2 * (uint64_t)s->vertices * c->n;
@@ -98,9 +98,9 @@ static bool pair_edges_with_many(sunder_i_operands *g, int side, const sunder_i_
     if (!met) return false;
     uint64_t asked = 0;
     for (uint32_t v = 0; v < s->vertices; v++) {
-        const double *p = xy + 2 * (size_t)v, *q = xy + 2 * (size_t)s->cleaned->next[v];
+        const double *p = xy + 2 * (size_t)v, *q = xy + 2 * (size_t)s->form->cleaned.next[v];
         if (!sunder_i_step()) return false;
-        if (s->cleaned->next[v] == v || out_of_reach(p, q, g->box[!side], e.reach)) continue;
+        if (s->form->cleaned.next[v] == v || out_of_reach(p, q, g->box[!side], e.reach)) continue;
         uint32_t looked_at;
         const uint32_t n = sunder_i_cones_met(c, sunder_i_cones_edge(own, v), met, &looked_at);
         asked += looked_at;
@@ -152,7 +152,7 @@ sunder_i_candidate sunder_i_candidates_pop(sunder_i_candidates *h)
 sunder_i_carrier sunder_i_candidate_carrier(sunder_i_operands *g, const sunder_i_candidate *c)
 {
     const sunder_i_point *at = g->at[c->side];
-    const uint32_t next = g->shape[c->side]->cleaned->next[c->edge];
+    const uint32_t next = g->shape[c->side]->form->cleaned.next[c->edge];
     return sunder_i_carrier_make(g, sunder_i_operands_add(g, at[c->edge], g->at[!c->side][c->vertex]),
                                  sunder_i_operands_diff(g, at[next], at[c->edge]));
 }

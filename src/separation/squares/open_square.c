@@ -29,7 +29,7 @@ static bool add_edge(sunder_i_squares *q, const double at[4], double reach, int 
     sunder_i_operands *g = q->g;
     const sunder_shape *s = g->shape[side];
     const sunder_i_operand_piece o = sunder_i_operands_piece(g, !side, j);
-    const double *a = g->xy[side] + 2 * (size_t)u, *b = g->xy[side] + 2 * (size_t)s->cleaned->next[u];
+    const double *a = g->xy[side] + 2 * (size_t)u, *b = g->xy[side] + 2 * (size_t)s->form->cleaned.next[u];
     const double dx = b[0] - a[0], dy = b[1] - a[1], inverse = 1 / (dx * dx + dy * dy);
     const sunder_i_direction direction = sunder_i_direction_of(g, dx, dy);
     for (uint32_t k = 0; k < o.n; k++) {

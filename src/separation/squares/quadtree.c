@@ -30,7 +30,7 @@ typedef struct builder {
 static bool passes(const builder *b, uint32_t v, const double box[4])
 {
     const double *xy = b->g->xy[b->side], *p = xy + 2 * (size_t)v,
-                 *q = xy + 2 * (size_t)b->g->shape[b->side]->cleaned->next[v];
+                 *q = xy + 2 * (size_t)b->g->shape[b->side]->form->cleaned.next[v];
     const double e = 4 * b->g->error;
     for (int k = 0; k < 2; k++)
         if ((p[k] < box[k] - e && q[k] < box[k] - e) || (p[k] > box[k + 2] + e && q[k] > box[k + 2] + e)) return false;
@@ -155,7 +155,7 @@ static int depth_for(const sunder_i_operands *g, int side)
     const double *xy = g->xy[side], *all = g->box[side];
     double length = 0;
     for (uint32_t v = 0; v < s->vertices; v++) {
-        const double *a = xy + 2 * (size_t)v, *b = xy + 2 * (size_t)s->cleaned->next[v];
+        const double *a = xy + 2 * (size_t)v, *b = xy + 2 * (size_t)s->form->cleaned.next[v];
         length += fabs(b[0] - a[0]) + fabs(b[1] - a[1]);
     }
     const double boxes = length / fmax(all[2] - all[0], all[3] - all[1]); /* that are as large as the operand */
