@@ -6,16 +6,26 @@
  * never lies outside its feature's box, since rounding keeps order. */
 #include "displacement/layer/sides.h"
 
+#include "base/parallel.h"
 #include "separation/separation.h"
 
 #include <math.h>
 #include <stdlib.h>
 
+/* Runs of the tree that are handed to a thread together: some hundred features. */
+#define RUNS_OF_A_LOT 16
+
+/* Pairs of which the first one's anchor lies in the second, of some runs of the tree. */
+typedef struct held_pairs {
+    sunder_i_id_pair *pair;
+    size_t n, capacity;
+} held_pairs;
+
 typedef struct looking {
-    sunder_i_model *model;
+    const sunder_i_model *model;
     sunder_i_list near, about; /* leaves of the tree: about a run, and of those about one feature */
-    size_t capacity;           /* of model->held */
-    double *outline;           /* of one that is near, and scratch */
+    held_pairs *held;
+    double *outline; /* of one that is near, and scratch */
     size_t room;
 } looking;
 
@@ -41,7 +51,8 @@ static double distance_to_outline(looking *l, uint32_t g, const double a[2])
 /* Does g hold the anchor of f? Then the pair is noted; else *clear is brought down to the distance of g. */
 static sunder_status look_at(looking *l, uint32_t f, uint32_t g, double *clear, sunder_error *err)
 {
-    sunder_i_model *model = l->model;
+    const sunder_i_model *model = l->model;
+    held_pairs *held = l->held;
     const double *a = model->anchor_at + 2 * (size_t)f, *box = sunder_i_home_box(model, g);
     bool holds = false;
     if (!sunder_i_box_near_point(box, a[0], a[1], *clear)) return SUNDER_OK;
@@ -54,9 +65,9 @@ static sunder_status look_at(looking *l, uint32_t f, uint32_t g, double *clear, 
         *clear = fmin(*clear, distance);
         return distance < 0 ? sunder_i_no_memory(err) : SUNDER_OK;
     }
-    if (!sunder_i_reserve(&model->held, &l->capacity, model->held_n + 1, sizeof *model->held))
+    if (!sunder_i_reserve(&held->pair, &held->capacity, held->n + 1, sizeof *held->pair))
         return sunder_i_no_memory(err);
-    model->held[model->held_n++] = (sunder_i_id_pair){f, g};
+    held->pair[held->n++] = (sunder_i_id_pair){f, g};
     return SUNDER_OK;
 }
 
@@ -85,7 +96,7 @@ static void pick(looking *l, const double box[4])
 /* Who stands there, of l->near. */
 static sunder_status look_about(looking *l, uint32_t f, sunder_error *err)
 {
-    sunder_i_model *model = l->model;
+    const sunder_i_model *model = l->model;
     sunder_status status = SUNDER_OK;
     double box[4], clear = box_about(model, f, box);
     pick(l, box);
@@ -95,58 +106,105 @@ static sunder_status look_about(looking *l, uint32_t f, sunder_error *err)
             status = look_at(l, f, g, &clear, err);
     }
     model->clear[f] = clear;
-    sunder_i_body *body = &model->body[model->body_of[f]];
-    body->clear = fmin(body->clear, clear);
     return status;
 }
 
-static sunder_status look_about_all(sunder_i_model *model, sunder_error *err)
+static sunder_status look_about_run(looking *l, size_t run, sunder_error *err)
 {
-    looking l = {.model = model};
-    const sunder_i_rtree *tree = &model->tree;
+    const sunder_i_rtree *tree = &l->model->tree;
     sunder_status status = SUNDER_OK;
-    for (size_t run = 0; run < sunder_i_rtree_runs(tree) && !status; run++) {
-        size_t first, end;
-        double all[4], box[4];
-        sunder_i_rtree_run(tree, run, &first, &end);
-        sunder_i_box_clear(all);
-        for (size_t leaf = first; leaf < end; leaf++) {
-            if (sunder_i_is_barrier(model, tree->item[leaf])) continue;
-            box_about(model, tree->item[leaf], box);
-            sunder_i_box_join(all, box);
-        }
-        l.near.n = 0;
-        if (!sunder_i_rtree_query_leaves(tree, all, &l.near) ||
-            !sunder_i_reserve(&l.about.item, &l.about.capacity, l.near.n + 1, sizeof *l.about.item))
-            status = sunder_i_no_memory(err);
-        for (size_t leaf = first; leaf < end && !status; leaf++)
-            if (!sunder_i_is_barrier(model, tree->item[leaf])) status = look_about(&l, tree->item[leaf], err);
+    size_t first, end;
+    double all[4], box[4];
+    sunder_i_rtree_run(tree, run, &first, &end);
+    sunder_i_box_clear(all);
+    for (size_t leaf = first; leaf < end; leaf++) {
+        if (sunder_i_is_barrier(l->model, tree->item[leaf])) continue;
+        box_about(l->model, tree->item[leaf], box);
+        sunder_i_box_join(all, box);
+    }
+    l->near.n = 0;
+    if (!sunder_i_rtree_query_leaves(tree, all, &l->near) ||
+        !sunder_i_reserve(&l->about.item, &l->about.capacity, l->near.n + 1, sizeof *l->about.item))
+        return sunder_i_no_memory(err);
+    for (size_t leaf = first; leaf < end && !status; leaf++)
+        if (!sunder_i_is_barrier(l->model, tree->item[leaf])) status = look_about(l, tree->item[leaf], err);
+    return status;
+}
+
+typedef struct looking_about {
+    const sunder_i_model *model;
+    held_pairs *held; /* [lots] */
+} looking_about;
+
+/* Lots of runs. */
+static sunder_status look_about_lots(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const looking_about *all = context;
+    looking l = {.model = all->model};
+    const size_t runs = sunder_i_rtree_runs(&l.model->tree);
+    sunder_status status = SUNDER_OK;
+    for (size_t lot = begin; lot < end && !status; lot++) {
+        l.held = &all->held[lot];
+        for (size_t run = lot * RUNS_OF_A_LOT; run < (lot + 1) * RUNS_OF_A_LOT && run < runs && !status; run++)
+            status = look_about_run(&l, run, err);
     }
     sunder_i_free(l.near.item);
     sunder_i_free(l.about.item);
     sunder_i_free(l.outline);
-    if (model->held_n) qsort(model->held, model->held_n, sizeof *model->held, sunder_i_by_id_pair);
     return status;
+}
+
+/* All lots' pairs, sorted. */
+static bool gather_held(sunder_i_model *model, const held_pairs *held, size_t lots)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < lots; k++) n += held[k].n;
+    model->held = sunder_i_alloc(n, sizeof *model->held);
+    if (!model->held) return false;
+    for (size_t k = 0; k < lots; k++)
+        for (size_t i = 0; i < held[k].n; i++) model->held[model->held_n++] = held[k].pair[i];
+    if (n) qsort(model->held, n, sizeof *model->held, sunder_i_by_id_pair);
+    return true;
+}
+
+static sunder_status look_about_all(sunder_i_model *model, sunder_error *err)
+{
+    const size_t lots = (sunder_i_rtree_runs(&model->tree) + RUNS_OF_A_LOT - 1) / RUNS_OF_A_LOT;
+    looking_about all = {model, sunder_i_calloc(lots, sizeof *all.held)};
+    if (!all.held) return sunder_i_no_memory(err);
+    sunder_status status =
+        sunder_i_parallel(model->rules.threads, lots, SUNDER_I_GRAIN_WHOLE, look_about_lots, &all, err);
+    if (!status && !gather_held(model, all.held, lots)) status = sunder_i_no_memory(err);
+    for (size_t k = 0; k < lots; k++) sunder_i_free(all.held[k].pair);
+    sunder_i_free(all.held);
+    for (size_t f = 0; f < model->features && !status; f++) {
+        sunder_i_body *body = &model->body[model->body_of[f]];
+        if (model->present[f]) body->clear = fmin(body->clear, model->clear[f]);
+    }
+    return status;
+}
+
+static sunder_status find_anchors(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const sunder_i_model *model = context;
+    (void)err;
+    for (size_t f = begin; f < end; f++)
+        if (model->present[f]) sunder_shape_anchor(sunder_i_thing_shape(model, f), model->anchor_at + 2 * f);
+    return SUNDER_OK;
 }
 
 sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err)
 {
     const size_t n = model->features;
-    const sunder_status status = sunder_i_model_find_sides(model, err);
+    sunder_status status = sunder_i_model_find_sides(model, err);
     if (status || model->rules.jumps) return status;
     model->anchor_at = sunder_i_calloc(2 * n, sizeof *model->anchor_at);
     model->clear = sunder_i_calloc(n, sizeof *model->clear);
     if (!model->anchor_at || !model->clear) return sunder_i_no_memory(err);
-    for (size_t b = 0; b < model->bodies; b++) {
-        sunder_i_body *body = &model->body[b];
-        for (uint32_t m = 0; m < body->members; m++) {
-            const uint32_t f = model->member[body->member + m];
-            if (sunder_i_is_barrier(model, f) || !model->present[f]) continue;
-            sunder_shape_anchor(sunder_i_thing_shape(model, f), model->anchor_at + 2 * (size_t)f);
-        }
-        if (!sunder_i_keep_anchors(model, body)) return sunder_i_no_memory(err);
-    }
-    return look_about_all(model, err);
+    status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_BOXES, find_anchors, model, err);
+    for (size_t b = 0; b < model->bodies && !status; b++)
+        if (!sunder_i_keep_anchors(model, &model->body[b])) status = sunder_i_no_memory(err);
+    return status ? status : look_about_all(model, err);
 }
 
 bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g)

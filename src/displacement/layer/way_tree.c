@@ -19,20 +19,29 @@ void sunder_i_way_tree_free(sunder_i_way_tree *ways)
     ways->hull = NULL;
 }
 
+/* Is that the order? Then its leaves are the homes. */
+static bool is_by_homes(const sunder_i_way_tree *ways) { return ways->longer.levels == 0; }
+
 static const sunder_i_rtree *order_of(const sunder_i_way_tree *ways, const sunder_i_model *model)
 {
-    return ways->longer.levels ? &ways->longer : &model->tree;
+    return is_by_homes(ways) ? &model->tree : &ways->longer;
+}
+
+static bool has_moved(const double t[2]) { return t[0] != 0 || t[1] != 0; }
+
+/* The way from that home by t. */
+static void way_from(const double home[4], const double t[2], double box[4])
+{
+    memcpy(box, home, 4 * sizeof *box);
+    if (!has_moved(t)) return;
+    double there[4];
+    for (size_t c = 0; c < 4; c++) there[c] = sunder_i_box_step(home[c] + t[c & 1], c >= 2);
+    sunder_i_box_join(box, there);
 }
 
 void sunder_i_way_box(const sunder_i_way_tree *ways, const sunder_i_model *model, uint32_t f, double box[4])
 {
-    const double *home = sunder_i_home_box(model, f), *t = sunder_i_move_of(ways, model, f);
-    memcpy(box, home, 4 * sizeof *box);
-    if (t[0] == 0 && t[1] == 0) return;
-    for (int c = 0; c < 4; c++) {
-        const double there = nextafter(home[c] + t[c & 1], c < 2 ? -INFINITY : INFINITY);
-        box[c] = c < 2 ? fmin(home[c], there) : fmax(home[c], there);
-    }
+    way_from(sunder_i_home_box(model, f), sunder_i_move_of(ways, model, f), box);
 }
 
 /* ---- Hulls ------------------------------------------------------------------------------------------------------- */
@@ -43,6 +52,13 @@ static double *hull_of(const sunder_i_way_tree *ways, const sunder_i_rtree *orde
 }
 
 static double size_of(const double box[4]) { return box[2] - box[0] + (box[3] - box[1]); }
+
+/* Where the feature of a leaf was at home. */
+static const double *home_of(const sunder_i_way_tree *ways, const sunder_i_model *model, const sunder_i_rtree *order,
+                             size_t leaf)
+{
+    return is_by_homes(ways) ? order->box + 4 * leaf : sunder_i_home_box(model, order->item[leaf]);
+}
 
 /* Of what is in the node, as it is now. */
 static void make_hull(const sunder_i_way_tree *ways, const sunder_i_model *model, unsigned level, size_t node,
@@ -56,49 +72,58 @@ static void make_hull(const sunder_i_way_tree *ways, const sunder_i_model *model
         if (level > 1) {
             sunder_i_box_join(hull, hull_of(ways, order, c));
         } else if (!sunder_i_is_barrier(model, order->item[c])) {
-            sunder_i_way_box(ways, model, order->item[c], way);
+            way_from(home_of(ways, model, order, c), sunder_i_move_of(ways, model, order->item[c]), way);
             sunder_i_box_join(hull, way);
         }
     }
 }
 
-/* What a node adds to the sum; of barriers alone it is nothing. */
-static double spread_of(const double hull[4]) { return hull[0] <= hull[2] ? size_of(hull) : 0; }
-
-static bool make_hulls(sunder_i_way_tree *ways, const sunder_i_model *model)
+/* Of all, as they are now. */
+static void make_hulls(sunder_i_way_tree *ways, const sunder_i_model *model)
 {
     const sunder_i_rtree *order = order_of(ways, model);
-    const size_t nodes = order->levels ? order->level[order->levels] - order->leaves : 0;
-    ways->hull = sunder_i_alloc(4 * nodes + 1, sizeof *ways->hull);
-    if (!ways->hull) return false;
     ways->sprawl = 0;
     for (unsigned l = 1; l < order->levels; l++)
         for (size_t node = order->level[l]; node < order->level[l + 1]; node++) {
             double *hull = hull_of(ways, order, node);
             make_hull(ways, model, l, node, hull);
-            ways->sprawl += spread_of(hull);
+            if (hull[0] <= hull[2]) ways->sprawl += size_of(hull); /* of barriers alone it is nothing */
         }
-    return true;
 }
+
+static double *room_for_hulls(const sunder_i_way_tree *ways, const sunder_i_model *model)
+{
+    const sunder_i_rtree *order = order_of(ways, model);
+    const size_t nodes = order->levels ? order->level[order->levels] - order->leaves : 0;
+    return sunder_i_alloc(4 * nodes + 1, sizeof *ways->hull);
+}
+
+static bool is_worn(const sunder_i_way_tree *ways) { return !(ways->sprawl <= WORN * ways->packed); }
 
 sunder_status sunder_i_way_tree_begin(sunder_i_way_tree *ways, const sunder_i_model *model, sunder_error *err)
 {
     ways->packed = model->tree.packed;
-    return make_hulls(ways, model) ? SUNDER_OK : sunder_i_no_memory(err);
+    ways->hull = room_for_hulls(ways, model);
+    if (!ways->hull) return sunder_i_no_memory(err);
+    make_hulls(ways, model);
+    return SUNDER_OK;
 }
 
 /* ---- Moving ------------------------------------------------------------------------------------------------------ */
 
-/* What is above these leaves. */
-static void mend(sunder_i_way_tree *ways, const sunder_i_model *model, size_t run)
+/* The hulls above a leaf hold its way now. They never shrink by that: what they hold in vain is told by the ways. */
+static void widen(sunder_i_way_tree *ways, const sunder_i_model *model, size_t leaf)
 {
     const sunder_i_rtree *order = order_of(ways, model);
-    for (unsigned l = 1; l < order->levels; l++, run /= SUNDER_I_RTREE_RUN) {
-        double hull[4], *was = hull_of(ways, order, order->level[l] + run);
-        make_hull(ways, model, l, order->level[l] + run, hull);
-        if (memcmp(hull, was, sizeof hull) == 0) return;
-        ways->sprawl += spread_of(hull) - spread_of(was);
-        memcpy(was, hull, sizeof hull);
+    double way[4];
+    way_from(home_of(ways, model, order, leaf), sunder_i_move_of(ways, model, order->item[leaf]), way);
+    for (unsigned l = 1; l < order->levels; l++) {
+        leaf /= SUNDER_I_RTREE_RUN;
+        double *hull = hull_of(ways, order, order->level[l] + leaf), before[4];
+        memcpy(before, hull, sizeof before);
+        sunder_i_box_join(hull, way);
+        if (memcmp(before, hull, sizeof before) == 0) return;
+        ways->sprawl += size_of(hull) - size_of(before);
     }
 }
 
@@ -112,7 +137,9 @@ static sunder_status reorder(sunder_i_way_tree *ways, const sunder_i_model *mode
     sunder_i_way_tree_free(ways);
     sunder_status status = sunder_i_rtree_build(way, model->present, n, &ways->longer, err);
     sunder_i_free(way);
-    if (!status && !make_hulls(ways, model)) status = sunder_i_no_memory(err);
+    ways->hull = status ? NULL : room_for_hulls(ways, model);
+    if (!status && !ways->hull) status = sunder_i_no_memory(err);
+    if (!status) make_hulls(ways, model);
     ways->packed = ways->sprawl;
     return status;
 }
@@ -121,26 +148,23 @@ sunder_status sunder_i_way_tree_follow(sunder_i_way_tree *ways, const sunder_i_m
                                        size_t n, sunder_error *err)
 {
     const sunder_i_rtree *order = order_of(ways, model);
-    size_t last = SIZE_MAX;
-    for (size_t k = 0; k < n; k++) {
-        /* Who come one after the other are mostly neighbours in the tree, too. */
-        const size_t run = order->leaf[moved[k]] / SUNDER_I_RTREE_RUN;
-        if (run != last) mend(ways, model, run);
-        last = run;
-    }
-    return ways->sprawl <= WORN * ways->packed ? SUNDER_OK : reorder(ways, model, err);
+    for (size_t k = 0; k < n; k++) widen(ways, model, order->leaf[moved[k]]);
+    if (is_worn(ways)) make_hulls(ways, model);
+    return is_worn(ways) ? reorder(ways, model, err) : SUNDER_OK;
 }
 
 /* ---- Asking ------------------------------------------------------------------------------------------------------ */
 
-static bool takes_way(const sunder_i_way_tree *ways, const sunder_i_model *model, uint32_t f, const double *home,
-                      const double box[4])
+static bool takes_way(const sunder_i_way_tree *ways, const sunder_i_model *model, const sunder_i_rtree *order,
+                      size_t leaf, const double box[4])
 {
+    const uint32_t f = order->item[leaf];
     if (sunder_i_is_barrier(model, f)) return false;
-    if (ways->longer.levels == 0 && sunder_i_box_meet(home, box)) return true;
+    const double *home = home_of(ways, model, order, leaf), *t = sunder_i_move_of(ways, model, f);
+    if (!has_moved(t)) return sunder_i_box_meet_any(home, box);
     double way[4];
-    sunder_i_way_box(ways, model, f, way);
-    return sunder_i_box_meet(way, box);
+    way_from(home, t, way);
+    return sunder_i_box_meet_any(way, box);
 }
 
 static bool take_leaves(const sunder_i_way_tree *ways, const sunder_i_model *model, size_t first, size_t end,
@@ -148,9 +172,7 @@ static bool take_leaves(const sunder_i_way_tree *ways, const sunder_i_model *mod
 {
     const sunder_i_rtree *order = order_of(ways, model);
     for (size_t c = first; c < end; c++)
-        if (takes_way(ways, model, order->item[c], order->box + 4 * c, box) &&
-            !sunder_i_list_push(hits, order->item[c]))
-            return false;
+        if (takes_way(ways, model, order, c, box) && !sunder_i_list_push(hits, order->item[c])) return false;
     return true;
 }
 
