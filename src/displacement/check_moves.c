@@ -183,7 +183,7 @@ static sunder_status find_worse(comparison *c, sunder_error *err)
 static sunder_status check_pairs(comparison *c, sunder_report *report, sunder_error *err)
 {
     sunder_status status = place_after(c, err);
-    if (!status) status = sunder_i_placement_relate(&c->model, &c->placement, NULL, NULL, &c->now, err);
+    if (!status) status = sunder_i_placement_relate(&c->model, &c->placement, NULL, &c->now, err);
     if (!status) report->summary.pairs_tested = c->now.tested;
     if (!status) status = find_worse(c, err);
     if (!status) status = sunder_i_report_conflicts(report, &c->model, &c->placement, &c->now, false, err);
@@ -220,7 +220,7 @@ static sunder_status begin(comparison *c, const sunder_layer_options *options, s
     if (!status) status = sunder_i_order_layer(c->before, &c->barriers, true, &c->layer, err);
     if (!status) status = sunder_i_model_init(&c->layer, &c->barriers, &rules, &c->model, err);
     if (!status) status = sunder_i_placement_init(&c->model, &c->placement, err);
-    if (!status) status = sunder_i_placement_relate(&c->model, &c->placement, NULL, NULL, &c->start, err);
+    if (!status) status = sunder_i_placement_relate(&c->model, &c->placement, NULL, &c->start, err);
     if (!status) status = sunder_i_model_join(&c->model, &c->start, err);
     if (!status) status = sunder_i_model_cut(&c->model, err);
     if (!status) status = sunder_i_model_anchor(&c->model, err);

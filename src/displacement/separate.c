@@ -34,13 +34,13 @@
 /* How all pairs stand; movers_only: all of which not both are fixed. */
 static sunder_status relate(sunder_i_solver *s, bool movers_only, sunder_error *err)
 {
-    if (!movers_only) return sunder_i_placement_relate(&s->model, &s->placement, NULL, NULL, &s->start, err);
+    if (!movers_only) return sunder_i_placement_relate(&s->model, &s->placement, NULL, &s->start, err);
     sunder_i_changes movers;
     sunder_status status = sunder_i_changes_init(&movers, s->model.things) ? SUNDER_OK : sunder_i_no_memory(err);
     for (uint32_t f = 0; f < s->model.features && !status; f++)
         if (s->model.present[f] && !sunder_i_feature(&s->layer, f).fixed) sunder_i_changes_add(&movers, f);
     if (!status && !sunder_i_changes_sort(&movers)) status = sunder_i_no_memory(err);
-    if (!status) status = sunder_i_placement_relate(&s->model, &s->placement, &movers, NULL, &s->start, err);
+    if (!status) status = sunder_i_placement_relate(&s->model, &s->placement, &movers, &s->start, err);
     sunder_i_changes_free(&movers);
     return status;
 }
@@ -73,6 +73,16 @@ static sunder_status find_seams_for_proofs(sunder_i_solver *s, sunder_error *err
     return s->model.given_up_n ? sunder_i_report_find_seams(s, err) : SUNDER_OK;
 }
 
+/* Relations now are those of the start. False if memory is out. */
+static bool begin_as_at_start(sunder_i_solver *s)
+{
+    const size_t n = s->start.n, size = sizeof *s->now.pair;
+    if (!sunder_i_reserve(&s->now.pair, &s->now.room, n, size)) return false;
+    if (n) memcpy(s->now.pair, s->start.pair, n * size);
+    s->now.n = n;
+    return true;
+}
+
 /* What else is settled beforehand: the bodies in doubles, relations as they stand. */
 static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
 {
@@ -82,11 +92,7 @@ static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
     if (!status) status = sunder_i_solver_find_shut_in(s, err);
     if (!status) status = sunder_i_solver_init(s, err);
     if (status) return status;
-    s->now.pair = sunder_i_alloc(s->start.n, sizeof *s->now.pair);
-    if (!s->now.pair) return sunder_i_no_memory(err);
-    if (s->start.n) memcpy(s->now.pair, s->start.pair, s->start.n * sizeof *s->now.pair);
-    s->now.n = s->start.n;
-    return SUNDER_OK;
+    return begin_as_at_start(s) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
 static bool any_of(const sunder_i_solver *s, const bool *flag)
@@ -224,7 +230,6 @@ static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_
  * the way; two that do stand so are what they were found to be when nothing had moved. */
 static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
 {
-    sunder_i_relations last = {0};
     sunder_i_changes elsewhere;
     sunder_status status = sunder_i_changes_init(&elsewhere, s->model.things) ? SUNDER_OK : sunder_i_no_memory(err);
     for (uint32_t f = 0; f < s->model.features && !status; f++) {
@@ -232,12 +237,10 @@ static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
         if (t[0] != 0 || t[1] != 0 || s->placement.was_rounded[f]) sunder_i_changes_add(&elsewhere, f);
     }
     if (!status && elsewhere.failed) status = sunder_i_no_memory(err);
-    if (!status) status = sunder_i_placement_relate(&s->model, &s->placement, &elsewhere, &s->start, &last, err);
+    if (!status && !begin_as_at_start(s)) status = sunder_i_no_memory(err);
+    if (!status) status = sunder_i_placement_relate_again(&s->model, &s->placement, &elsewhere, &s->now, err);
     sunder_i_changes_free(&elsewhere);
-    if (status) return status;
-    sunder_i_free(s->now.pair);
-    s->now = last;
-    return sunder_i_jumps_update(&s->jumps, &s->model, NULL, err);
+    return status ? status : sunder_i_jumps_update(&s->jumps, &s->model, NULL, err);
 }
 
 /* What remains, and what is proved of it. */

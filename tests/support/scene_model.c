@@ -49,7 +49,7 @@ void scene_model_related_features(scene_model *m, const sunder_feature *feature,
     make(m, feature, n, options);
     assert_int_equal(sunder_i_placement_init(&m->model, &m->placement, &err), SUNDER_OK);
     m->placed = true;
-    assert_int_equal(sunder_i_placement_relate(&m->model, &m->placement, NULL, NULL, &m->start, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_placement_relate(&m->model, &m->placement, NULL, &m->start, &err), SUNDER_OK);
     join(m, &m->start);
     assert_int_equal(sunder_i_model_find_seams(&m->model, &err), SUNDER_OK);
 }

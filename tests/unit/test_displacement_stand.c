@@ -44,7 +44,7 @@ static void test_relations_of_some(void **state)
         for (uint32_t f = 0; f < m.model.features; f++)
             if (!s.feature[f].fixed) sunder_i_changes_add(&some, f);
         assert_true(sunder_i_changes_sort(&some));
-        assert_int_equal(sunder_i_placement_relate(&m.model, &m.placement, &some, NULL, &found, &err), SUNDER_OK);
+        assert_int_equal(sunder_i_placement_relate(&m.model, &m.placement, &some, &found, &err), SUNDER_OK);
         size_t n = 0;
         for (size_t k = 0; k < m.start.n; k++) {
             const sunder_i_relation *r = &m.start.pair[k];
@@ -59,6 +59,58 @@ static void test_relations_of_some(void **state)
         scene_model_end(&m);
         scene_end(&s);
     }
+}
+
+/* Some bodies go elsewhere; what changed, sorted. */
+static void move_some(rng *g, scene_model *m, sunder_i_changes *changes)
+{
+    sunder_error err;
+    sunder_i_changes_clear(changes);
+    for (size_t b = 0; b < m->model.bodies; b++) {
+        if (!rng_once_in(g, 3)) continue;
+        for (size_t c = 0; c < 2; c++) m->model.move[2 * b + c] = (double)rng_int(g, -40, 40) / 8;
+        const sunder_i_body *body = &m->model.body[b];
+        for (uint32_t k = 0; k < body->members; k++) sunder_i_changes_add(changes, m->model.member[body->member + k]);
+    }
+    assert_true(sunder_i_changes_sort(changes));
+    assert_int_equal(sunder_i_placement_move(&m->model, &m->placement, changes, &err), SUNDER_OK);
+}
+
+/* Relations that are brought up to date, move after move, are those that are found afresh. */
+static void test_brought_up_to_date(void **state)
+{
+    (void)state;
+    size_t most = 0;
+    for (size_t round = 0; round < test_count(60); round++) {
+        rng g = rng_start(test_seed(), 300 + round);
+        scene s;
+        scene_model m;
+        sunder_i_changes changes;
+        sunder_i_relations kept, fresh;
+        sunder_error err;
+        draw_scene(&g, &s);
+        scene_model_related(&m, &s);
+        assert_true(sunder_i_changes_init(&changes, m.model.things));
+        assert_int_equal(sunder_i_placement_relate(&m.model, &m.placement, NULL, &kept, &err), SUNDER_OK);
+        for (int step = 0; step < 12; step++) {
+            move_some(&g, &m, &changes);
+            assert_int_equal(sunder_i_placement_relate_again(&m.model, &m.placement, &changes, &kept, &err), SUNDER_OK);
+            assert_int_equal(sunder_i_placement_relate(&m.model, &m.placement, NULL, &fresh, &err), SUNDER_OK);
+            assert_int_equal(kept.n, fresh.n);
+            for (size_t k = 0; k < kept.n; k++) {
+                const sunder_i_relation *a = &kept.pair[k], *b = &fresh.pair[k];
+                assert_true(a->a == b->a && a->b == b->b && a->near == b->near && a->touch == b->touch);
+                assert_true(a->overlap == b->overlap && a->contained == b->contained && a->kept == b->kept);
+            }
+            most = kept.n > most ? kept.n : most;
+            sunder_i_free(fresh.pair);
+        }
+        sunder_i_free(kept.pair);
+        sunder_i_changes_free(&changes);
+        scene_model_end(&m);
+        scene_end(&s);
+    }
+    assert_true(most > 20);
 }
 
 /* What a relaxation holds a pair to, taken a little below, is what it had, and never more: its distance, or a way out
@@ -96,6 +148,7 @@ static void test_below_what_it_had(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_relations_of_some),
+                                       cmocka_unit_test(test_brought_up_to_date),
                                        cmocka_unit_test(test_below_what_it_had)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,11 +44,5 @@ sunder_status sunder_i_solver_relate(sunder_i_solver *s, sunder_error *err)
     sunder_status status = sunder_i_placement_move(&s->model, &s->placement, &s->changes, err);
     if (status) return status;
     status = sunder_i_jumps_update(&s->jumps, &s->model, &s->changes, err);
-    if (status) return status;
-    sunder_i_relations now;
-    status = sunder_i_placement_relate(&s->model, &s->placement, &s->changes, &s->now, &now, err);
-    if (status) return status;
-    sunder_i_free(s->now.pair);
-    s->now = now;
-    return SUNDER_OK;
+    return status ? status : sunder_i_placement_relate_again(&s->model, &s->placement, &s->changes, &s->now, err);
 }

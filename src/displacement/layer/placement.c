@@ -333,37 +333,84 @@ static inline bool comes_behind(const sunder_i_relation *r, const sunder_i_relat
     return r->a != other->a ? r->a > other->a : r->b > other->b;
 }
 
-/* Of the pairs looked at, those that matter; and those that nothing happened to. Both are sorted. */
-static sunder_status merge(const classification *c, size_t pairs, sunder_i_relations *relations, sunder_error *err)
+/* Of pairs that were looked at, in order, those that matter; how many. */
+static size_t keep_related(sunder_i_relation *pair, size_t n)
 {
-    const size_t old = c->before ? c->before->n : 0;
-    const sunder_i_relation *before = old ? c->before->pair : NULL;
-    sunder_i_relation *out = old ? sunder_i_alloc(old + pairs, sizeof *out) : c->pair;
-    if (!out) return sunder_i_no_memory(err);
-    size_t n = 0, at = 0;
-    for (size_t k = 0; k <= pairs; k++) {
-        const sunder_i_relation *r = k < pairs ? &c->pair[k] : NULL;
-        for (; at < old && (!r || !comes_behind(&before[at], r)); at++) {
-            out[n] = before[at];
-            n += !c->changed[before[at].a] && !c->changed[before[at].b];
-        }
-        if (r && (r->near || r->touch || r->kept)) out[n++] = *r;
+    size_t out = 0;
+    for (size_t k = 0; k < n; k++)
+        if (pair[k].near || pair[k].touch || pair[k].kept) pair[out++] = pair[k];
+    return out;
+}
+
+/* Takes out the pairs of what changed. */
+static void drop_changed(const bool *changed, sunder_i_relations *relations)
+{
+    sunder_i_relation *pair = relations->pair;
+    size_t n = 0;
+    while (n < relations->n && !changed[pair[n].a] && !changed[pair[n].b]) n++;
+    for (size_t k = n; k < relations->n; k++) {
+        pair[n] = pair[k];
+        n += !changed[pair[k].a] && !changed[pair[k].b];
     }
-    if (out != c->pair) sunder_i_free(c->pair);
-    *relations = (sunder_i_relations){out, n, pairs};
+    relations->n = n;
+}
+
+/* Puts in n pairs that are not there, from the last one on. They are few beside all: so nothing before the first of
+ * them is touched. */
+static bool put_in(sunder_i_relations *relations, const sunder_i_relation *pair, size_t n)
+{
+    if (!sunder_i_reserve(&relations->pair, &relations->room, relations->n + n, sizeof *pair)) return false;
+    size_t at = relations->n, to = relations->n += n;
+    while (n) {
+        if (at && comes_behind(&relations->pair[at - 1], &pair[n - 1]))
+            relations->pair[--to] = relations->pair[--at];
+        else
+            relations->pair[--to] = pair[--n];
+    }
+    return true;
+}
+
+/* The pairs of what changed that matter, in c->pair, which is the caller's even where that failed. */
+static sunder_status relate_changed(classification *c, const sunder_i_changes *changes, size_t *n, size_t *tested,
+                                    sunder_error *err)
+{
+    sunder_status status = find_pairs(c->model, c->placement, changes, &c->pair, tested, err);
+    if (!status) status = sunder_i_parallel(c->model->rules.threads, *tested, SUNDER_I_GRAIN_TESTS, classify, c, err);
+    *n = status ? 0 : keep_related(c->pair, *tested);
+    return status;
+}
+
+sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunder_i_placement *placement,
+                                        const sunder_i_changes *changes, sunder_i_relations *relations,
+                                        sunder_error *err)
+{
+    classification c = {model, placement, changes ? changes->is : NULL, NULL, NULL};
+    size_t n = 0, tested = 0;
+    const sunder_status status = relate_changed(&c, changes, &n, &tested, err);
+    if (status) {
+        sunder_i_free(c.pair);
+        return status;
+    }
+    /* It is kept for long: without the room of pairs that turned out not to matter. */
+    sunder_i_relation *fits = sunder_i_realloc(c.pair, n, sizeof *fits);
+    *relations = (sunder_i_relations){fits ? fits : c.pair, n, fits ? n : tested, tested};
     SUNDER_I_CHECK(check(relations), n);
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunder_i_placement *placement,
-                                        const sunder_i_changes *changes, const sunder_i_relations *before,
-                                        sunder_i_relations *relations, sunder_error *err)
+sunder_status sunder_i_placement_relate_again(const sunder_i_model *model, const sunder_i_placement *placement,
+                                              const sunder_i_changes *changes, sunder_i_relations *relations,
+                                              sunder_error *err)
 {
-    classification c = {model, placement, changes ? changes->is : NULL, before, NULL};
-    size_t pairs = 0;
-    sunder_status status = find_pairs(model, placement, changes, &c.pair, &pairs, err);
-    if (!status) status = sunder_i_parallel(model->rules.threads, pairs, SUNDER_I_GRAIN_TESTS, classify, &c, err);
-    if (!status) status = merge(&c, pairs, relations, err);
-    if (status) sunder_i_free(c.pair);
+    classification c = {model, placement, changes->is, relations, NULL};
+    size_t n = 0, tested = 0;
+    sunder_status status = relate_changed(&c, changes, &n, &tested, err);
+    if (!status) {
+        drop_changed(changes->is, relations);
+        if (!put_in(relations, c.pair, n)) status = sunder_i_no_memory(err);
+        relations->tested = tested;
+    }
+    sunder_i_free(c.pair);
+    SUNDER_I_CHECK(check(relations), relations->n);
     return status;
 }

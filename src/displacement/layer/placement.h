@@ -43,11 +43,14 @@ void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *pl
 /* ---- Near pairs -------------------------------------------------------------------------------------------------- */
 
 /* All pairs that are near, touch or are kept, as the features stand; exact. changes: NULL, or those alone (sorted) of
- * whose pairs it is asked. before: NULL, or the relations when all others stood as now, from which what cannot have
- * changed is taken, and costs nothing but the copy. */
+ * whose pairs it is asked. */
 sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunder_i_placement *placement,
-                                        const sunder_i_changes *changes, const sunder_i_relations *before,
-                                        sunder_i_relations *relations, sunder_error *err);
+                                        const sunder_i_changes *changes, sunder_i_relations *relations,
+                                        sunder_error *err);
+/* Relations when all but these (sorted) stood as now, brought up to date. On failure they may lack some. */
+sunder_status sunder_i_placement_relate_again(const sunder_i_model *model, const sunder_i_placement *placement,
+                                              const sunder_i_changes *changes, sunder_i_relations *relations,
+                                              sunder_error *err);
 
 /* Called for the relations of one body's members to those of others, as they stand, until *on is false; near:
  * scratch. */

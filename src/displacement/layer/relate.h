@@ -29,7 +29,8 @@ sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_transl
 
 typedef struct sunder_i_relations {
     sunder_i_relation *pair; /* sorted by (a, b); only pairs that are near, touch or are kept */
-    size_t n, tested;        /* tested: pairs of boxes that were looked at */
+    size_t n, room;
+    size_t tested; /* pairs of boxes that were looked at */
 } sunder_i_relations;
 
 const sunder_i_relation *sunder_i_relations_find(const sunder_i_relations *relations, uint32_t a, uint32_t b);
