@@ -1,8 +1,7 @@
 /* displacement/search: a pair that is free where its way leads gets the sides that it has there, another those of where
  * it stands; what is missed roughly is not forgiven; and a large crowd that goes down roughly first stands free in the
  * end to the last digit, and has nothing left to gain. */
-#include "polyset.h"
-#include "scene_model.h"
+#include "scene_field.h"
 
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
@@ -20,17 +19,8 @@
 
 enum { SIDE = 33, MOST = SIDE * SIDE, CORNERS = 12 };
 
-/* Round things of a radius of 6 in a field of so many by so many, so far from each other. */
-typedef struct field {
-    sunder_feature feature[MOST];
-    size_t n;
-    uint32_t body[MOST];
-    double move[2 * MOST];
-    scene_model of;
-    sunder_i_search search;
-} field;
-
-static sunder_shape *make_round(double x, double y)
+/* Something round of a radius of 6. */
+static void add_round(scene_field *f, double x, double y)
 {
     char wkt[CORNERS * 60 + 100];
     size_t at = (size_t)snprintf(wkt, sizeof wkt, "POLYGON ((");
@@ -40,38 +30,20 @@ static sunder_shape *make_round(double x, double y)
                                y + 6 * sin(angle));
     }
     snprintf(wkt + at, sizeof wkt - at, "))");
-    sunder_shape *shape = polyset_shape_of_wkt(wkt);
-    assert_non_null(shape);
-    return shape;
+    scene_field_add(f, wkt, INFINITY);
 }
 
-static field *begin(size_t columns, size_t rows, double apart)
+/* Round things in so many columns and rows, so far from each other. */
+static scene_field *begin(size_t columns, size_t rows, double apart)
 {
-    field *f = calloc(1, sizeof *f);
-    assert_non_null(f);
-    sunder_layer_options options;
-    sunder_layer_options_init(&options);
-    options.gap = 1;
-    options.no_blocks = options.allow_jumps = true;
-    for (f->n = 0; f->n < columns * rows; f->n++) {
+    scene_field *f = scene_field_new(columns * rows);
+    for (size_t k = 0; k < columns * rows; k++) {
         /* Rows are shifted by some of the distance, each by another. */
-        const double row = (double)(f->n / columns), x = apart * ((double)(f->n % columns) + fmod(0.381 * row, 1));
-        f->body[f->n] = (uint32_t)f->n;
-        f->feature[f->n] =
-            (sunder_feature){.shape = make_round(x, apart * row), .weight = 1, .max_shift = INFINITY, .block = -1};
+        const double row = (double)(k / columns), x = apart * ((double)(k % columns) + fmod(0.381 * row, 1));
+        add_round(f, x, apart * row);
     }
-    scene_model_related_features(&f->of, f->feature, f->n, &options);
-    assert_true(sunder_i_search_init(&f->search, &f->of.model, f->body, f->n, 0x1p-30, f->move));
-    assert_int_equal(sunder_i_search_movers(&f->search), f->n);
+    scene_field_begin(f, 1);
     return f;
-}
-
-static void end(field *f)
-{
-    sunder_i_search_free(&f->search);
-    scene_model_end(&f->of);
-    for (size_t k = 0; k < f->n; k++) sunder_shape_free((sunder_shape *)(uintptr_t)f->feature[k].shape);
-    free(f);
 }
 
 /* How far to the right the sides that one pair owes each other look, on the whole; in [-1, 1]. */
@@ -89,20 +61,20 @@ static double look_right(sunder_i_search *s, const double *lead)
 static void test_sides_of_the_way(void **state)
 {
     (void)state;
-    field *f = begin(2, 1, 20);
+    scene_field *f = begin(2, 1, 20);
     sunder_i_search *s = &f->search;
     const double above[] = {0, 0, -20, 20}, within[] = {0, 0, -15, 3}, as_is[4] = {0};
     assert_true(look_right(s, NULL) > 0.9);
     assert_true(look_right(s, as_is) > 0.9);
     assert_true(look_right(s, within) > 0.9);
     assert_true(fabs(look_right(s, above)) < 0.1 && s->program.constraint[0].n[1] > 0.9);
-    end(f);
+    scene_field_free(f);
 }
 
 static void test_what_is_missed_roughly(void **state)
 {
     (void)state;
-    field *f = begin(2, 1, 13 - 0x1p-12);
+    scene_field *f = begin(2, 1, 13 - 0x1p-12);
     sunder_i_search *s = &f->search;
     s->tolerance = 0x1p-8;
     for (int roughly = 0; roughly < 2; roughly++) {
@@ -115,7 +87,7 @@ static void test_what_is_missed_roughly(void **state)
         }
         assert_true(roughly ? most > 0x1p-13 && most < 0x1p-11 : most <= 0);
     }
-    end(f);
+    scene_field_free(f);
 }
 
 static void test_a_large_crowd(void **state)
@@ -124,7 +96,7 @@ static void test_a_large_crowd(void **state)
     double found[2 * MOST];
     assert_true(MOST > LARGE_CROWD_LED);
     for (int run = 0; run < 2; run++) {
-        field *f = begin(SIDE, SIDE, 12.5);
+        scene_field *f = begin(SIDE, SIDE, 12.5);
         sunder_i_search *s = &f->search;
         const double tolerance = s->tolerance, settled = s->settled;
         assert_true(sunder_i_search_descend(s));
@@ -135,7 +107,7 @@ static void test_a_large_crowd(void **state)
         const double cost = sunder_i_search_cost(s, s->t);
         assert_true(cost > 0 && sunder_i_search_descend(s));
         assert_true(sunder_i_search_cost(s, s->t) > (1 - 4 * SETTLED) * cost);
-        end(f);
+        scene_field_free(f);
     }
 }
 
@@ -143,13 +115,13 @@ static void test_a_large_crowd(void **state)
 static void test_with_a_limit(void **state)
 {
     (void)state;
-    field *f = begin(SIDE, SIDE, 12.9);
+    scene_field *f = begin(SIDE, SIDE, 12.9);
     sunder_i_search *s = &f->search;
     f->of.model.body[7].limit = 40;
     assert_true(sunder_i_search_descend(s));
     assert_true(sunder_i_search_look(s, s->t) <= s->tolerance);
     assert_true(hypot(s->t[14], s->t[15]) <= 40);
-    end(f);
+    scene_field_free(f);
 }
 
 int main(void)

@@ -1,7 +1,6 @@
 /* displacement/search/mend_few: a crowd in which somebody was sent home, and few clash, is mended about those, and
  * nobody else moves; where nobody was, or many clash, or it is no large crowd, it is left as it was. */
-#include "polyset.h"
-#include "scene_model.h"
+#include "scene_field.h"
 
 #include "displacement/search/stages.h"
 
@@ -19,48 +18,21 @@
 enum { MOST = 24 * 24 };
 
 /* Squares of 10 m that owe each other 3, and stand 4 apart in a field of so many by so many; each may go 2. */
-typedef struct field {
-    sunder_feature feature[MOST];
-    size_t n;
-    uint32_t body[MOST];
-    double move[2 * MOST];
-    scene_model of;
-    sunder_i_search search;
-} field;
-
-static field *begin(size_t side)
+static scene_field *begin(size_t side)
 {
-    field *f = calloc(1, sizeof *f);
-    assert_non_null(f);
-    sunder_layer_options options;
-    sunder_layer_options_init(&options);
-    options.gap = 3;
-    options.no_blocks = options.allow_jumps = true;
-    for (f->n = 0; f->n < side * side; f->n++) {
+    scene_field *f = scene_field_new(side * side);
+    for (size_t k = 0; k < side * side; k++) {
         char wkt[200];
-        const double x = 14 * (double)(f->n % side), y = 14 * (double)(f->n / side);
+        const double x = 14 * (double)(k % side), y = 14 * (double)(k / side);
         snprintf(wkt, sizeof wkt, "POLYGON ((%g %g, %g %g, %g %g, %g %g))", x, y, x + 10, y, x + 10, y + 10, x, y + 10);
-        f->body[f->n] = (uint32_t)f->n;
-        f->feature[f->n] = (sunder_feature){
-            .shape = polyset_shape_of_wkt(wkt), .weight = 1, .max_shift = 2, .block = -1};
-        assert_non_null(f->feature[f->n].shape);
+        scene_field_add(f, wkt, 2);
     }
-    scene_model_related_features(&f->of, f->feature, f->n, &options);
-    assert_true(sunder_i_search_init(&f->search, &f->of.model, f->body, f->n, 0x1p-30, f->move));
-    assert_int_equal(sunder_i_search_movers(&f->search), f->n);
+    scene_field_begin(f, 3);
     return f;
 }
 
-static void end(field *f)
-{
-    sunder_i_search_free(&f->search);
-    scene_model_end(&f->of);
-    for (size_t k = 0; k < f->n; k++) sunder_shape_free((sunder_shape *)(uintptr_t)f->feature[k].shape);
-    free(f);
-}
-
 /* Sends every so-manieth right by 1.5, which puts it too near to the next. Returns how many clash. */
-static size_t disturb(field *f, size_t every)
+static size_t disturb(scene_field *f, size_t every)
 {
     for (size_t k = every / 2; k < f->n; k += every) f->search.t[2 * k] = 1.5;
     sunder_i_search_look(&f->search, f->search.t);
@@ -70,7 +42,7 @@ static size_t disturb(field *f, size_t every)
 static void test_few(void **state)
 {
     (void)state;
-    field *f = begin(24);
+    scene_field *f = begin(24);
     f->of.model.body[0].pinned = true;
     sunder_i_search *s = &f->search;
     const size_t clashes = disturb(f, 200);
@@ -83,11 +55,11 @@ static void test_few(void **state)
     size_t moved = 0;
     for (size_t k = 0; k < f->n; k++) moved += memcmp(stood + 2 * k, s->t + 2 * k, 2 * sizeof *stood) != 0;
     assert_true(moved > 0 && moved <= 8 * clashes);
-    end(f);
+    scene_field_free(f);
 }
 
 /* Nothing is done. */
-static void expect_left_alone(field *f)
+static void expect_left_alone(scene_field *f)
 {
     double stood[2 * MOST];
     memcpy(stood, f->search.t, 2 * f->n * sizeof *stood);
@@ -99,31 +71,31 @@ static void expect_left_alone(field *f)
 static void test_many_or_none(void **state)
 {
     (void)state;
-    field *f = begin(24);
+    scene_field *f = begin(24);
     f->of.model.body[0].pinned = true;
     expect_left_alone(f);
     assert_true(disturb(f, 20) > 20);
     expect_left_alone(f);
-    end(f);
+    scene_field_free(f);
 }
 
 static void test_nobody_sent_home(void **state)
 {
     (void)state;
-    field *f = begin(24);
+    scene_field *f = begin(24);
     assert_true(disturb(f, 200) > 0);
     expect_left_alone(f);
-    end(f);
+    scene_field_free(f);
 }
 
 static void test_no_crowd(void **state)
 {
     (void)state;
-    field *f = begin(20);
+    scene_field *f = begin(20);
     f->of.model.body[0].pinned = true;
     assert_true(disturb(f, 200) > 0);
     expect_left_alone(f);
-    end(f);
+    scene_field_free(f);
 }
 
 int main(void)
