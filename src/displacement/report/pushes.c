@@ -15,11 +15,22 @@
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
+#include "base/parallel.h"
 #include "base/watch.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Groups that are handed to a thread together, and how many such lots are done before pieces may be forgotten. */
+#define GROUPS_OF_A_LOT 64
+#define LOTS_AT_ONCE 32
+
+/* Found of some groups, one after the other. */
+typedef struct found_pushes {
+    sunder_push *push;
+    size_t n, capacity;
+} found_pushes;
 
 typedef struct pressing {
     const sunder_i_solver *solver;
@@ -30,8 +41,7 @@ typedef struct pressing {
     size_t push_capacity;
     sunder_i_list near;
     sunder_i_contact_list touch; /* of the pair looked at */
-    sunder_report *report;
-    size_t capacity; /* of the report's */
+    found_pushes *found;
 } pressing;
 
 static size_t place_of(const sunder_i_group *g, uint32_t body)
@@ -118,12 +128,12 @@ static bool add_limit(pressing *p, size_t i)
 static bool report_forces(pressing *p)
 {
     const sunder_i_quadratic *q = &p->program;
-    sunder_report *r = p->report;
+    found_pushes *r = p->found;
     for (size_t k = 0; k < q->n; k++) {
         const sunder_i_constraint *c = &q->constraint[k];
         if (!(c->force > 0) || !isfinite(c->force) || p->push[k].a == SIZE_MAX) continue;
-        if (!sunder_i_reserve(&r->push, &p->capacity, r->pushes + 1, sizeof *r->push)) return false;
-        r->push[r->pushes++] = (sunder_push){p->push[k].a, p->push[k].b, c->force, {c->n[0], c->n[1]}};
+        if (!sunder_i_reserve(&r->push, &r->capacity, r->n + 1, sizeof *r->push)) return false;
+        r->push[r->n++] = (sunder_push){p->push[k].a, p->push[k].b, c->force, {c->n[0], c->n[1]}};
     }
     return true;
 }
@@ -153,21 +163,58 @@ static bool press(pressing *p, const sunder_i_group *g)
     return ok;
 }
 
-sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *s, sunder_error *err)
+typedef struct pressing_lots {
+    const sunder_i_solver *solver;
+    size_t first;        /* group of the first lot */
+    found_pushes *found; /* [LOTS_AT_ONCE] */
+} pressing_lots;
+
+static sunder_status press_lots(void *context, size_t begin, size_t end, sunder_error *err)
 {
-    if (!s->model.rules.keep_pushes) return SUNDER_OK;
-    /* Without proofs nobody has asked for it yet. */
-    const sunder_status status = s->groups.waived ? SUNDER_OK : sunder_i_solver_waive(s, err);
-    if (status) return status;
-    pressing p = {.solver = s, .waived = {.pair = s->groups.waived, .n = s->groups.waived_n}, .report = report};
+    const pressing_lots *all = context;
+    const sunder_i_groups *groups = &all->solver->groups;
+    pressing p = {.solver = all->solver, .waived = {.pair = groups->waived, .n = groups->waived_n}};
     bool ok = true;
-    for (size_t k = 0; k < s->groups.n && ok; k++) {
-        ok = press(&p, &s->groups.group[k]);
-        sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
+    for (size_t lot = begin; lot < end; lot++) {
+        const size_t first = all->first + lot * GROUPS_OF_A_LOT;
+        p.found = &all->found[lot];
+        for (size_t k = first; k < first + GROUPS_OF_A_LOT && k < groups->n && ok; k++)
+            ok = press(&p, &groups->group[k]);
     }
     sunder_i_free(p.program.constraint);
     sunder_i_free(p.push);
     sunder_i_free(p.near.item);
     sunder_i_free(p.touch.item);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+static bool append(sunder_report *report, size_t *capacity, const found_pushes *found)
+{
+    if (found->n == 0) return true;
+    if (!sunder_i_reserve(&report->push, capacity, report->pushes + found->n, sizeof *found->push)) return false;
+    memcpy(report->push + report->pushes, found->push, found->n * sizeof *found->push);
+    report->pushes += found->n;
+    return true;
+}
+
+sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *s, sunder_error *err)
+{
+    if (!s->model.rules.keep_pushes) return SUNDER_OK;
+    /* Without proofs nobody has asked for it yet. */
+    const sunder_status status = s->groups.waived ? SUNDER_OK : sunder_i_solver_waive(s, err);
+    if (status) return status;
+    found_pushes found[LOTS_AT_ONCE];
+    size_t capacity = 0;
+    sunder_status pressed = SUNDER_OK;
+    for (size_t first = 0; first < s->groups.n && !pressed; first += LOTS_AT_ONCE * GROUPS_OF_A_LOT) {
+        pressing_lots all = {s, first, found};
+        memset(found, 0, sizeof found);
+        pressed = sunder_i_parallel(s->model.rules.threads, LOTS_AT_ONCE, SUNDER_I_GRAIN_WHOLE, press_lots, &all, err);
+        for (size_t k = 0; k < LOTS_AT_ONCE; k++) {
+            if (!pressed && !append(report, &capacity, &found[k])) pressed = sunder_i_no_memory(err);
+            sunder_i_free(found[k].push);
+        }
+        sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
+    }
+    return pressed;
 }
