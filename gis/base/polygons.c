@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 void gis_polygons_clear(gis_polygons *set)
 {
@@ -42,6 +43,14 @@ bool gis_polygons_end_ring(gis_polygons *set, gis_error *error)
     if (!reserve(&set->ring_end, &set->ring_capacity, set->rings + 1, sizeof *set->ring_end, error)) return false;
     set->ring_end[set->rings++] = set->vertices;
     return true;
+}
+
+bool gis_polygons_end_closed_ring(gis_polygons *set, gis_error *error)
+{
+    const size_t first = set->rings ? set->ring_end[set->rings - 1] : 0, n = set->vertices - first;
+    const double *xy = set->xy + 2 * first;
+    if (n > 1 && memcmp(xy, xy + 2 * (n - 1), 2 * sizeof *xy) == 0) set->vertices--;
+    return gis_polygons_end_ring(set, error);
 }
 
 bool gis_polygons_end_polygon(gis_polygons *set, gis_error *error)

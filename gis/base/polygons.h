@@ -18,6 +18,9 @@ void gis_polygons_clear(gis_polygons *set);
 bool gis_polygons_reserve(gis_polygons *set, size_t vertices, gis_error *error);
 bool gis_polygons_vertex(gis_polygons *set, double x, double y, gis_error *error);
 bool gis_polygons_end_ring(gis_polygons *set, gis_error *error);
+/* The same of a ring whose first vertex may stand at its end once more, to the bit: that one is taken back. Shapes keep
+ * what they are given, and it would be kept with millions of rings. */
+bool gis_polygons_end_closed_ring(gis_polygons *set, gis_error *error);
 bool gis_polygons_end_polygon(gis_polygons *set, gis_error *error);
 /* Rings [first, last) of another set, as one polygon; one polygon of it; all of it. */
 bool gis_polygons_append(gis_polygons *set, const gis_polygons *from, size_t first, size_t last, gis_error *error);

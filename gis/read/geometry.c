@@ -71,7 +71,7 @@ static bool append_polygon(OGRGeometryH polygon, gis_polygons *set, gis_error *e
         double *to = set->xy + 2 * set->vertices;
         OGR_G_GetPoints(ring, to, 2 * (int)sizeof *to, to + 1, 2 * (int)sizeof *to, NULL, 0);
         set->vertices += (size_t)n;
-        if (!gis_polygons_end_ring(set, error)) return false;
+        if (!gis_polygons_end_closed_ring(set, error)) return false;
     }
     return set->rings == rings_before || gis_polygons_end_polygon(set, error);
 }

@@ -296,10 +296,8 @@ static bool visit_appending(void *user, const unsigned char *points, size_t n, b
     gis_polygons *set = to->set;
     if (!gis_polygons_reserve(set, n, to->error)) return false;
     memcpy(set->xy + 2 * set->vertices, points, 2 * n * sizeof(double));
-    /* Shapes keep what they are given: the closing vertex would be kept with millions of rings, and says nothing. */
-    const double *first = set->xy + 2 * set->vertices;
-    set->vertices += n - (n > 1 && memcmp(first, first + 2 * (n - 1), 2 * sizeof *first) == 0);
-    return gis_polygons_end_ring(set, to->error) && (!last || gis_polygons_end_polygon(set, to->error));
+    set->vertices += n;
+    return gis_polygons_end_closed_ring(set, to->error) && (!last || gis_polygons_end_polygon(set, to->error));
 }
 
 bool gis_packed_polygons(gis_packed *packed, const unsigned char *record, gis_polygonal_part *part, gis_error *error)
