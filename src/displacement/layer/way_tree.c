@@ -6,7 +6,6 @@
 
 #include "displacement/layer/reads.h"
 
-#include <math.h>
 #include <string.h>
 
 /* Another order is worth it as with any tree (spatial/rtree.c). */
