@@ -2,6 +2,7 @@
  * comes of it is not: a set is made of what was read alone, and of several that fail the first one is told. */
 #include "buffer/buffer.h"
 
+#include "base/beside.h"
 #include "base/interrupt.h"
 
 #include <math.h>
@@ -9,7 +10,6 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 typedef struct making {
     gis_buffer *buffer;
@@ -74,12 +74,6 @@ static void *work(void *argument)
     return NULL;
 }
 
-static size_t thread_count(const gis_buffer *buffer)
-{
-    long there = sysconf(_SC_NPROCESSORS_ONLN);
-    return buffer->request->threads ? buffer->request->threads : there > 0 ? (size_t)there : 1;
-}
-
 static void add_up(gis_buffer *buffer)
 {
     for (size_t k = 0; k < buffer->sets; k++) {
@@ -95,7 +89,8 @@ static void add_up(gis_buffer *buffer)
 /* This thread works, too: where no other can be started it does everything. */
 bool gis_buffer_make(gis_buffer *buffer, gis_progress *progress, gis_error *error)
 {
-    size_t asked = thread_count(buffer), threads = asked < buffer->sets ? asked : buffer->sets, started = 0;
+    size_t asked = gis_threads(buffer->request->threads), threads = asked < buffer->sets ? asked : buffer->sets,
+           started = 0;
     making m = {.buffer = buffer, .progress = progress, .failed = buffer->sets, .threads = (unsigned)asked};
     pthread_t *thread = calloc(threads + 1, sizeof *thread);
     if (!thread) return gis_no_memory(error);

@@ -9,9 +9,9 @@
 
 /* ---- Statements -------------------------------------------------------------------------------------------------- */
 
-/* Rows of one statement: with more a row costs no less. Parameters of one: what every SQLite takes. Bytes that are held
- * back for it. */
-enum { ROWS_AT_ONCE = 64, MOST_PARAMETERS = 999, MOST_HELD = 1 << 20 };
+/* Rows of one statement: with more a row costs no less. Parameters of one: what every SQLite takes. Held back are at
+ * most so many of these statements, which take far longer than another thread does to begin, and so many bytes. */
+enum { ROWS_AT_ONCE = 64, MOST_PARAMETERS = 999, MOST_STATEMENTS = 8, MOST_HELD = 1 << 20 };
 
 static void *prepare(void *database, const char *sql)
 {
@@ -41,7 +41,8 @@ static void *prepare_rows(const gis_sqlite_inserts *rows, const char *sql, size_
     return statement;
 }
 
-bool gis_sqlite_inserts_begin(gis_sqlite_inserts *rows, void *database, const char *sql, size_t columns)
+bool gis_sqlite_inserts_begin(gis_sqlite_inserts *rows, void *database, const char *sql, size_t columns,
+                              unsigned threads)
 {
     *rows = (gis_sqlite_inserts){.database = database, .columns = columns};
     rows->one = prepare_rows(rows, sql, 1);
@@ -49,24 +50,32 @@ bool gis_sqlite_inserts_begin(gis_sqlite_inserts *rows, void *database, const ch
     rows->at_once = MOST_PARAMETERS / columns < ROWS_AT_ONCE ? MOST_PARAMETERS / columns : ROWS_AT_ONCE;
     if (rows->at_once > 1) rows->many = prepare_rows(rows, sql, rows->at_once);
     if (!rows->many) rows->at_once = 1;
+    if (threads > 1) rows->beside = gis_beside_new();
     return true;
+}
+
+static void free_batch(gis_sqlite_batch *batch)
+{
+    free(batch->held);
+    free(batch->buffer);
 }
 
 void gis_sqlite_inserts_end(gis_sqlite_inserts *rows)
 {
+    gis_beside_free(rows->beside);
     if (rows->one) gis_sqlite_find_functions()->finalize(rows->one);
     if (rows->many) gis_sqlite_find_functions()->finalize(rows->many);
-    free(rows->held);
-    free(rows->buffer);
+    free_batch(&rows->filled);
+    free_batch(&rows->going);
     *rows = (gis_sqlite_inserts){0};
 }
 
 /* ---- What is held back goes in ----------------------------------------------------------------------------------- */
 
-static bool bind(const gis_sqlite_inserts *rows, void *statement, int at, const gis_sqlite_held *held)
+static bool bind(const gis_sqlite_batch *batch, void *statement, int at, const gis_sqlite_held *held)
 {
     const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
-    const unsigned char *bytes = rows->buffer + held->at;
+    const unsigned char *bytes = batch->buffer + held->at;
     if (held->bytes) return sqlite->bind_bytes(statement, at, bytes, (int)held->size, NULL) == GIS_SQLITE_OK;
     switch (held->value.kind) {
     case GIS_INTEGER: return sqlite->bind_number(statement, at, held->value.as.integer) == GIS_SQLITE_OK;
@@ -80,8 +89,9 @@ static bool bind(const gis_sqlite_inserts *rows, void *statement, int at, const 
 static int send(const gis_sqlite_inserts *rows, void *statement, size_t first, size_t n)
 {
     const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
+    const gis_sqlite_batch *batch = &rows->going;
     for (size_t k = 0; k < n * rows->columns; k++)
-        if (!bind(rows, statement, (int)k + 1, &rows->held[first * rows->columns + k])) return GIS_SQLITE_MISUSE;
+        if (!bind(batch, statement, (int)k + 1, &batch->held[first * rows->columns + k])) return GIS_SQLITE_MISUSE;
     const int stepped = sqlite->step(statement), reset = sqlite->reset(statement);
     return stepped == GIS_SQLITE_DONE ? reset : reset != GIS_SQLITE_OK ? reset : stepped;
 }
@@ -91,61 +101,105 @@ static int send(const gis_sqlite_inserts *rows, void *statement, size_t first, s
  * more is asked of it. */
 static bool is_of_one_row(int outcome) { return (outcome & GIS_SQLITE_KIND) == GIS_SQLITE_CONSTRAINT; }
 
-bool gis_sqlite_inserts_flush(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
+/* n rows from *done on, which counts those that are in: by one statement if it has as many, or one by one. */
+static int send_some(const gis_sqlite_inserts *rows, size_t n, size_t *done)
 {
-    size_t done = 0;
+    const size_t end = *done + n;
     int outcome = GIS_SQLITE_OK;
-    if (rows->many && rows->rows == rows->at_once) {
-        outcome = send(rows, rows->many, 0, rows->rows);
-        if (outcome == GIS_SQLITE_OK) done = rows->rows;
+    if (rows->many && n == rows->at_once) {
+        outcome = send(rows, rows->many, *done, n);
+        if (outcome == GIS_SQLITE_OK) *done = end;
         if (is_of_one_row(outcome)) outcome = GIS_SQLITE_OK;
     }
-    for (; outcome == GIS_SQLITE_OK && done < rows->rows; done += outcome == GIS_SQLITE_OK)
-        outcome = send(rows, rows->one, done, 1);
-    *reason = outcome == GIS_SQLITE_OK ? NULL : gis_sqlite_find_functions()->error_message(rows->database);
-    if (outcome != GIS_SQLITE_OK) *key = rows->held[done * rows->columns].value.as.integer;
-    rows->rows = rows->size = 0;
-    return outcome == GIS_SQLITE_OK;
+    for (; outcome == GIS_SQLITE_OK && *done < end; *done += outcome == GIS_SQLITE_OK)
+        outcome = send(rows, rows->one, *done, 1);
+    return outcome;
+}
+
+static void send_all(void *context)
+{
+    gis_sqlite_inserts *rows = context;
+    gis_sqlite_batch *batch = &rows->going;
+    size_t done = 0;
+    int outcome = GIS_SQLITE_OK;
+    while (outcome == GIS_SQLITE_OK && done < batch->rows) {
+        const size_t left = batch->rows - done;
+        outcome = send_some(rows, left < rows->at_once ? left : rows->at_once, &done);
+    }
+    if (outcome == GIS_SQLITE_OK) return;
+    rows->failed = gis_sqlite_find_functions()->error_message(rows->database);
+    rows->failed_key = batch->held[done * rows->columns].value.as.integer;
+}
+
+/* What goes in is in. */
+static bool await(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
+{
+    gis_beside_wait(rows->beside);
+    rows->going.rows = rows->going.size = 0;
+    if (!rows->failed) return true;
+    *key = rows->failed_key;
+    *reason = rows->failed;
+    rows->filled.rows = rows->filled.size = 0;
+    return false;
+}
+
+/* What is held back begins to go in, once what went before it is. */
+static bool start(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
+{
+    if (!await(rows, key, reason)) return false;
+    const gis_sqlite_batch filled = rows->filled;
+    rows->filled = rows->going;
+    rows->going = filled;
+    gis_beside_do(rows->beside, send_all, rows);
+    return rows->beside || await(rows, key, reason);
+}
+
+bool gis_sqlite_inserts_flush(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
+{
+    *reason = NULL;
+    return (rows->filled.rows == 0 || start(rows, key, reason)) && await(rows, key, reason);
 }
 
 /* ---- Holding back ------------------------------------------------------------------------------------------------ */
 
-static bool hold(gis_sqlite_inserts *rows, gis_sqlite_held *held, const void *bytes, size_t size)
+static bool hold(gis_sqlite_batch *batch, gis_sqlite_held *held, const void *bytes, size_t size)
 {
-    if (!gis_array_reserve(&rows->buffer, &rows->buffer_room, rows->size + size, 1)) return false;
-    held->at = rows->size;
+    if (!gis_array_reserve(&batch->buffer, &batch->buffer_room, batch->size + size, 1)) return false;
+    held->at = batch->size;
     held->size = size;
-    if (size) memcpy(rows->buffer + rows->size, bytes, size);
-    rows->size += size;
+    if (size) memcpy(batch->buffer + batch->size, bytes, size);
+    batch->size += size;
     return true;
 }
 
 /* Puts the row behind those that are held back; false if memory is out. */
-static bool hold_row(gis_sqlite_inserts *rows, int64_t key, const void *bytes, size_t size, const gis_value *values)
+static bool hold_row(gis_sqlite_batch *batch, size_t columns, int64_t key, const void *bytes, size_t size,
+                     const gis_value *values)
 {
-    const size_t first = rows->rows * rows->columns;
-    if (!gis_array_reserve(&rows->held, &rows->room, first + rows->columns, sizeof *rows->held)) return false;
-    gis_sqlite_held *row = rows->held + first;
+    const size_t first = batch->rows * columns;
+    if (!gis_array_reserve(&batch->held, &batch->room, first + columns, sizeof *batch->held)) return false;
+    gis_sqlite_held *row = batch->held + first;
     row[0] = (gis_sqlite_held){.value = {GIS_INTEGER, {.integer = key}}};
     row[1] = (gis_sqlite_held){.bytes = true};
-    bool done = hold(rows, &row[1], bytes, size);
-    for (size_t k = 2; done && k < rows->columns; k++) {
+    bool done = hold(batch, &row[1], bytes, size);
+    for (size_t k = 2; done && k < columns; k++) {
         row[k] = (gis_sqlite_held){.value = values[k - 2]};
         if (row[k].value.kind == GIS_TEXT)
-            done = hold(rows, &row[k], row[k].value.as.text, strlen(row[k].value.as.text));
+            done = hold(batch, &row[k], row[k].value.as.text, strlen(row[k].value.as.text));
     }
-    rows->rows += done;
+    batch->rows += done;
     return done;
 }
 
 bool gis_sqlite_inserts_add(gis_sqlite_inserts *rows, int64_t *key, const void *bytes, size_t size,
                             const gis_value *values, const char **reason)
 {
-    if (!hold_row(rows, *key, bytes, size, values)) {
+    gis_sqlite_batch *batch = &rows->filled;
+    if (!hold_row(batch, rows->columns, *key, bytes, size, values)) {
         *reason = "out of memory";
         return false;
     }
-    return (rows->rows < rows->at_once && rows->size < MOST_HELD) || gis_sqlite_inserts_flush(rows, key, reason);
+    return (batch->rows < MOST_STATEMENTS * rows->at_once && batch->size < MOST_HELD) || start(rows, key, reason);
 }
 
 /* ---- Beside rows ------------------------------------------------------------------------------------------------- */
@@ -161,6 +215,15 @@ bool gis_sqlite_says(void *database, const char *sql, void *head, size_t from, c
     if (same) memcpy(head, said, from);
     sqlite->finalize(statement);
     return same;
+}
+
+void gis_sqlite_print_number(double x, char out[GIS_SQLITE_NUMBER])
+{
+    const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
+    if (sqlite)
+        sqlite->print(GIS_SQLITE_NUMBER, out, "%.18g", x);
+    else
+        memcpy(out, "0", 2);
 }
 
 bool gis_sqlite_run(void *database, const char *sql)

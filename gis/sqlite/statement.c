@@ -25,6 +25,6 @@ const gis_sqlite_functions *gis_sqlite_find_functions(void)
         gis_sqlite_find("sqlite3_value_double", &f.value_real) &&
         gis_sqlite_find("sqlite3_value_text", &f.value_text) && gis_sqlite_find("sqlite3_value_blob", &f.value_bytes) &&
         gis_sqlite_find("sqlite3_value_bytes", &f.value_size) && gis_sqlite_find("sqlite3_exec", &f.run) &&
-        gis_sqlite_find("sqlite3_errmsg", &f.error_message);
+        gis_sqlite_find("sqlite3_errmsg", &f.error_message) && gis_sqlite_find("sqlite3_snprintf", &f.print);
     return found ? &f : NULL;
 }

@@ -36,6 +36,7 @@ typedef struct gis_sqlite_functions {
     int (*value_size)(void *);
     int (*run)(void *, const char *, int (*)(void *, int, char **, char **), void *, char **);
     const char *(*error_message)(void *);
+    char *(*print)(int, char *, const char *, ...);
 } gis_sqlite_functions;
 
 /* Looked up once; the program's libraries stay as they are. NULL: one is missing. */

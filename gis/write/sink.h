@@ -29,6 +29,7 @@ typedef struct gis_sink_request {
     bool allow_inexact; /* --allow-inexact-output */
     bool no_styles;
     const char *scratch; /* a directory, on whose disk what is noted of each feature lies; NULL: in memory */
+    unsigned threads;    /* 0: as many as there are processors */
     bool new_fids; /* features of the source are written more than once: FIDs are not kept, sunder_fid holds them */
 } gis_sink_request;
 

@@ -8,6 +8,7 @@
  *   sink_losses.c   what the format dropped of them
  *   sink_write.c    features
  *   sink_rows.c     the same past GDAL, where all is plain
+ *   sink_whole.c    what is kept of a layer besides these
  *   sink_read_rows.c rows of a GeoPackage read back past GDAL, where all is plain
  *   sink_digest.c   what reads back beside what was sent, in formats that keep every value
  *   sink_compare.c  the same where coordinates or rings may change
@@ -67,9 +68,9 @@ typedef struct gis_sink_rows {
     unsigned char head[8]; /* of a geometry's blob */
     unsigned char *blob;
     size_t size, room;
-    gis_value *value;        /* by field of the layer */
-    OGREnvelope box, around; /* of the last row; of what GDAL wrote */
-    size_t n;                /* rows so written */
+    gis_value *value;   /* by field of the layer */
+    size_t n;           /* rows so written */
+    OGREnvelope around; /* ... and where they lie; in the end the whole layer */
 } gis_sink_rows;
 
 /* Was the row written, is it to be written by GDAL, or was there an error? */
@@ -216,6 +217,13 @@ void gis_sink_row_by_gdal(gis_sink_layer *layer, GIntBig fid);
 /* All are written; to be called before GDAL notes how many. */
 bool gis_sink_rows_end(gis_sink_layer *layer, gis_error *error);
 void gis_sink_rows_clear(gis_sink_layer *layer);
+
+void gis_sink_widen(OGREnvelope *around, const OGREnvelope *box);
+/* Of a layer of which rows went past GDAL: its count and its extent (layer->rows.around, and what GDAL wrote) are made
+ * those of all rows, whenever GDAL writes them. */
+bool gis_sink_note_whole(gis_sink_layer *layer, void *database, gis_error *error);
+/* Does the file say so? */
+bool gis_sink_check_whole(const gis_sink_layer *layer, OGRLayerH as_written, gis_error *error);
 
 void gis_sink_forget_sent(gis_sink_layer *layer);
 /* For layers that can be written again: keeps the values of the feature that was remembered last. */

@@ -7,14 +7,20 @@
 #include "write/digest.h"
 
 #include "base/array.h"
+#include "base/beside.h"
 #include "read/blob.h"
 #include "sqlite/select.h"
 #include "write/sql.h"
 
 #include <cpl_conv.h>
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 enum { POINT_BYTES = 16 };
+
+/* A layer of so many is read by two threads. */
+enum { MANY_ROWS = 5000 };
 
 /* The machine's order of bytes: doubles can be taken as they stand. */
 #ifdef CPL_LSB
@@ -117,13 +123,127 @@ static bool row(const gis_digests *all, void *statement, gis_digest *out)
     return true;
 }
 
-static char *select_statement(const gis_digests *all, OGRLayerH layer)
+/* ---- Stretches of a layer ---------------------------------------------------------------------------------------- */
+
+/* FIDs up to `last`, or beyond; or all. */
+typedef enum stretch { ALL, UP_TO, BEYOND } stretch;
+
+static char *select_statement(const gis_digests *all, OGRLayerH layer, stretch which, int64_t last)
 {
+    static const char *const compared[] = {NULL, "<=", ">"};
     char *sql = gis_sql_append_name(CPLStrdup("SELECT "), OGR_L_GetFIDColumn(layer));
     sql = gis_sql_append_name(gis_sql_append(sql, ", "), OGR_L_GetGeometryColumn(layer));
     for (size_t i = 0; i < all->n_fields; i++)
         sql = gis_sql_append_name(gis_sql_append(sql, ", "), all->fields[i].name);
-    return gis_sql_append_name(gis_sql_append(sql, " FROM "), OGR_L_GetName(layer));
+    sql = gis_sql_append_name(gis_sql_append(sql, " FROM "), OGR_L_GetName(layer));
+    if (which == ALL) return sql;
+    sql = gis_sql_append_name(gis_sql_append(sql, " WHERE "), OGR_L_GetFIDColumn(layer));
+    char number[64];
+    snprintf(number, sizeof number, " %s %" PRId64, compared[which], last);
+    return gis_sql_append(sql, number);
+}
+
+static void *begin_stretch(const gis_digests *all, void *database, OGRLayerH layer, stretch which, int64_t last)
+{
+    char *sql = select_statement(all, layer, which, last);
+    void *statement = gis_sqlite_select_begin(database, sql);
+    CPLFree(sql);
+    return statement;
+}
+
+/* The FID in the middle between the first and the last. */
+static bool find_middle(void *database, OGRLayerH layer, int64_t *middle)
+{
+    char *sql = gis_sql_append_name(CPLStrdup("SELECT min("), OGR_L_GetFIDColumn(layer));
+    sql = gis_sql_append_name(gis_sql_append(sql, "), max("), OGR_L_GetFIDColumn(layer));
+    sql = gis_sql_append_name(gis_sql_append(sql, ") FROM "), OGR_L_GetName(layer));
+    void *statement = gis_sqlite_select_begin(database, sql);
+    CPLFree(sql);
+    gis_value least, most;
+    const bool done = statement && gis_sqlite_select_next(statement) == GIS_SQLITE_HAS_ROW &&
+                      gis_sqlite_select_value(statement, 0, &least) && least.kind == GIS_INTEGER &&
+                      gis_sqlite_select_value(statement, 1, &most) && most.kind == GIS_INTEGER;
+    if (done) *middle = least.as.integer / 2 + most.as.integer / 2;
+    gis_sqlite_select_end(statement);
+    return done;
+}
+
+/* ---- The other half, on another thread --------------------------------------------------------------------------- */
+
+/* What another connection reads meanwhile, as it stands. */
+typedef struct half {
+    const gis_digests *all;
+    void *statement;
+    gis_digest *at;
+    size_t n, capacity;
+    bool done;
+} half;
+
+static void read_half(void *context)
+{
+    half *h = context;
+    gis_sqlite_next next = GIS_SQLITE_AT_END;
+    h->done = true;
+    while (h->done && (next = gis_sqlite_select_next(h->statement)) == GIS_SQLITE_HAS_ROW) {
+        h->done = !gis_interrupted() && gis_array_reserve(&h->at, &h->capacity, h->n + 1, sizeof *h->at) &&
+                  row(h->all, h->statement, &h->at[h->n]);
+        h->n += h->done;
+    }
+    h->done = h->done && next == GIS_SQLITE_AT_END;
+}
+
+/* Row by row, as they are read. */
+static bool read_stretch(gis_digests *all, void *statement, gis_digests_read *read)
+{
+    gis_sqlite_next next = GIS_SQLITE_BROKEN;
+    gis_error unheard; /* GDAL comes to it, too */
+    bool done = statement;
+    while (done && (next = gis_sqlite_select_next(statement)) == GIS_SQLITE_HAS_ROW) {
+        gis_digest one;
+        done = !gis_interrupted() && row(all, statement, &one) && gis_digests_read_add(read, all, one, &unheard);
+    }
+    return done && next == GIS_SQLITE_AT_END;
+}
+
+static bool add_half(gis_digests *all, const half *h, gis_digests_read *read)
+{
+    gis_error unheard;
+    bool done = h->done;
+    for (size_t k = 0; done && k < h->n; k++) done = gis_digests_read_add(read, all, h->at[k], &unheard);
+    return done;
+}
+
+/* The first half here, the second there. other: the file once more. */
+static bool read_halves(gis_sink_layer *layer, void *database, void *other, OGRLayerH as_written,
+                        gis_digests_read *read)
+{
+    gis_digests *all = &layer->digests;
+    int64_t middle;
+    if (!find_middle(database, as_written, &middle)) return false;
+    half second = {.all = all, .statement = begin_stretch(all, other, as_written, BEYOND, middle)};
+    void *first = begin_stretch(all, database, as_written, UP_TO, middle);
+    bool done = first && second.statement;
+    if (done) {
+        gis_beside *beside = gis_beside_new();
+        gis_beside_do(beside, read_half, &second);
+        done = read_stretch(all, first, read);
+        gis_beside_free(beside);
+        done = done && add_half(all, &second, read);
+    }
+    gis_sqlite_select_end(first);
+    gis_sqlite_select_end(second.statement);
+    free(second.at);
+    return done;
+}
+
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
+
+static bool read_all(gis_sink_layer *layer, void *database, OGRLayerH as_written, gis_digests_read *read)
+{
+    void *statement = begin_stretch(&layer->digests, database, as_written, ALL, 0);
+    const bool done = read_stretch(&layer->digests, statement, read);
+    gis_sqlite_select_end(statement);
+    return done;
 }
 
 static bool may_be_plain(const gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written)
@@ -135,23 +255,28 @@ static bool may_be_plain(const gis_sink_layer *layer, GDALDatasetH dataset, OGRL
            OGR_L_GetFIDColumn(as_written)[0] && OGR_L_GetGeometryColumn(as_written)[0];
 }
 
+static void *database_of(GDALDatasetH dataset)
+{
+    return dataset ? GDALGetInternalHandle(dataset, "SQLITE_HANDLE") : NULL;
+}
+
+/* The file once more, for a layer that takes longer to read than that; NULL: there is no other thread for it. */
+static GDALDatasetH open_again(const gis_sink_layer *layer, GDALDatasetH dataset)
+{
+    if (layer->written < MANY_ROWS || gis_threads(layer->sink->request.threads) == 1) return NULL;
+    return GDALOpenEx(GDALGetDescription(dataset), GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
+}
+
 bool gis_read_rows(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written, gis_digests_read *read)
 {
-    gis_digests *all = &layer->digests;
-    void *database = may_be_plain(layer, dataset, as_written) ? GDALGetInternalHandle(dataset, "SQLITE_HANDLE") : NULL;
+    void *database = may_be_plain(layer, dataset, as_written) ? database_of(dataset) : NULL;
     if (!database) return false;
-    char *sql = select_statement(all, as_written);
-    void *statement = gis_sqlite_select_begin(database, sql);
-    CPLFree(sql);
-    gis_sqlite_next next = GIS_SQLITE_BROKEN;
-    gis_error unheard; /* GDAL comes to it, too */
-    bool done = statement;
-    while (done && (next = gis_sqlite_select_next(statement)) == GIS_SQLITE_HAS_ROW) {
-        gis_digest one;
-        done = !gis_interrupted() && row(all, statement, &one) && gis_digests_read_add(read, all, one, &unheard);
-    }
-    gis_sqlite_select_end(statement);
-    if (done && next == GIS_SQLITE_AT_END && read->n == layer->written) return true;
+    GDALDatasetH again = open_again(layer, dataset);
+    void *other = database_of(again);
+    const bool done =
+        other ? read_halves(layer, database, other, as_written, read) : read_all(layer, database, as_written, read);
+    if (again) GDALClose(again);
+    if (done && read->n == layer->written) return true;
     free(read->at);
     *read = (gis_digests_read){0};
     return false;

@@ -1,10 +1,10 @@
 /* sink_rows.c: rows of a GeoPackage's main layer, and of its layers of lines, past GDAL, where all is plain.
  *
- * GDAL makes a feature, its geometry, its blob and its binding for each row. Where the source's records (read/packed.h)
- * hold the geometry as the blob wants it and the values as the columns do, the row is put together from the record.
- * What GDAL keeps of a layer besides its rows stays GDAL's: features that widen the extent go through it, and the count
- * of features, which it would write too low, is put right as it writes it. The first feature is GDAL's, too: its blob
- * says how GDAL begins one, and unless the rest of it is byte for byte what would be put together here, nothing is. */
+  * GDAL makes a feature, its geometry, its blob and its binding for each row. Where the source's records
+  * (read/packed.h) hold the geometry as the blob wants it and the values as the columns do, the row is put together
+  * from the record. What GDAL keeps of a layer besides its rows stays GDAL's: the extent and the count of features, of
+  * which it would write too little, are put right as it writes them. The first feature is GDAL's, too: its blob says
+  * how GDAL begins one, and unless the rest of it is byte for byte what would be put together here, nothing is. */
 #include "write/sink_internal.h"
 
 #include "base/array.h"
@@ -106,14 +106,17 @@ static bool suits(const gis_value *value, const gis_plain_field *field)
     }
 }
 
-/* A text with a width is one that GDAL counts the signs of. */
+/* A text with a width is one that GDAL counts the signs of: bytes of UTF-8 that begin one. */
 static bool value_is_plain(const gis_value *value, const gis_plain_field *field)
 {
     if (value->kind != GIS_TEXT || field->width <= 0) return true;
     size_t n = 0;
-    for (const char *at = value->as.text; *at; at++, n++)
-        if ((signed char)*at <= 0 || n == (size_t)field->width) return false;
-    return true;
+    bool ascii = true;
+    for (const char *at = value->as.text; *at; at++) {
+        ascii = ascii && (signed char)*at > 0;
+        n += (*at & 0xC0) != 0x80;
+    }
+    return n <= (size_t)field->width && (ascii || CPLIsUTF8(value->as.text, -1));
 }
 
 /* ---- Beginning --------------------------------------------------------------------------------------------------- */
@@ -158,7 +161,8 @@ static bool begin(gis_sink_layer *layer, GIntBig fid)
     if (rows->database && gis_sqlite_says(rows->database, ask, blob, HEAD, blob + HEAD, rows->size - HEAD) &&
         memcmp(blob, "GP", 2) == 0 && blob[FLAGS] == LITTLE_ENDIAN_WITH_BOX) {
         memcpy(rows->head, blob, HEAD);
-        gis_sqlite_inserts_begin(&rows->inserts, rows->database, insert, layer->digests.n_fields + 2);
+        gis_sqlite_inserts_begin(&rows->inserts, rows->database, insert, layer->digests.n_fields + 2,
+                                 gis_threads(layer->sink->request.threads));
     }
     CPLFree(ask);
     CPLFree(insert);
@@ -171,7 +175,7 @@ void gis_sink_rows_clear(gis_sink_layer *layer)
     gis_sqlite_inserts_end(&rows->inserts);
     free(rows->blob);
     CPLFree(rows->value);
-    *rows = (gis_sink_rows){.closed = true, .n = rows->n};
+    *rows = (gis_sink_rows){.closed = true, .n = rows->n, .around = rows->around};
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
@@ -240,12 +244,6 @@ static gis_row compose_line(gis_sink_layer *layer, const double from[2], const d
     return put_blob(rows, box, wkb, sizeof wkb) ? GIS_ROW_DONE : (gis_no_memory(error), GIS_ROW_FAILED);
 }
 
-static bool holds(const OGREnvelope *around, const OGREnvelope *box)
-{
-    return around->MinX <= box->MinX && box->MaxX <= around->MaxX && around->MinY <= box->MinY &&
-           box->MaxY <= around->MaxY;
-}
-
 static bool fail(const gis_sink_layer *layer, int64_t fid, const char *reason, gis_error *error)
 {
     return gis_fail(error, "%s, layer %s: FID %" PRId64 " cannot be written: %s", layer->sink->request.path,
@@ -261,6 +259,7 @@ static bool insert(gis_sink_layer *layer, GIntBig fid, const OGREnvelope *box, g
         return fail(layer, key, reason, error);
     layer->written++;
     rows->n++;
+    gis_sink_widen(&rows->around, box);
     return gis_rtree_add_box(&layer->tree, fid, box, error) &&
            gis_digests_add_plain(&layer->digests, fid, rows->blob + HEAD + BOX, rows->value, error);
 }
@@ -282,7 +281,7 @@ static bool flush(gis_sink_layer *layer, gis_error *error)
 {
     int64_t key;
     const char *reason;
-    return layer->rows.inserts.rows == 0 || gis_sqlite_inserts_flush(&layer->rows.inserts, &key, &reason) ||
+    return !layer->rows.inserts.one || gis_sqlite_inserts_flush(&layer->rows.inserts, &key, &reason) ||
            fail(layer, key, reason, error);
 }
 
@@ -291,10 +290,8 @@ static gis_row settle(gis_sink_layer *layer, gis_row row, GIntBig fid, const OGR
 {
     gis_sink_rows *rows = &layer->rows;
     rows->offered = row == GIS_ROW_DONE;
-    rows->box = *box;
     if (row == GIS_ROW_FAILED) return row;
-    if (row != GIS_ROW_DONE || !rows->inserts.one || !holds(&rows->around, box))
-        return flush(layer, error) ? GIS_ROW_GDAL : GIS_ROW_FAILED;
+    if (row != GIS_ROW_DONE || !rows->inserts.one) return flush(layer, error) ? GIS_ROW_GDAL : GIS_ROW_FAILED;
     return insert(layer, fid, box, error) ? GIS_ROW_DONE : GIS_ROW_FAILED;
 }
 
@@ -319,37 +316,15 @@ void gis_sink_row_by_gdal(gis_sink_layer *layer, GIntBig fid)
 {
     gis_sink_rows *rows = &layer->rows;
     if (rows->closed || !rows->offered) return;
-    if (!rows->inserts.one && !begin(layer, fid)) {
-        gis_sink_rows_clear(layer);
-        return;
-    }
-    rows->around.MinX = fmin(rows->around.MinX, rows->box.MinX);
-    rows->around.MaxX = fmax(rows->around.MaxX, rows->box.MaxX);
-    rows->around.MinY = fmin(rows->around.MinY, rows->box.MinY);
-    rows->around.MaxY = fmax(rows->around.MaxY, rows->box.MaxY);
+    if (!rows->inserts.one && !begin(layer, fid)) gis_sink_rows_clear(layer);
 }
 
-/* ---- The count --------------------------------------------------------------------------------------------------- */
-
-/* GDAL writes how many features it wrote, at a time of its own: as it does, the number becomes the right one. A
- * trigger of the connection's own is not in the file. One layer ends before the next is added. */
+/* One layer ends before the next is added. */
 bool gis_sink_rows_end(gis_sink_layer *layer, gis_error *error)
 {
     gis_sink_rows *rows = &layer->rows;
-    bool done = flush(layer, error);
-    if (done && !rows->closed && rows->n) {
-        char *name = CPLEscapeString(OGR_L_GetName(layer->layer), -1, CPLES_SQL);
-        char *sql = CPLStrdup(CPLSPrintf(
-            "CREATE TEMP TRIGGER sunder_count_%zu BEFORE UPDATE OF feature_count ON main.gpkg_ogr_contents WHEN "
-            "lower(new.table_name) = lower('%s') AND new.feature_count IS NOT %zu BEGIN UPDATE gpkg_ogr_contents SET "
-            "feature_count = %zu WHERE lower(table_name) = lower('%s'); SELECT RAISE(IGNORE); END",
-            layer->sink->n_layers, name, layer->written, layer->written, name));
-        done = gis_sqlite_run(rows->database, sql) ||
-               gis_fail(error, "%s, layer %s: the count of its features cannot be written", layer->sink->request.path,
-                        layer->name);
-        CPLFree(sql);
-        CPLFree(name);
-    }
+    const bool done =
+        flush(layer, error) && (rows->closed || rows->n == 0 || gis_sink_note_whole(layer, rows->database, error));
     gis_sink_rows_clear(layer);
     return done;
 }

@@ -62,3 +62,9 @@ for each in town odd_GEOMETRY odd_POLYGON odd_MULTIPOLYGON; do
     cmp one.gpkg two.gpkg || fail "$each: rows past GDAL are others"
     cmp one.said two.said || fail "$each: rows past GDAL are told otherwise"
 done
+
+# Whether rows go in on another thread than they are put together on does not show.
+for threads in 1 2; do
+    "$SUNDER" separate -q --input-layer buildings --gap 1 --threads $threads town.gpkg threads_$threads.gpkg || [ $? = 3 ]
+done
+cmp threads_1.gpkg threads_2.gpkg || fail "a file written on two threads is another one"

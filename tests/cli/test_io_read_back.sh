@@ -15,13 +15,13 @@ X
 expect 0 separate in.gpkg plain.gpkg --gap 1 --allow-jumps
 LD_PRELOAD=$alter "$SUNDER" --version >/dev/null 2>err && [ ! -s err ] || { echo "skipped: $(head -1 err)"; exit 77; }
 
-# struck WHAT "WHICH..." INPUT LAYERS: each of these numbers or geometries that are bound is altered in turn.
+# struck WHAT "WHICH..." INPUT LAYERS [OPTION...]: each of these numbers or geometries that are bound is altered in turn.
 struck() {
     local what=$1 in=$3 at status
     for at in $2; do
         rm -f out.gpkg
         status=0
-        ALTER=$what ALTER_AT=$at LD_PRELOAD=$alter "$SUNDER" separate "$in" out.gpkg --gap 1 --allow-jumps --layers "$4" -q >said 2>&1 ||
+        ALTER=$what ALTER_AT=$at LD_PRELOAD=$alter "$SUNDER" separate "$in" out.gpkg --gap 1 --allow-jumps --layers "$4" -q "${@:5}" >said 2>&1 ||
             status=$?
         [ "$status" -eq 1 ] && [ ! -e out.gpkg ] && grep -q 'do not read back as they were written' said ||
             fail "$what $at of $in altered: status $status, $(head -1 said)"
@@ -53,4 +53,11 @@ for layers in main,displacement main,displacement,pushes main,pushes; do
 done
 struck geometry "8 9 13 16" pairs.gpkg main,displacement
 struck real "24 25 37 48" pairs.gpkg main,displacement
+
+# Each half of many rows is read by a thread of its own, and one by one on one thread.
+"$SUNDER_BUILD/sunder-town" --buildings 6000 --seed 1 town.gpkg >/dev/null
+for threads in 1 2; do
+    expect 0 separate town.gpkg plain.gpkg --overwrite --gap 1 --layers main --input-layer buildings --allow-conflicts --threads $threads
+    struck geometry "2 2999 3001 6000" town.gpkg main --input-layer buildings --allow-conflicts --threads $threads
+done
 finish

@@ -1,6 +1,6 @@
 /* Rows that go into a table by the dozen are, row by row, what was given, whatever was done with the memory they came
- * from. A row that breaks a rule is told by its key, wherever among those held back it stands; what came before is in.
- * And numbers with what goes along are sorted, alike ones in their order. */
+ * from, on the caller's thread or on another. A row that breaks a rule is told by its key, wherever among those held
+ * back it stands; what came before is in. And numbers with what goes along are sorted, alike ones in their order. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,9 +16,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROWS = 1000 };
+enum { ROWS = 5000 };
 
 static GDALDatasetH dataset;
+static unsigned threads; /* that rows go in on */
 
 static void *database(void) { return GDALGetInternalHandle(dataset, "SQLITE_HANDLE"); }
 
@@ -42,7 +43,7 @@ static void begin(gis_sqlite_inserts *rows)
     assert_true(gis_sqlite_run(database(), "DROP TABLE IF EXISTS t"));
     assert_true(gis_sqlite_run(database(), "CREATE TABLE t (k INTEGER PRIMARY KEY AUTOINCREMENT, b BLOB, x REAL, "
                                            "s TEXT NOT NULL, n INTEGER UNIQUE)"));
-    assert_true(gis_sqlite_inserts_begin(rows, database(), "INSERT INTO t (k, b, x, s, n) VALUES ", 5));
+    assert_true(gis_sqlite_inserts_begin(rows, database(), "INSERT INTO t (k, b, x, s, n) VALUES ", 5, threads));
 }
 
 /* The row of that key; n: its number. Bytes and text are spoilt once they were given. */
@@ -91,34 +92,63 @@ static size_t count_right(void)
 static void test_rows(void **state)
 {
     (void)state;
-    gis_sqlite_inserts rows;
-    int64_t failed;
-    const char *reason;
-    begin(&rows);
-    for (int64_t k = 1; k <= ROWS; k++) assert_true(add(&rows, k, k, &failed, &reason));
-    assert_true(rows.at_once > 1 && count_right() <= ROWS);
-    assert_true(gis_sqlite_inserts_flush(&rows, &failed, &reason));
-    assert_int_equal(count_right(), ROWS);
-    gis_sqlite_inserts_end(&rows);
+    for (threads = 1; threads <= 2; threads++) {
+        gis_sqlite_inserts rows;
+        int64_t failed;
+        const char *reason;
+        begin(&rows);
+        assert_true(threads == 1 || rows.beside);
+        for (int64_t k = 1; k <= ROWS; k++) {
+            assert_true(add(&rows, k, k, &failed, &reason));
+            if (k % 1111 == 0)
+                assert_true(gis_sqlite_inserts_flush(&rows, &failed, &reason) && count_right() == (size_t)k);
+        }
+        assert_true(rows.at_once > 1);
+        assert_true(gis_sqlite_inserts_flush(&rows, &failed, &reason));
+        assert_int_equal(count_right(), ROWS);
+        gis_sqlite_inserts_end(&rows);
+    }
 }
 
 /* The last column is unique: the number of an earlier row is refused. */
+static void refuse(int64_t bad)
+{
+    gis_sqlite_inserts rows;
+    int64_t failed = 0;
+    const char *reason = NULL;
+    bool done = true;
+    begin(&rows);
+    for (int64_t k = 1; k <= ROWS && done; k++) done = add(&rows, k, k == bad ? 1 : k, &failed, &reason);
+    assert_false(done && gis_sqlite_inserts_flush(&rows, &failed, &reason));
+    assert_int_equal(failed, bad);
+    assert_non_null(strstr(reason, "UNIQUE"));
+    assert_int_equal(count_right(), bad - 1);
+    gis_sqlite_inserts_end(&rows);
+}
+
 static void test_refused(void **state)
 {
     (void)state;
-    for (int64_t bad = 2; bad < 140; bad += 23) {
-        gis_sqlite_inserts rows;
-        int64_t failed = 0;
-        const char *reason = NULL;
-        bool done = true;
-        begin(&rows);
-        for (int64_t k = 1; k <= 200 && done; k++) done = add(&rows, k, k == bad ? 1 : k, &failed, &reason);
-        assert_false(done && gis_sqlite_inserts_flush(&rows, &failed, &reason));
-        assert_int_equal(failed, bad);
-        assert_non_null(strstr(reason, "UNIQUE"));
-        assert_int_equal(count_right(), bad - 1);
-        gis_sqlite_inserts_end(&rows);
+    for (threads = 1; threads <= 2; threads++) {
+        for (int64_t bad = 2; bad < 140; bad += 23) refuse(bad);
+        for (int64_t bad = 460; bad < ROWS; bad += 700) refuse(bad);
+        refuse(ROWS);
     }
+}
+
+/* What is not asked for goes no further than what has begun. */
+static void test_given_up(void **state)
+{
+    (void)state;
+    gis_sqlite_inserts rows;
+    int64_t failed;
+    const char *reason;
+    threads = 2;
+    begin(&rows);
+    for (int64_t k = 1; k <= ROWS; k++) assert_true(add(&rows, k, k, &failed, &reason));
+    gis_sqlite_inserts_end(&rows);
+    const size_t in = count_right();
+    assert_true(in > 0 && in < ROWS && in % 64 == 0);
 }
 
 static void test_keyed(void **state)
@@ -139,6 +169,6 @@ static void test_keyed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_refused),
-                                       cmocka_unit_test(test_keyed)};
+                                       cmocka_unit_test(test_given_up), cmocka_unit_test(test_keyed)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -1,0 +1,94 @@
+/* sink_whole.c: what a GeoPackage keeps of a layer besides its rows, where not all of these went through GDAL: it would
+ * tell of too few of them. */
+#include "sqlite/insert.h"
+#include "write/sink_internal.h"
+#include "write/sql.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <math.h>
+
+void gis_sink_widen(OGREnvelope *around, const OGREnvelope *box)
+{
+    around->MinX = fmin(around->MinX, box->MinX);
+    around->MaxX = fmax(around->MaxX, box->MaxX);
+    around->MinY = fmin(around->MinY, box->MinY);
+    around->MaxY = fmax(around->MaxY, box->MaxY);
+}
+
+/* GDAL writes how many features it wrote, at a time of its own: as it does, the number becomes the right one. A
+ * trigger of the connection's own is not in the file. name: in quotes of SQL's. */
+static bool note_count(const gis_sink_layer *layer, void *database, const char *name)
+{
+    char *sql = CPLStrdup(CPLSPrintf(
+        "CREATE TEMP TRIGGER sunder_count_%zu BEFORE UPDATE OF feature_count ON main.gpkg_ogr_contents WHEN "
+        "lower(new.table_name) = lower('%s') AND new.feature_count IS NOT %zu BEGIN UPDATE gpkg_ogr_contents SET "
+        "feature_count = %zu WHERE lower(table_name) = lower('%s'); SELECT RAISE(IGNORE); END",
+        layer->sink->n_layers, name, layer->written, layer->written, name));
+    const bool done = gis_sqlite_run(database, sql);
+    CPLFree(sql);
+    return done;
+}
+
+/* Around what GDAL wrote, too. */
+static bool find_extent(gis_sink_layer *layer)
+{
+    OGREnvelope box;
+    if (OGR_L_GetExtent(layer->layer, &box, FALSE) != OGRERR_NONE) return false;
+    gis_sink_widen(&layer->rows.around, &box);
+    return true;
+}
+
+/* The same of the extent, which GDAL may have written by now, and may write again; its numbers as GDAL has SQLite print
+ * them. */
+static bool note_extent(const gis_sink_layer *layer, void *database, const char *name)
+{
+    static const char *const sides[] = {"min_x", "min_y", "max_x", "max_y"};
+    const OGREnvelope *all = &layer->rows.around;
+    const double side[] = {all->MinX, all->MinY, all->MaxX, all->MaxY};
+    char *set = CPLStrdup(""), *is = CPLStrdup("");
+    for (int k = 0; k < 4; k++) {
+        char number[GIS_SQLITE_NUMBER];
+        gis_sqlite_print_number(side[k], number);
+        set = gis_sql_append(set, CPLSPrintf("%s%s = %s", k ? ", " : "", sides[k], number));
+        is = gis_sql_append(is, CPLSPrintf("%snew.%s IS %s", k ? " AND " : "", sides[k], number));
+    }
+    char *now = CPLStrdup(CPLSPrintf("UPDATE gpkg_contents SET %s WHERE lower(table_name) = lower('%s')", set, name));
+    char *later = CPLStrdup(CPLSPrintf(
+        "CREATE TEMP TRIGGER sunder_extent_%zu BEFORE UPDATE ON main.gpkg_contents WHEN lower(new.table_name) = "
+        "lower('%s') AND NOT (%s) BEGIN UPDATE gpkg_contents SET %s, last_change = new.last_change WHERE "
+        "lower(table_name) = lower('%s'); SELECT RAISE(IGNORE); END",
+        layer->sink->n_layers, name, is, set, name));
+    const bool done = gis_sqlite_run(database, now) && gis_sqlite_run(database, later);
+    CPLFree(later);
+    CPLFree(now);
+    CPLFree(is);
+    CPLFree(set);
+    return done;
+}
+
+bool gis_sink_note_whole(gis_sink_layer *layer, void *database, gis_error *error)
+{
+    char *name = CPLEscapeString(OGR_L_GetName(layer->layer), -1, CPLES_SQL);
+    const bool done = note_count(layer, database, name) && find_extent(layer) && note_extent(layer, database, name);
+    CPLFree(name);
+    return done || gis_fail(error, "%s, layer %s: the count of its features and their extent cannot be written",
+                            layer->sink->request.path, layer->name);
+}
+
+/* GDAL reads a side of the extent with fifteen digits. */
+static bool is_same_side(double a, double b) { return fabs(a - b) <= 1e-14 * fmax(fabs(a), fabs(b)); }
+
+bool gis_sink_check_whole(const gis_sink_layer *layer, OGRLayerH as_written, gis_error *error)
+{
+    const OGREnvelope *all = &layer->rows.around;
+    OGREnvelope box;
+    if (!layer->rows.n) return true;
+    const size_t told = (size_t)OGR_L_GetFeatureCount(as_written, TRUE);
+    if (told != layer->written) return gis_sink_fail_count(layer, told, error);
+    if (OGR_L_GetExtent(as_written, &box, FALSE) == OGRERR_NONE && is_same_side(box.MinX, all->MinX) &&
+        is_same_side(box.MinY, all->MinY) && is_same_side(box.MaxX, all->MaxX) && is_same_side(box.MaxY, all->MaxY))
+        return true;
+    return gis_fail(error, "%s, layer %s: its extent does not read back as it was written", layer->sink->request.path,
+                    layer->name);
+}
