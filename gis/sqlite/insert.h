@@ -1,9 +1,9 @@
 /* insert.h: whole rows into a table of a database that GDAL has open, by statements that are parsed once; and what else
  * is asked of such a database without GDAL's hearing of it.
  *
-  * Rows are held back until there are some dozens, which go in by one statement: where keys are to rise (AUTOINCREMENT)
-  * SQLite looks up and writes the last one once a statement, and that takes as long as the row itself. Some hundreds go
-  * at once, on another thread if there is to be one: the database is that thread's until gis_sqlite_inserts_flush(). */
+ * Rows are held back until there are some dozens, which go in by one statement: where keys are to rise (AUTOINCREMENT)
+ * SQLite looks up and writes the last one once a statement, and that takes as long as the row itself. Some hundreds go
+ * at once, on another thread if there is to be one: the database is that thread's until gis_sqlite_inserts_flush(). */
 #ifndef GIS_SQLITE_INSERT_H
 #define GIS_SQLITE_INSERT_H
 
