@@ -4,14 +4,11 @@
  * Fixed bodies join none, and are members of all that they are in contact with: they stand in the way of these. A group
  * is known by the least of its bodies that may move, so that its name does not depend on others, and one that did not
  * change from one round to the next keeps its proof. */
+#include "displacement/clusters/contact_flood.h"
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
-#include "displacement/layer/reads.h"
-#include "displacement/layer/resolution.h"
-#include "displacement/optimum/contact.h"
 
 #include "base/union_find.h"
-#include "base/watch.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -32,97 +29,14 @@ void sunder_i_groups_free(sunder_i_groups *g)
 
 typedef struct gathering {
     const sunder_i_solver *solver;
-    sunder_i_model *model; /* of that: what was looked at is forgotten on the way */
-    uint32_t *parent;
-    bool *counts;        /* [bodies] what moved, or is in conflict, and what is in contact with such */
-    sunder_i_list queue; /* of these, those whose contacts are to be looked for */
-    sunder_i_list near;
-    sunder_i_id_pair *touch; /* a body that may move, and a fixed one in contact */
-    size_t touches, touch_capacity;
-    sunder_i_id_pair *member;
+    sunder_i_flood flood;
+    sunder_i_id_pair *member; /* a group's root, and a body of it */
     size_t members, capacity;
 } gathering;
 
-static bool is_fixed(const gathering *g, uint32_t body) { return g->solver->model.body[body].fixed; }
-
-static bool count(gathering *g, uint32_t body)
-{
-    if (g->counts[body] || is_fixed(g, body)) return true;
-    g->counts[body] = true;
-    return sunder_i_list_push(&g->queue, body);
-}
-
-/* What moved, and what is in conflict. */
-static bool count_all(gathering *g)
-{
-    const sunder_i_solver *s = g->solver;
-    bool ok = true;
-    for (uint32_t b = 0; b < s->model.bodies && ok; b++)
-        if (s->model.move[2 * b] != 0 || s->model.move[2 * b + 1] != 0) ok = count(g, b);
-    for (size_t k = 0; k < s->now.n && ok; k++) {
-        const sunder_i_relation *r = &s->now.pair[k];
-        if (sunder_i_is_conflict_of_bodies(&s->model, r))
-            ok = count(g, s->model.body_of[r->a]) && count(g, s->model.body_of[r->b]);
-    }
-    return ok;
-}
-
-/* Joins a body with those it is in contact with. Fixed ones join none. */
-static bool join_contacts(gathering *g, uint32_t b)
-{
-    const sunder_i_model *model = &g->solver->model;
-    const sunder_i_body *body = &model->body[b];
-    const double *t = model->move + 2 * (size_t)b;
-    double box[4];
-    g->near.n = 0;
-    if (body->pieces == 0) return true;
-    sunder_i_body_box(body, t, model->rules.gap + sunder_i_contact_hair(model, body, body), box);
-    sunder_i_reading reading;
-    sunder_i_reads_begin(&reading, model, b);
-    const bool ok = sunder_i_look_about(model, model->standing, box, &g->near);
-    sunder_i_reads_end(&reading);
-    if (!ok) return false;
-    for (size_t k = 0; k < g->near.n; k++) g->near.item[k] = model->body_of[g->near.item[k]];
-    g->near.n = sunder_i_set_make(g->near.item, g->near.n);
-    for (size_t k = 0; k < g->near.n; k++) {
-        const uint32_t other = g->near.item[k];
-        bool contact;
-        if (other == b ||
-            (!is_fixed(g, other) && sunder_i_union_find(g->parent, other) == sunder_i_union_find(g->parent, b)))
-            continue;
-        if (!sunder_i_are_in_contact(model, b, other, t, model->move + 2 * (size_t)other, &contact)) return false;
-        if (!contact) continue;
-        if (is_fixed(g, other)) {
-            if (!sunder_i_reserve(&g->touch, &g->touch_capacity, g->touches + 1, sizeof *g->touch)) return false;
-            g->touch[g->touches++] = (sunder_i_id_pair){b, other};
-        } else {
-            sunder_i_union_join(g->parent, b, other);
-            if (!count(g, other)) return false;
-        }
-    }
-    return true;
-}
-
-static bool flood(gathering *g)
-{
-    const sunder_i_groups *groups = &g->solver->groups;
-    sunder_i_union_init(g->parent, g->solver->model.bodies);
-    if (!count_all(g)) return false;
-    for (size_t k = 0; k < groups->joins; k++) {
-        const sunder_i_id_pair *joined = &groups->joined[k];
-        sunder_i_union_join(g->parent, joined->a, joined->b);
-        if (!count(g, joined->a) || !count(g, joined->b)) return false;
-    }
-    for (size_t k = 0; k < g->queue.n; k++) {
-        if (!sunder_i_step() || !join_contacts(g, g->queue.item[k])) return false;
-        sunder_i_pieces_forget(g->model, SUNDER_I_PIECES_HELD);
-    }
-    return true;
-}
-
 static bool add_member(gathering *g, uint32_t of, uint32_t body)
 {
-    const uint32_t root = sunder_i_union_find(g->parent, of);
+    const uint32_t root = sunder_i_union_find(g->flood.parent, of);
     if (!sunder_i_reserve(&g->member, &g->capacity, g->members + 1, sizeof *g->member)) return false;
     g->member[g->members++] = (sunder_i_id_pair){root, body};
     return true;
@@ -131,8 +45,9 @@ static bool add_member(gathering *g, uint32_t of, uint32_t body)
 static bool list_members(gathering *g)
 {
     bool ok = true;
-    for (size_t k = 0; k < g->queue.n && ok; k++) ok = add_member(g, g->queue.item[k], g->queue.item[k]);
-    for (size_t k = 0; k < g->touches && ok; k++) ok = add_member(g, g->touch[k].a, g->touch[k].b);
+    const sunder_i_flood *f = &g->flood;
+    for (size_t k = 0; k < f->body.n && ok; k++) ok = add_member(g, f->body.item[k], f->body.item[k]);
+    for (size_t k = 0; k < f->touches && ok; k++) ok = add_member(g, f->touch[k].a, f->touch[k].b);
     if (ok && g->members) qsort(g->member, g->members, sizeof *g->member, sunder_i_by_id_pair);
     size_t out = 0;
     for (size_t k = 0; k < g->members; k++)
@@ -276,22 +191,16 @@ static sunder_status make_groups(const gathering *g, sunder_i_groups *groups, su
 
 sunder_status sunder_i_solver_gather_groups(sunder_i_solver *s, sunder_error *err)
 {
-    gathering g = {.solver = s,
-                   .model = &s->model,
-                   .parent = sunder_i_alloc(s->model.bodies, sizeof *g.parent),
-                   .counts = sunder_i_calloc(s->model.bodies, sizeof *g.counts)};
+    gathering g = {.solver = s};
     if (!s->groups.spent) s->groups.spent = sunder_i_calloc(s->model.bodies, sizeof *s->groups.spent);
     if (!s->groups.blunt) s->groups.blunt = sunder_i_calloc(s->model.bodies, sizeof *s->groups.blunt);
     if (!s->groups.shaken) s->groups.shaken = sunder_i_calloc(s->model.bodies, sizeof *s->groups.shaken);
     if (!s->groups.seamed) s->groups.seamed = sunder_i_calloc(s->model.bodies, sizeof *s->groups.seamed);
-    const bool ok = g.parent && g.counts && s->groups.spent && s->groups.blunt && s->groups.shaken &&
-                    s->groups.seamed && flood(&g) && list_members(&g);
-    const sunder_status status = ok ? make_groups(&g, &s->groups, err) : sunder_i_no_memory(err);
-    sunder_i_free(g.parent);
-    sunder_i_free(g.counts);
-    sunder_i_free(g.queue.item);
-    sunder_i_free(g.near.item);
-    sunder_i_free(g.touch);
+    const bool ok = s->groups.spent && s->groups.blunt && s->groups.shaken && s->groups.seamed;
+    sunder_status status = ok ? sunder_i_flood_contacts(s, &g.flood, err) : sunder_i_no_memory(err);
+    if (!status && !list_members(&g)) status = sunder_i_no_memory(err);
+    if (!status) status = make_groups(&g, &s->groups, err);
+    sunder_i_flood_free(&g.flood);
     sunder_i_free(g.member);
     return status;
 }

@@ -31,7 +31,7 @@ static sunder_i_id_pair bodies_of(const sunder_i_model *model, const sunder_i_re
     return i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i};
 }
 
-/* Pairs of bodies in conflict that might be shut in, sorted. Returns how many. */
+/* Pairs of bodies in conflict, sorted. Returns how many. */
 static size_t list_pairs(const sunder_i_solver *s, sunder_i_id_pair *pair)
 {
     const sunder_i_model *model = &s->model;
@@ -41,11 +41,26 @@ static size_t list_pairs(const sunder_i_solver *s, sunder_i_id_pair *pair)
         if (sunder_i_is_open_conflict(model, r) && !sunder_i_is_barrier(model, r->b)) pair[n++] = bodies_of(model, r);
     }
     if (n) qsort(pair, n, sizeof *pair, sunder_i_by_id_pair);
-    for (size_t k = 0; k < n; k++) {
-        if (k && sunder_i_by_id_pair(&pair[k - 1], &pair[k]) == 0) continue;
-        const sunder_i_id_pair candidate = pair[k];
-        if (sunder_i_may_be_shut_in(model, candidate.a, candidate.b)) pair[out++] = candidate;
-    }
+    for (size_t k = 0; k < n; k++)
+        if (k == 0 || sunder_i_by_id_pair(&pair[k - 1], &pair[k])) pair[out++] = pair[k];
+    return out;
+}
+
+/* Might they be? */
+static sunder_status suspect(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const judging *g = context;
+    (void)err;
+    for (size_t k = begin; k < end; k++) g->shut[k] = sunder_i_may_be_shut_in(g->model, g->pair[k].a, g->pair[k].b);
+    return SUNDER_OK;
+}
+
+/* Of n pairs those of which that was said; how many. */
+static size_t keep_shut(sunder_i_id_pair *pair, const bool *shut, size_t n)
+{
+    size_t out = 0;
+    for (size_t k = 0; k < n; k++)
+        if (shut[k]) pair[out++] = pair[k];
     return out;
 }
 
@@ -189,14 +204,14 @@ sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *s, sunder_error *err
     if (model->rules.jumps) return SUNDER_OK;
     sunder_i_id_pair *pair = sunder_i_alloc(s->start.n, sizeof *pair);
     if (!pair) return sunder_i_no_memory(err);
-    const size_t n = list_pairs(s, pair);
+    size_t n = list_pairs(s, pair);
     judging g = {model, pair, sunder_i_calloc(n, sizeof *g.shut)};
     sunder_status status = g.shut ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_TESTS, suspect, &g, err);
+    if (!status) n = keep_shut(pair, g.shut, n);
     if (!status && n) status = find_seams(model, pair, n, err);
     if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_WHOLE, judge, &g, err);
-    size_t out = 0;
-    for (size_t k = 0; k < n && !status; k++)
-        if (g.shut[k]) pair[out++] = pair[k];
+    const size_t out = status ? 0 : keep_shut(pair, g.shut, n);
     if (!status && out) {
         status = relax(s, pair, out, err);
         sunder_i_id_pair *confined = sunder_i_realloc(pair, out, sizeof *pair);
