@@ -28,6 +28,27 @@ void fuzz_fail_allocations(unsigned after)
     allocations_left = after;
 }
 
+/* Asked by one thread at a time, whichever. */
+static _Atomic unsigned looks_left;
+static _Atomic bool out_of_patience;
+
+static bool go_on(void *user)
+{
+    (void)user;
+    if (looks_left > 0) --looks_left;
+    out_of_patience = looks_left == 0;
+    return !out_of_patience;
+}
+
+void fuzz_patience(unsigned looks)
+{
+    looks_left = looks;
+    out_of_patience = false;
+    sunder_watch(looks ? go_on : NULL, NULL);
+}
+
+bool fuzz_is_out_of_patience(void) { return out_of_patience; }
+
 _Noreturn void fuzz_complain(const char *file, int line, const char *statement)
 {
     fprintf(stderr, "%s:%d: not so: %s\n", file, line, statement);
@@ -94,7 +115,8 @@ sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertice
     sunder_status status = sunder_shape_from_rings(xy, ring_end, poly_end, polygons, validity, &shape, &error);
     if (status != SUNDER_OK) {
         FUZZ_DEMAND(shape == NULL);
-        FUZZ_DEMAND(status == SUNDER_EINVALID || status == SUNDER_ERANGE || status == SUNDER_ENOMEM);
+        FUZZ_DEMAND(status == SUNDER_EINVALID || status == SUNDER_ERANGE || status == SUNDER_ENOMEM ||
+                    (status == SUNDER_ECANCEL && fuzz_is_out_of_patience()));
         FUZZ_DEMAND(error.status == status && error.message[0] != '\0');
         FUZZ_DEMAND(memchr(error.message, '\0', sizeof error.message) != NULL);
         return NULL;

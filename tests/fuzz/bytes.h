@@ -3,6 +3,7 @@
 #ifndef SUNDER_TEST_FUZZ_BYTES_H
 #define SUNDER_TEST_FUZZ_BYTES_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -22,6 +23,13 @@ double fuzz_coordinate(fuzz_bytes *bytes, fuzz_scale scale);
 
 /* From here on allocation number `after` fails, and every one after it; 0: none does. Installs the hooks once. */
 void fuzz_fail_allocations(unsigned after);
+
+/* From here on the library is let go on so many times that it asks, which it does every millisecond or so, and is then
+ * told to stop: what it was called for ends with SUNDER_ECANCEL, and so does what it is called for later. So one input
+ * takes no hours of the others'. 0: nobody is asked. */
+enum { FUZZ_LOOKS = 400 };
+void fuzz_patience(unsigned looks);
+bool fuzz_is_out_of_patience(void);
 
 /* Ends the process, so that the fuzzer keeps the input, if the statement is false. */
 #define FUZZ_DEMAND(statement)                                                                                         \

@@ -82,6 +82,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     sunder_layer_options options;
     size_t n = 0, wanted = 2 + plan / 2 % (MOST - 1);
     fuzz_fail_allocations(0);
+    fuzz_patience(FUZZ_LOOKS);
     sunder_layer_options_init(&options);
     options.gap = plan & 64 ? (double)(fuzz_byte(&bytes) % 16) / 4 : 0;
     options.touch_tolerance = plan & 128 ? -1 : 0;
@@ -106,6 +107,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         sunder_status status = sunder_layer_separate(layer, &options, &report, NULL);
         fuzz_fail_allocations(0);
         FUZZ_DEMAND((report != NULL) == (status == SUNDER_OK));
+        fuzz_patience(0); /* what is demanded of a result is demanded to the end */
         if (report) {
             demand_agreement(features, n, &barriers, &options, report);
             FUZZ_DEMAND(!upheld_breach(features, n, &options, report));

@@ -24,6 +24,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     unsigned fail = fuzz_byte(&bytes);
     fuzz_scale scale = fuzz_choose_scale(&bytes);
     fuzz_fail_allocations(0);
+    fuzz_patience(FUZZ_LOOKS);
     sunder_shape *p = fuzz_shape(&bytes, scale, 20), *q = fuzz_shape(&bytes, scale, 16);
     double gap = fuzz_byte(&bytes) & 1 ? fuzz_coordinate(&bytes, scale == FUZZ_MAP ? FUZZ_GRID : scale) : 0;
     if (p && q) {
@@ -32,7 +33,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         fuzz_fail_allocations(fail < 128 ? fail * 4 : 0);
         sunder_status status = sunder_pair_separate(p, q, gap, &answer, NULL);
         fuzz_fail_allocations(0);
-        FUZZ_DEMAND((status == SUNDER_EARG) == !(gap >= 0 && isfinite(gap)));
+        FUZZ_DEMAND(status != SUNDER_ECANCEL || fuzz_is_out_of_patience());
+        FUZZ_DEMAND(status == SUNDER_ECANCEL || (status == SUNDER_EARG) == !(gap >= 0 && isfinite(gap)));
         if (status == SUNDER_OK) {
             demand_separation(p, q, gap, &answer);
             sunder_separation_clear(&answer);

@@ -27,6 +27,7 @@ static bool allowed(sunder_status status, const asked *a)
     case SUNDER_ERANGE: return a->points;
     case SUNDER_EARG: return !a->places;
     case SUNDER_EINVALID: return !a->points;
+    case SUNDER_ECANCEL: return fuzz_is_out_of_patience();
     default: return status == SUNDER_ENOMEM && a->failing;
     }
 }
@@ -62,13 +63,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const unsigned fail = fuzz_byte(&bytes), kind = fuzz_byte(&bytes);
     const fuzz_scale scale = fuzz_choose_scale(&bytes);
     fuzz_fail_allocations(0);
+    fuzz_patience(FUZZ_LOOKS);
     const sunder_place from = choose_place(&bytes, scale), to = choose_place(&bytes, scale);
     double xy[2 * MOST_POINTS];
     size_t points = kind % MOST_POINTS, line_end[2] = {points / 2, points};
     for (size_t i = 0; i < 2 * points; ++i) xy[i] = fuzz_coordinate(&bytes, scale);
     sunder_shape *p = fuzz_shape(&bytes, scale, 14), *robot = fuzz_shape(&bytes, scale, 8);
     sunder_route *there = NULL, *back = NULL;
-    if (p && robot && !sunder_shape_is_empty(robot)) {
+    if (p && robot && !fuzz_is_out_of_patience() && !sunder_shape_is_empty(robot)) {
         const sunder_obstacle obstacle[] = {{p, NULL, NULL, 0}, {NULL, xy, line_end, points ? 2 : 0}};
         const sunder_route_options options = {.gap = kind & 64 ? ldexp(1, (int)(kind % 5)) : 0};
         sunder_error error;

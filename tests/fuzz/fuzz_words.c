@@ -23,8 +23,7 @@ static void ask_words(unsigned which, char *text)
     gis_error error = {0};
     if (gis_options_parse(&command, n, word, &options, &error)) {
         FUZZ_DEMAND(options.n_operands <= 3);
-        for (int i = 0; i < OPT_N; i++)
-            FUZZ_DEMAND(!options.given[i] || gis_option_table[i].commands & command.bit);
+        for (int i = 0; i < OPT_N; i++) FUZZ_DEMAND(!options.given[i] || gis_option_table[i].commands & command.bit);
     } else {
         FUZZ_DEMAND(error.message[0] != 0);
     }
