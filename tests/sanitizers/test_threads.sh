@@ -52,6 +52,8 @@ ask "0 3" $separate --gap 3 --max-shift 5 --barrier town.gpkg,layer=roads,width=
 ask "0 3" $separate --gap 4 --max-shift 6 --effort 3 --proof o.proof --report o.html --stats o.json --allow-jumps
 ask "0 3" $separate --gap 1 --contained separate --no-blocks --invalid skip
 ask "0 3" $separate --gap 1 --messages json --log o.log
+"$build/sunder-town" --buildings 6000 --seed 7 large.gpkg >/dev/null # of so many rows two connections read back a half each
+ask "0 3" separate large.gpkg o.gpkg -l buildings --gap 0.1 --effort 0 --overwrite -q
 ogr2ogr -q -dialect SQLite -sql 'SELECT ST_Centroid(geom) AS geom FROM buildings LIMIT 100' -nln points points.gpkg town.gpkg
 ask "0 3" separate points.gpkg o.gpkg --symbol disc:3:8 --gap 0.5 --max-shift 4 --overwrite -q
 ask "0 3" check town.gpkg -l buildings --gap 3
