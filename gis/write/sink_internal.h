@@ -222,7 +222,7 @@ void gis_sink_widen(OGREnvelope *around, const OGREnvelope *box);
 /* Of a layer of which rows went past GDAL: its count and its extent (layer->rows.around, and what GDAL wrote) are made
  * those of all rows, whenever GDAL writes them. */
 bool gis_sink_note_whole(gis_sink_layer *layer, void *database, gis_error *error);
-/* Does the file say so? */
+/* Does the file tell of that many, and of no less an extent? */
 bool gis_sink_check_whole(const gis_sink_layer *layer, OGRLayerH as_written, gis_error *error);
 
 void gis_sink_forget_sent(gis_sink_layer *layer);
