@@ -5,7 +5,6 @@
 #include <pthread.h>
 #include <stdbool.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 struct gis_beside {
     pthread_t thread;
@@ -15,12 +14,6 @@ struct gis_beside {
     void *context;
     bool end;
 };
-
-unsigned gis_threads(unsigned asked)
-{
-    const long there = sysconf(_SC_NPROCESSORS_ONLN);
-    return asked ? asked : there > 0 ? (unsigned)there : 1;
-}
 
 /* The work is done without the lock, and counts as left to do until it has ended. What GDAL would say on this thread is
  * said by the results of the work. */

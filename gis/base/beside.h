@@ -4,9 +4,6 @@
 
 typedef struct gis_beside gis_beside;
 
-/* As many threads as were asked for; of none (0) as many as there are processors. */
-unsigned gis_threads(unsigned asked);
-
 /* NULL where there can be no other thread: then the caller's does what it is given, as it is given. */
 gis_beside *gis_beside_new(void);
 /* Does work(context), which is to end by itself, once what was given before has ended. Between this and

@@ -5,6 +5,7 @@
 #include <stdlib.h> /* __GLIBC__ */
 #include <sys/resource.h>
 #include <time.h>
+#include <unistd.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -14,6 +15,12 @@ double gis_clock(void)
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+unsigned gis_threads(unsigned asked)
+{
+    const long there = sysconf(_SC_NPROCESSORS_ONLN);
+    return asked ? asked : there > 0 ? (unsigned)there : 1;
 }
 
 uint64_t gis_peak_rss(void)

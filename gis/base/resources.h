@@ -1,4 +1,4 @@
-/* resources.h: what a run takes of time and of memory. */
+/* resources.h: what a run takes of time and of memory, and on how many threads it may. */
 #ifndef GIS_RESOURCES_H
 #define GIS_RESOURCES_H
 
@@ -6,6 +6,8 @@
 
 /* Seconds of a clock that never goes back. */
 double gis_clock(void);
+/* As many threads as were asked for; of none (0) as many as there are processors. */
+unsigned gis_threads(unsigned asked);
 /* The greatest amount of memory that the process has held, in bytes; 0: the system does not say. */
 uint64_t gis_peak_rss(void);
 /* Before anything is allocated: large arrays come from the system one by one, and go back to it when they are freed. */

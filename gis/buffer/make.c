@@ -2,8 +2,8 @@
  * comes of it is not: a set is made of what was read alone, and of several that fail the first one is told. */
 #include "buffer/buffer.h"
 
-#include "base/beside.h"
 #include "base/interrupt.h"
+#include "base/resources.h"
 
 #include <math.h>
 #include <pthread.h>

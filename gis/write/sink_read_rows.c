@@ -8,6 +8,7 @@
 
 #include "base/array.h"
 #include "base/beside.h"
+#include "base/resources.h"
 #include "read/blob.h"
 #include "sqlite/select.h"
 #include "write/sql.h"

@@ -8,6 +8,7 @@
 #include "write/sink_internal.h"
 
 #include "base/array.h"
+#include "base/resources.h"
 #include "read/packed.h"
 #include "write/sql.h"
 
