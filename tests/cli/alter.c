@@ -1,5 +1,6 @@
 /* A library to be loaded before all others: what is bound to a statement of SQLite's is altered, once. ALTER=real or
- * ALTER=geometry says what, ALTER_AT which of these, from 1 on. */
+ * ALTER=geometry says what, ALTER_AT which of these, from 1 on. ALTER=extent: a trigger that keeps a layer's extent is
+ * not made. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdlib.h>
@@ -7,6 +8,8 @@
 
 int sqlite3_bind_double(void *statement, int at, double value);
 int sqlite3_bind_blob(void *statement, int at, const void *bytes, int size, void (*destroy)(void *));
+int sqlite3_exec(void *database, const char *sql, int (*row)(void *, int, char **, char **), void *user,
+                 char **message);
 
 /* Is it this one's turn? */
 static int its_turn(const char *what)
@@ -33,6 +36,15 @@ int sqlite3_bind_blob(void *statement, int at, const void *bytes, int size, void
     if (!other) abort();
     memcpy(other, bytes, (size_t)size);
     other[size - 9] ^= 1;
-    if (destroy && destroy != (void (*)(void *))-1) destroy((void *)bytes); /* neither static nor SQLite's to copy */
+    if (destroy && destroy != (void (*)(void *)) - 1) destroy((void *)bytes); /* neither static nor SQLite's to copy */
     return bind(statement, at, other, size, free);
+}
+
+int sqlite3_exec(void *database, const char *sql, int (*row)(void *, int, char **, char **), void *user, char **message)
+{
+    int (*const run)(void *, const char *, int (*)(void *, int, char **, char **), void *, char **) =
+        (int (*)(void *, const char *, int (*)(void *, int, char **, char **), void *, char **))dlsym(RTLD_NEXT,
+                                                                                                      "sqlite3_exec");
+    return sql && strstr(sql, "TRIGGER sunder_extent") && its_turn("extent") ? 0
+                                                                             : run(database, sql, row, user, message);
 }

@@ -60,4 +60,12 @@ for threads in 1 2; do
     expect 0 separate town.gpkg plain.gpkg --overwrite --gap 1 --layers main --input-layer buildings --allow-conflicts --threads $threads
     struck geometry "2 2999 3001 6000" town.gpkg main --input-layer buildings --allow-conflicts --threads $threads
 done
+
+# GDAL knows the extent of what went through it alone: that this is not what the file tells is looked at.
+rm -f out.gpkg
+status=0
+ALTER=extent ALTER_AT=1 LD_PRELOAD=$alter "$SUNDER" separate town.gpkg out.gpkg --input-layer buildings --gap 1 --allow-conflicts -q >said 2>&1 ||
+    status=$?
+[ "$status" -eq 1 ] && [ ! -e out.gpkg ] && grep -q 'layer buildings: the extent that is told of it leaves features out' said ||
+    fail "an extent that is too small: status $status, $(head -1 said)"
 finish
