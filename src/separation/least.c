@@ -37,13 +37,15 @@ sunder_status sunder_i_separate(const sunder_shape *p, const double tp[2], const
 }
 
 sunder_status sunder_i_least_bound(const sunder_shape *p, const sunder_shape *q, double gap, double upper,
-                                   double *lower_bound, bool *beyond, sunder_error *err)
+                                   double *lower_bound, double about[2], bool *beyond, sunder_error *err)
 {
     const sunder_i_least_options options = {.gap = gap, .upper = upper, .bound_only = true};
     sunder_separation least;
     const sunder_status status = sunder_i_least(p, q, &options, &least, beyond, err);
     if (status) return status;
     *lower_bound = least.lower_bound;
+    about[0] = least.dx;
+    about[1] = least.dy;
     sunder_separation_clear(&least);
     return SUNDER_OK;
 }

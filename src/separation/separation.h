@@ -48,9 +48,10 @@ sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const
  * answer no longer matters: if the least translation is longer, *beyond is set and out->lower_bound = upper. */
 sunder_status sunder_i_separate(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                                 double gap, double upper, sunder_separation *out, bool *beyond, sunder_error *err);
-/* Of that answer the lower bound, for shapes as they are: with a gap it is found without the translation. */
+/* Of that answer the lower bound, for shapes as they are, and about which translation it is (not where *beyond): with a
+ * gap that is less work than to find one that is free. */
 sunder_status sunder_i_least_bound(const sunder_shape *p, const sunder_shape *q, double gap, double upper,
-                                   double *lower_bound, bool *beyond, sunder_error *err);
+                                   double *lower_bound, double about[2], bool *beyond, sunder_error *err);
 
 /* Is the least translation that takes the interiors apart no longer than these lengths together, both finite? Exact. */
 sunder_status sunder_i_parts_within(const sunder_shape *p, const sunder_shape *q, const double length[2], bool *within,

@@ -458,13 +458,16 @@ static void bound_alone(void **state)
                 assert_int_equal(sunder_i_least(p, q, &options, &plain, NULL, NULL), SUNDER_OK);
                 options.force_wide = true;
                 assert_int_equal(sunder_i_least(p, q, &options, &wide, NULL, NULL), SUNDER_OK);
-                double bound;
+                double bound, about[2];
                 bool beyond;
-                assert_int_equal(sunder_i_least_bound(p, q, gaps[g], INFINITY, &bound, &beyond, NULL), SUNDER_OK);
+                assert_int_equal(sunder_i_least_bound(p, q, gaps[g], INFINITY, &bound, about, &beyond, NULL),
+                                 SUNDER_OK);
                 assert_true(bound == plain.lower_bound && !beyond);
+                assert_true(hypot(about[0] - plain.dx, about[1] - plain.dy) <= 1e-8 * plain.distance);
                 assert_string_equal(plain.distance_squared_text, wide.distance_squared_text);
                 if (bound > 0) {
-                    assert_int_equal(sunder_i_least_bound(p, q, gaps[g], bound / 2, &bound, &beyond, NULL), SUNDER_OK);
+                    assert_int_equal(sunder_i_least_bound(p, q, gaps[g], bound / 2, &bound, about, &beyond, NULL),
+                                     SUNDER_OK);
                     assert_true(beyond && bound == plain.lower_bound / 2);
                 }
                 sunder_separation_clear(&plain);

@@ -48,6 +48,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->doubtful);
     sunder_i_free(s->gave_up);
     sunder_i_free(s->crowd);
+    sunder_i_free(s->measured);
     sunder_i_free(s->improved);
     sunder_i_free(s->cheapest);
     sunder_i_free(s->limit);

@@ -34,8 +34,8 @@ static sunder_status solve_clusters(void *context, size_t begin, size_t end, sun
     return SUNDER_OK;
 }
 
-/* What was solved again is to be improved again. */
-static void note_solved(sunder_i_solver *s)
+/* What was solved again is to be improved again. What was measured is kept, for the report. */
+static sunder_status note_solved(sunder_i_solver *s, sunder_error *err)
 {
     for (size_t k = 0; k < s->clusters; k++) {
         const sunder_i_cluster *c = &s->cluster[k];
@@ -45,7 +45,12 @@ static void note_solved(sunder_i_solver *s)
             s->cheapest[c->body[m]] = c->cheapest;
             if (c->crowd) s->crowd[c->body[m]] = (uint32_t)c->n;
         }
+        if (!(c->measured.least > 0)) continue;
+        if (!sunder_i_reserve(&s->measured, &s->measured_capacity, s->measured_n + 1, sizeof *s->measured))
+            return sunder_i_no_memory(err);
+        s->measured[s->measured_n++] = c->measured;
     }
+    return SUNDER_OK;
 }
 
 /* What has not moved yet and is cut by the edge of its holder, which has: it starts from where the holder would carry
@@ -172,9 +177,9 @@ sunder_status sunder_i_solver_settle(sunder_i_solver *s, double from, double to,
         if (status || s->hopeless) return status;
         sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
         sunder_i_solver_commit(s);
-        note_solved(s);
+        status = note_solved(s, err);
         for (size_t k = 0; k < s->members; k++) s->carrier[s->body[k]] = SUNDER_I_NOBODY;
-        status = sunder_i_solver_take_over(s, err);
+        if (!status) status = sunder_i_solver_take_over(s, err);
         if (!status) status = sunder_i_solver_relate(s, err);
         if (!status) status = sunder_i_solver_set_far_aside(s, err);
         if (!status) status = find_work(s, &any, err);

@@ -65,7 +65,9 @@ typedef struct sunder_i_solver {
     bool *doubtful;       /* [bodies] and of those of such is asked again whether they have a solution */
     uint32_t *crowd;      /* [bodies] in how large a crowd it began where prices of area put it; 0: in none */
     bool *gave_up;        /* [bodies] of pairs that were given up since this was last cleared */
-    bool *improved;       /* [bodies] better sides were looked for since the body's cluster was solved */
+    sunder_bound_pair *measured; /* features that were asked how far they have to go apart; some more than once */
+    size_t measured_n, measured_capacity;
+    bool *improved; /* [bodies] better sides were looked for since the body's cluster was solved */
     bool *cheapest; /* [bodies] there are none: it stands where a solution had it that was known to be the cheapest */
     double *limit;  /* [bodies] the limits, while they are lifted */
     bool *aside;    /* [bodies] left as they are while limits are lifted; NULL: they never were */

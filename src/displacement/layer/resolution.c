@@ -133,7 +133,7 @@ sunder_status sunder_i_resolve(const sunder_i_rules *rules, const sunder_shape *
 {
     *out = (sunder_i_resolution){0};
     double apart;
-    sunder_status status = sunder_i_least_bound(a, b, rules->gap, upper, &apart, &out->beyond, err);
+    sunder_status status = sunder_i_least_bound(a, b, rules->gap, upper, &apart, out->away, &out->beyond, err);
     if (status) return status;
     out->least = fmax(0, apart);
     out->apart_beyond = out->beyond = out->beyond || out->least > upper;

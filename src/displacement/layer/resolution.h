@@ -24,6 +24,7 @@ typedef struct sunder_i_resolution {
     double least;      /* proved: no shorter one does it, in any way */
     bool beyond;       /* proved: none up to the length that was asked about does */
     bool apart_beyond; /* proved: none up to that length takes them apart */
+    double away[2];    /* about the shortest that takes them apart (not where apart_beyond; not of a barrier) */
     bool inside;       /* `place` is one that brings one of them inside the other, up to the rounding of doubles */
     bool a_inside;     /* ... which: a inside b */
     double place[2];

@@ -6,23 +6,53 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct measuring {
     const sunder_i_model *model;
     sunder_bound_pair *pair;
+    const sunder_bound_pair *known; /* [known_n] measured before; sorted by pairs */
+    size_t known_n;
 } measuring;
+
+static int by_pair(const void *a, const void *b)
+{
+    const sunder_bound_pair *p = a, *q = b;
+    if (p->a != q->a) return p->a < q->a ? -1 : 1;
+    return p->b < q->b ? -1 : p->b > q->b;
+}
 
 static sunder_status measure_pairs(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const measuring *m = context;
     for (size_t k = begin; k < end; k++) {
         sunder_i_resolution resolution;
+        const sunder_bound_pair *known =
+            m->known_n ? bsearch(&m->pair[k], m->known, m->known_n, sizeof *known, by_pair) : NULL;
+        if (known) {
+            m->pair[k].least = known->least;
+            continue;
+        }
         const sunder_status status =
             sunder_i_resolve_things(m->model, m->pair[k].a, m->pair[k].b, INFINITY, &resolution, err);
         if (status) return status;
         m->pair[k].least = resolution.least;
     }
     return SUNDER_OK;
+}
+
+/* How far apart n pairs have to go, which is known of some. */
+static sunder_status measure(const sunder_i_solver *s, sunder_bound_pair *pair, size_t n, sunder_error *err)
+{
+    sunder_bound_pair *known = sunder_i_alloc(s->measured_n, sizeof *known);
+    if (!known) return sunder_i_no_memory(err);
+    if (s->measured_n) memcpy(known, s->measured, s->measured_n * sizeof *known);
+    if (s->measured_n) qsort(known, s->measured_n, sizeof *known, by_pair);
+    measuring m = {&s->model, pair, known, s->measured_n};
+    const sunder_status status =
+        sunder_i_parallel(s->model.rules.threads, n, SUNDER_I_GRAIN_PAIRS, measure_pairs, &m, err);
+    sunder_i_free(known);
+    return status;
 }
 
 typedef struct key_pair {
@@ -70,8 +100,7 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
             report->bound_pair[n].a = r->a;
             report->bound_pair[n++].b = b;
         }
-        measuring m = {model, report->bound_pair};
-        status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_PAIRS, measure_pairs, &m, err);
+        status = measure(s, report->bound_pair, n, err);
     }
     if (!status) {
         for (size_t k = 0; k < n; k++)

@@ -14,6 +14,7 @@ typedef struct sunder_i_cluster {
     bool brief;                       /* where none is found nothing is given up, and nobody moves */
     bool hopeless;                    /* that was so */
     bool cheapest;                    /* its solution is known to be the cheapest, whatever stands about it */
+    sunder_bound_pair measured;       /* two features that were asked how far they have to go apart; least 0: none */
     sunder_i_relaxations relaxations; /* of pairs that its solution gave up, or in place of older ones; owned */
     sunder_i_restored *restored;      /* [restored_n] relaxations of the model that have ended; owned */
     size_t restored_n;

@@ -1,5 +1,5 @@
 /* A cluster from start to rounded moves: descend, and where sides contradict each other jump, descend again; pairs that
- * find no solution are given up; then round. */
+ * find no solution are given up; then round. Of two features that are alone the exact core knows the answer. */
 #include "displacement/areas/areas.h"
 #include "displacement/layer/rounding.h"
 #include "displacement/search/stages.h"
@@ -87,28 +87,46 @@ static sunder_status begin_crowd(sunder_i_search *s, const sunder_i_cluster *clu
     return sunder_i_areas_places(s->model, s->body, s->n, false, s->t, &found, err);
 }
 
+static bool may_give_up(const sunder_i_cluster *cluster) { return cluster->limited && !cluster->brief; }
+
+/* Down to where nothing clashes any more: *done. Of a cluster that may give up pairs and does so at once: *given_up. */
+static sunder_status find_solution(sunder_i_search *s, const sunder_i_cluster *cluster, const double *move, bool *done,
+                                   bool *given_up, sunder_error *err)
+{
+    const sunder_status begun = begin_crowd(s, cluster, err);
+    if (begun) return begun;
+    *given_up = may_give_up(cluster) && has_limits(s) &&
+                (sunder_i_search_mend_few(s) || sunder_i_search_give_up_at_home(s, move));
+    *done = *given_up || find_free(s, cluster);
+    if (!*done && !s->failed && cluster->brief) *done = find_free_but_for_margins(s, cluster, move);
+    if (!*done && !s->failed) *done = find_free_from_lifted(s, cluster);
+    if (!*done && !s->failed) *done = sunder_i_search_spread(s);
+    return SUNDER_OK;
+}
+
+/* Is a solution the cheapest? */
+static bool is_cheapest(sunder_i_search *s, const sunder_i_cluster *cluster)
+{
+    return !s->failed && !cluster->brief && sunder_i_search_goes_down(s) && sunder_i_search_is_cheapest(s);
+}
+
 sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err)
 {
     sunder_i_search s;
+    bool alone = false, done = false, given_up = false;
     if (!sunder_i_search_init(&s, model, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
-    const sunder_status begun = begin_crowd(&s, cluster, err);
-    if (begun) s.failed = true;
-    const bool may_give_up = cluster->limited && !cluster->brief;
-    const bool given_up =
-        may_give_up && has_limits(&s) && (sunder_i_search_mend_few(&s) || sunder_i_search_give_up_at_home(&s, move));
-    bool done = given_up || find_free(&s, cluster);
-    if (!done && !s.failed && cluster->brief) done = find_free_but_for_margins(&s, cluster, move);
-    if (!done && !s.failed) done = find_free_from_lifted(&s, cluster);
-    if (!done && !s.failed) done = sunder_i_search_spread(&s);
-    cluster->cheapest = done && !given_up && !s.failed && !cluster->brief && sunder_i_search_goes_down(&s) &&
-                        sunder_i_search_is_cheapest(&s);
-    if (!done && !s.failed && may_give_up) sunder_i_search_give_up(&s, move);
+    sunder_status status = sunder_i_search_part_lone_pair(&s, cluster, &alone, err);
+    if (!status && !alone && !s.failed) status = find_solution(&s, cluster, move, &done, &given_up, err);
+    if (status) s.failed = true;
+    cluster->cheapest = alone || (done && !given_up && is_cheapest(&s, cluster));
+    done = done || alone;
+    if (!done && !s.failed && may_give_up(cluster)) sunder_i_search_give_up(&s, move);
     cluster->hopeless = !done && cluster->brief;
     sunder_i_search_hand_over(&s, cluster);
     const bool failed = s.failed;
     if (!failed && !cluster->hopeless) sunder_i_search_round(&s, move);
     sunder_i_search_free(&s);
-    if (begun) return begun;
+    if (status) return status;
     return failed ? sunder_i_no_memory(err) : SUNDER_OK;
 }

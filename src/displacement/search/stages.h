@@ -122,6 +122,13 @@ bool sunder_i_search_mend_few(sunder_i_search *search);
 bool sunder_i_search_push_from_home(sunder_i_search *search, const double *start, const sunder_i_clash *at_home,
                                     size_t n, double share);
 
+/* ---- lone_pair.c ------------------------------------------------------------------------------------------------- */
+
+/* If the cluster is two features that need look at nobody else: they stand apart as cheaply as any do, *done; else all
+ * is as it was. What was measured for it is in cluster->measured in any case. */
+sunder_status sunder_i_search_part_lone_pair(sunder_i_search *search, sunder_i_cluster *cluster, bool *done,
+                                             sunder_error *err);
+
 /* ---- solve_cluster.c: how a search ends -------------------------------------------------------------------------- */
 
 /* Rounds the moves of its bodies. */

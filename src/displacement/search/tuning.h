@@ -76,6 +76,8 @@
 #define SETTLED_BEST 1e-9
 /* A search for better sides that comes back to this share of a body from where it began ends. */
 #define BACK 1e-8
+/* The margin beyond the least translation of a pair, at first, and so many times doubled (lone_pair.c). */
+#define MOST_LENGTHENED 4
 /* Descents after jumps, before pairs are given up. */
 #define MOST_JUMPS 3
 

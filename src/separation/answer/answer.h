@@ -10,7 +10,7 @@ typedef struct sunder_i_least_options {
     double gap;                     /* >= 0, finite */
     double upper;                   /* a length past which the answer no longer matters; INFINITY for none */
     bool texts;                     /* make the three texts */
-    bool bound_only;                /* of the answer nothing is wanted but overlap and lower_bound */
+    bool bound_only;                /* wanted are overlap and lower_bound; dx and dy need not be free */
     bool force_wide, force_squares; /* for tests */
 } sunder_i_least_options;
 

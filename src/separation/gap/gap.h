@@ -67,6 +67,7 @@ typedef struct sunder_i_gap_answer {
     bool found;             /* a free point within the limit */
     sunder_i_surd_point at; /* rational; longer than the least by at most SUNDER_I_GAP_LONGER of it */
     double bound;           /* the length of the least in units, rounded down */
+    double about[2];        /* where it is, up to the error of the search */
     sunder_contact contact;
 } sunder_i_gap_answer;
 

@@ -105,6 +105,8 @@ static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a,
     if (p->bound_only) {
         out->overlap = true;
         out->lower_bound = a->bound * g->unit * (1 - 0x1p-50);
+        out->dx = a->about[0] * g->unit;
+        out->dy = a->about[1] * g->unit;
         return SUNDER_OK;
     }
     const sunder_i_exact_translation v = {.big = sunder_i_surd_point_of(&a->at)};

@@ -124,6 +124,8 @@ static sunder_status conclude(sunder_i_gap_state *s, sunder_i_gap_answer *out, s
     if (!f->any) return SUNDER_OK;
     const sunder_i_gap_way way = sunder_i_gap_way_off(s, f);
     out->contact = kind_of(f, way.room);
+    out->about[0] = f->x;
+    out->about[1] = f->y;
     sunder_i_big xy[2];
     const unsigned long bits = sunder_i_surd_point_digits(s->g, &f->exact, sunder_i_gap_length(f->x, f->y), xy);
     out->bound = sunder_i_surd_point_length_down(s->g, xy, bits);

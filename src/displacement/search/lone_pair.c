@@ -1,0 +1,69 @@
+/* Two features that have nobody but each other: the least translation that parts them, which the exact core knows, is
+ * shared by their masses. No other moves of the two are cheaper, whatever the sides, so nothing is left to be sought.
+ * That is so of most pairs of single buildings. Where something else has a say as well (a limit, an anchor that may not
+ * be passed) it is seen where the two would stand, and the search begins as it does for all others. */
+#include "displacement/layer/barrier_pairs.h"
+#include "displacement/search/stages.h"
+#include "displacement/search/tuning.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The feature that the body is; SUNDER_I_NOBODY: it is a block, or part of a barrier. */
+static uint32_t only_feature(const sunder_i_model *model, uint32_t body)
+{
+    const sunder_i_body *b = &model->body[body];
+    return b->members == 1 && !sunder_i_is_barrier_body(model, b) ? model->member[b->member] : SUNDER_I_NOBODY;
+}
+
+/* Are these two that owe each other the gap, and nothing else? */
+static bool is_lone_pair(const sunder_i_search *s, const sunder_i_cluster *cluster)
+{
+    double reach;
+    return s->n == 2 && !cluster->crowd && s->mass[0] + s->mass[1] > 0 && !sunder_i_may_be_inside(&s->model->rules) &&
+           only_feature(s->model, s->body[0]) != SUNDER_I_NOBODY &&
+           only_feature(s->model, s->body[1]) != SUNDER_I_NOBODY &&
+           !sunder_i_search_is_relaxed(s, s->body[0], s->body[1], &reach);
+}
+
+/* What takes them farther apart than this is beyond their limits. */
+static double farthest(const sunder_i_search *s)
+{
+    double sum = 0;
+    for (uint32_t k = 0; k < 2; k++) sum += s->mass[k] > 0 ? sunder_i_search_limit(s, k) : 0;
+    return nextafter(sum, INFINITY);
+}
+
+/* Puts the two apart by `away`, made longer until they keep the margin, too: in a corner between two lines the way to a
+ * margin from both is longer than the margin. */
+static bool stand_apart(sunder_i_search *s, const double away[2])
+{
+    const double length = hypot(away[0], away[1]), margin = s->gap - s->model->rules.gap;
+    const double share = s->mass[1] / (s->mass[0] + s->mass[1]);
+    for (int k = 0; k < MOST_LENGTHENED && !s->failed; k++) {
+        const double longer = 1 + ldexp(margin, k) / length;
+        for (size_t c = 0; c < 2; c++) {
+            s->t[c] = (share - 1) * longer * away[c];
+            s->t[2 + c] = share * longer * away[c];
+        }
+        if (sunder_i_search_look(s, s->t) <= s->tolerance) return true;
+    }
+    return false;
+}
+
+sunder_status sunder_i_search_part_lone_pair(sunder_i_search *s, sunder_i_cluster *cluster, bool *done,
+                                             sunder_error *err)
+{
+    *done = false;
+    if (s->failed || !is_lone_pair(s, cluster)) return SUNDER_OK;
+    const sunder_bound_pair pair = {.a = only_feature(s->model, s->body[0]), .b = only_feature(s->model, s->body[1])};
+    const double stood[4] = {s->t[0], s->t[1], s->t[2], s->t[3]};
+    sunder_i_resolution r;
+    const sunder_status status = sunder_i_resolve_things(s->model, pair.a, pair.b, farthest(s), &r, err);
+    if (status || r.beyond || !(r.least > 0)) return status;
+    cluster->measured = pair;
+    cluster->measured.least = r.least;
+    *done = stand_apart(s, r.away);
+    if (!*done) memcpy(s->t, stood, sizeof stood);
+    return SUNDER_OK;
+}

@@ -1,0 +1,133 @@
+/* displacement/search/lone_pair: two features that are alone go apart by their least translation, the lighter one
+ * farther; where anything else has a say all is as it was. */
+#include "random.h"
+#include "scene_board.h"
+
+#include "displacement/search/stages.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const double margin = 0x1p-40;
+
+typedef struct pair {
+    scene_board board;
+    sunder_i_cluster cluster;
+    sunder_i_search search;
+    double stood[4];
+    bool done;
+} pair;
+
+/* Of a scene that has its two features. */
+static void begin(pair *p, const double stood[4])
+{
+    sunder_error err;
+    scene_board *b = &p->board;
+    scene_board_begin(b);
+    memcpy(p->stood, stood, sizeof p->stood);
+    p->cluster = (sunder_i_cluster){.body = b->body, .n = b->scene.n, .margin = margin};
+    assert_true(sunder_i_search_init(&p->search, &b->of.model, b->body, b->scene.n, margin, stood));
+    assert_int_equal(sunder_i_search_part_lone_pair(&p->search, &p->cluster, &p->done, &err), SUNDER_OK);
+    if (!p->done) assert_memory_equal(p->search.t, stood, sizeof p->stood);
+}
+
+static void end(pair *p)
+{
+    sunder_i_search_free(&p->search);
+    scene_board_end(&p->board);
+}
+
+/* A box that is cut at a corner, or notched at a side: with a concave corner, and so places with two lines. */
+static void add_any(rng *r, scene *s)
+{
+    char wkt[400];
+    const double x = 6 * rng_unit(r), y = 6 * rng_unit(r), w = 1 + 5 * rng_unit(r), h = 1 + 5 * rng_unit(r);
+    const double u = x + w * rng_unit(r), v = y + h * rng_unit(r);
+    if (rng_once_in(r, 2))
+        snprintf(wkt, sizeof wkt, "POLYGON ((%.17g %.17g, %.17g %.17g, %.17g %.17g, %.17g %.17g, %.17g %.17g))", x, y,
+                 x + w, y, x + w, v, u, y + h, x, y + h);
+    else
+        snprintf(wkt, sizeof wkt, "POLYGON ((%.17g %.17g, %.17g %.17g, %.17g %.17g, %.17g %.17g, %.17g %.17g))", x, y,
+                 x + w, y, x + w, y + h, u, v, x, y + h);
+    char *ring_end = strstr(wkt, "))");
+    snprintf(ring_end, sizeof wkt - (size_t)(ring_end - wkt), ", %.17g %.17g))", x, y);
+    scene_add(s, wkt)->weight = rng_once_in(r, 3) ? 0.25 + rng_unit(r) : 1;
+}
+
+/* What the exact core says of the two is what they pay, and they keep the gap and the margin. */
+static void test_the_least_is_paid(void **state)
+{
+    (void)state;
+    size_t parted = 0, all = test_count(400);
+    for (size_t k = 0; k < all; k++) {
+        rng r = rng_start(test_seed(), k);
+        pair p;
+        memset(&p, 0, sizeof p);
+        scene *s = &p.board.scene;
+        scene_begin(s, rng_once_in(&r, 3) ? 0 : 2 * rng_unit(&r));
+        add_any(&r, s);
+        add_any(&r, s);
+        s->feature[1].fixed = rng_once_in(&r, 6);
+        if (rng_once_in(&r, 4)) s->feature[0].max_shift = s->feature[1].max_shift = 2 * rng_unit(&r);
+        begin(&p, (double[4]){rng_unit(&r), 0, 0, 0});
+        sunder_separation least;
+        assert_int_equal(sunder_pair_separate(s->feature[0].shape, s->feature[1].shape, s->options.gap, &least, NULL),
+                         SUNDER_OK);
+        if (p.done)
+            assert_true(p.cluster.measured.least == least.lower_bound);
+        else
+            assert_true(p.cluster.measured.least == 0 || p.cluster.measured.least == least.lower_bound);
+        if (p.done) {
+            const double *t = p.search.t, w = s->feature[0].weight, v = s->feature[1].weight;
+            const double share = s->feature[1].fixed ? w : w * v / (w + v);
+            assert_true(sunder_i_search_look(&p.search, t) <= p.search.tolerance);
+            assert_true(fabs(hypot(t[2] - t[0], t[3] - t[1]) - least.distance) <= 16 * margin);
+            assert_true(fabs(sunder_i_search_cost(&p.search, t) - share * least.distance * least.distance) <=
+                        1e-9 * (1 + least.distance) * (1 + w + v));
+            assert_true(!s->feature[1].fixed || (t[2] == 0 && t[3] == 0));
+            parted++;
+        }
+        sunder_separation_clear(&least);
+        end(&p);
+    }
+    assert_true(2 * parted > all);
+}
+
+/* Nothing is in conflict; a limit that is too short; a third body; a pair that was given up; a mode that lets the one
+ * lie in the other. */
+static void test_others_have_a_say(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 6; kind++) {
+        pair p;
+        memset(&p, 0, sizeof p);
+        scene *s = &p.board.scene;
+        scene_begin(s, 1);
+        scene_add_box(s, 0, 0, 10, 4);
+        scene_add_box(s, kind == 1 ? 12 : 9, 1, 10, 4);
+        if (kind == 2) s->feature[0].max_shift = s->feature[1].max_shift = 0.5;
+        if (kind == 3) scene_add_box(s, 40, 0, 1, 1);
+        if (kind == 4) s->feature[0].fixed = s->feature[1].fixed = true;
+        if (kind == 5) s->options.contained = SUNDER_CONTAINMENT_IGNORE;
+        begin(&p, (double[4]){0});
+        assert_true(p.done == (kind == 0));
+        assert_true((p.cluster.measured.least > 0) == (kind == 0));
+        end(&p);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_the_least_is_paid),
+        cmocka_unit_test(test_others_have_a_say),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
