@@ -75,8 +75,8 @@ static bool look_about(const flooding *f, uint32_t b, sunder_i_list *near)
     sunder_i_reads_begin(&reading, model, b);
     const bool ok = sunder_i_look_about(model, model->standing, box, near);
     sunder_i_reads_end(&reading);
-    for (size_t k = 0; k < near->n && ok; k++) near->item[k] = model->body_of[near->item[k]];
-    near->n = ok ? sunder_i_set_make(near->item, near->n) : 0;
+    if (!ok) near->n = 0;
+    sunder_i_things_to_bodies(model, near);
     return ok;
 }
 

@@ -39,4 +39,11 @@ static inline bool sunder_i_look_about(const sunder_i_model *model, const sunder
     return ok;
 }
 
+/* The bodies that the things in a list are of, in order of number. */
+static inline void sunder_i_things_to_bodies(const sunder_i_model *model, sunder_i_list *list)
+{
+    for (size_t k = 0; k < list->n; k++) list->item[k] = model->body_of[list->item[k]];
+    list->n = sunder_i_set_make(list->item, list->n);
+}
+
 #endif

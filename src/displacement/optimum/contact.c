@@ -70,7 +70,6 @@ bool sunder_i_who_is_about(const sunder_i_model *model, uint32_t body, const dou
     sunder_i_body_box(&model->body[body], home, reach, start);
     if (sunder_i_forbids_ways(model)) sunder_i_box_join(box, start);
     if (!sunder_i_look_about(model, model->standing, box, out)) return false;
-    for (size_t k = 0; k < out->n; k++) out->item[k] = model->body_of[out->item[k]];
-    out->n = sunder_i_set_make(out->item, out->n);
+    sunder_i_things_to_bodies(model, out);
     return true;
 }

@@ -146,8 +146,7 @@ static bool find_on_ground(const finding *w)
         w->kept->looked[PIECES] += LOOK_WORK;
         ok = sunder_i_look_about(model, &model->tree, box, &near);
     }
-    for (size_t k = 0; k < near.n; k++) near.item[k] = model->body_of[near.item[k]];
-    near.n = sunder_i_set_make(near.item, near.n);
+    sunder_i_things_to_bodies(model, &near);
     for (size_t k = 0; k < near.n && ok; k++) {
         const uint32_t q = near.item[k];
         if (q != w->p && !(sunder_i_limit_of(&model->body[q]) > 0)) ok = find_beside(w, q);

@@ -296,8 +296,7 @@ static bool find_near(sunder_i_branching *c, const standing *s)
         c->looked += LOOK_WORK;
         if (!sunder_i_look_about(model, &model->tree, grown, &c->near)) return false;
     }
-    for (size_t k = 0; k < c->near.n; k++) c->near.item[k] = model->body_of[c->near.item[k]];
-    c->near.n = sunder_i_set_make(c->near.item, c->near.n);
+    sunder_i_things_to_bodies(model, &c->near);
     return true;
 }
 

@@ -102,8 +102,7 @@ static bool add_pairs_of(pressing *p, size_t i)
     const bool ok = sunder_i_look_about(model, model->standing, box, &p->near);
     sunder_i_reads_end(&reading);
     if (!ok) return false;
-    for (size_t k = 0; k < p->near.n; k++) p->near.item[k] = model->body_of[p->near.item[k]];
-    p->near.n = sunder_i_set_make(p->near.item, p->near.n);
+    sunder_i_things_to_bodies(model, &p->near);
     for (size_t k = 0; k < p->near.n; k++) {
         const size_t j = place_of(p->group, p->near.item[k]);
         if (j == SIZE_MAX || j == i || (!model->body[p->near.item[k]].fixed && j < i)) continue;

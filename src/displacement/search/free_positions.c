@@ -283,8 +283,7 @@ static bool find_others(sunder_i_search *s, const sunder_i_body *p, const double
     double where[4];
     for (int c = 0; c < 4; c++) where[c] = box[c] + p->origin[c & 1];
     if (!sunder_i_look_about(model, model->standing, where, hits)) return false;
-    for (size_t k = 0; k < hits->n; k++) hits->item[k] = model->body_of[hits->item[k]];
-    hits->n = sunder_i_set_make(hits->item, hits->n);
+    sunder_i_things_to_bodies(model, hits);
     size_t out = 0;
     for (size_t k = 0; k < hits->n; k++) {
         const uint32_t b = hits->item[k];

@@ -37,8 +37,7 @@ static bool find_surroundings(const sunder_i_model *model, const sunder_i_cluste
         sunder_i_body_box(b, none, reach, box);
         if (!sunder_i_look_about(model, model->standing, box, hits)) return false;
     }
-    for (size_t k = 0; k < hits->n; k++) hits->item[k] = model->body_of[hits->item[k]];
-    hits->n = sunder_i_set_make(hits->item, hits->n);
+    sunder_i_things_to_bodies(model, hits);
     size_t out = 0;
     for (size_t k = 0; k < hits->n; k++)
         if (!sunder_i_set_has(cluster->body, cluster->n, hits->item[k])) hits->item[out++] = hits->item[k];
