@@ -37,7 +37,9 @@ SUNDER_I_INLINE void sunder_i_heap_sink(void *heap, size_t n, size_t i, size_t s
 {
     unsigned char *at = heap;
     for (size_t k = 2 * i + 1; k < n; i = k, k = 2 * k + 1) {
-        if (k + 1 < n && before(at + (k + 1) * size, at + k * size)) k++;
+        /* Without a branch: which of the two it is is anyone's guess. An only child does not come before itself. */
+        const size_t right = k + 1 < n ? k + 1 : k;
+        k += (size_t)before(at + right * size, at + k * size);
         if (!before(at + k * size, v)) break;
         memcpy(at + i * size, at + k * size, size);
     }
