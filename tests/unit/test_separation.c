@@ -4,11 +4,14 @@
 #include "separation/least.h"
 #include "separation/separation.h"
 
+#include <gmp.h>
+#include <inttypes.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -479,6 +482,46 @@ static void bound_alone(void **state)
         }
 }
 
+/* A square of that side, standing on the x axis from x on. */
+static sunder_shape *square(double x, double side)
+{
+    const double xy[] = {x, 0, x + side, 0, x + side, side, x, side};
+    const size_t ring_end = 4, poly_end = 1;
+    sunder_shape *s = NULL;
+    assert_int_equal(sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_VALIDITY_STRICT, &s, NULL), SUNDER_OK);
+    return s;
+}
+
+/* Texts of numbers of any number of digits, with zeros in all places, as printf() and GMP write them: of squares that
+ * share one half of each, which are parted by half a side. */
+static void digits(void **state)
+{
+    (void)state;
+    static const uint64_t odd_ones[] = {1, 7, 1001, 90909, 1000001, 10000001, 100000007, 120000034, 5000000000005};
+    const size_t odd = sizeof odd_ones / sizeof *odd_ones;
+    uint64_t power = 1;
+    for (size_t k = 0; k < 3 * 15 + odd; k++) {
+        if (k < 3 * 15 && k % 3 == 0) power *= 10;
+        const uint64_t n = k < 3 * 15 ? power - 1 + k % 3 : odd_ones[k - 3 * 15];
+        char text[2][32], norm[64];
+        sunder_shape *p = square(0, (double)(2 * n)), *q = square((double)n, (double)(2 * n));
+        sunder_separation s;
+        assert_int_equal(sunder_pair_separate(p, q, 0, &s, NULL), SUNDER_OK);
+        snprintf(text[0], sizeof text[0], "%" PRIu64, n);
+        mpz_t v;
+        mpz_init_set_str(v, text[0], 10);
+        mpz_mul(v, v, v);
+        mpz_get_str(norm, 10, v);
+        mpz_clear(v);
+        assert_string_equal(s.dx_text, text[0]);
+        assert_string_equal(s.dy_text, "0");
+        assert_string_equal(s.distance_squared_text, norm);
+        sunder_separation_clear(&s);
+        sunder_shape_free(p);
+        sunder_shape_free(q);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -486,7 +529,7 @@ int main(void)
         cmocka_unit_test(beyond_doubles), cmocka_unit_test(rounded_or_not),   cmocka_unit_test(upper_limit),
         cmocka_unit_test(bad_arguments),  cmocka_unit_test(empty_operands),   cmocka_unit_test(containment),
         cmocka_unit_test(distances),      cmocka_unit_test(memory_runs_out),  cmocka_unit_test(repaired_operands),
-        cmocka_unit_test(bound_alone),    cmocka_unit_test(long_fractions),
+        cmocka_unit_test(bound_alone),    cmocka_unit_test(long_fractions),   cmocka_unit_test(digits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,22 +5,41 @@
 
 #include <string.h>
 
-#define LONGEST (2 * 39 + 3) /* a sign, two numbers below 2^127, a stroke, the end */
+#define LONGEST (2 * 39 + 3 + 7) /* a sign, two numbers below 2^127, a stroke, the end; 7 are written over in front */
 
 /* ---- Short fractions, written from their ends backwards ---- */
 
-/* Decimal digits of v, below 10^19, before `end`, and no fewer than so many; returns the first. */
+/* The eight decimal digits of v, below 10^8, as a word whose lowest byte is the first digit: halved again and again,
+ * all parts of a word at a time. The quotients are exact: n 10486 / 2^20 for n below 10^4, n 103 / 2^10 for n below
+ * 100. */
+static inline uint64_t eight_digits(uint64_t v)
+{
+    const uint64_t fours = v / 10000 | v % 10000 << 32;
+    const uint64_t hundreds = fours * 10486 >> 20 & 0x0000007f0000007f;
+    const uint64_t twos = hundreds | (fours - 100 * hundreds) << 16;
+    const uint64_t tens = twos * 103 >> 10 & 0x000f000f000f000f;
+    return tens | (twos - 10 * tens) << 8;
+}
+
+/* Writes them, the first of them first. */
+static inline void put_word(char *at, uint64_t digits)
+{
+    digits |= 0x3030303030303030;
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+    digits = __builtin_bswap64(digits);
+#endif
+    memcpy(at, &digits, sizeof digits);
+}
+
+/* Decimal digits of v, below 10^19, before `end`, and no fewer than so many; returns the first. Up to seven bytes
+ * before that are written over. */
 static char *put_low_digits(char *end, uint64_t v, int least)
 {
-    static const char two[] = "0001020304050607080910111213141516171819202122232425262728293031323334353637383940414243"
-                              "4445464748495051525354555657585960616263646566676869707172737475767778798081828384858687"
-                              "888990919293949596979899";
     char *at = end;
-    for (; v >= 100; v /= 100) memcpy(at -= 2, two + 2 * (v % 100), 2);
-    if (v >= 10)
-        memcpy(at -= 2, two + 2 * v, 2);
-    else
-        *--at = (char)('0' + v);
+    for (; v >= 100000000; v /= 100000000) put_word(at -= 8, eight_digits(v % 100000000));
+    const uint64_t last = eight_digits(v);
+    put_word(at - 8, last);
+    at -= 8 - __builtin_ctzll(last | (uint64_t)1 << 56) / 8; /* without zeros in front, but for the only digit */
     while (end - at < least) *--at = '0';
     return at;
 }
