@@ -53,15 +53,18 @@ bool sunder_i_cones_find(sunder_i_operands *operands, int side, sunder_i_cones *
 /* Of so few cones those that an edge meets, and perhaps more, are the bits of a word. */
 #define SUNDER_I_CONES_FEW 32
 
-static inline uint32_t sunder_i_cones_met_few(const sunder_i_cones *c, sunder_i_direction edge)
+/* Of n edges, those that leave vertices `first` and so on, whose cones these are not: met[k] for the k-th. Four cones
+ * stay at hand for all of the edges. */
+static inline void sunder_i_cones_met_few(const sunder_i_cones *c, const sunder_i_cones *edges, uint32_t first,
+                                          uint32_t n, uint32_t *met)
 {
-    uint32_t met = 0;
+    const uint32_t all = (uint32_t)(((uint64_t)1 << c->n) - 1), *direction = edges->direction + first;
+    for (uint32_t i = 0; i < n; i++) met[i] = edges->vague && edges->vague[first + i] ? all : 0;
     for (uint32_t k = 0; k < c->n; k += SUNDER_I_LANES) {
         const sunder_i_lanes from = sunder_i_lanes_at(c->at + k), width = sunder_i_lanes_at(c->width + k);
-        met |= sunder_i_lanes_set(sunder_i_lanes_up_to(edge.at - from, width)) << k;
+        for (uint32_t i = 0; i < n; i++)
+            met[i] |= sunder_i_lanes_set(sunder_i_lanes_up_to(direction[i] - from, width)) << k & all;
     }
-    const uint32_t all = (uint32_t)(((uint64_t)1 << c->n) - 1);
-    return edge.vague ? all : met & all;
 }
 
 /* The cones that an edge meets, ascending, and perhaps more. met: room for cones->n + 1. Returns how many; *looked_at:

@@ -42,30 +42,43 @@ static bool out_of_reach(const double *a, const double *b, const double box[4], 
 typedef struct edge {
     int side;
     uint32_t tail;
-    double x, y, dx, dy, inverse, reach;
+    sunder_i_doubles from, d; /* its tail, and its vector */
+    double inverse, reach, reach_square;
     const double *other; /* coordinates of the other operand */
 } edge;
+
+static edge edge_of(const sunder_i_operands *g, int side, double limit)
+{
+    const double reach = limit + 8 * g->error;
+    return (edge){.side = side, .reach = reach, .reach_square = reach * reach, .other = g->xy[!side]};
+}
 
 /* That from p to q. */
 static inline void take_edge(edge *e, uint32_t tail, const double *p, const double *q)
 {
     e->tail = tail;
-    e->x = p[0];
-    e->y = p[1];
-    e->dx = q[0] - p[0];
-    e->dy = q[1] - p[1];
-    e->inverse = 1 / (e->dx * e->dx + e->dy * e->dy);
+    e->from = sunder_i_doubles_at(p);
+    e->d = sunder_i_doubles_at(q) - e->from;
+    const sunder_i_doubles square = e->d * e->d;
+    e->inverse = 1 / (square[0] + square[1]);
 }
 
-/* The edge at vertex v, if it comes near enough. There is room for it. */
-static inline void add(const sunder_i_operands *g, const edge *e, uint32_t v, sunder_i_candidates *h)
+/* The edge at vertex v, to stand at `at`; whether it stays there is returned: whether it comes near enough. Without
+ * branches, which would wait for a long chain of doubles. It is that of sunder_i_segment_square(), both coordinates at
+ * a time. */
+static inline size_t put(const sunder_i_operands *g, const edge *e, uint32_t v, sunder_i_candidate *at)
 {
-    const double x = e->x + e->other[2 * (size_t)v], y = e->y + e->other[2 * (size_t)v + 1];
-    const double square = sunder_i_segment_square(x, y, e->dx, e->dy, e->inverse);
-    if (square > e->reach * e->reach) return;
-    if (g->board && sunder_i_board_segment(g->board, g->error, x, y, e->dx, e->dy)) return;
-    h->item[h->n++] = (sunder_i_candidate){square, e->tail, v, e->side};
+    const sunder_i_doubles a = e->from + sunder_i_doubles_at(e->other + 2 * (size_t)v), along = a * e->d;
+    const sunder_i_doubles p = a + sunder_i_clamped(-(along[0] + along[1]) * e->inverse) * e->d, squares = p * p;
+    const double square = squares[0] + squares[1];
+    *at = (sunder_i_candidate){square, e->tail, v, e->side};
+    const size_t near = !(square > e->reach_square);
+    if (g->board) return near && !sunder_i_board_segment(g->board, g->error, a[0], a[1], e->d[0], e->d[1]);
+    return near;
 }
+
+/* So many edges are asked at a time, and then whether the work may go on. */
+#define EDGES_AT_ONCE 32
 
 /* The edges of operand `side` at the corners of the other, which has few. What is in doubt about their directions is
  * let in, since a superset of the boundary serves as well. */
@@ -74,15 +87,23 @@ static bool pair_edges_with_few(sunder_i_operands *g, int side, const sunder_i_c
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side];
-    edge e = {.side = side, .reach = limit + 8 * g->error, .other = g->xy[!side]};
-    for (uint32_t v = 0; v < s->vertices; v++) {
-        if (s->form->cleaned.next[v] == v) continue; /* a point, which has none */
-        uint32_t met = sunder_i_cones_met_few(c, sunder_i_cones_edge(own, v));
-        if (!sunder_i_steps(4)) return false;
-        if (met == 0) continue;
-        if (!make_room(g, h, c->n)) return false;
-        take_edge(&e, v, xy + 2 * (size_t)v, xy + 2 * (size_t)s->form->cleaned.next[v]);
-        for (; met; met &= met - 1) add(g, &e, c->vertex[__builtin_ctz(met)], h);
+    const uint32_t *next = s->form->cleaned.next;
+    edge e = edge_of(g, side, limit);
+    uint32_t all[EDGES_AT_ONCE];
+    for (uint32_t v = 0, n; v < s->vertices; v += n) {
+        n = s->vertices - v < EDGES_AT_ONCE ? s->vertices - v : EDGES_AT_ONCE;
+        if (!sunder_i_steps(4 * (size_t)n)) return false;
+        sunder_i_cones_met_few(c, own, v, n, all);
+        for (uint32_t k = 0; k < n; k++) {
+            const uint32_t tail = v + k, head = next[tail];
+            if (all[k] == 0 || head == tail) continue; /* it meets none; or a point, which has no edge */
+            if (!make_room(g, h, c->n)) return false;
+            take_edge(&e, tail, xy + 2 * (size_t)tail, xy + 2 * (size_t)head);
+            size_t have = h->n;
+            for (uint32_t met = all[k]; met; met &= met - 1)
+                have += put(g, &e, c->vertex[__builtin_ctz(met)], h->item + have);
+            h->n = have;
+        }
     }
     g->placed.lattice.counts.orientation_tests += 2 * (uint64_t)s->vertices * c->n;
     return true;
@@ -93,7 +114,7 @@ static bool pair_edges_with_many(sunder_i_operands *g, int side, const sunder_i_
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side];
-    edge e = {.side = side, .reach = limit + 8 * g->error, .other = g->xy[!side]};
+    edge e = edge_of(g, side, limit);
     uint32_t *met = sunder_i_arena_alloc(&g->placed.lattice.arena, (size_t)c->n + 1, sizeof *met);
     if (!met) return false;
     uint64_t asked = 0;
@@ -108,7 +129,7 @@ static bool pair_edges_with_many(sunder_i_operands *g, int side, const sunder_i_
         if (n == 0) continue;
         if (!make_room(g, h, n)) return false;
         take_edge(&e, v, p, q);
-        for (uint32_t m = 0; m < n; m++) add(g, &e, c->vertex[met[m]], h);
+        for (uint32_t m = 0; m < n; m++) h->n += put(g, &e, c->vertex[met[m]], h->item + h->n);
     }
     g->placed.lattice.counts.orientation_tests += 2 * asked;
     return true;

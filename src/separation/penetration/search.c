@@ -165,10 +165,11 @@ static bool origin_covered(sunder_i_operands *g, const sunder_i_fraction *zero)
 static void try_all(search *s, sunder_i_candidates *heap)
 {
     sunder_i_operands *g = s->g;
-    while (heap->n && sqrt(heap->item[0].square) - 4 * g->error <= s->limit && !g->placed.lattice.arena.failed) {
+    while (heap->n && !g->placed.lattice.arena.failed) {
         const sunder_i_candidate c = sunder_i_candidates_pop(heap);
-        const sunder_i_carrier line = sunder_i_candidate_carrier(g, &c);
+        if (sqrt(c.square) - 4 * g->error > s->limit) break; /* as all others are: the nearest comes first */
         SUNDER_I_ASSERT(heap->n == 0 || c.square <= heap->item[0].square);
+        const sunder_i_carrier line = sunder_i_candidate_carrier(g, &c);
         try_candidate(s, &line);
     }
 }
