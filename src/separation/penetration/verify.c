@@ -24,42 +24,123 @@ static int exact_side(sunder_i_operands *g, const sunder_i_free_point *f, sunder
     return q == 0 ? sunder_i_i128_sign(p) : sunder_i_cmp_products(p, f->t.den, -q, f->t.num);
 }
 
+/* Side ab of an operand, in doubles. */
+typedef struct side_line {
+    uint32_t a, b;
+    double ux, uy, x, y; /* b - a, and x - a, x the point found */
+    double bound;        /* whoever is left or right of it by more than that, times its length, is so for certain */
+} side_line;
+
+static inline side_line line_of(const sunder_i_operands *g, const sunder_i_free_point *f, int side, uint32_t a,
+                                uint32_t b)
+{
+    const double *xy = g->xy[side];
+    /* The ends are each off by 2^-53 of the magnitude: the error of u counts like a rough one. */
+    const double per_length = 4 * g->error;
+    const double fixed = 32 * g->magnitude * g->rough + g->magnitude * g->magnitude * 0x1p-47;
+    const double ux = xy[2 * b] - xy[2 * a], uy = xy[2 * b + 1] - xy[2 * a + 1];
+    return (side_line){.a = a,
+                       .b = b,
+                       .ux = ux,
+                       .uy = uy,
+                       .x = f->x - xy[2 * a],
+                       .y = f->y - xy[2 * a + 1],
+                       .bound = (fabs(ux) + fabs(uy)) * per_length + fixed};
+}
+
+/* So many corners are compared with a side before it is asked what came out: which of them it is that stands on its
+ * left is anyone's guess. */
+#define CORNERS_AT_ONCE 8
+
+/* Which corners c = corner[0] .. corner[n - 1] leave it open whether x - c is left of the side, as a set, the last one
+ * perhaps twice; *left: one is so for certain. Two at a time. */
+static inline uint32_t compare_corners(const side_line *s, const double *xy, const uint32_t *corner, uint32_t n,
+                                       bool *left)
+{
+    sunder_i_double_masks any = {0, 0};
+    uint32_t doubt = 0;
+    for (uint32_t k = 0; k < n; k += SUNDER_I_DOUBLES) {
+        const double *c = xy + 2 * (size_t)corner[k], *d = xy + 2 * (size_t)corner[k + 1 < n ? k + 1 : k];
+        const sunder_i_doubles cx = {c[0], d[0]}, cy = {c[1], d[1]};
+        const sunder_i_doubles v = s->ux * (s->y - cy) - s->uy * (s->x - cx);
+        any |= v > s->bound;
+        doubt |= sunder_i_doubles_set(~(v < -s->bound)) << k;
+    }
+    *left = sunder_i_doubles_set(any) != 0;
+    return doubt;
+}
+
+/* Is all of x - q on the right of a side of p, or on it? */
+static bool has_on_right(sunder_i_operands *g, const sunder_i_free_point *f, const side_line *s,
+                         const sunder_i_operand_piece *p, const sunder_i_operand_piece *q)
+{
+    for (uint32_t m = 0; m < q->n; m += CORNERS_AT_ONCE) {
+        const uint32_t *corner = q->corner + m, n = q->n - m < CORNERS_AT_ONCE ? q->n - m : CORNERS_AT_ONCE;
+        bool left;
+        uint32_t doubt = compare_corners(s, g->xy[q->side], corner, n, &left);
+        if (left) return false;
+        for (; doubt; doubt &= doubt - 1) {
+            const uint32_t k = (uint32_t)__builtin_ctz(doubt), c = corner[k < n ? k : n - 1];
+            if (exact_side(g, f, g->at[p->side][s->a], g->at[p->side][s->b], g->at[q->side][c]) > 0) return false;
+        }
+    }
+    return true;
+}
+
 /* Does a side of p have all of x - q on its right or on it? Symmetric in p and q up to the reflection at x / 2. */
 static bool side_parts(sunder_i_operands *g, const sunder_i_free_point *f, const sunder_i_operand_piece *p,
                        const sunder_i_operand_piece *q)
 {
-    const sunder_i_point *at = g->at[p->side];
-    const double *xy = g->xy[p->side], *other = g->xy[q->side];
-    /* The ends are each off by 2^-53 of the magnitude: the error of u counts like a rough one. */
-    const double per_length = 4 * g->error;
-    const double fixed = 32 * g->magnitude * g->rough + g->magnitude * g->magnitude * 0x1p-47;
     if (p->n < 2) return false; /* a point has no sides */
     uint32_t a = p->corner[p->n - 1];
     for (uint32_t k = 0; k < p->n; k++) {
-        const uint32_t b = p->corner[k];
-        const double ux = xy[2 * b] - xy[2 * a], uy = xy[2 * b + 1] - xy[2 * a + 1];
-        const double bound = (fabs(ux) + fabs(uy)) * per_length + fixed;
-        const double x = f->x - xy[2 * a], y = f->y - xy[2 * a + 1];
-        uint32_t m = 0;
-        for (; m < q->n; m++) {
-            const uint32_t c = q->corner[m];
-            const double v = ux * (y - other[2 * c + 1]) - uy * (x - other[2 * c]);
-            if (v < -bound) continue;
-            if (v > bound || exact_side(g, f, at[a], at[b], g->at[q->side][c]) > 0) break;
-        }
-        if (m == q->n) return true;
-        a = b;
+        const side_line s = line_of(g, f, p->side, a, p->corner[k]);
+        if (has_on_right(g, f, &s, p, q)) return true;
+        a = p->corner[k];
     }
     return false;
+}
+
+/* The side of p that looks most into a direction: by the corner that it ends at. *most: how much, times its length; no
+ * less than it was, else p has none. */
+static inline uint32_t side_towards(const sunder_i_operands *g, const sunder_i_operand_piece *p, double x, double y,
+                                    double *most)
+{
+    const double *xy = g->xy[p->side], *a = xy + 2 * (size_t)p->corner[p->n - 1];
+    uint32_t best = UINT32_MAX;
+    for (uint32_t k = 0; k < p->n; k++) {
+        const double *b = xy + 2 * (size_t)p->corner[k], v = (b[1] - a[1]) * x - (b[0] - a[0]) * y;
+        best = v > *most ? k : best;
+        *most = v > *most ? v : *most;
+        a = b;
+    }
+    return best;
+}
+
+/* A guess at which side it is: that which looks most from the middle of the sum of p and q to the point. */
+static bool likely_side_parts(sunder_i_operands *g, const sunder_i_free_point *f, const sunder_i_operand_piece *p,
+                              const sunder_i_operand_piece *q, const double sum[4])
+{
+    const double x = f->x - (sum[0] / 2 + sum[2] / 2), y = f->y - (sum[1] / 2 + sum[3] / 2);
+    double most = 0;
+    const uint32_t i = side_towards(g, p, x, y, &most), j = side_towards(g, q, x, y, &most);
+    if (j != UINT32_MAX) {
+        const side_line s = line_of(g, f, q->side, q->corner[j ? j - 1 : q->n - 1], q->corner[j]);
+        return has_on_right(g, f, &s, q, p);
+    }
+    if (i == UINT32_MAX) return false;
+    const side_line s = line_of(g, f, p->side, p->corner[i ? i - 1 : p->n - 1], p->corner[i]);
+    return has_on_right(g, f, &s, p, q);
 }
 
 /* Does the point lie off the subsum of these pieces by its box, or by a side of one of them? */
 static bool parted(sunder_i_operands *g, const sunder_i_free_point *f, uint32_t i, uint32_t j)
 {
-    const double *a = g->piece_box[0] + 4 * (size_t)i, *b = g->piece_box[1] + 4 * (size_t)j;
-    if (!sunder_i_box_sum_near_point(a, b, f->x, f->y, g->error)) return true;
+    double sum[4];
+    sunder_i_box_sum(g->piece_box[0] + 4 * (size_t)i, g->piece_box[1] + 4 * (size_t)j, sum);
+    if (!sunder_i_box_near_point(sum, f->x, f->y, g->error)) return true;
     const sunder_i_operand_piece p = sunder_i_operands_piece(g, 0, i), q = sunder_i_operands_piece(g, 1, j);
-    return side_parts(g, f, &p, &q) || side_parts(g, f, &q, &p);
+    return likely_side_parts(g, f, &p, &q, sum) || side_parts(g, f, &p, &q) || side_parts(g, f, &q, &p);
 }
 
 /* ---- Many pieces ---- */
