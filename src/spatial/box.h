@@ -74,7 +74,14 @@ static inline bool sunder_i_box_near(const double a[4], const double b[4], doubl
 /* Does a point come that near to the box? What is no number does. */
 static inline bool sunder_i_box_near_point(const double box[4], double x, double y, double reach)
 {
+#ifdef __SSE2__
+    const __m128d at = _mm_set_pd(y, x), by = _mm_set1_pd(reach);
+    const __m128d below = _mm_cmplt_pd(at, _mm_sub_pd(_mm_loadu_pd(box), by)),
+                  above = _mm_cmpgt_pd(at, _mm_add_pd(_mm_loadu_pd(box + 2), by));
+    return _mm_movemask_pd(_mm_or_pd(below, above)) == 0;
+#else
     return !((x < box[0] - reach) | (x > box[2] + reach) | (y < box[1] - reach) | (y > box[3] + reach));
+#endif
 }
 
 /* The Minkowski sum of two boxes. */
@@ -86,8 +93,9 @@ static inline void sunder_i_box_sum(const double a[4], const double b[4], double
 /* Does a point come that near to the sum? */
 static inline bool sunder_i_box_sum_near_point(const double a[4], const double b[4], double x, double y, double reach)
 {
-    return !((x < a[0] + b[0] - reach) | (x > a[2] + b[2] + reach) | (y < a[1] + b[1] - reach) |
-             (y > a[3] + b[3] + reach));
+    double sum[4];
+    sunder_i_box_sum(a, b, sum);
+    return sunder_i_box_near_point(sum, x, y, reach);
 }
 
 /* How far the box is from the origin, in either coordinate. */

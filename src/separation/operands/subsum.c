@@ -11,20 +11,45 @@
 #include <math.h>
 #include <string.h>
 
-/* Does a box come within the radius, being so far off in x and in y? */
-static inline bool touches_disc(const double d[2], double radius)
+/* Does a box come within the radius, being so far off in x and in y? Without branches: it is anyone's guess. */
+static inline uint32_t touches_disc(const double d[2], double radius)
 {
     const double x = d[0], y = d[1];
-    return x <= radius && y <= radius && (x + y <= radius || x * x + y * y <= radius * radius * (1 + 0x1p-50));
+    return (uint32_t)(x <= radius) & (uint32_t)(y <= radius) &
+           ((uint32_t)(x + y <= radius) | (uint32_t)(x * x + y * y <= radius * radius * (1 + 0x1p-50)));
 }
 
-/* Which of the subsums matter: 0 none, 1 comes within reach, 2 may cover the origin. */
-static inline int nearness(const sunder_i_operands *g, uint32_t i, uint32_t j, double reach, double box[4])
+/* The pairs of pieces, row by row. */
+typedef struct pair_walk {
+    const sunder_i_operands *g;
+    uint32_t i, j;
+    size_t left;
+} pair_walk;
+
+static pair_walk all_pairs(const sunder_i_operands *g)
 {
-    double d[2];
-    sunder_i_box_sum(g->piece_box[0] + 4 * (size_t)i, g->piece_box[1] + 4 * (size_t)j, box);
+    return (pair_walk){g, 0, 0, (size_t)g->shape[0]->pieces * g->shape[1]->pieces};
+}
+
+/* So many of them are looked at between two questions whether the work may go on. */
+#define PAIRS_AT_ONCE 64
+
+static size_t next_pairs(const pair_walk *w) { return w->left < PAIRS_AT_ONCE ? w->left : PAIRS_AT_ONCE; }
+
+/* Does the sum of the next two pieces come within reach, and (*near) may it cover the origin? */
+static inline uint32_t look_at_pair(pair_walk *w, double reach, uint64_t *pair, uint32_t *near)
+{
+    const sunder_i_operands *g = w->g;
+    double box[4], d[2];
+    sunder_i_box_sum(g->piece_box[0] + 4 * (size_t)w->i, g->piece_box[1] + 4 * (size_t)w->j, box);
     sunder_i_box_distance(box, d);
-    return touches_disc(d, 2 * g->error) ? 2 : touches_disc(d, reach) ? 1 : 0;
+    *pair = (uint64_t)w->i << 32 | w->j;
+    *near = touches_disc(d, 2 * g->error);
+    const uint32_t ends = w->j + 1 == g->shape[1]->pieces;
+    w->j = (w->j + 1) & (ends - 1);
+    w->i += ends;
+    w->left--;
+    return *near | touches_disc(d, reach);
 }
 
 /* Among many, the fat ones come first: they cover the most, and the search asks in this order. */
@@ -48,60 +73,107 @@ static bool sort_by_size(sunder_i_operands *g)
     return true;
 }
 
-bool sunder_i_operands_reach(sunder_i_operands *g, double radius)
+/* How many pairs come within reach; false if the work is to stop. */
+static bool count_near(const sunder_i_operands *g, double reach, size_t *count)
 {
-    const uint32_t m = g->shape[0]->pieces, n = g->shape[1]->pieces;
-    const double reach = radius + 2 * g->error;
-    double box[4];
-    size_t room = (size_t)m * n, count[3] = {0, 0, 0};
-    const bool many = room > 64;
-    if (many) {
-        for (uint32_t i = 0; i < m && sunder_i_steps(n / 8 + 1); i++)
-            for (uint32_t j = 0; j < n; j++) count[nearness(g, i, j, reach, box)]++;
-        room = count[1] + count[2];
-    }
-    g->subsum = sunder_i_arena_alloc(&g->placed.lattice.arena, room + 1, sizeof *g->subsum);
-    if (!g->subsum) return false;
-    size_t near = 0, all = 0; /* those that may cover the origin come first */
-    for (uint32_t i = 0; i < m; i++) {
-        if (!sunder_i_steps(n / 8 + 1)) return false;
-        for (uint32_t j = 0; j < n; j++) {
-            const int how = nearness(g, i, j, reach, box);
-            if (how == 0) continue;
-            sunder_i_subsum *s = g->subsum + all++;
-            if (how == 2) {
-                if (near + 1 < all) *s = g->subsum[near];
-                s = g->subsum + near++;
-            }
-            s->i = i;
-            s->j = j;
-            s->sides = 0;
-            memcpy(s->box, box, sizeof box);
+    *count = 0;
+    for (pair_walk w = all_pairs(g); w.left;) {
+        if (!sunder_i_steps(PAIRS_AT_ONCE / 8)) return false;
+        for (size_t n = next_pairs(&w); n > 0; n--) {
+            uint64_t pair;
+            uint32_t near;
+            *count += look_at_pair(&w, reach, &pair, &near);
         }
     }
-    g->subsums = all;
+    return true;
+}
+
+/* Those pairs, those that may cover the origin first: these change places with the first of the others. */
+static bool list_near(const sunder_i_operands *g, double reach, uint64_t *pair, size_t *count)
+{
+    size_t all = 0, first = 0;
+    for (pair_walk w = all_pairs(g); w.left;) {
+        if (!sunder_i_steps(PAIRS_AT_ONCE / 8)) return false;
+        for (size_t n = next_pairs(&w); n > 0; n--) {
+            uint32_t near;
+            const uint32_t within = look_at_pair(&w, reach, pair + all, &near);
+            const size_t at = all - (-(size_t)near & (all - first));
+            const uint64_t own = pair[all];
+            pair[all] = pair[at];
+            pair[at] = own;
+            all += within;
+            first += near;
+        }
+    }
+    *count = all;
+    return true;
+}
+
+bool sunder_i_operands_reach(sunder_i_operands *g, double radius)
+{
+    sunder_i_arena *arena = &g->placed.lattice.arena;
+    const double reach = radius + 2 * g->error;
+    size_t room = (size_t)g->shape[0]->pieces * g->shape[1]->pieces;
+    const bool many = room > PAIRS_AT_ONCE;
+    if (many && !count_near(g, reach, &room)) return false;
+    g->subsum = sunder_i_arena_alloc(arena, room + 1, sizeof *g->subsum);
+    uint64_t *pair = sunder_i_arena_alloc(arena, room + 1, sizeof *pair); /* one is written past the last */
+    if (!g->subsum || !pair || !list_near(g, reach, pair, &g->subsums)) return false;
+    for (size_t k = 0; k < g->subsums; k++) {
+        sunder_i_subsum *s = g->subsum + k;
+        s->i = (uint32_t)(pair[k] >> 32);
+        s->j = (uint32_t)pair[k];
+        s->sides = 0;
+        sunder_i_box_sum(g->piece_box[0] + 4 * (size_t)s->i, g->piece_box[1] + 4 * (size_t)s->j, s->box);
+    }
     return !many || sort_by_size(g);
 }
 
 /* ---- Pieces turned so that they start at their lowest corner (of those the leftmost) ---- */
 
-static uint32_t lowest(sunder_i_operands *g, const sunder_i_point *at, const uint32_t *c, uint32_t n)
+static uint32_t lowest(sunder_i_lattice *l, const sunder_i_point *at, const uint32_t *c, uint32_t n)
 {
-    sunder_i_lattice *l = &g->placed.lattice;
     uint32_t best = 0;
-    sunder_i_point b = at[c[0]];
     for (uint32_t k = 1; k < n; k++) {
-        const sunder_i_point a = at[c[k]];
-        bool lower;
-        if (l->narrow)
-            lower = (a.y < b.y) | ((a.y == b.y) & (a.x < b.x));
-        else {
-            const int d = sunder_i_int_cmp(l, a.y, b.y);
-            lower = d < 0 || (d == 0 && sunder_i_int_cmp(l, a.x, b.x) < 0);
-        }
-        if (lower) best = k, b = a;
+        const sunder_i_point a = at[c[k]], b = at[c[best]];
+        const int d = sunder_i_int_cmp(l, a.y, b.y);
+        if (d < 0 || (d == 0 && sunder_i_int_cmp(l, a.x, b.x) < 0)) best = k;
     }
     return best;
+}
+
+/* Corners and sides of a piece of native integers. The corners are written down twice, one round after the other, so
+ * that a whole round begins at the lowest one; which it is is anyone's guess, and so there are no branches. */
+static void narrow_turn(const sunder_i_point *at, const uint32_t *c, uint32_t n, sunder_i_point *round,
+                        sunder_i_turned_piece *r)
+{
+    uint32_t best = 0;
+    sunder_i_point b = at[c[0]];
+    for (uint32_t k = 0; k < n; k++) {
+        const sunder_i_point a = round[k] = round[n + k] = at[c[k]];
+        const int64_t lower = -(int64_t)((a.y < b.y) | ((a.y == b.y) & (a.x < b.x)));
+        best ^= (best ^ k) & (uint32_t)lower;
+        b = (sunder_i_point){b.x ^ ((b.x ^ a.x) & lower), b.y ^ ((b.y ^ a.y) & lower)};
+    }
+    sunder_i_point *side = round + 2 * n;
+    r->corner = round += best;
+    r->side = side;
+    for (uint32_t i = 0; i < n; i++) side[i] = sunder_i_narrow_sub(round[i + 1], round[i]);
+}
+
+/* The same on any lattice. */
+static void turn(sunder_i_lattice *l, const sunder_i_point *at, const uint32_t *c, uint32_t n, sunder_i_point *block,
+                 sunder_i_turned_piece *r)
+{
+    uint32_t k = lowest(l, at, c, n);
+    r->corner = block;
+    r->side = block + n + 1;
+    block[0] = at[c[k]];
+    for (uint32_t i = 1; i <= n; i++) {
+        if (++k == n) k = 0;
+        block[i] = at[c[k]];
+        r->side[i - 1] = sunder_i_point_sub(l, block[i], block[i - 1]);
+    }
 }
 
 /* The piece's corners and sides, one more corner than sides; NULL if memory is out. A point has no sides. */
@@ -109,22 +181,15 @@ static const sunder_i_turned_piece *turn_piece(sunder_i_operands *g, int side, u
 {
     sunder_i_turned_piece *r = g->turned[side] + piece;
     if (r->n) return r;
-    const sunder_shape *s = g->shape[side];
-    const uint32_t first = piece ? s->piece_end[piece - 1] : 0, n = s->piece_end[piece] - first;
-    const uint32_t *c = sunder_i_piece_vertices(s) + first;
-    const sunder_i_point *at = g->at[side];
-    sunder_i_point *block = sunder_i_arena_alloc(&g->placed.lattice.arena, 2 * (size_t)n + 1, sizeof *block);
+    sunder_i_lattice *l = &g->placed.lattice;
+    const sunder_i_operand_piece p = sunder_i_operands_piece(g, side, piece);
+    sunder_i_point *block = sunder_i_arena_alloc(&l->arena, 3 * (size_t)p.n, sizeof *block);
     if (!block) return NULL;
-    uint32_t k = lowest(g, at, c, n);
-    r->corner = block;
-    r->side = block + n + 1;
-    block[0] = at[c[k]];
-    for (uint32_t i = 1; i <= n; i++) {
-        if (++k == n) k = 0;
-        block[i] = at[c[k]];
-        r->side[i - 1] = sunder_i_operands_diff(g, block[i], block[i - 1]);
-    }
-    if (n >= 2) r->n = n; /* else as if it were not made yet: that is no work */
+    if (l->narrow)
+        narrow_turn(g->at[side], p.corner, p.n, block, r);
+    else
+        turn(l, g->at[side], p.corner, p.n, block, r);
+    if (p.n >= 2) r->n = p.n; /* else as if it were not made yet: that is no work */
     return r;
 }
 
@@ -197,21 +262,34 @@ static const char *check(sunder_i_operands *g, const sunder_i_subsum *s)
 }
 #endif
 
-static void narrow_doubles(sunder_i_subsum *s, uint32_t n)
+/* What a side says counts beyond its length times per_length, and fixed. */
+typedef struct bounds {
+    double per_length, fixed;
+} bounds;
+
+static bounds bounds_of(const sunder_i_operands *g) { return (bounds){2 * g->error, 16 * g->magnitude * g->rough}; }
+
+static void narrow_doubles(const sunder_i_operands *g, sunder_i_subsum *s, uint32_t n)
 {
     s->plain = true;
-    double *cx = s->cx, *cy = s->cy, *sx = s->sx, *sy = s->sy;
+    const bounds by = bounds_of(g);
+    const sunder_i_point *corner = s->corner, *side = s->side;
+    double *restrict cx = s->cx, *restrict cy = s->cy, *restrict sx = s->sx, *restrict sy = s->sy,
+                     *restrict bound = s->bound;
     for (uint32_t k = 0; k < n; k++) {
-        const sunder_i_point c = s->corner[k], d = s->side[k];
-        cx[k] = (double)c.x;
-        cy[k] = (double)c.y;
-        sx[k] = (double)d.x;
-        sy[k] = (double)d.y;
+        const double dx = (double)side[k].x, dy = (double)side[k].y;
+        cx[k] = (double)corner[k].x;
+        cy[k] = (double)corner[k].y;
+        sx[k] = dx;
+        sy[k] = dy;
+        bound[k] = (fabs(dx) + fabs(dy)) * by.per_length + by.fixed;
     }
 }
 
-static void fill_doubles(const sunder_i_lattice *l, sunder_i_subsum *s, uint32_t n)
+static void fill_doubles(const sunder_i_operands *g, sunder_i_subsum *s, uint32_t n)
 {
+    const sunder_i_lattice *l = &g->placed.lattice;
+    const bounds by = bounds_of(g);
     s->plain = true;
     for (uint32_t k = 0; k < n; k++) {
         const sunder_i_point c = s->corner[k], d = s->side[k];
@@ -220,6 +298,7 @@ static void fill_doubles(const sunder_i_lattice *l, sunder_i_subsum *s, uint32_t
         s->cy[k] = sunder_i_approx(l, c.y);
         s->sx[k] = sunder_i_approx(l, d.x);
         s->sy[k] = sunder_i_approx(l, d.y);
+        s->bound[k] = (fabs(s->sx[k]) + fabs(s->sy[k])) * by.per_length + by.fixed;
     }
 }
 
@@ -242,11 +321,9 @@ bool sunder_i_subsum_make(sunder_i_operands *g, sunder_i_subsum *s)
                        : l->narrow ? narrow_merge(a, b, false, s->corner, s->side)
                                    : merge(g, a, b, s->corner, s->side);
     if (l->narrow)
-        narrow_doubles(s, n);
+        narrow_doubles(g, s, n);
     else
-        fill_doubles(l, s, n);
-    const double per_length = 2 * g->error, fixed = 16 * g->magnitude * g->rough;
-    for (uint32_t k = 0; k < n; k++) s->bound[k] = (fabs(s->sx[k]) + fabs(s->sy[k])) * per_length + fixed;
+        fill_doubles(g, s, n);
     if (n % SUNDER_I_DOUBLES) { /* most of these is a corner far below of a side to the right */
         s->cx[n] = s->sy[n] = s->bound[n] = 0;
         s->cy[n] = -DBL_MAX;
