@@ -32,6 +32,9 @@ static inline sunder_i_fraction brief_fraction(int64_t num, int64_t den)
 sunder_i_carrier sunder_i_carrier_make(sunder_i_operands *g, sunder_i_point a, sunder_i_point d)
 {
     const sunder_i_lattice *l = &g->placed.lattice;
+    if (l->narrow)
+        return (sunder_i_carrier){a,   {a.x + d.x, a.y + d.y}, d, (double)a.x, (double)a.y, (double)d.x, (double)d.y,
+                                  true};
     return (sunder_i_carrier){a,
                               sunder_i_operands_add(g, a, d),
                               d,
@@ -162,15 +165,48 @@ static inline bool inside(sunder_i_operands *g, const sunder_i_carrier *line, co
     return true;
 }
 
-/* Does subsum k cover the point? False too if memory is out. */
-static inline bool covers(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
-                          double y, size_t k)
+/* Does subsum k, whose box is near the point, cover it? False too if memory is out. */
+static inline bool covers_near(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
+                               double y, size_t k)
 {
     sunder_i_subsum *s = g->subsum + k;
-    if (!sunder_i_box_near_point(s->box, x, y, g->error)) return false;
     if (!s->sides && !sunder_i_subsum_make(g, s)) return false;
     g->placed.lattice.counts.orientation_tests++;
     return inside(g, line, t, x, y, s);
+}
+
+/* Does any subsum k? */
+static inline bool covers(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
+                          double y, size_t k)
+{
+    return sunder_i_box_near_point(g->subsum[k].box, x, y, g->error) && covers_near(g, line, t, x, y, k);
+}
+
+/* So few subsums are the bits of a word. */
+#define FEW 64
+
+/* Those whose boxes are near the point. All at once: which are is anyone's guess. */
+static uint64_t few_near(const sunder_i_operands *g, double x, double y)
+{
+    uint64_t near = 0;
+    for (size_t k = 0; k < g->subsums; k++)
+        near |= (uint64_t)sunder_i_box_near_point(g->subsum[k].box, x, y, g->error) << k;
+    return near;
+}
+
+/* Few subsums: subsum `first`, and then the others whose boxes are near, from there on and round. */
+static long cover_of_few(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
+                         double y, size_t first)
+{
+    if (covers(g, line, t, x, y, first)) return (long)first;
+    uint64_t near = few_near(g, x, y) & ~((uint64_t)1 << first);
+    uint64_t later = near >> first << first;
+    for (; near && !g->placed.lattice.arena.failed; near &= ~(later & -later), later &= later - 1) {
+        if (!later) later = near;
+        const size_t k = (size_t)__builtin_ctzll(later);
+        if (covers_near(g, line, t, x, y, k)) return (long)k;
+    }
+    return -1;
 }
 
 /* With a board of squares: the last subsum first, then those near the square. */
@@ -199,6 +235,11 @@ long sunder_i_carrier_cover(sunder_i_operands *g, const sunder_i_carrier *line, 
         }
     }
     size_t k = first && *first < g->subsums ? *first : 0;
+    if (g->subsums - 1 < FEW) {
+        const long found = cover_of_few(g, line, t, x, y, k);
+        if (first && found >= 0) *first = (size_t)found;
+        return found;
+    }
     for (size_t n = 0; n < g->subsums; n++, k = k + 1 < g->subsums ? k + 1 : 0) {
         if (covers(g, line, t, x, y, k)) {
             if (first) *first = k;
