@@ -28,7 +28,13 @@ static inline double sunder_i_i128_double(sunder_i_i128 v)
     return sunder_i_i128_is_short(v) ? (double)(int64_t)v : (double)v;
 }
 
-static inline sunder_i_u128 sunder_i_i128_abs(sunder_i_i128 v) { return v < 0 ? -(sunder_i_u128)v : (sunder_i_u128)v; }
+/* Without a branch: which sign it has is anyone's guess. */
+static inline sunder_i_u128 sunder_i_i128_abs(sunder_i_i128 v)
+{
+    const uint64_t high = (uint64_t)(v >> 64), below = -(high >> 63);
+    const sunder_i_u128 all = (sunder_i_u128)below << 64 | below;
+    return ((sunder_i_u128)v ^ all) - all;
+}
 
 /* a * b of 128-bit magnitudes, 256 bits. */
 static inline void sunder_i_u128_mul(sunder_i_u128 a, sunder_i_u128 b, uint64_t r[4])

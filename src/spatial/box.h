@@ -101,10 +101,15 @@ static inline bool sunder_i_box_sum_near_point(const double a[4], const double b
 /* How far the box is from the origin, in either coordinate. */
 static inline void sunder_i_box_distance(const double box[4], double out[2])
 {
-    for (int k = 0; k < 2; k++) { /* without branches */
+#ifdef __SSE2__ /* without branches, which compilers put in */
+    const __m128d low = _mm_loadu_pd(box), high = _mm_loadu_pd(box + 2), none = _mm_setzero_pd();
+    _mm_storeu_pd(out, _mm_max_pd(_mm_max_pd(low, _mm_sub_pd(none, high)), none));
+#else
+    for (int k = 0; k < 2; k++) {
         const double beyond = box[k] > -box[k + 2] ? box[k] : -box[k + 2];
         out[k] = beyond > 0 ? beyond : 0;
     }
+#endif
 }
 
 /* nextafter() downwards, or (up) upwards: numbers of one sign follow each other as their bits do. */

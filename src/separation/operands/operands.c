@@ -32,8 +32,9 @@ void sunder_i_operands_fill_boxes(sunder_i_operands *g, int side)
         g->turned[side][i].n = 0;
     }
     memcpy(g->box[side], all, sizeof all);
-    for (int k = 0; k < 4; k++)
-        if (fabs(all[k]) > g->magnitude) g->magnitude = fabs(all[k]);
+    double most = g->magnitude;
+    for (int k = 0; k < 4; k++) most = fabs(all[k]) > most ? fabs(all[k]) : most;
+    g->magnitude = most;
 }
 
 static void fill_doubles(sunder_i_operands *g, int side)

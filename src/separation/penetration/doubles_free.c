@@ -89,6 +89,13 @@ static int dyadic_side(sunder_i_operands *g, const dyadic *d, const sunder_i_sub
 
 static bool is_inside(sunder_i_operands *g, const dyadic *d, const sunder_i_subsum *s)
 {
+    if (s->sides <= SUNDER_I_SIDES_IN_A_WORD) {
+        uint32_t doubt;
+        if (!sunder_i_subsum_may_hold(s, d->ax, d->ay, 1, &doubt)) return false;
+        for (; doubt; doubt &= doubt - 1)
+            if (dyadic_side(g, d, s, (uint32_t)__builtin_ctz(doubt)) <= 0) return false;
+        return true;
+    }
     for (uint32_t k = 0; k < s->sides; k++) {
         const double v = s->sx[k] * (d->ay - s->cy[k]) - s->sy[k] * (d->ax - s->cx[k]);
         if (!(v > s->bound[k] || (v >= -s->bound[k] && dyadic_side(g, d, s, k) > 0))) return false;
