@@ -144,9 +144,12 @@ static bool turns_left(const sunder_i_small_walk *w)
 /* Are both ends of edge f, u and v from its ends, strictly on one side of edge e? */
 static inline bool on_one_side(bool brief, sunder_i_point e, sunder_i_point u, sunder_i_point v)
 {
-    return sunder_i_small_left(brief, e, u)
-               ? sunder_i_small_left(brief, e, v)
-               : !sunder_i_small_not_right(brief, e, u) && !sunder_i_small_not_right(brief, e, v);
+    if (brief) {
+        const int64_t s = sunder_i_brief_cross(e, u), t = sunder_i_brief_cross(e, v);
+        return ((s > 0) & (t > 0)) | ((s < 0) & (t < 0));
+    }
+    const sunder_i_i128 s = sunder_i_narrow_cross(e, u), t = sunder_i_narrow_cross(e, v);
+    return ((s > 0) & (t > 0)) | ((s < 0) & (t < 0));
 }
 
 /* Do edges e and f, which do not follow each other, certainly have nothing in common? Edges on one line count as
