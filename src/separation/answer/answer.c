@@ -58,10 +58,24 @@ static bool quick_ratio(sunder_i_i128 num, sunder_i_i128 den, long exponent, dou
 #define LONG_BITS LDBL_MANT_DIG
 #endif
 
+/* Is sqrt(n) / w, which is so near to d that long doubles cannot tell them apart, at least d (1) or less (-1)? 0 where
+ * no integer near d w stands between d w and the root of n, or is one of the two: as for squares, and near the squares
+ * of what doubles hold, one does. */
+static int compare_root(sunder_i_u128 n, sunder_i_i128 w, double d)
+{
+    const double about = d * (double)(int64_t)w; /* w is below 2^53 (quick_ratio()), and so is this: */
+    if (about > 0x1p52) return 0;
+    const uint64_t between = (uint64_t)(about + 0.5);
+    const double beyond = fma(d, (double)(int64_t)w, -(double)between);
+    const sunder_i_u128 square = (sunder_i_u128)between * between;
+    if (beyond <= 0 && square <= n) return 1;
+    return beyond >= 0 && square >= n ? -1 : 0;
+}
+
 /* sqrt(n) / w * 2^exponent, from long doubles: correctly rounded where they leave no doubt. Every step is off by at
  * most half an ulp of the format (2^-64 relative), four steps in all. Where long doubles are no longer than doubles
- * (or SUNDER_NO_LONG_DOUBLE says to take them so, as a test does) all roots go the slow way. Clear: so do those that
- * may be doubles, since of these the lower bound is the double before here. */
+ * (or SUNDER_NO_LONG_DOUBLE says to take them so, as a test does) all roots go the slow way. Clear: of those that may
+ * be doubles the lower bound is to be the double itself where they are, and not the one before as here. */
 static bool quick_root(sunder_i_u128 n, sunder_i_i128 w, long exponent, bool clear, double *nearest, double *down)
 {
     if (LONG_BITS < 64 || exponent < -400 || exponent > 400) return false;
@@ -73,10 +87,15 @@ static bool quick_root(sunder_i_u128 n, sunder_i_i128 w, long exponent, bool cle
     const long double half_ulp = (long double)(sunder_i_box_step(d, true) - d) / 2;
     const long double half_below = (long double)(d - below) / 2;
     if (off > half_ulp - doubt || off < doubt - half_below) return false;
-    if (clear && off <= doubt && off >= -doubt) return false; /* it may be a double itself */
+    bool is_above = off > doubt;
+    if (clear && off <= doubt && off >= -doubt) { /* it may be a double itself */
+        const int order = compare_root(n, w, d);
+        if (order == 0) return false;
+        is_above = order > 0;
+    }
     /* Roots are above 2^-64 or zero and below 2^64: scaling is exact. */
     *nearest = d * sunder_i_power_of_two(exponent);
-    *down = (off > doubt ? d : below) * sunder_i_power_of_two(exponent);
+    *down = (is_above ? d : below) * sunder_i_power_of_two(exponent);
     return true;
 }
 

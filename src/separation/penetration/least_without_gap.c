@@ -9,18 +9,39 @@
 /* Two buildings, their subsums and candidates fit in this: no allocation then but for the answer. */
 #define SMALL_BYTES 24576
 
-/* The point found as a vector. Where its numbers are long the fraction along the line is brought to lowest terms: exact
- * fits are mostly at sums of corners, which are short. What is said of its length is that of the long numbers. */
+/* num / den of the vector d, both divided by what they have in common with each other, and d and den by theirs: the
+ * numbers of the point are as short then as they can be made without looking at where the line begins. */
+static sunder_i_hpoint reduced_point(sunder_i_lattice *l, const sunder_i_free_point *f)
+{
+    const sunder_i_point a = f->line.a, d = f->line.d;
+    sunder_i_i128 num = sunder_i_det_i128(f->t.num), den = sunder_i_det_i128(f->t.den);
+    const sunder_i_u128 size = sunder_i_i128_abs(num);
+    const sunder_i_i128 common = size ? (sunder_i_i128)sunder_i_u128_gcd(size, (sunder_i_u128)den) : den;
+    num /= common;
+    den /= common;
+    sunder_i_u128 shared = (sunder_i_u128)den;
+    if (d.x != 0) shared = sunder_i_u128_gcd(shared, sunder_i_i128_abs(d.x));
+    if (d.y != 0) shared = sunder_i_u128_gcd(shared, sunder_i_i128_abs(d.y));
+    const int64_t by = (int64_t)shared; /* it divides a coordinate of d */
+    const sunder_i_fraction t = {num, den / by, f->t.value * (double)by};
+    return sunder_i_hpoint_at(l, a, (sunder_i_point){a.x + d.x / by, a.y + d.y / by}, &t);
+}
+
+/* Are they more than doubles hold exactly, so that to round them takes long? */
+static bool is_long(const sunder_i_hpoint *p)
+{
+    const uint64_t most = (uint64_t)1 << 53;
+    return !sunder_i_hpoint_is_short(p) || p->x.limb[0] > most || p->y.limb[0] > most || p->w > (sunder_i_i128)most;
+}
+
+/* The point found as a vector. Where its numbers are long they are shortened: exact fits are mostly at sums of corners,
+ * which are short. What is said of its length is that of the long numbers. */
 static sunder_i_exact_translation translation_of(sunder_i_operands *g, const sunder_i_free_point *f)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     const sunder_i_hpoint point = sunder_i_hpoint_at(l, f->line.a, f->line.b, &f->t);
-    if (l->narrow && f->t.den != 0 && !sunder_i_hpoint_is_short(&point)) {
-        const sunder_i_i128 num = sunder_i_det_i128(f->t.num), den = sunder_i_det_i128(f->t.den);
-        const sunder_i_u128 size = sunder_i_i128_abs(num);
-        const sunder_i_i128 common = size ? (sunder_i_i128)sunder_i_u128_gcd(size, (sunder_i_u128)den) : den;
-        const sunder_i_fraction t = {num / common, den / common, f->t.value};
-        const sunder_i_hpoint reduced = sunder_i_hpoint_at(l, f->line.a, f->line.b, &t);
+    if (l->narrow && f->t.den != 0 && is_long(&point)) {
+        const sunder_i_hpoint reduced = reduced_point(l, f);
         sunder_i_exact_translation v = sunder_i_exact_translation_of(g, &reduced);
         v.clear_root = true;
         return v;
