@@ -1,0 +1,100 @@
+/* Lengths of translations, roots that are mostly irrational, against GMP: the nearest double and the greatest that is
+ * no more, of random vectors and of such whose length is a double, or as near to one as can be. */
+#include "random.h"
+
+#include "separation/answer/answer.h"
+
+#include <gmp.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* The sign of d - sqrt(n) / w, for d >= 0, w > 0. */
+static int compare(double d, const mpq_t n, const mpq_t w)
+{
+    mpq_t a;
+    mpq_init(a);
+    mpq_set_d(a, d);
+    mpq_mul(a, a, w);
+    mpq_mul(a, a, a);
+    const int c = mpq_cmp(a, n);
+    mpq_clear(a);
+    return c;
+}
+
+/* The sign of (a + b) / 2 - sqrt(n) / w. */
+static int compare_middle(double a, double b, const mpq_t n, const mpq_t w)
+{
+    mpq_t m, h;
+    mpq_inits(m, h, NULL);
+    mpq_set_d(m, a);
+    mpq_set_d(h, b);
+    mpq_add(m, m, h);
+    mpq_div_2exp(m, m, 1);
+    mpq_mul(m, m, w);
+    mpq_mul(m, m, m);
+    const int c = mpq_cmp(m, n);
+    mpq_clears(m, h, NULL);
+    return c;
+}
+
+static void check(int64_t x, int64_t y, int64_t w, bool clear)
+{
+    sunder_i_operands g;
+    memset(&g, 0, sizeof g);
+    const sunder_i_exact_translation v = {.small = true, .clear_root = clear, .x = x, .y = y, .w = w};
+    sunder_separation s = {0};
+    sunder_i_answer_numbers(&g, &v, &s);
+    mpq_t n, den;
+    mpz_t term;
+    mpq_inits(n, den, NULL);
+    mpz_init_set_si(term, x);
+    mpz_mul(mpq_numref(n), term, term);
+    mpz_set_si(term, y);
+    mpz_addmul(mpq_numref(n), term, term);
+    mpq_set_si(den, w, 1);
+    const double next = nextafter(s.lower_bound, INFINITY), up = nextafter(s.distance, INFINITY);
+    const bool bounded = compare(s.lower_bound, n, den) <= 0;
+    /* Not clear, it may be the one before that, where a double is as near to the length as long doubles can tell. */
+    const bool greatest = compare(clear ? next : nextafter(next, INFINITY), n, den) > 0;
+    const bool nearest = compare_middle(s.distance, up, n, den) >= 0 &&
+                         (s.distance == 0 || compare_middle(nextafter(s.distance, 0), s.distance, n, den) <= 0);
+    mpq_clears(n, den, NULL);
+    mpz_clear(term);
+    sunder_i_arena_free(&g.placed.lattice.arena);
+    if (!bounded || !greatest || !nearest)
+        fail_msg("(%lld, %lld) / %lld: %a, at least %a", (long long)x, (long long)y, (long long)w, s.distance,
+                 s.lower_bound);
+}
+
+/* Of up to that many bits, and of fewer as often as of more. */
+static int64_t of_bits(rng *r, int most) { return (int64_t)(rng_next(r) >> (64 - rng_int(r, 1, most))); }
+
+static void lengths(void **state)
+{
+    (void)state;
+    rng r = rng_start(test_seed(), 0);
+    for (size_t i = 0; i < test_count(20000); i++) {
+        int64_t x = of_bits(&r, 62), y = of_bits(&r, 62), w = of_bits(&r, 62) + 1;
+        if (i % 2) w = (int64_t)1 << rng_int(&r, 0, 52);
+        switch (i / 2 % 4) {
+        case 0: break;                                  /* irrational, as a rule */
+        case 1: y = 0; break;                           /* x / w */
+        case 2: x = 3 * (x >> 3), y = x / 3 * 4; break; /* 5 x / 3 w */
+        default: y = rng_int(&r, 0, 3); break;          /* next to x / w */
+        }
+        check(x, y, w, true);
+        check(x, y, w, false);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lengths)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
