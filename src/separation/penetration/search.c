@@ -45,6 +45,20 @@ static int norm_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_
     return c;
 }
 
+/* Is t 0 or 1? And the end of a line of native integers that it is then. */
+static inline bool is_end(const sunder_i_fraction *t) { return t->num == 0 || t->num == t->den; }
+static inline sunder_i_point end_at(const sunder_i_carrier *line, const sunder_i_fraction *t)
+{
+    return t->num == 0 ? line->a : line->b;
+}
+
+/* Is a nearer to the origin than b, or as near and lexicographically smaller? Native integers, below 2^61. */
+static bool end_is_better(sunder_i_point a, sunder_i_point b)
+{
+    const sunder_i_i128 p = sunder_i_narrow_dot(a, a), q = sunder_i_narrow_dot(b, b);
+    return p < q || (p == q && (a.x < b.x || (a.x == b.x && a.y < b.y)));
+}
+
 static bool better(search *s, const sunder_i_carrier *line, const sunder_i_fraction *t, double distance,
                    sunder_i_hpoint *point, bool *known)
 {
@@ -54,6 +68,11 @@ static bool better(search *s, const sunder_i_carrier *line, const sunder_i_fract
     if (distance > s->best.distance + slack) return false;
     if (distance < s->best.distance - slack) return true;
     sunder_i_lattice *l = &s->g->placed.lattice;
+    /* Often it is one sum of corners, at which two segments end. */
+    if (l->narrow && is_end(t) && is_end(&s->best.t)) {
+        l->counts.comparisons++;
+        return end_is_better(end_at(line, t), end_at(&s->best.line, &s->best.t));
+    }
     *point = sunder_i_hpoint_at(l, line->a, line->b, t);
     *known = true;
     if (!s->best_point_known) s->best_point = sunder_i_hpoint_at(l, s->best.line.a, s->best.line.b, &s->best.t);
