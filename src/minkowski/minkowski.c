@@ -1,6 +1,7 @@
 /* Which road leads to the sum: a merge for two convex operands; the convolution where one is convex and the other one
- * polygon, unless it is not tame; rectangles where all sides run along the axes; else the outline of the union of all
- * subsums. Other roads are taken when asked for (../unions/). */
+ * polygon, unless it is not tame; rectangles where all sides run along the axes; the reduced convolution of two simple
+ * polygons of some dozen vertices, unless it is not tame; else the outline of the union of all subsums. Other roads are
+ * taken when asked for (../unions/). */
 #include "minkowski/minkowski.h"
 
 #include "base/clock.h"
@@ -10,6 +11,7 @@
 #include "minkowski/convex_operands.h"
 #include "minkowski/convolution.h"
 #include "minkowski/members.h"
+#include "minkowski/reduced_convolution.h"
 #include "outline/contained_sides.h"
 #include "outline/outline.h"
 #include "rectilinear/rectilinear_sum.h"
@@ -107,6 +109,8 @@ static sunder_status try_special(sunder_sum *sum, const operands *o, bool *done,
     else if (single && p->pieces == 1)
         status = sunder_i_convolution_sum(sum, q, at->q, p, at->p, done, err);
     if (status == SUNDER_OK && !*done) status = sunder_i_rectilinear_sum(sum, p, at->p, q, at->q, done, err);
+    if (status == SUNDER_OK && !*done && single && p->pieces > 1 && q->pieces > 1)
+        status = sunder_i_reduced_convolution_sum(sum, p, at->p, q, at->q, done, err);
     if (status == SUNDER_OK && !*done && !single && (p->form->cleaned.polygons == 1 || q->form->cleaned.polygons == 1))
         status = sum_members(sum, o, done, options, err);
     return status;

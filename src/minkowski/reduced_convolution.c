@@ -1,0 +1,258 @@
+/* Two simple polygons P and Q, neither of them convex: the outline of O = int P + int Q off the reduced convolution,
+ * without pieces and subsums. Of fifty vertices each that has some hundred segments, which cross one or two thousand
+ * times.
+ *
+ * The *segments* of the reduced convolution [BL11]: each convex vertex of one operand carries the sides of the other
+ * whose directions are between those of its own two sides. Asked for are operands of which no side has the direction
+ * of a side of the other, so that "between" leaves no doubt. Let x be in P + Q, but not in O: then P and x - Q
+ * touch, with disjoint interiors. Each place where they touch is
+ *
+ *   a vertex on the inside of a side   the vertex is convex, and carries the side: x is inside a segment
+ *   two convex vertices                a line parts them, so the directions that they carry have an interval in common;
+ *                                      the segments of its first and its last direction end and begin in x
+ *   a convex and a reflex vertex       the one fits into the other's notch, and carries both its sides: one segment
+ *                                      ends and the other begins in x
+ *
+ * (sides that lie along each other have one direction, and two reflex vertices overlap). So the boundary of O, its
+ * degenerate holes included, is on segments. These have loose ends where a convex vertex carries one side only of those
+ * at a reflex one; it reaches into the other operand there, and the end is in O.
+ *
+ * All is *tame* if no two segments have a point in common but those that follow each other as above, in that end, and
+ * pairs that cross in their insides, no third one passing there. A place x on segments that is not in O then has one
+ * contact for each segment, or two that follow each other, and no other. Close to it O is what these contacts give:
+ *
+ *   inside one segment       its left side
+ *   where one follows another   what is left of both, or of either: the segment that follows goes on
+ *   where two cross          what is left of either, the free wedge being right of both
+ *
+ * In no case has x, or a line through x, the sum all around it: there are no degenerate holes. And between two stops
+ * all of a segment is in O, or all of it is boundary. So the boundary is made of whole *links* between stops, each of
+ * which is followed by one only: at a crossing by one of the other segment, if the link comes to that on its right, and
+ * goes on to its left. A link that comes from the left is in O, as is one that leads to a loose end, and one is in O
+ * where the one after it is. So what is boundary are *cycles* of links, and of each cycle all or nothing is: one place
+ * of it is asked (reduced_convolution_inside.c). The one through the smallest vertex of the sum is not asked, being the
+ * outer ring. There is no other outer one, as O is connected.
+ *
+ * No two cycles meet, and none meets itself, as at a crossing only one link leaves to the right of both. A vertex where
+ * links follow each other is no straight one. All that is decided here is exact or certain; where it is not, or not
+ * tame, nothing is done, and the general road is taken. */
+#include "minkowski/reduced_convolution_inner.h"
+
+#include "base/watch.h"
+
+#include <stdalign.h>
+#include <string.h>
+
+#define NO_LINK UINT32_MAX
+
+/* Segment a has its links from stop_begin(a) + a on, one more than it has stops. */
+typedef struct tracer {
+    sunder_i_reduced *r;
+    uint32_t *segment; /* [links] */
+    uint32_t *next;    /* [links] or NO_LINK */
+    uint32_t *visit;   /* [links] the number of the walk that came by, from 1 on, or 0 */
+    uint32_t *cycle;   /* [links] the cycle at hand */
+    uint32_t n;        /* links in it */
+    sunder_i_place_query inside;
+    sunder_sum *sum;
+    uint32_t *vertex; /* the rings, one after the other */
+    sunder_i_found_ring *ring;
+    size_t rings, vertices_room, numbers_room, rings_room;
+} tracer;
+
+static uint32_t first_link(const sunder_i_reduced *r, uint32_t segment)
+{
+    return sunder_i_reduced_stop_begin(r, segment) + segment;
+}
+
+static bool rises(const sunder_i_reduced *r, uint32_t end)
+{
+    return r->crossing[end / 2].first_rises != (end % 2 == 1);
+}
+
+/* Which link follows which. */
+static void find_next(tracer *t)
+{
+    const sunder_i_reduced *r = t->r;
+    for (uint32_t a = 0, link = 0, stop = 0; a < r->segments; a++) {
+        for (; stop < r->stop_end[a]; stop++, link++) {
+            const uint32_t end = r->stop[stop].item, other = r->crossing[end / 2].segment[end % 2 == 0];
+            t->segment[link] = a;
+            t->next[link] = rises(r, end) ? r->place[end ^ 1] + other + 1 : NO_LINK;
+        }
+        const uint32_t next = r->segment[a].next;
+        t->segment[link] = a;
+        t->next[link++] = next == SUNDER_I_NO_SEGMENT ? NO_LINK : first_link(r, next);
+    }
+}
+
+/* ---- Rings ---- */
+
+/* Where a link begins: at the start of its segment, or at a stop. */
+static sunder_i_hpoint start_of(const tracer *t, uint32_t link)
+{
+    const sunder_i_reduced *r = t->r;
+    const uint32_t a = t->segment[link], first = first_link(r, a);
+    const sunder_i_reduced_segment *s = &r->segment[a];
+    if (link == first) return sunder_i_hpoint_of(r->lattice, s->from);
+    const uint32_t end = r->stop[link - 1 - a].item;
+    const sunder_i_reduced_segment *o = &r->segment[r->crossing[end / 2].segment[end % 2 == 0]];
+    const sunder_i_det d = sunder_i_narrow_cross(s->along, o->along);
+    const sunder_i_fraction at =
+        sunder_i_narrow_fraction(sunder_i_narrow_cross(sunder_i_narrow_sub(o->from, s->from), o->along), d);
+    r->lattice->counts.segment_intersections++;
+    return sunder_i_hpoint_at(r->lattice, s->from, (sunder_i_point){s->from.x + s->along.x, s->from.y + s->along.y},
+                              &at);
+}
+
+/* Takes the cycle at hand as a ring; a ring begins at its smallest vertex. False if memory is out. */
+static bool add_ring(tracer *t, bool outer)
+{
+    sunder_sum *sum = t->sum;
+    const uint32_t start = sum->vertices, end = start + t->n;
+    if (!sunder_i_reserve(&sum->vertex, &t->vertices_room, end, sizeof *sum->vertex) ||
+        !sunder_i_reserve(&t->vertex, &t->numbers_room, end, sizeof *t->vertex) ||
+        !sunder_i_reserve(&t->ring, &t->rings_room, t->rings + 1, sizeof *t->ring))
+        return false;
+    sunder_i_hpoint *at = sum->vertex + start;
+    uint32_t least = 0;
+    for (uint32_t i = 0; i < t->n; i++) {
+        at[i] = start_of(t, t->cycle[i]);
+        if (!outer && sunder_i_hpoint_cmp(&sum->lattice, &at[i], &at[least]) < 0)
+            least = i; /* an outer one begins so */
+    }
+    sum->vertices = end;
+    for (uint32_t i = 0; i < t->n; i++)
+        t->vertex[start + i] = start + (least + i < t->n ? least + i : least + i - t->n);
+    t->ring[t->rings++] = (sunder_i_found_ring){start, end, 0, outer};
+    return true;
+}
+
+/* ---- Cycles ---- */
+
+/* About the middle of a link, where along its segment. */
+static double middle_of(const tracer *t, uint32_t link)
+{
+    const sunder_i_reduced *r = t->r;
+    const uint32_t a = t->segment[link], stop = link - a;
+    const double from = stop > sunder_i_reduced_stop_begin(r, a) ? r->stop[stop - 1].value : 0;
+    return (from + (stop < r->stop_end[a] ? r->stop[stop].value : 1)) / 2;
+}
+
+/* Is the cycle at hand in O? Asked of one link after the other until the answer is certain. */
+static sunder_i_place_in_sum ask(tracer *t)
+{
+    for (uint32_t i = 0; i < t->n; i++) {
+        const uint32_t link = t->cycle[i];
+        const sunder_i_place_in_sum is = sunder_i_place_query_ask(&t->inside, t->segment[link], middle_of(t, link));
+        if (is != SUNDER_I_UNCERTAIN) return is;
+    }
+    return SUNDER_I_UNCERTAIN;
+}
+
+/* Goes on from a link for as long as there is one that was not come by. Is it one of this walk where that ends? Then
+ * the cycle is from there on. */
+static bool walk(tracer *t, uint32_t link, uint32_t number)
+{
+    uint32_t n = 0;
+    for (; link != NO_LINK && t->visit[link] == 0; link = t->next[link]) {
+        t->visit[link] = number;
+        t->cycle[n++] = link;
+    }
+    if (link == NO_LINK || t->visit[link] != number) return false;
+    uint32_t at = 0;
+    while (t->cycle[at] != link) at++;
+    t->n = n - at;
+    memmove(t->cycle, t->cycle + at, t->n * sizeof *t->cycle);
+    return true;
+}
+
+/* The segment that begins at the smallest vertex of the sum, which is the sum of the operands' smallest. */
+static uint32_t outermost(const sunder_i_reduced *r)
+{
+    uint32_t least[2] = {0, 0};
+    for (int k = 0; k < 2; k++) {
+        const sunder_i_point *at = r->operand[k].at;
+        for (uint32_t i = 1; i < r->operand[k].n; i++)
+            if (at[i].x < at[least[k]].x || (at[i].x == at[least[k]].x && at[i].y < at[least[k]].y)) least[k] = i;
+    }
+    return r->start[(size_t)least[0] * r->operand[1].n + least[1]];
+}
+
+/* *fits is false where something is not certain. Returns false if memory is out. */
+static bool trace(tracer *t, bool *fits)
+{
+    const uint32_t links = t->r->segments + 2 * (uint32_t)t->r->crossings, first = outermost(t->r);
+    uint32_t number = 1;
+    *fits = first != SUNDER_I_NO_SEGMENT && walk(t, first_link(t->r, first), number) &&
+            t->cycle[0] == first_link(t->r, first);
+    if (!*fits) return true;
+    if (!add_ring(t, true)) return false;
+    for (uint32_t link = 0; link < links; link++) {
+        if (t->visit[link] || !walk(t, link, ++number)) continue;
+        if (!sunder_i_steps(t->n)) return false;
+        const sunder_i_place_in_sum is = ask(t);
+        *fits = is != SUNDER_I_UNCERTAIN;
+        if (!*fits) return true;
+        if (is == SUNDER_I_NOT_INSIDE && !add_ring(t, false)) return false;
+    }
+    return true;
+}
+
+static bool finish(tracer *t)
+{
+    sunder_sum *sum = t->sum;
+    sunder_i_found found = {.vertex = t->vertex,
+                            .ring = t->ring,
+                            .rings = t->rings,
+                            .components = 1,
+                            .compare = sunder_i_sum_vertex_cmp,
+                            .context = sum,
+                            .place = sum->vertex};
+    return sunder_i_canonical(&found, sum);
+}
+
+/* *done is set where the cycles are those of the sum. False if memory is out. */
+static bool trace_sum(sunder_i_reduced *r, sunder_sum *sum, bool *done)
+{
+    const size_t links = r->segments + 2 * r->crossings;
+    sunder_i_arena *m = &r->memory;
+    tracer t = {.r = r,
+                .segment = sunder_i_arena_alloc(m, links, sizeof *t.segment),
+                .next = sunder_i_arena_alloc(m, links, sizeof *t.next),
+                .visit = sunder_i_arena_alloc(m, links, sizeof *t.visit),
+                .cycle = sunder_i_arena_alloc(m, links, sizeof *t.cycle),
+                .sum = sum};
+    if (!sunder_i_place_query_init(&t.inside, r)) return false;
+    memset(t.visit, 0, links * sizeof *t.visit);
+    find_next(&t);
+    bool ok = trace(&t, done);
+    if (ok && *done) ok = finish(&t);
+    sunder_i_free(t.ring);
+    sunder_i_free(t.vertex);
+    if (ok && *done) return true;
+    sunder_i_free(sum->vertex);
+    sum->vertex = NULL;
+    sum->vertices = 0;
+    return ok;
+}
+
+/* What operands of some dozen vertices need. */
+enum { LENT = 65536 };
+
+sunder_status sunder_i_reduced_convolution_sum(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,
+                                               const sunder_shape *q, const sunder_i_point *at_q, bool *done,
+                                               sunder_error *err)
+{
+    sunder_i_reduced r = {.lattice = &sum->lattice, .operand = {{.shape = p}, {.shape = q}}};
+    alignas(16) char lent[LENT];
+    bool fits;
+    *done = false;
+    sunder_i_arena_init_on(&r.memory, lent, sizeof lent);
+    bool ok = sunder_i_reduced_build(&r, (const sunder_i_point *[2]){at_p, at_q}, &fits);
+    if (ok && fits) ok = sunder_i_reduced_cross(&r, &fits);
+    if (ok && fits) ok = trace_sum(&r, sum, done);
+    sunder_i_arena_free(&r.memory);
+    *done &= ok;
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}

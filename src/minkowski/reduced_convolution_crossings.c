@@ -1,0 +1,204 @@
+/* Where segments of the reduced convolution cross: in strips along x, from left to right, those that overlap along both
+ * axes, exactly. */
+#include "minkowski/reduced_convolution_inner.h"
+
+#include "base/watch.h"
+#include "number/trust.h"
+
+#include <string.h>
+
+/* Where segments cross more often, on the average, the outline is a small part of the arrangement. */
+#define MOST_CROSSINGS 16
+/* Segments are some twelfth of the whole long: in more strips they would be listed more often than it helps. */
+#define STRIP_BITS 3
+#define STRIPS (1u << STRIP_BITS)
+/* More stops of one segment are sorted by merging. */
+#define FEW_STOPS 24
+/* Quotients of exact numbers as doubles are off by less than 2^-51 each (sunder_i_narrow_value()). */
+#define CERTAIN SUNDER_I_DOUBT(0x1p-48)
+
+/* ---- Two segments ---- */
+
+/* Of segments s and t: s0 and s1 tell on which side of the line of s the other begins and ends, t0 and t1 the same of
+ * the line of t and s. */
+typedef struct turns {
+    bool none;            /* one of these is zero */
+    bool across;          /* each ends on another side than it begins on; unless none */
+    double s0, t0, whole; /* whole: s1 - s0, which is t0 - t1 */
+} turns;
+
+static turns brief_turns(const sunder_i_reduced_segment *s, const sunder_i_reduced_segment *t)
+{
+    const sunder_i_point way = sunder_i_narrow_sub(t->from, s->from);
+    const int64_t d = sunder_i_brief_cross(s->along, t->along);
+    const int64_t s0 = sunder_i_brief_cross(s->along, way), t0 = sunder_i_brief_cross(way, t->along);
+    const int64_t s1 = s0 + d, t1 = t0 - d;
+    return (turns){(s0 == 0) | (s1 == 0) | (t0 == 0) | (t1 == 0), ((s0 ^ s1) & (t0 ^ t1)) < 0, (double)s0, (double)t0,
+                   (double)d};
+}
+
+static turns narrow_turns(const sunder_i_reduced_segment *s, const sunder_i_reduced_segment *t)
+{
+    const sunder_i_point way = sunder_i_narrow_sub(t->from, s->from);
+    const sunder_i_det d = sunder_i_narrow_cross(s->along, t->along);
+    const sunder_i_det s0 = sunder_i_narrow_cross(s->along, way), t0 = sunder_i_narrow_cross(way, t->along);
+    const sunder_i_det s1 = s0 + d, t1 = t0 - d;
+    return (turns){(s0 == 0) | (s1 == 0) | (t0 == 0) | (t1 == 0), ((s0 < 0) != (s1 < 0)) & ((t0 < 0) != (t1 < 0)),
+                   sunder_i_det_double(s0), sunder_i_det_double(t0), sunder_i_det_double(d)};
+}
+
+/* Two segments do not cross in their insides, and may meet for all that is known: they may do so only where one goes on
+ * in the other. They are not collinear then (reduced_convolution.c), and meet nowhere else. */
+static bool may_meet(sunder_i_reduced *r, uint32_t a, uint32_t b)
+{
+    const sunder_i_reduced_segment *s = &r->segment[a], *t = &r->segment[b];
+    if (s->next == b || t->next == a) return true;
+    const sunder_i_point s_end = {s->from.x + s->along.x, s->from.y + s->along.y};
+    const sunder_i_point t_end = {t->from.x + t->along.x, t->from.y + t->along.y};
+    return sunder_i_segments_meet(r->lattice, s->from, s_end, t->from, t_end) == SUNDER_I_APART;
+}
+
+/* Takes the crossing of two segments, if they cross; there is room for it. False where they meet otherwise. */
+static bool cross(sunder_i_reduced *r, uint32_t a, uint32_t b)
+{
+    const sunder_i_reduced_segment *s = &r->segment[a], *t = &r->segment[b];
+    const turns x = r->brief ? brief_turns(s, t) : narrow_turns(s, t);
+    if (x.none) return may_meet(r, a, b);
+    if (!x.across) return true;
+    r->crossing[r->crossings++] = (sunder_i_reduced_crossing){{a, b}, {x.t0 / x.whole, -x.s0 / x.whole}, x.t0 < 0};
+    return true;
+}
+
+/* ---- Strips ---- */
+
+/* A segment in a strip. */
+typedef struct member {
+    sunder_i_steps_along x, y;
+    uint32_t segment, first; /* first: 1 where no strip below has it */
+} member;
+
+static uint32_t strip_of(uint32_t step) { return step >> (SUNDER_I_STEP_BITS - STRIP_BITS); }
+
+/* Lists the segments of each strip, from left to right. */
+static member *list_members(sunder_i_reduced *r, size_t end[STRIPS])
+{
+    size_t all = 0;
+    memset(end, 0, STRIPS * sizeof *end);
+    for (uint32_t a = 0; a < r->segments; a++)
+        for (uint32_t k = strip_of(r->y[a].low); k <= strip_of(r->y[a].high); k++) end[k]++;
+    for (uint32_t k = 0; k < STRIPS; k++) {
+        const size_t own = end[k];
+        end[k] = all; /* where the next goes; in the end the end */
+        all += own;
+    }
+    member *list = sunder_i_arena_alloc(&r->memory, all, sizeof *list);
+    for (uint32_t a = 0; list && a < r->segments; a++)
+        for (uint32_t first = strip_of(r->y[a].low), k = first; k <= strip_of(r->y[a].high); k++)
+            list[end[k]++] = (member){r->x[a], r->y[a], a, k == first};
+    return list;
+}
+
+/* Those behind the first of a list that may meet it. Two that have several strips in common are taken in the lowest of
+ * these, where one of them begins. No branch depends on what is found: which are near nobody foresees. */
+static size_t find_near(const member *list, size_t n, uint32_t *near)
+{
+    const member own = list[0];
+    size_t found = 0;
+    for (size_t i = 1; i < n && list[i].x.low <= own.x.high; i++) {
+        near[found] = list[i].segment;
+        found += (list[i].y.low <= own.y.high) & (list[i].y.high >= own.y.low) & (own.first | list[i].first);
+    }
+    return found;
+}
+
+static bool cross_strip(sunder_i_reduced *r, const member *list, size_t n, uint32_t *near, bool *fits)
+{
+    const size_t most = MOST_CROSSINGS * (size_t)r->segments;
+    for (size_t i = 0; i < n && *fits; i++) {
+        const size_t found = find_near(list + i, n - i, near), need = r->crossings + found;
+        if (!sunder_i_steps(found + 1) ||
+            (need > r->crossings_capacity &&
+             !sunder_i_arena_reserve(&r->memory, &r->crossing, &r->crossings_capacity, need, sizeof *r->crossing)))
+            return false;
+        for (size_t k = 0; k < found && *fits; k++) *fits = cross(r, list[i].segment, near[k]);
+        *fits = *fits && r->crossings <= most;
+    }
+    return true;
+}
+
+/* ---- Stops in the order of their segments ---- */
+
+/* Puts the stops of one segment in order. False if the work is to stop. */
+static bool order(sunder_i_valued *stop, uint32_t n, sunder_i_valued *scratch)
+{
+    if (n > FEW_STOPS) {
+        memcpy(scratch, stop, n * sizeof *stop);
+        if (!sunder_i_sort_valued(scratch, n)) return false;
+        memcpy(stop, scratch, n * sizeof *stop);
+        return true;
+    }
+    for (uint32_t i = 1; i < n; i++) {
+        const sunder_i_valued own = stop[i];
+        uint32_t k = i;
+        for (; k > 0 && stop[k - 1].value > own.value; k--) stop[k] = stop[k - 1];
+        stop[k] = own;
+    }
+    return true;
+}
+
+/* Lists the stops segment by segment; returns how many one has at most. */
+static uint32_t list_stops(sunder_i_reduced *r)
+{
+    const uint32_t n = r->segments;
+    uint32_t before = 0, most = 0;
+    memset(r->stop_end, 0, n * sizeof *r->stop_end);
+    for (size_t i = 0; i < r->crossings; i++)
+        for (int k = 0; k < 2; k++) r->stop_end[r->crossing[i].segment[k]]++;
+    for (uint32_t a = 0; a < n; a++) {
+        const uint32_t own = r->stop_end[a];
+        r->stop_end[a] = before; /* where the next goes; in the end the end */
+        before += own;
+        most = own > most ? own : most;
+    }
+    for (uint32_t i = 0; i < r->crossings; i++)
+        for (uint32_t k = 0; k < 2; k++) {
+            const sunder_i_reduced_crossing *x = &r->crossing[i];
+            r->stop[r->stop_end[x->segment[k]]++] = (sunder_i_valued){x->at[k], 2 * i + k, 0};
+        }
+    return most;
+}
+
+/* *fits is false where doubles do not tell the order, as where three segments meet in one point. */
+static bool order_stops(sunder_i_reduced *r, bool *fits)
+{
+    const size_t stops = 2 * r->crossings;
+    r->stop_end = sunder_i_arena_alloc(&r->memory, r->segments, sizeof *r->stop_end);
+    r->stop = sunder_i_arena_alloc(&r->memory, stops, sizeof *r->stop);
+    r->place = sunder_i_arena_alloc(&r->memory, stops, sizeof *r->place);
+    if (r->memory.failed) return false;
+    const uint32_t most = list_stops(r);
+    sunder_i_valued *scratch = sunder_i_arena_alloc(&r->memory, 2 * (size_t)most, sizeof *scratch);
+    if (!scratch) return false;
+    bool certain = true;
+    for (uint32_t a = 0, begin = 0; a < r->segments; begin = r->stop_end[a++]) {
+        if (!order(r->stop + begin, r->stop_end[a] - begin, scratch)) return false;
+        for (uint32_t i = begin + 1; i < r->stop_end[a]; i++)
+            certain &= r->stop[i].value - r->stop[i - 1].value > CERTAIN;
+    }
+    for (uint32_t i = 0; i < stops; i++) r->place[r->stop[i].item] = i;
+    *fits = certain;
+    return true;
+}
+
+bool sunder_i_reduced_cross(sunder_i_reduced *r, bool *fits)
+{
+    size_t end[STRIPS];
+    const member *list = list_members(r, end);
+    uint32_t *near = sunder_i_arena_alloc(&r->memory, r->segments, sizeof *near);
+    if (r->memory.failed) return false;
+    for (uint32_t k = 0; k < STRIPS && *fits; k++) {
+        const size_t from = k ? end[k - 1] : 0;
+        if (!cross_strip(r, list + from, end[k] - from, near, fits)) return false;
+    }
+    return !*fits || order_stops(r, fits);
+}

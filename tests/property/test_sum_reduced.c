@@ -1,0 +1,234 @@
+/* Sums of two simple polygons off their reduced convolution, against the oracle byte for byte, holes among them. The
+ * tracing is called by itself, so that the general road cannot answer for it; where it declines there is nothing to
+ * compare, but it may not always do so. */
+#include "generate.h"
+#include "minkowski/reduced_convolution.h"
+#include "oracle.h"
+#include "sum_text.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+typedef enum subject { SMALL, TIGHT, STARS, COMBS, BAYS, FAR, SUBJECTS } subject;
+
+static const char *const subject_name[SUBJECTS] = {
+    "small polygons", "polygons on a few places", "stars", "combs", "bays that close", "beyond 32 bits",
+};
+
+/* The sum of these often has a hole: a ring with a gap, about as wide as the other operand is. */
+static void random_bay(polyset *p, rng *r)
+{
+    enum { MOST = 8 };
+    const int n = (int)rng_int(r, 4, MOST);
+    double xy[4 * MOST];
+    for (int side = 0; side < 2; side++)
+        for (int i = 0; i < n; i++) {
+            const double angle = 0.2 + 5.9 * (side ? n - 1 - i : i) / (n - 1);
+            const double radius = (side ? 30 : 55) + 12 * rng_unit(r);
+            xy[2 * (side * n + i)] = rint(radius * cos(angle));
+            xy[2 * (side * n + i) + 1] = rint(radius * sin(angle));
+        }
+    polyset_polygon(p, xy, 2 * (size_t)n);
+}
+
+static void random_operands(polyset *p, polyset *q, rng *r, subject kind)
+{
+    switch (kind) {
+    case SMALL:
+        random_simple(p, r, (int)rng_int(r, 4, 8), 60);
+        random_simple(q, r, (int)rng_int(r, 4, 8), 40);
+        break;
+    case TIGHT: /* vertices of the one on sides of the other, equal sums, three segments in a point */
+        random_simple(p, r, (int)rng_int(r, 4, 8), (int)rng_int(r, 5, 12));
+        random_simple(q, r, (int)rng_int(r, 4, 8), (int)rng_int(r, 4, 9));
+        break;
+    case COMBS:
+        random_comb(p, r, (int)rng_int(r, 2, 5), 90, true);
+        random_fork(q, r, (int)rng_int(r, 2, 3), 40, rng_once_in(r, 2));
+        polyset_map(q, 3, 1, -1, 2);
+        break;
+    case BAYS:
+        random_bay(p, r);
+        random_star(q, r, (int)rng_int(r, 4, 9), (double)rng_int(r, 4, 30));
+        break;
+    default:
+        random_star(p, r, (int)rng_int(r, 5, 14), 90);
+        random_star(q, r, (int)rng_int(r, 5, 14), 70);
+        break;
+    }
+    if (kind == FAR) { /* by odd numbers of 45 bits: numbers are as long as they look */
+        polyset_scale(p, 0x1.23456789abcp+44, 0x1.abcdef12345p+44);
+        polyset_scale(q, 0x1.23456789abcp+44, 0x1.abcdef12345p+44);
+    }
+    if (rng_once_in(r, 2)) {
+        polyset t = *p;
+        *p = *q;
+        *q = t;
+    }
+}
+
+/* The text of the traced sum, and how many holes it has; NULL where tracing declines. */
+static char *traced_text(const polyset *p, const polyset *q, size_t *holes)
+{
+    sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
+    sunder_sum *sum = NULL;
+    sunder_i_placed placed;
+    const sunder_i_place_options how = {0};
+    bool done = false;
+    char *text = NULL;
+    assert_non_null(a);
+    assert_non_null(b);
+    assert_int_equal(sunder_minkowski_sum(a, b, NULL, &sum, NULL), SUNDER_OK); /* for its origins */
+    sunder_sum *traced = calloc(1, sizeof *traced);
+    assert_non_null(traced);
+    assert_int_equal(sunder_i_place(a, b, &how, &placed, NULL), SUNDER_OK);
+    traced->lattice = placed.lattice;
+    memset(&placed.lattice, 0, sizeof placed.lattice);
+    memcpy(traced->origin, sum->origin, sizeof traced->origin);
+    assert_int_equal(sunder_i_reduced_convolution_sum(traced, a, placed.p, b, placed.q, &done, NULL), SUNDER_OK);
+    if (done) {
+        text = sum_text(traced);
+        *holes += traced->rings - traced->polygons;
+    } else {
+        assert_null(traced->vertex);
+        assert_int_equal(traced->polygons, 0);
+    }
+    sunder_i_placed_free(&placed);
+    sunder_sum_free(traced);
+    sunder_sum_free(sum);
+    sunder_shape_free(a);
+    sunder_shape_free(b);
+    return text;
+}
+
+/* 1: traced, and as the oracle says; 0: declined; -1: wrong. */
+static int trace_one(subject kind, uint64_t seed, size_t i, size_t *holes)
+{
+    rng r = rng_start(seed * 31 + (uint64_t)kind, i);
+    polyset p, q;
+    polyset_init(&p);
+    polyset_init(&q);
+    random_operands(&p, &q, &r, kind);
+    char *ours = traced_text(&p, &q, holes);
+    int verdict = 0;
+    if (ours) {
+        char *expected = oracle_sum_text(&p, &q, false);
+        verdict = strcmp(ours, expected) == 0 ? 1 : -1;
+        if (verdict < 0) {
+            char *a = polyset_wkt(&p), *b = polyset_wkt(&q);
+            print_message("%s, SUNDER_SEED=%llu, case %zu\n%s\n%s\n  traced %.2000s\n  oracle %.2000s\n",
+                          subject_name[kind], (unsigned long long)seed, i, a, b, ours, expected);
+            free(a);
+            free(b);
+        }
+        free(expected);
+    }
+    free(ours);
+    polyset_free(&p);
+    polyset_free(&q);
+    return verdict;
+}
+
+static void test_subject(void **state)
+{
+    const subject kind = *(const subject *)*state;
+    const uint64_t seed = test_seed();
+    const size_t n = test_count(200);
+    size_t traced = 0, bad = 0, holes = 0;
+    for (size_t i = 0; i < n && bad < 2; i++) {
+        const int verdict = trace_one(kind, seed, i, &holes);
+        traced += verdict > 0;
+        bad += verdict < 0;
+    }
+    print_message("SUNDER_SEED=%llu, %zu of %zu traced, %zu holes\n", (unsigned long long)seed, traced, n, holes);
+    assert_int_equal(bad, 0);
+    assert_true(bad > 0 || traced >= n / 20);
+    assert_true(bad > 0 || kind != BAYS || holes >= n / 20);
+}
+
+/* What is to be traced and what is not, one case for each. */
+static void test_cases(void **state)
+{
+    (void)state;
+    static const char *const bay = "POLYGON ((40 2, 38 31, -21 40, -43 -2, -18 -39, 41 -37, 39 -5, 25 -6, 24 -23, "
+                                   "-12 -26, -29 1, -13 27, 26 22, 27 3))";
+    static const struct {
+        const char *p, *q;
+        bool traced;
+        size_t holes;
+    } cases[] = {
+        /* two arrowheads */
+        {"POLYGON ((0 0, 50 7, 3 41, 11 13))", "POLYGON ((0 0, 19 -22, 31 17, 17 5))", true, 0},
+        /* a bay with a mouth of eight: an arrowhead that closes it leaves a hole; a larger one fills it, a smaller one
+         * goes in and out */
+        {"", "POLYGON ((-6 -6, 7 -5, 1 0, 2 8))", true, 1},
+        {"", "POLYGON ((-60 -60, 70 -50, 10 0, 20 80))", true, 0},
+        {"", "POLYGON ((-1.5 -1.5, 1.5 -1.25, 0.25 0, 0.5 1))", true, 0},
+        /* a side of the one has the direction of one of the other's: along an axis, and not; opposite ones may be */
+        {"POLYGON ((0 0, 50 0, 3 41, 11 13))", "POLYGON ((0 0, 19 0, 31 17, 17 5))", false, 0},
+        {"POLYGON ((0 0, 50 7, 3 41, 11 13))", "POLYGON ((0 0, 100 14, 31 37, 47 15))", false, 0},
+        {"POLYGON ((0 0, 50 7, 3 41, 11 13))", "POLYGON ((0 0, -50 -7, -12 -43, -9 -11))", true, 0},
+        /* with itself every sum of two vertices is there twice; so is a hole not, nor a second polygon */
+        {"POLYGON ((0 0, 50 7, 3 41, 11 13))", "POLYGON ((0 0, 50 7, 3 41, 11 13))", false, 0},
+        {"POLYGON ((0 0, 50 7, 3 41), (11 13, 12 14, 13 13))", "POLYGON ((0 0, 19 -22, 31 17, 17 5))", false, 0},
+        {"MULTIPOLYGON (((0 0, 50 7, 3 41, 11 13)), ((90 0, 91 2, 92 1)))", "POLYGON ((0 0, 19 -22, 31 17, 17 5))",
+         false, 0},
+        /* a ring that touches itself */
+        {"POLYGON ((0 0, 51 7, 20 20, 3 41, 11 13, 20 20, 17 9))", "POLYGON ((0 0, 19 -22, 31 17, 17 5))", false, 0},
+        /* three segments in one point, inside the sum */
+        {"POLYGON ((0 0, 4 1, 8 0, 5 4, 4 9, 3 4))", "POLYGON ((0 0, 3 2, 6 -1, 2 6))", false, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        polyset p, q;
+        size_t holes = 0;
+        assert_true(polyset_read_wkt(&p, *cases[i].p ? cases[i].p : bay, NULL) &&
+                    polyset_read_wkt(&q, cases[i].q, NULL));
+        char *ours = traced_text(&p, &q, &holes), *expected = oracle_sum_text(&p, &q, false);
+        if ((ours != NULL) != cases[i].traced || holes != cases[i].holes)
+            print_message("case %zu: traced %d, holes %zu\n%s\n", i, ours != NULL, holes, expected);
+        if (ours) assert_string_equal(ours, expected);
+        assert_int_equal(ours != NULL, cases[i].traced);
+        assert_int_equal(holes, cases[i].holes);
+        free(ours);
+        free(expected);
+        polyset_free(&p);
+        polyset_free(&q);
+    }
+}
+
+/* A hole, and no memory at any place. */
+static void test_memory(void **state)
+{
+    (void)state;
+    polyset operand[2];
+    size_t holes = 0;
+    assert_true(polyset_read_wkt(&operand[0],
+                                 "POLYGON ((40 2, 38 31, -21 40, -43 -2, -18 -39, 41 -37, 39 -5, 25 -6, 24 -23, "
+                                 "-12 -26, -29 1, -13 27, 26 22, 27 3))",
+                                 NULL));
+    assert_true(polyset_read_wkt(&operand[1], "POLYGON ((-6 -6, 7 -5, 1 0, 2 8))", NULL));
+    char *text = traced_text(&operand[0], &operand[1], &holes);
+    assert_non_null(text);
+    assert_int_equal(holes, 1);
+    free(text);
+    assert_true(library_sum_survives(operand));
+    polyset_free(&operand[0]);
+    polyset_free(&operand[1]);
+}
+
+int main(void)
+{
+    subject kinds[SUBJECTS];
+    struct CMUnitTest tests[SUBJECTS + 2];
+    for (int k = 0; k < SUBJECTS; k++) {
+        kinds[k] = (subject)k;
+        tests[k] = (struct CMUnitTest){subject_name[k], test_subject, NULL, NULL, &kinds[k]};
+    }
+    tests[SUBJECTS] = (struct CMUnitTest)cmocka_unit_test(test_cases);
+    tests[SUBJECTS + 1] = (struct CMUnitTest)cmocka_unit_test(test_memory);
+    return cmocka_run_group_tests_name("sums off the reduced convolution", tests, NULL, NULL);
+}
