@@ -1,7 +1,7 @@
 /* Which road leads to the sum: a merge for two convex operands; the convolution where one is convex and the other one
  * polygon, unless it is not tame; rectangles where all sides run along the axes; the reduced convolution of two simple
- * polygons of some dozen vertices, unless it is not tame; else the outline of the union of all subsums. Other roads are
- * taken when asked for (../unions/). */
+ * polygons, unless that is large or not tame; else the outline of the union of all subsums. Other roads are taken when
+ * asked for (../unions/). */
 #include "minkowski/minkowski.h"
 
 #include "base/clock.h"

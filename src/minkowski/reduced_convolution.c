@@ -1,11 +1,10 @@
 /* Two simple polygons P and Q, neither of them convex: the outline of O = int P + int Q off the reduced convolution,
- * without pieces and subsums. Of fifty vertices each that has some hundred segments, which cross one or two thousand
- * times.
+ * without pieces and subsums. Of fifty vertices each, that has some hundred segments and a few thousand crossings.
  *
  * The *segments* of the reduced convolution [BL11]: each convex vertex of one operand carries the sides of the other
  * whose directions are between those of its own two sides. Asked for are operands of which no side has the direction
- * of a side of the other, so that "between" leaves no doubt. Let x be in P + Q, but not in O: then P and x - Q
- * touch, with disjoint interiors. Each place where they touch is
+ * of a side of the other, so that "between" leaves no doubt. Let x be in P + Q, but not in O: then P and x - Q touch,
+ * with disjoint interiors. Each place where they touch is
  *
  *   a vertex on the inside of a side   the vertex is convex, and carries the side: x is inside a segment
  *   two convex vertices                a line parts them, so the directions that they carry have an interval in common;
@@ -176,7 +175,7 @@ static uint32_t outermost(const sunder_i_reduced *r)
         for (uint32_t i = 1; i < r->operand[k].n; i++)
             if (at[i].x < at[least[k]].x || (at[i].x == at[least[k]].x && at[i].y < at[least[k]].y)) least[k] = i;
     }
-    return r->start[(size_t)least[0] * r->operand[1].n + least[1]];
+    return sunder_i_reduced_starting_at(r, least[0], least[1]);
 }
 
 /* *fits is false where something is not certain. Returns false if memory is out. */

@@ -9,9 +9,10 @@
 
 /* Where segments cross more often, on the average, the outline is a small part of the arrangement. */
 #define MOST_CROSSINGS 16
-/* Segments are some twelfth of the whole long: in more strips they would be listed more often than it helps. */
-#define STRIP_BITS 3
-#define STRIPS (1u << STRIP_BITS)
+/* Strips are about as high as segments: in lower ones these would be listed more often than it helps. */
+#define LEAST_STRIP_BITS 3
+#define MOST_STRIP_BITS 8
+#define MOST_STRIPS (1u << MOST_STRIP_BITS)
 /* More stops of one segment are sorted by merging. */
 #define FEW_STOPS 24
 /* Quotients of exact numbers as doubles are off by less than 2^-51 each (sunder_i_narrow_value()). */
@@ -19,33 +20,7 @@
 
 /* ---- Two segments ---- */
 
-/* Of segments s and t: s0 and s1 tell on which side of the line of s the other begins and ends, t0 and t1 the same of
- * the line of t and s. */
-typedef struct turns {
-    bool none;            /* one of these is zero */
-    bool across;          /* each ends on another side than it begins on; unless none */
-    double s0, t0, whole; /* whole: s1 - s0, which is t0 - t1 */
-} turns;
-
-static turns brief_turns(const sunder_i_reduced_segment *s, const sunder_i_reduced_segment *t)
-{
-    const sunder_i_point way = sunder_i_narrow_sub(t->from, s->from);
-    const int64_t d = sunder_i_brief_cross(s->along, t->along);
-    const int64_t s0 = sunder_i_brief_cross(s->along, way), t0 = sunder_i_brief_cross(way, t->along);
-    const int64_t s1 = s0 + d, t1 = t0 - d;
-    return (turns){(s0 == 0) | (s1 == 0) | (t0 == 0) | (t1 == 0), ((s0 ^ s1) & (t0 ^ t1)) < 0, (double)s0, (double)t0,
-                   (double)d};
-}
-
-static turns narrow_turns(const sunder_i_reduced_segment *s, const sunder_i_reduced_segment *t)
-{
-    const sunder_i_point way = sunder_i_narrow_sub(t->from, s->from);
-    const sunder_i_det d = sunder_i_narrow_cross(s->along, t->along);
-    const sunder_i_det s0 = sunder_i_narrow_cross(s->along, way), t0 = sunder_i_narrow_cross(way, t->along);
-    const sunder_i_det s1 = s0 + d, t1 = t0 - d;
-    return (turns){(s0 == 0) | (s1 == 0) | (t0 == 0) | (t1 == 0), ((s0 < 0) != (s1 < 0)) & ((t0 < 0) != (t1 < 0)),
-                   sunder_i_det_double(s0), sunder_i_det_double(t0), sunder_i_det_double(d)};
-}
+typedef enum meeting { APART, ACROSS, PERHAPS } meeting; /* perhaps: an end of one is on the line of the other */
 
 /* Two segments do not cross in their insides, and may meet for all that is known: they may do so only where one goes on
  * in the other. They are not collinear then (reduced_convolution.c), and meet nowhere else. */
@@ -58,14 +33,43 @@ static bool may_meet(sunder_i_reduced *r, uint32_t a, uint32_t b)
     return sunder_i_segments_meet(r->lattice, s->from, s_end, t->from, t_end) == SUNDER_I_APART;
 }
 
+/* Of segments s and t, and the way from the start of s to that of t: s0 and s1 tell on which side of the line of s the
+ * other begins and ends, t0 and t1 the same of the line of t and s. */
+static meeting brief_meeting(sunder_i_point s, sunder_i_point t, sunder_i_point way)
+{
+    const int64_t d = sunder_i_brief_cross(s, t);
+    const int64_t s0 = sunder_i_brief_cross(s, way), t0 = sunder_i_brief_cross(way, t), s1 = s0 + d, t1 = t0 - d;
+    if ((s0 == 0) | (s1 == 0) | (t0 == 0) | (t1 == 0)) return PERHAPS;
+    return ((s0 ^ s1) & (t0 ^ t1)) < 0 ? ACROSS : APART;
+}
+
+static meeting narrow_meeting(sunder_i_point s, sunder_i_point t, sunder_i_point way)
+{
+    const sunder_i_det d = sunder_i_narrow_cross(s, t);
+    const sunder_i_det s0 = sunder_i_narrow_cross(s, way), t0 = sunder_i_narrow_cross(way, t), s1 = s0 + d, t1 = t0 - d;
+    if ((s0 == 0) | (s1 == 0) | (t0 == 0) | (t1 == 0)) return PERHAPS;
+    return ((s0 < 0) != (s1 < 0)) & ((t0 < 0) != (t1 < 0)) ? ACROSS : APART;
+}
+
 /* Takes the crossing of two segments, if they cross; there is room for it. False where they meet otherwise. */
 static bool cross(sunder_i_reduced *r, uint32_t a, uint32_t b)
 {
-    const sunder_i_reduced_segment *s = &r->segment[a], *t = &r->segment[b];
-    const turns x = r->brief ? brief_turns(s, t) : narrow_turns(s, t);
-    if (x.none) return may_meet(r, a, b);
-    if (!x.across) return true;
-    r->crossing[r->crossings++] = (sunder_i_reduced_crossing){{a, b}, {x.t0 / x.whole, -x.s0 / x.whole}, x.t0 < 0};
+    const sunder_i_point s = r->segment[a].along, t = r->segment[b].along;
+    const sunder_i_point way = sunder_i_narrow_sub(r->segment[b].from, r->segment[a].from);
+    const meeting how = r->brief ? brief_meeting(s, t, way) : narrow_meeting(s, t, way);
+    if (how == PERHAPS) return may_meet(r, a, b);
+    if (how == APART) return true;
+    double d, s0, t0;
+    if (r->brief) {
+        d = (double)sunder_i_brief_cross(s, t);
+        s0 = (double)sunder_i_brief_cross(s, way);
+        t0 = (double)sunder_i_brief_cross(way, t);
+    } else {
+        d = sunder_i_det_double(sunder_i_narrow_cross(s, t));
+        s0 = sunder_i_det_double(sunder_i_narrow_cross(s, way));
+        t0 = sunder_i_det_double(sunder_i_narrow_cross(way, t));
+    }
+    r->crossing[r->crossings++] = (sunder_i_reduced_crossing){{a, b}, {t0 / d, -s0 / d}, t0 < 0};
     return true;
 }
 
@@ -77,25 +81,40 @@ typedef struct member {
     uint32_t segment, first; /* first: 1 where no strip below has it */
 } member;
 
-static uint32_t strip_of(uint32_t step) { return step >> (SUNDER_I_STEP_BITS - STRIP_BITS); }
+typedef struct strips {
+    int shift; /* from steps to strips */
+    uint32_t n;
+    size_t end[MOST_STRIPS]; /* past the last member of each */
+    member *member;          /* from left to right in each */
+} strips;
 
-/* Lists the segments of each strip, from left to right. */
-static member *list_members(sunder_i_reduced *r, size_t end[STRIPS])
+static void choose_strips(const sunder_i_reduced *r, strips *s)
+{
+    double high = 0;
+    int bits = LEAST_STRIP_BITS;
+    for (uint32_t a = 0; a < r->segments; a++) high += r->y[a].high - r->y[a].low;
+    while (bits < MOST_STRIP_BITS && high * (2 << bits) < (double)r->segments * (1 << SUNDER_I_STEP_BITS)) bits++;
+    s->shift = SUNDER_I_STEP_BITS - bits;
+    s->n = 1u << bits;
+}
+
+static bool list_members(sunder_i_reduced *r, strips *s)
 {
     size_t all = 0;
-    memset(end, 0, STRIPS * sizeof *end);
+    choose_strips(r, s);
+    memset(s->end, 0, s->n * sizeof *s->end);
     for (uint32_t a = 0; a < r->segments; a++)
-        for (uint32_t k = strip_of(r->y[a].low); k <= strip_of(r->y[a].high); k++) end[k]++;
-    for (uint32_t k = 0; k < STRIPS; k++) {
-        const size_t own = end[k];
-        end[k] = all; /* where the next goes; in the end the end */
+        for (uint32_t k = r->y[a].low >> s->shift; k <= r->y[a].high >> s->shift; k++) s->end[k]++;
+    for (uint32_t k = 0; k < s->n; k++) {
+        const size_t own = s->end[k];
+        s->end[k] = all; /* where the next goes; in the end the end */
         all += own;
     }
-    member *list = sunder_i_arena_alloc(&r->memory, all, sizeof *list);
-    for (uint32_t a = 0; list && a < r->segments; a++)
-        for (uint32_t first = strip_of(r->y[a].low), k = first; k <= strip_of(r->y[a].high); k++)
-            list[end[k]++] = (member){r->x[a], r->y[a], a, k == first};
-    return list;
+    s->member = sunder_i_arena_alloc(&r->memory, all, sizeof *s->member);
+    for (uint32_t a = 0; s->member && a < r->segments; a++)
+        for (uint32_t first = r->y[a].low >> s->shift, k = first; k <= r->y[a].high >> s->shift; k++)
+            s->member[s->end[k]++] = (member){r->x[a], r->y[a], a, k == first};
+    return s->member;
 }
 
 /* Those behind the first of a list that may meet it. Two that have several strips in common are taken in the lowest of
@@ -192,13 +211,12 @@ static bool order_stops(sunder_i_reduced *r, bool *fits)
 
 bool sunder_i_reduced_cross(sunder_i_reduced *r, bool *fits)
 {
-    size_t end[STRIPS];
-    const member *list = list_members(r, end);
+    strips s;
     uint32_t *near = sunder_i_arena_alloc(&r->memory, r->segments, sizeof *near);
-    if (r->memory.failed) return false;
-    for (uint32_t k = 0; k < STRIPS && *fits; k++) {
-        const size_t from = k ? end[k - 1] : 0;
-        if (!cross_strip(r, list + from, end[k] - from, near, fits)) return false;
+    if (!near || !list_members(r, &s)) return false;
+    for (uint32_t k = 0; k < s.n && *fits; k++) {
+        const size_t from = k ? s.end[k - 1] : 0;
+        if (!cross_strip(r, s.member + from, s.end[k] - from, near, fits)) return false;
     }
     return !*fits || order_stops(r, fits);
 }

@@ -19,7 +19,9 @@ typedef struct sunder_i_chain_operand {
     sunder_i_point *along; /* [n] sides */
     uint32_t *rank;        /* [n] of sides, by direction (directions.h) */
     uint32_t *by_rank;     /* [n] sides in the order of their ranks */
+    uint32_t *position;    /* [n] where in that order each side is */
     uint32_t *below;       /* [2 * classes] how many sides have a lower rank */
+    uint32_t *first; /* [n] the first segment that each vertex carries, as they are made; or NO_SEGMENT: it is reflex */
 } sunder_i_chain_operand;
 
 /* A side of one operand moved by a convex vertex of the other. */
@@ -48,7 +50,7 @@ typedef struct sunder_i_reduced {
     uint32_t classes;
     sunder_i_reduced_segment *segment; /* [segments] from left to right, nearly: by x->low */
     uint32_t segments;
-    uint32_t *start; /* [n of the one * n of the other] the segment that starts at the sum of two vertices */
+    uint32_t *order;             /* [segments] the number of each, by when it was made */
     sunder_i_steps_along *x, *y; /* [segments] */
     bool brief;                  /* differences of coordinates are (narrow.h) */
     sunder_i_reduced_crossing *crossing;
@@ -58,6 +60,15 @@ typedef struct sunder_i_reduced {
     uint32_t *stop_end;    /* [segments] past the last stop on each */
     uint32_t *place;       /* [2 * crossings] by the end of a crossing: its stop */
 } sunder_i_reduced;
+
+/* The segment that vertex j of the other operand makes of side i of operand a; or NO_SEGMENT. */
+uint32_t sunder_i_reduced_segment_of(const sunder_i_reduced *r, int a, uint32_t i, uint32_t j);
+/* The one that starts at the sum of a vertex of each operand, of which there is one at most (reduced_convolution.c). */
+static inline uint32_t sunder_i_reduced_starting_at(const sunder_i_reduced *r, uint32_t i, uint32_t j)
+{
+    const uint32_t of_first = sunder_i_reduced_segment_of(r, 0, i, j);
+    return of_first != SUNDER_I_NO_SEGMENT ? of_first : sunder_i_reduced_segment_of(r, 1, j, i);
+}
 
 /* Lists all segments; *fits is false where the operands are of no kind that this is for. */
 bool sunder_i_reduced_build(sunder_i_reduced *r, const sunder_i_point *at[2], bool *fits);
@@ -106,7 +117,9 @@ typedef struct sunder_i_place_query {
     double error;     /* of places and coordinates, with room for what differences and products of them add */
     double *xy[2];    /* [2 * n] of each operand: the vertices' x, then their y */
     double *value;    /* [n of the second] scratch */
+    uint32_t *order;  /* [n of the first] its sides, the longest first */
     uint32_t last[2]; /* the two sides that crossed last */
+    size_t left;      /* so much may still be looked at: sides and vertices */
 } sunder_i_place_query;
 
 typedef enum sunder_i_place_in_sum { SUNDER_I_INSIDE, SUNDER_I_NOT_INSIDE, SUNDER_I_UNCERTAIN } sunder_i_place_in_sum;

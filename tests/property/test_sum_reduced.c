@@ -173,15 +173,20 @@ static void test_cases(void **state)
         {"POLYGON ((0 0, 50 0, 3 41, 11 13))", "POLYGON ((0 0, 19 0, 31 17, 17 5))", false, 0},
         {"POLYGON ((0 0, 50 7, 3 41, 11 13))", "POLYGON ((0 0, 100 14, 31 37, 47 15))", false, 0},
         {"POLYGON ((0 0, 50 7, 3 41, 11 13))", "POLYGON ((0 0, -50 -7, -12 -43, -9 -11))", true, 0},
-        /* with itself every sum of two vertices is there twice; so is a hole not, nor a second polygon */
+        /* with itself every sum of two vertices is there twice */
         {"POLYGON ((0 0, 50 7, 3 41, 11 13))", "POLYGON ((0 0, 50 7, 3 41, 11 13))", false, 0},
-        {"POLYGON ((0 0, 50 7, 3 41), (11 13, 12 14, 13 13))", "POLYGON ((0 0, 19 -22, 31 17, 17 5))", false, 0},
+        /* a hole, and a second polygon */
+        {"POLYGON ((0 0, 50 7, 3 41, 11 13), (20 12, 18 18, 26 14))", "POLYGON ((0 0, 19 -22, 31 17, 17 5))", false, 0},
         {"MULTIPOLYGON (((0 0, 50 7, 3 41, 11 13)), ((90 0, 91 2, 92 1)))", "POLYGON ((0 0, 19 -22, 31 17, 17 5))",
          false, 0},
         /* a ring that touches itself */
         {"POLYGON ((0 0, 51 7, 20 20, 3 41, 11 13, 20 20, 17 9))", "POLYGON ((0 0, 19 -22, 31 17, 17 5))", false, 0},
-        /* three segments in one point, inside the sum */
-        {"POLYGON ((0 0, 4 1, 8 0, 5 4, 4 9, 3 4))", "POLYGON ((0 0, 3 2, 6 -1, 2 6))", false, 0}};
+        /* ends of segments inside others, inside the sum; and three segments that cross in one point of the boundary */
+        {"POLYGON ((0 0, 4 1, 8 0, 5 4, 4 9, 3 4))", "POLYGON ((0 0, 3 2, 6 -1, 2 6))", false, 0},
+        {"POLYGON ((-55 -75, -34 -68, 74 -104, 82 -88, -26 -52, -14 -28, 85 -61, 93 -45, -6 -12, -15 5))",
+         "POLYGON ((90 -11.25, 88 1, 82 81, 80 81, 74 0, 70 1, 65 84, 61 85, 56 0, 52 0, 46 77, 44 77, 38 0, 34 1, "
+         "29 72, 25 73, 20 1, 16 1, 11 82, 7 83, 2 1, 0 -11.25))",
+         false, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         polyset p, q;
         size_t holes = 0;
