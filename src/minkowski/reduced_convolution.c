@@ -236,8 +236,8 @@ static bool trace_sum(sunder_i_reduced *r, sunder_sum *sum, bool *done)
     return ok;
 }
 
-/* What operands of some dozen vertices need. */
-enum { LENT = 65536 };
+/* What operands of some dozen vertices need, without their segments. */
+enum { LENT = 16384 };
 
 sunder_status sunder_i_reduced_convolution_sum(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,
                                                const sunder_shape *q, const sunder_i_point *at_q, bool *done,
@@ -247,11 +247,13 @@ sunder_status sunder_i_reduced_convolution_sum(sunder_sum *sum, const sunder_sha
     alignas(16) char lent[LENT];
     bool fits;
     *done = false;
-    sunder_i_arena_init_on(&r.memory, lent, sizeof lent);
+    sunder_i_arena_init_on(&r.small, lent, sizeof lent);
     bool ok = sunder_i_reduced_build(&r, (const sunder_i_point *[2]){at_p, at_q}, &fits);
     if (ok && fits) ok = sunder_i_reduced_cross(&r, &fits);
     if (ok && fits) ok = trace_sum(&r, sum, done);
     sunder_i_arena_free(&r.memory);
+    sunder_i_arena_free(&r.small);
+    sunder_i_free(r.room);
     *done &= ok;
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }

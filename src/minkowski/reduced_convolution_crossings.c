@@ -69,6 +69,7 @@ static bool cross(sunder_i_reduced *r, uint32_t a, uint32_t b)
         s0 = sunder_i_det_double(sunder_i_narrow_cross(s, way));
         t0 = sunder_i_det_double(sunder_i_narrow_cross(way, t));
     }
+    r->lattice->counts.segment_intersections++;
     r->crossing[r->crossings++] = (sunder_i_reduced_crossing){{a, b}, {t0 / d, -s0 / d}, t0 < 0};
     return true;
 }
@@ -139,6 +140,7 @@ static bool cross_strip(sunder_i_reduced *r, const member *list, size_t n, uint3
             (need > r->crossings_capacity &&
              !sunder_i_arena_reserve(&r->memory, &r->crossing, &r->crossings_capacity, need, sizeof *r->crossing)))
             return false;
+        r->lattice->counts.orientation_tests += 4 * found;
         for (size_t k = 0; k < found && *fits; k++) *fits = cross(r, list[i].segment, near[k]);
         *fits = *fits && r->crossings <= most;
     }

@@ -45,7 +45,8 @@ typedef struct sunder_i_reduced_crossing {
 
 typedef struct sunder_i_reduced {
     sunder_i_lattice *lattice;
-    sunder_i_arena memory;
+    sunder_i_arena small, memory; /* of the operands; of segments and all that comes after */
+    void *room;                   /* where that one begins, or NULL */
     sunder_i_chain_operand operand[2];
     uint32_t classes;
     sunder_i_reduced_segment *segment; /* [segments] from left to right, nearly: by x->low */

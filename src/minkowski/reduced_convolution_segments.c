@@ -19,6 +19,10 @@
 #define FEW_SEGMENTS 1024
 #define SAMPLES 64
 #define MOST_PAIRS 768.0
+/* Bytes for each segment, twice what those of stars need; for what does not go by their number; and at most. */
+#define ROOM_FOR_EACH 1024
+#define MORE_ROOM 16384
+#define MOST_ROOM (1u << 22)
 
 static sunder_i_point sum_of(sunder_i_point a, sunder_i_point b) { return (sunder_i_point){a.x + b.x, a.y + b.y}; }
 
@@ -43,7 +47,7 @@ static bool operand_init(sunder_i_arena *m, sunder_i_chain_operand *o, const sun
 static bool order_sides(sunder_i_reduced *r, sunder_i_chain_operand *o)
 {
     const uint32_t ranks = 2 * r->classes;
-    o->below = sunder_i_arena_alloc(&r->memory, ranks + 1, sizeof *o->below);
+    o->below = sunder_i_arena_alloc(&r->small, ranks + 1, sizeof *o->below);
     if (!o->below) return false;
     memset(o->below, 0, (ranks + 1) * sizeof *o->below);
     for (uint32_t i = 0; i < o->n; i++) o->below[o->rank[i] + 1]++;
@@ -84,9 +88,9 @@ static bool rank_sides(sunder_i_reduced *r)
     sunder_i_chain_operand *p = &r->operand[0], *q = &r->operand[1];
     const uint32_t n = p->n + q->n;
     sunder_i_directions directions;
-    sunder_i_point *turned = sunder_i_arena_alloc(&r->memory, n, sizeof *turned);
-    p->rank = sunder_i_arena_alloc(&r->memory, n, sizeof *p->rank);
-    if (r->memory.failed) return false;
+    sunder_i_point *turned = sunder_i_arena_alloc(&r->small, n, sizeof *turned);
+    p->rank = sunder_i_arena_alloc(&r->small, n, sizeof *p->rank);
+    if (r->small.failed) return false;
     q->rank = p->rank + p->n;
     memcpy(turned, p->along, p->n * sizeof *turned);
     memcpy(turned + p->n, q->along, q->n * sizeof *turned);
@@ -250,6 +254,18 @@ static bool arrange(sunder_i_reduced *r, const made *s)
     return true;
 }
 
+/* Memory for n segments, their stops and links, in one block and with room that is never touched: glibc keeps up to
+ * twice the largest block freed so far (../outline/culling_root.c). Where it is not enough the arena goes on elsewhere.
+ */
+static bool make_room(sunder_i_reduced *r, uint32_t n)
+{
+    const size_t bytes = n < MOST_ROOM / ROOM_FOR_EACH ? (size_t)n * ROOM_FOR_EACH + MORE_ROOM : MOST_ROOM;
+    r->room = sunder_i_alloc(bytes, 1);
+    if (!r->room) return false;
+    sunder_i_arena_init_on(&r->memory, r->room, bytes);
+    return true;
+}
+
 /* Vertices of one ring, none of which another touches. */
 static bool is_simple(const sunder_shape *s)
 {
@@ -263,7 +279,7 @@ bool sunder_i_reduced_build(sunder_i_reduced *r, const sunder_i_point *at[2], bo
     *fits = r->lattice->narrow && is_simple(p) && is_simple(q);
     if (!*fits) return true;
     for (int k = 0; k < 2; k++)
-        if (!operand_init(m, &r->operand[k], at[k])) return false;
+        if (!operand_init(&r->small, &r->operand[k], at[k])) return false;
     *fits =
         (along_axes(&r->operand[0]) & along_axes(&r->operand[1])) == 0; /* what many have in common, and soon seen */
     if (!*fits) return true;
@@ -272,6 +288,7 @@ bool sunder_i_reduced_build(sunder_i_reduced *r, const sunder_i_point *at[2], bo
     *fits = n < MOST_SEGMENTS && n / MOST_FOR_EACH <= p->vertices + q->vertices && !share_direction(r) &&
             (n <= FEW_SEGMENTS || !are_too_many(r, n));
     if (!*fits) return true;
+    if (!make_room(r, n)) return false;
     made *s = sunder_i_arena_alloc(m, n, sizeof *s);
     r->segments = n;
     r->segment = sunder_i_arena_alloc(m, n, sizeof *r->segment);

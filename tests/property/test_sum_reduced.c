@@ -4,6 +4,7 @@
 #include "generate.h"
 #include "minkowski/reduced_convolution.h"
 #include "oracle.h"
+#include "roads.h"
 #include "sum_text.h"
 
 #include <math.h>
@@ -151,6 +152,59 @@ static void test_subject(void **state)
     assert_true(bad > 0 || kind != BAYS || holes >= n / 20);
 }
 
+/* A round outline of n vertices so far from its centre: of a star, or of a jagged shore. */
+static void random_round(polyset *p, rng *r, int n, double least, double most)
+{
+    double *xy = test_alloc(2 * (size_t)n, sizeof *xy);
+    for (int i = 0; i < n; i++) {
+        const double angle = 2 * acos(-1) * i / n, radius = least + (most - least) * rng_unit(r);
+        xy[2 * i] = rint(radius * cos(angle));
+        xy[2 * i + 1] = rint(radius * sin(angle));
+    }
+    polyset_polygon(p, xy, (size_t)n);
+    free(xy);
+}
+
+/* Operands with some thousand segments, against an arrangement of all subsums: a few stars, of which segments have many
+ * stops, and shores of hundreds of vertices by a star, of which the segments are short. */
+static void test_larger(void **state)
+{
+    (void)state;
+    const uint64_t seed = test_seed();
+    const size_t n = test_count(6);
+    size_t traced = 0;
+    for (size_t i = 0; i < n; i++) {
+        const bool shore = i % 2 == 1;
+        rng r = rng_start(seed * 37, i);
+        polyset p, q;
+        size_t holes = 0;
+        polyset_init(&p);
+        polyset_init(&q);
+        if (shore)
+            random_round(&p, &r, 350, 60000, 62500);
+        else
+            random_round(&p, &r, 48, 15000, 90000);
+        random_round(&q, &r, shore ? 9 : 44, shore ? 500 : 9000, shore ? 3000 : 70000);
+        char *ours = traced_text(&p, &q, &holes);
+        if (ours) {
+            sunder_shape *a = polyset_shape(&p), *b = polyset_shape(&q);
+            const sunder_sum_options how = road_options(0, seed);
+            char *expected = road_text(a, b, &how, false);
+            assert_non_null(expected);
+            assert_string_equal(ours, expected);
+            traced++;
+            free(expected);
+            sunder_shape_free(a);
+            sunder_shape_free(b);
+        }
+        free(ours);
+        polyset_free(&p);
+        polyset_free(&q);
+    }
+    print_message("SUNDER_SEED=%llu, %zu of %zu traced\n", (unsigned long long)seed, traced, n);
+    assert_true(traced > n / 2);
+}
+
 /* What is to be traced and what is not, one case for each. */
 static void test_cases(void **state)
 {
@@ -228,12 +282,13 @@ static void test_memory(void **state)
 int main(void)
 {
     subject kinds[SUBJECTS];
-    struct CMUnitTest tests[SUBJECTS + 2];
+    struct CMUnitTest tests[SUBJECTS + 3];
     for (int k = 0; k < SUBJECTS; k++) {
         kinds[k] = (subject)k;
         tests[k] = (struct CMUnitTest){subject_name[k], test_subject, NULL, NULL, &kinds[k]};
     }
     tests[SUBJECTS] = (struct CMUnitTest)cmocka_unit_test(test_cases);
     tests[SUBJECTS + 1] = (struct CMUnitTest)cmocka_unit_test(test_memory);
+    tests[SUBJECTS + 2] = (struct CMUnitTest)cmocka_unit_test(test_larger);
     return cmocka_run_group_tests_name("sums off the reduced convolution", tests, NULL, NULL);
 }
