@@ -6,29 +6,30 @@
 
 enum { FREE = 0, MIXED = 1, COVERED = 2, STATE = 3, ONE = 4 };
 
-#define LEAF_BITS 5
-#define LEAF ((uint32_t)1 << LEAF_BITS) /* elements; bits of a number, and digits of a count */
-#define ALL UINT32_MAX
+#define LEAF_BITS 6
+#define LEAF ((uint32_t)1 << LEAF_BITS) /* elements: bits of a number */
+#define DIGITS 32                       /* of a count */
+#define ALL UINT64_MAX
 
 bool sunder_i_cover_tree_init(sunder_i_cover_tree *tree, uint32_t elements)
 {
     uint32_t size = 1;
     while (LEAF * (size_t)size < elements) size *= 2;
-    const size_t n = (LEAF + 3) * (size_t)size;
+    const size_t n = (DIGITS + 2) * (size_t)size; /* two nodes are as long as a number of a leaf's elements */
     tree->size = size;
     tree->digits = 0;
-    tree->node = sunder_i_alloc(n, sizeof *tree->node);
-    if (!tree->node) return false;
-    memset(tree->node, 0, n * sizeof *tree->node);
-    tree->covered = tree->node + 2 * (size_t)size;
+    tree->covered = sunder_i_alloc(n, sizeof *tree->covered);
+    if (!tree->covered) return false;
+    memset(tree->covered, 0, n * sizeof *tree->covered);
     tree->digit = tree->covered + size;
+    tree->node = (uint32_t *)(tree->digit + DIGITS * (size_t)size);
     return true;
 }
 
 void sunder_i_cover_tree_free(sunder_i_cover_tree *tree)
 {
-    sunder_i_free(tree->node);
-    tree->node = NULL;
+    sunder_i_free(tree->covered);
+    tree->covered = NULL;
 }
 
 /* Of a node with that count, whose children are up to date. */
@@ -39,7 +40,7 @@ static uint32_t with_state(const sunder_i_cover_tree *t, uint32_t i, uint32_t co
         const uint32_t first = t->node[2 * i] & STATE, second = t->node[2 * i + 1] & STATE;
         return first == second ? first : MIXED;
     }
-    const uint32_t covered = t->covered[i - t->size];
+    const uint64_t covered = t->covered[i - t->size];
     return covered == 0 ? FREE : covered == ALL ? COVERED : MIXED;
 }
 
@@ -49,22 +50,23 @@ static void change(sunder_i_cover_tree *t, uint32_t i, uint32_t by)
 }
 
 /* The bits from..to - 1 of a leaf, from < to. */
-static uint32_t bits_of(uint32_t from, uint32_t to) { return ALL << from & ALL >> (LEAF - to); }
+static uint64_t bits_of(uint32_t from, uint32_t to) { return ALL << from & ALL >> (LEAF - to); }
 
 /* One more, or one less, of each element that has a bit in `by`: carries go on to the next digit. */
-static void change_elements(sunder_i_cover_tree *t, uint32_t leaf, uint32_t by, bool more)
+static void change_elements(sunder_i_cover_tree *t, uint32_t leaf, uint64_t by, bool more)
 {
-    uint32_t *digit = t->digit + LEAF * (size_t)leaf, carry = by, i = 0;
+    uint64_t *digit = t->digit + DIGITS * (size_t)leaf, carry = by;
+    uint32_t i = 0;
     if (more) {
         for (; carry; i++) {
-            const uint32_t old = digit[i];
+            const uint64_t old = digit[i];
             digit[i] = old ^ carry;
             carry &= old;
         }
         if (i > t->digits) t->digits = i;
         t->covered[leaf] |= by;
     } else {
-        uint32_t left = 0; /* bits of these elements in any digit */
+        uint64_t left = 0; /* bits of these elements in any digit */
         for (; carry; i++) {
             digit[i] ^= carry;
             carry &= digit[i];
@@ -146,10 +148,11 @@ static void add_run(finder *f, uint32_t from, uint32_t to)
 static void find_in_leaf(finder *f, uint32_t leaf, uint32_t low)
 {
     const uint32_t from = f->from > low ? f->from - low : 0, to = f->to < low + LEAF ? f->to - low : LEAF;
-    uint32_t free = ~f->tree->covered[leaf] & bits_of(from, to);
+    uint64_t free = ~f->tree->covered[leaf] & bits_of(from, to);
     while (free) {
-        const uint32_t first = (uint32_t)__builtin_ctz(free), rest = ~(free >> first);
-        const uint32_t n = rest ? (uint32_t)__builtin_ctz(rest) : LEAF;
+        const uint32_t first = (uint32_t)__builtin_ctzll(free);
+        const uint64_t rest = ~(free >> first);
+        const uint32_t n = rest ? (uint32_t)__builtin_ctzll(rest) : LEAF;
         add_run(f, low + first, low + first + n);
         free = first + n < LEAF ? free & ALL << (first + n) : 0;
     }

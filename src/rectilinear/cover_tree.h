@@ -14,9 +14,9 @@
 typedef struct sunder_i_cover_tree {
     uint32_t *node;    /* [2 * size] count * 4 + state */
     uint32_t size;     /* a power of two; leaves are from here on */
-    uint32_t *digit;   /* [32 * size] of each leaf, one after the other, the lowest first */
+    uint64_t *digit;   /* [32 * size] of each leaf, one after the other, the lowest first */
     uint32_t digits;   /* that any count has had so far */
-    uint32_t *covered; /* [size] a bit for each element whose count is not zero */
+    uint64_t *covered; /* [size] a bit for each element whose count is not zero */
 } sunder_i_cover_tree;
 
 /* Elements from (inclusive) to (exclusive). */
