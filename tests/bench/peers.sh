@@ -8,8 +8,8 @@
 # Installs what is missing and builds (not if SUNDER_BUILD names a build). Sums and pairs are CPU seconds of one thread, medians of
 # several runs. Sunder is measured before and after its peers and the worse of the two counts. A peer's method that is stopped
 # could not have been the best: it may take as long as three runs at the speed of the best so far, and three seconds. One that was
-# stopped, or took ten times the best, is not tried on the next size of the same family. Rows under a millisecond are also counted
-# in instructions, by callgrind; with --instructions all rows that a peer does in three seconds.
+# stopped, or took ten times the best, is not tried on the next size of the same family. Rows under a millisecond that the peers
+# do in three seconds are also counted in instructions, by callgrind; with --instructions rows of all lengths.
 #
 # Operands are in memory before the clock starts, results in memory when it stops. CGAL has its own decompositions and they count;
 # GEOS and Clipper are given the convex subsums and only unite them, see subsums.h.
@@ -191,7 +191,7 @@ sum_row() {
   echo "| $name | ${fields[0]} + ${fields[1]} | ${fields[2]} (${fields[3]}) | $(brief "$seconds") |" \
     "$(brief "${exact:-0}") $exact_by | $(ratio "${exact:-0}" "$seconds") |" \
     "$(brief "${inexact:-0}") $inexact_by | $(ratio "${inexact:-0}" "$seconds") |"
-  if less "$seconds" 0.001 || { [[ $all_instructions == yes ]] && less "${exact:-9}" 3; }; then
+  if { less "$seconds" 0.001 || [[ $all_instructions == yes ]]; } && less "${exact:-0}" 3 && less "${inexact:-0}" 3; then
     echo "$name $file $([[ -n $exact ]] && echo cgal_sum || echo -) $exact_by ${best_program:--} $best_method" >>"$scratch/to_count"
   fi
 }
