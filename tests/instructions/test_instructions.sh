@@ -3,10 +3,11 @@
 # the families, a file of pairs, a route, buffers and separated towns. Seconds shake with the machine; instructions do not.
 #
 #   test_instructions.sh             fails where a count is more than 5 % above RECORD
-#   test_instructions.sh --record    counts and writes RECORD anew: with a commit that says why
+#   test_instructions.sh --record    counts and writes its part of RECORD anew: with a commit that says why
 #
-# Counts depend on the compiler, on flags, on libraries and, as libraries choose their loops by what the processor can do, on that:
-# they are compared on a machine like the one of the record alone, else the test is skipped.
+# Counts depend on the compiler, on flags, on libraries and, as libraries choose their loops by what the processor can do, on that.
+# So RECORD has a part for each kind of machine, of two paragraphs: what counts depend on, and counts. They are compared on a machine
+# like one of these alone, else the test is skipped.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 build=${SUNDER_BUILD:-$root/build/release}
@@ -85,19 +86,24 @@ above() { # COUNTS RECORD: a line for each count that is above, or is missing in
         END { for (name in old) print name ": on record, not counted" }' "$2" "$1"
 }
 
+# Of RECORD, by paragraphs: the counts of machines like this, and the parts of all others.
+like_this() { awk -v RS= 'NR == FNR { here = $0; next } FNR % 2 { mine = $0 == here; next } mine' here "$record"; }
+others() { awk -v RS= 'NR == FNR { here = $0; next } FNR % 2 { there = $0; next } there != here { print there "\n\n" $0 "\n" }' here "$record"; }
+
 conditions >here
 if [[ ${1:-} == --record ]]; then
     counts >counted
-    { cat here; echo; cat counted; } >"$record"
-    cat "$record"
+    { [[ ! -r $record ]] || others; cat here; echo; cat counted; } >written
+    cp written "$record"
+    cat here counted
     exit
 fi
 [[ -r $record ]] || skip "no $record"
-sed '/^$/,$d' "$record" >there
-sed '1,/^$/d' "$record" >recorded
-if ! cmp -s here there; then
-    diff there here || true
-    skip "the record (<) is of another machine, compiler, build or library than this (>); for one of this: $renew"
+like_this >recorded
+if [[ ! -s recorded ]]; then
+    grep : "$record" | sed 's/^/on record  /'
+    sed 's/^/here       /' here
+    skip "there is no record of a machine, compiler, build and libraries like these; for one: $renew"
 fi
 counts >counted
 join <(LC_ALL=C sort recorded) <(LC_ALL=C sort counted) | awk '{ printf "%-14s %12d on record %12d now %+6.1f %%\n", $1, $2, $3, 100 * ($3 / $2 - 1) }'
