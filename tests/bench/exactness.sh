@@ -65,5 +65,5 @@ map() { # FAMILY SIZE
 
 printf '%s\n' "| small integers | n | instructions, M | believing doubles, M | ratio | same sum |" "|---|---|---|---|---|---|"
 for name in "${names[@]}"; do for size in "${sizes[@]}"; do small "$name" "$size"; done; done
-printf '\n%s\n' "| map coordinates | n | instructions, M | beyond the filters | believing doubles |" "|---|---|---|---|---|"
+printf '\n%s\n%s\n' "| map coordinates | n | instructions, M | beyond the filters | believing doubles |" "|---|---|---|---|---|"
 for name in "${names[@]}"; do for size in "${sizes[@]}"; do map "$name" "$size"; done; done
