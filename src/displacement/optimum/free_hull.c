@@ -20,9 +20,12 @@ static bool is_free(const sunder_i_forbidden *f, const double u[2], uint64_t *st
     return sunder_i_forbidden_depth(f, u) <= FREE_HAIR * f->size;
 }
 
+/* False if memory is out, or the work is to stop. */
 static bool note(sunder_i_reflex *out, const sunder_i_forbidden *f, double x, double y, uint64_t *steps)
 {
     const double u[2] = {x, y};
+    /* Of two outlines with long arcs thousands of places are asked about between two questions of the caller. */
+    if (!sunder_i_steps(1 + (f->pieces + f->edges) / 16)) return false;
     if (!is_free(f, u, steps)) return true;
     if (!sunder_i_reserve(&out->place, &out->capacity, out->n + 1, sizeof *out->place)) return false;
     out->place[out->n][0] = x;
@@ -59,7 +62,8 @@ static bool cross_arcs(sunder_i_reflex *out, const sunder_i_forbidden *f, const 
     const double r = p->radius, s = q->radius;
     if (!(r > 0) || !(s > 0)) return true;
     *steps += (uint64_t)p->edges * q->edges / 4;
-    for (uint32_t k = 0; k < p->edges; k++)
+    for (uint32_t k = 0; k < p->edges; k++) {
+        if (!sunder_i_steps(1 + q->edges / 16)) return false;
         for (uint32_t l = 0; l < q->edges; l++) {
             const double *a = f->edge[p->edge + k].from, *b = f->edge[q->edge + l].from;
             const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
@@ -71,6 +75,7 @@ static bool cross_arcs(sunder_i_reflex *out, const sunder_i_forbidden *f, const 
                 !note(out, f, a[0] + x * dx + y * dy, a[1] + x * dy - y * dx, steps))
                 return false;
         }
+    }
     return true;
 }
 

@@ -42,6 +42,7 @@ static bool stand_apart(sunder_i_search *s, const double away[2])
     const double share = s->mass[1] / (s->mass[0] + s->mass[1]);
     for (int k = 0; k < MOST_LENGTHENED && !s->failed; k++) {
         const double longer = 1 + ldexp(margin, k) / length;
+        if (!isfinite(longer * length)) return false;
         for (size_t c = 0; c < 2; c++) {
             s->t[c] = (share - 1) * longer * away[c];
             s->t[2 + c] = share * longer * away[c];
