@@ -25,7 +25,7 @@ static bool note(sunder_i_reflex *out, const sunder_i_forbidden *f, double x, do
 {
     const double u[2] = {x, y};
     /* Of two outlines with long arcs thousands of places are asked about between two questions of the caller. */
-    if (!sunder_i_steps(1 + (f->pieces + f->edges) / 16)) return false;
+    if (!sunder_i_steps(1 + (f->pieces + f->edges) / 4)) return false;
     if (!is_free(f, u, steps)) return true;
     if (!sunder_i_reserve(&out->place, &out->capacity, out->n + 1, sizeof *out->place)) return false;
     out->place[out->n][0] = x;
@@ -46,6 +46,7 @@ static bool cross_edges(sunder_i_reflex *out, const sunder_i_forbidden *f, const
         *steps += 1;
         if (!sunder_i_box_meet(box, q->box)) continue;
         *steps += q->edges;
+        if (!sunder_i_steps(1 + q->edges / 4)) return false;
         if (!sunder_i_forbidden_span(f, q, from, dir, span)) continue;
         for (int s = 0; s < 2; s++)
             if (span[s] >= 0 && span[s] <= e->length &&
@@ -63,7 +64,7 @@ static bool cross_arcs(sunder_i_reflex *out, const sunder_i_forbidden *f, const 
     if (!(r > 0) || !(s > 0)) return true;
     *steps += (uint64_t)p->edges * q->edges / 4;
     for (uint32_t k = 0; k < p->edges; k++) {
-        if (!sunder_i_steps(1 + q->edges / 16)) return false;
+        if (!sunder_i_steps(1 + q->edges / 4)) return false;
         for (uint32_t l = 0; l < q->edges; l++) {
             const double *a = f->edge[p->edge + k].from, *b = f->edge[q->edge + l].from;
             const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
