@@ -119,8 +119,9 @@ static bool solve_both(side *p, side *q)
 static void emit(side *s)
 {
     sunder_i_maker *m = s->m;
-    for (; m->polygon < m->rings.polygons && !sunder_i_maker_failed(m); m->polygon++) {
+    for (; m->polygon < m->rings.polygons; m->polygon++) {
         const sunder_i_member member = sunder_i_maker_member(m, m->polygon);
+        if (sunder_i_maker_failed(m)) return; /* and what was a convex one may seem to be reflex, and has no mesh */
         if (s->program[m->polygon])
             sunder_i_program_emit(s->program[m->polygon], m);
         else if (member.reflex)
