@@ -104,19 +104,7 @@ static int trace_one(subject kind, uint64_t seed, size_t i)
     random_subject(&p, &r, kind);
     random_brush(&q, &r, width_of(&p) * share[i % (sizeof share / sizeof *share)]);
     char *ours = p.polygons == 1 ? traced_text(&p, &q) : NULL;
-    int verdict = 0;
-    if (ours) {
-        char *expected = oracle_sum_text(&p, &q, false);
-        verdict = strcmp(ours, expected) == 0 ? 1 : -1;
-        if (verdict < 0) {
-            char *a = polyset_wkt(&p), *b = polyset_wkt(&q);
-            print_message("%s, SUNDER_SEED=%llu, case %zu\n%s\n%s\n  traced %.2000s\n  oracle %.2000s\n",
-                          subject_name[kind], (unsigned long long)seed, i, a, b, ours, expected);
-            free(a);
-            free(b);
-        }
-        free(expected);
-    }
+    const int verdict = ours ? oracle_verdict(ours, &p, &q, subject_name[kind], seed, i) : 0;
     free(ours);
     polyset_free(&p);
     polyset_free(&q);

@@ -3,7 +3,9 @@
 
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 void hpoint_init(hpoint *p)
 {
@@ -311,4 +313,19 @@ char *oracle_sum_text(const polyset *p, const polyset *q, bool all_segments)
 char *oracle_even_odd_text(const polyset *p, const polyset *q, bool all_segments)
 {
     return text_of(oracle_new_even_odd(p, q), all_segments);
+}
+
+int oracle_verdict(const char *ours, const polyset *p, const polyset *q, const char *kind, uint64_t seed, size_t i)
+{
+    char *expected = oracle_sum_text(p, q, false);
+    const bool same = strcmp(ours, expected) == 0;
+    if (!same) {
+        char *a = polyset_wkt(p), *b = polyset_wkt(q);
+        printf("%s, SUNDER_SEED=%llu, case %zu\n%s\n%s\n  ours   %.2000s\n  oracle %.2000s\n", kind,
+               (unsigned long long)seed, i, a, b, ours, expected);
+        free(a);
+        free(b);
+    }
+    free(expected);
+    return same ? 1 : -1;
 }
