@@ -64,8 +64,17 @@ unsigned fuzz_byte(fuzz_bytes *bytes)
 
 fuzz_scale fuzz_choose_scale(fuzz_bytes *bytes)
 {
-    unsigned lot = fuzz_byte(bytes) % 8;
-    return lot < 5 ? FUZZ_GRID : lot < 7 ? FUZZ_MAP : FUZZ_ANY;
+    unsigned byte = fuzz_byte(bytes), lot = byte % 8;
+    return lot < 5 ? FUZZ_GRID : lot < 7 ? FUZZ_MAP : byte / 8 != 16 ? FUZZ_NEAR : FUZZ_ANY;
+}
+
+/* The same number near to one, between 2^-32 and 2^32; zeros and what is no number stay what they are. */
+static double fold(double value)
+{
+    if (value == 0 || !isfinite(value)) return value;
+    int exponent;
+    const double mantissa = frexp(value, &exponent);
+    return ldexp(mantissa, ((exponent % 64) + 64) % 64 - 31);
 }
 
 double fuzz_coordinate(fuzz_bytes *bytes, fuzz_scale scale)
@@ -79,7 +88,7 @@ double fuzz_coordinate(fuzz_bytes *bytes, fuzz_scale scale)
     double value;
     for (size_t i = 0; i < sizeof raw; ++i) raw[i] = (uint8_t)fuzz_byte(bytes);
     memcpy(&value, raw, sizeof value);
-    return value;
+    return scale == FUZZ_NEAR ? fold(value) : value;
 }
 
 sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertices)
