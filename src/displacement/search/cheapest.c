@@ -16,6 +16,7 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/invariant.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -55,19 +56,26 @@ typedef struct bounding {
 
 /* ---- What acts --------------------------------------------------------------------------------------------------- */
 
+/* Whose is the piece, in the search? Constraints have it, but of what stands. */
+static uint32_t owner_of(const sunder_i_search *s, uint32_t named, uint32_t piece)
+{
+    const uint32_t owner =
+        named == SUNDER_I_GROUND ? sunder_i_search_place_of(s, sunder_i_body_of_piece(s->model, piece)) : named;
+    SUNDER_I_ASSERT(owner == SUNDER_I_NOBODY ||
+                    piece - s->model->body[s->body[owner]].piece < s->model->body[s->body[owner]].pieces);
+    return owner;
+}
+
 /* Which of two pieces is it? Not one of a wall, nor of a shadow. */
 static bool find_part(const sunder_i_search *s, acting *a)
 {
-    const sunder_i_model *model = s->model;
     const sunder_i_constraint *c = a->constraint;
     if (c->key >> 60) return false;
-    const uint32_t body[2] = {sunder_i_body_of_piece(model, (uint32_t)(c->key >> 32)),
-                              sunder_i_body_of_piece(model, (uint32_t)c->key)};
     double reach;
-    a->i = sunder_i_search_place_of(s, body[0]);
-    a->j = sunder_i_search_place_of(s, body[1]);
+    a->i = owner_of(s, c->i, (uint32_t)(c->key >> 32));
+    a->j = owner_of(s, c->j, (uint32_t)c->key);
     if (a->i == SUNDER_I_NOBODY || a->j == SUNDER_I_NOBODY) return false;
-    if (sunder_i_search_is_relaxed(s, body[0], body[1], &reach)) return false;
+    if (sunder_i_search_is_relaxed(s, s->body[a->i], s->body[a->j], &reach)) return false;
     a->fixed = 0;
     if (c->i == SUNDER_I_GROUND) a->fixed += c->n[0] * s->t[2 * a->i] + c->n[1] * s->t[2 * a->i + 1];
     if (c->j == SUNDER_I_GROUND) a->fixed -= c->n[0] * s->t[2 * a->j] + c->n[1] * s->t[2 * a->j + 1];
