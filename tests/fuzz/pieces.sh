@@ -64,8 +64,9 @@ piece() { # NAME SECONDS
     # The time that an input may take is by the clock, of which other work may leave little.
     # Stacks of allocations are kept short, which takes a tenth of the time less: who looks into a finding runs it by itself.
     # What was freed is held back up to 8 MB, many inputs long: with more of it a sixth of the time goes into fresh pages.
-    # Nor is memory given back to the system: another twelfth of a short target's time.
-    spent=$( { time ASAN_OPTIONS=malloc_context_size=5:quarantine_size_mb=8:allocator_release_to_os_interval_ms=-1 nice -n "${SUNDER_FUZZ_NICE:-19}" "$SUNDER_BUILD/fuzz/$name" "$state/$name" -seed="$(date +%s)" -max_total_time="$2" -max_len=600 -entropic=0 \
+    # Nor is memory given back to the system: another twelfth of a short target's time; and of what is allocated the first
+    # kilobyte is filled with what nobody expects, not the first four, a twentieth.
+    spent=$( { time ASAN_OPTIONS=malloc_context_size=5:quarantine_size_mb=8:allocator_release_to_os_interval_ms=-1:max_malloc_fill_size=1024 nice -n "${SUNDER_FUZZ_NICE:-19}" "$SUNDER_BUILD/fuzz/$name" "$state/$name" -seed="$(date +%s)" -max_total_time="$2" -max_len=600 -entropic=0 \
         -timeout=600 -rss_limit_mb=4096 -artifact_prefix="$state/found/$name-" -print_final_stats=1 >"$log" 2>&1 || status=$?
         echo "$status" >"$state/$name.status"; } 2>&1 )
     executions=$(final number_of_executed_units "$log")
