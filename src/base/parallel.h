@@ -10,11 +10,12 @@ typedef sunder_status (*sunder_i_work)(void *context, size_t begin, size_t end, 
 /* Grains, by what one item costs: so many take long enough that handing them out does not show, and few enough that no
  * thread waits for another at the end. */
 enum {
-    SUNDER_I_GRAIN_WHOLE = 1,  /* a cluster, a polygon: seconds, perhaps */
-    SUNDER_I_GRAIN_SHAPES = 4, /* a union of shapes: some hundred microseconds */
-    SUNDER_I_GRAIN_PAIRS = 8,  /* a pair's least translation: some ten microseconds */
-    SUNDER_I_GRAIN_TESTS = 32, /* an exact test of a pair: a few microseconds */
-    SUNDER_I_GRAIN_BOXES = 256 /* a search in a tree of boxes */
+    SUNDER_I_GRAIN_WHOLE = 1,   /* a cluster, a polygon: seconds, perhaps */
+    SUNDER_I_GRAIN_SHAPES = 4,  /* a union of shapes: some hundred microseconds */
+    SUNDER_I_GRAIN_PAIRS = 8,   /* a pair's least translation: some ten microseconds */
+    SUNDER_I_GRAIN_TESTS = 32,  /* an exact test of a pair: a few microseconds */
+    SUNDER_I_GRAIN_BOXES = 256, /* a search in a tree of boxes */
+    SUNDER_I_GRAIN_LOOKS = 8192 /* a look at a feature: no more than it takes to get it from memory */
 };
 
 /* Runs work over [0, n) in pieces of `grain` on that many threads, the caller's among them; from within such work on no

@@ -238,7 +238,7 @@ static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
     }
     if (!status && elsewhere.failed) status = sunder_i_no_memory(err);
     if (!status && !begin_as_at_start(s)) status = sunder_i_no_memory(err);
-    if (!status) status = sunder_i_placement_relate_again(&s->model, &s->placement, &elsewhere, &s->now, err);
+    if (!status) status = sunder_i_placement_relate_again(&s->model, &s->placement, &elsewhere, NULL, &s->now, err);
     sunder_i_changes_free(&elsewhere);
     return status ? status : sunder_i_jumps_update(&s->jumps, &s->model, NULL, err);
 }

@@ -61,22 +61,39 @@ static void test_relations_of_some(void **state)
     }
 }
 
-/* Some bodies go elsewhere; what changed, sorted. */
-static void move_some(rng *g, scene_model *m, sunder_i_changes *changes)
+/* Some bodies go elsewhere, or a hair aside; what changed, sorted, and who was near. */
+static void move_some(rng *g, scene_model *m, sunder_i_changes *changes, sunder_i_list *about)
 {
     sunder_error err;
+    const bool aside = rng_once_in(g, 2);
     sunder_i_changes_clear(changes);
     for (size_t b = 0; b < m->model.bodies; b++) {
         if (!rng_once_in(g, 3)) continue;
-        for (size_t c = 0; c < 2; c++) m->model.move[2 * b + c] = (double)rng_int(g, -40, 40) / 8;
+        for (size_t c = 0; c < 2; c++) {
+            double *t = &m->model.move[2 * b + c];
+            *t = aside ? *t + (double)rng_int(g, -1, 1) / 1024 : (double)rng_int(g, -40, 40) / 8;
+        }
         const sunder_i_body *body = &m->model.body[b];
         for (uint32_t k = 0; k < body->members; k++) sunder_i_changes_add(changes, m->model.member[body->member + k]);
     }
     assert_true(sunder_i_changes_sort(changes));
+    about->n = 0;
+    for (size_t k = 0; k < changes->list.n; k++) {
+        const uint32_t f = changes->list.item[k];
+        if (m->model.present[f]) assert_true(sunder_i_placement_near(&m->model, &m->placement, f, about));
+    }
+    about->n = sunder_i_set_make(about->item, about->n);
     assert_int_equal(sunder_i_placement_move(&m->model, &m->placement, changes, &err), SUNDER_OK);
 }
 
-/* Relations that are brought up to date, move after move, are those that are found afresh. */
+static bool are_alike(const sunder_i_relation *a, const sunder_i_relation *b)
+{
+    return a->a == b->a && a->b == b->b && a->near == b->near && a->touch == b->touch && a->overlap == b->overlap &&
+           a->contained == b->contained && a->kept == b->kept;
+}
+
+/* Relations that are brought up to date, move after move, are those that are found afresh; whether it is told who was
+ * near or not. */
 static void test_brought_up_to_date(void **state)
 {
     (void)state;
@@ -87,24 +104,24 @@ static void test_brought_up_to_date(void **state)
         scene_model m;
         sunder_i_changes changes;
         sunder_i_relations kept, fresh;
+        sunder_i_list about = {0};
         sunder_error err;
         draw_scene(&g, &s);
         scene_model_related(&m, &s);
         assert_true(sunder_i_changes_init(&changes, m.model.things));
         assert_int_equal(sunder_i_placement_relate(&m.model, &m.placement, NULL, &kept, &err), SUNDER_OK);
         for (int step = 0; step < 12; step++) {
-            move_some(&g, &m, &changes);
-            assert_int_equal(sunder_i_placement_relate_again(&m.model, &m.placement, &changes, &kept, &err), SUNDER_OK);
+            move_some(&g, &m, &changes, &about);
+            const sunder_i_list *things = rng_once_in(&g, 4) ? NULL : &about;
+            assert_int_equal(sunder_i_placement_relate_again(&m.model, &m.placement, &changes, things, &kept, &err),
+                             SUNDER_OK);
             assert_int_equal(sunder_i_placement_relate(&m.model, &m.placement, NULL, &fresh, &err), SUNDER_OK);
             assert_int_equal(kept.n, fresh.n);
-            for (size_t k = 0; k < kept.n; k++) {
-                const sunder_i_relation *a = &kept.pair[k], *b = &fresh.pair[k];
-                assert_true(a->a == b->a && a->b == b->b && a->near == b->near && a->touch == b->touch);
-                assert_true(a->overlap == b->overlap && a->contained == b->contained && a->kept == b->kept);
-            }
+            for (size_t k = 0; k < kept.n; k++) assert_true(are_alike(&kept.pair[k], &fresh.pair[k]));
             most = kept.n > most ? kept.n : most;
             sunder_i_free(fresh.pair);
         }
+        sunder_i_free(about.item);
         sunder_i_free(kept.pair);
         sunder_i_changes_free(&changes);
         scene_model_end(&m);

@@ -86,11 +86,11 @@ sunder_status sunder_i_solver_improve(sunder_i_solver *s, sunder_error *err)
     if (!status) status = sunder_i_solver_for_clusters(s, improve_clusters, s, err);
     if (status) return status;
     sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
-    sunder_i_solver_commit(s);
-    for (size_t k = 0; k < s->clusters; k++) {
+    status = sunder_i_solver_commit(s, err);
+    for (size_t k = 0; k < s->clusters && !status; k++) {
         const sunder_i_cluster *c = &s->cluster[k];
-        for (size_t m = 0; m < c->n && sunder_i_solver_any_of(s, c->body, c->n, s->wanted); m++)
-            s->improved[c->body[m]] = true;
+        if (!sunder_i_solver_any_of(s, c->body, c->n, s->wanted)) continue;
+        for (size_t m = 0; m < c->n; m++) s->improved[c->body[m]] = true;
     }
-    return sunder_i_solver_relate(s, err);
+    return status ? status : sunder_i_solver_relate(s, err);
 }

@@ -21,8 +21,6 @@ static void free_clusters(sunder_i_solver *s)
         sunder_i_free(s->cluster[k].restored);
         sunder_i_free(s->cluster[k].guest);
     }
-    sunder_i_free(s->cluster);
-    s->cluster = NULL;
     s->clusters = 0;
 }
 
@@ -60,6 +58,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->body);
     sunder_i_free(s->move);
     free_clusters(s);
+    sunder_i_free(s->cluster);
     sunder_i_groups_free(&s->groups);
     sunder_i_ordered_clear(&s->layer);
     sunder_i_barriers_free(&s->barriers);
@@ -140,13 +139,23 @@ const uint32_t *sunder_i_solver_members(const sunder_i_solver *s, uint32_t root,
     return *n ? s->body + first : NULL;
 }
 
+sunder_i_cluster *sunder_i_solver_cluster_with(const sunder_i_solver *s, uint32_t root)
+{
+    size_t n, low = 0, high = s->clusters;
+    const uint32_t *member = sunder_i_solver_members(s, root, &n);
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (s->cluster[middle].body < member)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return n && low < s->clusters && s->cluster[low].body == member ? &s->cluster[low] : NULL;
+}
+
 sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *s, uint32_t body)
 {
-    size_t n;
-    const uint32_t *member = sunder_i_solver_members(s, sunder_i_union_find(s->parent, body), &n);
-    for (size_t k = 0; k < s->clusters && n; k++)
-        if (s->cluster[k].body == member) return &s->cluster[k];
-    return NULL;
+    return sunder_i_solver_cluster_with(s, sunder_i_union_find(s->parent, body));
 }
 
 /* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: a
@@ -210,11 +219,31 @@ static const char *check(const sunder_i_solver *s)
 }
 #endif
 
-/* The ends of all edges, each by the root of its cluster, and once. False if memory is out. */
+/* Room for what comes of so many edges. What is there is lost where it is too small. */
+static bool make_room(sunder_i_solver *s)
+{
+    if (s->room >= s->edges && s->cluster) return true;
+    sunder_i_free(s->member);
+    sunder_i_free(s->body);
+    sunder_i_free(s->move);
+    sunder_i_free(s->cluster);
+    s->room = s->edges + s->edges / SPARE_ROOM;
+    s->member = sunder_i_alloc(2 * s->room, sizeof *s->member);
+    s->body = sunder_i_alloc(2 * s->room, sizeof *s->body);
+    s->move = sunder_i_alloc(4 * s->room, sizeof *s->move);
+    s->cluster = sunder_i_alloc(s->room, sizeof *s->cluster);
+    s->listed = SUNDER_I_NONE_LISTED;
+    return s->member && s->body && s->move && s->cluster;
+}
+
+/* The ends of all edges, each by the root of its cluster, and once; unless they are listed, and no edge has come since.
+ * False if memory is out. */
 static bool list_members(sunder_i_solver *s)
 {
+    if (s->listed == s->edges) return true;
     uint64_t *key = sunder_i_alloc(2 * s->edges, sizeof *key);
     size_t n = 0;
+    s->members = 0;
     for (size_t e = 0; e < s->edges && key; e++) {
         const uint32_t i = s->edge[e].a, j = s->edge[e].b;
         const uint64_t root = sunder_i_union_find(s->parent, s->model.body[i].fixed ? j : i);
@@ -227,6 +256,7 @@ static bool list_members(sunder_i_solver *s)
         s->member[s->members] = (sunder_i_cluster_member){(uint32_t)(key[k] >> 32), (uint32_t)key[k]};
         s->body[s->members++] = (uint32_t)key[k];
     }
+    s->listed = ok ? s->edges : SUNDER_I_NONE_LISTED;
     sunder_i_free(key);
     return ok;
 }
@@ -245,19 +275,14 @@ static bool is_new_crowd(const sunder_i_solver *s, const sunder_i_cluster *c)
 /* Clusters from the edges, afresh. */
 sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
 {
-    sunder_i_free(s->member);
-    sunder_i_free(s->body);
-    sunder_i_free(s->move);
     free_clusters(s);
-    s->member = sunder_i_alloc(2 * s->edges, sizeof *s->member);
-    s->body = sunder_i_alloc(2 * s->edges, sizeof *s->body);
-    s->move = sunder_i_alloc(4 * s->edges, sizeof *s->move);
-    s->cluster = sunder_i_calloc(s->edges, sizeof *s->cluster);
-    s->members = 0;
-    if (!s->member || !s->body || !s->move || !s->cluster) return sunder_i_no_memory(err);
-    if (!list_members(s)) return sunder_i_no_memory(err);
+    if (!make_room(s) || !list_members(s)) {
+        s->members = 0;
+        return sunder_i_no_memory(err);
+    }
     for (size_t first = 0, end; first < s->members; first = end) {
         sunder_i_cluster *c = &s->cluster[s->clusters++];
+        *c = (sunder_i_cluster){0};
         for (end = first; end < s->members && s->member[end].root == s->member[first].root; end++) {
             const sunder_i_body *body = &s->model.body[s->member[end].body];
             c->limited =

@@ -208,6 +208,7 @@ static bool forget(sunder_i_solver *s, const bool *back)
     for (size_t e = 0; e < s->edges; e++)
         if (!back[s->edge[e].a] && !back[s->edge[e].b]) s->edge[out++] = s->edge[e];
     s->edges = 0;
+    s->listed = SUNDER_I_NONE_LISTED;
     sunder_i_union_init(s->parent, model->bodies);
     for (size_t e = 0; e < out; e++) sunder_i_solver_add_edge(s, s->edge[e].a, s->edge[e].b); /* there is room */
     out = 0;

@@ -3,6 +3,8 @@
 #include "displacement/clusters/solver.h"
 #include "displacement/layer/rounding.h"
 
+#include "base/parallel.h"
+
 #include <string.h>
 
 double *sunder_i_solver_load_moves(const sunder_i_solver *s, const sunder_i_cluster *c)
@@ -15,16 +17,19 @@ double *sunder_i_solver_load_moves(const sunder_i_solver *s, const sunder_i_clus
     return move;
 }
 
-void sunder_i_solver_place(sunder_i_solver *s, uint32_t b, const double *to)
+static bool goes_elsewhere(const sunder_i_solver *s, uint32_t b, const double *to)
+{
+    return !s->model.body[b].fixed && memcmp(s->model.move + 2 * (size_t)b, to, 2 * sizeof *to) != 0;
+}
+
+/* exact: can it be moved so without rounding? */
+static void place(sunder_i_solver *s, uint32_t b, const double *to, bool exact)
 {
     sunder_i_model *model = &s->model;
     const sunder_i_body *body = &model->body[b];
-    double *move = model->move + 2 * (size_t)b;
-    if (body->fixed || memcmp(move, to, 2 * sizeof *move) == 0) return;
-    memcpy(move, to, 2 * sizeof *move);
+    memcpy(model->move + 2 * (size_t)b, to, 2 * sizeof *to);
     if (model->went) sunder_i_box_include(model->went + 4 * (size_t)b, to);
     s->cheapest[b] = false;
-    const bool exact = sunder_i_is_exact_move(model, b, move);
     for (uint32_t m = 0; m < body->members; m++) {
         const uint32_t f = model->member[body->member + m];
         sunder_i_changes_add(&s->changes, f);
@@ -32,17 +37,51 @@ void sunder_i_solver_place(sunder_i_solver *s, uint32_t b, const double *to)
     }
 }
 
-void sunder_i_solver_commit(sunder_i_solver *s)
+void sunder_i_solver_place(sunder_i_solver *s, uint32_t b, const double *to)
 {
+    if (goes_elsewhere(s, b, to)) place(s, b, to, sunder_i_is_exact_move(&s->model, b, to));
+}
+
+typedef struct committing {
+    const sunder_i_solver *solver;
+    bool *exact; /* [members] */
+} committing;
+
+static sunder_status find_some_exact(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    (void)err;
+    const committing *c = context;
+    const sunder_i_solver *s = c->solver;
+    for (size_t k = begin; k < end; k++)
+        c->exact[k] = goes_elsewhere(s, s->body[k], s->move + 2 * k) &&
+                      sunder_i_is_exact_move(&s->model, s->body[k], s->move + 2 * k);
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_solver_commit(sunder_i_solver *s, sunder_error *err)
+{
+    committing c = {s, sunder_i_alloc(s->members, sizeof *c.exact)};
+    sunder_status status = c.exact ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status)
+        status = sunder_i_parallel(s->model.rules.threads, s->members, SUNDER_I_GRAIN_LOOKS, find_some_exact, &c, err);
     sunder_i_changes_clear(&s->changes);
-    for (size_t k = 0; k < s->members; k++) sunder_i_solver_place(s, s->body[k], s->move + 2 * k);
+    for (size_t k = 0; k < s->members && !status; k++)
+        if (goes_elsewhere(s, s->body[k], s->move + 2 * k)) place(s, s->body[k], s->move + 2 * k, c.exact[k]);
+    sunder_i_free(c.exact);
+    return status;
 }
 
 sunder_status sunder_i_solver_relate(sunder_i_solver *s, sunder_error *err)
+{
+    return sunder_i_solver_relate_near(s, NULL, err);
+}
+
+sunder_status sunder_i_solver_relate_near(sunder_i_solver *s, const sunder_i_list *things, sunder_error *err)
 {
     if (!sunder_i_changes_sort(&s->changes)) return sunder_i_no_memory(err);
     sunder_status status = sunder_i_placement_move(&s->model, &s->placement, &s->changes, err);
     if (status) return status;
     status = sunder_i_jumps_update(&s->jumps, &s->model, &s->changes, err);
-    return status ? status : sunder_i_placement_relate_again(&s->model, &s->placement, &s->changes, &s->now, err);
+    if (status) return status;
+    return sunder_i_placement_relate_again(&s->model, &s->placement, &s->changes, things, &s->now, err);
 }

@@ -90,15 +90,6 @@ static void list_questions(const sunder_i_solver *s, const bool *wanted, questio
     first[*clusters] = n;
 }
 
-static const sunder_i_cluster *cluster_of(const sunder_i_solver *s, uint32_t root)
-{
-    size_t n;
-    const uint32_t *member = sunder_i_solver_members(s, root, &n);
-    for (size_t k = 0; k < s->clusters; k++)
-        if (s->cluster[k].body == member) return &s->cluster[k];
-    return NULL;
-}
-
 /* How far those may go that have no limit, so that they are asked about, too: past all of their cluster. */
 static double far_for(const sunder_i_model *model, const uint32_t *body, size_t n)
 {
@@ -189,7 +180,8 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
                                      .b = sunder_i_whole_of(model, t->b),
                                      .required = g->required,
                                      .required_n = g->required_n,
-                                     .margin = MARGINS * cluster_of(g->solver, g->question[q].root)->margin,
+                                     .margin =
+                                         MARGINS * sunder_i_solver_cluster_with(g->solver, g->question[q].root)->margin,
                                      .no_plane = true, /* a solution is looked for, which it has none of */
                                      .effort = effort_for(model, t, in_vain),
                                      .most = MOST_BODIES};
@@ -394,10 +386,8 @@ static sunder_status go_on(sunder_i_solver *s, const asking *asked, size_t clust
         if (!status)
             status =
                 sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, resume_clusters, &g, err);
-        if (!status) {
-            sunder_i_solver_commit(s);
-            status = sunder_i_solver_take_over(s, err);
-        }
+        if (!status) status = sunder_i_solver_commit(s, err);
+        if (!status) status = sunder_i_solver_take_over(s, err);
         if (!status) status = sunder_i_solver_relate(s, err);
     }
     for (size_t k = 0; k < g.n; k++) sunder_i_free(list[k].restored);

@@ -229,8 +229,7 @@ sunder_status sunder_i_solver_retry(sunder_i_solver *s, sunder_error *err)
         status = sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, retry_clusters, &g, err);
     sunder_i_free(all.retry);
     sunder_i_free(all.relaxation);
-    if (status) return status;
-    sunder_i_solver_commit(s);
-    status = sunder_i_solver_take_over(s, err);
+    if (!status) status = sunder_i_solver_commit(s, err);
+    if (!status) status = sunder_i_solver_take_over(s, err);
     return status ? status : sunder_i_solver_relate(s, err);
 }

@@ -176,8 +176,8 @@ sunder_status sunder_i_solver_settle(sunder_i_solver *s, double from, double to,
         s->hopeless = !status && is_hopeless(s);
         if (status || s->hopeless) return status;
         sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
-        sunder_i_solver_commit(s);
-        status = note_solved(s, err);
+        status = sunder_i_solver_commit(s, err);
+        if (!status) status = note_solved(s, err);
         for (size_t k = 0; k < s->members; k++) s->carrier[s->body[k]] = SUNDER_I_NOBODY;
         if (!status) status = sunder_i_solver_take_over(s, err);
         if (!status) status = sunder_i_solver_relate(s, err);

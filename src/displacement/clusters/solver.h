@@ -39,6 +39,9 @@ typedef struct sunder_i_groups {
     bool any_seamed;
 } sunder_i_groups;
 
+/* Members of clusters are to be listed, whatever edges there are. */
+#define SUNDER_I_NONE_LISTED SIZE_MAX
+
 typedef struct sunder_i_solver {
     sunder_i_barriers barriers;
     sunder_layer layer; /* in the order of work, with parts of barriers behind the features */
@@ -80,6 +83,7 @@ typedef struct sunder_i_solver {
     double *move;   /* [2 * members] */
     sunder_i_cluster *cluster;
     size_t clusters;
+    size_t room, listed;    /* edges that there is room for here; and that member[] is of */
     bool brief;             /* the first cluster without a solution ends it: nothing is given up */
     bool hopeless;          /* there was one */
     sunder_i_groups groups; /* contact groups, and what is proved of them; with effort 0 nothing */
@@ -99,7 +103,8 @@ bool sunder_i_solver_add_edge(sunder_i_solver *solver, uint32_t i, uint32_t j);
 bool sunder_i_solver_has_member(const sunder_i_solver *solver, uint32_t root, uint32_t body);
 /* The members of the cluster of that root, ascending; NULL and none if it is no cluster's. */
 const uint32_t *sunder_i_solver_members(const sunder_i_solver *solver, uint32_t root, size_t *n);
-/* The cluster that the body is of, as they were last gathered; NULL: none. */
+/* The cluster of that root, or that the body is of, as they were last gathered; NULL: none. */
+sunder_i_cluster *sunder_i_solver_cluster_with(const sunder_i_solver *solver, uint32_t root);
 sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *solver, uint32_t body);
 /* Does any of them that may move have the flag? flag: [bodies] */
 bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body, size_t n, const bool *flag);
@@ -129,8 +134,9 @@ double *sunder_i_solver_load_moves(const sunder_i_solver *solver, const sunder_i
 /* Moves body b, unless it is fixed, by a move that was rounded; marks what changed. */
 void sunder_i_solver_place(sunder_i_solver *solver, uint32_t b, const double *move);
 /* Takes over the clusters' moves: bodies, features that changed, and whether their coordinates stayed exact. */
-void sunder_i_solver_commit(sunder_i_solver *solver);
-/* Exact relations of what changed. */
+sunder_status sunder_i_solver_commit(sunder_i_solver *solver, sunder_error *err);
+/* Exact relations of what changed; of what is few, with all things that were near one of them, then or now. */
 sunder_status sunder_i_solver_relate(sunder_i_solver *solver, sunder_error *err);
+sunder_status sunder_i_solver_relate_near(sunder_i_solver *solver, const sunder_i_list *things, sunder_error *err);
 
 #endif

@@ -77,6 +77,22 @@ static sunder_status put(sunder_i_trial *t, const double *to, sunder_error *err)
     return status;
 }
 
+/* Who is near the bodies of the trial as they stand. */
+static bool note_about(sunder_i_trial *t)
+{
+    const sunder_i_solver *s = t->solver;
+    bool ok = true;
+    for (size_t k = 0; k < t->n; k++) {
+        const sunder_i_body *body = &s->model.body[t->body[k]];
+        for (uint32_t m = 0; m < body->members && ok; m++) {
+            const uint32_t f = s->model.member[body->member + m];
+            if (s->model.present[f]) ok = sunder_i_placement_near(&s->model, &s->placement, f, &t->about);
+        }
+    }
+    t->about.n = ok ? sunder_i_set_make(t->about.item, t->about.n) : 0;
+    return ok;
+}
+
 /* Tries one place for them all: they stay there if all is well, else go back. */
 sunder_status sunder_i_trial_place(sunder_i_trial *t, const double to[2], sunder_error *err)
 {
@@ -84,7 +100,8 @@ sunder_status sunder_i_trial_place(sunder_i_trial *t, const double to[2], sunder
     t->well = false;
     if (!can_go(t, to)) return SUNDER_OK;
     t->well = true;
-    sunder_status status = put(t, to, err);
+    t->about.n = 0;
+    sunder_status status = note_about(t) ? put(t, to, err) : sunder_i_no_memory(err);
     for (size_t k = 0; k < t->n && t->well && !status; k++)
         status = sunder_i_placement_visit(&s->model, &s->placement, t->body[k], &t->near, look_at_pair, t, err);
     for (size_t k = 0; k < t->n && t->well && !status; k++) {
@@ -93,7 +110,7 @@ sunder_status sunder_i_trial_place(sunder_i_trial *t, const double to[2], sunder
         t->well = !jumps;
     }
     if (status) return status;
-    return t->well ? sunder_i_solver_relate(s, err) : put(t, NULL, err);
+    return t->well ? sunder_i_solver_relate_near(s, &t->about, err) : put(t, NULL, err);
 }
 
 bool sunder_i_trial_take_moved(sunder_i_trial *t, const sunder_i_cluster *c, const double *move)
@@ -118,4 +135,5 @@ void sunder_i_trial_free(sunder_i_trial *t)
     sunder_i_free(t->goal);
     sunder_i_free(t->taken);
     sunder_i_free(t->near.item);
+    sunder_i_free(t->about.item);
 }

@@ -16,9 +16,9 @@ typedef struct sunder_i_trial {
     bool *taken;    /* [bodies] where many are asked; else NULL */
     size_t *budget; /* bodies that may yet be moved in vain, for pairs of this cluster */
     const sunder_i_id_pair
-        *parted; /* bodies of which no pair may be in conflict, but for what is infeasible; or NULL */
-    sunder_i_list near;
-    bool well; /* so far */
+        *parted;               /* bodies of which no pair may be in conflict, but for what is infeasible; or NULL */
+    sunder_i_list near, about; /* scratch; who was near them where they stood */
+    bool well;                 /* so far */
 } sunder_i_trial;
 
 /* One more body, which stands where it does. False if memory is out. */

@@ -9,6 +9,8 @@
 #define MOST_MARGINS 14
 /* A round is taken for so much of what is left of the progress: few layers need more than some rounds. */
 #define SHARE_OF_ROUND 0.25
+/* Room for clusters is made for the edges that there are and such a part of them, for a round adds few. */
+#define SPARE_ROOM 8
 
 /* ---- Crowds (clusters.c) ----------------------------------------------------------------------------------------- */
 

@@ -25,39 +25,52 @@ static void box_of_pieces(const sunder_i_model *model, uint32_t thing, const dou
     if (beyond > 0) sunder_i_box_grow(box, beyond, box);
 }
 
-/* All bodies, one after the other. */
-static void cut_all(sunder_i_model *model)
+/* Where bodies are, and how many pieces each has. */
+static sunder_status measure_some(void *context, size_t begin, size_t end, sunder_error *err)
 {
-    size_t pieces = 0;
-    for (size_t b = 0; b < model->bodies; b++) {
+    (void)err;
+    sunder_i_model *model = context;
+    for (size_t b = begin; b < end; b++) {
         sunder_i_body *body = &model->body[b];
-        body->piece = (uint32_t)pieces;
         body->clear = INFINITY;
         sunder_i_box_clear(body->box);
         const uint32_t first = model->member[body->member];
         memcpy(body->origin, sunder_i_home_box(model, first), sizeof body->origin);
+        body->pieces = 0;
         for (uint32_t k = 0; k < body->members; k++) {
             const uint32_t f = model->member[body->member + k];
             double box[4];
             if (!model->present[f] || sunder_i_thing_shape(model, f)->pieces == 0) continue;
             box_of_pieces(model, f, body->origin, box);
             sunder_i_box_join(body->box, box);
-            pieces += sunder_i_thing_shape(model, f)->pieces;
+            body->pieces += sunder_i_thing_shape(model, f)->pieces;
         }
-        body->pieces = (uint32_t)pieces - body->piece;
+    }
+    return SUNDER_OK;
+}
+
+/* Pieces are numbered one body after the other. False if there are more than can be numbered. */
+static bool number_pieces(sunder_i_model *model, size_t *pieces)
+{
+    *pieces = 0;
+    for (size_t b = 0; b < model->bodies; b++) {
+        sunder_i_body *body = &model->body[b];
+        body->piece = (uint32_t)*pieces;
+        *pieces += body->pieces;
         if (body->pieces > model->most_pieces) model->most_pieces = body->pieces;
     }
+    return *pieces < UINT32_MAX;
 }
 
 sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
 {
-    size_t pieces = 0;
-    for (size_t f = 0; f < model->things; f++)
-        if (model->present[f]) pieces += sunder_i_thing_shape(model, f)->pieces;
-    if (pieces >= UINT32_MAX) return sunder_i_fail(err, SUNDER_ESIZE, "too many pieces: %zu", pieces);
+    size_t pieces;
+    sunder_status status =
+        sunder_i_parallel(model->rules.threads, model->bodies, SUNDER_I_GRAIN_LOOKS, measure_some, model, err);
+    if (status) return status;
+    if (!number_pieces(model, &pieces)) return sunder_i_fail(err, SUNDER_ESIZE, "too many pieces: %zu", pieces);
     model->whole = sunder_i_calloc(model->bodies, sizeof *model->whole);
     if (!sunder_i_pieces_begin(model) || !model->whole) return sunder_i_no_memory(err);
-    cut_all(model);
     return sunder_i_inclusion_walls(model, err);
 }
 

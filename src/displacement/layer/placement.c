@@ -223,21 +223,26 @@ static sunder_status classify(void *context, size_t begin, size_t end, sunder_er
     return SUNDER_OK;
 }
 
+bool sunder_i_placement_near(const sunder_i_model *model, const sunder_i_placement *placement, uint32_t thing,
+                             sunder_i_list *near)
+{
+    double box[4];
+    sunder_i_box_grow(sunder_i_rtree_box(&placement->tree, thing), fmax(model->rules.gap, model->rules.tolerance), box);
+    return sunder_i_rtree_query(&placement->tree, box, near);
+}
+
 sunder_status sunder_i_placement_visit(const sunder_i_model *model, const sunder_i_placement *placement, uint32_t body,
                                        sunder_i_list *near, sunder_i_visit_relation visit, void *context,
                                        sunder_error *err)
 {
     const sunder_i_body *b = &model->body[body];
-    const double reach = fmax(model->rules.gap, model->rules.tolerance);
     sunder_status status = SUNDER_OK;
     bool on = true;
     for (uint32_t m = 0; m < b->members && on && !status; m++) {
         const uint32_t f = model->member[b->member + m];
-        double box[4];
         if (!model->present[f]) continue;
-        sunder_i_box_grow(sunder_i_rtree_box(&placement->tree, f), reach, box);
         near->n = 0;
-        if (!sunder_i_rtree_query(&placement->tree, box, near)) return sunder_i_no_memory(err);
+        if (!sunder_i_placement_near(model, placement, f, near)) return sunder_i_no_memory(err);
         if (near->n) qsort(near->item, near->n, sizeof *near->item, sunder_i_by_number);
         for (size_t k = 0; k < near->n && on && !status; k++) {
             const uint32_t g = near->item[k];
@@ -398,18 +403,38 @@ sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunde
     return SUNDER_OK;
 }
 
+/* Puts these in place of pairs that are listed, if those are all there are of two among `things`, of which one changed.
+ * Few change by hairs, at places far from each other: who is near them stays the same, and all other pairs are left
+ * alone. */
+static bool replace(const sunder_i_changes *changes, const sunder_i_list *things, const sunder_i_relation *pair,
+                    size_t n, sunder_i_relations *relations)
+{
+    size_t listed = 0;
+    for (size_t k = 0; k < changes->list.n; k++)
+        for (size_t l = 0; l < things->n; l++) {
+            const uint32_t f = changes->list.item[k], g = things->item[l];
+            if (f == g || (changes->is[g] && g < f)) continue;
+            listed += sunder_i_relations_find(relations, f < g ? f : g, f < g ? g : f) != NULL;
+        }
+    bool all = listed == n;
+    for (size_t k = 0; k < n && all; k++) all = sunder_i_relations_find(relations, pair[k].a, pair[k].b);
+    for (size_t k = 0; k < n && all; k++)
+        relations->pair[sunder_i_relations_find(relations, pair[k].a, pair[k].b) - relations->pair] = pair[k];
+    return all;
+}
+
 sunder_status sunder_i_placement_relate_again(const sunder_i_model *model, const sunder_i_placement *placement,
-                                              const sunder_i_changes *changes, sunder_i_relations *relations,
-                                              sunder_error *err)
+                                              const sunder_i_changes *changes, const sunder_i_list *things,
+                                              sunder_i_relations *relations, sunder_error *err)
 {
     classification c = {model, placement, changes->is, relations, NULL};
     size_t n = 0, tested = 0;
     sunder_status status = relate_changed(&c, changes, &n, &tested, err);
-    if (!status) {
+    if (!status && !(things && replace(changes, things, c.pair, n, relations))) {
         drop_changed(changes->is, relations);
         if (!put_in(relations, c.pair, n)) status = sunder_i_no_memory(err);
-        relations->tested = tested;
     }
+    if (!status) relations->tested = tested;
     sunder_i_free(c.pair);
     SUNDER_I_CHECK(check(relations), relations->n);
     return status;

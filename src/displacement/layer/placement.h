@@ -47,10 +47,15 @@ void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *pl
 sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunder_i_placement *placement,
                                         const sunder_i_changes *changes, sunder_i_relations *relations,
                                         sunder_error *err);
-/* Relations when all but these (sorted) stood as now, brought up to date. On failure they may lack some. */
+/* Relations when all but these (sorted) stood as now, brought up to date. things: NULL, or all of which any was near
+ * one of these, then or now, once each: with few of them it takes no look at the rest. On failure relations may lack
+ * some. */
 sunder_status sunder_i_placement_relate_again(const sunder_i_model *model, const sunder_i_placement *placement,
-                                              const sunder_i_changes *changes, sunder_i_relations *relations,
-                                              sunder_error *err);
+                                              const sunder_i_changes *changes, const sunder_i_list *things,
+                                              sunder_i_relations *relations, sunder_error *err);
+/* Appends what stands near a thing, itself among it. False if memory is out. */
+bool sunder_i_placement_near(const sunder_i_model *model, const sunder_i_placement *placement, uint32_t thing,
+                             sunder_i_list *near);
 
 /* Called for the relations of one body's members to those of others, as they stand, until *on is false; near:
  * scratch. */
