@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_VERTICES = 64, MAX_RINGS = 8 };
+enum { MAX_VERTICES = 64, MAX_RINGS = 8, MAX_VERTICES_ANY = 4 };
 
 /* libFuzzer runs one input at a time; the library's own threads only read and decrease the count. */
 static _Atomic unsigned allocations_left;
@@ -64,17 +64,18 @@ unsigned fuzz_byte(fuzz_bytes *bytes)
 
 fuzz_scale fuzz_choose_scale(fuzz_bytes *bytes)
 {
-    unsigned byte = fuzz_byte(bytes), lot = byte % 8;
-    return lot < 5 ? FUZZ_GRID : lot < 7 ? FUZZ_MAP : byte / 8 != 16 ? FUZZ_NEAR : FUZZ_ANY;
+    unsigned byte = fuzz_byte(bytes), lot = byte % 8, of_doubles = byte / 8;
+    if (lot < 7) return lot < 5 ? FUZZ_GRID : FUZZ_MAP;
+    return of_doubles == 16 ? FUZZ_ANY : of_doubles % 16 == 8 ? FUZZ_FAR : FUZZ_NEAR;
 }
 
-/* The same number near to one, between 2^-32 and 2^32; zeros and what is no number stay what they are. */
-static double fold(double value)
+/* The same number within so many binary orders of magnitude about one; zeros and what is no number stay. */
+static double fold(double value, int orders)
 {
     if (value == 0 || !isfinite(value)) return value;
     int exponent;
     const double mantissa = frexp(value, &exponent);
-    return ldexp(mantissa, ((exponent % 64) + 64) % 64 - 31);
+    return ldexp(mantissa, (exponent % orders + orders) % orders - orders / 2 + 1);
 }
 
 double fuzz_coordinate(fuzz_bytes *bytes, fuzz_scale scale)
@@ -88,14 +89,16 @@ double fuzz_coordinate(fuzz_bytes *bytes, fuzz_scale scale)
     double value;
     for (size_t i = 0; i < sizeof raw; ++i) raw[i] = (uint8_t)fuzz_byte(bytes);
     memcpy(&value, raw, sizeof value);
-    return scale == FUZZ_NEAR ? fold(value) : value;
+    return scale == FUZZ_ANY ? value : fold(value, scale == FUZZ_NEAR ? 16 : 64);
 }
 
 sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertices)
 {
     double xy[2 * MAX_VERTICES];
     size_t ring_end[MAX_RINGS], poly_end[MAX_RINGS], n = 0, rings = 0, polygons = 0;
-    size_t most = max_vertices < MAX_VERTICES ? max_vertices : MAX_VERTICES;
+    const size_t most = scale == FUZZ_ANY             ? MAX_VERTICES_ANY
+                        : max_vertices < MAX_VERTICES ? max_vertices
+                                                      : MAX_VERTICES;
     unsigned plan = fuzz_byte(bytes);
     size_t wanted = 1 + plan % 3;
     sunder_validity validity = plan & 8 ? SUNDER_VALIDITY_STRICT : SUNDER_VALIDITY_EVEN_ODD;

@@ -1,6 +1,6 @@
 /* From a fuzzer's bytes to arguments. Most bytes give small shapes on a small grid, where everything touches and
- * coincides; some give map coordinates, some doubles of 64 binary orders of magnitude, and a few any double at all:
- * half of the time went into products of thousands of bits when as many did as now are near to one. */
+ * coincides; some give map coordinates, some doubles of 16 binary orders of magnitude, and a few doubles of 64 orders,
+ * or any at all, but not many: products of thousands of bits take most of the time wherever they are let. */
 #ifndef SUNDER_TEST_FUZZ_BYTES_H
 #define SUNDER_TEST_FUZZ_BYTES_H
 
@@ -15,7 +15,7 @@ typedef struct fuzz_bytes {
     size_t left;
 } fuzz_bytes;
 
-typedef enum fuzz_scale { FUZZ_GRID, FUZZ_MAP, FUZZ_NEAR, FUZZ_ANY } fuzz_scale;
+typedef enum fuzz_scale { FUZZ_GRID, FUZZ_MAP, FUZZ_NEAR, FUZZ_FAR, FUZZ_ANY } fuzz_scale;
 
 /* The next byte; 0 when there are no more. */
 unsigned fuzz_byte(fuzz_bytes *bytes);
