@@ -35,6 +35,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->now.pair);
     sunder_i_free(s->entry);
     sunder_i_free(s->edge);
+    sunder_i_free(s->conflict_root);
     sunder_i_free(s->parent);
     sunder_i_free(s->dirty);
     sunder_i_free(s->widened);
@@ -93,9 +94,12 @@ sunder_status sunder_i_solver_init(sunder_i_solver *s, sunder_error *err)
 
 /* ---- Conflicts and edges ----------------------------------------------------------------------------------------- */
 
-void sunder_i_solver_join_conflicts(const sunder_i_solver *s, uint32_t *root)
+const uint32_t *sunder_i_solver_conflict_roots(sunder_i_solver *s)
 {
     const sunder_i_model *model = &s->model;
+    if (s->conflict_root) return s->conflict_root;
+    uint32_t *root = s->conflict_root = sunder_i_alloc(model->bodies, sizeof *root);
+    if (!root) return NULL;
     sunder_i_union_init(root, model->bodies);
     for (size_t k = 0; k < s->start.n; k++) {
         const sunder_i_relation *r = &s->start.pair[k];
@@ -104,6 +108,7 @@ void sunder_i_solver_join_conflicts(const sunder_i_solver *s, uint32_t *root)
         sunder_i_union_join(root, i, j);
     }
     for (size_t b = 0; b < model->bodies; b++) root[b] = sunder_i_union_find(root, (uint32_t)b);
+    return root;
 }
 
 /* ---- Clusters ---------------------------------------------------------------------------------------------------- */

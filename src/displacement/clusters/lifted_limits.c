@@ -27,13 +27,12 @@
 static bool set_aside(sunder_i_solver *s)
 {
     sunder_i_model *model = &s->model;
-    uint32_t *root = sunder_i_alloc(model->bodies, sizeof *root);
+    const uint32_t *root = sunder_i_solver_conflict_roots(s);
     bool *hard = sunder_i_calloc(model->bodies, sizeof *hard);
     const bool ok = root && hard;
     s->waiting = model->relaxations;
     memset(&model->relaxations, 0, sizeof model->relaxations);
     if (ok) {
-        sunder_i_solver_join_conflicts(s, root);
         for (size_t k = 0; k < s->waiting.n; k++) {
             hard[root[model->body_of[s->waiting.item[k].a]]] = true;
             hard[root[model->body_of[s->waiting.item[k].b]]] = true;
@@ -42,7 +41,6 @@ static bool set_aside(sunder_i_solver *s)
             hard[root[model->body_of[s->entry[k].a]]] = hard[root[model->body_of[s->entry[k].b]]] = true;
         for (size_t b = 0; b < model->bodies; b++) s->aside[b] = !model->body[b].fixed && hard[root[b]];
     }
-    sunder_i_free(root);
     sunder_i_free(hard);
     return ok;
 }

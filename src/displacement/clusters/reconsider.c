@@ -24,7 +24,7 @@ typedef struct component {
 
 /* The layer's conflicts at the start, by components; a fixed body joins none. */
 typedef struct components {
-    uint32_t *root_of; /* [bodies] */
+    const uint32_t *root_of; /* [bodies] lent */
     component *component;
     size_t n;
     sunder_i_id_pair *pair;
@@ -43,11 +43,10 @@ static int by_root(const void *a, const void *b)
     return sunder_i_by_id_pair(&p->pair, &q->pair);
 }
 
-static size_t list_pairs(const sunder_i_solver *s, uint32_t *root_of, rooted *list)
+static size_t list_pairs(const sunder_i_solver *s, const uint32_t *root_of, rooted *list)
 {
     const sunder_i_model *model = &s->model;
     size_t n = 0;
-    sunder_i_solver_join_conflicts(s, root_of);
     for (size_t k = 0; k < s->start.n; k++) {
         const sunder_i_relation *r = &s->start.pair[k];
         if (!sunder_i_is_conflict_of_bodies(model, r)) continue;
@@ -65,16 +64,15 @@ static size_t list_pairs(const sunder_i_solver *s, uint32_t *root_of, rooted *li
 
 static void free_components(components *c)
 {
-    sunder_i_free(c->root_of);
     sunder_i_free(c->component);
     sunder_i_free(c->pair);
     sunder_i_free(c->body);
 }
 
-static sunder_status find_components(const sunder_i_solver *s, components *out, sunder_error *err)
+static sunder_status find_components(sunder_i_solver *s, components *out, sunder_error *err)
 {
     const size_t most = s->start.n;
-    *out = (components){.root_of = sunder_i_alloc(s->model.bodies, sizeof *out->root_of),
+    *out = (components){.root_of = sunder_i_solver_conflict_roots(s),
                         .component = sunder_i_alloc(most, sizeof *out->component),
                         .pair = sunder_i_alloc(most, sizeof *out->pair),
                         .body = sunder_i_alloc(2 * most, sizeof *out->body)};

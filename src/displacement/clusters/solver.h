@@ -56,6 +56,7 @@ typedef struct sunder_i_solver {
     size_t entries, entry_capacity;
     sunder_i_id_pair *edge;
     size_t edges, edge_capacity;
+    uint32_t *conflict_root;  /* see sunder_i_solver_conflict_roots() */
     uint32_t *parent;         /* [bodies] union-find over edges */
     bool *dirty;              /* [bodies] to be solved (again) */
     unsigned char *widened;   /* [bodies] how often the margin grew */
@@ -95,8 +96,9 @@ void sunder_i_solver_free(sunder_i_solver *solver);
 
 /* ---- clusters.c: edges and clusters ------------------------------------------------------------------------------ */
 
-/* Components of the conflicts at the start, by their roots; a fixed body joins none. root: [bodies] */
-void sunder_i_solver_join_conflicts(const sunder_i_solver *solver, uint32_t *root);
+/* [bodies] The components of the conflicts at the start, by their roots, lent; a fixed body joins none. NULL if memory
+ * is out. Not for several threads at a time: they are found when somebody first asks. */
+const uint32_t *sunder_i_solver_conflict_roots(sunder_i_solver *solver);
 /* An edge between bodies, which makes them dirty. False if memory is out. */
 bool sunder_i_solver_add_edge(sunder_i_solver *solver, uint32_t i, uint32_t j);
 /* Was the body a member of the cluster of that root when they were last gathered? */

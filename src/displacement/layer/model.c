@@ -6,6 +6,7 @@
 #include "base/union_find.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -78,31 +79,36 @@ sunder_i_translate sunder_i_at_home(const sunder_i_model *model, uint32_t f)
 typedef struct presence {
     sunder_i_model *model;
     double *box; /* [things][4] */
+    atomic_size_t vertices;
 } presence;
 
 static sunder_status find_some_present(void *context, size_t begin, size_t end, sunder_error *err)
 {
     (void)err;
-    const presence *p = context;
+    presence *p = context;
+    size_t vertices = 0;
     for (size_t f = begin; f < end; f++) {
         const sunder_feature feature = sunder_i_feature(p->model->layer, f);
         double *box = p->box + 4 * f;
+        if (feature.shape && f < p->model->features) vertices += sunder_shape_vertices(feature.shape);
         p->model->present[f] = sunder_i_is_present(&feature);
         if (!p->model->present[f]) continue;
         sunder_shape_box(feature.shape, box);
         const double beyond = sunder_i_reach_beyond(p->model, (uint32_t)f);
         if (beyond > 0) sunder_i_box_grow(box, beyond, box);
     }
+    atomic_fetch_add(&p->vertices, vertices);
     return SUNDER_OK;
 }
 
 /* Who is there, and the tree over these. */
 static sunder_status build_tree(sunder_i_model *model, sunder_error *err)
 {
-    presence p = {model, sunder_i_alloc(4 * model->things, sizeof *p.box)};
+    presence p = {model, sunder_i_alloc(4 * model->things, sizeof *p.box), 0};
     if (!p.box) return sunder_i_no_memory(err);
     sunder_status status =
         sunder_i_parallel(model->rules.threads, model->things, SUNDER_I_GRAIN_LOOKS, find_some_present, &p, err);
+    model->vertices = p.vertices;
     if (!status) status = sunder_i_rtree_build(p.box, model->present, model->things, &model->tree, err);
     sunder_i_free(p.box);
     return status;

@@ -106,6 +106,7 @@ struct sunder_i_model {
     const sunder_i_barriers *barriers;
     size_t bodies;
     size_t features, things; /* features come first, then parts of barriers, which are fixed bodies each */
+    size_t vertices;         /* of the features */
     uint32_t *body_of;       /* [things] */
     uint32_t *member;        /* [things] things by body */
     sunder_i_body *body;

@@ -35,9 +35,9 @@ sunder_status sunder_i_report_features(sunder_report *r, const sunder_i_model *m
     r->block = sunder_i_calloc(n, sizeof *r->block);
     if (!r->move || !r->status || !r->block) return sunder_i_no_memory(err);
     report_blocks(r, model);
+    r->summary.vertices = model->vertices;
     for (size_t f = 0; f < n; f++) {
         const sunder_feature feature = sunder_i_feature(model->layer, f);
-        if (feature.shape) r->summary.vertices += sunder_shape_vertices(feature.shape);
         const bool fixed = model->body[model->body_of[f]].fixed;
         r->status[f] = feature.ignored ? SUNDER_FEATURE_SKIPPED : fixed ? SUNDER_FEATURE_FIXED : SUNDER_FEATURE_UNMOVED;
         if (feature.ignored) r->summary.skipped++;

@@ -20,7 +20,7 @@
 #define LOOKED_UP 2
 
 typedef struct looking {
-    const sunder_i_solver *solver;
+    sunder_i_solver *solver;
     double *far;     /* [bodies] how far it goes, with a little to spare; negative: it is not asked about */
     bool *met;       /* [bodies] */
     bool *gathered;  /* [bodies] by its root: the cluster is asked about */
@@ -80,24 +80,22 @@ static void ask_all(looking *l)
  * (clusters/reconsider.c), and the clusters of the two, since those are by themselves. */
 static bool ask_given_up(looking *l)
 {
-    const sunder_i_solver *s = l->solver;
-    const sunder_i_model *model = &s->model;
+    const sunder_i_model *model = &l->solver->model;
+    const sunder_i_relations *start = &l->solver->start;
     if (model->given_up_n == 0) return true;
-    uint32_t *root = sunder_i_alloc(model->bodies, sizeof *root);
+    const uint32_t *root = sunder_i_solver_conflict_roots(l->solver);
     bool *asked = sunder_i_calloc(model->bodies, sizeof *asked);
-    if (root && asked) sunder_i_solver_join_conflicts(s, root);
     for (size_t k = 0; k < model->given_up_n && root && asked; k++) {
         const uint32_t i = model->given_up[k].a, j = model->given_up[k].b;
         asked[root[i]] = asked[root[j]] = true;
         ask_pair(l, i, j);
     }
-    for (size_t k = 0; k < s->start.n && root && asked; k++) {
-        const sunder_i_relation *r = &s->start.pair[k];
+    for (size_t k = 0; k < start->n && root && asked; k++) {
+        const sunder_i_relation *r = &start->pair[k];
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
         if (sunder_i_is_conflict_of_bodies(model, r) && (asked[root[i]] || asked[root[j]])) ask_pair(l, i, j);
     }
     const bool ok = root && asked;
-    sunder_i_free(root);
     sunder_i_free(asked);
     return ok;
 }
