@@ -115,6 +115,17 @@ static bool is_known(const reordering *r, double cost)
     return false;
 }
 
+/* Is there nothing to be had from where all stand? A start that was tried ends where it did; and what clashes, and yet
+ * costs less than what stands, is dearer when nothing clashes any more: of 630 such of a town of 100,000 three came to
+ * anything, and that was next to nothing. */
+static bool is_in_vain(reordering *r, double start)
+{
+    sunder_i_search *s = r->search;
+    if (is_known(r, start)) return true;
+    r->tried[r->tries++] = start;
+    return start < r->cost && sunder_i_search_look(s, s->t) > s->tolerance;
+}
+
 /* The n bodies in r->out are taken out and put back in this order, and all go down. Who finds no place stays at
  * home, for all of them to make room. Returns how much of no use that was. */
 static size_t put_back(reordering *r, size_t n)
@@ -133,14 +144,11 @@ static size_t put_back(reordering *r, size_t n)
         s->away[i] = false;
     }
     const double start = sunder_i_search_cost(s, s->t), before = r->cost;
-    const bool known = is_known(r, start);
+    const bool in_vain = is_in_vain(r, start);
     s->program.n = 0; /* the forces belong to places that are left */
-    if (!known) {
-        r->tried[r->tries++] = start;
-        sunder_i_search_attempt(s, r->best, &r->cost);
-    }
+    if (!in_vain) sunder_i_search_attempt(s, r->best, &r->cost);
     memcpy(s->t, r->best, 2 * s->n * sizeof *r->best);
-    return known ? KNOWN : !(r->cost < before);
+    return in_vain ? ORDER_IN_VAIN : !(r->cost < before);
 }
 
 /* About what it takes to look for room for all that may move, in pairs of pieces. */
