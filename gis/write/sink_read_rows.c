@@ -10,12 +10,11 @@
 #include "base/beside.h"
 #include "base/resources.h"
 #include "read/blob.h"
+#include "sqlite/again.h"
 #include "sqlite/select.h"
 #include "write/sql.h"
 
 #include <cpl_conv.h>
-#include <inttypes.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 enum { POINT_BYTES = 16 };
@@ -126,47 +125,22 @@ static bool row(const gis_digests *all, void *statement, gis_digest *out)
 
 /* ---- Stretches of a layer ---------------------------------------------------------------------------------------- */
 
-/* FIDs up to `last`, or beyond; or all. */
-typedef enum stretch { ALL, UP_TO, BEYOND } stretch;
-
-static char *select_statement(const gis_digests *all, OGRLayerH layer, stretch which, int64_t last)
+static char *select_statement(const gis_digests *all, OGRLayerH layer)
 {
-    static const char *const compared[] = {NULL, "<=", ">"};
     char *sql = gis_sql_append_name(CPLStrdup("SELECT "), OGR_L_GetFIDColumn(layer));
     sql = gis_sql_append_name(gis_sql_append(sql, ", "), OGR_L_GetGeometryColumn(layer));
     for (size_t i = 0; i < all->n_fields; i++)
         sql = gis_sql_append_name(gis_sql_append(sql, ", "), all->fields[i].name);
-    sql = gis_sql_append_name(gis_sql_append(sql, " FROM "), OGR_L_GetName(layer));
-    if (which == ALL) return sql;
-    sql = gis_sql_append_name(gis_sql_append(sql, " WHERE "), OGR_L_GetFIDColumn(layer));
-    char number[64];
-    snprintf(number, sizeof number, " %s %" PRId64, compared[which], last);
-    return gis_sql_append(sql, number);
+    return gis_sql_append_name(gis_sql_append(sql, " FROM "), OGR_L_GetName(layer));
 }
 
-static void *begin_stretch(const gis_digests *all, void *database, OGRLayerH layer, stretch which, int64_t last)
+static void *begin_stretch(const gis_digests *all, void *database, OGRLayerH layer, gis_sqlite_stretch which,
+                           int64_t last)
 {
-    char *sql = select_statement(all, layer, which, last);
+    char *sql = gis_sql_append_stretch(select_statement(all, layer), OGR_L_GetFIDColumn(layer), which, last);
     void *statement = gis_sqlite_select_begin(database, sql);
     CPLFree(sql);
     return statement;
-}
-
-/* The FID in the middle between the first and the last. */
-static bool find_middle(void *database, OGRLayerH layer, int64_t *middle)
-{
-    char *sql = gis_sql_append_name(CPLStrdup("SELECT min("), OGR_L_GetFIDColumn(layer));
-    sql = gis_sql_append_name(gis_sql_append(sql, "), max("), OGR_L_GetFIDColumn(layer));
-    sql = gis_sql_append_name(gis_sql_append(sql, ") FROM "), OGR_L_GetName(layer));
-    void *statement = gis_sqlite_select_begin(database, sql);
-    CPLFree(sql);
-    gis_value least, most;
-    const bool done = statement && gis_sqlite_select_next(statement) == GIS_SQLITE_HAS_ROW &&
-                      gis_sqlite_select_value(statement, 0, &least) && least.kind == GIS_INTEGER &&
-                      gis_sqlite_select_value(statement, 1, &most) && most.kind == GIS_INTEGER;
-    if (done) *middle = least.as.integer / 2 + most.as.integer / 2;
-    gis_sqlite_select_end(statement);
-    return done;
 }
 
 /* ---- The other half, on another thread --------------------------------------------------------------------------- */
@@ -220,9 +194,11 @@ static bool read_halves(gis_sink_layer *layer, void *database, void *other, OGRL
 {
     gis_digests *all = &layer->digests;
     int64_t middle;
-    if (!find_middle(database, as_written, &middle)) return false;
-    half second = {.all = all, .statement = begin_stretch(all, other, as_written, BEYOND, middle)};
-    void *first = begin_stretch(all, database, as_written, UP_TO, middle);
+    uint64_t span;
+    if (!gis_sqlite_find_middle(database, OGR_L_GetName(as_written), OGR_L_GetFIDColumn(as_written), &middle, &span))
+        return false;
+    half second = {.all = all, .statement = begin_stretch(all, other, as_written, GIS_SQLITE_BEYOND, middle)};
+    void *first = begin_stretch(all, database, as_written, GIS_SQLITE_UP_TO, middle);
     bool done = first && second.statement;
     if (done) {
         gis_beside *beside = gis_beside_new();
@@ -241,7 +217,7 @@ static bool read_halves(gis_sink_layer *layer, void *database, void *other, OGRL
 
 static bool read_all(gis_sink_layer *layer, void *database, OGRLayerH as_written, gis_digests_read *read)
 {
-    void *statement = begin_stretch(&layer->digests, database, as_written, ALL, 0);
+    void *statement = begin_stretch(&layer->digests, database, as_written, GIS_SQLITE_ALL, 0);
     const bool done = read_stretch(&layer->digests, statement, read);
     gis_sqlite_select_end(statement);
     return done;
@@ -256,27 +232,22 @@ static bool may_be_plain(const gis_sink_layer *layer, GDALDatasetH dataset, OGRL
            OGR_L_GetFIDColumn(as_written)[0] && OGR_L_GetGeometryColumn(as_written)[0];
 }
 
-static void *database_of(GDALDatasetH dataset)
-{
-    return dataset ? GDALGetInternalHandle(dataset, "SQLITE_HANDLE") : NULL;
-}
-
 /* The file once more, for a layer that takes longer to read than that; NULL: there is no other thread for it. */
-static GDALDatasetH open_again(const gis_sink_layer *layer, GDALDatasetH dataset)
+static void *open_again(const gis_sink_layer *layer, void *database)
 {
     if (layer->written < MANY_ROWS || gis_threads(layer->sink->request.threads) == 1) return NULL;
-    return GDALOpenEx(GDALGetDescription(dataset), GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
+    return gis_sqlite_again_open(database);
 }
 
 bool gis_read_rows(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written, gis_digests_read *read)
 {
-    void *database = may_be_plain(layer, dataset, as_written) ? database_of(dataset) : NULL;
+    void *database =
+        may_be_plain(layer, dataset, as_written) ? GDALGetInternalHandle(dataset, "SQLITE_HANDLE") : NULL;
     if (!database) return false;
-    GDALDatasetH again = open_again(layer, dataset);
-    void *other = database_of(again);
+    void *other = open_again(layer, database);
     const bool done =
         other ? read_halves(layer, database, other, as_written, read) : read_all(layer, database, as_written, read);
-    if (again) GDALClose(again);
+    gis_sqlite_again_close(other);
     if (done && read->n == layer->written) return true;
     free(read->at);
     *read = (gis_digests_read){0};
