@@ -2,6 +2,7 @@
  * off, points as the symbol drawn at them. What cannot conflict (null, empty, of another kind, invalid with --invalid
  * skip) has no shape and passes through as skipped. */
 #include "layer/input.h"
+#include "layer/shapes_ahead.h"
 
 #include "base/core.h"
 #include "base/interrupt.h"
@@ -57,10 +58,7 @@ static bool polygon_shape(gis_layer_input *input, size_t i, gis_polygonal_part *
     if (!gis_source_polygons(input->source, i, part, error)) return false;
     if (input->request->wound) gis_polygons_wind(&part->set);
     /* Almost all are valid and without arcs: nobody asks what they are called. */
-    sunder_error why;
-    if (!(part->linearised > 0) &&
-        gis_polygons_shape(&part->set, SUNDER_VALIDITY_STRICT, &input->shape[i], &why) == SUNDER_OK)
-        return true;
+    if (gis_layer_plain_shape(input, part, i)) return true;
     gis_feature_name(input, i, who, sizeof who);
     if (!gis_shape_of_feature(&part->set, input->request->invalid, who, "invalid: ", &shape, &invalid, error))
         return false;
@@ -230,12 +228,13 @@ bool gis_layer_shapes(gis_layer_input *input, gis_error *error)
 {
     gis_content wanted = input->points ? GIS_POINTS : GIS_POLYGONS;
     bool ok = begin_shaping(input, error);
+    if (ok) gis_layer_shapes_ahead(input);
     for (size_t i = 0; ok && i < input->n; i++) {
         gis_content content = gis_source_content(input->source, i);
         input->null += content == GIS_NOTHING;
         input->other += content != GIS_NOTHING && content != wanted;
         ok = gis_go_on(error);
-        if (ok && content == wanted)
+        if (ok && content == wanted && !input->shape[i])
             ok = input->points ? point_shape(input, i, input->shaping, error)
                                : polygon_shape(input, i, &input->shaping->part, error);
     }

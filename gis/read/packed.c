@@ -14,7 +14,7 @@
 
 enum { UNSET, EMPTY, VALUE }; /* of a field: not set, null, or what follows */
 
-enum { CHUNK = 1 << 20 };
+enum { CHUNK = 4 << 20 };
 
 #define BORROWS UINT32_C(0x80000000) /* no geometry has so many bytes: they fit an int */
 #define BORROWS_MULTI UINT32_C(0x40000000)
@@ -50,6 +50,22 @@ void gis_packed_clear(gis_packed *packed)
     free(packed->type);
     free(packed->moved);
     *packed = (gis_packed){0};
+}
+
+/* What room the last chunk had left is given up. */
+bool gis_packed_join(gis_packed *packed, gis_packed *from)
+{
+    const size_t chunks = packed->chunks + from->chunks;
+    if (!gis_array_reserve(&packed->chunk, &packed->capacity, chunks, sizeof *packed->chunk)) return false;
+    if (from->chunks) {
+        memcpy(packed->chunk + packed->chunks, from->chunk, from->chunks * sizeof *from->chunk);
+        packed->used = from->used;
+        packed->room = from->room;
+    }
+    packed->chunks = chunks;
+    from->chunks = 0;
+    gis_packed_clear(from);
+    return true;
 }
 
 /* So many bytes behind the last record; NULL if memory is out. */

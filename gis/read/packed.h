@@ -42,6 +42,9 @@ const unsigned char *gis_packed_add_row(gis_packed *packed, GIntBig fid, const u
  * just that, the new record has no vertices of its own, and takes them from that shape, which has to outlive it: most
  * of what a layer takes is these. */
 const unsigned char *gis_packed_add_borrowing(gis_packed *packed, const unsigned char *record, size_t i);
+/* Records of `from`, of the same layer, are the other's from now on, and stay where they are; it is cleared. False if
+ * memory is out: then nothing has changed. */
+bool gis_packed_join(gis_packed *packed, gis_packed *from);
 void gis_packed_clear(gis_packed *packed);
 
 GIntBig gis_packed_fid(const unsigned char *record);

@@ -6,6 +6,8 @@
 #include "base/array.h"
 #include "base/interrupt.h"
 #include "base/message.h"
+#include "base/resources.h"
+#include "read/borrow.h"
 #include "read/packed.h"
 #include "read/source_layer.h"
 #include "read/source_mark.h"
@@ -259,7 +261,8 @@ static bool read_table(gis_source *source, const gis_source_request *request, gi
     const bool whole = request && !source->batch && !request->sql && !request->bbox && !request->within &&
                        !request->where && !request->wants;
     if (!whole || !source->may_pack) return true;
-    if (!gis_table_read(source->dataset, source->layer, source->packed, keep_record, source, &source->ended, error))
+    if (!gis_table_read(source->dataset, source->layer, gis_threads(request->threads), source->packed, keep_record,
+                        source, &source->ended, error))
         return false;
     if (source->ended) return true;
     drop_features(source);
@@ -496,6 +499,8 @@ OGRGeometryH gis_source_geometry(const gis_source *source, size_t i)
     return OGR_F_GetGeometryRef(gis_source_feature(source, i));
 }
 
+bool gis_source_is_packed(const gis_source *source, size_t i) { return source->contents[i] & RECORD; }
+
 bool gis_source_polygons(const gis_source *source, size_t i, gis_polygonal_part *part, gis_error *error)
 {
     const gis_read_feature read = read_of(source, i);
@@ -530,25 +535,22 @@ bool gis_source_put(const gis_source *source, size_t i, const int *map, double d
     return gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error);
 }
 
-bool gis_source_borrow(gis_source *source, sunder_shape *const *shape, gis_error *error)
+bool gis_source_borrow(gis_source *source, sunder_shape *const *shape, unsigned threads, gis_error *error)
 {
     gis_packed lean;
     if (!source->may_pack || !gis_packed_begin(&lean, source->layer, error)) return !source->may_pack;
     lean.shape = shape;
     /* Once more only where all of it succeeds: what is there is good until then. */
     const unsigned char **record = malloc((source->n + 1) * sizeof *record);
-    bool ok = record != NULL;
-    for (size_t i = 0; i < source->n && ok; i++) {
-        const gis_read_feature read = read_of(source, i);
-        record[i] = read.feature ? NULL : gis_packed_add_borrowing(&lean, read.record, i);
-        ok = read.feature || record[i];
-    }
+    for (size_t i = 0; i < source->n && record; i++) record[i] = read_of(source, i).record;
+    const bool ok = record ? gis_borrow(&lean, source->layer, record, source->n, gis_threads(threads), error)
+                           : gis_no_memory(error);
     for (size_t i = 0; i < source->n && ok; i++)
         if (record[i]) source->held[i] = record[i];
     free(record);
     gis_packed_clear(ok ? source->packed : &lean);
     if (ok) *source->packed = lean;
-    return ok || gis_no_memory(error);
+    return ok;
 }
 
 bool gis_source_unpack(gis_source *source, gis_error *error)

@@ -44,8 +44,9 @@ typedef struct gis_source_request {
     bool (*within)(void *user, OGRLayerH layer, OGRSpatialReferenceH crs, double box[4]);
     /* NULL, or says of each feature as it is read whether it is to be kept. */
     bool (*wants)(void *user, OGRSpatialReferenceH crs, OGRFeatureH feature);
-    void *user;   /* of these two */
-    bool packed;  /* features are packed where they can be: one at a time is asked for, and by one thread */
+    void *user;       /* of these two */
+    bool packed;      /* features are packed where they can be: one at a time is asked for, and by one thread */
+    unsigned threads; /* to read on; 0: as many as there are processors */
     size_t batch; /* so many features are read at a time, or fewer that are large; 0: all. Not together with wants */
     const gis_source_facts *facts; /* NULL, or what was found when the same was read before */
     bool fids_mean_nothing;        /* FIDs are known not to be unique: gis_source_mark() does not go by them */
@@ -83,6 +84,8 @@ size_t gis_source_count(const gis_source *source);
 OGRFeatureH gis_source_feature(const gis_source *source, size_t i);
 /* Its geometry; NULL if it has none. */
 OGRGeometryH gis_source_geometry(const gis_source *source, size_t i);
+/* Is it packed? Then nobody else has to wait while its polygons are asked for, until records borrow vertices. */
+bool gis_source_is_packed(const gis_source *source, size_t i);
 /* gis_geometry_polygonal_part() of it. */
 bool gis_source_polygons(const gis_source *source, size_t i, gis_polygonal_part *part, gis_error *error);
 /* Its geometry, moved, as well-known binary that lives until another is asked for (*geometry = NULL if memory is out),
@@ -95,7 +98,7 @@ bool gis_source_put(const gis_source *source, size_t i, const int *map, double d
                     gis_error *error);
 /* Has what is packed take its vertices from the shapes that were made of it, by the features' numbers, NULL: there is
  * none: these have to live as long as features are asked for. Not of a source that is read by batches. */
-bool gis_source_borrow(gis_source *source, sunder_shape *const *shape, gis_error *error);
+bool gis_source_borrow(gis_source *source, sunder_shape *const *shape, unsigned threads, gis_error *error);
 /* Makes features of all that is packed, for who keeps them: then they live as long as the source. */
 bool gis_source_unpack(gis_source *source, gis_error *error);
 /* Its FID as read; OGRNullFID if it has none. */

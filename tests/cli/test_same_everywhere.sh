@@ -18,6 +18,33 @@ for threads in 2 5; do
 done
 [ "$(wc -l <1.txt)" -gt 10 ] || fail "check printed nothing to compare"
 
+# A layer that is large enough to be read by two threads, most of it valid: the same warnings in the same order,
+# and the same first feature that fails.
+awk 'BEGIN {
+    print "id,WKT"
+    for (i = 1; i <= 12000; i++) {
+        x = 20 * (i % 110); y = 20 * int(i / 110); r = i % 1501 ? 8 : 10
+        crossed = i == 1000 || i == 5999 || i == 6001 || i == 11000
+        printf "%d,\"POLYGON((%g %g,%g %g,%g %g,%g %g,%g %g))\"\n", i, x - r, y - r, x + r, crossed ? y + r : y - r,
+            x + r, crossed ? y - r : y + r, x - r, y + r, x - r, y - r
+    }
+}' | layer large.gpkg large Polygon
+ogr2ogr -q -sql "SELECT * FROM large UNION ALL SELECT 20000, NULL, NULL" null.gpkg large.gpkg -nln large -nlt Polygon 2>/dev/null
+for input in large null; do
+    for invalid in repair skip fail; do
+        for threads in 1 2; do
+            run separate $input.gpkg $threads.gpkg --gap 1 --effort 0 --invalid $invalid --threads $threads --overwrite
+            printf '%s\n' "$status" >>err
+            sed -E "s/ in [0-9.]+ m?s.*//; s/$threads\\.gpkg/OUT/g" err >$threads.err
+            sed -E "s/$threads\\.gpkg/OUT/g; /[0-9] s/d" out >$threads.out
+        done
+        cmp -s 1.err 2.err || fail "$input, --invalid $invalid: two threads say something else"
+        cmp -s 1.out 2.out || fail "$input, --invalid $invalid: two threads sum up something else"
+        cmp -s 1.gpkg 2.gpkg || fail "$input, --invalid $invalid: the output differs"
+    done
+    grep -q 'FID 1000' 1.err || fail "$input: the first feature that fails is not told of"
+done
+
 mkdir stopped
 for delay in 0 0.005 0.01 0.02 0.03 0.05 0.08 0.12; do
     "$SUNDER" separate "$town" stopped/o.gpkg -l buildings --gap 3 >out 2>err &

@@ -79,7 +79,8 @@ static bool count(void *user, const unsigned char *record, gis_error *error)
     return true;
 }
 
-static bool is_read_past_gdal(const char *name)
+/* On so many threads. *halves: two of them did. */
+static bool is_read(const char *name, unsigned threads, bool *halves)
 {
     gis_error error = {0};
     GDALDatasetH dataset = GDALOpenEx(scratch_path(name), GDAL_OF_VECTOR, NULL, NULL, NULL);
@@ -88,11 +89,27 @@ static bool is_read_past_gdal(const char *name)
     size_t n = 0;
     bool all;
     assert_true(gis_packed_begin(&packed, layer, &error));
-    assert_true(gis_table_read(dataset, layer, &packed, count, &n, &all, &error));
-    if (all) assert_int_equal(n, FEATURES);
+    assert_true(gis_table_read(dataset, layer, threads, &packed, count, &n, &all, &error));
+    if (all) assert_int_equal(n, OGR_L_GetFeatureCount(layer, TRUE));
+    *halves = packed.chunks > 1; /* each has its own */
     gis_packed_clear(&packed);
     GDALClose(dataset);
     return all;
+}
+
+static bool is_read_past_gdal(const char *name)
+{
+    bool halves;
+    const bool read = is_read(name, 1, &halves);
+    assert_false(halves);
+    assert_int_equal(is_read(name, 2, &halves), read);
+    return read;
+}
+
+static bool is_read_in_halves(const char *name)
+{
+    bool halves;
+    return is_read(name, 2, &halves) && halves;
 }
 
 static bool open_source(const char *name, bool packed, gis_source **source, gis_error *error)
@@ -201,7 +218,7 @@ static void test_borrowing(void **state)
     assert_true(open_source("borrowing.gpkg", true, &a, &error) && open_source("borrowing.gpkg", false, &b, &error));
     for (size_t i = 0; i < FEATURES; i++)
         shape[i] = i == WITHOUT ? NULL : shape_of(a, i == OTHER ? (size_t)WITHOUT : i);
-    assert_true(gis_source_borrow(a, shape, &error));
+    assert_true(gis_source_borrow(a, shape, 2, &error));
     assert_same_features(a, b);
     for (size_t i = 0; i < FEATURES; i++) {
         assert_written_moved(a, i, OGR_F_GetGeometryRef(gis_source_feature(b, i)));
@@ -265,13 +282,115 @@ static void test_other_fields(void **state)
     assert_read_alike("date.gpkg");
 }
 
+/* ---- In halves --------------------------------------------------------------------------------------------------- */
+
+#define LAYER "\"a \"\"layer\"\"\""
+/* 6000 rows more, copies of those there are, by keys that a term in i gives, of 1 to 6000. */
+#define MORE(key)                                                                                                      \
+    "INSERT INTO " LAYER " (fid, geom, \"say \"\"so\"\"\", small, large, real) "                                       \
+    "WITH RECURSIVE k(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM k WHERE i < 6000) "                                  \
+    "SELECT " key ", geom, \"say \"\"so\"\"\", i, large, real FROM k JOIN " LAYER " ON fid = 7 * (1 + i % 5)"
+
+/* The layer after several statements; NULL ends them. */
+static void make_by(const char *name, const char *const *statement)
+{
+    make_layer(name, NULL);
+    GDALDatasetH dataset = GDALOpenEx(scratch_path(name), GDAL_OF_VECTOR | GDAL_OF_UPDATE, NULL, NULL, NULL);
+    assert_non_null(dataset);
+    for (; *statement; statement++) {
+        CPLErrorReset();
+        OGRLayerH result = GDALDatasetExecuteSQL(dataset, *statement, NULL, NULL);
+        if (result) GDALDatasetReleaseResultSet(dataset, result);
+        if (CPLGetLastErrorType() != CE_None) fail_msg("%s: %s", *statement, CPLGetLastErrorMsg());
+    }
+    GDALClose(dataset);
+}
+
+/* Keys as they come, with gaps, below zero, at both ends of what there is, and rows that lie in one half alone. */
+static void test_halves(void **state)
+{
+    static const struct {
+        const char *statement;
+        bool halves;
+    } cases[] = {
+        {MORE("i + 100"), true},
+        {MORE("3 * i * i + 100"), true},
+        {MORE("-i"), true},
+        {MORE("(i - 3000) * 3074457345618258 - 1"), true},
+        {MORE("9223372036854775807 - i + 1"), true},
+        {UPDATE "fid = 9000 WHERE fid = 7", true},
+        {UPDATE "fid = -9223372036854775807 - 1 WHERE fid = 7", true},
+        {"DELETE FROM " LAYER, false},
+        {"DELETE FROM " LAYER " WHERE fid > 7", false},
+        {MORE("i + 100") " WHERE i < 4000", false},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const char *const statements[] = {cases[k].statement, NULL};
+        char name[32];
+        snprintf(name, sizeof name, "halves%zu.gpkg", k);
+        make_by(name, statements);
+        assert_true(is_read_past_gdal(name));
+        if (is_read_in_halves(name) != cases[k].halves) fail_msg("read otherwise after %s", cases[k].statement);
+        assert_read_alike(name);
+    }
+}
+
+/* A row that is not plain has all of it read by GDAL, in whichever half it lies; and what is said is what GDAL's first
+ * one makes be said. */
+static void test_not_plain_in_halves(void **state)
+{
+    /* Not finite. */
+    static const char *const first =
+        UPDATE "geom = CAST(substr(geom, 1, 53) || x'000000000000f07f' || substr(geom, 62) "
+               "AS BLOB) WHERE fid = 107 AND length(geom) > 62";
+    static const char *const second =
+        UPDATE "geom = CAST(substr(geom, 1, 53) || x'000000000000f07f' || substr(geom, 62)"
+               " AS BLOB) WHERE fid = 6087 AND length(geom) > 62";
+    static const char *const null = UPDATE "geom = NULL WHERE fid = 6000";
+    static const char *const cases[][4] = {{MORE("i + 100"), first, NULL},
+                                           {MORE("i + 100"), second, NULL},
+                                           {MORE("i + 100"), second, first, NULL},
+                                           {MORE("i + 100"), null, first, NULL},
+                                           {MORE("i + 100"), null, NULL}};
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char name[32];
+        snprintf(name, sizeof name, "odd-halves%zu.gpkg", k);
+        make_by(name, cases[k]);
+        assert_false(is_read_past_gdal(name));
+        assert_read_alike(name);
+    }
+}
+
+/* Rows that do not lie by their keys, or that each connection may see otherwise, are read as one. */
+static void test_as_one(void **state)
+{
+    static const char *const index[] = {
+        MORE("i + 100"), "CREATE INDEX covering ON " LAYER " (real, small, large, \"say \"\"so\"\"\", geom)", "ANALYZE",
+        "UPDATE sqlite_stat1 SET stat = stat || ' sz=1' WHERE idx = 'covering'", /* told to be short: it is read */
+        NULL};
+    static const char *const part[] = {MORE("i + 100"), "CREATE INDEX by_small ON " LAYER " (small)", NULL};
+    static const char *const log[] = {MORE("i + 100"), "PRAGMA journal_mode = wal", NULL};
+    (void)state;
+    make_by("index.gpkg", index);
+    assert_false(is_read_in_halves("index.gpkg"));
+    assert_read_alike("index.gpkg");
+    make_by("part.gpkg", part);
+    assert_true(is_read_in_halves("part.gpkg"));
+    assert_read_alike("part.gpkg");
+    make_by("log.gpkg", log);
+    assert_false(is_read_in_halves("log.gpkg"));
+    assert_read_alike("log.gpkg");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plain),
-        cmocka_unit_test(test_borrowing),
-        cmocka_unit_test(test_not_plain),
-        cmocka_unit_test(test_other_fields),
+        cmocka_unit_test(test_plain),     cmocka_unit_test(test_borrowing),
+        cmocka_unit_test(test_not_plain), cmocka_unit_test(test_other_fields),
+        cmocka_unit_test(test_halves),    cmocka_unit_test(test_not_plain_in_halves),
+        cmocka_unit_test(test_as_one),
     };
     GDALAllRegister();
     gis_messages_begin(&(gis_messages_request){.quiet = true}, NULL);

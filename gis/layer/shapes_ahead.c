@@ -1,0 +1,53 @@
+/* shapes_ahead.c: shapes of plain polygons, which almost all are, on two threads, before each feature is looked at in
+ * its turn (shapes.c). What does not become a shape here, for whatever reason, is left to that: so what is said of
+ * features, and the first that fails, do not depend on threads. */
+#include "layer/shapes_ahead.h"
+
+#include "base/beside.h"
+#include "base/interrupt.h"
+#include "base/resources.h"
+
+#include <stdatomic.h>
+
+/* So many take longer than a thread to begin; and are taken at a time. */
+enum { MANY = 5000, AT_A_TIME = 512 };
+
+bool gis_layer_plain_shape(const gis_layer_input *input, const gis_polygonal_part *part, size_t i)
+{
+    sunder_error why;
+    return !(part->linearised > 0) &&
+           gis_polygons_shape(&part->set, SUNDER_VALIDITY_STRICT, &input->shape[i], &why) == SUNDER_OK;
+}
+
+typedef struct making {
+    const gis_layer_input *input;
+    atomic_size_t next; /* feature that nobody has taken */
+} making;
+
+static void make(void *context)
+{
+    making *m = context;
+    const gis_layer_input *input = m->input;
+    gis_polygonal_part part = {0};
+    gis_error unheard;
+    gis_watch();
+    for (size_t i; !gis_interrupted() && (i = atomic_fetch_add(&m->next, AT_A_TIME)) < input->n;)
+        for (const size_t end = input->n - i < AT_A_TIME ? input->n : i + AT_A_TIME; i < end; i++) {
+            if (!gis_source_is_packed(input->source, i) || !gis_source_polygons(input->source, i, &part, &unheard))
+                continue;
+            if (input->request->wound) gis_polygons_wind(&part.set);
+            gis_layer_plain_shape(input, &part, i);
+        }
+    gis_polygonal_part_clear(&part);
+}
+
+void gis_layer_shapes_ahead(gis_layer_input *input)
+{
+    if (input->points || input->n < MANY || gis_threads(input->request->rules.threads) == 1) return;
+    making m = {.input = input};
+    gis_beside *beside = gis_beside_new();
+    if (!beside) return;
+    gis_beside_do(beside, make, &m);
+    make(&m);
+    gis_beside_free(beside);
+}
