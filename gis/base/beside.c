@@ -5,13 +5,19 @@
 #include <pthread.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
+
+typedef struct piece {
+    void (*work)(void *context);
+    void *context;
+} piece;
 
 struct gis_beside {
     pthread_t thread;
     pthread_mutex_t lock; /* of what follows */
     pthread_cond_t changed;
-    void (*work)(void *context); /* NULL: nothing is left to do */
-    void *context;
+    piece left[GIS_BESIDE_PIECES]; /* to do, the first of them first */
+    size_t n;
     bool end;
 };
 
@@ -22,15 +28,17 @@ static void *serve(void *argument)
     gis_beside *b = argument;
     CPLPushErrorHandler(CPLQuietErrorHandler);
     pthread_mutex_lock(&b->lock);
-    while (!b->end || b->work) {
-        if (!b->work) {
+    while (!b->end || b->n > 0) {
+        if (b->n == 0) {
             pthread_cond_wait(&b->changed, &b->lock);
             continue;
         }
+        const piece first = b->left[0];
         pthread_mutex_unlock(&b->lock);
-        b->work(b->context);
+        first.work(first.context);
         pthread_mutex_lock(&b->lock);
-        b->work = NULL;
+        b->n--;
+        memmove(b->left, b->left + 1, b->n * sizeof *b->left);
         pthread_cond_broadcast(&b->changed);
     }
     pthread_mutex_unlock(&b->lock);
@@ -57,19 +65,18 @@ void gis_beside_do(gis_beside *b, void (*work)(void *context), void *context)
         work(context);
         return;
     }
-    gis_beside_wait(b);
+    gis_beside_wait(b, GIS_BESIDE_PIECES - 1);
     pthread_mutex_lock(&b->lock);
-    b->work = work;
-    b->context = context;
+    b->left[b->n++] = (piece){work, context};
     pthread_cond_broadcast(&b->changed);
     pthread_mutex_unlock(&b->lock);
 }
 
-void gis_beside_wait(gis_beside *b)
+void gis_beside_wait(gis_beside *b, size_t left)
 {
     if (!b) return;
     pthread_mutex_lock(&b->lock);
-    while (b->work) pthread_cond_wait(&b->changed, &b->lock);
+    while (b->n > left) pthread_cond_wait(&b->changed, &b->lock);
     pthread_mutex_unlock(&b->lock);
 }
 

@@ -10,8 +10,8 @@
 /* ---- Statements -------------------------------------------------------------------------------------------------- */
 
 /* Rows of one statement: with more a row costs no less. Parameters of one: what every SQLite takes. Held back are at
- * most so many of these statements, which take far longer than another thread does to begin, and so many bytes. */
-enum { ROWS_AT_ONCE = 64, MOST_PARAMETERS = 999, MOST_STATEMENTS = 8, MOST_HELD = 1 << 20 };
+ * most so many of these statements, and so many bytes: with fewer, threads that wake each other show. */
+enum { ROWS_AT_ONCE = 64, MOST_PARAMETERS = 999, MOST_STATEMENTS = 32, MOST_HELD = 1 << 20 };
 
 static void *prepare(void *database, const char *sql)
 {
@@ -50,6 +50,7 @@ bool gis_sqlite_inserts_begin(gis_sqlite_inserts *rows, void *database, const ch
     rows->at_once = MOST_PARAMETERS / columns < ROWS_AT_ONCE ? MOST_PARAMETERS / columns : ROWS_AT_ONCE;
     if (rows->at_once > 1) rows->many = prepare_rows(rows, sql, rows->at_once);
     if (!rows->many) rows->at_once = 1;
+    for (int k = 0; k < GIS_BESIDE_PIECES; k++) rows->batch[k].of = rows;
     if (threads > 1) rows->beside = gis_beside_new();
     return true;
 }
@@ -65,8 +66,7 @@ void gis_sqlite_inserts_end(gis_sqlite_inserts *rows)
     gis_beside_free(rows->beside);
     if (rows->one) gis_sqlite_find_functions()->finalize(rows->one);
     if (rows->many) gis_sqlite_find_functions()->finalize(rows->many);
-    free_batch(&rows->filled);
-    free_batch(&rows->going);
+    for (int k = 0; k < GIS_BESIDE_PIECES; k++) free_batch(&rows->batch[k]);
     *rows = (gis_sqlite_inserts){0};
 }
 
@@ -86,12 +86,12 @@ static bool bind(const gis_sqlite_batch *batch, void *statement, int at, const g
 }
 
 /* Rows from `first` on, as many as the statement has. The outcome of SQLite. */
-static int send(const gis_sqlite_inserts *rows, void *statement, size_t first, size_t n)
+static int send(const gis_sqlite_batch *batch, void *statement, size_t first, size_t n)
 {
     const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
-    const gis_sqlite_batch *batch = &rows->going;
-    for (size_t k = 0; k < n * rows->columns; k++)
-        if (!bind(batch, statement, (int)k + 1, &batch->held[first * rows->columns + k])) return GIS_SQLITE_MISUSE;
+    const size_t columns = batch->of->columns;
+    for (size_t k = 0; k < n * columns; k++)
+        if (!bind(batch, statement, (int)k + 1, &batch->held[first * columns + k])) return GIS_SQLITE_MISUSE;
     const int stepped = sqlite->step(statement), reset = sqlite->reset(statement);
     return stepped == GIS_SQLITE_DONE ? reset : reset != GIS_SQLITE_OK ? reset : stepped;
 }
@@ -102,62 +102,65 @@ static int send(const gis_sqlite_inserts *rows, void *statement, size_t first, s
 static bool is_of_one_row(int outcome) { return (outcome & GIS_SQLITE_KIND) == GIS_SQLITE_CONSTRAINT; }
 
 /* n rows from *done on, which counts those that are in: by one statement if it has as many, or one by one. */
-static int send_some(const gis_sqlite_inserts *rows, size_t n, size_t *done)
+static int send_some(const gis_sqlite_batch *batch, size_t n, size_t *done)
 {
+    const gis_sqlite_inserts *rows = batch->of;
     const size_t end = *done + n;
     int outcome = GIS_SQLITE_OK;
     if (rows->many && n == rows->at_once) {
-        outcome = send(rows, rows->many, *done, n);
+        outcome = send(batch, rows->many, *done, n);
         if (outcome == GIS_SQLITE_OK) *done = end;
         if (is_of_one_row(outcome)) outcome = GIS_SQLITE_OK;
     }
     for (; outcome == GIS_SQLITE_OK && *done < end; *done += outcome == GIS_SQLITE_OK)
-        outcome = send(rows, rows->one, *done, 1);
+        outcome = send(batch, rows->one, *done, 1);
     return outcome;
 }
 
+/* Once a row was not taken nothing that was given behind it goes in. */
 static void send_all(void *context)
 {
-    gis_sqlite_inserts *rows = context;
-    gis_sqlite_batch *batch = &rows->going;
+    gis_sqlite_batch *batch = context;
+    gis_sqlite_inserts *rows = batch->of;
     size_t done = 0;
     int outcome = GIS_SQLITE_OK;
-    while (outcome == GIS_SQLITE_OK && done < batch->rows) {
+    while (!rows->failed && outcome == GIS_SQLITE_OK && done < batch->rows) {
         const size_t left = batch->rows - done;
-        outcome = send_some(rows, left < rows->at_once ? left : rows->at_once, &done);
+        outcome = send_some(batch, left < rows->at_once ? left : rows->at_once, &done);
     }
     if (outcome == GIS_SQLITE_OK) return;
     rows->failed = gis_sqlite_find_functions()->error_message(rows->database);
     rows->failed_key = batch->held[done * rows->columns].value.as.integer;
+    batch->refused = true;
 }
 
-/* What goes in is in. */
+/* All that goes in is in. */
 static bool await(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
 {
-    gis_beside_wait(rows->beside);
-    rows->going.rows = rows->going.size = 0;
+    gis_beside_wait(rows->beside, 0);
     if (!rows->failed) return true;
     *key = rows->failed_key;
     *reason = rows->failed;
-    rows->filled.rows = rows->filled.size = 0;
+    for (int k = 0; k < GIS_BESIDE_PIECES; k++) rows->batch[k].rows = rows->batch[k].size = 0;
     return false;
 }
 
-/* What is held back begins to go in, once what went before it is. */
+/* What is held back begins to go in, behind what went before it: what did so first is in then, and makes room for what
+ * comes. */
 static bool start(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
 {
-    if (!await(rows, key, reason)) return false;
-    const gis_sqlite_batch filled = rows->filled;
-    rows->filled = rows->going;
-    rows->going = filled;
-    gis_beside_do(rows->beside, send_all, rows);
-    return rows->beside || await(rows, key, reason);
+    gis_beside_do(rows->beside, send_all, &rows->batch[rows->added_to]);
+    gis_beside_wait(rows->beside, GIS_BESIDE_PIECES - 1);
+    rows->added_to = (rows->added_to + 1) % GIS_BESIDE_PIECES;
+    gis_sqlite_batch *next = &rows->batch[rows->added_to];
+    next->rows = next->size = 0;
+    return (rows->beside && !next->refused) || await(rows, key, reason);
 }
 
 bool gis_sqlite_inserts_flush(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
 {
     *reason = NULL;
-    return (rows->filled.rows == 0 || start(rows, key, reason)) && await(rows, key, reason);
+    return (rows->batch[rows->added_to].rows == 0 || start(rows, key, reason)) && await(rows, key, reason);
 }
 
 /* ---- Holding back ------------------------------------------------------------------------------------------------ */
@@ -194,7 +197,7 @@ static bool hold_row(gis_sqlite_batch *batch, size_t columns, int64_t key, const
 bool gis_sqlite_inserts_add(gis_sqlite_inserts *rows, int64_t *key, const void *bytes, size_t size,
                             const gis_value *values, const char **reason)
 {
-    gis_sqlite_batch *batch = &rows->filled;
+    gis_sqlite_batch *batch = &rows->batch[rows->added_to];
     if (!hold_row(batch, rows->columns, *key, bytes, size, values)) {
         *reason = "out of memory";
         return false;
