@@ -39,6 +39,22 @@ static bool sync_path(const char *path, gis_error *error)
     return done || gis_fail(error, "%s: cannot be brought to the disk: %s", path, strerror(reason));
 }
 
+/* An error of the disk is kept for whoever syncs. */
+void gis_stage_write_out(const gis_stage *stage)
+{
+#ifdef SYNC_FILE_RANGE_WRITE
+    char *path = gis_stage_inside(stage, gis_stage_main(stage));
+    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    if (file >= 0) {
+        (void)sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE);
+        close(file);
+    }
+    CPLFree(path);
+#else
+    (void)stage;
+#endif
+}
+
 static bool is_dots(const char *name) { return strcmp(name, ".") == 0 || strcmp(name, "..") == 0; }
 
 static bool is_directory(const char *path)

@@ -34,6 +34,10 @@ bool gis_stage_put_directory(gis_stage *stage, const char *name, gis_error *erro
 /* This file of the final directory belongs to what is replaced: publishing takes it away. */
 void gis_stage_supersede(gis_stage *stage, const char *path);
 
+/* The main file, which nobody has open to write, is complete: the disk begins with it, where the system can be told,
+ * and publishing waits for less. May take as long as the disk does; what goes wrong is seen there. */
+void gis_stage_write_out(const gis_stage *stage);
+
 /* Puts all that was made in its place. A file in the way that is not superseded makes it fail, unless `replace`. */
 bool gis_stage_publish(gis_stage *stage, bool replace, gis_error *error);
 

@@ -1,7 +1,9 @@
 /* sink_commit.c: the end of the writing: close, look at what was written, put it in place. In this order, since a
  * driver may keep errors back until it closes, and what is in place cannot be called back. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
+#include "base/beside.h"
 #include "base/interrupt.h"
+#include "base/resources.h"
 #include "sqlite/calls.h"
 #include "sqlite/lock.h"
 #include "write/sink_internal.h"
@@ -278,6 +280,19 @@ static bool close_all(gis_sink *sink, gis_error *error)
     return gis_sink_close(sink, NULL, error);
 }
 
+static void write_out(void *stage) { gis_stage_write_out(stage); }
+
+/* All is closed, and is looked at; meanwhile the disk takes it, which another thread waits for. */
+static bool inspect_files(gis_sink *sink, gis_sink_result *result, gis_error *error)
+{
+    const bool apart = sink->stage && !sink->memory && gis_threads(sink->request.threads) > 1;
+    gis_beside *beside = apart ? gis_beside_new() : NULL;
+    if (beside) gis_beside_do(beside, write_out, sink->stage);
+    const bool done = inspect(sink, result, error);
+    gis_beside_free(beside);
+    return done;
+}
+
 /* A format that rounds or changes geometries loses something, too. */
 static void note_inexact(gis_sink *sink, const gis_sink_result *seen)
 {
@@ -305,7 +320,7 @@ bool gis_sink_finish(gis_sink *sink, gis_sink_result *result, gis_error *error)
             !inspect_database(sink, &seen, error))
             return false;
     } else if (!write_indexes(sink, error) || !write_styles(sink, error) || !close_all(sink, error) ||
-               !inspect(sink, &seen, error) ||
+               !inspect_files(sink, &seen, error) ||
                (sink->stage && sink->memory && !stage_memory(sink, sink->memory, "", error))) {
         return false;
     }
