@@ -22,23 +22,29 @@ static bool fail(const gis_sqlite_rows *rows, gis_error *error)
 /* Rows of one statement: what beginning and ending one costs is a small part of them then. */
 enum { AT_ONCE = 100 };
 
-static bool prepare(const gis_sqlite_rows *rows, const char *table, size_t n, void **statement, gis_error *error)
+/* n rows of both columns; or of the values alone, in the column of that name. */
+static bool prepare(const gis_sqlite_rows *rows, const char *table, const char *values, size_t n, void **statement,
+                    gis_error *error)
 {
-    static const char head[] = "INSERT INTO ", tail[] = " VALUES (?, ?)", row[] = ", (?, ?)";
-    char *sql = malloc(sizeof head + strlen(table) + sizeof tail + n * sizeof row);
+    static const char head[] = "INSERT INTO ", tail[] = " () VALUES ", row[] = ", (?, ?)";
+    const size_t size = sizeof head + strlen(table) + (values ? strlen(values) : 0) + sizeof tail + n * sizeof row;
+    char *sql = malloc(size);
     if (!sql) return gis_no_memory(error);
-    int length = sprintf(sql, "%s%s%s", head, table, tail);
-    for (size_t k = 1; k < n; k++) length += sprintf(sql + length, "%s", row);
+    int length =
+        values ? sprintf(sql, "%s%s (%s) VALUES ", head, table, values) : sprintf(sql, "%s%s VALUES ", head, table);
+    for (size_t k = 0; k < n; k++) length += sprintf(sql + length, "%s%s", k ? ", " : "", values ? "(?)" : "(?, ?)");
     const int result = gis_sqlite_find_functions()->prepare(rows->database, sql, length + 1, statement, NULL);
     free(sql);
     return result == GIS_SQLITE_OK || fail(rows, error);
 }
 
-bool gis_sqlite_rows_begin(gis_sqlite_rows *rows, void *database, const char *table, bool many, const char *what,
+bool gis_sqlite_rows_begin(gis_sqlite_rows *rows, void *database, const char *table, const char *many, const char *what,
                            gis_error *error)
 {
     *rows = (gis_sqlite_rows){.database = database, .what = what};
-    return prepare(rows, table, 1, &rows->one, error) && (!many || prepare(rows, table, AT_ONCE, &rows->many, error));
+    return prepare(rows, table, NULL, 1, &rows->one, error) &&
+           (!many || (prepare(rows, table, NULL, AT_ONCE, &rows->many, error) &&
+                      prepare(rows, table, many, AT_ONCE, &rows->next, error)));
 }
 
 /* bound: its parameters are. */
@@ -49,16 +55,42 @@ static bool insert(const gis_sqlite_rows *rows, void *statement, bool bound, gis
     return (sqlite->reset(statement) == GIS_SQLITE_OK && done) || fail(rows, error);
 }
 
+/* Are they those that SQLite would give, none of which it has to look for? */
+static bool follow(const gis_sqlite_rows *rows, const int64_t (*row)[2], size_t n)
+{
+    int64_t last = rows->last;
+    bool so = rows->any && rows->next;
+    for (size_t k = 0; k < n && so; last = row[k++][0]) so = last < INT64_MAX && row[k][0] == last + 1;
+    return so;
+}
+
+/* Where a key does not rise the greatest one is not the last. */
+static void note_keys(gis_sqlite_rows *rows, const int64_t (*row)[2], size_t n)
+{
+    for (size_t k = 0; k < n && rows->next; k++) {
+        if (rows->any && row[k][0] <= rows->last) {
+            gis_sqlite_find_functions()->finalize(rows->next);
+            rows->next = NULL;
+        }
+        rows->last = row[k][0];
+        rows->any = true;
+    }
+}
+
 bool gis_sqlite_rows_add(gis_sqlite_rows *rows, const int64_t (*row)[2], size_t n, gis_error *error)
 {
     const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
     for (size_t done = 0; done < n;) {
         const size_t now = rows->many && n - done >= AT_ONCE ? AT_ONCE : 1;
-        void *statement = now > 1 ? rows->many : rows->one;
+        const bool next = now > 1 && follow(rows, row + done, now);
+        void *statement = next ? rows->next : now > 1 ? rows->many : rows->one;
         bool bound = true;
-        for (size_t k = 0; k < 2 * now && bound; k++)
-            bound = sqlite->bind_number(statement, (int)k + 1, row[done + k / 2][k % 2]) == GIS_SQLITE_OK;
+        int at = 0;
+        for (size_t k = 0; k < now && bound; k++)
+            for (int column = next; column < 2 && bound; column++)
+                bound = sqlite->bind_number(statement, ++at, row[done + k][column]) == GIS_SQLITE_OK;
         if (!insert(rows, statement, bound, error)) return false;
+        note_keys(rows, row + done, now);
         done += now;
     }
     return true;
@@ -77,5 +109,6 @@ void gis_sqlite_rows_end(gis_sqlite_rows *rows)
 {
     if (rows->one) gis_sqlite_find_functions()->finalize(rows->one);
     if (rows->many) gis_sqlite_find_functions()->finalize(rows->many);
+    if (rows->next) gis_sqlite_find_functions()->finalize(rows->next);
     *rows = (gis_sqlite_rows){0};
 }

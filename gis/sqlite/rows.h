@@ -12,18 +12,22 @@
 /* A zeroed struct is none. */
 typedef struct gis_sqlite_rows {
     void *database, *one, *many; /* statements: of one row, and of many */
-    const char *what;            /* for messages; lent */
+    void *next;                  /* of many whose keys SQLite gives; NULL: it is not known which these are */
+    int64_t last;                /* key */
+    bool any;
+    const char *what; /* for messages; lent */
 } gis_sqlite_rows;
 
 /* Is the SQLite that is found in this program the one that says this of its source (SQLite's sqlite_source_id())? */
 bool gis_sqlite_is_that_of(const char *source_id);
 
-/* database: GDAL's handle of it, of that SQLite; table: its name, quoted; many: rows will come by the hundred. False
- * with "WHAT cannot be written: the reason"; to be ended all the same. */
-bool gis_sqlite_rows_begin(gis_sqlite_rows *rows, void *database, const char *table, bool many, const char *what,
+/* database: GDAL's handle of it, of that SQLite; table: its name, quoted; many: the column of values, where rows will
+ * come by the hundred, and the table is empty; else NULL. False with "WHAT cannot be written: the reason"; to be ended
+ * all the same. */
+bool gis_sqlite_rows_begin(gis_sqlite_rows *rows, void *database, const char *table, const char *many, const char *what,
                            gis_error *error);
 /* n rows, each a key and a value, one after the other. Keys that ascend go behind all others, which is several times as
- * fast as among them. */
+ * fast as among them; those that SQLite would give, each the last one and 1, twice as fast again. */
 bool gis_sqlite_rows_add(gis_sqlite_rows *rows, const int64_t (*row)[2], size_t n, gis_error *error);
 /* One row: a key and n bytes. */
 bool gis_sqlite_rows_add_bytes(gis_sqlite_rows *rows, int64_t key, const void *bytes, size_t n, gis_error *error);

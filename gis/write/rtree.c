@@ -248,8 +248,8 @@ static size_t node_capacity(GDALDatasetH dataset, OGRLayerH layer)
     return bytes < HEADER + 2 * CELL ? 0 : (size_t)(bytes - HEADER) / CELL;
 }
 
-static bool begin_rows(gis_sqlite_rows *rows, GDALDatasetH dataset, OGRLayerH layer, const char *table, bool many,
-                       gis_error *error)
+static bool begin_rows(gis_sqlite_rows *rows, GDALDatasetH dataset, OGRLayerH layer, const char *table,
+                       const char *many, gis_error *error)
 {
     char *name = tree_name(layer, table, '"');
     const bool done =
@@ -274,8 +274,9 @@ static bool write_rows(gis_sqlite_rows *rows, row_of *row, size_t n, gis_error *
 static bool write_parents(GDALDatasetH dataset, OGRLayerH layer, packing *all, gis_error *error)
 {
     gis_sqlite_rows rows = {0};
-    const bool done = begin_rows(&rows, dataset, layer, "_parent", all->parents >= MANY_ROWS, error) &&
-                      write_rows(&rows, all->parent, all->parents, error);
+    const bool done =
+        begin_rows(&rows, dataset, layer, "_parent", all->parents >= MANY_ROWS ? "parentnode" : NULL, error) &&
+        write_rows(&rows, all->parent, all->parents, error);
     gis_sqlite_rows_end(&rows);
     return done;
 }
@@ -318,7 +319,7 @@ static bool write_leaves(GDALDatasetH dataset, OGRLayerH layer, packing *all, gi
     s->rows = &rows;
     s->n = 0;
     const bool done =
-        begin_rows(&rows, dataset, layer, "_rowid", all->features >= MANY_ROWS, error) &&
+        begin_rows(&rows, dataset, layer, "_rowid", all->features >= MANY_ROWS ? "nodeno" : NULL, error) &&
         (all->scratch ? gis_sorter_take(all->sorter, take_row, s, error) : write_from_memory(all, s, error)) &&
         write_rows(&rows, s->row, s->n, error);
     free(s);
@@ -339,7 +340,7 @@ static void clear_packing(packing *all)
 static bool write_nodes(GDALDatasetH dataset, OGRLayerH layer, packing *all, gis_index_boxes *boxes, gis_error *error)
 {
     const bool done = empty_tables(dataset, layer, error) &&
-                      begin_rows(&all->nodes, dataset, layer, "_node", false, error) &&
+                      begin_rows(&all->nodes, dataset, layer, "_node", NULL, error) &&
                       gis_index_boxes_in_order(boxes, take_box, all, error) && write_levels(all, error);
     gis_sqlite_rows_end(&all->nodes);
     return done;

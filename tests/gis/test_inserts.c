@@ -9,6 +9,7 @@
 
 #include "base/keyed.h"
 #include "sqlite/insert.h"
+#include "sqlite/rows.h"
 #include "sqlite/select.h"
 
 #include <gdal.h>
@@ -151,6 +152,48 @@ static void test_given_up(void **state)
     assert_true(in > 0 && in < ROWS && in % 64 == 0);
 }
 
+/* The rows as they were given, in two calls: keys that follow each other, with gaps, below zero, the greatest there is,
+ * falling. */
+static void demand_pairs(int64_t first, int64_t step, size_t gap_at)
+{
+    enum { PAIRS = 1234, CUT = 333 };
+    static int64_t row[PAIRS][2];
+    gis_sqlite_rows rows;
+    gis_error error;
+    for (size_t k = 0; k < PAIRS; k++) {
+        row[k][0] = first + step * (int64_t)k + (gap_at && k >= gap_at ? 5 * step : 0);
+        row[k][1] = (int64_t)(k * 7919 % 1000);
+    }
+    assert_true(gis_sqlite_run(database(), "DROP TABLE IF EXISTS pairs"));
+    assert_true(gis_sqlite_run(database(), "CREATE TABLE pairs (k INTEGER PRIMARY KEY, v)"));
+    assert_true(gis_sqlite_rows_begin(&rows, database(), "pairs", "v", "the test", &error));
+    assert_true(gis_sqlite_rows_add(&rows, (const int64_t(*)[2])row, CUT, &error) &&
+                gis_sqlite_rows_add(&rows, (const int64_t(*)[2])row + CUT, PAIRS - CUT, &error));
+    gis_sqlite_rows_end(&rows);
+    void *statement = gis_sqlite_select_begin(database(), step > 0 ? "SELECT k, v FROM pairs ORDER BY k"
+                                                                   : "SELECT k, v FROM pairs ORDER BY k DESC");
+    for (size_t k = 0; k < PAIRS; k++) {
+        gis_value key, value;
+        assert_int_equal(gis_sqlite_select_next(statement), GIS_SQLITE_HAS_ROW);
+        assert_true(gis_sqlite_select_value(statement, 0, &key) && gis_sqlite_select_value(statement, 1, &value));
+        assert_true(key.as.integer == row[k][0] && value.as.integer == row[k][1]);
+    }
+    assert_int_equal(gis_sqlite_select_next(statement), GIS_SQLITE_AT_END);
+    gis_sqlite_select_end(statement);
+}
+
+static void test_pairs(void **state)
+{
+    (void)state;
+    demand_pairs(1, 1, 0);
+    demand_pairs(17, 1, 0);
+    demand_pairs(-600, 1, 0);
+    demand_pairs(INT64_MAX - 1233, 1, 0);
+    demand_pairs(1, 3, 0);
+    demand_pairs(2000, -1, 0);
+    for (size_t gap_at = 1; gap_at < 1200; gap_at += 66) demand_pairs(1, 1, gap_at);
+}
+
 static void test_keyed(void **state)
 {
     (void)state;
@@ -169,6 +212,7 @@ static void test_keyed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_refused),
-                                       cmocka_unit_test(test_given_up), cmocka_unit_test(test_keyed)};
+                                       cmocka_unit_test(test_given_up), cmocka_unit_test(test_pairs),
+                                       cmocka_unit_test(test_keyed)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
