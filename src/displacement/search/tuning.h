@@ -329,10 +329,10 @@
 #define DEEP 0.125
 /* ... and of what moved so many times as far as the worst conflict was deep. */
 #define LONG 1.5
-/* So many orders are tried, until so many one after the other were of no use, of which one that leads to what was tried
- * before, or to what can be no better, counts as so many; of clusters in which no more than so many may move; and for no more than this part of the
- * work that was done before. Without these ends real layers were dearer by up to two thirds (Saint-Jean at gap 3: 729
- * million instructions for 443), and not better. */
+/* So many orders are tried, until so many one after the other were of no use, of which one that leads to what was
+ * tried before, or to what can be no better, counts as so many; of clusters in which no more than so many may move;
+ * and for no more than this part of the work that was done before. Without these ends real layers were dearer by up
+ * to two thirds (Saint-Jean at gap 3: 729 million instructions for 443), and not better. */
 #define MOST_ORDERS 64
 #define MOST_USELESS 32
 #define ORDER_IN_VAIN 4
