@@ -29,8 +29,10 @@ static void apply(sunder_i_tree *t, uint32_t cut, bool kept)
 
 uint32_t sunder_i_tree_cut(sunder_i_tree *t, sunder_i_cut_kind kind, uint32_t pair, const double n[2], double d)
 {
-    if (!sunder_i_reserve(&t->cut, &t->cut_capacity, t->cuts + 1, sizeof *t->cut) ||
-        !sunder_i_reserve(&t->note, &t->note_capacity, t->cuts + 1, sizeof *t->note)) {
+    const bool room = sunder_i_reserve(&t->cut, &t->cut_capacity, t->cuts + 1, sizeof *t->cut) &&
+                      sunder_i_reserve(&t->note, &t->note_capacity, t->cuts + 1, sizeof *t->note);
+    t->program.cut = t->cut; /* they may have gone elsewhere where there was no room for the note, too */
+    if (!room) {
         t->failed = true;
         return 0;
     }
@@ -39,7 +41,6 @@ uint32_t sunder_i_tree_cut(sunder_i_tree *t, sunder_i_cut_kind kind, uint32_t pa
     t->cut[cut] =
         (sunder_i_move_cut){ball ? pair : t->pair[pair].i, ball ? SUNDER_I_GROUND : t->pair[pair].j, {n[0], n[1]}, d};
     t->note[cut] = (sunder_i_cut_note){.kind = kind, .pair = pair};
-    t->program.cut = t->cut;
     if (t->nodes) t->node[t->nodes - 1].cuts++;
     apply(t, cut, false);
     return cut;
