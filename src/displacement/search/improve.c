@@ -196,10 +196,10 @@ static rank *rank_contacts(const sunder_i_quadratic *program, size_t *n)
 
 /* Does it lead nowhere to go down from here, where the two stand at the p-th of their places from home? All together
  * cost less than in the solution that is to be bettered, and clash, which has a price. Where many move that price is a
- * small part of the cost. What proofs begin from is sought from all places but the nearest. */
+ * small part of the cost. What proofs begin from is sought from all places. */
 static bool is_too_cheap(const sunder_i_search *s, size_t p, double cost)
 {
-    if (sunder_i_search_movers(s) > MOST_FORESEEN || (p > 0 && s->model->rules.effort > 0)) return false;
+    if (sunder_i_search_movers(s) > MOST_FORESEEN || s->model->rules.effort > 0) return false;
     return sunder_i_search_cost(s, s->t) < (p == 0 ? 1 : CHEAP_OTHER) * cost;
 }
 

@@ -117,13 +117,13 @@ static bool is_known(const reordering *r, double cost)
 
 /* Is there nothing to be had from where all stand? A start that was tried ends where it did; and what clashes, and yet
  * costs less than what stands, is dearer when nothing clashes any more: of 630 such of a town of 100,000 three came to
- * anything, and that was next to nothing. */
+ * anything, and that was next to nothing. What proofs begin from is sought from these, too. */
 static bool is_in_vain(reordering *r, double start)
 {
     sunder_i_search *s = r->search;
     if (is_known(r, start)) return true;
     r->tried[r->tries++] = start;
-    return start < r->cost && sunder_i_search_look(s, s->t) > s->tolerance;
+    return !(s->model->rules.effort > 0) && start < r->cost && sunder_i_search_look(s, s->t) > s->tolerance;
 }
 
 /* The n bodies in r->out are taken out and put back in this order, and all go down. Who finds no place stays at
