@@ -25,6 +25,23 @@ typedef struct pair {
     bool done;
 } pair;
 
+/* A scene of nobody yet. */
+static scene *scene_of(pair *p, double gap)
+{
+    memset(p, 0, sizeof *p);
+    scene_begin(&p->board.scene, gap);
+    return &p->board.scene;
+}
+
+/* What the exact core says of the two; to be cleared. */
+static sunder_separation least_of(const scene *s)
+{
+    sunder_separation least;
+    assert_int_equal(sunder_pair_separate(s->feature[0].shape, s->feature[1].shape, s->options.gap, &least, NULL),
+                     SUNDER_OK);
+    return least;
+}
+
 /* Of a scene that has its two features. */
 static void begin(pair *p, const double stood[4])
 {
@@ -69,17 +86,13 @@ static void test_the_least_is_paid(void **state)
     for (size_t k = 0; k < all; k++) {
         rng r = rng_start(test_seed(), k);
         pair p;
-        memset(&p, 0, sizeof p);
-        scene *s = &p.board.scene;
-        scene_begin(s, rng_once_in(&r, 3) ? 0 : 2 * rng_unit(&r));
+        scene *s = scene_of(&p, rng_once_in(&r, 3) ? 0 : 2 * rng_unit(&r));
         add_any(&r, s);
         add_any(&r, s);
         s->feature[1].fixed = rng_once_in(&r, 6);
         if (rng_once_in(&r, 4)) s->feature[0].max_shift = s->feature[1].max_shift = 2 * rng_unit(&r);
         begin(&p, (double[4]){rng_unit(&r), 0, 0, 0});
-        sunder_separation least;
-        assert_int_equal(sunder_pair_separate(s->feature[0].shape, s->feature[1].shape, s->options.gap, &least, NULL),
-                         SUNDER_OK);
+        sunder_separation least = least_of(s);
         if (p.done)
             assert_true(p.cluster.measured.least == least.lower_bound);
         else
@@ -107,9 +120,7 @@ static void test_others_have_a_say(void **state)
     (void)state;
     for (int kind = 0; kind < 6; kind++) {
         pair p;
-        memset(&p, 0, sizeof p);
-        scene *s = &p.board.scene;
-        scene_begin(s, 1);
+        scene *s = scene_of(&p, 1);
         scene_add_box(s, 0, 0, 10, 4);
         scene_add_box(s, kind == 1 ? 12 : 9, 1, 10, 4);
         if (kind == 2) s->feature[0].max_shift = s->feature[1].max_shift = 0.5;
@@ -146,17 +157,14 @@ static void test_hardly_too_near(void **state)
     for (size_t k = 0; k < all; k++) {
         rng r = rng_start(test_seed(), k);
         pair p;
-        memset(&p, 0, sizeof p);
-        scene *s = &p.board.scene;
         const double angle = 6.28 * rng_unit(&r), gap = (double)rng_int(&r, 1, 24) / 8;
         const double e[2] = {cos(angle), sin(angle)}, o[2] = {0.1, 0.3};
-        scene_begin(s, gap);
+        scene *s = scene_of(&p, gap);
         add_slanted(s, o, e, 0, 0, 10, 5);
         add_slanted(s, o, e, 1, 5 + gap, 4, 3);
         begin(&p, (double[4]){0});
         for (int c = 0; c < 4; c++) assert_true(fabs(p.search.t[c]) < 1e-6); /* and a number */
-        sunder_separation least;
-        assert_int_equal(sunder_pair_separate(s->feature[0].shape, s->feature[1].shape, gap, &least, NULL), SUNDER_OK);
+        sunder_separation least = least_of(s);
         conflicts += least.overlap;
         sunder_separation_clear(&least);
         end(&p);
