@@ -238,7 +238,9 @@ static bool make_room(sunder_i_solver *s)
     s->move = sunder_i_alloc(4 * s->room, sizeof *s->move);
     s->cluster = sunder_i_alloc(s->room, sizeof *s->cluster);
     s->listed = SUNDER_I_NONE_LISTED;
-    return s->member && s->body && s->move && s->cluster;
+    const bool ok = s->member && s->body && s->move && s->cluster;
+    if (!ok) s->room = 0; /* some of it is not there */
+    return ok;
 }
 
 /* The ends of all edges, each by the root of its cluster, and once; unless they are listed, and no edge has come since.

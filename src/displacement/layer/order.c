@@ -63,8 +63,8 @@ static uint64_t ordered_bits(double v)
     return bits >> 63 ? ~bits : bits | (uint64_t)1 << 63;
 }
 
-/* The lower edges of all, each with its number, so that the greater of two keys is of no lower one: as many of the
- * leading bits, behind those in which all that are present agree, as there is room for. */
+/* A key of each: its number, behind as many leading bits of its lower edge, less the lowest, as there is room for. Of
+ * two the one with the greater key lies no lower. */
 static void make_keys(const sunder_layer *layer, uint64_t *key)
 {
     uint64_t lowest = UINT64_MAX, highest = 0;

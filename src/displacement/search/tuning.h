@@ -307,7 +307,7 @@
  * less than so many times as much. Of 5,667 descents of a town of 100,000 those that begin cheaper than the solution
  * took half of the time, and gained a sixtieth of what all gained. With any other place left out from 1 on Paris at
  * gap 0 is 6 % dearer, without the limit of movers Europe's symbols half a hundredth. (What proofs begin from stays
- * what it was: by chance of the way Paris at gap 3 ends 11 % dearer otherwise, at gap 0 3 % cheaper.) */
+ * what it was: by chance of the way Paris at gap 3 ends 11 % dearer otherwise, at gap 0 0.3 % cheaper.) */
 #define CHEAP_OTHER 0.9
 #define MOST_FORESEEN 12
 /* A start that rounding took this many tolerances from is mended. */
