@@ -72,6 +72,30 @@ static void demand_agreement(const sunder_feature *features, size_t n, const fuz
     for (size_t i = 0; i < n; ++i) sunder_shape_free(shapes[i]);
 }
 
+/* Zero, which is what bytes are past the end of the input, is what is done by default. */
+static void choose_ways(fuzz_bytes *bytes, sunder_layer_options *options)
+{
+    const unsigned byte = fuzz_byte(bytes), ways = byte / 3;
+    options->contained = (sunder_containment)(byte % 3);
+    options->effort = ways & 1 ? 0 : 1;
+    options->allow_jumps = ways & 2;
+    options->keep_trees = options->keep_pushes = options->keep_worlds = ways & 4;
+    options->list_inside = ways & 8;
+    options->no_touch = ways & 16;
+    options->drop_proofs = ways & 32;
+    options->seed = ways;
+    options->threads = ways / 8 == 7 ? 2 : 1;
+}
+
+static void demand_bounds(const sunder_report *report)
+{
+    sunder_layer_summary summary;
+    sunder_report_summary(report, &summary);
+    FUZZ_DEMAND(summary.pair_bound >= 0 && summary.pair_bound <= summary.lower_bound);
+    FUZZ_DEMAND(summary.lower_bound <= summary.cost);
+    FUZZ_DEMAND(summary.clusters_optimal <= summary.clusters);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -86,7 +110,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     sunder_layer_options_init(&options);
     options.gap = plan & 64 ? (double)(fuzz_byte(&bytes) % 16) / 4 : 0;
     options.touch_tolerance = plan & 128 ? -1 : 0;
-    options.contained = (sunder_containment)(fuzz_byte(&bytes) % 3);
+    choose_ways(&bytes, &options);
     while (n < wanted && bytes.left > 0) {
         sunder_shape *shape = fuzz_shape(&bytes, scale, 12);
         if (!shape) break;
@@ -109,6 +133,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         FUZZ_DEMAND((report != NULL) == (status == SUNDER_OK));
         fuzz_patience(0); /* what is demanded of a result is demanded to the end */
         if (report) {
+            demand_bounds(report);
             demand_agreement(features, n, &barriers, &options, report);
             FUZZ_DEMAND(!upheld_breach(features, n, &options, report));
         }
