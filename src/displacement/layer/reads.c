@@ -28,15 +28,16 @@ void sunder_i_reads_end(sunder_i_reading *reading)
     pthread_mutex_unlock(&joining);
 }
 
-void sunder_i_reads_note(const sunder_i_model *model, const double box[4], const uint32_t *thing, size_t n)
+void sunder_i_reads_note(const sunder_i_model *model, const double box[4], const sunder_i_list *hits, size_t before)
 {
     const double home[2] = {0, 0};
     sunder_i_reading *to = sunder_i_reads;
     sunder_i_box_join(to->box.place, box);
-    for (size_t k = 0; k < n && model == to->model; k++) {
+    for (size_t k = before; k < hits->n && model == to->model; k++) {
+        const uint32_t thing = hits->item[k];
         double own[4];
-        if (sunder_i_is_barrier(model, thing[k])) continue;
-        sunder_i_body_box(&model->body[model->body_of[thing[k]]], home, 0, own);
+        if (sunder_i_is_barrier(model, thing)) continue;
+        sunder_i_body_box(&model->body[model->body_of[thing]], home, 0, own);
         sunder_i_box_join(to->box.seen, own);
     }
 }

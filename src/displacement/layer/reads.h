@@ -20,7 +20,7 @@ extern _Thread_local sunder_i_reading *sunder_i_reads __attribute__((tls_model("
 
 void sunder_i_reads_begin(sunder_i_reading *reading, const sunder_i_model *model, uint32_t body);
 void sunder_i_reads_end(sunder_i_reading *reading);
-void sunder_i_reads_note(const sunder_i_model *model, const double box[4], const uint32_t *thing, size_t n);
+void sunder_i_reads_note(const sunder_i_model *model, const double box[4], const sunder_i_list *hits, size_t before);
 
 /* Whose notes they are, of two, one of which may not move, or be a part of a barrier: the features a and b. */
 static inline uint32_t sunder_i_reader_of(const sunder_i_model *model, size_t a, size_t b)
@@ -35,7 +35,7 @@ static inline bool sunder_i_look_about(const sunder_i_model *model, const sunder
 {
     const size_t before = hits->n;
     const bool ok = sunder_i_rtree_query(tree, box, hits);
-    if (sunder_i_reads && ok) sunder_i_reads_note(model, box, hits->item + before, hits->n - before);
+    if (sunder_i_reads && ok) sunder_i_reads_note(model, box, hits, before);
     return ok;
 }
 

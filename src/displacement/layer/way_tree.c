@@ -197,6 +197,6 @@ bool sunder_i_way_tree_look_about(const sunder_i_way_tree *ways, const sunder_i_
     const bool ok = order->levels > 1
                         ? query(ways, model, order->levels - 1, order->level[order->levels] - 1, box, hits)
                         : take_leaves(ways, model, 0, order->leaves, box, hits);
-    if (sunder_i_reads && ok) sunder_i_reads_note(model, box, hits->item + before, hits->n - before);
+    if (sunder_i_reads && ok) sunder_i_reads_note(model, box, hits, before);
     return ok;
 }
