@@ -11,6 +11,7 @@
  * Floating point with one-sided error bounds: a wrong "don't know" makes one subsum more. */
 #include "convex/needed_subsums.h"
 
+#include "base/extremes.h"
 #include "base/sort.h"
 #include "base/watch.h"
 #include "convex/approx_sum.h"
@@ -107,7 +108,10 @@ static void push(finder *f, uint32_t a, uint32_t b)
     f->subsums += (double)f->p->group[a].pieces * (double)f->q->group[b].pieces;
 }
 
-static double size_of(const sunder_i_piece_group *g) { return fmax(g->high[0] - g->low[0], g->high[1] - g->low[1]); }
+static double size_of(const sunder_i_piece_group *g)
+{
+    return sunder_i_max(g->high[0] - g->low[0], g->high[1] - g->low[1]);
+}
 
 /* Is it the first of two groups that is to be opened? The larger one of those with several pieces is. */
 static bool opens_first(const sunder_i_piece_group *a, const sunder_i_piece_group *b)
@@ -241,7 +245,7 @@ static void put_half(finder *f, const cell *c, const double box[4])
     f->held = false;
     f->subsums = 0;
     for (size_t i = c->from; i < c->to; i++)
-        list_pair(f, f->pair[i].a, f->pair[i].b, &w, COARSE * 2 * fmax(w.hx, w.hy));
+        list_pair(f, f->pair[i].a, f->pair[i].b, &w, COARSE * 2 * sunder_i_max(w.hx, w.hy));
     if (f->no_memory) return;
     if (f->held || f->pairs == from) {
         f->pairs = from;

@@ -5,6 +5,8 @@
 #include "spatial/box.h"
 #include "spatial/curve.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -40,16 +42,16 @@ static sunder_i_piece_group single(sunder_i_piece_tree *t, uint32_t piece)
         const double at[SUNDER_I_WAYS] = {a.x, a.y, a.x + a.y, a.x - a.y};
         t->side[k] = a;
         for (int w = 0; w < SUNDER_I_WAYS; w++) {
-            g.low[w] = fmin(g.low[w], at[w]);
-            g.high[w] = fmax(g.high[w], at[w]);
+            g.low[w] = sunder_i_min(g.low[w], at[w]);
+            g.high[w] = sunder_i_max(g.high[w], at[w]);
         }
-        t->most = fmax(t->most, fmax(fabs(a.x), fabs(a.y)));
+        t->most = sunder_i_max(t->most, sunder_i_max(fabs(a.x), fabs(a.y)));
     }
     for (int w = 0; w < SUNDER_I_WAYS; w++) g.widest[w] = g.high[w] - g.low[w];
     return g;
 }
 
-static double length_of(const sunder_i_piece_group *g) { return fmax(g->widest[0], g->widest[1]); }
+static double length_of(const sunder_i_piece_group *g) { return sunder_i_max(g->widest[0], g->widest[1]); }
 
 /* What the groups are made from. */
 typedef struct maker {
@@ -61,9 +63,9 @@ typedef struct maker {
 static void join(sunder_i_piece_group *g, const sunder_i_piece_group *part)
 {
     for (int k = 0; k < SUNDER_I_WAYS; k++) {
-        g->low[k] = fmin(g->low[k], part->low[k]);
-        g->high[k] = fmax(g->high[k], part->high[k]);
-        g->widest[k] = fmax(g->widest[k], part->widest[k]);
+        g->low[k] = sunder_i_min(g->low[k], part->low[k]);
+        g->high[k] = sunder_i_max(g->high[k], part->high[k]);
+        g->widest[k] = sunder_i_max(g->widest[k], part->widest[k]);
     }
     g->pieces += part->pieces;
 }

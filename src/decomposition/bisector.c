@@ -22,11 +22,11 @@
  * reflex vertices see, and r^2 for the cuts.
  *
  * Doubles choose among what is exactly possible (which vertex is nearest the bisector): they decide nothing else. */
+#include "base/extremes.h"
 #include "base/sort.h"
 #include "base/watch.h"
 #include "decomposition/maker.h"
 
-#include <math.h>
 #include <string.h>
 
 typedef struct reflex_pair {
@@ -105,13 +105,13 @@ static void hull(const bisector *b, uint32_t v, sunder_i_cut_end end, uint32_t w
         for (int k = 0; k < 2; k++) {
             const double at = r->xy[2 * (size_t)w + (size_t)k];
             const double to = end == SUNDER_I_ON_EDGE ? r->xy[2 * (size_t)r->next[w] + (size_t)k] : at;
-            other[k] = fmin(at, to);
-            other[k + 2] = fmax(at, to);
+            other[k] = sunder_i_min(at, to);
+            other[k + 2] = sunder_i_max(at, to);
         }
     for (int k = 0; k < 2; k++) {
         const double at = r->xy[2 * (size_t)v + (size_t)k];
-        box[k] = fmin(at, other[k]);
-        box[k + 2] = fmax(at, other[k + 2]);
+        box[k] = sunder_i_min(at, other[k]);
+        box[k + 2] = sunder_i_max(at, other[k + 2]);
     }
 }
 

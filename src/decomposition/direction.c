@@ -9,6 +9,8 @@
 
 #include "predicate/rational_point.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 #define MOST 0x1p20 /* of a coordinate: v + d stays on a narrow lattice, and crossings stay short */
@@ -53,7 +55,7 @@ sunder_i_point sunder_i_direction_within(sunder_i_lattice *l, sunder_i_point a, 
     halve(ua, ub, middle);
     halve(ua, middle, low);
     halve(middle, ub, high);
-    const double top = fmax(fabs(middle[0]), fabs(middle[1]));
+    const double top = sunder_i_max(fabs(middle[0]), fabs(middle[1]));
     for (double k = 1; top > 0 && k <= MOST && !l->arena.failed; k *= 2) {
         const double x = round(middle[0] / top * k), y = round(middle[1] / top * k);
         if (low[0] * y - low[1] * x < 0 || x * high[1] - y * high[0] < 0) continue;

@@ -2,6 +2,7 @@
  * common. A group of few is one curve, if the other operand or all of its members are convex. */
 #include "minkowski/members.h"
 
+#include "base/extremes.h"
 #include "base/sort.h"
 #include "base/union_find.h"
 #include "base/watch.h"
@@ -73,7 +74,7 @@ static void make_boxes(const grouper *g)
     for (uint32_t i = 0; i < g->n; i++) {
         memcpy(g->box[i], one, sizeof one);
         add_box(g->many, g->at_many, i, g->box[i]);
-        for (int k = 0; k < 4; k++) most = fmax(most, fabs(g->box[i][k]) + fabs(one[k]));
+        for (int k = 0; k < 4; k++) most = sunder_i_max(most, fabs(g->box[i][k]) + fabs(one[k]));
     }
     for (uint32_t i = 0; i < g->n; i++)
         for (int k = 0; k < 4; k++) g->box[i][k] += (k < 2 ? -1 : 1) * 0x1p-48 * most;

@@ -7,6 +7,7 @@
  * segment: that is the number of pieces in which P meets x - Q, both being simply connected. */
 #include "minkowski/reduced_convolution_inner.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 #include "number/trust.h"
 
@@ -48,7 +49,7 @@ bool sunder_i_place_query_init(sunder_i_place_query *in, sunder_i_reduced *r)
         for (uint32_t i = 0; xy && i < o->n; i++) {
             xy[i] = (double)o->at[i].x;
             xy[o->n + i] = (double)o->at[i].y;
-            most[k] = fmax(most[k], fmax(fabs(xy[i]), fabs(xy[o->n + i])));
+            most[k] = sunder_i_max(most[k], sunder_i_max(fabs(xy[i]), fabs(xy[o->n + i])));
         }
     }
     in->error = ERROR * (most[0] + most[1]);

@@ -27,6 +27,7 @@
  * Cost: expected O(b log b + k), b sides of bands, k crossings drawn, of which those inside the union go at once. */
 #include "morphology/morphology.h"
 
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "base/random.h"
 #include "base/watch.h"
@@ -140,14 +141,14 @@ static bool solid_init(solid *s, const sunder_i_figure *f, const sunder_i_lattic
     for (size_t i = 0; span && s->xy && i < f->sides; i++) {
         const sunder_i_mark mark = sunder_i_arena_mark(&scratch);
         sunder_i_rational_doubles(&scratch, f->at[f->ring[i]], s->shift, &s->xy[i][0], &s->xy[i][1]);
-        s->most = fmax(s->most, fmax(fabs(s->xy[i][0]), fabs(s->xy[i][1])));
+        s->most = sunder_i_max(s->most, sunder_i_max(fabs(s->xy[i][0]), fabs(s->xy[i][1])));
         sunder_i_arena_release(&scratch, mark);
     }
     bool ok = span && s->xy && s->next && !scratch.failed;
     for (size_t i = 0; ok && i < f->sides; i++) {
         const double y[2] = {s->xy[i][1], s->xy[s->next[i]][1]};
-        span[i][0] = fmin(y[0], y[1]) - 4 * margin(s->most);
-        span[i][1] = fmax(y[0], y[1]) + 4 * margin(s->most);
+        span[i][0] = sunder_i_min(y[0], y[1]) - 4 * margin(s->most);
+        span[i][1] = sunder_i_max(y[0], y[1]) + 4 * margin(s->most);
     }
     ok = ok && sunder_i_strips_build(&s->strips, (const double(*)[2])span, f->sides, f->sides);
     sunder_i_arena_free(&scratch);
@@ -185,7 +186,7 @@ static bool is_in_figure(const solid *s, sunder_i_arena *scratch, sunder_i_ratio
         const sunder_i_mark mark = sunder_i_arena_mark(scratch);
         const bool up = is_above(s, scratch, b, &at, y);
         if (up != is_above(s, scratch, a, &at, y)) {
-            const double left = fmin(s->xy[a][0], s->xy[b][0]), right = fmax(s->xy[a][0], s->xy[b][0]);
+            const double left = sunder_i_min(s->xy[a][0], s->xy[b][0]), right = sunder_i_max(s->xy[a][0], s->xy[b][0]);
             bool crosses = right + error < x;
             if (!crosses && !(left - error > x)) {
                 const sunder_i_figure *f = s->figure;

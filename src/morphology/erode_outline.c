@@ -17,6 +17,7 @@
  * not those of one chain: such figures are left to the map.) */
 #include "morphology/morphology.h"
 
+#include "base/extremes.h"
 #include "base/union_find.h"
 #include "base/watch.h"
 #include "convex/merge.h"
@@ -154,8 +155,8 @@ static bool locator_init(locator *l, const eroder *e, sunder_i_lattice *lattice)
     double(*span)[2] = sunder_i_alloc(e->side.n, sizeof *span);
     for (uint32_t i = 0; span && i < e->side.n; i++) {
         const double y[2] = {(double)e->side.corner[2 * i].y, (double)e->side.corner[2 * i + 1].y};
-        span[i][0] = fmin(y[0], y[1]) - margin(fmax(fabs(y[0]), fabs(y[1])));
-        span[i][1] = fmax(y[0], y[1]) + margin(fmax(fabs(y[0]), fabs(y[1])));
+        span[i][0] = sunder_i_min(y[0], y[1]) - margin(sunder_i_max(fabs(y[0]), fabs(y[1])));
+        span[i][1] = sunder_i_max(y[0], y[1]) + margin(sunder_i_max(fabs(y[0]), fabs(y[1])));
     }
     const bool ok = span && sunder_i_strips_build(&l->strips, (const double(*)[2])span, e->side.n, e->side.n);
     sunder_i_free(span);

@@ -17,6 +17,7 @@
  * sides are the edges with covered places on one side only. Diagonals and shared walls have them on both. */
 #include "morphology/morphology.h"
 
+#include "base/extremes.h"
 #include "base/random.h"
 #include "predicate/rational_point.h"
 
@@ -55,14 +56,14 @@ static bool look_through_window(fit *f, const sunder_shape *const shape[2], cons
         sunder_shape_box(shape[i], box[i]);
         for (int k = 0; k < 4; k++) {
             const double move = t[i] ? t[i][k & 1] : 0;
-            most = fmax(most, fabs(box[i][k]) + fabs(move) + fabs(f->reach[k]));
+            most = sunder_i_max(most, fabs(box[i][k]) + fabs(move) + fabs(f->reach[k]));
             box[i][k] += move;
         }
     }
     f->slack = most * 0x1p-46;
     for (int k = 0; k < 2; k++) {
-        f->window[k] = fmax(box[0][k], box[1][k]) - f->reach[k];
-        f->window[k + 2] = fmin(box[0][k + 2], box[1][k + 2]) - f->reach[k + 2];
+        f->window[k] = sunder_i_max(box[0][k], box[1][k]) - f->reach[k];
+        f->window[k + 2] = sunder_i_min(box[0][k + 2], box[1][k + 2]) - f->reach[k + 2];
         if (f->window[k] > f->window[k + 2] + 2 * f->slack) return false;
     }
     return true;
@@ -76,8 +77,8 @@ static bool piece_is_near(const fit *f, const sunder_shape *shape, const double 
     for (size_t i = first; i < end; i++)
         for (int c = 0; c < 2; c++) {
             const double v = shape->xy[2 * (size_t)sunder_i_piece_vertices(shape)[i] + (size_t)c] + (t ? t[c] : 0);
-            box[c] = fmin(box[c], v);
-            box[c + 2] = fmax(box[c + 2], v);
+            box[c] = sunder_i_min(box[c], v);
+            box[c + 2] = sunder_i_max(box[c + 2], v);
         }
     for (int k = 0; k < 4; k++) near[k] = f->window[k] + f->reach[k];
     return boxes_meet(box, near, 16 * f->slack);
@@ -139,8 +140,8 @@ static bool band_is_near(fit *f, const side *s)
     place_of(f, end_of(f, s, true), b);
     sunder_i_arena_release(&f->scratch, mark);
     for (int c = 0; c < 2; c++) {
-        box[c] = fmin(a[c], b[c]) - f->reach[c + 2];
-        box[c + 2] = fmax(a[c], b[c]) - f->reach[c];
+        box[c] = sunder_i_min(a[c], b[c]) - f->reach[c + 2];
+        box[c + 2] = sunder_i_max(a[c], b[c]) - f->reach[c];
     }
     return boxes_meet(box, f->window, 8 * f->slack);
 }

@@ -7,11 +7,11 @@
  * opening, stays in its polygon, too.
  *
  * So a layer of a hundred thousand blocks takes the memory of its largest one beside the result, and all threads. */
+#include "base/extremes.h"
 #include "base/parallel.h"
 #include "morphology/morphology.h"
 #include "sum/gather.h"
 
-#include <math.h>
 #include <pthread.h>
 
 typedef struct islands {
@@ -40,7 +40,7 @@ static bool tell(double fraction, void *user)
     islands *all = t->all;
     pthread_mutex_lock(&all->lock);
     const double part = (t->from + (t->to - t->from) * fraction) * (double)t->sides;
-    all->told = fmax(all->told, ((double)all->done + part) / (double)(all->sides + 1));
+    all->told = sunder_i_max(all->told, ((double)all->done + part) / (double)(all->sides + 1));
     if (!all->stopped) all->stopped = !all->asked->progress(all->told, all->asked->progress_user);
     const bool go_on = !all->stopped;
     pthread_mutex_unlock(&all->lock);

@@ -6,6 +6,7 @@
  * be reached is decided exactly, and reaching a farther one would not be wrong. */
 #include "motion/corners.h"
 
+#include "base/extremes.h"
 #include "base/union_find.h"
 #include "spatial/strips.h"
 
@@ -32,7 +33,7 @@ static bool range_at(const sunder_i_free_space *s, const sunder_i_filtered_point
 {
     const double e = 2 * s->filter.error;
     if ((a->ay < v->ay - e && b->ay < v->ay - e) || (a->ay > v->ay + e && b->ay > v->ay + e)) return false;
-    const double low = fmin(a->ax, b->ax) - e, high = fmax(a->ax, b->ax) + e;
+    const double low = sunder_i_min(a->ax, b->ax) - e, high = sunder_i_max(a->ax, b->ax) + e;
     if (low > v->ax + e) return false;
     if (sunder_i_filtered_cmp_y(&s->filter, a, v) * sunder_i_filtered_cmp_y(&s->filter, b, v) > 0) return false;
     const double dx = b->ax - a->ax, dy = b->ay - a->ay;
@@ -42,8 +43,8 @@ static bool range_at(const sunder_i_free_space *s, const sunder_i_filtered_point
     /* Height is off by e, so x by e times the slope; and what rounds. */
     const double at = a->ax + dx * ((v->ay - a->ay) / dy);
     const double off = 4 * e * (1 + fabs(dx / dy)) + 0x1p-48 * fabs(dx);
-    x[0] = fmax(low, at - off);
-    x[1] = fmin(high, at + off);
+    x[0] = sunder_i_max(low, at - off);
+    x[1] = sunder_i_min(high, at + off);
     return true;
 }
 
@@ -72,8 +73,8 @@ static bool make_strips(const sunder_i_free_space *s, const sunder_i_corners *c,
     const double e = 4 * s->filter.error;
     for (size_t i = 0; i < s->stretches; i++) {
         const double a = c->place[s->stretch[i].from].ay, b = c->place[s->stretch[i].to].ay;
-        span[i][0] = fmin(a, b) - e;
-        span[i][1] = fmax(a, b) + e;
+        span[i][0] = sunder_i_min(a, b) - e;
+        span[i][1] = sunder_i_max(a, b) + e;
     }
     const bool ok = sunder_i_strips_build(out, (const double(*)[2])span, s->stretches, s->stretches);
     sunder_i_free(span);
@@ -95,7 +96,7 @@ static void shoot(const sunder_i_free_space *s, sunder_i_corners *c, const sunde
             const sunder_i_filtered_point *a = &c->place[e->from], *b = &c->place[e->to];
             if (curve[e->from] == own || !range_at(s, p, a, b, x) || x[0] > p->ax + 2 * s->filter.error) continue;
             if (round == 0) {
-                if (x[1] < p->ax - 2 * s->filter.error) nearest = fmax(nearest, x[0]);
+                if (x[1] < p->ax - 2 * s->filter.error) nearest = sunder_i_max(nearest, x[0]);
                 continue;
             }
             sunder_i_filtered_point hit;

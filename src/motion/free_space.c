@@ -16,6 +16,8 @@
 #include "outline/outline.h"
 #include "predicate/predicate.h"
 
+#include "base/extremes.h"
+
 #include <float.h>
 #include <limits.h>
 #include <math.h>
@@ -45,8 +47,8 @@ static void join_extent(sunder_i_extent *all, const sunder_i_extent *e)
         return;
     }
     for (int k = 0; k < 2; k++) {
-        all->low[k] = fmin(all->low[k], e->low[k]);
-        all->high[k] = fmax(all->high[k], e->high[k]);
+        all->low[k] = sunder_i_min(all->low[k], e->low[k]);
+        all->high[k] = sunder_i_max(all->high[k], e->high[k]);
     }
     if (e->low_bit < all->low_bit) all->low_bit = e->low_bit;
 }
@@ -66,8 +68,8 @@ static bool clamp(sunder_i_extent *e)
     bool inside = true;
     for (int k = 0; k < 2; k++) {
         inside = inside && isfinite(e->low[k]) && isfinite(e->high[k]);
-        e->low[k] = fmax(fmin(e->low[k], DBL_MAX), -DBL_MAX);
-        e->high[k] = fmax(fmin(e->high[k], DBL_MAX), -DBL_MAX);
+        e->low[k] = sunder_i_max(sunder_i_min(e->low[k], DBL_MAX), -DBL_MAX);
+        e->high[k] = sunder_i_max(sunder_i_min(e->high[k], DBL_MAX), -DBL_MAX);
     }
     return inside;
 }
@@ -228,7 +230,7 @@ static bool measure(maker *m)
         double *at = m->out->corner[i];
         at[0] = sunder_i_approx(l, part->corner[i].x);
         at[1] = sunder_i_approx(l, part->corner[i].y);
-        most = fmax(most, fmax(fabs(at[0]), fabs(at[1])));
+        most = sunder_i_max(most, sunder_i_max(fabs(at[0]), fabs(at[1])));
     }
     /* Corners of the outline lie between those of parts; a vertex's double is within 2^-49 of its size
      * (predicate/hpoint.c), a lattice point's within 2^-53. */

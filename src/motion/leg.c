@@ -7,6 +7,8 @@
 
 #include "spatial/curve.h"
 
+#include "base/extremes.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -108,8 +110,8 @@ static ray ray_of(const sunder_i_free_space *s, const sunder_i_filtered_point *p
 {
     const double e = s->filter.error;
     ray r = {p->ax, p->ay, q->ax - p->ax, q->ay - p->ay, {0, 0}, {0, 0}, 0};
-    r.low[0] = fmin(p->ax, q->ax) - e, r.high[0] = fmax(p->ax, q->ax) + e;
-    r.low[1] = fmin(p->ay, q->ay) - e, r.high[1] = fmax(p->ay, q->ay) + e;
+    r.low[0] = sunder_i_min(p->ax, q->ax) - e, r.high[0] = sunder_i_max(p->ax, q->ax) + e;
+    r.low[1] = sunder_i_min(p->ay, q->ay) - e, r.high[1] = sunder_i_max(p->ay, q->ay) + e;
     /* The ends are off by e each, and sums of boxes and ends round: generously. */
     r.slack = 16 * e + 4 * DBL_EPSILON * (fabs(r.dx) + fabs(r.dy));
     return r;

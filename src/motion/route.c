@@ -2,6 +2,7 @@
 #include "motion/path_length.h"
 #include "motion/shortest_path.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -43,9 +44,9 @@ static sunder_status read_place(sunder_i_free_space *space, const sunder_place *
     if (l->arena.failed) return sunder_i_no_memory(err);
     *out = sunder_i_filtered_of_rational(space->sum, l, at[0], at[1]);
     if (l->arena.failed) return sunder_i_no_memory(err);
-    const double size = fmax(fabs(out->ax), fabs(out->ay));
+    const double size = sunder_i_max(fabs(out->ax), fabs(out->ay));
     if (!(size < 0x1p900)) return sunder_i_fail(err, SUNDER_ERANGE, "%s is too far away", which);
-    space->filter.error = fmax(space->filter.error, 0x1p-48 * size);
+    space->filter.error = sunder_i_max(space->filter.error, 0x1p-48 * size);
     return SUNDER_OK;
 }
 

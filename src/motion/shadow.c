@@ -3,6 +3,8 @@
  * inward by a margin, so that it is inside for certain; margins cover the error of the corners and all rounding. */
 #include "motion/shadow.h"
 
+#include "base/extremes.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -48,9 +50,10 @@ bool sunder_i_sector_of(const double (*point)[2], int n, double error, bool at_e
 
 void sunder_i_shadow_start(sunder_i_shadow *s, sunder_i_sector sector)
 {
-    s->bins =
-        sector.width >= 4 ? BINS_ALL_ROUND : (int)fmin(SUNDER_I_BINS, fmax(BINS_LEAST, sector.width * SUNDER_I_BINS));
-    s->sector = (sunder_i_sector){wrap(sector.low), fmin(sector.width, 4)};
+    s->bins = sector.width >= 4
+                  ? BINS_ALL_ROUND
+                  : (int)sunder_i_min(SUNDER_I_BINS, sunder_i_max(BINS_LEAST, sector.width * SUNDER_I_BINS));
+    s->sector = (sunder_i_sector){wrap(sector.low), sunder_i_min(sector.width, 4)};
     s->per_turn = s->bins / s->sector.width;
     for (int k = 0; k <= s->bins; k++) ray_at(s->sector.low + k / s->per_turn, s->ray[k]);
     for (int k = 0; k < s->bins; k++) s->depth[k] = INFINITY;
@@ -62,7 +65,7 @@ static int pieces_of(const sunder_i_shadow *s, sunder_i_sector sector, double pi
     const double at = sunder_i_turn_between(s->sector.low, sector.low);
     int n = 0;
     for (int k = 0; k < 2; k++) {
-        const double low = fmax(at - 4 * k, 0), high = fmin(at - 4 * k + sector.width, s->sector.width);
+        const double low = sunder_i_max(at - 4 * k, 0), high = sunder_i_min(at - 4 * k + sector.width, s->sector.width);
         if (low > high) continue;
         piece[n][0] = low * s->per_turn;
         piece[n++][1] = high * s->per_turn;
@@ -83,7 +86,7 @@ typedef struct caster {
 static bool prepare(caster *c, const double (*corner)[2], int n, double error)
 {
     double reach = 0;
-    for (int i = 0; i < n; i++) reach = fmax(reach, fabs(corner[i][0]) + fabs(corner[i][1]));
+    for (int i = 0; i < n; i++) reach = sunder_i_max(reach, fabs(corner[i][0]) + fabs(corner[i][1]));
     if (!(reach < 0x1p500)) return false;
     c->n = n;
     for (int i = 0; i < n; i++) {
@@ -145,7 +148,7 @@ void sunder_i_shadow_cast(sunder_i_shadow *s, const double (*corner)[2], int n, 
     const int pieces = pieces_of(s, sector, piece);
     for (int i = 0; i < pieces; i++) {
         double before = INFINITY;
-        const int first = (int)ceil(piece[i][0]), last = (int)fmin(floor(piece[i][1]), s->bins);
+        const int first = (int)ceil(piece[i][0]), last = (int)sunder_i_min(floor(piece[i][1]), s->bins);
         for (int k = first; k <= last; k++) {
             const double at = entry(&c, s->ray[k]);
             const double depth = at > before ? at : before;

@@ -5,7 +5,7 @@
  * leg is free of the part when no t is left. */
 #include "motion/free_space.h"
 
-#include <math.h>
+#include "base/extremes.h"
 
 /* cross(b - a, c - a) times the positive w of c and a positive number of the side's own. */
 static sunder_i_big height(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_filtered_point *c)
@@ -77,8 +77,8 @@ bool sunder_i_leg_verified(const sunder_i_free_space *s, const sunder_i_filtered
 {
     sunder_i_arena *m = &s->filter.lattice->arena;
     const double e = 4 * s->filter.error;
-    const double low[2] = {fmin(p->ax, q->ax) - e, fmin(p->ay, q->ay) - e};
-    const double high[2] = {fmax(p->ax, q->ax) + e, fmax(p->ay, q->ay) + e};
+    const double low[2] = {sunder_i_min(p->ax, q->ax) - e, sunder_i_min(p->ay, q->ay) - e};
+    const double high[2] = {sunder_i_max(p->ax, q->ax) + e, sunder_i_max(p->ay, q->ay) + e};
     for (uint32_t part = 0; part < s->part.n; part++) {
         if (box_apart(s, part, low, high)) continue;
         const sunder_i_mark mark = sunder_i_arena_mark(m);

@@ -8,6 +8,7 @@
  * small one. Wherever doubles do not say, all round is looked at. */
 #include "motion/visibility.h"
 
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "spatial/curve.h"
 
@@ -188,11 +189,15 @@ typedef struct look {
 } look;
 
 /* How far away, at least, a box from the eye is, in |dx| + |dy|. */
-static double gap_of(const double box[4]) { return fmax(0, fmax(box[0], -box[2])) + fmax(0, fmax(box[1], -box[3])); }
+static double gap_of(const double box[4])
+{
+    return sunder_i_max(0, sunder_i_max(box[0], -box[2])) + sunder_i_max(0, sunder_i_max(box[1], -box[3]));
+}
 
 static double box_distance(const double box[4], const double p[2])
 {
-    return hypot(fmax(0, fmax(box[0] - p[0], p[0] - box[2])), fmax(0, fmax(box[1] - p[1], p[1] - box[3])));
+    return hypot(sunder_i_max(0, sunder_i_max(box[0] - p[0], p[0] - box[2])),
+                 sunder_i_max(0, sunder_i_max(box[1] - p[1], p[1] - box[3])));
 }
 
 /* A box from the start as one from the eye, which may be off. */
@@ -227,7 +232,7 @@ static void cast_part(look *k, uint32_t part)
     const uint32_t m = n < SUNDER_I_CAST_CORNERS ? n : SUNDER_I_CAST_CORNERS;
     for (uint32_t i = 0; i < m; i++) {
         const double *at = k->view->corner[first + (uint32_t)((uint64_t)i * n / m)];
-        size = fmax(size, size_of(at));
+        size = sunder_i_max(size, size_of(at));
         for (int axis = 0; axis < 2; axis++) corner[i][axis] = at[axis] - k->eye[axis];
     }
     if (m >= 3) sunder_i_shadow_cast(&k->view->shadow, corner, (int)m, off_of(size) + k->error);

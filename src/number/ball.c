@@ -5,6 +5,8 @@
 
 #include "number/lattice.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -84,7 +86,7 @@ sunder_i_ball sunder_i_ball_sqrt(sunder_i_ball a)
     const double m = odd ? 2 * a.middle : a.middle, r = odd ? 2 * a.radius : a.radius;
     const long half = (a.exponent - odd) / 2;
     if (m == 0 && r == 0) return a;
-    if (!(m > r)) return canonical(0, sqrt(fmax(m + r, 0) * MORE) * MORE, half);
+    if (!(m > r)) return canonical(0, sqrt(sunder_i_max(m + r, 0) * MORE) * MORE, half);
     const double root = sqrt(m);
     return canonical(root, (r / root + root * U) * MORE, half);
 }

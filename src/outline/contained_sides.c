@@ -5,6 +5,7 @@
  * with one-sided bounds, so that nothing is taken for contained that is not. */
 #include "outline/contained_sides.h"
 
+#include "base/extremes.h"
 #include "base/sort.h"
 #include "base/watch.h"
 #include "outline/tuning.h"
@@ -89,8 +90,8 @@ static bool take_corners(grid *g, bool *no_memory)
     double most = 0;
     int exponent;
     for (size_t k = 0; k < s->corners; k++)
-        most = fmax(most, fmax(fabs(sunder_i_approx(s->lattice, s->corner[k].x)),
-                               fabs(sunder_i_approx(s->lattice, s->corner[k].y))));
+        most = sunder_i_max(most, sunder_i_max(fabs(sunder_i_approx(s->lattice, s->corner[k].x)),
+                                               fabs(sunder_i_approx(s->lattice, s->corner[k].y))));
     if (!(most > 0x1p-900)) return false;
     frexp(most, &exponent);
     g->rounded = sunder_i_alloc(s->corners, sizeof *g->rounded);

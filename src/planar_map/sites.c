@@ -15,6 +15,8 @@
 
 #include "predicate/rational_point.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -201,7 +203,7 @@ static sunder_i_map_line line_along(sunder_i_planar_map *map, const sunder_i_sit
             c = divided(s, c, g);
         }
     }
-    const double a = -(double)dy, b = (double)dx, scale = ldexp(1, -ilogb(fmax(fabs(a), b)) - 1);
+    const double a = -(double)dy, b = (double)dx, scale = ldexp(1, -ilogb(sunder_i_max(fabs(a), b)) - 1);
     return (sunder_i_map_line){.abc = {sunder_i_big_neg(sunder_i_times(s, y, w)), sunder_i_times(s, x, w), c},
                                .a = a * scale,
                                .b = b * scale,

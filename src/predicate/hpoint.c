@@ -1,5 +1,6 @@
 /* Intersection points in homogeneous coordinates: degree 3 over degree 2, compared in degree 5. What plain points
  * define is native on every lattice: coordinates below 2^188 over weights below 2^126 off the narrow ones. */
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "predicate/narrow.h"
 
@@ -212,7 +213,8 @@ static int filter_side(const sunder_i_lattice *l, sunder_i_point a, sunder_i_poi
 {
     const double ax = sunder_i_approx(l, a.x), ay = sunder_i_approx(l, a.y);
     const double bx = sunder_i_approx(l, b.x), by = sunder_i_approx(l, b.y);
-    const double most = fmax(fmax(fmax(fabs(ax), fabs(ay)), fmax(fabs(bx), fabs(by))), fmax(fabs(c->ax), fabs(c->ay)));
+    const double most = sunder_i_max(sunder_i_max(sunder_i_max(fabs(ax), fabs(ay)), sunder_i_max(fabs(bx), fabs(by))),
+                                     sunder_i_max(fabs(c->ax), fabs(c->ay)));
     const double det = (bx - ax) * (c->ay - ay) - (by - ay) * (c->ax - ax),
                  bound = SUNDER_I_DOUBT(0x1p-43 * most * most);
     return most < 0x1p-200 ? 0 : det > bound ? 1 : det < -bound ? -1 : 0;

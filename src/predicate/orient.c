@@ -7,6 +7,8 @@
 #include "predicate/narrow.h"
 #include "predicate/rational_point.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 /* Products of approximations must neither overflow (they are below 2^501) nor lose bits to underflow. */
@@ -134,7 +136,8 @@ static int filter_orient(const sunder_i_lattice *l, sunder_i_point a, sunder_i_p
     const double ax = sunder_i_approx(l, a.x), ay = sunder_i_approx(l, a.y);
     const double bx = sunder_i_approx(l, b.x), by = sunder_i_approx(l, b.y);
     const double cx = sunder_i_approx(l, c.x), cy = sunder_i_approx(l, c.y);
-    const double most = fmax(fmax(fmax(fabs(ax), fabs(ay)), fmax(fabs(bx), fabs(by))), fmax(fabs(cx), fabs(cy)));
+    const double most = sunder_i_max(sunder_i_max(sunder_i_max(fabs(ax), fabs(ay)), sunder_i_max(fabs(bx), fabs(by))),
+                                     sunder_i_max(fabs(cx), fabs(cy)));
     if (most < 0x1p-200) return 0;
     return sign_of((bx - ax) * (cy - ay) - (by - ay) * (cx - ax), SIDE_ERROR * most * most);
 }

@@ -12,6 +12,8 @@
 #include "number/accumulator.h"
 #include "predicate/orient_double.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 #define UNIT 0x1p-53
@@ -30,8 +32,8 @@ void sunder_i_passage_box(const sunder_i_passage *p, double box[4])
         const double end = p->from[k] + (p->t[k] - p->s[k]);
         const double slack = 4 * UNIT * (fabs(p->from[k]) + fabs(p->t[k]) + fabs(p->s[k]));
         const bool known = isfinite(end) && isfinite(slack);
-        box[k] = known ? fmin(p->from[k], end - slack) : -INFINITY;
-        box[k + 2] = known ? fmax(p->from[k], end + slack) : INFINITY;
+        box[k] = known ? sunder_i_min(p->from[k], end - slack) : -INFINITY;
+        box[k + 2] = known ? sunder_i_max(p->from[k], end + slack) : INFINITY;
     }
 }
 

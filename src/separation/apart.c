@@ -7,6 +7,8 @@
 
 #include "separation/operands/operands.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 /* The boundary edges of one operand near the other, by their tails. */
@@ -38,8 +40,8 @@ static nearness edges_near_each_other(const sunder_i_operands *g, uint32_t i, ui
     if (!sunder_i_box_near(ab, cd, reach)) return FAR;
     /* With disjoint interiors no two edges cross properly, so the least distance is at an end; with coordinates off by
      * at most the error it is off by less than 8 times that. */
-    const double square = fmin(fmin(sunder_i_point_square(a, c, d), sunder_i_point_square(b, c, d)),
-                               fmin(sunder_i_point_square(c, a, b), sunder_i_point_square(d, a, b)));
+    const double square = sunder_i_min(sunder_i_min(sunder_i_point_square(a, c, d), sunder_i_point_square(b, c, d)),
+                                       sunder_i_min(sunder_i_point_square(c, a, b), sunder_i_point_square(d, a, b)));
     const double distance = sqrt(square);
     return distance + doubt < units ? NEAR : distance - doubt > units ? FAR : IN_DOUBT;
 }
@@ -145,7 +147,7 @@ sunder_status sunder_i_meet(const sunder_shape *p, const double tp[2], const sun
                             double gap, double tolerance, sunder_i_encounter *out, sunder_error *err)
 {
     /* Of boxes that only touch nothing follows. */
-    const double far = fmax(fmax(gap, tolerance), 0x1p-1074);
+    const double far = sunder_i_max(sunder_i_max(gap, tolerance), 0x1p-1074);
     *out = (sunder_i_encounter){.apart = true};
     if (p->pieces == 0 || q->pieces == 0 || sunder_i_boxes_apart(p, tp, q, tq, far)) return SUNDER_OK;
     if (sunder_i_surely_apart(p, tp, q, tq, far)) return SUNDER_OK;

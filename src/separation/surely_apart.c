@@ -5,6 +5,8 @@
 
 #include "shape/shape.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 /* Sets with more corners are better asked by their pieces. */
@@ -75,7 +77,7 @@ bool sunder_i_surely_apart(const sunder_shape *p, const double tp[2], const sund
     const double none[2] = {0, 0}, *origin = p->box, *s = tp ? tp : none, *t = tq ? tq : none;
     if (p->rational || q->rational || p->vertices > MOST_CORNERS || q->vertices > MOST_CORNERS) return false;
     corners at_p, at_q;
-    const double of_p = place(p, s, origin, &at_p), of_q = place(q, t, origin, &at_q), size = fmax(of_p, of_q);
+    const double of_p = place(p, s, origin, &at_p), of_q = place(q, t, origin, &at_q), size = sunder_i_max(of_p, of_q);
     /* No product comes near the greatest double; what is lost below the least is nothing beside the doubt. */
     if (!(size < 0x1p400 && size > 0x1p-400 && far < 0x1p400)) return false;
     const double way[2] = {(q->box[0] - p->box[0]) + (q->box[2] - p->box[2]) + 2 * (t[0] - s[0]),

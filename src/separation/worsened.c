@@ -9,6 +9,8 @@
 #include "separation/least.h"
 #include "separation/operands/operands.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 /* value * 2^exponent. */
@@ -68,7 +70,7 @@ static square least_square(sunder_i_operands *g)
                     const double *xy = g->xy[1 - side];
                     const double d = sqrt(sunder_i_point_square(g->xy[side] + 2 * v, xy + 2 * e,
                                                                 xy + 2 * g->shape[1 - side]->form->cleaned.next[e]));
-                    if (pass == 0) least = fmin(least, d);
+                    if (pass == 0) least = sunder_i_min(least, d);
                     if (pass == 0 || d > most) continue;
                     const square s = end_square(g, side, v, e);
                     if (!any || is_less(&g->placed.lattice.arena, &s, &best)) best = s;
@@ -85,7 +87,7 @@ static double size_of(const sunder_i_pair *pair)
     for (int e = 0; e < 2; e++) {
         const double *t = e ? pair->tq : pair->tp;
         sunder_shape_box(e ? pair->q : pair->p, box);
-        for (int c = 0; c < 4; c++) size = fmax(size, fabs(box[c]) + (t ? fabs(t[c & 1]) : 0));
+        for (int c = 0; c < 4; c++) size = sunder_i_max(size, fabs(box[c]) + (t ? fabs(t[c & 1]) : 0));
     }
     return size;
 }

@@ -13,6 +13,8 @@
  * runs through is meant. */
 #include "shape/build.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 static uint32_t ring_begin(const sunder_i_rings *r, uint32_t ring) { return ring ? r->ring_end[ring - 1] : 0; }
@@ -61,12 +63,12 @@ typedef struct view {
 
 static double lower_y(const sunder_i_rings *r, span s)
 {
-    return fmin(r->xy[2 * (size_t)s.left + 1], r->xy[2 * (size_t)s.right + 1]);
+    return sunder_i_min(r->xy[2 * (size_t)s.left + 1], r->xy[2 * (size_t)s.right + 1]);
 }
 
 static double upper_y(const sunder_i_rings *r, span s)
 {
-    return fmax(r->xy[2 * (size_t)s.left + 1], r->xy[2 * (size_t)s.right + 1]);
+    return sunder_i_max(r->xy[2 * (size_t)s.left + 1], r->xy[2 * (size_t)s.right + 1]);
 }
 
 static void see_edge(void *user, uint32_t e)

@@ -5,6 +5,8 @@
 #include "predicate/predicate.h"
 #include "predicate/rational_point.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -53,7 +55,7 @@ static bool boxes_apart(const sunder_shape *s, uint32_t a, uint32_t b, uint32_t 
     for (size_t k = 0; k < 2; k++) {
         const double p = s->xy[2 * (size_t)a + k], q = s->xy[2 * (size_t)b + k];
         const double t = s->xy[2 * (size_t)g + k], u = s->xy[2 * (size_t)h + k];
-        if (fmax(p, q) < fmin(t, u) || fmax(t, u) < fmin(p, q)) return true;
+        if (sunder_i_max(p, q) < sunder_i_min(t, u) || sunder_i_max(t, u) < sunder_i_min(p, q)) return true;
     }
     return false;
 }

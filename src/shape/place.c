@@ -9,6 +9,8 @@
 #include "predicate/predicate.h"
 #include "predicate/rational_point.h"
 
+#include "base/extremes.h"
+
 #include <float.h>
 #include <limits.h>
 #include <math.h>
@@ -36,8 +38,8 @@ static bool clamp_extent(sunder_i_extent *e)
     for (int k = 0; k < 2 && e->any; k++) {
         if (isfinite(e->low[k]) && isfinite(e->high[k])) continue;
         inside = false;
-        e->low[k] = fmax(fmin(e->low[k], DBL_MAX), -DBL_MAX);
-        e->high[k] = fmax(fmin(e->high[k], DBL_MAX), -DBL_MAX);
+        e->low[k] = sunder_i_max(sunder_i_min(e->low[k], DBL_MAX), -DBL_MAX);
+        e->high[k] = sunder_i_max(sunder_i_min(e->high[k], DBL_MAX), -DBL_MAX);
     }
     return inside;
 }
@@ -48,8 +50,8 @@ static sunder_i_extent extent_union(const sunder_i_extent *a, const sunder_i_ext
     if (!b->any) return *a;
     sunder_i_extent u = *a;
     for (int k = 0; k < 2; k++) {
-        u.low[k] = fmin(a->low[k], b->low[k]);
-        u.high[k] = fmax(a->high[k], b->high[k]);
+        u.low[k] = sunder_i_min(a->low[k], b->low[k]);
+        u.high[k] = sunder_i_max(a->high[k], b->high[k]);
     }
     if (b->low_bit < u.low_bit) u.low_bit = b->low_bit;
     return u;
@@ -63,8 +65,8 @@ static void remainder_extent(const sunder_i_extent *shifted, const double *s, su
         if (!s || s[k] == 0) continue;
         const double m = DBL_EPSILON * (fabs(shifted->low[k]) + fabs(shifted->high[k]) + 2 * fabs(s[k])) + DBL_TRUE_MIN;
         extra->any = true;
-        extra->low[0] = extra->low[1] = fmin(extra->low[0], -m);
-        extra->high[0] = extra->high[1] = fmax(extra->high[0], m);
+        extra->low[0] = extra->low[1] = sunder_i_min(extra->low[0], -m);
+        extra->high[0] = extra->high[1] = sunder_i_max(extra->high[0], m);
         if (shifted->low_bit < extra->low_bit) extra->low_bit = shifted->low_bit;
     }
 }

@@ -2,6 +2,7 @@
  * have small boxes. Only speed depends on it; doubles are good enough. */
 #include "spatial/curve.h"
 
+#include "base/extremes.h"
 #include "base/sort.h"
 
 #include <math.h>
@@ -33,8 +34,8 @@ void sunder_i_curve_sort(const double *xy, const uint32_t *vertex, uint32_t *lis
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < 2; k++) {
             const double v = xy[2 * (size_t)vertex[list[i]] + k];
-            low[k] = fmin(low[k], v);
-            high[k] = fmax(high[k], v);
+            low[k] = sunder_i_min(low[k], v);
+            high[k] = sunder_i_max(high[k], v);
         }
     for (size_t i = 0; i < n; i++) {
         const double *at = xy + 2 * (size_t)vertex[list[i]];

@@ -1,6 +1,8 @@
 /* What bodies cost together, by prices of area. */
 #include "displacement/areas/climb.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 /* As whole numbers. False if memory is out. */
@@ -8,7 +10,7 @@ static bool round_prices(const float *price, sunder_i_prices *out)
 {
     const size_t nodes = sunder_i_grid_nodes(&out->grid);
     double most = 0;
-    for (size_t k = 0; k < nodes; k++) most = fmax(most, price[k]);
+    for (size_t k = 0; k < nodes; k++) most = sunder_i_max(most, price[k]);
     int exponent;
     frexp(most / (double)SUNDER_I_MOST_PRICE, &exponent);
     out->unit = ldexp(1, exponent);

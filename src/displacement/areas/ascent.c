@@ -9,6 +9,7 @@
 #include "displacement/areas/tuning.h"
 #include "displacement/areas/window.h"
 
+#include "base/extremes.h"
 #include "base/parallel.h"
 #include "base/watch.h"
 
@@ -95,7 +96,7 @@ static void occupy_all(const ascent *a, const sunder_i_masses *m, const answer *
 static int64_t reach_of(const asking *a, double stays, double heat)
 {
     const double reach = sqrt((stays + TOO_DEAR * heat) / a->payer->weight);
-    return (int64_t)fmin(reach, a->payer->limit / a->ascent->grid->side);
+    return (int64_t)sunder_i_min(reach, a->payer->limit / a->ascent->grid->side);
 }
 
 /* Way and price of one place; the way alone where that is too dear to count. Nothing is beyond its limit. */
@@ -122,8 +123,8 @@ static double glance(const asking *a, double stays, double doubt, int64_t half)
  * between them. */
 static bool may_be_cheap(const double *seen, size_t across, double most)
 {
-    const double low = fmin(fmin(seen[0], seen[1]), fmin(seen[across], seen[across + 1]));
-    const double high = fmax(fmax(seen[0], seen[1]), fmax(seen[across], seen[across + 1]));
+    const double low = sunder_i_min(sunder_i_min(seen[0], seen[1]), sunder_i_min(seen[across], seen[across + 1]));
+    const double high = sunder_i_max(sunder_i_max(seen[0], seen[1]), sunder_i_max(seen[across], seen[across + 1]));
     return low - (high - low) < most;
 }
 
@@ -325,7 +326,7 @@ static double next_length(const sunder_i_grid *l, const place *from, const place
         ways += way * way;
         turns += way * ((double)from->slope[k] - (double)to->slope[k]);
     }
-    return turns > 0 ? fmin(fmax(ways / turns, STEP_LEAST), STEP_MOST) : STEP_BLIND;
+    return turns > 0 ? sunder_i_min(sunder_i_max(ways / turns, STEP_LEAST), STEP_MOST) : STEP_BLIND;
 }
 
 /* As much of the step as promises something beyond `least`; `other` is where that leads. */
@@ -349,7 +350,7 @@ static bool climb(ascent *a, place *at, place *other, float *step, unsigned roun
     for (unsigned round = 0; round < rounds; round++) {
         propose(a->grid, at, length, step, &gain);
         double least = at->value;
-        for (int k = 0; k < REMEMBERED; k++) least = fmin(least, last[k]);
+        for (int k = 0; k < REMEMBERED; k++) least = sunder_i_min(least, last[k]);
         if (!go(a, at, other, step, gain, least)) return false;
         length = next_length(a->grid, at, other);
         const place swap = *at;

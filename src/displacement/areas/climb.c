@@ -5,6 +5,8 @@
 
 #include "spatial/box.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -23,8 +25,8 @@ static sunder_status find_outlines(sunder_i_climb *l, double about, sunder_error
         if (!has_area(o)) continue;
         const double *t = l->model->move + 2 * (size_t)l->body[k];
         for (int c = 0; c < 2; c++) {
-            l->box[c] = fmin(l->box[c], o->box[c] + fmin(t[c], 0));
-            l->box[2 + c] = fmax(l->box[2 + c], o->box[2 + c] + fmax(t[c], 0));
+            l->box[c] = sunder_i_min(l->box[c], o->box[c] + sunder_i_min(t[c], 0));
+            l->box[2 + c] = sunder_i_max(l->box[2 + c], o->box[2 + c] + sunder_i_max(t[c], 0));
         }
         area += o->area;
         n++;

@@ -9,6 +9,7 @@
 #include "displacement/areas/areas.h"
 #include "displacement/areas/window.h"
 
+#include "base/extremes.h"
 #include "base/parallel.h"
 #include "base/watch.h"
 
@@ -174,7 +175,7 @@ static bool ask_payer(const field *f, const sunder_i_payer *payer, int64_t *paid
     if (stays == 0) return true;
     const sunder_i_masses *m = &payer->masses;
     a.doubt = PARTS_SQUARE / 4 * f->sharpest * (m->total + m->slack * (int64_t)(m->columns * m->rows));
-    a.reach = (int64_t)fmin(sqrt((double)stays / (double)a.weight), payer->limit / f->prices->grid.side) + 2;
+    a.reach = (int64_t)sunder_i_min(sqrt((double)stays / (double)a.weight), payer->limit / f->prices->grid.side) + 2;
     const size_t across = (size_t)(2 * a.reach + 1);
     a.price = sunder_i_alloc(across * across, sizeof *a.price);
     if (!a.price) return false;

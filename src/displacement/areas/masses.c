@@ -11,6 +11,8 @@
 #include "displacement/areas/areas.h"
 #include "displacement/areas/tuning.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 typedef struct ring {
@@ -89,11 +91,11 @@ static void span_of(const ring *r, int c, size_t most, size_t *from, size_t *to)
 {
     double low = INFINITY, high = -INFINITY;
     for (size_t k = 0; k < r->n; k++) {
-        low = fmin(low, r->xy[2 * k + (size_t)c]);
-        high = fmax(high, r->xy[2 * k + (size_t)c]);
+        low = sunder_i_min(low, r->xy[2 * k + (size_t)c]);
+        high = sunder_i_max(high, r->xy[2 * k + (size_t)c]);
     }
-    *from = r->n ? (size_t)fmax(low, 0) : 0;
-    *to = r->n ? (size_t)fmin(ceil(high), (double)most) : 0;
+    *from = r->n ? (size_t)sunder_i_max(low, 0) : 0;
+    *to = r->n ? (size_t)sunder_i_min(ceil(high), (double)most) : 0;
 }
 
 static bool spread(spreading *s)
@@ -122,7 +124,7 @@ static void settle(const spreading *s, double doubt_each, sunder_i_masses *masse
         const double m = s->mass[k] * (double)SUNDER_I_MASS_OF_SQUARE - doubt;
         masses->at[k] = m > 0 ? (int32_t)m : 0;
         masses->total += masses->at[k];
-        most = fmax(most, doubt);
+        most = sunder_i_max(most, doubt);
     }
     masses->slack = (int64_t)(2 * most) + 1;
 }
@@ -149,7 +151,7 @@ bool sunder_i_masses_make(const sunder_i_outline *o, const sunder_i_grid *grid, 
         ok = ok && spread(&s);
     }
     double far = 0;
-    for (int k = 0; k < 4; k++) far = fmax(far, fabs(o->box[k]) / side);
+    for (int k = 0; k < 4; k++) far = sunder_i_max(far, fabs(o->box[k]) / side);
     if (ok) settle(&s, CORNER_DOUBT + far * 0x1p-30, masses);
     sunder_i_free(s.whole.xy);
     sunder_i_free(s.row.xy);

@@ -6,6 +6,7 @@
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
 
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "base/sort.h"
 #include "base/union_find.h"
@@ -181,7 +182,7 @@ double sunder_i_solver_margin(const sunder_i_solver *s, const uint32_t *b, size_
         if (s->widened[b[k]] > widened) widened = s->widened[b[k]];
     }
     int exponent;
-    frexp(largest + fmax(s->model.rules.gap, s->barriers.farthest), &exponent);
+    frexp(largest + sunder_i_max(s->model.rules.gap, s->barriers.farthest), &exponent);
     return ldexp(1, exponent - 51 + 2 * (int)widened);
 }
 

@@ -10,6 +10,7 @@
 #include "displacement/clusters/tuning.h"
 #include "displacement/layer/barrier_pairs.h"
 
+#include "base/extremes.h"
 #include "base/union_find.h"
 #include "separation/separation.h"
 
@@ -24,7 +25,7 @@ typedef struct fitting {
     size_t n;
 } fitting;
 
-static double extent_of(const sunder_i_body *b) { return fmax(b->box[2] - b->box[0], b->box[3] - b->box[1]); }
+static double extent_of(const sunder_i_body *b) { return sunder_i_max(b->box[2] - b->box[0], b->box[3] - b->box[1]); }
 
 /* Is b about any of those that the trial moves, where it moves them? */
 static bool is_about(const sunder_i_model *model, const sunder_i_trial *t, uint32_t b, double reach)
@@ -64,7 +65,8 @@ static sunder_status put_on_lattice(const sunder_i_model *model, const sunder_i_
     const sunder_i_waived none = {0};
     fitting f;
     double reach = model->rules.gap;
-    for (size_t k = 0; k < t->n; k++) reach = fmax(reach, model->rules.gap + extent_of(&model->body[t->body[k]]));
+    for (size_t k = 0; k < t->n; k++)
+        reach = sunder_i_max(reach, model->rules.gap + extent_of(&model->body[t->body[k]]));
     bool ok =
         gather(model, c, t, reach, &f) && sunder_i_tight_place(model, &none, f.body, f.n, c->margin, f.move, found);
     for (size_t k = 0, moved = 0; k < f.n && ok; k++)
@@ -144,7 +146,7 @@ static sunder_status fit(sunder_i_solver *s, sunder_i_cluster *c, const sunder_i
 {
     const sunder_i_model *model = &s->model;
     const double none[2] = {0, 0},
-                 room = FIT_ROOM * fmin(extent_of(&model->body[pair->a]), extent_of(&model->body[pair->b]));
+                 room = FIT_ROOM * sunder_i_min(extent_of(&model->body[pair->a]), extent_of(&model->body[pair->b]));
     sunder_i_trial t = {.solver = s, .parted = pair};
     double *move = sunder_i_solver_load_moves(s, c);
     bool found;

@@ -13,6 +13,7 @@
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
 
+#include "base/extremes.h"
 #include "base/union_find.h"
 #include "spatial/rtree.h"
 
@@ -50,7 +51,7 @@ static sunder_status place_crowds(void *context, size_t begin, size_t end, sunde
             const uint32_t b = c->body[m];
             g->placed[b] = true;
             const sunder_i_body *body = &model->body[b];
-            const double size = fmax(body->box[2] - body->box[0], body->box[3] - body->box[1]);
+            const double size = sunder_i_max(body->box[2] - body->box[0], body->box[3] - body->box[1]);
             sunder_i_body_box(body, move + 2 * m, model->rules.gap / 2 + CROWD_GROWN_BY * size, g->box + 4 * (size_t)b);
         }
     }

@@ -3,6 +3,7 @@
 #include "displacement/clusters/stages.h"
 #include "displacement/layer/barrier_pairs.h"
 
+#include "base/extremes.h"
 #include "base/parallel.h"
 
 #include <math.h>
@@ -19,7 +20,7 @@ typedef struct judging {
 /* Is there surely a move of no more than `reach` that takes b's box the gap off a's? It spares the exact question. */
 static bool boxes_can_part(const double *a, const double *b, double gap, double reach)
 {
-    const double out = fmin(fmin(a[2] - b[0], b[2] - a[0]), fmin(a[3] - b[1], b[3] - a[1]));
+    const double out = sunder_i_min(sunder_i_min(a[2] - b[0], b[2] - a[0]), sunder_i_min(a[3] - b[1], b[3] - a[1]));
     return out + gap < reach * (1 - 0x1p-40);
 }
 

@@ -14,6 +14,7 @@
 #include "displacement/optimum/optimum.h"
 #include "displacement/proofs/feasibility.h"
 
+#include "base/extremes.h"
 #include "base/parallel.h"
 #include "base/patience.h"
 #include "base/union_find.h"
@@ -140,7 +141,8 @@ static bool has_no_limit(const sunder_i_model *model, const sunder_i_relaxation 
 static uint64_t effort_for(const sunder_i_model *model, const sunder_i_relaxation *t, unsigned in_vain)
 {
     if (has_no_limit(model, t)) return EFFORT_BRIEFLY_ALONE;
-    uint64_t effort = EFFORT_ALONE * (1 + (uint64_t)(MORE_EFFORT_ALONE * fmin(model->rules.effort, MORE_ALONE_UP_TO)));
+    uint64_t effort =
+        EFFORT_ALONE * (1 + (uint64_t)(MORE_EFFORT_ALONE * sunder_i_min(model->rules.effort, MORE_ALONE_UP_TO)));
     for (unsigned k = ALONE_IN_VAIN; k <= in_vain && effort > EFFORT_BRIEFLY_ALONE; k++) effort /= 2;
     return effort > EFFORT_BRIEFLY_ALONE ? effort : EFFORT_BRIEFLY_ALONE;
 }
@@ -190,7 +192,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
             p.instead = far_for(model, p.reserve, p.reserves);
             for (size_t m = 0; m < p.reserves; m++)
                 if (isfinite(sunder_i_limit_of(&model->body[p.reserve[m]])))
-                    p.farthest = fmax(p.farthest, sunder_i_limit_of(&model->body[p.reserve[m]]));
+                    p.farthest = sunder_i_max(p.farthest, sunder_i_limit_of(&model->body[p.reserve[m]]));
             uint64_t work = 0;
             sunder_i_reading reading;
             sunder_i_reads_begin(&reading, model, g->question[q].root);

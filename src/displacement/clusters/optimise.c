@@ -14,6 +14,7 @@
 #include "displacement/layer/resolution.h"
 #include "displacement/optimum/optimum.h"
 
+#include "base/extremes.h"
 #include "base/parallel.h"
 #include "base/watch.h"
 
@@ -113,8 +114,8 @@ static uint64_t allowance(const sunder_i_solver *s, const sunder_i_group *g)
     const double each = small * STEPS_EACH * s->model.rules.effort;
     double steps = 0;
     for (size_t m = 0; m < g->n; m++)
-        if (!s->model.body[g->body[m]].fixed) steps += fmax(each / LATE, each - s->groups.spent[g->body[m]]);
-    return (uint64_t)fmin(steps, 0x1p62);
+        if (!s->model.body[g->body[m]].fixed) steps += sunder_i_max(each / LATE, each - s->groups.spent[g->body[m]]);
+    return (uint64_t)sunder_i_min(steps, 0x1p62);
 }
 
 static bool is_wanted(const sunder_i_solver *s, const sunder_i_group *g)

@@ -2,6 +2,7 @@
 #include "displacement/clusters/stages.h"
 #include "displacement/layer/reads.h"
 
+#include "base/extremes.h"
 #include "base/parallel.h"
 #include "base/union_find.h"
 
@@ -66,8 +67,8 @@ static sunder_i_retry retry_of(const sunder_i_model *model, const claim *c, cons
         const double depth = hypot(t->shift[0], t->shift[1]);
         x.resolve = x.resolve || !t->infeasible;
         x.disjoint = x.disjoint || sunder_i_can_be_disjoint(model, t);
-        deepest = fmax(deepest, depth);
-        if (!(depth > 0)) x.missing = fmax(x.missing, sunder_i_owed_above(model, t->a, t->b) - t->gap);
+        deepest = sunder_i_max(deepest, depth);
+        if (!(depth > 0)) x.missing = sunder_i_max(x.missing, sunder_i_owed_above(model, t->a, t->b) - t->gap);
     }
     x.overlap = deepest > 0;
     if (x.overlap) x.missing = deepest;
@@ -200,8 +201,8 @@ static bool join_neighbours(sunder_i_solver *s, const bool *asked)
         const double missing = depth > 0 ? depth : sunder_i_owed_above(model, t->a, t->b) - t->gap;
         const uint32_t i = model->body_of[t->a], j = model->body_of[t->b];
         if ((!asked[i] && !asked[j]) || (t->infeasible && !sunder_i_can_be_disjoint(model, t))) continue;
-        ok = join_about(s, alone, i, fmin(missing, sunder_i_limit_of(&model->body[i])), &near) &&
-             join_about(s, alone, j, fmin(missing, sunder_i_limit_of(&model->body[j])), &near);
+        ok = join_about(s, alone, i, sunder_i_min(missing, sunder_i_limit_of(&model->body[i])), &near) &&
+             join_about(s, alone, j, sunder_i_min(missing, sunder_i_limit_of(&model->body[j])), &near);
     }
     sunder_i_free(near.item);
     sunder_i_free(alone);

@@ -21,6 +21,7 @@
 #include "displacement/layer/reads.h"
 #include "displacement/layer/rounding.h"
 
+#include "base/extremes.h"
 #include "base/union_find.h"
 #include "separation/separation.h"
 
@@ -187,7 +188,7 @@ static sunder_status try_together(sunder_i_trial *t, sunder_error *err)
     for (size_t k = 0; k < t->n && t->n <= *t->budget && !status; k++) {
         double unit[2];
         units_of(t->solver, t->body[k], unit);
-        const double coarse = fmax(unit[0], unit[1]);
+        const double coarse = sunder_i_max(unit[0], unit[1]);
         if (coarse > coarsest) {
             coarsest = coarse;
             memcpy(to, t->stood + 2 * k, sizeof to);

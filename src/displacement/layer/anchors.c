@@ -6,6 +6,7 @@
  * never lies outside its feature's box, since rounding keeps order. */
 #include "displacement/layer/sides.h"
 
+#include "base/extremes.h"
 #include "base/parallel.h"
 #include "separation/separation.h"
 
@@ -43,7 +44,7 @@ static double distance_to_outline(looking *l, uint32_t g, const double a[2])
     for (size_t k = 0; k < n; k++) {
         const double *p = corner + 2 * k, *q = corner + 2 * (k + 1 < n ? k + 1 : 0);
         const double e[2] = {q[0] - p[0], q[1] - p[1]}, over = e[1] * (at[0] - p[0]) - e[0] * (at[1] - p[1]);
-        if (over > 0) most = fmax(most, over / sqrt(e[0] * e[0] + e[1] * e[1]));
+        if (over > 0) most = sunder_i_max(most, over / sqrt(e[0] * e[0] + e[1] * e[1]));
     }
     return most;
 }
@@ -62,7 +63,7 @@ static sunder_status look_at(looking *l, uint32_t f, uint32_t g, double *clear, 
     }
     if (!holds) {
         const double distance = distance_to_outline(l, g, a);
-        *clear = fmin(*clear, distance);
+        *clear = sunder_i_min(*clear, distance);
         return distance < 0 ? sunder_i_no_memory(err) : SUNDER_OK;
     }
     if (!sunder_i_reserve(&held->pair, &held->capacity, held->n + 1, sizeof *held->pair))
@@ -75,7 +76,7 @@ static sunder_status look_at(looking *l, uint32_t f, uint32_t g, double *clear, 
 static double box_about(const sunder_i_model *model, uint32_t f, double box[4])
 {
     const double *a = model->anchor_at + 2 * (size_t)f, *own = sunder_i_home_box(model, f);
-    const double reach = fmax(own[2] - own[0], own[3] - own[1]) / 2 + 2 * model->rules.gap;
+    const double reach = sunder_i_max(own[2] - own[0], own[3] - own[1]) / 2 + 2 * model->rules.gap;
     for (int c = 0; c < 4; c++) box[c] = a[c & 1] + (c < 2 ? -reach : reach);
     return reach;
 }
@@ -179,7 +180,7 @@ static sunder_status look_about_all(sunder_i_model *model, sunder_error *err)
     sunder_i_free(all.held);
     for (size_t f = 0; f < model->features && !status; f++) {
         sunder_i_body *body = &model->body[model->body_of[f]];
-        if (model->present[f]) body->clear = fmin(body->clear, model->clear[f]);
+        if (model->present[f]) body->clear = sunder_i_min(body->clear, model->clear[f]);
     }
     return status;
 }

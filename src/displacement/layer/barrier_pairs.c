@@ -9,6 +9,8 @@
 #include "separation/separation.h"
 #include "shape/shape.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 /* From one reach to the next. */
@@ -27,7 +29,7 @@ static void box_of(const sunder_i_translate *feature, double box[4])
     sunder_i_box_grow(box, 0, box);
 }
 
-static double extent_of(const double box[4]) { return fmax(box[2] - box[0], box[3] - box[1]); }
+static double extent_of(const double box[4]) { return sunder_i_max(box[2] - box[0], box[3] - box[1]); }
 
 /* The feature as what is asked: what has no area asks for pieces that cover its interior. */
 static const sunder_shape *facing(const sunder_i_translate *feature, const sunder_shape *other)
@@ -69,7 +71,7 @@ sunder_status sunder_i_barrier_least(const sunder_i_model *model, const sunder_i
 {
     double box[4], reach;
     box_of(feature, box);
-    reach = fmax(gap, extent_of(box) / 2);
+    reach = sunder_i_max(gap, extent_of(box) / 2);
     *out = (sunder_separation){.overlap = false};
     *beyond = false;
     for (bool last = false; !last; reach *= GROWTH) {
@@ -95,7 +97,8 @@ static sunder_status find_distance(const sunder_i_model *model, const sunder_i_t
 {
     double box[4];
     box_of(feature, box);
-    double reach = fmax(sunder_i_required_above(model->barriers, sunder_i_barrier_of(model, part)), extent_of(box));
+    double reach =
+        sunder_i_max(sunder_i_required_above(model->barriers, sunder_i_barrier_of(model, part)), extent_of(box));
     for (bool found = false; !found; reach = found ? reach : reach * GROWTH) {
         sunder_shape *near = NULL;
         sunder_status status = find_near(model, feature, part, reach, false, &near, err);
@@ -104,7 +107,7 @@ static sunder_status find_distance(const sunder_i_model *model, const sunder_i_t
                 sunder_i_distance(feature->shape, feature->t, near, NULL, &out->distance, out->on[0], out->on[1], err);
         found = near && out->distance <= reach;
         /* What was found so far shows how far to look. */
-        if (near && !found) reach = fmax(reach, out->distance * ABOVE / GROWTH);
+        if (near && !found) reach = sunder_i_max(reach, out->distance * ABOVE / GROWTH);
         sunder_shape_free(near);
         if (status) return status;
     }
@@ -179,8 +182,8 @@ sunder_status sunder_i_barrier_worsened(const sunder_i_model *model, const sunde
     if (status) return status;
     *worse = now.overlap;
     if (then.overlap != now.overlap) return SUNDER_OK;
-    const double reach =
-        then.overlap ? fmax(then.least.distance, now.least.distance) : fmax(then.distance, now.distance);
+    const double reach = then.overlap ? sunder_i_max(then.least.distance, now.least.distance)
+                                      : sunder_i_max(then.distance, now.distance);
     return compare(model, was, is, part, reach * ABOVE, worse, err);
 }
 
@@ -240,7 +243,7 @@ sunder_status sunder_i_resolve_things(const sunder_i_model *model, size_t a, siz
     const sunder_status status =
         sunder_i_barrier_least(model, &home, (uint32_t)b, gap, upper, &least, &out->beyond, err);
     if (status) return status;
-    out->least = fmax(0, least.lower_bound);
+    out->least = sunder_i_max(0, least.lower_bound);
     out->apart_beyond = out->beyond = out->beyond || out->least > upper;
     return SUNDER_OK;
 }

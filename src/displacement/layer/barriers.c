@@ -12,6 +12,7 @@
 #include "displacement/layer/barriers.h"
 
 #include "base/error.h"
+#include "base/extremes.h"
 #include "base/watch.h"
 #include "spatial/curve.h"
 
@@ -156,7 +157,7 @@ sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, sund
         if (!isfinite(out->required[k][0]))
             return sunder_i_fail(err, SUNDER_EARG, "barrier %u: half the width and the gap are too much for a double",
                                  k);
-        out->farthest = fmax(out->farthest, sunder_i_required_above(out, k));
+        out->farthest = sunder_i_max(out->farthest, sunder_i_required_above(out, k));
         if (!add_barrier(&m, k, &layer->barrier[k].geometry)) return sunder_i_no_memory(err);
         if (m.pieces >= UINT32_MAX - layer->n)
             return sunder_i_fail(err, SUNDER_ESIZE, "too many pieces of barriers: %zu", m.pieces);

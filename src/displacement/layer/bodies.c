@@ -1,6 +1,7 @@
 /* Bodies as the search sees them: how their pieces are numbered, their boxes in doubles, and whole blocks as shapes. */
 #include "displacement/layer/model.h"
 
+#include "base/extremes.h"
 #include "base/parallel.h"
 #include "shape/shape.h"
 
@@ -141,7 +142,7 @@ double sunder_i_farthest_near(const sunder_i_model *model, uint32_t p, uint32_t 
     double reach = 0;
     for (int c = 0; c < 2; c++) {
         const double offset = b->origin[c] - a->origin[c];
-        reach += fmax(fabs(a->box[c + 2] - offset - b->box[c]), fabs(a->box[c] - offset - b->box[c + 2]));
+        reach += sunder_i_max(fabs(a->box[c + 2] - offset - b->box[c]), fabs(a->box[c] - offset - b->box[c + 2]));
     }
     return reach + 2 * model->rules.gap;
 }

@@ -9,6 +9,7 @@
  * is never more than it had at the start. */
 #include "displacement/layer/model.h"
 
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "shape/shape.h"
 
@@ -107,9 +108,9 @@ static double depth_in(const sunder_i_model *model, uint32_t f, uint32_t holder)
     for (uint32_t v = 0; v < shape->vertices; v++) {
         const double *p = shape->xy + 2 * (size_t)v, *q = shape->xy + 2 * (size_t)shape->form->cleaned.next[v];
         const double ex = q[0] - p[0], ey = q[1] - p[1], wx = x - p[0], wy = y - p[1];
-        const double s = fmin(1, fmax(0, (wx * ex + wy * ey) / (ex * ex + ey * ey)));
+        const double s = sunder_i_min(1, sunder_i_max(0, (wx * ex + wy * ey) / (ex * ex + ey * ey)));
         const double dx = wx - s * ex, dy = wy - s * ey;
-        least = fmin(least, dx * dx + dy * dy);
+        least = sunder_i_min(least, dx * dx + dy * dy);
     }
     return least;
 }
@@ -151,8 +152,8 @@ static void add_walls(sunder_i_model *model, const sunder_i_body *body, uint32_t
         for (size_t e = 0; e < 2; e++)
             for (size_t c = 0; c < 2; c++) p[2 * e + c] = shape->xy[2 * ends[e] + c] - body->origin[c];
         for (size_t c = 0; c < 2; c++) {
-            wall->box[c] = fmin(p[c], p[c + 2]);
-            wall->box[c + 2] = fmax(p[c], p[c + 2]);
+            wall->box[c] = sunder_i_min(p[c], p[c + 2]);
+            wall->box[c + 2] = sunder_i_max(p[c], p[c + 2]);
         }
     }
 }

@@ -1,6 +1,7 @@
 /* The model: features with their boxes, the near pairs, and the bodies that the rules make of them. */
 #include "displacement/layer/model.h"
 
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "base/parallel.h"
 #include "base/union_find.h"
@@ -198,7 +199,7 @@ static bool number_bodies(sunder_i_model *model, uint32_t *parent)
         sunder_i_body *body = &model->body[model->body_of[f]];
         model->member[body->member + body->members++] = (uint32_t)f;
         body->weight += feature.weight;
-        body->limit = fmin(body->limit, feature.max_shift);
+        body->limit = sunder_i_min(body->limit, feature.max_shift);
         body->fixed = body->fixed || feature.fixed || feature.ignored || feature.max_shift == 0;
     }
     return true;

@@ -10,6 +10,8 @@
 #include "displacement/layer/seamless.h"
 #include "spatial/rtree.h"
 
+#include "base/extremes.h"
+
 #include <stdatomic.h>
 #include <stdlib.h>
 
@@ -221,7 +223,7 @@ static inline double sunder_i_owed_above(const sunder_i_model *model, uint32_t f
  * the gap about itself finds whom it owes anything. */
 static inline double sunder_i_reach_beyond(const sunder_i_model *model, uint32_t thing)
 {
-    return fmax(0, sunder_i_owed_above(model, thing, thing) - model->rules.gap);
+    return sunder_i_max(0, sunder_i_owed_above(model, thing, thing) - model->rules.gap);
 }
 
 /* Are these two features, f < g, known to be shut in? */

@@ -8,6 +8,8 @@
 
 #include "shape/shape.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -43,9 +45,9 @@ static void find_common(const coordinates *k, double *low, double *high, double 
     *high = INFINITY;
     *finest = 0;
     for (size_t v = 0; v < k->n; v++) {
-        const double x = k->before[2 * v + k->c], y = k->after[2 * v + k->c], size = fmax(fabs(x), fabs(y));
-        *low = fmax(*low, (y - x) - (y - nextafter(y, -INFINITY)) / 2);
-        *high = fmin(*high, (y - x) + (nextafter(y, INFINITY) - y) / 2);
+        const double x = k->before[2 * v + k->c], y = k->after[2 * v + k->c], size = sunder_i_max(fabs(x), fabs(y));
+        *low = sunder_i_max(*low, (y - x) - (y - nextafter(y, -INFINITY)) / 2);
+        *high = sunder_i_min(*high, (y - x) + (nextafter(y, INFINITY) - y) / 2);
         if (!(size < least)) continue;
         least = size;
         *finest = y - x;

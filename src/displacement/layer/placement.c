@@ -3,6 +3,7 @@
 #include "displacement/layer/placement.h"
 #include "displacement/layer/barrier_pairs.h"
 
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "base/parallel.h"
 #include "base/sort.h"
@@ -227,7 +228,8 @@ bool sunder_i_placement_near(const sunder_i_model *model, const sunder_i_placeme
                              sunder_i_list *near)
 {
     double box[4];
-    sunder_i_box_grow(sunder_i_rtree_box(&placement->tree, thing), fmax(model->rules.gap, model->rules.tolerance), box);
+    sunder_i_box_grow(sunder_i_rtree_box(&placement->tree, thing),
+                      sunder_i_max(model->rules.gap, model->rules.tolerance), box);
     return sunder_i_rtree_query(&placement->tree, box, near);
 }
 
@@ -302,7 +304,7 @@ static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_plac
                           .found = found,
                           .place = place,
                           .first = first,
-                          .reach = fmax(model->rules.gap, model->rules.tolerance)};
+                          .reach = sunder_i_max(model->rules.gap, model->rules.tolerance)};
     sunder_status status = asked && first && place && found && order_by_runs(&search, n, place, first, &runs)
                                ? SUNDER_OK
                                : sunder_i_no_memory(err);

@@ -17,6 +17,7 @@
 #include "displacement/layer/model.h"
 #include "displacement/layer/resolution.h"
 
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "separation/separation.h"
 
@@ -66,7 +67,7 @@ static sunder_i_relaxed_bodies relaxed_bodies_of(const sunder_i_model *model, co
 /* One more between its bodies. */
 static void join_relaxed(sunder_i_relaxed_bodies *between, const sunder_i_relaxed_bodies *more)
 {
-    between->reach = fmax(between->reach, more->reach);
+    between->reach = sunder_i_max(between->reach, more->reach);
     between->n++;
 }
 

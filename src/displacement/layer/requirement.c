@@ -8,6 +8,8 @@
 
 #include "separation/separation.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 /* A length below a distance is taken 2^-51 of it below, and 2^8 times as far at each failure, down to 2^-10. */
@@ -38,7 +40,7 @@ static sunder_status below_distance(const sunder_i_model *model, double near, su
         const sunder_status status = are_apart(model, out->a, out->b, length, &apart, err);
         if (status) return status;
         if (!apart) continue;
-        out->clearance = fmin(length, sunder_i_owed_below(model, out->a, out->b));
+        out->clearance = sunder_i_min(length, sunder_i_owed_below(model, out->a, out->b));
         break;
     }
     return SUNDER_OK;

@@ -9,6 +9,8 @@
 
 #include "separation/separation.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 /* ---- By boxes ---------------------------------------------------------------------------------------------------- */
@@ -51,10 +53,10 @@ static void take_segment(nearest *n, const double p[2], const double q[2])
 {
     const double e[2] = {q[0] - p[0], q[1] - p[1]}, square = e[0] * e[0] + e[1] * e[1];
     double s = square > 0 ? -(p[0] * e[0] + p[1] * e[1]) / square : 0;
-    s = fmin(1, fmax(0, s));
+    s = sunder_i_min(1, sunder_i_max(0, s));
     const double at[2] = {p[0] + s * e[0], p[1] + s * e[1]}, distance = hypot(at[0], at[1]);
-    const double m = fmax(fmax(fabs(p[0]), fabs(p[1])), fmax(fabs(q[0]), fabs(q[1])));
-    n->least = fmin(n->least, fmax(0, distance - 0x1p-49 * m));
+    const double m = sunder_i_max(sunder_i_max(fabs(p[0]), fabs(p[1])), sunder_i_max(fabs(q[0]), fabs(q[1])));
+    n->least = sunder_i_min(n->least, sunder_i_max(0, distance - 0x1p-49 * m));
     if (distance >= n->distance) return;
     n->distance = distance;
     n->place[0] = at[0];
@@ -135,7 +137,7 @@ sunder_status sunder_i_resolve(const sunder_i_rules *rules, const sunder_shape *
     double apart;
     sunder_status status = sunder_i_least_bound(a, b, rules->gap, upper, &apart, out->away, &out->beyond, err);
     if (status) return status;
-    out->least = fmax(0, apart);
+    out->least = sunder_i_max(0, apart);
     out->apart_beyond = out->beyond = out->beyond || out->least > upper;
     if (!sunder_i_may_be_inside(rules)) return SUNDER_OK;
     double box[2][4];
@@ -149,7 +151,7 @@ sunder_status sunder_i_resolve(const sunder_i_rules *rules, const sunder_shape *
         nearest n;
         status = least_inside(inner, outer, rules->tolerance, &n, err);
         if (status) break;
-        out->least = fmin(out->least, n.least);
+        out->least = sunder_i_min(out->least, n.least);
         out->beyond = out->beyond && n.least > upper;
         if (!(n.distance < nearest_place)) continue;
         nearest_place = n.distance;

@@ -3,6 +3,7 @@
  * asks checks what is proposed; nothing follows where nothing is. */
 #include "displacement/layer/relate.h"
 
+#include "base/extremes.h"
 #include "base/heap.h"
 #include "base/watch.h"
 #include "shape/shape.h"
@@ -38,7 +39,7 @@ static double distance_to(const overlap_side *s, const double at[2])
 {
     const double e[2] = {s->b[0] - s->a[0], s->b[1] - s->a[1]}, d[2] = {at[0] - s->a[0], at[1] - s->a[1]};
     const double length2 = e[0] * e[0] + e[1] * e[1];
-    const double k = length2 > 0 ? fmin(1, fmax(0, (e[0] * d[0] + e[1] * d[1]) / length2)) : 0;
+    const double k = length2 > 0 ? sunder_i_min(1, sunder_i_max(0, (e[0] * d[0] + e[1] * d[1]) / length2)) : 0;
     return hypot(d[0] - k * e[0], d[1] - k * e[1]);
 }
 
@@ -49,7 +50,7 @@ static double room_at(const overlap_sides *sides, const double at[2])
     double nearest = INFINITY;
     for (size_t k = 0; k < sides->n; k++) {
         const overlap_side *s = &sides->side[k];
-        nearest = fmin(nearest, distance_to(s, at));
+        nearest = sunder_i_min(nearest, distance_to(s, at));
         const bool up = s->b[1] > at[1];
         if ((s->a[1] > at[1]) == up) continue;
         const double x = s->a[0] + (at[1] - s->a[1]) / (s->b[1] - s->a[1]) * (s->b[0] - s->a[0]);
@@ -67,8 +68,8 @@ static bool collect(const sunder_i_translate *const of[2], overlap_sides *out)
         for (int k = 0; k < 4; k++) box[i][k] += of[i]->t[k & 1];
     }
     for (int k = 0; k < 2; k++) {
-        out->box[k] = fmax(box[0][k], box[1][k]);
-        out->box[k + 2] = fmin(box[0][k + 2], box[1][k + 2]);
+        out->box[k] = sunder_i_max(box[0][k], box[1][k]);
+        out->box[k + 2] = sunder_i_min(box[0][k + 2], box[1][k + 2]);
     }
     out->n = 0;
     out->side = sunder_i_alloc((size_t)of[0]->shape->vertices + of[1]->shape->vertices, sizeof *out->side);
@@ -80,8 +81,8 @@ static bool collect(const sunder_i_translate *const of[2], overlap_sides *out)
                 s.a[c] = shape->xy[2 * (size_t)v + (size_t)c] + of[i]->t[c];
                 s.b[c] = shape->xy[2 * (size_t)shape->form->cleaned.next[v] + (size_t)c] + of[i]->t[c];
             }
-            if (fmax(s.a[0], s.b[0]) >= out->box[0] && fmax(s.a[1], s.b[1]) >= out->box[1] &&
-                fmin(s.a[1], s.b[1]) <= out->box[3])
+            if (sunder_i_max(s.a[0], s.b[0]) >= out->box[0] && sunder_i_max(s.a[1], s.b[1]) >= out->box[1] &&
+                sunder_i_min(s.a[1], s.b[1]) <= out->box[3])
                 out->side[out->n++] = s;
         }
     }
@@ -101,9 +102,9 @@ static bool search(const overlap_sides *sides, double radius, double place[2])
     square heap[MOST_SQUARES + 4];
     size_t n = 0, looked = 0;
     const double *box = sides->box, size[2] = {box[2] - box[0], box[3] - box[1]};
-    if (!(fmin(size[0], size[1]) >= 2 * radius) || !isfinite(size[0] + size[1])) return false;
+    if (!(sunder_i_min(size[0], size[1]) >= 2 * radius) || !isfinite(size[0] + size[1])) return false;
     /* A row of squares as wide as the narrower way; of a very long row, larger ones. */
-    const double half = fmax(fmin(size[0], size[1]), fmax(size[0], size[1]) / 16) / 2;
+    const double half = sunder_i_max(sunder_i_min(size[0], size[1]), sunder_i_max(size[0], size[1]) / 16) / 2;
     const int along = size[0] < size[1], row = (int)ceil(size[along] / (2 * half));
     for (int i = 0; i < row; i++) {
         square s = {.half = half};

@@ -9,6 +9,7 @@
  * Coordinates are those given (raw), since these are written, repeated and collinear vertices too. */
 #include "displacement/layer/rounding.h"
 
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "shape/shape.h"
 
@@ -89,7 +90,7 @@ bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double m
             if (!isfinite(out[c])) out[c] = move[c];
         }
     }
-    if (unit) *unit = fmax(u[0], u[1]);
+    if (unit) *unit = sunder_i_max(u[0], u[1]);
     if (!sunder_i_is_within_limit(out, body->limit))
         for (size_t c = 0; c < 2; c++) {
             if (move[c] == 0 || !is_move) continue;
@@ -99,7 +100,7 @@ bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double m
     for (int k = 0; k < 64 && !sunder_i_is_within_limit(out, body->limit); k++) {
         const double length = hypot(out[0], out[1]), shrink = body->limit / length * (1 - ldexp(1, k - 52));
         for (size_t c = 0; c < 2; c++)
-            if (u[c] > 0) out[c] = u[c] * trunc(out[c] * fmax(0, shrink) / u[c]);
+            if (u[c] > 0) out[c] = u[c] * trunc(out[c] * sunder_i_max(0, shrink) / u[c]);
     }
     if (!sunder_i_is_within_limit(out, body->limit)) out[0] = out[1] = 0;
     SUNDER_I_ASSERT(isfinite(out[0] + out[1]) && hypot(out[0], out[1]) <= body->limit * (1 + 0x1p-40));

@@ -7,6 +7,7 @@
 #include "displacement/layer/side_cut.h"
 
 #include "base/error.h"
+#include "base/extremes.h"
 #include "base/random.h"
 #include "base/watch.h"
 #include "shape/shape.h"
@@ -27,8 +28,8 @@ static void add_extent(sunder_i_extent *all, const sunder_i_side *side)
         const double *at = e ? side->to : side->from;
         sunder_i_extent_add(all, at, 1);
         for (int k = 0; rational && k < 2; k++) {
-            all->low[k] = fmin(all->low[k], nextafter(at[k], -DBL_MAX));
-            all->high[k] = fmax(all->high[k], nextafter(at[k], DBL_MAX));
+            all->low[k] = sunder_i_min(all->low[k], nextafter(at[k], -DBL_MAX));
+            all->high[k] = sunder_i_max(all->high[k], nextafter(at[k], DBL_MAX));
         }
     }
     if (rational && side->area->low_bit < all->low_bit) all->low_bit = side->area->low_bit;
@@ -273,7 +274,7 @@ void sunder_i_side_cut_keep_largest(sunder_i_side_cut *c)
 {
     double least = -INFINITY;
     size_t n = 0;
-    for (size_t k = 0; k < c->parts; k++) least = fmax(least, c->part[k].area - c->part[k].off);
+    for (size_t k = 0; k < c->parts; k++) least = sunder_i_max(least, c->part[k].area - c->part[k].off);
     for (size_t k = 0; k < c->parts; k++)
         if (!(c->part[k].area + c->part[k].off < least)) c->part[n++] = c->part[k];
     c->parts = n;

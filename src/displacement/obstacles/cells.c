@@ -8,6 +8,7 @@
 #include "displacement/obstacles/cells.h"
 #include "displacement/obstacles/tuning.h"
 
+#include "base/extremes.h"
 #include "base/list.h"
 #include "base/watch.h"
 #include "spatial/box.h"
@@ -26,8 +27,8 @@ static double find_extent(const sunder_i_obstacles *o, const double target[2], d
         sunder_i_box_join(box, b);
     }
     for (int c = 0; c < 2; c++) {
-        box[c] = fmax(box[c], target[c] - limit);
-        box[c + 2] = fmin(box[c + 2], target[c] + limit);
+        box[c] = sunder_i_max(box[c], target[c] - limit);
+        box[c + 2] = sunder_i_min(box[c + 2], target[c] + limit);
     }
     return sum / (double)o->n;
 }
@@ -109,7 +110,8 @@ static bool enter_obstacle(const sunder_i_obstacles *o, uint32_t k, sunder_i_cel
         uint32_t first;
         if (!cut_row(o, obstacle, cells->low[1] + (y + 0.5) * cells->side, half, meets, holds)) continue;
         /* The centres of those that meet, and no others. */
-        const uint32_t n = range(cells, 0, fmax(meets[0] - half, box[0]), fmin(meets[1] + half, box[2]), &first);
+        const uint32_t n =
+            range(cells, 0, sunder_i_max(meets[0] - half, box[0]), sunder_i_min(meets[1] + half, box[2]), &first);
         for (uint32_t x = first; x < first + n; x++) {
             const double centre = cells->low[0] + (x + 0.5) * cells->side;
             if (centre < meets[0] || centre > meets[1]) continue;
@@ -126,10 +128,10 @@ bool sunder_i_cells_make(const sunder_i_obstacles *o, const double target[2], do
     if (o->n < FEW_OBSTACLES) return true;
     const double mean = find_extent(o, target, limit, box), size[2] = {box[2] - box[0], box[3] - box[1]};
     if (!(size[0] > 0 && size[1] > 0)) return true;
-    double side = fmax(mean / CELLS_ACROSS, sqrt(size[0] * size[1] / (CELLS_EACH * (double)o->n)));
-    side = fmax(side, fmax(size[0], size[1]) / (CELLS_EACH * (double)o->n));
+    double side = sunder_i_max(mean / CELLS_ACROSS, sqrt(size[0] * size[1] / (CELLS_EACH * (double)o->n)));
+    side = sunder_i_max(side, sunder_i_max(size[0], size[1]) / (CELLS_EACH * (double)o->n));
     /* Cells have to be far larger than the rounding of coordinates. */
-    const double far = fmax(fmax(fabs(box[0]), fabs(box[2])), fmax(fabs(box[1]), fabs(box[3])));
+    const double far = sunder_i_max(sunder_i_max(fabs(box[0]), fabs(box[2])), sunder_i_max(fabs(box[1]), fabs(box[3])));
     if (!(side > far * CELL_MARGIN) || !isfinite(side)) return true;
     cells->side = side;
     for (int c = 0; c < 2; c++) {

@@ -23,6 +23,8 @@
 #include "displacement/optimum/tree.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -154,7 +156,7 @@ static bool ask_block(sunder_i_lagrangian *d, size_t block, sunder_i_bound_trees
             for (size_t k = 0; k < n; k++) memcpy(item[k].t, tree.program.t + 2 * k, sizeof item[k].t);
         }
     /* Where nothing is decided yet, what the least bound stands on. */
-    if (ok && tree.opens && tree.open[0].value < fmin(least, task.goal)) {
+    if (ok && tree.opens && tree.open[0].value < sunder_i_min(least, task.goal)) {
         sunder_i_tree_load(&tree, tree.open[0].node);
         for (size_t k = 0; k < n; k++) memcpy(item[k].t, tree.program.t + 2 * k, sizeof item[k].t);
     }
@@ -219,7 +221,7 @@ static double first_stride(const sunder_i_lagrangian *d, const sunder_i_block_co
 }
 
 /* What is missing; in a crowd, of which blocks prove a small part, no more than they prove as yet. */
-static double hoped_for(double cost, double now) { return now > 0 ? fmin(cost - now, now) : cost - now; }
+static double hoped_for(double cost, double now) { return now > 0 ? sunder_i_min(cost - now, now) : cost - now; }
 
 static void put_anchors(sunder_i_lagrangian *d, const double *x)
 {
@@ -340,7 +342,7 @@ static bool ask_blocks(sunder_i_lagrangian *d, double *bound, sunder_i_bound_tre
     if (ok) *larger = improve(d, best, centre, x, &value, &ok) && d->blocks > 1;
     /* Where larger trees prove less they came to no end, and larger ones yet will not. */
     *larger = *larger && ok && value > d->proved;
-    if (ok) d->proved = fmax(d->proved, value);
+    if (ok) d->proved = sunder_i_max(d->proved, value);
     if (ok && value > *bound && d->model->rules.keep_trees) {
         sunder_i_bound_trees made = {0};
         memcpy(d->item, best, d->items * sizeof *best);
@@ -352,7 +354,7 @@ static bool ask_blocks(sunder_i_lagrangian *d, double *bound, sunder_i_bound_tre
         }
         sunder_i_bound_trees_free(&made);
     }
-    if (ok) *bound = fmax(*bound, value);
+    if (ok) *bound = sunder_i_max(*bound, value);
     sunder_i_free(best);
     sunder_i_free(centre);
     sunder_i_free(x);

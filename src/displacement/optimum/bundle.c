@@ -16,6 +16,7 @@
 #include "displacement/optimum/bundle.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -97,7 +98,7 @@ static void trade(sunder_i_bundle *b, sunder_i_bundle_cut *from, sunder_i_bundle
             square += b->others[first + m] * way * way;
         }
     const double gain = from->slope - to->slope,
-                 share = square > 0 ? fmin(from->share, gain / (4 * stride * square)) : from->share;
+                 share = square > 0 ? sunder_i_min(from->share, gain / (4 * stride * square)) : from->share;
     from->share -= share;
     to->share += share;
     for (size_t m = 0; m < n; m++)
@@ -134,10 +135,10 @@ static double trade_in(sunder_i_bundle *b, size_t block, const double *centre, d
 static bool settle(sunder_i_bundle *b, const double *centre, double stride)
 {
     double whole = 0;
-    for (size_t k = 0; k < b->cuts; k++) whole = fmax(whole, fabs(b->cut[k].at_rest));
+    for (size_t k = 0; k < b->cuts; k++) whole = sunder_i_max(whole, fabs(b->cut[k].at_rest));
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         double most = 0;
-        for (size_t k = 0; k < b->blocks; k++) most = fmax(most, trade_in(b, k, centre, stride));
+        for (size_t k = 0; k < b->blocks; k++) most = sunder_i_max(most, trade_in(b, k, centre, stride));
         b->steps += b->cuts + b->copies;
         if (!sunder_i_steps(1 + b->cuts / 16)) return false;
         if (most <= SWEPT * whole) break;

@@ -9,13 +9,15 @@
 #include "displacement/layer/reads.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 double sunder_i_contact_hair(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q)
 {
     if (model->rules.gap > 0) return CONTACT * model->rules.gap;
     const double length = p->box[2] - p->box[0] + p->box[3] - p->box[1];
-    return CONTACT * fmin(length, q->box[2] - q->box[0] + q->box[3] - q->box[1]);
+    return CONTACT * sunder_i_min(length, q->box[2] - q->box[0] + q->box[3] - q->box[1]);
 }
 
 static bool add(sunder_i_contact_list *out, const sunder_i_forbidden_piece *piece, const double n[2], double d,

@@ -17,6 +17,7 @@
 #include "displacement/optimum/dual_program.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/extremes.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -217,7 +218,7 @@ static sunder_i_dual_outcome contradict(sunder_i_dual_program *p, uint32_t cut, 
     p->acting[n].cut = cut;
     p->acting_n = n + 1;
     for (int attempt = 0; attempt < 24; attempt++, scale *= 2) {
-        for (size_t k = 0; k < n; k++) p->acting[k].force = fmax(0, before[k] - scale * r[k]);
+        for (size_t k = 0; k < n; k++) p->acting[k].force = sunder_i_max(0, before[k] - scale * r[k]);
         p->acting[n].force = force + scale;
         if (sunder_i_dual_value(p) >= enough) return SUNDER_I_DUAL_CLOSED;
     }
@@ -245,7 +246,7 @@ static size_t find_leaving(const sunder_i_dual_program *p, const double *r, doub
 static double least_factor(const sunder_i_dual_program *p, const double *r)
 {
     double most = 0;
-    for (size_t k = 0; k < p->acting_n; k++) most = fmax(most, fabs(r[k]));
+    for (size_t k = 0; k < p->acting_n; k++) most = sunder_i_max(most, fabs(r[k]));
     return NO_FACTOR * most;
 }
 
@@ -277,8 +278,9 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *p, uint32_t cut, 
             if (!(missing > 0)) break;
             return contradict(p, cut, force, missing, r, enough);
         }
-        const double whole = dependent ? INFINITY : fmax(0, missing) / left, step = fmin(whole, longest);
-        for (size_t k = 0; k < p->acting_n; k++) p->acting[k].force = fmax(0, p->acting[k].force - step * r[k]);
+        const double whole = dependent ? INFINITY : sunder_i_max(0, missing) / left,
+                     step = sunder_i_min(whole, longest);
+        for (size_t k = 0; k < p->acting_n; k++) p->acting[k].force = sunder_i_max(0, p->acting[k].force - step * r[k]);
         force += step;
         if (whole <= longest) {
             append(p, cut, force, row, sqrt(left));
@@ -288,7 +290,7 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *p, uint32_t cut, 
         take_out(p, leaves);
     }
     balance(p);
-    for (size_t k = 0; k < p->acting_n; k++) p->acting[k].force = fmax(0, p->acting[k].force);
+    for (size_t k = 0; k < p->acting_n; k++) p->acting[k].force = sunder_i_max(0, p->acting[k].force);
     sunder_i_dual_place(p);
     return SUNDER_I_DUAL_STUCK;
 }

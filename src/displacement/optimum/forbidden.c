@@ -22,6 +22,7 @@
 #include "displacement/obstacles/shadow.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 #include "shape/shape.h"
 
@@ -76,7 +77,7 @@ static double size_of(const listing *l, const sunder_i_body *body, const sunder_
     const bool rational = shape && shape->rational;
     double size = 0;
     for (size_t c = 0; c < 2; c++) {
-        size += fmax(fabs(piece->box[c]), fabs(piece->box[c + 2]));
+        size += sunder_i_max(fabs(piece->box[c]), fabs(piece->box[c + 2]));
         if (rational) size += 4 * (fabs(body->origin[c]) + fabs(piece->box[c]) + fabs(piece->box[c + 2]));
     }
     return size;
@@ -166,7 +167,7 @@ static bool add_eroded(listing *l, sunder_i_forbidden_piece *piece, const double
     sunder_i_forbidden *f = l->out;
     const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
     double size = depth;
-    for (size_t k = 0; k < 2 * n; k++) size = fmax(size, fabs(xy[k]));
+    for (size_t k = 0; k < 2 * n; k++) size = sunder_i_max(size, fabs(xy[k]));
     const double least = depth * (1 + 0x1p-50) + piece->vague + 0x1p-48 * size;
     if (!sunder_i_reserve(&l->drawn, &l->drawn_capacity, 4 * n, sizeof *l->drawn) ||
         !sunder_i_reserve(&l->hull, &l->hull_capacity, 4 * n, sizeof *l->hull))
@@ -195,8 +196,8 @@ static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_b
     if (!begin_piece(l, a, b, &piece, &n)) return false;
     piece.radius = sunder_i_owed_below(l->model, a->feature, b->feature);
     if (waiver) {
-        piece.radius = fmin(piece.radius, fmax(0, sunder_i_waiver_clearance(waiver)));
-        piece.clearance = fmin(piece.radius, sunder_i_waiver_clearance(waiver));
+        piece.radius = sunder_i_min(piece.radius, sunder_i_max(0, sunder_i_waiver_clearance(waiver)));
+        piece.clearance = sunder_i_min(piece.radius, sunder_i_waiver_clearance(waiver));
     }
     if (piece.clearance < 0) return add_eroded(l, &piece, l->scratch.xy, n, -piece.clearance);
     keep_piece(l->out, &piece, l->scratch.xy, n);
@@ -287,7 +288,8 @@ static bool add_shadow(listing *l, const sunder_i_body_piece *a, const sunder_i_
 static bool may_cast(const listing *l, const sunder_i_body_piece *anchor, const sunder_i_body_piece *piece,
                      bool swapped)
 {
-    const double *w = l->window, way[4] = {fmin(0, w[0]), fmin(0, w[1]), fmax(0, w[2]), fmax(0, w[3])};
+    const double *w = l->window,
+                 way[4] = {sunder_i_min(0, w[0]), sunder_i_min(0, w[1]), sunder_i_max(0, w[2]), sunder_i_max(0, w[3])};
     return swapped ? sunder_i_shadow_may_reach(piece->box, anchor->box, l->offset, way)
                    : sunder_i_shadow_may_reach(anchor->box, piece->box, l->offset, way);
 }
@@ -376,7 +378,7 @@ static void end(listing *l, double reach)
     sunder_i_free(l->hull);
     f->size = 2 * reach;
     for (size_t k = 0; k < f->pieces; k++)
-        for (size_t c = 0; c < 4; c++) f->size = fmax(f->size, fabs(f->piece[k].box[c]));
+        for (size_t c = 0; c < 4; c++) f->size = sunder_i_max(f->size, fabs(f->piece[k].box[c]));
     f->grain = 0x1p-46 * f->size;
 }
 

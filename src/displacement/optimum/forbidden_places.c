@@ -7,6 +7,8 @@
 
 #include "spatial/curve.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -97,7 +99,8 @@ double sunder_i_forbidden_normal(const sunder_i_forbidden *f, const sunder_i_for
     for (uint32_t k = 0; k < piece->edges; k++) {
         const sunder_i_obstacle_edge *e = &edge[k];
         const double wx = u[0] - e->from[0], wy = u[1] - e->from[1], s = e->n[0] * wx + e->n[1] * wy;
-        const double along = wy * e->n[0] - wx * e->n[1], past = fmin(0, along) + fmax(0, along - e->length);
+        const double along = wy * e->n[0] - wx * e->n[1],
+                     past = sunder_i_min(0, along) + sunder_i_max(0, along - e->length);
         const double far = distance > 0 && s > 0 ? hypot(s, past) : fabs(s);
         if ((distance > 0 && s <= 0) || fabs(far - fabs(distance)) >= best) continue;
         best = fabs(far - fabs(distance));
@@ -254,7 +257,7 @@ double sunder_i_forbidden_entry(const sunder_i_forbidden *f, const double u[2], 
         double span[2];
         *steps += p->edges;
         if (!sunder_i_forbidden_span(f, p, u, dir, span) || !(span[1] > f->grain)) continue;
-        first = fmin(first, fmax(0, span[0]));
+        first = sunder_i_min(first, sunder_i_max(0, span[0]));
     }
     *steps += walk.looks;
     return first;

@@ -7,6 +7,7 @@
 #include "displacement/optimum/region.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -102,7 +103,7 @@ static double way_out(const sunder_i_region *r, const double p[2], const double 
     for (uint32_t k = 0; k < r->n; k++) {
         const double *a = r->xy + 2 * k, *b = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
         const double nx = b[1] - a[1], ny = a[0] - b[0], speed = nx * dir[0] + ny * dir[1];
-        if (speed > 0) way = fmin(way, fmax(0, (nx * (a[0] - p[0]) + ny * (a[1] - p[1])) / speed));
+        if (speed > 0) way = sunder_i_min(way, sunder_i_max(0, (nx * (a[0] - p[0]) + ny * (a[1] - p[1])) / speed));
     }
     return way < INFINITY ? way : 0;
 }
@@ -202,11 +203,11 @@ static void gather_side(gathering *g, const sunder_i_region *r, uint32_t k, cons
     for (size_t m = 0; m <= spans; m++) {
         const double begin = m < spans ? span[m][0] : length;
         if (begin >= free_from - (m < spans ? 0 : hair) && free_from <= length) {
-            const double to = fmin(begin, length);
+            const double to = sunder_i_min(begin, length);
             gather(g, p[0] + free_from * dir[0], p[1] + free_from * dir[1]);
             gather(g, p[0] + to * dir[0], p[1] + to * dir[1]);
         }
-        if (m < spans) free_from = fmax(free_from, span[m][1]);
+        if (m < spans) free_from = sunder_i_max(free_from, span[m][1]);
     }
 }
 
@@ -242,7 +243,7 @@ static double nearest_of(const double a[2], const double b[2], double out[2])
 {
     const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
     double share = square > 0 ? -(a[0] * dx + a[1] * dy) / square : 0;
-    share = fmin(1, fmax(0, share));
+    share = sunder_i_min(1, sunder_i_max(0, share));
     out[0] = a[0] + share * dx;
     out[1] = a[1] + share * dy;
     return share;

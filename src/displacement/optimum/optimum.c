@@ -10,6 +10,8 @@
 #include "displacement/optimum/tuning.h"
 #include "displacement/search/cluster.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,8 +50,8 @@ static double goal_of(const sunder_i_model *model, const sunder_i_group *g)
     for (size_t k = 0; k < g->n; k++) {
         const sunder_i_body *b = &model->body[g->body[k]];
         if (b->fixed) continue;
-        weight = fmax(weight, b->weight);
-        length = fmin(length, SMALL_EXTENT * fmax(b->box[2] - b->box[0], b->box[3] - b->box[1]));
+        weight = sunder_i_max(weight, b->weight);
+        length = sunder_i_min(length, SMALL_EXTENT * sunder_i_max(b->box[2] - b->box[0], b->box[3] - b->box[1]));
     }
     if (model->rules.gap > 0 || weight == 0) length = model->rules.gap;
     return g->cost * (1 - OPTIMAL_SHARE / 2) - weight * (SMALL_LENGTH * length) * (SMALL_LENGTH * length);
@@ -134,7 +136,7 @@ static bool blocks_are_dear(const sunder_i_tree *tree, uint64_t steps)
 static uint64_t steps_of_large(const sunder_i_tree *tree, uint64_t taken, uint64_t steps)
 {
     const double share = taken ? sunder_i_tree_bound(tree) / tree->task.goal : 0;
-    const uint64_t once = (uint64_t)((double)steps / fmax(tree->task.model->rules.effort, 1));
+    const uint64_t once = (uint64_t)((double)steps / sunder_i_max(tree->task.model->rules.effort, 1));
     if (taken == 0) return steps / TREE_FIRST;
     if (taken < once && blocks_are_dear(tree, once)) return once;
     if (share >= TREE_WHOLE_SHARE || blocks_are_dear(tree, steps)) return steps;
@@ -163,7 +165,7 @@ static sunder_status branch(const sunder_i_model *model, const sunder_i_waived *
         if (status) return status;
         if (better || tighter) sunder_i_tree_lower_goal(tree, goal_of(model, g));
     }
-    g->bound = fmax(g->bound, sunder_i_tree_bound(tree));
+    g->bound = sunder_i_max(g->bound, sunder_i_tree_bound(tree));
     g->steps += large && tree->steps > steps / TREE_SECOND ? steps / TREE_SECOND : tree->steps;
     sunder_i_free(g->joins.item);
     g->joins = tree->joins;
@@ -312,7 +314,8 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     double priced = 0;
     if (promising && free_crowd) status = sunder_i_group_ask_prices(model, g, &priced, err);
     if (!status && promising && (small || priced > 0))
-        status = look_at_blocks(model, waived, g, QUICK_AS_MUCH * fmax(g->bound, priced), steps, &promising, err);
+        status =
+            look_at_blocks(model, waived, g, QUICK_AS_MUCH * sunder_i_max(g->bound, priced), steps, &promising, err);
     return status || !promising ? status : prove_blocks(model, waived, g, steps, err);
 }
 

@@ -23,6 +23,7 @@
 #include "displacement/optimum/tuning.h"
 #include "displacement/search/stages.h"
 
+#include "base/extremes.h"
 #include "base/random.h"
 
 #include <math.h>
@@ -239,7 +240,7 @@ sunder_status sunder_i_group_shake(const sunder_i_model *model, const sunder_i_w
     if (g->held || g->n < 2) return SUNDER_OK;
     shaking k = {.n = g->n, .random = model->rules.seed, .times = 1 + g->n * g->n / PAIRS_A_SHAKE};
     double farthest = 0;
-    for (size_t m = 0; m < 2 * g->n; m++) farthest = fmax(farthest, fabs(g->move[m]));
+    for (size_t m = 0; m < 2 * g->n; m++) farthest = sunder_i_max(farthest, fabs(g->move[m]));
     k.near = sunder_i_alloc(k.n, sizeof *k.near);
     sunder_status status = k.near ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) status = shake_group(&k, model, waived, g, 0, steps, err);

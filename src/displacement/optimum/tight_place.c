@@ -23,6 +23,8 @@
 
 #include "displacement/layer/rounding.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -74,7 +76,7 @@ static void round_rows(sunder_i_tight *f)
     double coarsest = 0, out[2], unit;
     for (size_t k = 0; k < f->n; k++) {
         sunder_i_round_move(f->model, f->body[k], f->t + 2 * k, out, &unit);
-        coarsest = fmax(coarsest, unit);
+        coarsest = sunder_i_max(coarsest, unit);
     }
     if (!(coarsest > 0)) return;
     round_bases(f, coarsest);

@@ -3,6 +3,7 @@
 #include "displacement/optimum/tight.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 #include "displacement/layer/rounding.h"
 
@@ -110,15 +111,15 @@ static bool draw_away(sunder_i_tight *f, const sunder_i_tight_meeting *m)
  * that they share back out. */
 static bool draw_within(sunder_i_tight *f, size_t k)
 {
-    const double limit = fmax(0, sunder_i_limit_of(&f->model->body[f->body[k]]) - f->room),
+    const double limit = sunder_i_max(0, sunder_i_limit_of(&f->model->body[f->body[k]]) - f->room),
                  t[2] = {sunder_i_tight_place_of(f, 2 * k), sunder_i_tight_place_of(f, 2 * k + 1)};
     const bool free[2] = {!f->stays[f->row[2 * k]], !f->stays[f->row[2 * k + 1]]};
     if (sunder_i_is_within_limit(t, limit)) return false;
     const double length = hypot(t[0], t[1]) * (1 + 0x1p-50), little = f->room > 0 ? f->room / 4 : f->margin / 2;
     for (int c = 0; c < 2; c++) {
         if (!free[c]) continue;
-        const double other = t[1 - c], most = sqrt(fmax(0, (limit - other) * (limit + other))) * (1 - 0x1p-50),
-                     to = free[1 - c] ? t[c] * (limit / length) : fmax(-most, fmin(most, t[c]));
+        const double other = t[1 - c], most = sqrt(sunder_i_max(0, (limit - other) * (limit + other))) * (1 - 0x1p-50),
+                     to = free[1 - c] ? t[c] * (limit / length) : sunder_i_max(-most, sunder_i_min(most, t[c]));
         f->base[f->row[2 * k + (size_t)c]] += to - t[c];
     }
     return (free[0] || free[1]) && length - limit > little;

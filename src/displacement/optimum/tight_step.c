@@ -4,6 +4,7 @@
 #include "displacement/optimum/tight.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 #include "displacement/layer/rounding.h"
 #include "number/lattice.h"
@@ -62,11 +63,11 @@ bool sunder_i_tight_find_step(sunder_i_tight *f, bool *coarse)
     f->exponent = INT_MAX;
     for (size_t k = 0; k < f->n && *coarse; k++) {
         const sunder_i_body *body = &f->model->body[f->body[k]];
-        for (int c = 0; c < 4 && !body->fixed; c++) f->size = fmax(f->size, fabs(body->box[c]));
+        for (int c = 0; c < 4 && !body->fixed; c++) f->size = sunder_i_max(f->size, fabs(body->box[c]));
         if (!lower_by_body(f, body, &f->exponent, coarse)) return false;
     }
     *coarse = *coarse && f->exponent < INT_MAX && is_coarse(f, f->exponent);
-    if (*coarse) f->hair = fmin(TIGHT_HAIR * f->size, TIGHT_STEP_HAIR * ldexp(1, f->exponent));
+    if (*coarse) f->hair = sunder_i_min(TIGHT_HAIR * f->size, TIGHT_STEP_HAIR * ldexp(1, f->exponent));
     return true;
 }
 

@@ -13,6 +13,7 @@
 #include "displacement/optimum/tree.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/extremes.h"
 #include "base/heap.h"
 #include "base/watch.h"
 
@@ -119,12 +120,12 @@ void sunder_i_tree_free(sunder_i_tree *t)
 
 double sunder_i_tree_bound(const sunder_i_tree *t)
 {
-    double bound = fmin(t->task.goal, t->leaf);
-    if (t->opens) bound = fmin(bound, t->open[0].value);
+    double bound = sunder_i_min(t->task.goal, t->leaf);
+    if (t->opens) bound = sunder_i_min(bound, t->open[0].value);
     return bound;
 }
 
-void sunder_i_tree_lower_goal(sunder_i_tree *t, double goal) { t->task.goal = fmin(t->task.goal, goal); }
+void sunder_i_tree_lower_goal(sunder_i_tree *t, double goal) { t->task.goal = sunder_i_min(t->task.goal, goal); }
 
 /* Looks into one node. True if its least has no conflicts, or none that a division tells more of: *leaf is what that is
  * proved to cost. */
@@ -133,7 +134,7 @@ static bool look_into(sunder_i_tree *t, uint32_t node, double *leaf)
     sunder_i_tree_load(t, node);
     for (int round = 0; !t->failed; round++) {
         /* Cuts by discs stand on the forces at hand, so these belong to the node above. */
-        const double value = fmax(t->node[node].value, sunder_i_dual_value(&t->program));
+        const double value = sunder_i_max(t->node[node].value, sunder_i_dual_value(&t->program));
         t->node[node].value = value;
         if (value >= t->task.goal) {
             t->node[node].state = SUNDER_I_CLOSED;
@@ -157,7 +158,7 @@ static bool look_into(sunder_i_tree *t, uint32_t node, double *leaf)
             t->node[child].state = SUNDER_I_EMPTY;
             return false;
         }
-        if (made) t->node[child].value = fmax(value, sunder_i_tree_solve(t));
+        if (made) t->node[child].value = sunder_i_max(value, sunder_i_tree_solve(t));
         if (t->failed) return false;
         sunder_i_tree_keep_forces(t, child);
         node = child;
@@ -172,7 +173,7 @@ static bool look_into(sunder_i_tree *t, uint32_t node, double *leaf)
 sunder_i_tree_outcome sunder_i_tree_run(sunder_i_tree *t, uint64_t steps)
 {
     while (t->opens && !t->failed) {
-        if (t->open[0].value >= fmin(t->task.goal, t->leaf)) return SUNDER_I_TREE_PROVED;
+        if (t->open[0].value >= sunder_i_min(t->task.goal, t->leaf)) return SUNDER_I_TREE_PROVED;
         if (t->steps > steps) return SUNDER_I_TREE_SPENT;
         sunder_i_open next;
         sunder_i_heap_pop(t->open, &t->opens, sizeof next, &next, sunder_i_opens_first);
@@ -181,7 +182,7 @@ sunder_i_tree_outcome sunder_i_tree_run(sunder_i_tree *t, uint64_t steps)
         const bool found = look_into(t, next.node, &leaf);
         if (!sunder_i_steps(1 + (size_t)(t->steps - before) / 64)) t->failed = true;
         if (!found) continue;
-        t->leaf = fmin(t->leaf, leaf);
+        t->leaf = sunder_i_min(t->leaf, leaf);
         return t->joins.n ? SUNDER_I_TREE_JOINED : SUNDER_I_TREE_FOUND;
     }
     return SUNDER_I_TREE_PROVED;

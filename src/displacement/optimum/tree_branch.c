@@ -13,6 +13,7 @@
 #include "displacement/optimum/tree.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/extremes.h"
 #include "base/heap.h"
 
 #include <math.h>
@@ -40,7 +41,7 @@ static void choose_rays(sunder_i_tree *t, const sunder_i_tree_conflict *c, branc
     for (int k = 0; k < 2; k++) {
         const double side = k ? 1 : -1, dir[2] = {-side * n[1], side * n[0]};
         /* No wider than 84 degrees: the angle to the ray behind stays less than straight. */
-        double way = fmin(sunder_i_forbidden_exit(f, mid, dir, 10 * ahead), 10 * ahead);
+        double way = sunder_i_min(sunder_i_forbidden_exit(f, mid, dir, 10 * ahead), 10 * ahead);
         /* In a slot without width the way out is beside u as well as ahead: a ray along it would leave it to both of
          * its cones, and one of these would have u in its hull. */
         if (way < IN_SLOT * ahead) way = BESIDE_SLOT * ahead;
@@ -85,7 +86,7 @@ static double try_cone(sunder_i_tree *t, const sunder_i_tree_conflict *c, const 
     t->node[t->nodes - 1].cuts = own;
     t->pair[c->pair].region = before;
     sunder_i_tree_restore_program(t);
-    return fmin(1, fmax(0, (then - value) / (t->task.goal - value)));
+    return sunder_i_min(1, sunder_i_max(0, (then - value) / (t->task.goal - value)));
 }
 
 static int by_weight(const void *a, const void *b)
@@ -170,7 +171,7 @@ void sunder_i_tree_divide(sunder_i_tree *t, uint32_t node)
         if (empty) {
             t->node[child].state = SUNDER_I_EMPTY;
         } else {
-            t->node[child].value = fmax(value, sunder_i_tree_solve(t));
+            t->node[child].value = sunder_i_max(value, sunder_i_tree_solve(t));
             sunder_i_tree_keep_forces(t, child);
             t->node[child].stuck = !cut && is_stuck(t, &c);
             if (t->node[child].value >= t->task.goal) t->node[child].state = SUNDER_I_CLOSED;

@@ -2,6 +2,7 @@
 #include "displacement/optimum/tree.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -137,7 +138,7 @@ static uint32_t find_missed(sunder_i_tree *t)
         const double u[2] = {at[2 * p->j] - at[2 * p->i], at[2 * p->j + 1] - at[2 * p->i + 1]};
         uint32_t cut = 0;
         const double beyond = sunder_i_region_beyond(&p->region, u, &cut);
-        if (beyond <= fmax(most, HOLDS * p->forbidden.size) || beyond <= 2 * p->region.blur) continue;
+        if (beyond <= sunder_i_max(most, HOLDS * p->forbidden.size) || beyond <= 2 * p->region.blur) continue;
         /* Not the side as it is kept, which may be off: the cut itself. */
         if (sunder_i_dual_missing(&t->program, &t->cut[cut]) <= HOLDS * p->forbidden.size) continue;
         most = beyond;
@@ -179,7 +180,7 @@ double sunder_i_tree_solve(sunder_i_tree *t)
         const sunder_i_dual_outcome outcome = sunder_i_dual_add(&t->program, cut, t->task.goal, &failed);
         t->steps += t->program.steps - before;
         if (failed || !sunder_i_steps(1 + t->program.acting_n / 4)) t->failed = true;
-        value = fmax(value, sunder_i_dual_value(&t->program));
+        value = sunder_i_max(value, sunder_i_dual_value(&t->program));
         if (outcome == SUNDER_I_DUAL_STUCK) break;
     }
     /* The last value is that of the forces at hand: D never falls but by rounding. */

@@ -4,6 +4,7 @@
 #include "displacement/optimum/tree.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -21,7 +22,7 @@ static double slackness_of(const sunder_i_tree *t, uint32_t i, uint32_t j)
 static void set_root(const sunder_i_tree *t, sunder_i_tree_pair *p)
 {
     const double *a = t->task.anchor + 2 * p->i, *b = t->task.anchor + 2 * p->j;
-    p->reach = sqrt(fmax(0, t->task.goal) * p->slackness) * ABOVE;
+    p->reach = sqrt(sunder_i_max(0, t->task.goal) * p->slackness) * ABOVE;
     for (int c = 0; c < 2; c++) p->centre[c] = b[c] - a[c];
     p->reach += 0x1p-50 * (fabs(a[0]) + fabs(a[1]) + fabs(b[0]) + fabs(b[1]));
 }

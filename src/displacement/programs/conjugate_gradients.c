@@ -12,6 +12,7 @@
 #include "displacement/programs/links.h"
 #include "displacement/programs/tuning.h"
 
+#include "base/extremes.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -70,7 +71,7 @@ static void multiply(dual *q, const double *v, double *out)
     for (size_t k = 0; k < q->n; k++) out[k] = product_of(q, v, k);
 }
 
-/* As fmin() and fmax(), of which the first is a number: what is no number is passed over. Inline. */
+/* As sunder_i_min() and sunder_i_max(), of which the first is a number: what is no number is passed over. Inline. */
 static inline double least(double so_far, double x) { return x < so_far ? x : so_far; }
 static inline double most(double so_far, double x) { return x > so_far ? x : so_far; }
 
@@ -176,7 +177,7 @@ static bool step_within(dual *q, double short_step)
         return false;
     }
     const double length = d.slope / d.curvature;
-    const double along = go(q, fmin(length, d.feasible), short_step) / d.curvature;
+    const double along = go(q, sunder_i_min(length, d.feasible), short_step) / d.curvature;
     if (length <= d.feasible) {
         q->is_seen = true;
         for (size_t k = 0; k < q->n; k++) q->step[k] = (q->f[k] > 0 ? q->g[k] : 0) - along * q->step[k];

@@ -11,6 +11,7 @@
 #include "displacement/programs/normal_equations.h"
 #include "displacement/programs/tuning.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -84,7 +85,7 @@ static bool advance(interior *q, double tolerance, double *mu)
     double missed = 0, cost = 0;
     for (size_t c = 0; c < q->m; c++) {
         q->rp[c] = stretch(q, c, q->x) - q->p->constraint[c].d - q->s[c] + q->soft[c] * q->f[c];
-        missed = fmax(missed, fabs(q->rp[c]));
+        missed = sunder_i_max(missed, fabs(q->rp[c]));
         q->rc[c] = q->s[c] * q->f[c];
         q->ds[c] = q->df[c] = 0;
     }
@@ -114,7 +115,7 @@ static void begin_near(interior *q, double scale, double mean)
     for (size_t b = 0; b < p->bodies; b++)
         if (p->mass[b] > 0) memcpy(q->x + q->normal.unknown[b], p->t + 2 * b, 2 * sizeof *q->x);
     for (size_t c = 0; c < q->m; c++) {
-        q->s[c] = fmax(stretch(q, c, q->x) - p->constraint[c].d, FIRST_SLACK * scale);
+        q->s[c] = sunder_i_max(stretch(q, c, q->x) - p->constraint[c].d, FIRST_SLACK * scale);
         q->f[c] = FIRST_SLACK * mean * scale * scale / q->s[c];
     }
 }
@@ -126,9 +127,9 @@ static void begin_near(interior *q, double scale, double mean)
 static void begin_far(interior *q, double scale, double mean)
 {
     double worst = FIRST_SLACK * scale;
-    for (size_t c = 0; c < q->m; c++) worst = fmax(worst, q->p->constraint[c].d);
+    for (size_t c = 0; c < q->m; c++) worst = sunder_i_max(worst, q->p->constraint[c].d);
     for (size_t c = 0; c < q->m; c++) {
-        q->s[c] = fmax(-q->p->constraint[c].d, worst);
+        q->s[c] = sunder_i_max(-q->p->constraint[c].d, worst);
         q->f[c] = mean * worst * worst / q->s[c];
     }
 }

@@ -8,6 +8,7 @@
 #include "displacement/programs/methods.h"
 #include "displacement/programs/tuning.h"
 
+#include "base/extremes.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -174,5 +175,5 @@ double sunder_i_quadratic_mend(sunder_i_quadratic *p, double tolerance, double s
     }
     mending_free(&m);
     if (!ok) return -1;
-    return solved ? fmax(0, sunder_i_quadratic_worst(p, 0)) : INFINITY;
+    return solved ? sunder_i_max(0, sunder_i_quadratic_worst(p, 0)) : INFINITY;
 }

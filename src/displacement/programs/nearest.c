@@ -20,6 +20,7 @@
 #include "displacement/programs/nearest.h"
 #include "displacement/programs/tuning.h"
 
+#include "base/extremes.h"
 #include "base/list.h"
 #include "base/memory.h"
 
@@ -178,7 +179,7 @@ static bool is_out_of_reach(const sunder_i_nearest *w, const sunder_i_quadratic 
 static void set_forces(const sunder_i_nearest *w, sunder_i_quadratic *p, const double *force, double sign)
 {
     for (size_t k = 0; k < p->n; k++) p->constraint[k].force = 0;
-    for (size_t k = 0; k < w->n; k++) p->constraint[w->set[k]].force = fmax(0, sign * force[k]);
+    for (size_t k = 0; k < w->n; k++) p->constraint[w->set[k]].force = sunder_i_max(0, sign * force[k]);
 }
 
 /* Makes one constraint hold. FOUND: it does. */
@@ -188,7 +189,7 @@ static sunder_i_nearest_outcome satisfy(sunder_i_nearest *w, sunder_i_quadratic 
     const sunder_i_constraint *c = &p->constraint[which];
     double own = 0, most;
     for (int step = 0; step < MOST_NEAREST; step++) {
-        const double square = take_apart(w, c), missed = fmax(0, c->d - sunder_i_stretch(c, p->t));
+        const double square = take_apart(w, c), missed = sunder_i_max(0, c->d - sunder_i_stretch(c, p->t));
         const size_t first = first_to_go(w, &most);
         p->work += 1 + w->n * w->dims / 4;
         if (first == w->n && is_out_of_reach(w, p, from, limit, missed)) {
@@ -200,7 +201,7 @@ static sunder_i_nearest_outcome satisfy(sunder_i_nearest *w, sunder_i_quadratic 
         const double by = holds ? missed / square : most;
         if (!isfinite(by)) return SUNDER_I_NEAREST_NOT_SURE;
         for (size_t d = 0; d < w->dims && square > 0; d++) p->t[d] += by * w->rest[d];
-        for (size_t k = 0; k < w->n; k++) w->force[k] = fmax(0, w->force[k] - by * w->share[k]);
+        for (size_t k = 0; k < w->n; k++) w->force[k] = sunder_i_max(0, w->force[k] - by * w->share[k]);
         own += by;
         if (holds) {
             let_in(w, which, own, square);

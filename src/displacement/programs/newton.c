@@ -14,6 +14,7 @@
 #include "displacement/programs/normal_equations.h"
 #include "displacement/programs/tuning.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -123,7 +124,7 @@ static bool go(newton *q, double share, double *far)
     *far = 0;
     for (size_t k = 0; k < q->normal.n; k++) {
         q->x[k] += share * q->step[k];
-        *far = fmax(*far, fabs(q->step[k]));
+        *far = sunder_i_max(*far, fabs(q->step[k]));
     }
     for (size_t c = 0; c < q->normal.m; c++) {
         const bool acted = q->left[c] > 0;
@@ -171,9 +172,9 @@ static double take_forces(newton *q, double *missed)
     for (size_t c = 0; c < q->normal.m; c++) q->before[c] = q->p->constraint[c].force;
     for (size_t c = 0; c < q->normal.m; c++) {
         if (!(q->give[c] > 0)) continue;
-        const double left = fmax(0, q->left[c]), change = fabs(left - q->give[c] * q->p->constraint[c].force);
+        const double left = sunder_i_max(0, q->left[c]), change = fabs(left - q->give[c] * q->p->constraint[c].force);
         if (!(change <= most)) most = change;
-        *missed = fmax(*missed, left - q->give[c] * q->p->constraint[c].force);
+        *missed = sunder_i_max(*missed, left - q->give[c] * q->p->constraint[c].force);
         q->p->constraint[c].force = left / q->give[c];
     }
     return most;
@@ -199,10 +200,10 @@ static double far_along(const newton *q, bool rising)
     if (!t) return 0;
     for (size_t c = 0; c < p->n; c++) {
         const sunder_i_constraint *k = &p->constraint[c];
-        const double more = fmax(k->force - q->before[c], rising ? 0 : -INFINITY);
+        const double more = sunder_i_max(k->force - q->before[c], rising ? 0 : -INFINITY);
         if (k->force > 0) sunder_i_push(p, k, k->force, t);
         if (more != 0) sunder_i_push(p, k, more, u);
-        if (more < 0) far = fmin(far, k->force / -more);
+        if (more < 0) far = sunder_i_min(far, k->force / -more);
         gain += more * k->d;
     }
     for (size_t b = 0; b < 2 * p->bodies; b++) {
@@ -212,8 +213,8 @@ static double far_along(const newton *q, bool rising)
     }
     sunder_i_free(t);
     if (!(gain > 0)) return 0;
-    far = fmin(far, gain / loss);
-    if (p->most_cost > 0) far = fmin(far, 4 * p->most_cost / gain);
+    far = sunder_i_min(far, gain / loss);
+    if (p->most_cost > 0) far = sunder_i_min(far, 4 * p->most_cost / gain);
     return far < INFINITY ? far : 0;
 }
 
@@ -222,7 +223,7 @@ static void go_along(newton *q, double far, bool rising)
     for (size_t c = 0; c < q->p->n; c++) {
         double *force = &q->p->constraint[c].force;
         const double now = *force, more = now - q->before[c];
-        if (more > 0 || !rising) *force = fmax(0, now + far * more);
+        if (more > 0 || !rising) *force = sunder_i_max(0, now + far * more);
         q->before[c] = now;
     }
 }
@@ -252,7 +253,8 @@ static bool solve_hard(newton *q, double tolerance)
     const int most = few ? MOST_FORCES_OF_FEW : MOST_FORCES;
     double give = FIRST_GIVE, last = INFINITY;
     if (sunder_i_quadratic_is_beyond(q->p, 0)) return true;
-    for (int k = 0; k < most && !sunder_i_quadratic_is_done(q->p); k++, give = fmax(LEAST_GIVE, give / LESS_GIVE)) {
+    for (int k = 0; k < most && !sunder_i_quadratic_is_done(q->p);
+         k++, give = sunder_i_max(LEAST_GIVE, give / LESS_GIVE)) {
         owe(q, give, true);
         if (!minimise(q, tolerance / CLOSE)) return false;
         double missed;

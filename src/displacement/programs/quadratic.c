@@ -14,6 +14,7 @@
 #include "displacement/programs/links.h"
 #include "displacement/programs/tuning.h"
 
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "base/memory.h"
 
@@ -186,7 +187,7 @@ static double finish(sunder_i_quadratic *p)
         sunder_i_quadratic_place(p);
     }
     SUNDER_I_CHECK(check(p), p->n);
-    return fmax(0, missed);
+    return sunder_i_max(0, missed);
 }
 
 static double give_up(sunder_i_quadratic *p)

@@ -8,6 +8,7 @@
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
 
+#include "base/extremes.h"
 #include "base/invariant.h"
 
 #include <math.h>
@@ -72,7 +73,7 @@ static size_t count_ways(const sunder_i_branching *c, const sunder_i_violation *
     for (size_t k = 0; k < ways && open < most; k++) {
         double best = -INFINITY;
         for (size_t v = 0; v < room.n; v++)
-            best = fmax(best, c->scratch[k].n[0] * room.xy[2 * v] + c->scratch[k].n[1] * room.xy[2 * v + 1]);
+            best = sunder_i_max(best, c->scratch[k].n[0] * room.xy[2 * v] + c->scratch[k].n[1] * room.xy[2 * v + 1]);
         open += best >= c->scratch[k].d;
     }
     return open;

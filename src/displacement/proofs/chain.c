@@ -23,6 +23,7 @@
 #include "displacement/layer/reads.h"
 #include "displacement/proofs/tuning.h"
 
+#include "base/extremes.h"
 #include "base/heap.h"
 #include "base/watch.h"
 
@@ -47,7 +48,7 @@ static double turn(const sunder_i_chains *g, uint32_t body, const double n[2], c
     double t[2];
     if (limit == 0) return 0;
     sunder_i_chains_stand(g, body, t);
-    return fmax(0, limit * sqrt(at(net, net)) - at(net, t));
+    return sunder_i_max(0, limit * sqrt(at(net, net)) - at(net, t));
 }
 
 static bool is_pair(const sunder_i_chains *g, const sunder_i_chain_link *k, const sunder_i_subproblem *q)

@@ -3,6 +3,8 @@
 #include "displacement/proofs/chain.h"
 #include "displacement/proofs/tuning.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,8 +27,8 @@ bool sunder_i_chain_is_open_behind(const sunder_i_way *w, const sunder_i_way *be
     const double cosine = w->n[0] * behind->n[0] + w->n[1] * behind->n[1];
     if (behind->d < -reach) return false;
     if (reach * cosine <= behind->d) return true;
-    const double sine = sqrt(fmax(0, 1 - cosine * cosine)),
-                 across = sqrt(fmax(0, reach * reach - behind->d * behind->d));
+    const double sine = sqrt(sunder_i_max(0, 1 - cosine * cosine)),
+                 across = sqrt(sunder_i_max(0, reach * reach - behind->d * behind->d));
     return w->d <= behind->d * cosine + across * sine + CHAIN_HAIR * (reach + fabs(w->d));
 }
 
@@ -62,11 +64,11 @@ static bool make_chord(const sunder_i_way *way, size_t n, double reach, sunder_i
     for (size_t k = 0; k < n; k++) {
         if (!sunder_i_chain_is_open(&way[k], reach)) continue;
         if (way[k].d <= -reach) return false;
-        const double direction = atan2(way[k].n[1], way[k].n[0]), half = acos(fmin(1, way[k].d / reach));
+        const double direction = atan2(way[k].n[1], way[k].n[0]), half = acos(sunder_i_min(1, way[k].d / reach));
         if (!any) middle = direction;
         const double turn = any ? remainder(direction - middle, TURN) : 0;
-        low = any ? fmin(low, turn - half) : -half;
-        high = any ? fmax(high, turn + half) : half;
+        low = any ? sunder_i_min(low, turn - half) : -half;
+        high = any ? sunder_i_max(high, turn + half) : half;
         any = true;
     }
     const double half = (high - low) / 2, along = middle + (low + high) / 2;
@@ -155,7 +157,7 @@ static bool link_pieces(sunder_i_chains *g, uint32_t i, const sunder_i_body_piec
                                                 .clearance = clearance,
                                                 .n = {w->n[0], w->n[1]},
                                                 .d = w->d,
-                                                .spare = g->all ? spare : fmax(0, spare)};
+                                                .spare = g->all ? spare : sunder_i_max(0, spare)};
     return true;
 }
 

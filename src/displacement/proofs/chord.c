@@ -17,6 +17,8 @@
 
 #include "displacement/layer/barriers.h"
 
+#include "base/extremes.h"
+
 #include <string.h>
 
 static double cross(const double u[2], const double v[2]) { return u[0] * v[1] - u[1] * v[0]; }
@@ -71,7 +73,7 @@ bool sunder_i_branching_make_chord(const double a[2], const double b[2], const d
     if (!(size > 0) || !(left * right < 0)) return false;
     const double share = left / (left - right), passes = ((1 - share) * dot(u, way) + share * dot(v, way)) / size;
     if (!(passes > 0.5)) return false;
-    const double times = (1 + BEYOND) * fmax(1, 1 / passes);
+    const double times = (1 + BEYOND) * sunder_i_max(1, 1 / passes);
     for (int c = 0; c < 2; c++) {
         chord[c] = a[c] + times * u[c];
         chord[2 + c] = a[c] + times * v[c];

@@ -35,6 +35,8 @@
 
 #include "shape/shape.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,8 +85,8 @@ static bool find_unit(const sunder_i_model *model, const sunder_i_body *body, si
     for (uint32_t k = 0; k < body->members; k++) {
         const sunder_shape *shape = sunder_i_thing_shape(model, model->member[body->member + k]);
         for (size_t v = 0; shape && v < sunder_i_shape_raw_vertices(shape); v++) {
-            low = fmin(low, shape->raw_xy[2 * v + c]);
-            high = fmax(high, shape->raw_xy[2 * v + c]);
+            low = sunder_i_min(low, shape->raw_xy[2 * v + c]);
+            high = sunder_i_max(high, shape->raw_xy[2 * v + c]);
         }
     }
     low = nextafter(low - body->limit, -INFINITY);

@@ -3,6 +3,8 @@
 #include "displacement/layer/resolution.h"
 #include "displacement/proofs/branching.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,8 +16,8 @@ static void set_scale(sunder_i_branching *c, const sunder_i_body *b, double limi
     const sunder_i_body *first = &c->model->body[c->subproblem->body[0]];
     double size = 0;
     for (size_t x = 0; x < 4; x++) size += fabs(b->box[x]) + fabs(b->origin[x & 1] - first->origin[x & 1]);
-    c->longest = fmax(c->longest, limit);
-    c->hair = fmax(c->hair, fmax(c->longest * 0x1p-40, (size + c->model->rules.gap) * 0x1p-47));
+    c->longest = sunder_i_max(c->longest, limit);
+    c->hair = sunder_i_max(c->hair, sunder_i_max(c->longest * 0x1p-40, (size + c->model->rules.gap) * 0x1p-47));
 }
 
 uint32_t sunder_i_branching_place(const sunder_i_branching *c, uint32_t body)
@@ -81,8 +83,8 @@ uint32_t sunder_i_branching_join_slack(sunder_i_branching *c, const sunder_i_req
         c->failed = true;
         return 0;
     }
-    c->longest = fmax(c->longest, -required->clearance);
-    c->hair = fmax(c->hair, c->longest * 0x1p-40);
+    c->longest = sunder_i_max(c->longest, -required->clearance);
+    c->hair = sunder_i_max(c->hair, c->longest * 0x1p-40);
     const uint32_t place = add(c, SUNDER_I_NOBODY, -required->clearance);
     if (c->failed) return 0;
     c->slack[c->slacks++] = (sunder_i_slack){required, place};

@@ -2,6 +2,8 @@
  * that hold its middle, what takes most of it. */
 #include "displacement/proofs/plane.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -51,7 +53,7 @@ static void weigh(sunder_i_plane *g, const sunder_i_plane_region *r, const doubl
     const sunder_i_plane_obstacle *o = &g->kept->obstacle[item->at];
     if (to->best && to->share >= to->whole && o->rank > to->best->rank) return;
     if (!holds(g, item, u, to->about)) return;
-    const double share = fmin(shared(g, o, r), to->whole);
+    const double share = sunder_i_min(shared(g, o, r), to->whole);
     if (share < to->share || (to->best && share == to->share && o->rank > to->best->rank)) return;
     to->share = share;
     to->best = o;

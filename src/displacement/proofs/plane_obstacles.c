@@ -9,6 +9,7 @@
 #include "displacement/layer/sides.h"
 #include "displacement/obstacles/shadow.h"
 
+#include "base/extremes.h"
 #include "base/list.h"
 
 #include <math.h>
@@ -215,18 +216,18 @@ void sunder_i_plane_bound(const sunder_i_plane *g, const sunder_i_plane_obstacle
         const double offset = body[o->q].origin[x] - body[g->p].origin[x];
         box[x] = o->a->box[x] - o->b->box[x + 2] - offset;
         box[x + 2] = o->a->box[x + 2] - o->b->box[x] - offset;
-        const double off = fmax(fmax(box[x], -box[x + 2]), 0);
+        const double off = sunder_i_max(sunder_i_max(box[x], -box[x + 2]), 0);
         square += off * off;
     }
     const double times = o->shadow ? far / sqrt(square) : 1,
-                 margin = fmax(o->shadow ? 0 : clearance, 0) + BOX_MARGIN * far;
+                 margin = sunder_i_max(o->shadow ? 0 : clearance, 0) + BOX_MARGIN * far;
     for (uint32_t x = 0; x < 2; x++) {
         if (times > 1) {
             if (box[x] < 0) box[x] *= times;
             if (box[x + 2] > 0) box[x + 2] *= times;
         }
-        box[x] = fmax(box[x] - margin, -far);
-        box[x + 2] = fmin(box[x + 2] + margin, far);
+        box[x] = sunder_i_max(box[x] - margin, -far);
+        box[x + 2] = sunder_i_min(box[x + 2] + margin, far);
     }
     if (sqrt(square) > far + margin || !(box[0] <= box[2] && box[1] <= box[3])) sunder_i_box_clear(box);
 }

@@ -1,6 +1,8 @@
 /* Convex polygons of relative moves, in doubles: they decide nothing, and tell which claims to ask about. */
 #include "displacement/proofs/plane.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -106,7 +108,7 @@ double sunder_i_plane_distance(const sunder_i_plane_region *r, double place[2], 
         const double e[2] = {v[0] - u[0], v[1] - u[1]}, square = sunder_i_plane_at(e, e),
                      along = -sunder_i_plane_at(e, u);
         if (e[0] * u[1] - e[1] * u[0] > 0) inside = false; /* the origin is to the right */
-        const double share = square > 0 ? fmin(fmax(along / square, 0), 1) : 0;
+        const double share = square > 0 ? sunder_i_min(sunder_i_max(along / square, 0), 1) : 0;
         const double w[2] = {u[0] + share * e[0], u[1] + share * e[1]}, off = hypot(w[0], w[1]);
         if (!(off < least)) continue;
         least = off;

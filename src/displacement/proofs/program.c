@@ -15,6 +15,7 @@
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -70,7 +71,7 @@ bool sunder_i_branching_is_contradiction(sunder_i_branching *c)
 static bool balance(sunder_i_claim *p, sunder_i_claim *q)
 {
     const double sign = p->i == q->i ? 1 : -1, cosine = sign * (p->n[0] * q->n[0] + p->n[1] * q->n[1]);
-    const double square = fmax(1 - cosine * cosine, 0x1p-100);
+    const double square = sunder_i_max(1 - cosine * cosine, 0x1p-100);
     p->force = p->d - cosine * q->d;
     q->force = q->d - cosine * p->d;
     if (!(p->force > 0) || !(q->force > 0)) return false;
@@ -179,8 +180,9 @@ static bool is_candidate(sunder_i_branching *c)
 {
     double worst = 0;
     for (size_t k = 0; k < 2 * c->bodies; k++) c->t[k] += c->shift[k];
-    for (size_t k = 0; k < c->claims; k++) worst = fmax(worst, missed_by(c, &c->claim[k]));
-    for (size_t b = 0; b < c->bodies; b++) worst = fmax(worst, sqrt(at(c->t + 2 * b, c->t + 2 * b)) - c->limit[b]);
+    for (size_t k = 0; k < c->claims; k++) worst = sunder_i_max(worst, missed_by(c, &c->claim[k]));
+    for (size_t b = 0; b < c->bodies; b++)
+        worst = sunder_i_max(worst, sqrt(at(c->t + 2 * b, c->t + 2 * b)) - c->limit[b]);
     return worst <= c->hair;
 }
 

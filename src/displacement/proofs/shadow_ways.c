@@ -18,6 +18,8 @@
 #include "displacement/obstacles/shadow.h"
 #include "displacement/proofs/ways.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <stdbool.h>
 
@@ -39,8 +41,8 @@ static double size_of(const sunder_i_parting *p)
     double size = p->vague;
     for (size_t c = 0; c < 2; c++) {
         double a = 0, b = 0;
-        for (size_t k = 0; k < p->na; k++) a = fmax(a, fabs(p->a[2 * k + c]));
-        for (size_t k = 0; k < p->nb; k++) b = fmax(b, fabs(p->b[2 * k + c]));
+        for (size_t k = 0; k < p->na; k++) a = sunder_i_max(a, fabs(p->a[2 * k + c]));
+        for (size_t k = 0; k < p->nb; k++) b = sunder_i_max(b, fabs(p->b[2 * k + c]));
         size += a + b + fabs(p->offset[c]);
     }
     return size;
@@ -79,7 +81,7 @@ size_t sunder_i_ways_past(const sunder_i_parting *p, sunder_i_way *out)
     size_t ways = 0;
     for (size_t k = 0; k < n; k++) {
         corner(p, k, u);
-        least = fmin(least, sqrt(dot(u, u)));
+        least = sunder_i_min(least, sqrt(dot(u, u)));
         for (int c = 0; c < 2; c++) middle[c] += 2 * u[c] / (double)n; /* well within the shadow */
     }
     if (!(least >= FAR_ENOUGH * slack)) return 0;
@@ -94,7 +96,7 @@ size_t sunder_i_ways_past(const sunder_i_parting *p, sunder_i_way *out)
         const double e[2] = {v[0] - u[0], v[1] - u[1]}, length = sqrt(dot(e, e));
         const double m[2] = {e[1] / length, -e[0] / length};
         if (!(length > 0)) continue;
-        const double d = fmin(dot(m, u), dot(m, v)) - slack;
+        const double d = sunder_i_min(dot(m, u), dot(m, v)) - slack;
         /* m is the outer normal: the origin sees the side where it lies beyond it, at d < 0, or may. */
         if (d < slack) out[ways++] = (sunder_i_way){.n = {m[0], m[1]}, .d = d};
     }

@@ -7,6 +7,7 @@
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
 
+#include "base/extremes.h"
 #include "base/list.h"
 #include "shape/shape.h"
 
@@ -59,7 +60,7 @@ double sunder_i_branching_depth(const sunder_i_branching *c, size_t ways, const 
     for (size_t k = 0; k < ways; k++) {
         sunder_i_way *w = &c->scratch[k];
         w->at = w->n[0] * u[0] + w->n[1] * u[1] - w->d;
-        at = fmax(at, w->at);
+        at = sunder_i_max(at, w->at);
     }
     return ways ? -at : -INFINITY;
 }
@@ -72,7 +73,7 @@ static double find_depth(sunder_i_branching *c, const sunder_i_body *p, const su
     size_t n;
     const sunder_i_way *way = sunder_i_branching_keep_ways(c, p, a, q, b, clearance, shadow, &n);
     double at = -INFINITY;
-    for (size_t k = 0; k < n; k++) at = fmax(at, way[k].n[0] * u[0] + way[k].n[1] * u[1] - way[k].d);
+    for (size_t k = 0; k < n; k++) at = sunder_i_max(at, way[k].n[0] * u[0] + way[k].n[1] * u[1] - way[k].d);
     return n ? -at : -INFINITY;
 }
 

@@ -34,6 +34,8 @@
 
 #include "convex/merge.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
@@ -95,7 +97,7 @@ static bool can_join(const walk *w, const run *r, const run *next)
     const double sine = r->first.n[0] * next->last.n[1] - r->first.n[1] * next->last.n[0];
     const double *p = r->corner, *q = next->corner + 2 * next->edges;
     return r->edges + next->edges <= MOST_IN_RUN && dot(r->first.n, next->last.n) > SLIGHT &&
-           fabs(sine) * hypot(q[0] - p[0], q[1] - p[1]) / 2 <= fmax(w->parting->coarse, w->slack);
+           fabs(sine) * hypot(q[0] - p[0], q[1] - p[1]) / 2 <= sunder_i_max(w->parting->coarse, w->slack);
 }
 
 static void join(run *r, const run *next)
@@ -118,8 +120,8 @@ static void add_run(walk *w, const run *r)
         s.tilt = fabs(r->first.n[0] * r->last.n[1] - r->first.n[1] * r->last.n[0]) + r->first.tilt + r->last.tilt;
     }
     double base = INFINITY;
-    for (size_t k = 0; k <= r->edges; k++) base = fmin(base, dot(s.n, r->corner + 2 * k));
-    const double off = g >= 0 ? g * fmax(0, 1 - 2 * UNIT - s.tilt * s.tilt) : g * (1 + 2 * UNIT);
+    for (size_t k = 0; k <= r->edges; k++) base = sunder_i_min(base, dot(s.n, r->corner + 2 * k));
+    const double off = g >= 0 ? g * sunder_i_max(0, 1 - 2 * UNIT - s.tilt * s.tilt) : g * (1 + 2 * UNIT);
     add(w, s.n, base, off);
 }
 
@@ -143,8 +145,8 @@ static void add_arc(walk *w, const double q[2], const double n1[2], const double
         add_arc(w, q, n, n2, tilt, halvings - 1);
         return;
     }
-    const double c = fmin(dot(n, n1), dot(n, n2)) - 2 * UNIT - tilt;
-    add(w, n, dot(n, q), w->parting->clearance * fmax(0, c));
+    const double c = sunder_i_min(dot(n, n1), dot(n, n2)) - 2 * UNIT - tilt;
+    add(w, n, dot(n, q), w->parting->clearance * sunder_i_max(0, c));
 }
 
 static double cross(const double p[2], const double q[2]) { return p[0] * q[1] - p[1] * q[0]; }
@@ -175,7 +177,7 @@ static bool turn_at(walk *w, const double q[2], const side *from, const side *to
     if (!at) return false;
     const double v[2] = {at[0] - q[0], at[1] - q[1]}, r = sqrt(dot(v, v)), n[2] = {v[0] / r, v[1] / r};
     if (!(r > 0) || !(r < g) || !(cross(from->n, n) > 0) || !(cross(n, to->n) > 0)) return false;
-    const double angle = fmin(WIDEST, sqrt((g - r) / g));
+    const double angle = sunder_i_min(WIDEST, sqrt((g - r) / g));
     double low[2], high[2];
     turn_to(n, -angle, from->n, low);
     turn_to(n, angle, to->n, high);
@@ -226,8 +228,8 @@ static void measure(walk *w)
     w->size = p->vague;
     for (size_t c = 0; c < 2; c++) {
         double a = 0, b = 0, mean_a = 0, mean_b = 0;
-        for (size_t k = 0; k < p->na; k++) a = fmax(a, fabs(p->a[2 * k + c])), mean_a += p->a[2 * k + c];
-        for (size_t k = 0; k < p->nb; k++) b = fmax(b, fabs(p->b[2 * k + c])), mean_b += p->b[2 * k + c];
+        for (size_t k = 0; k < p->na; k++) a = sunder_i_max(a, fabs(p->a[2 * k + c])), mean_a += p->a[2 * k + c];
+        for (size_t k = 0; k < p->nb; k++) b = sunder_i_max(b, fabs(p->b[2 * k + c])), mean_b += p->b[2 * k + c];
         w->size += a + b + fabs(p->offset[c]);
         w->inner[c] = mean_a / (double)p->na - mean_b / (double)p->nb - p->offset[c];
     }

@@ -6,6 +6,8 @@
 
 #include "separation/separation.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 /* Features of other blocks within the gap, and a hair, of feature f. */
@@ -15,7 +17,7 @@ static sunder_status find_around(const sunder_i_solver *s, const sunder_conflict
     const sunder_i_model *model = &s->model;
     const sunder_i_placement *placement = &s->placement;
     const double *own = sunder_i_rtree_box(&placement->tree, f), size = hypot(own[2] - own[0], own[3] - own[1]);
-    const double reach = model->rules.gap + fmax(model->rules.gap, size) * RESTING;
+    const double reach = model->rules.gap + sunder_i_max(model->rules.gap, size) * RESTING;
     double box[4];
     sunder_i_box_grow(own, reach, box);
     near->n = 0;
@@ -32,7 +34,7 @@ static sunder_status find_around(const sunder_i_solver *s, const sunder_conflict
         const sunder_i_translate p = sunder_i_standing(model, placement, g), q = sunder_i_standing(model, placement, f);
         const double off = reach + (sunder_i_owed_above(model, f, g) - model->rules.gap);
         bool apart;
-        const sunder_status status = sunder_i_apart(p.shape, p.t, q.shape, q.t, fmax(off, 0), &apart, err);
+        const sunder_status status = sunder_i_apart(p.shape, p.t, q.shape, q.t, sunder_i_max(off, 0), &apart, err);
         if (status) return status;
         if (!apart && !sunder_i_list_push(blockers, sunder_i_whole_of(model, g))) return sunder_i_no_memory(err);
     }

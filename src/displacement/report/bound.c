@@ -8,6 +8,7 @@
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
+#include "base/extremes.h"
 #include "base/list.h"
 #include "base/union_find.h"
 
@@ -46,8 +47,8 @@ static void ascend(const sunder_i_model *model, sunder_bound_pair *pairs, const 
             pair->multiplier += change;
             if (mi > 0) load[i] += change;
             if (mj > 0) load[j] += change;
-            moved = fmax(moved, fabs(change) * (mi + mj));
-            scale = fmax(scale, pair->least);
+            moved = sunder_i_max(moved, fabs(change) * (mi + mj));
+            scale = sunder_i_max(scale, pair->least);
         }
         if (moved <= STILL * scale) break;
     }

@@ -14,6 +14,7 @@
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
+#include "base/extremes.h"
 #include "base/union_find.h"
 
 #include <math.h>
@@ -137,7 +138,7 @@ static sunder_status try_layout(crowd *g, double *longest, sunder_error *err)
     *longest = 0;
     for (size_t k = 0; k < g->trial.n; k++) {
         const uint32_t body = g->trial.body[k];
-        *longest = fmax(*longest, hypot(goal(g, body)[0], goal(g, body)[1]));
+        *longest = sunder_i_max(*longest, hypot(goal(g, body)[0], goal(g, body)[1]));
         g->taken[body] = false;
         const sunder_status back = put(g, body, g->trial.stood + 2 * k, err);
         if (!status) status = back;

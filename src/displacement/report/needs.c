@@ -9,6 +9,7 @@
 #include "displacement/report/question.h"
 #include "displacement/report/tuning.h"
 
+#include "base/extremes.h"
 #include "base/parallel.h"
 #include "base/union_find.h"
 
@@ -32,7 +33,8 @@ static bool is_asked_about(const sunder_conflict *c) { return !c->inside_block &
 /* The gap that a conflict leaves where it stands: two that are nearer than the layer's have the one between them. */
 static double gap_of(const sunder_conflict *c)
 {
-    return c->kind == SUNDER_CONFLICT_TOO_CLOSE && c->depth == 0 ? fmax(0, nextafter(c->distance, -INFINITY)) : -1;
+    return c->kind == SUNDER_CONFLICT_TOO_CLOSE && c->depth == 0 ? sunder_i_max(0, nextafter(c->distance, -INFINITY))
+                                                                 : -1;
 }
 
 /* The least gap of a pair and of all that are left of its two bodies: with that the result is a solution of it and its
@@ -52,9 +54,9 @@ static sunder_status keep_what_there_is(const sunder_i_questions *g, sunder_erro
             for (int e = 0; e < 2; e++) {
                 if (model->body[model->body_of[e ? c->b : c->a]].fixed) continue;
                 if (pass == 0)
-                    *of[e] = fmin(*of[e], gap);
+                    *of[e] = sunder_i_min(*of[e], gap);
                 else
-                    gap = fmin(gap, *of[e]);
+                    gap = sunder_i_min(gap, *of[e]);
             }
             if (pass == 1 && gap >= 0 && gap < g->options->gap) c->need_gap = gap;
         }
@@ -79,10 +81,10 @@ static sunder_status ask(const sunder_i_questions *g, const sunder_i_surrounding
 static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
                                 budget *left, sunder_error *err)
 {
-    sunder_i_supposition what = {fmin(a->farthest, c->need_shift), g->options->gap, SUNDER_I_NOBODY};
+    sunder_i_supposition what = {sunder_i_min(a->farthest, c->need_shift), g->options->gap, SUNDER_I_NOBODY};
     double longest, low = INFINITY;
     bool yes;
-    for (size_t k = 0; k < a->moving; k++) low = fmin(low, a->as[k].max_shift);
+    for (size_t k = 0; k < a->moving; k++) low = sunder_i_min(low, a->as[k].max_shift);
     if (!(low < what.limit) || !sunder_i_patience_asks(&left->shift)) return SUNDER_OK;
     for (int k = 0; k <= g->halvings; k++) {
         const sunder_status status = ask(g, a, c, &what, left, &yes, &longest, err);
@@ -90,7 +92,7 @@ static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surr
         if (k == 0) sunder_i_patience_note(&left->shift, yes);
         /* One unit above what is rounded once holds the move. */
         if (yes)
-            c->need_shift = fmin(c->need_shift, nextafter(longest, INFINITY));
+            c->need_shift = sunder_i_min(c->need_shift, nextafter(longest, INFINITY));
         else if (k == 0)
             return SUNDER_OK;
         else
@@ -155,7 +157,8 @@ static sunder_status find_needs(const sunder_i_questions *g, sunder_conflict *c,
     sunder_i_surroundings a = {0};
     if (members_that_move(model, c->a) + members_that_move(model, c->b) > NEED_MOST) return SUNDER_OK;
     sunder_status status = sunder_i_surround(g->solver, c, &a, err);
-    a.farthest = fmin(a.farthest, g->options->barrier_reach); /* what it has not been told of may stand beyond */
+    a.farthest =
+        sunder_i_min(a.farthest, g->options->barrier_reach); /* what it has not been told of may stand beyond */
     if (!status) status = need_shift(g, &a, c, left, err);
     if (!status) status = need_gap(g, &a, c, left, err);
     if (!status) status = need_gone(g, &a, c, left, err);
@@ -231,7 +234,7 @@ static size_t group(const sunder_i_solver *s, const sunder_report *report, matte
 sunder_status sunder_i_report_needs(sunder_report *report, const sunder_i_solver *solver,
                                     const sunder_layer_options *options, sunder_i_solve_layer solve, sunder_error *err)
 {
-    const double effort = fmin(ceil(options->effort), NEED_EFFORT);
+    const double effort = sunder_i_min(ceil(options->effort), NEED_EFFORT);
     const sunder_i_questions g = {solver, report, options, solve, (int)effort, NEED_GONE * (size_t)effort};
     if (!(effort > 0)) return SUNDER_OK;
     matter *list = sunder_i_alloc(report->conflicts, sizeof *list);

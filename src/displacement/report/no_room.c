@@ -12,6 +12,7 @@
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
+#include "base/extremes.h"
 #include "base/parallel.h"
 #include "base/union_find.h"
 
@@ -131,7 +132,7 @@ static double farthest_of(const sunder_i_model *model, const uint32_t *body, siz
     double farthest = 0;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *b = &model->body[body[k]];
-        if (!b->fixed && isfinite(b->limit)) farthest = fmax(farthest, b->limit);
+        if (!b->fixed && isfinite(b->limit)) farthest = sunder_i_max(farthest, b->limit);
     }
     return farthest;
 }
@@ -422,7 +423,7 @@ sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solve
     if (groups) {
         requiring h = {s, report, listed, required};
         status = sunder_i_parallel(threads, n, SUNDER_I_GRAIN_PAIRS, find_some_requirements, &h, err);
-        const uint64_t times = 1 + (uint64_t)(MORE_EFFORT * fmin(s->model.rules.effort, MORE_UP_TO));
+        const uint64_t times = 1 + (uint64_t)(MORE_EFFORT * sunder_i_min(s->model.rules.effort, MORE_UP_TO));
         asking g = {s, report, decide, list, first, required, n, times};
         if (!status) status = sunder_i_parallel(threads, groups, SUNDER_I_GRAIN_WHOLE, ask_clusters, &g, err);
     }

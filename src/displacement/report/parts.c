@@ -1,6 +1,7 @@
 /* Which parts of the layer have nothing to do with each other, and what is proved of each. */
 #include "displacement/report/report.h"
 
+#include "base/extremes.h"
 #include "base/union_find.h"
 
 #include <math.h>
@@ -82,6 +83,7 @@ bool sunder_i_part_is_by_groups(const sunder_i_parts *parts, uint32_t body)
 double sunder_i_part_bound(const sunder_i_parts *parts, uint32_t body)
 {
     const double by_area = parts->by_areas[body];
-    const double most = by_area < 0 ? 0 : fmax(fmax(parts->by_pairs[body], parts->by_groups[body]), by_area);
+    const double most =
+        by_area < 0 ? 0 : sunder_i_max(sunder_i_max(parts->by_pairs[body], parts->by_groups[body]), by_area);
     return most > 0 && isfinite(most) ? most : 0;
 }

@@ -15,6 +15,7 @@
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
+#include "base/extremes.h"
 #include "base/parallel.h"
 #include "base/watch.h"
 
@@ -152,7 +153,7 @@ static bool press(pressing *p, const sunder_i_group *g)
         const sunder_i_body *body = &model->body[g->body[i]];
         const double *move = model->move + 2 * (size_t)g->body[i];
         mass[i] = body->fixed ? 0 : 0.5 / body->weight;
-        size = fmax(size, hypot(move[0], move[1]));
+        size = sunder_i_max(size, hypot(move[0], move[1]));
         ok = add_pairs_of(p, i) && add_limit(p, i);
     }
     if (ok && p->program.n && size > 0)

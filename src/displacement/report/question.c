@@ -18,6 +18,8 @@
 #include "separation/separation.h"
 #include "shape/shape.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -147,12 +149,12 @@ static bool is_known(const sunder_i_surroundings *a, const sunder_i_solver *x, d
 {
     const sunder_i_model *model = &x->model;
     *longest = 0;
-    gap = fmax(gap, x->barriers.farthest);
+    gap = sunder_i_max(gap, x->barriers.farthest);
     for (size_t k = 0; k < model->features; k++) {
         const double *t = model->move + 2 * (size_t)model->body_of[k],
                      *box = sunder_i_rtree_box(&x->placement.tree, (uint32_t)k);
         if (x->layer.number[k] >= a->moving || !model->present[k]) continue;
-        *longest = fmax(*longest, hypot(t[0], t[1]));
+        *longest = sunder_i_max(*longest, hypot(t[0], t[1]));
         if (box[0] - gap < a->known[0] || box[1] - gap < a->known[1] || box[2] + gap > a->known[2] ||
             box[3] + gap > a->known[3])
             return false;
@@ -343,7 +345,7 @@ static sunder_status make_layer(const sunder_i_questions *g, const sunder_i_surr
     for (size_t k = 0; k < n; k++) {
         sunder_feature *f = &feature[k];
         *f = a->as[k];
-        if (k < a->moving) f->max_shift = fmin(fmax(f->max_shift, what->limit), a->farthest);
+        if (k < a->moving) f->max_shift = sunder_i_min(sunder_i_max(f->max_shift, what->limit), a->farthest);
         f->ignored = f->ignored || a->feature.item[k] == what->gone;
     }
     sunder_status status = sunder_layer_new(feature, n, layer, err);
@@ -362,7 +364,7 @@ static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_sur
     sunder_layer *layer = NULL;
     bool jumps = false;
     options.gap = what->gap;
-    options.touch_tolerance = fmin(g->solver->model.rules.tolerance, what->gap / 2);
+    options.touch_tolerance = sunder_i_min(g->solver->model.rules.tolerance, what->gap / 2);
     options.no_blocks = true; /* they have numbers */
     options.threads = 1;
     options.effort = 0;

@@ -10,6 +10,7 @@
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
+#include "base/extremes.h"
 #include "base/union_find.h"
 #include "spatial/box.h"
 
@@ -31,8 +32,8 @@ typedef struct looking {
 static void ask(looking *l, uint32_t b, double far)
 {
     l->any = true;
-    l->far[b] = fmax(l->far[b], far * (1 + 0x1p-10));
-    l->most = fmax(l->most, l->far[b]);
+    l->far[b] = sunder_i_max(l->far[b], far * (1 + 0x1p-10));
+    l->most = sunder_i_max(l->most, l->far[b]);
 }
 
 /* A body of a conflict, and its cluster, as far as that has limits; what is fixed is of none. */

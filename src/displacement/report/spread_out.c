@@ -16,6 +16,8 @@
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
+#include "base/extremes.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -84,13 +86,13 @@ static bool choose(asked *list, size_t n, const double half[2], double factor[2]
     double y = 1, least = INFINITY;
     if (n) qsort(list, n, sizeof *list, by_x_from_the_greatest);
     for (size_t k = 0; k <= n; k++) {
-        const double x = k < n ? fmax(1, list[k].x) : 1, way = hypot((x - 1) * half[0], (y - 1) * half[1]);
+        const double x = k < n ? sunder_i_max(1, list[k].x) : 1, way = hypot((x - 1) * half[0], (y - 1) * half[1]);
         if (way < least) {
             least = way;
             factor[0] = x;
             factor[1] = y;
         }
-        if (k < n) y = fmax(y, list[k].y);
+        if (k < n) y = sunder_i_max(y, list[k].y);
     }
     return isfinite(least);
 }
@@ -116,7 +118,7 @@ static void find_extent(const sunder_i_solver *s, const uint32_t *body, size_t n
 static double unit_of(const double middle[2], const double half[2], const double factor[2])
 {
     double largest = 0;
-    for (int c = 0; c < 2; c++) largest = fmax(largest, fabs(middle[c]) + 2 * factor[c] * half[c]);
+    for (int c = 0; c < 2; c++) largest = sunder_i_max(largest, fabs(middle[c]) + 2 * factor[c] * half[c]);
     int exponent;
     frexp(largest, &exponent);
     return largest > 0 ? ldexp(1, exponent - DBL_MANT_DIG) : 1;

@@ -16,6 +16,7 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "base/memory.h"
 
@@ -125,7 +126,7 @@ static bool is_covered(const covering *o, size_t k, const double at[2])
         const double along = wy * edge[e].n[0] - wx * edge[e].n[1];
         faces = faces || s > 0;
         beside = along >= 0 && along <= edge[e].length;
-        if (!beside) corner = fmin(corner, beyond_corner(edge, n, e, along, at));
+        if (!beside) corner = sunder_i_min(corner, beyond_corner(edge, n, e, along, at));
     }
     return beside || !faces || corner <= o->gap[k] || sunder_i_support_at(edge, n, at).distance <= o->gap[k];
 }
@@ -170,7 +171,7 @@ static bool is_covered_at(const covering *o, size_t obstacle, const between *b, 
 static bool covers(const covering *o, size_t obstacle, const between *b)
 {
     const double radius = b->disc->radius;
-    const double begin = acos(fmin(1, b->out / radius)), end = acos(fmax(-1, b->low / radius));
+    const double begin = acos(sunder_i_min(1, b->out / radius)), end = acos(sunder_i_max(-1, b->low / radius));
     const double half = (end - begin) / (2 * ARC_SIDES), turn[2] = {cos(half), sin(half)};
     double out = radius * cos(begin), across = radius * sin(begin);
     if (!is_covered_at(o, obstacle, b, across, out)) return false;
@@ -190,10 +191,10 @@ static bool covers(const covering *o, size_t obstacle, const between *b)
 static void find_strip(const between *b, double left, double right, double corner[4][2])
 {
     const double radius = b->disc->radius, middle = (left + right) / 2;
-    const double height = sqrt(fmax(radius * radius - middle * middle, 0x1p-20 * radius * radius));
+    const double height = sqrt(sunder_i_max(radius * radius - middle * middle, 0x1p-20 * radius * radius));
     const double slope = middle / height, begin = height - slope * (left - middle),
                  end = height - slope * (right - middle);
-    const bool cut = fmax(begin, end) > b->out, low = fmax(-begin, -end) < b->low;
+    const bool cut = sunder_i_max(begin, end) > b->out, low = sunder_i_max(-begin, -end) < b->low;
     place_at(b, left, low ? b->low : -begin, corner[0]);
     place_at(b, right, low ? b->low : -end, corner[1]);
     place_at(b, left, cut ? b->out : begin, corner[2]);
@@ -220,22 +221,22 @@ static bool cover_strip(covering *o, const between *b, double left, double right
 
 static double half_chord(const between *b, double out)
 {
-    return sqrt(fmax(0, b->disc->radius * b->disc->radius - out * out));
+    return sqrt(sunder_i_max(0, b->disc->radius * b->disc->radius - out * out));
 }
 
 /* The ends of the outer chord are mostly what is not covered. */
 static bool cover(covering *o, const between *b)
 {
     const double radius = b->disc->radius;
-    if (b->out <= fmax(b->low, -radius) || b->low >= radius) return true;
-    const double out = fmin(radius, b->out);
+    if (b->out <= sunder_i_max(b->low, -radius) || b->low >= radius) return true;
+    const double out = sunder_i_min(radius, b->out);
     for (int side = -1; side <= 1; side += 2) {
         double end[2];
         place_at(b, side * half_chord(b, out), out, end);
         if (!is_covered_by_any(o, end)) return false;
     }
     if (covers(o, o->last, b)) return true;
-    const double across = half_chord(b, out < 0 ? out : fmax(0, b->low));
+    const double across = half_chord(b, out < 0 ? out : sunder_i_max(0, b->low));
     return o->n > 1 && cover_strip(o, b, -across, 0, STRIP_HALVINGS) && cover_strip(o, b, 0, across, STRIP_HALVINGS);
 }
 
@@ -245,7 +246,7 @@ static double find_line(covering *o, const double n[2], double known, double d, 
 {
     const disc *about = &o->disc;
     const double centre = n[0] * about->centre[0] + n[1] * about->centre[1];
-    const double nothing = fmax(known, centre - about->radius);
+    const double nothing = sunder_i_max(known, centre - about->radius);
     between b = {about, n, known - centre, d - hair - centre};
     if (cover(o, &b)) return d - hair;
     int near = 0, far = LINE_HALVINGS;
@@ -293,7 +294,7 @@ static bool learn(bounding *b, acting *a)
     if (sunder_i_is_tangent(c) || a->d >= c->d - 2 * s->tolerance) return false;
     const double *p = place(b, a->i), *q = place(b, a->j);
     const double mass = s->mass[a->i] + s->mass[a->j], back = mass * a->force;
-    const double radius = sqrt(2 * mass * fmax(0, b->cost - b->least));
+    const double radius = sqrt(2 * mass * sunder_i_max(0, b->cost - b->least));
     covering *o = &b->about;
     if (!(radius > 0) || !(radius < SHRUNK * a->radius)) return false;
     a->radius = radius;
@@ -302,7 +303,7 @@ static bool learn(bounding *b, acting *a)
     o->disc.centre[1] = q[1] - p[1] - back * c->n[1];
     /* About where the line n.u = d cuts the way out, which forces that are not solved to the end leave a hair off. */
     const double slack = a->force > 0 ? sunder_i_stretch(c, b->program.t) - a->d : 0;
-    o->disc.radius = sqrt(fmax(0, radius * radius + back * back - 2 * back * slack));
+    o->disc.radius = sqrt(sunder_i_max(0, radius * radius + back * back - 2 * back * slack));
     sunder_i_search_piece_pairs(s, a->i, a->j, o->disc.centre, s->gap + o->disc.radius, false, add_obstacle, o);
     if (s->failed || o->n == 0) return false;
     const double known = find_line(o, c->n, a->d - a->fixed, c->d - a->fixed, s->tolerance) + a->fixed;
@@ -342,7 +343,7 @@ static double approach(bounding *b, double enough)
         for (size_t k = 0; k < b->n; k++) any = learn(b, &b->acting[k]) || any;
         if (!any) break;
         if (!solve(b)) b->s->failed = true;
-        left = fmax(0, 1 - b->least / b->cost);
+        left = sunder_i_max(0, 1 - b->least / b->cost);
     }
     return left;
 }

@@ -1,7 +1,7 @@
 /* Which bodies of a cluster clash, and by how much. */
 #include "displacement/search/search.h"
 
-#include <math.h>
+#include "base/extremes.h"
 
 typedef struct look {
     const double *t;
@@ -35,7 +35,7 @@ double sunder_i_search_look(sunder_i_search *s, const double *t)
     s->clashes = 0;
     sunder_i_search_near(s, t, s->gap, look_at, &l);
     sunder_i_search_passing(s, t, s->gap, look_at, &l);
-    for (uint32_t k = 0; k < s->n; k++) l.worst = fmax(l.worst, sunder_i_search_overstep(s, k, t));
+    for (uint32_t k = 0; k < s->n; k++) l.worst = sunder_i_max(l.worst, sunder_i_search_overstep(s, k, t));
     return l.worst;
 }
 

@@ -6,6 +6,8 @@
  * are nearer than that; and two that were nearer at home than they owe are not so far from there. */
 #include "displacement/search/stages.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 /* How far from u the relative moves may be at which features f of p and g of q are nearer than they owe. */
@@ -16,7 +18,7 @@ static double farthest_near(const sunder_i_search *s, uint32_t f, uint32_t g, co
     const double owed = s->gap + 2 * s->tolerance;
     double square = 0;
     for (uint32_t x = 0; x < 2; x++) {
-        const double far = fmax(fabs(a[x] - b[x + 2] - owed - u[x]), fabs(a[x + 2] - b[x] + owed - u[x]));
+        const double far = sunder_i_max(fabs(a[x] - b[x + 2] - owed - u[x]), fabs(a[x + 2] - b[x] + owed - u[x]));
         square += far * far;
     }
     return sqrt(square);
@@ -29,8 +31,8 @@ static double farthest_of(const sunder_i_search *s, const sunder_i_relaxations *
     double farthest = 0;
     for (size_t k = 0; k < all->n; k++) {
         const uint32_t a = all->item[k].a, b = all->item[k].b;
-        if (body_of[a] == p && body_of[b] == q) farthest = fmax(farthest, farthest_near(s, a, b, u));
-        if (body_of[a] == q && body_of[b] == p) farthest = fmax(farthest, farthest_near(s, b, a, u));
+        if (body_of[a] == p && body_of[b] == q) farthest = sunder_i_max(farthest, farthest_near(s, a, b, u));
+        if (body_of[a] == q && body_of[b] == p) farthest = sunder_i_max(farthest, farthest_near(s, b, a, u));
     }
     return farthest;
 }
@@ -39,6 +41,6 @@ bool sunder_i_search_is_confined(const sunder_i_search *s, uint32_t i, uint32_t 
 {
     const uint32_t p = s->body[i], q = s->body[j];
     if (!sunder_i_are_confined(s->model, p, q)) return false;
-    *farthest = fmax(farthest_of(s, &s->relaxations, p, q, u), farthest_of(s, &s->model->relaxations, p, q, u));
+    *farthest = sunder_i_max(farthest_of(s, &s->relaxations, p, q, u), farthest_of(s, &s->model->relaxations, p, q, u));
     return true;
 }

@@ -3,6 +3,7 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
 #include "base/sort.h"
 #include "base/watch.h"
 
@@ -71,7 +72,7 @@ static void constrain_part(sunder_i_search *s, const sunder_i_piece_pair *part, 
     const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
     if (!edge) return;
     sunder_i_support h = sunder_i_search_support(part, edge, n, at->near);
-    if (h.distance > (part->shadow ? gap : fmax(s->gap, gap)) + at->reach) return;
+    if (h.distance > (part->shadow ? gap : sunder_i_max(s->gap, gap)) + at->reach) return;
     if (at->near != at->u) h = sunder_i_search_support(part, edge, n, at->u);
     const sunder_i_constraint *before = look_up(s->old, s->old_n, part->key);
     double d = h.support + gap;
@@ -111,7 +112,7 @@ static double kept_too_much(const sunder_i_search *s, uint32_t i, uint32_t j)
     double beyond = 0;
     for (int k = 0; k < 2; k++) {
         const sunder_i_body *body = &model->body[s->body[k ? j : i]];
-        beyond = fmax(beyond, sunder_i_reach_beyond(model, model->member[body->member]));
+        beyond = sunder_i_max(beyond, sunder_i_reach_beyond(model, model->member[body->member]));
     }
     return KEPT_TOO_MUCH * (s->gap + beyond);
 }
@@ -134,7 +135,7 @@ static void constrain(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
         double place[1][2];
         if (!a->as_it_stands && sunder_i_search_free_pair(s, i, j, u, 0, 1, place)) {
             memcpy(u, place[0], sizeof u);
-            reach = fmax(reach, kept_too_much(s, i, j));
+            reach = sunder_i_max(reach, kept_too_much(s, i, j));
         }
     }
     const double *side = u;

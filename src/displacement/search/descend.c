@@ -13,6 +13,7 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "base/union_find.h"
 #include "base/watch.h"
@@ -26,7 +27,7 @@
 static double longest_step(const sunder_i_search *s)
 {
     double longest = 0;
-    for (size_t k = 0; k < 2 * s->n; k++) longest = fmax(longest, fabs(s->next[k] - s->t[k]));
+    for (size_t k = 0; k < 2 * s->n; k++) longest = sunder_i_max(longest, fabs(s->next[k] - s->t[k]));
     return longest;
 }
 
@@ -41,7 +42,7 @@ static bool is_under_way(const sunder_i_search *s)
 static double longest_move(const sunder_i_search *s)
 {
     double longest = 0;
-    for (size_t k = 0; k < 2 * s->n; k++) longest = fmax(longest, fabs(s->next[k]));
+    for (size_t k = 0; k < 2 * s->n; k++) longest = sunder_i_max(longest, fabs(s->next[k]));
     return longest;
 }
 
@@ -59,8 +60,8 @@ static bool is_out_of_patience(const sunder_i_search *s) { return sunder_i_searc
 static double solve(sunder_i_search *s, double softness)
 {
     sunder_i_quadratic *p = &s->program;
-    const double hurry =
-        fmax(s->tolerance / SOLVED_TO, softness > 0 ? COMPROMISE_TO * fmax(s->gap, s->extent / SMALL_PART) : 0);
+    const double hurry = sunder_i_max(s->tolerance / SOLVED_TO,
+                                      softness > 0 ? COMPROMISE_TO * sunder_i_max(s->gap, s->extent / SMALL_PART) : 0);
     p->most_work = s->patience < UINT64_MAX ? (s->patience > s->steps ? s->patience - s->steps : 1) : 0;
     double v = sunder_i_quadratic_solve(p, softness, hurry, s->extent);
     if (v < 0 || !sunder_i_look()) s->failed = true;
@@ -75,7 +76,7 @@ static double solve(sunder_i_search *s, double softness)
         v = sunder_i_quadratic_solve(p, 0, s->tolerance / SOLVED_TO, s->extent);
         if (v < 0 || !sunder_i_look()) s->failed = true;
         keep_still(s);
-        v = fmax(0, v - asked);
+        v = sunder_i_max(0, v - asked);
     }
     return v;
 }
@@ -154,7 +155,7 @@ static void stop_short(sunder_i_search *s)
     for (size_t k = 0; k < s->program.n; k++) {
         const sunder_i_constraint *c = &s->program.constraint[k];
         const double here = sunder_i_stretch(c, s->t) - c->d, there = sunder_i_stretch(c, s->next) - c->d;
-        if (there < 0 && there < here) share = fmin(share, fmax(0, here) / (here - there));
+        if (there < 0 && there < here) share = sunder_i_min(share, sunder_i_max(0, here) / (here - there));
     }
     for (size_t k = 0; k < 2 * s->n; k++) s->next[k] = s->t[k] + JUST_BEFORE * share * (s->next[k] - s->t[k]);
     s->ended = false;
@@ -175,7 +176,7 @@ static const char *check_next(const sunder_i_search *s)
     for (size_t k = 0; k < s->program.n; k++) {
         const sunder_i_constraint *c = &s->program.constraint[k];
         const double here = sunder_i_stretch(c, s->t) - c->d, there = sunder_i_stretch(c, s->next) - c->d;
-        if (there < fmin(0, here) - s->tolerance) return "a way that was free up to there is not";
+        if (there < sunder_i_min(0, here) - s->tolerance) return "a way that was free up to there is not";
     }
     return NULL;
 }
@@ -226,13 +227,13 @@ static bool descent_init(descent *d, sunder_i_search *s)
 {
     const bool crowd = sunder_i_search_movers(s) > LARGE_CROWD, large = is_large(s);
     const double part = large ? PART_OF_LARGE_CROWD : crowd ? PART_OF_CROWD : SMALL_PART;
-    const double farthest = fmax(s->gap / 2, s->extent / part);
+    const double farthest = sunder_i_max(s->gap / 2, s->extent / part);
     /* At least a margin: who was put in a free place stands beside its pieces, a hair farther than is asked. A crowd
      * that is no longer at home is in contact all over. */
     *d = (descent){.s = s,
                    .best = sunder_i_alloc(2 * s->n, sizeof *d->best),
                    .lead = large ? sunder_i_alloc(2 * s->n, sizeof *d->lead) : NULL,
-                   .reach = fmax(crowd && is_under_way(s) ? farthest : s->gap, 4 * s->tolerance),
+                   .reach = sunder_i_max(crowd && is_under_way(s) ? farthest : s->gap, 4 * s->tolerance),
                    .farthest = farthest,
                    .cost = INFINITY,
                    .softness = SOFT,
@@ -264,7 +265,7 @@ static double solve_round(descent *d, bool clashing)
     sunder_i_search *s = d->s;
     if (clashing) {
         const double v = compromise(s, d->softness);
-        d->softness = fmax(d->softness / HARDENING, HARDEST);
+        d->softness = sunder_i_max(d->softness / HARDENING, HARDEST);
         return v;
     }
     const double v = solve_lazily(s, 0);
@@ -288,7 +289,7 @@ static void take_step(descent *d, bool is_free, double left, double cost)
     }
     d->is_free = is_free;
     d->cost = cost;
-    d->reach = fmin(fmax(STEPS_AHEAD * step, s->gap / LEAST_REACH), d->farthest);
+    d->reach = sunder_i_min(sunder_i_max(STEPS_AHEAD * step, s->gap / LEAST_REACH), d->farthest);
 }
 
 typedef enum outcome { ON, SETTLED_DOWN, IN_VAIN } outcome;
@@ -321,7 +322,7 @@ static outcome go_round(descent *d)
     take_step(d, is_free, left, cost);
     if (is_free) return ON;
     d->idle = v > d->missed / 2 ? d->idle + 1 : 0;
-    d->missed = fmin(d->missed, v);
+    d->missed = sunder_i_min(d->missed, v);
     return ++d->clashing >= s->clashing || d->idle >= MOST_IDLE ? IN_VAIN : ON;
 }
 
@@ -344,8 +345,8 @@ bool sunder_i_search_descend(sunder_i_search *s)
     const double tolerance = s->tolerance, settled = s->settled;
     s->program.most_cost = most_cost(s);
     if (!is_large(s)) return go_down(s);
-    s->tolerance = fmax(tolerance, ROUGHLY * s->extent);
-    s->settled = fmax(settled, ROUGHLY_SETTLED);
+    s->tolerance = sunder_i_max(tolerance, ROUGHLY * s->extent);
+    s->settled = sunder_i_max(settled, ROUGHLY_SETTLED);
     s->roughly = true;
     const bool found = go_down(s);
     s->roughly = false;

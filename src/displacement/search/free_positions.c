@@ -4,6 +4,7 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 #include "separation/separation.h"
 
@@ -28,7 +29,7 @@ static void add_wall(sunder_i_search *s, const sunder_i_piece_pair *part, void *
     sunder_i_obstacles *o = context;
     double gap;
     const size_t n = sunder_i_search_obstacle(s, part, &gap);
-    if (n) sunder_i_obstacles_add(o, s->scratch.xy, n, fmax(gap, 0) + 2 * s->tolerance);
+    if (n) sunder_i_obstacles_add(o, s->scratch.xy, n, sunder_i_max(gap, 0) + 2 * s->tolerance);
 }
 
 /* The walls of either that keep the other inside. */
@@ -62,7 +63,7 @@ static void add_shadow(sunder_i_search *s, const sunder_i_piece_pair *part, void
     n = sunder_i_shadow_corners(edge, n, shade->far, corner);
     for (size_t k = 0; k < 2 * n; k++) corner[k] += shade->shift[k & 1];
     s->steps += OBSTACLE_WORK;
-    sunder_i_obstacles_add(shade->obstacles, corner, n, fmax(gap, 0) + 2 * s->tolerance);
+    sunder_i_obstacles_add(shade->obstacles, corner, n, sunder_i_max(gap, 0) + 2 * s->tolerance);
 }
 
 /* The shadows between p, which moved by t, and q, for moves of q within reach of `at`. */
@@ -98,7 +99,7 @@ static bool is_shaded(sunder_i_search *s, const sunder_i_body *p, const double t
     return found.deep;
 }
 
-static double extent(const double box[4]) { return fmax(box[2] - box[0], box[3] - box[1]); }
+static double extent(const double box[4]) { return sunder_i_max(box[2] - box[0], box[3] - box[1]); }
 
 /* Might they, or what a relaxation shifts, be within r of each other at v? No least translation is longer than the
  * boxes. */
@@ -123,7 +124,8 @@ static void add_obstacle(sunder_i_search *s, sunder_i_obstacles *o, const sunder
         s->failed = true;
         return;
     }
-    if (relaxation) gap = fmin(gap, sunder_i_search_shift(relaxation, b->feature, s->scratch.xy, n) + 2 * s->tolerance);
+    if (relaxation)
+        gap = sunder_i_min(gap, sunder_i_search_shift(relaxation, b->feature, s->scratch.xy, n) + 2 * s->tolerance);
     const size_t before = o->n;
     sunder_i_obstacles_add(o, s->scratch.xy, n, gap);
     if (kept && o->n > before && !sunder_i_grown_cache_keep(&s->grown, key, o)) s->failed = true;
@@ -193,7 +195,7 @@ static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const s
     double from[2];
     for (int c = 0; c < 2; c++) {
         int exponent;
-        frexp(fmax(fabs(p->box[c]), fabs(p->box[c + 2])), &exponent);
+        frexp(sunder_i_max(fabs(p->box[c]), fabs(p->box[c + 2])), &exponent);
         const double unit = ldexp(1, exponent - 44);
         from[c] = unit > 0 ? unit * rint(target[c] / unit) : target[c];
     }
@@ -258,17 +260,17 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
     double shift;
     const bool relaxed = sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift);
     /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
-    const double shallow = fmax(2 * s->gap, SHALLOW * fmin(extent(p->box), extent(q->box)));
+    const double shallow = sunder_i_max(2 * s->gap, SHALLOW * sunder_i_min(extent(p->box), extent(q->box)));
     if (many && most == 1 && model->inclusions == 0 && !relaxed && ps && qs && !ps->flat && !qs->flat &&
         free_pair_exactly(s, ps, qs, target, shallow, places[0]) && !is_shaded(s, p, none, q, places[0]))
         return 1;
     double all = BEYOND_ALL * (extent(p->box) + extent(q->box) + s->gap);
     const bool confined = sunder_i_search_is_confined(s, i, j, target, &all);
-    double reach = fmax(2 * s->gap, PAIR_REACH * fmin(extent(p->box), extent(q->box)));
+    double reach = sunder_i_max(2 * s->gap, PAIR_REACH * sunder_i_min(extent(p->box), extent(q->box)));
     /* Beside a point, to which no gap is owed, it begins with the other one's size: from 0 it would not grow. */
-    if (!(reach > 0)) reach = PAIR_REACH * fmax(extent(p->box), extent(q->box));
+    if (!(reach > 0)) reach = PAIR_REACH * sunder_i_max(extent(p->box), extent(q->box));
     for (;; reach *= PAIR_GROWTH) {
-        if (confined) reach = fmin(reach, all);
+        if (confined) reach = sunder_i_min(reach, all);
         const size_t n = find_beside(s, p, q, many, target, reach, spread, !confined && reach > all, most, places);
         if (n || s->failed) return n;
         if (reach > all || (confined && reach == all) || !(reach > 0)) return 0;
@@ -418,8 +420,9 @@ bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, dou
     const sunder_i_rtree *tree = s->model->standing;
     const double now = hypot(s->t[2 * i], s->t[2 * i + 1]);
     double all = BEYOND_ALL * (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(p->box) + s->gap);
-    if (!s->model->rules.jumps) all = fmin(all, now + FARTHEST_LEAP * (fmin(extent(p->box), s->extent) + s->gap));
-    for (double reach = 2 * s->gap + fmax(now, BODY_REACH * extent(p->box));; reach *= BODY_GROWTH) {
+    if (!s->model->rules.jumps)
+        all = sunder_i_min(all, now + FARTHEST_LEAP * (sunder_i_min(extent(p->box), s->extent) + s->gap));
+    for (double reach = 2 * s->gap + sunder_i_max(now, BODY_REACH * extent(p->box));; reach *= BODY_GROWTH) {
         if (reach > limit) reach = limit;
         others about = {.search = s, .i = i};
         const double r = reach + s->gap, box[4] = {p->box[0] - r, p->box[1] - r, p->box[2] + r, p->box[3] + r};

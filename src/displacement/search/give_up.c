@@ -12,6 +12,7 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
 #include "base/union_find.h"
 
 #include <math.h>
@@ -60,7 +61,7 @@ static size_t list_candidates(sunder_i_search *s, const sunder_i_clash *at_home,
                              *home = n ? bsearch(c, at_home, n, sizeof *c, sunder_i_by_id_pair) : NULL;
         if (!home || sunder_i_relaxations_between(&s->relaxations, s->body[c->i], s->body[c->j])) continue;
         double *w = &worst[sunder_i_union_find(root, c->i)];
-        *w = fmax(*w, c->violation);
+        *w = sunder_i_max(*w, c->violation);
         list[listed++] = (candidate){c, home->violation > s->gap};
     }
     for (size_t k = 0; k < listed; k++)
@@ -240,7 +241,7 @@ static void relax_about(sunder_i_search *s, const sunder_i_clash *at_home, size_
     double worst = 0;
     const size_t before = s->relaxations.n;
     memset(about, 0, s->n * sizeof *about);
-    for (size_t k = 0; k < s->clashes; k++) worst = fmax(worst, s->clash[k].violation);
+    for (size_t k = 0; k < s->clashes; k++) worst = sunder_i_max(worst, s->clash[k].violation);
     for (size_t k = 0; k < s->clashes; k++)
         if (s->clash[k].violation >= FIRST_SHARE * worst) about[s->clash[k].i] = about[s->clash[k].j] = true;
     for (size_t k = 0; k < n && !s->failed; k++)

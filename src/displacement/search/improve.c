@@ -3,6 +3,8 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -92,7 +94,7 @@ static double longest_move(const sunder_i_search *s, double *below)
 {
     double longest = 0;
     for (size_t k = 0; k < s->n; k++)
-        if (s->mass[k] > 0) longest = fmax(longest, hypot(s->t[2 * k], s->t[2 * k + 1]));
+        if (s->mass[k] > 0) longest = sunder_i_max(longest, hypot(s->t[2 * k], s->t[2 * k + 1]));
     int exponent;
     frexp(longest, &exponent);
     *below = ldexp(1, exponent - 1);

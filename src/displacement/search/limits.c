@@ -3,6 +3,7 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
 #include "base/list.h"
 
 #include <math.h>
@@ -11,7 +12,10 @@
 /* By how much a move may be beyond its limit and count as within it: less than what counts as a miss; where coordinates
  * are small a share of the limit that is more than what programs leave, and than the margin of an exact fit, which
  * rounding to the limit then makes good. */
-static double slack(const sunder_i_search *s, double limit) { return fmax(s->tolerance / 2, limit * LIMIT_SLACK); }
+static double slack(const sunder_i_search *s, double limit)
+{
+    return sunder_i_max(s->tolerance / 2, limit * LIMIT_SLACK);
+}
 
 double sunder_i_search_overstep(const sunder_i_search *s, uint32_t k, const double *t)
 {

@@ -2,9 +2,9 @@
 #include "displacement/search/search.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
 #include "base/sort.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 /* Sorts order by the left sides of the boxes; insertion would do between rounds, but clusters can be large. */
@@ -24,8 +24,8 @@ static bool sort_boxes(sunder_i_search *s, const double *t, double reach, bool o
         const sunder_i_body *b = &s->model->body[s->body[k]];
         const bool home = or_home && s->mass[k] > 0;
         for (int c = 0; c < 4; c++) {
-            const double at = t[2 * k + (size_t)(c & 1)], least = home ? fmin(at, 0) : at,
-                         most = home ? fmax(at, 0) : at;
+            const double at = t[2 * k + (size_t)(c & 1)], least = home ? sunder_i_min(at, 0) : at,
+                         most = home ? sunder_i_max(at, 0) : at;
             s->box[4 * k + (size_t)c] =
                 b->box[c] + (b->origin[c & 1] - o[c & 1]) + (c < 2 ? least - reach / 2 : most + reach / 2);
         }

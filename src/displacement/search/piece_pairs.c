@@ -3,6 +3,7 @@
 #include "displacement/search/search.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -40,7 +41,7 @@ bool sunder_i_search_is_relaxed(const sunder_i_search *s, uint32_t body, uint32_
                                   *all = sunder_i_relaxations_between(&s->model->relaxations, body, other);
     if (all && all_restored(s, all)) all = NULL;
     if (own) *reach = own->reach;
-    if (all) *reach = fmax(*reach, all->reach);
+    if (all) *reach = sunder_i_max(*reach, all->reach);
     return own || all;
 }
 
@@ -136,8 +137,8 @@ static inline uint32_t find_facing(const visiting *to, const double box[4], uint
  * other's own, as that sees the part. */
 static inline void box_of_other(const sunder_i_body *other, const double v[2], double reach, double box[4])
 {
-    double most = fmax(fabs(v[0]), fabs(v[1])) + fabs(reach);
-    for (int c = 0; c < 4; c++) most = fmax(most, fabs(other->box[c]));
+    double most = sunder_i_max(fabs(v[0]), fabs(v[1])) + fabs(reach);
+    for (int c = 0; c < 4; c++) most = sunder_i_max(most, fabs(other->box[c]));
     const double grown = reach + 0x1p-46 * most;
     for (int c = 0; c < 4; c++) box[c] = other->box[c] + v[c & 1] + (c < 2 ? -grown : grown);
 }
@@ -251,7 +252,7 @@ void sunder_i_search_piece_pairs(sunder_i_search *s, uint32_t i, uint32_t j, con
     reach += shift;
     visit_pieces(s, p, q, v, reach, &part, visit, context);
     /* Shadows are seldom in the way: no more of them than that are looked for ahead. */
-    const double ahead = fmin(reach - shift - s->gap, s->gap / LEAST_REACH);
+    const double ahead = sunder_i_min(reach - shift - s->gap, s->gap / LEAST_REACH);
     sunder_i_search_body_shadows(s, p, q, u, s->gap - model->rules.gap + ahead, visit, context);
     if (!part.relaxed && model->inclusions == 0) return;
     if (p->has->walls) sunder_i_search_walls(s, p, q, v, reach, &part, false, visit, context);
@@ -278,10 +279,10 @@ static double owed(const sunder_i_search *s, const sunder_i_piece_pair *part, co
                    size_t n)
 {
     const double margin = s->gap - s->model->rules.gap, home[2] = {0, 0};
-    if (part->shadow) return fmin(margin, sunder_i_shadow_support_at(edge, n, home).distance);
+    if (part->shadow) return sunder_i_min(margin, sunder_i_shadow_support_at(edge, n, home).distance);
     if (part->inclusion == SUNDER_I_LAPSED) return sunder_i_search_owed(s, part->a, part->b);
     if (part->inclusion == SUNDER_I_STRICT) return margin;
-    return fmin(margin, sunder_i_support_at(edge, n, home).distance);
+    return sunder_i_min(margin, sunder_i_support_at(edge, n, home).distance);
 }
 
 /* The edges of what is in s->scratch. */
@@ -320,8 +321,8 @@ const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *s, const su
     if (!edge) {
         *n = make_obstacle(s, part);
         if (*n && part->relaxation) {
-            *gap = fmin(sunder_i_search_owed(s, part->a, part->b),
-                        sunder_i_search_shift(part->relaxation, part->b->feature, s->scratch.xy, *n));
+            *gap = sunder_i_min(sunder_i_search_owed(s, part->a, part->b),
+                                sunder_i_search_shift(part->relaxation, part->b->feature, s->scratch.xy, *n));
             edge = take_edges(s, n);
         } else if (*n) {
             edge = sunder_i_obstacle_cache_add(&s->cache, part->key, s->scratch.xy, n);
@@ -355,7 +356,7 @@ static void measure_part(sunder_i_search *s, const sunder_i_piece_pair *part, vo
     double gap;
     size_t n;
     const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
-    if (edge) m->worst = fmax(m->worst, gap - sunder_i_search_support(part, edge, n, m->u).distance);
+    if (edge) m->worst = sunder_i_max(m->worst, gap - sunder_i_search_support(part, edge, n, m->u).distance);
 }
 
 /* As if no pair were relaxed: that is the same whenever they stand so. */

@@ -22,6 +22,7 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
 #include "base/heap.h"
 
 #include <math.h>
@@ -115,7 +116,7 @@ static bool is_stale(const sunder_i_pushed *p, uint32_t i)
     const sunder_i_search *s = p->about.all;
     const sunder_i_push_lines *of = &p->of[i];
     const double near = PUSHED_STALE * p->reach;
-    if (!of->known || fmax(fabs(s->t[2 * i] - of->at[0]), fabs(s->t[2 * i + 1] - of->at[1])) > p->reach / 2)
+    if (!of->known || sunder_i_max(fabs(s->t[2 * i] - of->at[0]), fabs(s->t[2 * i + 1] - of->at[1])) > p->reach / 2)
         return true;
     for (size_t k = 0; k < of->n; k++) {
         const uint32_t j = of->line[k].other, a = i < j ? i : j, b = i < j ? j : i;
@@ -182,7 +183,7 @@ double sunder_i_pushed_room(const sunder_i_pushed *p, uint32_t k, const double a
     if (!(s->mass[k] > 0)) return 0;
     if (limit == INFINITY) return INFINITY;
     const double on = at(along, t), left = limit * limit - at(t, t);
-    return fmax(0, sqrt(fmax(0, on * on + left)) - on);
+    return sunder_i_max(0, sqrt(sunder_i_max(0, on * on + left)) - on);
 }
 
 static void reach(const sunder_i_pushed *p, sunder_i_push_front *f, uint32_t k, double spare)
@@ -220,7 +221,7 @@ static bool go_on(sunder_i_pushed *p, sunder_i_push_front *f, uint32_t end, uint
         if (f->waiting == 0) return false;
         sunder_i_heap_pop(f->heap, &f->waiting, sizeof e, &e, comes_before);
     } while (e.spare > f->spare[e.body] || e.spare >= f->most);
-    f->most = fmin(f->most, e.spare + sunder_i_pushed_room(p, e.body, f->along));
+    f->most = sunder_i_min(f->most, e.spare + sunder_i_pushed_room(p, e.body, f->along));
     const sunder_i_push_lines *of = sunder_i_pushed_lines(p, e.body);
     s->steps += 1 + of->n;
     for (size_t k = 0; k < of->n && !s->failed; k++) {
@@ -266,7 +267,7 @@ static void divide(const sunder_i_push_front f[2], double missing, double share[
 {
     const double right = count_pushed(&f[0]), left = count_pushed(&f[1]);
     share[0] = right + left > 0 ? missing * left / (right + left) : missing / 2;
-    share[0] = fmax(missing - f[1].most, fmin(f[0].most, share[0]));
+    share[0] = sunder_i_max(missing - f[1].most, sunder_i_min(f[0].most, share[0]));
     share[1] = missing - share[0];
 }
 

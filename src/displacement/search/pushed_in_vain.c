@@ -13,6 +13,7 @@
 #include "displacement/search/pushed.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
 #include "base/heap.h"
 
 #include <math.h>
@@ -118,7 +119,7 @@ static double spare_between(sunder_i_pushed *p, uint32_t k, uint32_t other, cons
     for (size_t m = 0; m < of->n; m++) {
         const double on = dot(of->line[m].n, along);
         if (of->line[m].other == other && on > PUSHED_BESIDE)
-            least = fmin(least, spare_of(p->about.all, &of->line[m], k, on));
+            least = sunder_i_min(least, spare_of(p->about.all, &of->line[m], k, on));
     }
     return least;
 }
@@ -132,7 +133,7 @@ static double most_along(sunder_i_pushed *p, uint32_t end, uint32_t but, const d
     double most = enough, spare = 0;
     size_t hops = 0; /* ways that changed since may go in a circle */
     for (uint32_t k = end; next && hops < s->n && spare < most && !s->failed; k = next[k], hops++) {
-        most = fmin(most, spare + sunder_i_pushed_room(p, k, along));
+        most = sunder_i_min(most, spare + sunder_i_pushed_room(p, k, along));
         if (next[k] == SUNDER_I_NOBODY || (k == end && next[k] == but)) break;
         spare += spare_between(p, k, next[k], along);
     }

@@ -8,6 +8,7 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
 #include "base/random.h"
 
 #include <math.h>
@@ -42,7 +43,7 @@ typedef struct reordering {
 static double extent(const sunder_i_search *s, uint32_t i)
 {
     const double *box = s->model->body[s->body[i]].box;
-    return fmin(box[2] - box[0], box[3] - box[1]);
+    return sunder_i_min(box[2] - box[0], box[3] - box[1]);
 }
 
 static bool find_doubtful(reordering *r)
@@ -55,8 +56,9 @@ static bool find_doubtful(reordering *r)
         sunder_i_search_look(s, home);
         for (size_t k = 0; k < s->clashes; k++) {
             const sunder_i_clash *c = &s->clash[k];
-            worst = fmax(worst, c->violation);
-            if (c->violation - s->gap > DEEP * fmin(extent(s, c->i), extent(s, c->j))) deep[c->i] = deep[c->j] = true;
+            worst = sunder_i_max(worst, c->violation);
+            if (c->violation - s->gap > DEEP * sunder_i_min(extent(s, c->i), extent(s, c->j)))
+                deep[c->i] = deep[c->j] = true;
         }
         for (uint32_t k = 0; k < s->n; k++) {
             const double x = s->t[2 * k], y = s->t[2 * k + 1];
@@ -80,7 +82,7 @@ static double apart(const sunder_i_search *s, uint32_t i, uint32_t j, double sha
     double d[2];
     for (uint32_t c = 0; c < 2; c++) {
         const double offset = q->origin[c] - p->origin[c] + share * (s->t[2 * j + c] - s->t[2 * i + c]);
-        d[c] = fmax(0, fmax(q->box[c] + offset - p->box[c + 2], p->box[c] - q->box[c + 2] - offset));
+        d[c] = sunder_i_max(0, sunder_i_max(q->box[c] + offset - p->box[c + 2], p->box[c] - q->box[c + 2] - offset));
     }
     return hypot(d[0], d[1]);
 }
@@ -92,7 +94,7 @@ static void choose(reordering *r, uint32_t first, size_t n)
     size_t m = 0;
     for (uint32_t k = 0; k < s->n; k++)
         if (s->mass[k] > 0)
-            r->near[m++] = (ranked){k == first ? -1 : fmin(apart(s, first, k, 0), apart(s, first, k, 1)), k};
+            r->near[m++] = (ranked){k == first ? -1 : sunder_i_min(apart(s, first, k, 0), apart(s, first, k, 1)), k};
     qsort(r->near, m, sizeof *r->near, by_rank);
     for (size_t k = 0; k < n; k++) r->out[k] = r->near[k].index;
 }
@@ -138,7 +140,7 @@ static size_t put_back(reordering *r, size_t n)
     for (size_t k = 0; k < n; k++) {
         const uint32_t i = r->out[k];
         const double farthest =
-            fmin(BEYOND_LIMIT * sunder_i_search_limit(s, i), BEYOND_COST * sqrt(2 * s->mass[i] * r->cost));
+            sunder_i_min(BEYOND_LIMIT * sunder_i_search_limit(s, i), BEYOND_COST * sqrt(2 * s->mass[i] * r->cost));
         double place[2];
         if (sunder_i_search_free_body(s, i, farthest, place)) memcpy(s->t + 2 * i, place, sizeof place);
         s->away[i] = false;

@@ -2,6 +2,8 @@
 #include "displacement/search/search.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +18,7 @@ static double mean_extent(const sunder_i_model *model, const uint32_t *body, siz
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *b = &model->body[body[k]];
         if (b->pieces && !sunder_i_is_barrier_body(model, b))
-            extent += fmax(b->box[2] - b->box[0], b->box[3] - b->box[1]) / (double)counted;
+            extent += sunder_i_max(b->box[2] - b->box[0], b->box[3] - b->box[1]) / (double)counted;
     }
     return extent;
 }
@@ -100,7 +102,7 @@ void sunder_i_search_free(sunder_i_search *s)
 
 double sunder_i_search_limit(const sunder_i_search *s, uint32_t i)
 {
-    return fmin(s->cap, s->model->body[s->body[i]].limit);
+    return sunder_i_min(s->cap, s->model->body[s->body[i]].limit);
 }
 
 double sunder_i_search_cost(const sunder_i_search *s, const double *t)

@@ -12,6 +12,7 @@
 #include "displacement/obstacles/anchor_reach.h"
 #include "displacement/search/search.h"
 
+#include "base/extremes.h"
 #include "base/sort.h"
 #include "base/watch.h"
 
@@ -133,7 +134,7 @@ static void box_of_body(const sunder_i_search *s, const double *t, uint32_t k, d
     const sunder_i_body *b = &s->model->body[s->body[k]], *first = &s->model->body[s->body[0]];
     for (uint32_t c = 0; c < 4; c++) {
         const double home = b->box[c] + (b->origin[c & 1] - first->origin[c & 1]), at = t[2 * k + (c & 1)];
-        box[c] = home + (c < 2 ? fmin(at, 0) : fmax(at, 0));
+        box[c] = home + (c < 2 ? sunder_i_min(at, 0) : sunder_i_max(at, 0));
     }
 }
 
@@ -173,7 +174,8 @@ static double least_way(const sunder_i_search *s)
         if (b->clear < least) least = b->clear;
         if (!s->model->sides || !b->pieces) continue;
         const double *anchors = sunder_i_side_anchors(s->model, b);
-        for (int c = 0; c < 2; c++) least = fmin(least, fmin(anchors[c] - b->box[c], b->box[c + 2] - anchors[c + 2]));
+        for (int c = 0; c < 2; c++)
+            least = sunder_i_min(least, sunder_i_min(anchors[c] - b->box[c], b->box[c + 2] - anchors[c + 2]));
     }
     return least;
 }

@@ -12,6 +12,8 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,7 +51,7 @@ static void list_wishes(const sunder_i_search *s, const sunder_i_relaxations *al
         const double depth = hypot(t->shift[0], t->shift[1]);
         wish *w = wish_of(s, all, t, list);
         w->overlap = w->overlap || depth > 0;
-        w->missing = fmax(w->missing, depth > 0 ? depth : sunder_i_owed_above(s->model, t->a, t->b) - t->gap);
+        w->missing = sunder_i_max(w->missing, depth > 0 ? depth : sunder_i_owed_above(s->model, t->a, t->b) - t->gap);
     }
     qsort(list, all->relaxed_n, sizeof *list, by_ease);
 }
@@ -178,7 +180,7 @@ static size_t ask_pushed(sunder_i_search *s, const sunder_i_relaxations *all, wi
     sunder_i_pushed pushed;
     double most = 0;
     const uint64_t end = sunder_i_search_work(s) + PUSHED_MOST + PUSHED_EACH * (uint64_t)s->n;
-    for (size_t k = 0; k < n; k++) most = fmax(most, list[k].missing);
+    for (size_t k = 0; k < n; k++) most = sunder_i_max(most, list[k].missing);
     if (!sunder_i_pushed_init(&pushed, s, most)) s->failed = true;
     bool last = false;
     for (double level = most / PUSHED_FIRST; n && !s->failed; level *= PUSHED_LEVELS) {

@@ -9,6 +9,7 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/extremes.h"
 #include "base/union_find.h"
 
 #include <math.h>
@@ -28,7 +29,7 @@ static bool push_apart(sunder_i_search *s)
     sunder_i_pushed pushed;
     const size_t n = s->clashes;
     sunder_i_clash *list = sunder_i_alloc(n, sizeof *list);
-    if (!sunder_i_pushed_init(&pushed, s, fmax(s->gap, s->extent / SMALL_PART)) || !list) s->failed = true;
+    if (!sunder_i_pushed_init(&pushed, s, sunder_i_max(s->gap, s->extent / SMALL_PART)) || !list) s->failed = true;
     if (list && n) memcpy(list, s->clash, n * sizeof *list);
     for (size_t k = 0; k < n && !s->failed; k++) {
         double along[2];

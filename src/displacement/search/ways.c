@@ -6,7 +6,8 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
-#include <math.h>
+#include "base/extremes.h"
+
 #include <string.h>
 
 /* From the first body's origin, so that where the layer lies makes no difference. */
@@ -15,7 +16,7 @@ static void box_of_way(const sunder_i_search *s, uint32_t k, double box[4])
     const sunder_i_body *b = &s->model->body[s->body[k]], *first = &s->model->body[s->body[0]];
     for (uint32_t c = 0; c < 4; c++) {
         const double home = b->box[c] + (b->origin[c & 1] - first->origin[c & 1]), at = s->t[2 * k + (c & 1)];
-        box[c] = home + (c < 2 ? fmin(at, 0) : fmax(at, 0));
+        box[c] = home + (c < 2 ? sunder_i_min(at, 0) : sunder_i_max(at, 0));
     }
 }
 

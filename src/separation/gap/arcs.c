@@ -1,6 +1,8 @@
 /* The search with a gap: the points of circles nearest to the origin, and where two circles cross. */
 #include "separation/gap/search.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 /* In doubles: are both crossings for certain too far, or covered, or is there none? What is asked is far more than
@@ -35,7 +37,7 @@ static void cross_arcs(sunder_i_gap_state *s, size_t i, size_t j)
     const sunder_i_point v = sunder_i_operands_diff(s->g, b, a);
     const double vx = sunder_i_approx(l, v.x), vy = sunder_i_approx(l, v.y), length = sunder_i_gap_length(vx, vy);
     if (!(length > 0) || length > 2 * s->gap + s->error) return;
-    const double product = (2 * s->gap - length) * (2 * s->gap + length) / 4, half = sqrt(fmax(product, 0));
+    const double product = (2 * s->gap - length) * (2 * s->gap + length) / 4, half = sqrt(sunder_i_max(product, 0));
     const double x = (at[0] + to[0]) / 2, y = (at[1] + to[1]) / 2;
     for (int sign = -1; sign <= 1; sign += 2) {
         sunder_i_gap_point p = {.x = x - sign * half * (vy / length),

@@ -8,6 +8,7 @@
  * Squares are covered by more than all rounding, and what is farther than the gap by less than 2^-17 of the magnitude
  * counts as near: a point may be asked in either of two squares where it cannot be told in which it is, and so may one
  * beside it (rational.c). */
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "separation/gap/gap.h"
 #include "separation/squares/squares_inner.h"
@@ -99,7 +100,7 @@ static bool settle(gathering *c, const sunder_i_square *s, sunder_i_square_state
         ok = ok && keep_segments(c, s);
         if (ok && middle_is_free(c, s)) lower_limit(c, s->box[0] / 2 + s->box[2] / 2, s->box[1] / 2 + s->box[3] / 2);
     } else if (!q->covered)
-        lower_limit(c, fmax(fabs(s->box[0]), fabs(s->box[2])), fmax(fabs(s->box[1]), fabs(s->box[3])));
+        lower_limit(c, sunder_i_max(fabs(s->box[0]), fabs(s->box[2])), sunder_i_max(fabs(s->box[1]), fabs(s->box[3])));
     at->to = (uint32_t)c->pairs;
     return ok;
 }

@@ -1,6 +1,7 @@
 /* The search with a gap: its numbers, and what covers a point. */
 #include "separation/gap/search.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 #include "separation/operands/fan.h"
 
@@ -139,7 +140,7 @@ static sunder_i_fan_answer by_triangle(const sunder_i_gap_state *s, const sunder
 static bool side_is_near(const sunder_i_gap_subsum *r, uint32_t i, double x, double y, double least)
 {
     const double vx = x - r->cx[i], vy = y - r->cy[i], along = (r->sx[i] * vx + r->sy[i] * vy) * r->inverse[i];
-    const double height = height_over(r, i, x, y), past = fmax(0, fmax(-along, along - r->length[i]));
+    const double height = height_over(r, i, x, y), past = sunder_i_max(0, sunder_i_max(-along, along - r->length[i]));
     return least > 0 && height * height + past * past < least * least;
 }
 

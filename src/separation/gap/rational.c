@@ -28,6 +28,8 @@
 
 #include "predicate/rational_point.h"
 
+#include "base/extremes.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -129,7 +131,7 @@ static bool to_doubles(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, 
     if (!(f1 > NARROW)) return false;
     ux /= f1;
     uy /= f1;
-    for (size_t k = 0; k < f->contacts; k++) gain = fmin(gain, ux * f->contact[k].nx + uy * f->contact[k].ny);
+    for (size_t k = 0; k < f->contacts; k++) gain = sunder_i_min(gain, ux * f->contact[k].nx + uy * f->contact[k].ny);
     if (!(gain > NARROW)) return false;
     const double x = sunder_i_gap_big(xy[0], -(long)bits - s->g->placed.lattice.approx_shift);
     const double y = sunder_i_gap_big(xy[1], -(long)bits - s->g->placed.lattice.approx_shift);

@@ -6,6 +6,8 @@
 
 #include "separation/operands/fan.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 
 typedef struct moved {
@@ -257,7 +259,7 @@ void sunder_i_gap_take_segment(sunder_i_gap_state *s, size_t segment)
     const moved m = moved_side(s, segment);
     const bool before = sunder_i_operands_dot(s->g, m.line.a, m.line.d) >= 0;
     const bool past = !before && sunder_i_operands_dot(s->g, m.line.b, m.line.d) <= 0;
-    const double t = before ? 0 : past ? 1 : fmin(1, fmax(0, -(m.ax * m.dx + m.ay * m.dy) / m.square));
+    const double t = before ? 0 : past ? 1 : sunder_i_min(1, sunder_i_max(0, -(m.ax * m.dx + m.ay * m.dy) / m.square));
     const double x = m.ax + t * m.dx, y = m.ay + t * m.dy;
     const bool tiny = !(m.length > SUNDER_I_SHORTEST); /* then nothing of this is known */
     const double key = tiny ? 0 : sunder_i_gap_length(x, y) - s->error;

@@ -7,6 +7,8 @@
 
 #include "spatial/box.h"
 
+#include "base/extremes.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -79,7 +81,7 @@ static void hold(plain *u, const double *v, size_t n, double *most)
     for (size_t i = 0; i < n; i++) {
         const int b = sunder_i_low_bit(v[i]);
         if (b < u->bit) u->bit = b;
-        *most = fmax(*most, fabs(v[i]));
+        *most = sunder_i_max(*most, fabs(v[i]));
     }
 }
 
@@ -102,7 +104,7 @@ static double shared_origin(const sunder_shape *p, const sunder_shape *q, int k,
         low[i] = nextafter(low[i] + shift[i][k], -INFINITY);
         high[i] = nextafter(high[i] + shift[i][k], INFINITY);
     }
-    return sunder_i_lattice_origin(fmin(low[0], low[1]), fmax(high[0], high[1]), bit);
+    return sunder_i_lattice_origin(sunder_i_min(low[0], low[1]), sunder_i_max(high[0], high[1]), bit);
 }
 
 /* The unit, if everything is an integer below 2^62 in it, and the operands are below 2^58 less the origin, which keeps
@@ -112,7 +114,7 @@ static bool plain_unit(const sunder_shape *p, const sunder_shape *q, const sunde
     if (p->rational || q->rational || o->force_wide) return false;
     double most = 0, added = 0;
     u->bit = p->low_bit < q->low_bit ? p->low_bit : q->low_bit;
-    for (int k = 0; k < 4; k++) most = fmax(most, fmax(fabs(p->box[k]), fabs(q->box[k])));
+    for (int k = 0; k < 4; k++) most = sunder_i_max(most, sunder_i_max(fabs(p->box[k]), fabs(q->box[k])));
     hold(u, o->extra, o->extra_n, &added);
     if (o->tp) hold(u, o->tp, 2, &added);
     if (o->tq) hold(u, o->tq, 2, &added);
@@ -121,7 +123,7 @@ static bool plain_unit(const sunder_shape *p, const sunder_shape *q, const sunde
         return false;
     u->scale = sunder_i_power_of_two(-u->bit);
     u->back = sunder_i_power_of_two(u->bit);
-    const bool shorter = fmax(most, added) < sunder_i_power_of_two(u->bit + 53);
+    const bool shorter = sunder_i_max(most, added) < sunder_i_power_of_two(u->bit + 53);
     for (int k = 0; k < 2; k++) {
         u->shift[0][k] = o->tp ? o->tp[k] * u->scale : 0;
         u->shift[1][k] = o->tq ? o->tq[k] * u->scale : 0;
@@ -223,8 +225,8 @@ static sunder_status place(sunder_i_operands *g, const sunder_i_operands_options
 
 void sunder_i_operands_admit(sunder_i_operands *g, double magnitude)
 {
-    g->magnitude = fmax(g->magnitude, magnitude);
-    g->error = fmax(g->error, COORDINATE_ERROR * g->magnitude);
+    g->magnitude = sunder_i_max(g->magnitude, magnitude);
+    g->error = sunder_i_max(g->error, COORDINATE_ERROR * g->magnitude);
 }
 
 sunder_status sunder_i_operands_init(sunder_i_operands *g, const sunder_shape *p, const sunder_shape *q,

@@ -2,6 +2,7 @@
  * by direction. */
 #include "separation/operands/operands.h"
 
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "base/sort.h"
 #include "base/watch.h"
@@ -62,7 +63,7 @@ static bool sort_by_size(sunder_i_operands *g)
     if (!key || !sorted) return false;
     for (size_t k = 0; k < n; k++) {
         const double *b = g->subsum[k].box;
-        const float size = (float)(fmin(b[2] - b[0], b[3] - b[1]) / g->magnitude);
+        const float size = (float)(sunder_i_min(b[2] - b[0], b[3] - b[1]) / g->magnitude);
         uint32_t bits;
         memcpy(&bits, &size, sizeof bits); /* ordered like the numbers, which are not negative */
         key[k] = (uint64_t)~bits << 32 | k;

@@ -2,6 +2,7 @@
  * the point, it moves to where the line leaves that subsum, on either side. What is left uncovered is free. Segments
  * come in the order of their distances, and the search ends when the next one is farther than the best free point. */
 #include "separation/penetration/search.h"
+#include "base/extremes.h"
 #include "base/invariant.h"
 #include "separation/answer/answer.h"
 #include "separation/obstacle/board.h"
@@ -139,8 +140,8 @@ static bool enter_square(search *s, const sunder_i_carrier *line)
             if (low > 0 || high < 0) return false;
             continue;
         }
-        s->from = fmax(s->from, (d[k] > 0 ? low : high) / d[k]);
-        s->to = fmin(s->to, (d[k] > 0 ? high : low) / d[k]);
+        s->from = sunder_i_max(s->from, (d[k] > 0 ? low : high) / d[k]);
+        s->to = sunder_i_min(s->to, (d[k] > 0 ? high : low) / d[k]);
     }
     return s->from <= s->to;
 }
@@ -278,7 +279,7 @@ static bool by_squares(search *s, bool *done)
 static search begin(sunder_i_operands *g, double limit)
 {
     return (search){.g = g,
-                    .limit = fmin(sunder_i_operands_way_out(g), limit) + 8 * g->error,
+                    .limit = sunder_i_min(sunder_i_operands_way_out(g), limit) + 8 * g->error,
                     .zero = sunder_i_fraction_int(&g->placed.lattice, 0),
                     .one = sunder_i_fraction_int(&g->placed.lattice, 1)};
 }

@@ -2,6 +2,7 @@
  * the search. */
 #include "separation/penetration/search.h"
 
+#include "base/extremes.h"
 #include "base/sort.h"
 #include "base/watch.h"
 
@@ -167,7 +168,7 @@ static bool line_up(const sunder_i_operands *g, const sunder_i_free_point *f, in
         const double *a = r->box + 4 * (size_t)i;
         if (!sunder_i_box_sum_near_point(a, g->box[!side], f->x, f->y, g->error)) continue;
         r->piece[r->n++] = i;
-        r->widest = fmax(r->widest, a[2] - a[0]);
+        r->widest = sunder_i_max(r->widest, a[2] - a[0]);
     }
     return sunder_i_sort_indices(r->piece, r->n, by_low_x, (void *)r->box);
 }

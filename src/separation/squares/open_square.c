@@ -1,9 +1,8 @@
 /* The subsums of an open square, and the segments of the reduced convolution that come near it. */
 #include "separation/squares/squares_inner.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
-
-#include <math.h>
 
 enum { UNKNOWN = 0, NO_CORNER, CORNER };
 
@@ -17,8 +16,8 @@ static const sunder_i_cone *corner_of(sunder_i_squares *q, int side, uint32_t v)
 /* Does the segment from (x, y) along (dx, dy) come near the square? */
 static bool comes_near(const double at[4], double e, double x, double y, double dx, double dy)
 {
-    return fmin(x, x + dx) <= at[2] + e && fmax(x, x + dx) >= at[0] - e && fmin(y, y + dy) <= at[3] + e &&
-           fmax(y, y + dy) >= at[1] - e;
+    return sunder_i_min(x, x + dx) <= at[2] + e && sunder_i_max(x, x + dx) >= at[0] - e &&
+           sunder_i_min(y, y + dy) <= at[3] + e && sunder_i_max(y, y + dy) >= at[1] - e;
 }
 
 /* The edge from vertex u, a side of piece i of operand `side`, at the corners of piece j of the other; those that are

@@ -3,6 +3,7 @@
  * edges and pieces that come near go down with the boxes, so that each box asks only those of its parent. */
 #include "separation/squares/quadtree.h"
 
+#include "base/extremes.h"
 #include "base/watch.h"
 #include "separation/squares/tuning.h"
 
@@ -158,7 +159,7 @@ static int depth_for(const sunder_i_operands *g, int side)
         const double *a = xy + 2 * (size_t)v, *b = xy + 2 * (size_t)s->form->cleaned.next[v];
         length += fabs(b[0] - a[0]) + fabs(b[1] - a[1]);
     }
-    const double boxes = length / fmax(all[2] - all[0], all[3] - all[1]); /* that are as large as the operand */
+    const double boxes = length / sunder_i_max(all[2] - all[0], all[3] - all[1]); /* that are as large as the operand */
     int depth = 3;
     while (depth < DEEPEST_BOX && ldexp(boxes, depth + 1) <= BOXES_EACH * (double)s->vertices) depth++;
     return depth;
