@@ -4,6 +4,7 @@
 
 #include "outline/culling.h"
 
+#include "base/extremes.h"
 #include "number/trust.h"
 
 #include <math.h>
@@ -96,10 +97,6 @@ typedef struct builder {
     bool no_memory;
 } builder;
 
-/* fmin and fmax without their care for NaN, which cannot come up here. */
-static inline double least(double a, double b) { return a < b ? a : b; }
-static inline double most_of(double a, double b) { return a > b ? a : b; }
-
 static inline uint32_t run_from(const builder *b, run r) { return r & b->single_most; }
 
 static inline uint32_t run_end(const builder *b, run r)
@@ -112,8 +109,8 @@ static const box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 static inline void grow(box *all, const box *by)
 {
     for (int k = 0; k < 2; k++) {
-        all->low[k] = least(all->low[k], by->low[k]);
-        all->high[k] = most_of(all->high[k], by->high[k]);
+        all->low[k] = sunder_i_min(all->low[k], by->low[k]);
+        all->high[k] = sunder_i_max(all->high[k], by->high[k]);
     }
 }
 
@@ -139,10 +136,10 @@ static inline bool within(const box *a, const box *b)
 static inline bool clip(const builder *b, const approx_side *s, const box *c, box *clipped)
 {
     const double x2 = s->ax + s->dx, y2 = s->ay + s->dy, e = b->error;
-    clipped->low[0] = most_of(c->low[0], least(s->ax, x2) - e);
-    clipped->high[0] = least(c->high[0], most_of(s->ax, x2) + e);
-    clipped->low[1] = most_of(c->low[1], least(s->ay, y2) - e);
-    clipped->high[1] = least(c->high[1], most_of(s->ay, y2) + e);
+    clipped->low[0] = sunder_i_max(c->low[0], sunder_i_min(s->ax, x2) - e);
+    clipped->high[0] = sunder_i_min(c->high[0], sunder_i_max(s->ax, x2) + e);
+    clipped->low[1] = sunder_i_max(c->low[1], sunder_i_min(s->ay, y2) - e);
+    clipped->high[1] = sunder_i_min(c->high[1], sunder_i_max(s->ay, y2) + e);
     return clipped->low[0] <= clipped->high[0] && clipped->low[1] <= clipped->high[1];
 }
 

@@ -19,6 +19,7 @@
 #include <cmocka.h>
 
 #define PI 3.14159265358979323846
+#define MOST_TOLD 256
 
 typedef struct yard {
     double x, y, w, h, wall; /* what is free, and how thick its walls are */
@@ -172,6 +173,33 @@ static double clearance(const yard *y)
     return fmin(fmin(b[0] - y->x, y->x + y->w - b[2]), fmin(b[1] - y->y, y->y + y->h - b[3]));
 }
 
+/* What is told of the conflicts that are left, each with a 0 behind whom it names. */
+static size_t tell(const scene *s, size_t *out)
+{
+    size_t n = 0, told = 0;
+    const sunder_conflict *c = sunder_report_conflicts(s->report, &n);
+    for (size_t k = 0; k < n; k++) {
+        assert_true(told + 4 + c[k].n_blocked_by <= MOST_TOLD);
+        out[told++] = c[k].a;
+        out[told++] = c[k].b;
+        out[told++] = c[k].reason;
+        for (size_t b = 0; b < c[k].n_blocked_by; b++) out[told++] = 1 + c[k].blocked_by[b];
+        out[told++] = 0;
+    }
+    return told;
+}
+
+/* The same is told where nobody wants the proofs. */
+static void check_without_proofs(scene *s)
+{
+    size_t with[MOST_TOLD], without[MOST_TOLD];
+    const size_t n = tell(s, with);
+    s->options.drop_proofs = true;
+    scene_separate(s);
+    assert_int_equal(tell(s, without), n);
+    assert_memory_equal(with, without, n * sizeof *with);
+}
+
 static void check_case(rng *r, size_t counts[3])
 {
     yard y;
@@ -211,6 +239,7 @@ static void check_case(rng *r, size_t counts[3])
     if (spare > 2 * gap) assert_int_equal(left, 0);
     if (spare < 2 * gap && !(leaves > 0)) assert_true(left > 0);
     counts[fits ? 0 : leaves > 0 ? 1 : 2]++;
+    check_without_proofs(&s);
     scene_end(&s);
 }
 

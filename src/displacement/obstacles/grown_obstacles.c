@@ -75,8 +75,12 @@ static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2
     const int steps = (int)ceil(angle / most->turn);
     /* Beside these there is to be room for the corners' own. */
     if (steps < 2 || !reserve_walls(o, (size_t)steps + most->corners)) return;
+    const double turn_cos = cos(angle / steps), turn_sin = sin(angle / steps);
+    double t[2] = {n[0], n[1]};
     for (int k = 1; k < steps; k++) {
-        const double a = angle * k / steps, t[2] = {n[0] * cos(a) - n[1] * sin(a), n[0] * sin(a) + n[1] * cos(a)};
+        const double x = t[0];
+        t[0] = turn_cos * x - turn_sin * t[1];
+        t[1] = turn_sin * x + turn_cos * t[1];
         add_normal(o, t, c, gap);
     }
 }

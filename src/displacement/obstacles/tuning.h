@@ -15,7 +15,7 @@
 /* A turn to the right by no more than this is none: rounding of normals, where two sides lie on one line. */
 #define FLAT 1e-3
 /* Room for so many walls is made at once: of most searches that is all. */
-#define FEWEST_WALLS 128
+#define FEWEST_WALLS 512
 /* Crossings are looked for among at most this many sides, the nearest to the target: it bounds the work where a block
  * stands amid hundreds of neighbours. */
 #define MOST_CROSSED 1500
@@ -47,8 +47,8 @@
 
 /* Beyond so many walls all are thrown away: a megabyte. */
 #define MOST_GROWN 16384u
-#define FEWEST_GROWN 32u
-#define FEWEST_GROWN_WALLS 256u
+#define FEWEST_GROWN 64u
+#define FEWEST_GROWN_WALLS 2048u
 
 /* ---- The cache --------------------------------------------------------------------------------------------------- */
 

@@ -5,12 +5,13 @@
  * bound (proofs/feasibility.c), which either proves it or is no answer. Its proof is kept: it names whose way was in
  * the way. For the limits the same branch and bound makes a record, where one is wanted. Of two features that are
  * shut in (clusters/shut_in_pairs.c) it is known beforehand; a record is looked for all the same, and where the effort
- * ends first there is none. */
+ * ends first there is none. Where nobody wants more of it than who is in it, and that can only be the two, it is not. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/proofs/feasibility.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
+#include "base/memory.h"
 #include "base/parallel.h"
 
 #include <math.h>
@@ -95,6 +96,20 @@ static sunder_status reason_of_ways(const sunder_i_model *model, sunder_conflict
     return status;
 }
 
+/* That the two are shut in is known, and no third feature can have to do with it. */
+static bool is_told_enough(const sunder_i_model *model, const sunder_conflict *c)
+{
+    return model->rules.drop_proofs && model->body[model->body_of[c->a]].members == 1 &&
+           model->body[model->body_of[c->b]].members == 1;
+}
+
+/* A record of which only that is left that it names nobody but the two. */
+static sunder_status tell_of_nobody(sunder_proof **proof, sunder_error *err)
+{
+    *proof = sunder_i_calloc(1, sizeof **proof);
+    return *proof ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
 static sunder_status find_reason(const sunder_i_model *model, sunder_conflict *c, common *both, sunder_proof **proof,
                                  sunder_error *err)
 {
@@ -102,6 +117,7 @@ static sunder_status find_reason(const sunder_i_model *model, sunder_conflict *c
     const bool shut = c->b < model->features && sunder_i_are_shut_in(model, (uint32_t)c->a, (uint32_t)c->b);
     c->reason = reach == 0 ? SUNDER_REASON_FIXED : shut ? SUNDER_REASON_JUMP : SUNDER_REASON_UNRESOLVED;
     if (reach == 0) return SUNDER_OK;
+    if (reach == INFINITY && shut && is_told_enough(model, c)) return tell_of_nobody(proof, err);
     if (reach == INFINITY) return reason_without_limit(model, c, both, proof, err);
     sunder_i_resolution resolution;
     const sunder_status status = sunder_i_resolve_within(model, c->a, c->b, limit, &resolution, err);
