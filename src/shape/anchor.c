@@ -2,12 +2,14 @@
  *
  * Over the fan of triangles o, a, b with u = a - o, v = b - o the centroid is o + sum (u + v) cross(u, v) / (3 sum
  * cross(u, v)). In doubles that quotient is known up to an error e; where o + (c - e) and o + (c + e) round to the same
- * double, so does what lies between them: on a map nearly always. Near the origin, where doubles lie close, they seldom
- * do; then it is worked out exactly.
+ * double, so does what lies between them: on a map nearly always. Else it is worked out exactly: in words of 128 bits
+ * where the piece is no more than 2^40 units of its lowest bit across, as a house is on a map, or with numbers of any
+ * size.
  *
  * An anchor has no way to fail, so nothing is allocated for it: the numbers stand on the stack, and the range of
  * doubles bounds their size. Those of a rational shape, whose numbers nothing bounds, are worked out when it is made
  * (measure_rational.c). */
+#include "number/wide.h"
 #include "shape/shape.h"
 
 #include <math.h>
@@ -62,6 +64,78 @@ bool sunder_i_anchor_in_doubles(const sunder_shape *shape, const uint32_t *corne
         xy[k] = o + (c - e);
         if (!isfinite(xy[k]) || xy[k] != o + (c + e)) return false;
     }
+    return true;
+}
+
+/* ---- Exactly, in words ------------------------------------------------------------------------------------------- */
+
+/* With differences below 2^40 a cross product is below 2^81 and its moment below 2^122: so many corners make 30 terms. */
+enum { MOST_CORNERS = 32 };
+
+/* A multiple of 2^unit, in these units. */
+static bool in_units(double v, int unit, int64_t *out)
+{
+    const double scaled = ldexp(v, -unit);
+    if (!(fabs(scaled) < 0x1p62)) return false;
+    *out = (int64_t)scaled;
+    return true;
+}
+
+/* (whole + r / d) 2^unit to the nearest double, for 0 <= r < d < 2^90; false where `whole` is 0. With 55 bits and more
+ * before what is left, the last two of them are no bits of the double: so the last may stand for all that is left. */
+static bool round_ratio(uint64_t whole, sunder_i_u128 r, sunder_i_u128 d, int unit, double *out)
+{
+    int more = 0;
+    if (whole == 0) return false;
+    while (more < 54 && whole >> (54 - more) == 0) more++;
+    if (d >> (126 - more) || unit - more < -1070) return false;
+    r <<= more;
+    whole = whole << more | (uint64_t)(r / d);
+    *out = ldexp((double)(int64_t)(r % d ? whole | 1 : whole), unit - more);
+    return isfinite(*out);
+}
+
+/* o + moment / weight in units of 2^unit, weight > 0; all far below their bounds. */
+static bool round_sum(int64_t o, sunder_i_i128 moment, sunder_i_i128 weight, int unit, double *out)
+{
+    int64_t whole = o + (int64_t)(moment / weight);
+    sunder_i_i128 left = moment % weight;
+    if (left < 0) {
+        left += weight;
+        whole--;
+    }
+    const bool negative = whole < 0;
+    if (negative && left) left = weight - left;
+    const uint64_t size = negative ? (uint64_t)-whole - (left != 0) : (uint64_t)whole;
+    if (!round_ratio(size, (sunder_i_u128)left, (sunder_i_u128)weight, unit, out)) return false;
+    if (negative) *out = -*out;
+    return true;
+}
+
+bool sunder_i_anchor_in_words(const sunder_shape *shape, const uint32_t *corner, uint32_t n, double xy[2])
+{
+    const int unit = shape->low_bit;
+    int64_t o[2], u[2] = {0, 0};
+    sunder_i_i128 weight = 0, moment[2] = {0, 0};
+    if (n > MOST_CORNERS) return false;
+    for (uint32_t i = 0; i < n; i++) {
+        int64_t v[2];
+        for (int k = 0; k < 2; k++) {
+            int64_t at;
+            if (!in_units(shape->xy[2 * (size_t)corner[i] + (size_t)k], unit, &at)) return false;
+            if (i == 0) o[k] = at;
+            v[k] = at - o[k];
+            if (v[k] >= INT64_C(1) << 40 || -v[k] >= INT64_C(1) << 40) return false;
+        }
+        const sunder_i_i128 cross = (sunder_i_i128)u[0] * v[1] - (sunder_i_i128)u[1] * v[0];
+        weight += cross;
+        for (int k = 0; k < 2; k++) {
+            moment[k] += cross * (u[k] + v[k]);
+            u[k] = v[k];
+        }
+    }
+    for (int k = 0; k < 2; k++)
+        if (weight <= 0 || !round_sum(o[k], moment[k], 3 * weight, unit, &xy[k])) return false;
     return true;
 }
 
@@ -148,5 +222,6 @@ void sunder_shape_anchor(const sunder_shape *shape, double xy[2])
     uint32_t from;
     const uint32_t largest = sunder_i_largest_piece(shape, &from);
     const uint32_t *corner = sunder_i_piece_vertices(shape) + from, n = shape->piece_end[largest] - from;
-    if (!sunder_i_anchor_in_doubles(shape, corner, n, xy)) sunder_i_anchor_exactly(shape, corner, n, xy);
+    if (!sunder_i_anchor_in_doubles(shape, corner, n, xy) && !sunder_i_anchor_in_words(shape, corner, n, xy))
+        sunder_i_anchor_exactly(shape, corner, n, xy);
 }

@@ -132,6 +132,8 @@ uint32_t sunder_i_largest_piece(const sunder_shape *shape, uint32_t *from);
 /* The centroid of a convex piece of n corners to the nearest doubles, in doubles (anchor.c). False, and xy undefined,
  * where they do not suffice. */
 bool sunder_i_anchor_in_doubles(const sunder_shape *shape, const uint32_t *corner, uint32_t n, double xy[2]);
+/* The same in words of 128 bits; false, and xy undefined, where it is too large for them. */
+bool sunder_i_anchor_in_words(const sunder_shape *shape, const uint32_t *corner, uint32_t n, double xy[2]);
 /* The same, always. */
 void sunder_i_anchor_exactly(const sunder_shape *shape, const uint32_t *corner, uint32_t n, double xy[2]);
 

@@ -104,17 +104,47 @@ static bool anchor_is_a_centroid(const sunder_shape *s, const double anchor[2])
     return found;
 }
 
-/* Do doubles suffice for the centroid of a piece? Then they say what numbers of any size do. */
-static bool is_anchored_in_doubles(const sunder_shape *s)
+/* Do doubles suffice for the centroid of a piece, or words? Then they say what numbers of any size do. */
+static void count_anchored(const sunder_shape *s, size_t *in_doubles, size_t *in_words)
 {
     double quick[2], exact[2];
     uint32_t from;
-    if (s->pieces == 0 || s->rational) return false;
-    const uint32_t largest = sunder_i_largest_piece(s, &from), n = s->piece_end[largest] - from;
-    if (!sunder_i_anchor_in_doubles(s, sunder_i_piece_vertices(s) + from, n, quick)) return false;
-    sunder_i_anchor_exactly(s, sunder_i_piece_vertices(s) + from, n, exact);
-    assert_true(quick[0] == exact[0] && quick[1] == exact[1]);
-    return true;
+    if (s->pieces == 0 || s->rational) return;
+    const uint32_t largest = sunder_i_largest_piece(s, &from), n = s->piece_end[largest] - from,
+                   *corner = sunder_i_piece_vertices(s) + from;
+    sunder_i_anchor_exactly(s, corner, n, exact);
+    if (sunder_i_anchor_in_doubles(s, corner, n, quick)) {
+        assert_true(quick[0] == exact[0] && quick[1] == exact[1]);
+        ++*in_doubles;
+    }
+    if (sunder_i_anchor_in_words(s, corner, n, quick)) {
+        assert_true(quick[0] == exact[0] && quick[1] == exact[1]);
+        ++*in_words;
+    }
+}
+
+/* Triangles of few units, whose centroids lie halfway between doubles, or a third of a unit beside that; far from the
+ * origin, near it and about it. */
+static void test_anchor_at_ties(void **state)
+{
+    (void)state;
+    rng g = rng_start(test_seed(), 92);
+    const size_t n = test_count(20000), ring_end[] = {3}, poly_end[] = {1};
+    size_t in_doubles = 0, in_words = 0, made = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double unit = ldexp(1, (int)rng_int(&g, -40, 3)), size = ldexp(1, (int)rng_int(&g, 2, 40));
+        const double off = rng_once_in(&g, 3) ? 0 : ldexp((double)rng_int(&g, -15, 15), (int)rng_int(&g, 0, 48));
+        double xy[6];
+        for (int k = 0; k < 6; k++) xy[k] = unit * (off + floor(size * rng_unit(&g)));
+        sunder_shape *s;
+        if (sunder_shape_from_rings(xy, ring_end, poly_end, 1, SUNDER_VALIDITY_EVEN_ODD, &s, NULL) != SUNDER_OK)
+            continue; /* flat */
+        if (s->pieces) made++;
+        count_anchored(s, &in_doubles, &in_words);
+        sunder_shape_free(s);
+    }
+    printf("%zu of %zu in doubles, %zu in words\n", in_doubles, made, in_words);
+    assert_true(in_doubles > 0 && in_doubles < made && in_words > made / 2);
 }
 
 static void test_area_and_anchor_without_memory(void **state)
@@ -122,7 +152,7 @@ static void test_area_and_anchor_without_memory(void **state)
     (void)state;
     rng g = rng_start(test_seed(), 91);
     const size_t n = test_count(300);
-    size_t quick = 0;
+    size_t in_doubles = 0, in_words = 0;
     for (size_t i = 0; i < n; i++) {
         polyset set;
         polyset_init(&set);
@@ -143,11 +173,11 @@ static void test_area_and_anchor_without_memory(void **state)
             fail_msg("SUNDER_SEED=%llu, case %zu: area", (unsigned long long)test_seed(), i);
         else if (s->pieces && !anchor_is_a_centroid(s, anchor))
             fail_msg("SUNDER_SEED=%llu, case %zu: anchor", (unsigned long long)test_seed(), i);
-        quick += is_anchored_in_doubles(s);
+        count_anchored(s, &in_doubles, &in_words);
         sunder_shape_free(s);
         polyset_free(&set);
     }
-    assert_true(quick > 0);
+    assert_true(in_doubles > 0 && in_words > 0);
 }
 
 /* Of a repaired shape both were worked out when it was made, and making it fails where there is no memory for that. */
@@ -254,7 +284,8 @@ static void test_copies_keep_touches(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_area_and_anchor_without_memory), cmocka_unit_test(test_repaired_area_and_anchor),
-        cmocka_unit_test(test_area_between_two_doubles), cmocka_unit_test(test_copies_keep_touches)};
+        cmocka_unit_test(test_area_and_anchor_without_memory), cmocka_unit_test(test_anchor_at_ties),
+        cmocka_unit_test(test_repaired_area_and_anchor), cmocka_unit_test(test_area_between_two_doubles),
+        cmocka_unit_test(test_copies_keep_touches)};
     return cmocka_run_group_tests_name("shape/measure", tests, NULL, NULL);
 }
