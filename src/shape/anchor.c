@@ -69,7 +69,7 @@ bool sunder_i_anchor_in_doubles(const sunder_shape *shape, const uint32_t *corne
 
 /* ---- Exactly, in words ------------------------------------------------------------------------------------------- */
 
-/* With differences below 2^40 a cross product is below 2^81 and its moment below 2^122: so many corners make 30 terms. */
+/* With differences below 2^40 a cross product is below 2^81 and its moment below 2^122: so many corners make 30. */
 enum { MOST_CORNERS = 32 };
 
 /* A multiple of 2^unit, in these units. */
@@ -81,8 +81,9 @@ static bool in_units(double v, int unit, int64_t *out)
     return true;
 }
 
-/* (whole + r / d) 2^unit to the nearest double, for 0 <= r < d < 2^90; false where `whole` is 0. With 55 bits and more
- * before what is left, the last two of them are no bits of the double: so the last may stand for all that is left. */
+/* (whole + r / d) 2^unit to the nearest double, for 0 <= r < d < 2^90; false where `whole` is 0. With 55 bits and
+ * more before what is left, the last two of them are no bits of the double: so the last may stand for all that is
+ * left. */
 static bool round_ratio(uint64_t whole, sunder_i_u128 r, sunder_i_u128 d, int unit, double *out)
 {
     int more = 0;

@@ -1,11 +1,12 @@
 /* Why a pair is left in conflict that has no solution by itself, whoever else is in the layer: neither may move; their
  * limits are too short; or what their limits leave is forbidden by sides of barriers, or by the rule against jumps.
  *
- * That a limit is too short is decided by the least translation of the pair, exactly; that no way is left by branch and
- * bound (proofs/feasibility.c), which either proves it or is no answer. Its proof is kept: it names whose way was in
- * the way. For the limits the same branch and bound makes a record, where one is wanted. Of two features that are
- * shut in (clusters/shut_in_pairs.c) it is known beforehand; a record is looked for all the same, and where the effort
- * ends first there is none. Where nobody wants more of it than who is in it, and that can only be the two, it is not. */
+ * That a limit is too short is decided by the least translation of the pair, exactly; that no way is left by
+ * branch and bound (proofs/feasibility.c), which either proves it or is no answer. Its proof is kept: it names
+ * whose way was in the way. For the limits the same branch and bound makes a record, where one is wanted. Of two
+ * features that are shut in (clusters/shut_in_pairs.c) it is known beforehand; a record is looked for all the
+ * same, and where the effort ends first there is none. Where nobody wants more of it than who is in it, and that
+ * can only be the two, it is not. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/proofs/feasibility.h"
 #include "displacement/report/report.h"
