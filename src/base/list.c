@@ -20,10 +20,27 @@ int sunder_i_by_number(const void *a, const void *b)
     return *p < *q ? -1 : *p > *q;
 }
 
+/* Most sets are of a dozen numbers, for which qsort() with its calls takes several times as long. */
+enum { FEW = 24 };
+
+static void sort(uint32_t *number, size_t n)
+{
+    if (n > FEW) {
+        qsort(number, n, sizeof *number, sunder_i_by_number);
+        return;
+    }
+    for (size_t k = 1; k < n; k++) {
+        const uint32_t item = number[k];
+        size_t at = k;
+        for (; at > 0 && number[at - 1] > item; at--) number[at] = number[at - 1];
+        number[at] = item;
+    }
+}
+
 size_t sunder_i_set_make(uint32_t *number, size_t n)
 {
     size_t out = 0;
-    if (n) qsort(number, n, sizeof *number, sunder_i_by_number);
+    sort(number, n);
     for (size_t k = 0; k < n; k++)
         if (k == 0 || number[k] != number[out - 1]) number[out++] = number[k];
     return out;
