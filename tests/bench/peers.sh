@@ -281,17 +281,20 @@ town_rows() {
   mkdir -p "$folder"
   for size in ${SUNDER_BENCH_BUILDINGS:-10000 100000 1000000}; do
     [[ -s $folder/town_$size.gpkg ]] || "$build/sunder-town" --buildings "$size" --seed 7 "$folder/town_$size.gpkg" >&2
-    rm -f "$scratch"/{copy,separate,check,effort}
+    rm -f "$scratch"/{copy,separate,alone,check,effort}
     for _ in 1 2 3; do
       rm -f "$folder/copy.gpkg" "$folder/apart.gpkg"
       timed copy ogr2ogr -q -f GPKG "$folder/copy.gpkg" "$folder/town_$size.gpkg" buildings
       timed separate "$build/sunder" separate --quiet --gap 3 --effort 0 --input-layer buildings "$folder/town_$size.gpkg" "$folder/apart.gpkg"
+      rm -f "$folder/apart.gpkg"
+      timed alone "$build/sunder" separate --quiet --gap 3 --effort 0 --threads 1 --input-layer buildings "$folder/town_$size.gpkg" "$folder/apart.gpkg"
       timed check "$build/sunder" check --quiet --gap 3 --input-layer buildings "$folder/town_$size.gpkg"
     done
     rm -f "$folder/apart.gpkg"
     timed effort "$build/sunder" separate --quiet --gap 3 --input-layer buildings "$folder/town_$size.gpkg" "$folder/apart.gpkg"
     town_row "$size" copy '`ogr2ogr`'
     town_row "$size" separate '`separate --gap 3 --effort 0`'
+    town_row "$size" alone '`separate --gap 3 --effort 0 --threads 1`'
     town_row "$size" effort '`separate --gap 3`'
     town_row "$size" check '`check --gap 3`'
     rm -f "$folder/copy.gpkg" "$folder/apart.gpkg"
