@@ -3,6 +3,7 @@
  * double: the sum is rounded to the nearest one, once. */
 #include "motion/path_length.h"
 
+#include <limits.h>
 #include <math.h>
 
 /* Significant bits of a length: 256 asked for, and some for the sum of many legs. */
@@ -19,39 +20,64 @@ static sunder_i_big leg_length(sunder_i_arena *m, const sunder_i_filtered_point 
     return sunder_i_big_div_floor(m, sunder_i_big_sqrt_floor(m, sunder_i_big_shl(m, square, 2 * bits)), d.w);
 }
 
-unsigned long sunder_i_path_length_bits(const sunder_i_lattice *l, double length)
+static const sunder_i_filtered_point *place_at(const sunder_i_path *path, size_t i)
 {
+    return &path->place[path->place_of ? path->place_of[path->node[i]] : path->node[i]];
+}
+
+/* In units of sunder_i_approx(). */
+static double length_in_doubles(const sunder_i_path *path)
+{
+    double length = 0;
+    for (size_t i = 0; i + 1 < path->n; i++) {
+        const sunder_i_filtered_point *a = place_at(path, i), *b = place_at(path, i + 1);
+        length += hypot(a->ax - b->ax, a->ay - b->ay);
+    }
+    return length;
+}
+
+/* About the binary logarithm of the longest leg on the lattice; 0 if all are nothing. */
+static long exponent_of(sunder_i_arena *m, const sunder_i_path *path)
+{
+    long most = LONG_MIN;
+    for (size_t i = 0; i + 1 < path->n; i++) {
+        const sunder_i_rational_point d = sunder_i_rational_sub(m, place_at(path, i + 1)->at, place_at(path, i)->at);
+        if (m->failed) return 0;
+        const unsigned long x = sunder_i_big_bits(d.x), y = sunder_i_big_bits(d.y), w = sunder_i_big_bits(d.w);
+        if (x == 0 && y == 0) continue;
+        const long e = (long)(x > y ? x : y) - (long)w;
+        most = e > most ? e : most;
+    }
+    return most == LONG_MIN ? 0 : most;
+}
+
+/* Places that are far from each other beside what lies between two of them may be one in doubles, or next to it. */
+unsigned long sunder_i_path_length_bits(const sunder_i_filter *filter, sunder_i_arena *arena, const sunder_i_path *path)
+{
+    const double length = length_in_doubles(path);
     int e = 0;
     frexp(length, &e);
-    const long bits = LENGTH_BITS - (long)e - (long)l->approx_shift;
+    const bool known = length > 0x1p10 * filter->error * (double)path->n;
+    const long bits = LENGTH_BITS - (known ? (long)e + (long)filter->lattice->approx_shift : exponent_of(arena, path));
     return bits > 64 ? (unsigned long)bits : 64;
 }
 
-sunder_i_big sunder_i_path_length_scaled(sunder_i_arena *arena, const sunder_i_filtered_point *place,
-                                         const uint32_t *place_of, const uint32_t *path, size_t n, unsigned long bits)
+sunder_i_big sunder_i_path_length_scaled(sunder_i_arena *arena, const sunder_i_path *path, unsigned long bits)
 {
     sunder_i_big sum = sunder_i_big_i64(arena, 0);
-    for (size_t i = 0; i + 1 < n; i++) {
-        const uint32_t a = place_of ? place_of[path[i]] : path[i], b = place_of ? place_of[path[i + 1]] : path[i + 1];
-        sum = sunder_i_big_add(arena, sum, leg_length(arena, &place[a], &place[b], bits));
-    }
+    for (size_t i = 0; i + 1 < path->n; i++)
+        sum = sunder_i_big_add(arena, sum, leg_length(arena, place_at(path, i), place_at(path, i + 1), bits));
     return sum;
 }
 
-double sunder_i_path_length(const sunder_i_lattice *l, const sunder_i_filtered_point *place, const uint32_t *path,
-                            size_t n)
+double sunder_i_path_length(const sunder_i_filter *filter, const sunder_i_path *path)
 {
     sunder_i_arena arena = {0};
-    double about = 0;
-    for (size_t i = 0; i + 1 < n; i++) {
-        const sunder_i_filtered_point *a = &place[path[i]], *b = &place[path[i + 1]];
-        about += hypot(a->ax - b->ax, a->ay - b->ay);
-    }
-    const unsigned long bits = sunder_i_path_length_bits(l, about);
-    const sunder_i_big sum = sunder_i_path_length_scaled(&arena, place, NULL, path, n, bits);
-    const double length = arena.failed
-                              ? (double)NAN
-                              : sunder_i_big_ratio(&arena, sum, sunder_i_big_i64(&arena, 1), l->exponent - (long)bits);
+    const unsigned long bits = sunder_i_path_length_bits(filter, &arena, path);
+    const sunder_i_big sum = sunder_i_path_length_scaled(&arena, path, bits);
+    const double length = arena.failed ? (double)NAN
+                                       : sunder_i_big_ratio(&arena, sum, sunder_i_big_i64(&arena, 1),
+                                                            filter->lattice->exponent - (long)bits);
     sunder_i_arena_free(&arena);
     return length;
 }

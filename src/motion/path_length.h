@@ -4,17 +4,23 @@
 
 #include "motion/filtered_point.h"
 
-/* So many bits behind the point that a length of about `length`, in units of sunder_i_approx(), has 320 significant
- * ones; 64 at least. */
-unsigned long sunder_i_path_length_bits(const sunder_i_lattice *lattice, double length);
+/* n nodes, or places, one after the other. */
+typedef struct sunder_i_path {
+    const sunder_i_filtered_point *place;
+    const uint32_t *place_of; /* of each node; NULL: the path is of places */
+    const uint32_t *node;
+    size_t n;
+} sunder_i_path;
 
-/* 2^bits times the length of a path on the lattice, less than two a leg too small. The path is of places, or, if
- * place_of is not NULL, of nodes, and place_of tells the place of each. Memory in the arena. */
-sunder_i_big sunder_i_path_length_scaled(sunder_i_arena *arena, const sunder_i_filtered_point *place,
-                                         const uint32_t *place_of, const uint32_t *path, size_t n, unsigned long bits);
+/* So many bits behind the point that the path's length has some 320 significant ones; 64 at least. Memory in the
+ * arena. */
+unsigned long sunder_i_path_length_bits(const sunder_i_filter *filter, sunder_i_arena *arena,
+                                        const sunder_i_path *path);
 
-/* The length of a path of places to the nearest double, in units of the input. NaN if memory is out. */
-double sunder_i_path_length(const sunder_i_lattice *lattice, const sunder_i_filtered_point *place, const uint32_t *path,
-                            size_t n);
+/* 2^bits times the length of a path on the lattice, less than two a leg too small. Memory in the arena. */
+sunder_i_big sunder_i_path_length_scaled(sunder_i_arena *arena, const sunder_i_path *path, unsigned long bits);
+
+/* The length to the nearest double, in units of the input. NaN if memory is out. */
+double sunder_i_path_length(const sunder_i_filter *filter, const sunder_i_path *path);
 
 #endif

@@ -121,7 +121,8 @@ static sunder_status keep_path(sunder_route *r, const sunder_i_filtered_point *p
     for (size_t i = 0; status == SUNDER_OK && i < n; i++) status = take_stop(r, &place[path[i]], err);
     if (status == SUNDER_OK) status = prove(r, place, path, err);
     if (status != SUNDER_OK) return status;
-    r->length = sunder_i_path_length(r->space.filter.lattice, place, path, n);
+    const sunder_i_path of_places = {place, NULL, path, n};
+    r->length = sunder_i_path_length(&r->space.filter, &of_places);
     return isnan(r->length) ? sunder_i_no_memory(err) : SUNDER_OK;
 }
 

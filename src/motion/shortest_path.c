@@ -29,6 +29,8 @@ typedef struct edge {
 typedef struct reached {
     double length;
     uint32_t before; /* node */
+    uint32_t news,
+        heard; /* how often the way here has become shorter; what that of the node before was, of which is known */
     bool known;
 } reached;
 
@@ -142,24 +144,24 @@ static size_t straighten(const search *s, uint32_t *path, size_t n)
     return m;
 }
 
-/* 2^bits times the length of a path of nodes, less than two a leg too small. */
-static sunder_i_big total(const search *s, sunder_i_arena *arena, const uint32_t *path, size_t n, unsigned long bits)
+static sunder_i_path path_of(const search *s, const uint32_t *node, size_t n)
 {
-    return sunder_i_path_length_scaled(arena, s->corners->place, s->corners->node, path, n, bits);
+    return (sunder_i_path){s->corners->place, s->corners->node, node, n};
 }
 
 /* 2 or -2 where lengths differ, else 1, 0 or -1. What the two begin with in common is left out of the comparison. */
-static int compare_paths(const search *s, const uint32_t *p, size_t m, const uint32_t *q, size_t n, double length)
+static int compare_paths(const search *s, const uint32_t *p, size_t m, const uint32_t *q, size_t n)
 {
     size_t same = 0;
     while (same < m && same < n && p[same] == q[same]) same++;
     if (same == m && same == n) return 0; /* one path by two ways, along collinear corners */
     sunder_i_arena *arena = &s->space->filter.lattice->arena;
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
-    const unsigned long bits = sunder_i_path_length_bits(s->space->filter.lattice, length);
     const size_t from = same ? same - 1 : 0;
-    const sunder_i_big d =
-        sunder_i_big_sub(arena, total(s, arena, p + from, m - from, bits), total(s, arena, q + from, n - from, bits));
+    const sunder_i_path one = path_of(s, p + from, m - from), other = path_of(s, q + from, n - from);
+    const unsigned long bits = sunder_i_path_length_bits(&s->space->filter, arena, &one);
+    const sunder_i_big d = sunder_i_big_sub(arena, sunder_i_path_length_scaled(arena, &one, bits),
+                                            sunder_i_path_length_scaled(arena, &other, bits));
     const sunder_i_big noise = sunder_i_big_i64(arena, 4 * (int64_t)(m + n));
     int c = 0;
     if (sunder_i_big_cmp(d, noise) > 0) c = 2;
@@ -183,7 +185,7 @@ static int compare_ways(search *s, uint32_t v, uint32_t w)
     p[m++] = w;
     m = straighten(s, p, m);
     n = straighten(s, q, n);
-    return compare_paths(s, p, m, q, n, s->at[w].length);
+    return compare_paths(s, p, m, q, n);
 }
 
 /* ---- The search ---- */
@@ -193,6 +195,15 @@ static bool edge_is_free(const search *s, uint32_t v, uint32_t w)
     return sunder_i_leg_is_free(s->space, place_of(s, v), place_of(s, w), false, NULL);
 }
 
+/* The way to a node has become shorter, itself or that to the node before: what lost against it by less than can be seen
+ * is asked again, and whoever is reached over it hears of it. */
+static void shorten(search *s, edge e)
+{
+    s->at[e.to].heard = s->at[e.from].news;
+    s->at[e.to].news++;
+    if (e.to != s->goal) expand(s, e.to);
+}
+
 /* Another way to a node that has been reached. If it is as long, which of the two goes is seen to in the end: what goes
  * on from there does not depend on it. */
 static void take_again(search *s, edge e)
@@ -200,7 +211,7 @@ static void take_again(search *s, edge e)
     const int c = compare_ways(s, e.from, e.to);
     if (c == -2 && edge_is_free(s, e.from, e.to)) {
         s->at[e.to].before = e.from;
-        if (e.to != s->goal) expand(s, e.to);
+        shorten(s, e);
     }
     if (c < -1 || c > 1) return;
     if (sunder_i_reserve(&s->tie, &s->tie_capacity, s->ties + 1, sizeof *s->tie))
@@ -218,11 +229,14 @@ static void take(search *s, edge e)
         !s->options->progress(0.5, s->options->progress_user))
         s->cancelled = true;
     if (to->known) {
-        if (s->haste == 1 && to->before != e.from) take_again(s, e);
+        if (s->haste == 1 && to->before != e.from)
+            take_again(s, e);
+        else if (s->haste == 1 && to->heard != s->at[e.from].news)
+            shorten(s, e);
         return;
     }
     if (!edge_is_free(s, e.from, e.to)) return;
-    *to = (reached){length, e.from, true};
+    *to = (reached){.length = length, .before = e.from, .heard = s->at[e.from].news, .known = true};
     if (e.to != s->goal) expand(s, e.to);
 }
 
@@ -232,7 +246,7 @@ static void run(search *s, double haste, double limit)
     s->heap_n = 0;
     s->haste = haste;
     s->limit = limit;
-    s->at[s->start] = (reached){0, s->start, true};
+    s->at[s->start] = (reached){.before = s->start, .known = true};
     expand(s, s->start);
     while (s->heap_n && !s->no_memory && !s->cancelled && !s->space->filter.lattice->arena.failed) {
         const edge e = pop(s);
@@ -322,10 +336,10 @@ static void find(search *s)
     s->all_round = !s->at[s->goal].known;
     if (s->all_round) run(s, HASTE, INFINITY);
     s->all_round = false;
-    /* No place on a path of at most this length is farther from the start; with two such coordinates a leg, each off by
-     * 2^-51 of itself, and roundings, lengths are off by less than this. Twice, for both of two that are compared. */
+    /* Coordinates are off by 2^-51 of the largest, an eighth of the filter's error: a leg by less than three times that,
+     * two paths that are compared by twice as much a leg; and by roundings. */
     const double some = s->at[s->goal].length;
-    s->slack = 0x1p-46 * some * ((double)nodes + 4);
+    s->slack = (0x1p-46 * some + s->space->filter.error) * ((double)nodes + 4);
     if (!s->at[s->goal].known) return;
     run(s, 1, some + s->slack);
     if (s->at[s->goal].known && !s->no_memory && !s->cancelled) settle_ties(s);

@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "failing.h"
+#include "random.h"
 #include "sunder.h"
 
 #include <math.h>
@@ -218,6 +219,60 @@ static void lines_inside_the_robot(void **state)
         }
 }
 
+/* All corners of a route as texts, "-" if there is none. */
+static void tell(const sunder_route *r, char *out, size_t size)
+{
+    size_t n = (size_t)snprintf(out, size, "%s", sunder_route_vertices(r) ? "" : "-");
+    for (size_t i = 0; i < sunder_route_vertices(r); i++) {
+        const char *x, *y;
+        sunder_route_vertex_text(r, i, &x, &y);
+        n += (size_t)snprintf(out + n, size - n, "%s %s, ", x, y);
+        assert_true(n < size);
+    }
+}
+
+/* Obstacles on a small grid, and one so far away that in doubles all the others are one place, or some: it changes no
+ * route, and routes back are as long. */
+static void near_ones_beside_a_far_one(void **state)
+{
+    rng g = rng_start(test_seed(), 5);
+    size_t found = 0;
+    for (size_t round = 0; round < test_count(150); round++) {
+        sunder_obstacle o[17];
+        const size_t n = (size_t)rng_int(&g, 6, 16);
+        for (size_t k = 0; k < n; k++) {
+            const double x = (double)rng_int(&g, 0, 14), y = (double)rng_int(&g, 0, 14), w = (double)rng_int(&g, 1, 5),
+                         h = (double)rng_int(&g, 1, 5);
+            o[k] = (sunder_obstacle){
+                shape_of((double[]){x, y, x + w, y, x + w, y + h, x + (double)rng_int(&g, 0, 1), y + h}, 4), NULL, NULL,
+                0};
+        }
+        const double far = ldexp(rng_once_in(&g, 2) ? 1 : -1, (int)rng_int(&g, 30, 400)), size = fabs(far) / 16;
+        o[n] = (sunder_obstacle){shape_of((double[]){far, far, far + size, far, far, far + size}, 3), NULL, NULL, 0};
+        sunder_shape *q = shape_of((double[]){0, 0, 1, 0, 0, 1}, 3);
+        const sunder_place from = at((double)rng_int(&g, -3, 18), (double)rng_int(&g, -3, 18)),
+                           to = at((double)rng_int(&g, -3, 18), (double)rng_int(&g, -3, 18));
+        sunder_route *alone = find(o, n, q, from, to), *there = find(o, n + 1, q, from, to),
+                     *back = find(o, n + 1, q, to, from);
+        char text[2][2048];
+        tell(alone, text[0], sizeof text[0]);
+        tell(there, text[1], sizeof text[1]);
+        assert_string_equal(text[0], text[1]);
+        assert_int_equal(sunder_route_vertices(back) > 0, sunder_route_vertices(there) > 0);
+        if (sunder_route_vertices(there) > 2) found++;
+        if (sunder_route_vertices(there)) {
+            assert_true(sunder_route_length(alone) == sunder_route_length(there));
+            assert_true(sunder_route_length(back) == sunder_route_length(there));
+        }
+        sunder_route_free(alone);
+        sunder_route_free(there);
+        sunder_route_free(back);
+        for (size_t k = 0; k <= n; k++) sunder_shape_free((sunder_shape *)(uintptr_t)o[k].shape);
+        sunder_shape_free(q);
+    }
+    assert_true(found > 10);
+}
+
 static void arguments(void **state)
 {
     sunder_shape *q = shape_of(robot, 4), *none;
@@ -341,10 +396,15 @@ static void memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(round_a_wall),       cmocka_unit_test(obstacles_are_a_sum),
-        cmocka_unit_test(every_rung),         cmocka_unit_test(nearly_tied),
-        cmocka_unit_test(rational_obstacles), cmocka_unit_test(lines_inside_the_robot),
-        cmocka_unit_test(arguments),          cmocka_unit_test(stops),
+        cmocka_unit_test(round_a_wall),
+        cmocka_unit_test(obstacles_are_a_sum),
+        cmocka_unit_test(every_rung),
+        cmocka_unit_test(nearly_tied),
+        cmocka_unit_test(rational_obstacles),
+        cmocka_unit_test(lines_inside_the_robot),
+        cmocka_unit_test(near_ones_beside_a_far_one),
+        cmocka_unit_test(arguments),
+        cmocka_unit_test(stops),
         cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
