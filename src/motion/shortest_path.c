@@ -195,8 +195,8 @@ static bool edge_is_free(const search *s, uint32_t v, uint32_t w)
     return sunder_i_leg_is_free(s->space, place_of(s, v), place_of(s, w), false, NULL);
 }
 
-/* The way to a node has become shorter, itself or that to the node before: what lost against it by less than can be seen
- * is asked again, and whoever is reached over it hears of it. */
+/* The way to a node has become shorter, itself or that to the node before: what lost against it by less than can be
+ * seen is asked again, and whoever is reached over it hears of it. */
 static void shorten(search *s, edge e)
 {
     s->at[e.to].heard = s->at[e.from].news;
@@ -336,8 +336,8 @@ static void find(search *s)
     s->all_round = !s->at[s->goal].known;
     if (s->all_round) run(s, HASTE, INFINITY);
     s->all_round = false;
-    /* Coordinates are off by 2^-51 of the largest, an eighth of the filter's error: a leg by less than three times that,
-     * two paths that are compared by twice as much a leg; and by roundings. */
+    /* Coordinates are off by 2^-51 of the largest, an eighth of the filter's error: a leg by less than three times
+     * that, two paths that are compared by twice as much a leg; and by roundings. */
     const double some = s->at[s->goal].length;
     s->slack = (0x1p-46 * some + s->space->filter.error) * ((double)nodes + 4);
     if (!s->at[s->goal].known) return;
