@@ -196,8 +196,9 @@ static bool solve_soft(newton *q, double softness, double tolerance)
 static double far_along(const newton *q, bool rising)
 {
     const sunder_i_quadratic *p = q->p;
-    double gain = 0, loss = 0, far = INFINITY, *t = sunder_i_calloc(4 * p->bodies, sizeof *t), *u = t + 2 * p->bodies;
+    double gain = 0, loss = 0, far = INFINITY, *t = sunder_i_calloc(4 * p->bodies, sizeof *t);
     if (!t) return 0;
+    double *u = t + 2 * p->bodies;
     for (size_t c = 0; c < p->n; c++) {
         const sunder_i_constraint *k = &p->constraint[c];
         const double more = sunder_i_max(k->force - q->before[c], rising ? 0 : -INFINITY);
