@@ -29,8 +29,8 @@ typedef struct edge {
 typedef struct reached {
     double length;
     uint32_t before; /* node */
-    uint32_t news,
-        heard; /* how often the way here has become shorter; what that of the node before was, of which is known */
+    uint32_t news;   /* how often the way here has become shorter, */
+    uint32_t heard;  /* and what that of the node before was when this one was last told */
     bool known;
 } reached;
 

@@ -47,6 +47,7 @@
 
 /* Beyond so many walls all are thrown away: a megabyte. */
 #define MOST_GROWN 16384u
+/* Room to begin with: copying what grows was a hundredth of a town's instructions, with an eighth of it for walls. */
 #define FEWEST_GROWN 64u
 #define FEWEST_GROWN_WALLS 2048u
 
