@@ -336,10 +336,11 @@ static void find(search *s)
     s->all_round = !s->at[s->goal].known;
     if (s->all_round) run(s, HASTE, INFINITY);
     s->all_round = false;
-    /* Coordinates are off by 2^-51 of the largest, an eighth of the filter's error: a leg by less than three times
-     * that, two paths that are compared by twice as much a leg; and by roundings. */
+    /* Lengths are of places less the start. No place on a path of at most this length is farther from there; with two
+     * such coordinates a leg, each off by 2^-51 of itself or by what is too small for doubles, and roundings, lengths
+     * are off by less than this. Twice, for both of two that are compared. */
     const double some = s->at[s->goal].length;
-    s->slack = (0x1p-46 * some + s->space->filter.error) * ((double)nodes + 4);
+    s->slack = (0x1p-46 * some + 0x1p-1060) * ((double)nodes + 4);
     if (!s->at[s->goal].known) return;
     run(s, 1, some + s->slack);
     if (s->at[s->goal].known && !s->no_memory && !s->cancelled) settle_ties(s);
