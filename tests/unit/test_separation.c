@@ -216,6 +216,41 @@ static void beyond_doubles(void **state)
     sunder_shape_free(p);
 }
 
+static sunder_shape *triangle(double scale, bool swap)
+{
+    const double xy[6] = {0, -scale, scale, 0, -scale, scale};
+    const double yx[6] = {-scale, 0, 0, scale, scale, -scale};
+    const size_t end = 3, one = 1;
+    sunder_shape *s = NULL;
+    assert_int_equal(sunder_shape_from_rings(swap ? yx : xy, &end, &one, 1, SUNDER_VALIDITY_EVEN_ODD, &s, NULL),
+                     SUNDER_OK);
+    return s;
+}
+
+/* Beside a gap of 2^406 a triangle of 2^-1000 has sides of which doubles in units of both know nothing. Its top, over
+ * the origin, is what the least translation has too many digits for: the nearest doubles stay below it by this much. */
+static void tiny_beside_a_gap(void **state)
+{
+    const double gap = 0x1p406, bottom = gap * (1 - 0x1p-14);
+    for (int e = 300; e <= 1074; e += 43)
+        for (int swap = 0; swap < 2; swap++) {
+            polyset set;
+            polyset_init(&set);
+            polyset_rectangle(&set, swap ? bottom : -gap, swap ? -gap : bottom, swap ? 2 * gap : gap,
+                              swap ? gap : 2 * gap);
+            sunder_shape *tiny = triangle(ldexp(1, -e), swap), *q = polyset_shape(&set);
+            sunder_separation s;
+            assert_int_equal(sunder_pair_separate(tiny, q, gap, &s, NULL), SUNDER_OK);
+            assert_true(s.overlap && s.distance == gap * 0x1p-14);
+            assert_true(swap ? s.dx == s.distance && s.dy == 0 : s.dy == s.distance && s.dx == 0);
+            assert_false(s.rounded_is_free);
+            sunder_separation_clear(&s);
+            sunder_shape_free(tiny);
+            sunder_shape_free(q);
+            polyset_free(&set);
+        }
+}
+
 /* The doubles nearest to a rational answer may fall on either side. */
 static void rounded_or_not(void **state)
 {
@@ -525,11 +560,12 @@ static void digits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_answers),  cmocka_unit_test(translated_alike), cmocka_unit_test(huge_and_tiny),
-        cmocka_unit_test(beyond_doubles), cmocka_unit_test(rounded_or_not),   cmocka_unit_test(upper_limit),
-        cmocka_unit_test(bad_arguments),  cmocka_unit_test(empty_operands),   cmocka_unit_test(containment),
-        cmocka_unit_test(distances),      cmocka_unit_test(memory_runs_out),  cmocka_unit_test(repaired_operands),
-        cmocka_unit_test(bound_alone),    cmocka_unit_test(long_fractions),   cmocka_unit_test(digits),
+        cmocka_unit_test(known_answers),     cmocka_unit_test(translated_alike), cmocka_unit_test(huge_and_tiny),
+        cmocka_unit_test(beyond_doubles),    cmocka_unit_test(rounded_or_not),   cmocka_unit_test(upper_limit),
+        cmocka_unit_test(bad_arguments),     cmocka_unit_test(empty_operands),   cmocka_unit_test(containment),
+        cmocka_unit_test(distances),         cmocka_unit_test(memory_runs_out),  cmocka_unit_test(repaired_operands),
+        cmocka_unit_test(bound_alone),       cmocka_unit_test(long_fractions),   cmocka_unit_test(digits),
+        cmocka_unit_test(tiny_beside_a_gap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

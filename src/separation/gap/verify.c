@@ -18,7 +18,7 @@ typedef struct checking {
  * reflected; seen from Q all is reflected in t / 2. */
 typedef struct side {
     sunder_i_point a, d;
-    double x, y, dx, dy, length; /* t - a, d, |d| */
+    double x, y, dx, dy, length; /* t - a, d, |d|; NaN, which answers no question, where it is too short for doubles */
 } side;
 
 static side side_of(const checking *c, const sunder_i_operand_piece *p, uint32_t k)
@@ -31,6 +31,7 @@ static side side_of(const checking *c, const sunder_i_operand_piece *p, uint32_t
     s.dx = sunder_i_approx(l, s.d.x);
     s.dy = sunder_i_approx(l, s.d.y);
     s.length = sqrt(s.dx * s.dx + s.dy * s.dy);
+    if (!(s.length > SUNDER_I_SHORTEST)) s.length = NAN;
     return s;
 }
 
