@@ -1,5 +1,6 @@
 /* run.c: a layer handed to the core, by the rules. That a number is out of range the core says; whoever gave it as an
  * option has called the program wrongly. */
+#include "base/resources.h"
 #include "layer/input.h"
 
 static const double thin_metres = 0.01;
@@ -35,11 +36,30 @@ sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
     return core;
 }
 
-static sunder_layer_options watched_options(const gis_layer_input *input, gis_progress *progress)
+/* Who is told how far it is. */
+typedef struct watcher {
+    gis_progress *progress;
+    double next; /* from there on memory goes back again */
+} watcher;
+
+/* A fifth of the work after the other, and what one of them freed goes back before the next takes its own. */
+#define STRETCH 0.2
+
+static bool go_on(double fraction, void *user)
+{
+    watcher *w = user;
+    if (fraction >= w->next) {
+        gis_memory_back();
+        w->next = fraction + STRETCH;
+    }
+    return gis_progress_call(fraction, w->progress);
+}
+
+static sunder_layer_options watched_options(const gis_layer_input *input, watcher *w)
 {
     sunder_layer_options how = gis_layer_core_options(input);
-    how.progress = gis_progress_call;
-    how.progress_user = progress;
+    how.progress = go_on;
+    how.progress_user = w;
     return how;
 }
 
@@ -53,7 +73,8 @@ static bool ended(const gis_layer_input *input, sunder_status status, const sund
 bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progress *progress, sunder_report **report,
                    sunder_layer_summary *summary, gis_error *error)
 {
-    sunder_layer_options how = watched_options(input, progress);
+    watcher w = {progress, STRETCH};
+    sunder_layer_options how = watched_options(input, &w);
     sunder_error why;
     if (!ended(input, work(input->layer, &how, report, &why), &why, error)) return false;
     sunder_report_summary(*report, summary);
@@ -63,7 +84,8 @@ bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progr
 bool gis_layer_run_moves(const gis_layer_input *input, const sunder_layer *before, const sunder_layer *after,
                          gis_progress *progress, sunder_report **report, gis_error *error)
 {
-    sunder_layer_options how = watched_options(input, progress);
+    watcher w = {progress, STRETCH};
+    sunder_layer_options how = watched_options(input, &w);
     sunder_error why;
     return ended(input, sunder_layer_check_moves(before, after, &how, report, &why), &why, error);
 }

@@ -248,6 +248,7 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
                               double began, sunder_error *err)
 {
     const double solved = sunder_i_now();
+    sunder_i_solver_forget_clusters(s);
     sunder_status status = relate_last(s, err);
     if (status) return status;
     report->summary.seconds_solve = solved - began;

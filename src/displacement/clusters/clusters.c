@@ -225,6 +225,15 @@ static const char *check(const sunder_i_solver *s)
 }
 #endif
 
+void sunder_i_solver_forget_clusters(sunder_i_solver *s)
+{
+    free_clusters(s);
+    sunder_i_free(s->cluster);
+    sunder_i_free(s->move);
+    s->cluster = NULL;
+    s->move = NULL;
+}
+
 /* Room for what comes of so many edges. What is there is lost where it is too small. */
 static bool make_room(sunder_i_solver *s)
 {

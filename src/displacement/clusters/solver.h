@@ -120,6 +120,8 @@ static inline uint32_t sunder_i_reader_for(const sunder_i_solver *solver, const 
 {
     return solver->member[cluster->body - solver->body].root;
 }
+/* Clusters are not worked on any more: who their members are is all that is left of them, until they are gathered. */
+void sunder_i_solver_forget_clusters(sunder_i_solver *solver);
 /* Work on all clusters as they were last gathered, by their numbers. */
 sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder_i_work work, void *context,
                                            sunder_error *err);
