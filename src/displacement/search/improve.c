@@ -273,7 +273,8 @@ static void try_once(sunder_i_search *s, rank *order, vain *v, double *best, dou
 static void try_all(sunder_i_search *s, rank *order, double *best, double *cost)
 {
     vain v = {0};
-    for (int round = 0; round < BETTER_ROUNDS && has_time(s) && !s->failed; round++) {
+    const int most = sunder_i_search_goes_down(s) ? BETTER_ROUNDS_SOON : BETTER_ROUNDS;
+    for (int round = 0; round < most && has_time(s) && !s->failed; round++) {
         const double start = *cost;
         try_once(s, order, &v, best, cost);
         if (!(*cost < start * (1 - ROUND_GAIN))) break;
@@ -295,7 +296,7 @@ static void improve(sunder_i_search *s, rank *order, double *best, double *near)
     memcpy(best, s->t, size);
     double cost = sunder_i_search_cost(s, s->t);
     sunder_i_search_attempt(s, best, &cost); /* what the first solution left when it was good enough */
-    if (sunder_i_search_is_cheapest(s)) {
+    if (!sunder_i_search_goes_down(s) && sunder_i_search_is_cheapest(s)) { /* else it was asked of the first solution */
         memcpy(best, s->t, size);
         return;
     }

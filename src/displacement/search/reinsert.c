@@ -194,8 +194,7 @@ void sunder_i_search_reorder(sunder_i_search *s, double *best, double *cost)
     r.out = sunder_i_alloc(r.moving, sizeof *r.out);
     if (!r.doubtful || !r.near || !r.out || !find_doubtful(&r)) s->failed = true;
     if (r.doubtfuls) {
-        const uint64_t times = s->model->rules.effort > 0 ? MOST_TIMES : MOST_TIMES_AFTER_LESS;
-        try_orders(&r, 0, MOST_USELESS, (1 + times) * work);
+        try_orders(&r, 0, MOST_USELESS, (1 + MOST_TIMES) * work);
     } else if (!s->failed && r.moving <= SURE_MOVING) {
         for (uint32_t k = 0; k < s->n; k++)
             if (s->mass[k] > 0) r.doubtful[r.doubtfuls++] = (ranked){0, k};
