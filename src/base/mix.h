@@ -5,12 +5,14 @@
 #include <stdint.h>
 #include <string.h>
 
+#define SUNDER_I_MIXER UINT64_C(0x9e3779b97f4a7c15) /* odd, its bits without pattern */
+
 /* With the bits of one more double; the upper half is mixed best. */
 static inline uint64_t sunder_i_mix(uint64_t so_far, double x)
 {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
-    so_far = (so_far ^ bits) * UINT64_C(0x9e3779b97f4a7c15); /* odd, its bits without pattern */
+    so_far = (so_far ^ bits) * SUNDER_I_MIXER;
     return so_far ^ so_far >> 32;
 }
 

@@ -105,12 +105,18 @@ sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_place
 
 /* ---- Near pairs -------------------------------------------------------------------------------------------------- */
 
+/* The partners of one feature: n of those of its run. */
+typedef struct partners {
+    uint32_t run, first, n;
+} partners;
+
 typedef struct pair_search {
     const sunder_i_model *model;
     const sunder_i_placement *placement;
     const bool *changed;   /* NULL: all did */
     const uint32_t *asked; /* features that changed, ascending */
-    sunder_i_list *found;  /* [asked] partners of each; of two that changed the greater is the lesser's partner */
+    partners *found;       /* [asked] of two that changed the greater is the lesser's partner */
+    uint32_t **partner;    /* [runs] */
     const uint64_t *place; /* [asked] the leaf of one, and behind it which; sorted: by runs of the tree ... */
     const uint32_t *first; /* ... that begin there */
     double reach;
@@ -127,20 +133,20 @@ static void box_about(const pair_search *s, uint32_t f, double box[4])
         memcpy(box, own, 4 * sizeof *box);
 }
 
-/* Of leaves that are about its run, the partners of f; sorted, in `near`. */
+/* Of leaves that are about its run, the partners of f; sorted, behind those of others in `near`. */
 static bool pick_partners(const pair_search *s, uint32_t f, const sunder_i_list *leaves, sunder_i_list *near)
 {
     const sunder_i_rtree *tree = &s->placement->tree;
+    const size_t first = near->n;
     double box[4];
     box_about(s, f, box);
-    near->n = 0;
-    if (!sunder_i_reserve(&near->item, &near->capacity, leaves->n + 1, sizeof *near->item)) return false;
+    if (!sunder_i_reserve(&near->item, &near->capacity, first + leaves->n + 1, sizeof *near->item)) return false;
     for (size_t k = 0; k < leaves->n; k++) {
         const uint32_t g = near->item[near->n] = tree->item[leaves->item[k]];
         near->n += sunder_i_box_meet_any(tree->box + 4 * (size_t)leaves->item[k], box) &
                    (g > f || (s->changed && !s->changed[g]));
     }
-    sunder_i_sort_few(near->item, near->n, sizeof *near->item, sunder_i_by_number);
+    sunder_i_sort_few(near->item + first, near->n - first, sizeof *near->item, sunder_i_by_number);
     return true;
 }
 
@@ -157,11 +163,16 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
             box_about(s, asked_at(s, k), box);
             sunder_i_box_join(hull, box);
         }
-        leaves.n = 0;
+        leaves.n = near.n = 0;
         ok = sunder_i_rtree_query_leaves(&s->placement->tree, hull, &leaves);
-        for (size_t k = s->first[run]; k < s->first[run + 1] && ok; k++)
-            ok = pick_partners(s, asked_at(s, k), &leaves, &near) &&
-                 sunder_i_list_copy(&s->found[(uint32_t)s->place[k]], &near);
+        for (size_t k = s->first[run]; k < s->first[run + 1] && ok; k++) {
+            const size_t first = near.n;
+            ok = pick_partners(s, asked_at(s, k), &leaves, &near);
+            s->found[(uint32_t)s->place[k]] = (partners){(uint32_t)run, (uint32_t)first, (uint32_t)(near.n - first)};
+        }
+        sunder_i_list kept = {0};
+        ok = ok && sunder_i_list_copy(&kept, &near);
+        s->partner[run] = kept.item;
     }
     sunder_i_free(near.item);
     sunder_i_free(leaves.item);
@@ -257,23 +268,28 @@ sunder_status sunder_i_placement_visit(const sunder_i_model *model, const sunder
     return status;
 }
 
-/* The lists of partners as one array of pairs, in order; the lists are emptied. */
+/* All pairs of partners, the lesser before the greater, in order. NULL if memory is out. */
 static sunder_i_relation *collect(const pair_search *s, size_t asked, size_t *pairs)
 {
     size_t total = 0, k = 0;
     for (size_t a = 0; a < asked; a++) total += s->found[a].n;
+    uint64_t *key = sunder_i_alloc(total, sizeof *key);
     sunder_i_relation *pair = sunder_i_calloc(total, sizeof *pair);
-    for (size_t a = 0; a < asked; a++) {
-        for (size_t i = 0; pair && i < s->found[a].n; i++, k++) {
-            const uint32_t f = s->asked[a], g = s->found[a].item[i];
-            pair[k].a = f < g ? f : g;
-            pair[k].b = f < g ? g : f;
-        }
-        sunder_i_free(s->found[a].item);
+    for (size_t a = 0; a < asked && key; a++) {
+        if (s->found[a].n == 0) continue;
+        const uint32_t f = s->asked[a], *partner = s->partner[s->found[a].run] + s->found[a].first;
+        for (uint32_t i = 0; i < s->found[a].n; i++)
+            key[k++] = f < partner[i] ? (uint64_t)f << 32 | partner[i] : (uint64_t)partner[i] << 32 | f;
     }
-    if (pair && total && s->changed) qsort(pair, total, sizeof *pair, sunder_i_by_id_pair);
+    const bool ok = key && pair && (!s->changed || sunder_i_sort_keys(key, total));
+    for (k = 0; k < total && ok; k++) {
+        pair[k].a = (uint32_t)(key[k] >> 32);
+        pair[k].b = (uint32_t)key[k];
+    }
+    sunder_i_free(key);
+    if (!ok) sunder_i_free(pair);
     *pairs = total;
-    return pair;
+    return ok ? pair : NULL;
 }
 
 static uint32_t *list_asked(const sunder_i_model *model, const sunder_i_changes *changes, size_t *n)
@@ -296,7 +312,7 @@ static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_plac
     size_t n, runs = 0;
     uint32_t *asked = list_asked(model, changes, &n), *first = sunder_i_alloc(n + 1, sizeof *first);
     uint64_t *place = sunder_i_alloc(n, sizeof *place);
-    sunder_i_list *found = sunder_i_calloc(n, sizeof *found);
+    partners *found = sunder_i_calloc(n, sizeof *found);
     pair_search search = {.model = model,
                           .placement = placement,
                           .changed = changes ? changes->is : NULL,
@@ -305,17 +321,20 @@ static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_plac
                           .place = place,
                           .first = first,
                           .reach = sunder_i_max(model->rules.gap, model->rules.tolerance)};
-    sunder_status status = asked && first && place && found && order_by_runs(&search, n, place, first, &runs)
-                               ? SUNDER_OK
-                               : sunder_i_no_memory(err);
+    bool ok = asked && first && place && found && order_by_runs(&search, n, place, first, &runs);
+    if (ok) search.partner = sunder_i_calloc(runs, sizeof *search.partner);
+    ok = ok && search.partner;
+    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status)
         status = sunder_i_parallel(model->rules.threads, runs, SUNDER_I_GRAIN_TESTS, find_partners, &search, err);
     sunder_i_free(first);
     sunder_i_free(place);
-    if (asked && found) {
+    if (!status) {
         *pair = collect(&search, n, pairs);
-        if (!status && !*pair) status = sunder_i_no_memory(err);
+        if (!*pair) status = sunder_i_no_memory(err);
     }
+    for (size_t run = 0; run < runs && search.partner; run++) sunder_i_free(search.partner[run]);
+    sunder_i_free(search.partner);
     sunder_i_free(found);
     sunder_i_free(asked);
     return status;

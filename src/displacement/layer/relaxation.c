@@ -19,11 +19,16 @@
 
 #include "base/extremes.h"
 #include "base/invariant.h"
+#include "base/mix.h"
 #include "separation/separation.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Of fewer relaxed bodies one is as soon found; and so many bits each. */
+#define MARKED_FROM 16
+#define BITS_EACH 16
 
 /* A way out of an overlap is shorter than the one it takes the place of by this share, far above rounding. */
 #define HAIR 0x1p-40
@@ -32,6 +37,7 @@ void sunder_i_relaxations_free(sunder_i_relaxations *relaxations)
 {
     sunder_i_free(relaxations->item);
     sunder_i_free(relaxations->relaxed);
+    sunder_i_free(relaxations->mark);
     memset(relaxations, 0, sizeof *relaxations);
 }
 
@@ -41,11 +47,51 @@ const sunder_i_relaxation *sunder_i_relaxations_find(const sunder_i_relaxations 
     return relaxations->n ? bsearch(&key, relaxations->item, relaxations->n, sizeof key, sunder_i_by_id_pair) : NULL;
 }
 
+/* ---- Marks: most that are asked for are not there ---------------------------------------------------------------- */
+
+/* The word, and the bit in it, of bodies i < j. */
+static uint64_t *mark_of(const sunder_i_relaxations *relaxations, uint32_t i, uint32_t j, uint64_t *bit)
+{
+    const uint64_t mixed = ((uint64_t)i << 32 | j) * SUNDER_I_MIXER;
+    *bit = (uint64_t)1 << (mixed >> 58);
+    return &relaxations->mark[mixed >> 26 & (relaxations->marks - 1)];
+}
+
+static void mark(sunder_i_relaxations *relaxations, const sunder_i_relaxed_bodies *relaxed)
+{
+    uint64_t bit;
+    if (relaxations->marks) *mark_of(relaxations, relaxed->i, relaxed->j, &bit) |= bit;
+}
+
+/* False if memory is out. */
+static bool mark_all(sunder_i_relaxations *relaxations)
+{
+    size_t words = 1;
+    sunder_i_free(relaxations->mark);
+    relaxations->mark = NULL;
+    relaxations->marks = 0;
+    if (relaxations->relaxed_n < MARKED_FROM) return true;
+    while (64 * words < BITS_EACH * relaxations->relaxed_n) words *= 2;
+    relaxations->mark = sunder_i_calloc(words, sizeof *relaxations->mark);
+    if (!relaxations->mark) return false;
+    relaxations->marks = words;
+    for (size_t k = 0; k < relaxations->relaxed_n; k++) mark(relaxations, &relaxations->relaxed[k]);
+    return true;
+}
+
+static bool is_marked(const sunder_i_relaxations *relaxations, uint32_t i, uint32_t j)
+{
+    uint64_t bit;
+    return !relaxations->marks || *mark_of(relaxations, i, j, &bit) & bit;
+}
+
+/* ---- The list ---------------------------------------------------------------------------------------------------- */
+
 const sunder_i_relaxed_bodies *sunder_i_relaxations_between(const sunder_i_relaxations *relaxations, uint32_t body,
                                                             uint32_t other)
 {
     const sunder_i_relaxed_bodies key = {.i = body < other ? body : other, .j = body < other ? other : body};
-    return relaxations->relaxed_n
+    return relaxations->relaxed_n && is_marked(relaxations, key.i, key.j)
                ? bsearch(&key, relaxations->relaxed, relaxations->relaxed_n, sizeof key, sunder_i_by_id_pair)
                : NULL;
 }
@@ -94,7 +140,7 @@ static const char *check(const sunder_i_relaxations *list, const sunder_i_model 
 bool sunder_i_relaxations_index(sunder_i_relaxations *relaxations, const sunder_i_model *model)
 {
     relaxations->relaxed_n = 0;
-    if (relaxations->n == 0) return true;
+    if (relaxations->n == 0) return mark_all(relaxations);
     if (!sunder_i_reserve(&relaxations->relaxed, &relaxations->relaxed_capacity, relaxations->n,
                           sizeof *relaxations->relaxed))
         return false;
@@ -110,6 +156,7 @@ bool sunder_i_relaxations_index(sunder_i_relaxations *relaxations, const sunder_
         else
             relaxations->relaxed[relaxations->relaxed_n++] = relaxations->relaxed[k];
     }
+    if (!mark_all(relaxations)) return false;
     SUNDER_I_CHECK(check(relaxations, model), relaxations->n);
     return true;
 }
@@ -134,6 +181,7 @@ bool sunder_i_relaxations_insert(sunder_i_relaxations *relaxations, const sunder
     }
     memmove(relaxations->relaxed + of + 1, relaxations->relaxed + of, (relaxations->relaxed_n++ - of) * sizeof relaxed);
     relaxations->relaxed[of] = relaxed;
+    mark(relaxations, &relaxed);
     SUNDER_I_CHECK(check(relaxations, model), relaxations->n);
     return true;
 }
