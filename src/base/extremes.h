@@ -6,4 +6,8 @@
 static inline double sunder_i_min(double a, double b) { return a < b || b != b ? a : b; }
 static inline double sunder_i_max(double a, double b) { return a > b || b != b ? a : b; }
 
+/* The same of two numbers of which neither is NaN, in half of the instructions. */
+static inline double sunder_i_lesser(double a, double b) { return a < b ? a : b; }
+static inline double sunder_i_greater(double a, double b) { return a > b ? a : b; }
+
 #endif

@@ -284,7 +284,7 @@ static double growth_of(const cell *c, const half h[2])
     const double before = pairs_of(c->sides, c->entry_to - c->entry_from);
     double after = 0;
     for (int k = 0; k < 2; k++) after += h[k].held ? 0 : pairs_of(h[k].sides, h[k].entries_n);
-    return before > 0 ? sunder_i_max(1, c->growth * (after / before)) : 1;
+    return before > 0 ? sunder_i_greater(1, c->growth * (after / before)) : 1;
 }
 
 /* What is left of a half when its lists are made: a cell to split further, or settled. */
@@ -368,8 +368,8 @@ static void split(builder *b, const cell *c)
         h[k].stamp = ++b->cells;
     }
     /* The halves are of one size up to rounding; the larger stands for both. */
-    const double hx = sunder_i_max(h[0].b.high[0] - h[0].b.low[0], h[1].b.high[0] - h[1].b.low[0]) / 2;
-    const double hy = sunder_i_max(h[0].b.high[1] - h[0].b.low[1], h[1].b.high[1] - h[1].b.low[1]) / 2;
+    const double hx = sunder_i_greater(h[0].b.high[0] - h[0].b.low[0], h[1].b.high[0] - h[1].b.low[0]) / 2;
+    const double hy = sunder_i_greater(h[0].b.high[1] - h[0].b.low[1], h[1].b.high[1] - h[1].b.low[1]) / 2;
     size_t from = c->run_from;
     for (size_t i = c->entry_from; i < c->entry_to && !(h[0].held && h[1].held); i++) {
         if ((i & 31) == 0 && !sunder_i_steps(32)) {

@@ -109,8 +109,8 @@ static const box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 static inline void grow(box *all, const box *by)
 {
     for (int k = 0; k < 2; k++) {
-        all->low[k] = sunder_i_min(all->low[k], by->low[k]);
-        all->high[k] = sunder_i_max(all->high[k], by->high[k]);
+        all->low[k] = sunder_i_lesser(all->low[k], by->low[k]);
+        all->high[k] = sunder_i_greater(all->high[k], by->high[k]);
     }
 }
 
@@ -136,10 +136,10 @@ static inline bool within(const box *a, const box *b)
 static inline bool clip(const builder *b, const approx_side *s, const box *c, box *clipped)
 {
     const double x2 = s->ax + s->dx, y2 = s->ay + s->dy, e = b->error;
-    clipped->low[0] = sunder_i_max(c->low[0], sunder_i_min(s->ax, x2) - e);
-    clipped->high[0] = sunder_i_min(c->high[0], sunder_i_max(s->ax, x2) + e);
-    clipped->low[1] = sunder_i_max(c->low[1], sunder_i_min(s->ay, y2) - e);
-    clipped->high[1] = sunder_i_min(c->high[1], sunder_i_max(s->ay, y2) + e);
+    clipped->low[0] = sunder_i_greater(c->low[0], sunder_i_lesser(s->ax, x2) - e);
+    clipped->high[0] = sunder_i_lesser(c->high[0], sunder_i_greater(s->ax, x2) + e);
+    clipped->low[1] = sunder_i_greater(c->low[1], sunder_i_lesser(s->ay, y2) - e);
+    clipped->high[1] = sunder_i_lesser(c->high[1], sunder_i_greater(s->ay, y2) + e);
     return clipped->low[0] <= clipped->high[0] && clipped->low[1] <= clipped->high[1];
 }
 

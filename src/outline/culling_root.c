@@ -53,11 +53,11 @@ static bool approximate(builder *b, box *all)
                 sunder_i_point_difference(l, to, from, &dx, &dy);
             }
             b->side[k] = (approx_side){x, y, dx, dy};
-            own.low[0] = sunder_i_min(own.low[0], x);
-            own.high[0] = sunder_i_max(own.high[0], x);
-            own.low[1] = sunder_i_min(own.low[1], y);
-            own.high[1] = sunder_i_max(own.high[1], y);
-            most = sunder_i_max(most, sunder_i_max(fabs(x), fabs(y)));
+            own.low[0] = sunder_i_lesser(own.low[0], x);
+            own.high[0] = sunder_i_greater(own.high[0], x);
+            own.low[1] = sunder_i_lesser(own.low[1], y);
+            own.high[1] = sunder_i_greater(own.high[1], y);
+            most = sunder_i_greater(most, sunder_i_greater(fabs(x), fabs(y)));
         }
         b->reach[i] = own;
         grow(all, &own);
