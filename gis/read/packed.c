@@ -14,7 +14,8 @@
 
 enum { UNSET, EMPTY, VALUE }; /* of a field: not set, null, or what follows */
 
-enum { CHUNK = 4 << 20 };
+/* A chunk is twice as large as the one before it, from what most layers take as a whole. */
+enum { FIRST_CHUNK = 1 << 16, LARGEST_CHUNK = 4 << 20 };
 
 #define BORROWS UINT32_C(0x80000000) /* no geometry has so many bytes: they fit an int */
 #define BORROWS_MULTI UINT32_C(0x40000000)
@@ -68,11 +69,18 @@ bool gis_packed_join(gis_packed *packed, gis_packed *from)
     return true;
 }
 
+static size_t next_chunk(const gis_packed *packed)
+{
+    size_t chunk = FIRST_CHUNK;
+    for (size_t k = 0; k < packed->chunks && chunk < LARGEST_CHUNK; k++) chunk *= 2;
+    return chunk;
+}
+
 /* So many bytes behind the last record; NULL if memory is out. */
 static unsigned char *take(gis_packed *packed, size_t size)
 {
     if (packed->room - packed->used < size) {
-        const size_t room = size > CHUNK / 16 ? size : CHUNK;
+        const size_t usual = next_chunk(packed), room = size > usual / 16 ? size : usual;
         if (!gis_array_reserve(&packed->chunk, &packed->capacity, packed->chunks + 1, sizeof *packed->chunk))
             return NULL;
         unsigned char *chunk = malloc(room);

@@ -62,7 +62,8 @@ piece() { # NAME SECONDS
     # Leaks are looked for at the end of each input as ever; a seed of its own for each piece. An input that takes little
     # time is drawn more often than one that takes much, up to thirty times: a hundredth of the inputs took half of the time,
     # and what leads somewhere is found sooner so. Which of them are rare is hardly asked: with some thousand inputs of some
-    # thousand features each that takes more time than what is asked of them.
+    # thousand features each that takes more time than what is asked of them. Nor is the folder looked through each second
+    # for what others may have put there.
     # The time that an input may take is by the clock, of which other work may leave little.
     # Stacks of allocations are one frame deep: who looks into a finding runs it by itself. What was freed is held back up
     # to 1 MB: with 8 MB a reader's target makes a third fewer executions. Nor is memory given back to the system; and of
@@ -70,7 +71,7 @@ piece() { # NAME SECONDS
     local checks=malloc_context_size=1:quarantine_size_mb=1:thread_local_quarantine_size_kb=64
     checks=$checks:allocator_release_to_os_interval_ms=-1:max_malloc_fill_size=256
     local schedule=(-entropic=1 -entropic_scale_per_exec_time=1
-        -entropic_number_of_rarest_features=1 -entropic_feature_frequency_threshold=1)
+        -entropic_number_of_rarest_features=1 -entropic_feature_frequency_threshold=1 -reload=0)
     spent=$( { time ASAN_OPTIONS=$checks nice -n "${SUNDER_FUZZ_NICE:-19}" "$SUNDER_BUILD/fuzz/$name" "$state/$name" \
         -seed="$(date +%s)" -max_total_time="$2" -max_len=600 "${schedule[@]}" -timeout=600 -rss_limit_mb=4096 \
         -artifact_prefix="$state/found/$name-" -print_final_stats=1 >"$log" 2>&1 || status=$?
