@@ -36,8 +36,8 @@ typedef struct sunder_i_relaxations {
     size_t n, capacity;
     sunder_i_relaxed_bodies *relaxed;
     size_t relaxed_n, relaxed_capacity;
-    uint64_t
-        *mark; /* of many: a bit that each two of `relaxed` have in these words, a power of two; few others have it */
+    /* Of many: words, a power of two, in which each two of `relaxed` have a bit, and few others. */
+    uint64_t *mark;
     size_t marks;
 } sunder_i_relaxations;
 
