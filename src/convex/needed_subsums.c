@@ -35,6 +35,11 @@
 /* For each subsum so many pairs may be looked at in all, handed down from cell to cell: less than it costs to make one
  * and to find it covered. */
 #define CREDIT 32.0
+/* A cell whose credit is used up is lent so many for each subsum that would be needed else and is not yet: about what it costs
+ * to make one and find it covered. No more is lent than that much for each one saved so, and some on trust: along the
+ * outline of stars a dozen looks save one, where bars cross each other hundreds. */
+#define LOAN 64.0
+#define LOAN_ON_TRUST 2048.0
 /* Going round a subsum costs so many looks at pairs. */
 #define WALK 4
 /* Where more than this share of all is needed, or the subsums cover their box less than that many times, and the
@@ -60,6 +65,13 @@ typedef struct cell {
     bool stubborn; /* its parent was halved in vain */
 } cell;
 
+typedef struct loan {
+    bool on;
+    size_t cells;            /* on the stack below it */
+    size_t listed, unlisted; /* subsums listed before it, and those that were to be listed for want of it */
+    double spent;            /* looks */
+} loan;
+
 typedef struct finder {
     const sunder_i_piece_tree *p, *q;
     sunder_i_subsum_list *out;
@@ -74,6 +86,8 @@ typedef struct finder {
     double spent;    /* looks, on the cell at hand */
     double subsums;  /* in the pairs listed for a half */
     uint64_t holder; /* the subsum that holds the window, once `held` */
+    loan loan;
+    double worth; /* looks that may be lent, less those that were */
     bool held, no_memory;
 } finder;
 
@@ -220,17 +234,19 @@ static void need(finder *f, uint64_t subsum)
     l->all = (double)l->n > MOST_NEEDED * f->whole;
 }
 
-/* All that reaches into the cell is needed; or one that holds it. */
-static void need_all(finder *f, const cell *c, const sunder_i_cell_window *w)
+/* Lists the pairs of pieces whose subsums reach into the cell, behind all lists; or one that holds it is needed, and
+ * nothing is left to do. */
+static bool list_single(finder *f, const cell *c, const sunder_i_cell_window *w)
 {
-    const size_t from = f->pairs;
     f->held = false;
     for (size_t i = c->from; i < c->to; i++) list_pair(f, f->pair[i].a, f->pair[i].b, w, -INFINITY);
-    if (f->held) {
-        need(f, f->holder);
-        return;
-    }
-    for (size_t i = from; i < f->pairs && !f->no_memory && !f->out->all; i++)
+    if (f->held) need(f, f->holder);
+    return !f->held && !f->no_memory;
+}
+
+static void need_listed(finder *f, const cell *c)
+{
+    for (size_t i = c->to; i < f->pairs && !f->no_memory && !f->out->all; i++)
         need(f, subsum_of(f, f->pair[i].a, f->pair[i].b));
 }
 
@@ -276,19 +292,53 @@ static void halve(finder *f, const cell *c)
     }
 }
 
+/* Is the cell, whose pieces are listed, worth a closer look on loan? */
+static bool borrow(finder *f, cell *c)
+{
+    if (f->loan.on || f->worth <= 0 || c->depth > DEPTH || !reserve_slot(f)) return false;
+    size_t unlisted = 0;
+    for (size_t i = c->to; i < f->pairs; i++)
+        unlisted += !f->slot[slot_of(f, subsum_of(f, f->pair[i].a, f->pair[i].b))];
+    if (unlisted <= LEAF) return false;
+    f->loan = (loan){true, f->cells, f->out->n, unlisted, 0};
+    c->credit = LOAN * (double)unlisted;
+    return true;
+}
+
+static void end_loan(finder *f)
+{
+    const loan *l = &f->loan;
+    f->worth += LOAN * ((double)l->unlisted - (double)(f->out->n - l->listed)) - l->spent;
+    f->loan.on = false;
+}
+
+/* In a cell that is not halved further all that reaches into it is needed, or one that holds it. Else true. */
+static bool goes_on(finder *f, cell *c, const sunder_i_cell_window *w)
+{
+    if (c->subsums > (c->stubborn ? STUBBORN_LEAF : LEAF) && c->credit > 0 && c->depth <= DEPTH) return true;
+    if (!list_single(f, c, w)) return false;
+    if (c->credit <= 0 && c->subsums > LEAF && borrow(f, c)) {
+        f->pairs = c->to;
+        return true;
+    }
+    need_listed(f, c);
+    return false;
+}
+
 static void descend(finder *f)
 {
     while (f->cells > 0 && !f->no_memory && !f->out->all) {
-        const cell c = f->stack[--f->cells];
+        if (f->loan.on && f->cells == f->loan.cells) end_loan(f);
+        cell c = f->stack[--f->cells];
         const sunder_i_cell_window w = sunder_i_cell_window_of(c.box, f->error);
         f->pairs = c.to; /* lists above are of cells that are done with */
         f->spent = 0;
-        if (c.subsums <= (c.stubborn ? STUBBORN_LEAF : LEAF) || c.credit <= 0 || c.depth > DEPTH)
-            need_all(f, &c, &w);
-        else if (is_held(f, &c, &w))
+        if (!goes_on(f, &c, &w)) continue;
+        if (is_held(f, &c, &w))
             need(f, f->holder);
         else
             halve(f, &c);
+        f->loan.spent += f->spent;
     }
 }
 
@@ -343,6 +393,7 @@ static bool find(finder *f)
     const sunder_i_piece_group *a = f->p->group, *b = f->q->group;
     f->whole = (double)a->pieces * (double)b->pieces;
     f->error = sunder_i_approx_sum_error(f->p, f->q);
+    f->worth = LOAN_ON_TRUST;
     cell root = {.from = 0, .to = 1, .subsums = f->whole, .credit = CREDIT * f->whole};
     for (int k = 0; k < 2; k++) {
         root.box[k] = a->low[k] + b->low[k] - f->error;

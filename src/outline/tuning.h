@@ -24,6 +24,8 @@
 /* A half with more sides than this, fewer than its cell had by a tenth, is halved as it is: to shrink it to what its
  * candidates need every one of them would have to be looked at. */
 #define MANY_SIDES 250
+/* Along both axes candidates are as long beside the cell where one is at most so many times the other. */
+#define AXES_EVEN 1.3
 /* So many parts with one side in the cell are tried in pairs; more are rare. */
 #define SINGLES 8
 /* The table of pairs pushed of late: 128 KB, which stay in the second-level cache; more hardly finds more. */
