@@ -12,7 +12,6 @@
 #include "convex/needed_subsums.h"
 
 #include "base/extremes.h"
-#include "base/sort.h"
 #include "base/watch.h"
 #include "convex/approx_sum.h"
 
@@ -35,11 +34,11 @@
 /* For each subsum so many pairs may be looked at in all, handed down from cell to cell: less than it costs to make one
  * and to find it covered. */
 #define CREDIT 32.0
-/* A cell whose credit is used up is lent so many for each subsum that would be needed else and is not yet: about what it costs
- * to make one and find it covered. No more is lent than that much for each one saved so, and some on trust: along the
- * outline of stars a dozen looks save one, where bars cross each other hundreds. */
-#define LOAN 64.0
-#define LOAN_ON_TRUST 2048.0
+/* A cell that is not halved further, or has no credit left, is lent what it is worth to leave out those of its subsums
+ * that are not listed yet. No more is lent than has been saved so, and a share of all looks on trust: along the outline
+ * of stars two dozen looks save one subsum. On loan more than that few are a cell to halve. */
+#define ON_TRUST 0.1
+#define FEW 6
 /* Going round a subsum costs so many looks at pairs. */
 #define WALK 4
 /* Where more than this share of all is needed, or the subsums cover their box less than that many times, and the
@@ -65,11 +64,12 @@ typedef struct cell {
     bool stubborn; /* its parent was halved in vain */
 } cell;
 
+/* The looks that a cell and those below it may take beyond their credit; one at a time. */
 typedef struct loan {
     bool on;
     size_t cells;            /* on the stack below it */
     size_t listed, unlisted; /* subsums listed before it, and those that were to be listed for want of it */
-    double spent;            /* looks */
+    double looks;            /* of the finder, before it */
 } loan;
 
 typedef struct finder {
@@ -81,13 +81,13 @@ typedef struct finder {
     size_t pairs, capacity;
     cell *stack;
     size_t cells, cells_capacity;
-    uint32_t *slot;  /* [slots] places in out's list, past which one is; 0: free */
-    size_t slots;    /* a power of two */
     double spent;    /* looks, on the cell at hand */
     double subsums;  /* in the pairs listed for a half */
     uint64_t holder; /* the subsum that holds the window, once `held` */
+    double worth;    /* of a subsum that is left out, in looks; 0: nothing is lent */
+    double looks;    /* on all cells so far */
+    double balance;  /* worth of what was saved on loan, less what it took */
     loan loan;
-    double worth; /* looks that may be lent, less those that were */
     bool held, no_memory;
 } finder;
 
@@ -197,40 +197,12 @@ static bool is_held(finder *f, const cell *c, const sunder_i_cell_window *w)
     return false;
 }
 
-/* ---- The list ---- */
+/* ---- What is needed ---- */
 
-/* Where in the table a subsum stands, or the free slot where it would. */
-static size_t slot_of(const finder *f, uint64_t subsum)
-{
-    size_t at = (size_t)((subsum * 0x9e3779b97f4a7c15u) >> 32) & (f->slots - 1);
-    while (f->slot[at] && f->out->pair[f->slot[at] - 1] != subsum) at = (at + 1) & (f->slots - 1);
-    return at;
-}
-
-/* Room in the table for one more, at most half full. */
-static bool reserve_slot(finder *f)
-{
-    if (2 * (f->out->n + 1) <= f->slots) return true;
-    sunder_i_free(f->slot);
-    f->slots = f->slots ? 2 * f->slots : 1024;
-    f->slot = sunder_i_calloc(f->slots, sizeof *f->slot);
-    if (!f->slot) return false;
-    for (size_t i = 0; i < f->out->n; i++) f->slot[slot_of(f, f->out->pair[i])] = (uint32_t)(i + 1);
-    return true;
-}
-
-/* Lists a subsum, once. */
 static void need(finder *f, uint64_t subsum)
 {
     sunder_i_subsum_list *l = f->out;
-    if (!reserve_slot(f) || !sunder_i_reserve(&l->pair, &l->capacity, l->n + 1, sizeof *l->pair)) {
-        f->no_memory = true;
-        return;
-    }
-    const size_t at = slot_of(f, subsum);
-    if (f->slot[at]) return;
-    l->pair[l->n++] = subsum;
-    f->slot[at] = (uint32_t)l->n;
+    f->no_memory |= !sunder_i_subsum_list_add(l, subsum);
     l->all = (double)l->n > MOST_NEEDED * f->whole;
 }
 
@@ -292,32 +264,38 @@ static void halve(finder *f, const cell *c)
     }
 }
 
+/* ---- Loans ---- */
+
 /* Is the cell, whose pieces are listed, worth a closer look on loan? */
 static bool borrow(finder *f, cell *c)
 {
-    if (f->loan.on || f->worth <= 0 || c->depth > DEPTH || !reserve_slot(f)) return false;
     size_t unlisted = 0;
+    if (f->loan.on || f->balance + ON_TRUST * f->looks <= 0) return false;
     for (size_t i = c->to; i < f->pairs; i++)
-        unlisted += !f->slot[slot_of(f, subsum_of(f, f->pair[i].a, f->pair[i].b))];
-    if (unlisted <= LEAF) return false;
-    f->loan = (loan){true, f->cells, f->out->n, unlisted, 0};
-    c->credit = LOAN * (double)unlisted;
+        unlisted += !sunder_i_subsum_list_has(f->out, subsum_of(f, f->pair[i].a, f->pair[i].b));
+    if (unlisted <= FEW) return false;
+    f->loan = (loan){true, f->cells, f->out->n, unlisted, f->looks};
+    c->credit = f->worth * (double)unlisted;
     return true;
 }
 
-static void end_loan(finder *f)
+static void pay_back(finder *f)
 {
     const loan *l = &f->loan;
-    f->worth += LOAN * ((double)l->unlisted - (double)(f->out->n - l->listed)) - l->spent;
+    f->balance += f->worth * ((double)l->unlisted - (double)(f->out->n - l->listed)) - (f->looks - l->looks);
     f->loan.on = false;
 }
+
+/* ---- The descent ---- */
 
 /* In a cell that is not halved further all that reaches into it is needed, or one that holds it. Else true. */
 static bool goes_on(finder *f, cell *c, const sunder_i_cell_window *w)
 {
-    if (c->subsums > (c->stubborn ? STUBBORN_LEAF : LEAF) && c->credit > 0 && c->depth <= DEPTH) return true;
+    const double leaf = c->stubborn ? STUBBORN_LEAF : f->loan.on ? FEW : LEAF;
+    const bool deep = c->depth > DEPTH;
+    if (c->subsums > leaf && c->credit > 0 && !deep) return true;
     if (!list_single(f, c, w)) return false;
-    if (c->credit <= 0 && c->subsums > LEAF && borrow(f, c)) {
+    if (f->worth > 0 && c->subsums > FEW && !c->stubborn && !deep && borrow(f, c)) {
         f->pairs = c->to;
         return true;
     }
@@ -328,7 +306,7 @@ static bool goes_on(finder *f, cell *c, const sunder_i_cell_window *w)
 static void descend(finder *f)
 {
     while (f->cells > 0 && !f->no_memory && !f->out->all) {
-        if (f->loan.on && f->cells == f->loan.cells) end_loan(f);
+        if (f->loan.on && f->cells == f->loan.cells) pay_back(f);
         cell c = f->stack[--f->cells];
         const sunder_i_cell_window w = sunder_i_cell_window_of(c.box, f->error);
         f->pairs = c.to; /* lists above are of cells that are done with */
@@ -338,7 +316,7 @@ static void descend(finder *f)
             need(f, f->holder);
         else
             halve(f, &c);
-        f->loan.spent += f->spent;
+        f->looks += f->spent;
     }
 }
 
@@ -393,7 +371,6 @@ static bool find(finder *f)
     const sunder_i_piece_group *a = f->p->group, *b = f->q->group;
     f->whole = (double)a->pieces * (double)b->pieces;
     f->error = sunder_i_approx_sum_error(f->p, f->q);
-    f->worth = LOAN_ON_TRUST;
     cell root = {.from = 0, .to = 1, .subsums = f->whole, .credit = CREDIT * f->whole};
     for (int k = 0; k < 2; k++) {
         root.box[k] = a->low[k] + b->low[k] - f->error;
@@ -409,11 +386,10 @@ static bool find(finder *f)
     }
     sunder_i_free(f->pair);
     sunder_i_free(f->stack);
-    sunder_i_free(f->slot);
-    return !f->no_memory && (f->out->all || sunder_i_sort_keys(f->out->pair, f->out->n));
+    return !f->no_memory && (f->out->all || sunder_i_subsum_list_finish(f->out));
 }
 
-bool sunder_i_needed_subsums(const sunder_i_convex_pieces *p, const sunder_i_convex_pieces *q,
+bool sunder_i_needed_subsums(const sunder_i_convex_pieces *p, const sunder_i_convex_pieces *q, double worth,
                              sunder_i_subsum_list *out)
 {
     sunder_i_piece_tree tp, tq;
@@ -421,17 +397,11 @@ bool sunder_i_needed_subsums(const sunder_i_convex_pieces *p, const sunder_i_con
     if (!sunder_i_piece_tree_build(p, &tp)) return false;
     bool ok = sunder_i_piece_tree_build(q, &tq);
     if (ok) {
-        finder f = {.p = &tp, .q = &tq, .out = out};
+        finder f = {.p = &tp, .q = &tq, .worth = worth, .out = out};
         ok = find(&f);
         sunder_i_piece_tree_free(&tq);
     }
     sunder_i_piece_tree_free(&tp);
     if (!ok) sunder_i_subsum_list_free(out);
     return ok;
-}
-
-void sunder_i_subsum_list_free(sunder_i_subsum_list *list)
-{
-    sunder_i_free(list->pair);
-    memset(list, 0, sizeof *list);
 }

@@ -111,11 +111,13 @@ static bool add_all(const operand *p, const operand *q, sunder_i_convex_pieces *
 
 /* Fewer subsums are made at once. */
 #define FEW_SUBSUMS 256
+/* Making one and finding it covered takes some ten thousand instructions (stars, random polygons). */
+#define SUBSUM_WORTH 128.0
 
 static bool add_needed(const operand *p, const operand *q, sunder_i_convex_pieces *out)
 {
     sunder_i_subsum_list list = {.all = (size_t)p->pieces.n * q->pieces.n < FEW_SUBSUMS};
-    if (!list.all && !sunder_i_needed_subsums(&p->pieces, &q->pieces, &list)) return false;
+    if (!list.all && !sunder_i_needed_subsums(&p->pieces, &q->pieces, SUBSUM_WORTH, &list)) return false;
     const bool ok = list.all ? add_all(p, q, out) : add_listed(p, q, &list, out);
     sunder_i_subsum_list_free(&list);
     return ok && !out->lattice->arena.failed;

@@ -66,9 +66,9 @@ static size_t shrink(builder *b, cell *c, const box *whole)
         b->stamp[x->line] = b->cells;
     }
     c->b = need;
-    /* Across the axis along which candidates are short beside the cell: fewer of them fall into both halves. Or where that
-     * is nearly the same, across the longer one: else ends of sides along one line draw cells to that line, which may be
-     * as long as before. */
+    /* Across the axis along which candidates are short beside the cell: fewer of them fall into both halves. Or where
+     * that is nearly the same, across the longer one: else ends of sides along one line draw cells to that line, which
+     * may be as long as before. */
     const double w = need.high[0] - need.low[0], h = need.high[1] - need.low[1];
     const double across[2] = {span[0] * h, span[1] * w};
     const bool even = across[0] <= AXES_EVEN * across[1] && across[1] <= AXES_EVEN * across[0];

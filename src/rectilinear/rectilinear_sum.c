@@ -8,6 +8,7 @@
 #include "rectilinear/union.h"
 
 #define MOST_RECTANGLES ((size_t)1 << 24) /* in the union; the general road finds fewer, perhaps */
+#define RECTANGLE_WORTH 0                 /* uniting one costs little more than a look or two */
 #define FEW_RECTANGLES 512                /* so many are all made: to ask which are needed would cost more */
 
 static const sunder_i_point axis_direction[2] = {{1, 0}, {0, 1}};
@@ -40,7 +41,8 @@ static bool list_needed(const sunder_i_rectangle_list *a, const sunder_i_rectang
     memset(out, 0, sizeof *out);
     out->all = a->n * b->n < FEW_RECTANGLES;
     if (out->all) return true;
-    const bool ok = to_pieces(a, lattice, &p) && to_pieces(b, lattice, &q) && sunder_i_needed_subsums(&p, &q, out);
+    const bool ok =
+        to_pieces(a, lattice, &p) && to_pieces(b, lattice, &q) && sunder_i_needed_subsums(&p, &q, RECTANGLE_WORTH, out);
     sunder_i_convex_pieces_free(&p);
     sunder_i_convex_pieces_free(&q);
     return ok;

@@ -27,7 +27,7 @@ static void count_needed(const polyset *p, const polyset *q, size_t count[2])
     assert_true(sunder_i_hertel_mehlhorn(&placed.lattice, a, placed.p, &s) &&
                 sunder_i_hertel_mehlhorn(&placed.lattice, b, placed.q, &t) &&
                 sunder_i_convex_pieces_rank(&placed.lattice, list, 2, &directions) &&
-                sunder_i_needed_subsums(&s, &t, &needed));
+                sunder_i_needed_subsums(&s, &t, 128, &needed));
     count[0] = (size_t)s.n * t.n;
     count[1] = needed.all ? count[0] : needed.n;
     for (size_t i = 1; !needed.all && i < needed.n; i++) assert_true(needed.pair[i - 1] < needed.pair[i]);

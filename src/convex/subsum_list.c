@@ -1,0 +1,59 @@
+/* A list, and a table of the places in it: open addressing, at most half full. */
+#include "convex/subsum_list.h"
+
+#include "base/memory.h"
+#include "base/mix.h"
+#include "base/sort.h"
+
+#include <string.h>
+
+#define LEAST_SLOTS 1024
+
+/* Where in the table a subsum stands, or the free slot where it would. */
+static size_t slot_of(const sunder_i_subsum_list *l, uint64_t subsum)
+{
+    size_t at = (size_t)((subsum * SUNDER_I_MIXER) >> 32) & (l->slots - 1);
+    while (l->slot[at] && l->pair[l->slot[at] - 1] != subsum) at = (at + 1) & (l->slots - 1);
+    return at;
+}
+
+static bool reserve_slot(sunder_i_subsum_list *l)
+{
+    if (2 * (l->n + 1) <= l->slots) return true;
+    sunder_i_free(l->slot);
+    l->slots = l->slots ? 2 * l->slots : LEAST_SLOTS;
+    l->slot = sunder_i_calloc(l->slots, sizeof *l->slot);
+    if (!l->slot) return false;
+    for (size_t i = 0; i < l->n; i++) l->slot[slot_of(l, l->pair[i])] = (uint32_t)(i + 1);
+    return true;
+}
+
+bool sunder_i_subsum_list_add(sunder_i_subsum_list *l, uint64_t subsum)
+{
+    if (!reserve_slot(l) || !sunder_i_reserve(&l->pair, &l->capacity, l->n + 1, sizeof *l->pair)) return false;
+    const size_t at = slot_of(l, subsum);
+    if (l->slot[at]) return true;
+    l->pair[l->n++] = subsum;
+    l->slot[at] = (uint32_t)l->n;
+    return true;
+}
+
+bool sunder_i_subsum_list_has(const sunder_i_subsum_list *l, uint64_t subsum)
+{
+    return l->n > 0 && l->slot[slot_of(l, subsum)];
+}
+
+bool sunder_i_subsum_list_finish(sunder_i_subsum_list *l)
+{
+    sunder_i_free(l->slot);
+    l->slot = NULL;
+    l->slots = 0;
+    return sunder_i_sort_keys(l->pair, l->n);
+}
+
+void sunder_i_subsum_list_free(sunder_i_subsum_list *l)
+{
+    sunder_i_free(l->pair);
+    sunder_i_free(l->slot);
+    memset(l, 0, sizeof *l);
+}
