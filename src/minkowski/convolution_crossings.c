@@ -6,6 +6,14 @@
 
 #include <string.h>
 
+/* Boxes of chains from left to right, as doubles: rounding keeps their order, so what is apart there is apart. In arrays
+ * for each bound, since most of the time goes into comparing them. */
+typedef struct boxes {
+    double *low_x, *high_x, *low_y, *high_y; /* [chains] */
+    uint32_t *chain;                         /* [chains] its number */
+    uint32_t *near;                          /* [chains] of those that overlap the box at hand */
+} boxes;
+
 typedef struct crosser {
     sunder_i_convolution *curve;
     size_t pairs; /* that may still be looked at */
@@ -17,12 +25,6 @@ typedef struct crosser {
 static const size_t patience = 256;
 
 /* Branches that nobody foresees take longer here than tests that were not needed: so these are without. */
-
-/* Of chains whose boxes overlap from left to right. */
-static bool boxes_apart(const sunder_i_chain *a, const sunder_i_chain *b)
-{
-    return (a->high[1] < b->low[1]) | (b->high[1] < a->low[1]);
-}
 
 /* May they meet in nothing but the end that they share, by their making? A side is on a line that supports v + Q at
  * both of its vertices v. Two sides with a chord between them cross, mostly. */
@@ -54,7 +56,24 @@ static bool links_apart(sunder_i_point a, sunder_i_point b, sunder_i_point c, su
            (most(a.y, b.y) < least(c.y, d.y)) | (least(a.y, b.y) > most(c.y, d.y));
 }
 
-static void add_crossing(crosser *x, uint32_t i, const sunder_i_point ab[2], uint32_t j, const sunder_i_point cd[2])
+/* Where lines ab and cd cross: s / r of the way from a to b, and t / r from c to d; r > 0. */
+typedef struct meeting_point {
+    sunder_i_det s, t, r;
+    bool rises; /* ab goes to the left of cd */
+} meeting_point;
+
+/* False if they are parallel. */
+static bool find_meeting_point(const sunder_i_point ab[2], const sunder_i_point cd[2], meeting_point *m)
+{
+    const sunder_i_point u = sunder_i_narrow_sub(ab[1], ab[0]), w = sunder_i_narrow_sub(cd[1], cd[0]);
+    const sunder_i_point v = sunder_i_narrow_sub(cd[0], ab[0]);
+    const sunder_i_det r = sunder_i_narrow_cross(u, w), s = sunder_i_narrow_cross(v, w),
+                       t = sunder_i_narrow_cross(v, u);
+    *m = r < 0 ? (meeting_point){-s, -t, -r, true} : (meeting_point){s, t, r, false};
+    return r != 0;
+}
+
+static void add_crossing(crosser *x, uint32_t i, uint32_t j, const meeting_point *m)
 {
     sunder_i_convolution *c = x->curve;
     if (c->stops + 2 > c->stops_capacity &&
@@ -62,48 +81,71 @@ static void add_crossing(crosser *x, uint32_t i, const sunder_i_point ab[2], uin
         x->no_memory = true;
         return;
     }
-    const bool rises = sunder_i_narrow_cross(sunder_i_narrow_sub(cd[1], cd[0]), sunder_i_narrow_sub(ab[1], ab[0])) > 0;
     const uint32_t n = (uint32_t)c->stops;
-    c->stop[n] = (sunder_i_stop){i, n + 1, sunder_i_crossing(c->lattice, ab[0], ab[1], cd[0], cd[1]), rises};
-    c->stop[n + 1] = (sunder_i_stop){j, n, sunder_i_crossing(c->lattice, cd[0], cd[1], ab[0], ab[1]), !rises};
+    c->stop[n] = (sunder_i_stop){i, n + 1, sunder_i_narrow_fraction(m->s, m->r), m->rises};
+    c->stop[n + 1] = (sunder_i_stop){j, n, sunder_i_narrow_fraction(m->t, m->r), !m->rises};
     c->stops += 2;
+    c->lattice->counts.segment_intersections += 2;
+}
+
+/* Two links whose boxes meet. One that goes into the other's end, or lies along it, is not for this road. */
+static void cross_links(crosser *x, uint32_t i, const sunder_i_point ab[2], uint32_t j, const sunder_i_point cd[2])
+{
+    sunder_i_lattice *l = x->curve->lattice;
+    meeting_point m;
+    if (!find_meeting_point(ab, cd, &m)) {
+        x->fits &= sunder_i_segments_meet(l, ab[0], ab[1], cd[0], cd[1]) == SUNDER_I_APART;
+        return;
+    }
+    const bool sides = m.t < 0 || m.t > m.r; /* c and d are on one side of ab */
+    l->counts.orientation_tests += sides ? 2 : 4;
+    if (sides || m.s < 0 || m.s > m.r) return;
+    if (m.s == 0 || m.s == m.r || m.t == 0 || m.t == m.r)
+        x->fits = false;
+    else
+        add_crossing(x, i, j, &m);
 }
 
 static void cross_chains(crosser *x, const sunder_i_chain *a, const sunder_i_chain *b)
 {
     const sunder_i_convolution *c = x->curve;
-    for (uint32_t i = a->first; i < a->end && x->fits && !x->no_memory; i++) {
+    for (uint32_t i = a->first; i < a->end; i++) {
         const sunder_i_point ab[2] = {c->corner[i], c->corner[c->next[i]]};
         if (link_apart(ab[0], ab[1], b)) continue;
         for (uint32_t j = b->first; j < b->end && x->fits && !x->no_memory; j++) {
             const sunder_i_point cd[2] = {c->corner[j], c->corner[c->next[j]]};
-            if (links_apart(ab[0], ab[1], cd[0], cd[1])) continue;
-            const sunder_i_meeting how = sunder_i_segments_meet(c->lattice, ab[0], ab[1], cd[0], cd[1]);
-            if (how == SUNDER_I_CROSS)
-                add_crossing(x, i, ab, j, cd);
-            else if (how != SUNDER_I_APART)
-                x->fits = false;
+            if (!links_apart(ab[0], ab[1], cd[0], cd[1])) cross_links(x, i, ab, j, cd);
         }
     }
 }
 
-static int compare_lows(void *context, uint32_t a, uint32_t b)
+/* Lists the boxes behind number i that overlap it; past the last one there is. */
+static uint32_t list_near(const boxes *x, uint32_t i, uint32_t end, uint32_t *n)
 {
-    const sunder_i_chain *e = context;
-    return (e[a].low[0] > e[b].low[0]) - (e[a].low[0] < e[b].low[0]);
+    const double right = x->high_x[i], low = x->low_y[i], high = x->high_y[i];
+    uint32_t k = i + 1;
+    *n = 0;
+    for (; k < end && x->low_x[k] <= right; k++) {
+        x->near[*n] = k;
+        *n += !((x->high_y[k] < low) | (x->low_y[k] > high));
+    }
+    return k;
 }
 
-static void cross_all(crosser *x, const uint32_t *order)
+static void cross_all(crosser *x, const boxes *by)
 {
     const sunder_i_convolution *c = x->curve;
     for (uint32_t i = 0; i < c->chains; i++) {
-        const sunder_i_chain *a = &c->chain[order[i]];
+        const sunder_i_chain *a = &c->chain[by->chain[i]];
+        uint32_t n;
+        const size_t looked_at = list_near(by, i, c->chains, &n) - i - 1;
         x->no_memory |= !sunder_i_step();
-        for (uint32_t k = i + 1; k < c->chains && c->chain[order[k]].low[0] <= a->high[0]; k++) {
-            const sunder_i_chain *b = &c->chain[order[k]];
-            if (x->pairs-- == 0) x->fits = false;
+        x->fits &= looked_at <= x->pairs;
+        x->pairs -= looked_at;
+        for (uint32_t k = 0; k < n; k++) {
+            const sunder_i_chain *b = &c->chain[by->chain[by->near[k]]];
             if (!x->fits || x->no_memory) return;
-            if (!boxes_apart(a, b) && !are_neighbours(c, a, b)) cross_chains(x, a, b);
+            if (!are_neighbours(c, a, b)) cross_chains(x, a, b);
         }
     }
 }
@@ -115,12 +157,25 @@ typedef struct stop_order {
     const sunder_i_stop *stop;
 } stop_order;
 
+/* Of stops on one link. */
 static int compare_stops(void *context, uint32_t a, uint32_t b)
 {
     const stop_order *o = context;
-    const sunder_i_stop *s = &o->stop[a], *t = &o->stop[b];
-    if (s->link != t->link) return s->link < t->link ? -1 : 1;
-    return a == b ? 0 : sunder_i_fraction_cmp(o->lattice, &s->at, &t->at);
+    return sunder_i_fraction_cmp(o->lattice, &o->stop[a].at, &o->stop[b].at);
+}
+
+/* The numbers of all stops, link by link; and where those of each link end. */
+static void group_stops(sunder_i_convolution *c, uint32_t *order)
+{
+    uint32_t *end = c->stop_end, before = 0;
+    memset(end, 0, c->links * sizeof *end);
+    for (size_t i = 0; i < c->stops; i++) end[c->stop[i].link]++;
+    for (uint32_t k = 0; k < c->links; k++) {
+        const uint32_t own = end[k];
+        end[k] = before; /* where the next goes; in the end the end */
+        before += own;
+    }
+    for (uint32_t i = 0; i < c->stops; i++) order[end[c->stop[i].link]++] = i;
 }
 
 /* Puts the stops in order, partners with them. Two stops at one place of a link are three links that cross there. */
@@ -128,54 +183,70 @@ static bool order_stops(crosser *x, uint32_t *order, uint32_t *rank, sunder_i_st
 {
     sunder_i_convolution *c = x->curve;
     const uint32_t n = (uint32_t)c->stops;
-    for (uint32_t i = 0; i < n; i++) order[i] = i;
     stop_order by = {c->lattice, c->stop};
-    if (!sunder_i_sort_indices(order, n, compare_stops, &by)) return false;
-    for (uint32_t i = 0; i < n; i++) {
-        if (i > 0 && compare_stops(&by, order[i - 1], order[i]) == 0) x->fits = false;
-        rank[order[i]] = i;
+    group_stops(c, order);
+    for (uint32_t k = 0, begin = 0; k < c->links; begin = c->stop_end[k++]) {
+        if (c->stop_end[k] - begin < 2) continue;
+        if (!sunder_i_sort_indices(order + begin, c->stop_end[k] - begin, compare_stops, &by)) return false;
+        for (uint32_t i = begin + 1; i < c->stop_end[k]; i++)
+            if (compare_stops(&by, order[i - 1], order[i]) == 0) x->fits = false;
     }
+    for (uint32_t i = 0; i < n; i++) rank[order[i]] = i;
     for (uint32_t i = 0; i < n; i++) {
         sorted[i] = c->stop[order[i]];
         sorted[i].partner = rank[sorted[i].partner];
     }
-    for (uint32_t i = 0; i < n; i++) c->stop[i] = sorted[i];
-    uint32_t at = 0;
-    for (uint32_t k = 0; k < c->links; k++) {
-        while (at < n && c->stop[at].link == k) at++;
-        c->stop_end[k] = at;
+    c->stop = sorted;
+    return true;
+}
+
+/* Boxes from left to right: by insertion where they are few. */
+static bool order_boxes(sunder_i_convolution *c, boxes *out)
+{
+    enum { FEW = 32 };
+    sunder_i_valued few[FEW], *low = few;
+    const uint32_t n = c->chains;
+    if (n > FEW) low = sunder_i_arena_alloc(&c->memory, 2 * (size_t)n, sizeof *low);
+    if (!low) return false;
+    for (uint32_t i = 0; i < n; i++) {
+        const sunder_i_valued own = {(double)c->chain[i].low[0], i, 0};
+        uint32_t k = i;
+        for (; n <= FEW && k > 0 && low[k - 1].value > own.value; k--) low[k] = low[k - 1];
+        low[k] = own;
+    }
+    if (n > FEW && !sunder_i_sort_valued(low, n)) return false;
+    for (uint32_t i = 0; i < n; i++) {
+        const sunder_i_chain *a = &c->chain[low[i].item];
+        out->chain[i] = low[i].item;
+        out->low_x[i] = low[i].value;
+        out->high_x[i] = (double)a->high[0];
+        out->low_y[i] = (double)a->low[1];
+        out->high_y[i] = (double)a->high[1];
     }
     return true;
 }
 
-/* Chains from left to right. */
-static bool order_chains(const sunder_i_convolution *c, uint32_t *order)
+static bool make_boxes(sunder_i_convolution *c, boxes *out)
 {
-    enum { FEW = 32 };
-    for (uint32_t i = 0; i < c->chains; i++) order[i] = i;
-    if (c->chains > FEW) return sunder_i_sort_indices(order, c->chains, compare_lows, c->chain);
-    int64_t low[FEW];
-    for (uint32_t i = 0; i < c->chains; i++) {
-        const int64_t own = c->chain[i].low[0];
-        uint32_t k = i;
-        for (; k > 0 && low[k - 1] > own; k--) {
-            low[k] = low[k - 1];
-            order[k] = order[k - 1];
-        }
-        low[k] = own;
-        order[k] = i;
-    }
-    return true;
+    const size_t n = c->chains;
+    out->low_x = sunder_i_arena_alloc(&c->memory, 4 * n, sizeof *out->low_x);
+    out->chain = sunder_i_arena_alloc(&c->memory, 2 * n, sizeof *out->chain);
+    if (!out->low_x || !out->chain) return false;
+    out->high_x = out->low_x + n;
+    out->low_y = out->high_x + n;
+    out->high_y = out->low_y + n;
+    out->near = out->chain + n;
+    return order_boxes(c, out);
 }
 
 sunder_status sunder_i_convolution_cross(sunder_i_convolution *curve, bool *fits, sunder_error *err)
 {
     sunder_i_arena *m = &curve->memory;
     crosser x = {.curve = curve, .pairs = patience * curve->chains, .fits = true};
-    uint32_t *order = sunder_i_arena_alloc(m, curve->chains, sizeof *order);
+    boxes by = {0};
     curve->stop_end = sunder_i_arena_alloc(m, curve->links, sizeof *curve->stop_end);
-    bool ok = order && curve->stop_end && order_chains(curve, order);
-    if (ok) cross_all(&x, order);
+    bool ok = curve->stop_end && make_boxes(curve, &by);
+    if (ok) cross_all(&x, &by);
     ok = ok && !x.no_memory;
     if (ok && x.fits) {
         uint32_t *both = sunder_i_arena_alloc(m, 2 * curve->stops, sizeof *both);
