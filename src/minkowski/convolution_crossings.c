@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-/* Boxes of chains from left to right, as doubles: rounding keeps their order, so what is apart there is apart. In arrays
- * for each bound, since most of the time goes into comparing them. */
+/* Boxes of chains from left to right, as doubles: rounding keeps their order, so what is apart there is apart. In
+ * arrays for each bound, since most of the time goes into comparing them. */
 typedef struct boxes {
     double *low_x, *high_x, *low_y, *high_y; /* [chains] */
     uint32_t *chain;                         /* [chains] its number */
