@@ -35,9 +35,10 @@ static sunder_status improve_clusters(void *context, size_t begin, size_t end, s
 {
     const sunder_i_solver *s = context;
     for (size_t k = begin; k < end; k++) {
-        const sunder_i_cluster *c = &s->cluster[k];
+        sunder_i_cluster *c = &s->cluster[k];
+        c->worked_on = !is_improved(s, c);
+        if (!c->worked_on) continue;
         double *move = sunder_i_solver_load_moves(s, c);
-        if (is_improved(s, c)) continue;
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
         const sunder_status status = sunder_i_cluster_improve(&s->model, c, move, err);
@@ -52,8 +53,8 @@ static sunder_status invite_to_clusters(void *context, size_t begin, size_t end,
     const sunder_i_solver *s = context;
     for (size_t k = begin; k < end; k++) {
         sunder_i_cluster *c = &s->cluster[k];
-        double *move = sunder_i_solver_load_moves(s, c);
         if (is_improved(s, c)) continue;
+        double *move = sunder_i_solver_load_moves(s, c);
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
         const bool ok = sunder_i_cluster_invite(&s->model, c, move);

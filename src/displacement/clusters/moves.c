@@ -44,7 +44,7 @@ void sunder_i_solver_place(sunder_i_solver *s, uint32_t b, const double *to)
 
 typedef struct committing {
     const sunder_i_solver *solver;
-    bool *exact; /* [members] */
+    bool *exact; /* [members] of clusters that were worked on */
 } committing;
 
 static sunder_status find_some_exact(void *context, size_t begin, size_t end, sunder_error *err)
@@ -52,10 +52,21 @@ static sunder_status find_some_exact(void *context, size_t begin, size_t end, su
     (void)err;
     const committing *c = context;
     const sunder_i_solver *s = c->solver;
-    for (size_t k = begin; k < end; k++)
-        c->exact[k] = goes_elsewhere(s, s->body[k], s->move + 2 * k) &&
-                      sunder_i_is_exact_move(&s->model, s->body[k], s->move + 2 * k);
+    for (size_t i = begin; i < end; i++) {
+        const sunder_i_cluster *cluster = &s->cluster[i];
+        const size_t first = (size_t)(cluster->body - s->body), after = first + cluster->n;
+        for (size_t k = first; cluster->worked_on && k < after; k++)
+            c->exact[k] = goes_elsewhere(s, s->body[k], s->move + 2 * k) &&
+                          sunder_i_is_exact_move(&s->model, s->body[k], s->move + 2 * k);
+    }
     return SUNDER_OK;
+}
+
+static void take_moves(sunder_i_solver *s, const sunder_i_cluster *c, const bool *exact)
+{
+    const size_t first = (size_t)(c->body - s->body);
+    for (size_t k = first; k < first + c->n; k++)
+        if (goes_elsewhere(s, s->body[k], s->move + 2 * k)) place(s, s->body[k], s->move + 2 * k, exact[k]);
 }
 
 sunder_status sunder_i_solver_commit(sunder_i_solver *s, sunder_error *err)
@@ -63,10 +74,10 @@ sunder_status sunder_i_solver_commit(sunder_i_solver *s, sunder_error *err)
     committing c = {s, sunder_i_alloc(s->members, sizeof *c.exact)};
     sunder_status status = c.exact ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status)
-        status = sunder_i_parallel(s->model.rules.threads, s->members, SUNDER_I_GRAIN_LOOKS, find_some_exact, &c, err);
+        status = sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_LOOKS, find_some_exact, &c, err);
     sunder_i_changes_clear(&s->changes);
-    for (size_t k = 0; k < s->members && !status; k++)
-        if (goes_elsewhere(s, s->body[k], s->move + 2 * k)) place(s, s->body[k], s->move + 2 * k, c.exact[k]);
+    for (size_t i = 0; i < s->clusters && !status; i++)
+        if (s->cluster[i].worked_on) take_moves(s, &s->cluster[i], c.exact);
     sunder_i_free(c.exact);
     return status;
 }

@@ -351,6 +351,7 @@ static sunder_status resume_clusters(void *context, size_t begin, size_t end, su
     for (size_t k = begin; k < end && !status; k++) {
         sunder_i_cluster *c = &g->solver->cluster[k];
         double *move = sunder_i_solver_load_moves(g->solver, c);
+        c->worked_on = true;
         const uint32_t root = g->solver->member[c->body - g->solver->body].root;
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &g->solver->model, root);

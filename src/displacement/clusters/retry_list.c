@@ -138,6 +138,7 @@ static sunder_status retry_clusters(void *context, size_t begin, size_t end, sun
         sunder_i_cluster *c = &s->cluster[k];
         sunder_i_reading reading;
         double *move = sunder_i_solver_load_moves(s, c);
+        c->worked_on = true;
         const uint32_t root = s->member[c->body - s->body].root;
         const size_t first = first_of(g->retries, root), last = first_of(g->retries, root + 1);
         sunder_i_reads_begin(&reading, &s->model, root);

@@ -23,8 +23,9 @@ static sunder_status solve_clusters(void *context, size_t begin, size_t end, sun
     const sunder_i_solver *s = context;
     for (size_t k = begin; k < end; k++) {
         sunder_i_cluster *c = &s->cluster[k];
+        c->worked_on = is_dirty(s, c);
+        if (!c->worked_on) continue;
         double *move = sunder_i_solver_load_moves(s, c);
-        if (!is_dirty(s, c)) continue;
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
         const sunder_status status = sunder_i_cluster_solve(&s->model, c, move, err);

@@ -13,6 +13,7 @@ typedef struct sunder_i_cluster {
     bool limited;                     /* by limits, fixed bodies, the rule against jumps: it may have no solution */
     bool brief;                       /* where none is found nothing is given up, and nobody moves */
     bool hopeless;                    /* that was so */
+    bool worked_on;                   /* its moves are to be taken over */
     bool cheapest;                    /* its solution is known to be the cheapest, whatever stands about it */
     sunder_bound_pair measured;       /* two features that were asked how far they have to go apart; least 0: none */
     sunder_i_relaxations relaxations; /* of pairs that its solution gave up, or in place of older ones; owned */
