@@ -137,8 +137,8 @@ sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *solver, sunder_error
 double *sunder_i_solver_load_moves(const sunder_i_solver *solver, const sunder_i_cluster *cluster);
 /* Moves body b, unless it is fixed, by a move that was rounded; marks what changed. */
 void sunder_i_solver_place(sunder_i_solver *solver, uint32_t b, const double *move);
-/* Takes over the moves of clusters that were worked on: bodies, features that changed, and whether their coordinates stayed
- * exact. */
+/* Takes over the moves of clusters that were worked on: bodies, features that changed, and whether their coordinates
+ * stayed exact. */
 sunder_status sunder_i_solver_commit(sunder_i_solver *solver, sunder_error *err);
 /* Exact relations of what changed; of what is few, with all things that were near one of them, then or now. */
 sunder_status sunder_i_solver_relate(sunder_i_solver *solver, sunder_error *err);
