@@ -55,10 +55,13 @@ size_t sunder_i_convex_hull(double *p, size_t n, double *out)
     return m;
 }
 
-/* A corner of a shape from that origin. */
+/* A corner of a shape from that origin. Both coordinates are there before one is written, so that they are written at
+ * once: whoever reads them at once, into a box, waits for those that were written one by one. */
 static inline void from_origin(const sunder_shape *shape, uint32_t v, const double origin[2], double out[2])
 {
-    for (size_t c = 0; c < 2; c++) out[c] = shape->xy[2 * (size_t)v + c] - origin[c];
+    const double x = shape->xy[2 * (size_t)v] - origin[0], y = shape->xy[2 * (size_t)v + 1] - origin[1];
+    out[0] = x;
+    out[1] = y;
 }
 
 /* Most features are convex, and their piece is their outline: it has all corners, and turns at each in doubles, too. */
