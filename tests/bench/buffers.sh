@@ -100,10 +100,11 @@ row() { # each|dissolve SHAPE NAME geos|cgal
 }
 
 compute() {
-  local how=$1 shape name first=$medium
-  if [[ $how == each ]]; then first=$large; fi # one by one, 10^5 take no longer than GEOS's union of 10^4
+  local how=$1 shape name
+  local -a layers=("$large" "$dense")
+  if [[ $how == dissolve && $medium != "$dense" ]]; then layers=("$large" "$medium" "$dense"); fi
   for shape in disc:5:32 square:6; do
-    for name in $(printf "%s\n" "$first" "$dense" | uniq); do row "$how" "$shape" "$name" geos; done
+    for name in "${layers[@]}"; do row "$how" "$shape" "$name" geos; done
   done
   for shape in disc:5:32 square:6; do
     for name in $(printf "%s\n" "$medium" "$dense" | uniq); do row "$how" "$shape" "${name}_2000" cgal; done
