@@ -2,6 +2,7 @@
  * fails. */
 #include "failing.h"
 
+#include "displacement/layer/sides.h"
 #include "sunder.h"
 
 #include <math.h>
@@ -10,6 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -178,6 +180,44 @@ static void check_moves_beside_barriers(void **state)
     assert_true(sound);
 }
 
+enum { TEETH = 120 };
+
+/* A comb cut in two by a line through its anchor: which part it is in is told at a height where all teeth are crossed, by
+ * more numbers than memory is fetched for at once. */
+static bool attempt_anchor(void *context)
+{
+    double xy[2 * (4 * TEETH + 2)];
+    const size_t ring_end = 4 * TEETH + 2, poly_end = 1;
+    size_t n = 0;
+    for (int k = 0; k < 4 * TEETH; k++) { /* corners from right to left, by twos up and down */
+        xy[n++] = 451234.567 + 1.25 * (4 * TEETH - k);
+        xy[n++] = 5411234.567 + (k % 4 == 1 || k % 4 == 2 ? 90.125 : 10.25);
+    }
+    const double left = xy[n - 2] - 1, right = xy[0] + 1, last[4] = {left, 5411234.567, right, 5411234.567};
+    memcpy(xy + n, last, sizeof last);
+    sunder_shape *shape = NULL;
+    sunder_status status = sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_VALIDITY_STRICT, &shape, NULL);
+    if (!status) {
+        double anchor[2];
+        sunder_shape_anchor(shape, anchor);
+        const double from[2] = {anchor[0], anchor[1] - 500}, to[2] = {anchor[0], anchor[1] + 500};
+        const sunder_i_side side = {.from = from, .to = to}, *const sides[1] = {&side};
+        status = sunder_i_side_anchor(shape, sides, 1, anchor, NULL);
+        if (!status) assert_true(anchor[0] != from[0]);
+    }
+    sunder_shape_free(shape);
+    if (status) assert_int_equal(status, SUNDER_ENOMEM);
+    return status == SUNDER_OK;
+}
+
+static void check_side_anchor(void **state)
+{
+    failing_begin();
+    const bool sound = failing_loop(attempt_anchor, NULL, true);
+    failing_end();
+    assert_true(sound);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -189,6 +229,7 @@ int main(void)
         cmocka_unit_test(check_separate_beside_barriers),
         cmocka_unit_test(check_separate_beside_barriers_without_room),
         cmocka_unit_test(check_moves_beside_barriers),
+        cmocka_unit_test(check_side_anchor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

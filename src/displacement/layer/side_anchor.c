@@ -92,7 +92,7 @@ static sunder_i_rational_point middle_of(sunder_i_side_cut *c, const sunder_i_ra
     return sum;
 }
 
-/* The middle of the widest interval of the part at that height; it has one. */
+/* The middle of the widest interval of the part at that height; it has one, and where none is found memory was out. */
 static sunder_status widest_interval(sunder_i_side_cut *c, const sunder_i_cut_part *p, const level *l,
                                      const uint32_t *order, sunder_i_rational_point *out, sunder_error *err)
 {
@@ -111,7 +111,7 @@ static sunder_status widest_interval(sunder_i_side_cut *c, const sunder_i_cut_pa
         widest = width;
         *out = middle;
     }
-    return SUNDER_OK;
+    return widest.w.size && !c->arena.failed ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
 static sunder_status point_of(sunder_i_side_cut *c, const sunder_i_cut_part *p, sunder_i_rational_point *out,
