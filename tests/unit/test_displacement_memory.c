@@ -182,8 +182,8 @@ static void check_moves_beside_barriers(void **state)
 
 enum { TEETH = 120 };
 
-/* A comb cut in two by a line through its anchor: which part it is in is told at a height where all teeth are crossed, by
- * more numbers than memory is fetched for at once. */
+/* A comb cut in two by a line through its anchor: another one is found at a height where all teeth are crossed, by more
+ * numbers than memory is fetched for at once. */
 static bool attempt_anchor(void *context)
 {
     double xy[2 * (4 * TEETH + 2)];
