@@ -109,7 +109,7 @@ static void cross_links(crosser *x, uint32_t i, const sunder_i_point ab[2], uint
 static void cross_chains(crosser *x, const sunder_i_chain *a, const sunder_i_chain *b)
 {
     const sunder_i_convolution *c = x->curve;
-    for (uint32_t i = a->first; i < a->end; i++) {
+    for (uint32_t i = a->first; i < a->end && x->fits && !x->no_memory; i++) {
         const sunder_i_point ab[2] = {c->corner[i], c->corner[c->next[i]]};
         if (link_apart(ab[0], ab[1], b)) continue;
         for (uint32_t j = b->first; j < b->end && x->fits && !x->no_memory; j++) {
@@ -135,16 +135,15 @@ static uint32_t list_near(const boxes *x, uint32_t i, uint32_t end, uint32_t *n)
 static void cross_all(crosser *x, const boxes *by)
 {
     const sunder_i_convolution *c = x->curve;
-    for (uint32_t i = 0; i < c->chains; i++) {
+    for (uint32_t i = 0; i < c->chains && x->fits && !x->no_memory; i++) {
         const sunder_i_chain *a = &c->chain[by->chain[i]];
         uint32_t n;
         const size_t looked_at = list_near(by, i, c->chains, &n) - i - 1;
         x->no_memory |= !sunder_i_step();
         x->fits &= looked_at <= x->pairs;
         x->pairs -= looked_at;
-        for (uint32_t k = 0; k < n; k++) {
+        for (uint32_t k = 0; k < n && x->fits && !x->no_memory; k++) {
             const sunder_i_chain *b = &c->chain[by->chain[by->near[k]]];
-            if (!x->fits || x->no_memory) return;
             if (!are_neighbours(c, a, b)) cross_chains(x, a, b);
         }
     }
