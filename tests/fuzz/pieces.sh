@@ -4,10 +4,11 @@
 #
 #   pieces.sh SECONDS [NAME ...]   a piece of so long for each of the targets (all): built if need be, one process at a time; it
 #                                  begins with all inputs that there are, so it should be several times as long as these take
-#   pieces.sh --keep               of what was found what is needed to cover as much, into corpus/NAME.tar.gz; the next pieces
+#   pieces.sh --keep [NAME ...]    of what was found what is needed to cover as much, into corpus/NAME.tar.gz; the next pieces
 #                                  begin with that alone, for each runs all of its inputs before anything new
 #   pieces.sh --record             RECORD.md, of the tallies
 #
+# Several may run at once, of one target too: each has a log of its own, and what it finds goes to the inputs they share.
 # SUNDER_FUZZ_AS_BUILT=yes takes the targets as they were built last; SUNDER_FUZZ_NICE is how nice they are to other work (19).
 # State is in SUNDER_FUZZ_STATE (<build>/fuzz/pieces): inputs, tallies, and in found/ what went wrong; where there is none it
 # begins with what RECORD.md and corpus/ have. A target is done at ten million executions if it makes more than 2000 of them
@@ -55,7 +56,7 @@ begin() { # a target's inputs: those on record, and the seeds
 }
 
 piece() { # NAME SECONDS
-    local name=$1 log=$state/$1.log status=0 spent executions inputs
+    local name=$1 log=$state/$1.$$.log status=0 spent executions inputs
     begin "$name"
     inputs=$(find "$state/$name" -type f | wc -l)
     local TIMEFORMAT='%U %S'
@@ -73,18 +74,21 @@ piece() { # NAME SECONDS
     local schedule=(-entropic=1 -entropic_scale_per_exec_time=1
         -entropic_number_of_rarest_features=1 -entropic_feature_frequency_threshold=1 -reload=0)
     spent=$( { time ASAN_OPTIONS=$checks nice -n "${SUNDER_FUZZ_NICE:-19}" "$SUNDER_BUILD/fuzz/$name" "$state/$name" \
-        -seed="$(date +%s)" -max_total_time="$2" -max_len=600 "${schedule[@]}" -timeout=600 -rss_limit_mb=4096 \
+        -seed="$(($(date +%s) + $$))" -max_total_time="$2" -max_len=600 "${schedule[@]}" -timeout=600 -rss_limit_mb=4096 \
         -artifact_prefix="$state/found/$name-" -print_final_stats=1 >"$log" 2>&1 || status=$?
-        echo "$status" >"$state/$name.status"; } 2>&1 )
+        echo "$status" >"$log.status"; } 2>&1 )
     executions=$(final number_of_executed_units "$log")
-    if [ "$(cat "$state/$name.status")" -eq 0 ] && [ "${executions:-0}" -le $((inputs + 1)) ]; then
+    status=$(cat "$log.status")
+    rm "$log.status"
+    if [ "$status" -eq 0 ] && [ "${executions:-0}" -le $((inputs + 1)) ]; then
         echo "$name: $2 s went into the $inputs inputs that are there, and nothing new was tried; such a piece does not count, give it longer ones"
         return 0
     fi
     # shellcheck disable=SC2046 # two numbers
-    printf '%s %s %s %s %s %s\n' "$name" "${executions:-0}" "$(awk '{ print $1 + $2 }' <<<"$spent")" $(covered "$log") "$(cat "$SUNDER_BUILD/fuzz/built_of")" >>"$state/tally"
-    tail -n 1 "$state/tally"
-    [ "$(cat "$state/$name.status")" -eq 0 ] || { echo "$name failed: see $log"; return 1; }
+    printf '%s %s %s %s %s %s\n' "$name" "${executions:-0}" "$(awk '{ print $1 + $2 }' <<<"$spent")" $(covered "$log") "$(cat "$SUNDER_BUILD/fuzz/built_of")" |
+        tee -a "$state/tally"
+    [ "$status" -eq 0 ] || { echo "$name failed: see $log"; return 1; }
+    rm "$log"
 }
 
 done_with() { # NAME: are the executions or the hours reached?
@@ -96,7 +100,8 @@ done_with() { # NAME: are the executions or the hours reached?
 keep() {
     local name smaller
     mkdir -p "$here/corpus"
-    for name in $(targets); do
+    [ $# -gt 0 ] || set -- $(targets)
+    for name in "$@"; do
         [ -d "$state/$name" ] || continue
         smaller=$state/$name.smaller
         rm -rf "$smaller"
@@ -137,7 +142,10 @@ record() {
 
 begin_tally
 case ${1:-} in
---keep) keep ;;
+--keep)
+    shift
+    keep "$@"
+    ;;
 --record) record ;;
 [0-9]*)
     seconds=$1
