@@ -1,112 +1,99 @@
-/* Ranges are entered from the leaves up: what of a range is no whole leaf is counted element by element, and of the
- * whole leaves the range has those nodes for its own that it holds with all below, and not their parent. */
+/* Ranges are entered from the elements up: what of a range shares a node with one of its ends is counted there, child by
+ * child, and of the nodes between, whole ones all, the range has those for its own that a level higher share no node
+ * with the ends, and so on. */
 #include "rectilinear/cover_tree.h"
 
 #include <string.h>
 
-enum { FREE = 0, MIXED = 1, COVERED = 2, STATE = 3, ONE = 4 };
-
-#define LEAF_BITS 6
-#define LEAF ((uint32_t)1 << LEAF_BITS) /* elements: bits of a number */
-#define DIGITS 32                       /* of a count */
+#define CHILD_BITS 6
+#define CHILDREN ((uint32_t)1 << CHILD_BITS)
 #define ALL UINT64_MAX
+
+typedef sunder_i_cover_node node;
 
 bool sunder_i_cover_tree_init(sunder_i_cover_tree *tree, uint32_t elements)
 {
-    uint32_t size = 1;
-    while (LEAF * (size_t)size < elements) size *= 2;
-    const size_t n = (DIGITS + 2) * (size_t)size; /* two nodes are as long as a number of a leaf's elements */
-    tree->size = size;
-    tree->digits = 0;
-    tree->covered = sunder_i_alloc(n, sizeof *tree->covered);
-    if (!tree->covered) return false;
-    memset(tree->covered, 0, n * sizeof *tree->covered);
-    tree->digit = tree->covered + size;
-    tree->node = (uint32_t *)(tree->digit + DIGITS * (size_t)size);
-    return true;
+    size_t start[SUNDER_I_COVER_LEVELS], n = 0;
+    tree->levels = tree->digits = 0;
+    for (uint32_t of = elements; tree->levels == 0 || of > 1;) {
+        of = of / CHILDREN + (of % CHILDREN != 0);
+        start[tree->levels++] = n;
+        n += of;
+    }
+    node *all = sunder_i_calloc(n, sizeof *all);
+    for (uint32_t k = 0; k < tree->levels; k++) tree->level[k] = all + start[k];
+    return all != NULL;
 }
 
 void sunder_i_cover_tree_free(sunder_i_cover_tree *tree)
 {
-    sunder_i_free(tree->covered);
-    tree->covered = NULL;
+    if (tree->levels) sunder_i_free(tree->level[0]);
+    tree->levels = 0;
 }
 
-/* Of a node with that count, whose children are up to date. */
-static uint32_t with_state(const sunder_i_cover_tree *t, uint32_t i, uint32_t count)
-{
-    if (count >= ONE) return count | COVERED;
-    if (i < t->size) {
-        const uint32_t first = t->node[2 * i] & STATE, second = t->node[2 * i + 1] & STATE;
-        return first == second ? first : MIXED;
-    }
-    const uint64_t covered = t->covered[i - t->size];
-    return covered == 0 ? FREE : covered == ALL ? COVERED : MIXED;
-}
+/* The bits from..to, both inclusive. */
+static uint64_t bits_of(uint32_t from, uint32_t to) { return ALL << from & ALL >> (CHILDREN - 1 - to); }
 
-static void change(sunder_i_cover_tree *t, uint32_t i, uint32_t by)
+/* One more, or one less, of each child that has a bit in `by`: carries go on to the next digit. */
+static void change_children(sunder_i_cover_tree *t, node *v, uint64_t by, bool more)
 {
-    t->node[i] = with_state(t, i, (t->node[i] & ~(uint32_t)STATE) + by);
-}
-
-/* The bits from..to - 1 of a leaf, from < to. */
-static uint64_t bits_of(uint32_t from, uint32_t to) { return ALL << from & ALL >> (LEAF - to); }
-
-/* One more, or one less, of each element that has a bit in `by`: carries go on to the next digit. */
-static void change_elements(sunder_i_cover_tree *t, uint32_t leaf, uint64_t by, bool more)
-{
-    uint64_t *digit = t->digit + DIGITS * (size_t)leaf, carry = by;
+    uint64_t carry = by;
     uint32_t i = 0;
     if (more) {
         for (; carry; i++) {
-            const uint64_t old = digit[i];
-            digit[i] = old ^ carry;
+            const uint64_t old = v->digit[i];
+            v->digit[i] = old ^ carry;
             carry &= old;
         }
         if (i > t->digits) t->digits = i;
-        t->covered[leaf] |= by;
+        v->own |= by;
     } else {
-        uint64_t left = 0; /* bits of these elements in any digit */
+        uint64_t left = 0; /* bits of these children in any digit */
         for (; carry; i++) {
-            digit[i] ^= carry;
-            carry &= digit[i];
-            left |= digit[i];
+            v->digit[i] ^= carry;
+            carry &= v->digit[i];
+            left |= v->digit[i];
         }
-        for (; i < t->digits; i++) left |= digit[i];
-        t->covered[leaf] &= ~by | left;
+        for (; i < t->digits; i++) left |= v->digit[i];
+        v->own &= ~by | left;
     }
-    change(t, t->size + leaf, 0);
 }
 
-static void change_leaves(sunder_i_cover_tree *t, uint32_t from, uint32_t to, bool more)
+/* Tells the nodes above what has become of node i, as far up as that is new. */
+static void tell_above(sunder_i_cover_tree *t, uint32_t level, uint32_t i)
 {
-    const uint32_t by = more ? ONE : -(uint32_t)ONE;
-    for (uint32_t i = from + t->size, j = to + t->size; i < j; i /= 2, j /= 2) {
-        if (i & 1) change(t, i++, by);
-        if (j & 1) change(t, --j, by);
+    const node *v = &t->level[level][i];
+    while (++level < t->levels) {
+        node *above = &t->level[level][i >> CHILD_BITS];
+        const uint32_t at = i % CHILDREN;
+        const bool full = (v->own | v->full) == ALL, some = (v->own | v->some) != 0;
+        const uint64_t new_full = (above->full >> at & 1) ^ full, new_some = (above->some >> at & 1) ^ some;
+        if (!(new_full | new_some)) return;
+        above->full ^= new_full << at;
+        above->some ^= new_some << at;
+        v = above;
+        i >>= CHILD_BITS;
     }
+}
+
+/* The ranges that children from..last of node i of a level have for their own are one more, or one less. */
+static void change(sunder_i_cover_tree *t, uint32_t level, uint32_t i, uint32_t from, uint32_t last, bool more)
+{
+    node *v = &t->level[level][i];
+    const uint64_t before = v->own;
+    change_children(t, v, bits_of(from, last), more);
+    if (v->own != before) tell_above(t, level, i);
 }
 
 static void change_range(sunder_i_cover_tree *t, uint32_t from, uint32_t to, bool more)
 {
-    const uint32_t a = from >> LEAF_BITS, b = (to - 1) >> LEAF_BITS, from_bit = from % LEAF,
-                   to_bit = (to - 1) % LEAF + 1;
-    if (a == b) {
-        change_elements(t, a, bits_of(from_bit, to_bit), more);
-    } else {
-        change_elements(t, a, bits_of(from_bit, LEAF), more);
-        change_elements(t, b, bits_of(0, to_bit), more);
-        change_leaves(t, a + 1, b, more);
-    }
-    /* What is changed is at or below the first ancestor that the ends share; what is above it changes only with it. */
-    uint32_t first = a + t->size, last = b + t->size;
-    for (bool joined = first == last; first > 1;) {
-        first /= 2, last /= 2;
-        const uint32_t node = with_state(t, first, t->node[first] & ~(uint32_t)STATE);
-        if (joined && node == t->node[first]) return;
-        t->node[first] = node;
-        if (first != last) t->node[last] = with_state(t, last, t->node[last] & ~(uint32_t)STATE);
-        joined = first == last;
+    for (uint32_t level = 0; from < to; level++) {
+        const uint32_t a = from >> CHILD_BITS, b = (to - 1) >> CHILD_BITS, last = (to - 1) % CHILDREN;
+        change(t, level, a, from % CHILDREN, a == b ? last : CHILDREN - 1, more);
+        if (a == b) return;
+        change(t, level, b, 0, last, more);
+        from = a + 1;
+        to = b;
     }
 }
 
@@ -124,8 +111,8 @@ void sunder_i_cover_tree_remove(sunder_i_cover_tree *tree, uint32_t from, uint32
 
 typedef struct finder {
     const sunder_i_cover_tree *tree;
-    uint32_t from, to;
-    size_t first; /* run of this question */
+    uint32_t from, last; /* elements, both inclusive */
+    size_t first;        /* run of this question */
     sunder_i_element_runs *out;
     bool no_memory;
 } finder;
@@ -144,48 +131,60 @@ static void add_run(finder *f, uint32_t from, uint32_t to)
     o->item[o->n++] = (sunder_i_element_run){from, to};
 }
 
-/* Of a leaf whose elements are from `low` on. */
-static void find_in_leaf(finder *f, uint32_t leaf, uint32_t low)
+/* How many bits are one from the lowest on, of which there is one at least. */
+static uint32_t ones(uint64_t bits) { return ~bits ? (uint32_t)__builtin_ctzll(~bits) : CHILDREN; }
+
+/* The children of a node that are asked for; `low` is the first of them all, from..last those asked for of the level. */
+static uint64_t asked_for(uint32_t low, uint32_t from, uint32_t last)
 {
-    const uint32_t from = f->from > low ? f->from - low : 0, to = f->to < low + LEAF ? f->to - low : LEAF;
-    uint64_t free = ~f->tree->covered[leaf] & bits_of(from, to);
+    return bits_of(from > low ? from - low : 0, last - low < CHILDREN ? last - low : CHILDREN - 1);
+}
+
+/* Of a node of the lowest level. */
+static void find_elements(finder *f, uint32_t i)
+{
+    const uint32_t low = i << CHILD_BITS;
+    uint64_t free = asked_for(low, f->from, f->last) & ~f->tree->level[0][i].own;
     while (free) {
-        const uint32_t first = (uint32_t)__builtin_ctzll(free);
-        const uint64_t rest = ~(free >> first);
-        const uint32_t n = rest ? (uint32_t)__builtin_ctzll(rest) : LEAF;
-        add_run(f, low + first, low + first + n);
-        free = first + n < LEAF ? free & ALL << (first + n) : 0;
+        const uint32_t at = (uint32_t)__builtin_ctzll(free), next = at + ones(free >> at);
+        add_run(f, low + at, low + next);
+        free = next < CHILDREN ? free & ALL << next : 0;
     }
 }
 
-/* Node i stands for the elements low..high - 1, of which some are asked for. */
-static void find(finder *f, uint32_t i, uint32_t low, uint32_t high)
+/* Of node i of a level, of which some elements are asked for. */
+static void find(finder *f, uint32_t level, uint32_t i)
 {
-    const uint32_t state = f->tree->node[i] & STATE;
-    if (state == COVERED || f->no_memory) return;
-    if (state == FREE) {
-        add_run(f, low > f->from ? low : f->from, high < f->to ? high : f->to);
-    } else if (i >= f->tree->size) {
-        find_in_leaf(f, i - f->tree->size, low);
-    } else {
-        const uint32_t middle = low + (high - low) / 2;
-        if (f->from < middle) find(f, 2 * i, low, middle);
-        if (f->to > middle) find(f, 2 * i + 1, middle, high);
+    if (level == 0) {
+        find_elements(f, i);
+        return;
+    }
+    const node *v = &f->tree->level[level][i];
+    const uint32_t shift = CHILD_BITS * level, low = i << CHILD_BITS;
+    const uint64_t asked = asked_for(low, f->from >> shift, f->last >> shift), free = asked & ~(v->own | v->some);
+    for (uint64_t rest = asked & ~(v->own | v->full); rest && !f->no_memory;) {
+        const uint32_t at = (uint32_t)__builtin_ctzll(rest);
+        if (free >> at & 1) {
+            const uint32_t next = at + ones(free >> at), start = (low + at) << shift;
+            const uint64_t end = (uint64_t)(low + next) << shift;
+            add_run(f, start > f->from ? start : f->from, end <= f->last ? (uint32_t)end : f->last + 1);
+            rest = next < CHILDREN ? rest & ALL << next : 0;
+        } else {
+            find(f, level - 1, low + at);
+            rest &= rest - 1;
+        }
     }
 }
 
 bool sunder_i_cover_tree_free_runs(const sunder_i_cover_tree *tree, uint32_t from, uint32_t to,
                                    sunder_i_element_runs *out)
 {
-    finder f = {tree, from, to, out->n, out, false};
+    finder f = {tree, from, to - 1, out->n, out, false};
     /* The first node that has all of the range below it; one above with ranges of its own covers that. */
-    uint32_t top = (from >> LEAF_BITS) + tree->size, low = from & ~(LEAF - 1), width = LEAF;
-    for (uint32_t last = ((to - 1) >> LEAF_BITS) + tree->size; top != last; width *= 2) {
-        low -= top & 1 ? width : 0;
-        top /= 2, last /= 2;
-    }
-    for (uint32_t i = top; i > 0; i /= 2)
-        if (tree->node[i] >= ONE) return true;
-    find(&f, top, low, low + width);
+    uint32_t level = 0, top = from >> CHILD_BITS;
+    for (uint32_t last = f.last >> CHILD_BITS; top != last; level++) top >>= CHILD_BITS, last >>= CHILD_BITS;
+    for (uint32_t k = level + 1, i = top; k < tree->levels; k++, i >>= CHILD_BITS)
+        if (tree->level[k][i >> CHILD_BITS].own >> i % CHILDREN & 1) return true;
+    find(&f, level, top);
     return !f.no_memory;
 }

@@ -1,22 +1,29 @@
 /* A segment tree: how many of the ranges put in cover each element, and which elements of a range none does. A question
  * goes down only to where covered and free elements mix, so it costs O((k + 1) log n) for k runs found.
  *
- * Leaves are blocks of elements, which count for themselves the ranges that begin or end among them: bit i of the first
- * number of a leaf is the lowest digit of element i's count, that of the next number the next digit, and so on. So one
- * is added to many of them at once, and runs are read off as bits. Nodes are numbered as in a heap. Each counts the
- * ranges that are its own, and knows its state, which is that of its elements under the ranges of its own and of
- * what is below. */
+ * Nodes have 64 children, which are bits of words: the elements for the lowest nodes, below others the nodes themselves.
+ * How many ranges a child has for its own is counted in all 64 at once: its bit of the first number is the lowest digit
+ * of its count, that of the next number the next digit, and so on. */
 #ifndef SUNDER_I_COVER_TREE_H
 #define SUNDER_I_COVER_TREE_H
 
 #include "base/memory.h"
 
+#define SUNDER_I_COVER_LEVELS 6  /* 64^6 are more than there are elements */
+#define SUNDER_I_COVER_DIGITS 29 /* so that a node has 256 bytes */
+
+/* A bit for each child. What a child is, counts its own ranges and those of what is below. */
+typedef struct sunder_i_cover_node {
+    uint64_t own;  /* it has ranges of its own, and so is covered */
+    uint64_t full; /* all below it is covered by ranges of what is below */
+    uint64_t some; /* some of that is */
+    uint64_t digit[SUNDER_I_COVER_DIGITS];
+} sunder_i_cover_node;
+
 typedef struct sunder_i_cover_tree {
-    uint32_t *node;    /* [2 * size] count * 4 + state */
-    uint32_t size;     /* a power of two; leaves are from here on */
-    uint64_t *digit;   /* [32 * size] of each leaf, one after the other, the lowest first */
-    uint32_t digits;   /* that any count has had so far */
-    uint64_t *covered; /* [size] a bit for each element whose count is not zero */
+    sunder_i_cover_node *level[SUNDER_I_COVER_LEVELS]; /* from the lowest to the root; the first is the allocation */
+    uint32_t levels;
+    uint32_t digits; /* that any count has had so far */
 } sunder_i_cover_tree;
 
 /* Elements from (inclusive) to (exclusive). */
@@ -32,7 +39,7 @@ typedef struct sunder_i_element_runs {
 /* All of them free; false if memory is out. */
 bool sunder_i_cover_tree_init(sunder_i_cover_tree *tree, uint32_t elements);
 void sunder_i_cover_tree_free(sunder_i_cover_tree *tree);
-/* One range more, or one of those put in less; from < to. */
+/* One range more, or one of those put in less; from < to. There are never more than 2^SUNDER_I_COVER_DIGITS - 1. */
 void sunder_i_cover_tree_add(sunder_i_cover_tree *tree, uint32_t from, uint32_t to);
 void sunder_i_cover_tree_remove(sunder_i_cover_tree *tree, uint32_t from, uint32_t to);
 /* Appends the longest runs of free elements in a range, ascending. False if memory is out. */

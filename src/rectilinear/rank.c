@@ -1,4 +1,4 @@
-/* Coordinates sorted as keys, each found again by bisection. */
+/* Coordinates sorted as keys. */
 #include "base/sort.h"
 #include "base/watch.h"
 #include "rectilinear/rectangles.h"
@@ -15,40 +15,64 @@ static uint32_t rank_of(const int64_t *at, uint32_t n, int64_t what, uint64_t *c
     return (uint32_t)(low - at);
 }
 
-/* Keys are counted from here: so they are in the order of the coordinates, and as short as can be, whatever their
- * signs. */
-static int64_t least_along(const sunder_i_rectangle_list *list, int axis)
+/* Keys are counted from the least coordinate: so they are in the order of the coordinates, and as short as can be,
+ * whatever their signs. Behind each, if there is room, the number of the coordinate that it is: then ranks are read off. */
+typedef struct keys {
+    uint64_t *key; /* [n] */
+    size_t n;
+    int64_t least;
+    int tag; /* bits of the numbers, or 0 where there is no room */
+} keys;
+
+static int64_t coordinate(const sunder_i_rectangle_list *list, size_t i, int axis)
 {
-    int64_t least = list->item[0].low[axis];
-    for (size_t i = 1; i < list->n; i++)
-        if (list->item[i].low[axis] < least) least = list->item[i].low[axis];
-    return least;
+    const sunder_i_rectangle *r = &list->item[i / 2];
+    return i % 2 ? r->high[axis] : r->low[axis];
+}
+
+static uint32_t *rank(const sunder_i_ranked_rectangles *ranked, size_t i, int axis)
+{
+    sunder_i_ranked_rectangle *r = &ranked->item[i / 2];
+    return i % 2 ? &r->high[axis] : &r->low[axis];
+}
+
+static bool make_keys(const sunder_i_rectangle_list *list, int axis, keys *k)
+{
+    int64_t most = list->item[0].high[axis];
+    k->least = list->item[0].low[axis];
+    for (size_t i = 1; i < list->n; i++) {
+        const sunder_i_rectangle *r = &list->item[i];
+        if (r->low[axis] < k->least) k->least = r->low[axis];
+        if (r->high[axis] > most) most = r->high[axis];
+    }
+    k->n = 2 * list->n;
+    k->key = sunder_i_alloc(k->n, sizeof *k->key);
+    if (!k->key) return false;
+    const int bits = 64 - __builtin_clzll(k->n - 1); /* n is two at least */
+    k->tag = ((uint64_t)most - (uint64_t)k->least) >> (64 - bits) ? 0 : bits;
+    for (size_t i = 0; i < k->n; i++) {
+        const uint64_t key = (uint64_t)coordinate(list, i, axis) - (uint64_t)k->least;
+        k->key[i] = k->tag ? key << k->tag | i : key;
+    }
+    return sunder_i_sort_keys(k->key, k->n);
 }
 
 static bool rank_axis(const sunder_i_rectangle_list *list, int axis, sunder_i_ranked_rectangles *out)
 {
-    uint64_t *key = sunder_i_alloc(2 * list->n, sizeof *key);
-    if (!key) return false;
-    const int64_t least = least_along(list, axis);
-    for (size_t i = 0; i < list->n; i++) {
-        key[2 * i] = (uint64_t)list->item[i].low[axis] - (uint64_t)least;
-        key[2 * i + 1] = (uint64_t)list->item[i].high[axis] - (uint64_t)least;
-    }
-    if (!sunder_i_sort_keys(key, 2 * list->n)) {
-        sunder_i_free(key);
-        return false;
-    }
-    int64_t *at = out->at[axis] = (int64_t *)key;
+    keys k;
+    const bool ok = make_keys(list, axis, &k);
+    int64_t *at = out->at[axis] = (int64_t *)k.key; /* there is a coordinate for each key at most */
+    if (!ok) return false;
     uint32_t n = 0;
-    for (size_t i = 0; i < 2 * list->n; i++) {
-        const int64_t v = (int64_t)(key[i] + (uint64_t)least);
+    for (size_t i = 0; i < k.n; i++) {
+        const uint64_t key = k.key[i];
+        const int64_t v = (int64_t)((key >> k.tag) + (uint64_t)k.least);
         if (n == 0 || at[n - 1] != v) at[n++] = v;
+        if (k.tag) *rank(out, key & (((uint64_t)1 << k.tag) - 1), axis) = n - 1;
     }
     out->places[axis] = n;
-    for (size_t i = 0; i < list->n; i++) {
-        out->item[i].low[axis] = rank_of(at, n, list->item[i].low[axis], &out->comparisons);
-        out->item[i].high[axis] = rank_of(at, n, list->item[i].high[axis], &out->comparisons);
-    }
+    for (size_t i = 0; k.tag == 0 && i < k.n; i++)
+        *rank(out, i, axis) = rank_of(at, n, coordinate(list, i, axis), &out->comparisons);
     return sunder_i_steps(list->n / 8 + 1);
 }
 

@@ -162,6 +162,52 @@ static void test_cut(void **state)
     }
 }
 
+static size_t places_below(const sunder_i_rectangle_list *list, int axis, int64_t v)
+{
+    int64_t seen[64];
+    size_t n = 0;
+    for (size_t i = 0; i < 2 * list->n; i++) {
+        const sunder_i_rectangle *r = &list->item[i / 2];
+        const int64_t at = i % 2 ? r->high[axis] : r->low[axis];
+        size_t k = 0;
+        while (k < n && seen[k] != at) k++;
+        if (k == n && at < v) seen[n++] = at;
+    }
+    return n;
+}
+
+/* Ranks count the places below; of coordinates that leave keys no room for numbers, too. */
+static void test_rank(void **state)
+{
+    (void)state;
+    const size_t n = test_count(300);
+    for (size_t i = 0; i < n; i++) {
+        rng r = rng_start(test_seed() * 37, i);
+        const int64_t most = i % 3 == 0 ? ((int64_t)1 << 60) - 1 : i % 3 == 1 ? 5 : 100000;
+        sunder_i_rectangle item[32];
+        const sunder_i_rectangle_list list = {item, (size_t)rng_int(&r, 1, 32), 32};
+        sunder_i_ranked_rectangles ranked;
+        for (size_t k = 0; k < list.n; k++)
+            for (int axis = 0; axis < 2; axis++) {
+                const bool far = rng_once_in(&r, 4);
+                item[k].low[axis] = far ? -most : rng_int(&r, -most, most - 1);
+                item[k].high[axis] = far ? most : rng_int(&r, item[k].low[axis] + 1, most);
+            }
+        assert_true(sunder_i_rectangles_rank(&list, &ranked));
+        assert_int_equal(ranked.n, list.n);
+        for (int axis = 0; axis < 2; axis++) {
+            assert_int_equal(ranked.places[axis], places_below(&list, axis, INT64_MAX));
+            for (size_t k = 0; k < list.n; k++) {
+                assert_int_equal(ranked.item[k].low[axis], places_below(&list, axis, item[k].low[axis]));
+                assert_int_equal(ranked.item[k].high[axis], places_below(&list, axis, item[k].high[axis]));
+                assert_true(ranked.at[axis][ranked.item[k].low[axis]] == item[k].low[axis]);
+                assert_true(ranked.at[axis][ranked.item[k].high[axis]] == item[k].high[axis]);
+            }
+        }
+        sunder_i_ranked_rectangles_free(&ranked);
+    }
+}
+
 /* A side aslant, and operands on big integers, go another way. */
 static void test_not_for_all(void **state)
 {
@@ -205,8 +251,8 @@ static void test_pinwheel(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_boards), cmocka_unit_test(test_bars),
-                                       cmocka_unit_test(test_cut), cmocka_unit_test(test_not_for_all),
-                                       cmocka_unit_test(test_pinwheel)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_boards),      cmocka_unit_test(test_bars),
+                                       cmocka_unit_test(test_cut),         cmocka_unit_test(test_rank),
+                                       cmocka_unit_test(test_not_for_all), cmocka_unit_test(test_pinwheel)};
     return cmocka_run_group_tests_name("sum_rectilinear", tests, NULL, NULL);
 }

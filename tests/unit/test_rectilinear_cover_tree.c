@@ -9,7 +9,8 @@
 
 #include <cmocka.h>
 
-#define MOST_ELEMENTS 700
+#define MOST_ELEMENTS 9000 /* three levels of nodes: 64^2 are 4,096 */
+#define SOME_ELEMENTS 700
 #define RANGES 60
 
 static void compare_runs(const sunder_i_cover_tree *t, const int *count, uint32_t from, uint32_t to,
@@ -37,7 +38,7 @@ static void test_random(void **state)
     sunder_i_element_runs runs = {0};
     for (size_t i = 0; i < test_count(200); i++) {
         rng r = rng_start(test_seed(), i);
-        const uint32_t n = (uint32_t)rng_int(&r, 1, i % 3 ? MOST_ELEMENTS : 70);
+        const uint32_t n = (uint32_t)rng_int(&r, 1, i % 16 == 0 ? MOST_ELEMENTS : i % 3 ? SOME_ELEMENTS : 70);
         sunder_i_cover_tree t;
         int count[MOST_ELEMENTS] = {0};
         uint32_t range[RANGES][2], ranges = 0;
