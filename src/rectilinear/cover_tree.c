@@ -1,6 +1,6 @@
-/* Ranges are entered from the elements up: what of a range shares a node with one of its ends is counted there, child by
- * child, and of the nodes between, whole ones all, the range has those for its own that a level higher share no node
- * with the ends, and so on. */
+/* Ranges are entered from the elements up: what of a range shares a node with one of its ends is counted there, child
+ * by child. The nodes between are whole, and in turn children of nodes one level up: those that share one with an end
+ * are counted there, and so on. */
 #include "rectilinear/cover_tree.h"
 
 #include <string.h>
@@ -134,7 +134,7 @@ static void add_run(finder *f, uint32_t from, uint32_t to)
 /* How many bits are one from the lowest on, of which there is one at least. */
 static uint32_t ones(uint64_t bits) { return ~bits ? (uint32_t)__builtin_ctzll(~bits) : CHILDREN; }
 
-/* The children of a node that are asked for; `low` is the first of them all, from..last those asked for of the level. */
+/* The children of a node that are asked for: `low` is the first of them all, from..last are asked for of the level. */
 static uint64_t asked_for(uint32_t low, uint32_t from, uint32_t last)
 {
     return bits_of(from > low ? from - low : 0, last - low < CHILDREN ? last - low : CHILDREN - 1);

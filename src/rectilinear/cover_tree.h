@@ -1,9 +1,9 @@
 /* A segment tree: how many of the ranges put in cover each element, and which elements of a range none does. A question
  * goes down only to where covered and free elements mix, so it costs O((k + 1) log n) for k runs found.
  *
- * Nodes have 64 children, which are bits of words: the elements for the lowest nodes, below others the nodes themselves.
- * How many ranges a child has for its own is counted in all 64 at once: its bit of the first number is the lowest digit
- * of its count, that of the next number the next digit, and so on. */
+ * Nodes have 64 children, which are bits of words: those of the lowest are elements, those of the others are nodes. How
+ * many ranges a child has for its own is counted in all 64 at once: its bit of the first number is the lowest digit of
+ * its count, that of the next number the next digit, and so on. */
 #ifndef SUNDER_I_COVER_TREE_H
 #define SUNDER_I_COVER_TREE_H
 

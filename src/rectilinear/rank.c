@@ -16,7 +16,7 @@ static uint32_t rank_of(const int64_t *at, uint32_t n, int64_t what, uint64_t *c
 }
 
 /* Keys are counted from the least coordinate: so they are in the order of the coordinates, and as short as can be,
- * whatever their signs. Behind each, if there is room, the number of the coordinate that it is: then ranks are read off. */
+ * whatever their signs. Behind each, if there is room, is the number of the coordinate: then ranks are read off. */
 typedef struct keys {
     uint64_t *key; /* [n] */
     size_t n;
