@@ -21,7 +21,7 @@ bool sunder_i_cover_tree_init(sunder_i_cover_tree *tree, uint32_t elements)
         n += of;
     }
     node *all = sunder_i_calloc(n, sizeof *all);
-    for (uint32_t k = 0; k < tree->levels; k++) tree->level[k] = all + start[k];
+    for (uint32_t k = 0; k < tree->levels; k++) tree->level[k] = all ? all + start[k] : NULL;
     return all != NULL;
 }
 
