@@ -99,7 +99,7 @@ piece() { # NAME SECONDS
         echo "$name: $2 s went into the $inputs inputs that are there, and nothing new was tried; such a piece does not count, give it longer ones"
         return 0
     fi
-    # shellcheck disable=SC2046 # two numbers
+    # shellcheck disable=SC2046,SC2183 # two numbers
     printf '%s %s %s %s %s %s\n' "$name" "${executions:-0}" "$(awk '{ print $1 + $2 }' <<<"$spent")" $(covered "$log") "$(cat "$SUNDER_BUILD/fuzz/built_of")" |
         tee -a "$state/tally"
     [ "$status" -eq 0 ] || { echo "$name failed: see $log"; return 1; }

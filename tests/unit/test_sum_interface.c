@@ -50,8 +50,8 @@ static void test_empty(void **state)
 static void test_same_operand(void **state)
 {
     (void)state;
-    sunder_shape *p = shape_of("POLYGON((0 0,4 0,4 1,1 1,1 3,4 3,4 4,0 4,0 0))"),
-                 *q = shape_of("POLYGON((0 0,4 0,4 1,1 1,1 3,4 3,4 4,0 4,0 0))");
+    sunder_shape *p = shape_of("POLYGON((0 0,4 0,4 1,1 1,1 3,4 3,4 4,0 5,0 0))"),
+                 *q = shape_of("POLYGON((0 0,4 0,4 1,1 1,1 3,4 3,4 4,0 5,0 0))");
     sunder_sum *once = NULL, *twice = NULL;
     assert_int_equal(sunder_minkowski_sum(p, p, NULL, &once, NULL), SUNDER_OK);
     assert_int_equal(sunder_minkowski_sum(p, q, NULL, &twice, NULL), SUNDER_OK);
