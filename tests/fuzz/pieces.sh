@@ -13,25 +13,18 @@
 # State is in SUNDER_FUZZ_STATE (<build>/fuzz/pieces): inputs, tallies, and in found/ what went wrong; where there is none it
 # begins with what RECORD.md and corpus/ have. A target is done at ten million executions if it makes more than 2000 of them
 # in a second, else after eight hours of one core. Which of the two it is its latest pieces tell, a quarter of an hour of
-# them, for what made it slow may have been mended since: the quickest of a minute and more, when the inputs that were
-# there had been gone through. What runs beside, on the other thread of a core that has two, only slows a piece, and these
-# inputs are the slowest, which a run of hours would go through once.
+# them, for what made it slow may have been mended since. Other work beside, on the other thread of a core that has two,
+# slows them: what is near 2000 is told by pieces with nothing beside.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 here=$root/tests/fuzz
 export SUNDER_SOURCE=$root SUNDER_BUILD=${SUNDER_BUILD:-$root/build/release}
 state=${SUNDER_FUZZ_STATE:-$SUNDER_BUILD/fuzz/pieces}
 quick=2000 executions_wanted=10000000 hours_wanted=8
-# awk: what all pieces that take() was told of come to, and how many executions in a second the quickest of the latest made
+# awk: what all pieces that take() was told of come to, and how many executions the latest of them made in a second
 # shellcheck disable=SC2016 # the words are those of awk
-tally='function take() { n += $2; s += $3; seconds[++pieces] = $3; paces[pieces] = NF > 6 ? $7 : $3 ? $2 / $3 : 0 }
-    function pace(  i, t, best) {
-        for (i = pieces; i && t < 900; --i) {
-            t += seconds[i]
-            if (seconds[i] >= 60 && paces[i] > best) best = paces[i]
-        }
-        return best
-    }'
+tally='function take() { n += $2; s += $3; executions[++pieces] = $2; seconds[pieces] = $3 }
+    function pace(  i, e, t) { for (i = pieces; i && t < 900; --i) { e += executions[i]; t += seconds[i] } return t ? e / t : 0 }'
 mkdir -p "$state/found"
 
 targets() { for file in "$here"/fuzz_*.c; do basename "$file" .c; done; }
@@ -41,11 +34,6 @@ covered() { # of a log: the edges that were covered, and all there are
     all=$(sed -n 's/^INFO: Loaded .* modules *(\([0-9]*\) inline 8-bit counters).*/\1/p' "$1" | head -n 1)
     run=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$1" | tail -n 1)
     echo "${run:-0} ${all:-0}"
-}
-
-after_inputs() { # of a log, its executions, its seconds, and those by the clock: how many in a second when the inputs were gone through
-    sed -n 's/^#\([0-9]*\)[[:space:]]*INITED .* exec\/s: \([0-9]*\) .*/\1 \2/p' "$1" | head -n 1 | awk -v executions="$2" -v seconds="$3" -v clock="$4" '
-        { share = $2 && clock ? $1 / $2 / clock : 0; if (share < 1) print (executions - $1) / (seconds * (1 - share)); else print 0 }'
 }
 
 build() { # and says of what: the commit, "-dirty" where the sources differ from it
@@ -76,10 +64,10 @@ begin() { # a target's inputs: those on record, and the seeds
 }
 
 piece() { # NAME SECONDS
-    local name=$1 log=$state/$1.$$.log status=0 spent clock executions inputs
+    local name=$1 log=$state/$1.$$.log status=0 spent executions inputs
     begin "$name"
     inputs=$(find "$state/$name" -type f | wc -l)
-    local TIMEFORMAT='%U %S %R'
+    local TIMEFORMAT='%U %S'
     # Leaks are looked for at the end of each input as ever; a seed of its own for each piece. An input that takes little
     # time is drawn more often than one that takes much, up to thirty times: a hundredth of the inputs took half of the time,
     # and what leads somewhere is found sooner so. Which of them are rare is hardly asked: with some thousand inputs of some
@@ -104,10 +92,8 @@ piece() { # NAME SECONDS
         echo "$name: $2 s went into the $inputs inputs that are there, and nothing new was tried; such a piece does not count, give it longer ones"
         return 0
     fi
-    clock=${spent##* }
     spent=$(awk '{ print $1 + $2 }' <<<"$spent")
-    echo "$name ${executions:-0} $spent $(covered "$log") $(cat "$SUNDER_BUILD/fuzz/built_of") $(after_inputs "$log" "${executions:-0}" "$spent" "$clock")" |
-        tee -a "$state/tally"
+    echo "$name ${executions:-0} $spent $(covered "$log") $(cat "$SUNDER_BUILD/fuzz/built_of")" | tee -a "$state/tally"
     [ "$status" -eq 0 ] || { echo "$name failed: see $log"; return 1; }
     rm "$log"
 }
@@ -140,7 +126,7 @@ record() {
         echo "# Fuzzing on record"
         echo
         echo "Written by \`bash tests/fuzz/pieces.sh --record\` on $(date +%F): all pieces of this state, on $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -n 1), with $(clang --version | head -n 1)."
-        echo "Wanted: ten million executions of a target that makes more than $quick of them in a second of a core, eight hours of a core for the others; the pace is that of the quickest piece of the latest quarter of an hour of them, or little more, when the inputs that were there had been gone through."
+        echo "Wanted: ten million executions of a target that makes more than $quick of them in a second of a core, eight hours of a core for the others; the pace is that of the latest quarter of an hour of pieces, or little more."
         echo "Edges are of the code that is built with the sanitizers, which is more than a target can come to: the whole library, of the program the folders of the readers."
         echo
         echo "| target | executions | hours of a core | in a second | edges covered, of | inputs kept | commits | wanted |"
