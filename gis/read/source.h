@@ -10,7 +10,7 @@
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
 
-#include "base//error.h"
+#include "base/error.h"
 #include "base/value.h"
 #include "read/geometry.h"
 

@@ -14,13 +14,16 @@ sources() { (cd "$root/$1" && find . \( -name '*.c' -o -name '*.h' -o -name '*.i
 # The folders of a tree's plan, from the lowest floor to the highest.
 floors() { sed -n '/^```floors$/,/^```$/p' "$root/$1/README.md" | sed '/^```/d' | awk '{print $1}' | tac; }
 
-# Lines "from to file" for each include of another folder's header.
+# Lines "from to file" for each include of another folder's header. One process reads them all: a process for each file and
+# each line of it takes minutes where starting one is slow.
 includes() {
-    sources "$1" | while read -r file; do
-        sed -n 's/^ *# *include "\([^"]*\)".*/\1/p' "$root/$1/$file" | while read -r header; do
-            [ "$header" = sunder.h ] || echo "$(dirname "$file") $(dirname "$header") $file"
-        done
-    done
+    (cd "$root/$1" && sources "$1" | xargs awk '
+        function folder(path) { return sub("/[^/]*$", "", path) ? path : "." }
+        FNR == 1 { from = folder(FILENAME) }
+        match($0, /^ *# *include "[^"]*"/) {
+            split(substr($0, RSTART, RLENGTH), part, "\"")
+            if (part[2] != "sunder.h") print from, folder(part[2]), FILENAME
+        }')
 }
 
 finish() {

@@ -5,7 +5,7 @@
 for tree in src gis; do
     plan=$(floors $tree)
     [ -n "$plan" ] || say "$tree/README.md states no floors"
-    held=$(sources $tree | grep / | xargs -n 1 dirname | sort -u)
+    held=$(sources $tree | grep / | sed 's#/[^/]*$##' | sort -u)
     for folder in $plan; do
         grep -qx "$folder" <<<"$held" || say "$tree/README.md: there is nothing in $folder"
     done
@@ -25,7 +25,7 @@ for tree in src gis; do
 done
 # The library knows nothing of the program, of GDAL or of GEOS; the program knows the public header alone.
 grep -rnE '# *include *[<"](gdal|ogr|cpl|geos)' "$root/src" && say "src/ includes a header of GDAL or GEOS"
-for header in $(sources gis | while read -r f; do sed -n 's/^ *# *include "\([^"]*\)".*/\1/p' "$root/gis/$f"; done | sort -u); do
+for header in $(cd "$root/gis" && sources gis | xargs sed -n 's/^ *# *include "\([^"]*\)".*/\1/p' | sort -u); do
     [ "$header" = sunder.h ] || [ -f "$root/gis/$header" ] || say "gis/ includes $header, which is not its own"
 done
 finish

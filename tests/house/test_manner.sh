@@ -5,10 +5,9 @@
 
 # ---- No two types share a name across headers, and none of a source file has the name of a header's ----
 for tree in src gis; do
-    defined=$(sources $tree | while read -r file; do
-        sed -nE 's/^typedef (struct|enum|union) ([a-z_0-9]+) \{.*/\2/p; s/^(struct|enum|union) ([a-z_0-9]+) \{.*/\2/p' \
-            "$root/$tree/$file" | sed "s#\$# $file#"
-    done)
+    defined=$(cd "$root/$tree" && sources $tree | xargs awk '
+        /^typedef (struct|enum|union) [a-z_0-9]+ \{/ { print $3, FILENAME }
+        /^(struct|enum|union) [a-z_0-9]+ \{/ { print $2, FILENAME }')
     while read -r name files; do
         say "$tree: $name is a type in$files"
     done < <(awk '$2 ~ /\.h$/ { n[$1]++; at[$1] = at[$1] " " $2 }
@@ -19,11 +18,8 @@ done
 
 # ---- Files ----
 while read -r file; do
-    case $(head -c 2 "$root/$file") in
-    '/*') ;;
-    *) say "$file does not open with a comment" ;;
-    esac
-done < <(cd "$root" && find src gis -name '*.[ch]' | sort)
+    say "$file does not open with a comment"
+done < <(cd "$root" && find src gis -name '*.[ch]' | sort | xargs awk 'FNR == 1 && !/^\/\*/ { print FILENAME }')
 # Columns, not bytes: comments and strings hold characters of several.
 while read -r line; do
     say "$line is longer than 120 columns"
