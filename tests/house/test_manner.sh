@@ -9,7 +9,7 @@ for tree in src gis; do
         /^typedef (struct|enum|union) [a-z_0-9]+ \{/ { print $3, FILENAME }
         /^(struct|enum|union) [a-z_0-9]+ \{/ { print $2, FILENAME }')
     while read -r name files; do
-        say "$tree: $name is a type in$files"
+        say "$tree: $name is a type in $files"
     done < <(awk '$2 ~ /\.h$/ { n[$1]++; at[$1] = at[$1] " " $2 }
                   $2 !~ /\.h$/ && $1 ~ /^(sunder_i|gis)_/ { n[$1]++; at[$1] = at[$1] " " $2 }
                   END { for (t in n) if (n[t] > 1) print t at[t] }' <<<"$defined")
