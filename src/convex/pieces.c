@@ -44,6 +44,40 @@ void sunder_i_convex_pieces_add_shape(sunder_i_convex_pieces *list, const sunder
     }
 }
 
+/* Gives back what is past n elements. Where that fails the array keeps it. */
+static void cut_off(void *array, size_t n, size_t size)
+{
+    void *old;
+    memcpy(&old, array, sizeof old);
+    void *shorter = sunder_i_realloc(old, n, size);
+    if (shorter) memcpy(array, &shorter, sizeof shorter);
+}
+
+void sunder_i_convex_pieces_remove(sunder_i_convex_pieces *list, const bool *gone)
+{
+    uint32_t n = 0, corners = 0;
+    for (uint32_t i = 0, first = 0; i < list->n; i++) {
+        const uint32_t end = list->end[i], m = end - first;
+        if (!gone[i]) {
+            memmove(list->corner + corners, list->corner + first, m * sizeof *list->corner);
+            memmove(list->rank + corners, list->rank + first, m * sizeof *list->rank);
+            memmove(list->candidate + corners, list->candidate + first, m * sizeof *list->candidate);
+            if (list->vertex) memmove(list->vertex + corners, list->vertex + first, m * sizeof *list->vertex);
+            corners += m;
+            list->end[n++] = corners;
+        }
+        first = end;
+    }
+    if (n == 0 || n == list->n) return;
+    list->n = n;
+    list->corners = corners;
+    cut_off(&list->end, n, sizeof *list->end);
+    cut_off(&list->corner, corners, sizeof *list->corner);
+    cut_off(&list->rank, corners, sizeof *list->rank);
+    cut_off(&list->candidate, corners, sizeof *list->candidate);
+    if (list->vertex) cut_off(&list->vertex, corners, sizeof *list->vertex);
+}
+
 /* ---- Ranks ---- */
 
 static uint32_t sides_of(const sunder_i_convex_pieces *list, uint32_t piece)

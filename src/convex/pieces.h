@@ -32,6 +32,9 @@ typedef struct sunder_i_convex_pieces {
 bool sunder_i_convex_pieces_init(sunder_i_convex_pieces *list, size_t n, size_t corners);
 void sunder_i_convex_pieces_free(sunder_i_convex_pieces *list);
 
+/* Takes these out, and gives back what of the room is left then; not all. The others keep their order. */
+void sunder_i_convex_pieces_remove(sunder_i_convex_pieces *list, const bool *gone);
+
 /* Piece i has the corners from this index on, up to end[i]. */
 static inline uint32_t sunder_i_convex_pieces_first(const sunder_i_convex_pieces *list, size_t i)
 {

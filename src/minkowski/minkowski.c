@@ -12,7 +12,7 @@
 #include "minkowski/convolution.h"
 #include "minkowski/members.h"
 #include "minkowski/reduced_convolution.h"
-#include "outline/contained_sides.h"
+#include "outline/contained.h"
 #include "outline/outline.h"
 #include "rectilinear/rectilinear_sum.h"
 #include "sum/canonical.h"
@@ -31,7 +31,7 @@ static sunder_status unite_subsums(sunder_sum *sum, const sunder_shape *p, const
     sunder_i_directions directions;
     sunder_status status = sunder_i_subsums_build(&sum->lattice, p, at->p, q, at->q, &directions, &subsums, err);
     if (status != SUNDER_OK) return status;
-    status = sunder_i_drop_contained_sides(&subsums, err);
+    status = sunder_i_drop_contained(&subsums, err);
     sum->seconds[1] = sunder_i_now() - start;
     if (status == SUNDER_OK) status = sunder_i_outline_find(&subsums, options, NULL, NULL, sum, err);
     sunder_i_convex_pieces_free(&subsums);

@@ -22,7 +22,7 @@
 #include "base/watch.h"
 #include "convex/merge.h"
 #include "convex/pieces.h"
-#include "outline/contained_sides.h"
+#include "outline/contained.h"
 #include "outline/outline.h"
 #include "predicate/rational_point.h"
 #include "spatial/strips.h"
@@ -263,7 +263,7 @@ static sunder_status find_outline(eroder *e, const sunder_sum_options *options, 
     for (uint32_t i = 0; begin && i < e->side.n; i++) begin[i] = e->side.corner[2 * i];
     sunder_status status = SUNDER_OK;
     if (begin && sunder_i_convex_pieces_rank(&sum->lattice, list, 2, &directions) && add_bands(e, begin, &bands))
-        status = sunder_i_drop_contained_sides(&bands, err);
+        status = sunder_i_drop_contained(&bands, err);
     else
         status = sunder_i_no_memory(err);
     if (status == SUNDER_OK) status = sunder_i_outline_find(&bands, options, turn_over, e, sum, err);

@@ -8,7 +8,7 @@
 
 #include "base/invariant.h"
 #include "convex/pieces.h"
-#include "outline/contained_sides.h"
+#include "outline/contained.h"
 #include "outline/outline.h"
 #include "sum/canonical.h"
 #include "sum/place.h"
@@ -53,7 +53,7 @@ static sunder_status unite_pieces(const sunder_shape *shape, const sunder_i_poin
     sunder_i_convex_pieces_add_shape(&pieces, shape, at);
     sunder_status status = SUNDER_OK;
     if (sunder_i_convex_pieces_rank(&sum->lattice, list, 1, &directions)) {
-        if (shape->form->cleaned.polygons > 1) status = sunder_i_drop_contained_sides(&pieces, err);
+        if (shape->form->cleaned.polygons > 1) status = sunder_i_drop_contained(&pieces, err);
         if (status == SUNDER_OK) status = sunder_i_outline_find(&pieces, options, NULL, NULL, sum, err);
     } else
         status = sunder_i_no_memory(err);

@@ -12,7 +12,7 @@ static bool make_edges(sunder_i_graph *g, const sunder_i_coverage *c)
     if (!g->edge) return false;
     for (size_t i = 0; i < c->stretches; i++) {
         const sunder_i_outline_stretch *p = &c->stretch[i];
-        const uint32_t from = p->from, to = p->to, class = g->lines->line[p->line].class;
+        const uint32_t from = p->from, to = p->to, class = sunder_i_lines_class(g->lines, p->line);
         if (p->banks == SUNDER_I_BANK_LEFT) g->edge[g->edges++] = (sunder_i_boundary_edge){from, to, class, p->line};
         if (p->banks == SUNDER_I_BANK_RIGHT)
             g->edge[g->edges++] = (sunder_i_boundary_edge){to, from, class + g->classes, p->line};

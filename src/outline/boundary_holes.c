@@ -55,8 +55,9 @@ static uint32_t find_holders(finder *f, uint32_t v)
         const bool to_above = sunder_i_hpoint_cmp_y(g->lattice, &g->vertex[edge->to], place) > 0;
         /* Lines run with angles in [0, pi), so this one runs upwards: it is crossed to the left of v where v is right
          * of it. */
-        const sunder_i_supporting_line *line = &g->lines->line[edge->line];
-        if (from_above == to_above || sunder_i_orient_hpoint(g->lattice, line->a, line->b, place) >= 0) continue;
+        if (from_above == to_above) continue;
+        const sunder_i_supporting_line line = sunder_i_lines_get(g->lines, edge->line);
+        if (sunder_i_orient_hpoint(g->lattice, line.a, line.b, place) >= 0) continue;
         if (!f->odd[c]) f->holds[crossed++] = c; /* perhaps not for the first time */
         f->odd[c] = !f->odd[c];
     }

@@ -23,7 +23,8 @@ typedef struct finder {
     const sunder_i_lines *lines;
     const uint8_t *fate;
     sunder_i_coverage *out;
-    sunder_i_events events; /* of the line at hand */
+    sunder_i_supporting_line line; /* the one at hand */
+    sunder_i_events events;        /* of the line at hand */
     bool no_memory;
 } finder;
 
@@ -179,7 +180,7 @@ static void note_side(const finder *f, uint32_t side, sunder_i_vertex_lines *lin
     if (side == SUNDER_I_NO_SIDE || lines->others == 2) return;
     const uint32_t other = f->lines->of[side];
     if (other == SUNDER_I_NO_LINE || (lines->others && lines->other[0] == other) ||
-        f->lines->line[other].class == f->lines->line[lines->line].class)
+        sunder_i_lines_class(f->lines, other) == f->line.class)
         return;
     lines->other[lines->others++] = other;
 }
@@ -189,7 +190,7 @@ static void note_side(const finder *f, uint32_t side, sunder_i_vertex_lines *lin
 static uint32_t add_vertex(finder *f, const sunder_i_fraction *at, uint32_t corner, const sunder_i_vertex_lines *lines)
 {
     sunder_i_lattice *l = f->parts->lattice;
-    const sunder_i_supporting_line *line = &f->lines->line[lines->line];
+    const sunder_i_supporting_line *line = &f->line;
     bool is_new = false;
     if (l->narrow && lines->others > 0) {
         const sunder_i_point u = sunder_i_narrow_sub(line->b, line->a);
@@ -266,12 +267,13 @@ static void sweep(finder *f, uint32_t number)
     SUNDER_I_ASSERT(s.cover == 0 && s.left == 0 && s.right == 0 && s.domain == 0); /* every interval has ended */
 }
 
-static void sweep_line(finder *f, uint32_t number, const uint64_t *pair, size_t n)
+static void sweep_line(finder *f, uint32_t number, const uint32_t *part, size_t n)
 {
     f->events.n = 0;
+    f->line = sunder_i_lines_get(f->lines, number);
     for (size_t i = 0; i < n && !f->no_memory; i++) {
         if (!sunder_i_step()) f->no_memory = true;
-        if (i == 0 || pair[i] != pair[i - 1]) meet(f, &f->lines->line[number], (uint32_t)pair[i]);
+        if (i == 0 || part[i] != part[i - 1]) meet(f, &f->line, part[i]);
     }
     if (!f->no_memory && !sunder_i_events_sort(&f->events, f->parts->lattice)) f->no_memory = true;
     if (f->parts->lattice->arena.failed) f->no_memory = true; /* the events' order may be any */
@@ -313,15 +315,6 @@ static void take_whole_sides(finder *f, uint32_t first, uint32_t end)
     }
 }
 
-/* Lines that no open leaf holds are covered throughout. */
-static void drop_dead_lines(sunder_i_culled *culled)
-{
-    size_t n = 0;
-    for (size_t i = 0; i < culled->n; i++)
-        if (culled->live_line[culled->pair[i] >> 32]) culled->pair[n++] = culled->pair[i];
-    culled->n = n;
-}
-
 /* Room for what most lines yield, a stretch and one new vertex: growing step by step would touch several times the
  * memory. */
 static bool reserve_usual(finder *f, const sunder_i_culled *culled)
@@ -334,18 +327,27 @@ static bool reserve_usual(finder *f, const sunder_i_culled *culled)
            sunder_i_reserve(&o->stretch, &o->stretches_capacity, usual + culled->whole + 1, sizeof *o->stretch);
 }
 
+/* All lines that an open leaf holds: the others are covered throughout. */
+static bool sweep_lines(finder *f, const sunder_i_line_parts *by_line)
+{
+    size_t first = 0;
+    for (uint32_t number = 0; number < f->lines->n; number++) {
+        const size_t end = by_line->end[number];
+        if (end > first) sweep_line(f, number, by_line->part + first, end - first);
+        if (f->no_memory || !sunder_i_step()) return false;
+        first = end;
+    }
+    return true;
+}
+
 static bool find_all(finder *f, sunder_i_culled *culled)
 {
-    drop_dead_lines(culled);
-    bool ok = reserve_usual(f, culled) && sunder_i_sort_keys(culled->pair, culled->n);
-    for (size_t i = 0; ok && i < culled->n;) {
-        const uint32_t number = (uint32_t)(culled->pair[i] >> 32);
-        size_t j = i;
-        while (j < culled->n && culled->pair[j] >> 32 == number) j++;
-        sweep_line(f, number, culled->pair + i, j - i);
-        ok = !f->no_memory && sunder_i_step();
-        i = j;
-    }
+    sunder_i_line_parts by_line = {0};
+    bool ok = reserve_usual(f, culled) &&
+              sunder_i_pairs_by_line(&culled->pairs, culled->live_line, f->lines->n, (uint32_t)f->parts->n, &by_line);
+    sunder_i_pairs_free(&culled->pairs);
+    ok = ok && sweep_lines(f, &by_line);
+    sunder_i_line_parts_free(&by_line);
     for (size_t i = 0; ok && culled->whole && i < f->parts->n; i++) {
         take_whole_sides(f, sunder_i_convex_pieces_first(f->parts, i), f->parts->end[i]);
         ok = !f->no_memory;

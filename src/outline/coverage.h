@@ -34,7 +34,7 @@ typedef struct sunder_i_coverage {
     bool sorted; /* vertices where stretches end are numbered lexicographically */
 } sunder_i_coverage;
 
-/* Consumes the order of culled->pair. Fails with SUNDER_ENOMEM. */
+/* Takes the pairs out of `culled`. Fails with SUNDER_ENOMEM. */
 sunder_status sunder_i_coverage_find(const sunder_i_convex_pieces *parts, const sunder_i_lines *lines,
                                      sunder_i_culled *culled, sunder_i_coverage *out, sunder_error *err);
 void sunder_i_coverage_free(sunder_i_coverage *coverage);

@@ -99,7 +99,7 @@ static bool is_half_plane_known(builder *b, half *h, uint32_t part, uint32_t sid
     const double depth = (s->dx * (h->cy - s->ay) - s->dy * (h->cx - s->ax)) / length; /* of the centre in it */
     half_plane *known = &b->widest[b->parts->rank[side]];
     if (known->stamp != h->stamp) {
-        *known = (half_plane){h->stamp, side, depth, h->entries_n, h->runs_n};
+        *known = (half_plane){h->stamp, side, depth, (uint32_t)h->entries_n, (uint32_t)h->runs_n};
         return false;
     }
     const uint32_t line = b->lines->of[side], other = known->side;
@@ -356,6 +356,24 @@ static bool reserve_halves(builder *b, const cell *c)
     return false;
 }
 
+/* Halves on the stack take the place of their cell's lists, which nobody asks for again, unless it is split on trial.
+ * So all lists together are hardly longer than those of the root. */
+static void take_place(builder *b, const cell *c, size_t waiting)
+{
+    const size_t entries = c->entry_to - c->entry_from, runs = c->run_to - c->run_from;
+    memmove(b->entries + c->entry_from, b->entries + c->entry_to, (b->entries_n - c->entry_to) * sizeof *b->entries);
+    memmove(b->runs + c->run_from, b->runs + c->run_to, (b->runs_n - c->run_to) * sizeof *b->runs);
+    b->entries_n -= entries;
+    b->runs_n -= runs;
+    for (size_t i = waiting; i < b->stack_n; i++) {
+        cell *of = &b->stack[i];
+        of->entry_from -= entries;
+        of->entry_to -= entries;
+        of->run_from -= runs;
+        of->run_to -= runs;
+    }
+}
+
 static void split(builder *b, const cell *c)
 {
     if (!reserve_halves(b, c)) return;
@@ -386,8 +404,10 @@ static void split(builder *b, const cell *c)
         from += b->entries[i].runs;
     }
     const double growth = growth_of(c, h);
+    const size_t waiting = b->stack_n;
     settle_half(b, c, &h[0], growth);
     if (!b->no_memory) settle_half(b, c, &h[1], growth);
+    if (!(b->trial.on && c->trial > 0)) take_place(b, c, waiting);
 }
 
 static sunder_status descend(builder *b, sunder_error *err)
@@ -404,7 +424,7 @@ static sunder_status descend(builder *b, sunder_error *err)
         if (b->options && b->options->progress && (++tick & 63) == 0 &&
             !b->options->progress(b->done, b->options->progress_user))
             return sunder_i_cancelled(err);
-        if (c.trial > 0) b->trial = (trial){true, c, b->stack_n, b->out->n, b->done, 0};
+        if (c.trial > 0) b->trial = (trial){true, c, b->stack_n, sunder_i_pairs_mark_here(&b->out->pairs), b->done, 0};
         split(b, &c);
         if (b->trial.on) sunder_i_cells_end_trial(b);
     }
@@ -450,7 +470,7 @@ sunder_status sunder_i_cull(const sunder_i_convex_pieces *parts, const sunder_i_
 
 void sunder_i_culled_free(sunder_i_culled *culled)
 {
-    sunder_i_free(culled->pair);
+    sunder_i_pairs_free(&culled->pairs);
     sunder_i_free(culled->fate);
     sunder_i_free(culled->live_line);
     memset(culled, 0, sizeof *culled);

@@ -18,10 +18,10 @@
 #define SUNDER_I_CULLING_H
 
 #include "outline/lines.h"
+#include "outline/pairs.h"
 
 typedef struct sunder_i_culled {
-    uint64_t *pair; /* line << 32 | part; with repeats, in no order */
-    size_t n, capacity;
+    sunder_i_pairs pairs;
     uint8_t *fate;   /* [sides] of each candidate: SUNDER_I_COVERED ... */
     bool *live_line; /* [lines] lines that hold an open candidate */
     size_t whole;    /* how many sides have that fate */

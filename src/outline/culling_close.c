@@ -20,14 +20,10 @@ void sunder_i_cells_forget_pairs(builder *b) { memset(b->recent, 0xff, sizeof *b
 
 static bool push_pair(builder *b, uint32_t line, uint32_t part)
 {
-    sunder_i_culled *p = b->out;
     if (is_known(b, (uint64_t)line << 32 | part)) return true;
-    if (p->n == p->capacity && !sunder_i_reserve(&p->pair, &p->capacity, p->n + 1, sizeof *p->pair)) {
-        b->no_memory = true;
-        return false;
-    }
-    p->pair[p->n++] = (uint64_t)line << 32 | part;
-    return true;
+    if (sunder_i_pairs_add(&b->out->pairs, line, part)) return true;
+    b->no_memory = true;
+    return false;
 }
 
 /* Lists the candidates of some runs that pass through a box. */
@@ -65,19 +61,26 @@ void sunder_i_cells_cover(builder *b, uint32_t side, uint32_t part)
     push_pair(b, line, part);
 }
 
+/* Every line of the candidates at hand is covered by the part where it passes here. */
+static void cover_all(builder *b, uint32_t part)
+{
+    b->cells++;
+    for (size_t i = 0; i < b->crossing_n; i++) {
+        const uint32_t line = b->crossing[i].line;
+        if (b->stamp[line] == b->cells) continue;
+        b->stamp[line] = b->cells;
+        if (!push_pair(b, line, part)) return;
+    }
+}
+
 /* The box is inside `one`, or inside `one` and `other` together: every candidate of the parent's lists that passes
  * through it is covered there. */
 void sunder_i_cells_close(builder *b, const cell *parent, const box *c, uint32_t one, uint32_t other)
 {
-    b->cells++;
     sunder_i_cells_gather(b, parent->run_from, parent->run_to, c);
-    for (size_t i = 0; i < b->crossing_n; i++) {
-        const uint32_t line = b->crossing[i].line;
-        b->out->fate[b->crossing[i].side] |= CONTESTED;
-        if (b->stamp[line] == b->cells) continue;
-        b->stamp[line] = b->cells;
-        if (!push_pair(b, line, one) || (other != one && !push_pair(b, line, other))) return;
-    }
+    for (size_t i = 0; i < b->crossing_n; i++) b->out->fate[b->crossing[i].side] |= CONTESTED;
+    cover_all(b, one);
+    if (other != one && !b->no_memory) cover_all(b, other);
 }
 
 /* A leaf that one part alone reaches into. */
@@ -116,12 +119,12 @@ void sunder_i_cells_open_leaf(builder *b, const cell *c)
 void sunder_i_cells_end_trial(builder *b)
 {
     trial *t = &b->trial;
-    if (t->spent + PAIR_COST * (double)(b->out->n - t->pairs_n) <= PAIR_COST / 2 * t->of.trial) return;
+    if (t->spent + PAIR_COST * (double)(b->out->pairs.count - t->pairs.count) <= PAIR_COST / 2 * t->of.trial) return;
     t->on = false;
     b->stack_n = t->stack_n;
     b->entries_n = t->of.entry_to;
     b->runs_n = t->of.run_to;
-    b->out->n = t->pairs_n;
+    sunder_i_pairs_take_back(&b->out->pairs, t->pairs);
     sunder_i_cells_forget_pairs(b);
     sunder_i_cells_gather(b, t->of.run_from, t->of.run_to, &t->of.b);
     sunder_i_cells_open_leaf(b, &t->of);

@@ -46,7 +46,8 @@ typedef struct cell {
 typedef struct trial {
     bool on;
     cell of;
-    size_t stack_n, pairs_n; /* what there was before */
+    size_t stack_n; /* what there was before */
+    sunder_i_pairs_mark pairs;
     double done, spent;
 } trial;
 
@@ -59,8 +60,8 @@ typedef struct crossing {
 /* A part that is no more than a half-plane in half a cell: the widest so far in its direction. */
 typedef struct half_plane {
     uint32_t stamp, side;
-    double depth;      /* of the half's centre in it, in a measure that parallel sides have in common */
-    size_t entry, run; /* where it stands in the half's lists */
+    double depth;        /* of the half's centre in it, in a measure that parallel sides have in common */
+    uint32_t entry, run; /* where it stands in the half's lists */
 } half_plane;
 
 /* Marks of a candidate while the cells are made: it passes through a leaf of several parts; through one of its

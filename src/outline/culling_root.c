@@ -115,8 +115,9 @@ static bool list_all(builder *b, const box *all, cell *root)
     const sunder_i_convex_pieces *s = b->parts;
     double *extent = sunder_i_alloc(s->n, sizeof *extent);
     uint32_t *order = sunder_i_alloc(s->n, sizeof *order);
-    bool ok = extent && order && sunder_i_reserve(&b->entries, &b->entries_capacity, s->n, sizeof *b->entries) &&
-              sunder_i_reserve(&b->runs, &b->runs_capacity, s->corners, sizeof *b->runs);
+    /* With both halves, which are written behind them (reserve_halves()). */
+    bool ok = extent && order && sunder_i_reserve(&b->entries, &b->entries_capacity, 3 * s->n, sizeof *b->entries) &&
+              sunder_i_reserve(&b->runs, &b->runs_capacity, 3 * s->corners + 2, sizeof *b->runs);
     for (uint32_t i = 0; ok && i < s->n; i++) {
         order[i] = i;
         extent[i] = extent_of(b, i);

@@ -99,9 +99,8 @@ static uint32_t find_or_add(table *t, uint32_t side, sunder_i_lines *out)
     const uint32_t n = out->n++;
     t->slot[at] = n + 1;
     t->keys[n] = k;
-    const sunder_i_point a = s->corner[side], d = s->direction[k.class];
-    out->line[n] = (sunder_i_supporting_line){
-        a, s->lattice->narrow ? (sunder_i_point){a.x + d.x, a.y + d.y} : sunder_i_point_add(s->lattice, a, d), k.class};
+    out->side[n] = side;
+    if (out->second) out->second[n] = sunder_i_point_add(s->lattice, s->corner[side], s->direction[k.class]);
     return n;
 }
 
@@ -112,9 +111,15 @@ sunder_status sunder_i_lines_group(const sunder_i_convex_pieces *parts, sunder_i
     for (size_t k = 0; k < parts->corners; k++) n += parts->candidate[k];
     while (size < 2 * n) size *= 2;
     table t = {parts, sunder_i_calloc(size, sizeof *t.slot), size - 1, sunder_i_alloc(n, sizeof *t.keys)};
-    out->line = sunder_i_alloc(n, sizeof *out->line);
+    const bool narrow = parts->lattice->narrow;
+    out->corner = parts->corner;
+    out->rank = parts->rank;
+    out->direction = parts->direction;
+    out->classes = parts->classes;
+    out->side = sunder_i_alloc(n, sizeof *out->side);
+    out->second = narrow ? NULL : sunder_i_alloc(n, sizeof *out->second);
     out->of = sunder_i_alloc(parts->corners, sizeof *out->of);
-    bool ok = t.slot && t.keys && out->line && out->of;
+    bool ok = t.slot && t.keys && out->side && out->of && (narrow || out->second);
     for (uint32_t k = 0; ok && k < parts->corners; k++) {
         ok = sunder_i_step();
         out->of[k] = parts->candidate[k] ? find_or_add(&t, k, out) : SUNDER_I_NO_LINE;
@@ -128,7 +133,8 @@ sunder_status sunder_i_lines_group(const sunder_i_convex_pieces *parts, sunder_i
 
 void sunder_i_lines_free(sunder_i_lines *lines)
 {
-    sunder_i_free(lines->line);
+    sunder_i_free(lines->side);
+    sunder_i_free(lines->second);
     sunder_i_free(lines->of);
     memset(lines, 0, sizeof *lines);
 }

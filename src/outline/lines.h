@@ -11,11 +11,33 @@ typedef struct sunder_i_supporting_line {
     uint32_t class;
 } sunder_i_supporting_line;
 
+/* There is a line for every few sides, and at first most of them inside the union: so what is kept of one is little. */
 typedef struct sunder_i_lines {
-    sunder_i_supporting_line *line;
+    uint32_t *side; /* [lines] one that is on each */
     uint32_t n;
-    uint32_t *of; /* [sides] the line of each candidate; SUNDER_I_NO_LINE for the other sides */
+    uint32_t *of;           /* [sides] the line of each candidate; SUNDER_I_NO_LINE for the other sides */
+    sunder_i_point *second; /* [lines] on a wide lattice, where a point of its own takes room; else NULL */
+    /* Borrowed: [corners], [corners], [classes], as the parts have them. */
+    const sunder_i_point *corner;
+    const uint32_t *rank;
+    const sunder_i_point *direction;
+    uint32_t classes;
 } sunder_i_lines;
+
+static inline uint32_t sunder_i_lines_class(const sunder_i_lines *lines, uint32_t number)
+{
+    const uint32_t rank = lines->rank[lines->side[number]];
+    return rank < lines->classes ? rank : rank - lines->classes;
+}
+
+static inline sunder_i_supporting_line sunder_i_lines_get(const sunder_i_lines *lines, uint32_t number)
+{
+    const sunder_i_point a = lines->corner[lines->side[number]];
+    const uint32_t class = sunder_i_lines_class(lines, number);
+    if (lines->second) return (sunder_i_supporting_line){a, lines->second[number], class};
+    const sunder_i_point d = lines->direction[class];
+    return (sunder_i_supporting_line){a, {a.x + d.x, a.y + d.y}, class};
+}
 
 /* Fails with SUNDER_ENOMEM. */
 sunder_status sunder_i_lines_group(const sunder_i_convex_pieces *parts, sunder_i_lines *out, sunder_error *err);

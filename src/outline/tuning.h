@@ -29,7 +29,7 @@
 /* So many parts with one side in the cell are tried in pairs; more are rare. */
 #define SINGLES 8
 /* The table of pairs pushed of late: 128 KB, which stay in the second-level cache; more hardly finds more. */
-#define RECENT_BITS_MOST 14
+#define RECENT_BITS_MOST 13
 #define RECENT_BITS_LEAST 6
 
 /* ---- Runs of sides (culling_root.c) ------------------------------------------------------------------------------ */
@@ -42,7 +42,7 @@
 /* What a pair costs that is pushed, and then sorted and read again for its line, in sides of a split. */
 #define PAIR_COST 4
 
-/* ---- Contained sides --------------------------------------------------------------------------------------------- */
+/* ---- Contained sides and parts ----------------------------------------------------------------------------------- */
 
 /* Parts looked at for one side: those at the front of a square's list hold most. */
 #define LOOKS 1024
@@ -51,6 +51,10 @@
 /* So much is looked for on trust, in sides that cost LOOKS, and in looks for each part. */
 #define SIDES_ON_TRUST 4
 #define LOOKS_ON_TRUST 4
+/* So many for each part are looked at on trust for one that it is inside of, and so many more for each corner of a part
+ * that is dropped: half of what a corner takes in the cells. */
+#define PART_LOOKS_ON_TRUST 32
+#define PART_LOOKS_SAVED 256
 /* The lists of a square have so many entries for each part, or they are not worth their room. */
 #define MOST_ENTRIES 64.0
 /* And there are no more squares than this for each part. */

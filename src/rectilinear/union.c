@@ -139,19 +139,36 @@ static bool join(joiner *j, sunder_i_lattice *lattice, sunder_i_coverage *to)
     return ok;
 }
 
-static bool make_lines(const sunder_i_ranked_rectangles *in, sunder_i_lines *out)
+static const sunder_i_point along[KINDS] = {{1, 0}, {0, 1}};
+
+/* Of each line a side that is there for its sake: where it starts and the rank of its direction. */
+typedef struct grid_lines {
+    sunder_i_point *at;
+    uint32_t *rank;
+} grid_lines;
+
+static void add_line(const grid_lines *g, sunder_i_lines *out, sunder_i_point at, uint32_t kind)
 {
-    memset(out, 0, sizeof *out);
-    out->line = sunder_i_alloc((size_t)in->places[0] + in->places[1], sizeof *out->line);
-    if (!out->line) return false;
-    for (uint32_t y = 0; y < in->places[1]; y++) {
-        const sunder_i_point a = {in->at[0][0], in->at[1][y]};
-        out->line[out->n++] = (sunder_i_supporting_line){a, {a.x + 1, a.y}, 0};
-    }
-    for (uint32_t x = 0; x < in->places[0]; x++) {
-        const sunder_i_point a = {in->at[0][x], in->at[1][0]};
-        out->line[out->n++] = (sunder_i_supporting_line){a, {a.x, a.y + 1}, 1};
-    }
+    g->at[out->n] = at;
+    g->rank[out->n] = kind;
+    out->side[out->n] = out->n;
+    out->n++;
+}
+
+static bool make_lines(const sunder_i_ranked_rectangles *in, sunder_i_lines *out, grid_lines *g)
+{
+    const size_t n = (size_t)in->places[0] + in->places[1];
+    g->at = sunder_i_alloc(n, sizeof *g->at);
+    g->rank = sunder_i_alloc(n, sizeof *g->rank);
+    *out = (sunder_i_lines){.side = sunder_i_alloc(n, sizeof *out->side),
+                            .corner = g->at,
+                            .rank = g->rank,
+                            .direction = along,
+                            .classes = KINDS};
+    if (!out->side || !g->at || !g->rank) return false;
+    for (uint32_t y = 0; y < in->places[1]; y++) add_line(g, out, (sunder_i_point){in->at[0][0], in->at[1][y]}, ROWS);
+    for (uint32_t x = 0; x < in->places[0]; x++)
+        add_line(g, out, (sunder_i_point){in->at[0][x], in->at[1][0]}, COLUMNS);
     return true;
 }
 
@@ -161,9 +178,10 @@ sunder_status sunder_i_rectangles_unite(const sunder_i_ranked_rectangles *rectan
     joiner j = {.in = rectangles};
     sunder_i_coverage coverage = {0};
     sunder_i_lines lines = {0};
+    grid_lines g = {0};
     const bool ok = sunder_i_contour_find(rectangles, 1, &j.contour[ROWS]) &&
                     sunder_i_contour_find(rectangles, 0, &j.contour[COLUMNS]) && join(&j, &sum->lattice, &coverage) &&
-                    make_lines(rectangles, &lines);
+                    make_lines(rectangles, &lines, &g);
     for (int kind = 0; kind < KINDS; kind++) {
         sunder_i_contour_free(&j.contour[kind]);
         sunder_i_free(j.end[kind]);
@@ -174,5 +192,7 @@ sunder_status sunder_i_rectangles_unite(const sunder_i_ranked_rectangles *rectan
         ok ? sunder_i_boundary_build(&sum->lattice, 2, &lines, &coverage, sum, err) : sunder_i_no_memory(err);
     sunder_i_coverage_free(&coverage);
     sunder_i_lines_free(&lines);
+    sunder_i_free(g.at);
+    sunder_i_free(g.rank);
     return status;
 }

@@ -1,37 +1,15 @@
-/* Where many members are grown by one shape and overlap, most of their sides lie inside some other part, and the
- * cells (culling.h) spend most of their time on such; where members nearly coincide, no cell parts them, and all their
- * sides would meet all parts along their lines. A side inside an open convex set is one with both its ends there;
- * which parts may hold it is read off a grid. A filter: what it does not find is found by the cells. Floating point
- * with one-sided bounds, so that nothing is taken for contained that is not. */
-#include "outline/contained_sides.h"
+/* Corners in units of the grid, boxes of parts, lists of the squares; and of a part the fan of triangles around its
+ * first corner, in which a point is found by bisection. */
+#include "outline/contained_grid.h"
 
 #include "base/extremes.h"
 #include "base/sort.h"
-#include "base/watch.h"
 #include "outline/tuning.h"
-#include "predicate/narrow.h"
 
 #include <math.h>
 
-typedef struct box {
-    int64_t low[2], high[2];
-} box;
-
-/* Squares of 2^shift units; in each the parts of which the box reaches into it. The units are those of a narrow
- * lattice; of a wide one the coordinates are rounded to 60 bits of the largest, and may be off by so much each. */
-typedef struct grid {
-    const sunder_i_convex_pieces *parts;
-    const sunder_i_point *corner;
-    sunder_i_point *rounded; /* what they are on a wide lattice, else NULL */
-    int64_t error;
-    box *reach;      /* [parts] their boxes */
-    uint32_t *order; /* [parts] the largest first */
-    box all;
-    int shift;
-    uint32_t size[2];
-    uint32_t *end, *list;  /* [squares] past its last entry in list */
-    size_t spent, allowed; /* parts looked at, see drop() */
-} grid;
+typedef sunder_i_part_grid grid;
+typedef sunder_i_part_box box;
 
 /* ---- Inside a part? ---- */
 
@@ -48,15 +26,9 @@ static double turn(const grid *g, sunder_i_point a, sunder_i_point b, sunder_i_p
     return fabs(c) > bound ? c : 0;
 }
 
-static bool is_within(const grid *g, const box *b, sunder_i_point p)
-{
-    const int64_t e = 2 * g->error; /* of the corner and of the box */
-    return p.x > b->low[0] + e && p.x < b->high[0] - e && p.y > b->low[1] + e && p.y < b->high[1] - e;
-}
-
-/* Is p strictly inside for certain? The fan of triangles around the first corner is searched for the one that holds p,
+/* The fan of triangles around the first corner is searched for the one that holds p,
  * or for the diagonal that it is on, or too near to be told on which side: then for the two triangles beside that. */
-static bool holds(const grid *g, uint32_t part, sunder_i_point p)
+bool sunder_i_part_grid_holds(const grid *g, uint32_t part, sunder_i_point p)
 {
     const sunder_i_convex_pieces *s = g->parts;
     const uint32_t first = sunder_i_convex_pieces_first(s, part);
@@ -177,13 +149,12 @@ static void visit(grid *g, uint32_t part, bool fill)
 }
 
 /* In most layers an entry or two for each square a part touches; where a few parts are far larger than the others
- * the lists would not be worth their room, and *made is false. */
-static bool make_lists(grid *g, bool *made)
+ * the lists would not be worth their room. */
+static bool make_lists(grid *g)
 {
     const uint32_t n = (uint32_t)g->parts->n;
     const size_t squares = (size_t)g->size[0] * g->size[1];
     double entries = 0;
-    *made = false;
     for (uint32_t i = 0; i < n; i++) {
         const box *b = &g->reach[i];
         entries += (double)(column(g, 0, b->high[0]) - column(g, 0, b->low[0]) + 1) *
@@ -202,76 +173,34 @@ static bool make_lists(grid *g, bool *made)
     }
     if (!order_by_extent(g)) return false;
     for (uint32_t i = 0; i < n; i++) visit(g, g->order[i], true);
-    *made = true;
     return true;
 }
 
-/* ---- Sides ---- */
-
-#define NONE UINT32_MAX
-
-static bool holds_both(const grid *g, uint32_t part, sunder_i_point a, sunder_i_point b)
+uint32_t sunder_i_part_grid_at(const grid *g, sunder_i_point p, uint32_t *from)
 {
-    const box *r = &g->reach[part];
-    return is_within(g, r, a) && is_within(g, r, b) && holds(g, part, b) && holds(g, part, a);
+    const size_t q = (size_t)column(g, 1, p.y) * g->size[0] + column(g, 0, p.x);
+    *from = q ? g->end[q - 1] : 0;
+    return g->end[q] - *from;
 }
 
-/* A part that holds the segment ab; NONE if none is found. The one that held the side before is asked first, then those
- * of the square in which the middle lies, the largest first; what is found goes to the front, for what holds one side
- * holds others. */
-static uint32_t find_holder(grid *g, sunder_i_point a, sunder_i_point b, uint32_t own, uint32_t hint)
+bool sunder_i_part_grid_build(grid *g, const sunder_i_convex_pieces *parts)
 {
-    if (hint != NONE && holds_both(g, hint, a, b)) return hint;
-    const sunder_i_point middle = {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2};
-    const size_t q = (size_t)column(g, 1, middle.y) * g->size[0] + column(g, 0, middle.x);
-    const uint32_t from = q ? g->end[q - 1] : 0, n = g->end[q] - from;
-    for (uint32_t i = from; i < from + (n < LOOKS ? n : LOOKS); i++) {
-        const uint32_t part = g->list[i];
-        g->spent++;
-        if (part == own || !holds_both(g, part, a, b)) continue;
-        g->list[i] = g->list[from];
-        g->list[from] = part;
-        return part;
-    }
-    return NONE;
+    bool no_memory = false;
+    *g = (grid){.parts = parts,
+                .reach = sunder_i_alloc(parts->n, sizeof *g->reach),
+                .order = sunder_i_alloc(parts->n, sizeof *g->order)};
+    if (!g->reach || !g->order) return false;
+    if (!take_corners(g, &no_memory)) return !no_memory;
+    measure(g);
+    choose_squares(g);
+    return make_lists(g);
 }
 
-/* Looks are saved where sides are dropped; where sides are held by several parts together, not by one, that is noticed
- * soon, and the rest is left to the cells. The smallest parts come first: of features one within the other only the
- * last, which nothing holds, is looked for in vain. */
-static void drop(sunder_i_convex_pieces *s, grid *g)
+void sunder_i_part_grid_free(grid *g)
 {
-    g->allowed = SIDES_ON_TRUST * LOOKS + LOOKS_ON_TRUST * (size_t)s->n;
-    for (size_t left = s->n; left-- > 0 && g->spent < g->allowed && sunder_i_step();) {
-        const uint32_t i = g->order[left];
-        const uint32_t first = sunder_i_convex_pieces_first(s, i), end = s->end[i];
-        uint32_t holder = NONE;
-        for (uint32_t k = first; k < end; k++) {
-            if (!s->candidate[k]) continue;
-            holder = find_holder(g, g->corner[k], g->corner[k + 1 < end ? k + 1 : first], i, holder);
-            s->candidate[k] = holder == NONE;
-            if (holder != NONE) g->allowed += LOOKS_SAVED;
-        }
-    }
-}
-
-sunder_status sunder_i_drop_contained_sides(sunder_i_convex_pieces *parts, sunder_error *err)
-{
-    if (parts->n == 0) return SUNDER_OK;
-    grid g = {.parts = parts,
-              .reach = sunder_i_alloc(parts->n, sizeof *g.reach),
-              .order = sunder_i_alloc(parts->n, sizeof *g.order)};
-    bool no_memory = !g.reach || !g.order, made = false;
-    if (!no_memory && take_corners(&g, &no_memory)) {
-        measure(&g);
-        choose_squares(&g);
-        no_memory = !make_lists(&g, &made);
-        if (made) drop(parts, &g);
-    }
-    sunder_i_free(g.rounded);
-    sunder_i_free(g.reach);
-    sunder_i_free(g.order);
-    sunder_i_free(g.end);
-    sunder_i_free(g.list);
-    return no_memory ? sunder_i_no_memory(err) : SUNDER_OK;
+    sunder_i_free(g->rounded);
+    sunder_i_free(g->reach);
+    sunder_i_free(g->order);
+    sunder_i_free(g->end);
+    sunder_i_free(g->list);
 }

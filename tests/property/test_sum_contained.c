@@ -1,11 +1,11 @@
-/* Layers of members that overlap and touch, grown by a convex shape: sides inside a single subsum are dropped before
- * anything else then. Against the oracle byte for byte, and against the same sum on big integers, where none is
- * dropped. */
+/* Layers of members that overlap and touch, grown by a convex shape: subsums inside another are dropped, and sides
+ * inside a single one, before anything else then. Against the oracle byte for byte, and against the same sum on big
+ * integers, where none is dropped. */
 #include "convex/subsums.h"
 #include "generate.h"
 #include "minkowski/minkowski.h"
 #include "oracle.h"
-#include "outline/contained_sides.h"
+#include "outline/contained.h"
 #include "sum_text.h"
 
 #include <math.h>
@@ -91,28 +91,113 @@ static void test_layers(void **state)
     assert_int_equal(bad, 0);
 }
 
+typedef struct parts {
+    sunder_shape *a, *b;
+    sunder_i_placed placed;
+    sunder_i_convex_pieces list;
+    sunder_i_directions directions;
+} parts;
+
+static void make_parts(parts *s, const polyset *p, const polyset *q)
+{
+    const sunder_i_place_options how = {0};
+    s->a = polyset_shape(p);
+    s->b = polyset_shape(q);
+    assert_int_equal(sunder_i_place(s->a, s->b, &how, &s->placed, NULL), SUNDER_OK);
+    assert_true(s->placed.lattice.narrow);
+    assert_int_equal(sunder_i_subsums_build(&s->placed.lattice, s->a, s->placed.p, s->b, s->placed.q, &s->directions,
+                                            &s->list, NULL),
+                     SUNDER_OK);
+}
+
+static void free_parts(parts *s)
+{
+    sunder_i_convex_pieces_free(&s->list);
+    sunder_i_directions_free(&s->directions);
+    sunder_i_placed_free(&s->placed);
+    sunder_shape_free(s->a);
+    sunder_shape_free(s->b);
+}
+
+static size_t candidates(const sunder_i_convex_pieces *s)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < s->corners; k++) n += s->candidate[k];
+    return n;
+}
+
 /* How many candidates there are before and after. */
 static void count_candidates(const polyset *p, const polyset *q, size_t count[2])
 {
-    sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
-    sunder_i_placed placed;
-    sunder_i_convex_pieces s;
-    sunder_i_directions directions;
-    const sunder_i_place_options how = {0};
-    assert_int_equal(sunder_i_place(a, b, &how, &placed, NULL), SUNDER_OK);
-    assert_true(placed.lattice.narrow);
-    assert_int_equal(sunder_i_subsums_build(&placed.lattice, a, placed.p, b, placed.q, &directions, &s, NULL),
-                     SUNDER_OK);
-    for (int pass = 0; pass < 2; pass++) {
-        if (pass) assert_int_equal(sunder_i_drop_contained_sides(&s, NULL), SUNDER_OK);
-        count[pass] = 0;
-        for (size_t k = 0; k < s.corners; k++) count[pass] += s.candidate[k];
+    parts s;
+    make_parts(&s, p, q);
+    count[0] = candidates(&s.list);
+    assert_int_equal(sunder_i_drop_contained_sides(&s.list, NULL), SUNDER_OK);
+    count[1] = candidates(&s.list);
+    free_parts(&s);
+}
+
+/* Strictly inside, by whole numbers. */
+static bool is_inside(const sunder_i_convex_pieces *s, uint32_t i, uint32_t j)
+{
+    const uint32_t from = sunder_i_convex_pieces_first(s, j);
+    if (s->end[j] - from < 3) return false;
+    for (uint32_t k = sunder_i_convex_pieces_first(s, i); k < s->end[i]; k++)
+        for (uint32_t m = from; m < s->end[j]; m++) {
+            const sunder_i_point a = s->corner[m], b = s->corner[m + 1 < s->end[j] ? m + 1 : from], c = s->corner[k];
+            if ((__int128)(b.x - a.x) * (c.y - a.y) <= (__int128)(b.y - a.y) * (c.x - a.x)) return false;
+        }
+    return true;
+}
+
+static bool is_same_part(const sunder_i_convex_pieces *s, uint32_t i, const sunder_i_convex_pieces *t, uint32_t j)
+{
+    const uint32_t a = sunder_i_convex_pieces_first(s, i), b = sunder_i_convex_pieces_first(t, j), n = s->end[i] - a;
+    return n == t->end[j] - b && memcmp(s->corner + a, t->corner + b, n * sizeof *s->corner) == 0 &&
+           memcmp(s->rank + a, t->rank + b, n * sizeof *s->rank) == 0;
+}
+
+/* Those that stay are those inside no other, in their order, with no candidate more. */
+static size_t check_parts(const parts *before, const parts *after)
+{
+    const sunder_i_convex_pieces *s = &before->list, *t = &after->list;
+    uint32_t next = 0;
+    for (uint32_t i = 0; i < s->n; i++) {
+        bool inside = false;
+        for (uint32_t j = 0; j < s->n && !inside; j++) inside = is_inside(s, i, j);
+        if (inside) continue;
+        assert_true(next < t->n && is_same_part(s, i, t, next));
+        const uint32_t a = sunder_i_convex_pieces_first(s, i), b = sunder_i_convex_pieces_first(t, next);
+        for (uint32_t k = 0; a + k < s->end[i]; k++) assert_true(s->candidate[a + k] || !t->candidate[b + k]);
+        next++;
     }
-    sunder_i_convex_pieces_free(&s);
-    sunder_i_directions_free(&directions);
-    sunder_i_placed_free(&placed);
-    sunder_shape_free(a);
-    sunder_shape_free(b);
+    assert_int_equal(next, t->n);
+    return s->n - t->n;
+}
+
+static void test_parts(void **state)
+{
+    (void)state;
+    const uint64_t seed = test_seed();
+    const size_t n = test_count(60);
+    size_t gone = 0;
+    print_message("SUNDER_SEED=%llu\n", (unsigned long long)seed);
+    for (size_t i = 0; i < n; i++) {
+        rng r = rng_start(seed * 37, i);
+        polyset p, q;
+        parts before, after;
+        random_layer(&p, &q, &r, false, 20);
+        make_parts(&before, &p, &q);
+        make_parts(&after, &p, &q);
+        assert_int_equal(sunder_i_drop_contained(&after.list, NULL), SUNDER_OK);
+        gone += check_parts(&before, &after);
+        free_parts(&before);
+        free_parts(&after);
+        polyset_free(&p);
+        polyset_free(&q);
+    }
+    print_message("%zu parts inside another\n", gone);
+    assert_true(gone > n);
 }
 
 /* A row of squares: each one's sides towards its neighbours are inside these, all but the first and the last; sides
@@ -158,7 +243,7 @@ static void test_memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_row), cmocka_unit_test(test_layers),
-                                       cmocka_unit_test(test_memory)};
-    return cmocka_run_group_tests_name("sides inside one subsum", tests, NULL, NULL);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_row), cmocka_unit_test(test_parts),
+                                       cmocka_unit_test(test_layers), cmocka_unit_test(test_memory)};
+    return cmocka_run_group_tests_name("sides and parts inside one subsum", tests, NULL, NULL);
 }

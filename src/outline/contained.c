@@ -1,0 +1,151 @@
+/* Where many members are grown by one shape and overlap, most of their sides lie inside some other part, and the
+ * cells (culling.h) spend most of their time on such; where members nearly coincide, no cell parts them, and all their
+ * sides would meet all parts along their lines. Of ragged operands one in five of the subsums that are made lies inside
+ * another. An open convex set holds a side if it holds both its ends, and a part if it holds its corners; which parts
+ * may hold them is read off a grid. A filter: what it does not find is found by the cells. */
+#include "outline/contained.h"
+
+#include "base/watch.h"
+#include "outline/contained_grid.h"
+#include "outline/tuning.h"
+
+#include <string.h>
+
+#define NONE UINT32_MAX
+
+/* Parts looked at, and how many may be. */
+typedef struct looks {
+    size_t spent, allowed;
+} looks;
+
+typedef struct dropper {
+    sunder_i_convex_pieces *parts;
+    sunder_i_part_grid grid;
+    looks sides, whole;
+    bool *gone; /* [parts]; NULL: all parts stay */
+} dropper;
+
+/* ---- Sides ---- */
+
+static bool holds_both(const sunder_i_part_grid *g, uint32_t part, sunder_i_point a, sunder_i_point b)
+{
+    return sunder_i_part_grid_reaches(g, part, a) && sunder_i_part_grid_reaches(g, part, b) &&
+           sunder_i_part_grid_holds(g, part, b) && sunder_i_part_grid_holds(g, part, a);
+}
+
+/* A part that holds the segment ab; NONE if none is found. The one that held the side before is asked first, then those
+ * that reach into the square of one of its ends, whichever are fewer; what is found goes to the front, for what holds
+ * one side holds others. */
+static uint32_t find_holder(dropper *d, sunder_i_point a, sunder_i_point b, uint32_t own, uint32_t hint)
+{
+    sunder_i_part_grid *g = &d->grid;
+    if (hint != NONE && holds_both(g, hint, a, b)) return hint;
+    uint32_t from, from_b, n = sunder_i_part_grid_at(g, a, &from);
+    const uint32_t at_b = sunder_i_part_grid_at(g, b, &from_b);
+    if (at_b < n) {
+        n = at_b;
+        from = from_b;
+    }
+    for (uint32_t i = from; i < from + (n < LOOKS ? n : LOOKS); i++) {
+        const uint32_t part = g->list[i];
+        d->sides.spent++;
+        if (part == own || !holds_both(g, part, a, b)) continue;
+        g->list[i] = g->list[from];
+        g->list[from] = part;
+        return part;
+    }
+    return NONE;
+}
+
+static void drop_sides(dropper *d, uint32_t part)
+{
+    sunder_i_convex_pieces *s = d->parts;
+    const sunder_i_point *corner = d->grid.corner;
+    const uint32_t first = sunder_i_convex_pieces_first(s, part), end = s->end[part];
+    uint32_t holder = NONE;
+    for (uint32_t k = first; k < end; k++) {
+        if (!s->candidate[k]) continue;
+        holder = find_holder(d, corner[k], corner[k + 1 < end ? k + 1 : first], part, holder);
+        s->candidate[k] = holder == NONE;
+        if (holder != NONE) d->sides.allowed += LOOKS_SAVED;
+    }
+}
+
+/* ---- Parts ---- */
+
+static bool holds_part(const dropper *d, uint32_t part, uint32_t other)
+{
+    const sunder_i_convex_pieces *s = d->parts;
+    if (!sunder_i_part_grid_encloses(&d->grid, part, other)) return false;
+    for (uint32_t k = sunder_i_convex_pieces_first(s, other); k < s->end[other]; k++)
+        if (!sunder_i_part_grid_holds(&d->grid, part, d->grid.corner[k])) return false;
+    return true;
+}
+
+/* Is it inside another? One that holds it reaches into the squares of all its corners: the shortest list is looked
+ * through, which mostly is that of a corner near the outline. */
+static bool is_contained(dropper *d, uint32_t part)
+{
+    const sunder_i_part_grid *g = &d->grid;
+    uint32_t from = 0, n = UINT32_MAX;
+    for (uint32_t k = sunder_i_convex_pieces_first(d->parts, part); k < d->parts->end[part]; k++) {
+        uint32_t here;
+        const uint32_t at_k = sunder_i_part_grid_at(g, g->corner[k], &here);
+        if (at_k >= n) continue;
+        n = at_k;
+        from = here;
+    }
+    for (uint32_t i = from; i < from + n; i++) {
+        d->whole.spent++;
+        if (holds_part(d, g->list[i], part)) return true;
+    }
+    return false;
+}
+
+/* Looks are saved where something is dropped; where sides are held by several parts together, not by one, that is
+ * noticed soon, and the rest is left to the cells. The smallest parts come first: of features one within the other only
+ * the last, which nothing holds, is looked for in vain. Parts that are dropped hold others all the same: what is inside
+ * one of them is inside the one that holds it. */
+static void drop(dropper *d)
+{
+    sunder_i_convex_pieces *s = d->parts;
+    d->sides.allowed = SIDES_ON_TRUST * LOOKS + LOOKS_ON_TRUST * (size_t)s->n;
+    d->whole.allowed = PART_LOOKS_ON_TRUST * (size_t)s->n;
+    for (size_t left = s->n; left-- > 0 && sunder_i_step();) {
+        const uint32_t i = d->grid.order[left];
+        const bool whole = d->gone && d->whole.spent < d->whole.allowed, sides = d->sides.spent < d->sides.allowed;
+        if (!whole && !sides) return;
+        if (whole && is_contained(d, i)) {
+            d->gone[i] = true;
+            d->whole.allowed += PART_LOOKS_SAVED * (s->end[i] - sunder_i_convex_pieces_first(s, i));
+        } else if (sides) {
+            drop_sides(d, i);
+        }
+    }
+}
+
+static sunder_status drop_contained(sunder_i_convex_pieces *parts, bool whole, sunder_error *err)
+{
+    if (parts->n == 0) return SUNDER_OK;
+    dropper d = {.parts = parts};
+    bool ok = sunder_i_part_grid_build(&d.grid, parts);
+    if (ok && d.grid.list) {
+        d.gone = whole ? sunder_i_calloc(parts->n, sizeof *d.gone) : NULL;
+        ok = d.gone || !whole;
+        if (ok) drop(&d);
+        if (d.gone) sunder_i_convex_pieces_remove(parts, d.gone);
+    }
+    sunder_i_free(d.gone);
+    sunder_i_part_grid_free(&d.grid);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+sunder_status sunder_i_drop_contained(sunder_i_convex_pieces *parts, sunder_error *err)
+{
+    return drop_contained(parts, true, err);
+}
+
+sunder_status sunder_i_drop_contained_sides(sunder_i_convex_pieces *parts, sunder_error *err)
+{
+    return drop_contained(parts, false, err);
+}

@@ -1,0 +1,55 @@
+/* A grid of squares, each with the parts that may reach into it, to ask which part holds a point for certain. A filter:
+ * floating point with one-sided bounds. Internal to contained*.c. */
+#ifndef SUNDER_I_CONTAINED_GRID_H
+#define SUNDER_I_CONTAINED_GRID_H
+
+#include "convex/pieces.h"
+
+typedef struct sunder_i_part_box {
+    int64_t low[2], high[2];
+} sunder_i_part_box;
+
+/* Squares of 2^shift units; in each the parts of which the box reaches into it. The units are those of a narrow
+ * lattice; of a wide one the coordinates are rounded to 60 bits of the largest, and may be off by so much each. */
+typedef struct sunder_i_part_grid {
+    const sunder_i_convex_pieces *parts;
+    const sunder_i_point *corner;
+    sunder_i_point *rounded; /* what they are on a wide lattice, else NULL */
+    int64_t error;
+    sunder_i_part_box *reach; /* [parts] their boxes */
+    uint32_t *order;          /* [parts] the largest first */
+    sunder_i_part_box all;
+    int shift;
+    uint32_t size[2];
+    uint32_t *end, *list; /* [squares] past its last entry in list */
+} sunder_i_part_grid;
+
+/* NULL lists where they would not be worth their room, or all is next to nothing. False if memory is out; it is to be
+ * freed in any case. */
+bool sunder_i_part_grid_build(sunder_i_part_grid *grid, const sunder_i_convex_pieces *parts);
+void sunder_i_part_grid_free(sunder_i_part_grid *grid);
+
+/* How many parts there are in the list of the square with this point, the largest first at first; *from: where in
+ * list. */
+uint32_t sunder_i_part_grid_at(const sunder_i_part_grid *grid, sunder_i_point p, uint32_t *from);
+/* Is p strictly inside the box of a part for certain? */
+static inline bool sunder_i_part_grid_reaches(const sunder_i_part_grid *grid, uint32_t part, sunder_i_point p)
+{
+    const sunder_i_part_box *b = &grid->reach[part];
+    const int64_t e = 2 * grid->error; /* of the corner and of the box */
+    return p.x > b->low[0] + e && p.x < b->high[0] - e && p.y > b->low[1] + e && p.y < b->high[1] - e;
+}
+
+/* The same of the box of another part. */
+static inline bool sunder_i_part_grid_encloses(const sunder_i_part_grid *grid, uint32_t part, uint32_t other)
+{
+    const sunder_i_part_box *a = &grid->reach[part], *b = &grid->reach[other];
+    const int64_t e = 2 * grid->error;
+    return b->low[0] > a->low[0] + e && b->high[0] < a->high[0] - e && b->low[1] > a->low[1] + e &&
+           b->high[1] < a->high[1] - e;
+}
+
+/* Is p, which is inside the part's box, strictly inside the part for certain? */
+bool sunder_i_part_grid_holds(const sunder_i_part_grid *grid, uint32_t part, sunder_i_point p);
+
+#endif
