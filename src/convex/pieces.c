@@ -58,7 +58,10 @@ void sunder_i_convex_pieces_remove(sunder_i_convex_pieces *list, const bool *gon
     uint32_t n = 0, corners = 0;
     for (uint32_t i = 0, first = 0; i < list->n; i++) {
         const uint32_t end = list->end[i], m = end - first;
-        if (!gone[i]) {
+        if (!gone[i] && n == i) { /* where nothing has gone so far, all is in its place */
+            corners += m;
+            n++;
+        } else if (!gone[i]) {
             memmove(list->corner + corners, list->corner + first, m * sizeof *list->corner);
             memmove(list->rank + corners, list->rank + first, m * sizeof *list->rank);
             memmove(list->candidate + corners, list->candidate + first, m * sizeof *list->candidate);

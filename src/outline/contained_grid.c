@@ -1,5 +1,4 @@
-/* Corners in units of the grid, boxes of parts, lists of the squares; and of a part the fan of triangles around its
- * first corner, in which a point is found by bisection. */
+/* Corners in units of the grid, boxes of parts, lists of the squares. */
 #include "outline/contained_grid.h"
 
 #include "base/extremes.h"
@@ -10,46 +9,6 @@
 
 typedef sunder_i_part_grid grid;
 typedef sunder_i_part_box box;
-
-/* ---- Inside a part? ---- */
-
-/* cross(b - a, p - a), or 0 where its sign is not certain. Differences are below 2^62 and round once each, products and
- * their difference once more: the error is below 4 ulps of the products' magnitudes. Where coordinates are off by e,
- * differences u, v are by 2 e, and the product by 2 e (|ux| + |uy| + |vx| + |vy|) + 8 e^2 at most; twice that is
- * asked. */
-static double turn(const grid *g, sunder_i_point a, sunder_i_point b, sunder_i_point p)
-{
-    const double ux = (double)(b.x - a.x), uy = (double)(b.y - a.y), vx = (double)(p.x - a.x), vy = (double)(p.y - a.y);
-    const double s = ux * vy, t = uy * vx, c = s - t, e = (double)g->error;
-    double bound = 0x1p-50 * (fabs(s) + fabs(t));
-    if (g->error) bound += 4 * e * (fabs(ux) + fabs(uy) + fabs(vx) + fabs(vy)) + 16 * e * e;
-    return fabs(c) > bound ? c : 0;
-}
-
-/* The fan of triangles around the first corner is searched for the one that holds p,
- * or for the diagonal that it is on, or too near to be told on which side: then for the two triangles beside that. */
-bool sunder_i_part_grid_holds(const grid *g, uint32_t part, sunder_i_point p)
-{
-    const sunder_i_convex_pieces *s = g->parts;
-    const uint32_t first = sunder_i_convex_pieces_first(s, part);
-    const sunder_i_point *c = g->corner + first;
-    uint32_t low = 1, high = s->end[part] - first - 1;
-    if (turn(g, c[0], c[low], p) <= 0 || turn(g, c[0], c[high], p) >= 0) return false;
-    while (high - low > 1) {
-        const uint32_t middle = (low + high) / 2;
-        const double where = turn(g, c[0], c[middle], p);
-        if (where == 0)
-            return turn(g, c[0], c[middle - 1], p) > 0 && turn(g, c[middle - 1], c[middle], p) > 0 &&
-                   turn(g, c[middle], c[middle + 1], p) > 0 && turn(g, c[middle + 1], c[0], p) > 0;
-        if (where > 0)
-            low = middle;
-        else
-            high = middle;
-    }
-    return turn(g, c[low], c[high], p) > 0;
-}
-
-/* ---- The grid ---- */
 
 /* sunder_i_approx() is off by half an ulp of the largest, 2^-53 of it, which is less than 2^60 units here: by 2^7, and
  * by half a unit where that is rounded. False if memory is out, or if all is next to nothing, where
@@ -100,8 +59,6 @@ static void measure(grid *g)
     }
 }
 
-static uint32_t column(const grid *g, int axis, int64_t at) { return (uint32_t)((at - g->all.low[axis]) >> g->shift); }
-
 /* Boxes stand for what they hold: whether one is larger is of no consequence but for time. */
 static bool order_by_extent(grid *g)
 {
@@ -140,8 +97,9 @@ static void choose_squares(grid *g)
 static void visit(grid *g, uint32_t part, bool fill)
 {
     const box *b = &g->reach[part];
-    for (uint32_t y = column(g, 1, b->low[1]); y <= column(g, 1, b->high[1]); y++)
-        for (uint32_t x = column(g, 0, b->low[0]); x <= column(g, 0, b->high[0]); x++) {
+    for (uint32_t y = sunder_i_part_grid_column(g, 1, b->low[1]); y <= sunder_i_part_grid_column(g, 1, b->high[1]); y++)
+        for (uint32_t x = sunder_i_part_grid_column(g, 0, b->low[0]); x <= sunder_i_part_grid_column(g, 0, b->high[0]);
+             x++) {
             uint32_t *end = &g->end[(size_t)y * g->size[0] + x];
             if (fill) g->list[*end] = part;
             ++*end;
@@ -157,8 +115,9 @@ static bool make_lists(grid *g)
     double entries = 0;
     for (uint32_t i = 0; i < n; i++) {
         const box *b = &g->reach[i];
-        entries += (double)(column(g, 0, b->high[0]) - column(g, 0, b->low[0]) + 1) *
-                   (double)(column(g, 1, b->high[1]) - column(g, 1, b->low[1]) + 1);
+        entries +=
+            (double)(sunder_i_part_grid_column(g, 0, b->high[0]) - sunder_i_part_grid_column(g, 0, b->low[0]) + 1) *
+            (double)(sunder_i_part_grid_column(g, 1, b->high[1]) - sunder_i_part_grid_column(g, 1, b->low[1]) + 1);
     }
     if (entries > MOST_ENTRIES * n || entries > UINT32_MAX / 2) return true;
     g->end = sunder_i_calloc(squares, sizeof *g->end);
@@ -174,13 +133,6 @@ static bool make_lists(grid *g)
     if (!order_by_extent(g)) return false;
     for (uint32_t i = 0; i < n; i++) visit(g, g->order[i], true);
     return true;
-}
-
-uint32_t sunder_i_part_grid_at(const grid *g, sunder_i_point p, uint32_t *from)
-{
-    const size_t q = (size_t)column(g, 1, p.y) * g->size[0] + column(g, 0, p.x);
-    *from = q ? g->end[q - 1] : 0;
-    return g->end[q] - *from;
 }
 
 bool sunder_i_part_grid_build(grid *g, const sunder_i_convex_pieces *parts)

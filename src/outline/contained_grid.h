@@ -1,5 +1,5 @@
-/* A grid of squares, each with the parts that may reach into it, to ask which part holds a point for certain. A filter:
- * floating point with one-sided bounds. Internal to contained*.c. */
+/* A grid of squares, each with the parts of which the box reaches into it, to ask which parts may hold a point.
+ * Internal to contained*.c. */
 #ifndef SUNDER_I_CONTAINED_GRID_H
 #define SUNDER_I_CONTAINED_GRID_H
 
@@ -29,9 +29,21 @@ typedef struct sunder_i_part_grid {
 bool sunder_i_part_grid_build(sunder_i_part_grid *grid, const sunder_i_convex_pieces *parts);
 void sunder_i_part_grid_free(sunder_i_part_grid *grid);
 
+static inline uint32_t sunder_i_part_grid_column(const sunder_i_part_grid *grid, int axis, int64_t at)
+{
+    return (uint32_t)((at - grid->all.low[axis]) >> grid->shift);
+}
+
 /* How many parts there are in the list of the square with this point, the largest first at first; *from: where in
  * list. */
-uint32_t sunder_i_part_grid_at(const sunder_i_part_grid *grid, sunder_i_point p, uint32_t *from);
+static inline uint32_t sunder_i_part_grid_at(const sunder_i_part_grid *grid, sunder_i_point p, uint32_t *from)
+{
+    const uint32_t x = sunder_i_part_grid_column(grid, 0, p.x), y = sunder_i_part_grid_column(grid, 1, p.y);
+    const size_t square = (size_t)y * grid->size[0] + x;
+    *from = square ? grid->end[square - 1] : 0;
+    return grid->end[square] - *from;
+}
+
 /* Is p strictly inside the box of a part for certain? */
 static inline bool sunder_i_part_grid_reaches(const sunder_i_part_grid *grid, uint32_t part, sunder_i_point p)
 {
@@ -48,8 +60,5 @@ static inline bool sunder_i_part_grid_encloses(const sunder_i_part_grid *grid, u
     return b->low[0] > a->low[0] + e && b->high[0] < a->high[0] - e && b->low[1] > a->low[1] + e &&
            b->high[1] < a->high[1] - e;
 }
-
-/* Is p, which is inside the part's box, strictly inside the part for certain? */
-bool sunder_i_part_grid_holds(const sunder_i_part_grid *grid, uint32_t part, sunder_i_point p);
 
 #endif

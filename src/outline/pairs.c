@@ -3,53 +3,44 @@
 
 #include <string.h>
 
-/* A row begins with what its pairs have in common, marked if that is the line and not the part; then come the others,
- * of which the last is marked. A row of one has, as it begins, its part in front. There are fewer lines and parts than
- * 2^31. */
-#define MARK 0x80000000u
+#define MARK SUNDER_I_PAIRS_MARK
 #define NUMBER(word) ((word) & ~MARK)
 #define LEAST_ROOM 256
 
-/* Where two more words can be written to; NULL if memory is out. The room grows by an eighth: doubled, it would be the
- * largest array of all just after. */
-static uint32_t *next_words(sunder_i_pairs *p)
+/* Room for two more words. It grows by an eighth: doubled, it would be the largest array of all just after. */
+static bool reserve(sunder_i_pairs *p)
 {
     const size_t need = p->n + 2;
-    if (need > p->capacity) {
-        const size_t room = need + (need / 8 > LEAST_ROOM ? need / 8 : LEAST_ROOM);
-        uint32_t *more = sunder_i_realloc(p->word, room, sizeof *more);
-        if (!more) return NULL;
-        p->word = more;
-        p->capacity = room;
-    }
-    return p->word + p->n;
+    if (need <= p->capacity) return true;
+    const size_t room = need + (need / 8 > LEAST_ROOM ? need / 8 : LEAST_ROOM);
+    uint32_t *more = sunder_i_realloc(p->word, room, sizeof *more);
+    if (!more) return false;
+    p->word = more;
+    p->capacity = room;
+    return true;
 }
 
-bool sunder_i_pairs_add(sunder_i_pairs *p, uint32_t line, uint32_t part)
+/* Does the pair go on with the last row? Of a row's first pair it is open what it will have in common with others:
+ * where that is its line, it is turned about. */
+static bool goes_on(sunder_i_pairs *p, uint32_t line, uint32_t part)
 {
-    uint32_t *next = next_words(p);
-    if (!next) return false;
-    p->count++;
-    if (p->row < p->n) {
-        uint32_t *row = p->word + p->row, other = row[0] == part ? line : part;
-        bool goes_on = row[0] == part || row[0] == (line | MARK);
-        if (!goes_on && p->n - p->row == 2 && row[1] == (line | MARK)) {
-            /* Of the first pair it was open what it would have in common with others. */
-            row[1] = row[0] | MARK;
-            row[0] = line | MARK;
-            goes_on = true;
-        }
-        if (goes_on) {
-            next[-1] = NUMBER(next[-1]);
-            next[0] = other | MARK;
-            p->n++;
-            return true;
-        }
-    }
+    if (p->row >= p->n) return false;
+    uint32_t *row = p->word + p->row;
+    if (row[0] == part || row[0] == (line | MARK)) return true;
+    if (p->n - p->row != 2 || row[0] & MARK || row[1] != (line | MARK)) return false;
+    row[1] = row[0] | MARK;
+    row[0] = line | MARK;
+    return true;
+}
+
+bool sunder_i_pairs_begin(sunder_i_pairs *p, uint32_t line, uint32_t part)
+{
+    if (!reserve(p)) return false;
+    if (goes_on(p, line, part)) return sunder_i_pairs_add(p, line, part);
     p->row = p->n;
-    next[0] = part;
-    next[1] = line | MARK;
-    p->n += 2;
+    p->word[p->n++] = part;
+    p->word[p->n++] = line | MARK;
+    p->count++;
     return true;
 }
 
@@ -74,14 +65,6 @@ void sunder_i_pairs_free(sunder_i_pairs *p)
 
 /* ---- Line by line ---- */
 
-/* Where the row that begins here ends. */
-static const uint32_t *end_of(const uint32_t *row)
-{
-    const uint32_t *word = row + 1;
-    while (!(*word & MARK)) word++;
-    return word + 1;
-}
-
 /* Numbers in lists. */
 typedef struct lists {
     size_t *end; /* [lists] past the last of each; while they are filled, where its next one goes */
@@ -104,17 +87,17 @@ static size_t begin_lists(size_t *of, uint32_t n)
 static void list_lines(const sunder_i_pairs *p, const bool *wanted, lists *of_part)
 {
     size_t *end = of_part->end;
-    for (const uint32_t *row = p->word, *last = row + p->n, *next; row < last; row = next) {
-        const uint32_t first = NUMBER(row[0]);
-        const bool of_line = row[0] & MARK;
-        next = end_of(row);
-        if (of_line && !wanted[first]) continue;
-        for (const uint32_t *word = row + 1; word < next; word++) {
-            const uint32_t part = of_line ? NUMBER(*word) : first, line = of_line ? first : NUMBER(*word);
-            if (!wanted[line]) continue;
-            if (of_part->item) of_part->item[end[part]] = line;
+    uint32_t *item = of_part->item;
+    for (const uint32_t *word = p->word, *last = word + p->n; word < last; word++) {
+        const uint32_t first = NUMBER(word[0]);
+        const bool of_line = word[0] & MARK, none = of_line && !wanted[first];
+        do {
+            word++;
+            const uint32_t line = of_line ? first : NUMBER(*word), part = of_line ? NUMBER(*word) : first;
+            if (none || !wanted[line]) continue;
+            if (item) item[end[part]] = line;
             end[part]++;
-        }
+        } while (!(*word & MARK));
     }
 }
 

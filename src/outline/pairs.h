@@ -10,8 +10,13 @@
 
 #include <stddef.h>
 
+/* A row begins with what its pairs have in common, marked if that is the line and not the part; then come the others,
+ * of which the last is marked. A row of one has, as it begins, its part in front. There are fewer lines and parts than
+ * 2^31. */
+#define SUNDER_I_PAIRS_MARK 0x80000000u
+
 typedef struct sunder_i_pairs {
-    uint32_t *word; /* rows: what is common to them, then the others */
+    uint32_t *word;
     size_t n, capacity;
     size_t row;   /* the last one, which may still grow; past the end if none is */
     size_t count; /* of pairs */
@@ -22,8 +27,24 @@ typedef struct sunder_i_pairs_mark {
     size_t n, count;
 } sunder_i_pairs_mark;
 
+/* For sunder_i_pairs_add(): where the pair does not simply go on with the last row. */
+bool sunder_i_pairs_begin(sunder_i_pairs *pairs, uint32_t line, uint32_t part);
+
 /* False if memory is out. */
-bool sunder_i_pairs_add(sunder_i_pairs *pairs, uint32_t line, uint32_t part);
+static inline bool sunder_i_pairs_add(sunder_i_pairs *pairs, uint32_t line, uint32_t part)
+{
+    const size_t n = pairs->n;
+    uint32_t *word = pairs->word;
+    if (n == pairs->capacity || pairs->row >= n) return sunder_i_pairs_begin(pairs, line, part);
+    const uint32_t common = word[pairs->row];
+    if (common != part && common != (line | SUNDER_I_PAIRS_MARK)) return sunder_i_pairs_begin(pairs, line, part);
+    word[n - 1] &= ~SUNDER_I_PAIRS_MARK;
+    word[n] = (common == part ? line : part) | SUNDER_I_PAIRS_MARK;
+    pairs->n++;
+    pairs->count++;
+    return true;
+}
+
 /* What comes later can be taken back. */
 sunder_i_pairs_mark sunder_i_pairs_mark_here(sunder_i_pairs *pairs);
 void sunder_i_pairs_take_back(sunder_i_pairs *pairs, sunder_i_pairs_mark mark);

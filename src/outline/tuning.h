@@ -51,9 +51,9 @@
 /* So much is looked for on trust, in sides that cost LOOKS, and in looks for each part. */
 #define SIDES_ON_TRUST 4
 #define LOOKS_ON_TRUST 4
-/* So many for each part are looked at on trust for one that it is inside of, and so many more for each corner of a part
- * that is dropped: half of what a corner takes in the cells. */
-#define PART_LOOKS_ON_TRUST 32
+/* So many looks for each part are taken on trust for one that it is inside of, those at its corners' squares among
+ * them; and so many more for each corner of a part that is dropped: half of what a corner takes in the cells. */
+#define PART_LOOKS_ON_TRUST 16
 #define PART_LOOKS_SAVED 256
 /* The lists of a square have so many entries for each part, or they are not worth their room. */
 #define MOST_ENTRIES 64.0
