@@ -135,6 +135,7 @@ static bool is_contained(dropper *d, uint32_t part)
         from = here;
     }
     d->whole.spent += d->parts->end[part] - sunder_i_convex_pieces_first(d->parts, part);
+    if (!sunder_i_steps(1 + n / 8)) return false;
     for (uint32_t i = from; i < from + n; i++) {
         d->whole.spent++;
         if (holds_part(d, g->list[i], part)) return true;
