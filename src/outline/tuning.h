@@ -28,7 +28,7 @@
 #define AXES_EVEN 1.3
 /* So many parts with one side in the cell are tried in pairs; more are rare. */
 #define SINGLES 8
-/* The table of pairs pushed of late: 128 KB, which stay in the second-level cache; more hardly finds more. */
+/* The table of pairs pushed of late: 64 KB, which stay in the second-level cache; more hardly finds more. */
 #define RECENT_BITS_MOST 13
 #define RECENT_BITS_LEAST 6
 

@@ -19,7 +19,8 @@ done
 # ---- Files ----
 while read -r file; do
     say "$file does not open with a comment"
-done < <(cd "$root" && find src gis -name '*.[ch]' | sort | xargs awk 'FNR == 1 && !/^\/\*/ { print FILENAME }')
+done < <(cd "$root" && find src gis -name '*.[ch]' | sort | xargs awk 'FNR == 1 && !/^\/\*/ { print FILENAME }'
+    cd "$root" && find src gis -name '*.[ch]' -empty)
 # Columns, not bytes: comments and strings hold characters of several.
 while read -r line; do
     say "$line is longer than 120 columns"
