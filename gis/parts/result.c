@@ -3,24 +3,44 @@
 #include "parts/result.h"
 
 #include "base/array.h"
+#include "base/holes.h"
 #include "spool/checksum.h"
 
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define LIST(member, number)                                                                                           \
+static const gis_hole holes_of_world[] = {GIS_HOLE_BETWEEN(gis_part_world, loose, run)};
+static const gis_hole holes_of_row[] = {GIS_HOLE_BEHIND(gis_part_row, rounded)};
+static const gis_hole holes_of_conflict[] = {GIS_HOLE_BETWEEN(gis_part_conflict, is.inside_block, is.need_shift),
+                                             GIS_HOLE_BETWEEN(gis_part_conflict, is.crowded, blocker),
+                                             GIS_HOLE_BEHIND(gis_part_conflict, loose)};
+static const gis_hole holes_of_still[] = {GIS_HOLE_BEHIND(gis_part_still, status)};
+
+#define HOLES(list) list, sizeof list / sizeof *list
+#define LIST(member, number, ...)                                                                                      \
     {                                                                                                                  \
         offsetof(gis_part_result, member), offsetof(gis_part_result, number), offsetof(gis_part_result, room.member),  \
-            sizeof *((gis_part_result *)0)->member                                                                     \
+            sizeof *((gis_part_result *)0)->member, __VA_ARGS__                                                        \
     }
 
 static const struct list {
     size_t at, count, room, size;
-} lists[] = {LIST(world, worlds),       LIST(row, rows),         LIST(footprint, footprints), LIST(bound, bounds),
-             LIST(conflict, conflicts), LIST(blocker, blockers), LIST(push, pushes),          LIST(tree, trees),
-             LIST(name, names),         LIST(still, stills),     LIST(link, links),           LIST(text, texts),
-             LIST(line, lines)};
+    const gis_hole *hole;
+    size_t holes;
+} lists[] = {LIST(world, worlds, HOLES(holes_of_world)),
+             LIST(row, rows, HOLES(holes_of_row)),
+             LIST(footprint, footprints, NULL, 0),
+             LIST(bound, bounds, NULL, 0),
+             LIST(conflict, conflicts, HOLES(holes_of_conflict)),
+             LIST(blocker, blockers, NULL, 0),
+             LIST(push, pushes, NULL, 0),
+             LIST(tree, trees, NULL, 0),
+             LIST(name, names, NULL, 0),
+             LIST(still, stills, HOLES(holes_of_still)),
+             LIST(link, links, NULL, 0),
+             LIST(text, texts, NULL, 0),
+             LIST(line, lines, NULL, 0)};
 
 enum { LISTS = sizeof lists / sizeof *lists };
 
@@ -200,6 +220,7 @@ void gis_part_result_store(const gis_part_result *r, unsigned char *to)
         const size_t bytes = read_count(r, k) * lists[k].size, room = padded(bytes);
         if (room) memset(to + room - 8, 0, 8);
         if (bytes) memcpy(to, read_array(r, k), bytes);
+        gis_fill_holes(to, read_count(r, k), lists[k].size, lists[k].hole, lists[k].holes);
         to += room;
     }
 }

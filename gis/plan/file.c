@@ -2,6 +2,7 @@
  * that another version can say so; numbers; facts; texts, each with its length before it; and the checksum of all. */
 #include "plan/plan.h"
 
+#include "base/holes.h"
 #include "base/text.h"
 #include "spool/checksum.h"
 #include "spool/file.h"
@@ -72,6 +73,12 @@ static void add_text(gis_text *to, const char *text)
     gis_text_add_bytes(to, text, n);
 }
 
+static const gis_hole holes_of_facts[] = {GIS_HOLE_BETWEEN(gis_layer_facts, source.multipolygons, units),
+                                          GIS_HOLE_BETWEEN(gis_layer_facts, units.geographic, units.unit_metres),
+                                          GIS_HOLE_BETWEEN(gis_layer_facts, has_id, id_type),
+                                          GIS_HOLE_BETWEEN(gis_layer_facts, id_type, invalid),
+                                          GIS_HOLE_BETWEEN(gis_layer_facts, multi, checksum)};
+
 static void fill(const gis_plan *plan, gis_text *to)
 {
     const plan_head head = head_of_ours();
@@ -81,10 +88,9 @@ static void fill(const gis_plan *plan, gis_text *to)
                                   .status = plan->status,
                                   .memory = plan->memory,
                                   .shards = plan->shards};
-    gis_layer_facts facts;
-    memset(&facts, 0, sizeof facts);
-    facts = plan->facts;
+    gis_layer_facts facts = plan->facts;
     facts.name = NULL;
+    gis_fill_holes(&facts, 1, sizeof facts, holes_of_facts, sizeof holes_of_facts / sizeof *holes_of_facts);
     gis_text_add_bytes(to, (const char *)&head, sizeof head);
     gis_text_add_bytes(to, (const char *)&numbers, sizeof numbers);
     gis_text_add_bytes(to, (const char *)&facts, sizeof facts);
