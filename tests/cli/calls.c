@@ -1,0 +1,73 @@
+/* calls.c: the program called many times by one process. Loading GDAL takes longer than most questions about the words
+ * of a call; here it is loaded once, and each call is a fork of it.
+ *
+ * Calls are lines on stdin, words parted by blanks, without the program's name. Each is answered by a line on stdout:
+ * the exit status, a tab, and what the call said on stderr, its line ends as blanks. What it says on stdout is not
+ * kept. */
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+int sunder_main(int argc, char **argv); /* main() of gis/main.c, which is compiled under this name */
+
+enum { WORDS = 64 };
+
+static void fail(const char *what)
+{
+    perror(what);
+    exit(1);
+}
+
+static int split(char *line, char *words[WORDS])
+{
+    int n = 0;
+    words[n++] = "sunder";
+    for (char *word = strtok(line, " \n"); word; word = strtok(NULL, " \n")) {
+        if (n == WORDS - 1) fail("words of a call");
+        words[n++] = word;
+    }
+    words[n] = NULL;
+    return n;
+}
+
+static void call(char *line, int errors)
+{
+    char *words[WORDS];
+    int n = split(line, words), nothing = open("/dev/null", O_RDWR);
+    if (nothing < 0 || dup2(nothing, 0) < 0 || dup2(nothing, 1) < 0 || dup2(errors, 2) < 0) fail("standard streams");
+    close(nothing), close(errors);
+    exit(sunder_main(n, words));
+}
+
+/* Until all that hold the other end have closed it. */
+static void pass_on(int from)
+{
+    char said[4096];
+    for (ssize_t n; (n = read(from, said, sizeof said)) > 0;)
+        for (ssize_t i = 0; i < n; i++) putchar(said[i] == '\n' ? ' ' : said[i]);
+}
+
+int main(void)
+{
+    char *line = NULL;
+    size_t size = 0;
+    while (getline(&line, &size, stdin) >= 0) {
+        int ends[2], status;
+        if (pipe(ends)) fail("pipe");
+        pid_t child = fork();
+        if (child < 0) fail("fork");
+        if (child == 0) close(ends[0]), call(line, ends[1]);
+        close(ends[1]);
+        /* The status is told first, what was said waits in the pipe: no call of these fills it. */
+        if (waitpid(child, &status, 0) != child) fail("waitpid");
+        printf("%d\t", WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status));
+        pass_on(ends[0]);
+        close(ends[0]);
+        putchar('\n'), fflush(stdout); /* or a child would have it, too */
+    }
+    free(line);
+    return 0;
+}
