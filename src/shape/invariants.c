@@ -194,12 +194,24 @@ static const char *check_sides(const checker *c)
     return NULL;
 }
 
+/* Nothing is asked of a corner that is no vertex. */
+static const char *check_corners(const sunder_shape *s)
+{
+    for (uint32_t i = 0, lo = 0; i < s->pieces; lo = s->piece_end[i++]) {
+        if (s->piece_end[i] < lo + 3) return "a piece has under three corners";
+        for (uint32_t k = lo; k < s->piece_end[i]; k++)
+            if (sunder_i_piece_vertices(s)[k] >= s->vertices) return "a corner of a piece is no vertex";
+    }
+    return NULL;
+}
+
 static const char *check_pieces(checker *c)
 {
     const sunder_shape *s = c->s;
+    const char *fault = check_corners(s);
+    if (fault) return fault;
     for (uint32_t i = 0, lo = 0; i < s->pieces; lo = s->piece_end[i++]) {
         const uint32_t n = s->piece_end[i] - lo, *p = sunder_i_piece_vertices(s) + lo;
-        if (s->piece_end[i] < lo + 3) return "a piece has under three corners";
         if (!is_convex(c, p, n)) return "a piece is not strictly convex";
         for (uint32_t j = i + 1; j < s->pieces; j++) {
             const uint32_t at = s->piece_end[j - 1], m = s->piece_end[j] - at, *q = sunder_i_piece_vertices(s) + at;
