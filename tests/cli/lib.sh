@@ -64,13 +64,17 @@ expect() {
     shift
     run "$@"
     [ "$status" -eq "$wanted" ] || fail "exit status $status, not $wanted: sunder $*"
-    if grep -qE 'Sanitizer|runtime error' err; then fail "sanitizer: sunder $*"; fi
+    in_file err
+    [[ $content != *Sanitizer* && $content != *'runtime error'* ]] || fail "sanitizer: sunder $*"
 }
 
+# The whole of a file, in $content, without a process for it: there are thousands of these questions.
+in_file() { IFS= read -r -d '' content <"$1" || :; }
+
 # What is there, and what is in it. Files that tests make for themselves are not looked at.
-listing() { find . -mindepth 1 ! -name out ! -name err ! -name before ! -name after | sort | while read -r f; do
-    echo "$f $([ -f "$f" ] && cksum <"$f")"
-done; }
+listing() {
+    find . -mindepth 1 ! -name out ! -name err ! -name before ! -name after \( -type f -exec cksum {} + -o -print \) | sort
+}
 
 refused() {
     local wanted=$1 words=$2
@@ -78,15 +82,20 @@ refused() {
     listing >before
     expect "$wanted" "$@"
     listing >after
-    [ "$(wc -l <err)" -eq 1 ] || fail "$(wc -l <err) lines on stderr: sunder $*"
-    grep -q '^sunder: error: ..' err || fail "no error: sunder $*"
-    grep -qiF -- "$words" err || fail "the message does not say '$words': sunder $*"
+    in_file err
+    local lines=${content//[!$'\n']/}
+    [ "${#lines}" -eq 1 ] || fail "${#lines} lines on stderr: sunder $*"
+    [[ $content == 'sunder: error: '??* ]] || fail "no error: sunder $*"
+    [[ ${content,,} == *"${words,,}"* ]] || fail "the message does not say '$words': sunder $*"
     [ ! -s out ] || fail "something on stdout: sunder $*"
     cmp -s before after || fail "files changed: sunder $*"
 }
 
 # The words are in the file.
-says() { grep -qF -- "$2" "$1" || fail "$1 does not say '$2'"; }
+says() {
+    in_file "$1"
+    [[ $content == *"$2"* ]] || fail "$1 does not say '$2'"
+}
 same() { [ "$1" = "$2" ] || fail "${3:-} '$1' is not '$2'"; }
 
 layer() {

@@ -13,7 +13,7 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 build=$root/build/coverage
-ordinary='^(unit|property|golden|watch|cross|cli|proof|faults|plugin|docs)$'
+ordinary='^(unit|property|golden|gis|watch|cross|cli|proof|faults|plugin|docs)$'
 command -v gcovr >/dev/null || { echo "skipped: gcovr is not installed"; exit 77; }
 
 build() {

@@ -6,7 +6,7 @@ set -eu
 name=$1
 program=$SUNDER_BUILD/fuzz/$name
 [ -x "$program" ] || { echo "skipped: $name was not built"; exit 77; }
-seed=${SUNDER_SEED:-1} runs=$((${2:-20000} * ${SUNDER_TEST_SCALE:-1}))
+seed=${SUNDER_SEED:-1} runs=$((${2:-10000} * ${SUNDER_TEST_SCALE:-1}))
 work=$SUNDER_BUILD/fuzz/found
 mkdir -p "$work"
 echo "SUNDER_SEED=$seed, $runs runs"
