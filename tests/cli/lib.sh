@@ -68,7 +68,7 @@ expect() {
     [[ $content != *Sanitizer* && $content != *'runtime error'* ]] || fail "sanitizer: sunder $*"
 }
 
-# The whole of a file, in $content, without a process for it: there are thousands of these questions.
+# A text file, in $content, without a process for it: there are thousands of these questions. Of others what is before a NUL.
 in_file() { IFS= read -r -d '' content <"$1" || :; }
 
 # What is there, and what is in it. Files that tests make for themselves are not looked at.
