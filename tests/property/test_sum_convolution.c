@@ -6,6 +6,7 @@
 #include "minkowski/convolution.h"
 #include "oracle.h"
 #include "sum_text.h"
+#include "traced.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -60,39 +61,6 @@ static double width_of(const polyset *p)
     return high - low;
 }
 
-/* The text of the traced sum; NULL where tracing declines. */
-static char *traced_text(const polyset *p, const polyset *q)
-{
-    sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
-    sunder_sum *sum = NULL;
-    sunder_i_placed placed;
-    const sunder_i_place_options how = {0};
-    bool done = false;
-    char *text = NULL;
-    assert_non_null(a);
-    assert_non_null(b);
-    assert_int_equal(sunder_minkowski_sum(a, b, NULL, &sum, NULL), SUNDER_OK); /* for its origins */
-    sunder_sum *traced = calloc(1, sizeof *traced);
-    assert_non_null(traced);
-    assert_int_equal(sunder_i_place(a, b, &how, &placed, NULL), SUNDER_OK);
-    traced->lattice = placed.lattice;
-    memset(&placed.lattice, 0, sizeof placed.lattice);
-    memcpy(traced->origin, sum->origin, sizeof traced->origin);
-    assert_int_equal(sunder_i_convolution_sum(traced, a, placed.p, b, placed.q, &done, NULL), SUNDER_OK);
-    if (done)
-        text = sum_text(traced);
-    else {
-        assert_null(traced->vertex);
-        assert_int_equal(traced->polygons, 0);
-    }
-    sunder_i_placed_free(&placed);
-    sunder_sum_free(traced);
-    sunder_sum_free(sum);
-    sunder_shape_free(a);
-    sunder_shape_free(b);
-    return text;
-}
-
 /* 1: traced, and as the oracle says; 0: declined; -1: wrong. */
 static int trace_one(subject kind, uint64_t seed, size_t i)
 {
@@ -103,7 +71,7 @@ static int trace_one(subject kind, uint64_t seed, size_t i)
     polyset_init(&q);
     random_subject(&p, &r, kind);
     random_brush(&q, &r, width_of(&p) * share[i % (sizeof share / sizeof *share)]);
-    char *ours = p.polygons == 1 ? traced_text(&p, &q) : NULL;
+    char *ours = p.polygons == 1 ? traced_text(sunder_i_convolution_sum, &p, &q, NULL) : NULL;
     const int verdict = ours ? oracle_verdict(ours, &p, &q, subject_name[kind], seed, i) : 0;
     free(ours);
     polyset_free(&p);
@@ -167,7 +135,7 @@ static void test_cases(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         polyset p, q;
         assert_true(polyset_read_wkt(&p, cases[i].p, NULL) && polyset_read_wkt(&q, cases[i].q, NULL));
-        char *ours = traced_text(&p, &q), *expected = oracle_sum_text(&p, &q, false);
+        char *ours = traced_text(sunder_i_convolution_sum, &p, &q, NULL), *expected = oracle_sum_text(&p, &q, false);
         assert_int_equal(ours != NULL, cases[i].traced);
         if (ours) assert_string_equal(ours, expected);
         free(ours);
@@ -187,7 +155,7 @@ static void test_memory(void **state)
                                  "18 31, 1 31, 1 30, 0 30), (10 -20, 28 -19, 30 -40, 12 -39))",
                                  NULL));
     assert_true(polyset_read_wkt(&operand[1], "POLYGON ((-3.125 0.25, 0.375 -4.5, 5.75 0.125, 0.25 3.25))", NULL));
-    char *text = traced_text(&operand[0], &operand[1]);
+    char *text = traced_text(sunder_i_convolution_sum, &operand[0], &operand[1], NULL);
     assert_non_null(text);
     free(text);
     assert_true(library_sum_survives(operand));

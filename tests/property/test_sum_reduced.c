@@ -6,6 +6,7 @@
 #include "oracle.h"
 #include "roads.h"
 #include "sum_text.h"
+#include "traced.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -73,40 +74,6 @@ static void random_operands(polyset *p, polyset *q, rng *r, subject kind)
     }
 }
 
-/* The text of the traced sum, and how many holes it has; NULL where tracing declines. */
-static char *traced_text(const polyset *p, const polyset *q, size_t *holes)
-{
-    sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
-    sunder_sum *sum = NULL;
-    sunder_i_placed placed;
-    const sunder_i_place_options how = {0};
-    bool done = false;
-    char *text = NULL;
-    assert_non_null(a);
-    assert_non_null(b);
-    assert_int_equal(sunder_minkowski_sum(a, b, NULL, &sum, NULL), SUNDER_OK); /* for its origins */
-    sunder_sum *traced = calloc(1, sizeof *traced);
-    assert_non_null(traced);
-    assert_int_equal(sunder_i_place(a, b, &how, &placed, NULL), SUNDER_OK);
-    traced->lattice = placed.lattice;
-    memset(&placed.lattice, 0, sizeof placed.lattice);
-    memcpy(traced->origin, sum->origin, sizeof traced->origin);
-    assert_int_equal(sunder_i_reduced_convolution_sum(traced, a, placed.p, b, placed.q, &done, NULL), SUNDER_OK);
-    if (done) {
-        text = sum_text(traced);
-        *holes += traced->rings - traced->polygons;
-    } else {
-        assert_null(traced->vertex);
-        assert_int_equal(traced->polygons, 0);
-    }
-    sunder_i_placed_free(&placed);
-    sunder_sum_free(traced);
-    sunder_sum_free(sum);
-    sunder_shape_free(a);
-    sunder_shape_free(b);
-    return text;
-}
-
 /* 1: traced, and as the oracle says; 0: declined; -1: wrong. */
 static int trace_one(subject kind, uint64_t seed, size_t i, size_t *holes)
 {
@@ -115,7 +82,7 @@ static int trace_one(subject kind, uint64_t seed, size_t i, size_t *holes)
     polyset_init(&p);
     polyset_init(&q);
     random_operands(&p, &q, &r, kind);
-    char *ours = traced_text(&p, &q, holes);
+    char *ours = traced_text(sunder_i_reduced_convolution_sum, &p, &q, holes);
     const int verdict = ours ? oracle_verdict(ours, &p, &q, subject_name[kind], seed, i) : 0;
     free(ours);
     polyset_free(&p);
@@ -173,7 +140,7 @@ static void test_larger(void **state)
         else
             random_round(&p, &r, 48, 15000, 90000);
         random_round(&q, &r, shore ? 9 : 44, shore ? 500 : 9000, shore ? 3000 : 70000);
-        char *ours = traced_text(&p, &q, &holes);
+        char *ours = traced_text(sunder_i_reduced_convolution_sum, &p, &q, &holes);
         if (ours) {
             sunder_shape *a = polyset_shape(&p), *b = polyset_shape(&q);
             const sunder_sum_options how = road_options(0, seed);
@@ -234,7 +201,8 @@ static void test_cases(void **state)
         size_t holes = 0;
         assert_true(polyset_read_wkt(&p, *cases[i].p ? cases[i].p : bay, NULL) &&
                     polyset_read_wkt(&q, cases[i].q, NULL));
-        char *ours = traced_text(&p, &q, &holes), *expected = oracle_sum_text(&p, &q, false);
+        char *ours = traced_text(sunder_i_reduced_convolution_sum, &p, &q, &holes),
+             *expected = oracle_sum_text(&p, &q, false);
         if ((ours != NULL) != cases[i].traced || holes != cases[i].holes)
             print_message("case %zu: traced %d, holes %zu\n%s\n", i, ours != NULL, holes, expected);
         if (ours) assert_string_equal(ours, expected);
@@ -258,7 +226,7 @@ static void test_memory(void **state)
                                  "-12 -26, -29 1, -13 27, 26 22, 27 3))",
                                  NULL));
     assert_true(polyset_read_wkt(&operand[1], "POLYGON ((-6 -6, 7 -5, 1 0, 2 8))", NULL));
-    char *text = traced_text(&operand[0], &operand[1], &holes);
+    char *text = traced_text(sunder_i_reduced_convolution_sum, &operand[0], &operand[1], &holes);
     assert_non_null(text);
     assert_int_equal(holes, 1);
     free(text);

@@ -1,0 +1,16 @@
+/* Sums traced along outlines by one road called by itself, so that the general one cannot answer for it. */
+#ifndef SUNDER_TESTS_TRACED_H
+#define SUNDER_TESTS_TRACED_H
+
+#include "polyset.h"
+#include "shape/shape.h"
+
+/* sunder_i_convolution_sum() or sunder_i_reduced_convolution_sum(). */
+typedef sunder_status tracing(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p, const sunder_shape *q,
+                              const sunder_i_point *at_q, bool *done, sunder_error *error);
+
+/* Canonical text of the traced sum, freed by the caller; NULL where tracing declines, and then the sum has to be as it
+ * was. Adds to *holes how many it has; NULL: not asked. */
+char *traced_text(tracing *trace, const polyset *p, const polyset *q, size_t *holes);
+
+#endif
