@@ -6,7 +6,6 @@
 #include "base/array.h"
 #include "base/interrupt.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -101,51 +100,4 @@ sunder_status gis_polygons_shape(const gis_polygons *set, sunder_validity validi
                                  sunder_error *why)
 {
     return sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, validity, out, why);
-}
-
-/* Twice the signed area of a ring, from its first vertex on, so that large coordinates cost no digits. */
-static long double ring_area(const double *xy, size_t n)
-{
-    long double area = 0;
-    for (size_t i = 1; i + 1 < n; i++) {
-        const double *a = xy, *b = xy + 2 * i, *c = b + 2;
-        area += ((long double)b[0] - a[0]) * ((long double)c[1] - a[1]) -
-                ((long double)b[1] - a[1]) * ((long double)c[0] - a[0]);
-    }
-    return area;
-}
-
-double gis_polygons_area(const gis_polygons *set)
-{
-    long double area = 0;
-    for (size_t p = 0, r = 0; p < set->polygons; p++)
-        for (size_t first = r; r < set->poly_end[p]; r++) {
-            size_t from = r ? set->ring_end[r - 1] : 0;
-            long double one = fabsl(ring_area(set->xy + 2 * from, set->ring_end[r] - from));
-            area += r == first ? one : -one;
-        }
-    return (double)(area / 2);
-}
-
-static void reverse(double *xy, size_t n)
-{
-    /* A closed ring has its first vertex at the end, too; of an open one it stays where it is. */
-    if (n < 2) return;
-    bool closed = xy[0] == xy[2 * n - 2] && xy[1] == xy[2 * n - 1];
-    for (size_t i = closed ? 0 : 1, j = n - 1; i < j; i++, j--)
-        for (size_t c = 0; c < 2; c++) {
-            double kept = xy[2 * i + c];
-            xy[2 * i + c] = xy[2 * j + c];
-            xy[2 * j + c] = kept;
-        }
-}
-
-void gis_polygons_wind(gis_polygons *set)
-{
-    for (size_t p = 0, r = 0; p < set->polygons; p++)
-        for (bool outer = true; r < set->poly_end[p]; r++, outer = false) {
-            size_t first = r ? set->ring_end[r - 1] : 0;
-            double *xy = set->xy + 2 * first;
-            if ((ring_area(xy, set->ring_end[r] - first) > 0) != outer) reverse(xy, set->ring_end[r] - first);
-        }
 }

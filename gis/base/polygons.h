@@ -32,7 +32,8 @@ bool gis_polygons_append_shape(gis_polygons *set, const sunder_shape *shape, dou
 /* Turns rings so that outer ones run counter-clockwise and holes clockwise; each starts where it did. */
 void gis_polygons_wind(gis_polygons *set);
 
-/* Outer rings less holes, whichever way they run; for polygons that do not overlap the area that they cover. */
+/* Outer rings less holes, whichever way they run; for polygons that do not overlap the area that they cover. Off by
+ * no more than a few rounding errors of what its rings enclose. Infinite beyond the range of doubles. */
 double gis_polygons_area(const gis_polygons *set);
 
 /* sunder_shape_from_rings() of them. */

@@ -35,17 +35,10 @@ static bool exact_text(double x, char *text, size_t size)
     return exponent > -1024 && (size_t)snprintf(text, size, "%.0f/%.0f", mantissa, ldexp(1, -exponent)) < size;
 }
 
-/* A bound of |exact - x| where x is the double nearest to exact: 0 if they are equal, else the difference in long
- * doubles with what that may be off by, but never more than half a unit of x. */
 double gis_text_deviation(const char *exact, double x)
 {
     char same[700];
-    if (exact_text(x, same, sizeof same) && strcmp(same, exact) == 0) return 0;
-    double bound = gis_ulp(x) / 2;
-    const char *slash = strchr(exact, '/');
-    long double quotient = strtold(exact, NULL) / (slash ? strtold(slash + 1, NULL) : 1.0L);
-    long double seen = fabsl(quotient - (long double)x) + 4 * LDBL_EPSILON * fabsl((long double)x);
-    return seen < (long double)bound ? nextafter((double)seen, INFINITY) : bound; /* NaN: the bound */
+    return exact_text(x, same, sizeof same) && strcmp(same, exact) == 0 ? 0 : gis_ulp(x) / 2;
 }
 
 bool gis_vertex_deviation(const sunder_sum *sum, uint32_t vertex, double *deviation, gis_error *error)

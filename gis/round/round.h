@@ -21,7 +21,8 @@ void gis_rounded_clear(gis_rounded *rounded);
  * turned, and so rounded, leaves in walls. */
 bool gis_straighten(gis_rounded *rounded, gis_error *error);
 
-/* A bound of |exact - x| where x is the double nearest to exact, which is "num" or "num/den" as the core writes it. */
+/* A bound of |exact - x| where x is the double nearest to exact, which is "num" or "num/den" as the core writes it: 0
+ * if they are equal, else half a unit in the last place. */
 double gis_text_deviation(const char *exact, double x);
 /* A bound of the distance from a vertex of the sum to its nearest doubles; infinite beyond their range. */
 bool gis_vertex_deviation(const sunder_sum *sum, uint32_t vertex, double *deviation, gis_error *error);

@@ -1,9 +1,8 @@
 # shellcheck shell=bash
-# The library built without NDEBUG, so that its assertions and checkers run (src/base/invariant.h), and as for a machine whose long
-# doubles are short (src/separation/answer/answer.c): its tests once more.
+# The library built without NDEBUG, so that its assertions and checkers run (src/base/invariant.h): its tests once more.
 set -eu
 build=$SUNDER_BUILD/invariants
-cmake -S "$SUNDER_SOURCE" -B "$build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS="-O2 -DSUNDER_NO_LONG_DOUBLE" -DCMAKE_C_FLAGS_DEBUG= \
+cmake -S "$SUNDER_SOURCE" -B "$build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS=-O2 -DCMAKE_C_FLAGS_DEBUG= \
     -DSUNDER_PROGRAM=OFF -DSUNDER_FUZZ=OFF >"$build.log" 2>&1 ||
     { cat "$build.log"; exit 1; }
 programs=$(cd "$SUNDER_SOURCE/tests" && for file in unit/test_*.c property/test_*.c golden/test_*.c; do basename "$file" .c; done)

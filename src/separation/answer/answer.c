@@ -1,12 +1,11 @@
 /* Exact vectors as nearest doubles, and doubles as exact vectors.
  *
- * A coordinate is num / den * 2^e, and is rounded once. A length is the root of such a number, and irrational as a
- * rule: its floor to more bits than a double has, with a bit beneath that says whether anything was cut off, rounds
- * like the root itself. Small numbers take a shorter way, in machine arithmetic, which gives the same or says that it
- * cannot. */
+ * A coordinate is num / den * 2^e, and is rounded once; a length is the root of such a number (root.c). Small numbers
+ * take a shorter way, in machine arithmetic, which gives the same or says that it cannot. */
 #include "separation/answer/answer.h"
 
-#include <float.h>
+#include "separation/answer/root.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -52,84 +51,17 @@ static bool quick_ratio(sunder_i_i128 num, sunder_i_i128 den, long exponent, dou
     return true; /* the quotient lies between 2^-53 and 2^53: scaling is exact */
 }
 
-#ifdef SUNDER_NO_LONG_DOUBLE
-#define LONG_BITS DBL_MANT_DIG
-#else
-#define LONG_BITS LDBL_MANT_DIG
-#endif
-
-/* Is sqrt(n) / w, which is so near to d that long doubles cannot tell them apart, at least d (1) or less (-1)? 0 where
- * no integer near d w stands between d w and the root of n, or is one of the two: as for squares, and near the squares
- * of what doubles hold, one does. */
-static int compare_root(sunder_i_u128 n, sunder_i_i128 w, double d)
-{
-    const double about = d * (double)(int64_t)w; /* w is below 2^53 (quick_ratio()), and so is this: */
-    if (about > 0x1p52) return 0;
-    const uint64_t between = (uint64_t)(about + 0.5);
-    const double beyond = fma(d, (double)(int64_t)w, -(double)between);
-    const sunder_i_u128 square = (sunder_i_u128)between * between;
-    if (beyond <= 0 && square <= n) return 1;
-    return beyond >= 0 && square >= n ? -1 : 0;
-}
-
-/* sqrt(n) / w * 2^exponent, from long doubles: correctly rounded where they leave no doubt. Every step is off by at
- * most half an ulp of the format (2^-64 relative), four steps in all. Where long doubles are no longer than doubles
- * (or SUNDER_NO_LONG_DOUBLE says to take them so, as a test does) all roots go the slow way. Clear: of those that may
- * be doubles the lower bound is to be the double itself where they are, and not the one before as here. */
-static bool quick_root(sunder_i_u128 n, sunder_i_i128 w, long exponent, bool clear, double *nearest, double *down)
-{
-    if (LONG_BITS < 64 || exponent < -400 || exponent > 400) return false;
-    const long double wide = (long double)(uint64_t)(n >> 64) * 0x1p64L + (long double)(uint64_t)n;
-    const long double root = sqrtl(wide) / (long double)(int64_t)w;
-    const double d = (double)root;
-    const long double doubt = root * 0x1p-61L, off = root - d;
-    const double below = d > 0 ? sunder_i_box_step(d, false) : 0;
-    const long double half_ulp = (long double)(sunder_i_box_step(d, true) - d) / 2;
-    const long double half_below = (long double)(d - below) / 2;
-    if (off > half_ulp - doubt || off < doubt - half_below) return false;
-    bool is_above = off > doubt;
-    if (clear && off <= doubt && off >= -doubt) { /* it may be a double itself */
-        const int order = compare_root(n, w, d);
-        if (order == 0) return false;
-        is_above = order > 0;
-    }
-    /* Roots are above 2^-64 or zero and below 2^64: scaling is exact. */
-    *nearest = d * sunder_i_power_of_two(exponent);
-    *down = (is_above ? d : below) * sunder_i_power_of_two(exponent);
-    return true;
-}
-
-/* The same of any size: the floor of the root to 70 bits or more, with a sticky bit beneath, rounds like the root. */
-static void slow_root(sunder_i_arena *a, sunder_i_big n, sunder_i_big w, long exponent, double *nearest, double *down)
-{
-    if (sunder_i_big_sign(n) == 0) {
-        *nearest = *down = 0;
-        return;
-    }
-    const long have = (long)(sunder_i_big_bits(n) / 2) - (long)sunder_i_big_bits(w);
-    const long k = have < 72 ? 72 - have : 0;
-    const sunder_i_big scaled = sunder_i_big_shl(a, n, 2 * (unsigned long)k);
-    const sunder_i_big q = sunder_i_big_div_floor(a, sunder_i_big_sqrt_floor(a, scaled), w);
-    const sunder_i_big qw = sunder_i_big_mul(a, q, w);
-    const bool exact = sunder_i_big_cmp(sunder_i_big_mul(a, qw, qw), scaled) == 0;
-    const sunder_i_big one = sunder_i_big_i64(a, 1);
-    sunder_i_big twice = sunder_i_big_shl(a, q, 1);
-    if (!exact) twice = sunder_i_big_add(a, twice, one);
-    *nearest = sunder_i_big_ratio(a, twice, one, exponent - k - 1);
-    *down = sunder_i_big_ratio_down(a, twice, one, exponent - k - 1);
-}
-
 void sunder_i_answer_numbers(sunder_i_operands *g, const sunder_i_exact_translation *v, sunder_separation *out)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     const long e = l->exponent;
     if (v->small && quick_ratio(v->x, v->w, e, &out->dx) && quick_ratio(v->y, v->w, e, &out->dy)) {
         const sunder_i_u128 n = (sunder_i_u128)(v->x * v->x) + (sunder_i_u128)(v->y * v->y);
-        if (quick_root(n, v->w, e, v->clear_root, &out->distance, &out->lower_bound)) return;
+        if (sunder_i_quick_root(n, (int64_t)v->w, e, &out->distance, &out->lower_bound)) return;
     }
     const sunder_i_rational_point big = sunder_i_exact_translation_point(g, v);
     sunder_i_rational_doubles(&l->arena, big, e, &out->dx, &out->dy);
-    slow_root(&l->arena, sunder_i_rational_dot(&l->arena, big, big), big.w, e, &out->distance, &out->lower_bound);
+    sunder_i_root(&l->arena, sunder_i_rational_dot(&l->arena, big, big), big.w, e, &out->distance, &out->lower_bound);
 }
 
 /* ---- Doubles as vectors ---- */

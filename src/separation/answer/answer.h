@@ -22,7 +22,6 @@ void sunder_i_too_far(double upper, sunder_separation *out, bool *beyond);
  * ones. */
 typedef struct sunder_i_exact_translation {
     bool small;
-    bool clear_root; /* the lower bound is not to be below a length that is a double */
     sunder_i_i128 x, y, w;
     sunder_i_rational_point big;
 } sunder_i_exact_translation;

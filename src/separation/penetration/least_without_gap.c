@@ -35,17 +35,12 @@ static bool is_long(const sunder_i_hpoint *p)
 }
 
 /* The point found as a vector. Where its numbers are long they are shortened: exact fits are mostly at sums of corners,
- * which are short. What is said of its length is that of the long numbers. */
+ * which are short. */
 static sunder_i_exact_translation translation_of(sunder_i_operands *g, const sunder_i_free_point *f)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    const sunder_i_hpoint point = sunder_i_hpoint_at(l, f->line.a, f->line.b, &f->t);
-    if (l->narrow && f->t.den != 0 && is_long(&point)) {
-        const sunder_i_hpoint reduced = reduced_point(l, f);
-        sunder_i_exact_translation v = sunder_i_exact_translation_of(g, &reduced);
-        v.clear_root = true;
-        return v;
-    }
+    sunder_i_hpoint point = sunder_i_hpoint_at(l, f->line.a, f->line.b, &f->t);
+    if (l->narrow && f->t.den != 0 && is_long(&point)) point = reduced_point(l, f);
     return sunder_i_exact_translation_of(g, &point);
 }
 
