@@ -20,9 +20,13 @@ town=/root/sunder/datasets-synthetic/town.gpkg
 "$qgis_process" run sunder:separate --INPUT="$town|layername=buildings" --GAP=3 --UNIT=1 --MAX_SHIFT=5 \
     --BARRIER="$town|layername=roads,6,,,," --OUTPUT=/root/moved.gpkg --CONFLICTS=/root/left.gpkg --REPORT=/root/moves.html
 
-moved=$(ogrinfo -q -sql "SELECT COUNT(*) AS n FROM moved WHERE sunder_st = 'moved'" /root/moved.gpkg | sed -n 's/.*n (Integer.*) = //p')
-echo "step: $moved of the town's buildings have moved"
+count() { ogrinfo -q -sql "SELECT COUNT(*) AS n FROM $2" "$1" | sed -n 's/.*n (Integer.*) = //p'; }
+moved=$(count moved.gpkg "moved WHERE sunder_st = 'moved'") left=$(count left.gpkg left)
+echo "step: $moved of the town's buildings have moved, $left conflicts are left, listed with their reasons"
 [ "$moved" -gt 10 ]
-[ -s /root/moves.html ]
-left=$(ogrinfo -so -q /root/left.gpkg -al | sed -n 's/^Feature Count: //p')
-echo "step: ${left:-0} conflicts are left, listed with their reasons"
+[ -s moves.html ]
+
+echo "step: the same by the program"
+sunder separate --gap 3 --max-shift 5 --barrier "$town,layer=roads,width=6" --input-layer buildings --allow-conflicts "$town" same.gpkg
+[ "$(count same.gpkg "buildings WHERE sunder_st = 'moved'")" = "$moved" ]
+[ "$(count same.gpkg buildings_conflicts)" = "$left" ]
