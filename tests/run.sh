@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the tests.
 #
-#   bash tests/run.sh               those that need no server, no scheduler, no browser and no second build
-#   bash tests/run.sh --all         these, too: the labels browser, cluster, invariants, package, qgis and server
+#   bash tests/run.sh               those that need no server, no scheduler, no browser, no second build, and no half minute
+#   bash tests/run.sh --all         these, too: the labels browser, cluster, fuzz, invariants, package, qgis, server and thorough
 #   bash tests/run.sh -L unit       further words go to ctest: -L LABEL, -R NAME, --output-on-failure is there already
 #   bash tests/run.sh --all -L qgis one of those labels, with what it needs installed
 #
@@ -16,7 +16,7 @@ if [ "${1:-}" = --all ]; then
     shift
 fi
 # Asked for by a label or a name of its own, a test runs.
-[ "$all" ] || [ $# -gt 0 ] || set -- -LE '^(browser|cluster|invariants|package|qgis|server)$'
+[ "$all" ] || [ $# -gt 0 ] || set -- -LE '^(browser|cluster|fuzz|invariants|package|qgis|server|thorough)$'
 # The system's own tools before those of version managers, whose python3 takes a third of a second to start.
 export PATH=/usr/bin:$PATH
 # shellcheck source=../gis/setup.sh
@@ -26,14 +26,14 @@ setup_toolchain
 setup_need cmocka libcmocka-dev setup_has_header cmocka.h -include stdarg.h -include setjmp.h -include stddef.h -include stdint.h
 setup_want "GEOS" libgeos-dev setup_has_header geos_c.h
 setup_want "pkg-config" pkg-config pkg-config --version
-setup_want "clang with sanitizers, for the fuzz tests" "clang libclang-rt-dev" setup_has_fuzzer
 setup_want "the shell of SQLite" sqlite3 sqlite3 -version
 setup_want "valgrind" valgrind valgrind --version
-setup_want "pandoc" pandoc pandoc --version
-setup_want "Doxygen" doxygen doxygen --version
 setup_want "jq" jq jq --version
 setup_want "GDAL's Python module" python3-gdal /usr/bin/python3 -c "import osgeo.ogr"
 if [ "$all" ]; then
+    setup_want "clang with sanitizers, for the fuzz tests" "clang libclang-rt-dev" setup_has_fuzzer
+    setup_want "pandoc" pandoc pandoc --version
+    setup_want "Doxygen" doxygen doxygen --version
     setup_want "QGIS's Python module" "qgis python3-qgis" /usr/bin/python3 -c "import qgis.core"
     setup_want "Xvfb, for QGIS's window" "xvfb xauth" xvfb-run --help
     setup_want "PostGIS" postgresql-postgis bash -c 'compgen -G "/usr/share/postgresql/*/extension/postgis.control"'
