@@ -54,7 +54,7 @@ static bool open_source(gis_layer_input *input, bool packed, gis_error *error)
         return hint_at_order(input->request, error) || hint_at_symbol(input, error);
     if (!request.batch) gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(input->source));
     input->n = gis_source_count(input->source);
-    return gis_field_find(input->source, "--id-field", input->request->id_field, &input->id_field, error);
+    return gis_layer_fields(input, error);
 }
 
 /* Of what conflicts with anything. */
@@ -156,8 +156,14 @@ static bool read_barriers(gis_layer_input *input, gis_error *error)
 
 bool gis_layer_begin(const gis_layer_input_request *request, bool packed, gis_layer_input *out, gis_error *error)
 {
-    *out = (gis_layer_input){
-        .request = request, .id_field = -1, .max_shift = INFINITY, .tolerance = -1, .barrier_reach = INFINITY};
+    *out = (gis_layer_input){.request = request,
+                             .id_field = -1,
+                             .block_field = -1,
+                             .limit_field = -1,
+                             .weight_field = -1,
+                             .max_shift = INFINITY,
+                             .tolerance = -1,
+                             .barrier_reach = INFINITY};
     if (!open_source(out, packed, error)) return false;
     out->units = gis_crs_units_of(gis_source_crs(out->source), request->scale);
     return true;

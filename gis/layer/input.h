@@ -48,7 +48,7 @@ typedef struct gis_layer_input {
     double barrier_reach; /* who moves no farther comes near to none but these */
     sunder_layer *layer;
     gis_layer_shaping *shaping;
-    int id_field;         /* -1: none */
+    int id_field, block_field, limit_field, weight_field; /* -1: none */
     size_t invalid, null; /* features whose geometry is invalid; that have none, or an empty one */
     size_t other;         /* features of another kind of geometry than the one that is looked at */
 } gis_layer_input;
@@ -84,7 +84,8 @@ void gis_layer_default_demands(gis_layer_input *input);
 void gis_layer_warn_of_others(const gis_layer_input *input, bool any_points);
 void gis_layer_shaping_free(gis_layer_shaping *shaping);
 
-/* The stages, in this order. */
+/* The stages, in this order; gis_layer_begin() asks the first. */
+bool gis_layer_fields(gis_layer_input *input, gis_error *error); /* rules.c: those that the rules name are looked for */
 bool gis_layer_lengths(gis_layer_input *input, gis_error *error); /* rules.c */
 bool gis_layer_shapes(gis_layer_input *input, gis_error *error);  /* shapes.c */
 bool gis_layer_marks(gis_layer_input *input, gis_error *error);   /* rules.c: who is ignored, who is fixed */

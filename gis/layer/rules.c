@@ -17,6 +17,17 @@ const char *gis_weighting_string(gis_weighting weighting)
     return (unsigned)weighting <= GIS_WEIGHTING_SQRT_AREA ? word[weighting] : "";
 }
 
+/* Before anything is said of features: what a call lacks is not to stand behind warnings about them. */
+bool gis_layer_fields(gis_layer_input *input, gis_error *error)
+{
+    const gis_source *source = input->source;
+    const gis_layer_rules *rules = &input->request->rules;
+    return gis_field_find(source, "--id-field", input->request->id_field, &input->id_field, error) &&
+           gis_field_find(source, "--block-field", rules->block_field, &input->block_field, error) &&
+           gis_field_find_numbers(source, "--max-shift-field", rules->max_shift_field, &input->limit_field, error) &&
+           gis_field_find_numbers(source, "--weight-field", rules->weight_field, &input->weight_field, error);
+}
+
 bool gis_layer_lengths(gis_layer_input *input, gis_error *error)
 {
     const gis_layer_rules *rules = &input->request->rules;
@@ -52,8 +63,7 @@ bool gis_layer_marks(gis_layer_input *input, gis_error *error)
 
 bool gis_layer_number_blocks(gis_layer_input *input, gis_block_keys *keys, gis_error *error)
 {
-    int field;
-    if (!gis_field_find(input->source, "--block-field", input->request->rules.block_field, &field, error)) return false;
+    const int field = input->block_field;
     for (size_t i = 0; field >= 0 && i < input->n; i++) {
         OGRFeatureH feature = gis_source_feature(input->source, i);
         if (!OGR_F_IsFieldSetAndNotNull(feature, field)) continue;
@@ -88,10 +98,7 @@ bool gis_layer_wrong_number(const gis_layer_input *input, size_t i, int field, c
 /* Each one's own limit, in place of the common one. */
 bool gis_layer_limits(gis_layer_input *input, gis_error *error)
 {
-    int field;
-    if (!gis_field_find_numbers(input->source, "--max-shift-field", input->request->rules.max_shift_field, &field,
-                                error))
-        return false;
+    const int field = input->limit_field;
     for (size_t i = 0; field >= 0 && i < input->n; i++) {
         OGRFeatureH feature = gis_source_feature(input->source, i);
         char who[GIS_WHO_SIZE];
@@ -142,9 +149,7 @@ static bool weigh_by_area(gis_layer_input *input, gis_weighting by, gis_error *e
 
 bool gis_layer_weigh_by_field(gis_layer_input *input, gis_error *error)
 {
-    int field;
-    if (!gis_field_find_numbers(input->source, "--weight-field", input->request->rules.weight_field, &field, error))
-        return false;
+    const int field = input->weight_field;
     for (size_t i = 0; field >= 0 && i < input->n; i++) {
         OGRFeatureH feature = gis_source_feature(input->source, i);
         if (input->feature[i].ignored || gis_field_is_blank(feature, field)) continue;

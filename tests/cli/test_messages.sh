@@ -40,6 +40,12 @@ same "$(grep -c '15 more like these' err)" 2 'a sum each:'
 expect 1 separate in.gpkg no/such/out.gpkg
 same "$(wc -l <err)" 12 'with an error:'
 tail -n 1 err | grep -q '^sunder: error: ' || fail 'the error is not the last line'
+# What a call lacks is told before anything is said of features.
+for option in --id-field --block-field --max-shift-field --weight-field; do
+    expect 1 separate in.gpkg never.gpkg $option nowhere
+    same "$(wc -l <err)" 1 "lines about $option:"
+    says err "sunder: error: $option: layer houses has no field nowhere"
+done
 
 # Quiet.
 expect 0 separate in.gpkg quiet.gpkg --quiet
