@@ -33,8 +33,8 @@ static void add_product(careful_sum *s, double sign, careful_sum a, careful_sum 
     s->lost += sign * (fma(a.sum, b.sum, -product) + (a.sum * b.lost + a.lost * b.sum));
 }
 
-/* Twice the signed area of a ring of which all is taken so many times; from its first vertex on, so that large
- * coordinates cost no digits. */
+/* Twice the signed area of a ring in units of 1 / unit; from its first vertex on, so that large coordinates cost no
+ * digits. */
 static double scaled_area(const double *xy, size_t n, double unit)
 {
     const double origin[2] = {unit * xy[0], unit * xy[1]};

@@ -85,6 +85,47 @@ static void check(int64_t x, int64_t y, int64_t w)
 /* Of up to that many bits, and of fewer as often as of more. */
 static int64_t of_bits(rng *r, int most) { return (int64_t)(rng_next(r) >> (64 - rng_int(r, 1, most))); }
 
+/* The inverse of an odd number modulo 2^64 [Newton's steps, each doubles the digits that are right]. */
+static uint64_t inverse(uint64_t odd)
+{
+    uint64_t x = odd;
+    for (int i = 0; i < 5; i++) x *= 2 - odd * x;
+    return x;
+}
+
+/* b / w so near to m / 2^bits as two such numbers can be without being equal, above it or below: m w = 2^bits b -+ 1.
+ * With 53 bits m / 2^bits is a double, with 54 it lies in the middle of two. */
+static bool quotient_near(rng *r, int bits, bool above, int64_t *b, int64_t *w)
+{
+    const uint64_t one = (uint64_t)1 << bits, odd = (uint64_t)1 << 52 | rng_next(r) >> 12 | 1;
+    const uint64_t m = (above ? -inverse(odd) : inverse(odd)) & (one - 1);
+    __extension__ const unsigned __int128 product = (unsigned __int128)m * odd;
+    *b = (int64_t)((product + (above ? 1 : 0)) >> bits);
+    *w = (int64_t)odd;
+    return m >= one / 2;
+}
+
+/* Lengths as near to a double, or to the middle of two, as can be. */
+static void near_doubles(void **state)
+{
+    (void)state;
+    rng r = rng_start(test_seed(), 1);
+    size_t quotients = 0;
+    for (size_t i = 0; i < test_count(4000); i++) {
+        const int64_t k = of_bits(&r, 26), shift = (int64_t)1 << rng_int(&r, 0, 52);
+        check(2 * k * k, 2 * k, shift);         /* the root of (2 k^2 + 1)^2 - 1 */
+        check(of_bits(&r, 53), 1, shift);       /* of a square and one */
+        check(3 * k * k, 4 * k * k, 2 * shift); /* 5 k^2, a double or not */
+        int64_t b, w;
+        for (int how = 0; how < 4; how++) {
+            if (!quotient_near(&r, how < 2 ? 53 : 54, how % 2, &b, &w)) continue;
+            quotients++;
+            check(b, 0, w);
+        }
+    }
+    assert_true(quotients > test_count(4000));
+}
+
 static void lengths(void **state)
 {
     (void)state;
@@ -104,6 +145,6 @@ static void lengths(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lengths)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lengths), cmocka_unit_test(near_doubles)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,10 +31,10 @@ void sunder_i_root(sunder_i_arena *a, sunder_i_big n, sunder_i_big w, long expon
 
 /* sqrt(n) / w as d + rest, d the nearest double to that sum, within 2^-102 of itself.
  *
- * With u = 2^-53: n is high + low exactly, and so is s s = p + e. What is left of n is off by 7 u^2 n, of its root's
- * correction by 3.5 u^2 s for that, 2 u^2 s for the division and 2 u^2 s for Newton's second term. What the division
- * by w leaves of s is exact, its sum with the correction off by 3 u^2 s, and the last division adds as much: less than
- * 14 u^2 in all. */
+ * With u = 2^-53: n is high + low exactly, and s s is p + e. Their difference is off by 7 u^2 n, so the correction of s
+ * by 3.5 u^2 s; its division adds 2 u^2 s, and what Newton's step leaves out is 2 u^2 s. What the division by w leaves
+ * of s is exact, its sum with the correction off by 3 u^2 s, and the last division adds as much: less than 14 u^2 in
+ * all. */
 static double root_over(sunder_i_u128 n, double w, double *rest)
 {
     const double high = (double)n, low = (double)(int64_t)(n - (sunder_i_u128)high);
