@@ -29,7 +29,7 @@ static bool fail_with(gis_error *error, int exit_status, const char *format, va_
         error->exit_status = interrupted ? GIS_FAILED : exit_status;
         error->no_memory = false;
         if (interrupted)
-            snprintf(error->message, sizeof error->message, "%s", GIS_INTERRUPTED);
+            snprintf(error->message, sizeof error->message, "%s", gis_interruption());
         else
             vsnprintf(error->message, sizeof error->message, format, arguments);
         flatten(error->message);
@@ -53,6 +53,11 @@ bool gis_fail_usage(gis_error *error, const char *format, ...)
     fail_with(error, GIS_USAGE, format, arguments);
     va_end(arguments);
     return false;
+}
+
+bool gis_is_interruption(const gis_error *error)
+{
+    return strncmp(error->message, GIS_INTERRUPTED, strlen(GIS_INTERRUPTED)) == 0;
 }
 
 bool gis_no_memory(gis_error *error)

@@ -9,7 +9,7 @@
 
 #include "base/exit_status.h"
 
-/* What is said when a signal ended the work, whatever noticed it first. */
+/* What is said when a signal ended the work, whatever noticed it first; the reason may follow (gis_interruption()). */
 #define GIS_INTERRUPTED "interrupted"
 
 /* Room for what a message is about: "layer buildings, FID 12"; longer names are cut. */
@@ -27,6 +27,8 @@ typedef struct gis_error {
 bool gis_fail(gis_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 bool gis_fail_usage(gis_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 bool gis_no_memory(gis_error *error);
+/* Is it that of an interruption? */
+bool gis_is_interruption(const gis_error *error);
 
 /* A list of distinct sentences in the order of their first appearance. A zeroed struct is an empty list. */
 typedef struct gis_sentences {

@@ -69,6 +69,9 @@ static void end_at_once(int number)
     pthread_sigmask(SIG_UNBLOCK, &this_one, NULL);
 }
 
+/* A limit of the process is met again with each write, or each second: that is no second request. */
+static bool is_limit(int number) { return number == SIGXFSZ || number == SIGXCPU; }
+
 static void hear(int number)
 {
     int reason = errno;
@@ -76,20 +79,24 @@ static void hear(int number)
         pthread_kill(main_thread, number);
     else if (number == SIGALRM)
         lose_patience();
-    else if (!atomic_exchange(&interrupted, 1))
+    else if (!atomic_exchange(&interrupted, number))
         alarm(PATIENCE);
-    else
+    else if (!is_limit(number))
         end_at_once(number);
     errno = reason;
 }
+
+/* SIGHUP: the terminal is gone, or the machine goes down. SIGXFSZ, SIGXCPU: a file, or the time of the processor, is at
+ * the limit that was set for the process (setrlimit(2)). */
+static const int requests[] = {SIGINT, SIGTERM, SIGHUP, SIGXFSZ, SIGXCPU};
+enum { N_REQUESTS = sizeof requests / sizeof *requests };
 
 static sigset_t all_of_them(void)
 {
     sigset_t set;
     sigemptyset(&set);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGTERM);
     sigaddset(&set, SIGALRM);
+    for (int k = 0; k < N_REQUESTS; k++) sigaddset(&set, requests[k]);
     return set;
 }
 
@@ -102,18 +109,34 @@ static void catch (int number)
     sigaction(number, &action, NULL);
 }
 
+/* Whoever started the run may want it to go on after its terminal has gone: nohup(1) ignores SIGHUP. */
+static bool is_to_be_ignored(int number)
+{
+    struct sigaction now;
+    return number == SIGHUP && sigaction(number, NULL, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
 void gis_catch_signals(void)
 {
     main_thread = pthread_self();
     catch (SIGALRM);
-    catch (SIGINT);
-    catch (SIGTERM);
+    for (int k = 0; k < N_REQUESTS; k++)
+        if (!is_to_be_ignored(requests[k])) catch (requests[k]);
     gis_watch();
 }
 
 bool gis_interrupted(void)
 {
     return atomic_load_explicit(&interrupted, memory_order_relaxed) && atomic_load(&outcome) == GIS_OPEN;
+}
+
+const char *gis_interruption(void)
+{
+    switch (atomic_load(&interrupted)) {
+    case SIGXFSZ: return GIS_INTERRUPTED ": a file would be larger than this process may make one (ulimit -f)";
+    case SIGXCPU: return GIS_INTERRUPTED ": this process may not work for longer (ulimit -t)";
+    default: return GIS_INTERRUPTED;
+    }
 }
 
 bool gis_go_on(gis_error *error) { return !gis_interrupted() || gis_fail(error, GIS_INTERRUPTED); }

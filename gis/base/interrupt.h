@@ -1,9 +1,9 @@
-/* interrupt.h: SIGINT and SIGTERM.
+/* interrupt.h: SIGINT, SIGTERM, SIGHUP, and the limits of the process: SIGXFSZ and SIGXCPU.
  *
  * The first one asks the run to end: all work looks whether one has come, fails, and clears away what it has begun.
  * What does not look (a driver in the midst of a file) is given a second; then the process ends from within a signal
  * handler, with the same message, the same exit status, and nothing left behind. A second signal does that at once, and
- * ends the process as signals do.
+ * ends the process as signals do; but a limit is met again and again, and ends the run once.
  *
  * For this the handler knows what lies about half done (leftovers): it takes it away, or puts it back. It runs on the
  * main thread alone, and not in the midst of a step (gis_hold), so that it always finds things in order; all that it
@@ -18,6 +18,8 @@
 void gis_catch_signals(void);
 /* Has a signal come, and can the run still end as if nothing had been done? */
 bool gis_interrupted(void);
+/* The sentence about it: GIS_INTERRUPTED, and which limit was met, if it was one. */
+const char *gis_interruption(void);
 /* The other way round: false, and the error says GIS_INTERRUPTED, if a signal has come. */
 bool gis_go_on(gis_error *error);
 /* The library's work in this thread heeds the signals, too (the thread that catches them does already). */

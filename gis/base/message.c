@@ -262,7 +262,7 @@ void gis_say_warnings(gis_message_kind kind, const gis_sentences *list)
 
 static const char *failure_kind(const gis_error *error)
 {
-    if (strcmp(error->message, GIS_INTERRUPTED) == 0) return "interrupted";
+    if (gis_is_interruption(error)) return "interrupted";
     return error->no_memory ? "memory" : error->exit_status == GIS_USAGE ? "usage" : "failed";
 }
 

@@ -45,7 +45,7 @@ static void fail(making *m, size_t set, const gis_error *error)
     char who[GIS_WHO_SIZE] = "";
     const gis_buffer *buffer = m->buffer;
     if (!buffer->request->dissolve) gis_feature_name(&buffer->input, buffer->set[set].member[0], who, sizeof who);
-    bool stopped = strcmp(error->message, GIS_INTERRUPTED) == 0;
+    bool stopped = gis_is_interruption(error);
     pthread_mutex_lock(&m->lock);
     if (set < m->failed && !(stopped && atomic_load(&m->stop))) { /* what was stopped as another failed is no reason */
         m->failed = set;

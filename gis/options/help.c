@@ -120,5 +120,5 @@ void gis_help_program(void)
     printf("\n`sunder COMMAND --help` lists the options of a command; `sunder --version` prints the version.\n"
            "`sunder --options-json` prints all of them for other programs.\n"
            "Exit status: 0 done, 1 failed, 2 wrong usage, 3 conflicts remain or were found, or no route.\n"
-           "SIGINT and SIGTERM end a run, the output as it was; a second one at once.\n");
+           "SIGINT, SIGTERM and SIGHUP end a run, the output as it was; a second one at once.\n");
 }

@@ -18,6 +18,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 /* ---- Opening ----------------------------------------------------------------------------------------------------- */
@@ -148,8 +149,21 @@ static void unguard(gis_sink *sink)
     sink->journal = NULL;
 }
 
+/* A transaction that fails is rolled back by writing what the file held, up to its end. */
+static bool may_write_all_of(const char *path, gis_error *error)
+{
+    struct rlimit limit;
+    struct stat status;
+    if (getrlimit(RLIMIT_FSIZE, &limit) != 0 || stat(path, &status) != 0 || status.st_size <= 0 ||
+        limit.rlim_cur == RLIM_INFINITY || (rlim_t)status.st_size <= limit.rlim_cur)
+        return true;
+    return gis_fail(error, "%s: it is larger than a file that this process may write (ulimit -f); nothing was changed",
+                    path);
+}
+
 static bool begin_locked(gis_sink *sink, gis_error *error)
 {
+    if (!may_write_all_of(sink->request.path, error)) return false;
     char *sql = locking_statement(sink);
     gis_error reason;
     bool done =
@@ -281,6 +295,7 @@ bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
     bool done = GDALDatasetCommitTransaction(sink->dataset) == OGRERR_NONE && !listener.failures;
     gis_listen_end();
     sink->in_transaction = !done; /* to be rolled back */
+    if (final) gis_set_outcome(done ? GIS_DECIDED : GIS_OPEN);
     if (!done && sink->format.sqlite && strstr(listener.first, "locked"))
         fail_locked(sink, listener.first, error);
     else if (!done)
@@ -288,7 +303,6 @@ bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
                  gis_listener_reason(&listener, "the transaction cannot be committed"));
     else
         seal(sink);
-    if (final) gis_set_outcome(done ? GIS_DECIDED : GIS_OPEN);
     gis_listener_clear(&listener);
     return done;
 }

@@ -6,6 +6,7 @@
  *   strike full N COMMAND...       from N bytes written on (all files together) every write fails with ENOSPC; the one
  *                                  in which the disk becomes full is short
  *   strike signal N COMMAND...     SIGTERM at the Nth system call of any kind since the program catches it
+ *   strike signal:NAME N COMMAND... the same with HUP, XCPU or XFSZ
  *   strike signals:K N COMMAND...  the same, and SIGINT K calls later
  *   strike list 0 COMMAND...       strikes nowhere
  *   strike calls 0 COMMAND...      strikes nowhere, and counts as for signals
@@ -101,7 +102,7 @@ static void set_registers(pid_t pid, const registers *r)
 /* ---- What is struck, and where -------------------------------------------------------------------------------- */
 
 static enum { LIST, KILL, FAIL, SHORT, FULL, SIGNAL, SIGNALS, CALLS } way;
-static int reason;
+static int reason, sent = SIGTERM;
 static bool catches; /* the program has a handler for SIGTERM by now */
 static uint64_t place, again, count, writes, written, shown;
 static char under[PATH_MAX], struck[64] = "-";
@@ -144,15 +145,19 @@ static bool is_under(const char *path)
     return strncmp(path, under, n) == 0 && (path[n] == '/' || path[n] == '\0');
 }
 
-static bool path_is_under(pid_t pid, uint64_t at)
+/* directory: a descriptor to which the path is relative, or AT_FDCWD. */
+static bool path_is_under(pid_t pid, uint64_t directory, uint64_t at)
 {
-    char path[PATH_MAX], whole[2 * PATH_MAX], link[64], cwd[PATH_MAX];
+    char path[PATH_MAX], whole[2 * PATH_MAX], link[64], from[PATH_MAX];
     read_text(pid, at, path, sizeof path);
     if (path[0] == '/') return is_under(path);
-    snprintf(link, sizeof link, "/proc/%d/cwd", (int)pid);
-    ssize_t n = readlink(link, cwd, sizeof cwd - 1);
-    cwd[n > 0 ? n : 0] = '\0';
-    snprintf(whole, sizeof whole, "%s/%s", cwd, path);
+    if ((int)directory == AT_FDCWD)
+        snprintf(link, sizeof link, "/proc/%d/cwd", (int)pid);
+    else
+        snprintf(link, sizeof link, "/proc/%d/fd/%d", (int)pid, (int)directory);
+    ssize_t n = readlink(link, from, sizeof from - 1);
+    from[n > 0 ? n : 0] = '\0';
+    snprintf(whole, sizeof whole, "%s/%s", from, path);
     return is_under(whole);
 }
 
@@ -194,7 +199,9 @@ typedef struct call {
 
 static call call_at(pid_t pid, const registers *r)
 {
-    uint64_t first = argument(r, 0), second = argument(r, 1), third = argument(r, 2);
+    const uint64_t first = argument(r, 0), second = argument(r, 1), third = argument(r, 2);
+    const uint64_t here = (uint64_t)AT_FDCWD;
+    (void)here; /* not needed where every call is given its directory */
     switch (call_of(r)) {
     case SYS_write: return (call){file_is_under(pid, first) ? "write" : NULL, true};
     case SYS_pwrite64: return (call){file_is_under(pid, first) ? "pwrite" : NULL, true};
@@ -204,20 +211,20 @@ static call call_at(pid_t pid, const registers *r)
     case SYS_ftruncate: return (call){file_is_under(pid, first) ? "ftruncate" : NULL, false};
     case SYS_close: return (call){file_is_written(pid, first) ? "close" : NULL, false};
     case SYS_openat:
-        return (call){third & (O_CREAT | O_WRONLY | O_RDWR) && path_is_under(pid, second) ? "open" : NULL, false};
-    case SYS_mkdirat: return (call){path_is_under(pid, second) ? "mkdir" : NULL, false};
-    case SYS_unlinkat: return (call){path_is_under(pid, second) ? "unlink" : NULL, false};
-    case SYS_renameat2: return (call){path_is_under(pid, second) ? "rename" : NULL, false};
+        return (call){third & (O_CREAT | O_WRONLY | O_RDWR) && path_is_under(pid, first, second) ? "open" : NULL, false};
+    case SYS_mkdirat: return (call){path_is_under(pid, first, second) ? "mkdir" : NULL, false};
+    case SYS_unlinkat: return (call){path_is_under(pid, first, second) ? "unlink" : NULL, false};
+    case SYS_renameat2: return (call){path_is_under(pid, first, second) ? "rename" : NULL, false};
 #ifdef SYS_open
     case SYS_open:
-        return (call){second & (O_CREAT | O_WRONLY | O_RDWR) && path_is_under(pid, first) ? "open" : NULL, false};
-    case SYS_mkdir: return (call){path_is_under(pid, first) ? "mkdir" : NULL, false};
-    case SYS_rmdir: return (call){path_is_under(pid, first) ? "rmdir" : NULL, false};
-    case SYS_unlink: return (call){path_is_under(pid, first) ? "unlink" : NULL, false};
-    case SYS_rename: return (call){path_is_under(pid, first) ? "rename" : NULL, false};
+        return (call){second & (O_CREAT | O_WRONLY | O_RDWR) && path_is_under(pid, here, first) ? "open" : NULL, false};
+    case SYS_mkdir: return (call){path_is_under(pid, here, first) ? "mkdir" : NULL, false};
+    case SYS_rmdir: return (call){path_is_under(pid, here, first) ? "rmdir" : NULL, false};
+    case SYS_unlink: return (call){path_is_under(pid, here, first) ? "unlink" : NULL, false};
+    case SYS_rename: return (call){path_is_under(pid, here, first) ? "rename" : NULL, false};
 #endif
 #ifdef SYS_renameat
-    case SYS_renameat: return (call){path_is_under(pid, second) ? "rename" : NULL, false};
+    case SYS_renameat: return (call){path_is_under(pid, first, second) ? "rename" : NULL, false};
 #endif
     default: return (call){NULL, false};
     }
@@ -259,7 +266,7 @@ static void strike_by_signal(const registers *r, const call *at, pid_t main_pid)
     if (way == CALLS || count < place) return;
     if (count == place) {
         snprintf(struck, sizeof struck, "%s:%ld", at->name ? at->name : "call", call_of(r));
-        kill(main_pid, SIGTERM);
+        kill(main_pid, sent);
     }
     if (way == SIGNALS && count == place + again) kill(main_pid, SIGINT);
 }
@@ -345,6 +352,16 @@ static bool understand(const char *word)
         again = strtoull(word + 8, NULL, 10);
         return true;
     }
+    static const struct {
+        const char *name;
+        int number;
+    } signals[] = {{"signal:HUP", SIGHUP}, {"signal:XCPU", SIGXCPU}, {"signal:XFSZ", SIGXFSZ}};
+    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
+        if (strcmp(word, signals[i].name) == 0) {
+            way = SIGNAL;
+            sent = signals[i].number;
+            return true;
+        }
     for (int i = LIST; i <= CALLS; i++)
         if (ways[i] && strcmp(word, ways[i]) == 0) {
             way = i;
@@ -357,7 +374,7 @@ int main(int argc, char **argv)
 {
     const char *where = getenv("STRIKE_UNDER");
     if (argc < 4 || !understand(argv[1]) || !realpath(where ? where : ".", under)) {
-        fputs("usage: strike list|calls|kill|short|full|errno:NAME|signal|signals:K N COMMAND...\n", stderr);
+        fputs("usage: strike list|calls|kill|short|full|errno:NAME|signal[:NAME]|signals:K N COMMAND...\n", stderr);
         return 2;
     }
     place = strtoull(argv[2], NULL, 10);

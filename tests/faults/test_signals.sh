@@ -1,8 +1,9 @@
 # shellcheck shell=bash disable=SC1091
-# SIGTERM at system calls all over a run, of every command: reading, work, writing, reading back, putting in place. Before
-# the output is decided the run ends with 1 and says that it was interrupted; later it is done. A second signal, at once
-# or some calls later, ends it as signals do. In no case is anything left but the old output or the new one, whole. The
-# alarm by which a run that does not look is ended never comes here (strike keeps it back): all of this is heard.
+# SIGTERM, SIGHUP, SIGXFSZ and SIGXCPU in turn at system calls all over a run, of every command: reading, work, writing,
+# reading back, putting in place. Before the output is decided the run ends with 1 and says that it was interrupted;
+# later it is done. A second signal, at once or some calls later, ends it as signals do. In no case is anything left but
+# the old output or the new one, whole. The alarm by which a run that does not look is ended never comes here (strike
+# keeps it back): all of this is heard.
 #
 #   SUNDER_FAULTS=N     places for each way and command, spread over the run from SUNDER_SEED on (default 2)
 #   SUNDER_FAULTS=all   200 of them
@@ -50,10 +51,21 @@ state() {
     ls -Ad .sunder-* s.json 2>/dev/null)
 }
 
-# struck WAY PLACE; sets $calls, $status, $call, $shown.
+# struck WAY PLACE; sets $calls, $status, $call, $shown, and $said: what is told of the signal.
+turn=0
+said='sunder: error: interrupted'
 struck() {
+    local way=$1
     rm -rf dir && cp -a before dir
-    (cd dir && STRIKE_UNDER=. "$strike" "$1" "$2" "$SUNDER" "${args[@]}") 3>report >out 2>err
+    if [ "$way" = signal ]; then
+        said='sunder: error: interrupted'
+        case $((turn++ % 4)) in
+        1) way=signal:HUP ;;
+        2) way=signal:XFSZ said+=': a file would be larger than this process may make one (ulimit -f)' ;;
+        3) way=signal:XCPU said+=': this process may not work for longer (ulimit -t)' ;;
+        esac
+    fi
+    (cd dir && STRIKE_UNDER=. "$strike" "$way" "$2" "$SUNDER" "${args[@]}") 3>report >out 2>err
     read -r calls _ status call shown _ <report
 }
 
@@ -70,7 +82,7 @@ judge() {
     case $way-$status in
     signal-1)
         [ "$now" = "$old" ] || fail "$name $way $place ($call): interrupted, and the output is not the old one: $now"
-        [ "$(grep -v '^[0-9]*$' err)" = 'sunder: error: interrupted' ] || fail "$name $way $place ($call): $(cat err)"
+        [ "$(grep -v '^[0-9]*$' err)" = "$said" ] || fail "$name $way $place ($call): $(cat err)"
         interrupted=$((interrupted + 1))
         ;;
     signal-[03])
