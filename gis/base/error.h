@@ -9,7 +9,7 @@
 
 #include "base/exit_status.h"
 
-/* What is said when a signal ended the work, whatever noticed it first; the reason may follow (gis_interruption()). */
+/* What is said when a signal ended the work, whatever noticed it first; gis_interruption() may add why. */
 #define GIS_INTERRUPTED "interrupted"
 
 /* Room for what a message is about: "layer buildings, FID 12"; longer names are cut. */

@@ -200,7 +200,7 @@ typedef struct call {
 static call call_at(pid_t pid, const registers *r)
 {
     const uint64_t first = argument(r, 0), second = argument(r, 1), third = argument(r, 2);
-    const uint64_t here = (uint64_t)AT_FDCWD;
+    const uint64_t here = (uint64_t)AT_FDCWD, opens = O_CREAT | O_WRONLY | O_RDWR;
     (void)here; /* not needed where every call is given its directory */
     switch (call_of(r)) {
     case SYS_write: return (call){file_is_under(pid, first) ? "write" : NULL, true};
@@ -211,13 +211,13 @@ static call call_at(pid_t pid, const registers *r)
     case SYS_ftruncate: return (call){file_is_under(pid, first) ? "ftruncate" : NULL, false};
     case SYS_close: return (call){file_is_written(pid, first) ? "close" : NULL, false};
     case SYS_openat:
-        return (call){third & (O_CREAT | O_WRONLY | O_RDWR) && path_is_under(pid, first, second) ? "open" : NULL, false};
+        return (call){third & opens && path_is_under(pid, first, second) ? "open" : NULL, false};
     case SYS_mkdirat: return (call){path_is_under(pid, first, second) ? "mkdir" : NULL, false};
     case SYS_unlinkat: return (call){path_is_under(pid, first, second) ? "unlink" : NULL, false};
     case SYS_renameat2: return (call){path_is_under(pid, first, second) ? "rename" : NULL, false};
 #ifdef SYS_open
     case SYS_open:
-        return (call){second & (O_CREAT | O_WRONLY | O_RDWR) && path_is_under(pid, here, first) ? "open" : NULL, false};
+        return (call){second & opens && path_is_under(pid, here, first) ? "open" : NULL, false};
     case SYS_mkdir: return (call){path_is_under(pid, here, first) ? "mkdir" : NULL, false};
     case SYS_rmdir: return (call){path_is_under(pid, here, first) ? "rmdir" : NULL, false};
     case SYS_unlink: return (call){path_is_under(pid, here, first) ? "unlink" : NULL, false};
