@@ -198,6 +198,7 @@ static bool open_source(reading *r, gis_error *error)
         .wants = r->batch ? NULL : wants, /* of a batch nothing stays anyway */
         .user = r,
         .batch = r->batch,
+        .not_finite = gis_invalid_not_finite(r->around->invalid, GIS_NOT_FINITE_LEFT_OUT),
     };
     gis_error why;
     if (!gis_source_open(&source, &r->source, &why)) {

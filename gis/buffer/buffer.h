@@ -40,7 +40,7 @@ typedef struct gis_buffer {
     gis_buffer_set *set;
     size_t sets;
     size_t *member; /* features, set by set */
-    size_t empty, vertices, repaired;
+    size_t empty, vertices, rounded_again;
     double area, deviation;
 } gis_buffer;
 

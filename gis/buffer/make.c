@@ -80,7 +80,7 @@ static void add_up(gis_buffer *buffer)
         const gis_buffer_set *set = &buffer->set[k];
         buffer->empty += !set->none && set->result.set.polygons == 0;
         buffer->vertices += set->result.set.vertices;
-        buffer->repaired += set->result.repaired;
+        buffer->rounded_again += set->result.repaired;
         buffer->area += set->area;
         buffer->deviation = fmax(buffer->deviation, set->result.deviation);
     }

@@ -53,7 +53,8 @@ static void json_buffer(gis_json *out, const gis_buffer *buffer)
     gis_json_put_size(out, "vertices", buffer->vertices);
     gis_json_put_double(out, "area", buffer->area);
     gis_json_put_double(out, "max_deviation", buffer->deviation);
-    gis_json_put_size(out, "repaired", buffer->repaired);
+    gis_json_put_size(out, "invalid", buffer->input.invalid);
+    gis_json_put_size(out, "rounded_again", buffer->rounded_again);
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");
 }
@@ -63,11 +64,13 @@ static bool print_summary(const void *made, gis_error *error)
     const buffer_run *run = made;
     const gis_buffer *buffer = &run->buffer;
     (void)error; /* what stdio refuses shows when it is flushed */
-    printf("%s: %zu features", gis_source_name(buffer->input.source), buffer->input.n);
+    printf("%s: %zu features (invalid %zu, null %zu)", gis_source_name(buffer->input.source), buffer->input.n,
+           buffer->input.invalid, buffer->input.null);
     if (run->request.dissolve) printf(" in %zu set%s", buffer->sets, buffer->sets == 1 ? "" : "s");
     printf(", %zu came out empty; %zu vertices, area %.12g\n", buffer->empty, buffer->vertices, buffer->area);
-    printf("exact up to rounding: no boundary moved by more than %.3g; %zu polygons were mended for it; %.3g s\n",
-           buffer->deviation, buffer->repaired, gis_clock() - run->start);
+    printf("exact up to rounding: no boundary moved by more than %.3g; %zu polygons were rounded again to stay valid; "
+           "%.3g s\n",
+           buffer->deviation, buffer->rounded_again, gis_clock() - run->start);
     return true;
 }
 

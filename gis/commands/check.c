@@ -143,9 +143,10 @@ static bool print(const void *checked, gis_error *error)
     if (!print_lines(run, error)) return false;
     const sunder_conflict_counts *counts = &run->summary.before;
     if (!run->options->given[OPT_QUIET])
-        printf("%s: %zu features, %zu pairs tested; overlap %zu, too close %zu, barrier %zu, barrier near %zu, "
-               "contained %zu, duplicate %zu, inside blocks %zu\n",
-               gis_source_name(run->input.source), run->input.n, run->summary.pairs_tested, counts->overlap,
+        printf("%s: %zu features (skipped %zu, invalid %zu, null %zu), %zu pairs tested; overlap %zu, too close %zu, "
+               "barrier %zu, barrier near %zu, contained %zu, duplicate %zu, inside blocks %zu\n",
+               gis_source_name(run->input.source), run->input.n, run->summary.skipped, run->input.invalid,
+               run->input.null, run->summary.pairs_tested, counts->overlap,
                counts->too_close, counts->barrier, counts->barrier_near, counts->contained, counts->duplicate,
                counts->inside_blocks);
     if (run->options->given[OPT_BEFORE] && !run->options->given[OPT_QUIET]) print_moves(&run->moves);
@@ -169,6 +170,9 @@ static void json_check(gis_json *out, const check_run *run)
     gis_json_open(out, '{');
     gis_json_put_string(out, "command", "check");
     gis_json_put_size(out, "features", run->input.n);
+    gis_json_put_size(out, "skipped", run->summary.skipped);
+    gis_json_put_size(out, "invalid", run->input.invalid);
+    gis_json_put_size(out, "null", run->input.null);
     gis_json_put_size(out, "pairs_tested", run->summary.pairs_tested);
     gis_json_key(out, "conflicts");
     gis_json_conflict_counts(out, &run->summary.before);

@@ -48,6 +48,7 @@ static bool open_source(gis_layer_input *input, bool packed, gis_error *error)
     gis_source_request request = input->request->source;
     request.packed = packed;
     request.threads = input->request->rules.threads;
+    request.not_finite = gis_invalid_not_finite(input->request->invalid, GIS_NOT_FINITE_KEPT);
     input->points = input->request->symbol || input->request->symbol_field;
     request.takes = input->points ? GIS_TAKES_POINTS : GIS_TAKES_POLYGONS;
     if (!gis_source_open(&request, &input->source, error))

@@ -206,6 +206,15 @@ static bool point_shape(gis_layer_input *input, size_t i, const gis_layer_shapin
     return ok;
 }
 
+/* --invalid skip lets features through that have a coordinate which is no finite number. */
+static void skip_broken(gis_layer_input *input, size_t i)
+{
+    char who[GIS_WHO_SIZE];
+    gis_feature_name(input, i, who, sizeof who);
+    gis_say_warning(GIS_MESSAGE_INVALID, "%s: invalid: a coordinate is not a finite number; skipped", who);
+    input->invalid++;
+}
+
 void gis_layer_shaping_free(gis_layer_shaping *shaping)
 {
     if (!shaping) return;
@@ -232,7 +241,8 @@ bool gis_layer_shapes(gis_layer_input *input, gis_error *error)
     for (size_t i = 0; ok && i < input->n; i++) {
         gis_content content = gis_source_content(input->source, i);
         input->null += content == GIS_NOTHING;
-        input->other += content != GIS_NOTHING && content != wanted;
+        input->other += content != GIS_NOTHING && content != GIS_BROKEN && content != wanted;
+        if (content == GIS_BROKEN) skip_broken(input, i);
         ok = gis_go_on(error);
         if (ok && content == wanted && !input->shape[i])
             ok = input->points ? point_shape(input, i, input->shaping, error)

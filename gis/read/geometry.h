@@ -20,9 +20,10 @@ typedef enum gis_content {
     GIS_NOTHING,  /* null or empty */
     GIS_POLYGONS, /* at least one polygon, alone or in a collection, curved ones, triangles and surfaces included */
     GIS_POINTS,   /* points, and no polygon and no line */
-    GIS_OTHER     /* lines, or a mixture without polygons */
+    GIS_OTHER,    /* lines, or a mixture without polygons */
+    GIS_BROKEN    /* a coordinate is no finite number; told by gis_source_content() alone */
 } gis_content;
-enum { GIS_CONTENTS = GIS_OTHER + 1 };
+enum { GIS_CONTENTS = GIS_BROKEN + 1 };
 
 /* What a geometry (NULL is fine) holds. */
 gis_content gis_geometry_content(OGRGeometryH geometry);

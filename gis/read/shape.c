@@ -62,6 +62,7 @@ bool gis_shape_from_source(const gis_source_request *request, gis_invalid_policy
 {
     gis_source_request polygons = *request;
     polygons.takes = GIS_TAKES_POLYGONS;
+    polygons.not_finite = gis_invalid_not_finite(policy, GIS_NOT_FINITE_LEFT_OUT);
     gis_source *opened;
     const char *meant = gis_shape_prefix_meant(request->path);
     if (!gis_source_open(&polygons, &opened, error)) {

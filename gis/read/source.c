@@ -47,6 +47,7 @@ struct gis_source {
     size_t batch, first, bytes; /* bytes: of geometries in the batch; see gis_source_request */
     bool may_pack, ended;       /* ended: the last feature was read */
     bool facts_given, fids_mean_nothing;
+    gis_not_finite not_finite;
     double extent[4];
     bool extent_known;
     gis_source_marks marks;
@@ -188,10 +189,12 @@ static void note_facts(gis_source *source, OGRFeatureH feature, const unsigned c
 
 static size_t bytes_of(OGRGeometryH geometry) { return geometry ? (size_t)OGR_G_WkbSize(geometry) : 0; }
 
-/* Takes the feature over, packed if it can be. */
-static bool keep(gis_source *source, OGRFeatureH feature, const unsigned char *record)
+/* Takes the feature over, packed if there is a record of it. */
+static bool keep(gis_source *source, OGRFeatureH feature, const unsigned char *record, bool finite)
 {
-    const gis_content content = record ? GIS_POLYGONS : gis_geometry_content(OGR_F_GetGeometryRef(feature));
+    const gis_content content = !finite  ? GIS_BROKEN
+                                : record ? GIS_POLYGONS
+                                         : gis_geometry_content(OGR_F_GetGeometryRef(feature));
     if (!gis_array_reserve(&source->held, &source->capacity, source->n + 1, sizeof *source->held) ||
         !gis_array_reserve(&source->contents, &source->contents_capacity, source->n + 1, sizeof *source->contents))
         return false;
@@ -205,14 +208,19 @@ static bool keep(gis_source *source, OGRFeatureH feature, const unsigned char *r
 
 static bool keep_record(void *user, const unsigned char *record, gis_error *error)
 {
-    return keep(user, NULL, record) || gis_no_memory(error);
+    return keep(user, NULL, record, true) || gis_no_memory(error);
 }
 
-static bool fail_not_finite(const gis_source *source, OGRFeatureH feature, gis_error *error)
+/* May it stay, or go? It fails where neither is allowed. */
+static bool judge_not_finite(const gis_source *source, OGRFeatureH feature, gis_error *error)
 {
     char who[GIS_WHO_SIZE];
+    if (source->not_finite == GIS_NOT_FINITE_KEPT) return true;
     gis_name_subject(&(gis_subject){NULL, source->name, true, OGR_F_GetFID(feature), 0, NULL}, who, sizeof who);
-    return gis_fail(error, "%s: a coordinate is not a finite number", who);
+    if (source->not_finite == GIS_NOT_FINITE_REFUSED)
+        return gis_fail(error, "%s: a coordinate is not a finite number; --invalid skip leaves such features out", who);
+    gis_say_warning(GIS_MESSAGE_INVALID, "%s: a coordinate is not a finite number; skipped", who);
+    return true;
 }
 
 /* One feature, which is the source's from now on if *kept. */
@@ -222,10 +230,11 @@ static bool take(gis_source *source, const gis_source_request *request, OGRFeatu
     const unsigned char *record = NULL;
     const bool pack = source->may_pack && !(request && request->wants);
     if (pack && !gis_packed_add(source->packed, feature, &record, error)) return false;
-    if (record ? !gis_packed_is_finite(record) : !gis_geometry_is_finite(OGR_F_GetGeometryRef(feature)))
-        return fail_not_finite(source, feature, error);
+    const bool finite = record ? gis_packed_is_finite(record) : gis_geometry_is_finite(OGR_F_GetGeometryRef(feature));
+    if (!finite && !judge_not_finite(source, feature, error)) return false;
+    if (!finite && source->not_finite == GIS_NOT_FINITE_LEFT_OUT) return true;
     if (request && request->wants && !request->wants(request->user, source->crs, feature)) return true;
-    *kept = keep(source, feature, record);
+    *kept = keep(source, feature, finite ? record : NULL, finite);
     return *kept || gis_no_memory(error);
 }
 
@@ -428,6 +437,7 @@ static bool begin_reading(gis_source *source, const gis_source_request *request,
     if (request->batch) find_extent(source);
     source->batch = request->batch;
     source->may_pack = request->packed;
+    source->not_finite = request->not_finite;
     source->fids_mean_nothing = request->fids_mean_nothing;
     source->fids_rising = true;
     source->facts_given = request->facts != NULL;

@@ -17,6 +17,13 @@
 /* Kinds of layer that a command takes; combine with |. A layer of unknown type, or of collections, counts as all. */
 enum { GIS_TAKES_POLYGONS = 1, GIS_TAKES_POINTS = 2, GIS_TAKES_LINES = 4 };
 
+/* What becomes of a feature that has a coordinate which is no finite number. */
+typedef enum gis_not_finite {
+    GIS_NOT_FINITE_REFUSED, /* reading fails and names it */
+    GIS_NOT_FINITE_KEPT,    /* it is kept as it is, its content is GIS_BROKEN, and the caller warns of it */
+    GIS_NOT_FINITE_LEFT_OUT /* it is warned of, and not kept */
+} gis_not_finite;
+
 /* What is known of a layer only when all of it was read. */
 typedef struct gis_source_facts {
     size_t features, content[GIS_CONTENTS]; /* how many are of each content */
@@ -49,6 +56,7 @@ typedef struct gis_source_request {
     unsigned threads; /* to read on; 0: as many as there are processors */
     size_t batch; /* so many features are read at a time, or fewer that are large; 0: all. Not together with wants */
     const gis_source_facts *facts; /* NULL, or what was found when the same was read before */
+    gis_not_finite not_finite;
     bool fids_mean_nothing;        /* FIDs are known not to be unique: gis_source_mark() does not go by them */
 } gis_source_request;
 
@@ -58,7 +66,8 @@ typedef struct gis_source gis_source;
  *
  * Fails with one sentence: no such file, not readable by GDAL, no such layer (the layers there are listed), several
  * layers of a fitting kind and none named (they are listed), a layer of another kind, no geometry column, a bad --where
- * or --sql or CRS, a coordinate that is not finite (naming layer and FID), a read error midway. A layer without
+ * or --sql or CRS, a coordinate that is not finite (naming layer and FID) unless the request says otherwise, a read
+ * error midway. A layer without
  * features, or a filter that selects none, is no error: n = 0. */
 bool gis_source_open(const gis_source_request *request, gis_source **out, gis_error *error);
 void gis_source_close(gis_source *source);

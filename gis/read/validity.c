@@ -11,6 +11,11 @@ const char *gis_invalid_string(gis_invalid_policy policy)
     return (unsigned)policy <= GIS_INVALID_FAIL ? word[policy] : "";
 }
 
+gis_not_finite gis_invalid_not_finite(gis_invalid_policy policy, gis_not_finite skipped)
+{
+    return policy == GIS_INVALID_SKIP ? skipped : GIS_NOT_FINITE_REFUSED;
+}
+
 static bool shape_failed(const char *who, sunder_status status, const sunder_error *why, gis_error *error)
 {
     gis_fail(error, "%s: %s", who, why->message);
@@ -43,6 +48,8 @@ bool gis_shape_of_feature(const gis_polygons *set, gis_invalid_policy policy, co
     if (!ok && !(*invalid && policy == GIS_INVALID_SKIP)) return false;
     if (*invalid)
         gis_say_warning(GIS_MESSAGE_INVALID, "%s: %s%s; %s", who, said, reason.message,
-                        ok ? "taken as what its rings enclose by the even-odd rule" : "skipped");
+                        !ok                            ? "skipped"
+                        : sunder_shape_is_empty(*out) ? "its rings enclose nothing by the even-odd rule: skipped"
+                                                      : "taken as what its rings enclose by the even-odd rule");
     return true;
 }

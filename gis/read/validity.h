@@ -3,11 +3,16 @@
 #define GIS_VALIDITY_H
 
 #include "base/polygons.h"
+#include "read/source.h"
 
 /* --invalid: taken as what the rings enclose by the even-odd rule; left out; an error. */
 typedef enum gis_invalid_policy { GIS_INVALID_REPAIR, GIS_INVALID_SKIP, GIS_INVALID_FAIL } gis_invalid_policy;
 /* "repair", "skip", "fail"; "" for what is none of them. */
 const char *gis_invalid_string(gis_invalid_policy policy);
+
+/* No rule makes a set of coordinates that are no finite numbers: such a feature is an error unless invalid ones are
+ * skipped, and then it is `skipped`. */
+gis_not_finite gis_invalid_not_finite(gis_invalid_policy policy, gis_not_finite skipped);
 
 /* A polygonal set from rings. Invalid ones are repaired, if that is the policy (*invalid is set, *reason says why),
  * else an error. `who` opens messages. */

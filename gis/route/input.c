@@ -60,6 +60,7 @@ static bool read_layer(gis_route_input *input, gis_error *error)
     gis_source_request selected = input->request->source;
     selected.path = path;
     selected.takes = GIS_TAKES_POLYGONS | GIS_TAKES_LINES | GIS_TAKES_POINTS;
+    selected.not_finite = gis_invalid_not_finite(input->request->invalid, GIS_NOT_FINITE_LEFT_OUT);
     if (!gis_source_open(&selected, &input->source, error)) {
         if (meant && strstr(error->message, "no such file"))
             gis_fail(error, "OBSTACLES (%s): no such file, and no shape; did you mean %s?", path, meant);

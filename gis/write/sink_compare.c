@@ -152,6 +152,13 @@ static double polygon_deviation(const gis_polygons *a, const gis_polygons *b)
     return fmax(vertex_distance(a, b), vertex_distance(b, a));
 }
 
+/* The geometry of the source's feature where that is what was sent, unmoved; NULL: another was, or none. */
+static OGRGeometryH own_geometry(const gis_sink_layer *layer, const gis_sent *sent)
+{
+    OGRGeometryH own = sent->feature && sent->moved ? OGR_F_GetGeometryRef(sent->feature) : NULL;
+    return own && gis_sink_holds(layer, own) ? own : NULL;
+}
+
 /* ---- One feature ------------------------------------------------------------------------------------------------- */
 
 typedef struct workspace {
@@ -205,10 +212,10 @@ static bool compare_geometries(OGRGeometryH sent, OGRGeometryH kept, workspace *
     return true;
 }
 
-static bool compare_sent(const gis_sent *sent, OGRGeometryH kept, workspace *work, gis_sink_result *result,
-                         gis_error *error)
+static bool compare_sent(const gis_sink_layer *layer, const gis_sent *sent, OGRGeometryH kept, workspace *work,
+                         gis_sink_result *result, gis_error *error)
 {
-    OGRGeometryH own = sent->feature && sent->moved ? OGR_F_GetGeometryRef(sent->feature) : NULL;
+    OGRGeometryH own = own_geometry(layer, sent);
     if (!own || (sent->dx == 0 && sent->dy == 0))
         return compare_geometries(own ? own : sent->made, kept, work, result, error);
     OGRGeometryH moved = OGR_G_Clone(own);
@@ -221,8 +228,7 @@ static bool compare_sent(const gis_sent *sent, OGRGeometryH kept, workspace *wor
 /* What a geometry has besides X and Y, or all of it, may have been dropped without a word. */
 static void find_dropped(const gis_sink_layer *layer, const gis_sent *sent, OGRGeometryH kept)
 {
-    OGRGeometryH geometry = sent->made;
-    if (!geometry && sent->feature && sent->moved) geometry = OGR_F_GetGeometryRef(sent->feature);
+    OGRGeometryH geometry = sent->made ? sent->made : own_geometry(layer, sent);
     if (!gis_sink_tells(layer) || !geometry || OGR_G_IsEmpty(geometry)) return;
     gis_sentences *losses = &layer->sink->losses;
     const char *format = layer->sink->format.name;
@@ -292,7 +298,7 @@ static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, int n,
     for (OGRFeatureH kept; done && (kept = OGR_L_GetNextFeature(as_written)) != NULL; i++) {
         if (i < layer->n_sent) {
             const gis_sent *sent = &layer->sent[i];
-            done = compare_sent(sent, OGR_F_GetGeometryRef(kept), work, result, error) && gis_go_on(error);
+            done = compare_sent(layer, sent, OGR_F_GetGeometryRef(kept), work, result, error) && gis_go_on(error);
             if (done && work->damaged) done = fail_damaged(layer, i + 1, error);
             find_dropped(layer, sent, OGR_F_GetGeometryRef(kept));
             if (done && layer->changes && sent->feature) compare_attributes(sent->feature, kept, layer->changes, n);

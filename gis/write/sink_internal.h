@@ -180,6 +180,13 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error);
  * sentence a field, in which the changes of its values stand as well. */
 void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written);
 
+/* Is the source's geometry written? One with a coordinate that is no finite number, which --invalid skip lets through,
+ * is left out: drivers refuse it, or write it so that it is no number any more. */
+static inline bool gis_sink_holds(const gis_sink_layer *layer, OGRGeometryH geometry)
+{
+    return gis_source_content_count(layer->sink->source, GIS_BROKEN) == 0 || gis_geometry_is_finite(geometry);
+}
+
 /* The CRS that the layer was given. */
 static inline OGRSpatialReferenceH gis_sink_crs(const gis_sink_layer *layer)
 {

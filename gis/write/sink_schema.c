@@ -92,6 +92,12 @@ static char **offer_texts(const gis_sink_layer *layer, char **options)
     return offer(layer, options, "DESCRIPTION", GDALGetMetadataItem(source, "DESCRIPTION", NULL));
 }
 
+/* Features of the source that have a coordinate which is no finite number. */
+static size_t broken_features(const gis_sink_layer *layer)
+{
+    return gis_source_content_count(layer->sink->source, GIS_BROKEN);
+}
+
 static char **offer_source_names(const gis_sink_layer *layer, char **options)
 {
     OGRLayerH source = gis_source_layer(layer->sink->source);
@@ -102,7 +108,7 @@ static char **offer_source_names(const gis_sink_layer *layer, char **options)
         options =
             offer(layer, options, "GEOMETRY_NAME", free_name(layer, OGR_GFld_GetNameRef(geometry), usual_geometry));
         /* Of the source's own geometries alone: symbols made of them may be null where they are not. */
-        if (layer->request.as_source && !OGR_GFld_IsNullable(geometry))
+        if (layer->request.as_source && !OGR_GFld_IsNullable(geometry) && broken_features(layer) == 0)
             options = offer(layer, options, "GEOMETRY_NULLABLE", "NO");
     }
     return layer->request.as_source ? offer_texts(layer, options) : options;
@@ -305,6 +311,15 @@ static void note_name(gis_sink_layer *layer)
     layer->name = CPLStrdup(name);
 }
 
+static void note_broken(gis_sink_layer *layer)
+{
+    const size_t n = layer->request.as_source ? broken_features(layer) : 0;
+    if (n > 0)
+        gis_sentences_add(&layer->sink->losses,
+                          "%zu feature%s written without geometry: a coordinate of %s is not a finite number", n,
+                          n == 1 ? " is" : "s are", n == 1 ? "it" : "each");
+}
+
 static bool digits_are_ours(const gis_sink *sink)
 {
     CSLConstList given = (CSLConstList)sink->request.layer_options;
@@ -337,6 +352,7 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
     if (done) {
         note_name(layer);
         if (layer->request.as_source) copy_metadata(layer);
+        note_broken(layer);
         create_source_fields(layer);
         create_own_fields(layer);
         done = !sink->format.geopackage || gis_rtree_begin(layer->dataset, layer->layer, &layer->tree, error);

@@ -120,6 +120,7 @@ static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, const GIntBig 
 static bool send(gis_sink_layer *layer, OGRFeatureH to, const GIntBig *from, gis_error *error)
 {
     if (layer->promote) promote(to);
+    if (layer->request.as_source && !gis_sink_holds(layer, OGR_F_GetGeometryRef(to))) OGR_F_SetGeometry(to, NULL);
     note_losses(layer, to);
     return (!layer->wind || gis_geometry_wind_clockwise(OGR_F_GetGeometryRef(to), error)) &&
            create_feature(layer, to, from, error);

@@ -146,7 +146,7 @@ class Result:
 def results(operation, b):
     stats = run("buffer", "in.json", "out.json", "--overwrite", "--shape", text(b), "--operation", operation,
                 "--degenerate", "--stats", "-", *DIGITS)
-    if stats["max_deviation"] != 0 or stats["repaired"] != 0:
+    if stats["max_deviation"] != 0 or stats["rounded_again"] != 0:
         report("results in doubles were rounded", stats)
     main = read("out.json", lambda f: f["id"])
     segments = read("out_degenerate_segments.json", lambda f: f["properties"]["fid"])
@@ -238,7 +238,7 @@ def rounding(draw, scenes):
         for i, (geometry,) in read("out.json", lambda f: f["id"] - 1).items():
             if figures[i]:
                 ask_rounded(draw, figures[i], b, geometry, F(stats["max_deviation"]))
-        repaired += stats["repaired"]
+        repaired += stats["rounded_again"]
         rounded += stats["max_deviation"] > 0
     if rounded == 0 or repaired == 0:
         report("nothing was rounded, or repaired")

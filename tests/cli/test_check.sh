@@ -17,10 +17,10 @@ expect 3 check in.gpkg --id-field id
 same "$(cut -f1-7 out | head -1)" "$(printf '1\ta\t2\tb\t\t\toverlap')"
 same "$(head -1 out | tr '\t' '\n' | grep -c '')" 16 columns
 same "$(head -1 out | cut -f9-12)" "$(printf '0\t0\t2\t0')"
-same "$(tail -1 out | tr '\t' '#')" 'houses: 8 features, 4 pairs tested; overlap 1, too close 0, barrier 0, barrier near 0, contained 0, duplicate 0, inside blocks 2'
+same "$(tail -1 out | tr '\t' '#')" 'houses: 8 features (skipped 0, invalid 0, null 0), 4 pairs tested; overlap 1, too close 0, barrier 0, barrier near 0, contained 0, duplicate 0, inside blocks 2'
 expect 3 check in.gpkg --contained separate --no-blocks --stats s.json --gap 3
 same "$(jq -c . s.json | sed 's/"pairs_tested":[0-9]*/"pairs_tested":N/')" \
-    '{"command":"check","features":8,"pairs_tested":N,"conflicts":{"overlap":1,"too_close":2,"barrier":0,"barrier_near":0,"contained":1,"duplicate":1,"inside_blocks":0}}'
+    '{"command":"check","features":8,"skipped":0,"invalid":0,"null":0,"pairs_tested":N,"conflicts":{"overlap":1,"too_close":2,"barrier":0,"barrier_near":0,"contained":1,"duplicate":1,"inside_blocks":0}}'
 same "$(cut -f7 out | grep -v features | tr '\n' ' ')" 'overlap too_close too_close contained duplicate '
 expect 3 check in.gpkg --stats -
 same "$(jq -r .command out)" check "--stats - alone on stdout:"
