@@ -143,8 +143,23 @@ static void read_tag(reader *in, size_t *type_length, const char *type)
     }
 }
 
+const char *gis_wkt_after_srid(const char *text, int *srid)
+{
+    enum { DIGITS = 9 }; /* more are no SRID, and would not fit an int */
+    const char *at = text;
+    *srid = 0;
+    while (isspace((unsigned char)*at)) at++;
+    if (strncasecmp(at, "SRID=", 5) != 0) return text;
+    const size_t n = strspn(at + 5, "0123456789");
+    if (n == 0 || n > DIGITS || at[5 + n] != ';') return text;
+    *srid = atoi(at + 5);
+    return at + 5 + n + 1;
+}
+
 bool gis_wkt_looks_like(const char *text)
 {
+    int srid;
+    text = gis_wkt_after_srid(text, &srid);
     while (isspace((unsigned char)*text)) text++;
     size_t n = word_length(text);
     if (n == 0) return false;
@@ -160,7 +175,8 @@ bool gis_wkt_looks_like(const char *text)
 
 bool gis_wkt_read(const char *text, const char *who, gis_polygons *out, gis_error *error)
 {
-    reader in = {.start = text, .at = text, .who = who, .out = out, .error = error};
+    int srid;
+    reader in = {.start = text, .at = gis_wkt_after_srid(text, &srid), .who = who, .out = out, .error = error};
     skip_blanks(&in);
     const char *type = in.at;
     size_t n = word_length(type);

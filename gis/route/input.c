@@ -5,6 +5,7 @@
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "read/crs_units.h"
+#include "read/wkt.h"
 
 #include <cpl_conv.h>
 #include <math.h>
@@ -81,6 +82,8 @@ static bool read_layer(gis_route_input *input, gis_error *error)
 static bool is_other_wkt(const char *text)
 {
     static const char *const kinds[] = {"POINT", "MULTIPOINT", "LINESTRING", "MULTILINESTRING", "GEOMETRYCOLLECTION"};
+    int srid;
+    text = gis_wkt_after_srid(text, &srid);
     text += strspn(text, " \t\n\r");
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         size_t n = strlen(kinds[i]);
@@ -92,7 +95,8 @@ static bool is_other_wkt(const char *text)
 /* A literal is part of the command line, and what is wrong with it wrong usage; a file is not. */
 static bool read_wkt(gis_route_input *input, const char *wkt, const char *who, bool literal, gis_error *error)
 {
-    char *at = CPLStrdup(wkt), *rest = at;
+    int srid;
+    char *at = CPLStrdup(gis_wkt_after_srid(wkt, &srid)), *rest = at;
     OGRGeometryH geometry = NULL;
     gis_polygonal_part part = {0};
     OGRErr status = OGR_G_CreateFromWkt(&rest, NULL, &geometry);

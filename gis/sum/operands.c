@@ -4,12 +4,36 @@
 
 #include "read/crs_units.h"
 #include "read/source_files.h"
+#include "read/wkt.h"
 
-static bool check_crs(const gis_operands *operands)
+#include <stdlib.h>
+#include <string.h>
+
+static bool check_crs(const gis_operands *operands, gis_error *error)
 {
     OGRSpatialReferenceH p = operands->p_source ? gis_source_crs(operands->p_source) : NULL;
     OGRSpatialReferenceH q = operands->q_source ? gis_source_crs(operands->q_source) : NULL;
-    return gis_crs_may_be_same(p, q);
+    return gis_crs_may_be_same(p, q) || gis_fail(error, "P and Q have different CRSs; reproject one of them first");
+}
+
+/* The SRID of PostGIS, which is the code of EPSG; 0: none is known. */
+static int srid_of(const char *text, const gis_source *source)
+{
+    OGRSpatialReferenceH crs = source ? gis_source_crs(source) : NULL;
+    const char *authority = crs ? OSRGetAuthorityName(crs, NULL) : NULL;
+    int srid;
+    if (!source) {
+        gis_wkt_after_srid(text, &srid);
+        return srid;
+    }
+    return authority && strcmp(authority, "EPSG") == 0 ? atoi(OSRGetAuthorityCode(crs, NULL)) : 0;
+}
+
+static bool check_srids(const gis_operands_request *request, const gis_operands *operands, gis_error *error)
+{
+    const int p = srid_of(request->text[0], operands->p_source), q = srid_of(request->text[1], operands->q_source);
+    return p == 0 || q == 0 || p == q ||
+           gis_fail(error, "P has the SRID %d and Q the SRID %d; transform one of them first", p, q);
 }
 
 bool gis_operands_read(const gis_operands_request *request, gis_operands *out, gis_error *error)
@@ -26,7 +50,7 @@ bool gis_operands_read(const gis_operands_request *request, gis_operands *out, g
         ok = gis_shape_from_source(&selected, request->invalid, names[i], source[i], shape[i], &read.building, error);
         if (ok && !gis_crs_is_known(read.crs)) read.crs = gis_source_crs(*source[i]);
     }
-    if (ok && !check_crs(&read)) ok = gis_fail(error, "P and Q have different CRSs; reproject one of them first");
+    ok = ok && check_crs(&read, error) && check_srids(request, &read, error);
     read.units = gis_crs_units_of(read.crs, request->scale);
     for (int i = 0; ok && i < 2; i++)
         if (!*source[i])

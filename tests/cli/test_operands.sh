@@ -17,6 +17,25 @@ expect 0 sum 'POLYGONZM ((0 0 7 1, 4 0 7 1, 4 4 7 1, 0 4 7 1, 0 0 7 1))' square:
 same "$(area)" 25
 expect 0 sum 'POLYGON ((0 0 7, 4 0 7, 4 4 7, 0 4 7))' square:1
 same "$(area)" 25
+# What PostGIS calls EWKT: an SRID in front.
+for srid in 'SRID=25832;' ' srid=0; ' 'SRID=4326;'; do
+    expect 0 sum "$srid$square" square:1
+    same "$(area)" 25 "$srid"
+    expect 0 sum square:1 "$srid$square"
+    expect 0 pair "$srid$square" "${srid}MULTIPOLYGON (((1 1, 2 1, 2 2, 1 2)))"
+    same "$(json .overlap out)" true "$srid"
+    expect 0 route "${srid}LINESTRING (0 0, 4 0)" --robot "${srid}POLYGON ((0 0, 1 0, 1 1, 0 1))" --from -9,-9 --to 9,9
+done
+echo "SRID=25832;$square" >e.wkt
+expect 0 sum @e.wkt square:1
+same "$(area)" 25 "EWKT in a file:"
+layer srid.gpkg a POLYGON EPSG:25832 <<<'WKT,n
+"POLYGON ((0 0,4 0,4 4,0 4,0 0))",1'
+expect 0 buffer srid.gpkg grown.gpkg --shape "SRID=25832;$square"
+expect 0 sum srid.gpkg "SRID=25832;$square"
+refused 1 'P has the SRID 25832 and Q the SRID 4326' sum srid.gpkg "SRID=4326;$square"
+refused 1 'P has the SRID 1 and Q the SRID 2; transform one of them first' pair "SRID=1;$square" "SRID=2;$square"
+refused 1 'no such file' sum "SRID=x;$square" square:1
 # A decimal is the double nearest to it, of however many digits.
 expect 0 sum --exact 'POLYGON ((0 0, 0.1 0, 0.1 0.1000000000000000055511151231257827021181583404541015625, 0 0.1))' square:1
 same "$(json '.result.area' out)" "$("$SUNDER" sum --exact square:1 'POLYGON((0 0,0.1 0,0.1 0.1,0 0.1))' | json .result.area -)"
