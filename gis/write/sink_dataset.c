@@ -66,7 +66,7 @@ static void restore_sqlite(bool relaxed)
 
 static void copy_metadata(const gis_sink *sink, GDALDatasetH to)
 {
-    char **all = sink->source ? GDALGetMetadata(gis_source_dataset(sink->source), NULL) : NULL;
+    CSLConstList all = sink->source ? GDALGetMetadata(gis_source_dataset(sink->source), NULL) : NULL;
     if (sink->format.geopackage && CSLCount(all) > 0) GDALSetMetadata(to, all, NULL);
 }
 

@@ -46,14 +46,16 @@ static inline int64_t most(int64_t a, int64_t b) { return a < b ? b : a; }
 
 static bool link_apart(sunder_i_point a, sunder_i_point b, const sunder_i_chain *c)
 {
-    return (most(a.x, b.x) < c->low[0]) | (least(a.x, b.x) > c->high[0]) | (most(a.y, b.y) < c->low[1]) |
-           (least(a.y, b.y) > c->high[1]);
+    const bool left = most(a.x, b.x) < c->low[0], right = least(a.x, b.x) > c->high[0];
+    const bool below = most(a.y, b.y) < c->low[1], above = least(a.y, b.y) > c->high[1];
+    return left | right | below | above;
 }
 
 static bool links_apart(sunder_i_point a, sunder_i_point b, sunder_i_point c, sunder_i_point d)
 {
-    return (most(a.x, b.x) < least(c.x, d.x)) | (least(a.x, b.x) > most(c.x, d.x)) |
-           (most(a.y, b.y) < least(c.y, d.y)) | (least(a.y, b.y) > most(c.y, d.y));
+    const bool left = most(a.x, b.x) < least(c.x, d.x), right = least(a.x, b.x) > most(c.x, d.x);
+    const bool below = most(a.y, b.y) < least(c.y, d.y), above = least(a.y, b.y) > most(c.y, d.y);
+    return left | right | below | above;
 }
 
 /* Where lines ab and cd cross: s / r of the way from a to b, and t / r from c to d; r > 0. */

@@ -48,7 +48,7 @@ static meeting narrow_meeting(sunder_i_point s, sunder_i_point t, sunder_i_point
     const sunder_i_det d = sunder_i_narrow_cross(s, t);
     const sunder_i_det s0 = sunder_i_narrow_cross(s, way), t0 = sunder_i_narrow_cross(way, t), s1 = s0 + d, t1 = t0 - d;
     if ((s0 == 0) | (s1 == 0) | (t0 == 0) | (t1 == 0)) return PERHAPS;
-    return ((s0 < 0) != (s1 < 0)) & ((t0 < 0) != (t1 < 0)) ? ACROSS : APART;
+    return (((s0 < 0) != (s1 < 0)) & ((t0 < 0) != (t1 < 0))) ? ACROSS : APART;
 }
 
 /* Takes the crossing of two segments, if they cross; there is room for it. False where they meet otherwise. */

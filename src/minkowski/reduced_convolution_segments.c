@@ -223,7 +223,10 @@ static bool are_too_many(const sunder_i_reduced *r, uint32_t n)
         y[a] = y_of(&sample[a]);
         extend(&all_x, x[a]);
         extend(&all_y, y[a]);
-        for (uint32_t b = 0; b < a; b++) found += overlap(x[a], x[b]) & overlap(y[a], y[b]);
+        for (uint32_t b = 0; b < a; b++) {
+            const bool across = overlap(x[a], x[b]), up = overlap(y[a], y[b]);
+            found += across & up;
+        }
     }
     return (double)found * step * step > (is_brief(all_x, all_y) ? MOST_PAIRS : MOST_PAIRS / 3) * (p < q ? p : q);
 }

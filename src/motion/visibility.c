@@ -235,7 +235,7 @@ static void cast_part(look *k, uint32_t part)
         size = sunder_i_max(size, size_of(at));
         for (int axis = 0; axis < 2; axis++) corner[i][axis] = at[axis] - k->eye[axis];
     }
-    if (m >= 3) sunder_i_shadow_cast(&k->view->shadow, corner, (int)m, off_of(size) + k->error);
+    if (m >= 3) sunder_i_shadow_cast(&k->view->shadow, (const double(*)[2])corner, (int)m, off_of(size) + k->error);
 }
 
 /* The box of parts from the start, widened by what its doubles may be off. */

@@ -46,15 +46,16 @@ void sunder_i_history_alias(sunder_i_planar_map *map, uint32_t node, uint32_t to
  * on a stack of our own, never deeper than the tree. */
 void sunder_i_history_row(sunder_i_planar_map *map, uint32_t node, const uint32_t *t, size_t n)
 {
-    struct {
+    typedef struct range {
         uint32_t node;
         size_t low, high;
-    } stack[64], *top = stack;
+    } range;
+    range stack[64], *top = stack;
     if (n == 1) {
         sunder_i_history_alias(map, node, map->trapezoid[t[0]].node);
         return;
     }
-    *top++ = (__typeof__(*stack)){node, 0, n};
+    *top++ = (range){node, 0, n};
     while (top > stack) {
         top--;
         const uint32_t root = top->node;
@@ -64,8 +65,8 @@ void sunder_i_history_row(sunder_i_planar_map *map, uint32_t node, const uint32_
         const uint32_t right =
             right_single ? map->trapezoid[t[middle]].node : add(map, SUNDER_I_LEAF, 0, NOWHERE, NOWHERE);
         sunder_i_history_at(map, root, map->trapezoid[t[middle]].left, left, right);
-        if (!left_single) *top++ = (__typeof__(*stack)){left, low, middle};
-        if (!right_single) *top++ = (__typeof__(*stack)){right, middle, high};
+        if (!left_single) *top++ = (range){left, low, middle};
+        if (!right_single) *top++ = (range){right, middle, high};
     }
 }
 

@@ -92,7 +92,7 @@ static void set_shared(sunder_shape *s, const bool *shared) { ((sunder_i_form *)
 static size_t lay_out(sunder_shape *s, unsigned char *block, const layout *l, const sunder_i_cleaned *head, arrays *to)
 {
     size_t used = sizeof *s + 2 * l->raw_vertices * sizeof *s->raw_xy;
-    *to = (arrays){NULL};
+    *to = (arrays){0};
     double *xy = l->clean ? NULL : carve(block, &used, 2 * (size_t)s->vertices, sizeof *s->xy);
     if (!l->few) lay_out_rings(s, block, &used, l, head, to);
     if (!l->whole) to->piece_end = carve(block, &used, (size_t)s->pieces + l->corners, sizeof *to->piece_end);

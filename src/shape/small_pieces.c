@@ -143,7 +143,9 @@ static void merge(const sunder_i_small_walk *w, mesh *m)
     const uint32_t first = w->bridges ? 0 : 2, step = w->bridges ? 1 : 3;
     for (uint32_t h = first; h < m->halves; h += step) {
         const uint8_t g = m->twin[h];
-        if (g == NONE || g < h || !(convex_without(w, m, h, g) & convex_without(w, m, g, h))) continue;
+        if (g == NONE || g < h) continue;
+        const bool here = convex_without(w, m, h, g), there = convex_without(w, m, g, h);
+        if (!(here & there)) continue;
         m->next[m->prev[h]] = m->next[g];
         m->prev[m->next[g]] = m->prev[h];
         m->next[m->prev[g]] = m->next[h];

@@ -155,20 +155,28 @@ static void add_rounds(layout *l, size_t n)
     for (size_t k = 0; k < n / 100; k++) add_box(l, x += 10.75, y, 10, 400);
 }
 
-static void make(layout *l, const char *family, size_t n)
+/* Pairs, and far from them two that lie in each other. */
+static void add_far(layout *l, size_t n)
 {
-    if (!strcmp(family, "pairs")) return add_pairs(l, n);
-    if (!strcmp(family, "outline")) return add_outline(l, n);
-    if (!strcmp(family, "inside")) return add_inside(l, n);
-    if (!strcmp(family, "hub")) return add_hub(l, n);
-    if (!strcmp(family, "chain")) return add_chain(l, n);
-    if (!strcmp(family, "lanes")) return add_lanes(l, n);
-    if (!strcmp(family, "grid")) return add_grid(l, n);
-    if (!strcmp(family, "rounds")) return add_rounds(l, n);
-    if (strcmp(family, "far")) give_up("no such family");
     add_pairs(l, n);
     add_box(l, 380000, 5000000, 1600, 1600);
     add_box(l, 380000, 5000000.5, 1600, 1600);
+}
+
+static void make(layout *l, const char *name, size_t n)
+{
+    static const struct {
+        const char *name;
+        void (*add)(layout *l, size_t n);
+    } family[] = {{"pairs", add_pairs}, {"outline", add_outline}, {"inside", add_inside},
+                  {"hub", add_hub},     {"chain", add_chain},     {"lanes", add_lanes},
+                  {"grid", add_grid},   {"rounds", add_rounds},   {"far", add_far}};
+    for (size_t k = 0; k < sizeof family / sizeof *family; k++)
+        if (!strcmp(name, family[k].name)) {
+            family[k].add(l, n);
+            return;
+        }
+    give_up("no such family");
 }
 
 int main(int argc, char **argv)

@@ -19,17 +19,25 @@ static int its_turn(const char *what)
     return asked && when && strcmp(asked, what) == 0 && ++seen == atol(when);
 }
 
+/* The function of that name in the library itself, into the pointer to a function that `function` points to. */
+static void find(const char *name, void *function)
+{
+    void *found = dlsym(RTLD_NEXT, name);
+    memcpy(function, &found, sizeof found);
+}
+
 int sqlite3_bind_double(void *statement, int at, double value)
 {
-    int (*const bind)(void *, int, double) = (int (*)(void *, int, double))dlsym(RTLD_NEXT, "sqlite3_bind_double");
+    int (*bind)(void *, int, double);
+    find("sqlite3_bind_double", &bind);
     return bind(statement, at, its_turn("real") ? value + 1 : value);
 }
 
 /* The ninth byte from the end of a geometry is the highest one of the last X, or of the last Y where there is Z. */
 int sqlite3_bind_blob(void *statement, int at, const void *bytes, int size, void (*destroy)(void *))
 {
-    int (*const bind)(void *, int, const void *, int, void (*)(void *)) =
-        (int (*)(void *, int, const void *, int, void (*)(void *)))dlsym(RTLD_NEXT, "sqlite3_bind_blob");
+    int (*bind)(void *, int, const void *, int, void (*)(void *));
+    find("sqlite3_bind_blob", &bind);
     if (size < 9 || memcmp(bytes, "GP", 2) != 0 || !its_turn("geometry"))
         return bind(statement, at, bytes, size, destroy);
     char *other = malloc((size_t)size);
@@ -42,9 +50,8 @@ int sqlite3_bind_blob(void *statement, int at, const void *bytes, int size, void
 
 int sqlite3_exec(void *database, const char *sql, int (*row)(void *, int, char **, char **), void *user, char **message)
 {
-    int (*const run)(void *, const char *, int (*)(void *, int, char **, char **), void *, char **) =
-        (int (*)(void *, const char *, int (*)(void *, int, char **, char **), void *, char **))dlsym(RTLD_NEXT,
-                                                                                                      "sqlite3_exec");
+    int (*run)(void *, const char *, int (*)(void *, int, char **, char **), void *, char **);
+    find("sqlite3_exec", &run);
     return sql && strstr(sql, "TRIGGER sunder_extent") && its_turn("extent") ? 0
                                                                              : run(database, sql, row, user, message);
 }

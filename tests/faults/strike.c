@@ -101,7 +101,7 @@ static void set_registers(pid_t pid, const registers *r)
 
 /* ---- What is struck, and where -------------------------------------------------------------------------------- */
 
-static enum { LIST, KILL, FAIL, SHORT, FULL, SIGNAL, SIGNALS, CALLS } way;
+static enum way { LIST, KILL, FAIL, SHORT, FULL, SIGNAL, SIGNALS, CALLS } way;
 static int reason, sent = SIGTERM;
 static bool catches; /* the program has a handler for SIGTERM by now */
 static uint64_t place, again, count, writes, written, shown;
@@ -364,7 +364,7 @@ static bool understand(const char *word)
         }
     for (int i = LIST; i <= CALLS; i++)
         if (ways[i] && strcmp(word, ways[i]) == 0) {
-            way = i;
+            way = (enum way)i;
             return true;
         }
     return false;

@@ -153,8 +153,8 @@ static void check_packed(void **state)
         town t;
         memset(&t, 0, sizeof t);
         const int n = (int)rng_int(&r, 2, 8);
-        double width[8], sum = 0;
-        for (int k = 0; k < n; k++) sum += width[k] = (double)rng_int(&r, 64, 120) / 8;
+        double width[8];
+        for (int k = 0; k < n; k++) width[k] = (double)rng_int(&r, 64, 120) / 8;
         const double excess = (double)rng_int(&r, 1, 6) / 8;
         /* Overlapping, so that what lies in the lane hangs together with its walls. */
         const double share = excess / (n + 1);

@@ -14,6 +14,8 @@
 
 #include <cmocka.h>
 
+__extension__ typedef __int128 int128;
+
 enum { MOST = 8, MOST_LINES = 512 };
 
 typedef struct ring {
@@ -63,10 +65,10 @@ static bool meets_interior(const int64_t a[2], const int64_t b[2], const ring *d
         if (fa <= 0 && fb <= 0) return false;
         if (fa > 0 && fb > 0) continue;
         const int64_t num = fa > 0 ? fa : -fa, den = llabs(fa - fb);
-        if (fa <= 0 && (__int128)num * low[1] > (__int128)low[0] * den) low[0] = num, low[1] = den;
-        if (fb <= 0 && (__int128)num * high[1] < (__int128)high[0] * den) high[0] = num, high[1] = den;
+        if (fa <= 0 && (int128)num * low[1] > (int128)low[0] * den) low[0] = num, low[1] = den;
+        if (fb <= 0 && (int128)num * high[1] < (int128)high[0] * den) high[0] = num, high[1] = den;
     }
-    return (__int128)low[0] * high[1] < (__int128)high[0] * low[1];
+    return (int128)low[0] * high[1] < (int128)high[0] * low[1];
 }
 
 static bool holds_point(const ring *r, const int64_t at[2])

@@ -16,6 +16,8 @@
 
 #include <cmocka.h>
 
+__extension__ typedef __int128 int128;
+
 static void random_member(polyset *p, rng *r, bool map)
 {
     cells board;
@@ -145,7 +147,7 @@ static bool is_inside(const sunder_i_convex_pieces *s, uint32_t i, uint32_t j)
     for (uint32_t k = sunder_i_convex_pieces_first(s, i); k < s->end[i]; k++)
         for (uint32_t m = from; m < s->end[j]; m++) {
             const sunder_i_point a = s->corner[m], b = s->corner[m + 1 < s->end[j] ? m + 1 : from], c = s->corner[k];
-            if ((__int128)(b.x - a.x) * (c.y - a.y) <= (__int128)(b.y - a.y) * (c.x - a.x)) return false;
+            if ((int128)(b.x - a.x) * (c.y - a.y) <= (int128)(b.y - a.y) * (c.x - a.x)) return false;
         }
     return true;
 }

@@ -97,8 +97,8 @@ bool oracle_holds(const oracle_boundary *b, const double point[2])
     for (size_t k = 0; k <= b->members; k++) odd[k] = false;
     for (size_t k = 0; k < b->n && !held; k++) {
         const oracle_edge *e = &b->edge[k];
-        const int side = turn(e->a, e->b, p);
-        held = (side == 0 && is_between(e, p));
+        const int side = turn(e->a, e->b, (const mpq_t *)p);
+        held = (side == 0 && is_between(e, (const mpq_t *)p));
         const bool a_left = mpq_cmp(e->a[0], p[0]) <= 0, b_left = mpq_cmp(e->b[0], p[0]) <= 0;
         if (a_left != b_left && (a_left ? side < 0 : side > 0)) odd[e->member] = !odd[e->member];
     }
@@ -163,8 +163,10 @@ bool oracle_way_meets(const oracle_boundary *b, const double a[2], const double 
         mpq_sub(u[k], u[k], h);
         mpq_add(q[k], p[k], u[k]);
     }
+    const mpq_t *from = (const mpq_t *)p, *to = (const mpq_t *)q, *along = (const mpq_t *)u;
     bool meets = false;
-    for (size_t k = 0; k < b->n && !meets; k++) meets = crosses(&b->edge[k], p, u) || ends_meet(&b->edge[k], p, q);
+    for (size_t k = 0; k < b->n && !meets; k++)
+        meets = crosses(&b->edge[k], from, along) || ends_meet(&b->edge[k], from, to);
     mpq_clears(p[0], p[1], q[0], q[1], u[0], u[1], h, NULL);
     return meets;
 }

@@ -98,7 +98,7 @@ const char *proof_check_ways(const checking *c, const sunder_proof_node *node, b
     vec v;
     mpq_t d, h;
     vec_init(&v), mpq_inits(d, h, NULL);
-    const mpq_t *first = node->slack && node->held ? &h : NULL;
+    const mpq_t *first = node->slack && node->held ? (const mpq_t *)&h : NULL;
     proof_farthest(h, &k, &way[0]);
     mpq_set_d(d, way[0].d);
     if (first && mpq_cmp(d, h) > 0) wrong = "a line beyond where the parts let go of each other";

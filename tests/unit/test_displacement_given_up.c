@@ -189,7 +189,7 @@ enum { SYMBOLS = 30, HEAP_WIDE = 6, HEAP_HIGH = 9, HEAP = HEAP_WIDE * HEAP_HIGH 
 
 /* So many squares of that side, which lie as they fall, and may go so far; moves: where they went. Returns how many
  * conflicts are left. */
-static size_t separate_symbols(const double (*at)[2], size_t n, double side, double limit, double (*move)[2])
+static size_t separate_symbols(double (*at)[2], size_t n, double side, double limit, double (*move)[2])
 {
     sunder_feature feature[HEAP];
     sunder_layer_options options;
