@@ -55,7 +55,10 @@ static sunder_status dilate_again(const islands *all, const sunder_sum_options *
     if (!sum) return sunder_i_no_memory(err);
     sunder_status status;
     if (sunder_i_figure_of_sum(eroded, 0, eroded->polygons, false, &figure)) {
-        status = sunder_i_dilate_figure(&figure, &all->operands->element, options, sum, err);
+        bool done;
+        status = sunder_i_sum_by_convolution(&figure, &all->operands->element, false, sum, &done, err);
+        if (status == SUNDER_OK && !done)
+            status = sunder_i_dilate_figure(&figure, &all->operands->element, options, sum, err);
         sunder_i_figure_free(&figure);
     } else
         status = sunder_i_no_memory(err);
@@ -63,6 +66,22 @@ static sunder_status dilate_again(const islands *all, const sunder_sum_options *
         *out = sum;
     else
         sunder_sum_free(sum);
+    return status;
+}
+
+/* The cheapest road first: after a dilation most of the boundary is arcs, of which the convolution leaves nothing. */
+static sunder_status erode(const islands *all, const sunder_i_figure *figure, const sunder_sum_options *options,
+                           sunder_sum *eroded, sunder_error *err)
+{
+    const sunder_i_structuring_element *element = &all->operands->reflected;
+    bool done = false;
+    sunder_status status = SUNDER_OK;
+    if (all->dilated) status = sunder_i_sum_by_convolution(figure, element, true, eroded, &done, err);
+    if (status == SUNDER_OK && !done)
+        status = sunder_i_erode_by_outline(figure, element, options, eroded, &done, err);
+    if (status == SUNDER_OK && !done && !all->dilated)
+        status = sunder_i_sum_by_convolution(figure, element, true, eroded, &done, err);
+    if (status == SUNDER_OK && !done) status = sunder_i_erode_figure(figure, element, options, eroded, err);
     return status;
 }
 
@@ -76,10 +95,7 @@ static sunder_status one_island(islands *all, const sunder_i_figure *figure, sun
     }
     sunder_sum *eroded = sunder_i_morphology_operands_sum(all->operands, -1);
     if (!eroded) return sunder_i_no_memory(err);
-    bool done;
-    sunder_status status = sunder_i_erode_by_outline(figure, &all->operands->reflected, &options, eroded, &done, err);
-    if (status == SUNDER_OK && !done)
-        status = sunder_i_erode_figure(figure, &all->operands->reflected, &options, eroded, err);
+    sunder_status status = erode(all, figure, &options, eroded, err);
     if (status == SUNDER_OK && !all->open) {
         *out = eroded;
         return SUNDER_OK;

@@ -1,14 +1,16 @@
 /* Growing and shrinking polygonal sets: what the files hand each other.
  *
- * figure.c        a shape or a sum as rings, segments and points with rational corners
- * dilate_erode.c  one exact sum of such a figure and a shape, or of its complement: bands, then the cells between them
- * erode_outline.c an erosion without a map, where all corners are integers
- * operands.c      what all stages of one operation share: the lattice, and B as a structuring element
- * bands.c         a side plus a convex piece
- * fit.c           does a convex shape fit into what two shapes have in common?
- * islands.c       polygon by polygon, on several threads
- * union.c         members that overlap
- * morphology.c    dilate, erode, open, close */
+ * figure.c              a shape or a sum as rings, segments and points with rational corners
+ * dilate_erode.c        one exact sum of such a figure and a shape, or of its complement: bands, then the cells between
+ *                       them
+ * erode_outline.c       an erosion without a map, where all corners are integers
+ * figure_convolution.c  a sum of a figure and a convex shape without bands, where the convolution's curve proves it
+ * operands.c            what all stages of one operation share: the lattice, and B as a structuring element
+ * bands.c               a side plus a convex piece
+ * fit.c                 does a convex shape fit into what two shapes have in common?
+ * islands.c             polygon by polygon, on several threads
+ * union.c               members that overlap
+ * morphology.c          dilate, erode, open, close */
 #ifndef SUNDER_I_MORPHOLOGY_H
 #define SUNDER_I_MORPHOLOGY_H
 
@@ -80,6 +82,11 @@ sunder_status sunder_i_erode_figure(const sunder_i_figure *figure, const sunder_
 sunder_status sunder_i_erode_by_outline(const sunder_i_figure *figure, const sunder_i_structuring_element *element,
                                         const sunder_sum_options *options, sunder_sum *sum, bool *done,
                                         sunder_error *err);
+
+/* figure_convolution.c: what sunder_i_dilate_figure() fills in, or (erode) sunder_i_erode_figure(), and sets *done;
+ * leaves the sum alone where the curve does not prove it. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL. */
+sunder_status sunder_i_sum_by_convolution(const sunder_i_figure *figure, const sunder_i_structuring_element *element,
+                                          bool erode, sunder_sum *sum, bool *done, sunder_error *err);
 
 /* ---- operands.c: P and B on one lattice ---- */
 

@@ -1,6 +1,7 @@
-/* bench_buffer each|dissolve SHAPE FILE: seconds of growing the polygons of a file, one a line, by
+/* bench_buffer each|dissolve|close|open SHAPE FILE: seconds of growing the polygons of a file, one a line, by
  * disc:RADIUS:SEGMENTS, inside-disc:RADIUS:SEGMENTS or square:SIDE, from doubles in memory to the vertices of the exact
- * results as nearest doubles; median of several runs. `each` grows line by line, `dissolve` everything into one set.
+ * results as nearest doubles; median of several runs. `each` grows line by line, `dissolve` everything into one set;
+ * `close` and `open` do what they say to everything as one set.
  * Prints features, vertices in and out, the area of the written rings, seconds. Public interface only. */
 #include "buffer_input.h"
 #include "sunder.h"
@@ -44,20 +45,21 @@ static sunder_status take_rings(const sunder_sum *sum, output *o, sunder_error *
     return SUNDER_OK;
 }
 
-static sunder_status grow(const bench_set *set, const sunder_shape *by, output *o, sunder_error *err)
+static sunder_status grow(const bench_set *set, const sunder_shape *by, sunder_operation operation, output *o,
+                          sunder_error *err)
 {
     sunder_shape *shape = NULL;
     sunder_sum *sum = NULL;
     sunder_status status = sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons,
                                                    SUNDER_VALIDITY_STRICT, &shape, err);
-    if (!status) status = sunder_minkowski_sum(shape, by, NULL, &sum, err);
+    if (!status) status = sunder_morphology(shape, by, operation, NULL, &sum, err);
     if (!status) status = take_rings(sum, o, err);
     sunder_sum_free(sum);
     sunder_shape_free(shape);
     return status;
 }
 
-static double once(const bench_layer *layer, const char *shape, output *o)
+static double once(const bench_layer *layer, const char *shape, sunder_operation operation, output *o)
 {
     sunder_error err = {0};
     sunder_shape *by = NULL;
@@ -65,7 +67,7 @@ static double once(const bench_layer *layer, const char *shape, output *o)
     o->area = 0;
     const double start = bench_now();
     sunder_status status = make_shape(shape, &by, &err);
-    for (size_t i = 0; i < layer->n && !status; i++) status = grow(&layer->set[i], by, o, &err);
+    for (size_t i = 0; i < layer->n && !status; i++) status = grow(&layer->set[i], by, operation, o, &err);
     sunder_shape_free(by);
     if (!status) return bench_now() - start;
     fprintf(stderr, "bench_buffer: %s\n", err.message);
@@ -77,11 +79,14 @@ int main(int argc, char **argv)
     bench_layer layer;
     bench_buffer_arguments(argc, argv, &layer);
     const size_t features = layer.n, vertices = bench_layer_vertices(&layer);
-    if (strcmp(argv[1], "dissolve") == 0) bench_layer_join(&layer);
+    const sunder_operation operation = strcmp(argv[1], "close") == 0  ? SUNDER_OPERATION_CLOSE
+                                       : strcmp(argv[1], "open") == 0 ? SUNDER_OPERATION_OPEN
+                                                                      : SUNDER_OPERATION_DILATE;
+    if (strcmp(argv[1], "each") != 0) bench_layer_join(&layer);
     output o = {0};
     double t[100], spent = 0;
     size_t n = 0;
-    for (; bench_again(n, spent); n++) spent += t[n] = once(&layer, argv[2], &o);
+    for (; bench_again(n, spent); n++) spent += t[n] = once(&layer, argv[2], operation, &o);
     printf("%zu %zu %zu %.12g %.6f\n", features, vertices, o.vertices, o.area, bench_median(t, n));
     free(o.xy);
     bench_layer_free(&layer);

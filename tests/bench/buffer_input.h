@@ -96,11 +96,19 @@ static inline double bench_ring_area(const double *xy, size_t n)
     return area / 2;
 }
 
-/* each|dissolve SHAPE FILE; ends the process where they are not that. */
+static inline int bench_is_one_of(const char *word, const char *const *words, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (strcmp(word, words[i]) == 0) return 1;
+    return 0;
+}
+
+/* each|dissolve|close|open SHAPE FILE; ends the process where they are not that. */
 static inline void bench_buffer_arguments(int argc, char **argv, bench_layer *layer)
 {
-    if (argc < 4 || (strcmp(argv[1], "each") && strcmp(argv[1], "dissolve"))) {
-        fprintf(stderr, "usage: %s each|dissolve SHAPE FILE\n", argv[0]);
+    static const char *const words[] = {"each", "dissolve", "close", "open"};
+    if (argc < 4 || !bench_is_one_of(argv[1], words, 4)) {
+        fprintf(stderr, "usage: %s each|dissolve|close|open SHAPE FILE\n", argv[0]);
         exit(2);
     }
     if (bench_layer_read(layer, argv[3])) return;

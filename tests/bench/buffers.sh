@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Buffers beside their peers in the same run: GEOS (buffer with 8 quadrant segments beside our 32-gon, mitred beside the square;
-# unary union) and CGAL (the best of its Minkowski sums; join), compute only; then whole programs, and opening and closing a
-# large outline.
+# unary union) and CGAL (the best of its Minkowski sums; join), compute only; huts closed and opened by discs of 8 to 128
+# segments; then whole programs, and opening and closing a large outline.
 #
-#   buffers.sh [each] [dissolve] [programs] [coast]     all unless some are named
+#   buffers.sh [each] [dissolve] [huts] [programs] [coast]     all unless some are named
 #
 # `cmake --build BUILD --target bench` builds what is needed. CPU seconds of one thread, medians, from doubles in memory to the
 # result as doubles, except for the programs (time on the wall and in both files). Sunder is measured before and after its
@@ -22,7 +22,7 @@ data=${SUNDER_BENCH_DATA:-$source_dir/../shared/data}
 families=${SUNDER_BENCH_INPUT:-$source_dir/../shared/families}
 methods=${SUNDER_BENCH_METHODS:-rc full}
 sunder=$build/sunder
-what=" ${*:-each dissolve programs coast} "
+what=" ${*:-each dissolve huts programs coast} "
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 [[ -x $build/bench_buffer ]] || { echo "buffers.sh: no $build/bench_buffer; build the target bench, or set SUNDER_BUILD" >&2; exit 1; }
@@ -81,7 +81,7 @@ best_of_cgal() {
   done
 }
 
-row() { # each|dissolve SHAPE NAME geos|cgal
+row() { # each|dissolve|close|open SHAPE NAME geos|cgal
   local file=$scratch/$3.txt first second ours theirs peer='GEOS'
   local -a fields
   [[ -x $build/$4_buffer ]] || return 0
@@ -108,6 +108,14 @@ compute() {
   done
   for shape in disc:5:32 square:6; do
     for name in $(printf "%s\n" "$medium" "$dense" | uniq); do row "$how" "$shape" "${name}_2000" cgal; done
+  done
+}
+
+huts() {
+  local operation segments
+  python3 "$source_dir/tests/bench/huts.py" 6000 >"$scratch/huts.txt"
+  for operation in close open; do
+    for segments in 8 32 64 128; do row $operation disc:2:$segments huts geos; done
   done
 }
 
@@ -157,11 +165,12 @@ coast() {
 
 header
 if [[ $what == *\ each\ * || $what == *\ dissolve\ * || $what == *\ programs\ * ]]; then prepare; fi
-if [[ $what == *\ each\ * || $what == *\ dissolve\ * ]]; then
+if [[ $what == *\ each\ * || $what == *\ dissolve\ * || $what == *\ huts\ * ]]; then
   printf '\nGrown polygons, seconds; ratio: times as long as Sunder\n'
   printf '%-9s %-22s %-10s %9s %9s %10s %9s %9s %7s  %s\n' '' layer shape features vertices out sunder peer ratio ''
 fi
 if [[ $what == *\ each\ * ]]; then compute each; fi
 if [[ $what == *\ dissolve\ * ]]; then compute dissolve; fi
+if [[ $what == *\ huts\ * ]]; then huts; fi
 if [[ $what == *\ programs\ * ]]; then programs; fi
 if [[ $what == *\ coast\ * ]]; then coast; fi
