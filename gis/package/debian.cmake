@@ -3,13 +3,20 @@
 #   cmake --preset package && cmake --build --preset package && (cd build/package && cpack)
 #
 # Dependencies are read off the binaries (dpkg-shlibdeps), so a package is for the release of Debian on which it was made.
-# Who hands packages on gives an address that is read: -DSUNDER_MAINTAINER="Name <address>".
-set(SUNDER_MAINTAINER "The Sunder authors <sunder@example.org>" CACHE STRING "Maintainer of the packages")
+# Who hands packages on gives an address that is read (addresses.cmake), or both: -DSUNDER_MAINTAINER="Name <address>".
+set(SUNDER_MAINTAINER "" CACHE STRING "Maintainer of the packages; empty: the authors, at SUNDER_EMAIL")
+if(SUNDER_MAINTAINER)
+  set(maintainer "${SUNDER_MAINTAINER}")
+elseif(SUNDER_EMAIL)
+  set(maintainer "The Sunder authors <${SUNDER_EMAIL}>")
+else()
+  set(maintainer "The Sunder authors")
+endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME sunder)
 set(CPACK_PACKAGE_VENDOR "The Sunder authors")
-set(CPACK_PACKAGE_CONTACT "${SUNDER_MAINTAINER}")
+set(CPACK_PACKAGE_CONTACT "${maintainer}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
@@ -17,7 +24,10 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
 set(CPACK_COMPONENTS_ALL program library development qgis-plugin)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${SUNDER_MAINTAINER}")
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${maintainer}")
+if(SUNDER_HOMEPAGE)
+  set(CPACK_DEBIAN_PACKAGE_HOMEPAGE "${SUNDER_HOMEPAGE}")
+endif()
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)

@@ -1,11 +1,12 @@
 """Finding, running, ending the program; what it says, in plain words. A stand-in plays it where it must hang."""
 import os
+import re
 import stat
 import tempfile
 import unittest
 from unittest import mock
 
-from sunder import program
+from sunder import options, program
 
 SUNDER = os.environ["SUNDER"]
 
@@ -85,7 +86,51 @@ class Plain(unittest.TestCase):
     def test_options_by_their_labels_and_files_by_their_layers(self):
         line = "sunder: error: --gap 3x of /tmp/read/input.gpkg: unknown unit; see --max-shift-field, --nothing"
         self.assertEqual(program.plain(line, {"/tmp/read/input.gpkg": "Houses", "/tmp/read": "no"}),
-                         '"Gap" 3x of Houses: unknown unit; see "Field: longest move of each feature", --nothing')
+                         '"Gap" 3x of Houses: unknown unit; see the field of the longest moves '
+                         '("Field: longest move of each feature"), --nothing')
+
+    def test_sentences_stay_sentences(self):
+        for line, plain in (
+                ("for points give their --symbol, as in --symbol disc:4",
+                 'for points give their symbol ("Points: the symbol drawn at each"), as in disc:4'),
+                ("there is no symbol; give --symbol or --symbol-field; give an --id-field",
+                 'there is no symbol; give the symbol ("Points: the symbol drawn at each") or the field of the symbols '
+                 '("Points: field that holds each one\'s symbol"); give a key field ("Key field, for lists and messages")'),
+                ("not finite; --invalid skip leaves such features out",
+                 'not finite; "Skip" at "Invalid geometries" leaves such features out'),
+                ("--touch-tolerance 0.3 would join them", '"Features so near are one block" 0.3 would join them'),
+                ("`sunder sum --exact` gives it", "`sunder sum --exact` gives it"),
+                ("or give --allow-inexact-output", "or give --allow-inexact-output (in a terminal)")):
+            self.assertEqual(program.plain("sunder: error: " + line, {}), plain)
+
+    def test_messages_of_the_sources(self):
+        """All texts of the program's sources that name an option: no asked one is left, no word is doubled."""
+        texts = []
+        for folder, _, files in os.walk(os.path.join(os.environ["SUNDER_SOURCE"], "gis")):
+            for file in (each for each in files if each.endswith(".c") and os.path.basename(folder) not in ("options", "page")):
+                with open(os.path.join(folder, file), encoding="utf-8") as opened:
+                    joined = re.sub(r'"\s*\n\s*"', "", opened.read())
+                texts += re.findall(r'"((?:[^"\\\n]|\\.)*--[a-z](?:[^"\\\n]|\\.)*)"', joined)
+        self.assertGreater(len(texts), 80)
+        asked = {option.flag for option in options.OPTIONS}
+        for text in texts:
+            with self.subTest(text=text):
+                said = program.plain(text, {})
+                outside = "".join(said.split("`")[0::2])
+                self.assertFalse(asked & set(re.findall(r"(?<![\w-])--[a-z]+(?:-[a-z]+)*", outside)), said)
+                self.assertNotRegex(outside, r"\b(their|its|an?|no|another|the|each) (the|an?|\")")
+                for noun in options.NOUNS.values():
+                    self.assertNotRegex(outside, r"\b%s %s" % ("a" if noun[0] in "aeiou" else "an", noun))
+
+    def test_every_option_has_a_noun(self):
+        self.assertEqual({option.flag for option in options.OPTIONS} - set(options.NOUNS), set())
+
+    def test_columns(self):
+        lines = ["kind\tfid\tgap", "too_close\t7\t0.5", "in all: 1"]
+        self.assertEqual(program.columns(lines), ["kind       fid  gap", "too_close  7    0.5", "in all: 1"])
+        self.assertEqual(program.columns([]), [])
+        self.assertEqual(program.unbroken("  moved   12"), "\u00a0\u00a0moved\u00a0\u00a0\u00a012")
+        self.assertEqual(program.unbroken("a b"), "a b")
 
     def test_conflicts(self):
         after = {"overlap": 1, "too_close": 2, "inside_blocks": 40}

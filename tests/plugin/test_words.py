@@ -1,7 +1,7 @@
 """The builder of command lines, without QGIS."""
 import unittest
 
-from sunder.command_line import BARRIER_COLUMNS, BadValue, barrier, number, rows_of, words
+from sunder.command_line import BARRIER_COLUMNS, BadValue, barrier, number, row_of_layer, rows_of, words
 
 
 class Numbers(unittest.TestCase):
@@ -76,6 +76,14 @@ class Barriers(unittest.TestCase):
     def test_all_of_it(self):
         self.assertEqual(self.text("roads", "5", "1.5", "", "No", "Boundary", unit="m"),
                          "/a/roads.gpkg,layer=roads,width=5m,gap=1.5m,side=no,as=boundary")
+
+    def test_layers_that_were_chosen(self):
+        self.assertEqual(row_of_layer("roads", {}), ["roads", "", "", "", "", ""])
+        self.assertEqual(row_of_layer("roads", {"BARRIER_WIDTH": 6.0, "BARRIER_GAP": 0.5}),
+                         ["roads", "6", "0.5", "", "", ""])
+        self.assertEqual(barrier(row_of_layer("roads", {"BARRIER_WIDTH": 0.0, "BARRIER_GAP": 1.5}), "m", "/r", "roads", ()),
+                         "/r,layer=roads,width=0m,gap=1.5m")
+        self.assertEqual(words("separate", {"BARRIER_WIDTH": 6.0, "BARRIER_GAP": 0.5}), [])
 
     def test_commas_in_names(self):
         self.assertEqual(barrier(["x", "", "", "", "", ""], "", "/a,b/c.gpkg", "d,e", ()), "/a\\,b/c.gpkg,layer=d\\,e")

@@ -16,7 +16,7 @@ import unittest
 sys.path[:0] = ["/usr/share/qgis/python/plugins", os.path.join(os.environ["SUNDER_SOURCE"], "gis", "qgis")]
 
 from osgeo import ogr  # noqa: E402
-from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsFeature, QgsFeatureRenderer,  # noqa: E402
+from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsExpression, QgsFeature, QgsFeatureRenderer,  # noqa: E402
                        QgsFeatureRequest, QgsGeometry, QgsProcessingContext,
                        QgsProcessingException, QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback,
                        QgsProcessingOutputLayerDefinition, QgsProject, QgsVectorLayer, QgsWkbTypes)
@@ -192,6 +192,20 @@ class SeparateTest(Case):
         self.assertIn((1, "fixed"), states)
         self.assertNotIn((1, "moved"), states)
 
+    def test_conflicts_between_features_that_stay_are_counted(self):
+        layer = self.town()
+        layer.selectByExpression('"fid" % 10 = 0')
+        # Without the layer of conflicts among the outputs, too.
+        done = self.run_algorithm("separate", {"INPUT": layer, "MOVE_SELECTED": True, "GAP": 3, "OUTPUT": TEMPORARY})
+        theirs = self.by_program("--gap=3", "--fixed-where=fid % 10 <> 0")
+        staying = [row for _, row in rows(theirs, "buildings_conflicts").values() if row["reason"] == "fixed"]
+        self.assertGreater(len(staying), 10)
+        self.assertEqual(done["CONFLICTS_STAYING"], len(staying))
+        self.assertIn("%d of them are between features that were told to stay" % len(staying), self.feedback.warnings()[-1])
+        done = self.run_algorithm("separate", {"INPUT": layer, "GAP": 3, "MAX_SHIFT": 1, "OUTPUT": TEMPORARY})
+        self.assertEqual(done["CONFLICTS_STAYING"], 0)
+        self.assertNotIn("told to stay", self.feedback.warnings()[-1])
+
     def test_move_selected_with_nothing_selected_is_told(self):
         self.refused("no feature of the layer is selected", "separate",
                      {"INPUT": self.town(), "MOVE_SELECTED": True, "GAP": 3, "OUTPUT": TEMPORARY})
@@ -232,6 +246,30 @@ class SeparateTest(Case):
             done = self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 1, "MAX_SHIFT": 8, "OUTPUT": TEMPORARY,
                                                    "BARRIER": [name, "5", "", "$id > 4", "", ""]})
             self.assertEqual(geometries(self.source(done["OUTPUT"])), theirs, name)
+
+    def test_barriers_chosen_as_layers(self):
+        roads = QgsVectorLayer(TOWN + "|layername=roads", "Roads of the town", "ogr")
+        copied = roads.materialize(QgsFeatureRequest(QgsExpression("$id <= 4")))
+        for layer, name in ((roads, "Roads, chosen"), (copied, "Some roads, chosen")):
+            layer.setName(name)
+            QgsProject.instance().addMapLayer(layer, False)
+        theirs = geometries(self.by_program("--gap=1", "--max-shift=8", "--barrier=%s,layer=roads,width=5,gap=0.5" % TOWN,
+                                            "--barrier=%s,layer=roads,width=5,gap=0.5,where=fid <= 4" % TOWN), "buildings")
+        values = {"INPUT": self.town(), "GAP": 1, "MAX_SHIFT": 8, "BARRIER_WIDTH": 5, "BARRIER_GAP": 0.5, "OUTPUT": TEMPORARY}
+        done = self.run_algorithm("separate", dict(values, BARRIER_LAYERS=[roads, copied]))
+        self.assertEqual(geometries(self.source(done["OUTPUT"])), theirs)
+        # By names, and beside the table.
+        table = [copied.name(), "5", "0.5", "", "", ""]
+        done = self.run_algorithm("separate", dict(values, BARRIER_LAYERS=[roads.id()], BARRIER=table))
+        self.assertEqual(geometries(self.source(done["OUTPUT"])), theirs)
+
+    def test_lengths_have_the_unit_of_the_layer(self):
+        for name in ("separate", "check"):
+            algorithm = QgsApplication.processingRegistry().algorithmById("sunder:" + name)
+            kinds = {each.name(): each.type() for each in algorithm.parameterDefinitions()}
+            for length in ("GAP", "MAX_SHIFT", "TOUCH_TOLERANCE", "BARRIER_WIDTH", "BARRIER_GAP"):
+                self.assertEqual(kinds[length], "distance", length)
+                self.assertEqual(algorithm.parameterDefinition(length).parentParameterName(), "INPUT", length)
 
     def test_barriers_that_mean_nothing_are_told(self):
         for row, said in ((["nowhere", "", "", "", "", ""], "no layer nowhere"),
@@ -611,6 +649,27 @@ class OtherCommands(Case):
             self.assertGreaterEqual(len(log.readlines()), 12)
         self.assertTrue(self.feedback.warnings())
         self.assertNotIn("--", "".join(self.feedback.warnings()))
+
+
+class SpellingTest(unittest.TestCase):
+    def test_enumerators_name_their_enumeration(self):
+        """With Qt 6 an enumerator is a member of its enumeration alone. Here QGIS says what is one."""
+        import ast
+        import glob
+        import qgis.core
+        from qgis.PyQt import QtCore, QtGui
+        found = 0
+        for file in glob.glob(os.path.join(os.environ["SUNDER_SOURCE"], "gis", "qgis", "sunder", "*.py")):
+            with open(file, encoding="utf-8") as opened:
+                nodes = [node for node in ast.walk(ast.parse(opened.read())) if isinstance(node, ast.Attribute)]
+            for node in (each for each in nodes if isinstance(each.value, ast.Name)):
+                holder = next((getattr(module, node.value.id) for module in (qgis.core, QtCore, QtGui)
+                               if hasattr(module, node.value.id)), None)
+                kind = type(type(getattr(holder, node.attr, None))).__name__
+                found += holder is not None
+                self.assertFalse(kind in ("enumtype", "EnumMeta", "EnumType") and node.value.id != "QVariant",
+                                 "%s:%d: %s.%s" % (file, node.lineno, node.value.id, node.attr))
+        self.assertGreater(found, 20)
 
 
 def main():

@@ -9,7 +9,7 @@ import traceback
 import processing
 from qgis.core import QgsProject, QgsVectorLayer
 from qgis.PyQt.QtCore import QTimer
-from qgis.PyQt.QtWidgets import QApplication
+from qgis.PyQt.QtWidgets import QApplication, QTextEdit
 from qgis.utils import iface
 
 FOLDER = os.environ["WINDOW_FOLDER"]
@@ -51,7 +51,7 @@ def begin():
             QgsProject.instance().setCrs(layer.crs())
             iface.zoomToActiveLayer()
     window.dialog = processing.createAlgorithmDialog("sunder:separate", {
-        "INPUT": "Houses", "GAP": 3, "UNIT": 1, "MAX_SHIFT": 5, "BARRIER": ["Roads", "6", "", "", "", ""],
+        "INPUT": "Houses", "GAP": 3, "UNIT": 1, "MAX_SHIFT": 5, "BARRIER_LAYERS": ["Roads"], "BARRIER_WIDTH": 6,
         "REPORT": os.path.join(FOLDER, "moves.html")})
     window.dialog.resize(900, 760)
     window.dialog.algorithmFinished.connect(finished)
@@ -76,6 +76,9 @@ def finished(successful, results):
 @guarded
 def look():
     picture(window.dialog, "log.png")
+    for log in window.dialog.findChildren(QTextEdit):
+        for line in log.toPlainText().replace("\u00a0", " ").splitlines():
+            tell("log: " + line)
     names = [layer.name() for layer in QgsProject.instance().mapLayers().values()]
     tell("layers: " + ", ".join(sorted(names)))
     for layer in QgsProject.instance().mapLayers().values():

@@ -21,8 +21,9 @@ QT_QPA_PLATFORM=offscreen "$process" plugins enable sunder >"$work/log" 2>&1 || 
 # The window ends by itself; the time only ends what hangs.
 timeout 240 xvfb-run -a -s "-screen 0 1280x860x24 -nolisten tcp" "$qgis" --noversioncheck --nologo \
     --code "$here/window.py" >"$work/log" 2>&1 || fail "QGIS ended with status $?"
-for wanted in '^done$' '^Separated: 280 features, categorizedSymbol' '^Moves: [0-9]* features, singleSymbol' \
-    '^Conflicts that remain: [0-9]* features, RuleRenderer'; do
+for wanted in '^done$' '^Houses: Separated: 280 features, categorizedSymbol' '^Houses: Moves: [0-9]* features, singleSymbol' \
+    '^Houses: Conflicts that remain: [0-9]* features, RuleRenderer' \
+    '^log:   inside blocks  *[0-9]\{1,\}   *[0-9]\{1,\}$'; do # columns of the log stay columns
     grep -q "$wanted" "$work/report.txt" || fail "not seen: $wanted"
 done
 [ -s "$work/moves.html" ] || fail "there is no report"

@@ -18,11 +18,21 @@ mkdir -p "$plugins"
 (cd "$plugins" && cmake -E tar xf "$zip")
 [ "$(ls "$plugins")" = sunder ] || fail "not one folder in the zip"
 grep -qx "version=$version" "$plugins/sunder/metadata.txt" || fail "the version is not the project's"
+grep -q '^qgisMaximumVersion=4' "$plugins/sunder/metadata.txt" || fail "not listed for QGIS 4"
 [ -f "$plugins/sunder/LICENSE" ] || fail "no licence"
 for file in "$SUNDER_SOURCE"/gis/qgis/sunder/*.py "$SUNDER_SOURCE"/gis/qgis/sunder/icons/*.svg; do
     cmp "$file" "$plugins/sunder/${file#"$SUNDER_SOURCE"/gis/qgis/sunder/}" || fail "$file is not in the zip as it is"
 done
 [ -z "$(find "$plugins" -name '__pycache__' -o -name '*.pyc')" ] || fail "compiled files are in the zip"
+
+# Addresses are those that the build is given, and none where it is given none.
+addresses=$work/addresses
+cmake -S "$SUNDER_SOURCE" -B "$addresses" -D SUNDER_TESTS=OFF -D SUNDER_EMAIL=who@example.net -D SUNDER_HOMEPAGE=https://example.net/ \
+    -D SUNDER_TRACKER=https://example.net/issues >"$work/log" 2>&1 || fail "no configuration with addresses"
+for line in email=who@example.net homepage=https://example.net/ tracker=https://example.net/issues; do
+    grep -qx "$line" "$addresses/gis/qgis/metadata.txt" || fail "not in the metadata: $line"
+done
+if grep -q '^repository=' "$addresses/gis/qgis/metadata.txt"; then fail "an address that was not given"; fi
 
 "$process" plugins enable sunder >"$work/log" 2>&1 || fail "the plug-in cannot be enabled"
 # The setting of Processing says where the program is; there is none on the PATH.

@@ -21,8 +21,8 @@ from qgis.PyQt.QtGui import QDesktopServices, QIcon
 
 from . import options, program, result, source
 from . import parameters as parameters_of
-from .command_line import BadValue, barrier, rows_of, unit_of, words
-from .options import BARRIERS, EXPRESSION, FIELD, LENGTH, NUMERIC_FIELD, SOURCE, UNIT
+from .command_line import BadValue, barrier, row_of_layer, rows_of, unit_of, words
+from .options import BARRIER_LAYERS, BARRIERS, EXPRESSION, FIELD, LENGTH, NUMERIC_FIELD, SOURCE, UNIT
 
 PROGRAM_SETTING = "SUNDER_PROGRAM"  # of Processing: where the program is
 
@@ -33,8 +33,8 @@ Output = namedtuple("Output", "name suffix label type wanted flag")
 # A file: flag is the option that names it.
 File = namedtuple("File", "name flag label filter")
 
-POLYGONS, LINES, POINTS = (QgsProcessing.TypeVectorPolygon, QgsProcessing.TypeVectorLine, QgsProcessing.TypeVectorPoint)
-ANY = QgsProcessing.TypeVectorAnyGeometry
+POLYGONS, LINES = QgsProcessing.SourceType.TypeVectorPolygon, QgsProcessing.SourceType.TypeVectorLine
+POINTS, ANY = QgsProcessing.SourceType.TypeVectorPoint, QgsProcessing.SourceType.TypeVectorAnyGeometry
 LOG = File("LOG", "--log", options.LOG_LABEL, "Log files (*.log)")
 
 
@@ -102,7 +102,8 @@ class Algorithm(QgsProcessingAlgorithm):
             self._add(parameters_of.parameter(option, self.inputs[0].name), option.help, option.advanced)
             if option.kind == LENGTH and self.parameterDefinition(UNIT) is None:
                 units = QgsProcessingParameterEnum(UNIT, options.UNIT_LABEL, list(options.UNIT_LABELS), defaultValue=0)
-                self._add(units, "Holds for all lengths of this dialog that do not name a unit of their own.")
+                self._add(units, "A length is in the unit that is shown beside it. Another unit that is chosen here, "
+                          "say millimetres on the sheet of the map, holds for all of them instead.")
         for each in self.outputs:
             self._add(QgsProcessingParameterVectorDestination(each.name, each.label, each.type, optional=True,
                                                               createByDefault=each.wanted))
@@ -116,7 +117,7 @@ class Algorithm(QgsProcessingAlgorithm):
         if text:
             parameter.setHelp(text)
         if advanced:
-            parameter.setFlags(parameter.flags() | QgsProcessingParameterDefinition.FlagAdvanced)
+            parameter.setFlags(parameter.flags() | QgsProcessingParameterDefinition.Flag.FlagAdvanced)
         self.addParameter(parameter)
 
     def checkParameterValues(self, parameters, context):
@@ -148,9 +149,10 @@ class Algorithm(QgsProcessingAlgorithm):
         self.sources = {each.name: self._source(parameters, each.name, context) for each in self.inputs}
         self.shapes = {each.name: self.parameterAsString(parameters, each.shape, context)
                        for each in self.inputs if each.shape}
-        self.marks, self.barriers, self.values = {}, [], {}
+        self.marks, self.barriers, self.chosen, self.values = {}, [], [], {}
         for option in options.of_command(self.command):
             self._prepare_option(option, parameters, context)
+        self._prepare_chosen_barriers()
         self._keep_chosen_key()
         if options.has_lengths(self.command):
             self.values[UNIT] = self.parameterAsEnum(parameters, UNIT, context)
@@ -180,6 +182,8 @@ class Algorithm(QgsProcessingAlgorithm):
         name = option.name
         if option.kind == BARRIERS:
             self._prepare_barriers(rows_of(self.parameterAsMatrix(parameters, name, context)), context)
+        elif option.kind == BARRIER_LAYERS:
+            self.chosen = self.parameterAsLayerList(parameters, name, context)
         elif option.kind == SOURCE:
             self.sources[name] = self._source(parameters, name, context)
         elif option.kind == EXPRESSION:
@@ -197,7 +201,14 @@ class Algorithm(QgsProcessingAlgorithm):
             layer = QgsProcessingUtils.mapLayerFromString(row[0], context)
             if not isinstance(layer, QgsVectorLayer) or not layer.isValid():
                 raise BadValue("Barriers: there is no layer %s, neither in the project nor as a file." % row[0])
-            self.barriers.append((row, source.of_layer(layer, row[3])))
+            self.barriers.append((row, source.of_layer(layer, row[3]), True))
+
+    def _prepare_chosen_barriers(self):
+        """Layers that were chosen as such: none of them has a filter, nor a field of widths."""
+        for layer in self.chosen:
+            if not isinstance(layer, QgsVectorLayer) or not layer.isValid():
+                raise BadValue("Barriers: %s is no layer of features." % layer.name())
+            self.barriers.append((row_of_layer(layer.name(), self.values), source.of_layer(layer), False))
 
     def _fix_unselected(self, parameters, context):
         layer = self.parameterAsVectorLayer(parameters, self.inputs[0].name, context)
@@ -238,12 +249,15 @@ class Algorithm(QgsProcessingAlgorithm):
         line += self._words_of_outputs(self.wanted) + self._words_of_files(parameters, context)
         feedback.pushCommandInfo(" ".join(_quoted(word) for word in line))
         begin = 10 * min(self.copies, 2)
+        said = []
         status, told = program.run(line, lambda percent: feedback.setProgress(begin + percent * (100 - begin) / 100),
-                                   feedback.pushConsoleInfo, feedback.isCanceled)
+                                   said.append, feedback.isCanceled)
+        self._print(said, feedback)
         if status is None:
             feedback.pushInfo("Cancelled; nothing was written.")
             return {}
         self._tell(told, status, feedback)
+        self.look(written)
         results = self._deliver(written, parameters, context, feedback)
         numbers = program.statistics(figures)
         if status == program.UNRESOLVED:
@@ -253,7 +267,7 @@ class Algorithm(QgsProcessingAlgorithm):
 
     def _refuse_own_input(self):
         """A file that is read cannot be the one that is written, as QGIS would replace it first."""
-        read = [layer for layer in self.sources.values() if layer] + [layer for _, layer in self.barriers]
+        read = [layer for layer in self.sources.values() if layer] + [layer for _, layer, _ in self.barriers]
         files = {os.path.realpath(layer.path): layer.name for layer in read if layer.path}
         for each, destination in self.wanted.items():
             if os.path.realpath(destination) in files:
@@ -276,8 +290,8 @@ class Algorithm(QgsProcessingAlgorithm):
             if option.kind == SOURCE and self.sources[option.name]:
                 path, _ = self._copied(self.sources[option.name], folder, option.name, feedback)
                 found.append("%s=%s" % (option.flag, path))
-        for row, layer in self.barriers:
-            found.append("--barrier=" + self._barrier(row, layer, folder, feedback))
+        for row, layer, by_field in self.barriers:
+            found.append("--barrier=" + self._barrier(row, layer, by_field, folder, feedback))
         return found
 
     def _first(self, layer, folder, feedback):
@@ -307,13 +321,15 @@ class Algorithm(QgsProcessingAlgorithm):
         ids = source.copy(layer, path, table_of(layer.name), marks, feedback)
         return path, ids
 
-    def _barrier(self, row, layer, folder, feedback):
+    def _barrier(self, row, layer, by_field, folder, feedback):
+        """by_field: the width of the row may be the name of a field."""
         path, name = layer.file or (None, None)
         if path is None:
             path, _ = self._copied(layer, folder, "barrier_%d" % (len(self.names) + 1), feedback)
             name = table_of(layer.name)
         self.names.setdefault(path, layer.name)  # a file may hold the layer, too
-        return barrier(row, unit_of(self.values), path, name, [field.name() for field in layer.fields])
+        return barrier(row, unit_of(self.values), path, name,
+                       [field.name() for field in layer.fields] if by_field else [])
 
     def _is_wanted(self, parameters, name):
         value = parameters.get(name)
@@ -344,6 +360,17 @@ class Algorithm(QgsProcessingAlgorithm):
             else:
                 feedback.pushConsoleInfo(program.plain(line, self.names))
 
+    def _print(self, lines, feedback):
+        """What the program printed, its columns in line. In a window the log shows HTML."""
+        from qgis.utils import iface
+        for line in program.columns(lines):
+            feedback.pushConsoleInfo(line if iface is None else program.unbroken(line))
+
+    def _title(self, output):
+        """What a layer is called where it is loaded: after the layer that it was made of."""
+        names = [layer.name for layer in self.sources.values() if layer]
+        return "%s: %s" % (names[0], output.label) if names else output.label
+
     def _deliver(self, written, parameters, context, feedback):
         there, results = result.layers_of(written), {}
         for each in self.outputs:
@@ -354,6 +381,7 @@ class Algorithm(QgsProcessingAlgorithm):
             name = self.main + each.suffix
             if name in there:
                 self.stays = self.stays or result.is_temporary(parameters[each.name])
+                result.rename(destination, each.label, self._title(each), context)
                 results[each.name] = result.deliver(written, name, parameters[each.name], destination, context,
                                                     feedback)
             else:
@@ -375,6 +403,9 @@ class Algorithm(QgsProcessingAlgorithm):
         return {}
 
     # ---- What an algorithm may say for itself ----
+
+    def look(self, written):
+        """Looks at what the program wrote, before figures are told."""
 
     def unresolved(self, figures):
         """Exit status 3 in words."""

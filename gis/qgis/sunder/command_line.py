@@ -3,8 +3,8 @@
 A value is what QGIS hands over: a number, the index of a choice, True, the name of a field, text; None is not said.
 Numbers are written so that they read back as the same double.
 """
-from .options import (BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FLAG, LENGTH, NUMBER, NUMERIC_FIELD, POINT, SCALE,
-                      SOURCE, TEXT, UNIT, UNITS, of_command)
+from .options import (BARRIER_LAYERS, BARRIER_LENGTH, BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FLAG, LENGTH, NUMBER,
+                      NUMERIC_FIELD, POINT, SCALE, SOURCE, TEXT, UNIT, UNITS, of_command)
 
 BARRIER_COLUMNS = ("Layer", "Width or field", "Gap", "Filter", "Side (yes/no)", "As (area/boundary)")
 
@@ -52,7 +52,7 @@ def words(command, values):
     found = []
     for option in of_command(command):
         value = values.get(option.name)
-        if value is None or value == "":
+        if value is None or value == "" or option.kind in (BARRIER_LAYERS, BARRIER_LENGTH):
             continue
         if option.kind in (LENGTH, NUMBER, COUNT, SCALE) and value == option.default:
             continue
@@ -61,6 +61,13 @@ def words(command, values):
 
 
 # ---- Barriers --------------------------------------------------------------------------------------------------------
+
+
+def row_of_layer(name, values):
+    """The row of a layer that was chosen as such: widths and gaps are those of the dialog."""
+    cells = [number(value) if value is not None else "" for value in
+             (values.get("BARRIER_WIDTH"), values.get("BARRIER_GAP"))]
+    return [name] + cells + ["", "", ""]
 
 
 def _is_null(cell):

@@ -10,24 +10,26 @@ from collections import namedtuple
 LENGTH, NUMBER, COUNT, SCALE, FLAG, CHOICE = "length", "number", "count", "scale", "flag", "choice"
 FIELD, NUMERIC_FIELD, EXPRESSION, TEXT, POINT = "field", "numeric field", "expression", "text", "point"
 BARRIERS, SOURCE = "barriers", "source"
+BARRIER_LAYERS, BARRIER_LENGTH = "layers as barriers", "length of the layers as barriers"
 
 LAYERS = ("separate", "check")
 EVERY = ("separate", "check", "buffer", "sum", "pair", "route")
 
 
-class Option(namedtuple("Option", "flag kind commands label help default choices labels advanced needed")):
-    """One option. labels: what the dialog shows for each of choices. default: a value of the dialog; None: not said."""
+class Option(namedtuple("Option", "flag kind commands label help default choices labels advanced needed key")):
+    """One option. labels: what the dialog shows for each of choices. default: a value of the dialog; None: not said.
+    key: what the flag has for this parameter, where it has several: --barrier is BARRIER, BARRIER_WIDTH ..."""
 
     __slots__ = ()
 
     def __new__(cls, flag, kind, commands, label, text, default=None, choices=(), labels=(), advanced=True,
-                needed=False):
-        return super().__new__(cls, flag, kind, commands, label, text, default, choices, labels, advanced, needed)
+                needed=False, key=""):
+        return super().__new__(cls, flag, kind, commands, label, text, default, choices, labels, advanced, needed, key)
 
     @property
     def name(self):
         """The name of the parameter: --max-shift is MAX_SHIFT."""
-        return self.flag[2:].replace("-", "_").upper()
+        return (self.flag[2:] + self.key).replace("-", "_").upper()
 
 
 OPTIONS = (
@@ -54,11 +56,19 @@ OPTIONS = (
            "jumped, or is no translate. Features are matched by the key field, else by FID.", advanced=False),
     Option("--reflect", FLAG, ("sum",), "Sum of P and the reflected Q",
            "The sum of P and -Q: where Q may not stand, if it is not to meet P.", False, advanced=False),
-    Option("--barrier", BARRIERS, LAYERS, "Barriers (layers that never move)",
-           "One row a layer: roads, rivers, parcels. Layer: the name of a layer of the project, or a file. Width or "
-           "field: the full drawn width, or the field that holds it. Gap: from the drawn edge, the gap above where "
-           "empty. Filter: an expression. Side: no lets features cross it. As: boundary takes a polygon's rings as "
-           "lines.", advanced=False),
+    Option("--barrier", BARRIER_LAYERS, LAYERS, "Barriers (layers that never move)",
+           "Roads, rivers, parcels: features stay clear of them and do not change their side.", advanced=False,
+           key="-layers"),
+    Option("--barrier", BARRIER_LENGTH, LAYERS, "Barriers: drawn width",
+           "The full width that the chosen layers are drawn with. Empty: lines without a width, areas as they are.",
+           advanced=False, key="-width"),
+    Option("--barrier", BARRIER_LENGTH, LAYERS, "Barriers: gap from the drawn edge",
+           "For the chosen layers. Empty: the gap between features.", advanced=False, key="-gap"),
+    Option("--barrier", BARRIERS, LAYERS, "Barriers as a table (widths, filters, sides of each)",
+           "Besides the layers chosen above, one row a layer. Layer: the name of a layer of the project, or a file. "
+           "Width or field: the full drawn width, or the field that holds it. Gap: from the drawn edge, the gap "
+           "between features where empty. Filter: an expression. Side: no lets features cross it. As: boundary takes a "
+           "polygon's rings as lines."),
     Option("--max-shift", LENGTH, LAYERS, "Longest move", "No feature is moved further. Empty: no limit.",
            advanced=False),
     Option("--scale", SCALE, EVERY, "Scale of the map",
@@ -126,13 +136,33 @@ OPTIONS = (
 
 # Lengths are in this unit; the first is the layer's own.
 UNIT = "UNIT"
-UNIT_LABEL = "Unit of the lengths"
+UNIT_LABEL = "Unit of all lengths, where it is not the one beside them"
 UNITS = ("", "m", "km", "ft", "us-ft", "mm")
-UNIT_LABELS = ("Units of the layer", "Metres", "Kilometres", "Feet", "US survey feet",
+UNIT_LABELS = ("As shown beside each length", "Metres", "Kilometres", "Feet", "US survey feet",
                "Millimetres on the sheet of the map")
 SHEET = UNITS.index("mm")
 
 LOG_LABEL = "Log of all errors and warnings"
+
+# What an option is called within a sentence of the program, before its label (program.py). "key field" is of
+# --id-field: give another key field ("Key field").
+NOUNS = {
+    "--gap": "gap", "--shape": "shape", "--operation": "operation", "--dissolve": "dissolving", "--robot": "robot",
+    "--from": "start", "--to": "goal", "--before": "layer from before", "--reflect": "reflection",
+    "--barrier": "barrier", "--max-shift": "longest move", "--scale": "scale", "--max-shift-field": "field of the longest moves",
+    "--weight": "cost of a move", "--weight-field": "field of the weights",
+    "--fixed-where": "expression of what never moves", "--ignore-where": "expression of what is left out",
+    "--touch-tolerance": "distance within which features are one block", "--block-field": "field of the blocks",
+    "--no-blocks": "mark that nothing joins", "--contained": "choice for features in others",
+    "--allow-jumps": "mark that features may jump", "--list-inside": "mark for conflicts inside blocks",
+    "--symbol": "symbol", "--symbol-field": "field of the symbols",
+    "--symbol-size-field": "field of the symbols' sizes",
+    "--dissolve-field": "field to dissolve by", "--explode": "mark for single polygons", "--align": "mark for turning",
+    "--algorithm": "road to the sum", "--decomposition": "kind of convex pieces", "--order": "order of the subsums",
+    "--id-field": "key field", "--effort": "effort", "--seed": "seed", "--invalid": "choice for invalid geometries",
+    "--threads": "number of threads", "--log": "log", "--report": "report", "--proof": "proof",
+    "--input-crs": "CRS of the layer in QGIS",
+}
 
 # Options that no dialog asks, and why.
 _QGIS_CHOOSES = "which features is chosen in QGIS: by the layer's filter, its selection, or a layer made before"
@@ -167,4 +197,4 @@ def of_command(command):
 
 def has_lengths(command):
     """Does the dialog ask for lengths, so that it asks for their unit, too?"""
-    return any(option.kind in (LENGTH, BARRIERS) for option in of_command(command))
+    return any(option.kind in (LENGTH, BARRIER_LENGTH, BARRIERS) for option in of_command(command))

@@ -1,21 +1,25 @@
 """A row of the table of options as a parameter of Processing, and its value back. Layers, expressions and barriers come
 back by algorithm.py, which knows what to do with them."""
 from qgis.core import (QgsProcessing, QgsProcessingParameterBoolean, QgsProcessingParameterEnum,
-                       QgsProcessingParameterExpression, QgsProcessingParameterFeatureSource,
-                       QgsProcessingParameterField, QgsProcessingParameterMatrix, QgsProcessingParameterNumber,
+                       QgsProcessingParameterDistance, QgsProcessingParameterExpression,
+                       QgsProcessingParameterFeatureSource, QgsProcessingParameterField, QgsProcessingParameterMatrix,
+                       QgsProcessingParameterMultipleLayers, QgsProcessingParameterNumber,
                        QgsProcessingParameterPoint, QgsProcessingParameterScale, QgsProcessingParameterString)
 
 from .command_line import BARRIER_COLUMNS
-from .options import (BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FLAG, LENGTH, NUMBER, NUMERIC_FIELD, POINT, SCALE,
-                      SOURCE, TEXT)
+from .options import (BARRIER_LAYERS, BARRIER_LENGTH, BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FLAG, LENGTH, NUMBER,
+                      NUMERIC_FIELD, POINT, SCALE, SOURCE, TEXT)
 
 
 def parameter(option, layer):
-    """layer: the name of the parameter whose fields are meant."""
+    """layer: the name of the parameter whose fields are meant, and whose unit lengths are in."""
     name, label, optional = option.name, option.label, not option.needed
-    if option.kind in (LENGTH, NUMBER, COUNT):
-        kind = QgsProcessingParameterNumber.Integer if option.kind == COUNT else QgsProcessingParameterNumber.Double
-        return QgsProcessingParameterNumber(name, label, kind, option.default, optional=option.default is None,
+    if option.kind in (LENGTH, BARRIER_LENGTH):
+        return QgsProcessingParameterDistance(name, label, option.default, layer, optional=option.default is None,
+                                              minValue=0)
+    if option.kind in (NUMBER, COUNT):
+        kinds = QgsProcessingParameterNumber.Type
+        return QgsProcessingParameterNumber(name, label, kinds.Integer if option.kind == COUNT else kinds.Double, option.default, optional=option.default is None,
                                             minValue=0)
     if option.kind == SCALE:
         return QgsProcessingParameterScale(name, label, optional=True)
@@ -24,16 +28,21 @@ def parameter(option, layer):
     if option.kind == CHOICE:
         return QgsProcessingParameterEnum(name, label, list(option.labels), defaultValue=option.default)
     if option.kind in (FIELD, NUMERIC_FIELD):
-        data = QgsProcessingParameterField.Numeric if option.kind == NUMERIC_FIELD else QgsProcessingParameterField.Any
-        return QgsProcessingParameterField(name, label, None, layer, data, optional=True)
+        kinds = QgsProcessingParameterField.DataType
+        return QgsProcessingParameterField(name, label, None, layer,
+                                           kinds.Numeric if option.kind == NUMERIC_FIELD else kinds.Any, optional=True)
     if option.kind == EXPRESSION:
         return QgsProcessingParameterExpression(name, label, "", layer, optional=True)
     if option.kind == POINT:
         return QgsProcessingParameterPoint(name, label, optional=optional)
+    if option.kind == BARRIER_LAYERS:
+        return QgsProcessingParameterMultipleLayers(name, label, QgsProcessing.SourceType.TypeVectorAnyGeometry,
+                                                    optional=True)
     if option.kind == BARRIERS:
         return QgsProcessingParameterMatrix(name, label, 1, False, list(BARRIER_COLUMNS), optional=True)
     if option.kind == SOURCE:
-        return QgsProcessingParameterFeatureSource(name, label, [QgsProcessing.TypeVectorAnyGeometry], optional=True)
+        return QgsProcessingParameterFeatureSource(name, label, [QgsProcessing.SourceType.TypeVectorAnyGeometry],
+                                                   optional=True)
     assert option.kind == TEXT, option
     return QgsProcessingParameterString(name, label, option.default, optional=optional)
 
@@ -55,6 +64,6 @@ def value(algorithm, option, parameters, context, layer):
         return None
     if option.kind == COUNT:
         return algorithm.parameterAsInt(parameters, name, context)
-    if option.kind in (LENGTH, NUMBER, SCALE):
+    if option.kind in (LENGTH, BARRIER_LENGTH, NUMBER, SCALE):
         return algorithm.parameterAsDouble(parameters, name, context)
     return algorithm.parameterAsString(parameters, name, context)

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import threading
 
-from .options import LOG_LABEL, OPTIONS
+from .options import LEFT_OUT, LOG_LABEL, NOUNS, OPTIONS
 
 DONE, FAILED, MISUSED, UNRESOLVED = 0, 1, 2, 3
 PATIENCE = 5  # seconds from being asked to end to being ended: the program clears away what it had begun
@@ -100,17 +100,76 @@ def statistics(path):
 # ---- In plain words --------------------------------------------------------------------------------------------------
 
 
+_FLAG = r"(?<![\w-])--[a-z]+(?:-[a-z]+)*"
+_LABELS = {option.flag: option.label.split(" (")[0] for option in reversed(OPTIONS)}
+_LABELS.update({"--log": LOG_LABEL, "--report": "Report", "--proof": "Proof"})
+_CHOICES = {option.flag: dict(zip(option.choices, option.labels)) for option in OPTIONS if option.choices}
+
+
+def _subject(found):
+    """--gap 3x, with its value, or at the start of a line: the label of what was given."""
+    flag = found.group(1)
+    return '"%s"' % _LABELS[flag] + found.group(2) if flag in _LABELS else found.group()
+
+
+def _chosen(found):
+    """--invalid skip: a choice by its label."""
+    flag, value = found.group(1), found.group(2)
+    if value not in _CHOICES.get(flag, {}):
+        return found.group()
+    return '"%s" at "%s"' % (_CHOICES[flag][value], _LABELS[flag])
+
+
+def _named(line):
+    """Options within a sentence: the first time by noun and label, then by the noun. A word before it that belongs to
+    the noun, as in "give their --symbol", stands in the place of an article."""
+    seen = set()
+
+    def name(found):
+        article, flag = found.group(1) or "", found.group(2)
+        if flag not in NOUNS:
+            return found.group() + ("" if flag in seen or flag not in LEFT_OUT else " (in a terminal)")
+        if article.lower() in ("a ", "an "):
+            article = article[0] + ("n " if NOUNS[flag][0] in "aeiou" else " ")
+        elif not article:
+            article = "the "
+        label = ' ("%s")' % _LABELS[flag] if flag in _LABELS and flag not in seen else ""
+        seen.add(flag)
+        return article + NOUNS[flag] + label
+
+    return re.sub(r"(\b(?:[Aa]n?|[Tt]he|[Nn]o|their|its|another|this|each) )?(" + _FLAG + ")", name, line)
+
+
 def plain(line, names):
-    """A line of the program for the user of a dialog: options by the labels of their parameters, files that the plug-in
-    made by the names of their layers (names: path to name), no name of the program before it."""
+    """A line of the program for the user of a dialog: options by the labels of their parameters, or by a noun where
+    they stand within a sentence; files that the plug-in made by the names of their layers (names: path to name); no
+    name of the program before it. Commands for a terminal, between backticks, stay as they are."""
     line = re.sub(r"^sunder: (error: |warning: |note: )?", "", line)
     line = line.replace("(ogr2ogr -t_srs)", "(Reproject layer, in the toolbox)")
     for path in sorted(names, key=len, reverse=True):
         line = line.replace(path, names[path])
-    labels = {option.flag: option.label.split(" (")[0] for option in OPTIONS}
-    labels.update({"--log": LOG_LABEL, "--report": "Report", "--proof": "Proof"})
-    return re.sub(r"(?<![\w-])--[a-z]+(-[a-z]+)*", lambda found: '"%s"' % labels[found.group()]
-                  if found.group() in labels else found.group(), line)
+    line = re.sub("^(" + _FLAG + r")((?:[ =][^:]*)?: )", _subject, line)
+    parts = line.split("`")
+    for i in range(0, len(parts), 2):
+        part = re.sub("as in " + _FLAG + "[ =]", "as in ", parts[i])
+        part = re.sub("(" + _FLAG + r")[ =]([a-z-]+)\b", _chosen, part)
+        part = re.sub("(" + _FLAG + r")([ =])(?=\d)", _subject, part)
+        parts[i] = _named(part)
+    return "`".join(parts)
+
+
+def columns(lines):
+    """Lines whose cells are separated by tabs, as a table; columns are two blanks apart. Other lines stay."""
+    rows = [line.split("\t") for line in lines]
+    width = max((len(row) for row in rows), default=0)
+    widths = [max((len(row[k]) for row in rows if k < len(row) - 1), default=0) for k in range(width)]
+    return ["  ".join(cell if k == len(row) - 1 else cell.ljust(widths[k]) for k, cell in enumerate(row))
+            for row in rows]
+
+
+def unbroken(line):
+    """A line for a log that shows HTML, which makes one blank of several: blanks that do not break keep its columns."""
+    return line.replace(" ", "\u00a0") if line.startswith(" ") or "  " in line else line
 
 
 def is_warning(line):

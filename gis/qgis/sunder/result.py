@@ -84,7 +84,7 @@ def _write(layer, destination, context, feedback):
                                                        layer.crs())
     if sink is None:
         raise QgsProcessingException("%s could not be written." % destination)
-    if not (sink.addFeatures(layer.getFeatures(QgsFeatureRequest()), QgsFeatureSink.FastInsert) and
+    if not (sink.addFeatures(layer.getFeatures(QgsFeatureRequest()), QgsFeatureSink.Flag.FastInsert) and
             sink.flushBuffer()):
         raise QgsProcessingException("%s could not be written: %s" % (destination, sink.lastError()))
     del sink  # closes it
@@ -160,6 +160,26 @@ def deliver(path, name, value, destination, context, feedback):
             Styled.alive[final] = Styled(qml)
             context.layerToLoadOnCompletionDetails(final).setPostProcessor(Styled.alive[final])
     return final
+
+
+def rename(destination, label, title, context):
+    """A layer that would be loaded under the label of its parameter gets a title; a name that was chosen stays."""
+    loads = context.layersToLoadOnCompletion()
+    details = loads.get(destination)
+    if details is not None and details.name == label:
+        details.name = title
+        loads[destination] = details
+        context.setLayersToLoadOnCompletion(loads)
+
+
+def count(path, layer, where):
+    """How many rows of a layer of the program's GeoPackage a condition holds for."""
+    dataset = ogr.Open(path)
+    found = dataset.GetLayerByName(layer) if dataset else None
+    if found is None:
+        return 0
+    found.SetAttributeFilter(where)
+    return found.GetFeatureCount()
 
 
 def forget(destination, context):

@@ -1,5 +1,5 @@
 """sunder:separate"""
-from . import program
+from . import program, result
 from .algorithm import ANY, LINES, LOG, POINTS, POLYGONS, Algorithm, File, Input, Output
 
 
@@ -30,20 +30,33 @@ after."""
         LOG,
     )
     numbers = (("FEATURES", "Features"), ("MOVED", "Features moved"), ("CONFLICTS_BEFORE", "Conflicts before"),
-               ("CONFLICTS_AFTER", "Conflicts that remain"), ("TOTAL", "Sum of moves"), ("LONGEST", "Longest move"),
+               ("CONFLICTS_AFTER", "Conflicts that remain"),
+               ("CONFLICTS_STAYING", "Conflicts that remain between what was told to stay"),
+               ("TOTAL", "Sum of moves"), ("LONGEST", "Longest move"),
                ("COST", "Cost"), ("LOWER_BOUND", "Proved lower bound of the cost"))
 
     def _words_of_outputs(self, wanted):
         # Something must be written: the main layer is what the file is checked by.
-        layers = [each.suffix[1:] for each in wanted if each.suffix]
+        layers = [each.suffix[1:] for each in self.outputs if each.suffix and (each in wanted or self._counts(each))]
         if layers == ["displacement", "conflicts", "pushes", "symbols"]:
             return []
         return ["--layers=" + ",".join(["main"] + layers)]
 
+    def _counts(self, output):
+        """Conflicts between features that are told to stay are counted, in the layer of conflicts."""
+        return output.name == "CONFLICTS" and "FIXED_WHERE" in self.marks
+
+    def look(self, written):
+        self.staying = result.count(written, self.main + "_conflicts", "reason = 'fixed'")
+
     def unresolved(self, figures):
         left = program.conflicts_left(figures)
-        return ("%d conflict%s could not be solved; each is listed, with its reason, in the layer of conflicts." %
+        text = ("%d conflict%s could not be solved; each is listed, with its reason, in the layer of conflicts." %
                 (left, "" if left == 1 else "s"))
+        if self.staying:
+            text += (" %d of them %s between features that were told to stay, or between these and barriers: neither may "
+                     "move." % (self.staying, "is" if self.staying == 1 else "are"))
+        return text
 
     def figures(self, figures):
         if not figures:
@@ -51,5 +64,6 @@ after."""
         moves = figures["displacement"]
         return {"FEATURES": figures["features"], "MOVED": figures["moved"],
                 "CONFLICTS_BEFORE": program.conflicts_left({"conflicts": figures["conflicts"]["before"]}),
-                "CONFLICTS_AFTER": program.conflicts_left(figures), "TOTAL": moves["total"], "LONGEST": moves["max"],
+                "CONFLICTS_AFTER": program.conflicts_left(figures), "CONFLICTS_STAYING": self.staying,
+                "TOTAL": moves["total"], "LONGEST": moves["max"],
                 "COST": moves["cost"], "LOWER_BOUND": moves["lower_bound"]}

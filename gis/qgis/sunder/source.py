@@ -13,9 +13,9 @@ import os
 import re
 
 from osgeo import ogr, osr
-from qgis.core import (QgsExpression, QgsFeatureRequest, QgsProcessingFeatureSource, QgsProviderRegistry,
-                       QgsVectorLayerFeatureSource, QgsWkbTypes)
-from qgis.PyQt.QtCore import QVariant
+from qgis.core import (QgsCoordinateReferenceSystem, QgsExpression, QgsFeatureRequest, QgsFields,
+                       QgsProcessingFeatureSource, QgsProviderRegistry, QgsVectorLayerFeatureSource, QgsWkbTypes)
+from qgis.PyQt.QtCore import Qt, QVariant
 
 from .command_line import BadValue
 
@@ -46,7 +46,7 @@ def file_of(layer):
     if not layer or layer.providerType() != "ogr" or layer.subsetString() or layer.isEditable() or layer.vectorJoins():
         return None
     fields = layer.fields()
-    if any(fields.fieldOrigin(i) != fields.OriginProvider for i in range(fields.count())):
+    if any(fields.fieldOrigin(i) != QgsFields.FieldOrigin.OriginProvider for i in range(fields.count())):
         return None
     if layer.crs() != layer.dataProvider().crs():
         return None
@@ -88,7 +88,8 @@ def of_layer(layer, expression=""):
 
 def of_processing(source, layer, whole):
     """What a parameter of Processing selects; layer: whose it is, or None. whole: that layer, with all its features."""
-    as_they_are = QgsProcessingFeatureSource.FlagSkipGeometryValidityChecks  # invalid ones are the program's business
+    # Invalid geometries are the program's business.
+    as_they_are = QgsProcessingFeatureSource.Flag.FlagSkipGeometryValidityChecks
     return Source(source.sourceName(), source.fields(), source.wkbType(), source.sourceCrs(),
                   lambda: source.getFeatures(QgsFeatureRequest(), as_they_are),
                   source.featureCount(), layer, whole)
@@ -99,11 +100,12 @@ def of_processing(source, layer, whole):
 
 def _ogr_type(wkb_type):
     flat = QgsWkbTypes.flatType(wkb_type)
-    if flat == QgsWkbTypes.Unknown:
+    if flat == QgsWkbTypes.Type.Unknown:
         return ogr.wkbUnknown
-    if flat == QgsWkbTypes.NoGeometry:
+    if flat == QgsWkbTypes.Type.NoGeometry:
         return ogr.wkbNone
-    return ogr.GT_SetModifier(int(flat), QgsWkbTypes.hasZ(wkb_type), QgsWkbTypes.hasM(wkb_type))
+    number = int(getattr(flat, "value", flat))  # with Qt 6 an enumerator need not be a number
+    return ogr.GT_SetModifier(number, QgsWkbTypes.hasZ(wkb_type), QgsWkbTypes.hasM(wkb_type))
 
 
 def _unused(name, used):
@@ -119,8 +121,7 @@ def _value(value):
     if isinstance(value, QVariant):
         value = value.value()
     if hasattr(value, "toString") and hasattr(value, "isValid"):
-        from qgis.PyQt.QtCore import Qt
-        return value.toString(Qt.ISODateWithMs)
+        return value.toString(Qt.DateFormat.ISODateWithMs)
     if hasattr(value, "data") and not isinstance(value, memoryview):
         return bytes(value)
     return value
@@ -133,7 +134,7 @@ def _reference(crs):
     reference.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
     if re.fullmatch(r"(EPSG|ESRI|IGNF):\w+", crs.authid() or "") and reference.SetFromUserInput(crs.authid()) == 0:
         return reference
-    reference.ImportFromWkt(crs.toWkt(crs.WKT2_2018))
+    reference.ImportFromWkt(crs.toWkt(QgsCoordinateReferenceSystem.WktVariant.WKT2_2018))
     return reference
 
 
