@@ -520,8 +520,9 @@ SUNDER_API const char *sunder_feature_status_string(sunder_feature_status status
 typedef enum sunder_conflict_kind {
     SUNDER_CONFLICT_OVERLAP,
     SUNDER_CONFLICT_TOO_CLOSE,
-    SUNDER_CONFLICT_BARRIER,      /* the interior of a feature meets a barrier's stored geometry */
-    SUNDER_CONFLICT_BARRIER_NEAR, /* it does not, but is nearer than it should be */
+    SUNDER_CONFLICT_BARRIER,       /* the interior of a feature meets a barrier's stored geometry */
+    SUNDER_CONFLICT_BARRIER_DRAWN, /* it does not, but is nearer than half of the barrier's width */
+    SUNDER_CONFLICT_BARRIER_NEAR,  /* it does neither, but is nearer than it should be */
     SUNDER_CONFLICT_CONTAINED,
     SUNDER_CONFLICT_DUPLICATE,
     /* What sunder_layer_check_moves() finds, and nobody else; of one feature alone where b is SIZE_MAX: */
@@ -532,8 +533,8 @@ typedef enum sunder_conflict_kind {
     SUNDER_CONFLICT_NOT_A_TRANSLATE /* no move of a makes its coordinates what they are now */
 } sunder_conflict_kind;
 
-/* "overlap", "too_close", "barrier", "barrier_near", "contained", "duplicate", "worse", "limit", "side", "jump",
- * "not_a_translate". */
+/* "overlap", "too_close", "barrier", "barrier_drawn", "barrier_near", "contained", "duplicate", "worse", "limit",
+ * "side", "jump", "not_a_translate". */
 SUNDER_API const char *sunder_conflict_kind_string(sunder_conflict_kind kind);
 
 typedef enum sunder_reason {
@@ -556,10 +557,13 @@ typedef struct sunder_conflict {
     size_t a, b; /* a < b: features, or for b of the barriers' two kinds the number of features + k for barrier k */
     sunder_conflict_kind kind;
     sunder_reason reason;
-    double distance;          /* now; 0 where they overlap */
-    double before;            /* at the start */
-    double depth;             /* length of the least translation that takes the interiors apart now; 0 where disjoint */
-    double required;          /* the gap asked for; of a barrier half its width besides */
+    double distance; /* now; 0 where they overlap */
+    double before;   /* at the start */
+    double depth;    /* length of the least translation that takes the interiors apart now; 0 where disjoint */
+    double required; /* the gap asked for; of a barrier half its width besides */
+    /* How much of `required` is missing: required - distance, and where interiors meet required + depth. NAN where
+     * nothing is owed: inside a block, where the pair may overlap, and of kinds that ask for no distance. */
+    double missing;
     double from[2], to[2];    /* the shortest link, or the least translation drawn from inside the overlap */
     const size_t *blocked_by; /* features, and barriers as for b, that stand in the way, n_blocked_by of them */
     size_t n_blocked_by;
@@ -576,7 +580,7 @@ typedef struct sunder_conflict {
 } sunder_conflict;
 
 typedef struct sunder_conflict_counts {
-    size_t overlap, too_close, barrier, barrier_near, contained, duplicate, inside_blocks;
+    size_t overlap, too_close, barrier, barrier_drawn, barrier_near, contained, duplicate, inside_blocks;
 } sunder_conflict_counts;
 
 typedef struct sunder_report sunder_report;
@@ -586,8 +590,11 @@ typedef struct sunder_layer_summary {
     size_t clusters_optimal; /* of the contact groups, those of which it is proved that nothing costs less */
     sunder_conflict_counts before, after; /* of check: both the same */
     size_t thin;                          /* pairs between blocks that overlap by no more than options.thin, before */
-    size_t moved, blocked, skipped, rounded;
-    double total, mean, max; /* of the lengths of moves; mean over the moved */
+    size_t inside_overlaps;               /* pairs inside blocks that are listed as overlaps, after */
+    size_t moved, blocked, skipped;       /* features of that status */
+    size_t blocked_moved;                 /* of the blocked, those that moved: because of other conflicts */
+    size_t rounded;
+    double total, mean, max; /* of the lengths of moves; mean over all that moved, blocked ones among them */
     size_t max_feature;      /* the first whose move is longest; SIZE_MAX if nothing moved */
     /* Sum of weight * length^2; no placement costs less that solves every pair not listed, leaves none that is listed
      * worse than it stood, and none in overlap that is listed as too close. */

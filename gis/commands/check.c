@@ -137,18 +137,25 @@ static void print_moves(const gis_moves *moves)
     printf(", %s %zu\n", GIS_MOVES_LOST, moves->n_lost);
 }
 
+static void print_counts(const check_run *run)
+{
+    const sunder_conflict_counts *counts = &run->summary.before;
+    printf("%s: %zu features (skipped %zu, invalid %zu, null %zu), %zu pairs tested; overlap %zu, too close %zu, "
+           "barrier %zu, barrier drawn %zu, barrier near %zu, contained %zu, duplicate %zu, inside blocks %zu",
+           gis_source_name(run->input.source), run->input.n, run->summary.skipped, run->input.invalid, run->input.null,
+           run->summary.pairs_tested, counts->overlap, counts->too_close, counts->barrier, counts->barrier_drawn,
+           counts->barrier_near, counts->contained, counts->duplicate, counts->inside_blocks);
+    if (run->summary.inside_overlaps)
+        printf(" (%zu of them listed: %s)", run->summary.inside_overlaps,
+               run->summary.inside_overlaps == 1 ? "it overlaps" : "they overlap");
+    putchar('\n');
+}
+
 static bool print(const void *checked, gis_error *error)
 {
     const check_run *run = checked;
     if (!print_lines(run, error)) return false;
-    const sunder_conflict_counts *counts = &run->summary.before;
-    if (!run->options->given[OPT_QUIET])
-        printf("%s: %zu features (skipped %zu, invalid %zu, null %zu), %zu pairs tested; overlap %zu, too close %zu, "
-               "barrier %zu, barrier near %zu, contained %zu, duplicate %zu, inside blocks %zu\n",
-               gis_source_name(run->input.source), run->input.n, run->summary.skipped, run->input.invalid,
-               run->input.null, run->summary.pairs_tested, counts->overlap,
-               counts->too_close, counts->barrier, counts->barrier_near, counts->contained, counts->duplicate,
-               counts->inside_blocks);
+    if (!run->options->given[OPT_QUIET]) print_counts(run);
     if (run->options->given[OPT_BEFORE] && !run->options->given[OPT_QUIET]) print_moves(&run->moves);
     return true;
 }

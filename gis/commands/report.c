@@ -24,9 +24,11 @@ void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *count
     const struct {
         sunder_conflict_kind kind;
         size_t n;
-    } kinds[] = {{SUNDER_CONFLICT_OVERLAP, counts->overlap},     {SUNDER_CONFLICT_TOO_CLOSE, counts->too_close},
-                 {SUNDER_CONFLICT_BARRIER, counts->barrier},     {SUNDER_CONFLICT_BARRIER_NEAR, counts->barrier_near},
-                 {SUNDER_CONFLICT_CONTAINED, counts->contained}, {SUNDER_CONFLICT_DUPLICATE, counts->duplicate}};
+    } kinds[] = {
+        {SUNDER_CONFLICT_OVERLAP, counts->overlap},           {SUNDER_CONFLICT_TOO_CLOSE, counts->too_close},
+        {SUNDER_CONFLICT_BARRIER, counts->barrier},           {SUNDER_CONFLICT_BARRIER_DRAWN, counts->barrier_drawn},
+        {SUNDER_CONFLICT_BARRIER_NEAR, counts->barrier_near}, {SUNDER_CONFLICT_CONTAINED, counts->contained},
+        {SUNDER_CONFLICT_DUPLICATE, counts->duplicate}};
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
         gis_json_put_size(out, sunder_conflict_kind_string(kinds[k].kind), kinds[k].n);
     gis_json_put_size(out, "inside_blocks", counts->inside_blocks);
@@ -35,8 +37,8 @@ void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *count
 
 bool gis_any_conflict(const sunder_conflict_counts *counts)
 {
-    return counts->overlap || counts->too_close || counts->barrier || counts->barrier_near || counts->contained ||
-           counts->duplicate;
+    return counts->overlap || counts->too_close || counts->barrier || counts->barrier_drawn || counts->barrier_near ||
+           counts->contained || counts->duplicate;
 }
 
 int gis_complete_status(const gis_options *options, bool unresolved)

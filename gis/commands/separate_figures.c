@@ -121,36 +121,53 @@ static void print_thin(const gis_separate_run *run)
            thin == 1 ? "it into one block" : "them into blocks");
 }
 
+/* Kinds whose names need a word, where there are any. */
+static void print_counts(const sunder_layer_summary *summary)
+{
+    const sunder_conflict_counts *before = &summary->before, *after = &summary->after;
+    char listed[96] = "";
+    if (summary->inside_overlaps)
+        snprintf(listed, sizeof listed, "%zu listed: %s, reason same_block", summary->inside_overlaps,
+                 summary->inside_overlaps == 1 ? "it overlaps" : "they overlap");
+    const struct {
+        const char *name;
+        size_t before, after;
+        const char *note;
+    } rows[] = {{"overlap", before->overlap, after->overlap, ""},
+                {"too close", before->too_close, after->too_close, ""},
+                {"barrier", before->barrier, after->barrier, "meets the stored line or area"},
+                {"barrier drawn", before->barrier_drawn, after->barrier_drawn, "meets what is drawn of it"},
+                {"barrier near", before->barrier_near, after->barrier_near, "meets neither, but lacks the gap"},
+                {"contained", before->contained, after->contained, ""},
+                {"duplicate", before->duplicate, after->duplicate, ""},
+                {"inside blocks", before->inside_blocks, after->inside_blocks, listed}};
+    printf("conflicts           before      after\n");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const bool noted = *rows[i].note && (rows[i].before || rows[i].after);
+        printf("  %-13s %10zu %10zu%s%s\n", rows[i].name, rows[i].before, rows[i].after, noted ? "  " : "",
+               noted ? rows[i].note : "");
+    }
+}
+
 bool gis_separate_print(const void *separated, gis_error *error)
 {
     const gis_separate_run *run = separated;
     (void)error; /* what stdio refuses shows when it is flushed */
     const sunder_layer_summary *summary = &run->summary;
-    const sunder_conflict_counts *before = &summary->before, *after = &summary->after;
-    const struct {
-        const char *name;
-        size_t before, after;
-    } rows[] = {{"overlap", before->overlap, after->overlap},
-                {"too close", before->too_close, after->too_close},
-                {"barrier", before->barrier, after->barrier},
-                {"barrier near", before->barrier_near, after->barrier_near},
-                {"contained", before->contained, after->contained},
-                {"duplicate", before->duplicate, after->duplicate},
-                {"inside blocks", before->inside_blocks, after->inside_blocks}};
     printf("%s: %zu features, %zu vertices, %zu blocks, %zu clusters\n", gis_source_name(run->input.source),
            run->input.n, summary->vertices, summary->blocks, summary->clusters);
-    printf("conflicts           before      after\n");
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        printf("  %-13s %10zu %10zu\n", rows[i].name, rows[i].before, rows[i].after);
+    print_counts(summary);
     print_thin(run);
-    printf("moved %zu, blocked %zu, skipped %zu, invalid %zu, null %zu, rounded %zu\n", summary->moved,
-           summary->blocked, summary->skipped, run->input.invalid, run->input.null, summary->rounded);
+    printf("moved %zu, blocked %zu", summary->moved, summary->blocked);
+    if (summary->blocked_moved) printf(" (%zu of them moved, too)", summary->blocked_moved);
+    printf(", skipped %zu, invalid %zu, null %zu, rounded %zu\n", summary->skipped, run->input.invalid, run->input.null,
+           summary->rounded);
     printf("displacement (%s): total %.6g, mean %.6g, max %.6g", gis_separate_unit(run), summary->total, summary->mean,
            summary->max);
     if (summary->max_feature < run->input.n) printf(" (FID " CPL_FRMT_GIB ")", longest_fid(run));
     printf("\ncost %.6g, at least %.6g is needed (optimality gap %.3g)\n", summary->cost, summary->lower_bound,
            gis_separate_optimality_gap(summary));
-    if (gis_any_conflict(after) && (run->chosen & GIS_SEPARATE_CONFLICTS))
+    if (gis_any_conflict(&summary->after) && (run->chosen & GIS_SEPARATE_CONFLICTS))
         printf("what remains in conflict is listed, each pair with its reason, in %s_conflicts\n",
                gis_resolve_sink(run->options, NULL, gis_source_name(run->input.source)).main_layer);
     printf("%s; %.3g s\n", run->verified ? "verified on the coordinates as written" : "not verified",

@@ -142,6 +142,7 @@ bool gis_things_conflict(const gis_things *things, const sunder_conflict *confli
     values[COLUMN_BEFORE] = (gis_value){GIS_REAL, {.real = conflict->before}};
     values[COLUMN_DEPTH] = (gis_value){GIS_REAL, {.real = conflict->depth}};
     values[COLUMN_REQUIRED] = (gis_value){GIS_REAL, {.real = conflict->required}};
+    values[COLUMN_MISSING] = length_value(conflict->missing);
     values[COLUMN_NEED_SHIFT] = length_value(conflict->need_shift);
     values[COLUMN_NEED_GAP] = length_value(conflict->need_gap);
     return things->id(things->of, conflict->a, &scratch->id[0], &values[COLUMN_ID_A], error) &&
@@ -184,6 +185,7 @@ bool gis_conflicts_begin(gis_sink *sink, const char *suffix, OGRFieldType id, OG
         [COLUMN_BEFORE] = {"before", OFTReal, 0},
         [COLUMN_DEPTH] = {"depth", OFTReal, 0},
         [COLUMN_REQUIRED] = {"required", OFTReal, 0},
+        [COLUMN_MISSING] = {"missing", OFTReal, 0},
         [COLUMN_BLOCKED_BY] = {"blocked_by", OFTString, 0},
         [COLUMN_NEED_SHIFT] = {"need_shift", OFTReal, 0},
         [COLUMN_NEED_GAP] = {"need_gap", OFTReal, 0},

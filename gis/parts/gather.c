@@ -71,6 +71,7 @@ static void add_counts(sunder_conflict_counts *to, const sunder_conflict_counts 
     to->overlap += from->overlap;
     to->too_close += from->too_close;
     to->barrier += from->barrier;
+    to->barrier_drawn += from->barrier_drawn;
     to->barrier_near += from->barrier_near;
     to->contained += from->contained;
     to->duplicate += from->duplicate;
@@ -198,7 +199,8 @@ static void sum_row(gathering *g, const gis_part_row *row)
     const double *t = row->move, length = hypot(t[0], t[1]);
     s->blocked += row->status == SUNDER_FEATURE_BLOCKED;
     if (t[0] == 0 && t[1] == 0) return;
-    s->moved++;
+    s->moved += row->status == SUNDER_FEATURE_MOVED;
+    s->blocked_moved += row->status == SUNDER_FEATURE_BLOCKED;
     s->rounded += row->rounded;
     sunder_total_add(&g->total, length);
     sunder_total_add(&g->cost, row->weight * (t[0] * t[0] + t[1] * t[1]));
@@ -239,6 +241,11 @@ static bool keep_once(void *user, const gis_sort_head *head, const gis_part_resu
     return true;
 }
 
+static bool is_inside_overlap(const sunder_conflict *conflict)
+{
+    return conflict->inside_block && conflict->kind == SUNDER_CONFLICT_OVERLAP;
+}
+
 /* What was found inside a block to which something happened in another part, that part tells. */
 static bool keep_conflict(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep,
                           gis_error *error)
@@ -252,6 +259,7 @@ static bool keep_conflict(void *user, const gis_sort_head *head, const gis_part_
         if (g->more && rows->head.first == head->first && rows->one.rows) return true;
     }
     *keep = !is_again(g, head->first, head->second);
+    if (*keep) g->out->summary.inside_overlaps += is_inside_overlap(&one->conflict[0].is);
     return true;
 }
 
@@ -293,7 +301,8 @@ bool gis_joined_gather(gis_joined *j, gis_holding *holding, gis_part_result *hel
     s->pair_bound = sunder_total_below(&g.by_pairs);
     s->total = sunder_total_nearest(&g.total);
     s->cost = sunder_total_nearest(&g.cost);
-    if (s->moved) s->mean = s->total / (double)s->moved;
+    const size_t moved = s->moved + s->blocked_moved;
+    if (moved) s->mean = s->total / (double)moved;
     return done;
 }
 

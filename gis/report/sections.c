@@ -13,8 +13,8 @@
 
 static size_t conflicts(const sunder_conflict_counts *counts)
 {
-    return counts->overlap + counts->too_close + counts->barrier + counts->barrier_near + counts->contained +
-           counts->duplicate;
+    return counts->overlap + counts->too_close + counts->barrier + counts->barrier_drawn + counts->barrier_near +
+           counts->contained + counts->duplicate;
 }
 
 void gis_page_open_link(const double window[4], gis_text *to)

@@ -94,6 +94,7 @@ static bool add_row(const gis_page_model *model, const sunder_conflict *conflict
     gis_text_add(to, "</td>");
     add_length_cell(model, conflict->depth, to);
     add_length_cell(model, conflict->required, to);
+    add_length_cell(model, conflict->missing, to);
     if (!add_blockers(model, conflict, to, error) || !add_needs(model, conflict, to, error)) return false;
     gis_text_add(to, "</tr>\n");
     return true;
@@ -118,9 +119,11 @@ bool gis_page_blocked(const gis_page_model *model, const gis_thinning *thinning,
 {
     static const struct {
         const char *words, *class;
-    } heads[] = {{"feature", ""},           {"and", ""},         {"kind", ""},           {"reason", ""},
-                 {"distance", "number"},    {"depth", "number"}, {"required", "number"}, {"in the way", ""},
-                 {"would be free with", ""}};
+    } heads[] = {{"feature", ""},        {"and", ""},
+                 {"kind", ""},           {"reason", ""},
+                 {"distance", "number"}, {"depth", "number"},
+                 {"required", "number"}, {"missing", "number"},
+                 {"in the way", ""},     {"would be free with", ""}};
     (void)thinning;
     if (model->n_conflicts == 0) return true;
     gis_text_add(to, "<section id=\"blocked\"><h2>What is blocked, and why</h2>\n");
@@ -156,6 +159,7 @@ static void add_counts(const gis_page_model *model, gis_text *to)
     } rows[] = {{gis_page_kind(SUNDER_CONFLICT_OVERLAP), before->overlap, after->overlap},
                 {gis_page_kind(SUNDER_CONFLICT_TOO_CLOSE), before->too_close, after->too_close},
                 {gis_page_kind(SUNDER_CONFLICT_BARRIER), before->barrier, after->barrier},
+                {gis_page_kind(SUNDER_CONFLICT_BARRIER_DRAWN), before->barrier_drawn, after->barrier_drawn},
                 {gis_page_kind(SUNDER_CONFLICT_BARRIER_NEAR), before->barrier_near, after->barrier_near},
                 {gis_page_kind(SUNDER_CONFLICT_CONTAINED), before->contained, after->contained},
                 {gis_page_kind(SUNDER_CONFLICT_DUPLICATE), before->duplicate, after->duplicate},

@@ -53,6 +53,20 @@ static void add_line(gis_text *to, const char *colour, const char *width)
     gis_text_print(to, "</layer>");
 }
 
+/* One property of a symbol layer as an expression of QGIS. */
+static void add_expression(gis_text *to, const char *property, const char *expression)
+{
+    gis_text_print(to,
+                   "<data_defined_properties><Option type=\"Map\"><Option name=\"name\" type=\"QString\" value=\"\"/>"
+                   "<Option name=\"properties\" type=\"Map\"><Option name=\"%s\" type=\"Map\">"
+                   "<Option name=\"active\" type=\"bool\" value=\"true\"/>"
+                   "<Option name=\"expression\" type=\"QString\" value=\"%s\"/>"
+                   "<Option name=\"type\" type=\"int\" value=\"3\"/></Option></Option>"
+                   "<Option name=\"type\" type=\"QString\" value=\"collection\"/></Option>"
+                   "</data_defined_properties>",
+                   property, expression);
+}
+
 /* A line whose width, in millimetres, is an expression of QGIS. */
 static void add_line_by(gis_text *to, const char *colour, const char *expression)
 {
@@ -62,19 +76,13 @@ static void add_line_by(gis_text *to, const char *colour, const char *expression
     add_property(to, "line_width", "0.3");
     add_property(to, "line_width_unit", "MM");
     add_property(to, "capstyle", "round");
-    gis_text_print(to,
-                   "<data_defined_properties><Option type=\"Map\"><Option name=\"name\" type=\"QString\" value=\"\"/>"
-                   "<Option name=\"properties\" type=\"Map\"><Option name=\"outlineWidth\" type=\"Map\">"
-                   "<Option name=\"active\" type=\"bool\" value=\"true\"/>"
-                   "<Option name=\"expression\" type=\"QString\" value=\"%s\"/>"
-                   "<Option name=\"type\" type=\"int\" value=\"3\"/></Option></Option>"
-                   "<Option name=\"type\" type=\"QString\" value=\"collection\"/></Option>"
-                   "</data_defined_properties></layer>",
-                   expression);
+    add_expression(to, "outlineWidth", expression);
+    gis_text_print(to, "</layer>");
 }
 
-/* outline NULL: none. */
-static void add_marker(gis_text *to, const char *shape, const char *colour, const char *size, const char *outline)
+/* outline NULL: none; size_by NULL: `size` for all, else an expression of QGIS. */
+static void add_marker(gis_text *to, const char *shape, const char *colour, const char *size, const char *size_by,
+                       const char *outline)
 {
     begin_layer(to, "SimpleMarker");
     add_property(to, "name", shape);
@@ -87,6 +95,7 @@ static void add_marker(gis_text *to, const char *shape, const char *colour, cons
     }
     add_property(to, "size", size);
     add_property(to, "size_unit", "MM");
+    if (size_by) add_expression(to, "size", size_by);
     gis_text_print(to, "</layer>");
 }
 
@@ -99,7 +108,7 @@ static void begin_symbol(gis_text *to, const char *type, const char *name)
 
 /* A marker drawn along a line: at its last vertex, turned with it, or at its first. */
 static void add_marker_line(gis_text *to, const char *placement, const char *parent, const char *shape,
-                            const char *colour, const char *size, const char *outline)
+                            const char *colour, const char *size, const char *size_by, const char *outline)
 {
     begin_layer(to, "MarkerLine");
     add_property(to, "placement", placement);
@@ -107,7 +116,7 @@ static void add_marker_line(gis_text *to, const char *placement, const char *par
     char name[32];
     snprintf(name, sizeof name, "@%s@1", parent);
     begin_symbol(to, "marker", name);
-    add_marker(to, shape, colour, size, outline);
+    add_marker(to, shape, colour, size, size_by, outline);
     gis_text_print(to, "</symbol></layer>");
 }
 
@@ -115,7 +124,7 @@ static void add_symbol(gis_text *to, kind of, const char *name, const char *colo
 {
     begin_symbol(to, symbol_type(of), name);
     if (of == OF_POINTS)
-        add_marker(to, "circle", colour, "2", NULL);
+        add_marker(to, "circle", colour, "2", NULL, NULL);
     else if (of == OF_LINES)
         add_line(to, colour, "0.6");
     else
@@ -170,15 +179,18 @@ static void add_arrows(gis_text *to)
     begin_single(to);
     begin_symbol(to, "line", "0");
     add_line(to, blue, "0.4");
-    add_marker_line(to, "lastvertex", "0", "filled_arrowhead", blue, "1.8", NULL);
+    add_marker_line(to, "lastvertex", "0", "filled_arrowhead", blue, "1.8", NULL, NULL);
     gis_text_print(to, "</symbol>\n");
     end_single(to);
 }
 
 /* Of conflicts, in QGIS's expressions; a null is no answer, and so neither. */
-#define IS_BARRIER "&quot;kind&quot; IN ('barrier','barrier_near')"
+#define IS_BARRIER "&quot;kind&quot; IN ('barrier','barrier_drawn','barrier_near')"
 #define IS_OPEN "coalesce(&quot;reason&quot;,'') = 'unresolved'"
 #define IS_ALLOWED "coalesce(&quot;reason&quot;,'') IN ('kept','same_block')"
+
+/* The size of a conflict's disc: by how much of the required distance is missing, as a share of the most. */
+#define BY_MISSING "coalesce(1.8 + 1.6 * sqrt(&quot;missing&quot; / nullif(maximum(&quot;missing&quot;), 0)), 2.2)"
 
 /* How a conflict is drawn: with what, and whether it is known that it could not be solved. */
 static const struct {
@@ -193,7 +205,8 @@ static const struct {
 };
 enum { CONFLICT_RULES = sizeof conflict_rules / sizeof *conflict_rules };
 
-/* Thick lines; and a disc at one end, since the link of two features that touch has no length and would not show. */
+/* Thick lines; and a disc at one end, since the link of two features that touch has no length and would not show. The
+ * disc grows with `missing`, from the least that is seen to about twice that. */
 static void add_conflict_symbol(gis_text *to, int rule)
 {
     const char *colour = conflict_rules[rule].colour;
@@ -202,7 +215,8 @@ static void add_conflict_symbol(gis_text *to, int rule)
     snprintf(name, sizeof name, "%d", rule);
     begin_symbol(to, "line", name);
     add_line(to, colour, open ? "0.5" : "1.2");
-    add_marker_line(to, "firstvertex", name, "circle", open ? "255,255,255,255" : colour, "2.2", open ? colour : NULL);
+    add_marker_line(to, "firstvertex", name, "circle", open ? "255,255,255,255" : colour, "2.2", BY_MISSING,
+                    open ? colour : NULL);
     gis_text_print(to, "</symbol>\n");
 }
 

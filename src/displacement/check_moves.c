@@ -46,8 +46,8 @@ static void clear(comparison *c)
 static sunder_conflict *add(comparison *c, sunder_conflict_kind kind, size_t a, size_t b)
 {
     if (!sunder_i_reserve(&c->found, &c->capacity, c->n + 1, sizeof *c->found)) return NULL;
-    c->found[c->n] =
-        (sunder_conflict){.a = a, .b = b, .kind = kind, .need_shift = NAN, .need_gap = NAN, .need_gone = SIZE_MAX};
+    c->found[c->n] = (sunder_conflict){
+        .a = a, .b = b, .kind = kind, .missing = NAN, .need_shift = NAN, .need_gap = NAN, .need_gone = SIZE_MAX};
     return &c->found[c->n++];
 }
 

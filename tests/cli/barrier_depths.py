@@ -118,13 +118,16 @@ class Judge:
             least = least_square(a, b)
             self.deep += least is not None
             self.expect(k, least is None or is_length(fields[0][10], least), f"depth {fields[0][10]}, {least}")
+            self.expect(k, float(fields[0][12]) == float(fields[0][11]) + float(fields[0][10]), "missing is not required + depth")
         elif distance_square(a, b) < required * required:
             self.near += 1
-            if kinds != ["barrier_near"]:
+            drawn = distance_square(a, b) < Fraction(width) ** 2 / 4
+            if kinds != ["barrier_drawn" if drawn else "barrier_near"]:
                 self.expect(k, False, f"near, and listed as {kinds}")
                 return
             square = distance_square(a, b)
             self.expect(k, is_length(fields[0][8], square), f"distance {fields[0][8]}, {square}")
+            self.expect(k, float(fields[0][12]) == float(fields[0][11]) - float(fields[0][8]), "missing is not required - distance")
         else:
             self.free += 1
             self.expect(k, not kinds, f"free, and listed as {kinds}")

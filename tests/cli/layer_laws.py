@@ -87,7 +87,7 @@ class Run:
                 pair = (a, (f.GetField("barrier"), f.GetField("barr_fid"))) if b is None else (min(a, b), max(a, b))
                 listed[pair] = f.GetField("kind")
         self.conflicts = set(listed)
-        self.overlaps = {pair for pair, kind in listed.items() if kind not in ("too_close", "barrier_near")}
+        self.overlaps = {pair for pair, kind in listed.items() if kind not in ("too_close", "barrier_drawn", "barrier_near")}
 
 
 def find(root, k):

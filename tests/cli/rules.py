@@ -111,7 +111,8 @@ class Checker:
                 self.breach("phantom", a, *key, kind)
                 continue
             meets = plane.interiors_meet(now, barrier.shape)
-            if (kind == "barrier") != meets:
+            drawn = self.in_conflict(now, barrier.shape, barrier.half)
+            if kind != ("barrier" if meets else "barrier_drawn" if drawn else "barrier_near"):
                 self.breach("phantom", a, *key, kind, "wrong kind")
             if a in lay.was and not plane.lies_in(now, barrier.shape):
                 part = self.part_in_reach(barrier.shape, lay.was[a], now)

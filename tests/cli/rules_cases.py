@@ -124,6 +124,12 @@ case("beside it, listed as upon", ["phantom"], [(box(0, 0), 3.25, 0)], roads=roa
 case("deeper on a road", ["worse"], [(box(1, 0), -0.75, 0)], roads=road, words=barrier, listed=[at_road()])
 case("less deep on a road", [], [(box(1, 0), 0.75, 0)], roads=road, words=barrier, listed=[at_road()])
 case("nearer to a road", ["worse"], [(box(3, 0), -0.5, 0)], roads=road, words=barrier,
+     listed=[at_road(kind="barrier_drawn")])
+case("at the edge of what is drawn", [], [(box(3, 0), 0, 0)], roads=road, words=barrier,
+     listed=[at_road(kind="barrier_near")])
+case("an ulp within what is drawn", [], [(box(3 - 2**-50, 0), 0, 0)], roads=road, words=barrier,
+     listed=[at_road(kind="barrier_drawn")])
+case("on what is drawn, listed as near", ["phantom"], [(box(2.5, 0), 0, 0)], roads=road, words=barrier,
      listed=[at_road(kind="barrier_near")])
 case("along a road at no distance", [], [(box(2, 0), 0, 0)], roads=road, words=["barrier=ROADS,gap=0,side=no"])
 case("a road that ends inside", ["unlisted"], [(box(0, 0), 0, 0)], roads=["LINESTRING (2 2,2 50)"],

@@ -221,7 +221,8 @@ class Layers:
         for key, rings, lines, half, gap, with_side in self.barriers_raw:
             thing = Thing()
             thing.key, thing.side = key, with_side
-            thing.owed = self.lattice(half) + self.lattice(gap)
+            thing.half = self.lattice(half)
+            thing.owed = thing.half + self.lattice(gap)
             thing.shape = self.lattice.outline(rings, lines)
             self.owed_most = max(self.owed_most, thing.owed)
             k = len(self.barriers)

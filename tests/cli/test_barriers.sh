@@ -26,29 +26,29 @@ found() { # WANTED ARGS: kinds, layers, FIDs and required distances of what chec
 # ---- Width and gap ----
 found '' --barrier roads.gpkg
 found '' --barrier roads.gpkg,width=6
-found '1 roads:1 barrier_near 3.25;' --barrier roads.gpkg,width=6.5
+found '1 roads:1 barrier_drawn 3.25;' --barrier roads.gpkg,width=6.5
 found '1 roads:1 barrier_near 4;' --barrier roads.gpkg --gap 4
 found '1 roads:1 barrier_near 5;' --barrier roads.gpkg,width=2 --gap 4
 found '' --barrier roads.gpkg,width=6,gap=0 --gap 4
 found '1 roads:1 barrier_near 3.5;' --barrier roads.gpkg,gap=3.5
 found '1 roads:1 barrier_near 3.048;' --barrier roads.gpkg,gap=10ft
-found '1 roads:1 barrier_near 3.125;' --barrier roads.gpkg,width=0.25mm --scale 25000
+found '1 roads:1 barrier_drawn 3.125;' --barrier roads.gpkg,width=0.25mm --scale 25000
 found '' --barrier roads.gpkg,width-field=w,gap=1
 found '1 roads:1 barrier_near 3.25;' --barrier roads.gpkg,width-field=w,gap=1.25
-found '1 roads:1 barrier_near 3.25;' --barrier roads.gpkg,width=6.5,side=no
-found '1 roads:1 barrier_near 3.25;1 roads:1 barrier_near 3.5;' --barrier roads.gpkg,width=6.5 --barrier roads.gpkg,gap=3.5
-says out 'barrier near 2'
+found '1 roads:1 barrier_drawn 3.25;' --barrier roads.gpkg,width=6.5,side=no
+found '1 roads:1 barrier_drawn 3.25;1 roads:1 barrier_near 3.5;' --barrier roads.gpkg,width=6.5 --barrier roads.gpkg,gap=3.5
+says out 'barrier drawn 1, barrier near 1'
 
 # ---- What is selected ----
 found '' --barrier "roads.gpkg,width=9,where=kind = 'c'"
-found '1 roads:1 barrier_near 4.5;' --barrier "roads.gpkg,width=9,where=kind in ('a,b', 'width=3')"
+found '1 roads:1 barrier_drawn 4.5;' --barrier "roads.gpkg,width=9,where=kind in ('a,b', 'width=3')"
 cp roads.gpkg 'r,1.gpkg'
-found '1 roads:1 barrier_near 4.5;' --barrier 'r\,1.gpkg,layer=roads,width=9'
+found '1 roads:1 barrier_drawn 4.5;' --barrier 'r\,1.gpkg,layer=roads,width=9'
 ogr2ogr -update roads.gpkg roads.gpkg roads -nln 'main, old' 2>/dev/null
-found '1 main, old:1 barrier_near 4.5;' --barrier 'roads.gpkg,layer=main\, old,width=9'
+found '1 main, old:1 barrier_drawn 4.5;' --barrier 'roads.gpkg,layer=main\, old,width=9'
 refused 1 'choose one with layer=: roads' check in.gpkg --barrier roads.gpkg
 ogr2ogr -update in.gpkg roads.gpkg roads 2>/dev/null # the input's own dataset
-found '1 roads:1 barrier_near 4.5;' --barrier 'in.gpkg,layer=roads,width=9'
+found '1 roads:1 barrier_drawn 4.5;' --barrier 'in.gpkg,layer=roads,width=9'
 
 # ---- Kinds of geometry ----
 kinds() { # WKT OPTIONS WANTED
@@ -56,11 +56,11 @@ kinds() { # WKT OPTIONS WANTED
     printf 'id,WKT\n1,"%s"\n' "$1" | layer k.gpkg k GEOMETRY
     found "$3" --barrier "k.gpkg$2"
 }
-kinds 'POINT(5 0)' ,width=7 '1 k:1 barrier_near 3.5;'
+kinds 'POINT(5 0)' ,width=7 '1 k:1 barrier_drawn 3.5;'
 kinds 'POINT(12 0)' ,width=7 ''                         # the corner is farther than 3.5
-kinds 'MULTIPOINT Z((5 0 1),(45 19 2))' ,width=7 '1 k:1 barrier_near 3.5;2 k:1 barrier_near 3.5;'
+kinds 'MULTIPOINT Z((5 0 1),(45 19 2))' ,width=7 '1 k:1 barrier_drawn 3.5;2 k:1 barrier_drawn 3.5;'
 kinds 'MULTILINESTRING M((0 0 1,9 0 1),(40 18 1,45 18 1))' ,gap=3.5 '1 k:1 barrier_near 3.5;2 k:1 barrier_near 3.5;'
-kinds 'POLYGON((0 -9,9 -9,9 0,0 0,0 -9))' ,width=7 '1 k:1 barrier_near 3.5;'
+kinds 'POLYGON((0 -9,9 -9,9 0,0 0,0 -9))' ,width=7 '1 k:1 barrier_drawn 3.5;'
 kinds 'POLYGON((0 -9,9 -9,9 4,0 4,0 -9))' '' '1 k:1 barrier 0;'
 kinds 'POLYGON((-9 -9,99 -9,99 99,-9 99,-9 -9))' '' '1 k:1 barrier 0;2 k:1 barrier 0;'
 kinds 'POLYGON((-9 -9,99 -9,99 99,-9 99,-9 -9))' ,as=boundary ''
@@ -84,15 +84,15 @@ refused 1 'barrier k.gpkg, layer k, FID 1' check in.gpkg -l houses --barrier k.g
 ogr2ogr -t_srs EPSG:4326 -f GeoJSON far.geojson roads.gpkg roads
 ogr2ogr -a_srs EPSG:25832 here.gpkg roads.gpkg roads
 ogr2ogr -t_srs EPSG:3035 laea.gpkg here.gpkg
-found '1 roads:1 barrier_near 4.5;' --barrier laea.gpkg,width=9
-found '1 roads:7 barrier_near 4.5;' --barrier far.geojson,width=9 # whose FIDs are its ids
+found '1 roads:1 barrier_drawn 4.5;' --barrier laea.gpkg,width=9
+found '1 roads:7 barrier_drawn 4.5;' --barrier far.geojson,width=9 # whose FIDs are its ids
 run check in.gpkg -l houses --barrier laea.gpkg,width=9
 awk -F'\t' 'NF > 5 && ($9 - 3 > 1e-3 || 3 - $9 > 1e-3) { exit 1 }' out || fail "transformed by more than a millimetre"
 layer none.gpkg none LINESTRING none <<'X'
 id,WKT
 1,"LINESTRING(-100 0,100 0)"
 X
-found '1 none:1 barrier_near 4.5;' --barrier none.gpkg,width=9
+found '1 none:1 barrier_drawn 4.5;' --barrier none.gpkg,width=9
 says err 'it has no CRS'
 
 # ---- Reach: what is out of it is not read. A bow tie that --invalid fail would not pass tells ----

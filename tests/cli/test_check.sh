@@ -15,12 +15,12 @@ h,"POLYGON((200 0,210 0,210 10,200 10,200 0))"
 X
 expect 3 check in.gpkg --id-field id
 same "$(cut -f1-7 out | head -1)" "$(printf '1\ta\t2\tb\t\t\toverlap')"
-same "$(head -1 out | tr '\t' '\n' | grep -c '')" 16 columns
-same "$(head -1 out | cut -f9-12)" "$(printf '0\t0\t2\t0')"
-same "$(tail -1 out | tr '\t' '#')" 'houses: 8 features (skipped 0, invalid 0, null 0), 4 pairs tested; overlap 1, too close 0, barrier 0, barrier near 0, contained 0, duplicate 0, inside blocks 2'
+same "$(head -1 out | tr '\t' '\n' | grep -c '')" 17 columns
+same "$(head -1 out | cut -f9-13)" "$(printf '0\t0\t2\t0\t2')"
+same "$(tail -1 out | tr '\t' '#')" 'houses: 8 features (skipped 0, invalid 0, null 0), 4 pairs tested; overlap 1, too close 0, barrier 0, barrier drawn 0, barrier near 0, contained 0, duplicate 0, inside blocks 2 (2 of them listed: they overlap)'
 expect 3 check in.gpkg --contained separate --no-blocks --stats s.json --gap 3
 same "$(jq -c . s.json | sed 's/"pairs_tested":[0-9]*/"pairs_tested":N/')" \
-    '{"command":"check","features":8,"skipped":0,"invalid":0,"null":0,"pairs_tested":N,"conflicts":{"overlap":1,"too_close":2,"barrier":0,"barrier_near":0,"contained":1,"duplicate":1,"inside_blocks":0}}'
+    '{"command":"check","features":8,"skipped":0,"invalid":0,"null":0,"pairs_tested":N,"conflicts":{"overlap":1,"too_close":2,"barrier":0,"barrier_drawn":0,"barrier_near":0,"contained":1,"duplicate":1,"inside_blocks":0}}'
 same "$(cut -f7 out | grep -v features | tr '\n' ' ')" 'overlap too_close too_close contained duplicate '
 expect 3 check in.gpkg --stats -
 same "$(jq -r .command out)" check "--stats - alone on stdout:"

@@ -39,8 +39,8 @@ static size_t count_between_blocks(const sunder_report *report)
     sunder_layer_summary summary;
     sunder_report_summary(report, &summary);
     const sunder_conflict_counts *after = &summary.after;
-    return after->overlap + after->too_close + after->barrier + after->barrier_near + after->contained +
-           after->duplicate;
+    return after->overlap + after->too_close + after->barrier + after->barrier_drawn + after->barrier_near +
+           after->contained + after->duplicate;
 }
 
 /* The features moved by their moves, in the blocks that the report gives them, and no others. */

@@ -261,6 +261,7 @@ static void demand_same_sums(const sunder_report *whole, const gis_joined *j)
     assert_int_equal(s.clusters, t->clusters);
     assert_int_equal(s.clusters_optimal, t->clusters_optimal);
     assert_true(s.moved == t->moved && s.blocked == t->blocked && s.rounded == t->rounded && s.thin == t->thin);
+    assert_true(s.blocked_moved == t->blocked_moved && s.inside_overlaps == t->inside_overlaps);
     assert_true(s.total == t->total && s.mean == t->mean && s.max == t->max && s.max_feature == t->max_feature);
     assert_true(s.cost == t->cost && s.lower_bound == t->lower_bound && s.verified == t->verified);
 }

@@ -328,7 +328,7 @@ class Problem:
             self.stood[pair] = self.how_it_stood(a, b)
         square, depth = self.stood[pair]
         if clearance >= 0:
-            parted = square < 0 and self.listed[pair] in ("too_close", "barrier_near")
+            parted = square < 0 and self.listed[pair] in ("too_close", "barrier_drawn", "barrier_near")
             demand(clearance * clearance <= (0 if parted else square), "a listed pair is held to more than it had:", a, b)
         else:
             demand(square < 0 and depth is not None and depth <= clearance * clearance,

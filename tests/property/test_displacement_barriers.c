@@ -381,7 +381,7 @@ static void erase(scene *s)
 
 /* ---- The oracle -------------------------------------------------------------------------------------------------- */
 
-typedef enum stance { FREE, NEAR, MET } stance;
+typedef enum stance { FREE, NEAR, DRAWN, MET } stance; /* DRAWN: nearer than half the width */
 
 static bool meets_area(const scene *s, const barrier *b)
 {
@@ -418,10 +418,11 @@ static stance stand(const scene *s, size_t k, mpq_t square)
     const double gap = s->barrier[k].gap < 0 ? s->options.gap : s->barrier[k].gap;
     mpq_set_d(number[0], s->barrier[k].width / 2);
     mpq_set_d(number[1], gap);
-    mpq_add(number[0], number[0], number[1]);
+    mpq_add(number[1], number[0], number[1]);
     mpq_mul(number[0], number[0], number[0]);
+    mpq_mul(number[1], number[1], number[1]);
     mpq_clears(p.x, p.y, q.x, q.y, NULL);
-    return met ? MET : mpq_cmp(square, number[0]) < 0 ? NEAR : FREE;
+    return met ? MET : mpq_cmp(square, number[0]) < 0 ? DRAWN : mpq_cmp(square, number[1]) < 0 ? NEAR : FREE;
 }
 
 static const sunder_conflict *find(const sunder_report *report, size_t b)
@@ -435,9 +436,14 @@ static const sunder_conflict *find(const sunder_report *report, size_t b)
 
 static uint64_t current; /* the case at hand */
 
+static size_t seen[MET + 1];
+
 /* The report lists what there is, and nothing else; the feature is placed as it stands. */
 static void compare(const scene *s, const sunder_report *report)
 {
+    static const sunder_conflict_kind kind_of[] = {[NEAR] = SUNDER_CONFLICT_BARRIER_NEAR,
+                                                   [DRAWN] = SUNDER_CONFLICT_BARRIER_DRAWN,
+                                                   [MET] = SUNDER_CONFLICT_BARRIER};
     size_t n, listed = 0;
     mpq_t square;
     mpq_init(square);
@@ -446,11 +452,14 @@ static void compare(const scene *s, const sunder_report *report)
         const sunder_conflict *c = find(report, 1 + k);
         const char *wrong = NULL;
         if (!c != (now == FREE)) wrong = c ? "listed, and free" : "not listed";
-        if (c && !wrong && (c->kind == SUNDER_CONFLICT_BARRIER) != (now == MET)) wrong = "of the wrong kind";
-        if (c && !wrong && now == NEAR) {
+        if (c && !wrong && c->kind != kind_of[now]) wrong = "of the wrong kind";
+        seen[now]++;
+        if (c && !wrong && now != MET) {
             const double d = sqrt(mpq_get_d(square)); /* to some ulps of the far coordinates, 2^-20 */
             if (!(fabs(c->distance - d) <= 1e-9 * (d + 1))) wrong = "at another distance";
         }
+        if (c && !wrong && c->missing != fmax(0, c->required - c->distance) + c->depth)
+            wrong = "said to lack another length";
         if (c && !wrong && now == MET && !(c->depth > 0 && c->distance == 0)) wrong = "of no depth";
         if (wrong)
             fail_msg("SUNDER_SEED=%llu, case %llu: barrier %zu is %s", (unsigned long long)test_seed(),
@@ -481,6 +490,7 @@ static void check_as_they_stand(void **state)
         sunder_report_free(report);
         erase(&s);
     }
+    for (stance k = FREE; k <= MET; k++) assert_true(seen[k] > 0);
     figure_clear(&s.figure);
     for (int k = 0; k < MOST; k++) figure_clear(&s.made[k].area);
 }

@@ -159,7 +159,7 @@ static sunder_report *separate(const row *w, sunder_layer_summary *summary)
 
 static size_t count(const sunder_conflict_counts *c)
 {
-    return c->overlap + c->too_close + c->barrier + c->barrier_near;
+    return c->overlap + c->too_close + c->barrier + c->barrier_drawn + c->barrier_near;
 }
 
 static void test_fits(void **state)

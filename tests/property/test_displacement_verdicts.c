@@ -221,7 +221,7 @@ static void clear(layer *l)
 
 static size_t count(const sunder_conflict_counts *c)
 {
-    return c->overlap + c->too_close + c->barrier + c->barrier_near + c->contained + c->duplicate;
+    return c->overlap + c->too_close + c->barrier + c->barrier_drawn + c->barrier_near + c->contained + c->duplicate;
 }
 
 /* Is what was planted a solution, as the rules see it: do the blocks of the start go as one, and is it at peace? */

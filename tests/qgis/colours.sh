@@ -40,6 +40,7 @@ unresolved=$(rows overlap "'unresolved'" unresolved=231,0,138=100 | sed -n 's/^u
 [ "$unresolved" -lt $((proved * 8 / 10)) ] || fail "unresolved conflicts look like proved ones: $unresolved and $proved pixels"
 rows barrier "'max_shift'" barrier=106,27,154=600 || fail "a conflict with a barrier is not violet"
 rows barrier_near "'unresolved'" barrier=106,27,154=100 || fail "a conflict near a barrier is not violet"
+rows barrier_drawn "'max_shift'" barrier=106,27,154=600 || fail "a conflict with what is drawn of a barrier is not violet"
 rows contained "'kept'" kept=150,150,150=600 || fail "an allowed conflict is not grey"
 rows too_close NULL found=231,0,138=600 || fail "a conflict without a reason is not magenta"
 

@@ -366,7 +366,8 @@ static double depth_of(const part_list *p, const part_list *q)
 
 static bool says_parted(const sunder_conflict *c)
 {
-    return c->kind == SUNDER_CONFLICT_TOO_CLOSE || c->kind == SUNDER_CONFLICT_BARRIER_NEAR;
+    return c->kind == SUNDER_CONFLICT_TOO_CLOSE || c->kind == SUNDER_CONFLICT_BARRIER_DRAWN ||
+           c->kind == SUNDER_CONFLICT_BARRIER_NEAR;
 }
 
 /* A pair that is listed, and so need not keep the distance that it owes; posed with what a bound says of such, or, not

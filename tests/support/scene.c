@@ -60,8 +60,8 @@ void scene_check(scene *s) { take(s, run_check(s->feature, s->n, &s->options)); 
 size_t scene_left(const scene *s)
 {
     const sunder_conflict_counts *after = &s->summary.after;
-    return after->overlap + after->too_close + after->barrier + after->barrier_near + after->contained +
-           after->duplicate;
+    return after->overlap + after->too_close + after->barrier + after->barrier_drawn + after->barrier_near +
+           after->contained + after->duplicate;
 }
 
 double scene_length(const scene *s, size_t feature)

@@ -47,13 +47,17 @@ static void check_beside_barrier(void **state)
     sunder_layer_summary s;
     double t[2];
     assert_null(beside_road(-1, INFINITY, &s, t)); /* 1 off: 1 more is needed */
-    assert_int_equal(s.before.barrier_near, 1);
+    assert_int_equal(s.before.barrier_near, 1);    /* and at the edge of what is drawn, which is no overlap */
+    assert_int_equal(s.before.barrier_drawn, 0);
     assert_near(t[0], 1, HAIR);
     assert_near(s.lower_bound, 1, 1e-6);
     assert_null(beside_road(-2, INFINITY, &s, t)); /* just so */
     assert_int_equal(s.before.barrier_near, 0);
+    assert_null(beside_road(nextafter(-1, 0), INFINITY, &s, t)); /* a hair within it */
+    assert_int_equal(s.before.barrier_drawn, 1);
     assert_null(beside_road(0, INFINITY, &s, t)); /* along a wall, which meets no interior */
-    assert_int_equal(s.before.barrier_near, 1);
+    assert_int_equal(s.before.barrier_drawn, 1);
+    assert_int_equal(s.before.barrier_near, 0);
     assert_near(t[0], 2, HAIR);
     assert_null(beside_road(3, INFINITY, &s, t)); /* through it: the nearer side is that of x = 3 */
     assert_int_equal(s.before.barrier, 1);
@@ -74,6 +78,7 @@ static void check_barrier_without_room(void **state)
     assert_int_equal(c->reason, SUNDER_REASON_MAX_SHIFT);
     assert_near(c->depth, 3, HAIR);
     assert_near(c->required, 2, HAIR);
+    assert_near(c->missing, 5, HAIR);
     assert_true(t[0] == 0 && t[1] == 0 && s.verified);
     assert_int_equal(s.blocked, 1);
     c = beside_road(-1, 0, &s, t);
@@ -81,6 +86,7 @@ static void check_barrier_without_room(void **state)
     assert_int_equal(c->kind, SUNDER_CONFLICT_BARRIER_NEAR);
     assert_int_equal(c->reason, SUNDER_REASON_FIXED);
     assert_near(c->distance, 1, HAIR);
+    assert_near(c->missing, 1, HAIR);
     assert_near(c->to[0], -1, HAIR);
     assert_null(beside_road(-50, INFINITY, &s, t)); /* frees the last report */
 }

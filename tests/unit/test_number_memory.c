@@ -136,7 +136,8 @@ static void test_words(void **state)
     (void)state;
     static const char *const contact[] = {"none", "edge", "vertex", "arc", "degenerate_segment", "degenerate_point"};
     static const char *const status[] = {"unmoved", "moved", "fixed", "blocked", "skipped"};
-    static const char *const kind[] = {"overlap", "too_close", "barrier", "barrier_near", "contained", "duplicate"};
+    static const char *const kind[] = {"overlap",      "too_close", "barrier",  "barrier_drawn",
+                                       "barrier_near", "contained", "duplicate"};
     static const char *const reason[] = {"",        "max_shift",  "fixed", "side",      "jump",
                                          "no_room", "same_block", "kept",  "unresolved"};
     for (int i = 0; i < 6; i++) assert_string_equal(sunder_contact_string((sunder_contact)i), contact[i]);

@@ -48,20 +48,35 @@ static sunder_status find_near(const sunder_i_model *model, const sunder_i_trans
 
 /* ---- One part ---------------------------------------------------------------------------------------------------- */
 
+/* Is the feature, which is nearer than is required and meets nothing of the part, nearer than half the width? */
+static sunder_status is_on_drawn(const sunder_i_barriers *barriers, uint32_t barrier, const sunder_shape *part,
+                                 const sunder_shape *feature, const double t[2], bool *drawn, sunder_error *err)
+{
+    const double *required = barriers->required[barrier], half[2] = {barriers->half[barrier], 0};
+    bool apart = false;
+    *drawn = required[0] == half[0] && required[1] == 0;
+    if (*drawn || !(half[0] > 0)) return SUNDER_OK;
+    const sunder_status status = sunder_i_apart_by(part, NULL, feature, t, half, &apart, err);
+    *drawn = !apart;
+    return status;
+}
+
 sunder_status sunder_i_barrier_relate(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
                                       sunder_i_relation *r, sunder_error *err)
 {
     const sunder_shape *shape = sunder_i_thing_shape(model, part), *own = facing(feature, shape);
-    const double *required = model->barriers->required[sunder_i_barrier_of(model, part)];
+    const uint32_t barrier = sunder_i_barrier_of(model, part);
+    const double *required = model->barriers->required[barrier];
     bool apart = false;
-    r->near = r->overlap = r->contained = r->a_in_b = r->duplicate = r->touch = r->kept = false;
+    r->near = r->overlap = r->drawn = r->contained = r->a_in_b = r->duplicate = r->touch = r->kept = false;
     sunder_status status = sunder_i_overlap(shape, NULL, own, feature->t, &r->overlap, err);
     if (!status && !r->overlap && required[0] > 0)
         status = sunder_i_apart_by(shape, NULL, own, feature->t, required, &apart, err);
     else
         apart = !r->overlap;
     r->near = !apart;
-    return status;
+    if (status || apart || r->overlap) return status;
+    return is_on_drawn(model->barriers, barrier, shape, own, feature->t, &r->drawn, err);
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */

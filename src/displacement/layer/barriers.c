@@ -31,6 +31,7 @@ void sunder_i_barriers_free(sunder_i_barriers *b)
     sunder_i_free(b->piece_end);
     sunder_i_free(b->barrier);
     sunder_i_free(b->part_end);
+    sunder_i_free(b->half);
     sunder_i_free(b->required);
     memset(b, 0, sizeof *b);
 }
@@ -120,13 +121,12 @@ static bool add_barrier(making *m, uint32_t k, const sunder_obstacle *o)
 
 /* ---- Parts ------------------------------------------------------------------------------------------------------- */
 
-/* width / 2 + gap: what rounding the sum leaves is a double [Knu97, 4.2.2]. */
-static void require(const sunder_barrier *barrier, double gap, double out[2])
+/* half the width, and the gap: what rounding the sum leaves is a double [Knu97, 4.2.2]. */
+static void require(double half, double gap, double out[2])
 {
-    const double half = barrier->width / 2, g = barrier->gap < 0 ? gap : barrier->gap, sum = half + g,
-                 back = sum - half;
+    const double sum = half + gap, back = sum - half;
     out[0] = sum;
-    out[1] = (half - (sum - back)) + (g - back);
+    out[1] = (half - (sum - back)) + (gap - back);
 }
 
 static sunder_status make_shapes(sunder_i_barriers *b, sunder_error *err)
@@ -150,15 +150,18 @@ sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, sund
     making m = {.out = out};
     out->n = (uint32_t)layer->barriers;
     out->part_end = sunder_i_alloc(layer->barriers, sizeof *out->part_end);
+    out->half = sunder_i_alloc(layer->barriers, sizeof *out->half);
     out->required = sunder_i_alloc(layer->barriers, sizeof *out->required);
-    if (!out->part_end || !out->required) return sunder_i_no_memory(err);
+    if (!out->part_end || !out->half || !out->required) return sunder_i_no_memory(err);
     for (uint32_t k = 0; k < out->n; k++) {
-        require(&layer->barrier[k], gap, out->required[k]);
+        const sunder_barrier *barrier = &layer->barrier[k];
+        out->half[k] = barrier->width / 2;
+        require(out->half[k], barrier->gap < 0 ? gap : barrier->gap, out->required[k]);
         if (!isfinite(out->required[k][0]))
             return sunder_i_fail(err, SUNDER_EARG, "barrier %u: half the width and the gap are too much for a double",
                                  k);
         out->farthest = sunder_i_max(out->farthest, sunder_i_required_above(out, k));
-        if (!add_barrier(&m, k, &layer->barrier[k].geometry)) return sunder_i_no_memory(err);
+        if (!add_barrier(&m, k, &barrier->geometry)) return sunder_i_no_memory(err);
         if (m.pieces >= UINT32_MAX - layer->n)
             return sunder_i_fail(err, SUNDER_ESIZE, "too many pieces of barriers: %zu", m.pieces);
     }

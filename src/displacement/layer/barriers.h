@@ -14,6 +14,7 @@ typedef struct sunder_i_barriers {
     uint32_t *barrier;        /* [parts] whose they are; those of one barrier follow each other */
     uint32_t *part_end;       /* [n] index past the last part of each barrier */
     sunder_shape **shape;     /* [parts] */
+    double *half;             /* [n] half the width */
     double (*required)[2];    /* [n] half the width, and the gap: the sum of two doubles, rounded and the rest */
     double farthest;          /* the greatest of these, rounded up */
     bool flat;                /* some piece has no area */

@@ -88,7 +88,7 @@ static sunder_status distance_between(const sunder_i_translate *a, const sunder_
 sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_translate *a, const sunder_i_translate *b,
                               sunder_i_relation *r, sunder_error *err)
 {
-    r->near = r->overlap = r->contained = r->a_in_b = r->duplicate = r->touch = r->kept = false;
+    r->near = r->overlap = r->drawn = r->contained = r->a_in_b = r->duplicate = r->touch = r->kept = false;
     sunder_i_encounter m;
     sunder_status status = sunder_i_meet(a->shape, a->t, b->shape, b->t, rules->gap, rules->tolerance, &m, err);
     if (status) return status;

@@ -2,6 +2,7 @@
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/report/report.h"
 
+#include "base/extremes.h"
 #include "base/parallel.h"
 #include "base/watch.h"
 #include "separation/separation.h"
@@ -18,7 +19,10 @@ static bool is_inside(const sunder_i_model *model, const sunder_i_relation *r)
 
 static sunder_conflict_kind kind_of(const sunder_i_model *model, const sunder_i_relation *r)
 {
-    if (sunder_i_is_barrier(model, r->b)) return r->overlap ? SUNDER_CONFLICT_BARRIER : SUNDER_CONFLICT_BARRIER_NEAR;
+    if (sunder_i_is_barrier(model, r->b))
+        return r->overlap ? SUNDER_CONFLICT_BARRIER
+               : r->drawn ? SUNDER_CONFLICT_BARRIER_DRAWN
+                          : SUNDER_CONFLICT_BARRIER_NEAR;
     if (!r->overlap) return SUNDER_CONFLICT_TOO_CLOSE;
     /* Members of a block that overlap by more than the tolerance are overlaps, whatever else they are. */
     if (is_inside(model, r)) return SUNDER_CONFLICT_OVERLAP;
@@ -40,6 +44,7 @@ static size_t take_pair(const sunder_i_model *model, const sunder_i_relations *r
         if (r->a != out->a || sunder_i_whole_of(model, r->b) != out->b) break;
         out->near = out->near || r->near;
         out->overlap = out->overlap || r->overlap;
+        out->drawn = out->drawn || r->drawn;
     }
     return k;
 }
@@ -267,6 +272,13 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
     return SUNDER_OK;
 }
 
+/* Members of a block owe each other nothing, nor do two that may overlap. */
+static double missing_of(const sunder_conflict *c)
+{
+    if (c->inside_block || c->reason == SUNDER_REASON_KEPT) return NAN;
+    return sunder_i_max(0, c->required - c->distance) + c->depth;
+}
+
 sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_model *model,
                                         const sunder_i_placement *placement, const sunder_i_relations *relations,
                                         bool reasons, sunder_error *err)
@@ -289,13 +301,16 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_mo
         report->conflict[k].b = r.b;
         report->conflict[k].kind = kind_of(model, &r);
         report->conflict[k].required = sunder_i_owed_above(model, r.a, r.b);
-        report->conflict[k].need_shift = report->conflict[k].need_gap = NAN;
+        report->conflict[k].missing = report->conflict[k].need_shift = report->conflict[k].need_gap = NAN;
         report->conflict[k].need_gone = SIZE_MAX;
-        report->conflict[k++].inside_block = is_inside(model, &r);
+        report->conflict[k].inside_block = is_inside(model, &r);
+        report->summary.inside_overlaps += is_inside(model, &r) && r.overlap;
+        k++;
     }
     report->conflicts = n;
     describing d = {model, placement, report->conflict, reasons, overlap};
     sunder_status status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_PAIRS, describe, &d, err);
     sunder_i_free(overlap);
+    for (k = 0; k < n && !status; k++) report->conflict[k].missing = missing_of(&report->conflict[k]);
     return status || !reasons ? status : sunder_i_report_reasons(report, model, err);
 }

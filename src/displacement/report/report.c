@@ -55,7 +55,20 @@ static void report_blocked(sunder_report *report, const sunder_i_model *model)
         for (int e = 0; e < 2; e++)
             if (!model->body[model->body_of[pair[e]]].fixed) report->status[pair[e]] = SUNDER_FEATURE_BLOCKED;
     }
-    for (size_t f = 0; f < model->features; f++) report->summary.blocked += report->status[f] == SUNDER_FEATURE_BLOCKED;
+}
+
+/* Whose move is not zero moved, even if it is blocked. */
+static void count_statuses(sunder_report *report, const sunder_i_model *model)
+{
+    sunder_layer_summary *s = &report->summary;
+    for (size_t f = 0; f < model->features; f++) {
+        const bool moved = report->move[2 * f] != 0 || report->move[2 * f + 1] != 0;
+        s->moved += report->status[f] == SUNDER_FEATURE_MOVED;
+        s->blocked += report->status[f] == SUNDER_FEATURE_BLOCKED;
+        s->blocked_moved += moved && report->status[f] == SUNDER_FEATURE_BLOCKED;
+    }
+    const size_t moved = s->moved + s->blocked_moved;
+    if (moved) s->mean = s->total / (double)moved;
 }
 
 void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
@@ -69,7 +82,6 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
         report->move[2 * f + 1] = t[1];
         const double length = hypot(t[0], t[1]);
         report->status[f] = SUNDER_FEATURE_MOVED;
-        s->moved++;
         sunder_total_add(&total, length);
         sunder_total_add(&cost, sunder_i_feature(model->layer, f).weight * (t[0] * t[0] + t[1] * t[1]));
         if (length > s->max) {
@@ -80,8 +92,8 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
     }
     s->total = sunder_total_nearest(&total);
     s->cost = sunder_total_nearest(&cost);
-    if (s->moved) s->mean = s->total / (double)s->moved;
     report_blocked(report, model);
+    count_statuses(report, model);
 }
 
 void sunder_report_free(sunder_report *r)
@@ -121,6 +133,7 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
     case SUNDER_CONFLICT_OVERLAP: counts->overlap++; break;
     case SUNDER_CONFLICT_TOO_CLOSE: counts->too_close++; break;
     case SUNDER_CONFLICT_BARRIER: counts->barrier++; break;
+    case SUNDER_CONFLICT_BARRIER_DRAWN: counts->barrier_drawn++; break;
     case SUNDER_CONFLICT_BARRIER_NEAR: counts->barrier_near++; break;
     case SUNDER_CONFLICT_CONTAINED: counts->contained++; break;
     case SUNDER_CONFLICT_DUPLICATE: counts->duplicate++; break;
