@@ -431,9 +431,6 @@ SUNDER_API void sunder_total_join(sunder_total *total, const sunder_total *part)
 /* The nearest double, and the greatest that is no more. Infinite past the range, or where an addend was. */
 SUNDER_API double sunder_total_nearest(const sunder_total *total);
 SUNDER_API double sunder_total_below(const sunder_total *total);
-/* The lower bound of a layer, from the sums over its parts of what is proved of each, and of what pairs prove: the
- * latter if it is more, and not only by what trees prove less of a pair than is so (2^-17 of it). */
-SUNDER_API double sunder_total_bound(const sunder_total *proved, const sunder_total *by_pairs);
 
 /* ---- A whole layer ---------------------------------------------------------------------------------------- */
 
@@ -599,7 +596,9 @@ typedef struct sunder_layer_summary {
     /* Sum of weight * length^2; no placement costs less that solves every pair not listed, leaves none that is listed
      * worse than it stood, and none in overlap that is listed as too close. */
     double cost, lower_bound;
-    double pair_bound; /* the part of that which bound pairs alone prove */
+    /* What bound pairs prove by their least translations alone, where none may come to lie in another. No part of
+     * lower_bound, which is what trees prove: that is a little less of a pair, and nothing of two that may. */
+    double pair_bound;
     /* Every pair but those listed and those in blocks was proved apart (or inside, where that may overlap), and none
      * listed stands worse. */
     bool verified;
@@ -696,7 +695,7 @@ SUNDER_API const sunder_footprint *sunder_report_footprints(const sunder_report 
 typedef struct sunder_world_bound {
     double proved, by_pairs;
 } sunder_world_bound;
-/* By worlds; lower_bound and pair_bound are made of the sums of all. */
+/* By worlds; lower_bound and pair_bound are the sums of all. */
 SUNDER_API const sunder_world_bound *sunder_report_world_bounds(const sunder_report *report, size_t *n);
 /* The number of the feature's world; SIZE_MAX: it is of none. */
 SUNDER_API size_t sunder_report_world(const sunder_report *report, size_t feature);

@@ -297,7 +297,7 @@ bool gis_joined_gather(gis_joined *j, gis_holding *holding, gis_part_result *hel
     gis_part_result_clear(&g.one);
     gis_part_result_clear(&g.links);
     sunder_layer_summary *s = &j->summary;
-    s->lower_bound = sunder_total_bound(&g.proved, &g.by_pairs);
+    s->lower_bound = sunder_total_below(&g.proved);
     s->pair_bound = sunder_total_below(&g.by_pairs);
     s->total = sunder_total_nearest(&g.total);
     s->cost = sunder_total_nearest(&g.cost);

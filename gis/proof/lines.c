@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { VERSION = 1 };
+enum { VERSION = 2 };
 
 /* ---- Things ------------------------------------------------------------------------------------------------------ */
 
@@ -385,9 +385,7 @@ void gis_proof_head_line(gis_json *json, const gis_proof_head *head)
     gis_json_put_double(json, "max_shift", head->max_shift);
     gis_json_put_string(json, "contained", sunder_containment_string(head->contained));
     gis_json_put_bool(json, "allow_jumps", head->allow_jumps);
-    gis_json_put_double(json, "cost", head->summary->cost);
     gis_json_put_double(json, "lower_bound", head->summary->lower_bound);
-    gis_json_put_double(json, "pair_bound", head->summary->pair_bound);
     gis_json_put_size(json, "conflicts", head->conflicts);
     gis_json_put_size(json, "trees", head->trees);
     end_line(json);

@@ -54,12 +54,3 @@ double sunder_total_below(const sunder_total *total)
     sunder_i_accumulator_sub(&rest, nearest, 1);
     return sunder_i_accumulator_sign(&rest) < 0 ? nextafter(nearest, -INFINITY) : nearest;
 }
-
-/* What trees prove of a pair is this share of it less, at most. */
-#define NEARLY_AS_MUCH 0x1p-17
-
-double sunder_total_bound(const sunder_total *proved, const sunder_total *by_pairs)
-{
-    const double all = sunder_total_below(proved), pairs = sunder_total_below(by_pairs);
-    return all >= pairs * (1 - NEARLY_AS_MUCH) ? all : pairs;
-}

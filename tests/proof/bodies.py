@@ -1,7 +1,7 @@
 """What a line of the lower bound is about: bodies, what they weigh there, and what they are shifted by."""
 from fractions import Fraction
 
-from problem import demand
+from form import demand
 
 
 class Bodies:
@@ -10,6 +10,7 @@ class Bodies:
         self.group, self.bound = told["group"], Fraction(told["bound"])
         self.own_weight = {}
         self.bodies = [self.read_body(b) for b in told["bodies"]]
+        demand(len(set(self.bodies)) == len(self.bodies), "a body is there twice")
         self.weights = [self.read_weight(b, k) for k, b in enumerate(told["bodies"])]
         self.shifts = [tuple(map(Fraction, b["shift"])) for b in told["bodies"]]
         for weight, shift in zip(self.weights, self.shifts):
@@ -21,9 +22,7 @@ class Bodies:
             return (told["barrier"],)
         fids = tuple(f["fid"] for f in told["features"])
         for f in told["features"]:
-            demand(f["fid"] in self.problem.things and f["fid"] not in self.problem.ignored, "no feature", f["fid"])
-            if "anchor" in f:
-                self.problem.note_anchor(f["fid"], f["anchor"])
+            self.problem.demand_feature(f)
         demand(fids == self.problem.block(fids[0]), "a body is no block:", *fids)
         return fids
 
@@ -35,7 +34,7 @@ class Bodies:
         if told["weight"] is None:
             demand(self.problem.body_limit(self.bodies[k]) == 0, "a body that may move is taken for a fixed one")
             return None
-        own = sum(self.problem.weight(f["fid"], f["weight"]) for f in told["features"])
+        own = sum(Fraction(self.problem.weight(f["fid"])) for f in told["features"])
         demand(0 < Fraction(told["weight"]) <= own, "a body weighs more than its members")
         self.own_weight[self.bodies[k]] = own
         return Fraction(told["weight"])

@@ -6,15 +6,13 @@ Each has to be refused, and for what is wrong with it. Of each kind the smallest
 asked about by itself. Kinds that the file has nothing for are passed over, unless --need names them.
 """
 import copy
-import io
 import json
 import math
 import sys
-import tempfile
 from collections import Counter
-from contextlib import redirect_stdout
 
 import check_proof
+import form
 from price_mutations import PRICES
 
 CUTS = {"hull": "not forbidden", "disc": "may be cheap", "cone": "do not cover", "limit": "what the limit leaves"}
@@ -158,7 +156,7 @@ def leave_feature(tree):
         if piece.get("shadow") and is_side(piece):
             part = piece["A"] if len(piece["A"]) == 1 else piece["B"]
             part[0][0] += 1000
-            return ("a side anchor outside of", "two side anchors")
+            return ("a side anchor outside of", "two side anchors", "not the side anchor")
     return False
 
 
@@ -253,7 +251,7 @@ def weaken_leaves(told):
             node["forces"] = []
         for f in node["forces"][:1]:
             f["force"] *= 3
-    return ("no contradiction",)
+    return ("no contradiction", "a list of too few")
 
 
 def ask_more(told):
@@ -473,8 +471,10 @@ def list_pair(lines):
         if piece is None:
             return False
         a, b = piece["a"], piece["b"]
-    lines.insert(1, {"conflict": 0, "a": a, "b": b, "kind": "too_close", "reason": "unresolved",
-                     "blocked_by": []})
+    at = next(k for k, line in enumerate(lines) if k and "block" not in line)
+    lines.insert(at, {"conflict": 0, "a": a, "b": b, "kind": "too_close", "reason": "unresolved", "blocked_by": []})
+    for k, line in enumerate(t for t in lines if "conflict" in t):
+        line["conflict"] = k
     lines[0]["conflicts"] += 1
     return ("are listed",)
 
@@ -501,34 +501,28 @@ WHOLE = {"twice": twice, "twice in one": twice_in_one, "bound": raise_bound, "li
 
 class Asker:
     def __init__(self, words):
-        self.words = words
-        with open(words[0], encoding="utf-8") as file:
-            self.lines = [json.loads(line) for line in file]
+        self.checker = check_proof.Checker(check_proof.read_options(words))
+        self.lines = form.read(words[0])
         self.wrong, self.asked = [], {}
 
     def alone(self, conflict=None, tree=None):
-        head = dict(self.lines[0], trees=0, lower_bound=tree["bound"] if tree else 0, pair_bound=0)
+        head = dict(self.lines[0], trees=0, lower_bound=max(0, tree["bound"]) if tree else 0)
         lines = [head] + [t for t in self.lines[1:] if "block" in t]
         listed = [dict(t) for t in self.lines[1:] if "conflict" in t]
         for t in listed:  # verdicts of others are not asked for again
             if conflict is None or t["conflict"] != conflict["conflict"]:
-                t.pop("proof", None)
-                t.pop("crowded", None)
-                t["reason"] = "unresolved"
+                if t.pop("proof", None):
+                    t.pop("crowded", None)
+                    t.pop("within", None)
+                    t["reason"] = "unresolved"
         lines += listed
         if tree:
             head["trees"] = 1
-            lines.append(tree)
+            lines.append(dict(tree, group=0))
         return copy.deepcopy(lines)
 
     def answer(self, lines):
-        with tempfile.NamedTemporaryFile("w", suffix=".jsonl", encoding="utf-8") as file:
-            file.writelines(json.dumps(line) + "\n" for line in lines)
-            file.flush()
-            said = io.StringIO()
-            with redirect_stdout(said):
-                status = check_proof.main([file.name, *self.words[1:]])
-        return status, said.getvalue().strip()
+        return check_proof.answer(self.checker, lambda: json.loads(json.dumps(lines)))
 
     def ask(self, name, candidates, mutate):
         """candidates: lists of lines, smallest first; the first that has such a claim is asked about, true and untrue."""

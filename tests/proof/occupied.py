@@ -9,9 +9,9 @@ import math
 from collections import defaultdict
 from fractions import Fraction
 
-import exact_plane as plane
+from exact import plane
 from cover import hull
-from problem import demand
+from form import demand
 
 MASS = 20         # masses are whole numbers of 2^-20 squares
 FINE = 40         # a square's side is 2^40 units, at least

@@ -62,7 +62,7 @@ def move_grid(line):
 
 def pay_twice(line):
     line["bodies"].append(copy.deepcopy(line["bodies"][0]))
-    return ("pays twice",)
+    return ("there twice",)
 
 
 def leave_out(line):

@@ -5,9 +5,10 @@ from math import isqrt
 
 from bodies import Bodies
 from occupied import MASS, Lattice, in_squares, masses
-from problem import demand, plane
+from form import demand
 
 PARTS = 8      # squares of moves are divided in so many, either way
+MOST_NODES = 1 << 26
 FIRST_LOOK = 8  # moves are looked at so many squares far, and farther where that does not tell
 
 
@@ -58,27 +59,6 @@ class Prices(Bodies):
         by_name = {str(fid): k for fid, k in of.items()}
         for a, b in problem.listed:
             demand(not (a in by_name and b in by_name) or by_name[a] == by_name[b], a, "and", b, "are listed")
-        if problem.options.block_field:
-            values = {}
-            for fid, k in of.items():
-                value = problem.attributes[fid][problem.options.block_field]
-                demand(value is None or values.setdefault(value, k) == k, fid, "is of another's block by its field")
-        for a, b in self.near_pairs(of):
-            problem.demand_owed(a, b)
-
-    def near_pairs(self, of):
-        """Of features of two bodies that are no farther apart than the tolerance, by their boxes; others do not join."""
-        problem = self.problem
-        tolerance = problem.lattice(problem.tolerance)
-        boxes = sorted((*plane.box_of([p for polygon in problem.things[fid].polygons for r in polygon for p in r]), fid)
-                       for fid in of if any(r for polygon in problem.things[fid].polygons for r in polygon))
-        open_ones = []
-        for box in boxes:
-            open_ones = [o for o in open_ones if o[2] + tolerance >= box[0]]
-            for other in open_ones:
-                if of[other[4]] != of[box[4]] and plane.boxes_near(other, box, tolerance):
-                    yield other[4], box[4]
-            open_ones.append(box)
 
 
 class Grid:
@@ -88,7 +68,7 @@ class Grid:
         self.side, self.unit = Fraction(told["side"]), Fraction(told["unit"])
         demand(is_power_of_two(self.side) and is_power_of_two(self.unit), "side and unit are powers of two")
         self.x, self.y, self.columns = told["x"], told["y"], told["columns"]
-        demand(all(type(n) is int for n in (self.x, self.y, self.columns)), "a grid has whole numbers")
+        demand(self.columns * len(told["rows"]) <= MOST_NODES, "a grid of too many nodes")
         self.price = [self.read_row(row) for row in told["rows"]]
         border = self.price[:2] + self.price[-2:] + [row[:2] + row[-2:] for row in self.price]
         demand(not any(map(any, border)), "a price at the border")
@@ -96,7 +76,7 @@ class Grid:
         self.price_rows, self.kink_rows = ([array("Q", row) for row in what] for what in (self.price, self.kink))
 
     def read_row(self, told):
-        demand(all(type(n) is int and 0 <= n < 1 << 32 for n in told), "prices are whole numbers")
+        demand(all(0 <= n < 1 << 32 for n in told), "prices are whole numbers from 0 to 2^32 - 1")
         before = told[0] if told else 0
         after = self.columns - before - len(told[1:])
         demand(after >= 0, "a row of too many prices")

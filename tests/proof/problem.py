@@ -2,26 +2,17 @@
 how far, and at what price. Nothing of this is taken from the proof but for anchors, and those blocks that touch and overlap
 in ways that are not asked about here; see docs/PROOF.md."""
 import math
-import os
 import re
-import sys
 from fractions import Fraction
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-import exact_plane as plane  # noqa: E402
-import geopackage  # noqa: E402
-from cover import hull  # noqa: E402
-from nearly_in import nearly_in  # noqa: E402
-from repair import repaired  # noqa: E402
-
-
-class Refused(Exception):
-    """Something in the proof does not hold."""
-
-
-def demand(condition, *words):
-    if not condition:
-        raise Refused(" ".join(map(str, words)))
+from exact import plane, side_anchor
+import anchors
+import geopackage
+from cover import hull
+from blocks import Blocks
+from form import demand
+from pieces import in_polygon, in_union
+from repair import area_of, members_of, repaired
 
 
 def split_spec(spec):
@@ -60,74 +51,19 @@ class Thing:
         return any(all(plane.on_edge(s, p) for p in ends) for s in segments)
 
 
-def in_polygon(corners, outline):
-    """A convex polygon with area within a polygon: no edge goes through it, and a place of it is inside."""
-    box = plane.box_of(corners)
-    sides = list(zip(corners, corners[1:] + corners[:1]))
-    for edge in plane.near_edges(outline, box):
-        if goes_through(edge, sides):
-            return False
-    n = len(corners)
-    middle = sum(p[0] for p in corners), sum(p[1] for p in corners)
-    return plane.locate(outline.scaled(n), middle) > 0
-
-
-def in_union(corners, outlines):
-    """A convex polygon with area within the union of polygons: cut along an edge that goes through it, until none does."""
-    if any(in_polygon(corners, o) for o in outlines):
-        return True
-    box, sides = plane.box_of(corners), list(zip(corners, corners[1:] + corners[:1]))
-    for edge in (e for o in outlines for e in plane.near_edges(o, box)):
-        if goes_through(edge, sides):
-            return in_union(left_of(edge, sides), outlines) and in_union(left_of(edge[::-1], sides), outlines)
-    return False
-
-
-def left_of(edge, sides):
-    """What of a convex polygon is on the left of the edge's line, which goes through it."""
-    (ax, ay), (bx, by) = edge
-    found = []
-    for p, q in sides:
-        s, t = ((bx - ax) * (v[1] - ay) - (by - ay) * (v[0] - ax) for v in (p, q))
-        if s >= 0:
-            found.append(p)
-        if s * t < 0:
-            share = Fraction(s, s - t)
-            found.append((p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1])))
-    return found
-
-
-def goes_through(edge, sides):
-    """Does the segment meet the open convex polygon with these sides?"""
-    (ax, ay), (bx, by) = edge
-    low, high = Fraction(0), Fraction(1)
-    for (px, py), (qx, qy) in sides:
-        ex, ey = qx - px, qy - py
-        at = ex * (ay - py) - ey * (ax - px)
-        slope = ex * (by - ay) - ey * (bx - ax)
-        if slope == 0:
-            if at <= 0:
-                return False
-        elif slope > 0:
-            low = max(low, Fraction(-at, slope))
-        else:
-            high = min(high, Fraction(-at, slope))
-    return low < high
-
-
 class Lattice:
-    """All numbers of the input as integers in units of 2^-k; of round numbers no coarser than proofs are cut."""
+    """All numbers of the input as integers in units of 2^-k; so fine that anchors are, too, unless they are next to 0."""
 
     def __init__(self):
-        self.k = 44
+        self.k = 60
 
     def hold(self, value):
         self.k = max(self.k, float(value).as_integer_ratio()[1].bit_length() - 1)
 
     def __call__(self, value):
         n, d = float(value).as_integer_ratio()
-        demand(d.bit_length() - 1 <= self.k, "a coordinate", value, "is none of the input's")
-        return n << (self.k - d.bit_length() + 1)
+        less = self.k - d.bit_length() + 1
+        return n << less if less >= 0 else Fraction(n, 1 << -less)
 
     def point(self, p):
         return self(p[0]), self(p[1])
@@ -151,22 +87,27 @@ def symbol_corners(text):
 
 
 def place_symbols(layer, corners):
-    """The symbol at each point, to the nearest doubles."""
+    """The symbol at each point, to the nearest doubles; the points."""
+    points = {}
     for fid, (attributes, polygons, lines) in layer.features.items():
         demand(not polygons and len(lines) == 1 and len(lines[0]) == 1, "feature", fid, "is not one point")
         (px, py), = lines[0]
+        points[fid] = px, py
         layer.features[fid] = attributes, [[[(px + x, py + y) for x, y in corners]]], []
+    return points
 
 
 class Problem:
-    def __init__(self, path, options, anchors):
+    def __init__(self, path, options):
         layer = geopackage.Layer(path, options.layer, options.where)
         if options.symbol:
-            place_symbols(layer, symbol_corners(options.symbol))
+            self.points = place_symbols(layer, symbol_corners(options.symbol))
         self.name, self.options = layer.name, options
         self.tolerance = options.touch_tolerance if options.touch_tolerance is not None else options.gap / 10
+        self.given, self.areas, self.median = {fid: f[1] for fid, f in layer.features.items()}, {}, None
         for fid, (attributes, polygons, lines) in layer.features.items():
             layer.features[fid] = attributes, [repaired(p) for p in polygons], lines
+        self.standing = {fid: f[1] for fid, f in layer.features.items()}
         fixed = layer.fids(path, options.fixed_where)
         self.ignored = layer.fids(path, options.ignore_where)
         barriers = [b for spec in options.barrier for b in self.read_barriers(spec)]
@@ -178,15 +119,15 @@ class Problem:
                 for p in chain:
                     self.lattice.hold(p[0])
                     self.lattice.hold(p[1])
-        for x, y in anchors:  # the proof's; where they may be is asked when they are used
-            self.lattice.hold(x)
-            self.lattice.hold(y)
         for barrier in barriers:
             self.lattice.hold(barrier[3] / 2)
             self.lattice.hold(barrier[4])
         self.things = {fid: Thing(self.lattice, f[1], f[2]) for fid, f in layer.features.items()}
         self.attributes = {fid: f[0] for fid, f in layer.features.items()}
-        self.owed, self.fixed, self.blocks, self.joined = {}, fixed, {}, {}
+        self.place = {fid: k for k, fid in enumerate(layer.features)}
+        self.skipped = self.ignored | {fid for fid, f in layer.features.items() if not any(r for p in f[1] for r in p)}
+        self.owed, self.fixed = {}, fixed
+        self.pairs, self.wholes = set(), {}
         self.listed = {}  # pairs: the kinds of their conflicts
         self.stood = {}   # pairs: see how_it_stood()
         self.sides = set()
@@ -196,7 +137,9 @@ class Problem:
             self.owed[key] = self.lattice(width / 2) + self.lattice(gap)
             if side:
                 self.sides.add(key)
-        self.anchors, self.side_anchors, self.trusted = {}, {}, 0
+        self.anchors, self.side_anchors = {}, {}
+        self.blocks = Blocks(self)
+        self.blocks.find()
 
     def read_barriers(self, spec):
         words = split_spec(spec)
@@ -212,6 +155,11 @@ class Problem:
 
     # ---- Features
 
+    def whole(self, key):
+        if key not in self.wholes:
+            self.wholes[key] = self.things[key].whole()
+        return self.wholes[key]
+
     def is_barrier(self, key):
         return key in self.owed
 
@@ -222,84 +170,47 @@ class Problem:
                 return self.owed[key]
         return self.lattice(self.options.gap)
 
-    def limit(self, fid):
-        """A double, or None: no limit."""
-        if fid in self.fixed or fid in self.ignored:
-            return 0.0
+    def own_limit(self, fid):
+        """A double, or None: no limit. Of what never moves, too."""
         options, found = self.options, self.options.max_shift
         if options.max_shift_field and self.attributes[fid][options.max_shift_field] is not None:
             found = float(self.attributes[fid][options.max_shift_field])
+            demand(0 <= found < math.inf, "the limit of", fid, "is", found)
         return found
+
+    def limit(self, fid):
+        return 0.0 if fid in self.fixed or fid in self.skipped else self.own_limit(fid)
 
     def body_limit(self, fids):
         limits = [v for v in map(self.limit, fids) if v is not None]
         return min(limits) if limits else None
 
-    def weight(self, fid, claimed):
-        """The claimed weight, once it is known to be the feature's. Areas are asked about as ratios (check_areas)."""
-        options = self.options
+    def weight(self, fid):
+        """A double: what the area is of the median of all areas, or its root, times the field's value. Each of these is one
+        operation of doubles, of areas that are the nearest doubles to the true ones."""
+        options, found = self.options, 1.0
+        if options.weight != "1":
+            found = self.area(fid) / self.median_area()
+            found = math.sqrt(found) if options.weight == "sqrt-area" else found
         field = self.attributes[fid][options.weight_field] if options.weight_field else None
-        if options.weight == "1":
-            demand(claimed == (1.0 if field is None else float(field)), "the weight of", fid, "is not", claimed)
-        return Fraction(claimed)
+        found *= 1.0 if field is None else float(field)
+        demand(0 < found < math.inf, "the weight of", fid, "is", found)
+        return found
 
-    # ---- Blocks
+    def area(self, fid):
+        if fid not in self.areas:
+            self.areas[fid] = float(sum(map(area_of, self.given[fid]), Fraction(0)))
+        return self.areas[fid]
 
-    def add_block(self, fids):
-        demand(len(set(fids)) == len(fids) and not any(f in self.blocks for f in fids), "a feature is of two blocks")
-        for fid in fids:
-            demand(fid in self.things and not self.is_barrier(fid), "a block of", fid)
-            self.blocks[fid] = tuple(fids)
-        self.demand_joined(fids)
+    def median_area(self):
+        if self.median is None:
+            areas = sorted(self.area(fid) for fid in self.place if fid not in self.skipped)
+            n = len(areas)
+            self.median = areas[n // 2] if n % 2 else areas[n // 2 - 1] / 2 + areas[n // 2] / 2
+        return self.median
 
     def block(self, fid):
-        return self.blocks.get(fid, (fid,))
-
-    def joins(self, a, b):
-        """Do the two join one block by themselves? None: they overlap by more than their least way out tells, and do not lie in
-        each other for sure."""
-        options = self.options
-        if options.block_field:
-            values = [self.attributes[f][options.block_field] for f in (a, b)]
-            if values[0] is not None and values[0] == values[1]:
-                return True
-        if options.symbol and options.touch_tolerance is None:  # symbols join only where that is asked for
-            return False
-        if options.no_blocks or a in self.ignored or b in self.ignored:
-            return False
-        if (a, b) not in self.joined:
-            self.joined[a, b] = self.joined[b, a] = self.joins_by_place(a, b)
-        return self.joined[a, b]
-
-    def joins_by_place(self, a, b):
-        p, q, tolerance = self.things[a].whole(), self.things[b].whole(), self.lattice(self.tolerance)
-        if not (p.area and q.area) or not plane.boxes_near(p.box, q.box, tolerance):
-            return False
-        if not plane.interiors_meet(p, q):
-            square = plane.distance_square(p, q)
-            return square <= tolerance * tolerance
-        inside = [nearly_in(p, q, tolerance), nearly_in(q, p, tolerance)] if self.options.contained == "block" else []
-        if True in inside:
-            return True
-        square = plane.least_square(p, q)
-        if square is not None and square <= tolerance * tolerance:
-            return True
-        return None
-
-    def demand_joined(self, fids):
-        """Every member hangs together with the first. What only overlaps is trusted where nothing else joins it."""
-        left, reached = set(fids[1:]), [fids[0]]
-        while left:
-            for fid in reached:
-                more = {g for g in left if self.joins(fid, g)}
-                left -= more
-                reached += sorted(more)
-            doubtful = sorted(g for g in left if any(self.joins(f, g) is None for f in reached))
-            demand(doubtful or not left, "nothing joins", *sorted(left), "to the block of", fids[0])
-            for g in doubtful[:1]:
-                self.trusted += 1
-                left.discard(g)
-                reached.append(g)
+        return self.blocks.block(fid)
 
     # ---- Pairs
 
@@ -308,9 +219,7 @@ class Problem:
         demand(a in self.things and b in self.things, "there is no", a, "or", b)
         demand(not (self.is_barrier(a) and self.is_barrier(b)), a, "and", b, "never move")
         demand(b not in self.block(a), a, "and", b, "are of one block")
-        demand(a not in self.ignored and b not in self.ignored, a, "or", b, "is ignored")
-        if not self.is_barrier(a) and not self.is_barrier(b):
-            demand(not self.joins(a, b), a, "and", b, "join one block")
+        demand(a not in self.skipped and b not in self.skipped, a, "or", b, "is ignored, or nothing")
 
     def clearance(self, a, b, told):
         """How far apart the two are held, in units of the lattice: listed ones to no more than the distance that they had; where
@@ -337,7 +246,7 @@ class Problem:
 
     def how_it_stood(self, a, b):
         """The square of the distance, or -1 and that of the least translation; None: one lay in the other, and may go deeper."""
-        p, q = (self.things[k].whole() for k in (a, b))
+        p, q = (self.whole(k) for k in (a, b))
         inside = any(plane.lies_in(x, y) for x, y, key in ((p, q, a), (q, p, b)) if y.area and not self.is_barrier(key))
         p, q = (p, q) if p.area else (q, p)
         if not plane.interiors_meet(p, q):
@@ -358,7 +267,7 @@ class Problem:
         if len(hull(part)) < 3 or self.things[key].has_part(part):
             return self.demand_part(key, corners)
         box = plane.box_of(part)
-        members = [k for k in self.block(key) if plane.boxes_near(self.things[k].whole().box, box)]
+        members = [k for k in self.block(key) if plane.boxes_near(self.whole(k).box, box)]
         members = [k for k in members if not self.things[k].holds_place(anchor)]
         for k in members:
             self.demand_owed(k, other)
@@ -367,11 +276,21 @@ class Problem:
         return part
 
     def demand_anchor(self, key, corners, other):
-        at = tuple(corners[0])
-        demand(len(corners) == 1 and self.anchors.setdefault(key, at) == at, "that is not the anchor of", key)
+        demand(len(corners) == 1 and key in self.things and not self.is_barrier(key), "that is no anchor of", key)
+        self.demand_anchor_of(key, corners[0])
         place = self.lattice.point(corners[0])
         demand(not self.things[other].holds_place(place), other, "holds the anchor of", key)
         return (place,)
+
+    def list_conflicts(self, conflicts):
+        self.pairs, self.listed = set(), {}
+        for told in conflicts:
+            self.demand_listed(told)
+            pair = tuple(sorted((str(told["a"]), str(told["b"]))))
+            demand(pair not in self.pairs, told["a"], "and", told["b"], "are listed twice")
+            self.pairs.add(pair)
+            if not told.get("inside_block"):
+                self.listed[pair] = told["kind"]
 
     def demand_listed(self, told):
         a, b = told["a"], told["b"]
@@ -392,13 +311,19 @@ class Problem:
         return self.demand_passed(a, told_a, b, place[0]), place
 
     def demand_side_anchor(self, key, corners):
-        """A feature has one; where no side meets its interior it is the anchor."""
-        demand(len(corners) == 1 and key in self.things, "that is no side anchor of", key)
-        at, box = tuple(corners[0]), self.things[key].whole().box
-        demand(self.side_anchors.setdefault(key, at) == at, "two side anchors of", key)
-        place = Fraction(at[0]) * self.lattice.unit, Fraction(at[1]) * self.lattice.unit
-        demand(box[0] <= place[0] <= box[2] and box[1] <= place[1] <= box[3], "a side anchor outside of", key)
-        return (self.lattice.point(at),)
+        demand(len(corners) == 1 and key in self.things and not self.is_barrier(key), "that is no side anchor of", key)
+        demand(self.side_anchors.setdefault(key, tuple(corners[0])) == tuple(corners[0]), "two side anchors of", key)
+        return (self.lattice.point(corners[0]),)
+
+    def side_anchor(self, fid):
+        """Of a point the point; else as the barriers cut the feature, or the anchor where they do not."""
+        if self.options.symbol:
+            return self.points[fid]
+        if fid not in self.side_anchors:
+            outline, plain = self.whole(fid), self.anchor(fid)
+            lines = [e for key in self.sides for e in plane.near_edges(self.whole(key), outline.box)]
+            self.side_anchors[fid] = side_anchor(outline, lines, plain, self.lattice.unit) or plain
+        return self.side_anchors[fid]
 
     def demand_side(self, key, corners, feature, anchor):
         """A segment of a line of the barrier, none of which the side anchor lies on; or an edge of an area, with the area on
@@ -441,13 +366,27 @@ class Problem:
         demand(of_anchor != 0 and 0 <= Fraction(of_corner) / of_anchor < 1, "a chord before the corner")
         return (place,), chord
 
-    def note_anchor(self, key, anchor):
-        known = self.anchors.setdefault(key, tuple(anchor))
-        demand(known == tuple(anchor), "two anchors of", key)
+    def demand_feature(self, told):
+        """A member of a body: what the file says of it is what the layer and the options do."""
+        fid, limit = told["fid"], told["max_shift"]
+        demand(fid in self.things and not self.is_barrier(fid) and fid not in self.skipped, "there is no feature", fid)
+        demand(limit == self.own_limit(fid), "the limit of", fid, "is", self.own_limit(fid), "and not", limit)
+        demand(told["weight"] == self.weight(fid), "the weight of", fid, "is", self.weight(fid), "and not", told["weight"])
+        if "anchor" in told:
+            self.demand_anchor_of(fid, told["anchor"])
+
+    def demand_anchor_of(self, fid, told):
+        demand(self.anchors.setdefault(fid, tuple(told)) == tuple(told), "that is not the anchor of", fid)
+
+    def anchor(self, fid):
+        """Doubles, of what the rings enclose, before its corners are rounded."""
+        if fid not in self.anchors:
+            self.anchors[fid] = anchors.anchor([members_of(rings) for rings in self.given[fid]])
+        return self.anchors[fid]
 
     def may_be_inside(self, a, b, reach):
         """Could a move no longer than this (each way) bring one into the other? By their boxes."""
-        p, q, t = self.things[a].whole().box, self.things[b].whole().box, self.lattice(self.tolerance)
+        p, q, t = self.whole(a).box, self.whole(b).box, self.lattice(self.tolerance)
         for x, y in ((p, q), (q, p)):
             if all(x[c + 2] - x[c] <= y[c + 2] - y[c] + 2 * t and x[c] >= y[c] - t - reach and
                    x[c + 2] <= y[c + 2] + t + reach for c in (0, 1)):
@@ -461,7 +400,7 @@ def turn(p, q, u):
 
 
 def root_above(value):
-    """A fraction no less than the root, by 2^-40 of it at most."""
+    """A fraction no less than the root, by a share of 2^-100 at most."""
     value = Fraction(value)
-    shift = 1 << 200
-    return Fraction(math.isqrt(-(-value.numerator * shift * shift // value.denominator)) + 1, shift)
+    shift = max(0, 102 - (value.numerator.bit_length() - value.denominator.bit_length()) // 2)
+    return Fraction(math.isqrt(-(-(value.numerator << 2 * shift) // value.denominator)) + 1, 1 << shift)

@@ -99,15 +99,39 @@ def without_straight(ring):
     return [p for k, p in enumerate(ring) if side(ring[k - 1], p, ring[(k + 1) % len(ring)]) != 0]
 
 
-def repaired(rings):
-    """The rings of a polygon in doubles, by the even-odd rule."""
+def exact_rings(rings):
+    """The rings of a polygon in fractions, by the even-odd rule; None where its own are those."""
     exact = [[(Fraction(x), Fraction(y)) for x, y in ring] for ring in rings]
     edges = [(ring[k - 1], p) for ring in exact for k, p in enumerate(ring) if ring[k - 1] != p]
     pieces, crossing = cut(edges)
     if not crossing:
-        return rings
+        return None
     odd = set()
     for piece in pieces:
         odd ^= {piece}
-    found = [without_straight(ring) for ring in follow(sorted(odd))]
-    return [[(float(x), float(y)) for x, y in ring] for ring in found if ring]
+    return [without_straight(ring) for ring in follow(sorted(odd))]
+
+
+def repaired(rings):
+    """The rings of a polygon in doubles, by the even-odd rule."""
+    found = exact_rings(rings)
+    return rings if found is None else [[(float(x), float(y)) for x, y in ring] for ring in found if ring]
+
+
+def members_of(rings):
+    """The same in fractions."""
+    found = exact_rings(rings)
+    return [[(Fraction(x), Fraction(y)) for x, y in ring] for ring in (rings if found is None else found)]
+
+
+def twice_area(ring):
+    return sum((ring[k - 1][0] * p[1] - ring[k - 1][1] * p[0] for k, p in enumerate(ring)), Fraction(0))
+
+
+def area_of(rings):
+    """Of a polygon, in fractions; holes lie in the first ring, where it has rings that neither cross nor share a length."""
+    found = exact_rings(rings)
+    if found is not None:
+        return sum(map(twice_area, found), Fraction(0)) / 2  # the inside is on their left
+    first, *holes = (abs(twice_area([(Fraction(x), Fraction(y)) for x, y in ring])) for ring in rings)
+    return (first - sum(holes, Fraction(0))) / 2

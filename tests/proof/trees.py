@@ -4,7 +4,7 @@ from math import isqrt
 
 from bodies import Bodies
 from cover import Piece, clip, is_covered, is_nowhere, line_of, square
-from problem import demand
+from form import demand, index
 
 
 FINE = 1 << 60  # places that discs are about are rounded to this share of the lattice, and more is asked by that
@@ -29,7 +29,7 @@ class Tree(Bodies):
         """[(cut, force)], all on the way to the node."""
         forces = []
         for cut, force in told:
-            demand(force >= 0 and cut < len(self.cuts), "a force that pulls, or on no cut")
+            index(cut, len(self.cuts), "cut")
             at, above = node, self.owner[cut]
             while at is not None and at > above:
                 at = self.nodes[at]["parent"]
@@ -82,7 +82,7 @@ class Tree(Bodies):
         return self.root(i, j) if found is None else found
 
     def piece(self, k, i, j):
-        demand(0 <= k < len(self.pieces_told), "there is no piece", k)
+        index(k, len(self.pieces_told), "piece")
         if k not in self.pieces:
             self.pieces[k] = self.read_piece(self.pieces_told[k])
         at, piece = self.pieces[k]
@@ -91,6 +91,8 @@ class Tree(Bodies):
 
     def read_piece(self, told):
         problem, i, j, a, b = self.problem, told["i"], told["j"], told["a"], told["b"]
+        index(i, len(self.bodies), "body")
+        index(j, len(self.bodies), "body")
         demand(i != j and a in self.bodies[i] and b in self.bodies[j], "a piece is not of its bodies")
         problem.demand_owed(a, b)
         shadow = told.get("shadow", False)
@@ -113,6 +115,7 @@ class Tree(Bodies):
 
     def check(self):
         """What the tree is proved to bound from below."""
+        demand(self.nodes, "a tree without a node")
         children = [[] for _ in self.nodes]
         for k, node in enumerate(self.nodes):
             parent = node["parent"]
@@ -148,7 +151,8 @@ class Tree(Bodies):
         self.owner += [k] * len(node["cuts"])
         for at, told in enumerate(node["cuts"]):
             i, j = told["i"], told.get("j")
-            demand(0 <= i < len(self.bodies) and (j is None or 0 <= j < len(self.bodies)), "a cut of no bodies")
+            for body in (i, j):
+                demand(body is None or body < len(self.bodies), "a cut of no bodies")
             if told["kind"] == "limit":
                 self.check_limit(*self.cut(first + at))
                 continue
@@ -167,7 +171,9 @@ class Tree(Bodies):
                 discs.demand_beyond(i, j, line)
             regions[i, j] = clip(region, line)
         if "empty" in node:
-            i, j = node["empty"]["i"], node["empty"]["j"]
+            i, j = (index(node["empty"][c], len(self.bodies), "body") for c in "ij")
+            demand(i != j, "an empty place between a body and itself")
+            demand("by" not in node or discs, "forces of discs, and no disc")
             self.demand_covered(self.region(regions, i, j), i, j, node["empty"]["pieces"])
             return value, regions, True
         if node["forces"]:
@@ -223,7 +229,7 @@ class Discs:
         demand(beyond >= 0 and beyond * beyond >= left * (a * a + b * b), "a disc's cut takes away what may be cheap")
 
 
-def add_up(problem, trees):
+def add_up(trees):
     """What trees together prove: by groups, whose bodies that may move are their own."""
     group_of, total = {}, Fraction(0)
     by_group = {}
@@ -233,11 +239,11 @@ def add_up(problem, trees):
             if weight is not None:
                 demand(group_of.setdefault(body, tree.group) == tree.group, "two groups have", *body)
     for members in by_group.values():
-        total += group_bound(problem, members)
+        total += group_bound(members)
     return total
 
 
-def group_bound(problem, trees):
+def group_bound(trees):
     """sum of (bound - sum w |a|^2) - sum |sum w a|^2 / (own weight - sum w)."""
     used, pull, own = {}, {}, {}
     total = Fraction(0)

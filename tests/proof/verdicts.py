@@ -3,15 +3,18 @@ import math
 from fractions import Fraction
 from itertools import combinations
 
-import exact_plane as plane
+import decided
+
+from exact import plane
 from cover import crossing, hull, line_of, meets_segment
-from problem import demand, root_above
+from form import demand, index
+from problem import root_above
 
 
 class Verdict:
-    def __init__(self, problem, told, conflicts):
+    def __init__(self, problem, told):
         self.problem, self.told, self.nodes = problem, told, told["proof"]
-        self.kinds = {self.key(c["a"], c["b"]): c["kind"] for c in conflicts if not c.get("inside_block")}
+        self.kinds = problem.listed
         self.own = self.key(told["a"], told["b"])
         self.unit = problem.lattice.unit
         self.crowded = told.get("crowded", False)
@@ -28,7 +31,8 @@ class Verdict:
         seen, todo, named = set(), [(0, ())], set()
         while todo:
             at, way_here = todo.pop()
-            demand(0 <= at < len(self.nodes) and at not in seen, "a node is missing, or has two parents")
+            index(at, len(self.nodes), "node")
+            demand(at not in seen, "a node has two parents:", at)
             seen.add(at)
             node = self.nodes[at]
             if "ways" not in node:
@@ -37,8 +41,10 @@ class Verdict:
             self.check_question(node)
             named |= {node["a"], node["b"], node.get("c", node["b"])}
             todo += [(w["next"], (*way_here, (at, k))) for k, w in enumerate(node["ways"])]
+        demand(len(seen) == len(self.nodes), "a node that no way leads to")
         named -= {self.told["a"], self.told["b"]}
-        demand(named == set(self.told["blocked_by"]), "blocked_by is not what the proof is about")
+        blamed = self.told["blocked_by"]
+        demand(named == set(blamed) and len(named) == len(blamed), "blocked_by is not what the proof is about")
 
     # ---- What a node asks
 
@@ -95,7 +101,7 @@ class Verdict:
             pairs = [(k, l) for k in self.body_of(a) for l in self.body_of(b)]
         within = Fraction(self.within) * self.unit
         for k, l in pairs:
-            (p, q), owed = (self.problem.things[x].whole().box for x in (k, l)), self.problem.required(k, l)
+            (p, q), owed = (self.problem.whole(x).box for x in (k, l)), self.problem.required(k, l)
             reach = [max(abs(p[x + 2] - q[x]), abs(p[x] - q[x + 2])) + owed for x in (0, 1)]
             demand(within * within >= reach[0] ** 2 + reach[1] ** 2, "farther out the two could still be too near:", k, l)
 
@@ -110,7 +116,7 @@ class Verdict:
             return
         demand(self.kinds[self.key(a, b)] not in ("contained", "duplicate"), "what is contained may stay so")
         demand(clearance <= self.problem.required(a, b), "more is asked of", a, b, "than they owe")
-        p, q = (self.problem.things[k].whole() for k in (a, b))
+        p, q = (self.problem.whole(k) for k in (a, b))
         p, q = (p, q) if p.area else (q, p)
         if plane.interiors_meet(p, q):
             least = plane.least_square(p, q)
@@ -125,7 +131,7 @@ class Verdict:
         their distance."""
         demand(self.is_listed(a, b), "held to what it had, and not listed:", a, b)
         demand(self.kinds[self.key(a, b)] not in ("contained", "duplicate"), "what is contained may stay so")
-        p, q = (self.problem.things[k].whole() for k in (a, b))
+        p, q = (self.problem.whole(k) for k in (a, b))
         p, q = (p, q) if p.area else (q, p)
         if plane.interiors_meet(p, q):
             inside = any(plane.lies_in(x, y) for x, y in ((p, q), (q, p)) if y.area)
@@ -161,12 +167,13 @@ class Verdict:
 
     def check_leaf(self, leaf, way_here):
         taken = dict(way_here)
+        demand(leaf["forces"], "a leaf without a force")
         for f in leaf["forces"]:
             node, way = f["node"], f["way"]
-            demand(f["force"] > 0 and node in taken, "a force that is not on the way, or none")
+            demand(node in taken, "a force that is not on the way, or none")
             demand(0 <= way < taken[node] if f["behind"] else way == taken[node], "a force is on another case")
         self.resting = self.check_still(leaf["still"], taken) if "still" in leaf else None
-        demand(self.wins(leaf, float, self.FILTER) or self.wins(leaf, Fraction, 0), "a leaf is no contradiction")
+        demand(self.wins(leaf), "a leaf is no contradiction")
 
     def check_still(self, lines, taken):
         """The body that is between the lines of two ways, and has no place there but its own; see docs/PROOF.md."""
@@ -220,42 +227,35 @@ class Verdict:
         if high < 0:
             low, high = -high, -low
         demand(low > 0, "a coordinate may come to nothing")
-        unit = Fraction(2) ** (math.floor(math.log2(low)) - 54)
+        unit = Fraction(2) ** (low.numerator.bit_length() - low.denominator.bit_length() - 54)
         while unit * 2 ** 53 <= low:
             unit *= 2
         demand(unit * 2 ** 53 > high, "a coordinate may leave its binade")
         return unit
 
-    FILTER = 1e-9  # of all that is added up: far more than doubles can be off by in sums of some thousand terms
-
-    def wins(self, leaf, number, margin):
-        """Do the forces win more than the limits can lose, by a margin?"""
-        won, net, size = number(0), {}, number(0)
+    def wins(self, leaf):
+        """Do the forces win more than the limits can lose? In fractions: products of doubles may come to nothing."""
+        won, net = Fraction(0), {}
         for f in leaf["forces"]:
-            force, node = number(f["force"]), self.nodes[f["node"]]
-            way = node["ways"][f["way"]]
-            sign = -1 if f["behind"] else 1
-            x, y = force * number(way["n"][0]), force * number(way["n"][1])
-            won += sign * force * number(way["d"])
-            size += force * abs(number(way["d"]))
+            node = self.nodes[f["node"]]
+            way, sign = node["ways"][f["way"]], -1 if f["behind"] else 1
+            x, y, d = (Fraction(f["force"]) * Fraction(v) for v in (*way["n"], way["d"]))
+            won += sign * d
             sides = [(self.body_of(node["a"]), -sign), (self.body_of(node["b"]), sign)]
             if node.get("slack"):
                 sides.append((("slack", self.key(node["a"], node["b"]), node["clearance"]), sign))
             for body, side in sides:
-                g = net.get(body, (0, 0, 0))
-                net[body] = g[0] + side * x, g[1] + side * y, g[2] + abs(x) + abs(y)
-        lost = number(0)
-        for body, (x, y, most) in net.items():
+                g = net.get(body, (0, 0))
+                net[body] = g[0] + side * x, g[1] + side * y
+        lost = Fraction(0)
+        for body, (x, y) in net.items():
             limit = 0 if body == self.resting else self.limit_of(body)
-            if limit == 0 or most == 0:
+            if limit == 0 or (x, y) == (0, 0):
                 continue
             if limit is None:
-                if number is Fraction and (x, y) == (0, 0):
-                    continue
                 return False
-            size += number(limit) * most
-            lost += number(limit) * (math.hypot(x, y) if number is float else root_above(x * x + y * y))
-        return won - lost > margin * size
+            lost += Fraction(limit) * root_above(x * x + y * y)
+        return won > lost
 
     def body_of(self, key):
         return key if self.problem.is_barrier(key) else self.problem.block(key)
@@ -336,13 +336,14 @@ def is_shaded(polygon, v, far):
     return high is None or low <= high
 
 
-def check(problem, told, conflicts):
-    """Is there a proof? Then it holds."""
-    problem.demand_listed(told)
+def check(problem, told):
+    """By its proof, if it has one."""
     demand(not told.get("crowded") or told["reason"] == "unresolved", "crowded, of another reason:", told["reason"])
-    if told["reason"] in ("no_room", "side") or told.get("crowded"):
-        demand("proof" in told, "no solution, and no proof:", told["a"], told["b"])
     if "proof" not in told:
+        demand("within" not in told, "a length for those without a limit, and no proof")
+        decided.check(problem, told)
         return 0
-    Verdict(problem, told, conflicts).check()
+    demand(told["reason"] in ("no_room", "side", "jump", "max_shift") or told.get("crowded"),
+           "a proof that nothing is claimed of, with the reason", told["reason"])
+    Verdict(problem, told).check()
     return 1

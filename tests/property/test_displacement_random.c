@@ -320,7 +320,7 @@ static bool same_body(const sunder_report *report, size_t a, size_t b)
 }
 
 /* The bound from its pairs: sum l d - sum (sum l)^2 / (4 w), in rationals. */
-static void check_bound(const town *t, const sunder_report *report)
+static void check_bound(const town *t, const sunder_report *report, bool may_overlap)
 {
     size_t n;
     const sunder_bound_pair *p = sunder_report_bound_pairs(report, &n);
@@ -365,7 +365,10 @@ static void check_bound(const town *t, const sunder_report *report)
     }
     mpq_set_d(x, s.pair_bound);
     assert_true(s.pair_bound == 0 || mpq_cmp(x, value) <= 0);
-    assert_true(s.pair_bound <= s.lower_bound && s.lower_bound <= s.cost * (1 + 1e-12));
+    /* Trees prove a little less of pairs than their least translations do, and nothing of those that may lie in each
+     * other. */
+    assert_true(may_overlap || s.pair_bound * (1 - 0x1p-17) <= s.lower_bound);
+    assert_true(s.lower_bound <= s.cost * (1 + 1e-12));
     assert_true(s.pair_bound >= mpq_get_d(value) - 1e-9 * (1 + fabs(mpq_get_d(value))));
     mpq_clears(value, x, y, load, weight, NULL);
 }
@@ -487,7 +490,7 @@ static void check_towns(void **state)
         check_moves(&t, one, now);
         if (!o.allow_jumps) check_jumps(&t, one);
         if (o.contained != SUNDER_CONTAINMENT_IGNORE) check_pairs(&t, one, now, &o);
-        check_bound(&t, one);
+        check_bound(&t, one, o.contained == SUNDER_CONTAINMENT_IGNORE);
         check_again(&t, one, now, &o);
         bool free_to_move = true;
         for (size_t f = 0; f < t.n; f++)

@@ -47,7 +47,7 @@ typedef struct listing {
     double offset[2], reach;
     double window[4]; /* of u that are asked about */
     size_t most;      /* pieces */
-    bool seams;
+    bool seams, no_ways;
     sunder_i_scratch scratch;
     double *drawn, *hull; /* scratch of shadows */
     size_t drawn_capacity, hull_capacity;
@@ -352,6 +352,7 @@ static bool add_sides(listing *l, const sunder_i_body *p, const sunder_i_body *p
 
 static bool add_all(listing *l)
 {
+    if (l->no_ways) return add_pieces(l);
     if (!add_pieces(l) || !add_covers(l, l->p, l->q, false) || !add_covers(l, l->q, l->p, true)) return false;
     if (!add_sides(l, l->p, l->q, false) || !add_sides(l, l->q, l->p, true)) return false;
     return l->model->rules.jumps || (add_shadows_from(l, l->p, l->q, false) && add_shadows_from(l, l->q, l->p, true));
@@ -382,19 +383,33 @@ static void end(listing *l, double reach)
     f->grain = 0x1p-46 * f->size;
 }
 
+/* Within less reach, while that is too much. */
+static bool list_within(listing *l, uint32_t p, uint32_t q)
+{
+    const double reach = l->reach;
+    bool ok = begin(l, p, q) && add_all(l);
+    while (ok && is_full(l) && l->reach > l->model->rules.gap) {
+        l->out->pieces = l->out->edges = 0;
+        l->reach /= 2;
+        for (size_t c = 0; c < 4; c++) l->window[c] /= 2;
+        ok = add_all(l);
+    }
+    end(l, reach);
+    return ok;
+}
+
 bool sunder_i_forbidden_init(sunder_i_forbidden *f, const sunder_i_model *model, const sunder_i_waived *waived,
                              uint32_t p, uint32_t q, double reach)
 {
     listing l = {.out = f, .model = model, .waived = waived, .reach = reach, .most = MOST_PIECES};
-    bool ok = begin(&l, p, q) && add_all(&l);
-    while (ok && is_full(&l) && l.reach > model->rules.gap) {
-        f->pieces = f->edges = 0;
-        l.reach /= 2;
-        for (size_t c = 0; c < 4; c++) l.window[c] /= 2;
-        ok = add_all(&l);
-    }
-    end(&l, reach);
-    return ok;
+    return list_within(&l, p, q);
+}
+
+bool sunder_i_forbidden_without_ways(sunder_i_forbidden *f, const sunder_i_model *model, const sunder_i_waived *waived,
+                                     uint32_t p, uint32_t q, double reach)
+{
+    listing l = {.out = f, .model = model, .waived = waived, .reach = reach, .most = MOST_PIECES, .no_ways = true};
+    return list_within(&l, p, q);
 }
 
 bool sunder_i_forbidden_init_near(sunder_i_forbidden *f, const sunder_i_model *model, const sunder_i_waived *waived,

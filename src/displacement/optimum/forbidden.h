@@ -58,6 +58,9 @@ const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sun
  * False if memory is out; failure leaves what sunder_i_forbidden_free() takes. */
 bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model *model, const sunder_i_waived *waived,
                              uint32_t p, uint32_t q, double reach);
+/* As sunder_i_forbidden_init(), without what anchors and side anchors may not pass. */
+bool sunder_i_forbidden_without_ways(sunder_i_forbidden *forbidden, const sunder_i_model *model,
+                                     const sunder_i_waived *waived, uint32_t p, uint32_t q, double reach);
 /* All pieces that come within a hair of u, and a few others. */
 bool sunder_i_forbidden_init_near(sunder_i_forbidden *forbidden, const sunder_i_model *model,
                                   const sunder_i_waived *waived, uint32_t p, uint32_t q, const double u[2],

@@ -42,8 +42,9 @@ sunder_i_tree_pair *sunder_i_tree_pair_of(sunder_i_tree *t, uint32_t i, uint32_t
     *at = (uint32_t)t->pairs++;
     set_root(t, p);
     const double far = fabs(p->centre[0]) + fabs(p->centre[1]) + 2 * p->reach;
-    if (!sunder_i_forbidden_init(&p->forbidden, t->task.model, t->task.waived, t->task.body[i], t->task.body[j], far) ||
-        !sunder_i_forbidden_index(&p->forbidden))
+    const bool listed = (t->task.no_ways ? sunder_i_forbidden_without_ways : sunder_i_forbidden_init)(
+        &p->forbidden, t->task.model, t->task.waived, t->task.body[i], t->task.body[j], far);
+    if (!listed || !sunder_i_forbidden_index(&p->forbidden))
         t->failed = true;
     t->steps += 8 * p->forbidden.edges;
     t->pair_steps += 8 * p->forbidden.edges;

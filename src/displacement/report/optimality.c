@@ -76,11 +76,11 @@ static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* The trees of the groups that a bound stands on become the report's. */
+/* The trees that a bound stands on, of groups and of pairs, become the report's. */
 static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, const sunder_i_parts *parts,
-                                sunder_error *err)
+                                sunder_i_bound_trees *of_pairs, sunder_error *err)
 {
-    size_t n = report->bound_pairs + parts->areas; /* and room for those of pairs and of areas */
+    size_t n = of_pairs->n + parts->areas; /* and room for those of areas */
     for (size_t k = 0; k < groups->n; k++) n += groups->group[k].trees.n;
     report->bound_tree = sunder_i_calloc(n, sizeof *report->bound_tree);
     if (!report->bound_tree) return sunder_i_no_memory(err);
@@ -93,19 +93,29 @@ static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, 
         }
         g->trees.n = 0;
     }
+    for (size_t k = 0; k < of_pairs->n; k++) {
+        sunder_bound_tree *tree = &of_pairs->tree[k];
+        if (!sunder_i_part_is_by_pairs(parts, (uint32_t)tree->group)) continue;
+        tree->group += groups->n;
+        report->bound_tree[report->bound_trees++] = *tree;
+        *tree = (sunder_bound_tree){0};
+    }
     return SUNDER_OK;
 }
 
-/* What is proved of each part, at its root. With trees for all that this stands on: what they prove of pairs is a
- * little less, and where one may get inside the other nothing. */
+/* What is proved of each part, at its root, with or without trees that are kept for a reader. */
 static sunder_status prove_parts(sunder_report *report, sunder_i_solver *s, sunder_i_parts *parts, double *proved,
                                  sunder_error *err)
 {
+    sunder_i_bound_trees of_pairs = {0};
+    sunder_status status = sunder_i_report_pair_trees(report, s, parts, &of_pairs, err);
+    if (!status && s->model.rules.keep_trees) {
+        status = take_trees(report, &s->groups, parts, &of_pairs, err);
+        if (!status) status = sunder_i_report_area_trees(report, s, parts, err);
+    }
     for (uint32_t b = 0; b < s->model.bodies; b++) proved[b] = sunder_i_part_bound(parts, b);
-    if (!s->model.rules.keep_trees) return SUNDER_OK;
-    sunder_status status = take_trees(report, &s->groups, parts, err);
-    if (!status) status = sunder_i_report_pair_trees(report, s, parts, proved, err);
-    return status ? status : sunder_i_report_area_trees(report, s, parts, err);
+    sunder_i_bound_trees_free(&of_pairs);
+    return status;
 }
 
 /* Sums are exact until they are rounded, once: whatever the order. */
@@ -117,7 +127,7 @@ static void add_up(sunder_layer_summary *summary, const double *proved, const do
         sunder_total_add(&pairs, by_pairs[b]);
     }
     summary->pair_bound = sunder_total_below(&pairs);
-    summary->lower_bound = sunder_total_bound(&all, &pairs);
+    summary->lower_bound = sunder_total_below(&all);
 }
 
 /* For worlds to be told apart; the arrays are the report's from here on. */
@@ -134,7 +144,7 @@ sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver 
     sunder_layer_summary *summary = &report->summary;
     const bool any = s->groups.n && s->model.rules.effort > 0;
     summary->clusters = s->groups.n;
-    if (!any && !s->model.rules.keep_trees) return SUNDER_OK;
+    if (!any && !report->bound_pairs) return SUNDER_OK;
     sunder_i_parts parts = {0};
     double *proved = sunder_i_alloc(s->model.bodies, sizeof *proved);
     sunder_status status = proved ? SUNDER_OK : sunder_i_no_memory(err);

@@ -1,5 +1,5 @@
-/* Trees for the bound of pairs, of parts of the layer of which it is more than contact groups prove, so that a reader
- * has something to check.
+/* Trees for the bound of pairs, of parts of the layer of which it is more than contact groups prove: what counts is
+ * what they prove, so that a reader has something to check, and what is told does not depend on whether there is one.
  *
  * The bound of pairs is sum l d - sum (sum l)^2 / (4 w), by multipliers l (bound.c). A body shares its weight out
  * among its pairs as their multipliers are: w_ij = w l_ij / sum l. Then the least of w_ij |t_i|^2 + w_ji |t_j|^2 over
@@ -8,7 +8,8 @@
  * bodies for each pair, and those of a part are one group.
  *
  * What such trees prove is less by what counts as free in them, a share of some 2^-31. A pair that may get one inside
- * the other is nothing to them. */
+ * the other is nothing to them, for the two owe each other nothing then. Jumps and sides are not asked about: the least
+ * translation of a pair does not ask, either. */
 #include "displacement/clusters/stages.h"
 #include "displacement/layer/reads.h"
 #include "displacement/optimum/tree.h"
@@ -44,9 +45,9 @@ static bool find_bodies(const sunder_i_model *model, const sunder_bound_pair *pa
     return true;
 }
 
-/* The tree of one pair, with its shares of the weights. */
+/* What the tree of one pair proves, with its shares of the weights; it is added to trees where these are kept. */
 static sunder_status prove(const sunder_i_solver *s, const sunder_bound_pair *pair, const double *load,
-                           sunder_i_list *body, sunder_bound_tree *out, sunder_error *err)
+                           sunder_i_list *body, double *bound, sunder_i_bound_trees *trees, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
     const sunder_i_waived waived = {.pair = s->groups.waived, .n = s->groups.waived_n};
@@ -64,11 +65,14 @@ static sunder_status prove(const sunder_i_solver *s, const sunder_bound_pair *pa
                                 .n = body->n,
                                 .weight = weight,
                                 .goal = pair->least * pair->least / slack * (1 + SHARED),
-                                .keep = true};
+                                .no_ways = true,
+                                .keep = model->rules.keep_trees};
     sunder_i_tree tree;
     bool ok = sunder_i_tree_init(&tree, &task);
     while (ok && sunder_i_tree_run(&tree, PAIR_STEPS) == SUNDER_I_TREE_FOUND) ok = !tree.failed;
-    ok = ok && !tree.failed && sunder_i_tree_record(&tree, out);
+    ok = ok && !tree.failed;
+    *bound = ok ? sunder_i_tree_bound(&tree) : 0;
+    if (*bound > 0 && task.keep) ok = sunder_i_tree_keep(&tree, trees);
     sunder_i_tree_free(&tree);
     sunder_i_free(weight);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
@@ -81,7 +85,7 @@ static uint32_t mover_of(const sunder_i_model *model, const sunder_bound_pair *p
     return model->body[a].fixed ? model->body_of[pair->b] : a;
 }
 
-/* The pairs of parts whose bound stands on them, part after part: (the part's root, the pair); how many. */
+/* The pairs of parts whose bound may stand on them, part after part: (the part's root, the pair); how many. */
 static size_t list_pairs(const sunder_report *report, const sunder_i_model *model, sunder_i_parts *parts,
                          sunder_i_id_pair *which)
 {
@@ -89,15 +93,15 @@ static size_t list_pairs(const sunder_report *report, const sunder_i_model *mode
     for (size_t k = 0; k < report->bound_pairs; k++) {
         const sunder_bound_pair *p = &report->bound_pair[k];
         const uint32_t mover = mover_of(model, p);
-        if (!(p->multiplier > 0) || !sunder_i_part_is_by_pairs(parts, mover)) continue;
+        if (!(p->multiplier > 0) || !sunder_i_part_wants_pair_trees(parts, mover)) continue;
         which[n++] = (sunder_i_id_pair){sunder_i_union_find(parts->root, mover), (uint32_t)k};
     }
     qsort(which, n, sizeof *which, sunder_i_by_id_pair);
     return n;
 }
 
-static sunder_status prove_all(sunder_report *report, const sunder_i_solver *s, const sunder_i_id_pair *which, size_t n,
-                               double *load, double *proved, sunder_error *err)
+static sunder_status prove_all(const sunder_report *report, const sunder_i_solver *s, const sunder_i_id_pair *which,
+                               size_t n, double *load, double *by_trees, sunder_i_bound_trees *trees, sunder_error *err)
 {
     sunder_i_list body = {0};
     sunder_status status = SUNDER_OK;
@@ -105,34 +109,30 @@ static sunder_status prove_all(sunder_report *report, const sunder_i_solver *s, 
         const sunder_bound_pair *p = &report->bound_pair[which[k].b];
         load[s->model.body_of[p->a]] += p->multiplier;
         load[s->model.body_of[p->b]] += p->multiplier;
-        proved[which[k].a] = 0;
     }
     for (size_t k = 0; k < n && !status; k++) {
-        sunder_bound_tree *tree = &report->bound_tree[report->bound_trees];
-        status = prove(s, &report->bound_pair[which[k].b], load, &body, tree, err);
-        if (status) break;
-        tree->group = s->groups.n + which[k].a;
-        if (tree->bound > 0) {
-            double *sum = &proved[which[k].a];
-            *sum = *sum > 0 ? nextafter(*sum + tree->bound, -INFINITY) : tree->bound;
-            report->bound_trees++;
-        } else {
-            sunder_i_bound_tree_free(tree);
-        }
+        const size_t before = trees->n;
+        double bound;
+        status = prove(s, &report->bound_pair[which[k].b], load, &body, &bound, trees, err);
+        if (status || !(bound > 0)) continue;
+        double *sum = &by_trees[which[k].a];
+        *sum = *sum > 0 ? nextafter(*sum + bound, -INFINITY) : bound;
+        if (trees->n > before) trees->tree[before].group = which[k].a;
     }
     sunder_i_free(body.item);
     return status;
 }
 
-sunder_status sunder_i_report_pair_trees(sunder_report *report, sunder_i_solver *s, sunder_i_parts *parts,
-                                         double *proved, sunder_error *err)
+sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_solver *s, sunder_i_parts *parts,
+                                         sunder_i_bound_trees *trees, sunder_error *err)
 {
     sunder_i_id_pair *which = sunder_i_alloc(report->bound_pairs, sizeof *which);
     double *load = sunder_i_calloc(s->model.bodies, sizeof *load);
     sunder_status status = which && load ? SUNDER_OK : sunder_i_no_memory(err);
     const size_t n = status ? 0 : list_pairs(report, &s->model, parts, which);
     if (!status && n) status = sunder_i_solver_waive(s, err);
-    if (!status && n) status = prove_all(report, s, which, n, load, proved, err);
+    for (size_t b = 0; b < s->model.bodies; b++) parts->by_trees[b] = 0;
+    if (!status && n) status = prove_all(report, s, which, n, load, parts->by_trees, trees, err);
     sunder_i_free(which);
     sunder_i_free(load);
     return status;

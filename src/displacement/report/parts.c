@@ -1,5 +1,6 @@
 /* Which parts of the layer have nothing to do with each other, and what is proved of each. */
 #include "displacement/report/report.h"
+#include "displacement/report/tuning.h"
 
 #include "base/extremes.h"
 #include "base/union_find.h"
@@ -36,9 +37,11 @@ sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *re
     const sunder_i_model *model = &s->model;
     *parts = (sunder_i_parts){.root = sunder_i_alloc(model->bodies, sizeof *parts->root),
                               .by_pairs = sunder_i_calloc(model->bodies, sizeof *parts->by_pairs),
+                              .by_trees = sunder_i_alloc(model->bodies, sizeof *parts->by_trees),
                               .by_groups = sunder_i_calloc(model->bodies, sizeof *parts->by_groups),
                               .by_areas = sunder_i_calloc(model->bodies, sizeof *parts->by_areas)};
-    if (!parts->root || !parts->by_pairs || !parts->by_groups || !parts->by_areas) return sunder_i_no_memory(err);
+    if (!parts->root || !parts->by_pairs || !parts->by_trees || !parts->by_groups || !parts->by_areas)
+        return sunder_i_no_memory(err);
     sunder_i_union_init(parts->root, model->bodies);
     join_pairs(model, report, parts->root);
     for (size_t k = 0; k < s->groups.n; k++)
@@ -49,15 +52,17 @@ sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *re
         double *sum = &parts->by_groups[sunder_i_union_find(parts->root, g->number)];
         *sum = *sum > 0 ? nextafter(*sum + g->bound, -INFINITY) : g->bound;
     }
-    return sunder_i_bound_parts(model, report->bound_pair, report->bound_pairs, parts->root, parts->by_pairs)
-               ? SUNDER_OK
-               : sunder_i_no_memory(err);
+    if (!sunder_i_bound_parts(model, report->bound_pair, report->bound_pairs, parts->root, parts->by_pairs))
+        return sunder_i_no_memory(err);
+    memcpy(parts->by_trees, parts->by_pairs, model->bodies * sizeof *parts->by_trees);
+    return SUNDER_OK;
 }
 
 void sunder_i_parts_free(sunder_i_parts *parts)
 {
     sunder_i_free(parts->root);
     sunder_i_free(parts->by_pairs);
+    sunder_i_free(parts->by_trees);
     sunder_i_free(parts->by_groups);
     sunder_i_free(parts->by_areas);
     for (size_t k = 0; k < parts->areas; k++) {
@@ -68,22 +73,28 @@ void sunder_i_parts_free(sunder_i_parts *parts)
     memset(parts, 0, sizeof *parts);
 }
 
+bool sunder_i_part_wants_pair_trees(const sunder_i_parts *parts, uint32_t body)
+{
+    const uint32_t at = sunder_i_union_find(parts->root, body);
+    return parts->by_areas[at] == 0 && parts->by_pairs[at] * (1 - TREES_SHORT) > parts->by_groups[at];
+}
+
 bool sunder_i_part_is_by_pairs(const sunder_i_parts *parts, uint32_t body)
 {
     const uint32_t at = sunder_i_union_find(parts->root, body);
-    return parts->by_areas[at] == 0 && parts->by_pairs[at] > parts->by_groups[at];
+    return parts->by_areas[at] == 0 && parts->by_trees[at] > parts->by_groups[at];
 }
 
 bool sunder_i_part_is_by_groups(const sunder_i_parts *parts, uint32_t body)
 {
     const uint32_t at = sunder_i_union_find(parts->root, body);
-    return parts->by_areas[at] == 0 && parts->by_groups[at] >= parts->by_pairs[at];
+    return parts->by_areas[at] == 0 && parts->by_groups[at] >= parts->by_trees[at];
 }
 
 double sunder_i_part_bound(const sunder_i_parts *parts, uint32_t body)
 {
     const double by_area = parts->by_areas[body];
     const double most =
-        by_area < 0 ? 0 : sunder_i_max(sunder_i_max(parts->by_pairs[body], parts->by_groups[body]), by_area);
+        by_area < 0 ? 0 : sunder_i_max(sunder_i_max(parts->by_trees[body], parts->by_groups[body]), by_area);
     return most > 0 && isfinite(most) ? most : 0;
 }

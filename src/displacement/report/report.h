@@ -113,6 +113,7 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
 typedef struct sunder_i_parts {
     uint32_t *root;    /* [bodies] union-find */
     double *by_pairs;  /* [bodies] what the pairs prove of the part; at its root */
+    double *by_trees;  /* [bodies] at first the same; then what trees of these pairs prove, 0 where none are made */
     double *by_groups; /* [bodies] what its groups prove, added up */
     double *by_areas;  /* [bodies] what prices of area prove of it, where that is more; -1: of another part with it */
     struct sunder_i_area_bound *area; /* of those parts, by their roots */
@@ -132,7 +133,9 @@ typedef struct sunder_i_area_bound {
 sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *report, const sunder_i_solver *solver,
                                   sunder_error *err);
 void sunder_i_parts_free(sunder_i_parts *parts);
-/* By what is most proved of its part: by its pairs? By its groups? */
+/* Do its pairs prove more than its groups by more than trees are short of pairs? Then trees of them are worth it. */
+bool sunder_i_part_wants_pair_trees(const sunder_i_parts *parts, uint32_t body);
+/* By what is most proved of its part: by trees of pairs? By its groups? */
 bool sunder_i_part_is_by_pairs(const sunder_i_parts *parts, uint32_t body);
 bool sunder_i_part_is_by_groups(const sunder_i_parts *parts, uint32_t body);
 /* The better bound of the part whose root the body is; of any other body 0. */
@@ -148,16 +151,16 @@ sunder_status sunder_i_report_area_trees(sunder_report *report, const sunder_i_s
 
 /* ---- optimality.c ------------------------------------------------------------------------------------------------ */
 
-/* Contact groups, those of them that are optimal, and the bound: of each part of the layer what its pairs prove, or its
- * groups, whichever is more; with the trees, where these are kept. */
+/* Contact groups, those of them that are optimal, and the bound: of each part of the layer what trees of its pairs, its
+ * groups, or prices of area prove, whichever is most; with the trees, where these are kept. */
 sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver *solver, sunder_error *err);
 
 /* ---- pair_trees.c ------------------------------------------------------------------------------------------------ */
 
-/* Adds trees for the pairs of those parts of which they prove more than groups do. proved: [bodies] at the roots of
- * these parts, what their trees prove. */
-sunder_status sunder_i_report_pair_trees(sunder_report *report, sunder_i_solver *solver, sunder_i_parts *parts,
-                                         double *proved, sunder_error *err);
+/* What trees prove of the pairs of those parts where that may be more than groups do: parts->by_trees. The trees, to be
+ * freed by sunder_i_bound_trees_free(), have the roots of their parts for groups, and are kept where proofs are. */
+sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_solver *solver, sunder_i_parts *parts,
+                                         sunder_i_bound_trees *trees, sunder_error *err);
 
 /* ---- pushes.c ---------------------------------------------------------------------------------------------------- */
 

@@ -67,6 +67,9 @@
 /* So much of the weights is left over, for rounding; steps for each pair. */
 #define SHARED 0x1p-40
 #define PAIR_STEPS 1000000u
+/* Trees of pairs prove less than the pairs by some 2^-31 of it: where these prove more than groups by no more than this
+ * share, none are made. */
+#define TREES_SHORT 0x1p-28
 
 /* ---- What holds the features where they are (pushes.c) ----------------------------------------------------------- */
 

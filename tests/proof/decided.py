@@ -1,0 +1,141 @@
+"""Verdicts that need no proof of the file's: decided here, from the layer, the barriers and the options alone.
+
+`fixed`, `same_block` and `kept` are looked up. That a pair alone cannot keep the gap within its limits, or not without a jump, is
+shown by covering all relative moves that the limits leave with what is forbidden: convex pieces, as in trees (cover.py).
+"""
+from fractions import Fraction
+
+from cover import Piece, clip, fine_of, halves, square
+from exact import plane
+from form import demand
+from nearly_in import lies_in_grown
+from pieces import trapezoids
+
+MOST_STEPS = 20_000
+
+
+def check(problem, told):
+    """A conflict without a proof of its own."""
+    a, b, reason = told["a"], told["b"], told["reason"]
+    demand((reason == "same_block") == bool(told.get("inside_block")), "the reason", reason, "of", a, "and", b)
+    still = not problem.is_barrier(a) and all(limit_of(problem, k) == 0 for k in (a, b))
+    if reason == "fixed":
+        demand(still, "one of", a, "and", b, "may move")
+    elif reason == "kept":
+        demand(problem.options.contained == "ignore" and is_kept(problem, a, b), a, "and", b, "may not overlap")
+    elif reason == "same_block":
+        p, q = (problem.whole(k) for k in (a, b))
+        demand(told["kind"] not in ("overlap", "contained", "duplicate") or plane.interiors_meet(p, q), a, "and", b, "do not overlap")
+    elif reason in ("max_shift", "jump"):
+        demand(is_shut(problem, a, b, reason == "jump"), "no proof, and none is found, that", a, "and", b, "have no solution by",
+               reason)
+    else:
+        demand(reason == "unresolved" and not told.get("crowded"), "no solution, and no proof:", a, b)
+
+
+def body_of(problem, key):
+    return (key,) if problem.is_barrier(key) else problem.block(key)
+
+
+def limit_of(problem, key):
+    return 0.0 if problem.is_barrier(key) else problem.body_limit(problem.block(key))
+
+
+def is_kept(problem, a, b):
+    if problem.is_barrier(a) or problem.is_barrier(b):
+        return False
+    p, q, d = problem.whole(a), problem.whole(b), Fraction(problem.tolerance) * problem.lattice.unit
+    return plane.interiors_meet(p, q) and any(lies_in_grown(x, y, d, problem.tolerance, problem.lattice.unit)
+                                              for x, y in ((p, q), (q, p)))
+
+
+def is_shut(problem, a, b, jumps):
+    """Is every relative move within the limits forbidden to the two; with jumps, too, whichever members jump?"""
+    limits = [limit_of(problem, k) for k in (a, b)]
+    reach = None if None in limits else sum(map(Fraction, limits)) * problem.lattice.unit
+    if reach is None and not jumps:
+        return False
+    near = farthest_near(problem, a, b)
+    pieces = pieces_between(problem, a, b)
+    if jumps:
+        demand(not problem.options.allow_jumps, "jumps are allowed")
+        pieces += shadows_between(problem, a, b)
+    size = near if reach is None else min(-(-reach.numerator // reach.denominator), near if jumps else 1 << 4096)
+    return covers(square(-size, -size, size, size), reach, pieces)
+
+
+def farthest_near(problem, a, b):
+    """No relative move that is longer along x or y leaves the two too near; of longer ones shadows forbid all that they do at
+    this length."""
+    p, q, owed = problem.whole(a).box, problem.whole(b).box, problem.required(a, b)
+    return max(max(abs(p[x + 2] - q[x]), abs(p[x] - q[x + 2])) for x in (0, 1)) + owed + 1
+
+
+def parts_of(problem, key):
+    thing = problem.things[key]
+    lines = [list(e) for line in thing.lines for e in zip(line, line[1:] or line)]
+    return [t for o in thing.outlines if o.box for t in trapezoids(o)] + lines
+
+
+def pieces_between(problem, a, b):
+    owed = problem.required(a, b)
+    return [Piece(p, q, owed, False) for p in parts_of(problem, a) for q in parts_of(problem, b)]
+
+
+def shadows_between(problem, a, b):
+    found = []
+    if problem.is_barrier(a) or problem.is_barrier(b):
+        return found
+    for k in problem.block(a):
+        for l in problem.block(b):
+            for holder, other, swapped in ((k, l, False), (l, k, True)):
+                at = problem.lattice.point(problem.anchor(holder))
+                if problem.things[other].holds_place(at):
+                    continue
+                for part in parts_of(problem, other):
+                    found.append(Piece(part, [at], 0, True) if swapped else Piece([at], part, 0, True))
+    return found
+
+
+def covers(region, reach, pieces):
+    """Is all of the region that is no farther from the origin than reach (None: all of it) in the union of the pieces?"""
+    todo, steps, last = [region], 0, None
+    far = None if reach is None else reach * reach
+    while todo:
+        part = todo.pop()
+        if not part or (far is not None and is_beyond(part, far)):
+            continue
+        steps += 1
+        corners = [corner for corner, _ in part]
+        places = [fine_of(corner) for corner in corners]
+
+        def all_in(piece):
+            return all(piece.holds(p, c) for p, c in zip(places, corners))
+        if last and all_in(last):
+            continue
+        found = next((p for p in pieces if p is not last and all_in(p)), None)
+        if found:
+            last = found
+            continue
+        middle, (a, b, c) = halves(places)
+        if steps > MOST_STEPS or (a, b) == (0, 0):
+            return False
+        todo.append(clip(part, (a, b, c)))
+        todo.append(clip(part, (-a, -b, -c)))
+    return True
+
+
+def is_beyond(part, far):
+    """Is the convex polygon farther from the origin than that? far: the square."""
+    corners = [(Fraction(x, w), Fraction(y, w)) for (x, y, w), _ in part]
+    edges = list(zip(corners, corners[1:] + corners[:1]))
+    if len(corners) > 2 and all(p[0] * q[1] - p[1] * q[0] >= 0 for p, q in edges):
+        return False
+    return all(square_from_origin(p, q) > far for p, q in edges)
+
+
+def square_from_origin(p, q):
+    ux, uy = q[0] - p[0], q[1] - p[1]
+    whole = ux * ux + uy * uy
+    t = 0 if whole == 0 else min(max(-(p[0] * ux + p[1] * uy) / whole, 0), 1)
+    return (p[0] + t * ux) ** 2 + (p[1] + t * uy) ** 2

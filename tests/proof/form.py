@@ -1,0 +1,226 @@
+"""The form of a file of --proof (docs/PROOF.md, section 2): its lines, the members of each, and what kind of value each is.
+
+What comes out has numbers as doubles, indices and FIDs as whole numbers, and no member that the form has not; so what
+checks the claims need not ask again whether a member is there, or whether `true` was written for a number. Indices are
+no less than 0; whether they are in range is asked where they are used (index()).
+"""
+import json
+import math
+
+VERSION = 2
+KINDS = ("overlap", "too_close", "barrier", "barrier_drawn", "barrier_near", "contained", "duplicate")
+REASONS = ("same_block", "kept", "fixed", "max_shift", "side", "jump", "no_room", "unresolved")
+LEAST_FID, MOST_FID = -1 << 63, (1 << 63) - 1
+
+
+class Refused(Exception):
+    """Something in the proof does not hold."""
+
+
+def demand(condition, *words):
+    if not condition:
+        raise Refused(" ".join(map(str, words)))
+
+
+def index(value, n, what):
+    demand(0 <= value < n, "there is no", what, value)
+    return value
+
+
+# ---- Kinds of values. Each takes what JSON has, and where it stands, and returns the value.
+
+def number(value, where):
+    demand(type(value) in (int, float), "no number:", where)
+    try:
+        found = float(value)
+    except OverflowError:
+        found = math.inf
+    demand(math.isfinite(found), "a number beyond the range of doubles:", where)
+    return found
+
+
+def positive(value, where):
+    found = number(value, where)
+    demand(found > 0, "a number that is not greater than 0:", where)
+    return found
+
+
+def not_negative(value, where):
+    found = number(value, where)
+    demand(found >= 0, "a force that pulls, or another number less than 0:", where)
+    return found
+
+
+def or_null(kind):
+    return lambda value, where: None if value is None else kind(value, where)
+
+
+def whole(value, where):
+    demand(type(value) is int and 0 <= value <= MOST_FID, "no index:", where)
+    return value
+
+
+def integer(value, where):
+    demand(type(value) is int and LEAST_FID <= value <= MOST_FID, "no whole numbers:", where)
+    return value
+
+
+def name(value, where):
+    demand(type(value) is str, "no text:", where)
+    return value
+
+
+def true(value, where):
+    demand(value is True, "a member that is true or not there:", where)
+    return value
+
+
+def boolean(value, where):
+    demand(type(value) is bool, "neither true nor false:", where)
+    return value
+
+
+def one_of(words):
+    def kind(value, where):
+        demand(type(value) is str and value in words, "none of", *words, "at", where)
+        return value
+    return kind
+
+
+def barrier(value, where):
+    demand(type(value) is str and ":" in value, "no barrier is called so:", where)
+    return value
+
+
+def thing(value, where):
+    return barrier(value, where) if type(value) is str else integer(value, where)
+
+
+def all_of(kind, least=0, most=None):
+    """A list."""
+    def listed(value, where):
+        demand(type(value) is list, "no list:", where)
+        demand(len(value) >= least, "a list of too few:", where)
+        demand(most is None or len(value) <= most, "a list of too many:", where)
+        return [kind(v, where) for v in value]
+    return listed
+
+
+def pair_of(first, second):
+    def kind(value, where):
+        demand(type(value) is list and len(value) == 2, "no pair:", where)
+        return [first(value[0], where), second(value[1], where)]
+    return kind
+
+
+def members(needed, optional=()):
+    """An object that has all of the first, perhaps some of the second, and nothing else."""
+    optional = dict(optional)
+
+    def kind(value, where):
+        demand(type(value) is dict, "no object:", where)
+        for key in needed:
+            demand(key in value, "a member is missing:", where + "." + key)
+        for key in value:
+            demand(key in needed or key in optional, "a member that the form has not:", f"{where}.{key}")
+        return {key: (needed.get(key) or optional[key])(v, f"{where}.{key}") for key, v in value.items()}
+    return kind
+
+
+def either(key, this, that):
+    """The one form where the object has that key, else the other."""
+    return lambda value, where: (this if type(value) is dict and key in value else that)(value, where)
+
+
+# ---- The lines
+
+place = pair_of(number, number)
+corners = all_of(place, 1)
+
+way = members({"n": place, "d": number, "next": whole})
+way_force = members({"node": whole, "way": whole, "behind": boolean, "force": positive})
+question = members({"a": thing, "b": thing, "A": corners, "B": corners, "ways": all_of(way, 1),
+                    "forces": all_of(way_force, 0, 0)},
+                   {"slack": true, "held": true, "shadow": true, "clearance": number, "c": thing,
+                    "side_b": all_of(place, 2, 2), "side_c": all_of(place, 2, 2)})
+leaf = members({"forces": all_of(way_force, 1)}, {"still": all_of(pair_of(whole, whole), 2, 2)})
+conflict = members({"conflict": whole, "a": thing, "b": thing, "kind": one_of(KINDS), "reason": one_of(REASONS),
+                    "blocked_by": all_of(thing)},
+                   {"crowded": true, "inside_block": true, "within": positive,
+                    "proof": all_of(either("ways", question, leaf), 1)})
+
+feature = members({"fid": integer, "weight": positive, "max_shift": or_null(not_negative)}, {"anchor": place})
+shared = {"weight": or_null(positive), "shift": place}
+body = either("barrier", members({"barrier": barrier, **shared}), members({"features": all_of(feature, 1), **shared}))
+piece = members({"i": whole, "j": whole, "a": thing, "b": thing, "A": corners, "B": corners},
+                {"shadow": true, "clearance": number})
+named = all_of(whole)
+side = {"i": whole, "n": place, "d": number}
+CUTS = {"limit": members({"kind": name, **side}), "cone": members({"kind": name, "j": whole, **side}),
+        "disc": members({"kind": name, "j": whole, **side}),
+        "hull": members({"kind": name, "j": whole, "pieces": named, **side})}
+
+
+def cut(value, where):
+    demand(type(value) is dict and type(value.get("kind")) is str and value["kind"] in CUTS, "a cut of no kind:", where)
+    return CUTS[value["kind"]](value, where)
+
+
+forces = all_of(pair_of(whole, not_negative))
+node = members({"parent": or_null(whole), "cuts": all_of(cut), "forces": forces},
+               {"by": forces, "empty": members({"i": whole, "j": whole, "pieces": named})})
+prices = members({"side": positive, "unit": positive, "x": integer, "y": integer, "columns": whole,
+                  "rows": all_of(all_of(integer), 1)})
+tree = {"group": whole, "bound": number, "bodies": all_of(body, 1)}
+group = either("prices", members({**tree, "prices": prices}),
+               members({**tree, "pieces": all_of(piece), "nodes": all_of(node, 1)}))
+head = members({"sunder_proof": whole, "layer": name, "gap": not_negative, "max_shift": or_null(not_negative),
+                "contained": one_of(("block", "ignore", "separate")), "allow_jumps": boolean,
+                "lower_bound": not_negative, "conflicts": whole, "trees": whole})
+block = members({"block": all_of(integer, 2)})
+LINES = {"block": block, "conflict": conflict, "group": group}
+
+
+def once(pairs):
+    found = dict(pairs)
+    demand(len(found) == len(pairs), "a member is there twice")
+    return found
+
+
+def no_constant(word):
+    raise Refused(f"{word} is no number")
+
+
+def read_line(text):
+    return json.loads(text, object_pairs_hook=once, parse_constant=no_constant)
+
+
+class Proof:
+    """head, blocks (lists of FIDs), conflicts and trees (as the lines have them)."""
+
+    def __init__(self, lines):
+        demand(lines, "an empty proof")
+        demand(type(lines[0]) is dict and lines[0].get("sunder_proof") == VERSION, "no proof of this version")
+        self.head = head(lines[0], "head")
+        found = {key: [] for key in LINES}
+        order = list(LINES)
+        at = 0
+        for k, line in enumerate(lines[1:], 2):
+            key = next((w for w in order if type(line) is dict and w in line), None)
+            demand(key, "line", k, "is of no kind")
+            demand(order.index(key) >= at, "line", k, "comes too late: blocks, conflicts, groups")
+            at = order.index(key)
+            found[key].append(LINES[key](line, f"line {k}"))
+        self.blocks = [line["block"] for line in found["block"]]
+        self.conflicts, self.trees = found["conflict"], found["group"]
+        demand(len(self.conflicts) == self.head["conflicts"] and len(self.trees) == self.head["trees"], "lines are missing")
+        demand([c["conflict"] for c in self.conflicts] == list(range(len(self.conflicts))), "conflicts are not in order")
+        numbers = [0] + [t["group"] for t in self.trees]
+        demand(numbers[:2] in ([0], [0, 0]) and all(b - a in (0, 1) for a, b in zip(numbers, numbers[1:])),
+               "groups are not in order")
+
+
+def read(path):
+    """Its lines, as JSON has them."""
+    with open(path, encoding="utf-8") as file:
+        return [read_line(line) for line in file]

@@ -1,0 +1,83 @@
+# shellcheck shell=bash
+# Layers of few features, each for one kind of line in a file of --proof; layer() is of tests/cli/lib.sh.
+
+make_side() {
+    printf 'WKT,w\n"LINESTRING(9.5 -3,9.5 13)",1\n' | layer side.gpkg side LINESTRING
+    printf 'WKT,w\n"POLYGON((0 0,10 0,10 10,0 10))",1\n"POLYGON((-10 -30,0 -30,0 40,-10 40))",1\n' | layer wall.gpkg buildings POLYGON
+}
+
+make_corners() {
+    printf 'WKT,w\n"POLYGON((1000.1 2000.2,1002.3 2000.4,1002.1 2002.6,999.9 2002.4))",1\n' | layer held.gpkg buildings POLYGON
+    printf 'WKT,w\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n' '940.3 2005.2,1001.37 2004.61' \
+        '1001.37 2004.61,1060.4 2003.9' '940.3 1997.7,1000.83 1998.17' '1000.83 1998.17,1060.4 1998.9' | layer corners.gpkg corners LINESTRING
+    printf 'WKT,w\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n' '940.3 2005.2,1001.37 2004.61,1060.4 2003.9' \
+        '940.3 1997.7,1000.83 1998.17,1060.4 1998.9' | layer bends.gpkg bends LINESTRING
+}
+
+make_bend() {
+    printf 'WKT,w\n"LINESTRING(-20 8,8 8,8 -20)",1\n' | layer bend.gpkg bend LINESTRING
+    printf 'WKT,w\n"LINESTRING(-0.4 -9,-0.4 19)",1\n' | layer edge.gpkg edge LINESTRING
+    printf 'WKT,w\n"POLYGON((0 0,10 0,10 10,0 10))",1\n' | layer bent.gpkg buildings POLYGON
+}
+
+make_lane() {
+    printf 'WKT,w\n"LINESTRING(600001.37 5000002.91,600032.77 5000027.43)",1\n' | layer lane.gpkg lane LINESTRING
+    printf 'WKT,w,k\n"%s",1,1\n"%s",1,1\n"%s",2,2\n' \
+        "POLYGON((600008.45 5000010.86,600012.74 5000015.01,600009.98 5000018.57,600005.25 5000014.87))" \
+        "POLYGON((600011.48 5000008.98,600014.73 5000004.73,600020.64 5000009.35,600018.22 5000014.32))" \
+        "POLYGON((600021.39 5000012.94,600024.95 5000008.41,600029.1 5000011.5,600024.8 5000016.9))" | layer lanes.gpkg buildings POLYGON
+}
+
+make_pierced() {
+    printf 'WKT,w,k\n"%s",1,1\n"%s",1,1\n"%s",2,2\n' \
+        "POLYGON((600009.69 5000006.87,600013.39 5000010.27,600010.64 5000010.53,600008.71 5000016.26,600004.65 5000013.34,600009.83 5000009.14))" \
+        "POLYGON((600014.70 5000015.09,600017.38 5000014.90,600021.10 5000006.89,600028.02 5000011.03,600027.40 5000011.82,600020.04 5000018.00,600021.19 5000019.78))" \
+        "POLYGON((600029.37 5000013.36,600033.23 5000015.73,600029.84 5000020.07,600025.90 5000016.99))" | layer pierced.gpkg buildings POLYGON
+}
+
+make_yard() {
+    printf 'WKT,w\n"POLYGON((0 0,20 0,20 20,0 20),(2 2,18 2,18 18,2 18))",1\n"POLYGON((1 4,17 4,17 16,1 16))",1\n' |
+        layer yard.gpkg buildings POLYGON
+}
+
+make_halves() {
+    printf 'WKT,w\n"POLYGON((0 0,0 1,-19 1,-19 29,0 29,0 30,-20 30,-20 0))",1\n"POLYGON((0 0,20 0,20 30,0 30,0 29,19 29,19 1,0 1))",1\n"POLYGON((-6 24,6 24,0 36))",1\n' |
+        layer halves.gpkg buildings POLYGON
+}
+
+# COLUMNS ROWS: squares in a grid that lack a metre or two each.
+make_squares() {
+    python3 -c '
+import sys
+columns, rows = map(int, sys.argv[1:])
+print("WKT,w")
+for k in range(columns * rows):
+    x, y = 12 * (k % columns) + k * 7 % 5 / 8, 12 * (k // columns) + k * 3 % 5 / 8
+    print(f"\"POLYGON(({x} {y},{x + 10} {y},{x + 10} {y + 10},{x} {y + 10}))\",1")' "$@" | layer squares.gpkg buildings POLYGON
+}
+
+# HOW MANY points, nearly on one place.
+make_pile() {
+    python3 -c '
+import sys
+from random import Random
+r = Random(7)
+print("WKT,w")
+for k in range(int(sys.argv[1])):
+    print(f"\"POINT({500000 + r.gauss(0, 2):.3f} {5000000 + r.gauss(0, 2):.3f})\",1")' "$1" | layer pile.gpkg buildings POINT
+}
+
+# HOW MANY buildings that lie on each other, some with a corner cut out, three of them one block by k.
+make_lying() {
+    python3 -c '
+import sys
+from math import cos, sin
+from random import Random
+r = Random(5)
+print("WKT,k")
+for k in range(int(sys.argv[1])):
+    x, y, a, w, h = r.gauss(600000, 4), r.gauss(5000000, 4), r.uniform(0, 6), r.uniform(8, 12), r.uniform(6, 9)
+    cut = [(w, h / 3), (w / 3, h / 3), (w / 3, h)] if k % 3 == 0 else [(w, h)]
+    ring = ", ".join(f"{x + cos(a) * u - sin(a) * v:.2f} {y + sin(a) * u + cos(a) * v:.2f}" for u, v in [(0, 0), (w, 0)] + cut + [(0, h)])
+    print(f"\"POLYGON(({ring}))\",{1 if k in (2, 3, 7) else 100 + k}")' "$1" | layer lying.gpkg buildings POLYGON
+}

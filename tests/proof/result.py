@@ -1,0 +1,70 @@
+"""What `separate` wrote, beside the proof: the same conflicts, moves that begin at the anchors and keep limits and blocks, and what
+they cost."""
+from fractions import Fraction
+
+import geopackage
+from form import demand
+
+
+class Result:
+    def __init__(self, problem, path):
+        self.problem, self.path = problem, path
+        self.main = geopackage.Layer(path, problem.name).features
+        self.moves = {fid: tuple(row[c] or 0.0 for c in ("sunder_dx", "sunder_dy")) for fid, (row, _, _) in self.main.items()}
+
+    def check(self, conflicts, total):
+        """What it costs, in words."""
+        demand(set(self.problem.place) <= set(self.moves), "the result has other features")
+        compared = 0 if self.problem.options.symbol else self.check_anchors()
+        self.check_moves()
+        self.check_conflicts(conflicts)
+        cost = sum(Fraction(self.problem.weight(fid)) * self.square(fid) for fid in self.moved())
+        demand(total <= cost, "a bound of", float(total), "is more than what the result costs:", float(cost))
+        return f"the result costs {float(cost):.9g}; {compared} anchors are those of the result"
+
+    def moved(self):
+        return [fid for fid, move in self.moves.items() if move != (0.0, 0.0) and fid in self.problem.place]
+
+    def square(self, fid):
+        return sum(Fraction(v) ** 2 for v in self.moves[fid])
+
+    def check_anchors(self):
+        """The anchors of what moved are the first points of its lines, and the lines are as long as its move."""
+        compared, lines_of = 0, {}
+        for row, _, lines in geopackage.Layer(self.path, self.problem.name + "_displacement").features.values():
+            lines_of[row["fid"]] = lines
+            demand((row["dx"], row["dy"]) == self.moves.get(row["fid"]), "two moves of", row["fid"])
+        for fid in self.moved():
+            demand(lines_of.get(fid), "no line shows the move of", fid)
+            compared += fid in self.problem.anchors
+            demand(self.problem.anchors.get(fid) in (None, lines_of[fid][0][0]), "the anchor of", fid, "is another in the result")
+        return compared
+
+    def check_moves(self):
+        problem = self.problem
+        for fid in self.moved():
+            limit = problem.limit(fid)
+            demand(limit is None or self.square(fid) <= Fraction(limit) ** 2, "the result moves", fid, "beyond its limit")
+            self.check_place(fid)
+        for fid, members in problem.blocks.of.items():
+            demand(self.moves[fid] == self.moves[members[0]], "the result moves", fid, "and not the block of", members[0])
+
+    def check_place(self, fid):
+        """Every corner is the double nearest to what it was and the move; not asked of what was repaired."""
+        given, now = self.problem.given[fid], self.main[fid][1]
+        if self.problem.options.symbol or any(a is not b for a, b in zip(given, self.problem.standing[fid])):
+            return
+        (dx, dy) = self.moves[fid]
+        moved = [[[(x + dx, y + dy) for x, y in ring] for ring in polygon] for polygon in given]
+        demand(moved == now, "the result has", fid, "elsewhere")
+
+    def check_conflicts(self, conflicts):
+        """The result lists the same pairs, of the same kinds, for the same reasons."""
+        def key(a, b, *more):
+            return (*sorted((str(a), str(b))), *more)
+        listed = []
+        for row, _, _ in geopackage.Layer(self.path, self.problem.name + "_conflicts").features.values():
+            other = row["fid_b"] if row["barrier"] is None else f"{row['barrier']}:{row['barr_fid']}"
+            listed.append(key(row["fid_a"], other, row["kind"], row["reason"], row["blocked_by"] or ""))
+        told = [key(c["a"], c["b"], c["kind"], c["reason"], ",".join(map(str, c["blocked_by"]))) for c in conflicts]
+        demand(sorted(listed) == sorted(told), "the result lists other conflicts")
