@@ -204,9 +204,9 @@ static bool open_source(reading *r, gis_error *error)
     if (!gis_source_open(&source, &r->source, &why)) {
         size_t n = strlen(request->dataset);
         bool named = strncmp(why.message, request->dataset, n) == 0;
-        *error = why;
-        snprintf(error->message, sizeof error->message, "--barrier %s%.*s", named ? "" : request->dataset,
-                 (int)(sizeof error->message - n - 16), named ? why.message : CPLSPrintf(": %s", why.message));
+        gis_fail(error, "--barrier %s%s%s", named ? "" : request->dataset, named ? "" : ": ", why.message);
+        error->exit_status = why.exit_status;
+        error->no_memory = why.no_memory;
         return false;
     }
     if (!r->batch) gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(r->source));

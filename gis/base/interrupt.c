@@ -88,7 +88,7 @@ static void hear(int number)
 
 /* SIGHUP: the terminal is gone, or the machine goes down. SIGXFSZ, SIGXCPU: a file, or the time of the processor, is at
  * the limit that was set for the process (setrlimit(2)). */
-static const int requests[] = {SIGINT, SIGTERM, SIGHUP, SIGXFSZ, SIGXCPU};
+static const int requests[] = {SIGHUP, SIGXFSZ, SIGXCPU, SIGINT, SIGTERM};
 enum { N_REQUESTS = sizeof requests / sizeof *requests };
 
 static sigset_t all_of_them(void)
@@ -109,11 +109,13 @@ static void catch (int number)
     sigaction(number, &action, NULL);
 }
 
-/* Whoever started the run may want it to go on after its terminal has gone: nohup(1) ignores SIGHUP. */
+/* Whoever started the run may want it to go on after its terminal has gone (nohup(1) ignores SIGHUP), or a limit to be
+ * reported by the call that meets it. */
 static bool is_to_be_ignored(int number)
 {
     struct sigaction now;
-    return number == SIGHUP && sigaction(number, NULL, &now) == 0 && now.sa_handler == SIG_IGN;
+    if (number == SIGINT || number == SIGTERM) return false;
+    return sigaction(number, NULL, &now) == 0 && now.sa_handler == SIG_IGN;
 }
 
 void gis_catch_signals(void)

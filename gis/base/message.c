@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "base/json.h"
 #include "base/progress.h"
+#include "base/trust.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -304,6 +305,7 @@ bool gis_messages_begin(const gis_messages_request *request, gis_error *error)
     messages.how = *request;
     gis_set_last_words(request->json ? INTERRUPTED_JSON : INTERRUPTED_WORDS, -1);
     if (!request->log) return true;
+    if (!gis_link_may_be_followed(request->log, "--log", error)) return false;
     if (!may_replace(request->log))
         return gis_fail_usage(error, "--log %s: there is a file of that name, which is no log; give another",
                               request->log);

@@ -46,13 +46,15 @@ static void empty(int directory, int depth)
     }
 }
 
-void gis_remove_tree(const char *path) { remove_entry(AT_FDCWD, path, 0); }
+void gis_remove_tree_in(int directory, const char *name) { remove_entry(directory, name, 0); }
 
 #else
 
-void gis_remove_tree(const char *path)
+void gis_remove_tree_in(int directory, const char *name)
 {
-    if (unlink(path) != 0) rmdir(path);
+    if (unlinkat(directory, name, 0) != 0) unlinkat(directory, name, AT_REMOVEDIR);
 }
 
 #endif
+
+void gis_remove_tree(const char *path) { gis_remove_tree_in(AT_FDCWD, path); }

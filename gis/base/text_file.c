@@ -3,6 +3,9 @@
 #define _GNU_SOURCE
 #include "base/text_file.h"
 
+#include "base/abandoned.h"
+#include "base/trust.h"
+
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
@@ -11,24 +14,30 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* path.PID.ending: of this process alone. */
-static char *beside(const char *path, const char *ending)
+/* So much of the name stands in that of the temporary file, which has to be short enough for the file system, too. */
+enum { SHOWN_OF_NAME = 100 };
+
+/* DIRECTORY/NAME.sunder-XXXXXX: the letters are drawn when it is made, so that nobody can have it ready. */
+static char *beside(const char *path)
 {
-    size_t size = strlen(path) + strlen(ending) + 32;
-    char *name = malloc(size);
-    if (name) snprintf(name, size, "%s.%ld.%s", path, (long)getpid(), ending);
-    return name;
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const size_t size = strlen(path) + sizeof GIS_OWN_LETTERS + 1;
+    char *temporary = malloc(size);
+    if (temporary) snprintf(temporary, size, "%.*s%.*s" GIS_OWN_LETTERS, (int)(name - path), path, SHOWN_OF_NAME, name);
+    return temporary;
 }
 
-/* Not there before: another's is not ours to remove. */
 static FILE *open_temporary(gis_text_file *file)
 {
     gis_hold();
-    FILE *opened = fopen(file->temporary, "wx");
+    const int made = gis_make_file(file->temporary);
+    FILE *opened = made >= 0 ? fdopen(made, "w") : NULL;
     const int reason = errno;
     if (opened) {
         file->leftover = gis_leftover_temporary(file->temporary);
     } else {
+        if (made >= 0) unlink(file->temporary);
+        if (made >= 0) close(made);
         free(file->temporary);
         file->temporary = NULL;
     }
@@ -57,8 +66,9 @@ bool gis_text_file_write(gis_text_file *file, const char *path, gis_text_writer 
     char *resolved = lstat(path, &info) == 0 && S_ISLNK(info.st_mode) ? realpath(path, NULL) : NULL;
     file->path = resolved ? resolved : strdup(path);
     if (!file->path) return gis_no_memory(error);
+    if (!gis_link_may_be_followed(path, what, error)) return false;
     bool special = stat(file->path, &info) == 0 && !S_ISREG(info.st_mode);
-    if (!special && !(file->temporary = beside(file->path, "part"))) return gis_no_memory(error);
+    if (!special && !(file->temporary = beside(file->path))) return gis_no_memory(error);
     FILE *to = special ? fopen(file->path, "w") : open_temporary(file);
     int reason = errno;
     if (to && write_all(to, write, of, &reason, error)) return true;
@@ -67,8 +77,10 @@ bool gis_text_file_write(gis_text_file *file, const char *path, gis_text_writer 
 
 static bool step_aside(gis_text_file *file, const char *what, gis_error *error)
 {
-    char *former = beside(file->path, "former");
+    const size_t size = strlen(file->temporary) + 2;
+    char *former = malloc(size);
     if (!former) return gis_no_memory(error);
+    snprintf(former, size, "%s~", file->temporary);
     if (rename(file->path, former) == 0) {
         file->former = former;
         file->former_leftover = gis_leftover_former(former, file->path);

@@ -13,7 +13,7 @@
 typedef struct gis_text_file {
     char *path;      /* with links resolved: the link stays, and its target is replaced */
     char *temporary; /* NULL: there is none (yet, any more, or since the file is a pipe or a device) */
-    char *former;    /* where the former file waits; NULL: nowhere */
+    char *former;    /* where the former file waits: TEMPORARY~; NULL: nowhere */
     bool placed;
     gis_leftover *leftover, *former_leftover; /* the same, for a signal */
 } gis_text_file;

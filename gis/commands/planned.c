@@ -1,6 +1,7 @@
 /* planned.c: see planned.h. */
 #include "commands/planned.h"
 
+#include "base/path.h"
 #include "commands/call.h"
 #include "commands/config.h"
 #include "commands/separate_run.h"
@@ -88,7 +89,7 @@ static bool add_now(gis_planned *planned, const gis_options *now, gis_error *err
     bool done = gis_call_list_of(now, is_watching, &call, error);
     for (size_t k = 0; k < call.n && done; k++) {
         const char *value = call.option[k].value;
-        char *word = CPLStrdup(*value ? CPLSPrintf("%s=%s", call.option[k].name, value) : call.option[k].name);
+        char *word = gis_printed("%s%s%s", call.option[k].name, *value ? "=" : "", value);
         done = add_word(planned, word, error);
         CPLFree(word);
     }

@@ -1,10 +1,10 @@
 /* in_parts.c: see in_parts.h. */
-#define _GNU_SOURCE /* mkdtemp() */
 #include "layer/in_parts.h"
 
 #include "base/abandoned.h"
 #include "base/interrupt.h"
 #include "base/message.h"
+#include "base/path.h"
 #include "base/remove_tree.h"
 #include "base/resources.h"
 #include "parts/memory.h"
@@ -36,13 +36,9 @@ static unsigned units_of(unsigned shards) { return shards * ((UNITS + shards - 1
 
 static bool make_directory(gis_in_parts *p, const char *where, gis_error *error)
 {
-    bool made;
-    do {
-        CPLFree(p->scratch);
-        p->scratch = CPLStrdup(CPLFormFilename(where, "parts" GIS_OWN_LETTERS, NULL));
-        made = mkdtemp(p->scratch) != NULL;
-    } while (made && (p->scratch_lock = gis_directory_not_abandoned(p->scratch)) == -2);
-    if (!made) {
+    p->scratch = gis_path_join(where, "parts" GIS_OWN_LETTERS);
+    p->scratch_lock = gis_make_directory(p->scratch);
+    if (p->scratch_lock < 0) {
         gis_fail(error, "%s: a directory for the parts of the layer cannot be made: %s", p->scratch, strerror(errno));
         CPLFree(p->scratch);
         p->scratch = NULL;
@@ -250,7 +246,10 @@ bool gis_in_parts_state(const gis_in_parts *p, unsigned k, uint64_t options, gis
     const gis_part_stamp stamp = stamp_of(p, k, options);
     gis_part_file_name(k, name);
     *state = GIS_SHARD_MISSING;
-    if (access(CPLFormFilename(p->directory, name, NULL), F_OK) != 0 && errno == ENOENT) return true;
+    char *path = gis_path_join(p->directory, name);
+    const bool missing = access(path, F_OK) != 0 && errno == ENOENT;
+    CPLFree(path);
+    if (missing) return true;
     *state =
         gis_part_file_open(&file, p->directory, &stamp, why) && is_sound(&file, why) ? GIS_SHARD_DONE : GIS_SHARD_WRONG;
     gis_part_file_close(&file);
@@ -308,7 +307,7 @@ void gis_in_parts_clear(gis_in_parts *p)
     free(p->block_fid);
     if (p->scratch) {
         gis_remove_tree(p->scratch);
-        if (p->scratch_lock >= 0) close(p->scratch_lock);
+        close(p->scratch_lock);
     }
     gis_leftover_forget(p->leftover);
     CPLFree(p->directory);

@@ -2,25 +2,26 @@
  * all the same. Of names that GDAL's drivers make sense of those forms are known in which a file stands by itself. */
 #include "plan/plan.h"
 
+#include "base/path.h"
+
 #include <cpl_conv.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-/* `path` has n characters of which no file's name is longer. */
+/* Is there a file whose path are the first n bytes? */
 static bool is_there(const char *path, size_t n)
 {
-    char name[4096];
-    if (n == 0 || n >= sizeof name) return false;
-    memcpy(name, path, n);
-    name[n] = '\0';
-    return access(name, F_OK) == 0;
+    char *name = gis_printed("%.*s", (int)n, path);
+    const bool there = n > 0 && access(name, F_OK) == 0;
+    CPLFree(name);
+    return there;
 }
 
 /* The text with the current directory before what stands at `at`. */
 static char *prefixed(const char *text, size_t at)
 {
-    char *here = CPLGetCurrentDir();
+    char *here = gis_path_here();
     if (!here) return CPLStrdup(text);
     const size_t size = strlen(here) + strlen(text) + 2;
     char *out = CPLCalloc(1, size);

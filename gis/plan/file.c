@@ -3,6 +3,7 @@
 #include "plan/plan.h"
 
 #include "base/holes.h"
+#include "base/path.h"
 #include "base/text.h"
 #include "spool/checksum.h"
 #include "spool/file.h"
@@ -10,6 +11,7 @@
 #include <cpl_conv.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #define NAME "plan"
@@ -186,13 +188,32 @@ static bool read_bytes(const char *directory, char *bytes, size_t n, gis_plan *p
     return true;
 }
 
+/* A plan is a call of separate: it names files to be read, and to be written. So it is not taken from a directory into
+ * which anybody could have put it. */
+static bool may_be_believed(const char *directory, gis_error *error)
+{
+    struct stat status;
+    if (stat(directory, &status) != 0 || (status.st_uid != geteuid() && status.st_uid != 0))
+        return gis_fail(
+            error,
+            "%s: it belongs to another user (%lu), whose plan could have any file read and replaced; if you "
+            "trust that user, take a copy of your own (cp -r)",
+            directory, (unsigned long)status.st_uid);
+    return !(status.st_mode & S_IWOTH) ||
+           gis_fail(error, "%s: all users may write into it, so that it may hold anything; make the plan anew",
+                    directory);
+}
+
 bool gis_plan_read(const char *directory, gis_plan *plan, gis_error *error)
 {
     gis_spool_file file = {0};
     *plan = (gis_plan){0};
     if (access(directory, F_OK) != 0) return gis_fail(error, "%s: no such directory; sunder plan makes one", directory);
-    if (access(CPLFormFilename(directory, NAME, NULL), F_OK) != 0)
-        return gis_fail(error, "%s: there is no plan in it; sunder plan makes a directory with one", directory);
+    if (!may_be_believed(directory, error)) return false;
+    char *path = gis_path_join(directory, NAME);
+    const bool there = access(path, F_OK) == 0;
+    CPLFree(path);
+    if (!there) return gis_fail(error, "%s: there is no plan in it; sunder plan makes a directory with one", directory);
     char *bytes = NULL;
     bool done = gis_spool_file_open(&file, directory, NAME, error);
     if (done && file.size > MOST_BYTES) done = altered(directory, error);

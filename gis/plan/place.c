@@ -1,8 +1,9 @@
 /* place.c: see plan.h. */
-#define _GNU_SOURCE /* mkdtemp() */
+#define _GNU_SOURCE /* unlinkat() */
 #include "plan/plan.h"
 
 #include "base/abandoned.h"
+#include "base/path.h"
 #include "base/remove_tree.h"
 
 #include <cpl_conv.h>
@@ -15,12 +16,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* How a directory is made, for whoever may look into it: mkdtemp() makes it for its owner alone. */
-static void open_to_others(const char *path)
+/* The mode of any other new directory, but that not all users may write into a plan (gis_plan_read()). Until then it is
+ * for its owner alone. */
+static void open_to_others(int directory)
 {
     const mode_t mask = umask(0);
     umask(mask);
-    (void)chmod(path, 0777 & ~mask);
+    (void)fchmod(directory, 0777 & ~mask & ~(mode_t)S_IWOTH);
 }
 
 /* "DIR/.NAME" of DIR/NAME, and letters of its own. */
@@ -30,13 +32,12 @@ static char *hidden_beside(const char *directory, size_t *beside)
     while (n > 1 && directory[n - 1] == '/') n--;
     *beside = n;
     while (*beside > 0 && directory[*beside - 1] != '/') --*beside;
-    return CPLStrdup(
-        CPLSPrintf("%.*s.%.*s" GIS_OWN_LETTERS, (int)*beside, directory, (int)(n - *beside), directory + *beside));
+    return gis_printed("%.*s.%.*s" GIS_OWN_LETTERS, (int)*beside, directory, (int)(n - *beside), directory + *beside);
 }
 
 static void remove_abandoned(const char *hidden, size_t beside)
 {
-    char *directory = CPLStrdup(beside ? CPLSPrintf("%.*s", (int)beside, hidden) : ".");
+    char *directory = beside ? gis_printed("%.*s", (int)beside, hidden) : CPLStrdup(".");
     char *prefix = CPLStrdup(hidden + beside);
     prefix[strlen(prefix) - strlen(GIS_OWN_LETTERS)] = '\0';
     gis_remove_abandoned(directory, prefix);
@@ -47,21 +48,16 @@ static void remove_abandoned(const char *hidden, size_t beside)
 bool gis_plan_place_begin(const char *directory, gis_plan_place *place, gis_error *error)
 {
     size_t beside;
-    bool made;
     char *hidden = hidden_beside(directory, &beside);
     remove_abandoned(hidden, beside);
     place->path = CPLStrdup(hidden);
     gis_hold();
-    while ((made = mkdtemp(place->path) != NULL) && (place->lock = gis_directory_not_abandoned(place->path)) == -2)
-        strcpy(place->path, hidden);
+    place->lock = gis_make_directory(place->path);
     const int why = errno;
-    if (made) place->leftover = gis_leftover_temporary(place->path);
+    if (place->lock >= 0) place->leftover = gis_leftover_temporary(place->path);
     gis_release();
     CPLFree(hidden);
-    if (made) {
-        open_to_others(place->path);
-        return true;
-    }
+    if (place->lock >= 0) return true;
     gis_fail(error, "%s: a directory cannot be made there: %s", directory, strerror(why));
     CPLFree(place->path);
     place->path = NULL;
@@ -71,7 +67,9 @@ bool gis_plan_place_begin(const char *directory, gis_plan_place *place, gis_erro
 /* That a directory has a name is on the disk only once the one that it is in is. */
 static void sync_parent(const char *directory)
 {
-    const int opened = open(CPLFormFilename(directory, "..", NULL), O_RDONLY | O_DIRECTORY);
+    char *parent = gis_path_join(directory, "..");
+    const int opened = open(parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    CPLFree(parent);
     if (opened < 0) return;
     (void)fsync(opened);
     close(opened);
@@ -81,18 +79,18 @@ static void forget(gis_plan_place *place)
 {
     gis_leftover_forget(place->leftover);
     CPLFree(place->path);
-    if (place->lock >= 0) close(place->lock);
+    close(place->lock);
     *place = (gis_plan_place){0};
 }
 
 bool gis_plan_place_end(gis_plan_place *place, const char *directory, bool *taken, gis_error *error)
 {
     gis_hold();
+    unlinkat(place->lock, GIS_BEING_MADE, 0);
+    open_to_others(place->lock);
     const bool done = rename(place->path, directory) == 0;
     const int why = errno;
-    if (done) {
-        forget(place);
-    }
+    if (done) forget(place);
     gis_release();
     *taken = !done && (why == ENOTEMPTY || why == EEXIST || why == ENOTDIR);
     if (done) sync_parent(directory);

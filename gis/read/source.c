@@ -6,6 +6,7 @@
 #include "base/array.h"
 #include "base/interrupt.h"
 #include "base/message.h"
+#include "base/path.h"
 #include "base/resources.h"
 #include "read/borrow.h"
 #include "read/packed.h"
@@ -73,6 +74,9 @@ static void keep_warnings(gis_source *source, const gis_listener *listener)
 
 static bool open_dataset(gis_source *source, const gis_source_request *request, gis_error *error)
 {
+    if (!gis_path_suits_gdal(request->path, "the input", error)) return false;
+    const char *planted = gis_sqlite_planted_companion(request->path);
+    if (planted) return gis_fail(error, GIS_SQLITE_PLANTED, request->path, planted, request->path);
     /* The standard input cannot be rewound past a megabyte unless GDAL is told to keep it all. */
     if (strncmp(request->path, "/vsistdin/", 10) == 0 && !CPLGetConfigOption("CPL_VSISTDIN_BUFFER_LIMIT", NULL))
         CPLSetThreadLocalConfigOption("CPL_VSISTDIN_BUFFER_LIMIT", "-1");
@@ -453,7 +457,7 @@ static bool fill(gis_source *source, const gis_source_request *request, gis_erro
     source->where_option = request->where_option ? request->where_option : "--where";
     if (!open_dataset(source, request, error)) return false;
     if (request->sql) {
-        source->name = CPLStrdup(CPLGetBasename(request->path));
+        source->name = gis_path_stem(request->path);
         if (!execute(source, request, error)) return false;
     } else {
         source->layer = gis_choose_layer(source->dataset, request, error);

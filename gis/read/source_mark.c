@@ -6,6 +6,7 @@
 
 #include "base/array.h"
 #include "base/interrupt.h"
+#include "base/path.h"
 #include "read/where.h"
 
 #include <cpl_conv.h>
@@ -23,7 +24,7 @@ static bool ask_layer(const gis_source *source, const char *where, take_fid *tak
 {
     OGRLayerH layer = gis_source_layer(source);
     const char *selected = gis_source_where(source);
-    char *both = CPLStrdup(selected ? CPLSPrintf("(%s) AND (%s)", selected, where) : where);
+    char *both = selected ? gis_printed("(%s) AND (%s)", selected, where) : CPLStrdup(where);
     bool done = OGR_L_SetAttributeFilter(layer, both) == OGRERR_NONE;
     CPLFree(both);
     if (done) {

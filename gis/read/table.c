@@ -6,6 +6,7 @@
 #include "base/array.h"
 #include "base/beside.h"
 #include "base/interrupt.h"
+#include "base/path.h"
 #include "read/blob.h"
 #include "sqlite/again.h"
 #include "sqlite/names.h"
@@ -117,7 +118,7 @@ static bool goes_by(void *database, const char *sql, const char *verb, const cha
               gis_sqlite_select_value(statement, DETAIL, &told) && told.kind == GIS_TEXT,
          found = false;
     for (int older = 0; so && older < 2; older++) {
-        char *words = CPLStrdup(CPLSPrintf("%s %s%s%s", verb, older ? "TABLE " : "", name, way));
+        char *words = gis_printed("%s %s%s%s", verb, older ? "TABLE " : "", name, way);
         const size_t n = strlen(words);
         found = found || (strncmp(told.as.text, words, n) == 0 && (more || told.as.text[n] == 0));
         CPLFree(words);

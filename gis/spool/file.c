@@ -26,20 +26,41 @@ static bool cannot_write(const char *path, gis_error *error)
 
 #define UNIQUE "XXXXXX"
 
-/* mkstemp() makes files for their owner alone; these are as any other. */
-static FILE *open_unique(char *path)
+static bool is_unique(const char *name)
 {
-    int opened;
-    const size_t letters = strlen(path) - strlen(UNIQUE);
-    while ((opened = mkstemp(path)) >= 0 && !gis_not_abandoned(opened)) {
-        close(opened);
-        strcpy(path + letters, UNIQUE);
-    }
+    const size_t n = strlen(name), of_these = strlen(UNIQUE);
+    return n > of_these && strcmp(name + n - of_these, UNIQUE) == 0;
+}
+
+/* A new file: a file or link that has the name goes, and is not written into. A device stays what it is. */
+static int open_new(const char *path)
+{
+    struct stat status;
+    const bool there = lstat(path, &status) == 0;
+    if (there && !S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode))
+        return open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
+    if (there) unlink(path);
+    return open(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+}
+
+static FILE *create(char *path, const char *name)
+{
+    const int opened = is_unique(name) ? gis_make_file(path) : open_new(path);
+    FILE *stream = opened >= 0 ? fdopen(opened, "w+") : NULL;
+    if (opened >= 0 && !stream) close(opened);
+    return stream;
+}
+
+/* A file, and no pipe, which would be waited for. */
+static FILE *open_to_read(const char *path, struct stat *status)
+{
+    const int opened = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (opened < 0) return NULL;
-    const mode_t mask = umask(0);
-    umask(mask);
-    (void)fchmod(opened, 0666 & ~mask);
-    FILE *stream = fdopen(opened, "w+");
+    FILE *stream = NULL;
+    if (fstat(opened, status) == 0 && !S_ISREG(status->st_mode))
+        errno = EINVAL;
+    else
+        stream = fdopen(opened, "r");
     if (!stream) close(opened);
     return stream;
 }
@@ -55,12 +76,10 @@ static void add_buffer(gis_spool_file *file)
 
 bool gis_spool_file_create(gis_spool_file *file, const char *directory, const char *name, gis_error *error)
 {
-    const size_t n = strlen(name), of_these = strlen(UNIQUE);
     *file = (gis_spool_file){.path = gis_spool_inside(directory, name)};
     if (!file->path) return gis_no_memory(error);
     gis_hold();
-    file->stream =
-        n > of_these && strcmp(name + n - of_these, UNIQUE) == 0 ? open_unique(file->path) : fopen(file->path, "w+");
+    file->stream = create(file->path, name);
     if (file->stream) file->leftover = gis_leftover_temporary(file->path);
     gis_release();
     if (file->stream) add_buffer(file);
@@ -81,7 +100,7 @@ bool gis_spool_file_flush(gis_spool_file *file, gis_error *error)
 /* That a file has a name is on the disk only once its directory is. */
 static bool sync_directory(const char *directory, gis_error *error)
 {
-    const int opened = open(directory, O_RDONLY | O_DIRECTORY);
+    const int opened = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     const bool done = opened >= 0 && (fsync(opened) == 0 || errno == EINVAL);
     if (!done) cannot_write(directory, error);
     if (opened >= 0) close(opened);
@@ -113,9 +132,8 @@ bool gis_spool_file_open(gis_spool_file *file, const char *directory, const char
     *file = (gis_spool_file){.path = gis_spool_inside(directory, name)};
     if (!file->path) return gis_no_memory(error);
     struct stat status;
-    file->stream = fopen(file->path, "r");
-    if (!file->stream || fstat(fileno(file->stream), &status) != 0)
-        return gis_fail(error, "%s: cannot be read: %s", file->path, strerror(errno));
+    file->stream = open_to_read(file->path, &status);
+    if (!file->stream) return gis_fail(error, "%s: cannot be read: %s", file->path, strerror(errno));
     file->size = (uint64_t)status.st_size;
     return true;
 }

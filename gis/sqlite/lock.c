@@ -4,6 +4,8 @@
 #include "sqlite/lock.h"
 
 #include "base/interrupt.h"
+#include "base/path.h"
+#include "base/trust.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -104,7 +106,7 @@ bool gis_sqlite_has_journal(const char *path)
 {
     static const unsigned char magic[8] = {0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7};
     unsigned char start[sizeof magic];
-    char *name = CPLStrdup(CPLSPrintf("%s-journal", path));
+    char *name = gis_printed("%s-journal", path);
     int file = open(name, O_RDONLY | O_CLOEXEC);
     bool has = file >= 0 && read(file, start, sizeof start) == (ssize_t)sizeof start &&
                memcmp(start, magic, sizeof magic) == 0;
@@ -115,9 +117,21 @@ bool gis_sqlite_has_journal(const char *path)
 
 bool gis_sqlite_has_log(const char *path)
 {
-    char *name = CPLStrdup(CPLSPrintf("%s-wal", path));
+    char *name = gis_printed("%s-wal", path);
     struct stat status;
     bool has = stat(name, &status) == 0 && status.st_size > 0;
     CPLFree(name);
     return has;
+}
+
+const char *gis_sqlite_planted_companion(const char *path)
+{
+    static const char *const endings[] = {"-journal", "-wal"};
+    const char *found = NULL;
+    for (size_t k = 0; k < sizeof endings / sizeof *endings && !found; k++) {
+        char *name = gis_printed("%s%s", path, endings[k]);
+        if (gis_may_be_planted(name)) found = endings[k];
+        CPLFree(name);
+    }
+    return found;
 }

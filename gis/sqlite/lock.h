@@ -30,4 +30,12 @@ bool gis_sqlite_fail_in_use(const char *path, gis_error *error);
 bool gis_sqlite_has_journal(const char *path);
 bool gis_sqlite_has_log(const char *path);
 
+/* The ending of a journal or log that lies beside `path` in a directory in which all may write, and that another user
+ * made (base/trust.h): SQLite would apply it to the database. NULL: there is none. The sentence takes path, ending,
+ * path. */
+#define GIS_SQLITE_PLANTED                                                                                             \
+    "%s%s belongs to another user, in a directory in which all may write; SQLite would take it for a part of %s: "     \
+    "look at it, and move it away"
+const char *gis_sqlite_planted_companion(const char *path);
+
 #endif

@@ -1,36 +1,48 @@
 /* remains.c: what a run left that was killed among its renames, and the way back.
  *
- * A stage whose lock can be had belongs to nobody that lives. If it has a record and a new file is still in it, the run
- * did not finish: what stepped aside goes back, what came to a place that was empty is taken away (if it is the very
- * file of the record), and the output is as it was. Each step may be repeated: a run that is killed at this leaves what
- * the next one can finish. If no new file is in it, all were put in place, and only the stage remained. */
+ * A stage that belongs to the effective user alone (base/trust.h) and whose lock can be had was abandoned. Nothing else
+ * that has the name of a stage is touched: where other users may write, it may hold a record of their making. If it
+ * has a record and a new file is still in it, the run did not finish: what stepped aside goes back, what came to a
+ * place that was empty is taken away (if it is the very file of the record), and the output is as it was. What has
+ * come to one of these places since is not replaced. Each step may be repeated: a run that is killed at this leaves
+ * what the next one can finish. If no new file is in it, all were put in place, and only the stage remained. An empty
+ * stage is removed. */
 #define _GNU_SOURCE
 #include "stage/internal.h"
 
+#include "base/path.h"
+#include "base/remove_tree.h"
+#include "base/trust.h"
+
 #include <cpl_conv.h>
 #include <cpl_string.h>
-#include <cpl_vsi.h>
+#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 typedef struct remains {
-    const char *directory; /* of the output */
-    char *inside;          /* the stage */
+    const char *directory; /* of the output, for messages */
+    const char *name;      /* of the stage */
+    int outer, inner;      /* both of them, open */
     char *main;            /* the main file of the run that made it; NULL: there is no record */
     char **old, **fresh;   /* names of superseded files; "MARK NAME" of new ones */
 } remains;
 
-static void forget(remains *found)
+/* ---- The record -------------------------------------------------------------------------------------------------- */
+
+static void forget_record(remains *found)
 {
-    CPLFree(found->inside);
     CPLFree(found->main);
     CSLDestroy(found->old);
     CSLDestroy(found->fresh);
+    found->main = NULL;
+    found->old = found->fresh = NULL;
 }
 
 static const char *after(const char *line, const char *kind)
@@ -38,112 +50,123 @@ static const char *after(const char *line, const char *kind)
     return strncmp(line, kind, strlen(kind)) == 0 ? line + strlen(kind) : NULL;
 }
 
-static void read_line(remains *found, const char *line)
-{
-    const char *rest;
-    char *name = CPLUnescapeString(line, NULL, CPLES_BackslashQuotable);
-    if ((rest = after(name, GIS_RECORD_MAIN))) {
-        CPLFree(found->main);
-        found->main = CPLStrdup(rest);
-    } else if ((rest = after(name, GIS_RECORD_OLD))) {
-        found->old = CSLAddString(found->old, rest);
-    } else if ((rest = after(name, GIS_RECORD_NEW))) {
-        found->fresh = CSLAddString(found->fresh, rest);
-    }
-    CPLFree(name);
-}
-
-/* A record that was not written to its end was not acted upon, and does as little harm. */
-static void read_record(remains *found)
-{
-    char *path = gis_join(found->inside, GIS_STAGE_RECORD), *line = NULL;
-    FILE *file = fopen(path, "r");
-    size_t size = 0;
-    for (ssize_t n; file && (n = getline(&line, &size, file)) > 0;)
-        if (line[n - 1] == '\n') {
-            line[n - 1] = '\0';
-            read_line(found, line);
-        }
-    free(line);
-    if (file) fclose(file);
-    CPLFree(path);
-}
-
-static bool is_in(const char *directory, const char *name)
-{
-    char *path = gis_join(directory, name);
-    bool there = gis_there(path);
-    CPLFree(path);
-    return there;
-}
-
 static const char *fresh_name(const char *entry)
 {
     const char *blank = strchr(entry, ' ');
-    return blank ? blank + 1 : entry;
+    return blank ? blank + 1 : "";
 }
+
+/* False: it names what is no entry of the directory. */
+static bool read_line(remains *found, const char *line)
+{
+    const char *rest;
+    bool plain = true;
+    char *name = CPLUnescapeString(line, NULL, CPLES_BackslashQuotable);
+    if ((rest = after(name, GIS_RECORD_MAIN))) {
+        plain = gis_is_plain_name(rest);
+        CPLFree(found->main);
+        found->main = CPLStrdup(rest);
+    } else if ((rest = after(name, GIS_RECORD_OLD))) {
+        plain = gis_is_plain_name(rest);
+        found->old = CSLAddString(found->old, rest);
+    } else if ((rest = after(name, GIS_RECORD_NEW))) {
+        plain = gis_is_plain_name(fresh_name(rest));
+        found->fresh = CSLAddString(found->fresh, rest);
+    }
+    CPLFree(name);
+    return plain;
+}
+
+static FILE *open_record(const remains *found)
+{
+    const int opened = openat(found->inner, GIS_STAGE_RECORD, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    struct stat status;
+    FILE *file = opened >= 0 && fstat(opened, &status) == 0 && S_ISREG(status.st_mode) && gis_is_own(opened)
+                     ? fdopen(opened, "r")
+                     : NULL;
+    if (opened >= 0 && !file) close(opened);
+    return file;
+}
+
+/* A record that was not written to its end was not acted upon, and does as little harm. One that names anything but
+ * entries of the directory is no record of ours. */
+static void read_record(remains *found)
+{
+    FILE *file = open_record(found);
+    char *line = NULL;
+    size_t size = 0;
+    bool plain = true;
+    for (ssize_t n; file && plain && (n = getline(&line, &size, file)) > 0;)
+        if (line[n - 1] == '\n') {
+            line[n - 1] = '\0';
+            plain = read_line(found, line);
+        }
+    free(line);
+    if (file) fclose(file);
+    if (!plain) forget_record(found);
+}
+
+/* ---- The way back ------------------------------------------------------------------------------------------------ */
 
 static bool unfinished(const remains *found)
 {
     for (char **entry = found->fresh; entry && *entry; entry++)
-        if (is_in(found->inside, fresh_name(*entry))) return true;
+        if (gis_entry_is_there(found->inner, fresh_name(*entry))) return true;
     return false;
 }
 
-static bool move(const char *from_directory, const char *to_directory, const char *name, gis_error *error)
+static bool move(const remains *found, int from, int to, const char *name, gis_error *error)
 {
-    char *from = gis_join(from_directory, name), *to = gis_join(to_directory, name);
-    bool done = rename(from, to) == 0 ||
-                gis_fail(error, "%s cannot be brought back from %s, where a run left it that was killed: %s", to, from,
-                         strerror(errno));
-    CPLFree(from);
-    CPLFree(to);
-    return done;
+    if (gis_entry_move(from, to, name, false) == 0) return true;
+    const char *why =
+        errno == EEXIST ? "something of that name has come there since; move one of them away" : strerror(errno);
+    return gis_fail(error, "%s/%s cannot be brought back from %s/%s, where a run left it that was killed: %s",
+                    found->directory, name, found->directory, found->name, why);
 }
 
 static bool take_away(const remains *found, const char *entry, gis_error *error)
 {
     const char *name = fresh_name(entry);
-    char *path = gis_join(found->directory, name), mark[GIS_MARK_SIZE];
-    size_t n = (size_t)(name - entry);
-    bool ours = gis_stage_mark(path, mark) && strlen(mark) + 1 == n && strncmp(mark, entry, n - 1) == 0 &&
-                !is_in(found->inside, name);
-    CPLFree(path);
-    return !ours || move(found->directory, found->inside, name, error);
+    char mark[GIS_MARK_SIZE];
+    const size_t n = (size_t)(name - entry);
+    const bool ours = gis_entry_mark(found->outer, name, mark) && strlen(mark) + 1 == n &&
+                      strncmp(mark, entry, n - 1) == 0 && !gis_entry_is_there(found->inner, name);
+    return !ours || move(found, found->outer, found->inner, name, error);
 }
 
 static bool bring_back(const remains *found, gis_error *error)
 {
-    char *aside = gis_join(found->inside, GIS_STAGE_OLD);
+    const int aside = openat(found->inner, GIS_STAGE_OLD, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     bool done = true;
     for (char **entry = found->fresh; done && entry && *entry; entry++) done = take_away(found, *entry, error);
-    for (char **name = found->old; done && name && *name; name++)
-        done = !is_in(aside, *name) || move(aside, found->directory, *name, error);
-    CPLFree(aside);
+    for (char **name = found->old; done && aside >= 0 && name && *name; name++)
+        done = !gis_entry_is_there(aside, *name) || move(found, aside, found->outer, *name, error);
+    if (aside >= 0) close(aside);
     return done;
 }
 
 /* The record goes last: until then all of this can be done again. */
 static void clear_away(const remains *found)
 {
-    char **names = VSIReadDir(found->inside);
-    for (char **name = names; name && *name; name++) {
-        if (strcmp(*name, ".") == 0 || strcmp(*name, "..") == 0 || strcmp(*name, GIS_STAGE_RECORD) == 0) continue;
-        char *path = gis_join(found->inside, *name);
-        if (unlink(path) != 0) VSIRmdirRecursive(path);
-        CPLFree(path);
-    }
+    char **names = gis_entry_names(found->inner);
+    for (char **name = names; name && *name; name++)
+        if (strcmp(*name, GIS_STAGE_RECORD) != 0) gis_remove_tree_in(found->inner, *name);
     CSLDestroy(names);
-    VSIRmdirRecursive(found->inside);
+    gis_remove_tree_in(found->outer, found->name);
 }
+
+/* ---- What is found beside an output ------------------------------------------------------------------------------ */
 
 static bool settle(remains *found, const char *name, gis_sentences *said, gis_error *error)
 {
     read_record(found);
     if (!found->main) {
-        if (is_in(found->inside, name))
-            gis_sentences_add(said, "%s is left of a run that was ended before it changed anything; it can be removed",
-                              found->inside);
+        if (gis_entry_is_there(found->inner, name))
+            gis_sentences_add(said,
+                              "%s/%s is left of a run that was ended before it changed anything; it can be removed",
+                              found->directory, found->name);
+        else
+            unlinkat(found->outer, found->name, AT_REMOVEDIR); /* if it is empty */
         return true;
     }
     if (strcmp(found->main, name) != 0) return true;
@@ -158,38 +181,66 @@ static bool settle(remains *found, const char *name, gis_sentences *said, gis_er
     return true;
 }
 
+static void tell_way_back(const remains *found, gis_sentences *said)
+{
+    gis_sentences_add(said,
+                      "%s/%s is in use, or left of a run that was killed while it put its files in place; the "
+                      "former ones are in %s/%s/" GIS_STAGE_OLD ": move them back",
+                      found->directory, found->name, found->directory, found->name);
+}
+
 /* A stage in use stays. Where nothing can be locked nobody knows: then the way back is said. */
 static bool look_at(remains *found, const char *name, gis_sentences *said, gis_error *error)
 {
-    int lock = open(found->inside, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    bool done = true;
-    if (lock >= 0 && flock(lock, LOCK_EX | LOCK_NB) == 0) {
-        done = settle(found, name, said, error);
-    } else if (lock >= 0 && errno != EWOULDBLOCK) {
-        read_record(found);
-        if (found->main && strcmp(found->main, name) == 0)
-            gis_sentences_add(said,
-                              "%s is in use, or left of a run that was killed while it put its files in place; the "
-                              "former ones are in %s/%s: move them back",
-                              found->inside, found->inside, GIS_STAGE_OLD);
-    }
-    if (lock >= 0) close(lock);
-    return done;
+    if (flock(found->inner, LOCK_EX | LOCK_NB) == 0) return settle(found, name, said, error);
+    if (errno == EWOULDBLOCK) return true;
+    read_record(found);
+    if (found->main && strcmp(found->main, name) == 0) tell_way_back(found, said);
+    return true;
+}
+
+/* Of the user's own, but open to others, as it is where a file system gives all directories one mode: what is in it
+ * cannot be believed, and may be the former files. */
+static void look_from_outside(remains *found, const char *name, gis_sentences *said)
+{
+    const int opened = openat(found->outer, found->name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    const int aside = opened >= 0 && gis_is_own(opened)
+                          ? openat(opened, GIS_STAGE_OLD, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)
+                          : -1;
+    if (aside >= 0 && gis_entry_is_there(aside, name)) tell_way_back(found, said);
+    if (aside >= 0) close(aside);
+    if (opened >= 0) close(opened);
+}
+
+/* The prefix, and six letters or digits. */
+static bool is_called_so(const char *entry)
+{
+    const size_t n = sizeof GIS_STAGE_PREFIX - 1;
+    if (strncmp(entry, GIS_STAGE_PREFIX, n) != 0 || strlen(entry) != n + 6) return false;
+    for (const char *c = entry + n; *c; c++)
+        if (!isalnum((unsigned char)*c)) return false;
+    return true;
 }
 
 bool gis_stage_recover(const char *final_path, gis_sentences *said, gis_error *error)
 {
     char *directory, *name;
     gis_stage_place_of(final_path, &directory, &name);
-    char **entries = VSIReadDir(directory);
+    const int outer = gis_open_directory(directory);
+    char **entries = outer >= 0 ? gis_entry_names(outer) : NULL;
     bool done = true;
     for (char **entry = entries; done && entry && *entry; entry++) {
-        if (strncmp(*entry, GIS_STAGE_PREFIX, strlen(GIS_STAGE_PREFIX)) != 0) continue;
-        remains found = {.directory = directory, .inside = gis_join(directory, *entry)};
-        done = look_at(&found, name, said, error);
-        forget(&found);
+        if (!is_called_so(*entry)) continue;
+        remains found = {directory, *entry, outer, gis_open_private_directory(outer, *entry), NULL, NULL, NULL};
+        if (found.inner >= 0)
+            done = look_at(&found, name, said, error);
+        else
+            look_from_outside(&found, name, said);
+        if (found.inner >= 0) close(found.inner);
+        forget_record(&found);
     }
     CSLDestroy(entries);
+    if (outer >= 0) close(outer);
     CPLFree(directory);
     CPLFree(name);
     return done;

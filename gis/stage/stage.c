@@ -3,26 +3,21 @@
 #define _GNU_SOURCE
 #include "stage/internal.h"
 
+#include "base/path.h"
+#include "base/remove_tree.h"
+#include "base/trust.h"
+
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-char *gis_join(const char *directory, const char *name) { return CPLStrdup(CPLSPrintf("%s/%s", directory, name)); }
-
-bool gis_there(const char *path)
-{
-    struct stat status;
-    return lstat(path, &status) == 0;
-}
 
 void gis_stage_place_of(const char *final_path, char **directory, char **name)
 {
@@ -32,34 +27,41 @@ void gis_stage_place_of(const char *final_path, char **directory, char **name)
     free(resolved);
     size_t length = strlen(path);
     while (length > 1 && path[length - 1] == '/') path[--length] = '\0';
-    *name = CPLStrdup(CPLGetFilename(path));
-    *directory = CPLStrdup(CPLGetPath(path));
+    *name = CPLStrdup(gis_path_name(path));
+    *directory = gis_path_directory(path);
     if (!(*directory)[0]) {
         CPLFree(*directory);
-        *directory = CPLStrdup(path[0] == '/' ? "/" : ".");
+        *directory = CPLStrdup(".");
     }
     CPLFree(path);
 }
 
-/* Forgets the directory, which is gone, or stays as it is. */
+/* Forgets the stage, which is gone, or stays as it is. */
 static void leave(gis_stage *stage)
 {
-    if (stage->lock >= 0) close(stage->lock);
-    stage->lock = -1;
+    if (stage->inner >= 0) close(stage->inner);
+    stage->inner = -1;
     gis_leftover_forget(stage->leftover);
     stage->leftover = NULL;
     CPLFree(stage->inside);
     stage->inside = NULL;
 }
 
+static bool cannot_write(const gis_stage *stage, int reason, gis_error *error)
+{
+    return gis_fail(error, "%s/%s: cannot write in %s: %s", stage->directory, stage->main, stage->directory,
+                    strerror(reason));
+}
+
 bool gis_stage_new(const char *final_path, gis_stage **out, gis_error *error)
 {
     gis_stage *stage = CPLCalloc(1, sizeof *stage);
-    stage->lock = -1;
+    stage->inner = -1;
     gis_stage_place_of(final_path, &stage->directory, &stage->main);
-    bool done = gis_stage_make(stage, error);
+    stage->outer = gis_open_directory(stage->directory);
+    bool done = (stage->outer >= 0 || cannot_write(stage, errno, error)) && gis_stage_make(stage, error);
     if (done) {
-        rmdir(stage->inside);
+        unlinkat(stage->outer, gis_path_name(stage->inside), AT_REMOVEDIR);
         leave(stage);
         *out = stage;
     } else {
@@ -68,42 +70,75 @@ bool gis_stage_new(const char *final_path, gis_stage **out, gis_error *error)
     return done;
 }
 
+/* ---- Making the stage -------------------------------------------------------------------------------------------- */
+
+static bool choose_letters(char letters[6])
+{
+    static const char all[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+    unsigned char drawn[6];
+    if (getentropy(drawn, sizeof drawn) != 0) return false;
+    for (size_t k = 0; k < sizeof drawn; k++) letters[k] = all[drawn[k] % (sizeof all - 1)];
+    return true;
+}
+
+/* The new directory, open and, where that can be, locked; -1: errno says why not, EAGAIN: the name was taken, or who
+ * sweeps empty stages was there before the lock. */
+static int make_private(int outer, const char *name)
+{
+    if (mkdirat(outer, name, 0700) != 0) {
+        if (errno == EEXIST) errno = EAGAIN;
+        return -1;
+    }
+    const int made = gis_open_private_directory(outer, name);
+    struct stat status;
+    if (made >= 0 && (flock(made, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) && fstat(made, &status) == 0 &&
+        status.st_nlink > 0)
+        return made;
+    const int reason = made >= 0 || errno == ENOENT ? EAGAIN : errno;
+    if (made >= 0) close(made);
+    unlinkat(outer, name, AT_REMOVEDIR);
+    errno = reason;
+    return -1;
+}
+
+/* As often as chance, or another run, may have it. */
+enum { ATTEMPTS = 100 };
+
 bool gis_stage_make(gis_stage *stage, gis_error *error)
 {
     if (stage->inside) return true;
-    char *inside = gis_join(stage->directory, GIS_STAGE_PREFIX "XXXXXX");
-    gis_hold(); /* it is there, and known to be */
-    bool made = mkdtemp(inside) != NULL;
-    int reason = errno;
-    stage->leftover = made ? gis_leftover_temporary(inside) : NULL;
-    gis_release();
-    if (!made) {
-        gis_fail(error, "%s/%s: cannot write in %s: %s", stage->directory, stage->main, stage->directory,
-                 strerror(reason));
-        CPLFree(inside);
-        return false;
+    int reason = EAGAIN;
+    for (int attempt = 0; attempt < ATTEMPTS && reason == EAGAIN; attempt++) {
+        char name[] = GIS_STAGE_PREFIX "XXXXXX";
+        if (!choose_letters(name + sizeof GIS_STAGE_PREFIX - 1)) return cannot_write(stage, errno, error);
+        gis_hold(); /* it is there, and known to be */
+        stage->inner = make_private(stage->outer, name);
+        reason = errno;
+        if (stage->inner >= 0) {
+            stage->inside = gis_path_join(stage->directory, name);
+            stage->leftover = gis_leftover_temporary(stage->inside);
+        }
+        gis_release();
+        if (stage->inner >= 0) return true;
     }
-    stage->inside = inside;
-    /* Held as long as this process lives: so the next one knows whether the stage is in use. */
-    stage->lock = open(inside, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (stage->lock >= 0) (void)flock(stage->lock, LOCK_EX | LOCK_NB);
-    return true;
+    return cannot_write(stage, reason, error);
 }
 
 void gis_stage_free(gis_stage *stage)
 {
     if (!stage) return;
-    if (stage->inside) VSIRmdirRecursive(stage->inside);
+    if (stage->inside) gis_remove_tree_in(stage->outer, gis_path_name(stage->inside));
     leave(stage);
+    if (stage->outer >= 0) close(stage->outer);
     CPLFree(stage->directory);
     CPLFree(stage->main);
     CSLDestroy(stage->superseded);
     CPLFree(stage);
 }
 
-char *gis_stage_inside(const gis_stage *stage, const char *name) { return gis_join(stage->inside, name); }
+char *gis_stage_inside(const gis_stage *stage, const char *name) { return gis_path_join(stage->inside, name); }
 
-char *gis_stage_outside(const gis_stage *stage, const char *name) { return gis_join(stage->directory, name); }
+char *gis_stage_outside(const gis_stage *stage, const char *name) { return gis_path_join(stage->directory, name); }
 
 const char *gis_stage_main(const gis_stage *stage) { return stage->main; }
 
@@ -163,7 +198,7 @@ static bool copy_tree(const char *from, const char *to, int depth, gis_error *er
     bool done = true;
     for (char **name = names; done && name && *name; name++) {
         if (strcmp(*name, ".") == 0 || strcmp(*name, "..") == 0) continue;
-        char *child = gis_join(from, *name), *copy = gis_join(to, *name);
+        char *child = gis_path_join(from, *name), *copy = gis_path_join(to, *name);
         done = copy_tree(child, copy, depth + 1, error);
         CPLFree(child);
         CPLFree(copy);
@@ -174,7 +209,7 @@ static bool copy_tree(const char *from, const char *to, int depth, gis_error *er
 
 bool gis_stage_copy_in(gis_stage *stage, const char *path, gis_error *error)
 {
-    char *to = gis_stage_inside(stage, CPLGetFilename(path));
+    char *to = gis_stage_inside(stage, gis_path_name(path));
     bool done = copy_tree(path, to, 0, error);
     if (done) gis_stage_supersede(stage, path);
     CPLFree(to);
@@ -183,29 +218,24 @@ bool gis_stage_copy_in(gis_stage *stage, const char *path, gis_error *error)
 
 void gis_stage_supersede(gis_stage *stage, const char *path)
 {
-    if (CSLFindString(stage->superseded, CPLGetFilename(path)) < 0)
-        stage->superseded = CSLAddString(stage->superseded, CPLGetFilename(path));
+    if (CSLFindString(stage->superseded, gis_path_name(path)) < 0)
+        stage->superseded = CSLAddString(stage->superseded, gis_path_name(path));
 }
 
 bool gis_stage_put(gis_stage *stage, const char *name, const void *bytes, size_t n, gis_error *error)
 {
-    char *to = gis_stage_inside(stage, name);
-    int out = open(to, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    int out = openat(stage->inner, name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     bool done = out >= 0 && write_all(out, bytes, n);
     int reason = errno;
     if (out >= 0 && close(out) != 0 && done) {
         done = false;
         reason = errno;
     }
-    CPLFree(to);
     return done || gis_fail(error, "%s/%s: cannot be written: %s", stage->directory, name, strerror(reason));
 }
 
 bool gis_stage_put_directory(gis_stage *stage, const char *name, gis_error *error)
 {
-    char *to = gis_stage_inside(stage, name);
-    bool done =
-        mkdir(to, 0777) == 0 || gis_fail(error, "%s/%s: cannot be made: %s", stage->directory, name, strerror(errno));
-    CPLFree(to);
-    return done;
+    return mkdirat(stage->inner, name, 0777) == 0 ||
+           gis_fail(error, "%s/%s: cannot be made: %s", stage->directory, name, strerror(errno));
 }

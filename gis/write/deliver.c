@@ -4,8 +4,11 @@
 
 #include "base/interrupt.h"
 #include "base/message.h"
+#include "base/path.h"
+#include "base/trust.h"
 #include "read/source_files.h"
 
+#include <cpl_conv.h>
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -46,17 +49,19 @@ static bool check_file(const gis_destinations *to, const char *option, const cha
             return gis_fail_usage(error, "%s %s: that is an input; give another file", option, path);
     if (reads(to->output, path))
         return gis_fail_usage(error, "%s %s: that is the output; give another file", option, path);
+    if (!gis_link_may_be_followed(path, option, error)) return false;
     bool there = stat(path, &info) == 0;
     if (!there && lstat(path, &info) == 0) return gis_fail(error, "%s: %s is a link that leads nowhere", option, path);
     if (there && S_ISDIR(info.st_mode)) return gis_fail(error, "%s: %s is a directory", option, path);
     if (there && access(path, W_OK) != 0)
         return gis_fail(error, "%s: cannot write %s: %s", option, path, strerror(errno));
-    char directory[4096];
-    const char *slash = strrchr(path, '/');
-    snprintf(directory, sizeof directory, "%.*s", slash ? (int)(slash - path + 1) : 1, slash ? path : ".");
-    if ((!there || S_ISREG(info.st_mode)) && access(directory, W_OK) != 0)
-        return gis_fail(error, "%s: cannot write to %s: %s", option, directory, strerror(errno));
-    return true;
+    if (there && !S_ISREG(info.st_mode)) return true;
+    char *directory = gis_path_directory(path);
+    const char *of = *directory ? directory : ".";
+    const bool may =
+        access(of, W_OK) == 0 || gis_fail(error, "%s: cannot write to %s: %s", option, of, strerror(errno));
+    CPLFree(directory);
+    return may;
 }
 
 static bool is_stdout(const char *path) { return path && strcmp(path, "-") == 0; }

@@ -1,6 +1,8 @@
 /* format.c: finding the driver for an output, and what our promises mean in its format. */
 #include "write/format.h"
 
+#include "base/path.h"
+
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <string.h>
@@ -62,7 +64,7 @@ static bool has_prefix(GDALDriverH driver, const char *path)
 static const char *extension_of(const char *path)
 {
     size_t length = strlen(path);
-    return length > 8 && EQUAL(path + length - 8, ".shp.zip") ? "shp.zip" : CPLGetExtension(path);
+    return length > 8 && EQUAL(path + length - 8, ".shp.zip") ? "shp.zip" : gis_path_extension(path);
 }
 
 static GDALDriverH driver_for(const char *path)

@@ -10,6 +10,7 @@
 #include "base/array.h"
 #include "base/interrupt.h"
 #include "base/keyed.h"
+#include "base/path.h"
 #include "spool/sort.h"
 #include "sqlite/rows.h"
 #include "write/sql.h"
@@ -45,7 +46,7 @@ static void *handle_of(GDALDatasetH dataset)
 /* "rtree_TABLE_COLUMN" and a suffix, with quotes doubled and around; CPLFree(). */
 static char *tree_name(OGRLayerH layer, const char *suffix, char quote)
 {
-    char *plain = CPLStrdup(CPLSPrintf("rtree_%s_%s%s", OGR_L_GetName(layer), OGR_L_GetGeometryColumn(layer), suffix));
+    char *plain = gis_printed("rtree_%s_%s%s", OGR_L_GetName(layer), OGR_L_GetGeometryColumn(layer), suffix);
     char *quoted = CPLMalloc(2 * strlen(plain) + 3), *to = quoted;
     *to++ = quote;
     for (const char *from = plain; *from; from++) {
@@ -67,14 +68,14 @@ bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_rtree *tree, gis
     if (!run(dataset, "SELECT 1", error)) /* any SQL makes GDAL create tables and indexes that it had put off */
         return false;
     char *literal = tree_name(layer, "_insert", '\'');
-    char *find = CPLStrdup(CPLSPrintf("SELECT sql FROM sqlite_master WHERE type = 'trigger' AND name = %s", literal));
+    char *find = gis_printed("SELECT sql FROM sqlite_master WHERE type = 'trigger' AND name = %s", literal);
     tree->trigger = gis_sql_ask(dataset, find);
     CPLFree(find);
     CPLFree(literal);
     if (tree->trigger && !handle_of(dataset)) gis_rtree_clear(tree); /* GDAL fills it */
     if (!tree->trigger) return true;
     char *name = tree_name(layer, "_insert", '"');
-    char *drop = CPLStrdup(CPLSPrintf("DROP TRIGGER %s", name));
+    char *drop = gis_printed("DROP TRIGGER %s", name);
     bool done = run(dataset, drop, error);
     CPLFree(drop);
     CPLFree(name);
@@ -227,7 +228,7 @@ static bool empty_tables(GDALDatasetH dataset, OGRLayerH layer, gis_error *error
     bool done = true;
     for (size_t i = 0; done && i < sizeof tables / sizeof *tables; i++) {
         char *name = tree_name(layer, tables[i], '"');
-        char *sql = CPLStrdup(CPLSPrintf("DELETE FROM %s", name));
+        char *sql = gis_printed("DELETE FROM %s", name);
         done = run(dataset, sql, error);
         CPLFree(sql);
         CPLFree(name);
@@ -239,7 +240,7 @@ static bool empty_tables(GDALDatasetH dataset, OGRLayerH layer, gis_error *error
 static size_t node_capacity(GDALDatasetH dataset, OGRLayerH layer)
 {
     char *name = tree_name(layer, "_node", '"');
-    char *sql = CPLStrdup(CPLSPrintf("SELECT length(data) FROM %s WHERE nodeno = 1", name));
+    char *sql = gis_printed("SELECT length(data) FROM %s WHERE nodeno = 1", name);
     char *length = gis_sql_ask(dataset, sql);
     long bytes = length ? atol(length) : 0;
     CPLFree(length);

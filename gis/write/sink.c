@@ -2,6 +2,7 @@
  * what is undone after a failure. */
 #define _GNU_SOURCE
 #include "base/message.h"
+#include "base/path.h"
 #include "sqlite/lock.h"
 #include "write/sink_internal.h"
 
@@ -17,12 +18,12 @@
 char *gis_sink_inside(const gis_sink *sink, const char *file)
 {
     if (sink->place == GIS_PLACE_DATABASE) return CPLStrdup(sink->request.path);
-    return sink->memory ? CPLStrdup(CPLSPrintf("%s/%s", sink->memory, file)) : gis_stage_inside(sink->stage, file);
+    return sink->memory ? gis_printed("%s/%s", sink->memory, file) : gis_stage_inside(sink->stage, file);
 }
 
 char *gis_sink_name_for(const gis_sink *sink, const char *suffix)
 {
-    return CPLStrdup(suffix[0] ? CPLSPrintf("%s_%s", sink->request.main_layer, suffix) : sink->request.main_layer);
+    return gis_printed("%s%s%s", sink->request.main_layer, suffix[0] ? "_" : "", suffix);
 }
 
 static const char *double_ending(const char *name)
@@ -33,12 +34,12 @@ static const char *double_ending(const char *name)
 
 char *gis_sink_file_for(const gis_sink *sink, const char *suffix)
 {
-    const char *name = CPLGetFilename(sink->request.path);
+    const char *name = gis_path_name(sink->request.path);
     const char *ending = double_ending(name);
     if (!ending) ending = strrchr(name, '.');
     if (!ending) ending = name + strlen(name);
     if (!suffix[0]) return CPLStrdup(name);
-    return CPLStrdup(CPLSPrintf("%.*s_%s%s", (int)(ending - name), name, suffix, ending));
+    return gis_printed("%.*s_%s%s", (int)(ending - name), name, suffix, ending);
 }
 
 /* ---- Life -------------------------------------------------------------------------------------------------------- */
@@ -72,7 +73,7 @@ static void choose_place(gis_sink *sink)
 
 static void make_memory(gis_sink *sink)
 {
-    sink->memory = CPLStrdup(CPLSPrintf("/vsimem/sunder-%p", (void *)sink));
+    sink->memory = gis_printed("/vsimem/sunder-%p", (void *)sink);
     VSIMkdir(sink->memory, 0700);
 }
 
@@ -89,8 +90,9 @@ static bool prepare_place(gis_sink *sink, gis_error *error)
             return gis_fail(error, "%s: --update works on plain files and databases only", sink->request.path);
         make_memory(sink);
         const char *ending = GDALGetMetadataItem(sink->format.driver, GDAL_DMD_EXTENSION, NULL);
-        sink->main_file = CPLStrdup(sink->to_stdout ? CPLResetExtension("output", ending ? ending : "")
-                                                    : CPLGetFilename(sink->request.path));
+        sink->main_file = sink->to_stdout
+                              ? gis_printed("output%s%s", ending && *ending ? "." : "", ending ? ending : "")
+                              : CPLStrdup(gis_path_name(sink->request.path));
     }
     return true;
 }
@@ -116,7 +118,7 @@ static bool check_request(const gis_sink_request *request, gis_error *error)
 bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gis_sink **out, gis_error *error)
 {
     gis_format format;
-    if (!check_request(request, error) ||
+    if (!check_request(request, error) || !gis_path_suits_gdal(request->path, "the output", error) ||
         !gis_format_find(request->path, request->format, request->layer_options, &format, error))
         return false;
     gis_sink *sink = calloc(1, sizeof *sink);

@@ -2,6 +2,8 @@
  * are at work; a format that would change the coordinates. What can only be known afterwards is read back. */
 #define _GNU_SOURCE
 #include "base/message.h"
+#include "base/path.h"
+#include "base/trust.h"
 #include "read/source_files.h"
 #include "sqlite/calls.h"
 #include "sqlite/lock.h"
@@ -83,6 +85,7 @@ static bool check_is_file(const char *path, gis_error *error)
     struct stat status;
     if (lstat(path, &status) == 0 && S_ISLNK(status.st_mode) && stat(path, &status) != 0)
         return gis_fail(error, "%s is a link that leads nowhere; remove it, or make what it leads to", path);
+    if (!gis_link_may_be_followed(path, "the output", error)) return false;
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
         return gis_fail(error, "%s is no ordinary file; it is not replaced", path);
     return true;
@@ -92,7 +95,8 @@ static bool check_is_file(const char *path, gis_error *error)
 static bool check_file(const gis_sink *sink, const char *suffix, gis_error *error)
 {
     char *name = gis_sink_file_for(sink, suffix);
-    char *path = CPLStrdup(CPLFormFilename(CPLGetPath(sink->request.path), name, NULL));
+    char *directory = gis_path_directory(sink->request.path), *path = gis_path_join(directory, name);
+    CPLFree(directory);
     bool replace = sink->request.overwrite || sink->request.overwrite_layer;
     bool done = check_is_file(path, error);
     if (done && gis_sink_exists(path)) {
@@ -127,10 +131,18 @@ static void settle_journal(const gis_sink *sink)
     if (dataset) GDALClose(dataset);
 }
 
+/* What SQLite finds beside a database it takes for a part of it. */
+static bool check_companions(const char *path, gis_error *error)
+{
+    const char *planted = gis_sqlite_planted_companion(path);
+    return !planted || gis_fail(error, GIS_SQLITE_PLANTED, path, planted, path);
+}
+
 /* A SQLite database has companions that belong to its content, and others may have it open. */
 static bool check_database_file(const gis_sink *sink, gis_error *error)
 {
     const char *path = sink->request.path;
+    if (!check_companions(path, error)) return false;
     bool there = gis_sink_exists(path);
     if (!there && (gis_sqlite_has_journal(path) || gis_sqlite_has_log(path)))
         return gis_fail(error, "%s%s is left of another database and would count as part of the new one; move it away",

@@ -3,6 +3,7 @@
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "base/beside.h"
 #include "base/interrupt.h"
+#include "base/path.h"
 #include "base/resources.h"
 #include "sqlite/calls.h"
 #include "sqlite/lock.h"
@@ -106,7 +107,7 @@ static GDALDatasetH reopen(gis_sink *sink, const char *file)
     gis_sqlite_heed_signals();
     GDALDatasetH dataset = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers, NULL, NULL);
     if (!dataset && EQUAL(sink->format.name, "GeoJSONSeq")) { /* of one feature it is taken for GeoJSON, unless told */
-        char *told = CPLStrdup(CPLSPrintf("GeoJSONSeq:%s", path));
+        char *told = gis_printed("GeoJSONSeq:%s", path);
         dataset = GDALOpenEx(told, GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers, NULL, NULL);
         CPLFree(told);
     }
@@ -205,8 +206,8 @@ static bool stage_memory(const gis_sink *sink, const char *memory, const char *i
     bool done = true;
     for (char **file = files; file && *file && done && (done = gis_go_on(error)); file++) {
         if (strcmp(*file, ".") == 0 || strcmp(*file, "..") == 0) continue;
-        char *from = CPLStrdup(CPLSPrintf("%s/%s", memory, *file));
-        char *to = inside[0] ? CPLStrdup(CPLSPrintf("%s/%s", inside, *file)) : CPLStrdup(*file);
+        char *from = gis_printed("%s/%s", memory, *file);
+        char *to = inside[0] ? gis_printed("%s/%s", inside, *file) : CPLStrdup(*file);
         vsi_l_offset length = 0;
         if (gis_sink_is_directory(from)) {
             done = gis_stage_put_directory(sink->stage, to, error) && stage_memory(sink, from, to, error);
@@ -229,16 +230,16 @@ static bool publish_memory(gis_sink *sink, gis_error *error)
     if (sink->to_stdout && n > 1)
         done = gis_fail(error, "%s: %s makes several files, which cannot go to the standard output", sink->request.path,
                         sink->format.name);
-    char *base = CPLStrdup(CPLGetPath(sink->request.path));
+    char *base = gis_path_directory(sink->request.path);
     int copied = 0;
     for (int i = 0; done && i < n; i++) {
-        char *target = sink->to_stdout ? NULL : CPLStrdup(CPLFormFilename(base, files[i], NULL));
+        char *target = sink->to_stdout ? NULL : gis_path_join(base, files[i]);
         done = copy_out(sink, files[i], target, error);
         copied += done;
         CPLFree(target);
     }
     for (int i = 0; !done && !sink->to_stdout && i <= copied && i < n; i++) {
-        char *target = CPLStrdup(CPLFormFilename(base, files[i], NULL));
+        char *target = gis_path_join(base, files[i]);
         VSIUnlink(target);
         CPLFree(target);
     }

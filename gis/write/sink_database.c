@@ -7,6 +7,7 @@
  * of the journal stays as it is, and so does SQLite's syncing: an interrupted transaction is rolled back by whoever
  * opens the database next. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
+#include "base/path.h"
 #include "sqlite/calls.h"
 #include "sqlite/lock.h"
 #include "write/sink_internal.h"
@@ -97,7 +98,7 @@ static char *locking_statement(const gis_sink *sink)
     char *table = gis_sql_ask(sink->dataset, "SELECT name FROM sqlite_master WHERE type = 'table' AND name NOT LIKE "
                                              "'sqlite_%' AND sql NOT LIKE 'CREATE VIRTUAL%' ORDER BY rowid LIMIT 1");
     char *quoted = table ? CPLEscapeString(table, -1, CPLES_SQLI) : NULL;
-    char *sql = quoted ? CPLStrdup(CPLSPrintf("DELETE FROM \"%s\" WHERE 0", quoted)) : NULL;
+    char *sql = quoted ? gis_printed("DELETE FROM \"%s\" WHERE 0", quoted) : NULL;
     CPLFree(table);
     CPLFree(quoted);
     return sql;
@@ -122,7 +123,7 @@ static bool fail_locked(const gis_sink *sink, const char *reason, gis_error *err
 
 static bool guard(gis_sink *sink, gis_error *error)
 {
-    char *journal = CPLStrdup(CPLSPrintf("%s-journal", sink->request.path));
+    char *journal = gis_printed("%s-journal", sink->request.path);
     sink->journal = gis_leftover_until(GIS_DECIDING, journal);
     CPLFree(journal);
     gis_listener listener = {0};

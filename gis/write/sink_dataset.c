@@ -1,6 +1,7 @@
 /* sink_dataset.c: the datasets of a sink: made in the stage, or copied there for an update, so that what stood there
  * before is untouched until all is written and read back. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
+#include "base/path.h"
 #include "sqlite/calls.h"
 #include "write/sink_internal.h"
 
@@ -20,7 +21,7 @@ static void supersede(gis_sink *sink, const char *path)
     gis_stage_supersede(sink->stage, path);
     if (gis_sink_is_directory(path)) return;
     for (size_t i = 0; i < sizeof sqlite_companions / sizeof *sqlite_companions; i++) {
-        char *companion = CPLStrdup(CPLSPrintf("%s%s", path, sqlite_companions[i]));
+        char *companion = gis_printed("%s%s", path, sqlite_companions[i]);
         if (gis_sink_exists(companion)) gis_stage_supersede(sink->stage, companion);
         CPLFree(companion);
     }
@@ -28,9 +29,12 @@ static void supersede(gis_sink *sink, const char *path)
     gis_listen_begin(&listener);
     GDALDatasetH old = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
     char **files = old ? GDALGetFileList(old) : NULL;
-    char *directory = CPLStrdup(CPLGetPath(path));
-    for (char **file = files; file && *file; file++)
-        if (strcmp(CPLGetPath(*file), directory) == 0) gis_stage_supersede(sink->stage, *file);
+    char *directory = gis_path_directory(path);
+    for (char **file = files; file && *file; file++) {
+        char *its_directory = gis_path_directory(*file);
+        if (strcmp(its_directory, directory) == 0) gis_stage_supersede(sink->stage, *file);
+        CPLFree(its_directory);
+    }
     CPLFree(directory);
     CSLDestroy(files);
     if (old) GDALClose(old);

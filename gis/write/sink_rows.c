@@ -5,6 +5,7 @@
   * from the record. What GDAL keeps of a layer besides its rows stays GDAL's: the extent and the count of features, of
   * which it would write too little, are put right as it writes them. The first feature is GDAL's, too: its blob says
   * how GDAL begins one, and unless the rest of it is byte for byte what would be put together here, nothing is. */
+#include "base/path.h"
 #include "write/sink_internal.h"
 
 #include "base/array.h"
@@ -142,10 +143,10 @@ static char *blob_statement(const gis_sink_layer *layer, GIntBig fid)
     char *sql = gis_sql_append_name(CPLStrdup("SELECT "), OGR_L_GetGeometryColumn(layer->layer));
     sql = gis_sql_append_name(gis_sql_append(sql, " FROM "), OGR_L_GetName(layer->layer));
     sql = gis_sql_append_name(gis_sql_append(sql, " WHERE "), OGR_L_GetFIDColumn(layer->layer));
-    char *rest = CPLStrdup(CPLSPrintf(" = %" PRId64 " AND NOT EXISTS (SELECT 1 FROM sqlite_master WHERE type = "
+    char *rest = gis_printed(" = %" PRId64 " AND NOT EXISTS (SELECT 1 FROM sqlite_master WHERE type = "
                                       "'trigger' AND lower(tbl_name) = lower('%s') AND sql LIKE '%%INSERT ON%%') AND "
                                       "EXISTS (SELECT 1 FROM sqlite_master WHERE name = 'gpkg_ogr_contents')",
-                                      (int64_t)fid, name));
+                                      (int64_t)fid, name);
     sql = gis_sql_append(sql, rest);
     CPLFree(rest);
     CPLFree(name);

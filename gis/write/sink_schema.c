@@ -1,5 +1,6 @@
 /* sink_schema.c: layers made with all that the source's layer has, as far as the format knows it. What the format knows
  * is asked of its driver; what came of it is looked at afterwards (sink_losses.c). */
+#include "base/path.h"
 #include "write/sink_internal.h"
 
 #include <cpl_conv.h>
@@ -42,9 +43,12 @@ static bool any_field_is(const gis_sink_layer *layer, const char *name)
 static const char *const usual_fid[] = {"fid", "ogc_fid", "OBJECTID", NULL};
 static const char *const usual_geometry[] = {"geom", "GEOMETRY", "wkb_geometry", "SHAPE", NULL};
 
+enum { NUMBERED_SIZE = 32 };
+
 /* The FID and geometry columns keep their names. A layer without such names leaves the choice to the driver (NULL),
  * unless an ordinary field has a name that the driver might choose: then the first name that is free. */
-static const char *free_name(const gis_sink_layer *layer, const char *wanted, const char *const *usual)
+static const char *free_name(const gis_sink_layer *layer, const char *wanted, const char *const *usual,
+                             char numbered[NUMBERED_SIZE])
 {
     if (wanted && wanted[0] && !any_field_is(layer, wanted)) return wanted;
     bool taken = false;
@@ -56,7 +60,7 @@ static const char *free_name(const gis_sink_layer *layer, const char *wanted, co
             found = *each;
     }
     for (int i = 1; taken && !found; i++) {
-        const char *numbered = CPLSPrintf("%s_%d", usual[0], i);
+        snprintf(numbered, NUMBERED_SIZE, "%s_%d", usual[0], i);
         if (!any_field_is(layer, numbered)) found = numbered;
     }
     return taken ? found : NULL;
@@ -65,7 +69,7 @@ static const char *free_name(const gis_sink_layer *layer, const char *wanted, co
 static bool identifier_taken(const gis_sink *sink, const char *identifier)
 {
     char *quoted = CPLEscapeString(identifier, -1, CPLES_SQL);
-    char *sql = CPLStrdup(CPLSPrintf("SELECT 1 FROM gpkg_contents WHERE identifier = '%s'", quoted));
+    char *sql = gis_printed("SELECT 1 FROM gpkg_contents WHERE identifier = '%s'", quoted);
     OGRLayerH result = GDALDatasetExecuteSQL(sink->dataset, sql, NULL, NULL);
     OGRFeatureH row = result ? OGR_L_GetNextFeature(result) : NULL;
     bool taken = row != NULL;
@@ -102,11 +106,12 @@ static char **offer_source_names(const gis_sink_layer *layer, char **options)
 {
     OGRLayerH source = gis_source_layer(layer->sink->source);
     OGRFeatureDefnH definition = OGR_L_GetLayerDefn(source);
-    options = offer(layer, options, "FID", free_name(layer, OGR_L_GetFIDColumn(source), usual_fid));
+    char numbered[NUMBERED_SIZE];
+    options = offer(layer, options, "FID", free_name(layer, OGR_L_GetFIDColumn(source), usual_fid, numbered));
     if (OGR_FD_GetGeomFieldCount(definition) > 0) {
         OGRGeomFieldDefnH geometry = OGR_FD_GetGeomFieldDefn(definition, 0);
-        options =
-            offer(layer, options, "GEOMETRY_NAME", free_name(layer, OGR_GFld_GetNameRef(geometry), usual_geometry));
+        options = offer(layer, options, "GEOMETRY_NAME",
+                        free_name(layer, OGR_GFld_GetNameRef(geometry), usual_geometry, numbered));
         /* Of the source's own geometries alone: symbols made of them may be null where they are not. */
         if (layer->request.as_source && !OGR_GFld_IsNullable(geometry) && broken_features(layer) == 0)
             options = offer(layer, options, "GEOMETRY_NULLABLE", "NO");
@@ -128,12 +133,12 @@ static const char *shapefile_encoding(const gis_sink *sink)
 static char **layer_options(const gis_sink_layer *layer)
 {
     gis_sink *sink = layer->sink;
-    char **options = CSLDuplicate((CSLConstList)sink->request.layer_options);
+    char **options = CSLDuplicate((CSLConstList)sink->request.layer_options), numbered[NUMBERED_SIZE];
     if (layer->request.like_source && sink->source)
         options = offer_source_names(layer, options);
     else {
-        options = offer(layer, options, "FID", free_name(layer, NULL, usual_fid));
-        options = offer(layer, options, "GEOMETRY_NAME", free_name(layer, NULL, usual_geometry));
+        options = offer(layer, options, "FID", free_name(layer, NULL, usual_fid, numbered));
+        options = offer(layer, options, "GEOMETRY_NAME", free_name(layer, NULL, usual_geometry, numbered));
     }
     options = offer(layer, options, "LAUNDER", "NO");
     options = offer(layer, options, "GEOMETRY", "AS_WKT");

@@ -1,5 +1,6 @@
 /* sink_whole.c: what a GeoPackage keeps of a layer besides its rows, where not all of these went through GDAL: it would
  * tell of too few of them. */
+#include "base/path.h"
 #include "sqlite/insert.h"
 #include "write/sink_internal.h"
 #include "write/sql.h"
@@ -21,11 +22,11 @@ void gis_sink_widen(OGREnvelope *around, const OGREnvelope *box)
  * trigger of the connection's own is not in the file. name: in quotes of SQL's. */
 static bool note_count(const gis_sink_layer *layer, void *database, const char *name)
 {
-    char *sql = CPLStrdup(CPLSPrintf(
+    char *sql = gis_printed(
         "CREATE TEMP TRIGGER sunder_count_%zu BEFORE UPDATE OF feature_count ON main.gpkg_ogr_contents WHEN "
         "lower(new.table_name) = lower('%s') AND new.feature_count IS NOT %zu BEGIN UPDATE gpkg_ogr_contents SET "
         "feature_count = %zu WHERE lower(table_name) = lower('%s'); SELECT RAISE(IGNORE); END",
-        layer->sink->n_layers, name, layer->written, layer->written, name));
+        layer->sink->n_layers, name, layer->written, layer->written, name);
     const bool done = gis_sqlite_run(database, sql);
     CPLFree(sql);
     return done;
@@ -49,17 +50,19 @@ static bool note_extent(const gis_sink_layer *layer, void *database, const char 
     const double side[] = {all->MinX, all->MinY, all->MaxX, all->MaxY};
     char *set = CPLStrdup(""), *is = CPLStrdup("");
     for (int k = 0; k < 4; k++) {
-        char number[GIS_SQLITE_NUMBER];
+        char number[GIS_SQLITE_NUMBER], part[GIS_SQLITE_NUMBER + 24];
         gis_sqlite_print_number(side[k], number);
-        set = gis_sql_append(set, CPLSPrintf("%s%s = %s", k ? ", " : "", sides[k], number));
-        is = gis_sql_append(is, CPLSPrintf("%snew.%s IS %s", k ? " AND " : "", sides[k], number));
+        snprintf(part, sizeof part, "%s%s = %s", k ? ", " : "", sides[k], number);
+        set = gis_sql_append(set, part);
+        snprintf(part, sizeof part, "%snew.%s IS %s", k ? " AND " : "", sides[k], number);
+        is = gis_sql_append(is, part);
     }
-    char *now = CPLStrdup(CPLSPrintf("UPDATE gpkg_contents SET %s WHERE lower(table_name) = lower('%s')", set, name));
-    char *later = CPLStrdup(CPLSPrintf(
+    char *now = gis_printed("UPDATE gpkg_contents SET %s WHERE lower(table_name) = lower('%s')", set, name);
+    char *later = gis_printed(
         "CREATE TEMP TRIGGER sunder_extent_%zu BEFORE UPDATE ON main.gpkg_contents WHEN lower(new.table_name) = "
         "lower('%s') AND NOT (%s) BEGIN UPDATE gpkg_contents SET %s, last_change = new.last_change WHERE "
         "lower(table_name) = lower('%s'); SELECT RAISE(IGNORE); END",
-        layer->sink->n_layers, name, is, set, name));
+        layer->sink->n_layers, name, is, set, name);
     const bool done = gis_sqlite_run(database, now) && gis_sqlite_run(database, later);
     CPLFree(later);
     CPLFree(now);

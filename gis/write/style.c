@@ -4,6 +4,7 @@
  * the style is silently ignored); one row with useAsDefault = 1; categories on a plain column, not on an expression. */
 #include "write/style.h"
 
+#include "base/path.h"
 #include "write/sql.h"
 
 #include <cpl_conv.h>
@@ -46,10 +47,10 @@ static char *time_expression(void)
 static bool prepare_table(GDALDatasetH dataset, gis_error *error)
 {
     char *now = time_expression();
-    char *enlist = CPLStrdup(CPLSPrintf("INSERT OR IGNORE INTO gpkg_contents (table_name, data_type, identifier, "
+    char *enlist = gis_printed("INSERT OR IGNORE INTO gpkg_contents (table_name, data_type, identifier, "
                                         "description, last_change) VALUES ('layer_styles', 'attributes', "
                                         "'layer_styles', '', %s)",
-                                        now));
+                                        now);
     bool done = run(dataset, make_table, error) && run(dataset, enlist, error);
     CPLFree(enlist);
     CPLFree(now);
@@ -93,9 +94,9 @@ static OGRLayerH own_styles(const gis_source *source)
     GDALDriverH driver = GDALGetDatasetDriver(gis_source_dataset(source));
     if (!driver || !EQUAL(GDALGetDescription(driver), "GPKG")) return NULL;
     char *name = quoted(OGR_L_GetName(gis_source_layer(source)));
-    char *sql = CPLStrdup(CPLSPrintf("SELECT styleName, styleQML, styleSLD, description, owner FROM layer_styles "
+    char *sql = gis_printed("SELECT styleName, styleQML, styleSLD, description, owner FROM layer_styles "
                                      "WHERE f_table_name = %s AND owner IS NOT '" OURS "' ORDER BY id",
-                                     name));
+                                     name);
     gis_listener listener = {0}; /* most files have no such table */
     gis_listen_begin(&listener);
     OGRLayerH result = GDALDatasetExecuteSQL(gis_source_dataset(source), sql, NULL, NULL);
@@ -143,7 +144,7 @@ bool gis_styles_forget(GDALDatasetH dataset, const char *layer, gis_error *error
 {
     char *there = gis_sql_ask(dataset, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'layer_styles'");
     char *name = quoted(layer);
-    char *sql = CPLStrdup(CPLSPrintf("DELETE FROM layer_styles WHERE f_table_name = %s", name));
+    char *sql = gis_printed("DELETE FROM layer_styles WHERE f_table_name = %s", name);
     bool done = !there || run(dataset, sql, error);
     CPLFree(sql);
     CPLFree(name);

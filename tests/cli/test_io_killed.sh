@@ -32,7 +32,7 @@ for ((place = calls - 75; place <= calls; place += 9)); do
     now=$(files dir)
     [ "$now" != "$new" ] && [ "$now" != "$(files old)" ] || continue
     halves=$((halves + 1))
-    cp -a dir half
+    cp -al dir half # the very files: by these the killed run's are known
     # The run that finds it may be killed at the same work: then the next one finishes it.
     "$strike" kill 3 "$SUNDER" "${again[@]}" 3>report 2>/dev/null
     run "${again[@]}"
@@ -62,8 +62,18 @@ run separate in.gpkg dir/o.shp -q --layers main
 same "$(cat dir/o_displacement.dbf)" keep 'a file that came later'
 [ "$status" -eq 0 ] && [ -e dir/o.shp ] || fail "what was left stands in the way"
 
+# A file that came to the place of one that stepped aside is not replaced by it: both stay, and it is said.
+rm -rf dir && mkdir -m 700 dir dir/.sunder-abcdef dir/.sunder-abcdef/superseded~
+printf 'main o.shp\nold o.shp\nnew 1 o.dbf\n' >dir/.sunder-abcdef/record~
+touch dir/.sunder-abcdef/o.dbf
+echo former >dir/.sunder-abcdef/superseded~/o.shp && echo later >dir/o.shp
+run "${again[@]}" --overwrite
+same "$status" 1 "a file that came to the place of one that stepped aside"
+says err 'something of that name has come there since'
+same "$(cat dir/o.shp dir/.sunder-abcdef/superseded~/o.shp)" $'later\nformer' "a file that came to the place of another"
+
 # A stage of a run that lives is left alone.
-rm -rf dir && mkdir -p dir/.sunder-abcdef && printf 'main o.shp\nold o.shp\nnew 1 o.dbf\n' >dir/.sunder-abcdef/record~
+rm -rf dir && mkdir -p -m 700 dir/.sunder-abcdef && chmod 700 dir/.sunder-abcdef && printf 'main o.shp\nold o.shp\nnew 1 o.dbf\n' >dir/.sunder-abcdef/record~
 touch dir/.sunder-abcdef/o.dbf
 if command -v flock >/dev/null; then
     flock dir/.sunder-abcdef "$SUNDER" "${again[@]}" 2>err || fail "a stage in use stops another run"

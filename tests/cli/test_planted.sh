@@ -1,0 +1,105 @@
+# shellcheck shell=bash disable=SC1091
+# What somebody else may have put beside an output, or into a directory in which all may write, and what only looks like
+# the program's own: stages and records of killed runs (planted.py makes them of every owner, mode, kind and choice of
+# names), what was begun and abandoned, links in the place of files to be written, journals beside databases, plans. None
+# of it has a file read, replaced or removed that is not the run's. What belongs to another user is made by root alone.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
+root=$([ "$(id -u)" -eq 0 ] && echo yes)
+[ -n "$root" ] || echo "not root: nothing that belongs to another user can be planted; that part is left out"
+
+layer in.gpkg houses POLYGON <<'X'
+id,WKT
+1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
+2,"POLYGON((3 0,7 0,7 4,3 4,3 0))"
+X
+
+# ---- stages, and those that are empty
+made=$(python3 "$SUNDER_SOURCE/tests/cli/planted.py" make planted) || fail "planted.py"
+[ "$made" -gt 20 ] || fail "only $made stages were planted: the test proves nothing"
+expect 0 separate in.gpkg planted/out.gpkg --gap 1
+wrong=$(python3 "$SUNDER_SOURCE/tests/cli/planted.py" judge planted) || fail "planted.py"
+[ -z "$wrong" ] || fail "$wrong"
+[ -e planted/out.gpkg ] || fail "nothing was written beside what was planted"
+
+# An empty stage that is locked is a run's that is about to fill it.
+if command -v flock >/dev/null; then
+    mkdir -m 700 .sunder-locked
+    flock .sunder-locked "$SUNDER" separate in.gpkg locked.gpkg -q 2>err || fail "an empty stage in use stops another run"
+    [ -d .sunder-locked ] || fail "an empty stage in use was swept"
+    rmdir .sunder-locked
+fi
+
+# ---- what was begun and abandoned: plans, shards
+for kind in marked nothin unmark opened; do mkdir -m 700 .x.plan.sunder-$kind; done
+touch .x.plan.sunder-{marked,opened}/being-made~ .x.plan.sunder-marked/cells .x.plan.sunder-unmark/mine
+chmod 755 .x.plan.sunder-opened
+mkdir -m 700 real && touch real/being-made~ real/mine && ln -s real .x.plan.sunder-alinks
+[ -z "$root" ] || { mkdir -m 700 .x.plan.sunder-nobody && touch .x.plan.sunder-nobody/being-made~ && chown -R 65534 .x.plan.sunder-nobody; }
+expect 0 plan in.gpkg x.plan --gap 1 --shards 2
+for gone in marked nothin; do [ ! -e .x.plan.sunder-$gone ] || fail "an abandoned plan stays: $gone"; done
+for kept in unmark/mine opened/being-made~ alinks ${root:+nobody/being-made~}; do
+    [ -e .x.plan.sunder-$kept ] || fail "what is no abandoned plan was removed: $kept"
+done
+[ -e real/mine ] || fail "a link that is called like an abandoned plan was followed"
+[ ! -e x.plan/being-made~ ] || fail "a plan that is complete says that it is being made"
+echo mine >victim
+ln -s ../victim x.plan/shard-1.sunder-alinks && echo begun >x.plan/shard-1.sunder-abcdef
+expect 0 separate --shard 1 x.plan
+[ -L x.plan/shard-1.sunder-alinks ] && [ ! -e x.plan/shard-1.sunder-abcdef ] || fail "shards: $(ls -A x.plan)"
+expect 0 separate --shard 2 x.plan
+same "$(cat victim)" mine "what a planted link leads to"
+
+# ---- a plan of another user, or one that all may write into, is a call that nobody here made
+chmod o+w x.plan
+refused 1 'all users may write into it' merge x.plan o.gpkg
+refused 1 'all users may write into it' separate --shard 1 x.plan
+chmod o-w x.plan
+if [ -n "$root" ]; then
+    chown 65534 x.plan
+    refused 1 'belongs to another user' merge x.plan o.gpkg
+    chown 0 x.plan
+fi
+expect 0 merge x.plan o.gpkg
+rm -rf x.plan .x.plan.* .sunder-*
+
+# ---- links and journals in a directory in which all may write, and only owners may rename
+mkdir -m 1777 all
+chmod 1777 all
+mkdir own
+targets() { echo "the victim's own" >own/victim; "$SUNDER" separate in.gpkg own/db.gpkg -q --overwrite; }
+links() {
+    rm -f all/*
+    for name in o.gpkg o.shp o.fgb; do ln -s ../own/db.gpkg all/$name; done
+    for name in s.json r.html p.jsonl l.txt; do ln -s ../own/victim all/$name; done
+    [ -z "${1:-}" ] || chown -h "$1" all/*
+}
+if [ -n "$root" ]; then
+    targets
+    before=$(cksum own/*)
+    links 65534
+    for output in all/o.gpkg all/o.shp all/o.fgb; do
+        refused 1 'another user (65534)' separate in.gpkg $output --overwrite
+        [ $output != all/o.gpkg ] || refused 1 'another user (65534)' separate in.gpkg $output --update --output-layer more
+    done
+    for option in --stats=all/s.json --report=all/r.html --proof=all/p.jsonl --log=all/l.txt; do
+        refused 1 'another user (65534)' separate in.gpkg other.gpkg $option
+    done
+    same "$(cksum own/*)" "$before" "what links of another user lead to"
+    # A journal, or a log, that SQLite would apply to a database of ours.
+    for ending in -journal -wal; do
+        rm -f all/* && cp own/db.gpkg all/db.gpkg && cp own/db.gpkg all/db.gpkg$ending && chown 65534 all/db.gpkg$ending
+        before=$(cksum all/db.gpkg)
+        refused 1 'belongs to another user' separate all/db.gpkg other.gpkg
+        refused 1 'belongs to another user' separate in.gpkg all/db.gpkg --update --output-layer more
+        refused 1 'belongs to another user' separate in.gpkg all/db.gpkg --overwrite
+        same "$(cksum all/db.gpkg)" "$before" "a database beside another user's $ending"
+    done
+fi
+# The user's own links are followed.
+targets
+links
+expect 0 separate in.gpkg all/o.gpkg --overwrite --gap 1 --stats all/s.json
+[ -L all/o.gpkg ] && [ -L all/s.json ] || fail "links of one's own were replaced"
+grep -q '"command"' own/victim || fail "a link of one's own was not followed"
+finish
