@@ -232,10 +232,13 @@ static void add_conflicts(gis_text *to)
     gis_text_print(to, "</symbols>\n</renderer-v2>\n");
 }
 
-/* By the share of the greatest force. */
+/* A line as wide as its share of the greatest force. They cover the map, so their rule is switched off until its box in
+ * the legend is marked. */
 static void add_pushes(gis_text *to)
 {
-    begin_single(to);
+    gis_text_print(to, "<renderer-v2 type=\"RuleRenderer\" forceraster=\"0\" symbollevels=\"0\" enableorderby=\"0\">\n"
+                       "<rules key=\"pushes\">\n<rule key=\"push\" symbol=\"0\" label=\"what presses on what\" "
+                       "checkstate=\"0\"/>\n</rules>\n<symbols>\n");
     begin_symbol(to, "line", "0");
     add_line_by(to, "106,61,154,255",
                 "coalesce(0.3 + 2.2 * sqrt(&quot;force&quot; / nullif(maximum(&quot;force&quot;), 0)), 0.3)");

@@ -44,17 +44,18 @@ rows barrier_drawn "'max_shift'" barrier=106,27,154=600 || fail "a conflict with
 rows contained "'kept'" kept=150,150,150=600 || fail "an allowed conflict is not grey"
 rows too_close NULL found=231,0,138=600 || fail "a conflict without a reason is not magenta"
 
-# Pushes: the wider the harder. Of equal forces all lines are as wide as the widest; of one great force among small ones
+# Pushes are not drawn until their box in the legend is marked. Then: the wider the harder. Of equal forces all lines are as wide as the widest; of one great force among small ones
 # the others are thin.
 cp "$work/out.gpkg" "$work/pushes.gpkg"
 ogrinfo -q -dialect sqlite -sql "UPDATE buildings_pushes SET force = 1" "$work/pushes.gpkg"
-drawn() {
-    "$python" "$here/render_colours.py" "$work/pushes.gpkg" "$work/pushes.png" buildings_pushes -- pushes=106,61,154=50 |
+drawn() { # layer, least number of pixels: how many
+    "$python" "$here/render_colours.py" "$work/pushes.gpkg" "$work/pushes.png" "$1" -- pushes=106,61,154="$2" |
         sed -n 's/^pushes.*: \([0-9]*\) pixels.*/\1/p'
 }
-wide=$(drawn)
+[ "$(drawn buildings_pushes 0)" = 0 ] || fail "pushes are drawn before their box is marked"
+wide=$(drawn buildings_pushes! 50)
 ogrinfo -q -dialect sqlite -sql "UPDATE buildings_pushes SET force = 0.0001 WHERE fid > 1" "$work/pushes.gpkg"
-thin=$(drawn)
+thin=$(drawn buildings_pushes! 50)
 [ "$wide" -gt 50 ] && [ "$thin" -lt $((wide * 7 / 10)) ] || fail "pushes are not drawn by their force: $wide and $thin pixels"
 
 # Without styles QGIS draws one colour of its own choice: then none of ours may be there, or the test proves nothing.

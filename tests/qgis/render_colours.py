@@ -2,7 +2,7 @@
 
     render_colours.py FILE PICTURE LAYER... -- NAME=R,G,B=PIXELS...
 
-Layers are drawn in the order given, the first lowest. Of each colour at least PIXELS pixels must be there; without
+Layers are drawn in the order given, the first lowest. With ! after a name all boxes of its legend are marked first. Of each colour at least PIXELS pixels must be there; without
 antialiasing a symbol's colour comes out exactly. Exit status 1 if a layer does not open, has no style of its own from the
 file, or a colour is missing.
 """
@@ -24,12 +24,14 @@ def count_colours(image):
 
 def open_layers(path, names):
     layers = []
-    for name in names:
+    for name, marked in ((each.rstrip("!"), each.endswith("!")) for each in names):
         layer = QgsVectorLayer("%s|layername=%s" % (path, name), name, "ogr")
         if not layer.isValid():
             print("layer %s does not open" % name)
             return None
         print("layer %s: %d features, renderer %s" % (name, layer.featureCount(), layer.renderer().type()))
+        for item in layer.renderer().legendSymbolItems() if marked else []:
+            layer.renderer().checkLegendSymbolItem(item.ruleKey(), True)
         layers.append(layer)
     return layers
 
