@@ -6,7 +6,7 @@ git -C "$source" rev-parse --git-dir >/dev/null 2>&1 || skip "the sources are no
 make_root bookworm "$scratch/root"
 git clone -q --bare "$source" "$scratch/root/root/sunder.git"
 sed -n '/^## Install/,/^## /p' "$source/README.md" | sed -n '/^```sh$/,/^```$/p' | grep -v '^```' |
-    sed 's|<address of this repository>|/root/sunder.git|' >"$scratch/root/root/install.sh"
+    sed 's|<address of the repository>|/root/sunder.git|' >"$scratch/root/root/install.sh"
 grep -q 'gis/demo.sh' "$scratch/root/root/install.sh"
 cp "$source/tests/debian/first_user.sh" "$scratch/root/root"
 within "$scratch/root" sh -c 'apt-get update && apt-get install -y --no-install-recommends git ca-certificates qgis unzip' \

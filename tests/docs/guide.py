@@ -1,14 +1,23 @@
 #!/usr/bin/env python3
-"""Runs a page of the guide as it is written.
+"""Runs a page of the documentation as it is written, as its reader would: in one shell, from one folder.
 
     guide.py PAGE.md FOLDER              runs it in FOLDER, which is empty; status 1, and what differs, if it is not as it says
     guide.py PAGE.md FOLDER --record     the same, and puts into the page what was printed
 
-A fenced block of `sh` is given to bash -eu (with pipefail), block after block in the same folder; a block of `text` that comes next says
-what it prints, on standard output and standard error. A block of another language is a file: the last word in backticks
-before it is its name. Seconds are no result: of "1.29 s" at the end of a line only the words before it are compared.
+Fenced blocks of `sh` are given, one after another, to one bash -eu (with pipefail), so that a `cd` or an `export` holds for
+those that follow; a block of `text` that comes next says what it prints, on standard output and standard error. A block of
+another language is a file: the last word in backticks before it is its name. Seconds are no result: of "1.29 s" at the end
+of a line only the words before it are compared. <address of the repository> is SUNDER_SOURCE.
+
+A comment of HTML before a block, which no reader sees, says what is not as the reader has it:
+
+    <!-- first: COMMANDS -->       run before the block, in the same shell: what stands for the reader's own data
+    <!-- status 3 -->              commands of the block may end with 3: conflicts are what it shows
+    <!-- needs: COMMAND -->        the block is left out where the command fails, and that is said
+    <!-- not run: REASON -->       the block is left out, and said
 """
 import difflib
+import functools
 import os
 import re
 import subprocess
@@ -16,17 +25,19 @@ import sys
 
 
 def blocks_of(lines):
-    """(language, first line, line after the last, name of the file) of each fenced block."""
-    blocks, start, prose = [], None, ""
+    """(language, first line, line after the last, name of the file, comments before it) of each fenced block."""
+    blocks, start, prose, comments = [], None, "", []
     for at, line in enumerate(lines):
         if line.startswith("```"):
             if start is None:
                 start, language = at + 1, line[3:].strip()
             else:
                 names = re.findall(r"`([^`]+)`", prose)
-                blocks.append((language, start, at, names[-1] if names else None))
-                start = None
+                blocks.append((language, start, at, names[-1] if names else None, comments))
+                start, comments = None, []
         elif start is None:
+            told = re.fullmatch(r"<!-- (first: .*|status 3|needs: .*|not run: .*) -->", line)
+            comments += [told.group(1)] if told else []
             prose = prose + " " + line if line.strip() and lines[at - 1].strip() else line or prose
     if start is not None:
         sys.exit(f"line {start}: the block does not end")
@@ -37,41 +48,98 @@ def without_seconds(text):
     return re.sub(r"[0-9.]+ s$", "... s", text, flags=re.M)
 
 
+@functools.lru_cache(maxsize=None)
+def succeeds(command):
+    return subprocess.run(["bash", "-c", command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                          check=False).returncode == 0
+
+
+def reason_to_leave_out(comments):
+    """Why a block is not run; empty where it is."""
+    for each in comments:
+        if each.startswith("not run: "):
+            return each[len("not run: "):]
+        if each.startswith("needs: ") and not succeeds(each[len("needs: "):]):
+            return "it needs " + each[len("needs: "):]
+    return ""
+
+
+def script_of(blocks, folder):
+    """One shell's work: blocks are read from files in .blocks, by number, and what each prints goes into another."""
+    script = ["set -euo pipefail"]
+    for number, (language, body, name, comments) in enumerate(blocks):
+        file = os.path.join(folder, ".blocks", str(number))
+        if language == "text" or reason_to_leave_out(comments):
+            continue
+        with open(file, "w", encoding="utf-8") as written:
+            written.write(body.replace("<address of the repository>", os.environ["SUNDER_SOURCE"]))
+        if language != "sh":
+            script.append(f"cp '{file}' '{name}'")
+            continue
+        script += [each[len("first: "):] for each in comments if each.startswith("first: ")]
+        if "status 3" in comments:
+            script.append("set +e; trap 'status=$?; [ $status -eq 3 ] || exit $status' ERR")
+        script.append(f". '{file}' >'{file}.said' 2>&1")
+        if "status 3" in comments:
+            script.append("trap - ERR; set -e")
+    return "\n".join(script)
+
+
+def said_in(folder, number):
+    """What a block printed; None if it did not run."""
+    file = os.path.join(folder, ".blocks", f"{number}.said")
+    if not os.path.exists(file):
+        return None
+    with open(file, encoding="utf-8") as opened:
+        return opened.read()
+
+
+def parts_of(page, lines):
+    """The blocks with their text, the lines they stand on, and where their file has no name, an end with that."""
+    parts, places = [], []
+    for language, start, end, name, comments in blocks_of(lines):
+        if language not in ("sh", "text") and (not name or os.path.basename(name) != name):
+            sys.exit(f"{page}:{start}: a file without a name")
+        if reason_to_leave_out(comments):
+            print(f"{page}:{start + 1}: left out: {reason_to_leave_out(comments)}")
+        parts.append((language, "\n".join(lines[start:end]) + "\n", name, comments))
+        places.append((start, end))
+    return parts, places
+
+
 def main():
-    page, folder, record = sys.argv[1], sys.argv[2], "--record" in sys.argv[3:]
+    page, folder, record = sys.argv[1], os.path.abspath(sys.argv[2]), "--record" in sys.argv[3:]
     with open(page, encoding="utf-8") as file:
         lines = file.read().split("\n")
-    blocks = blocks_of(lines)
-    if not any(language == "sh" for language, *_ in blocks):
+    parts, places = parts_of(page, lines)
+    if not any(language == "sh" for language, *_ in parts):
         sys.exit(f"{page}: there is nothing to run")
+    os.mkdir(os.path.join(folder, ".blocks"))
+    run = subprocess.run(["bash", "-c", script_of(parts, folder)], cwd=folder, stdin=subprocess.DEVNULL,
+                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, encoding="utf-8")
+    said = [said_in(folder, number) for number in range(len(parts))]
+    if run.returncode:
+        last = max((number for number, text in enumerate(said) if text is not None), default=0)
+        print(f"{page}:{places[last][0] + 1}: status {run.returncode}\n{said[last] or ''}{run.stdout}", end="")
+        return 1
     trouble, printed_at = 0, []
-    for number, (language, start, end, name) in enumerate(blocks):
-        body = "\n".join(lines[start:end]) + "\n"
-        if language == "sh":
-            run = subprocess.run(["bash", "-euo", "pipefail", "-c", body], cwd=folder, stdin=subprocess.DEVNULL,
-                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, encoding="utf-8")
-            if run.returncode:
-                print(f"{page}:{start + 1}: status {run.returncode}\n{run.stdout}", end="")
-                return 1
-            follows = blocks[number + 1] if number + 1 < len(blocks) else None
-            if follows and follows[0] == "text":
-                said = without_seconds(run.stdout)
-                printed_at.append((follows[1], follows[2], said))
-                wanted = "\n".join(lines[follows[1]:follows[2]]) + "\n"
-                if without_seconds(wanted) != said and not record:
-                    print(f"{page}:{start + 1}: prints something else")
-                    sys.stdout.writelines(difflib.unified_diff(without_seconds(wanted).splitlines(True),
-                                                               said.splitlines(True), "the page", "the program"))
-                    trouble = 1
-        elif language == "text":
-            if number == 0 or blocks[number - 1][0] != "sh":
-                print(f"{page}:{start}: no command comes before what is printed")
-                trouble = 1
-        else:
-            if not name or os.path.basename(name) != name:
-                sys.exit(f"{page}:{start}: a file without a name")
-            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
-                file.write(body)
+    for number, (language, wanted, _, _) in enumerate(parts):
+        start, end = places[number]
+        if language != "text":
+            continue
+        if number == 0 or parts[number - 1][0] != "sh":
+            print(f"{page}:{start}: no command comes before what is printed")
+            trouble = 1
+            continue
+        if said[number - 1] is None:
+            continue
+        found = without_seconds(said[number - 1])
+        printed_at.append((start, end, found))
+        if without_seconds(wanted) != found and not record:
+            print(f"{page}:{start}: prints something else")
+            sys.stdout.writelines(difflib.unified_diff(without_seconds(wanted).splitlines(True), found.splitlines(True),
+                                                       "the page", "the program"))
+            trouble = 1
     if record:
         for start, end, said in reversed(printed_at):
             lines[start:end] = said.rstrip("\n").split("\n")

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# The tutorial and the pages of the guide do what they say: each is run as it is written, in an empty folder, and what it prints is compared
-# (guide.py). With --record what is printed is put into the pages instead: bash tests/docs/test_guide.sh --record [PAGE ...],
-# with SUNDER_BUILD.
+# The README, the tutorial and the pages of the guide do what they say: each is run as it is written, from a fresh home
+# directory, and what it prints is compared (guide.py). With --record what is printed is put into the pages instead:
+# bash tests/docs/test_guide.sh --record [PAGE ...], with SUNDER_BUILD.
 set -eu
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
 source=$(cd "$here/../.." && pwd -P)
@@ -13,22 +13,50 @@ done
 record=
 if [ "${1-}" = --record ]; then record=--record && shift; fi
 pages=("$@")
-[ $# -gt 0 ] || pages=("$source"/docs/tutorial.md "$source"/docs/guide/*.md)
+if [ $# -eq 0 ]; then
+    while read -r page; do pages+=("$page"); done < <(cd "$source" && grep -rl '^```sh' README.md docs gis/*/README.md | sort | sed "s|^|$source/|")
+fi
 
 work=$(mktemp -d)
 stop() { :; }
 trap 'stop; rm -rf "$work"' EXIT
-export PATH=$build:$source/gis/cluster:$PATH LC_ALL=C.UTF-8
+export LC_ALL=C.UTF-8 SUNDER_SOURCE=$source
+unset PKG_CONFIG_PATH LD_LIBRARY_PATH SUNDER
+# Pages of the guide find the programs as their README says; the README and the tutorial have to see to that themselves.
+found=$build:$source/gis/cluster:$PATH bare=$work/bin:$PATH
 
-# What a page wants beyond the programs: the installed library, a database server. Status 1, and why, where it is missing.
-library() {
-    [ -z "${PKG_CONFIG_PATH-}" ] || return 0
+# What a page wants beyond the programs: the installed library, a database server, a clone. Status 1, and why, where it is
+# missing. Argument of library: the page's home.
+installable() {
     command -v pkg-config >/dev/null || { echo "pkg-config is not installed"; return 1; }
     ! grep -q '^SUNDER_SANITIZE:STRING=.' "$build/CMakeCache.txt" || { echo "the build carries a sanitizer"; return 1; }
-    cmake --install "$build" --prefix "$work/prefix" >"$work/install.log" 2>&1 || { cat "$work/install.log"; exit 1; }
-    PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name sunder.pc)")
-    LD_LIBRARY_PATH=$(PKG_CONFIG_PATH=$PKG_CONFIG_PATH pkg-config --variable=libdir sunder)
-    export PKG_CONFIG_PATH LD_LIBRARY_PATH
+}
+
+library() {
+    installable || return 1
+    cmake --install "$build" --prefix "$1/.local" >"$work/install.log" 2>&1 || { cat "$work/install.log"; exit 1; }
+}
+
+# A clone is built by the page itself. Compiling takes minutes: in its place CMake gives it what this build has.
+clone() {
+    installable || return 1
+    git -C "$source" rev-parse --git-dir >/dev/null 2>&1 || { echo "the sources are no clone of a repository"; return 1; }
+    mkdir -p "$work/bin"
+    cat >"$work/bin/cmake" <<END
+#!/usr/bin/env bash
+set -eu
+real=$(command -v cmake)
+case \$1 in
+    --build) case " \$* " in
+        *" --target docs "* | *" --target qgis-plugin "*) exec "\$real" --build "$build" "\${@:3}" ;;
+        *) mkdir -p "\$2" && ln -sf "$build/sunder" "$build/sunder-town" "\$2" ;;
+        esac ;;
+    --install) exec "\$real" --install "$build" "\${@:3}" ;;
+    -S) ;;
+    *) exec "\$real" "\$@" ;;
+esac
+END
+    chmod +x "$work/bin/cmake"
 }
 
 server() {
@@ -52,20 +80,21 @@ server() {
     export PGHOST=$work/server PGUSER=postgres
 }
 
-run_page() { # page, folder
-    mkdir "$2"
-    python3 "$here/guide.py" "$1" "$2" $record
+run_page() { # page, home, path
+    (export HOME=$2 PATH=$3 && python3 "$here/guide.py" "$1" "$2" $record)
 }
 
 trouble=0 ran=0
 for page in "${pages[@]}"; do
-    name=$(basename "$page" .md)
-    [ "$name" != README ] || continue
+    name=$(basename "$page" .md) path=$found
+    home=$work/home/$name
+    mkdir -p "$home"
     case $name in
-        library) library || { echo "$name: left out"; continue; } ;;
+        library) library "$home" || { echo "$name: left out"; continue; } ;;
         postgis) server || { echo "$name: left out"; continue; } ;;
+        README | tutorial) clone || { echo "$name: left out"; continue; } && path=$bare ;;
     esac
-    if run_page "$page" "$work/$name"; then echo "$name: ok"; else trouble=1; fi
+    if run_page "$page" "$home" "$path"; then echo "$name: ok"; else trouble=1; fi
     ran=$((ran + 1))
 done
 [ "$ran" -gt 0 ] || trouble=1
@@ -74,7 +103,7 @@ done
 if [ -z "$record" ] && [ $# -eq 0 ]; then
     refused() { # what
         mkdir "$work/wrong-$1"
-        if python3 "$here/guide.py" "$work/$1.md" "$work/wrong-$1" >"$work/said" 2>&1; then
+        if run_page "$work/$1.md" "$work/wrong-$1" "$found" >"$work/said" 2>&1; then
             echo "FAILED: a page with another $1 passes"
             trouble=1
         fi
