@@ -151,7 +151,9 @@ static bool inspect_database(gis_sink *sink, gis_sink_result *result, gis_error 
 {
     for (size_t i = 0; i < sink->n_layers; i++) {
         gis_sink_find_losses(sink->layers[i], sink->layers[i]->layer);
-        if (!gis_digests_agree(sink->layers[i], NULL, sink->layers[i]->layer, error)) return false;
+        if (!gis_digests_agree(sink->layers[i], NULL, sink->layers[i]->layer, error) ||
+            !gis_sink_check_registered(sink->layers[i], error))
+            return false;
     }
     if (!sink->format.keeps_doubles) {
         result->exact = false;

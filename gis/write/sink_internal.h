@@ -9,6 +9,7 @@
  *   sink_write.c    features
  *   sink_rows.c     the same past GDAL, where all is plain
  *   sink_whole.c    what is kept of a layer besides these
+ *   sink_registered.c  is it listed in a database, so that a reader finds it?
  *   sink_read_rows.c rows of a GeoPackage read back past GDAL, where all is plain
  *   sink_digest.c   what reads back beside what was sent, in formats that keep every value
  *   sink_compare.c  the same where coordinates or rings may change
@@ -231,6 +232,11 @@ void gis_sink_widen(OGREnvelope *around, const OGREnvelope *box);
 bool gis_sink_note_whole(gis_sink_layer *layer, void *database, gis_error *error);
 /* Does the file tell of that many, and of no less an extent? */
 bool gis_sink_check_whole(const gis_sink_layer *layer, OGRLayerH as_written, gis_error *error);
+
+/* ---- sink_registered.c ------------------------------------------------------------------------------------------- */
+
+/* Of a layer that was added to a database, all of which is written. */
+bool gis_sink_check_registered(const gis_sink_layer *layer, gis_error *error);
 
 void gis_sink_forget_sent(gis_sink_layer *layer);
 /* For layers that can be written again: keeps the values of the feature that was remembered last. */
