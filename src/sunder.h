@@ -148,7 +148,9 @@ SUNDER_API bool sunder_shape_repaired(const sunder_shape *shape);
 /* Did rings of one polygon meet somewhere, or a ring meet itself, as they were given? If not, the polygons of a strict
  * shape are valid in the sense of OGC simple features, which allows less than SUNDER_VALIDITY_STRICT does. */
 SUNDER_API bool sunder_shape_touches(const sunder_shape *shape);
-/* Rings of one polygon of the cleaned form: 1 + its holes; ring 0 is the outer one. */
+/* Rings of one polygon of the cleaned form: 1 + its holes; ring 0 is the outer one. Each ring begins at its smallest
+ * corner by x, then y, and holes and polygons ascend by their corners, however they were given; a reflected shape keeps
+ * the order of the one that it was made of. */
 SUNDER_API size_t sunder_shape_rings(const sunder_shape *shape, size_t polygon);
 /* The corners x0 y0 x1 y1 ... of one ring, *n of them, outer rings counter-clockwise; of a repaired shape the nearest
  * doubles to them. */
@@ -163,8 +165,10 @@ SUNDER_API void sunder_shape_box(const sunder_shape *shape, double box[4]);
 /* Area, the sum over members (overlaps count twice), to the nearest double. Neither this nor the anchor can fail: what
  * they need is on the stack, or was worked out when the shape was made. */
 SUNDER_API double sunder_shape_area(const sunder_shape *shape);
-/* An interior point by a fixed exact rule, as the nearest doubles to it; (0, 0) for the empty set. The rule: of the
- * convex pieces of the shape the largest (area in doubles, first of equals), and of it the centroid. */
+/* An interior point by a fixed exact rule, as the nearest doubles to it; (0, 0) for the empty set. It depends on the
+ * point set alone, not on how its rings are written. The rule: the middle of the widest interval that the interior of
+ * the union of all members has on the horizontal line through the middle of its height, the first from the left of
+ * equal ones; if it has none there, the same of what of it lies below that line. */
 SUNDER_API void sunder_shape_anchor(const sunder_shape *shape, double xy[2]);
 
 /* ---- Minkowski sums --------------------------------------------------------------------------------------- */

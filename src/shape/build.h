@@ -6,6 +6,7 @@
  * intersections.c  where rings cross (an error) or touch
  * simple.c         that nothing meets, by a sweep, where boxes do not tell edges apart
  * nesting.c        orientation; holes inside outer rings, and not inside each other
+ * canonical.c      rings, holes and polygons in an order of the set's own
  * repair.c         the even-odd set of a polygon in its place, by the arrangement of arcs.c and even_odd.c
  * pieces.c         holes bridged (bridge.c), ears cut off (ears.c), triangles merged (merge_triangles.c)
  * finish.c         everything into one block of memory
@@ -140,6 +141,11 @@ void sunder_i_orient_rings(sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi
 void sunder_i_nesting_check(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_edge_tree *tree,
                             sunder_i_problem *problem);
 
+/* ---- canonical.c ---- */
+
+/* Puts rings, holes and polygons in their canonical order. The arena is for scratch; false if memory is out. */
+bool sunder_i_rings_canonical(sunder_i_rings *r, sunder_i_arena *arena);
+
 /* ---- pieces.c, bridge.c, merge_triangles.c ---- */
 
 /* A triangulation by half-edges 3t .. 3t + 2 of triangle t; merging relinks next and prev. */
@@ -186,9 +192,23 @@ void sunder_i_mesh_merge(const sunder_i_rings *r, sunder_i_mesh *mesh);
 /* One block for the shape and its arrays; the raw input is copied in, the cleaned form and the pieces too. */
 sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
                                       const sunder_i_rings *r, const sunder_i_pieces *pieces);
-/* The same of one ring of n corners, at most SUNDER_I_FEW_CORNERS, that is sound as it was given: all `raw` vertices
- * but perhaps the closing one are corners, run the other way if turned. */
-sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32_t n, bool turned,
+/* How the corners of a ring that is sound as it was given stand in it: from this one on, and the other way if
+ * turned. */
+typedef struct sunder_i_small_ring {
+    uint32_t start;
+    bool turned;
+} sunder_i_small_ring;
+
+/* Corner i of such a ring of n is this one of those given. */
+static inline uint32_t sunder_i_small_ring_corner(sunder_i_small_ring ring, uint32_t n, uint32_t i)
+{
+    const uint32_t k = ring.turned ? ring.start + n - i : ring.start + i;
+    return k < n ? k : k - n;
+}
+
+/* The same of one such ring of n corners, at most SUNDER_I_FEW_CORNERS: all `raw` vertices but perhaps the closing one
+ * are corners. */
+sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32_t n, sunder_i_small_ring ring,
                                             const sunder_i_pieces *pieces);
 /* Box and extent from the coordinates (not for rational shapes). */
 void sunder_i_shape_measure(sunder_shape *shape, const sunder_i_extent *known);

@@ -19,7 +19,7 @@ typedef struct layout {
     size_t raw_vertices, raw_rings;
     uint32_t raw_polygons;
     uint32_t corners; /* of pieces */
-    bool numbers;     /* some corner may be no pair of doubles */
+    bool numbers;     /* some corner may be no pair of doubles, or there are many */
     bool few;         /* its rings are one of few corners, which stand in different places: it is as all such */
     bool whole;       /* and it is its only piece, from its first corner on */
     bool clean;       /* and the ring as given begins with its corners */
@@ -46,7 +46,7 @@ static layout plan(const double *xy, const size_t *ring_end, const size_t *poly_
     layout l = {.raw_rings = polygons ? poly_end[polygons - 1] : 0,
                 .raw_polygons = (uint32_t)polygons,
                 .corners = pieces->corners,
-                .numbers = r->rounded};
+                .numbers = r->rounded || r->vertices > SUNDER_I_ANCHOR_CORNERS};
     l.raw_vertices = l.raw_rings ? ring_end[l.raw_rings - 1] : 0;
     l.few = r->rings == 1 && r->polygons == 1 && r->vertices >= 3 && r->vertices <= SUNDER_I_FEW_CORNERS &&
             polygons == 1 && l.raw_rings == 1 && l.raw_vertices >= 3 && l.raw_vertices <= SUNDER_I_FEW_CORNERS + 1 &&
@@ -148,14 +148,14 @@ sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, 
     return s;
 }
 
-sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32_t n, bool turned,
+sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32_t n, sunder_i_small_ring ring,
                                             const sunder_i_pieces *pieces)
 {
-    const bool whole = pieces->pieces == 1;
-    const size_t doubles = 2 * (raw + (turned ? n : 0)), numbers = whole ? 0 : (size_t)pieces->pieces + pieces->corners;
+    const bool whole = pieces->pieces == 1, own = ring.turned || ring.start;
+    const size_t doubles = 2 * (raw + (own ? n : 0)), numbers = whole ? 0 : (size_t)pieces->pieces + pieces->corners;
     sunder_shape *s = sunder_i_alloc(sizeof *s + doubles * sizeof *xy + numbers * sizeof *pieces->piece_end, 1);
     if (!s) return NULL;
-    double *const raw_xy = s->raw_xy, *const own_xy = turned ? raw_xy + 2 * raw : raw_xy;
+    double *const raw_xy = s->raw_xy, *const own_xy = own ? raw_xy + 2 * raw : raw_xy;
     uint32_t *const ends = (uint32_t *)(void *)(raw_xy + doubles);
     *s = (sunder_shape){.form = sunder_i_few_form(n, raw),
                         .piece_end = whole ? sunder_i_few_whole(n) : ends,
@@ -163,7 +163,8 @@ sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32
                         .vertices = n,
                         .pieces = pieces->pieces};
     memcpy(raw_xy, xy, 2 * raw * sizeof *xy);
-    for (uint32_t i = 0; turned && i < n; i++) memcpy(own_xy + 2 * i, xy + 2 * (n - 1 - i), 2 * sizeof *xy);
+    for (uint32_t i = 0; own && i < n; i++)
+        memcpy(own_xy + 2 * i, xy + 2 * sunder_i_small_ring_corner(ring, n, i), 2 * sizeof *xy);
     if (!whole) {
         memcpy(ends, pieces->piece_end, pieces->pieces * sizeof *ends);
         memcpy(ends + pieces->pieces, pieces->piece_vertex, pieces->corners * sizeof *ends);

@@ -245,6 +245,7 @@ static bool complete(builder *b, sunder_shape *s)
         if (!set_exact(b, s) || !sunder_i_shape_measure_rational(s)) return false;
     } else {
         sunder_i_shape_measure(s, all_kept(b) ? &b->extent : NULL);
+        if (!sunder_i_shape_measure_anchor(s)) return false;
     }
     /* Within a polygon corners that share a place touch, and that was looked for. */
     if (b->in->polygons == 1 && !b->repaired && !b->touches) {
@@ -263,6 +264,7 @@ static sunder_status build(builder *b, sunder_shape **out, sunder_error *err)
         if (status) return status;
     }
     if (b->made.n && !sunder_i_repair_place(&b->r, &b->made, b->origin[0], &b->arena)) return sunder_i_no_memory(err);
+    if (!sunder_i_rings_canonical(&b->r, &b->arena)) return sunder_i_no_memory(err);
     sunder_i_pieces pieces;
     if (!sunder_i_pieces_find(&b->r, &b->arena, &pieces)) return sunder_i_no_memory(err);
     sunder_shape *s = sunder_i_shape_assemble(in->xy, in->ring_end, in->poly_end, in->polygons, &b->r, &pieces);

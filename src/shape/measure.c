@@ -30,30 +30,3 @@ double sunder_shape_area(const sunder_shape *shape)
     }
     return sunder_i_accumulator_double(&twice, -1);
 }
-
-/* Area of a convex piece in doubles, from its first corner, so that far origins cost no digits. */
-static double rough_area(const sunder_shape *shape, const uint32_t *corner, uint32_t n)
-{
-    const double *o = shape->xy + 2 * (size_t)corner[0];
-    double sum = 0;
-    for (uint32_t i = 1; i + 1 < n; i++) {
-        const double *a = shape->xy + 2 * (size_t)corner[i], *b = shape->xy + 2 * (size_t)corner[i + 1];
-        sum += (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
-    }
-    return sum;
-}
-
-uint32_t sunder_i_largest_piece(const sunder_shape *shape, uint32_t *from)
-{
-    double most = -1;
-    uint32_t largest = 0;
-    *from = 0;
-    for (uint32_t i = 0, at = 0; i < shape->pieces; at = shape->piece_end[i++]) {
-        const double area = rough_area(shape, sunder_i_piece_vertices(shape) + at, shape->piece_end[i] - at);
-        if (!(area > most)) continue;
-        most = area;
-        largest = i;
-        *from = at;
-    }
-    return largest;
-}

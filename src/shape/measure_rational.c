@@ -2,6 +2,7 @@
 #include "predicate/narrow.h"
 #include "predicate/rational_point.h"
 #include "shape/shape.h"
+#include "shape/widest_interval.h"
 
 /* ---- Area ---- */
 
@@ -122,32 +123,22 @@ static double near_value(sunder_i_arena *arena, sunder_i_big num, sunder_i_big d
     return sunder_i_big_ratio(arena, sunder_i_big_add(arena, num, shift), den, unit);
 }
 
-/* The centroid of a piece: over the fan of triangles o, a, b with u = a - o, v = b - o it is
- * o + sum (u + v) cross(u, v) / (3 sum cross(u, v)). */
-static void centroid(const sunder_i_lattice *l, sunder_i_arena *arena, const sunder_i_point *at, const uint32_t *corner,
-                     uint32_t n, const double origin[2], double xy[2])
+static bool find_anchor(const sunder_shape *shape, const sunder_i_placed *placed, sunder_i_arena *arena, double xy[2])
 {
-    const common c = over_one(arena, l, at, corner, n);
-    sunder_i_big weight = {NULL, 0}, moment[2] = {{NULL, 0}, {NULL, 0}};
-    for (uint32_t i = 1; i + 1 < n && !arena->failed; i++) {
-        sunder_i_big u[2], v[2];
-        for (int k = 0; k < 2; k++) {
-            u[k] = sunder_i_big_sub(arena, c.xy[i][k], c.xy[0][k]);
-            v[k] = sunder_i_big_sub(arena, c.xy[i + 1][k], c.xy[0][k]);
-        }
-        const sunder_i_big cross =
-            sunder_i_big_sub(arena, sunder_i_big_mul(arena, u[0], v[1]), sunder_i_big_mul(arena, u[1], v[0]));
-        weight = sunder_i_big_add(arena, weight, cross);
-        for (int k = 0; k < 2; k++)
-            moment[k] =
-                sunder_i_big_add(arena, moment[k], sunder_i_big_mul(arena, cross, sunder_i_big_add(arena, u[k], v[k])));
-    }
-    weight = sunder_i_big_mul(arena, weight, sunder_i_big_i64(arena, 3));
-    const sunder_i_big den = sunder_i_big_mul(arena, weight, c.den);
-    for (int k = 0; k < 2 && !arena->failed; k++) {
-        const sunder_i_big start = sunder_i_big_mul(arena, weight, c.xy[0][k]);
-        xy[k] = near_value(arena, sunder_i_big_add(arena, start, moment[k]), den, l->exponent, origin[k]);
-    }
+    sunder_i_rational_point *point = sunder_i_arena_alloc(arena, shape->vertices, sizeof *point);
+    int8_t *side = sunder_i_arena_alloc(arena, shape->vertices, sizeof *side);
+    sunder_i_level_crossing *crossing = sunder_i_arena_alloc(arena, 2 * (size_t)shape->vertices, sizeof *crossing);
+    if (arena->failed) return false;
+    for (uint32_t v = 0; v < shape->vertices; v++)
+        point[v] = sunder_i_rational_get(arena, &placed->lattice, placed->p[v]);
+    const sunder_i_boundary b = {.n = shape->vertices, .next = shape->form->cleaned.next, .point = point};
+    sunder_i_widest_interval widest;
+    sunder_i_widest_interval_find(&b, side, crossing, arena, &widest);
+    if (arena->failed) return false;
+    const sunder_i_rational_point at = sunder_i_widest_interval_middle(&b, &widest, arena);
+    for (int k = 0; k < 2 && !arena->failed; k++)
+        xy[k] = near_value(arena, sunder_i_rational_axis(&at, k), at.w, placed->lattice.exponent, placed->origin_p[k]);
+    return !arena->failed;
 }
 
 bool sunder_i_shape_measure_pieces(sunder_shape *shape)
@@ -157,10 +148,7 @@ bool sunder_i_shape_measure_pieces(sunder_shape *shape)
     if (sunder_i_place(shape, NULL, NULL, &placed, NULL)) return false;
     sunder_i_arena arena;
     sunder_i_arena_init(&arena);
-    uint32_t from;
-    const uint32_t largest = sunder_i_largest_piece(shape, &from);
-    centroid(&placed.lattice, &arena, placed.p, sunder_i_piece_vertices(shape) + from, shape->piece_end[largest] - from,
-             placed.origin_p, shape->form->numbers->anchor);
+    find_anchor(shape, &placed, &arena, shape->form->numbers->anchor);
     shape->form->numbers->area = area_of(&arena, shape, &placed);
     const bool good = !arena.failed && !placed.lattice.arena.failed;
     sunder_i_arena_free(&arena);

@@ -47,6 +47,7 @@ sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out
         good = good && sunder_i_shape_measure_rational(c);
     } else {
         sunder_i_shape_measure(c, NULL);
+        good = sunder_i_shape_measure_anchor(c);
     }
     if (!good) {
         sunder_shape_free(c);
@@ -104,14 +105,17 @@ static sunder_status move_exactly(const sunder_shape *shape, const double d[2], 
     sunder_shape *c = copy_shape(shape);
     if (!c) return sunder_i_no_memory(err);
     for (size_t i = 0; i < 2 * sunder_i_shape_raw_vertices(c); i++) c->raw_xy[i] += d[i & 1];
+    bool good;
     if (shape->rational) {
-        if (!move_rational(shape, d, c)) {
-            sunder_shape_free(c);
-            return sunder_i_no_memory(err);
-        }
+        good = move_rational(shape, d, c);
     } else {
         for (size_t i = 0; c->xy != c->raw_xy && i < 2 * (size_t)c->vertices; i++) c->xy[i] += d[i & 1];
         sunder_i_shape_measure(c, NULL);
+        good = sunder_i_shape_measure_anchor(c);
+    }
+    if (!good) {
+        sunder_shape_free(c);
+        return sunder_i_no_memory(err);
     }
     *out = c;
     return SUNDER_OK;

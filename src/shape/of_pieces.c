@@ -90,6 +90,7 @@ static void measure(sunder_shape *s, const sunder_i_piece_of *piece)
         if (of && of->rational && of->low_bit < extent.low_bit) extent.low_bit = of->low_bit;
     }
     s->low_bit = extent.low_bit;
+    if (s->vertices) memcpy(s->form->numbers->anchor, s->xy, sizeof s->form->numbers->anchor); /* any point of it */
     for (int k = 0; k < 2; k++) {
         s->box[k] = extent.low[k];
         s->box[k + 2] = extent.high[k];

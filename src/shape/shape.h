@@ -2,6 +2,7 @@
  *
  * A shape keeps its input as given (translations need it) and a cleaned form: outer rings counter-clockwise, holes
  * clockwise, so that the interior is on the left of every edge; no repeated vertices, no collinear ones, no spikes.
+ * Each ring begins at its smallest vertex, holes and members ascend (canonical.c; a reflected copy keeps the order).
  * Coordinates are doubles, taken exactly, but for those corners of a shape repaired by the even-odd rule that are
  * crossings of two edges as given: each of them has a denominator of its own.
  *
@@ -27,11 +28,13 @@ typedef struct sunder_i_exact {
     long exponent;
 } sunder_i_exact;
 
-/* What only shapes have of which some corner is no pair of doubles, and those made of pieces (of_pieces.c): few. */
+/* What only shapes have of which some corner is no pair of doubles, those of many corners, and those made of pieces
+ * (of_pieces.c): few. */
 typedef struct sunder_i_numbers {
     sunder_i_arena arena;   /* of the numbers of corners */
     sunder_i_exact *exact;  /* [vertices] of rational shapes */
-    double area, anchor[2]; /* of these, worked out when made, while failing was possible (measure_rational.c) */
+    double area, anchor[2]; /* worked out when made, while failing was possible; the area of rational shapes
+                             * (measure_rational.c) */
 } sunder_i_numbers;
 
 /* How the coordinates given make rings. */
@@ -126,16 +129,10 @@ static inline size_t sunder_i_shape_raw_vertices(const sunder_shape *s)
 /* Area and anchor of a rational shape that is complete but for them. False if memory is out. */
 bool sunder_i_shape_measure_pieces(sunder_shape *shape);
 
-/* The largest convex piece in doubles, first of equals; *from is its first corner. */
-uint32_t sunder_i_largest_piece(const sunder_shape *shape, uint32_t *from);
-
-/* The centroid of a convex piece of n corners to the nearest doubles, in doubles (anchor.c). False, and xy undefined,
- * where they do not suffice. */
-bool sunder_i_anchor_in_doubles(const sunder_shape *shape, const uint32_t *corner, uint32_t n, double xy[2]);
-/* The same in words of 128 bits; false, and xy undefined, where it is too large for them. */
-bool sunder_i_anchor_in_words(const sunder_shape *shape, const uint32_t *corner, uint32_t n, double xy[2]);
-/* The same, always. */
-void sunder_i_anchor_exactly(const sunder_shape *shape, const uint32_t *corner, uint32_t n, double xy[2]);
+/* Up to so many corners an anchor is found on the stack, whenever it is asked for; of more it is kept. */
+#define SUNDER_I_ANCHOR_CORNERS 64
+/* The anchor to be kept, of a shape with numbers of its own whose corners are doubles. False if memory is out. */
+bool sunder_i_shape_measure_anchor(sunder_shape *shape);
 
 /* Checks every invariant above (exactly, slowly); for tests and debug builds. NULL if all hold, else a sentence; NULL
  * too where memory runs out, since nothing is known then. */

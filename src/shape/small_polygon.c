@@ -2,12 +2,13 @@
  * in general is done here on arrays of fixed size: cleaned (clean.c), looked over for crossings (intersections.c),
  * turned and nested (nesting.c), joined to its holes (bridge.c) and cut into pieces (small_pieces.c). The shape is the
  * same; only, nothing is repaired or explained here. A polygon in which a corner repeats or is straight, or two edges
- * meet, or a hole is not where holes may be, or whose coordinates are too long for native integers, goes the general
- * way.
+ * meet, or a hole is not where holes may be or not in order, or whose coordinates are too long for native integers,
+ * goes the general way.
  *
- * A turn that is not zero at every corner tells that nothing is to be cleaned. Of a ring whose edges meet nowhere else
- * the turn at its lowest corner tells its orientation, and it is convex if all turns are to the left. So rings are read
- * as that corner says, and whether they were sound is asked afterwards. */
+ * A turn that is not zero at every corner tells that nothing is to be cleaned. If the edges of a ring meet nowhere
+ * else, the turn at its smallest corner tells its orientation, and the ring is convex if all turns are to the left. So
+ * each ring is read from that corner on (canonical.c) and as its turn says; whether it was sound is asked
+ * afterwards. */
 #include "shape/small_polygon.h"
 
 #include "shape/few_corners.h"
@@ -25,8 +26,8 @@ typedef struct polygon {
     double scale;           /* the unit is that of the lowest bit */
     uint32_t rings;
     uint32_t ring_end[MOST_RINGS];
-    bool turned[MOST_RINGS]; /* run the other way than given */
-    sunder_i_small_walk w;   /* nodes: the corners; then, with holes, the second ends of bridges too */
+    sunder_i_small_ring ring[MOST_RINGS]; /* how its corners stand among those that were given */
+    sunder_i_small_walk w;                /* nodes: the corners; then, with holes, the second ends of bridges too */
 } polygon;
 
 /* How many vertices of the raw ring lo .. hi are corners, if all are but one that closes it. */
@@ -93,26 +94,34 @@ static const uint8_t itself[MOST] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10,
                                      16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31};
 
 /* The ring of n corners from raw vertex lo on into nodes first and so on, the outer one counter-clockwise, holes
- * clockwise. False if a corner is straight. */
+ * clockwise, each from its smallest corner. False if a corner is straight. */
 static bool read_ring(polygon *p, size_t ring, size_t lo, uint32_t first, uint32_t n)
 {
     sunder_i_small_walk *w = &p->w;
     sunder_i_point *at = w->at + first;
-    uint32_t lowest = 0;
-    int64_t y = INT64_MAX;
+    uint32_t least = 0; /* of several in one place any: such a ring is not sound */
     for (uint32_t i = 0; i < n; i++) {
         at[i] = point_at(p, lo + i);
-        lowest = at[i].y < y ? i : lowest; /* of several any: all of these are on the hull */
-        y = at[i].y < y ? at[i].y : y;
+        least = at[i].x < at[least].x || (at[i].x == at[least].x && at[i].y < at[least].y) ? i : least;
     }
-    const sunder_i_point b = at[lowest], a = at[lowest ? lowest - 1 : n - 1], c = at[lowest + 1 < n ? lowest + 1 : 0];
+    const sunder_i_point b = at[least], a = at[least ? least - 1 : n - 1], c = at[least + 1 < n ? least + 1 : 0];
     const bool left = sunder_i_small_left(w->brief, sunder_i_narrow_sub(b, a), sunder_i_narrow_sub(c, b));
-    p->turned[ring] = left == (ring > 0);
-    if (p->turned[ring])
-        for (uint32_t i = 0; i < n; i++) at[i] = point_at(p, lo + n - 1 - i);
+    const sunder_i_small_ring as = p->ring[ring] = (sunder_i_small_ring){least, left == (ring > 0)};
+    if (as.turned || as.start)
+        for (uint32_t i = 0; i < n; i++) at[i] = point_at(p, lo + sunder_i_small_ring_corner(as, n, i));
     w->next[first + n - 1] = (uint8_t)first;
     w->prev[first] = (uint8_t)(first + n - 1);
     return find_turns(w, first, first + n);
+}
+
+/* Do the holes stand in the order of their first corners? */
+static bool holes_ascend(const polygon *p)
+{
+    for (uint32_t hole = 2; hole < p->rings; hole++) {
+        const sunder_i_point a = p->w.at[p->ring_end[hole - 2]], b = p->w.at[p->ring_end[hole - 1]];
+        if (a.x > b.x || (a.x == b.x && a.y >= b.y)) return false;
+    }
+    return true;
 }
 
 static bool read_rings(polygon *p)
@@ -130,16 +139,13 @@ static bool read_rings(polygon *p)
         if (!read_ring(p, ring, lo, w->nodes, n)) return false;
         p->ring_end[ring] = w->nodes += n;
     }
-    return true;
+    return holes_ascend(p);
 }
 
 /* ---- Is it sound? ---- */
 
 /* At all nodes? */
-static bool turns_left(const sunder_i_small_walk *w)
-{
-    return w->convex == (uint32_t)(((uint64_t)1 << w->nodes) - 1);
-}
+static bool turns_left(const sunder_i_small_walk *w) { return w->convex == (uint32_t)(((uint64_t)1 << w->nodes) - 1); }
 
 /* Are both ends of edge f, u and v from its ends, strictly on one side of edge e? */
 static inline bool on_one_side(bool brief, sunder_i_point e, sunder_i_point u, sunder_i_point v)
@@ -294,7 +300,7 @@ static void make_rings(polygon *p, made_rings *m)
         const size_t lo = ring ? p->in->ring_end[ring - 1] : 0;
         const uint32_t first = v, end = p->ring_end[ring];
         for (; v < end; v++) {
-            const size_t raw = lo + (p->turned[ring] ? end - 1 - v : v - first);
+            const size_t raw = lo + sunder_i_small_ring_corner(p->ring[ring], end - first, v - first);
             m->at[v] = w->at[v];
             memcpy(m->xy + 2 * v, p->in->xy + 2 * raw, 2 * sizeof *m->xy);
             m->next[v] = w->next[v];
@@ -355,7 +361,7 @@ static sunder_shape *assemble(polygon *p, made_rings *m)
     find_pieces(&p->w, &pieces);
     const sunder_i_input *in = p->in;
     sunder_shape *s = m ? sunder_i_shape_assemble(in->xy, in->ring_end, in->poly_end, 1, &m->r, &pieces)
-                        : sunder_i_shape_assemble_small(in->xy, in->vertices, p->ring_end[0], p->turned[0], &pieces);
+                        : sunder_i_shape_assemble_small(in->xy, in->vertices, p->ring_end[0], p->ring[0], &pieces);
     if (!s) return NULL;
     sunder_i_shape_measure(s, &p->extent);
     if (m) sunder_i_shape_mark_none_shared(s);

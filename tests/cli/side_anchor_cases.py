@@ -1,4 +1,4 @@
-"""Side anchors of the library beside those of side_anchor.py: cases made by hand, and random ones on coarse grids, where
+"""Anchors and side anchors of the library beside those of anchor.py and side_anchor.py: cases made by hand, and random ones on coarse grids, where
 lines run along edges and through corners, and meet each other anywhere: python3 side_anchor_cases.py ANCHORS [COUNT [SEED]]
 """
 import random
@@ -7,6 +7,7 @@ import sys
 from fractions import Fraction
 
 import exact_plane as plane
+from anchor import anchor
 from side_anchor import side_anchor
 
 UNIT = 1 << 40  # of the lattice: coordinates are multiples of 2^-40
@@ -46,6 +47,10 @@ def wanted(polygons, lines, areas, plain):
     return side_anchor(outline, sides.edges, plain, UNIT) or plain
 
 
+def anchor_wanted(polygons):
+    return anchor([plane.Outline([whole(r) for r in rings]).edges for rings in polygons], UNIT)
+
+
 def box(x, y, w, h):
     return [(x, y), (x + w, y), (x + w, y + h), (x, y + h)]
 
@@ -78,6 +83,18 @@ HAND = [
     ("an area over a part of it", square, [], [[[box(5, -1, 20, 20)]]]),
     ("an area inside", square, [], [[[box(1, 1, 6, 6)]]]),
     ("an area and a line", square, [[(-1, 1), (9, 2)]], [[[box(5, -1, 20, 20)]]]),
+    ("two that overlap", [[box(0, 0, 8, 8)], [box(5, 3, 9, 9)]], [], []),
+    ("two that share a wall", [[box(0, 0, 8, 8)], [box(8, 0, 5, 8)]], [], []),
+    ("two that share a part of a level wall", [[box(0, 0, 8, 4)], [box(2, 4, 12, 4)]], [], []),
+    ("two that meet in a corner at the middle", [[box(0, 0, 8, 4)], [box(8, 4, 8, 4)]], [], []),
+    ("one above the other", [[box(0, 0, 3, 1)], [box(5, 9, 8, 1)]], [], []),
+    ("four, none of them in the middle", [[box(0, 0, 3, 1)], [box(5, 1.5, 8, 1)], [box(0, 9, 3, 1)], [box(4, 3, 1, 1)]],
+     [], []),
+    ("a notch at the middle", [[[(0, 0), (8, 0), (8, 8), (4, 4), (0, 8)]]], [], []),
+    ("notches from above and below", [[[(0, 0), (3, 4), (9, 0), (9, 8), (5, 4), (0, 8)]]], [], []),
+    ("equal arms", [[[(0, 0), (9, 0), (9, 8), (6, 8), (6, 2), (3, 2), (3, 8), (0, 8)]]], [], []),
+    ("nearly equal arms", [[[(0, 0), (9, 0), (9, 8), (6 - 2**-40, 8), (6, 2), (3, 2), (3, 8), (0, 8)]]], [], []),
+    ("a level edge at the middle", [[[(0, 0), (9, 0), (9, 4), (3, 4), (3, 8), (0, 8)]]], [], []),
     ("an area that crosses itself", square, [], [[[[(1, -1), (10, 9), (1, 9), (10, -1)]]]]),
     ("an area with a hole about it", square, [], [[[box(-9, -9, 30, 30), box(-1, -1, 10, 10)[::-1]]]]),
     ("a feature that crosses itself", [[[(0, 0), (8, 8), (8, 0), (0, 8)]]], [[(1, -1), (1, 9)]], []),
@@ -140,6 +157,9 @@ def main():
     for (name, polygons, lines, areas), (px, py, sx, sy) in zip(cases, ask(program, cases), strict=True):
         right = wanted(polygons, lines, areas, (px, py))
         cut += right != (px, py)
+        if anchor_wanted(polygons) != (px, py):
+            wrong += 1
+            print(f"seed {seed}, {name}: anchor {(px, py)}, not {anchor_wanted(polygons)}", polygons, sep="\n")
         if right != (sx, sy):
             wrong += 1
             print(f"seed {seed}, {name}: {(sx, sy)}, not {right}; anchor {(px, py)}", polygons, lines, areas, sep="\n")

@@ -1,0 +1,365 @@
+/* Where is a set widest, at the middle of its height? The line through the middle meets the interior in open intervals,
+ * and the widest of them is asked for, the first from the left of equal ones. Where it has none there the set is in
+ * several parts, and what lies below the line is asked in its place: the height is halved at least each time.
+ *
+ * A point of the line is inside the set if what is just above and what is just below it is. So the edges that reach
+ * above the line are sorted along it, by x and then by direction, and between the first that opens and the one that
+ * closes last the set is covered; the same is done below it, and the intervals are what is covered on both sides. Edges
+ * in one place that run against each other are the wall of two members that touch, and no gap. Corners on the line and
+ * level edges need no care.
+ *
+ * Everything is decided exactly, and in doubles first. With eps = 2^-53 and the middle m of low and high, the side of a
+ * corner is the sign of 2 y - (low + high): that of 2 y less the rounded sum, or of the rounding error. On an edge from
+ * a to b with p = a.y - m, which is off by 3 eps (high - low) at most, x is a.x + (b.x - a.x) p / (a.y - b.y); so less
+ * an origin it is off by some 8 eps of |a.x - origin| + |b.x - a.x| (1 + (high - low) / |a.y - b.y|), and 16 eps of
+ * what is computed for that are beyond it. Numbers are kept off the ends of the range of doubles. */
+#include "shape/widest_interval.h"
+
+#include "base/extremes.h"
+#include "number/accumulator.h"
+#include "predicate/predicate.h"
+
+#include <math.h>
+
+typedef struct search {
+    const sunder_i_boundary *b;
+    sunder_i_arena *arena;
+    sunder_i_widest_interval *out; /* has the height */
+    int8_t *side;                  /* [n] of each corner: above the line 1, below -1, on it 0 */
+} search;
+
+/* ---- Numbers ----------------------------------------------------------------------------------------------------- */
+
+static sunder_i_big in_units(sunder_i_arena *arena, double v, int unit)
+{
+    int e;
+    const sunder_i_big m = sunder_i_big_double(arena, v, &e);
+    return m.size ? sunder_i_big_shl(arena, m, (unsigned long)(e - unit)) : m;
+}
+
+static sunder_i_rational_point point_of(const sunder_i_boundary *b, uint32_t v, sunder_i_arena *arena)
+{
+    if (!b->xy) return b->point[v];
+    const double *xy = b->xy + 2 * (size_t)v;
+    return (sunder_i_rational_point){in_units(arena, xy[0], b->unit), in_units(arena, xy[1], b->unit),
+                                     sunder_i_big_i64(arena, 1)};
+}
+
+static sunder_i_ratio height_of(const sunder_i_boundary *b, const sunder_i_widest_interval *i, sunder_i_arena *arena)
+{
+    if (!b->xy) return i->height;
+    return (sunder_i_ratio){
+        sunder_i_big_add(arena, in_units(arena, i->low, b->unit), in_units(arena, i->high, b->unit)),
+        sunder_i_big_i64(arena, 2)};
+}
+
+/* With the corners' heights p and q above the line, times the denominators of both, x is (b.x p - a.x q) / (p b.w -
+ * q a.w). */
+static sunder_i_ratio x_of(const sunder_i_boundary *b, const sunder_i_widest_interval *i, uint32_t edge,
+                           sunder_i_arena *arena)
+{
+    const sunder_i_rational_point from = point_of(b, edge, arena), to = point_of(b, b->next[edge], arena);
+    const sunder_i_ratio h = height_of(b, i, arena);
+    const sunder_i_big p = sunder_i_big_sub(arena, sunder_i_big_mul(arena, from.y, h.den),
+                                            sunder_i_times(arena, h.num, from.w)),
+                       q = sunder_i_big_sub(arena, sunder_i_big_mul(arena, to.y, h.den),
+                                            sunder_i_times(arena, h.num, to.w));
+    sunder_i_ratio x = {sunder_i_big_sub(arena, sunder_i_big_mul(arena, to.x, p), sunder_i_big_mul(arena, from.x, q)),
+                        sunder_i_big_sub(arena, sunder_i_times(arena, p, to.w), sunder_i_times(arena, q, from.w))};
+    if (sunder_i_big_sign(x.den) < 0) x = (sunder_i_ratio){sunder_i_big_neg(x.num), sunder_i_big_neg(x.den)};
+    return x;
+}
+
+/* b - a. */
+static sunder_i_ratio width_of(sunder_i_ratio a, sunder_i_ratio b, sunder_i_arena *arena)
+{
+    return (sunder_i_ratio){
+        sunder_i_big_sub(arena, sunder_i_big_mul(arena, b.num, a.den), sunder_i_big_mul(arena, a.num, b.den)),
+        sunder_i_big_mul(arena, a.den, b.den)};
+}
+
+/* ---- Sides of corners -------------------------------------------------------------------------------------------- */
+
+/* The sign of 2 y - (low + high). */
+static int side_of_double(double y, double low, double high)
+{
+    const double sum = low + high, twice = 2 * y;
+    if (fabs(sum) < 0x1p1000 && fabs(low) < 0x1p1000 && fabs(twice) < 0x1p1000) {
+        if (twice != sum) return twice < sum ? -1 : 1;
+        const double part = sum - low, rest = (low - (sum - part)) + (high - part);
+        return (rest < 0) - (rest > 0);
+    }
+    sunder_i_accumulator exact = {{0}};
+    sunder_i_accumulator_add(&exact, 2, y);
+    sunder_i_accumulator_sub(&exact, 1, low);
+    sunder_i_accumulator_sub(&exact, 1, high);
+    return sunder_i_accumulator_sign(&exact);
+}
+
+static int side_of_point(search *s, uint32_t v)
+{
+    const sunder_i_mark mark = sunder_i_arena_mark(s->arena);
+    const sunder_i_ratio y = {s->b->point[v].y, s->b->point[v].w};
+    const int side = sunder_i_ratio_cmp(s->arena, y, s->out->height);
+    if (!s->arena->failed) sunder_i_arena_release(s->arena, mark);
+    return side;
+}
+
+static int compare_heights(search *s, uint32_t v, uint32_t w)
+{
+    if (s->b->xy) {
+        const double y = s->b->xy[2 * (size_t)v + 1], z = s->b->xy[2 * (size_t)w + 1];
+        return (y > z) - (y < z);
+    }
+    const sunder_i_mark mark = sunder_i_arena_mark(s->arena);
+    const int order = sunder_i_rational_cmp(s->arena, &s->b->point[v], &s->b->point[w], 1);
+    if (!s->arena->failed) sunder_i_arena_release(s->arena, mark);
+    return order;
+}
+
+/* The middle of the heights of these corners, and on which side of it the others are. */
+static void set_height(search *s, uint32_t lowest, uint32_t highest)
+{
+    const sunder_i_boundary *b = s->b;
+    if (b->xy) {
+        s->out->low = b->xy[2 * (size_t)lowest + 1];
+        s->out->high = b->xy[2 * (size_t)highest + 1];
+        for (uint32_t v = 0; v < b->n; v++)
+            s->side[v] = (int8_t)side_of_double(b->xy[2 * (size_t)v + 1], s->out->low, s->out->high);
+        return;
+    }
+    const sunder_i_rational_point *p = &b->point[lowest], *q = &b->point[highest];
+    sunder_i_ratio sum = sunder_i_ratio_add(s->arena, (sunder_i_ratio){p->y, p->w}, (sunder_i_ratio){q->y, q->w});
+    sum.den = sunder_i_big_shl(s->arena, sum.den, 1);
+    s->out->height = sum;
+    for (uint32_t v = 0; v < b->n && !s->arena->failed; v++) s->side[v] = (int8_t)side_of_point(s, v);
+}
+
+/* ---- Crossings --------------------------------------------------------------------------------------------------- */
+
+static void locate(const search *s, uint32_t edge, sunder_i_level_crossing *c)
+{
+    const sunder_i_boundary *b = s->b;
+    const uint32_t next = b->next[edge];
+    *c = (sunder_i_level_crossing){.edge = edge, .opens = s->side[edge] > s->side[next], .off = INFINITY};
+    if (!b->xy) return;
+    const double *p = b->xy + 2 * (size_t)edge, *q = b->xy + 2 * (size_t)next, *o = b->xy;
+    c->exact = s->side[edge] == 0 || s->side[next] == 0 || p[0] == q[0];
+    c->at = s->side[next] == 0 ? q[0] : p[0];
+    const double far = fabs(c->at - o[0]);
+    if (c->exact) {
+        c->along = c->at - o[0];
+        c->off = far < 0x1p400 ? 0x1p-52 * far : INFINITY;
+        return;
+    }
+    const double height = s->out->high - s->out->low, fall = p[1] - q[1], run = q[0] - p[0];
+    const double above = (p[1] - s->out->low) - height / 2, steep = height / fabs(fall);
+    c->along = (p[0] - o[0]) + run * (above / fall);
+    const double off = 0x1p-49 * (far + fabs(run) * (1 + steep)) + 0x1p-600;
+    if (height < 0x1p400 && height > 0x1p-400 && steep < 0x1p200 && off < 0x1p400) c->off = off;
+}
+
+/* Those of edges that reach above the line (up = 1), or below (-1). */
+static uint32_t gather(const search *s, int up, sunder_i_level_crossing *list)
+{
+    uint32_t n = 0;
+    for (uint32_t v = 0; v < s->b->n; v++) {
+        const int a = up * s->side[v], b = up * s->side[s->b->next[v]];
+        if (a * b > 0 || a + b < (a * b < 0 ? 0 : 1)) continue;
+        locate(s, v, &list[n++]);
+    }
+    return n;
+}
+
+static int compare_x(const search *s, const sunder_i_level_crossing *a, const sunder_i_level_crossing *b)
+{
+    if (a->edge == b->edge) return 0;
+    if (a->exact && b->exact) return (a->at > b->at) - (a->at < b->at);
+    const double off = a->off + b->off, less = a->along - b->along;
+    if (less > off) return 1;
+    if (-less > off) return -1;
+    const sunder_i_mark mark = sunder_i_arena_mark(s->arena);
+    const int order =
+        sunder_i_ratio_cmp(s->arena, x_of(s->b, s->out, a->edge, s->arena), x_of(s->b, s->out, b->edge, s->arena));
+    if (!s->arena->failed) sunder_i_arena_release(s->arena, mark);
+    return order;
+}
+
+/* The order of two edges just beyond the line, which meet on it: by the cross product of their directions away. */
+static int compare_directions(const search *s, uint32_t a, uint32_t b, int up)
+{
+    const sunder_i_mark mark = sunder_i_arena_mark(s->arena);
+    sunder_i_rational_point away[2];
+    for (int k = 0; k < 2; k++) {
+        const uint32_t e = k ? b : a;
+        const sunder_i_rational_point from = point_of(s->b, e, s->arena), to = point_of(s->b, s->b->next[e], s->arena);
+        const bool leaves = up * s->side[e] < up * s->side[s->b->next[e]];
+        away[k] = leaves ? sunder_i_rational_sub(s->arena, to, from) : sunder_i_rational_sub(s->arena, from, to);
+    }
+    const int turn = sunder_i_rational_cross_sign(s->arena, away[0], away[1]);
+    if (!s->arena->failed) sunder_i_arena_release(s->arena, mark);
+    return up * turn;
+}
+
+static int compare(const search *s, const sunder_i_level_crossing *a, const sunder_i_level_crossing *b, int up)
+{
+    int order = compare_x(s, a, b);
+    if (order == 0) order = compare_directions(s, a->edge, b->edge, up);
+    return order ? order : b->opens - a->opens;
+}
+
+/* Shell's sort needs no memory. */
+static void sort(const search *s, sunder_i_level_crossing *list, uint32_t n, int up)
+{
+    uint32_t gap = 1;
+    while (gap < n / 3) gap = 3 * gap + 1;
+    for (; gap > 0; gap /= 3)
+        for (uint32_t k = gap; k < n && !s->arena->failed; k++) {
+            const sunder_i_level_crossing held = list[k];
+            uint32_t at = k;
+            for (; at >= gap && compare(s, &list[at - gap], &held, up) > 0; at -= gap) list[at] = list[at - gap];
+            list[at] = held;
+        }
+}
+
+/* ---- Intervals --------------------------------------------------------------------------------------------------- */
+
+/* Leaves the two ends of each interval that is covered on that side of the line; returns how many ends. */
+static uint32_t find_covered(const search *s, int up, sunder_i_level_crossing *list)
+{
+    const uint32_t n = gather(s, up, list);
+    uint32_t ends = 0;
+    int covered = 0;
+    sort(s, list, n, up);
+    for (uint32_t k = 0; k < n; k++) {
+        if (covered == 0) list[ends++] = list[k];
+        covered += list[k].opens ? 1 : -1;
+        if (covered == 0) list[ends++] = list[k];
+    }
+    return ends;
+}
+
+/* The order of the widths of two intervals. */
+static int compare_widths(const search *s, const sunder_i_level_crossing *const a[2],
+                          const sunder_i_level_crossing *const b[2])
+{
+    const double wide[2] = {a[1]->along - a[0]->along, b[1]->along - b[0]->along}, less = wide[0] - wide[1];
+    const double off = a[0]->off + a[1]->off + b[0]->off + b[1]->off + 0x1p-51 * (fabs(wide[0]) + fabs(wide[1]));
+    if (less > off) return 1;
+    if (-less > off) return -1;
+    const sunder_i_mark mark = sunder_i_arena_mark(s->arena);
+    sunder_i_ratio width[2];
+    for (int k = 0; k < 2; k++) {
+        const sunder_i_level_crossing *const *c = k ? b : a;
+        width[k] =
+            width_of(x_of(s->b, s->out, c[0]->edge, s->arena), x_of(s->b, s->out, c[1]->edge, s->arena), s->arena);
+    }
+    const int order = sunder_i_ratio_cmp(s->arena, width[0], width[1]);
+    if (!s->arena->failed) sunder_i_arena_release(s->arena, mark);
+    return order;
+}
+
+/* What both lists cover; false if that is nothing. */
+static bool take_widest(const search *s, const sunder_i_level_crossing *above, uint32_t m,
+                        const sunder_i_level_crossing *below, uint32_t n)
+{
+    const sunder_i_level_crossing *best[2] = {NULL, NULL};
+    for (uint32_t i = 0, j = 0; i + 1 < m && j + 1 < n && !s->arena->failed;) {
+        const sunder_i_level_crossing *const both[2] = {compare_x(s, &above[i], &below[j]) < 0 ? &below[j] : &above[i],
+                                                        compare_x(s, &above[i + 1], &below[j + 1]) < 0 ? &above[i + 1]
+                                                                                                       : &below[j + 1]};
+        if (compare_x(s, both[0], both[1]) < 0 && (!best[0] || compare_widths(s, both, best) > 0)) {
+            best[0] = both[0];
+            best[1] = both[1];
+        }
+        if (both[1] == &above[i + 1])
+            i += 2;
+        else
+            j += 2;
+    }
+    if (!best[0]) return false;
+    s->out->from = *best[0];
+    s->out->to = *best[1];
+    return true;
+}
+
+/* Is no corner on the line? Then what is above is what is below. */
+static bool is_plain(const search *s)
+{
+    bool plain = true;
+    for (uint32_t v = 0; v < s->b->n; v++) plain &= s->side[v] != 0;
+    return plain;
+}
+
+static bool look(const search *s, sunder_i_level_crossing *list)
+{
+    const uint32_t m = find_covered(s, 1, list);
+    if (is_plain(s)) return take_widest(s, list, m, list, m);
+    const uint32_t n = find_covered(s, -1, list + s->b->n);
+    return take_widest(s, list, m, list + s->b->n, n);
+}
+
+/* The highest corner of what lies below the line. */
+static uint32_t top_below(search *s)
+{
+    uint32_t top = s->b->n;
+    for (uint32_t v = 0; v < s->b->n; v++) {
+        const uint32_t next = s->b->next[v];
+        if (s->side[v] >= 0 && s->side[next] >= 0) continue;
+        const uint32_t higher = compare_heights(s, v, next) > 0 ? v : next;
+        if (top == s->b->n || compare_heights(s, higher, top) > 0) top = higher;
+    }
+    return top;
+}
+
+void sunder_i_widest_interval_find(const sunder_i_boundary *b, int8_t *side, sunder_i_level_crossing *crossing,
+                                   sunder_i_arena *arena, sunder_i_widest_interval *out)
+{
+    search s = {b, arena, out, side};
+    uint32_t low = 0, high = 0;
+    for (uint32_t v = 1; v < b->n; v++) {
+        if (compare_heights(&s, v, low) < 0) low = v;
+        if (compare_heights(&s, v, high) > 0) high = v;
+    }
+    set_height(&s, low, high);
+    while (!arena->failed && !look(&s, crossing)) set_height(&s, low, top_below(&s));
+}
+
+/* ---- The middle -------------------------------------------------------------------------------------------------- */
+
+sunder_i_rational_point sunder_i_widest_interval_middle(const sunder_i_boundary *b, const sunder_i_widest_interval *i,
+                                                        sunder_i_arena *arena)
+{
+    const sunder_i_ratio p = x_of(b, i, i->from.edge, arena), q = x_of(b, i, i->to.edge, arena),
+                         y = height_of(b, i, arena);
+    const sunder_i_ratio sum = {
+        sunder_i_big_add(arena, sunder_i_big_mul(arena, p.num, q.den), sunder_i_big_mul(arena, q.num, p.den)),
+        sunder_i_big_shl(arena, sunder_i_big_mul(arena, p.den, q.den), 1)};
+    return (sunder_i_rational_point){sunder_i_big_mul(arena, sum.num, y.den), sunder_i_big_mul(arena, y.num, sum.den),
+                                     sunder_i_big_mul(arena, sum.den, y.den)};
+}
+
+/* The middle of two doubles, to the nearest; false where halving may round, too, or the sum is too large. */
+static bool middle_of(double a, double b, double *out)
+{
+    const double sum = a + b;
+    *out = sum / 2 + 0.0;
+    return sum == 0 || (fabs(sum) > 0x1p-1000 && isfinite(sum));
+}
+
+void sunder_i_widest_interval_doubles(const sunder_i_boundary *b, const sunder_i_widest_interval *i,
+                                      sunder_i_arena *arena, double xy[2])
+{
+    const double o = b->xy[0], c = (i->from.along + i->to.along) / 2,
+                 off = (i->from.off + i->to.off) / 2 + 0x1p-51 * fabs(c);
+    bool sure = middle_of(i->low, i->high, &xy[1]);
+    if (i->from.exact && i->to.exact) {
+        sure = middle_of(i->from.at, i->to.at, &xy[0]) && sure;
+    } else {
+        xy[0] = o + (c - off);
+        sure = sure && isfinite(xy[0]) && xy[0] == o + (c + off);
+    }
+    if (sure) return;
+    const sunder_i_rational_point at = sunder_i_widest_interval_middle(b, i, arena);
+    sunder_i_rational_doubles(arena, at, b->unit, &xy[0], &xy[1]);
+}
