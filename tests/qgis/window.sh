@@ -23,7 +23,7 @@ timeout 240 xvfb-run -a -s "-screen 0 1280x860x24 -nolisten tcp" "$qgis" --nover
     --code "$here/window.py" >"$work/log" 2>&1 || fail "QGIS ended with status $?"
 for wanted in '^done$' '^Houses: Separated: 280 features, categorizedSymbol' '^Houses: Moves: [0-9]* features, singleSymbol' \
     '^Houses: Conflicts that remain: [0-9]* features, RuleRenderer' \
-    '^log:   inside blocks  *[0-9]\{1,\}   *[0-9]\{1,\}$'; do # columns of the log stay columns
+    '^log:   inside blocks  *[0-9]\{1,\}   *[0-9]\{1,\}'; do # columns of the log stay columns
     grep -q "$wanted" "$work/report.txt" || fail "not seen: $wanted"
 done
 [ -s "$work/moves.html" ] || fail "there is no report"
