@@ -33,4 +33,4 @@ while IFS= read -r command; do
     tail -n 5 out
     [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || exit 1
 done <"$work/commands"
-[ -s separated.gpkg ]
+[ -s town_separated.gpkg ]
