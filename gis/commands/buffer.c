@@ -26,6 +26,8 @@ static bool open_sink(buffer_run *run, gis_error *error)
     const gis_source *source = run->buffer.input.source;
     gis_sink_request request = gis_resolve_sink(run->options, run->to.output, gis_source_name(source));
     if (run->request.degenerate) request.suffixes = suffixes;
+    request.polygons = true;
+    request.features = !run->request.dissolve && !run->request.explode;
     request.new_fids = run->request.explode && !run->request.dissolve;
     return gis_source_spare(run->buffer.shape_source, request.path, request.update, error) &&
            gis_sink_open(&request, source, &run->sink, error);

@@ -351,6 +351,7 @@ gis_sink_request gis_resolve_sink(const gis_options *options, const char *path, 
         .strict = options->given[OPT_STRICT],
         .allow_inexact = options->given[OPT_ALLOW_INEXACT_OUTPUT],
         .no_styles = options->given[OPT_NO_STYLES],
+        .promote = options->given[OPT_NLT],
         .threads = thread_count(options),
     };
 }

@@ -36,6 +36,8 @@ bool gis_separate_open_sink(gis_separate_run *run, gis_error *error)
     if (run->chosen & GIS_SEPARATE_SYMBOLS) run->suffixes[n++] = "symbols";
     gis_sink_request request = gis_resolve_sink(run->options, run->to.output, gis_source_name(run->input.source));
     request.suffixes = run->suffixes;
+    request.features = (run->chosen & GIS_SEPARATE_MAIN) != 0;
+    request.polygons = run->chosen & (run->input.points ? GIS_SEPARATE_SYMBOLS : GIS_SEPARATE_MAIN);
     if (run->in_parts && !(request.scratch = gis_in_parts_scratch(&run->parts, error))) return false;
     if (!gis_sink_open(&request, run->input.source, &run->sink, error)) return false;
     if (gis_sink_remembers(run->sink) && (!run->in_parts || run->whole) && !gis_source_unpack(run->input.source, error))

@@ -236,6 +236,7 @@ static bool open_sink(sum_run *run, gis_error *error)
     static const char *const without_map[] = {"degenerate_segments", "degenerate_points", NULL};
     gis_sink_request request = gis_resolve_sink(run->options, run->to.output, "sum");
     request.suffixes = run->how.keep_map ? suffixes : without_map;
+    request.polygons = true;
     return gis_operands_spare(&run->operands, run->to.output, request.update, error) &&
            gis_sink_open(&request, gis_operands_source(&run->operands), &run->sink, error);
 }

@@ -24,11 +24,14 @@ typedef struct passing {
     size_t block;
 } passing;
 
-/* own: of a feature that went by, or goes: so the first of its block did. NULL: it is of none. */
-static gis_value block_value(const gis_in_parts *p, const gis_part_link *own)
+/* Of a feature that went by, or goes: so the first of its block did, if it is of one. own: where it is in the block;
+ * NULL: it stands alone. */
+static gis_value block_value(const gis_in_parts *p, const gis_sink_layer *layer, const gis_part_link *own,
+                             size_t feature, GIntBig fid)
 {
     const gis_joined *j = &p->joined;
-    if (!own) return gis_block_as_value(p->facts.source.fids_unique, -1, OGRNullFID);
+    const int64_t alone = gis_sink_has_null(layer) ? -1 : (int64_t)feature;
+    if (!own) return gis_block_as_value(p->facts.source.fids_unique, alone, fid);
     return gis_block_as_value(p->facts.source.fids_unique, (int64_t)own->b,
                               p->block_fid[gis_joined_block(j, own->b) - j->block]);
 }
@@ -52,8 +55,9 @@ static bool pass(passing *at, const gis_source *source, size_t i, gis_sink_layer
     }
     const gis_part_link *own = at->block < j->blocks && j->block[at->block].a == feature ? &j->block[at->block] : NULL;
     if (own) p->block_fid[at->block++] = gis_source_fid(source, i);
-    row.block = block_value(p, own);
-    return !layer || gis_main_row(layer, i, &row, error);
+    if (!layer) return true;
+    row.block = block_value(p, layer, own, feature, gis_source_fid(source, i));
+    return gis_main_row(layer, i, &row, error);
 }
 
 /* The features are read a second time; others than the first time have no place in what was made of those. */
@@ -115,7 +119,8 @@ static bool write_displacement(gis_in_parts *p, gis_sink_layer *layer, gis_error
         if (!rows->one.rows || (own->move[0] == 0 && own->move[1] == 0)) continue;
         const gis_arrow_row row = {.fid = gis_fid_as_value(own->fid),
                                    .id = id_value(p, gis_part_text(&rows->one, own->id)),
-                                   .block = block_value(p, gis_joined_block(&p->joined, own->index)),
+                                   .block = block_value(p, layer, gis_joined_block(&p->joined, own->index), own->index,
+                                                        own->fid),
                                    .from = {own->from[0], own->from[1]},
                                    .move = {own->move[0], own->move[1]}};
         if (!gis_go_on(error) || !gis_displacement_row(layer, &row, error)) return false;

@@ -6,9 +6,11 @@
 #include <cpl_conv.h>
 #include <string.h>
 
-static gis_value block_value(const gis_layer_input *input, const sunder_report *report, size_t feature)
+static gis_value block_value(const gis_sink_layer *layer, const gis_layer_input *input, const sunder_report *report,
+                             size_t feature)
 {
-    const int64_t first = sunder_report_block(report, feature);
+    int64_t first = sunder_report_block(report, feature);
+    if (first < 0 && !gis_sink_has_null(layer)) first = (int64_t)feature;
     return gis_block_as_value(gis_source_fids_unique(input->source), first,
                               first < 0 ? OGRNullFID : gis_source_fid(input->source, (size_t)first));
 }
@@ -18,7 +20,8 @@ bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_r
     gis_sink_layer *layer;
     if (!gis_main_begin(sink, &layer, error)) return false;
     for (size_t i = 0; i < input->n; i++) {
-        gis_feature_row row = {.status = sunder_report_status(report, i), .block = block_value(input, report, i)};
+        gis_feature_row row = {.status = sunder_report_status(report, i),
+                               .block = block_value(layer, input, report, i)};
         sunder_report_move(report, i, &row.dx, &row.dy);
         if (!gis_main_row(layer, i, &row, error)) return false;
     }
@@ -41,7 +44,7 @@ static bool write_arrow(gis_sink_layer *layer, const gis_layer_input *input, con
                         const double move[2], gis_error *error)
 {
     gis_arrow_row row = {
-        .fid = gis_fid_value(input, i), .block = block_value(input, report, i), .move = {move[0], move[1]}};
+        .fid = gis_fid_value(input, i), .block = block_value(layer, input, report, i), .move = {move[0], move[1]}};
     gis_conflict_texts scratch = {0};
     const bool ok = gis_arrow_start(input, i, row.from, error) &&
                     gis_id_value(input, i, &scratch.id[0], &row.id, error) && gis_displacement_row(layer, &row, error);

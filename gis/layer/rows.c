@@ -30,7 +30,10 @@ bool gis_main_begin(gis_sink *sink, gis_sink_layer **layer, gis_error *error)
                                             .fields = fields,
                                             .n_fields = sizeof fields / sizeof *fields,
                                             .style = GIS_STYLE_STATUS};
-    return gis_sink_add(sink, &request, layer, error);
+    if (!gis_sink_add(sink, &request, layer, error)) return false;
+    if (!gis_sink_has_null(*layer))
+        gis_sink_tell_loss(*layer, "the format has no null: what stands alone has its own FID in sunder_blk and block");
+    return true;
 }
 
 bool gis_main_row(gis_sink_layer *layer, size_t i, const gis_feature_row *row, gis_error *error)

@@ -66,7 +66,7 @@ bool gis_layer_number_blocks(gis_layer_input *input, gis_block_keys *keys, gis_e
     const int field = input->block_field;
     for (size_t i = 0; field >= 0 && i < input->n; i++) {
         OGRFeatureH feature = gis_source_feature(input->source, i);
-        if (!OGR_F_IsFieldSetAndNotNull(feature, field)) continue;
+        if (gis_field_is_blank(feature, field)) continue;
         char *key = gis_field_key(feature, field);
         if (!key) return gis_no_memory(error);
         if (!gis_block_keys_add(keys, key, &input->feature[i].block, error)) return false;

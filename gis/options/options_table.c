@@ -113,6 +113,8 @@ const gis_option gis_option_table[OPT_N] = {
                     "the same as the operand OUTPUT"},
     [OPT_OF] = {OPT_OF, "--of -f -of --format --output-format", GIS_TYPE_FORMAT, GIS_ALL, GIS_GROUP_OUTPUT, "FORMAT",
                 "by name", "driver of the output"},
+    [OPT_NLT] = {OPT_NLT, "--nlt -nlt", GIS_TYPE_CHOICE, GIS_ALL, GIS_GROUP_OUTPUT, "PROMOTE_TO_MULTI", NULL,
+                 "geometries of the main layer become MultiPolygons, MultiPoints ..."},
     [OPT_LCO] = {OPT_LCO, "--lco -lco --layer-creation-option", GIS_TYPE_SETTINGS, GIS_ALL, GIS_GROUP_OUTPUT, "K=V",
                  NULL, "layer creation option"},
     [OPT_CO] = {OPT_CO, "--co -co -dsco --creation-option", GIS_TYPE_SETTINGS, GIS_ALL, GIS_GROUP_OUTPUT, "K=V", NULL,

@@ -77,6 +77,38 @@ char *gis_field_key(OGRFeatureH feature, int field)
     return copy ? strcpy(copy, text) : NULL;
 }
 
+bool gis_field_type_is_list(OGRFieldType type)
+{
+    return type == OFTIntegerList || type == OFTInteger64List || type == OFTRealList || type == OFTStringList;
+}
+
+void gis_field_list(OGRFeatureH feature, int field, gis_json *out)
+{
+    int n = 0;
+    gis_json_open(out, '[');
+    switch (OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, field))) {
+    case OFTIntegerList: {
+        const int *each = OGR_F_GetFieldAsIntegerList(feature, field, &n);
+        for (int i = 0; i < n; i++) gis_json_signed(out, each[i]);
+        break;
+    }
+    case OFTInteger64List: {
+        const GIntBig *each = OGR_F_GetFieldAsInteger64List(feature, field, &n);
+        for (int i = 0; i < n; i++) gis_json_signed(out, each[i]);
+        break;
+    }
+    case OFTRealList: {
+        const double *each = OGR_F_GetFieldAsDoubleList(feature, field, &n);
+        for (int i = 0; i < n; i++) gis_json_double(out, each[i]);
+        break;
+    }
+    default:
+        for (char **each = OGR_F_GetFieldAsStringList(feature, field); each && *each; each++)
+            gis_json_string(out, *each);
+    }
+    gis_json_close(out, ']');
+}
+
 double gis_field_number(OGRFeatureH feature, int field)
 {
     double value;

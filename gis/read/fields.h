@@ -2,6 +2,7 @@
 #ifndef GIS_FIELDS_H
 #define GIS_FIELDS_H
 
+#include "base/json.h"
 #include "read/source.h"
 
 /* "its fields are a, b, c", for messages; of very many the first. */
@@ -22,6 +23,10 @@ bool gis_field_is_blank(OGRFeatureH feature, int field);
 /* A copy of a field's value as text, freed by the caller: equal for equal values, and different for different ones.
  * NULL: memory is out. Not for lists, whose texts are cut. */
 char *gis_field_key(OGRFeatureH feature, int field);
+
+/* Is it a list? And the list of a field that is not null as a JSON array. */
+bool gis_field_type_is_list(OGRFieldType type);
+void gis_field_list(OGRFeatureH feature, int field, gis_json *out);
 
 /* A number, also one that a text holds; NAN for anything else. */
 double gis_field_number(OGRFeatureH feature, int field);

@@ -183,6 +183,7 @@ static void note_facts(gis_source *source, OGRFeatureH feature, const unsigned c
     source->fids_missing = source->fids_missing || fid == OGRNullFID;
     source->fids_rising = source->fids_rising && (facts->features == 0 || source->last_fid < fid);
     source->last_fid = fid;
+    facts->fids_negative = facts->fids_negative || (fid < 0 && fid != OGRNullFID);
     facts->features++;
     facts->content[content]++;
     if (facts->multipolygons) return;
@@ -595,6 +596,7 @@ size_t gis_source_content_count(const gis_source *source, gis_content content)
     return source->facts.content[content];
 }
 
+bool gis_source_fids_negative(const gis_source *source) { return source->facts.fids_negative; }
 bool gis_source_has_multipolygons(const gis_source *source) { return source->facts.multipolygons; }
 
 const char *gis_source_name(const gis_source *source) { return source->name; }

@@ -28,6 +28,7 @@ typedef enum gis_not_finite {
 typedef struct gis_source_facts {
     size_t features, content[GIS_CONTENTS]; /* how many are of each content */
     bool fids_unique;                       /* all FIDs are set and different */
+    bool fids_negative;                     /* some of those that are set are less than 0 */
     bool multipolygons;                     /* there is a MultiPolygon */
 } gis_source_facts;
 
@@ -115,6 +116,8 @@ GIntBig gis_source_fid(const gis_source *source, size_t i);
 /* Are all FIDs set and different? False may happen with --sql. Of a source that is read by batches it has to be known
  * from before (facts), as the next two. */
 bool gis_source_fids_unique(const gis_source *source);
+/* Is there a FID less than 0? */
+bool gis_source_fids_negative(const gis_source *source);
 gis_content gis_source_content(const gis_source *source, size_t i);
 /* How many features are of this content. */
 size_t gis_source_content_count(const gis_source *source, gis_content content);

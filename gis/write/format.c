@@ -2,41 +2,11 @@
 #include "write/format.h"
 
 #include "base/path.h"
+#include "write/abilities.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <string.h>
-
-/* Facts about formats, checked with GDAL 3.6. A format that is not listed is believed nothing: FIDs go to a field and
- * coordinates are read back. */
-typedef struct facts {
-    const char *name;
-    bool keeps_fids, keeps_doubles, keeps_values, keeps_order, reprojects, one_layer;
-} facts;
-
-/* clang-format off */
-static const facts known[] = {
-    /*                  FIDs   doubles values order reprojects one layer */
-    {"GPKG",            true,  true,  true,  true,  false, false},
-    {"SQLite",          true,  true,  true,  true,  false, false},
-    {"PostgreSQL",      true,  true,  false, false, false, false}, /* texts have widths */
-    {"OpenFileGDB",     false, false, false, true,  false, false}, /* puts coordinates on a grid */
-    {"FlatGeobuf",      false, true,  true,  false, false, true}, /* its index sorts the features */
-    {"ESRI Shapefile",  false, false, false, true,  false, true}, /* binary doubles, but rings are regrouped */
-    {"GeoJSON",         true,  false, false, true,  false, true},
-    {"GeoJSONSeq",      true,  false, false, true,  true,  true},
-    {"KML",             false, false, false, true,  true,  false},
-    {"LIBKML",          false, false, false, true,  true,  false},
-    {"GPX",             false, false, false, true,  true,  false},
-    {"MapML",           false, false, false, true,  true,  false},
-    {"MVT",             false, false, false, false, true,  false},
-    {"MBTiles",         false, false, false, false, true,  false},
-    {"CSV",             false, false, false, true,  false, true},
-    {"MapInfo File",    false, false, false, true,  false, true},
-    {"DXF",             false, false, false, true,  false, true},
-    {"GML",             false, false, false, true,  false, false},
-};
-/* clang-format on */
 
 static const char *const texts[] = {"GeoJSON", "GeoJSONSeq", "CSV", "GML", "KML", NULL};
 
@@ -84,6 +54,20 @@ static GDALDriverH driver_for(const char *path)
     return NULL;
 }
 
+/* Is anything written with the driver, and to such a name? */
+static bool check_able(const gis_abilities *able, const char *path, bool connection, gis_error *error)
+{
+    if (able->refused && !connection)
+        return gis_fail_usage(error, "%s: nothing can be written as %s: %s", path, able->driver, able->refused);
+    char **endings = CSLTokenizeString2(able->endings ? able->endings : "", " ", 0);
+    const bool directory = (able->has & GIS_TAKES_DIRECTORY) && !extension_of(path)[0];
+    const bool ends = !able->endings || connection || directory || CSLFindString(endings, extension_of(path)) >= 0 ||
+                      strncmp(path, "/vsistdout", 10) == 0 || strcmp(path, "/dev/stdout") == 0;
+    CSLDestroy(endings);
+    return ends || gis_fail_usage(error, "%s: the name of a file of %s has to end in one of these: %s", path,
+                                  able->driver, able->endings);
+}
+
 bool gis_format_find(const char *path, const char *name, const char *const *layer_options, gis_format *out,
                      gis_error *error)
 {
@@ -93,27 +77,27 @@ bool gis_format_find(const char *path, const char *name, const char *const *laye
     format.name = GDALGetDescription(format.driver);
     if (!can_create(format.driver))
         return gis_fail_usage(error, "--of %s: GDAL cannot create vector data in this format", format.name);
+    const gis_abilities able = gis_abilities_of(format.name);
+    if (!check_able(&able, path, has_prefix(format.driver, path), error)) return false;
     format.database = has_prefix(format.driver, path);
     format.shapefile = EQUAL(format.name, "ESRI Shapefile");
     format.geopackage = EQUAL(format.name, "GPKG");
     format.sqlite = format.geopackage || EQUAL(format.name, "SQLite");
-    format.only_written = !GDALGetMetadataItem(format.driver, GDAL_DCAP_OPEN, NULL) ||
-                          EQUAL(format.name, "MVT"); /* tiles are opened one by one */
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        if (EQUAL(format.name, known[i].name)) {
-            format.keeps_fids = known[i].keeps_fids;
-            format.keeps_doubles = known[i].keeps_doubles;
-            format.keeps_values = known[i].keeps_values;
-            format.keeps_order = known[i].keeps_order;
-            format.reprojects = known[i].reprojects;
-            format.one_layer = known[i].one_layer;
-        }
+    format.only_written =
+        !GDALGetMetadataItem(format.driver, GDAL_DCAP_OPEN, NULL) || (able.has & GIS_IS_NOT_READ);
+    format.abilities = able.has;
+    format.own_field = able.own_field;
+    format.keeps_fids = able.has & GIS_KEEPS_FIDS;
+    format.keeps_doubles = able.has & GIS_KEEPS_DOUBLES;
+    format.keeps_values = able.has & GIS_KEEPS_VALUES;
+    format.keeps_order = able.has & GIS_KEEPS_ORDER;
+    format.reprojects = able.has & GIS_REPROJECTS;
+    format.one_layer = able.has & GIS_ONE_LAYER;
     format.lines = CSLFindString((CSLConstList)texts, format.name) >= 0;
     format.keeps_vertices = format.keeps_doubles || format.shapefile;
     if (EQUAL(format.name, "GeoJSON") && CPLFetchBool((CSLConstList)layer_options, "RFC7946", false))
         format.reprojects = true;
-    /* These take a directory too, which then holds a file for each layer. */
-    if (format.one_layer && !EQUALN(format.name, "GeoJSON", 7) && !has_extension(format.driver, extension_of(path)) &&
+    if ((able.has & GIS_TAKES_DIRECTORY) && !has_extension(format.driver, extension_of(path)) &&
         !EQUAL(extension_of(path), "csv"))
         format.one_layer = false;
     *out = format;

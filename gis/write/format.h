@@ -19,6 +19,8 @@ typedef struct gis_format {
     bool keeps_order;    /* features come back in the order written */
     bool reprojects;     /* turns coordinates to WGS 84 */
     bool lines;          /* a text, and its last line is ended, too */
+    const char *own_field; /* a name that the driver takes for a column of its own, or NULL */
+    unsigned abilities;  /* all that is known of the driver (abilities.h); the above are some of it by another name */
     bool shapefile, geopackage;
     bool sqlite; /* a file that is a SQLite database, GeoPackages among them */
 } gis_format;

@@ -4,6 +4,7 @@
 #include "base/message.h"
 #include "base/path.h"
 #include "sqlite/lock.h"
+#include "write/abilities.h"
 #include "write/sink_internal.h"
 
 #include <cpl_conv.h>
@@ -126,16 +127,28 @@ bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gi
     sink->request = *request;
     sink->source = source;
     sink->format = format;
-    sink->fids_kept = format.keeps_fids && !request->new_fids && (!source || gis_source_fids_unique(source));
+    sink->fids_kept = format.keeps_fids && !request->new_fids && (!source || gis_source_fids_unique(source)) &&
+                      !(source && (format.abilities & GIS_NEEDS_POSITIVE_FIDS) && gis_source_fids_negative(source));
     choose_place(sink);
     fix_date(sink);
-    if (!gis_sink_check_reprojection(sink, error) || !recover(sink, error) || !gis_sink_check_existing(sink, error) ||
+    if (!gis_sink_check_type(sink, error) || !gis_sink_check_geometries(sink, error) ||
+        !gis_sink_check_reprojection(sink, error) || !recover(sink, error) || !gis_sink_check_existing(sink, error) ||
         !prepare_place(sink, error)) {
         gis_sink_free(sink);
         return false;
     }
     *out = sink;
     return true;
+}
+
+void gis_sink_tell_loss(gis_sink_layer *layer, const char *sentence)
+{
+    gis_sentences_add(&layer->sink->losses, "%s", sentence);
+}
+
+bool gis_sink_has_null(const gis_sink_layer *layer)
+{
+    return !(layer->sink->format.abilities & GIS_HAS_NO_NULL);
 }
 
 bool gis_sink_takes_more(const gis_sink *sink) { return !sink->to_stdout; }
@@ -156,6 +169,8 @@ static void free_layer(gis_sink_layer *layer)
     CPLFree(layer->field_map);
     CPLFree(layer->own);
     CSLDestroy(layer->created);
+    CSLDestroy(layer->own_created);
+    free(layer->own_changes);
     CPLFree((void *)layer->request.fields);
     CPLFree((void *)layer->request.suffix);
     free(layer);

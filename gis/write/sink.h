@@ -28,6 +28,9 @@ typedef struct gis_sink_request {
     bool strict;        /* any loss is an error */
     bool allow_inexact; /* --allow-inexact-output */
     bool no_styles;
+    bool promote;  /* -nlt PROMOTE_TO_MULTI: geometries of the main layer become ones of several */
+    bool features; /* the main layer holds the features of the source */
+    bool polygons; /* it holds polygons, or may */
     const char *scratch; /* a directory, on whose disk what is noted of each feature lies; NULL: in memory */
     unsigned threads;    /* 0: as many as there are processors */
     bool new_fids; /* features of the source are written more than once: FIDs are not kept, sunder_fid holds them */
@@ -79,6 +82,12 @@ typedef struct gis_sink_layer_request {
 
 /* The layer is owned by the sink. Fails if it exists already (without overwrite_layer), or GDAL cannot make it. */
 bool gis_sink_add(gis_sink *sink, const gis_sink_layer_request *request, gis_sink_layer **out, gis_error *error);
+
+/* Adds a sentence to the losses. */
+void gis_sink_tell_loss(gis_sink_layer *layer, const char *sentence);
+
+/* Does the format tell a null from 0 and from an empty text? */
+bool gis_sink_has_null(const gis_sink_layer *layer);
 
 /* Writes one feature.
  *

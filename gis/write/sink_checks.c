@@ -7,6 +7,7 @@
 #include "read/source_files.h"
 #include "sqlite/calls.h"
 #include "sqlite/lock.h"
+#include "write/abilities.h"
 #include "write/sink_internal.h"
 
 #include <cpl_conv.h>
@@ -194,6 +195,20 @@ bool gis_sink_check_existing(gis_sink *sink, gis_error *error)
     return sink->format.one_layer ? check_files(sink, error) : check_whole(sink, error);
 }
 
+/* ---- Formats that have no place for some features ---------------------------------------------------------------- */
+
+bool gis_sink_check_geometries(const gis_sink *sink, gis_error *error)
+{
+    if (!sink->request.features || !(sink->format.abilities & GIS_NEEDS_GEOMETRY)) return true;
+    const size_t n =
+        gis_source_content_count(sink->source, GIS_NOTHING) + gis_source_content_count(sink->source, GIS_BROKEN);
+    return n == 0 || gis_fail(error,
+                              "%s: %s drops features without geometry, and %zu of layer %s ha%s none: select the "
+                              "others with --where, or write another format",
+                              sink->request.path, sink->format.name, n, gis_source_name(sink->source),
+                              n == 1 ? "s" : "ve");
+}
+
 /* ---- Formats that cannot hold the coordinates -------------------------------------------------------------------- */
 
 static bool is_wgs84(OGRSpatialReferenceH crs)
@@ -206,6 +221,14 @@ static bool is_wgs84(OGRSpatialReferenceH crs)
 bool gis_sink_check_reprojection(const gis_sink *sink, gis_error *error)
 {
     OGRSpatialReferenceH crs = sink->source ? gis_source_crs(sink->source) : NULL;
+    if ((sink->format.abilities & GIS_NEEDS_WGS84) && !(crs && is_wgs84(crs)))
+        return gis_fail(error, "%s: %s holds coordinates of WGS 84 alone; write another format, or reproject the layer",
+                        sink->request.path, sink->format.name);
+    if (sink->format.only_written && !sink->request.allow_inexact && !sink->format.reprojects)
+        return gis_fail(error,
+                        "%s: %s is only written, so that nothing could be said of the written features; write "
+                        "another format, or give --allow-inexact-output",
+                        sink->request.path, sink->format.name);
     if (!sink->format.reprojects || sink->request.allow_inexact || !crs || is_wgs84(crs)) return true;
     return gis_fail(error,
                     "%s: %s would reproject the coordinates to WGS 84, so that nothing could be said of the written "

@@ -7,6 +7,7 @@
 #include "base/resources.h"
 #include "sqlite/calls.h"
 #include "sqlite/lock.h"
+#include "write/abilities.h"
 #include "write/sink_internal.h"
 #include "write/style.h"
 
@@ -41,7 +42,9 @@ bool gis_sink_fail_count(const gis_sink_layer *layer, size_t read_back, gis_erro
         gis_source_content_count(sink->source, GIS_NOTHING) + gis_source_content_count(sink->source, GIS_BROKEN) > 0;
     return gis_fail(error, "%s, layer %s: %zu features were written, but %zu read back%s", sink->request.path,
                     layer->name, layer->written, read_back,
-                    some_empty ? "; the format may have no place for features without geometry" : "");
+                    sink->format.abilities & GIS_NEEDS_GEOMETRY ? "; the format drops features without geometry"
+                    : some_empty ? "; the format may have no place for features without geometry"
+                                 : "");
 }
 
 bool gis_sink_fail_reading(const gis_sink_layer *layer, size_t after, const char *reason, gis_error *error)
@@ -55,19 +58,17 @@ bool gis_sink_fail_reading(const gis_sink_layer *layer, size_t after, const char
 static bool leave_unread(gis_sink_layer *layer, gis_sink_result *result, gis_error *error)
 {
     gis_sink *sink = layer->sink;
-    bool may_be_empty = sink->request.allow_inexact
-                            ? !sink->format.keeps_vertices && !EQUAL(sink->format.name, "GeoJSON")
-                            : EQUAL(sink->format.name, "GeoJSONSeq");
-    if (layer->written == 0 && may_be_empty)
-        return true; /* some formats have nothing to say of a layer without features */
+    const bool drops_empty = sink->format.abilities & GIS_DROPS_EMPTY;
+    const bool may_be_empty = drops_empty || (sink->request.allow_inexact && !sink->format.keeps_vertices &&
+                                              !EQUAL(sink->format.name, "GeoJSON"));
+    if (layer->written == 0 && may_be_empty && !sink->format.only_written) {
+        gis_sentences_add(&sink->losses, "layer %s has no features, and is not there when %s is read", layer->name,
+                          sink->format.name);
+        return true;
+    }
     if (!sink->format.only_written)
         return gis_fail(error, "%s: layer %s cannot be read back after writing; is the disk full?", sink->request.path,
                         layer->name);
-    if (!sink->request.allow_inexact)
-        return gis_fail(error,
-                        "%s: %s is only written, so that nothing could be said of the written features; write "
-                        "another format, or give --allow-inexact-output",
-                        sink->request.path, sink->format.name);
     result->exact = false;
     result->deviation = INFINITY;
     result->unread = true;

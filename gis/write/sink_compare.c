@@ -242,43 +242,6 @@ static void find_dropped(const gis_sink_layer *layer, const gis_sent *sent, OGRG
         gis_sentences_add(losses, "M values are not written: %s has none", format);
 }
 
-/* ---- Attributes -------------------------------------------------------------------------------------------------- */
-
-static bool same_value(OGRFeatureH sent, int i, OGRFeatureH kept, int k)
-{
-    bool has = OGR_F_IsFieldSetAndNotNull(sent, i);
-    if (has != OGR_F_IsFieldSetAndNotNull(kept, k)) return false;
-    if (!has) return true;
-    OGRFieldType type = OGR_Fld_GetType(OGR_F_GetFieldDefnRef(sent, i));
-    OGRFieldType as = OGR_Fld_GetType(OGR_F_GetFieldDefnRef(kept, k));
-    if (type == OFTReal && as == OFTReal)
-        return OGR_F_GetFieldAsDouble(sent, i) == OGR_F_GetFieldAsDouble(kept, k) ||
-               (isnan(OGR_F_GetFieldAsDouble(sent, i)) && isnan(OGR_F_GetFieldAsDouble(kept, k)));
-    if ((type == OFTInteger || type == OFTInteger64) && (as == OFTInteger || as == OFTInteger64))
-        return OGR_F_GetFieldAsInteger64(sent, i) == OGR_F_GetFieldAsInteger64(kept, k);
-    char *text = CPLStrdup(OGR_F_GetFieldAsString(sent, i)); /* the text belongs to the feature until the next call */
-    bool same = strcmp(text, OGR_F_GetFieldAsString(kept, k)) == 0;
-    CPLFree(text);
-    return same;
-}
-
-static void compare_attributes(OGRFeatureH sent, OGRFeatureH kept, gis_field_change *changes, int n)
-{
-    for (int i = 0; i < n; i++)
-        if (changes[i].index >= 0 && !same_value(sent, i, kept, changes[i].index) && changes[i].count++ == 0)
-            changes[i].first = OGR_F_GetFID(sent);
-}
-
-static gis_field_change *new_changes(const gis_sink_layer *layer, OGRLayerH as_written, int n)
-{
-    gis_field_change *changes = calloc((size_t)n + 1, sizeof *changes);
-    for (int i = 0; changes && i < n; i++) {
-        const char *name = layer->created[i];
-        changes[i].index = name[0] ? OGR_FD_GetFieldIndex(OGR_L_GetLayerDefn(as_written), name) : -1;
-    }
-    return changes;
-}
-
 /* ---- The layer --------------------------------------------------------------------------------------------------- */
 
 static bool fail_damaged(const gis_sink_layer *layer, size_t feature, gis_error *error)
@@ -287,8 +250,8 @@ static bool fail_damaged(const gis_sink_layer *layer, size_t feature, gis_error 
                     layer->sink->request.path, layer->name, feature);
 }
 
-static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, int n, workspace *work,
-                             gis_sink_result *result, gis_error *error)
+static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, workspace *work, gis_sink_result *result,
+                             gis_error *error)
 {
     size_t i = 0;
     bool done = true;
@@ -301,7 +264,7 @@ static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, int n,
             done = compare_sent(layer, sent, OGR_F_GetGeometryRef(kept), work, result, error) && gis_go_on(error);
             if (done && work->damaged) done = fail_damaged(layer, i + 1, error);
             find_dropped(layer, sent, OGR_F_GetGeometryRef(kept));
-            if (done && layer->changes && sent->feature) compare_attributes(sent->feature, kept, layer->changes, n);
+            if (done) done = gis_sink_compare_values(layer, i, kept, error);
         }
         OGR_F_Destroy(kept);
     }
@@ -316,11 +279,9 @@ static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, int n,
 
 bool gis_sink_compare(gis_sink_layer *layer, OGRLayerH as_written, gis_sink_result *result, gis_error *error)
 {
-    bool attributes = gis_sink_tells(layer) && layer->sink->format.keeps_order && layer->created;
-    int n = attributes ? OGR_FD_GetFieldCount(OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source))) : 0;
-    if (attributes && !(layer->changes = new_changes(layer, as_written, n))) return gis_no_memory(error);
+    if (layer->sink->format.keeps_order && !gis_sink_begin_values(layer, as_written, error)) return false;
     workspace work = {.keeps_vertices = layer->sink->format.keeps_vertices};
-    bool done = compare_features(layer, as_written, n, &work, result, error);
+    bool done = compare_features(layer, as_written, &work, result, error);
     gis_polygonal_part_clear(&work.sent);
     gis_polygonal_part_clear(&work.kept);
     return done;

@@ -107,7 +107,7 @@ static void find_fields(gis_digests *all, OGRLayerH as_written)
     OGRFeatureDefnH definition = OGR_L_GetLayerDefn(as_written);
     for (size_t i = 0; i < all->n_fields; i++) {
         gis_plain_field *field = &all->fields[i];
-        field->read = OGR_FD_GetFieldIndex(definition, field->name);
+        field->read = gis_sink_field_index(definition, field->name);
         if (field->read < 0 || OGR_Fld_GetType(OGR_FD_GetFieldDefn(definition, field->read)) != field->type)
             all->values_comparable = false;
     }

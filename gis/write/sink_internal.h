@@ -4,7 +4,9 @@
  *   sink_checks.c   what is refused before the work
  *   sink_dataset.c  datasets made, opened for update, closed
  *   sink_database.c the same of databases: locks and transactions
- *   sink_schema.c   layers and fields made
+ *   sink_schema.c   layers made
+ *   sink_type.c     ... of which kind of geometry
+ *   sink_fields.c   ... with which fields
  *   sink_losses.c   what the format dropped of them
  *   sink_write.c    features
  *   sink_rows.c     the same past GDAL, where all is plain
@@ -13,6 +15,7 @@
  *   sink_read_rows.c rows of a GeoPackage read back past GDAL, where all is plain
  *   sink_digest.c   what reads back beside what was sent, in formats that keep every value
  *   sink_compare.c  the same where coordinates or rings may change
+ *   sink_values.c   ... and values
  *   sink_rewrite.c  a layer written again, with more digits
  *   sink_commit.c   closing, comparing, putting in place */
 #ifndef GIS_SINK_INTERNAL_H
@@ -34,11 +37,12 @@ typedef struct gis_sent {
     double dx, dy;
 } gis_sent;
 
-/* What became of the values of one field of the source. */
+/* What became of the values of one field, of the source or the program's own. */
 typedef struct gis_field_change {
     int index;     /* of the field as written; -1: not there */
     size_t count;  /* values that read back as others */
     GIntBig first; /* the first feature with one */
+    size_t nulls;  /* of the program's own: nulls that read back as values, not among the above */
 } gis_field_change;
 
 /* A field whose values are to read back as they were sent: of a plain type, without a default of its own. */
@@ -86,12 +90,14 @@ struct gis_sink_layer {
     OGRLayerH layer;                /* NULL when closed */
     OGRwkbGeometryType type;        /* as asked for */
     bool has_encoding;              /* a Shapefile's file that tells it is asked for */
-    bool promote;                   /* Polygons become MultiPolygons: the source said Polygon and meant both */
+    bool promote;                   /* geometries become ones of several (gis_sink_promote()) */
     bool wind;                      /* rings are turned as Shapefiles want them before they are written */
     int *field_map;                 /* field of the source -> field of the layer, -1: not written */
     int *own;                       /* the program's own fields -> field of the layer */
+    bool lists;                     /* some lists of the source become JSON texts */
     int fid_field;                  /* where sunder_fid is, or -1 */
     char **created;                 /* names of the layer's fields, by field of the source; "" where not written */
+    char **own_created;             /* the same of the program's own, and of sunder_fid behind these */
     bool can_measure, can_curve;
     size_t written;
     gis_sink_rows rows;
@@ -103,9 +109,11 @@ struct gis_sink_layer {
     size_t n_sent, capacity;
     bool can_rewrite;          /* numbers are decimals, and how many digits they get is ours to choose */
     bool more_digits;          /* than tell a double: the layer is written for the second time */
-    gis_value *sent_values;    /* where it may be: n_fields for each that was sent, texts owned */
+    gis_value *sent_values;    /* with keep_sent: n_fields for each that was sent, texts owned */
     size_t values_room;        /* for so many features */
     gis_field_change *changes; /* by field of the source; NULL: not looked for */
+    gis_field_change *own_changes; /* the same of the program's own fields, by field of the request */
+    gis_field_change fid_change;   /* the same of FIDs, wherever they were written */
 };
 
 typedef enum gis_sink_place {
@@ -154,6 +162,10 @@ bool gis_sink_is_directory(const char *path);
 /* Is something in the way of the output, or the output in the way of something? Sets sink->updating, and finds that a
  * SQLite file to be updated is a database. */
 bool gis_sink_check_existing(gis_sink *sink, gis_error *error);
+/* Has it geometries of the kind that will be written? */
+bool gis_sink_check_type(const gis_sink *sink, gis_error *error);
+/* Would it drop features that have no geometry? */
+bool gis_sink_check_geometries(const gis_sink *sink, gis_error *error);
 /* Would the format turn the coordinates to WGS 84, unasked? */
 bool gis_sink_check_reprojection(const gis_sink *sink, gis_error *error);
 
@@ -177,6 +189,16 @@ bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error);
 void gis_sink_drop(gis_sink *sink); /* closes without asking, rolls back */
 
 bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error);
+/* Sets layer->type and layer->promote. */
+void gis_sink_choose_type(gis_sink_layer *layer);
+/* Makes the geometry of a feature one of several, as the layer is declared. */
+void gis_sink_promote(const gis_sink_layer *layer, OGRFeatureH to);
+/* Makes the fields; sets field_map, created, own and fid_field. */
+void gis_sink_create_fields(gis_sink_layer *layer);
+/* The fields of the source, if the layer has them; else NULL. */
+OGRFeatureDefnH gis_sink_source_fields(const gis_sink_layer *layer);
+/* Has the layer a field of this name that is not the source's? */
+bool gis_sink_makes_field(const gis_sink_layer *layer, const char *name);
 /* Compares the fields, type and CRS of the layer as it is in the dataset with what was asked for; adds losses, one
  * sentence a field, in which the changes of its values stand as well. */
 void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written);
@@ -239,15 +261,23 @@ bool gis_sink_check_whole(const gis_sink_layer *layer, OGRLayerH as_written, gis
 bool gis_sink_check_registered(const gis_sink_layer *layer, gis_error *error);
 
 void gis_sink_forget_sent(gis_sink_layer *layer);
-/* For layers that can be written again: keeps the values of the feature that was remembered last. */
+/* Keeps the values of the feature that was remembered last; NULL: it has none of the program's own. */
 bool gis_sink_remember_values(gis_sink_layer *layer, const gis_value *values, gis_error *error);
 void gis_sink_forget_values(gis_sink_layer *layer);
+/* The values of feature i of those that were sent; NULL: none are kept. */
+const gis_value *gis_sink_sent_values(const gis_sink_layer *layer, size_t i);
 /* Would more digits keep what was seen to change? */
 bool gis_sink_may_rewrite(const gis_sink_layer *layer, const gis_sink_result *seen);
 /* After a feature is written and remembered: begins the layer again if its coordinates need more digits. */
 bool gis_sink_watch_digits(gis_sink_layer *layer, OGRFeatureH written, gis_error *error);
 /* Writes the layer, which is closed, again with more digits, and closes it. */
 bool gis_sink_rewrite(gis_sink_layer *layer, gis_error *error);
+/* The field of exactly this name, else of one that differs in case only; -1: there is none, or the name is empty. */
+int gis_sink_field_index(OGRFeatureDefnH definition, const char *name);
+/* Values of the layer as it reads are to be compared with those sent: fills changes, own_changes, fid_change. */
+bool gis_sink_begin_values(gis_sink_layer *layer, OGRLayerH as_written, gis_error *error);
+/* Compares those of feature i of what was sent, if that was begun. */
+bool gis_sink_compare_values(gis_sink_layer *layer, size_t i, OGRFeatureH kept, gis_error *error);
 /* Compares the features of a written layer with what was sent; lowers result->exact, raises ->deviation, fills
  * changes. */
 bool gis_sink_compare(gis_sink_layer *layer, OGRLayerH as_written, gis_sink_result *result, gis_error *error);

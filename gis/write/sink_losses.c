@@ -74,7 +74,7 @@ static void compare_fields(gis_sink_layer *layer, OGRFeatureDefnH as_written)
         const char *name = CSLGetField(layer->created, i);
         if (!name[0]) continue; /* replaced, or its loss was noted when it was made */
         OGRFieldDefnH sent = OGR_FD_GetFieldDefn(source, i);
-        int index = OGR_FD_GetFieldIndex(as_written, name);
+        int index = gis_sink_field_index(as_written, name);
         if (index < 0)
             gis_sentences_add(&sink->losses, "field %s: not written", OGR_Fld_GetNameRef(sent));
         else
@@ -113,8 +113,32 @@ static void compare_crs(gis_sink_layer *layer, OGRLayerH as_written)
     }
 }
 
+/* What became of the values of the program's own fields, and of FIDs. */
+static void tell_values(gis_sink_layer *layer)
+{
+    gis_sentences *losses = &layer->sink->losses;
+    parts nulls = {""};
+    for (size_t i = 0; layer->own_changes && i < layer->request.n_fields; i++) {
+        const gis_field_change *change = &layer->own_changes[i];
+        const char *name = layer->request.fields[i].name;
+        if (layer->written && change->index < 0 && CSLGetField(layer->own_created, (int)i)[0])
+            gis_sentences_add(losses, "layer %s: field %s is not there when it is read", layer->name, name);
+        if (change->nulls) say(&nulls, "%s", name);
+        if (change->count)
+            gis_sentences_add(losses, "layer %s, field %s: %zu value%s back as written", layer->name, name,
+                              change->count, change->count == 1 ? " does not read" : "s do not read");
+    }
+    if (nulls.text[0])
+        gis_sentences_add(losses, "layer %s: null reads back as a value in %s", layer->name, nulls.text);
+    if (layer->fid_change.count && gis_sink_tells(layer))
+        gis_sentences_add(losses, "%zu FID%s back as written (first: FID %" PRId64 ")", layer->fid_change.count,
+                          layer->fid_change.count == 1 ? " does not read" : "s do not read",
+                          (int64_t)layer->fid_change.first);
+}
+
 void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written)
 {
+    tell_values(layer);
     if (!gis_sink_tells(layer) || !layer->sink->source) return;
     gis_listener listener = {0}; /* comparing CRSs may make PROJ grumble */
     gis_listen_begin(&listener);

@@ -20,11 +20,13 @@ static gis_value *values_of(const gis_sink_layer *layer, size_t i)
     return layer->sent_values ? layer->sent_values + i * layer->request.n_fields : NULL;
 }
 
+const gis_value *gis_sink_sent_values(const gis_sink_layer *layer, size_t i) { return values_of(layer, i); }
+
 /* The values of the newest feature that is remembered. */
 bool gis_sink_remember_values(gis_sink_layer *layer, const gis_value *values, gis_error *error)
 {
     size_t n = layer->request.n_fields;
-    if (!layer->can_rewrite || n == 0) return true;
+    if (n == 0 || !values) return true;
     if (layer->values_room < layer->capacity) {
         gis_value *larger = realloc(layer->sent_values, layer->capacity * n * sizeof *larger);
         if (!larger) return gis_no_memory(error);
@@ -69,10 +71,12 @@ static bool start_again(gis_sink_layer *layer, gis_error *error)
     CPLFree(layer->field_map);
     CPLFree(layer->own);
     CSLDestroy(layer->created);
+    CSLDestroy(layer->own_created);
     free(layer->changes);
+    free(layer->own_changes);
     layer->field_map = layer->own = NULL;
-    layer->created = NULL;
-    layer->changes = NULL;
+    layer->created = layer->own_created = NULL;
+    layer->changes = layer->own_changes = NULL;
     layer->fid_field = -1;
     layer->written = layer->n_sent = layer->capacity = layer->values_room = 0;
     layer->sent = NULL;

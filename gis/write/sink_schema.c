@@ -8,22 +8,6 @@
 #include <inttypes.h>
 #include <string.h>
 
-#define FID_FIELD "sunder_fid"
-
-static OGRFeatureDefnH source_definition(const gis_sink_layer *layer)
-{
-    return layer->request.like_source && layer->sink->source ? OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source))
-                                                             : NULL;
-}
-
-static bool is_own(const gis_sink_layer *layer, const char *name)
-{
-    for (size_t i = 0; i < layer->request.n_fields; i++)
-        if (EQUAL(layer->request.fields[i].name, name)) return true;
-    if (layer->request.copied && EQUAL(OGR_Fld_GetNameRef(layer->request.copied), name)) return true;
-    return !layer->sink->fids_kept && EQUAL(name, FID_FIELD);
-}
-
 /* ---- Creation options -------------------------------------------------------------------------------------------- */
 
 static char **offer(const gis_sink_layer *layer, char **options, const char *name, const char *value)
@@ -35,8 +19,8 @@ static char **offer(const gis_sink_layer *layer, char **options, const char *nam
 
 static bool any_field_is(const gis_sink_layer *layer, const char *name)
 {
-    OGRFeatureDefnH source = source_definition(layer);
-    return is_own(layer, name) || (source && OGR_FD_GetFieldIndex(source, name) >= 0);
+    OGRFeatureDefnH source = gis_sink_source_fields(layer);
+    return gis_sink_makes_field(layer, name) || (source && OGR_FD_GetFieldIndex(source, name) >= 0);
 }
 
 /* What drivers call these columns unless told; lists end with NULL. */
@@ -151,17 +135,6 @@ static char **layer_options(const gis_sink_layer *layer)
 
 /* ---- The layer --------------------------------------------------------------------------------------------------- */
 
-/* Some formats (Shapefile) say Polygon and mean Polygon or MultiPolygon. Elsewhere the word binds: there the layer is
- * declared as the wider type, and every feature written as it. */
-static bool must_promote(const gis_sink_layer *layer, OGRwkbGeometryType type)
-{
-    const gis_source *source = layer->sink->source;
-    if (!layer->request.as_source || layer->sink->format.shapefile || wkbFlatten(type) != wkbPolygon) return false;
-    GDALDriverH driver = GDALGetDatasetDriver(gis_source_dataset(source));
-    if (!driver || !EQUAL(GDALGetDescription(driver), "ESRI Shapefile")) return false;
-    return gis_source_has_multipolygons(source);
-}
-
 static void copy_metadata(const gis_sink_layer *layer)
 {
     if (!layer->sink->format.geopackage) return;
@@ -171,138 +144,6 @@ static void copy_metadata(const gis_sink_layer *layer)
         all = CSLSetNameValue(all, set_otherwise[i], NULL);
     if (CSLCount(all) > 0) GDALSetMetadata(layer->layer, all, NULL);
     CSLDestroy(all);
-}
-
-static void copy_domain(gis_sink_layer *layer, OGRFieldDefnH field)
-{
-    const char *name = OGR_Fld_GetDomainName(field);
-    if (!name || !name[0] || GDALDatasetGetFieldDomain(layer->dataset, name)) return;
-    OGRFieldDomainH domain = GDALDatasetGetFieldDomain(gis_source_dataset(layer->sink->source), name);
-    if (domain) /* where it fails the field comes out without it, which is found when it is read back */
-        GDALDatasetAddFieldDomain(layer->dataset, domain, NULL);
-}
-
-static int create_field(gis_sink_layer *layer, OGRFieldDefnH field)
-{
-    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer->layer);
-    int before = OGR_FD_GetFieldCount(definition);
-    bool created = OGR_L_CreateField(layer->layer, field, TRUE) == OGRERR_NONE;
-    return created && OGR_FD_GetFieldCount(definition) > before ? before : -1;
-}
-
-/* Without constraints, which hold within the source, not for what is made of it; NULL: memory is out. */
-static OGRFieldDefnH unconstrained_copy(OGRFieldDefnH like)
-{
-    OGRFieldDefnH field = OGR_Fld_Create(OGR_Fld_GetNameRef(like), OGR_Fld_GetType(like));
-    if (!field) return NULL;
-    OGR_Fld_SetSubType(field, OGR_Fld_GetSubType(like));
-    OGR_Fld_SetWidth(field, OGR_Fld_GetWidth(like));
-    OGR_Fld_SetPrecision(field, OGR_Fld_GetPrecision(like));
-    OGR_Fld_SetAlternativeName(field, OGR_Fld_GetAlternativeNameRef(like));
-    OGR_Fld_SetDomainName(field, OGR_Fld_GetDomainName(like));
-    return field;
-}
-
-/* A field as it is in the source; of features that are written more than once no value is unique any more. */
-static int create_field_like(gis_sink_layer *layer, OGRFieldDefnH like)
-{
-    if (!layer->sink->request.new_fids || !OGR_Fld_IsUnique(like)) return create_field(layer, like);
-    OGRFieldDefnH field = unconstrained_copy(like);
-    if (!field) return -1;
-    OGR_Fld_SetNullable(field, OGR_Fld_IsNullable(like));
-    OGR_Fld_SetDefault(field, OGR_Fld_GetDefault(like));
-    int index = create_field(layer, field);
-    OGR_Fld_Destroy(field);
-    return index;
-}
-
-static void create_source_fields(gis_sink_layer *layer)
-{
-    OGRFeatureDefnH source = source_definition(layer);
-    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer->layer);
-    int n = source ? OGR_FD_GetFieldCount(source) : 0;
-    layer->field_map = CPLMalloc(((size_t)n + 1) * sizeof *layer->field_map);
-    for (int i = 0; i < n; i++) {
-        OGRFieldDefnH field = OGR_FD_GetFieldDefn(source, i);
-        layer->field_map[i] = -1;
-        if (is_own(layer, OGR_Fld_GetNameRef(field))) {
-            if (gis_sink_tells(layer))
-                gis_sentences_add(&layer->sink->warnings, "field %s of the input is replaced",
-                                  OGR_Fld_GetNameRef(field));
-        } else {
-            copy_domain(layer, field);
-            layer->field_map[i] = create_field_like(layer, field);
-            if (layer->field_map[i] < 0 && gis_sink_tells(layer))
-                gis_sentences_add(&layer->sink->losses, "field %s: not written, %s cannot hold the type %s",
-                                  OGR_Fld_GetNameRef(field), layer->sink->format.name,
-                                  OGR_GetFieldTypeName(OGR_Fld_GetType(field)));
-        }
-        int to = layer->field_map[i];
-        layer->created =
-            CSLAddString(layer->created, to < 0 ? "" : OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, to)));
-    }
-}
-
-static int create_field_of(gis_sink_layer *layer, const char *name, OGRFieldType type, int width)
-{
-    OGRFieldDefnH field = OGR_Fld_Create(name, type);
-    if (!field) return -1;
-    OGR_Fld_SetWidth(field, width);
-    int index = create_field(layer, field);
-    OGR_Fld_Destroy(field);
-    return index;
-}
-
-/* A format without 64-bit integers gets them as reals (FIDs and block numbers beyond 2^53 are not met), one without
- * attributes loses the field. */
-static int create_own_field(gis_sink_layer *layer, const char *name, OGRFieldType type, int width)
-{
-    int index = create_field_of(layer, name, type, width);
-    if (index < 0 && type == OFTInteger64) index = create_field_of(layer, name, OFTReal, 0);
-    if (index < 0)
-        gis_sentences_add(&layer->sink->losses, "layer %s: field %s is not written: %s cannot hold it", layer->name,
-                          name, layer->sink->format.name);
-    return index;
-}
-
-/* The field that is copied alone: its values are mapped as those of a whole feature are. */
-static void create_copy(gis_sink_layer *layer)
-{
-    OGRFieldDefnH like = layer->request.copied;
-    OGRFeatureDefnH source = OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source));
-    int n = OGR_FD_GetFieldCount(source);
-    OGRFieldDefnH field = unconstrained_copy(like);
-    if (!field) return;
-    copy_domain(layer, field);
-    int index = create_field(layer, field);
-    OGR_Fld_Destroy(field);
-    if (index < 0)
-        gis_sentences_add(&layer->sink->losses, "field %s: not written, %s cannot hold the type %s",
-                          OGR_Fld_GetNameRef(like), layer->sink->format.name,
-                          OGR_GetFieldTypeName(OGR_Fld_GetType(like)));
-    OGRFeatureDefnH made = OGR_L_GetLayerDefn(layer->layer);
-    const char *name = index < 0 ? NULL : OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(made, index));
-    if (name && strcmp(name, OGR_Fld_GetNameRef(like)) != 0)
-        gis_sentences_add(&layer->sink->losses, "field %s: called %s", OGR_Fld_GetNameRef(like), name);
-    CPLFree(layer->field_map);
-    layer->field_map = CPLMalloc(((size_t)n + 1) * sizeof *layer->field_map);
-    for (int i = 0; i < n; i++) {
-        bool is_it = EQUAL(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(source, i)), OGR_Fld_GetNameRef(like));
-        layer->field_map[i] = is_it ? index : -1;
-    }
-}
-
-static void create_own_fields(gis_sink_layer *layer)
-{
-    size_t n = layer->request.n_fields;
-    layer->own = CPLMalloc((n + 1) * sizeof *layer->own);
-    for (size_t i = 0; i < n; i++) {
-        const gis_field *field = &layer->request.fields[i];
-        layer->own[i] = create_own_field(layer, field->name, field->type, field->width);
-    }
-    if (layer->request.copied) create_copy(layer);
-    if (source_definition(layer) && !layer->sink->fids_kept)
-        layer->fid_field = create_own_field(layer, FID_FIELD, OFTInteger64, 0);
 }
 
 /* Some formats allow few characters in the name of a layer. One that has a file for each layer may name the layer after
@@ -335,10 +176,7 @@ static bool digits_are_ours(const gis_sink *sink)
 bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
 {
     gis_sink *sink = layer->sink;
-    layer->type = layer->request.as_source ? gis_source_type(sink->source) : layer->request.type;
-    layer->promote = must_promote(layer, layer->type);
-    if (layer->promote)
-        layer->type = OGR_GT_SetModifier(wkbMultiPolygon, OGR_GT_HasZ(layer->type), OGR_GT_HasM(layer->type));
+    gis_sink_choose_type(layer);
     /* shapelib, asked to turn the rings, takes a hole for an outer ring if its Z differ from the outer ring's (it comes
      * back filled), and an invalid member that lies across another for its hole. Here it is known which rings are
      * holes: they are turned before, and shapelib is told to keep them. */
@@ -358,8 +196,7 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
         note_name(layer);
         if (layer->request.as_source) copy_metadata(layer);
         note_broken(layer);
-        create_source_fields(layer);
-        create_own_fields(layer);
+        gis_sink_create_fields(layer);
         done = !sink->format.geopackage || gis_rtree_begin(layer->dataset, layer->layer, &layer->tree, error);
         layer->can_measure = OGR_L_TestCapability(layer->layer, OLCMeasuredGeometries);
         layer->can_curve = OGR_L_TestCapability(layer->layer, OLCCurveGeometries);

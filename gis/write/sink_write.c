@@ -4,6 +4,7 @@
 
 #include "base/array.h"
 #include "base/interrupt.h"
+#include "read/fields.h"
 
 #include <cpl_conv.h>
 #include <inttypes.h>
@@ -52,6 +53,26 @@ static void set_values(const gis_sink_layer *layer, OGRFeatureH to, const gis_va
     }
 }
 
+/* GDAL writes a list into a text as people read it, and cuts what is long. */
+static bool set_lists(const gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, gis_error *error)
+{
+    bool done = true;
+    for (int i = 0; layer->lists && done && i < OGR_F_GetFieldCount(feature); i++) {
+        const int field = layer->field_map[i];
+        if (field < 0 || !OGR_F_IsFieldSetAndNotNull(feature, i) ||
+            !gis_field_type_is_list(OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, i))) ||
+            OGR_Fld_GetType(OGR_F_GetFieldDefnRef(to, field)) != OFTString)
+            continue;
+        gis_json list = {0};
+        gis_field_list(feature, i, &list);
+        const char *text = gis_json_text(&list);
+        if (text) OGR_F_SetFieldString(to, field, text);
+        done = text || gis_no_memory(error);
+        gis_json_clear(&list);
+    }
+    return done;
+}
+
 static bool set_attributes(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, const gis_value *values,
                            gis_error *error)
 {
@@ -60,19 +81,13 @@ static bool set_attributes(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH fe
             return gis_fail(error, "layer %s: the attributes of FID %" PRId64 " cannot be copied", layer->name,
                             (int64_t)OGR_F_GetFID(feature));
         set_fid(layer, to, OGR_F_GetFID(feature));
+        if (!set_lists(layer, to, feature, error)) return false;
     }
     set_values(layer, to, values);
     return true;
 }
 
 /* ---- Geometry ---------------------------------------------------------------------------------------------------- */
-
-static void promote(OGRFeatureH to)
-{
-    OGRGeometryH geometry = OGR_F_GetGeometryRef(to);
-    if (geometry && wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbPolygon)
-        OGR_F_SetGeometryDirectly(to, OGR_G_ForceToMultiPolygon(OGR_F_StealGeometry(to)));
-}
 
 /* GDAL drops M values and draws arcs as chords without a word where a format has neither. */
 static void note_losses(gis_sink_layer *layer, OGRFeatureH to)
@@ -119,7 +134,7 @@ static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, const GIntBig 
 /* The feature has all it needs; it is fitted to the format, and written. */
 static bool send(gis_sink_layer *layer, OGRFeatureH to, const GIntBig *from, gis_error *error)
 {
-    if (layer->promote) promote(to);
+    if (layer->promote) gis_sink_promote(layer, to);
     if (layer->request.as_source && !gis_sink_holds(layer, OGR_F_GetGeometryRef(to))) OGR_F_SetGeometry(to, NULL);
     note_losses(layer, to);
     return (!layer->wind || gis_geometry_wind_clockwise(OGR_F_GetGeometryRef(to), error)) &&
@@ -187,6 +202,7 @@ bool gis_sink_write_source(gis_sink_layer *layer, size_t i, double dx, double dy
     const GIntBig from = gis_source_fid(source, i);
     bool done = gis_source_put(source, i, layer->field_map, dx, dy, to, error);
     if (done) set_fid(layer, to, from);
+    done = done && (!layer->lists || set_lists(layer, to, gis_source_feature(source, i), error));
     if (done) set_values(layer, to, values);
     done = done && send(layer, to, &from, error);
     OGR_F_Destroy(to);
