@@ -1,0 +1,294 @@
+"""Breaks each rule of a separated layer ten times, by one unit in the last place where the rule is about a length, and asks
+whether `sunder check --before` names every breach:
+
+    python3 before_breaches.py SUNDER SOURCE LAYER ROADS GAP LIMIT
+
+ROADS is the argument of --barrier. The layer as `separate` wrote it must have no breach at all. Breaches are planted with
+fractions and exact_plane.py, which share nothing with the program."""
+import json
+import math
+import os
+import random
+import subprocess
+import sys
+from fractions import Fraction
+
+from osgeo import gdal, ogr
+
+import exact_plane as plane
+import rules_layers
+
+gdal.UseExceptions()
+ogr.UseExceptions()
+gdal.SetConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF")
+MOVES = ("worse", "limit", "side", "jump", "not_a_translate", "lost")
+WANTED = 10
+NEAR = 30.0  # how far from a feature its neighbours and roads are looked for, in units of the layer
+
+
+def exact(chain):
+    return [(Fraction(x), Fraction(y)) for x, y in chain]
+
+
+def outline(geometry):
+    rings, lines = rules_layers.chains(geometry)
+    return plane.Outline([exact(r) for r in rings], [exact(c) for c in lines])
+
+
+def walk(geometry, change):
+    """Calls change(x, y) for each vertex; False where it answers None."""
+    if geometry.GetGeometryCount():
+        return all(walk(geometry.GetGeometryRef(i), change) for i in range(geometry.GetGeometryCount()))
+    for i in range(geometry.GetPointCount()):
+        at = change(geometry.GetX(i), geometry.GetY(i))
+        if at is None:
+            return False
+        geometry.SetPoint_2D(i, *at)
+    return True
+
+
+def moved(geometry, t):
+    """The exact translate, or None where doubles cannot hold it."""
+    def add(x, y):
+        at = x + float(t[0]), y + float(t[1])
+        return at if (Fraction(at[0]), Fraction(at[1])) == (x + t[0], y + t[1]) else None
+    copy = geometry.Clone()
+    return copy if walk(copy, add) else None
+
+
+def unit_of(geometry):
+    """Multiples of this keep the vertices doubles nearly everywhere: the last place of the largest coordinate."""
+    x0, x1, y0, y1 = geometry.GetEnvelope()
+    return Fraction(math.ulp(max(map(abs, (x0, x1, y0, y1))) + NEAR))
+
+
+def to_unit(value, unit):
+    return round(value / unit) * unit
+
+
+class Town:
+    """The layer as it was and as it was written, and where its features' anchors are."""
+
+    def __init__(self, source, layer, roads, result):
+        self.source, self.layer = rules_layers.open_layer(source, layer)
+        self.result, self.written = rules_layers.open_layer(result, layer)
+        words = rules_layers.split_spec(roads)
+        self.road_source, self.roads = rules_layers.open_layer(words["path"], words["layer"])
+        lines_source, lines = rules_layers.open_layer(result, layer + "_displacement")
+        self.anchor = {f.GetField("fid"): f.GetGeometryRef().GetPoints()[0] for f in lines}
+        del lines_source
+        self.block, self.move = {}, {}
+        for f in self.written:
+            self.block[f.GetFID()] = f.GetField("sunder_blk")
+            self.move[f.GetFID()] = Fraction(f.GetField("sunder_dx") or 0.0), Fraction(f.GetField("sunder_dy") or 0.0)
+
+    def geometry(self, fid):
+        feature = self.layer.GetFeature(fid)  # owns what GetGeometryRef() lends
+        return feature.GetGeometryRef().Clone()
+
+    def valid(self, fid):
+        """Features that are repaired or skipped obey the same rules, but not as plainly as the planting here."""
+        geometry = self.geometry(fid)
+        return geometry.GetArea() > 0 and geometry.IsValid()
+
+    def alone(self, fid):
+        return self.block[fid] is None
+
+    def near(self, layer, fid):
+        x0, x1, y0, y1 = self.geometry(fid).GetEnvelope()
+        layer.SetSpatialFilterRect(x0 - NEAR, y0 - NEAR, x1 + NEAR, y1 + NEAR)
+        found = {f.GetFID(): f.GetGeometryRef().Clone() for f in layer if f.GetGeometryRef()}
+        layer.SetSpatialFilter(None)
+        return found
+
+    def road_edges(self, fid):
+        return [e for g in self.near(self.roads, fid).values() for e in outline(g).edges if e[0] != e[1]]
+
+
+# ---- Breaches: each yields the FIDs that must be named, and the new geometries by FID (None: the feature goes)
+
+def lost(town, fid):
+    yield (fid,), {fid: None}
+
+
+def not_a_translate(town, fid):
+    """One vertex, which is not where a ring begins and ends, moves by one unit in the last place."""
+    geometry, seen = town.geometry(fid), [0]
+
+    def nudge(x, y):
+        seen[0] += 1
+        return (math.nextafter(x, math.inf), y) if seen[0] == 2 else (x, y)
+    walk(geometry, nudge)
+    yield (fid,), {fid: geometry}
+
+
+def limit(town, fid):
+    """The shortest move along an axis that is longer than the limit."""
+    unit = unit_of(town.geometry(fid))
+    far = (town.limit // unit + 1) * unit
+    yield (fid,), {fid: moved(town.geometry(fid), (far, Fraction(0)))}
+
+
+def crossing_move(unit, anchor, edges, aim):
+    """A move from the anchor to just beyond `aim`, whose way meets one of the edges; one unit less does not."""
+    way = aim[0] - anchor[0], aim[1] - anchor[1]
+    axis = 0 if abs(way[0]) >= abs(way[1]) else 1
+
+    def at(steps):  # along the longer axis in units, the other coordinate rounded
+        t = [Fraction(0), Fraction(0)]
+        t[axis] = steps * unit
+        t[1 - axis] = to_unit(way[1 - axis] * t[axis] / way[axis], unit)
+        return tuple(t)
+
+    def meets(t):
+        leg = anchor, (anchor[0] + t[0], anchor[1] + t[1])
+        return any(plane.edges_meet(leg, e) for e in edges)
+    if way[axis] == 0:
+        return None
+    middle = way[axis] // unit
+    for steps in sorted(range(int(middle) - 3, int(middle) + 5), key=abs):
+        if meets(at(steps)):
+            nearer = at(steps - 1 if steps > 0 else steps + 1)
+            return at(steps) if not meets(nearer) else None
+    return None
+
+
+def side(town, fid):
+    """The anchor comes onto the nearest road, or just beyond it. No road meets the feature where it stood."""
+    if fid not in town.anchor:
+        return
+    edges, shape = town.road_edges(fid), outline(town.geometry(fid))
+    anchor = exact([town.anchor[fid]])[0]
+    if any(plane.interiors_meet(shape, plane.Outline(lines=[list(e)])) for e in edges):
+        return
+    found = nearest_place(anchor, edges)
+    if found:
+        t = crossing_move(unit_of(town.geometry(fid)), anchor, edges, found)
+        if t:
+            yield (fid,), {fid: moved(town.geometry(fid), t)}
+
+
+def nearest_place(p, edges):
+    best = None
+    for e in edges:
+        u, v = (e[1][0] - e[0][0], e[1][1] - e[0][1]), (p[0] - e[0][0], p[1] - e[0][1])
+        s = min(Fraction(1), max(Fraction(0), (u[0] * v[0] + u[1] * v[1]) / (u[0] ** 2 + u[1] ** 2)))
+        at = e[0][0] + s * u[0], e[0][1] + s * u[1]
+        square = (at[0] - p[0]) ** 2 + (at[1] - p[1]) ** 2
+        if best is None or square < best[0]:
+            best = square, at
+    return best and best[1]
+
+
+def jump(town, fid):
+    """The anchor comes, relative to a neighbour, onto the neighbour's old outline."""
+    if fid not in town.anchor or not town.alone(fid):
+        return
+    anchor = exact([town.anchor[fid]])[0]
+    for other, geometry in town.near(town.layer, fid).items():
+        shape = outline(geometry)
+        if other == fid or not town.alone(other) or not town.valid(other) or plane.locate(shape, anchor) >= 0:
+            continue
+        seen = crossing_move(unit_of(town.geometry(fid)), anchor, shape.edges, nearest_place(anchor, shape.edges))
+        if seen:
+            s = town.move[other]
+            yield (fid, other), {fid: moved(town.geometry(fid), (seen[0] + s[0], seen[1] + s[1]))}
+            return
+
+
+def worse(town, fid):
+    """Two that are too near, back at their places, one of them a unit nearer to the other."""
+    geometry = town.geometry(fid)
+    unit, shape = unit_of(geometry), outline(geometry)
+    for other, neighbour in town.near(town.layer, fid).items():
+        if other == fid or not town.valid(other) or not (town.alone(fid) or town.block[fid] != town.block[other]):
+            continue
+        theirs = outline(neighbour)
+        if not plane.nearer(shape, theirs, town.gap) or plane.interiors_meet(shape, theirs):
+            continue
+        stood = plane.distance_square(shape, theirs)
+        for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+            t = x * unit, y * unit
+            if stood > 0 and plane.distance_square(shape.moved(*t), theirs) < stood:
+                yield (fid, other), {fid: moved(geometry, t), other: neighbour}
+                return
+
+
+def plant(town, rule, draw):
+    """Up to WANTED breaches that do not share a feature: what must be named, and all new geometries."""
+    named, changed = [], {}
+    fids = sorted(f for f in town.block if town.valid(f))
+    draw.shuffle(fids)
+    for fid in fids[:4000]:
+        for names, change in rule(town, fid):
+            if changed.keys() & (set(names) | change.keys()) or None in change.values() and rule is not lost:
+                continue
+            named.append(names)
+            changed.update(change)
+        if len(named) == WANTED:
+            break
+    return named, changed
+
+
+def write(town, changed, path):
+    """The written layer with these features changed."""
+    if os.path.exists(path):
+        os.remove(path)
+    gdal.VectorTranslate(path, town.result, options=f"-f GPKG -preserve_fid {town.written.GetName()}")
+    source = ogr.Open(path, 1)
+    layer = source.GetLayerByName(town.written.GetName())
+    layer.StartTransaction()
+    for fid, geometry in changed.items():
+        if geometry is None:
+            layer.DeleteFeature(fid)
+            continue
+        feature = layer.GetFeature(fid)
+        feature.SetGeometry(geometry)
+        layer.SetFeature(feature)
+    layer.CommitTransaction()
+
+
+def breaches(words):
+    """(kind, FIDs) of all that `check --before` finds of MOVES; and its counts."""
+    done = subprocess.run([*words, "--stats", "b.json"], capture_output=True, text=True, check=False)
+    if done.returncode not in (0, 3):
+        raise SystemExit(f"check: status {done.returncode}: {done.stderr.strip()}")
+    rows = [line.split("\t") for line in done.stdout.splitlines() if line.count("\t") > 5]
+    with open("b.json", encoding="utf-8") as f:
+        counts = json.load(f)["moves"]
+    return {(r[6], frozenset(int(v) for v in (r[0], r[2]) if v)) for r in rows if r[6] in MOVES}, counts
+
+
+def main():
+    sunder, source, layer, roads, gap, bound = sys.argv[1:]
+    rules = ["--gap", gap, "--max-shift", bound, "--barrier", roads]
+    done = subprocess.run([sunder, "separate", source, "o.gpkg", "-q", "--overwrite", "--input-layer", layer, "--output-layer", layer,
+                           *rules], capture_output=True, text=True, check=False)
+    if done.returncode not in (0, 3):
+        raise SystemExit(f"separate: status {done.returncode}: {done.stderr.strip()}")
+    town = Town(source, layer, roads, "o.gpkg")
+    town.gap, town.limit = Fraction(float(gap)), Fraction(float(bound))
+    check = [sunder, "check", "--before", source, *rules, "--no-blocks", "--block-field", "sunder_blk"]
+    trouble, said = 0, []
+
+    def ask(path):
+        return breaches([*check, path, "--input-layer", layer])
+    found, counts = ask("o.gpkg")
+    if found:
+        trouble += 1
+        print(f"the layer as written: {len(found)} breaches: {sorted((k, sorted(v)) for k, v in found)[:5]}")
+    for rule in (lost, not_a_translate, limit, side, jump, worse):
+        wanted, changed = plant(town, rule, random.Random(7))
+        write(town, changed, "p.gpkg")
+        found, _ = ask("p.gpkg")
+        for names in wanted:
+            if not any(kind == rule.__name__ and set(names) <= fids for kind, fids in found):
+                trouble += 1
+                print(f"{rule.__name__} of {names}: not named")
+        said.append(f"{rule.__name__} {len(wanted)}")
+    print(f"{counts['matched']} matched; planted: {', '.join(said)}")
+    return trouble > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
