@@ -122,6 +122,25 @@ static void check_limits(void **state)
     }
 }
 
+/* Far from the origin many moves round to the same vertices. Where one of them rounds no vertex it is the move, even if
+ * a shorter one would keep the limit. */
+static void check_exact_moves(void **state)
+{
+    const double move = 5 + 0x1p-33;
+    char is[256];
+    snprintf(is, sizeof is, "POLYGON ((%.17g 0, %.17g 0, %.17g 1, %.17g 0))", 400000 + move, 400002 + move,
+             400002 + move, 400000 + move);
+    for (int k = 0; k < 2; k++) {
+        scene s;
+        begin(&s, 0);
+        add(&s, "POLYGON ((400000 0, 400002 0, 400002 1, 400000 0))", is)->max_shift = k ? nextafter(move, 0) : move;
+        run(&s);
+        assert_int_equal(s.found_n, k);
+        if (k) assert_true(s.found[0].kind == SUNDER_CONFLICT_LIMIT && s.found[0].distance == move);
+        end(&s);
+    }
+}
+
 static void check_jumps(void **state)
 {
     for (int k = 0; k < 4; k++) {
@@ -300,6 +319,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(check_translates),     cmocka_unit_test(check_limits),
+        cmocka_unit_test(check_exact_moves),
         cmocka_unit_test(check_jumps),          cmocka_unit_test(check_sides),
         cmocka_unit_test(check_sides_of_areas), cmocka_unit_test(check_sides_of_repaired_areas),
         cmocka_unit_test(check_worse),          cmocka_unit_test(check_sizes),

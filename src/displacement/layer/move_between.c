@@ -1,9 +1,11 @@
 /* The move that took a shape from one place to another, where it is a translate, rounded to doubles.
  *
- * Where every sum x + t is exact, t is the difference at any vertex. Where sums were rounded each vertex allows an
- * interval of t, about as wide as a unit in the last place of x + t: the difference at a vertex of the least unit is
- * tried first, then the ends and the middle of what all intervals have in common, the shortest first. What is tried is
- * asked of every vertex: so what is found is one, whatever was tried. */
+ * If some t makes every sum x + t exact, it is the move: no vertex was rounded. It is found first, since a shorter t
+ * that rounds to the same vertices would hide a rule that is broken by a unit in the last place. Where sums were
+ * rounded, each vertex allows an interval of t, about as wide as a unit in the last place of x + t. The ends and the
+ * middle of the interval that all vertices share are tried, and the difference at a vertex of the least unit; the
+ * shortest that fits is the move, so that nothing is called broken for the rounding alone. Each candidate is tested at
+ * every vertex. */
 #include "displacement/layer/rounding.h"
 
 #include "shape/shape.h"
@@ -37,6 +39,18 @@ static bool is_move(const coordinates *k, double t)
     return isfinite(t);
 }
 
+/* Is the difference the same at each vertex, and no sum rounded? The rounding error of x + t is that of [She96],
+ * theorem 7 (two-sum): 0 exactly if the sum is exact. */
+static bool is_exact_move(const coordinates *k, double t)
+{
+    if (!is_move(k, t)) return false;
+    for (size_t v = 0; v < k->n; v++) {
+        const double x = k->before[2 * v + k->c], sum = k->after[2 * v + k->c], part = sum - x;
+        if ((x - (sum - part)) + (t - part) != 0) return false;
+    }
+    return true;
+}
+
 /* What all vertices allow, roughly: the sum is rounded to x' from half a unit on either side of it. */
 static void find_common(const coordinates *k, double *low, double *high, double *finest)
 {
@@ -60,6 +74,10 @@ static bool find_along(const coordinates *k, double *t)
     *t = 0;
     if (is_move(k, 0)) return true;
     find_common(k, &low, &high, &finest);
+    if (is_exact_move(k, finest)) {
+        *t = finest;
+        return true;
+    }
     const double near = fabs(low) < fabs(high) ? low : high, far = near == low ? high : low;
     const double tried[] = {near, nextafter(near, far), finest, low + (high - low) / 2, nextafter(far, near), far};
     bool found = false;
