@@ -507,6 +507,12 @@ typedef struct sunder_barrier {
 SUNDER_API sunder_status sunder_layer_set_barriers(sunder_layer *layer, const sunder_barrier *barriers, size_t n,
                                                    sunder_error *err);
 
+/* The side anchors of features that have one of their own, such as the points at which symbols are drawn; each is kept
+ * as it is, on a line or off the feature, too: see sunder_layer_separate(). xy: two coordinates of each feature, which
+ * are copied; not finite: of that feature it is found by the rule. NULL: of all.
+ * Fails   only for want of memory */
+SUNDER_API sunder_status sunder_layer_set_side_anchors(sunder_layer *layer, const double *xy, sunder_error *err);
+
 typedef enum sunder_feature_status {
     SUNDER_FEATURE_UNMOVED,
     SUNDER_FEATURE_MOVED,
@@ -639,7 +645,8 @@ SUNDER_API sunder_status sunder_layer_check_moves(const sunder_layer *before, co
  *
  * Nor does a feature cross a barrier that has sides: with c its side anchor, the closed segment from c to c + t meets
  * none of the barrier's lines but such as c lies on, and none of its areas' edges of which c lies strictly on the outer
- * side: so what stands in an area may leave it, and not come in again. The side anchor is an interior point of the
+ * side: so what stands in an area may leave it, and not come in again. The side anchor is that of
+ * sunder_layer_set_side_anchors(), such as the point that a symbol is drawn at; else it is an interior point of the
  * largest part that all such lines and edges leave of the feature; the anchor, where none of them meets its interior:
  * src/displacement/layer/side_anchor.c has the rule. */
 SUNDER_API sunder_status sunder_layer_separate(const sunder_layer *layer, const sunder_layer_options *options,

@@ -88,6 +88,37 @@ void gis_layer_warn_of_crs(const gis_layer_input *input)
     gis_crs_units_warn(gis_source_crs(input->source), gis_source_name(input->source), box[0] <= box[2] ? box : NULL);
 }
 
+bool gis_layer_point(const gis_layer_input *input, size_t i, double xy[2], bool *any, gis_error *error)
+{
+    double *at;
+    size_t n;
+    if (!gis_geometry_points(gis_source_geometry(input->source, i), &at, &n, error)) return false;
+    *any = n > 0;
+    for (size_t k = 0; k < n; k++)
+        if (k == 0 || at[2 * k] < xy[0] || (at[2 * k] == xy[0] && at[2 * k + 1] < xy[1]))
+            memcpy(xy, at + 2 * k, 2 * sizeof *xy);
+    CPLFree(at);
+    return true;
+}
+
+/* Of points the side of a barrier is that of the point itself, whatever the symbol. */
+static bool set_sides(gis_layer_input *input, gis_error *error)
+{
+    sunder_error why;
+    if (!input->points || input->barriers.n == 0) return true;
+    double *xy = malloc((2 * input->n + 1) * sizeof *xy);
+    bool ok = xy != NULL || gis_no_memory(error);
+    for (size_t i = 0; ok && i < input->n; i++) {
+        bool any = false;
+        xy[2 * i] = xy[2 * i + 1] = NAN;
+        ok = !input->shape[i] || gis_layer_point(input, i, xy + 2 * i, &any, error);
+    }
+    if (ok && sunder_layer_set_side_anchors(input->layer, xy, &why) != SUNDER_OK)
+        ok = gis_core_failed(error, gis_source_name(input->source), &why);
+    free(xy);
+    return ok;
+}
+
 static bool make_layer(gis_layer_input *input, gis_error *error)
 {
     sunder_error why;
@@ -96,7 +127,7 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
         return gis_core_failed(error, gis_source_name(input->source), &why);
     if (sunder_layer_set_barriers(input->layer, input->barriers.barrier, input->barriers.n, &why) != SUNDER_OK)
         return gis_core_failed(error, "--barrier", &why);
-    return true;
+    return set_sides(input, error);
 }
 
 /* Barriers are known for moves of so many times the longest limit: which longer one would free a conflict is asked,
@@ -115,6 +146,18 @@ static double longest_limit(const gis_layer_input *input)
     return longest;
 }
 
+/* Of the shape, and of the point that goes the same way: a symbol may be drawn beside it. */
+static bool box_of_ways(const gis_layer_input *input, size_t i, double box[4])
+{
+    double at[2];
+    bool any = false;
+    gis_error none;
+    if (!feature_box(input, i, box)) return false;
+    if (!input->points || !gis_layer_point(input, i, at, &any, &none) || !any) return true;
+    for (int k = 0; k < 4; k++) box[k] = k < 2 ? fmin(box[k], at[k]) : fmax(box[k], at[k - 2]);
+    return true;
+}
+
 /* Where barriers matter: about each feature; or anywhere between where all are and where all were, for a check. */
 static gis_barrier_targets *find_targets(const gis_layer_input *input)
 {
@@ -127,7 +170,7 @@ static gis_barrier_targets *find_targets(const gis_layer_input *input)
         for (int k = 0; k < 4; k++) box[0][k] = k < 2 ? fmin(all[k], also[k]) : fmax(all[k], also[k]);
         n = box[0][0] <= box[0][2];
     }
-    for (size_t i = 0; !also && i < input->n; i++) n += feature_box(input, i, box[n]);
+    for (size_t i = 0; !also && i < input->n; i++) n += box_of_ways(input, i, box[n]);
     gis_barrier_targets *targets = gis_barrier_targets_new((const double(*)[4])box, n);
     free(box);
     return targets;

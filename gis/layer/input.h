@@ -59,6 +59,8 @@ bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_inpu
 bool gis_layer_shapes_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
 /* How far about features barriers are known, where that is the longest limit. */
 double gis_layer_barrier_reach(double longest_limit);
+/* The point of a feature of points; of several the smallest by x, then y. *any: there is one. */
+bool gis_layer_point(const gis_layer_input *input, size_t i, double xy[2], bool *any, gis_error *error);
 /* Around all shapes; around those that conflict with something, once features are made. box[0] > box[2]: there is
  * none. */
 void gis_layer_box(const gis_layer_input *input, double box[4]);

@@ -111,6 +111,24 @@ static bool match(pairing *p, gis_error *error)
     return ok;
 }
 
+/* Of points the sides that each had. */
+static bool set_sides(gis_moves *m, gis_error *error)
+{
+    sunder_error why;
+    if (!m->original.points) return true;
+    double *xy = malloc((2 * m->n + 1) * sizeof *xy);
+    bool ok = xy != NULL || gis_no_memory(error);
+    for (size_t k = 0; ok && k < m->n; k++) {
+        bool any = false;
+        xy[2 * k] = xy[2 * k + 1] = NAN;
+        ok = gis_layer_point(&m->original, m->matched[k], xy + 2 * k, &any, error);
+    }
+    if (ok && sunder_layer_set_side_anchors(m->before, xy, &why) != SUNDER_OK)
+        ok = gis_core_failed(error, "--before", &why);
+    free(xy);
+    return ok;
+}
+
 static bool make_layers(pairing *p, gis_error *error)
 {
     gis_moves *m = p->moves;
@@ -121,7 +139,7 @@ static bool make_layers(pairing *p, gis_error *error)
         sunder_layer_set_barriers(m->before, barriers->barrier, barriers->n, &why) != SUNDER_OK ||
         sunder_layer_set_barriers(m->after, barriers->barrier, barriers->n, &why) != SUNDER_OK)
         return gis_core_failed(error, "--before", &why);
-    return true;
+    return set_sides(m, error);
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */

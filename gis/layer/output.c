@@ -30,13 +30,9 @@ bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_r
 
 bool gis_arrow_start(const gis_layer_input *input, size_t i, double from[2], gis_error *error)
 {
-    sunder_shape_anchor(input->shape[i], from);
-    if (!input->points) return true;
-    double *xy;
-    size_t n;
-    if (!gis_geometry_points(gis_source_geometry(input->source, i), &xy, &n, error)) return false;
-    if (n > 0) memcpy(from, xy, 2 * sizeof *xy);
-    CPLFree(xy);
+    bool any = false;
+    if (input->points && !gis_layer_point(input, i, from, &any, error)) return false;
+    if (!any) sunder_shape_anchor(input->shape[i], from);
     return true;
 }
 

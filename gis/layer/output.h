@@ -10,7 +10,7 @@ bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_r
 /* LAYER_displacement: a line for each feature that moved. */
 bool gis_write_displacement(gis_sink *sink, const gis_layer_input *input, const sunder_report *report,
                             gis_error *error);
-/* Where the arrow of a feature starts: at the point itself, or the anchor of a polygon. */
+/* Where the arrow of a feature starts: at the point itself (gis_layer_point()), or the anchor of a polygon. */
 bool gis_arrow_start(const gis_layer_input *input, size_t i, double from[2], gis_error *error);
 /* LAYER_conflicts. */
 bool gis_write_conflicts(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);

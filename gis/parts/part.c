@@ -138,6 +138,18 @@ static bool begin_lines(gis_part *p, gis_error *error)
 /* The line that was made becomes the result's. */
 /* ---- Separating -------------------------------------------------------------------------------------------------- */
 
+/* Of points the points. */
+static bool set_sides(gis_part *p, gis_error *error)
+{
+    sunder_error why;
+    double *xy = malloc((2 * p->n + 1) * sizeof *xy);
+    if (!xy) return gis_no_memory(error);
+    for (size_t k = 0; k < p->n; k++) memcpy(xy + 2 * k, p->item[k].feature.start, 2 * sizeof *xy);
+    const bool done = sunder_layer_set_side_anchors(p->layer, xy, &why) == SUNDER_OK;
+    free(xy);
+    return done || gis_core_failed(error, "a part of the layer", &why);
+}
+
 static bool separate(gis_part *p, gis_error *error)
 {
     sunder_layer_options options = p->layout->how;
@@ -148,7 +160,7 @@ static bool separate(gis_part *p, gis_error *error)
     for (size_t k = 0; k < p->n; k++) feature[k] = p->item[k].feature.demands;
     const bool made = sunder_layer_new(feature, p->n, &p->layer, &why) == SUNDER_OK;
     free(feature);
-    if (made && !gis_barriers_set(&p->barriers, p->layer, error)) return false;
+    if (made && (!set_sides(p, error) || !gis_barriers_set(&p->barriers, p->layer, error))) return false;
     if (!made || sunder_layer_separate(p->layer, &options, &p->report, &why) != SUNDER_OK)
         return gis_core_failed(error, "a part of the layer", &why);
     sunder_layer_summary summary;

@@ -104,14 +104,19 @@ static unsigned char *put_ends(unsigned char *to, const size_t *end, size_t n)
     return to;
 }
 
-/* Of the shape and the lines; of nothing box[0] > box[2]. Grown outward, by no less than the reach. */
+/* Of the shape, with the point that it is drawn at, and the lines; of nothing box[0] > box[2]. Grown outward, by no
+ * less than the reach. */
 static void find_box(const gis_spool_feature *feature, size_t points, double box[4])
 {
     const double *xy = feature->lines.xy, nothing[4] = {1, 0, 0, 0},
                  open[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
     const sunder_shape *shape = feature->demands.shape;
     memcpy(box, points ? open : nothing, 4 * sizeof *box);
-    if (shape && !sunder_shape_is_empty(shape)) sunder_shape_box(shape, box);
+    if (shape && !sunder_shape_is_empty(shape)) {
+        sunder_shape_box(shape, box);
+        for (int c = 0; c < 4; c++)
+            box[c] = c < 2 ? fmin(box[c], feature->start[c]) : fmax(box[c], feature->start[c - 2]);
+    }
     for (size_t k = 0; k < points; k++)
         for (int c = 0; c < 2; c++) {
             box[c] = fmin(box[c], xy[2 * k + (size_t)c]);

@@ -178,8 +178,8 @@ static bool see(void *user, const gis_spool_feature *feature, gis_error *error)
     r->vertices += ring_end[poly_end[polygons - 1] - 1];
     sunder_shape_box(feature->demands.shape, box);
     for (int k = 0; k < 2; k++) {
-        r->box[k] = fmin(r->box[k], box[k]);
-        r->box[k + 2] = fmax(r->box[k + 2], box[k + 2]);
+        r->box[k] = fmin(fmin(r->box[k], box[k]), feature->start[k]); /* no number: of none */
+        r->box[k + 2] = fmax(fmax(r->box[k + 2], box[k + 2]), feature->start[k]);
     }
     sunder_shape_free((sunder_shape *)feature->demands.shape);
     return true;

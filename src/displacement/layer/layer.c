@@ -97,6 +97,19 @@ sunder_status sunder_layer_set_barriers(sunder_layer *layer, const sunder_barrie
     return SUNDER_OK;
 }
 
+sunder_status sunder_layer_set_side_anchors(sunder_layer *layer, const double *xy, sunder_error *err)
+{
+    double *copy = NULL;
+    if (xy) {
+        copy = sunder_i_alloc(2 * layer->n, sizeof *copy);
+        if (!copy) return sunder_i_no_memory(err);
+        if (layer->n) memcpy(copy, xy, 2 * layer->n * sizeof *copy);
+    }
+    sunder_i_free(layer->side_anchor);
+    layer->side_anchor = copy;
+    return SUNDER_OK;
+}
+
 void sunder_layer_free(sunder_layer *layer)
 {
     if (!layer) return;
@@ -104,5 +117,6 @@ void sunder_layer_free(sunder_layer *layer)
     sunder_i_free(layer->demand);
     sunder_i_free(layer->demands);
     sunder_i_free(layer->barrier);
+    sunder_i_free(layer->side_anchor);
     sunder_i_free(layer);
 }

@@ -16,6 +16,7 @@ struct sunder_layer {
     size_t n;
     sunder_barrier *barrier;
     size_t barriers;
+    double *side_anchor; /* [2 n] the caller's, not finite where the rule is to find it; NULL: of none */
     /* Of a layer in the order of work (order.c), which has no features of its own; else NULL: */
     const sunder_layer *given; /* as it was given, in its order */
     uint32_t *number; /* [n + parts] what each was: of a part of a barrier n + the barrier, as the interface counts */

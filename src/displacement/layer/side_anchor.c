@@ -1,4 +1,4 @@
-/* The side anchor of a feature: a point of the largest part that lines leave of it.
+/* The side anchor of a feature to which the caller gave none: a point of the largest part that lines leave of it.
  *
  * The parts are those of its members, each cut by the lines by itself: what is connected in a member's interior without
  * them. So a line that ends inside parts nothing there, and a ring inside parts what is in it from the rest. The rule,

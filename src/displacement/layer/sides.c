@@ -24,6 +24,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- Lines ------------------------------------------------------------------------------------------------------- */
 
@@ -122,6 +123,14 @@ static bool find_lines(const sunder_i_model *model, const double box[4], sunder_
     return true;
 }
 
+/* The side anchor that the caller gave; NULL where it is to be found. */
+static const double *given_anchor(const sunder_i_model *model, size_t f)
+{
+    const sunder_layer *given = model->layer->given;
+    const double *at = given->side_anchor ? given->side_anchor + 2 * (size_t)model->layer->number[f] : NULL;
+    return at && isfinite(at[0]) && isfinite(at[1]) ? at : NULL;
+}
+
 static sunder_status find_some_anchors(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const sunder_i_model *model = context;
@@ -131,8 +140,13 @@ static sunder_status find_some_anchors(void *context, size_t begin, size_t end, 
     sunder_status status = SUNDER_OK;
     for (size_t f = begin; f < end && !status; f++) {
         const sunder_shape *shape = sunder_i_thing_shape(model, f);
+        const double *given = given_anchor(model, f);
         size_t n = 0;
         if (!model->present[f]) continue;
+        if (given) {
+            memcpy(model->side_at + 2 * f, given, 2 * sizeof *given);
+            continue;
+        }
         if (!find_lines(model, shape->box, &near, &line, &n, &capacity)) status = sunder_i_no_memory(err);
         if (!status) status = sunder_i_side_anchor(shape, line, n, model->side_at + 2 * f, err);
     }

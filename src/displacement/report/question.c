@@ -298,6 +298,20 @@ static sunder_status set_barriers(const sunder_i_solver *s, const sunder_i_surro
     return status;
 }
 
+/* Of what moves those of the layer, which knows more barriers. */
+static sunder_status set_side_anchors(const sunder_i_model *model, const sunder_i_surroundings *a, sunder_layer *layer,
+                                      sunder_error *err)
+{
+    if (!model->side_at) return SUNDER_OK;
+    double *xy = sunder_i_alloc(2 * a->feature.n, sizeof *xy);
+    if (!xy) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < 2 * a->feature.n; k++)
+        xy[k] = k < 2 * a->moving ? model->side_at[2 * (size_t)a->feature.item[k / 2] + k % 2] : NAN;
+    const sunder_status status = sunder_layer_set_side_anchors(layer, xy, err);
+    sunder_i_free(xy);
+    return status;
+}
+
 /* A listed pair of feature k and another thing of that layer: as they are numbered there. */
 static bool spare_pair(const sunder_i_questions *g, const sunder_i_surroundings *a, size_t k, uint32_t other,
                        uint32_t gone, sunder_i_id_pair **list, size_t *n, size_t *capacity)
@@ -350,6 +364,7 @@ static sunder_status make_layer(const sunder_i_questions *g, const sunder_i_surr
     }
     sunder_status status = sunder_layer_new(feature, n, layer, err);
     sunder_i_free(feature);
+    if (!status) status = set_side_anchors(&g->solver->model, a, *layer, err);
     return status ? status : set_barriers(g->solver, a, what->gone, *layer, err);
 }
 

@@ -1,0 +1,49 @@
+# shellcheck shell=bash disable=SC1091
+# The side of a point is that of the point itself, whatever its symbol; and what stands in an area of as=boundary stays in
+# it with its anchor.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+export PYTHONDONTWRITEBYTECODE=1 SOURCE_DATE_EPOCH=1700000000
+kept() { /usr/bin/python3 "$SUNDER_SOURCE/tests/cli/kept_sides.py" "$@" || fail "kept_sides.py $*"; }
+
+# Beside the junction of a bar and a stem the larger part of the symbol is below the bar; the town is above it.
+layer lines.gpkg lines LINESTRING <<'X'
+id,WKT
+1,"LINESTRING(-100 0,100 0)"
+2,"LINESTRING(0 0,0 100)"
+X
+layer town.gpkg town POINT <<'X'
+id,WKT
+1,POINT(1 1)
+X
+expect 0 separate town.gpkg out.gpkg --symbol disc:10 --barrier lines.gpkg
+ogrinfo -q -al -geom=NO out.gpkg town | awk '/sunder_d[xy]/ && $NF < 9 { exit 1 }' || fail "the town went elsewhere"
+# A symbol beside its point: the side is still that of the point, and barriers are known about both.
+expect 0 separate town.gpkg out.gpkg --symbol 'POLYGON((30 -6,40 -6,40 6,30 6,30 -6))' --barrier lines.gpkg \
+    --max-shift 9 --overwrite
+ogrinfo -q -al -geom=NO out.gpkg town | awk '/sunder_dy/ && $NF < 5 { exit 1 }' || fail "the symbol went below the bar"
+
+kept write "${SUNDER_SEED:-1}"
+for kind in points houses; do
+    options=(--barrier parcels.geojson,as=boundary --contained ignore)
+    [ $kind = houses ] || options+=(--symbol disc:8)
+    [ $kind = points ] || options+=(--gap 2)
+    run separate $kind.geojson $kind.gpkg -q --effort 0 "${options[@]}"
+    [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || fail "$kind: status $status"
+    said=$(kept look $kind.geojson $kind.gpkg $kind)
+    case $said in
+        *' 0 moved'* | *' features, 1 moved'*) fail "$kind: $said" ;;
+        *', 0 left') ;;
+        *) fail "$kind: $said" ;;
+    esac
+    run check $kind.gpkg -l $kind --before $kind.geojson "${options[@]}"
+    says out 'side 0'
+    # In parts the same.
+    expect 0 plan $kind.geojson $kind.plan --shards 3 --effort 0 --output-layer $kind "${options[@]}"
+    for shard in 1 2 3; do expect 0 separate --shard $shard $kind.plan -q; done
+    run merge $kind.plan $kind-parts.gpkg -q
+    [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || fail "$kind: merge: status $status"
+    ogrinfo -q -al -ro $kind.gpkg $kind >whole.txt
+    ogrinfo -q -al -ro $kind-parts.gpkg $kind >parts.txt
+    cmp -s whole.txt parts.txt || fail "$kind: other moves in parts"
+done
+finish
