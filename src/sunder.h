@@ -123,7 +123,7 @@ SUNDER_API sunder_status sunder_shape_from_rings(const double *xy, const size_t 
 
 /* A regular-like polygon with rational vertices around (inside = false: contains the closed disc) or within
  * (inside = true) the disc of that radius about the origin. segments >= 3, radius > 0 and finite; else SUNDER_EARG.
- * SUNDER_ERANGE if a vertex leaves the range of doubles. */
+ * SUNDER_ERANGE if a vertex leaves the range of doubles. Those of an inside one on the axes are at the radius. */
 SUNDER_API sunder_status sunder_shape_disc(double radius, unsigned segments, bool inside, sunder_shape **out,
                                            sunder_error *err);
 

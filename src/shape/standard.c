@@ -2,7 +2,9 @@
  *
  * A disc's polygon is made from doubles near the ideal ones and then proved exactly, which needs no rational
  * directions: the corners of an inside disc must lie in the disc, and the lines of all edges of an outside one at least
- * the radius away from the origin, by integer arithmetic. What fails is moved out or in by a growing number of ulps.
+ * the radius away from the origin, by integer arithmetic. An outside disc that fails is made larger by a growing number
+ * of ulps; of an inside one each corner that fails is moved in by itself, so that corners on the axes are at the radius
+ * exactly: what is just as wide as the disc has room for it, and for no larger one.
  * Corners of discs with few segments are multiples of a coarse unit, 2^-26 of the radius or so: sums with map
  * coordinates then fit the narrow lattice, which is several times as fast, and the disc is off by some 10^-8 more at
  * most. Corners are mirrored from as few computed ones as the number of segments allows, so that the polygon is
@@ -46,6 +48,7 @@ typedef struct disc {
     unsigned n;
     bool inside;
     double *xy;
+    bool *proved; /* [n] inside: corners that stay as they are */
 } disc;
 
 /* With more segments than this the polygon is so near the circle that the coarse unit would show. */
@@ -61,23 +64,53 @@ static double unit_of(const disc *d)
     return ldexp(1, exponent - 26);
 }
 
-/* Corners at radius * factor. False if one leaves the range of doubles. */
+/* A corner at radius * factor. */
+static void make_corner(const disc *d, unsigned i, double factor, double unit, double p[2])
+{
+    unit_corner(i, d->n, p);
+    const bool on_circle = d->inside && (p[0] == 0 || p[1] == 0);
+    for (int k = 0; k < 2; k++) {
+        p[k] = (on_circle ? d->radius : d->radius * factor) * p[k] + 0.0;
+        if (unit > 0 && !on_circle) p[k] = round(p[k] / unit) * unit + 0.0; /* odd: mirror images stay such */
+    }
+}
+
+/* Those corners that are not proved. False if one leaves the range of doubles. */
 static bool make_corners(const disc *d, double factor)
 {
     const double unit = unit_of(d);
     for (unsigned i = 0; i < d->n; i++) {
         double *p = d->xy + 2 * (size_t)i;
-        unit_corner(i, d->n, p);
-        for (int k = 0; k < 2; k++) {
-            p[k] = d->radius * factor * p[k] + 0.0;
-            if (unit > 0) p[k] = round(p[k] / unit) * unit + 0.0; /* odd: mirror images stay such */
-            if (!isfinite(p[k])) return false;
-        }
+        if (d->proved[i]) continue;
+        make_corner(d, i, factor, unit, p);
+        if (!isfinite(p[0]) || !isfinite(p[1])) return false;
     }
     return true;
 }
 
-/* The proof. Outside: cross(a, b)^2 >= r^2 |b - a|^2 for each edge, and cross > 0. Inside: |a|^2 <= r^2. */
+/* A corner as integers. */
+typedef struct lattice_corner {
+    sunder_i_big x, y;
+} lattice_corner;
+
+static lattice_corner corner_at(const disc *d, sunder_i_lattice *l, unsigned i)
+{
+    const double *p = d->xy + 2 * (size_t)i;
+    return (lattice_corner){sunder_i_lattice_get(l, sunder_i_lattice_int(l, p[0], 0)),
+                            sunder_i_lattice_get(l, sunder_i_lattice_int(l, p[1], 0))};
+}
+
+/* Outside: cross(a, b)^2 >= r^2 |b - a|^2 for the edge ab, and cross > 0. rr: r^2. */
+static bool is_edge_outside(sunder_i_arena *a, lattice_corner p, lattice_corner q, sunder_i_big rr)
+{
+    const sunder_i_big cross = sunder_i_big_sub(a, sunder_i_big_mul(a, p.x, q.y), sunder_i_big_mul(a, p.y, q.x));
+    const sunder_i_big dx = sunder_i_big_sub(a, q.x, p.x), dy = sunder_i_big_sub(a, q.y, p.y);
+    const sunder_i_big length = sunder_i_big_norm(a, dx, dy);
+    return sunder_i_big_sign(cross) > 0 &&
+           sunder_i_big_cmp(sunder_i_big_mul(a, cross, cross), sunder_i_big_mul(a, rr, length)) >= 0;
+}
+
+/* The proof. Inside: |a|^2 <= r^2 for each corner, which then is proved; outside: all edges are. */
 static bool is_proved(const disc *d, sunder_i_arena *arena)
 {
     sunder_i_extent extent = {0};
@@ -87,30 +120,21 @@ static bool is_proved(const disc *d, sunder_i_arena *arena)
     double origin[1][2];
     sunder_i_lattice l;
     sunder_i_lattice_init(&l, &extent, 1, false, origin, true);
-    sunder_i_arena *const a = arena;
     const sunder_i_big r = sunder_i_lattice_get(&l, sunder_i_lattice_int(&l, d->radius, 0));
-    const sunder_i_big rr = sunder_i_big_mul(a, r, r);
+    const sunder_i_big rr = sunder_i_big_mul(arena, r, r);
     bool good = true;
-    for (unsigned i = 0; i < d->n && good; i++) {
-        const double *p = d->xy + 2 * (size_t)i, *q = d->xy + 2 * (size_t)((i + 1) % d->n);
-        const sunder_i_mark mark = sunder_i_arena_mark(a);
-        const sunder_i_big px = sunder_i_lattice_get(&l, sunder_i_lattice_int(&l, p[0], 0));
-        const sunder_i_big py = sunder_i_lattice_get(&l, sunder_i_lattice_int(&l, p[1], 0));
+    for (unsigned i = 0; i < d->n && (good || d->inside); i++) {
+        if (d->proved[i]) continue;
+        const sunder_i_mark mark = sunder_i_arena_mark(arena);
+        const lattice_corner p = corner_at(d, &l, i);
         if (d->inside) {
-            const sunder_i_big pp = sunder_i_big_norm(a, px, py);
-            good = sunder_i_big_cmp(pp, rr) <= 0;
-        } else {
-            const sunder_i_big qx = sunder_i_lattice_get(&l, sunder_i_lattice_int(&l, q[0], 0));
-            const sunder_i_big qy = sunder_i_lattice_get(&l, sunder_i_lattice_int(&l, q[1], 0));
-            const sunder_i_big cross = sunder_i_big_sub(a, sunder_i_big_mul(a, px, qy), sunder_i_big_mul(a, py, qx));
-            const sunder_i_big dx = sunder_i_big_sub(a, qx, px), dy = sunder_i_big_sub(a, qy, py);
-            const sunder_i_big length = sunder_i_big_norm(a, dx, dy);
-            good = sunder_i_big_sign(cross) > 0 &&
-                   sunder_i_big_cmp(sunder_i_big_mul(a, cross, cross), sunder_i_big_mul(a, rr, length)) >= 0;
-        }
-        sunder_i_arena_release(a, mark);
+            d->proved[i] = sunder_i_big_cmp(sunder_i_big_norm(arena, p.x, p.y), rr) <= 0;
+            good &= d->proved[i];
+        } else
+            good = is_edge_outside(arena, p, corner_at(d, &l, (i + 1) % d->n), rr);
+        sunder_i_arena_release(arena, mark);
     }
-    if (l.arena.failed) a->failed = true;
+    if (l.arena.failed) arena->failed = true;
     sunder_i_lattice_free(&l);
     return good;
 }
@@ -139,14 +163,15 @@ sunder_status sunder_shape_disc(double radius, unsigned segments, bool inside, s
         return sunder_i_fail(err, SUNDER_EARG, "the radius of a disc must be positive and finite, not %.17g", radius);
     if (segments < 3) return sunder_i_fail(err, SUNDER_EARG, "a disc needs at least 3 segments, not %u", segments);
     if (segments > 1u << 24) return sunder_i_fail(err, SUNDER_EARG, "a disc of %u segments is too large", segments);
-    disc d = {radius, segments, inside, sunder_i_alloc(2 * (size_t)segments, sizeof(double))};
-    if (!d.xy) return sunder_i_no_memory(err);
+    disc d = {radius, segments, inside, sunder_i_alloc(2 * (size_t)segments, sizeof(double)),
+              sunder_i_calloc(segments, sizeof(bool))};
     sunder_i_arena arena;
     sunder_i_arena_init(&arena);
-    sunder_status status = prove_corners(&d, &arena, err);
+    sunder_status status = d.xy && d.proved ? prove_corners(&d, &arena, err) : sunder_i_no_memory(err);
     sunder_i_arena_free(&arena);
     if (!status) status = from_ring(d.xy, segments, out, err);
     sunder_i_free(d.xy);
+    sunder_i_free(d.proved);
     /* Doubles at the very bottom of their range may fall together. */
     if (status != SUNDER_EINVALID) return status;
     return sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g with %u segments is too small for doubles", radius,
