@@ -5,7 +5,9 @@
  * of a cluster are asked about in turn until so much was asked in vain. And a question that is mostly in vain is put
  * to fewer and fewer of them. (One of a gap is answered beforehand where the result keeps one.) So what is known of a
  * pair is a matter of its cluster, never of the layer. */
+#include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/reads.h"
+#include "displacement/layer/resolution.h"
 #include "displacement/report/question.h"
 #include "displacement/report/tuning.h"
 
@@ -30,11 +32,22 @@ typedef struct budget {
 /* Is it asked what would free it? */
 static bool is_asked_about(const sunder_conflict *c) { return !c->inside_block && c->reason != SUNDER_REASON_KEPT; }
 
-/* The gap that a conflict leaves where it stands: two that are nearer than the layer's have the one between them. */
-static double gap_of(const sunder_conflict *c)
+/* Is the layer's gap owed between the two, and no other one of the barrier's own? */
+static bool is_about_gap(const sunder_i_solver *s, const sunder_conflict *c)
 {
-    return c->kind == SUNDER_CONFLICT_TOO_CLOSE && c->depth == 0 ? sunder_i_max(0, nextafter(c->distance, -INFINITY))
-                                                                 : -1;
+    return c->b < s->model.features || s->layer.barrier[sunder_i_barrier_of(&s->model, (uint32_t)c->b)].gap < 0;
+}
+
+/* The gap that a conflict leaves where it stands: two that are nearer than the layer's have the one between them, and
+ * beside a barrier what is left of it beyond the drawn width; -1: none. */
+static double gap_of(const sunder_i_solver *s, const sunder_conflict *c)
+{
+    if (c->depth > 0 || !is_about_gap(s, c)) return -1;
+    if (c->kind == SUNDER_CONFLICT_TOO_CLOSE) return sunder_i_max(0, nextafter(c->distance, -INFINITY));
+    if (c->kind != SUNDER_CONFLICT_BARRIER_NEAR) return -1;
+    const double gap = s->model.rules.gap, width = c->required - gap;
+    /* Three roundings, and those of the distance and of what is required. */
+    return c->distance - width - 0x1p-50 * (c->distance + c->required + gap);
 }
 
 /* The least gap of a pair and of all that are left of its two bodies: with that the result is a solution of it and its
@@ -50,7 +63,7 @@ static sunder_status keep_what_there_is(const sunder_i_questions *g, sunder_erro
         for (size_t k = 0; k < report->conflicts; k++) {
             sunder_conflict *c = &report->conflict[k];
             if (!is_asked_about(c)) continue;
-            double gap = gap_of(c), *of[2] = {&least[model->body_of[c->a]], &least[model->body_of[c->b]]};
+            double gap = gap_of(g->solver, c), *of[2] = {&least[model->body_of[c->a]], &least[model->body_of[c->b]]};
             for (int e = 0; e < 2; e++) {
                 if (model->body[model->body_of[e ? c->b : c->a]].fixed) continue;
                 if (pass == 0)
@@ -81,7 +94,7 @@ static sunder_status ask(const sunder_i_questions *g, const sunder_i_surrounding
 static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
                                 budget *left, sunder_error *err)
 {
-    sunder_i_supposition what = {sunder_i_min(a->farthest, c->need_shift), g->options->gap, SUNDER_I_NOBODY};
+    sunder_i_supposition what = {sunder_i_min(a->farthest, c->need_shift), g->options->gap, SUNDER_I_NOBODY, false};
     double longest, low = INFINITY;
     bool yes;
     for (size_t k = 0; k < a->moving; k++) low = sunder_i_min(low, a->as[k].max_shift);
@@ -103,34 +116,160 @@ static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surr
     return SUNDER_OK;
 }
 
-static sunder_status need_gap(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
+/* ---- The gap ----------------------------------------------------------------------------------------------------- */
+
+/* How far the two may go together. */
+static double reach_of(const sunder_i_model *model, const sunder_conflict *c)
+{
+    const double limit = sunder_i_limit_of(&model->body[model->body_of[c->a]]);
+    return c->b < model->features ? limit + sunder_i_limit_of(&model->body[model->body_of[c->b]]) : limit;
+}
+
+/* A proved bound of the least relative move that leaves the two that gap, and its length. */
+static sunder_status least_for_gap(const sunder_i_model *model, const sunder_conflict *c, double gap, double *least,
+                                   double *length, sunder_error *err)
+{
+    if (c->b < model->features) {
+        sunder_i_rules rules = model->rules;
+        sunder_i_resolution way;
+        rules.gap = gap;
+        const sunder_status status = sunder_i_resolve(&rules, sunder_i_thing_shape(model, c->a),
+                                                      sunder_i_thing_shape(model, c->b), INFINITY, &way, err);
+        *least = way.least;
+        *length = hypot(way.away[0], way.away[1]);
+        return status;
+    }
+    const uint32_t barrier = (uint32_t)c->b;
+    const sunder_i_translate home = sunder_i_at_home(model, (uint32_t)c->a);
+    const double owed = sunder_i_required_below(model->barriers, sunder_i_barrier_of(model, barrier));
+    sunder_separation way = {0};
+    bool beyond;
+    const sunder_status status = sunder_i_barrier_least(
+        model, &home, barrier, sunder_i_max(0, owed - model->rules.gap + gap), INFINITY, &way, &beyond, err);
+    *least = way.lower_bound;
+    *length = way.distance;
+    return status;
+}
+
+/* The largest gap up to `most` that the two can keep within their limits, nobody else being there, to within `step`:
+ * *does, and none that is larger than *above. The least move that leaves a gap g is as a rule as long as the one that
+ * parts them and g more: so the next g is what the limits leave of the last move, and mostly the second one it is. */
+static sunder_status gap_of_pair(const sunder_i_model *model, const sunder_conflict *c, double most, double step,
+                                 double *does, double *above, sunder_error *err)
+{
+    const double reach = reach_of(model, c);
+    double low = -1, high = most, gap = 0;
+    for (int k = 0; k < PAIR_GAP_ROUNDS && high - low > step; k++) {
+        double least, length;
+        const sunder_status status = least_for_gap(model, c, gap, &least, &length, err);
+        if (status) return status;
+        double next = gap + (reach - length);
+        if (least <= reach) {
+            low = gap;
+            next = sunder_i_max(next, low + step);
+        } else
+            high = gap;
+        if (low < 0) break;
+        gap = next > low && next < high ? next : low + (high - low) / 2;
+    }
+    *does = low;
+    *above = high;
+    return SUNDER_OK;
+}
+
+/* Has nobody else to do with the question? */
+static bool are_alone(const sunder_i_model *model, const sunder_i_surroundings *a, const sunder_conflict *c)
+{
+    bool alone = a->feature.n == (c->b < model->features ? 2 : 1);
+    for (size_t k = 0; k < a->part.n && alone; k++) alone = sunder_i_whole_of(model, a->part.item[k]) == c->b;
+    return alone;
+}
+
+typedef struct gap_search {
+    const sunder_i_questions *questions;
+    const sunder_i_surroundings *about;
+    sunder_conflict *conflict;
+    budget *left;
+    double high; /* no larger gap is asked about any more */
+    bool all;    /* what few are listed besides are solved in all answers, too */
+} gap_search;
+
+/* Asks whether there is a solution with that gap, and notes the answer. */
+static sunder_status try_gap(gap_search *g, double gap, bool *yes, sunder_error *err)
+{
+    const sunder_i_supposition what = {0, gap, SUNDER_I_NOBODY, g->all};
+    double longest;
+    const sunder_status status = ask(g->questions, g->about, g->conflict, &what, g->left, yes, &longest, err);
+    if (*yes)
+        g->conflict->need_gap = gap;
+    else
+        g->high = gap;
+    return status;
+}
+
+/* No larger gap is asked about than the limits of the two leave them. Nobody else being about that is the answer, but
+ * for the hair that the search keeps to limits; or a little less where that is still too tight. */
+static sunder_status try_gap_of_pair(gap_search *g, double step, bool alone, sunder_error *err)
+{
+    const sunder_i_model *model = &g->questions->solver->model;
+    const sunder_conflict *c = g->conflict;
+    double does, above;
+    bool yes = false;
+    if (reach_of(model, c) == INFINITY || !is_about_gap(g->questions->solver, c)) return SUNDER_OK;
+    if (!alone && c->b >= model->features) return SUNDER_OK; /* beside roads that takes as long as it saves */
+    sunder_status status = gap_of_pair(model, c, g->high, step / 2, &does, &above, err);
+    if (status) return status;
+    g->high = sunder_i_max(above, 0);
+    if (!alone || !(does > 0) || c->need_gap >= does) return SUNDER_OK;
+    status = try_gap(g, does * (1 - 0x1p-20), &yes, err);
+    if (!status && !yes && does > step / 2) status = try_gap(g, does - step / 2, &yes, err);
+    return status;
+}
+
+/* Is there a solution without a gap? One that solves what few are listed besides, too, if there is one; then larger
+ * gaps have to do so as well. */
+static sunder_status try_no_gap(gap_search *g, sunder_error *err)
+{
+    const double high = g->high;
+    bool yes = false, few;
+    sunder_status status = sunder_i_few_are_listed(g->questions, g->about, g->conflict, &few, err);
+    if (!status && few) status = try_gap(g, 0, &yes, err);
+    if (!status && !yes) {
+        g->all = false;
+        status = try_gap(g, 0, &yes, err);
+    }
+    g->high = high;
+    return status;
+}
+
+/* The largest gap with which there is a solution, to within a hundredth of the layer's: nobody else being about it is
+ * that of the pair. Else it is looked for between the one that is known and the pair's, by halves, as often as the
+ * effort allows. */
+static sunder_status need_gap(const sunder_i_questions *questions, const sunder_i_surroundings *a, sunder_conflict *c,
                               budget *left, sunder_error *err)
 {
-    const bool known = !isnan(c->need_gap);
-    double high = g->options->gap, longest;
-    sunder_i_supposition what = {0, known ? c->need_gap + (high - c->need_gap) / 2 : 0, SUNDER_I_NOBODY};
-    bool yes;
-    if (known && !sunder_i_patience_asks(&left->gap)) return SUNDER_OK;
-    for (int k = known ? 1 : 0; k <= g->halvings && high > 0; k++) {
-        const sunder_status status = ask(g, a, c, &what, left, &yes, &longest, err);
-        if (status) return status;
-        if (known && k == 1) sunder_i_patience_note(&left->gap, yes);
-        if (yes)
-            c->need_gap = what.gap;
-        else if (k == 0)
-            return SUNDER_OK;
-        else
-            high = what.gap;
-        what.gap = c->need_gap + (high - c->need_gap) / 2;
+    const bool known = !isnan(c->need_gap), alone = are_alone(&questions->solver->model, a, c);
+    const double step = questions->options->gap / NEED_GAP_PARTS;
+    gap_search g = {questions, a, c, left, questions->options->gap, true};
+    sunder_status status = SUNDER_OK;
+    const double before = c->need_gap;
+    if (!(step > 0) || (known && !sunder_i_patience_asks(&left->gap))) return SUNDER_OK;
+    status = try_gap_of_pair(&g, step, alone, err);
+    if (!status && isnan(c->need_gap)) status = try_no_gap(&g, err);
+    if (status || isnan(c->need_gap)) return status;
+    for (int k = 0; !status && k < NEED_GAP_HALVINGS * questions->halvings && g.high - c->need_gap > step; k++) {
+        bool yes;
+        status = try_gap(&g, c->need_gap + (g.high - c->need_gap) / 2, &yes, err);
     }
-    return SUNDER_OK;
+    if (known) sunder_i_patience_note(&left->gap, c->need_gap > before);
+    return status;
 }
 
 /* The first of those in the way, without which all others are solved. */
 static sunder_status need_gone(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
                                budget *left, sunder_error *err)
 {
-    const sunder_i_supposition none = {0, g->options->gap, SUNDER_I_NOBODY};
+    const sunder_i_supposition none = {0, g->options->gap, SUNDER_I_NOBODY, false};
     double longest;
     bool yes = false;
     if (c->n_blocked_by == 0 || !sunder_i_patience_asks(&left->gone)) return SUNDER_OK;

@@ -114,6 +114,16 @@ static sunder_status take_part(const sunder_i_solver *s, sunder_i_surroundings *
     return status;
 }
 
+/* How far that of two features which went farther stands from home: the answer may be a little more of that. Not beside
+ * barriers, where what is owed has the drawn width in it, and more about it takes longer. */
+static double gone_already(const sunder_i_model *model, const sunder_conflict *c)
+{
+    if (c->b >= model->features) return 0;
+    const double *s = model->move + 2 * (size_t)model->body_of[c->a],
+                 *t = model->move + 2 * (size_t)model->body_of[c->b];
+    return sunder_i_max(hypot(s[0], s[1]), hypot(t[0], t[1]));
+}
+
 sunder_status sunder_i_surround(const sunder_i_solver *s, const sunder_conflict *c, sunder_i_surroundings *a,
                                 sunder_error *err)
 {
@@ -125,7 +135,7 @@ sunder_status sunder_i_surround(const sunder_i_solver *s, const sunder_conflict 
     for (size_t k = 0; k < moving.n && ok; k++) ok = append_members(model, moving.item[k], &a->feature);
     a->moving = a->feature.n;
     for (size_t k = 0; k < a->moving; k++) sunder_i_box_join(a->known, sunder_i_home_box(model, a->feature.item[k]));
-    a->farthest = NEED_GAPS * c->required + NEED_MISSING * missing(c);
+    a->farthest = NEED_GAPS * c->required + NEED_MISSING * missing(c) + gone_already(model, c);
     sunder_i_box_grow(a->known, a->farthest + reach, a->known);
     ok = ok && sunder_i_look_about(&s->model, &s->placement.tree, a->known, &near);
     moving.n = sunder_i_set_make(moving.item, moving.n);
@@ -400,8 +410,19 @@ static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_sur
     return status;
 }
 
-/* Few that are listed besides are asked to be solved, too. Where that has no solution, or where they are many, as
- * beside roads, they are left alone. */
+sunder_status sunder_i_few_are_listed(const sunder_i_questions *g, const sunder_i_surroundings *a,
+                                      const sunder_conflict *c, bool *few, sunder_error *err)
+{
+    sunder_i_id_pair *spared = NULL;
+    size_t n = 0;
+    const bool ok = list_spared(g, a, c, SUNDER_I_NOBODY, &spared, &n);
+    *few = n > 0 && n <= NEED_ALL;
+    sunder_i_free(spared);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+/* Few that are listed besides are asked to be solved, too. Where that has no solution and need not have one, or where
+ * they are many, as beside roads, they are left alone. */
 sunder_status sunder_i_ask(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
                            const sunder_i_supposition *what, sunder_i_patience *proof, bool *yes, double *longest,
                            sunder_error *err)
@@ -411,7 +432,8 @@ sunder_status sunder_i_ask(const sunder_i_questions *g, const sunder_i_surroundi
     *yes = false;
     sunder_status status = list_spared(g, a, c, what->gone, &spared, &n) ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status && n <= NEED_ALL) status = ask_sparing(g, a, c, what, NULL, 0, proof, yes, longest, err);
-    if (!status && n && !*yes) status = ask_sparing(g, a, c, what, spared, n, proof, yes, longest, err);
+    const bool spares = n > NEED_ALL || (n > 0 && !what->all && !*yes);
+    if (!status && spares) status = ask_sparing(g, a, c, what, spared, n, proof, yes, longest, err);
     sunder_i_free(spared);
     return status;
 }

@@ -29,12 +29,16 @@ typedef struct sunder_i_questions {
 typedef struct sunder_i_supposition {
     double limit, gap;
     uint32_t gone; /* SUNDER_I_NOBODY: nobody */
+    bool all;      /* few that are listed besides have to be solved, too */
 } sunder_i_supposition;
 
 /* Who takes part in questions about a conflict. To be cleared, also on failure. */
 sunder_status sunder_i_surround(const sunder_i_solver *solver, const sunder_conflict *conflict,
                                 sunder_i_surroundings *surroundings, sunder_error *err);
 void sunder_i_surroundings_clear(sunder_i_surroundings *surroundings);
+/* Are others listed besides, so few that they can be asked to be solved, too? */
+sunder_status sunder_i_few_are_listed(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
+                                      const sunder_conflict *conflict, bool *few, sunder_error *err);
 /* Is there a solution? *longest: of its moves. proof: with looking for a proof that there is none, which only saves
  * time. */
 sunder_status sunder_i_ask(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
