@@ -62,13 +62,15 @@ static bool leave_unread(gis_sink_layer *layer, gis_sink_result *result, gis_err
     const bool may_be_empty = drops_empty || (sink->request.allow_inexact && !sink->format.keeps_vertices &&
                                               !EQUAL(sink->format.name, "GeoJSON"));
     if (layer->written == 0 && may_be_empty && !sink->format.only_written) {
-        gis_sentences_add(&sink->losses, "layer %s has no features, and is not there when %s is read", layer->name,
-                          sink->format.name);
+        if (!layer->file) /* else it is an empty file */
+            gis_sentences_add(&sink->losses, "layer %s has no features, and is not there when %s is read", layer->name,
+                              sink->format.name);
         return true;
     }
     if (!sink->format.only_written)
-        return gis_fail(error, "%s: layer %s cannot be read back after writing; is the disk full?", sink->request.path,
-                        layer->name);
+        return gis_fail(error, "%s: layer %s cannot be read back after writing; %s", sink->request.path, layer->name,
+                        sink->format.abilities ? "is the disk full?"
+                                               : "the driver may not read what it writes, or no layer of this kind");
     result->exact = false;
     result->deviation = INFINITY;
     result->unread = true;

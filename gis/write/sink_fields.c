@@ -273,5 +273,9 @@ void gis_sink_create_fields(gis_sink_layer *layer)
     if (layer->request.copied) create_copy(layer);
     if (gis_sink_source_fields(layer) && !layer->sink->fids_kept)
         layer->fid_field = create_own_field(layer, FID_FIELD, OFTInteger64, 0);
+    if (layer->fid_field >= 0 && gis_sink_tells(layer) && (layer->sink->format.abilities & GIS_NEEDS_POSITIVE_FIDS) &&
+        gis_source_fids_negative(layer->sink->source))
+        gis_sentences_add(&layer->sink->warnings, "FIDs less than 0 do not read back from %s: all stand in %s",
+                          layer->sink->format.name, FID_FIELD);
     keep_own_name(layer, layer->fid_field);
 }

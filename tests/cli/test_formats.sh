@@ -97,7 +97,8 @@ fi
 # ---- negative FIDs, which GeoJSON does not read as such, stand in a field
 ogr2ogr fids.gpkg mixed.geojson -nln fids -nlt MULTIPOLYGON
 ogrinfo -q fids.gpkg -sql 'UPDATE fids SET fid = -5 WHERE n = 1' >/dev/null
-expect 0 separate fids.gpkg fids.geojson --layers main --quiet
+expect 0 separate fids.gpkg fids.geojson --layers main
+says err 'FIDs less than 0 do not read back from GeoJSON: all stand in sunder_fid'
 same "$(ogrinfo -q -ro fids.geojson fids | sed -n 's/^  sunder_fid (.*) = //p' | sort -n | tr '\n' ' ')" '-5 1 3 '
 expect 0 separate fids.gpkg kept.geojson --where 'fid > 0' --layers main --quiet
 same "$(ogrinfo -q -ro kept.geojson fids | grep -c sunder_fid)" 0 'positive FIDs are kept:'
