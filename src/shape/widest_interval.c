@@ -80,20 +80,31 @@ static sunder_i_ratio width_of(sunder_i_ratio a, sunder_i_ratio b, sunder_i_aren
 
 /* ---- Sides of corners -------------------------------------------------------------------------------------------- */
 
-/* The sign of 2 y - (low + high). */
-static int side_of_double(double y, double low, double high)
+/* The sign of 2 y - (low + high), exact also near the ends of the range of doubles. */
+static int side_of_extreme(double y, double low, double high)
 {
-    const double sum = low + high, twice = 2 * y;
-    if (fabs(sum) < 0x1p1000 && fabs(low) < 0x1p1000 && fabs(twice) < 0x1p1000) {
-        if (twice != sum) return twice < sum ? -1 : 1;
-        const double part = sum - low, rest = (low - (sum - part)) + (high - part);
-        return (rest < 0) - (rest > 0);
-    }
     sunder_i_accumulator exact = {{0}};
     sunder_i_accumulator_add(&exact, 2, y);
     sunder_i_accumulator_sub(&exact, 1, low);
     sunder_i_accumulator_sub(&exact, 1, high);
     return sunder_i_accumulator_sign(&exact);
+}
+
+/* The sides of all corners. Doubling is exact, or infinite on the right side; where 2 y equals the rounded sum, its
+ * rounding error decides. */
+static void set_sides(search *s, double low, double high)
+{
+    const sunder_i_boundary *b = s->b;
+    if (!(fabs(low) < 0x1p1000 && fabs(high) < 0x1p1000)) {
+        for (uint32_t v = 0; v < b->n; v++) s->side[v] = (int8_t)side_of_extreme(b->xy[2 * (size_t)v + 1], low, high);
+        return;
+    }
+    const double sum = low + high, part = sum - low, rest = (low - (sum - part)) + (high - part);
+    const int level = (rest < 0) - (rest > 0);
+    for (uint32_t v = 0; v < b->n; v++) {
+        const double twice = 2 * b->xy[2 * (size_t)v + 1];
+        s->side[v] = (int8_t)(twice == sum ? level : (twice > sum) - (twice < sum));
+    }
 }
 
 static int side_of_point(search *s, uint32_t v)
@@ -124,8 +135,7 @@ static void set_height(search *s, uint32_t lowest, uint32_t highest)
     if (b->xy) {
         s->out->low = b->xy[2 * (size_t)lowest + 1];
         s->out->high = b->xy[2 * (size_t)highest + 1];
-        for (uint32_t v = 0; v < b->n; v++)
-            s->side[v] = (int8_t)side_of_double(b->xy[2 * (size_t)v + 1], s->out->low, s->out->high);
+        set_sides(s, s->out->low, s->out->high);
         return;
     }
     const sunder_i_rational_point *p = &b->point[lowest], *q = &b->point[highest];
@@ -312,15 +322,23 @@ static uint32_t top_below(search *s)
     return top;
 }
 
+/* A lowest and a highest corner. */
+static void find_extremes(search *s, uint32_t *low, uint32_t *high)
+{
+    const double *xy = s->b->xy;
+    *low = *high = 0;
+    for (uint32_t v = 1; v < s->b->n; v++) {
+        if (xy ? xy[2 * (size_t)v + 1] < xy[2 * (size_t)*low + 1] : compare_heights(s, v, *low) < 0) *low = v;
+        if (xy ? xy[2 * (size_t)v + 1] > xy[2 * (size_t)*high + 1] : compare_heights(s, v, *high) > 0) *high = v;
+    }
+}
+
 void sunder_i_widest_interval_find(const sunder_i_boundary *b, int8_t *side, sunder_i_level_crossing *crossing,
                                    sunder_i_arena *arena, sunder_i_widest_interval *out)
 {
     search s = {b, arena, out, side};
-    uint32_t low = 0, high = 0;
-    for (uint32_t v = 1; v < b->n; v++) {
-        if (compare_heights(&s, v, low) < 0) low = v;
-        if (compare_heights(&s, v, high) > 0) high = v;
-    }
+    uint32_t low, high;
+    find_extremes(&s, &low, &high);
     set_height(&s, low, high);
     while (!arena->failed && !look(&s, crossing)) set_height(&s, low, top_below(&s));
 }
