@@ -289,8 +289,7 @@ def least_square(a, b):
     """The squared length of the least move of b that parts the interiors; None where there is too much to look at.
 
     The nearest place of the closed set of free moves is a foot of the origin on a contact segment, or a crossing of two.
-    First the nearest free foot or end; then the crossings within that distance, nearest first, each asked exactly. Doubles
-    order the feet and drop crossings that are farther by more than their rounding (a millionth).
+    First the nearest free foot or end; then the crossings within that distance, nearest first, each asked exactly.
     """
     segments = contact_segments(a, b)
     if len(segments) > 20_000:
@@ -303,8 +302,7 @@ def least_square(a, b):
             break
     if bound is None:
         bound = max(x * x + y * y for s in segments for x, y in s)
-    reach = float(bound) * (1 + 1e-6)
-    close = [s for s, (x, y) in ((s, foot(s)) for s in segments) if float(x * x + y * y) <= reach]
+    close = [s for s, (x, y) in ((s, foot(s)) for s in segments) if x * x + y * y <= bound]
     if len(close) * len(close) > TOO_MANY:
         return None
     places = set()

@@ -15,7 +15,7 @@ import geopackage  # noqa: E402
 import form  # noqa: E402
 import trees  # noqa: E402
 import verdicts  # noqa: E402
-from form import Refused, demand  # noqa: E402
+from form import Refused, demand, shown  # noqa: E402
 from prices import Prices  # noqa: E402
 from problem import Problem  # noqa: E402
 from result import Result  # noqa: E402
@@ -55,34 +55,43 @@ def check_header(head, options, layer):
 
 
 class Checker:
-    """Of one run's options: any file of --proof may be asked about. Lines that held, beside the same conflicts, are not asked
-    about again."""
+    """Of one run's options: any file of --proof may be asked about."""
 
     def __init__(self, options):
-        self.options, self.problem, self.held = options, Problem(options.input, options), {}
+        self.options, self.problem = options, Problem(options.input, options)
+        self.known, self.kept, self.held = {}, set(), {}
         self.result = Result(self.problem, options.result) if options.result else None
 
     def check(self, lines):
         """lines: as JSON has them. What holds, in words."""
-        proof, problem = form.Proof(lines), self.problem
+        proof, problem = form.Proof(lines, self.known), self.problem
         check_header(proof.head, self.options, problem.name)
         problem.blocks.demand_all(proof.blocks)
         problem.list_conflicts(proof.conflicts)
         listed = repr(sorted(problem.listed.items()))
         found = [self.once(tree, listed, self.check_tree) for tree in proof.trees]
         total, bound = trees.add_up(found), proof.head["lower_bound"]
-        demand(total >= bound, "the bound proved is", float(total), "and not", bound)
+        demand(total >= bound, "the bound proved is", shown(total), "and not", bound)
         proved = sum(self.once(c, listed, self.check_verdict) for c in proof.conflicts)
         said = (f"bound {bound:.9g}: {len(found)} trees, {sum(len(t.nodes) for t in found)} nodes, "
                 f"{sum(len(t.cuts) for t in found)} cuts; {len(proof.blocks)} blocks; "
                 f"{proved} of {len(proof.conflicts)} conflicts with proofs")
         return said + ("; " + self.result.check(proof.conflicts, total) if self.result else "")
 
+    def keep(self, lines):
+        """These lines, which stay as they are, are not read again; nor, beside the same conflicts, asked about again if they held."""
+        proof = form.Proof(lines, {})
+        self.known = dict(zip(map(id, lines), [proof.head, *({"block": b} for b in proof.blocks), *proof.conflicts, *proof.trees]))
+        self.kept = {id(line) for line in self.known.values()}
+
     def once(self, line, listed, check):
-        key = repr(line), listed
-        if key not in self.held:
-            self.held[key] = check(line)
-        return self.held[key]
+        key = id(line), listed
+        if key in self.held:
+            return self.held[key]
+        found = check(line)
+        if id(line) in self.kept:
+            self.held[key] = found
+        return found
 
     def check_tree(self, told):
         tree = (Prices if "prices" in told else trees.Tree)(self.problem, told)
@@ -99,7 +108,7 @@ def answer(checker, lines):
         return 0, checker.check(lines())
     except Refused as why:
         return 1, f"refused: {why}"
-    except (KeyError, TypeError, ValueError, IndexError, ArithmeticError, RecursionError) as why:
+    except (KeyError, TypeError, ValueError, IndexError, ArithmeticError, RecursionError) as why:  # of which form.py leaves none
         return 1, f"refused: not in the form of a proof: {type(why).__name__}: {why}"
 
 
@@ -107,7 +116,7 @@ def main(words):
     options, began = read_options(words), time.time()
     try:
         checker = Checker(options)
-    except Refused as why:
+    except (Refused, KeyError, ValueError) as why:
         print(f"not asked about: {why}")
         return 2
     status, said = answer(checker, lambda: form.read(options.proof))

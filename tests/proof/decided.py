@@ -5,7 +5,7 @@ shown by covering all relative moves that the limits leave with what is forbidde
 """
 from fractions import Fraction
 
-from cover import Piece, clip, fine_of, halves, square
+from cover import FINE, Piece, clip, fine_of, halves, square
 from exact import plane
 from form import demand
 from nearly_in import lies_in_grown
@@ -118,11 +118,18 @@ def covers(region, reach, pieces):
             last = found
             continue
         middle, (a, b, c) = halves(places)
-        if steps > MOST_STEPS or (a, b) == (0, 0):
+        if steps > MOST_STEPS or (a, b) == (0, 0) or is_free(middle, far, pieces):
             return False
         todo.append(clip(part, (a, b, c)))
         todo.append(clip(part, (-a, -b, -c)))
     return True
+
+
+def is_free(middle, far, pieces):
+    """Is that place, in FINE parts of the lattice, one that the limits leave, and in no piece?"""
+    if far is not None and middle[0] ** 2 + middle[1] ** 2 > far * FINE * FINE:
+        return False
+    return not any(p.holds(middle, (*middle, FINE)) for p in pieces)
 
 
 def is_beyond(part, far):

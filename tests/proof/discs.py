@@ -1,7 +1,8 @@
 """The corners of the program's discs, from how they are documented (src/shape/standard.c), and asked of the circle.
 
 Corner i of n lies at i / n of a turn, the first on the x axis, to a multiple of 2^-26 of the power of two above the radius;
-those of an inside disc all lie in the disc, and for that go inwards by a growing share of the radius until they do.
+those of an inside disc lie in the disc, on the axes at the radius exactly, and each that does not goes inwards by a growing share of
+the radius until it does; the edges' lines of the other kind lie outside, and all its corners go outwards together.
 """
 import math
 from fractions import Fraction
@@ -24,13 +25,43 @@ def away(value):
     return math.copysign(whole, value)
 
 
+def unit_of(radius, n):
+    return 2.0 ** (math.frexp(radius)[1] - 26) if n <= 256 and 2.0 ** -900 <= radius <= 2.0 ** 900 else 0
+
+
+def corner_at(i, n, radius, factor, unit):
+    p = tuple(radius * factor * v + 0.0 for v in unit_corner(i, n))
+    return tuple(away(v / unit) * unit + 0.0 for v in p) if unit else p
+
+
+def shares(n):
+    """How much is given, in 2^-52: a try after the other."""
+    give = 0.0
+    while give < 2.0 ** 40:
+        yield give * 2.0 ** -52
+        give = 2 * give if give else (2.0 ** 24 if n <= 256 else 1.0)
+
+
 def inside(radius, n):
     """Doubles."""
-    unit = 2.0 ** (math.frexp(radius)[1] - 26)
-    give = 0.0
-    while True:
-        factor = 1 * (1 - give * 2.0 ** -52)
-        corners = [tuple(away(radius * factor * v / unit) * unit + 0.0 for v in unit_corner(i, n)) for i in range(n)]
-        if all(Fraction(x) ** 2 + Fraction(y) ** 2 <= Fraction(radius) ** 2 for x, y in corners):
-            return corners
-        give = 2 * give if give else 2.0 ** 24
+    def corner(i):
+        if 0 in unit_corner(i, n):
+            return tuple(radius * v + 0.0 for v in unit_corner(i, n))
+        tries = (corner_at(i, n, radius, 1 - give, unit_of(radius, n)) for give in shares(n))
+        return next(p for p in tries if sum(Fraction(v) ** 2 for v in p) <= Fraction(radius) ** 2)
+    return [corner(i) for i in range(n)]
+
+
+def outside(radius, n):
+    """Of which no edge's line is nearer to the middle than the radius."""
+    ideal = 1 / math.cos(math.pi / n)
+    tries = ([corner_at(i, n, radius, ideal * (1 + give), unit_of(radius, n)) for i in range(n)] for give in shares(n))
+    return next(corners for corners in tries if is_outside([tuple(map(Fraction, p)) for p in corners], Fraction(radius) ** 2))
+
+
+def is_outside(corners, square):
+    for (px, py), (qx, qy) in zip(corners, corners[1:] + corners[:1]):
+        cross = px * qy - py * qx
+        if cross <= 0 or cross * cross < square * ((qx - px) ** 2 + (qy - py) ** 2):
+            return False
+    return True

@@ -22,6 +22,14 @@ def demand(condition, *words):
         raise Refused(" ".join(map(str, words)))
 
 
+def shown(value):
+    """A fraction in a sentence."""
+    try:
+        return float(value)
+    except OverflowError:
+        return "a number beyond doubles"
+
+
 def index(value, n, what):
     demand(0 <= value < n, "there is no", what, value)
     return value
@@ -192,16 +200,19 @@ def no_constant(word):
 
 
 def read_line(text):
-    return json.loads(text, object_pairs_hook=once, parse_constant=no_constant)
+    try:
+        return json.loads(text, object_pairs_hook=once, parse_constant=no_constant)
+    except (ValueError, RecursionError) as why:
+        raise Refused(f"a line that is no JSON: {why}") from None
 
 
 class Proof:
-    """head, blocks (lists of FIDs), conflicts and trees (as the lines have them)."""
+    """head, blocks (lists of FIDs), conflicts and trees (as the lines have them). known: what was read of lines before, by id()."""
 
-    def __init__(self, lines):
+    def __init__(self, lines, known):
         demand(lines, "an empty proof")
         demand(type(lines[0]) is dict and lines[0].get("sunder_proof") == VERSION, "no proof of this version")
-        self.head = head(lines[0], "head")
+        self.head = known.get(id(lines[0])) or head(lines[0], "head")
         found = {key: [] for key in LINES}
         order = list(LINES)
         at = 0
@@ -210,7 +221,7 @@ class Proof:
             demand(key, "line", k, "is of no kind")
             demand(order.index(key) >= at, "line", k, "comes too late: blocks, conflicts, groups")
             at = order.index(key)
-            found[key].append(LINES[key](line, f"line {k}"))
+            found[key].append(known.get(id(line)) or LINES[key](line, f"line {k}"))
         self.blocks = [line["block"] for line in found["block"]]
         self.conflicts, self.trees = found["conflict"], found["group"]
         demand(len(self.conflicts) == self.head["conflicts"] and len(self.trees) == self.head["trees"], "lines are missing")

@@ -63,11 +63,13 @@ class Layer:
 
     def __init__(self, path, name=None, where=None):
         base = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
-        tables = base.execute("SELECT table_name, column_name FROM gpkg_geometry_columns").fetchall()
+        tables = base.execute("SELECT table_name, column_name, srs_id FROM gpkg_geometry_columns").fetchall()
         found = [t for t in tables if name is None or t[0] == name]
         if not found:
             raise SystemExit(f"geopackage.py: {path} has no layer {name}")
-        self.name, column = found[0]
+        self.name, column, srs = found[0]
+        self.crs = base.execute("SELECT organization, organization_coordsys_id FROM gpkg_spatial_ref_sys WHERE srs_id = ?",
+                                (srs,)).fetchone()
         keys = [row[1] for row in base.execute(f"PRAGMA table_info({quoted(self.name)})") if row[5]]
         key = keys[0] if keys else "rowid"
         self.select = f"SELECT * FROM {quoted(self.name)}"

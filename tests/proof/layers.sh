@@ -41,7 +41,8 @@ make_yard() {
 }
 
 make_halves() {
-    printf 'WKT,w\n"POLYGON((0 0,0 1,-19 1,-19 29,0 29,0 30,-20 30,-20 0))",1\n"POLYGON((0 0,20 0,20 30,0 30,0 29,19 29,19 1,0 1))",1\n"POLYGON((-6 24,6 24,0 36))",1\n' |
+    printf 'WKT,w\n"POLYGON((0 0,0 1,-19 1,-19 29,0 29,0 30,-20 30,-20 0))",1\n"POLYGON((0 0,20 0,20 30,0 30,0 29,19 29,19 1,0 1))",1\n%s\n%s\n' \
+        '"POLYGON((-6 21,6 21,1 36,-1 36))",1' '"POLYGON((-9 3,9 3,9 20,-9 20))",1' |
         layer halves.gpkg buildings POLYGON
 }
 
@@ -80,4 +81,23 @@ for k in range(int(sys.argv[1])):
     cut = [(w, h / 3), (w / 3, h / 3), (w / 3, h)] if k % 3 == 0 else [(w, h)]
     ring = ", ".join(f"{x + cos(a) * u - sin(a) * v:.2f} {y + sin(a) * u + cos(a) * v:.2f}" for u, v in [(0, 0), (w, 0)] + cut + [(0, h)])
     print(f"\"POLYGON(({ring}))\",{1 if k in (2, 3, 7) else 100 + k}")' "$1" | layer lying.gpkg buildings POLYGON
+}
+
+# Ten houses: one in another, which may be (--contained ignore); two that stand fast in each other (w = 3); two of one block by k
+# that overlap; one that its limit m holds in another; and three in a row that make room.
+make_mixed() {
+    printf '%s\n' WKT,w,k,m '"POLYGON((0 0,9 0,9 9,0 9))",1,,9' '"POLYGON((2 2,5 2,5 5,2 5))",1,,9' \
+        '"POLYGON((30 0,36 0,36 6,30 6))",3,,9' '"POLYGON((34 3,40 3,40 9,34 9))",3,,9' \
+        '"POLYGON((60 0,70 0,70 8,60 8))",1,1,9' '"POLYGON((67 2,76 2,76 6,67 6))",2,1,9' '"POLYGON((75.5 0,84 0,84 8,75.5 8))",1,,9' \
+        '"POLYGON((100 0,108 0,108 7,100 7))",1,,0.5' '"POLYGON((104 1,112 1,112 6,104 6))",2,,0.25' \
+        '"POLYGON((130 0,138 0,138 7,130 7))",1,,9' | layer mixed.gpkg buildings POLYGON
+}
+
+make_houses() {
+    printf 'WKT,w\n"POLYGON((0 0,10 0,10 10,0 10))",1\n"POLYGON((0 10.5,10 10.5,10 20,0 20))",1\n' |
+        layer houses.gpkg buildings POLYGON
+}
+
+make_through() {
+    printf 'WKT,w\n"LINESTRING(-30 3,40 3)",1\n' | layer through.gpkg through LINESTRING
 }

@@ -5,7 +5,7 @@ from math import isqrt
 
 from bodies import Bodies
 from occupied import MASS, Lattice, in_squares, masses
-from form import demand
+from form import demand, shown
 
 PARTS = 8      # squares of moves are divided in so many, either way
 MOST_NODES = 1 << 26
@@ -31,7 +31,7 @@ class Prices(Bodies):
         paid = sum(self.least(lattice, body, weight) for body, weight in zip(self.bodies, self.weights))
         worth = sum(map(sum, self.grid.price)) << MASS
         proved = (paid - parts * worth) * self.grid.unit * self.grid.side ** 2 / (parts << MASS)
-        demand(proved >= self.bound, "the prices prove", float(proved), "and not", float(self.bound))
+        demand(proved >= self.bound, "the prices prove", shown(proved), "and not", shown(self.bound))
         return self.bound
 
     def least(self, lattice, body, weight):

@@ -5,8 +5,8 @@ import math
 import re
 from fractions import Fraction
 
-from exact import plane, side_anchor
-import anchors
+from exact import anchor, plane, side_anchor
+import discs
 import geopackage
 from cover import hull
 from blocks import Blocks
@@ -31,6 +31,12 @@ class Thing:
         self.edges = [plane.Outline(p).edges for p in self.polygons]
         self.outlines = [plane.Outline(p) for p in self.polygons]
         self.parts = {}
+
+    def demand_apart(self, key):
+        """What several members cover would count as outside, here."""
+        for k, one in enumerate(self.outlines):
+            for other in self.outlines[:k]:
+                demand(not (one.box and other.box and plane.interiors_meet(one, other)), "members overlap, which is not read:", key)
 
     def whole(self):
         return plane.Outline([r for p in self.polygons for r in p], self.lines)
@@ -74,9 +80,12 @@ class Lattice:
 
 
 def symbol_corners(text):
-    """Of square:SIDE, rectangle:WIDTHxHEIGHT, or a WKT polygon without holes, in the layer's units. (The corners of a disc are the
-    program's choice.)"""
+    """Of square:SIDE, rectangle:WIDTHxHEIGHT, disc:RADIUS[:SEGMENTS], inside-disc:, or a WKT polygon without holes, in the layer's
+    units."""
     kind, _, size = text.partition(":")
+    if kind in ("disc", "inside-disc"):
+        radius, _, segments = size.partition(":")
+        return (discs.outside if kind == "disc" else discs.inside)(float(radius), int(segments or 32))
     if kind in ("square", "rectangle"):
         width, height = map(float, size.split("x") if kind == "rectangle" else (size, size))
         return [(x * width / 2, y * height / 2) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
@@ -100,6 +109,7 @@ def place_symbols(layer, corners):
 class Problem:
     def __init__(self, path, options):
         layer = geopackage.Layer(path, options.layer, options.where)
+        self.crs = layer.crs
         if options.symbol:
             self.points = place_symbols(layer, symbol_corners(options.symbol))
         self.name, self.options = layer.name, options
@@ -125,8 +135,10 @@ class Problem:
         self.things = {fid: Thing(self.lattice, f[1], f[2]) for fid, f in layer.features.items()}
         self.attributes = {fid: f[0] for fid, f in layer.features.items()}
         self.place = {fid: k for k, fid in enumerate(layer.features)}
-        self.skipped = self.ignored | {fid for fid, f in layer.features.items() if not any(r for p in f[1] for r in p)}
+        self.skipped = self.ignored | {fid for fid, thing in self.things.items() if not any(o.area for o in thing.outlines)}
         self.owed, self.fixed = {}, fixed
+        for fid, thing in self.things.items():
+            thing.demand_apart(fid)
         self.pairs, self.wholes = set(), {}
         self.listed = {}  # pairs: the kinds of their conflicts
         self.stood = {}   # pairs: see how_it_stood()
@@ -134,6 +146,7 @@ class Problem:
         for key, polygons, lines, width, gap, side in barriers:
             demand(key not in self.things, "two barriers are called", key)
             self.things[key] = Thing(self.lattice, polygons, lines)
+            self.things[key].demand_apart(key)
             self.owed[key] = self.lattice(width / 2) + self.lattice(gap)
             if side:
                 self.sides.add(key)
@@ -144,6 +157,7 @@ class Problem:
     def read_barriers(self, spec):
         words = split_spec(spec)
         layer = geopackage.Layer(words["path"], words.get("layer"), words["where"])
+        demand(layer.crs == self.crs, "barriers in another CRS are not read:", spec)
         for fid, (attributes, polygons, lines) in layer.features.items():
             if words.get("as") == "boundary":
                 polygons, lines = [], lines + [r + r[:1] for p in polygons for r in p]
@@ -173,10 +187,16 @@ class Problem:
     def own_limit(self, fid):
         """A double, or None: no limit. Of what never moves, too."""
         options, found = self.options, self.options.max_shift
-        if options.max_shift_field and self.attributes[fid][options.max_shift_field] is not None:
-            found = float(self.attributes[fid][options.max_shift_field])
+        field = self.number_in(fid, options.max_shift_field)
+        if field is not None:
+            found = field
             demand(0 <= found < math.inf, "the limit of", fid, "is", found)
         return found
+
+    def number_in(self, fid, field):
+        """None: no field, or null, or blank."""
+        value = self.attributes[fid][field] if field else None
+        return None if value is None or value == "" else float(value)
 
     def limit(self, fid):
         return 0.0 if fid in self.fixed or fid in self.skipped else self.own_limit(fid)
@@ -192,8 +212,8 @@ class Problem:
         if options.weight != "1":
             found = self.area(fid) / self.median_area()
             found = math.sqrt(found) if options.weight == "sqrt-area" else found
-        field = self.attributes[fid][options.weight_field] if options.weight_field else None
-        found *= 1.0 if field is None else float(field)
+        field = self.number_in(fid, options.weight_field)
+        found *= 1.0 if field is None else field
         demand(0 < found < math.inf, "the weight of", fid, "is", found)
         return found
 
@@ -312,7 +332,7 @@ class Problem:
 
     def demand_side_anchor(self, key, corners):
         demand(len(corners) == 1 and key in self.things and not self.is_barrier(key), "that is no side anchor of", key)
-        demand(self.side_anchors.setdefault(key, tuple(corners[0])) == tuple(corners[0]), "two side anchors of", key)
+        demand(tuple(corners[0]) == self.side_anchor(key), "that is not the side anchor of", key)
         return (self.lattice.point(corners[0]),)
 
     def side_anchor(self, fid):
@@ -376,12 +396,14 @@ class Problem:
             self.demand_anchor_of(fid, told["anchor"])
 
     def demand_anchor_of(self, fid, told):
-        demand(self.anchors.setdefault(fid, tuple(told)) == tuple(told), "that is not the anchor of", fid)
+        demand(tuple(told) == self.anchor(fid), "that is not the anchor of", fid)
 
     def anchor(self, fid):
         """Doubles, of what the rings enclose, before its corners are rounded."""
         if fid not in self.anchors:
-            self.anchors[fid] = anchors.anchor([members_of(rings) for rings in self.given[fid]])
+            members = [[(ring[k - 1], p) for ring in members_of(rings) for k, p in enumerate(ring)]
+                       for rings in self.given[fid]]
+            self.anchors[fid] = anchor(members, 1)
         return self.anchors[fid]
 
     def may_be_inside(self, a, b, reach):

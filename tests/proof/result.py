@@ -3,7 +3,7 @@ they cost."""
 from fractions import Fraction
 
 import geopackage
-from form import demand
+from form import demand, shown
 
 
 class Result:
@@ -19,7 +19,7 @@ class Result:
         self.check_moves()
         self.check_conflicts(conflicts)
         cost = sum(Fraction(self.problem.weight(fid)) * self.square(fid) for fid in self.moved())
-        demand(total <= cost, "a bound of", float(total), "is more than what the result costs:", float(cost))
+        demand(total <= cost, "a bound of", shown(total), "is more than what the result costs:", shown(cost))
         return f"the result costs {float(cost):.9g}; {compared} anchors are those of the result"
 
     def moved(self):

@@ -4,7 +4,7 @@ from math import isqrt
 
 from bodies import Bodies
 from cover import Piece, clip, is_covered, is_nowhere, line_of, square
-from form import demand, index
+from form import demand, index, shown
 
 
 FINE = 1 << 60  # places that discs are about are rounded to this share of the lattice, and more is asked by that
@@ -140,8 +140,8 @@ class Tree(Bodies):
                 state[k] = [own, regions, len(children[k])]
             elif not empty:
                 value = own if value is None or own < value else value
-        demand(value is None or value >= self.bound, "the tree proves", value and float(value), "and not",
-               float(self.bound))
+        demand(value is None or value >= self.bound, "the tree proves", value and shown(value), "and not",
+               shown(self.bound))
         return self.bound
 
     def check_node(self, k, node, value, regions, siblings):

@@ -1,0 +1,293 @@
+"""Whatever a forger changes in a file of --proof is refused in a sentence, or claims no more than is true:
+
+    python3 forgeries.py RUNS [--draw N] [--seed S] [--need-all] [--own-alone]
+
+RUNS: a JSON list of runs, each with `proof` and the `words` of check_proof.py (--result among them), perhaps `only`: words of the
+lines that are forged. Of each file that holds
+each number is changed, up and down, by a little and by much, to zero, negative, subnormal, huge, infinite, no number; every line,
+member and element is dropped, doubled, swapped with the next, emptied, or made a thing of another kind; indices become -1 and as
+many as there are; and it is handed in for another layer, and with other options. N of all of these are drawn by the seed, or
+all are tried. What is accepted is judged here: by the conflicts that are claimed, the blocks, and by what the result costs, which no
+bound can exceed. With --need-all the runs together have to use every member that the form has.
+"""
+import argparse
+import json
+import math
+import random
+import sys
+from fractions import Fraction
+
+import check_proof
+import form
+
+MARK = "\1"  # stands where what JSON cannot say is written, or what it would not write
+WORDS = {"NaN": "NaN", "Infinity": "Infinity", "-Infinity": "-Infinity", "1e999": "1e999", "-1e400": "-1e400",
+         "many digits": "9" * 5000}
+
+
+class Run:
+    def __init__(self, told):
+        self.words, self.path = told["words"], told["proof"]
+        self.checker = check_proof.Checker(check_proof.read_options([self.path, *self.words]))
+        self.lines = form.read(self.path)
+        self.text = [json.dumps(line) for line in self.lines]
+        self.checker.keep(self.lines)
+        self.only = told.get("only", "")
+        status, self.said = check_proof.answer(self.checker, lambda: self.lines)
+        assert status == 0, f"{self.path}: what is true is {self.said}"
+        self.claims = claims_of(self.lines)
+        result, problem = self.checker.result, self.checker.problem
+        self.cost = sum((Fraction(problem.weight(f)) * result.square(f) for f in result.moved()), Fraction(0))
+
+    def forgeries(self):
+        """(number of the line, path in it, name of the change)"""
+        yield from self.of_lines()
+        for k, line in enumerate(self.lines):
+            if self.only not in self.text[k]:
+                continue
+            sizes = sorted({len(v) for _, v in nodes_of(line) if isinstance(v, list)} | {len(self.lines)})
+            for path, value in nodes_of(line):
+                for name in changes_of(value, sizes) if path else ():
+                    yield k, path, name
+                for name in ("drop", "double", "swap") if path else ():
+                    yield k, path, name
+
+    def of_lines(self):
+        for k in range(len(self.lines)):
+            for name in ("drop", "double", "swap", "empty", "drop and count", "double and count"):
+                yield k, (), name
+
+    def make(self, k, path, name):
+        """The lines, as JSON has them or, where they are changed, as text."""
+        lines = list(self.lines)
+        if path:
+            lines[k] = changed(json.loads(self.text[k]), path, name)
+        elif name == "empty":
+            lines[k] = "{}"
+        elif name == "swap":
+            other = (k + 1) % len(lines)
+            lines[k], lines[other] = lines[other], lines[k]
+        elif name.startswith("drop"):
+            del lines[k]
+        else:
+            lines.insert(k, lines[k])
+        return counted(lines) if name.endswith("count") else lines
+
+    def wrong_with(self, lines):
+        """(None, where it is refused or is no more than true, else what is wrong; whether it is accepted)"""
+        status, said = check_proof.answer(self.checker, lambda: read_lines(lines))
+        if status:
+            in_words = said.startswith("refused: ") and "not in the form of a proof" not in said
+            return None if status == 1 and in_words else f"refused with {status}, and not in a sentence: {said}", False
+        return self.more_than_true(claims_of(read_lines(lines))), True
+
+    def more_than_true(self, found):
+        if found["bound"] > self.cost:
+            return f"a bound of {float(found['bound'])} where the result costs {float(self.cost)}"
+        for key in ("blocks", "conflicts"):
+            if found[key] != self.claims[key]:
+                return f"other {key}"
+        more = found["crowded"] - self.claims["crowded"]
+        return f"crowded: {more}" if more else None
+
+
+def read_lines(lines):
+    return [form.read_line(line) if isinstance(line, str) else line for line in lines]
+
+
+def claims_of(lines):
+    conflicts = [line for line in lines if "conflict" in line]
+    pairs = {key(c): (c["kind"], c["reason"], sorted(map(str, c["blocked_by"]))) for c in conflicts}
+    return {"bound": Fraction(lines[0]["lower_bound"]), "conflicts": pairs,
+            "crowded": {key(c) for c in conflicts if c.get("crowded")},
+            "blocks": {tuple(line["block"]) for line in lines if "block" in line}}
+
+
+def key(conflict):
+    return tuple(sorted((str(conflict["a"]), str(conflict["b"]))))
+
+
+def counted(lines):
+    """With numbers of conflicts and trees that are those of the lines."""
+    told = json.loads(json.dumps(lines))
+    if told and "sunder_proof" in told[0]:
+        told[0]["conflicts"] = sum("conflict" in t for t in told[1:])
+        told[0]["trees"] = sum("group" in t for t in told[1:])
+    for k, t in enumerate(t for t in told if "conflict" in t):
+        t["conflict"] = k
+    groups = sorted({t["group"] for t in told if "group" in t})
+    for t in told:
+        if "group" in t:
+            t["group"] = groups.index(t["group"])
+    return told
+
+
+# ---- Values, and what becomes of them
+
+def nodes_of(value, path=()):
+    yield path, value
+    if isinstance(value, dict):
+        for k, v in value.items():
+            yield from nodes_of(v, (*path, k))
+    elif isinstance(value, list):
+        for k, v in enumerate(value):
+            yield from nodes_of(v, (*path, k))
+
+
+def changes_of(value, sizes):
+    """Names of changes; a value that is the same afterwards is no forgery, and is left out where it is made."""
+    if type(value) in (int, float):
+        found = ["up", "down", "more", "less", "twice", "half", "minus", "zero", "least", "least below", "most", "most below",
+                 "true", "text", "null", "list", *WORDS]
+        return found + (["next", "before", "minus one", *(f"size {n}" for n in sizes)] if type(value) is int else [])
+    return ["empty", "null", "number", "true", "list of it"] + (["other word"] if isinstance(value, str) else [])
+
+
+CHANGES = {
+    "up": lambda v: math.nextafter(v, math.inf), "down": lambda v: math.nextafter(v, -math.inf),
+    "more": lambda v: v + abs(v) * 2 ** -20 + 2 ** -30, "less": lambda v: v - abs(v) * 2 ** -20 - 2 ** -30,
+    "twice": lambda v: 2 * v, "half": lambda v: v / 2, "minus": lambda v: -v, "zero": lambda v: 0, "least": lambda v: 5e-324,
+    "least below": lambda v: -5e-324, "most": lambda v: 1.7e308, "most below": lambda v: -1.7e308, "true": lambda v: True,
+    "text": str, "null": lambda v: None, "list": lambda v: [v], "next": lambda v: v + 1, "before": lambda v: v - 1,
+    "minus one": lambda v: -1, "number": lambda v: 1, "list of it": lambda v: [v], "empty": lambda v: type(v)(),
+    "other word": lambda v: {"overlap": "too_close", "too_close": "overlap", "barrier": "barrier_near", "hull": "disc", "disc": "hull",
+                             "cone": "disc", "limit": "disc", "max_shift": "no_room", "no_room": "unresolved",
+                             "unresolved": "no_room"}.get(v, "max_shift")}
+
+
+def changed(line, path, name):
+    """The line as text, one place of it changed."""
+    at = line
+    for step in path[:-1]:
+        at = at[step]
+    last = path[-1]
+    if name == "drop":
+        del at[last]
+    elif name == "double":
+        if isinstance(at, list):
+            at.insert(last, at[last])
+        else:
+            value, key = json.dumps(at[last]), json.dumps(last)
+            at[last] = MARK
+            return json.dumps(line).replace(f"{key}: {json.dumps(MARK)}", f"{key}: {value}, {key}: {value}")
+    elif name == "swap":
+        keys = list(at) if isinstance(at, dict) else range(len(at))
+        other = keys[(list(keys).index(last) + 1) % len(keys)]
+        at[last], at[other] = at[other], at[last]
+    elif name in WORDS:
+        at[last] = MARK
+        return json.dumps(line).replace(json.dumps(MARK), WORDS[name])
+    elif name.startswith("size "):
+        at[last] = int(name[5:])
+    else:
+        at[last] = CHANGES[name](at[last])
+    return json.dumps(line)
+
+
+# ---- Other layers, other options
+
+def other_options(words):
+    """Words of a run that is another."""
+    words = list(words)
+    for extra in (["--gap", "0.75"], ["--gap", "2.5"], ["--max-shift", "0.25"], ["--max-shift", "1000"], ["--fixed-where", "fid = 1"],
+                  ["--ignore-where", "fid = 1"], ["--no-blocks"], ["--allow-jumps"], ["--contained", "ignore"], ["--weight", "area"],
+                  ["--touch-tolerance", "0.01"], ["--layer", "nowhere"]):
+        yield words + extra  # the last of an option counts
+    for k, word in enumerate(words):
+        if word == "--barrier":
+            yield words[:k] + words[k + 2:]
+            for more in ("gap=7", "width=9", "side=no", "as=boundary"):
+                yield words[:k + 1] + [words[k + 1] + "," + more] + words[k + 2:]
+
+
+def strangers(runs):
+    """(what, function that says what is wrong)"""
+    for run in runs:
+        for other in runs:
+            if other is not run:
+                yield f"{run.path} for {other.path}", lambda r=run, o=other: o.wrong_with(r.lines)[0]
+        for words in other_options(run.words):
+            yield f"{run.path} with {' '.join(words)}", lambda r=run, w=words: wrong_with_options(r, w)
+
+
+def wrong_with_options(run, words):
+    """Without the result, which is of the true options. What is accepted, of the same problem by all that decides, claims what
+    is true of it."""
+    at = words.index("--result")
+    words = words[:at] + words[at + 2:]
+    try:
+        checker = check_proof.Checker(check_proof.read_options([run.path, *words]))
+    except (form.Refused, SystemExit):
+        return None
+    status, said = check_proof.answer(checker, lambda: form.read(run.path))
+    if status:
+        return None if said.startswith("refused: ") and "not in the form" not in said else f"not in a sentence: {said}"
+    return None if asks_no_less(run, run.checker.problem, checker.problem) else f"accepted: {said}"
+
+
+def asks_no_less(run, own, other):
+    """Is what may be done with the other options no more than with its own, and no cheaper? Then what is true of these is of those."""
+    def most(limit):
+        return math.inf if limit is None else limit
+    text = "".join(run.text)
+    return (other.blocks.of == own.blocks.of and other.options.gap >= own.options.gap and
+            all(most(other.limit(f)) <= most(own.limit(f)) for f in own.place) and
+            (run.claims["bound"] == 0 or all(other.weight(f) >= own.weight(f) for f in own.place)) and
+            all(other.owed.get(k, -1) >= v for k, v in own.owed.items() if k in text) and
+            ('"shadow"' not in text or own.sides <= other.sides))
+
+
+def members_of(runs):
+    """Every member of every kind of object, without places in lists."""
+    return {".".join(str(s) for s in path if not isinstance(s, int)) for run in runs for line in run.lines
+            for path, _ in nodes_of(line) if path}
+
+
+MEMBERS = """sunder_proof layer gap max_shift contained allow_jumps lower_bound conflicts trees block conflict a b kind reason blocked_by
+inside_block within proof proof.a proof.b proof.A proof.B proof.ways proof.ways.n proof.ways.d proof.ways.next proof.forces
+proof.forces.node proof.forces.way proof.forces.behind proof.forces.force proof.slack proof.held proof.shadow proof.clearance proof.c
+proof.side_b proof.side_c proof.still group bound bodies bodies.features bodies.features.fid bodies.features.weight
+bodies.features.max_shift bodies.features.anchor bodies.barrier bodies.weight bodies.shift pieces pieces.i pieces.j pieces.a pieces.b
+pieces.A pieces.B pieces.shadow pieces.clearance nodes nodes.parent nodes.cuts nodes.cuts.kind nodes.cuts.i nodes.cuts.j nodes.cuts.n
+nodes.cuts.d nodes.cuts.pieces nodes.forces nodes.by nodes.empty nodes.empty.i nodes.empty.j nodes.empty.pieces prices prices.side
+prices.unit prices.x prices.y prices.columns prices.rows crowded""".split()
+
+
+def main(words):
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("runs")
+    parser.add_argument("--draw", type=int)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--need-all", action="store_true")
+    parser.add_argument("--own-alone", action="store_true", help="not for other layers, nor with other options")
+    options = parser.parse_args(words)
+    with open(options.runs, encoding="utf-8") as file:
+        runs = [Run(told) for told in json.load(file)]
+    wrong = []
+    if options.need_all:
+        wrong += [f"no run has {name}" for name in MEMBERS if name not in members_of(runs)]
+    drawn = [(k, what) for k, run in enumerate(runs) for what in run.forgeries()]
+    every = len(drawn)
+    if options.draw:
+        drawn = random.Random(options.seed).sample(drawn, min(options.draw, len(drawn)))
+    accepted = 0
+    for k, what in drawn:
+        said, is_accepted = runs[k].wrong_with(runs[k].make(*what))
+        accepted += is_accepted
+        if said:
+            wrong.append(f"{runs[k].path}, line {what[0] + 1}, {'.'.join(map(str, what[1]))}, {what[2]}: {said}")
+    others = 0
+    for what, ask in () if options.own_alone else strangers(runs):
+        others += 1
+        said = ask()
+        if said:
+            wrong.append(f"{what}: {said}")
+    for line in wrong[:40]:
+        print(line)
+    print(f"{len(drawn)} of {every} forgeries by seed {options.seed}, {others} of other layers and options: {len(wrong)} wrong; "
+          f"{accepted} claim no more than is true")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
