@@ -393,44 +393,75 @@ static void add_shadows_of_others(const others *all, sunder_i_obstacles *o, cons
     }
 }
 
-/* The free place nearest to `home`, no farther than reach; shadows are asked for where one is found in them. */
-static bool find_among(others *all, const double home[2], double reach, double place[2])
+/* The free places nearest to `home`, at most `most` of them and no farther than reach; shadows are asked for where the
+ * nearest one is in them. */
+static size_t find_among(others *all, const double home[2], double reach, size_t most, double (*place)[2])
 {
     sunder_i_search *s = all->search;
-    double best[1][2];
     size_t n = 0;
     sunder_i_obstacles *o = &s->obstacles;
     sunder_i_obstacles_clear(o);
     surround(all, o, home, reach);
     for (int shadows = 0; shadows < 2; shadows++) {
-        n = sunder_i_free_places(o, home, reach, 0, 1, best, &s->steps, &s->failed);
-        if (n == 0 && o->n && outside_all(o, home, reach, best[0])) n = 1;
-        if (n == 0 || shadows || s->failed || !is_shaded_by_others(all, best[0])) break;
+        n = sunder_i_free_places(o, home, reach, 0, most, place, &s->steps, &s->failed);
+        if (n == 0 && o->n && outside_all(o, home, reach, place[0])) n = 1;
+        if (n == 0 || shadows || s->failed || !is_shaded_by_others(all, place[0])) break;
         add_shadows_of_others(all, o, home, reach);
     }
     s->failed = s->failed || o->failed;
-    if (n) memcpy(place, best[0], sizeof best[0]);
-    return n > 0;
+    return n;
 }
 
-bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, double place[2])
+/* Does body i clash with nothing there? All that it was told of beforehand is asked. */
+static bool is_clear_at(sunder_i_search *s, uint32_t i, const double place[2])
+{
+    const double stood[2] = {s->t[2 * i], s->t[2 * i + 1]};
+    memcpy(s->t + 2 * (size_t)i, place, sizeof stood);
+    const bool clear = sunder_i_search_look(s, s->t) <= s->tolerance;
+    memcpy(s->t + 2 * (size_t)i, stood, sizeof stood);
+    return clear;
+}
+
+/* The free place nearest to where body i began, no farther than `all`, or a little, and within a limit. clear: the
+ * nearest of several where it clashes with nothing; between shadows with a common corner there is a ray in neither. */
+static bool find_free_place(sunder_i_search *s, uint32_t i, double limit, double all, bool clear, double place[2])
 {
     const sunder_i_body *p = &s->model->body[s->body[i]];
-    const double home[2] = {0, 0};
-    const sunder_i_rtree *tree = s->model->standing;
-    const double now = hypot(s->t[2 * i], s->t[2 * i + 1]);
-    double all = BEYOND_ALL * (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(p->box) + s->gap);
-    if (!s->model->rules.jumps)
-        all = sunder_i_min(all, now + FARTHEST_LEAP * (sunder_i_min(extent(p->box), s->extent) + s->gap));
+    const double home[2] = {0, 0}, now = hypot(s->t[2 * i], s->t[2 * i + 1]);
     for (double reach = 2 * s->gap + sunder_i_max(now, BODY_REACH * extent(p->box));; reach *= BODY_GROWTH) {
         if (reach > limit) reach = limit;
         others about = {.search = s, .i = i};
         const double r = reach + s->gap, box[4] = {p->box[0] - r, p->box[1] - r, p->box[2] + r, p->box[3] + r};
         if (!find_others(s, p, box, &about.foreign) || !sunder_i_search_about(s, i, r)) s->failed = true;
-        const bool found = !s->failed && find_among(&about, home, reach, place);
+        double places[MOST_PLACES][2];
+        size_t n = s->failed ? 0 : find_among(&about, home, reach, clear ? MOST_PLACES : 1, places), k = 0;
+        while (clear && k < n && !s->failed && !is_clear_at(s, i, places[k])) k++;
+        const bool found = k < n;
+        if (found) memcpy(place, places[k], sizeof places[k]);
         sunder_i_free(about.foreign.item);
         if (!sunder_i_look()) s->failed = true;
         if (found || s->failed) return found && !s->failed;
         if (reach >= limit || reach > all || !(reach > 0)) return false;
     }
+}
+
+static double beyond_all(const sunder_i_search *s, uint32_t i)
+{
+    const sunder_i_rtree *tree = s->model->standing;
+    return BEYOND_ALL *
+           (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(s->model->body[s->body[i]].box) + s->gap);
+}
+
+bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, double place[2])
+{
+    const double now = hypot(s->t[2 * i], s->t[2 * i + 1]), size = extent(s->model->body[s->body[i]].box);
+    double all = beyond_all(s, i);
+    if (!s->model->rules.jumps)
+        all = sunder_i_min(all, now + FARTHEST_LEAP * (sunder_i_min(size, s->extent) + s->gap));
+    return find_free_place(s, i, limit, all, false, place);
+}
+
+bool sunder_i_search_free_body_anywhere(sunder_i_search *s, uint32_t i, double place[2])
+{
+    return find_free_place(s, i, INFINITY, beyond_all(s, i), true, place);
 }

@@ -79,6 +79,25 @@ static bool find_free_from_lifted(sunder_i_search *s, const sunder_i_cluster *cl
     return find_free(s, cluster);
 }
 
+/* One body alone among barriers and what is fixed, without a limit, in the nearest free place in its sight, however far
+ * that is: such as a symbol in a long arm of an area, whose room is where the arm begins. */
+static bool find_free_alone(sunder_i_search *s, const sunder_i_cluster *cluster)
+{
+    uint32_t mover = 0, movers = 0;
+    double place[2];
+    for (uint32_t k = 0; k < s->n; k++)
+        if (s->mass[k] > 0) {
+            mover = k;
+            movers++;
+        }
+    if (!s->model->barriers || s->model->barriers->parts == 0 || !cluster->limited || cluster->brief || movers != 1 ||
+        sunder_i_search_limit(s, mover) < INFINITY || !sunder_i_search_free_body_anywhere(s, mover, place))
+        return false;
+    memcpy(s->t + 2 * (size_t)mover, place, sizeof place);
+    s->program.n = 0;
+    return sunder_i_search_descend(s);
+}
+
 /* A crowd begins apart as far as its area needs it to be, and nobody far from home by chance. */
 static sunder_status begin_crowd(sunder_i_search *s, const sunder_i_cluster *cluster, sunder_error *err)
 {
@@ -101,6 +120,7 @@ static sunder_status find_solution(sunder_i_search *s, const sunder_i_cluster *c
     if (!*done && !s->failed && cluster->brief) *done = find_free_but_for_margins(s, cluster, move);
     if (!*done && !s->failed) *done = find_free_from_lifted(s, cluster);
     if (!*done && !s->failed) *done = sunder_i_search_spread(s);
+    if (!*done && !s->failed) *done = find_free_alone(s, cluster);
     return SUNDER_OK;
 }
 

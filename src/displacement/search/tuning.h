@@ -190,6 +190,8 @@
 #define BODY_GROWTH 2
 /* Nothing is farther off than so many times the sizes of all there is. */
 #define BEYOND_ALL 4
+/* So many places are tried for one that is alone among what stands still. */
+#define MOST_PLACES 16
 /* Where nobody may jump, what is in sight of a body between its neighbours narrows with the distance: a place is looked
  * for no farther off than so many times the body, or the mean one of the cluster, and the gap. */
 #define FARTHEST_LEAP 8
