@@ -69,6 +69,7 @@ static bool resume(gis_separate_run *run, const gis_planned *planned, const char
                                error) &&
            gis_plan_check(plan, &run->parts, true, error) && all_there(&run->parts, plan, error) &&
            gis_in_parts_open(&run->parts, false, &run->input, error) &&
+           gis_in_parts_look_at_barriers(&run->parts, &run->input, error) &&
            gis_destinations_spare(&run->to, run->input.source, error);
 }
 

@@ -4,6 +4,7 @@
 #include "commands/commands.h"
 #include "commands/planned.h"
 #include "commands/resolve.h"
+#include "layer/checksum.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -47,7 +48,8 @@ static bool compare_with_former(plan_run *run, gis_error *error)
     if (done && !gis_plan_same_call(&former, &run->planned.plan))
         done = gis_fail(error, "%s: there is a plan of another call already; remove it, or give another name",
                         run->directory);
-    if (done && (done = gis_layer_checksum(&run->request, &checksum, error)) && checksum != former.facts.checksum)
+    done = done && gis_layer_checksum(&run->request, &former.facts.source, &checksum, error);
+    if (done && checksum != former.facts.checksum)
         done = gis_fail(error,
                         "%s: there is a plan already, of %s as it was before it changed; remove it, or give "
                         "another name",

@@ -280,6 +280,27 @@ const char *gis_in_parts_scratch(gis_in_parts *p, gis_error *error)
     return make_directory(p, p->directory, error) ? p->scratch : NULL;
 }
 
+/* Their spool has the same checksum if they are the same. */
+bool gis_in_parts_look_at_barriers(gis_in_parts *p, const gis_layer_input *input, gis_error *error)
+{
+    if (p->request->barriers == 0) return true;
+    if (!gis_in_parts_scratch(p, error)) return false;
+    gis_spooled_barriers now = {0};
+    gis_error why = {0};
+    const bool read = gis_layer_spool_barriers(input, p->facts.barrier_reach, p->spool, p->scratch, &why) &&
+                      gis_barriers_open(p->scratch, &now, &why);
+    if (!read)
+        gis_say_warning(GIS_MESSAGE_INPUT, "whether barriers have changed since the plan was made is not known: %s",
+                        why.message);
+    else if (gis_spool_checksum(now.all) != gis_spool_checksum(p->barriers.all))
+        gis_say_warning(GIS_MESSAGE_INPUT,
+                        "barriers have changed since the plan was made (%s%s); moves and conflicts are those beside "
+                        "the barriers as they were; make the plan anew for others",
+                        p->request->barrier[0].dataset, p->request->barriers > 1 ? ", or another of them" : "");
+    gis_barriers_close(&now);
+    return gis_go_on(error);
+}
+
 bool gis_in_parts_solve(gis_in_parts *p, uint64_t options, sunder_layer_summary *summary, gis_error *error)
 {
     gis_progress silent;

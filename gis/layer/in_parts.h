@@ -62,6 +62,9 @@ bool gis_in_parts_state(const gis_in_parts *parts, unsigned k, uint64_t options,
 
 /* As gis_layer_input_read(), but for shapes, demands and the layer. whole: the source is not read by batches. */
 bool gis_in_parts_open(gis_in_parts *parts, bool whole, gis_layer_input *out, gis_error *error);
+/* Reads the barriers once more, and warns where they are not what the plan was made of, which its moves heed. False: a
+ * signal has come, or the directory for it cannot be made. */
+bool gis_in_parts_look_at_barriers(gis_in_parts *parts, const gis_layer_input *input, gis_error *error);
 /* The directory for what goes in the end, made if it is not there; NULL: it cannot be. */
 const char *gis_in_parts_scratch(gis_in_parts *parts, gis_error *error);
 /* Of all shards, whose files are there. */

@@ -4,8 +4,8 @@
 
 #include "base/array.h"
 #include "base/interrupt.h"
+#include "layer/checksum.h"
 #include "layer/output.h"
-#include "read/source_checksum.h"
 #include "spool/file.h"
 
 #include <cpl_conv.h>
@@ -63,39 +63,43 @@ static bool pass(passing *at, const gis_source *source, size_t i, gis_sink_layer
 /* The features are read a second time; others than the first time have no place in what was made of those. */
 static bool input_changed(const gis_source *source, gis_error *error)
 {
-    return gis_fail(error, "%s: features were changed, added or removed since the layer was read",
+    return gis_fail(error,
+                    "%s: features were changed, added or removed since the layer was read, or what the options ask of "
+                    "their fields",
                     gis_source_path(source));
 }
 
-static bool begin_batch(passing *at, const gis_source *source, uint64_t *checksum, gis_error *error)
+static bool begin_batch(passing *at, const gis_layer_input *input, gis_layer_checksums *sums, gis_error *error)
 {
+    const gis_source *source = input->source;
     const size_t first = gis_source_first(source), n = gis_source_count(source);
     if (first + n > at->parts->facts.source.features) return input_changed(source, error);
-    if (!gis_source_checksum(source, checksum, error)) return false;
+    if (!gis_layer_checksums_add(sums, input, error)) return false;
     if (!gis_array_reserve(&at->alone, &at->room, n, sizeof *at->alone)) return gis_no_memory(error);
     return gis_spool_file_read(&at->status, first, at->alone, n, error);
 }
 
 /* All features go by, as blocks are called by FIDs that are known then; and are written, if layer is not NULL. */
-static bool write_main(gis_in_parts *p, gis_source *source, gis_sink_layer *layer, gis_error *error)
+static bool write_main(gis_in_parts *p, const gis_layer_input *input, gis_sink_layer *layer, gis_error *error)
 {
+    gis_source *source = input->source;
+    gis_layer_checksums sums = {0};
     passing at = {.parts = p};
     bool any = true;
-    uint64_t checksum = 0;
     p->block_fid = malloc((p->joined.blocks + 1) * sizeof *p->block_fid);
     if (!p->block_fid) return gis_no_memory(error);
     gis_sorted_again(&p->joined.rows);
     bool done = gis_spool_file_open(&at.status, p->directory, "status", error) &&
                 gis_sorted_next(&p->joined.rows, &at.any, error);
     while (done && any) {
-        done = begin_batch(&at, source, &checksum, error);
+        done = begin_batch(&at, input, &sums, error);
         for (size_t i = 0; i < gis_source_count(source) && done; i++) done = pass(&at, source, i, layer, error);
         any = !p->whole;
         if (any) done = done && gis_source_next(source, &any, error);
     }
     gis_spool_file_close(&at.status);
     free(at.alone);
-    if (done && checksum != p->facts.checksum) return input_changed(source, error);
+    if (done && gis_layer_checksums_end(&sums) != p->facts.checksum) return input_changed(source, error);
     return done;
 }
 
@@ -238,7 +242,7 @@ bool gis_in_parts_write(gis_in_parts *p, const gis_layer_input *input, const gis
     gis_sink_layer *layer = NULL;
     const OGRFieldType id = p->facts.id_type;
     if (layers->main && !gis_main_begin(sink, &layer, error)) return false;
-    if (!write_main(p, input->source, layer, error)) return false;
+    if (!write_main(p, input, layer, error)) return false;
     if (layers->displacement &&
         (!gis_displacement_begin(sink, id, crs, &layer, error) || !write_displacement(p, layer, error)))
         return false;

@@ -6,9 +6,9 @@
 #include "base/array.h"
 #include "base/box.h"
 #include "base/message.h"
+#include "layer/checksum.h"
 #include "layer/output.h"
 #include "read/crs_units.h"
-#include "read/source_checksum.h"
 #include "spool/file.h"
 
 #include <cpl_conv.h>
@@ -33,6 +33,7 @@ typedef struct spooling {
     double *areas, median; /* of those that count, where weights ask for it */
     size_t n_areas, room;
     double shapes[4]; /* box of all shapes */
+    gis_layer_checksums sums;
 } spooling;
 
 /* ---- One batch --------------------------------------------------------------------------------------------------- */
@@ -203,13 +204,35 @@ static bool read_batches(spooling *s, const gis_layer_input_request *request, co
         !gis_spool_file_create(&s->status, directory, "status.part", error))
         return false;
     for (bool any = true; any;)
-        if (!gis_source_checksum(input->source, &s->facts->checksum, error) || !take_demands(s, error) ||
+        if (!gis_layer_checksums_add(&s->sums, input, error) || !take_demands(s, error) ||
             !add_batch(s, error) || !gis_source_next(input->source, &any, error))
             return false;
+    s->facts->checksum = gis_layer_checksums_end(&s->sums);
     if (!gis_source_find_facts(input->source, &s->facts->source, error)) return false;
     *again = (request->rules.ignore_where || request->rules.fixed_where) && !s->facts->source.fids_unique &&
              !request->source.fids_mean_nothing && !gis_source_is_result(input->source);
     return true;
+}
+
+bool gis_layer_spool_barriers(const gis_layer_input *input, double reach, gis_spool *features, const char *directory,
+                              gis_error *error)
+{
+    const gis_layer_input_request *request = input->request;
+    gis_barrier_targets *targets = gis_barrier_targets_of_spool(features);
+    const gis_barrier_surroundings around = {
+        .crs = gis_source_crs(input->source),
+        .units = &input->units,
+        .targets = targets,
+        .reach = reach,
+        .gap = input->gap,
+        .invalid = request->invalid,
+        .output = request->output,
+        .update = request->update,
+    };
+    const bool done = (targets || gis_no_memory(error)) &&
+                      gis_barriers_spool(request->barrier, request->barriers, &around, directory, error);
+    gis_barrier_targets_free(targets);
+    return done;
 }
 
 /* Those within reach of what is in the spool now. */
@@ -221,20 +244,7 @@ static bool spool_barriers(spooling *s, const char *directory, gis_error *error)
     if (request->barriers == 0) return true;
     if (!gis_spool_open(directory, &spool, error)) return false;
     s->facts->barrier_reach = gis_layer_barrier_reach(request->moves ? s->facts->longest_limit : 0);
-    gis_barrier_targets *targets = gis_barrier_targets_of_spool(spool);
-    const gis_barrier_surroundings around = {
-        .crs = gis_source_crs(s->input.source),
-        .units = &s->input.units,
-        .targets = targets,
-        .reach = s->facts->barrier_reach,
-        .gap = s->input.gap,
-        .invalid = request->invalid,
-        .output = request->output,
-        .update = request->update,
-    };
-    const bool done = (targets || gis_no_memory(error)) &&
-                      gis_barriers_spool(request->barrier, request->barriers, &around, directory, error);
-    gis_barrier_targets_free(targets);
+    const bool done = gis_layer_spool_barriers(&s->input, s->facts->barrier_reach, spool, directory, error);
     gis_spool_close(spool);
     return done;
 }
@@ -294,17 +304,4 @@ void gis_layer_facts_clear(gis_layer_facts *facts)
 {
     CPLFree(facts->name);
     facts->name = NULL;
-}
-
-bool gis_layer_checksum(const gis_layer_input_request *request, uint64_t *checksum, gis_error *error)
-{
-    gis_layer_input_request by_batches = *request;
-    gis_layer_input input = {0};
-    by_batches.source.batch = BATCH;
-    *checksum = 0;
-    bool done = gis_layer_begin(&by_batches, true, &input, error), any = true;
-    while (done && any)
-        done = gis_source_checksum(input.source, checksum, error) && gis_source_next(input.source, &any, error);
-    gis_layer_input_clear(&input);
-    return done;
 }

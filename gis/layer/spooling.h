@@ -24,7 +24,7 @@ typedef struct gis_layer_facts {
     size_t vertices;       /* of all shapes, cleaned: as sunder_layer_summary counts them */
     double box[4];         /* of all that conflicts with anything; box[0] > box[2]: nothing does */
     bool multi;            /* a shape has several members: symbols are written as MultiPolygons */
-    uint64_t checksum;     /* of all FIDs and geometries that were read (gis_source_checksum()) */
+    uint64_t checksum;     /* of all that decides the moves, as it was read (checksum.h) */
     gis_together together; /* the largest lot that hangs together as the layer stands, or more than that (in_parts.c) */
 } gis_layer_facts;
 
@@ -41,7 +41,8 @@ typedef struct gis_layer_facts {
 bool gis_layer_spool(const gis_layer_input_request *request, unsigned shards, const char *directory,
                      gis_layer_facts *facts, gis_error *error);
 void gis_layer_facts_clear(gis_layer_facts *facts);
-/* The checksum alone, as it is now: the layer is read, and that is all. */
-bool gis_layer_checksum(const gis_layer_input_request *request, uint64_t *checksum, gis_error *error);
+/* The barriers within reach of these features alone, as they are now, into `barriers` of a directory. */
+bool gis_layer_spool_barriers(const gis_layer_input *input, double reach, gis_spool *features, const char *directory,
+                              gis_error *error);
 
 #endif
