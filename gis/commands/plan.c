@@ -9,9 +9,8 @@
 #include <stdio.h>
 #include <unistd.h>
 
-/* A process takes no more unless --max-memory says so; and more shards than this want their files another way. */
+/* A process takes no more unless --max-memory says so. */
 static const double usual_memory = 1e9;
-enum { MOST_SHARDS = 100000 };
 
 typedef struct plan_run {
     const char *directory;
@@ -27,8 +26,8 @@ static bool read_call(plan_run *run, const gis_options *options, gis_error *erro
     gis_plan *plan = &run->planned.plan;
     if (!options->given[OPT_SHARDS])
         return gis_fail_usage(error, "--shards N is missing: into how many the layer is to be cut");
-    if (!(options->number[OPT_SHARDS] >= 1 && options->number[OPT_SHARDS] <= MOST_SHARDS))
-        return gis_fail_usage(error, "--shards: 1 to %d", MOST_SHARDS);
+    if (!(options->number[OPT_SHARDS] >= 1 && options->number[OPT_SHARDS] <= GIS_PLAN_MOST_SHARDS))
+        return gis_fail_usage(error, "--shards: 1 to %d", GIS_PLAN_MOST_SHARDS);
     plan->shards = (unsigned)options->number[OPT_SHARDS];
     if (!gis_resolve_memory(options, &plan->memory, error)) return false;
     if (plan->memory == 0) plan->memory = usual_memory;

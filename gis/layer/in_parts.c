@@ -100,6 +100,8 @@ static void choose_options(gis_in_parts *p)
 static bool open_spool(gis_in_parts *p, double memory, gis_error *error)
 {
     const bool done = gis_spool_open(p->directory, &p->spool, error) &&
+                      (gis_spool_shards(p->spool) == units_of(p->shards) ||
+                       gis_fail(error, "%s: its cells are dealt to other shards; make the plan anew", p->directory)) &&
                       (p->request->barriers == 0 || gis_barriers_open(p->directory, &p->barriers, error)) &&
                       choose_parts(p, memory, error) &&
                       gis_layout_make(p->spool, p->facts.gap, p->request->rules.block_field != NULL, &p->layout, error);
@@ -229,6 +231,13 @@ bool gis_in_parts_shard(gis_in_parts *p, unsigned k, uint64_t options, gis_progr
     return done;
 }
 
+static bool open_shard(const gis_in_parts *p, const gis_part_stamp *stamp, gis_part_file *file, gis_error *error)
+{
+    const bool done = gis_part_file_open(file, p->directory, stamp, error);
+    file->places = p->facts.source.features + (p->barriers.all ? gis_spool_features(p->barriers.all) : 0);
+    return done;
+}
+
 static bool is_sound(gis_part_file *file, gis_error *error)
 {
     gis_part_result one = {0};
@@ -250,8 +259,7 @@ bool gis_in_parts_state(const gis_in_parts *p, unsigned k, uint64_t options, gis
     const bool missing = access(path, F_OK) != 0 && errno == ENOENT;
     CPLFree(path);
     if (missing) return true;
-    *state =
-        gis_part_file_open(&file, p->directory, &stamp, why) && is_sound(&file, why) ? GIS_SHARD_DONE : GIS_SHARD_WRONG;
+    *state = open_shard(p, &stamp, &file, why) && is_sound(&file, why) ? GIS_SHARD_DONE : GIS_SHARD_WRONG;
     gis_part_file_close(&file);
     return gis_go_on(error);
 }
@@ -264,7 +272,7 @@ static bool join_files(gis_in_parts *p, uint64_t options, gis_error *error)
     bool done = file || gis_no_memory(error);
     for (unsigned k = 0; k < p->shards && done; k++) {
         const gis_part_stamp stamp = stamp_of(p, k + 1, options);
-        done = gis_part_file_open(&file[k], p->directory, &stamp, error);
+        done = open_shard(p, &stamp, &file[k], error);
     }
     done = done && gis_parts_join(&p->layout, file, p->shards, p->scratch, &p->joined, error);
     for (unsigned k = 0; k < p->shards && file; k++) gis_part_file_close(&file[k]);

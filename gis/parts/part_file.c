@@ -5,6 +5,7 @@
 #include "base/abandoned.h"
 #include "base/array.h"
 #include "base/box.h"
+#include "parts/sound.h"
 #include "spool/checksum.h"
 #include "spool/index.h"
 #include "spool/record.h"
@@ -232,14 +233,15 @@ bool gis_part_file_read(gis_part_file *file, size_t k, gis_part_result *to, gis_
 {
     const gis_part_chunk *chunk = &file->chunk[k];
     bool sound = false;
-    if (chunk->bytes > file->file.size) return cut_off(file, error);
+    const uint64_t size = file->file.size;
+    if (chunk->bytes > size || chunk->from > size - chunk->bytes) return cut_off(file, error);
     if (!room_for(file, (size_t)chunk->bytes, error) ||
         !gis_spool_file_read(&file->file, chunk->from, file->bytes, (size_t)chunk->bytes, error))
         return false;
     if (gis_spool_checksum_of(0, file->bytes, (size_t)chunk->bytes) == chunk->checksum &&
         !gis_part_result_load(to, file->bytes, (size_t)chunk->bytes, &sound, error))
         return false;
-    return sound || altered(file, error);
+    return (sound && gis_part_result_is_sound(to, file->places)) || altered(file, error);
 }
 
 static bool check_lines(gis_part_file *file, const gis_part_chunk *chunk, gis_error *error)
@@ -262,6 +264,8 @@ bool gis_part_file_fetch(gis_part_file *file, size_t n, gis_part_result *to, gis
     if (line->file == 0 || line->bytes == 0) return true;
     if (line->file > n)
         return gis_fail(error, "a line of the proof is of shard %" PRIu64 ", which is none", line->file);
+    const uint64_t size = file[line->file - 1].file.size;
+    if (line->bytes > size || line->from > size - line->bytes) return altered(&file[line->file - 1], error);
     const size_t bytes = (size_t)line->bytes;
     if (!GIS_PART_MORE(to, line, lines, bytes, error) ||
         !gis_spool_file_read(&file[line->file - 1].file, line->from, (unsigned char *)to->line + to->lines, bytes,

@@ -32,6 +32,7 @@ typedef struct gis_part_file {
     gis_part_stamp stamp;
     gis_part_chunk *chunk;
     size_t chunks, room;
+    uint64_t places;      /* features of the layer and barriers, to which what is read is held; 0: unknown */
     unsigned char *bytes; /* of one chunk */
     size_t size;
 } gis_part_file;

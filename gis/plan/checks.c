@@ -23,9 +23,25 @@ bool gis_plan_status_checksum(const char *directory, uint64_t *checksum, gis_err
     return done;
 }
 
+/* What is said of the whole layer is no more than its files hold: a byte of `status` for each feature. */
+static bool holds_all(const gis_in_parts *parts, gis_error *error)
+{
+    gis_spool_file file = {0};
+    const bool opened = gis_spool_file_open(&file, parts->directory, "status", error);
+    const bool same = opened && file.size == parts->facts.source.features &&
+                      gis_spool_features(parts->spool) <= parts->facts.source.features;
+    gis_spool_file_close(&file);
+    return same || !opened ? same
+                           : gis_fail(error,
+                                      "%s: the plan is about %zu features, and its files are about others; make it "
+                                      "anew",
+                                      parts->directory, parts->facts.source.features);
+}
+
 bool gis_plan_check(const gis_plan *plan, const gis_in_parts *parts, bool status, gis_error *error)
 {
     uint64_t now;
+    if (!holds_all(parts, error)) return false;
     if (gis_spool_checksum(parts->spool) != plan->spool)
         return gis_fail(error, "%s: features and cells are not those of this plan; make it anew", parts->directory);
     if (!status) return true;

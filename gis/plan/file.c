@@ -159,7 +159,9 @@ static bool take_plan(plan_bytes *from, gis_plan *plan, gis_error *error)
         CPLFree(text);
         if (!added) return false;
     }
-    return plan->facts.name && plan->shards > 0 && from->left == 0;
+    const OGRFieldType id = plan->facts.id_type;
+    return plan->facts.name && plan->shards > 0 && plan->shards <= GIS_PLAN_MOST_SHARDS && from->left == 0 &&
+           (!plan->facts.has_id || id == OFTInteger64 || id == OFTReal || id == OFTString);
 }
 
 static bool altered(const char *directory, gis_error *error)

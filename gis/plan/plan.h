@@ -5,6 +5,9 @@
 #include "base/json.h"
 #include "layer/in_parts.h"
 
+/* More shards than this want their files another way. */
+enum { GIS_PLAN_MOST_SHARDS = 100000 };
+
 /* Zeroed: none. */
 typedef struct gis_plan {
     char **argument; /* [arguments] of separate: options, then "--" and INPUT. Owned, as all that is pointed to */

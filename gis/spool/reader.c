@@ -17,6 +17,15 @@ struct gis_spool {
     size_t *line_end, line_room;
 };
 
+/* A cell follows the one before it, and has no more features and vertices than its bytes can hold. */
+static bool is_possible(const gis_spool *spool, const gis_spool_entry *entry, uint64_t from)
+{
+    const uint64_t size = spool->file.size;
+    return entry->from == from && from <= size && entry->bytes <= size - from &&
+           entry->cell.features <= entry->bytes / sizeof(gis_spool_head) &&
+           entry->cell.vertices <= entry->bytes / (2 * sizeof(double)) && entry->cell.shard < spool->index.shards;
+}
+
 static bool open_features(gis_spool *spool, const char *directory, gis_error *error)
 {
     gis_spool_file *file = &spool->file;
@@ -28,6 +37,8 @@ static bool open_features(gis_spool *spool, const char *directory, gis_error *er
         return false;
     for (size_t k = 0; k < spool->index.n; k++) {
         const gis_spool_entry *entry = &spool->index.entry[k];
+        if (!is_possible(spool, entry, end))
+            return gis_fail(error, "%s: cell %zu of it is not what was written", file->path, k);
         spool->features += entry->cell.features;
         spool->vertices += entry->cell.vertices;
         end += entry->bytes;
