@@ -299,9 +299,10 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
     }
     for (size_t first = 0, end; first < s->members; first = end) {
         sunder_i_cluster *c = &s->cluster[s->clusters++];
-        *c = (sunder_i_cluster){0};
+        *c = (sunder_i_cluster){.touching = true};
         for (end = first; end < s->members && s->member[end].root == s->member[first].root; end++) {
             const sunder_i_body *body = &s->model.body[s->member[end].body];
+            c->touching = c->touching && s->widened[s->member[end].body] == 0;
             c->limited =
                 c->limited || body->fixed || body->pinned || body->limit < INFINITY || sunder_i_forbids_ways(&s->model);
         }

@@ -94,6 +94,11 @@ sunder_status sunder_i_solver_is_improved(const sunder_i_solver *solver, bool *i
 /* Better sides, for each of those clusters that was solved since they were last looked for. */
 sunder_status sunder_i_solver_improve(sunder_i_solver *solver, sunder_error *err);
 
+/* ---- in_contact.c ------------------------------------------------------------------------------------------------ */
+
+/* Contact groups that are wanted take places without a margin, where doubles hold them. After they were gathered. */
+sunder_status sunder_i_solver_put_in_contact(sunder_i_solver *solver, sunder_error *err);
+
 /* ---- contact_groups.c -------------------------------------------------------------------------------------------- */
 
 /* The contact groups as they stand. One that is as it was keeps its proof. */

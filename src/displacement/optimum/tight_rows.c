@@ -72,6 +72,23 @@ static void find_rows(sunder_i_tight *f)
     for (size_t c = 0; c < 2; c++) find_rows_along(f, c);
 }
 
+/* A row on which nobody presses stands where its moves, by weight, add up to nothing: its bodies stood a margin apart,
+ * so the place of the first one is off by about that. */
+static bool centre_rows(sunder_i_tight *f)
+{
+    double *sum = sunder_i_calloc(2 * f->rows, sizeof *sum), *weight = sum ? sum + f->rows : NULL;
+    for (size_t k = 0; sum && k < 2 * f->n; k++) {
+        const double own = f->model->body[f->body[k / 2]].weight;
+        sum[f->row[k]] += own * sunder_i_tight_place_of(f, k);
+        weight[f->row[k]] += own;
+    }
+    for (size_t row = 0; sum && row < f->rows; row++)
+        if (!f->stays[row] && fabs(sum[row]) <= TIGHT_OFF_CENTRE * f->margin * weight[row])
+            f->base[row] -= sum[row] / weight[row];
+    sunder_i_free(sum);
+    return sum != NULL;
+}
+
 /* ---- Contacts with room ------------------------------------------------------------------------------------------ */
 
 /* How much the two bodies are nearer than the margin. */
@@ -195,6 +212,7 @@ bool sunder_i_tight_draw_rows(sunder_i_tight *f)
     if (!f->row || !f->base || !f->ahead || !f->stays || !f->alone || !find_all_meetings(f)) return false;
     leave_limits_whole(f);
     find_rows(f);
+    if (!centre_rows(f)) return false;
     sunder_i_tight_draw_apart(f);
     if (is_in_shadow(f)) {
         leave_alone(f);

@@ -65,6 +65,8 @@ bool sunder_i_tight_find_step(sunder_i_tight *f, bool *coarse)
         const sunder_i_body *body = &f->model->body[f->body[k]];
         for (int c = 0; c < 4 && !body->fixed; c++) f->size = sunder_i_max(f->size, fabs(body->box[c]));
         if (!lower_by_body(f, body, &f->exponent, coarse)) return false;
+        /* The step gets no coarser, nor do bodies get smaller: most layers end here, at the first one. */
+        *coarse = *coarse && is_coarse(f, f->exponent);
     }
     *coarse = *coarse && f->exponent < INT_MAX && is_coarse(f, f->exponent);
     if (*coarse) f->hair = sunder_i_min(TIGHT_HAIR * f->size, TIGHT_STEP_HAIR * ldexp(1, f->exponent));

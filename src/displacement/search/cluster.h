@@ -9,6 +9,7 @@ typedef struct sunder_i_cluster {
     size_t n;
     double about;                     /* each looks so far about itself at least, so many times (surroundings.c) */
     double margin;                    /* what is demanded beyond the gap, to cover rounding */
+    bool touching;                    /* two alone may stand without the margin: no exact check has failed yet */
     bool crowd;                       /* it begins from where prices of area put it */
     bool limited;                     /* by limits, fixed bodies, the rule against jumps: it may have no solution */
     bool brief;                       /* where none is found nothing is given up, and nobody moves */

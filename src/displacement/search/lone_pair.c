@@ -1,10 +1,14 @@
 /* Two features that have nobody but each other: the least translation that parts them, which the exact core knows, is
  * shared by their masses. No other moves of the two are cheaper, whatever the sides, so nothing is left to be sought.
- * That is so of most pairs of single buildings. Where something else has a say as well (a limit, an anchor that may not
- * be passed) it is seen where the two would stand, and the search begins as it does for all others. */
+ * That is so of most pairs of single buildings. The margin that covers rounding is not needed where rounded moves leave
+ * the two apart exactly. Where something else has a say as well (a limit, an anchor that may not be passed) it is seen
+ * where the two would stand, and the search begins as it does for all others. */
 #include "displacement/layer/barrier_pairs.h"
+#include "displacement/layer/rounding.h"
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
+
+#include "separation/separation.h"
 
 #include <math.h>
 #include <string.h>
@@ -52,6 +56,65 @@ static bool stand_apart(sunder_i_search *s, const double away[2])
     return false;
 }
 
+/* ---- Exact contact ----------------------------------------------------------------------------------------------- */
+
+/* What the margin is for is asked exactly here: are the two the gap apart, moved by what doubles hold? */
+static sunder_status are_apart(const sunder_i_search *s, const sunder_bound_pair *pair, const double t[4], bool *apart,
+                               sunder_error *err)
+{
+    const sunder_shape *p = sunder_i_thing_shape(s->model, pair->a), *q = sunder_i_thing_shape(s->model, pair->b);
+    return sunder_i_apart(p, t, q, t + 2, s->model->rules.gap, apart, err);
+}
+
+/* Rounds the move of body k of the two; false if doubles do not hold it. *unit: the larger of its units. */
+static bool round_one(const sunder_i_search *s, uint32_t k, double t[4], double *unit)
+{
+    double to[2];
+    *unit = 0;
+    if (!(s->mass[k] > 0)) return true;
+    const bool exact = sunder_i_round_move(s->model, s->body[k], t + 2 * k, to, unit);
+    memcpy(t + 2 * k, to, sizeof to);
+    return exact;
+}
+
+/* The share of each of `away`, as doubles hold it. The one with the coarser unit is rounded first, the other makes up
+ * for it: so the relative move is `away` where that is a multiple of the finer unit. Then the latter goes `steps` of
+ * its units farther along each axis of which `along` has the bit. False if doubles do not hold that. */
+static bool share_rounded(const sunder_i_search *s, const double away[2], unsigned along, double t[4])
+{
+    const double share = s->mass[1] / (s->mass[0] + s->mass[1]);
+    double unit[2], shared[4];
+    for (size_t c = 0; c < 2; c++) {
+        t[c] = shared[c] = s->mass[0] > 0 ? (share - 1) * away[c] : 0;
+        t[2 + c] = shared[2 + c] = s->mass[1] > 0 ? share * away[c] : 0;
+    }
+    if (!round_one(s, 0, t, &unit[0]) || !round_one(s, 1, t, &unit[1])) return false;
+    const uint32_t last = s->mass[0] > 0 && (s->mass[1] == 0 || unit[0] <= unit[1]) ? 0 : 1;
+    const double sign = last ? 1 : -1;
+    for (size_t c = 0; c < 2; c++) {
+        const double farther = along >> c & 1 ? copysign(unit[last], away[c]) : 0;
+        t[2 * last + c] = sign * (away[c] + farther) + t[2 * (1 - last) + c];
+    }
+    return round_one(s, last, t, &unit[last]);
+}
+
+/* The share of the least translation itself, without a margin, where doubles hold one that leaves the two just the gap
+ * apart: the nearest, or the next one farther out along either axis. *done: t is it. */
+static sunder_status stand_in_contact(sunder_i_search *s, const sunder_bound_pair *pair, const double away[2],
+                                      bool *done, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    *done = false;
+    for (unsigned along = 0; along < 4 && !*done && !status; along++) {
+        double t[4];
+        if ((along & 1 && away[0] == 0) || (along & 2 && away[1] == 0)) continue;
+        if (!share_rounded(s, away, along, t)) continue;
+        status = are_apart(s, pair, t, done, err);
+        if (!status && *done) memcpy(s->t, t, sizeof t);
+    }
+    return status;
+}
+
 sunder_status sunder_i_search_part_lone_pair(sunder_i_search *s, sunder_i_cluster *cluster, bool *done,
                                              sunder_error *err)
 {
@@ -66,5 +129,7 @@ sunder_status sunder_i_search_part_lone_pair(sunder_i_search *s, sunder_i_cluste
     cluster->measured.least = r.least;
     *done = stand_apart(s, r.away);
     if (!*done) memcpy(s->t, stood, sizeof stood);
-    return SUNDER_OK;
+    if (!*done || !cluster->touching) return SUNDER_OK;
+    bool in_contact;
+    return stand_in_contact(s, &pair, r.away, &in_contact, err);
 }
