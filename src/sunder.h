@@ -476,9 +476,13 @@ typedef struct sunder_layer_options {
 /* Defaults: gap 0, tolerance a tenth of it, blocks on, one thread, no jumps, effort 1, seed 0. */
 SUNDER_API void sunder_layer_options_init(sunder_layer_options *options);
 
+/* Weights lie in this range, so that costs, forces and their squares are doubles. */
+#define SUNDER_LEAST_WEIGHT 1e-100
+#define SUNDER_GREATEST_WEIGHT 1e100
+
 typedef struct sunder_feature {
     const sunder_shape *shape; /* borrowed; must outlive the layer. NULL or empty: conflicts with nothing */
-    double weight;             /* > 0 and finite */
+    double weight;             /* from SUNDER_LEAST_WEIGHT to SUNDER_GREATEST_WEIGHT */
     double max_shift;          /* no longer move; INFINITY for none; 0 for fixed */
     int64_t block;             /* equal non-negative values move as one; -1: none */
     bool fixed;                /* never moves, is an obstacle */

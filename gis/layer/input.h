@@ -102,6 +102,7 @@ bool gis_layer_number_blocks(gis_layer_input *input, gis_block_keys *keys, gis_e
 double gis_layer_median(double *areas, size_t n);
 double gis_layer_area_weight(gis_weighting by, double area, double median);
 bool gis_layer_weigh_by_field(gis_layer_input *input, gis_error *error);
+bool gis_layer_is_weight(double weight);
 bool gis_layer_wrong_weight(const char *who, double weight, gis_error *error);
 
 /* So thin an overlap is told of where the tolerance is 0: a hundredth of a metre, or of the unit of a layer without a

@@ -147,6 +147,8 @@ static bool weigh_by_area(gis_layer_input *input, gis_weighting by, gis_error *e
     return true;
 }
 
+bool gis_layer_is_weight(double weight) { return weight >= SUNDER_LEAST_WEIGHT && weight <= SUNDER_GREATEST_WEIGHT; }
+
 bool gis_layer_weigh_by_field(gis_layer_input *input, gis_error *error)
 {
     const int field = input->weight_field;
@@ -154,8 +156,8 @@ bool gis_layer_weigh_by_field(gis_layer_input *input, gis_error *error)
         OGRFeatureH feature = gis_source_feature(input->source, i);
         if (input->feature[i].ignored || gis_field_is_blank(feature, field)) continue;
         double weight = gis_field_number(feature, field);
-        if (!(weight > 0) || !isfinite(weight))
-            return gis_layer_wrong_number(input, i, field, "weight", "a finite number greater than 0", error);
+        if (!gis_layer_is_weight(weight))
+            return gis_layer_wrong_number(input, i, field, "weight", "a number from 1e-100 to 1e100", error);
         input->feature[i].weight *= weight;
     }
     return true;
@@ -163,7 +165,8 @@ bool gis_layer_weigh_by_field(gis_layer_input *input, gis_error *error)
 
 bool gis_layer_wrong_weight(const char *who, double weight, gis_error *error)
 {
-    return gis_fail(error, "%s: its weight, %g, is not a finite number greater than 0", who, weight);
+    return gis_fail(error, "%s: its weight, %g, is not a number from %g to %g", who, weight, SUNDER_LEAST_WEIGHT,
+                    SUNDER_GREATEST_WEIGHT);
 }
 
 bool gis_layer_weights(gis_layer_input *input, gis_error *error)
@@ -175,7 +178,7 @@ bool gis_layer_weights(gis_layer_input *input, gis_error *error)
         double weight = input->feature[i].weight;
         if (input->feature[i].ignored) {
             input->feature[i].weight = 1; /* it is not asked for, and may have been anything */
-        } else if (!(weight > 0) || !isfinite(weight)) {
+        } else if (!gis_layer_is_weight(weight)) {
             char who[GIS_WHO_SIZE];
             gis_feature_name(input, i, who, sizeof who);
             return gis_layer_wrong_weight(who, weight, error);

@@ -158,7 +158,7 @@ static bool settle(void *user, gis_spool_feature *feature, gis_error *error)
     if (demands->block >= 0) demands->block = s->keys.rank[demands->block];
     if (!by_area(s)) return true;
     demands->weight *= gis_layer_area_weight(s->input.request->rules.weighting, feature->area, s->median);
-    if (demands->weight > 0 && isfinite(demands->weight)) return true;
+    if (gis_layer_is_weight(demands->weight)) return true;
     char who[GIS_WHO_SIZE];
     gis_name_subject(&(gis_subject){NULL, gis_source_name(s->input.source), feature->fid != OGRNullFID, feature->fid,
                                     feature->index, feature->id},

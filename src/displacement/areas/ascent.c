@@ -92,11 +92,13 @@ static void occupy_all(const ascent *a, const sunder_i_masses *m, const answer *
         if (p->share > LITTLE) occupy(a, m, p->share, p->dx, p->dy, slope);
 }
 
-/* How far the payer looks, in squares: where the way costs more than to stay, nothing is cheaper. */
+/* How far the payer looks, in squares: where the way costs more than to stay, nothing is cheaper; nor farther out than
+ * just beyond the grid. */
 static int64_t reach_of(const asking *a, double stays, double heat)
 {
-    const double reach = sqrt((stays + TOO_DEAR * heat) / a->payer->weight);
-    return (int64_t)sunder_i_min(reach, a->payer->limit / a->ascent->grid->side);
+    const double reach = sqrt((stays + TOO_DEAR * heat) / a->payer->weight),
+                 beyond = (double)sunder_i_beyond_grid(a->ascent->grid, &a->payer->masses);
+    return (int64_t)sunder_i_min(sunder_i_min(reach, beyond), a->payer->limit / a->ascent->grid->side);
 }
 
 /* Way and price of one place; the way alone where that is too dear to count. Nothing is beyond its limit. */

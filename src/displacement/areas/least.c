@@ -163,6 +163,14 @@ static void ask_rings(asking *a)
     }
 }
 
+/* How far the payer looks, in squares: to where the way costs as much as to stay, its limit, or the end of the grid,
+ * whichever is nearest. */
+static int64_t reach_of(const asking *a, int64_t stays, int64_t beyond)
+{
+    const double reach = sunder_i_min(sqrt((double)stays / (double)a->weight), (double)beyond);
+    return (int64_t)sunder_i_min(reach, a->payer->limit / a->field->prices->grid.side) + 2;
+}
+
 /* *paid: in parts, no more than what the payer pays wherever it goes. False if memory is out. */
 static bool ask_payer(const field *f, const sunder_i_payer *payer, int64_t *paid)
 {
@@ -175,12 +183,16 @@ static bool ask_payer(const field *f, const sunder_i_payer *payer, int64_t *paid
     if (stays == 0) return true;
     const sunder_i_masses *m = &payer->masses;
     a.doubt = PARTS_SQUARE / 4 * f->sharpest * (m->total + m->slack * (int64_t)(m->columns * m->rows));
-    a.reach = (int64_t)sunder_i_min(sqrt((double)stays / (double)a.weight), payer->limit / f->prices->grid.side) + 2;
+    const int64_t beyond = sunder_i_beyond_grid(&f->prices->grid, m);
+    a.reach = reach_of(&a, stays, beyond);
     const size_t across = (size_t)(2 * a.reach + 1);
     a.price = sunder_i_alloc(across * across, sizeof *a.price);
     if (!a.price) return false;
     ask_rings(&a);
     sunder_i_free(a.price);
+    /* Of what is beyond the grid, and was not looked at, the way alone is paid: no less than to its end. */
+    if (a.reach > beyond && PARTS_SQUARE * a.weight * beyond * beyond < a.least)
+        a.least = PARTS_SQUARE * a.weight * beyond * beyond;
     *paid = a.least;
     return true;
 }

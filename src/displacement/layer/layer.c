@@ -46,9 +46,9 @@ sunder_status sunder_layer_new(const sunder_feature *features, size_t n, sunder_
     if (n >= SUNDER_I_NOBODY) return sunder_i_fail(err, SUNDER_EARG, "too many features: %zu", n);
     for (size_t i = 0; i < n; i++) {
         const sunder_feature *f = &features[i];
-        if (!(f->weight > 0) || !isfinite(f->weight))
-            return sunder_i_fail(err, SUNDER_EARG, "feature %zu: the weight %g is not positive and finite", i,
-                                 f->weight);
+        if (!(f->weight >= SUNDER_LEAST_WEIGHT && f->weight <= SUNDER_GREATEST_WEIGHT))
+            return sunder_i_fail(err, SUNDER_EARG, "feature %zu: the weight %g is not a number from %g to %g", i,
+                                 f->weight, SUNDER_LEAST_WEIGHT, SUNDER_GREATEST_WEIGHT);
         if (!(f->max_shift >= 0))
             return sunder_i_fail(err, SUNDER_EARG, "feature %zu: the limit of moves, %g, is negative or not a number",
                                  i, f->max_shift);

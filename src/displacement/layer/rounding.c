@@ -16,6 +16,10 @@
 #include <float.h>
 #include <math.h>
 
+/* A move that is longer is none. Its squared length times the greatest weight, summed over all bodies that there can
+ * be, is a double: so no cost is beyond all doubles. */
+#define LONGEST_MOVE 0x1p200
+
 /* Exponent of the unit in the last place of v: |v| = m * 2^e with 2^52 <= m < 2^53, or the least for tiny ones. */
 static int unit_exponent(double v)
 {
@@ -78,7 +82,8 @@ bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double m
 {
     const sunder_i_body *body = &model->body[b];
     double u[2];
-    const bool is_move = isfinite(move[0]) && isfinite(move[1]); /* what a program made of nothing is none: home */
+    /* What a program made of nothing is no move: home. */
+    const bool is_move = fabs(move[0]) <= LONGEST_MOVE && fabs(move[1]) <= LONGEST_MOVE;
     for (size_t c = 0; c < 2; c++) {
         u[c] = 0;
         out[c] = 0;
