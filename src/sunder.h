@@ -616,7 +616,9 @@ typedef struct sunder_layer_summary {
     /* Every pair but those listed and those in blocks was proved apart (or inside, where that may overlap), and none
      * listed stands worse. */
     bool verified;
-    double seconds_solve, seconds_verify; /* up to the last move; and what is asked and proved of them then */
+    /* Up to the last move; for what is known of the result (the list of conflicts, reasons and what would free them,
+     * bounds and pushes); and for the exact checks of all pairs after the last move. Of a check all is the last. */
+    double seconds_solve, seconds_explain, seconds_verify;
 } sunder_layer_summary;
 
 /* The exact list of conflicts of a layer as it stands.
@@ -634,6 +636,11 @@ SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sun
 SUNDER_API sunder_status sunder_layer_check_moves(const sunder_layer *before, const sunder_layer *after,
                                                   const sunder_layer_options *options, sunder_report **out,
                                                   sunder_error *err);
+
+/* What sunder_layer_separate() does, by the fraction that it tells its progress: it solves up to the first, explains
+ * from there to the second, and verifies from there on. */
+#define SUNDER_PROGRESS_SOLVED 0.8
+#define SUNDER_PROGRESS_EXPLAINED 0.98
 
 /* Takes the features apart at little cost; src/displacement/README tells how.
  *

@@ -14,6 +14,8 @@ static bool in_bar;
 
 gis_progress gis_progress_new(gis_progress_kind kind) { return (gis_progress){.kind = kind, .to = 1, .shown = -1}; }
 
+void gis_progress_names(gis_progress *progress, const gis_progress_name *name) { progress->name = name; }
+
 void gis_progress_stage(gis_progress *progress, double from, double to)
 {
     progress->from = from;
@@ -21,10 +23,18 @@ void gis_progress_stage(gis_progress *progress, double from, double to)
     gis_progress_call(0, progress);
 }
 
+/* Those of the stages that begin before the mark: 0...10 solve ...20 */
+static void print_names(gis_progress *progress, int mark)
+{
+    for (; progress->name && progress->name->word && progress->name->from * BAR_MARKS <= mark; progress->name++)
+        fprintf(stderr, "%s%s ", mark ? " " : "", progress->name->word);
+}
+
 static void print_bar(gis_progress *progress, double fraction)
 {
     int marks = (int)(fraction * BAR_MARKS);
     for (int mark = progress->shown + 1; mark <= marks; mark++) {
+        print_names(progress, mark);
         if (mark % MARKS_A_NUMBER == 0)
             fprintf(stderr, "%d", mark / MARKS_A_NUMBER * PERCENT_A_NUMBER);
         else

@@ -6,7 +6,7 @@
 
 /* separate searches and proves. */
 #define GIS_SEPARATE_READ 0.1
-#define GIS_SEPARATE_SOLVED 0.8
+#define GIS_SEPARATE_DONE 0.8
 /* check looks at each pair once: reading is a larger part, and little is written. */
 #define GIS_CHECK_READ 0.3
 #define GIS_CHECK_CHECKED 0.9

@@ -20,10 +20,10 @@ static bool solve_and_write(gis_separate_run *run, gis_error *error)
 {
     gis_sink_result result;
     if (!gis_separate_open_sink(run, error)) return false;
-    gis_progress_stage(&run->progress, GIS_SEPARATE_READ, GIS_SEPARATE_SOLVED);
+    gis_progress_stage(&run->progress, GIS_SEPARATE_READ, GIS_SEPARATE_DONE);
     if (!gis_layer_run(&run->input, sunder_layer_separate, &run->progress, &run->report, &run->summary, error))
         return false;
-    gis_progress_stage(&run->progress, GIS_SEPARATE_SOLVED, 1);
+    gis_progress_stage(&run->progress, GIS_SEPARATE_DONE, 1);
     double begin = gis_clock();
     if (!gis_separate_write_layers(run, error) || !gis_sink_finish(run->sink, &result, error)) return false;
     run->write = gis_clock() - begin;
@@ -32,6 +32,17 @@ static bool solve_and_write(gis_separate_run *run, gis_error *error)
     return true;
 }
 
+/* Where the library's share of the bar begins to do what. */
+#define OF_LIBRARY(fraction) (GIS_SEPARATE_READ + (fraction) * (GIS_SEPARATE_DONE - GIS_SEPARATE_READ))
+
+/* As the seconds of --stats are called. */
+static const gis_progress_name stages[] = {{0, "read"},
+                                           {GIS_SEPARATE_READ, "solve"},
+                                           {OF_LIBRARY(SUNDER_PROGRESS_SOLVED), "explain"},
+                                           {OF_LIBRARY(SUNDER_PROGRESS_EXPLAINED), "verify"},
+                                           {GIS_SEPARATE_DONE, "write"},
+                                           {1, NULL}};
+
 bool gis_separate_begin(const gis_options *options, gis_separate_run *run, gis_error *error)
 {
     *run = (gis_separate_run){.options = options,
@@ -39,6 +50,7 @@ bool gis_separate_begin(const gis_options *options, gis_separate_run *run, gis_e
                               .progress = gis_resolve_progress(options),
                               .start = gis_clock()};
     if (!gis_destinations_check(&run->to, &run->taken, error)) return false;
+    gis_progress_names(&run->progress, stages);
     gis_progress_stage(&run->progress, 0, GIS_SEPARATE_READ);
     return gis_resolve_layer(options, &run->request, error);
 }

@@ -29,6 +29,8 @@ static bool write_page(const gis_separate_run *run, gis_text *page, gis_error *e
         .losses = gis_sink_losses(run->sink),
         .options = call.option,
         .n_options = call.n,
+        .seconds_read = run->read,
+        .seconds_write = run->write,
     };
     ok = ok && gis_page_write(&request, page, error);
     gis_page_spooled_close(spooled);

@@ -100,6 +100,7 @@ void gis_separate_stats(gis_json *out, const gis_separate_run *run)
     gis_json_open(out, '{');
     gis_json_seconds(out, "read", run->read);
     gis_json_seconds(out, "solve", summary->seconds_solve);
+    gis_json_seconds(out, "explain", summary->seconds_explain);
     gis_json_seconds(out, "verify", summary->seconds_verify);
     gis_json_seconds(out, "write", run->write);
     gis_json_seconds(out, "total", gis_clock() - run->start);

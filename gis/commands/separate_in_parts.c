@@ -18,13 +18,13 @@ bool gis_separate_in_parts(gis_separate_run *run, gis_error *error)
 {
     gis_sink_result result;
     if (!open_sink_in_parts(run, error)) return false;
-    gis_progress_stage(&run->progress, GIS_SEPARATE_READ, GIS_SEPARATE_SOLVED);
+    gis_progress_stage(&run->progress, GIS_SEPARATE_READ, GIS_SEPARATE_DONE);
     const double began = gis_clock();
     if ((!run->merges && !gis_in_parts_shard(&run->parts, 1, run->stamp, &run->progress, error)) ||
         !gis_in_parts_solve(&run->parts, run->stamp, &run->summary, error))
         return false;
-    run->summary.seconds_solve = gis_clock() - began;
-    gis_progress_stage(&run->progress, GIS_SEPARATE_SOLVED, 1);
+    run->summary.seconds_solve = gis_clock() - began - run->summary.seconds_explain - run->summary.seconds_verify;
+    gis_progress_stage(&run->progress, GIS_SEPARATE_DONE, 1);
     const double begin = gis_clock();
     const gis_in_parts_layers layers = {
         (run->chosen & GIS_SEPARATE_MAIN) != 0, (run->chosen & GIS_SEPARATE_DISPLACEMENT) != 0,

@@ -193,6 +193,8 @@ static void begin_listening(gis_in_parts *p, gis_progress *silent)
     *silent = gis_progress_new(GIS_PROGRESS_NONE);
     p->layout.how.progress = gis_progress_call;
     p->layout.how.progress_user = silent;
+    p->layout.explain = &p->explain;
+    p->layout.verify = &p->verify;
 }
 
 static void end_listening(gis_in_parts *p)
@@ -312,7 +314,6 @@ bool gis_in_parts_look_at_barriers(gis_in_parts *p, const gis_layer_input *input
 bool gis_in_parts_solve(gis_in_parts *p, uint64_t options, sunder_layer_summary *summary, gis_error *error)
 {
     gis_progress silent;
-    const double began = gis_clock();
     begin_listening(p, &silent);
     const bool done = gis_in_parts_scratch(p, error) && join_files(p, options, error);
     end_listening(p);
@@ -322,7 +323,8 @@ bool gis_in_parts_solve(gis_in_parts *p, uint64_t options, sunder_layer_summary 
     summary->features = p->facts.source.features;
     summary->vertices = p->facts.vertices;
     summary->skipped = p->facts.skipped;
-    summary->seconds_solve = gis_clock() - began;
+    summary->seconds_explain = p->explain;
+    summary->seconds_verify = p->verify;
     return done;
 }
 

@@ -29,6 +29,7 @@ typedef struct gis_in_parts {
     unsigned at_once; /* so many units are a part */
     gis_layout layout;
     gis_joined joined;
+    double explain, verify; /* seconds that parts took for these stages, in this process */
     GIntBig *block_fid; /* [joined.blocks] of the features there, from when they are written */
 } gis_in_parts;
 

@@ -165,6 +165,8 @@ static bool separate(gis_part *p, gis_error *error)
         return gis_core_failed(error, "a part of the layer", &why);
     sunder_layer_summary summary;
     sunder_report_summary(p->report, &summary);
+    if (p->layout->explain) *p->layout->explain += summary.seconds_explain;
+    if (p->layout->verify) *p->layout->verify += summary.seconds_verify;
     p->out->unverified = p->out->unverified || !summary.verified;
     return !options.keep_trees || begin_lines(p, error);
 }

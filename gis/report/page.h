@@ -22,6 +22,7 @@ typedef struct gis_page_request {
     const gis_sentences *losses;
     const gis_page_option *options;
     size_t n_options;
+    double seconds_read, seconds_write; /* what the summary has no figures of */
 } gis_page_request;
 
 /* Adds the whole page. The bytes depend on the request alone, and on SOURCE_DATE_EPOCH if that is set. */

@@ -6,6 +6,7 @@
 #include "report/words.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* More rows than anybody reads, and fewer than a browser is slow with. */
@@ -179,6 +180,27 @@ static void add_counts(const gis_page_model *model, gis_text *to)
 static void open_term(gis_text *to, const char *name) { gis_text_print(to, "<div><dt>%s</dt><dd>", name); }
 static void close_term(gis_text *to) { gis_text_add(to, "</dd></div>\n"); }
 
+/* What the stages took, as in --stats; not where the page has to be the same for each run. */
+static void add_seconds(const gis_page_request *request, gis_text *to)
+{
+    const char *epoch = getenv("SOURCE_DATE_EPOCH");
+    const struct {
+        const char *stage;
+        double seconds;
+    } stages[] = {{"read", request->seconds_read},
+                  {"solve", request->summary->seconds_solve},
+                  {"explain", request->summary->seconds_explain},
+                  {"verify", request->summary->seconds_verify},
+                  {"write", request->seconds_write}};
+    if (epoch && *epoch) return;
+    open_term(to, "seconds");
+    for (size_t k = 0; k < sizeof stages / sizeof *stages; k++) {
+        gis_text_print(to, "%s%s ", k ? ", " : "", stages[k].stage);
+        gis_report_number(to, stages[k].seconds, 2);
+    }
+    close_term(to);
+}
+
 static void add_proof(const gis_page_model *model, gis_text *to)
 {
     const gis_page_request *request = model->request;
@@ -218,6 +240,7 @@ static void add_proof(const gis_page_model *model, gis_text *to)
     gis_report_count(to, summary->skipped);
     gis_text_add(to, " <span class=\"aside\">ignored, without geometry, or of another kind</span>");
     close_term(to);
+    add_seconds(request, to);
     for (size_t k = 0; k < request->losses->n; k++) {
         open_term(to, "loss");
         gis_escape_markup(to, request->losses->items[k]);

@@ -18,10 +18,12 @@
 #include <string.h>
 
 /* Shares of the whole that are done, roughly: when all is related, when what was sought without limits is found, when
- * nothing is left but to report. */
+ * nothing is left but to report; and of the report, when bounds and pushes are known, when proofs are. */
 #define PREPARED 0.1
 #define FOUND_WITHOUT_LIMITS 0.4
-#define FOUND 0.8
+#define FOUND SUNDER_PROGRESS_SOLVED
+#define BOUNDED 0.84
+#define PROVED 0.9
 /* What was given up is looked at again, each time with what the search ran into since. */
 #define RECONSIDERED 4
 /* Pairs are asked about one by one so often: each time one in a cluster is solved. */
@@ -251,36 +253,63 @@ static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
     return status ? status : sunder_i_jumps_update(&s->jumps, &s->model, NULL, err);
 }
 
-/* What remains, and what is proved of it. */
+/* Tells how far things are, if nothing went wrong so far. */
+static sunder_status reach(const sunder_i_solver *s, double fraction, sunder_status status, sunder_error *err)
+{
+    if (status || sunder_i_progress(&s->model.rules, fraction)) return status;
+    return sunder_i_no_memory(err);
+}
+
+/* What remains, why, what would free it, and what no solution can beat. */
+static sunder_status explain(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
+                             sunder_error *err)
+{
+    sunder_i_count_relations(&s->model, &s->now, &report->summary.after);
+    sunder_status status = sunder_i_report_find_seams(s, err);
+    if (!status) status = sunder_i_report_conflicts(report, &s->model, &s->placement, &s->now, true, err);
+    if (!status) status = sunder_i_report_bound(report, s, err);
+    if (!status) status = sunder_i_report_optimality(report, s, err);
+    if (!status) status = sunder_i_report_pushes(report, s, err);
+    status = reach(s, BOUNDED, status, err);
+    if (!status) status = sunder_i_report_proofs(report, s, sunder_i_decide, err);
+    if (!status) status = sunder_i_report_blockers(report, s, err);
+    status = reach(s, PROVED, status, err);
+    if (!status) status = sunder_i_report_crowd_needs(report, s, true, err);
+    if (!status) status = sunder_i_report_needs(report, s, options, work_briefly, err);
+    if (!status) status = sunder_i_report_crowd_needs(report, s, false, err);
+    return reach(s, SUNDER_PROGRESS_EXPLAINED, status, err);
+}
+
+/* The result in the layer's order. */
+static sunder_status fill_report(sunder_i_solver *s, sunder_report *report, sunder_error *err)
+{
+    sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
+    /* What says how all stand is needed no longer, unless another layer may come to lie beside this one. */
+    if (!s->model.rules.keep_worlds) sunder_i_placement_free(&s->model, &s->placement);
+    const sunder_status status = sunder_i_report_features(report, &s->model, err);
+    if (status) return status;
+    sunder_i_report_moves(report, &s->model);
+    return sunder_i_report_worlds(report, s, err);
+}
+
+/* All is related once more, the result is explained, and then it is asked whether it is true: that the pairs are what
+ * was found is known since they were related. */
 static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
                               double began, sunder_error *err)
 {
     const double solved = sunder_i_now();
     sunder_i_solver_forget_clusters(s);
     sunder_status status = relate_last(s, err);
+    const double related = sunder_i_now();
+    if (!status) status = explain(s, options, report, err);
+    const double explained = sunder_i_now();
+    if (!status) status = sunder_i_solver_is_upheld(s, &report->summary.verified, err);
+    const double verified = sunder_i_now();
+    if (!status) status = fill_report(s, report, err);
     if (status) return status;
     report->summary.seconds_solve = solved - began;
-    sunder_i_count_relations(&s->model, &s->now, &report->summary.after);
-    status = sunder_i_report_find_seams(s, err);
-    if (!status) status = sunder_i_report_conflicts(report, &s->model, &s->placement, &s->now, true, err);
-    if (!status) status = sunder_i_report_bound(report, s, err);
-    if (!status) status = sunder_i_report_optimality(report, s, err);
-    if (!status) status = sunder_i_report_pushes(report, s, err);
-    if (!status) status = sunder_i_report_proofs(report, s, sunder_i_decide, err);
-    if (!status) status = sunder_i_report_blockers(report, s, err);
-    if (!status) status = sunder_i_report_crowd_needs(report, s, true, err);
-    if (!status) status = sunder_i_report_needs(report, s, options, work_briefly, err);
-    if (!status) status = sunder_i_report_crowd_needs(report, s, false, err);
-    if (!status) status = sunder_i_solver_is_upheld(s, &report->summary.verified, err);
-    if (status) return status;
-    sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
-    /* What says how all stand is needed no longer, unless another layer may come to lie beside this one. */
-    if (!s->model.rules.keep_worlds) sunder_i_placement_free(&s->model, &s->placement);
-    status = sunder_i_report_features(report, &s->model, err);
-    if (!status) sunder_i_report_moves(report, &s->model);
-    if (!status) status = sunder_i_report_worlds(report, s, err);
-    if (status) return status;
-    report->summary.seconds_verify = sunder_i_now() - solved;
+    report->summary.seconds_verify = (related - solved) + (verified - explained);
+    report->summary.seconds_explain = (explained - related) + (sunder_i_now() - verified);
     return SUNDER_OK;
 }
 

@@ -31,7 +31,7 @@ same "$(jq -c keys_unsorted s.json)" '["command","layer","unit","features","vert
 same "$(jq -c '.conflicts|keys_unsorted' s.json)" '["before","after"]'
 same "$(jq -c '.conflicts.after|keys_unsorted' s.json)" '["overlap","too_close","barrier","barrier_drawn","barrier_near","contained","duplicate","inside_blocks"]'
 same "$(jq -c '.displacement|keys_unsorted' s.json)" '["total","mean","max","max_fid","cost","lower_bound","optimality_gap"]'
-same "$(jq -c '.seconds|keys_unsorted' s.json)" '["read","solve","verify","write","total"]'
+same "$(jq -c '.seconds|keys_unsorted' s.json)" '["read","solve","explain","verify","write","total"]'
 same "$(jq -c '[.command,.layer,.unit,.features,.vertices,.clusters_optimal,.moved,.null,.verified,.losses]' s.json)" '["separate","houses","metre",6,24,2,4,0,true,[]]'
 same "$(jq -c '[.conflicts.before.overlap,.conflicts.after.overlap]' s.json)" '[2,0]'
 # The bound is no more than the cost, and here it is as good as the cost.
@@ -122,6 +122,7 @@ expect 0 separate in.gpkg p.gpkg --progress=plain --overwrite
 cmp -s err <(seq 0 100) || fail "progress is not 0 to 100, a line each"
 expect 0 separate in.gpkg p.gpkg --progress --overwrite
 says err '100 - done.'
+same "$(tr -cd 'a-z ' <err | xargs)" 'read solve explain verify write done' 'stages in the bar:'
 
 # A second run on the result has nothing to do, and says what it replaces.
 expect 0 separate o.gpkg again.gpkg -l houses --stats s.json
