@@ -48,6 +48,15 @@ bool gis_page_shape(const gis_page_model *model, size_t feature, const sunder_sh
 
 /* ---- Barriers ---------------------------------------------------------------------------------------------------- */
 
+/* Areas before lines, then by width, so that pictures draw many in one path; else as they came. */
+static int by_width(const void *left, const void *right)
+{
+    const gis_page_barrier *a = left, *b = right;
+    if (a->area != b->area) return a->area ? -1 : 1;
+    if (a->width != b->width) return a->width < b->width ? -1 : 1;
+    return (a->place > b->place) - (a->place < b->place);
+}
+
 /* Of a network that goes on beyond the layer only what lies about the layer is of interest. */
 static bool take_barriers(gis_page_model *model, gis_error *error)
 {
@@ -62,6 +71,7 @@ static bool take_barriers(gis_page_model *model, gis_error *error)
     for (size_t k = 0; k < contents->barriers; k++)
         if (!model->empty && gis_box_meets(model->barrier[k].box, seen))
             model->barrier[model->n_barriers++] = model->barrier[k];
+    if (model->n_barriers) qsort(model->barrier, model->n_barriers, sizeof *model->barrier, by_width);
     return true;
 }
 

@@ -24,7 +24,7 @@ typedef struct gis_page_model {
     gis_page_feature *feature; /* [n] */
     double extent[4];          /* of all that is drawn, before and after; empty: all zero */
     bool empty;                /* nothing is drawn */
-    gis_page_barrier *barrier; /* those that are seen beside the features */
+    gis_page_barrier *barrier; /* those that are seen beside the features; areas first, then by width */
     size_t n_barriers;
     const sunder_conflict **conflict; /* those between blocks, the worst first */
     size_t n_conflicts;

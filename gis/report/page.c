@@ -8,10 +8,16 @@
 
 #include <string.h>
 
-static bool add_overview(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
+static bool add_before(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
 {
     (void)thinning;
-    return gis_page_add_overview(model, to, error);
+    return gis_page_add_overview(model, false, to, error);
+}
+
+static bool add_after(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
+{
+    (void)thinning;
+    return gis_page_add_overview(model, true, to, error);
 }
 
 /* A slot holds a text that is known beforehand, or what a section makes. */
@@ -27,7 +33,8 @@ static const struct {
     {"title", NULL, gis_page_title},
     {"lede", NULL, gis_page_lede},
     {"figures", NULL, gis_page_figures},
-    {"overview", NULL, add_overview},
+    {"before", NULL, add_before},
+    {"after", NULL, add_after},
     {"legend", NULL, gis_page_legend},
     {"map-note", NULL, gis_page_map_note},
     {"map-data", NULL, gis_map_data_write},

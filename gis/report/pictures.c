@@ -69,45 +69,68 @@ static bool add_path(picture_writer *writer, const char *class, double part, add
 
 /* ---- Barriers ---------------------------------------------------------------------------------------------------- */
 
-/* A path of one barrier, as wide as it is drawn and so much more; nothing where nothing is seen. */
-static bool add_barrier(picture_writer *writer, const gis_page_barrier *barrier, const char *class, double more,
-                        gis_error *error)
+/* How barriers are drawn, in one of the pictures' layers of paint. */
+typedef struct barrier_paint {
+    const char *class, *wide_class; /* of lines as wide as `wide`; NULL: the same */
+    double wide, more;              /* units of the picture: as wide as they are and so much more */
+    bool own_width;                 /* the path says how wide it is */
+    double least_size;              /* smaller barriers are left out */
+} barrier_paint;
+
+/* What of one barrier is seen, added to the path that is open. */
+static bool add_barrier(picture_writer *writer, const gis_page_barrier *barrier, gis_error *error)
 {
     static const double still[2] = {0, 0};
     sunder_obstacle geometry;
-    size_t before = writer->to->length, begin = 0;
-    double width = gis_picture_length(&writer->picture, barrier->width) + more;
+    size_t begin = 0;
     if (!gis_page_geometry(writer->model, barrier, &geometry, error)) return false;
-    gis_text_print(writer->to, "<path class=\"%s %s\" stroke-width=\"%.0f\" d=\"", class,
-                   geometry.shape ? "area" : "line", width);
-    size_t empty = writer->to->length;
     for (size_t line = 0; line < geometry.lines; begin = geometry.line_end[line++])
         gis_picture_add_line(&writer->picture, geometry.xy + 2 * begin, geometry.line_end[line] - begin, writer->to);
-    if (geometry.shape &&
-        !gis_picture_add_shape(&writer->picture, geometry.shape, still, &writer->scratch, writer->to, error))
-        return false;
-    if (writer->to->length == empty)
-        writer->to->length = before;
-    else
-        gis_text_add(writer->to, "\"/>\n");
+    return !geometry.shape ||
+           gis_picture_add_shape(&writer->picture, geometry.shape, still, &writer->scratch, writer->to, error);
+}
+
+static void open_barriers(picture_writer *writer, const gis_page_barrier *barrier, const barrier_paint *paint)
+{
+    const double width = gis_picture_length(&writer->picture, barrier->width);
+    const bool wide = paint->wide_class && !barrier->area && width >= paint->wide;
+    gis_text_print(writer->to, "<path class=\"%s %s\"", wide ? paint->wide_class : paint->class,
+                   barrier->area ? "area" : "line");
+    if (paint->own_width) gis_text_print(writer->to, " stroke-width=\"%.0f\"", width + paint->more);
+    gis_text_add(writer->to, " d=\"");
+}
+
+/* One path for all barriers of a kind and a width, which follow each other; none where nothing of them is seen. */
+static bool paint_barriers(picture_writer *writer, const barrier_paint *paint, gis_error *error)
+{
+    const gis_page_model *model = writer->model;
+    for (size_t k = 0; k < model->n_barriers;) {
+        const gis_page_barrier *first = &model->barrier[k];
+        const size_t before = writer->to->length;
+        open_barriers(writer, first, paint);
+        const size_t empty = writer->to->length;
+        for (; k < model->n_barriers; k++) {
+            const gis_page_barrier *each = &model->barrier[k];
+            const double size = fmax(each->box[2] - each->box[0], each->box[3] - each->box[1]);
+            if (each->area != first->area || each->width != first->width) break;
+            if (!gis_box_meets(each->box, writer->picture.window) ||
+                gis_picture_length(&writer->picture, size) < paint->least_size)
+                continue;
+            if (!gis_go_on(error) || !add_barrier(writer, each, error)) return false;
+        }
+        if (writer->to->length == empty)
+            writer->to->length = before;
+        else
+            gis_text_add(writer->to, "\"/>\n");
+    }
     return true;
 }
 
 /* Their rims first, so that roads that meet run into each other. */
 static bool add_barriers(picture_writer *writer, double rim, double least_size, gis_error *error)
 {
-    const gis_page_model *model = writer->model;
-    for (int inner = 0; inner < 2; inner++)
-        for (size_t k = 0; k < model->n_barriers; k++) {
-            const gis_page_barrier *each = &model->barrier[k];
-            double size = fmax(each->box[2] - each->box[0], each->box[3] - each->box[1]);
-            if (!gis_box_meets(each->box, writer->picture.window) ||
-                gis_picture_length(&writer->picture, size) < least_size)
-                continue;
-            if (!gis_go_on(error) || !add_barrier(writer, each, inner ? "road" : "rim", inner ? 0 : rim, error))
-                return false;
-        }
-    return true;
+    const barrier_paint rims = {"rim", NULL, 0, rim, true, least_size}, roads = {"road", NULL, 0, 0, true, least_size};
+    return paint_barriers(writer, &rims, error) && paint_barriers(writer, &roads, error);
 }
 
 /* Where they pass under features: a broken line along the middle, or along the edge of an area, in the colour that the
@@ -115,14 +138,8 @@ static bool add_barriers(picture_writer *writer, double rim, double least_size, 
 static bool add_underpasses(picture_writer *writer, gis_error *error)
 {
     enum { WIDE = 60 };
-    const gis_page_model *model = writer->model;
-    for (size_t k = 0; k < model->n_barriers; k++) {
-        const gis_page_barrier *each = &model->barrier[k];
-        bool wide = !each->area && gis_picture_length(&writer->picture, each->width) >= WIDE;
-        if (!gis_box_meets(each->box, writer->picture.window)) continue;
-        if (!gis_go_on(error) || !add_barrier(writer, each, wide ? "under wide" : "under", 0, error)) return false;
-    }
-    return true;
+    const barrier_paint under = {"under", "under wide", WIDE, 0, false, 0};
+    return paint_barriers(writer, &under, error);
 }
 
 /* ---- A place ----------------------------------------------------------------------------------------------------- */
@@ -220,8 +237,8 @@ enum { SQUARES = OVERVIEW_SIDE / SQUARE + 1 };
 
 typedef struct overview_writer {
     picture_writer writer;
-    double square;
-    bool *taken; /* [SQUARES][SQUARES] */
+    double square, part; /* part: 0 before, 1 after */
+    bool *taken;         /* [SQUARES][SQUARES] */
 } overview_writer;
 
 /* Adds a feature that is tiny, if its square is free. False: it is not tiny. */
@@ -229,7 +246,7 @@ static bool add_tiny(overview_writer *whole, const gis_page_feature *feature)
 {
     const gis_picture *picture = &whole->writer.picture;
     double box[4], at[2];
-    gis_page_box(feature, 1, box);
+    gis_page_box(feature, whole->part, box);
     double width = gis_picture_length(picture, box[2] - box[0]), height = gis_picture_length(picture, box[3] - box[1]);
     if (fmax(width, height) > whole->square) return false;
     gis_picture_place(picture, box[0], box[3], at);
@@ -265,19 +282,21 @@ static gis_picture whole_picture(const gis_page_model *model)
     return picture;
 }
 
-bool gis_page_add_overview(const gis_page_model *model, gis_text *to, gis_error *error)
+bool gis_page_add_overview(const gis_page_model *model, bool after, gis_text *to, gis_error *error)
 {
     overview_writer whole = {{model, whole_picture(model), {0}, to},
                              model->n > MANY ? LARGE_SQUARE : SQUARE,
+                             after,
                              calloc((size_t)SQUARES * SQUARES, sizeof(bool))};
     if (!whole.taken) return gis_no_memory(error);
-    begin_svg(&whole.writer, "overview", "the whole layer, after");
+    begin_svg(&whole.writer, "overview", after ? "the whole layer, after" : "the whole layer, before");
     /* The most telling first, for the squares; drawn in the order of the classes, for what lies on top. */
     gis_text paths[CLASSES] = {0};
     bool ok = add_barriers(&whole.writer, OVERVIEW_RIM, 4 * whole.square, error);
     for (int k = CLASSES - 1; ok && k >= 0; k--) {
         whole.writer.to = &paths[k];
-        ok = add_path(&whole.writer, classes[k].after, 1, add_for_overview, classes[k].status, error) &&
+        ok = add_path(&whole.writer, after ? classes[k].after : classes[k].before, after, add_for_overview,
+                      classes[k].status, error) &&
              (gis_text_get(&paths[k]) || gis_no_memory(error));
     }
     for (int k = 0; k < CLASSES; k++) {

@@ -5,8 +5,8 @@
 #include "report/drawing.h"
 #include "report/model.h"
 
-/* The whole layer as it is now. */
-bool gis_page_add_overview(const gis_page_model *model, gis_text *to, gis_error *error);
+/* The whole layer, before or after. */
+bool gis_page_add_overview(const gis_page_model *model, bool after, gis_text *to, gis_error *error);
 /* A place, before or after. */
 bool gis_page_add_close_up(const gis_page_model *model, const gis_page_place *place, bool after, gis_text *to,
                            gis_error *error);

@@ -11,7 +11,7 @@
 #include <string.h>
 #include <time.h>
 
-static size_t conflicts(const sunder_conflict_counts *counts)
+size_t gis_page_count(const sunder_conflict_counts *counts)
 {
     return counts->overlap + counts->too_close + counts->barrier + counts->barrier_drawn + counts->barrier_near +
            counts->contained + counts->duplicate;
@@ -33,57 +33,10 @@ bool gis_page_title(const gis_page_model *model, const gis_thinning *thinning, g
     return true;
 }
 
-/* "12 features" */
-static void add_number_of(gis_text *to, size_t n, const char *one, const char *many)
+void gis_page_add_number_of(gis_text *to, size_t n, const char *one, const char *many)
 {
     gis_report_count(to, n);
     gis_text_print(to, " %s", n == 1 ? one : many);
-}
-
-bool gis_page_lede(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
-{
-    (void)thinning, (void)error;
-    const sunder_layer_summary *summary = model->request->summary;
-    const gis_layer_input *input = model->request->input;
-    size_t before = conflicts(&summary->before), after = conflicts(&summary->after);
-    add_number_of(to, model->n, "feature", "features");
-    if (input->gap > 0) {
-        gis_text_add(to, ", to stand at least ");
-        gis_report_length(to, input->gap, &model->unit);
-        gis_text_add(to, " apart");
-    } else {
-        gis_text_add(to, ", not to overlap");
-    }
-    if (isfinite(input->max_shift)) {
-        gis_text_add(to, " with no move longer than ");
-        gis_report_length(to, input->max_shift, &model->unit);
-    }
-    gis_text_add(to, ". ");
-    if (before == 0) {
-        gis_text_add(to, "There was nothing to do: no two were in conflict.");
-        return true;
-    }
-    if (before == 1) {
-        gis_text_add(to, after == 0 ? "The one conflict is solved" : "The one conflict remains");
-    } else if (after == 0) {
-        gis_text_add(to, "All ");
-        gis_report_count(to, before);
-        gis_text_add(to, " conflicts are solved");
-    } else {
-        gis_text_add(to, "Of ");
-        gis_report_count(to, before);
-        gis_text_add(to, " conflicts, ");
-        gis_report_count(to, after);
-        gis_text_add(to, after == 1 ? " remains" : " remain");
-    }
-    if (summary->moved > 0) {
-        gis_text_add(to, "; ");
-        add_number_of(to, summary->moved, "feature moved, by ", "features moved, by ");
-        gis_report_length(to, summary->mean, &model->unit);
-        gis_text_add(to, summary->moved == 1 ? "" : " on average");
-    }
-    gis_text_add(to, ".");
-    return true;
 }
 
 /* ---- The few numbers that matter --------------------------------------------------------------------------------- */
@@ -102,7 +55,7 @@ bool gis_page_figures(const gis_page_model *model, const gis_thinning *thinning,
 {
     (void)thinning;
     const sunder_layer_summary *summary = model->request->summary;
-    size_t before = conflicts(&summary->before), after = conflicts(&summary->after);
+    size_t before = gis_page_count(&summary->before), after = gis_page_count(&summary->after);
     gis_text detail = {0};
     open_figure(to, after ? " bad" : " good", "conflicts");
     gis_report_count(to, before);
@@ -113,13 +66,17 @@ bool gis_page_figures(const gis_page_model *model, const gis_thinning *thinning,
     open_figure(to, "", "moved");
     gis_report_count(to, summary->moved);
     gis_text_add(&detail, "of ");
-    add_number_of(&detail, model->n, "feature", "features");
+    gis_page_add_number_of(&detail, model->n, "feature", "features");
+    if (summary->blocked_moved) {
+        gis_text_add(&detail, "; besides, ");
+        gis_page_add_number_of(&detail, summary->blocked_moved, "still in conflict", "still in conflict");
+    }
     close_figure(to, detail.failed ? "" : gis_text_get(&detail));
 
     open_figure(to, "", "longest move");
     gis_report_length(to, summary->max, &model->unit);
     detail.length = 0;
-    if (summary->moved > 0) {
+    if (model->n_moved > 0) {
         gis_text_add(&detail, "mean ");
         gis_report_length(&detail, summary->mean, &model->unit);
     }
@@ -155,7 +112,7 @@ static void add_barrier_note(const gis_page_model *model, const gis_thinning *th
 {
     if (model->n_barriers == 0) return;
     gis_text_add(to, " ");
-    add_number_of(to, model->n_barriers, "barrier lies", "barriers lie");
+    gis_page_add_number_of(to, model->n_barriers, "barrier lies", "barriers lie");
     gis_text_add(to, " about them");
     if (thinning->barrier_tolerance > 0) {
         gis_text_add(to, ", drawn simplified by up to ");
@@ -172,13 +129,13 @@ bool gis_page_map_note(const gis_page_model *model, const gis_thinning *thinning
         return true;
     }
     if (thinning->tolerance == 0) {
-        add_number_of(to, thinning->whole, "feature is drawn", "features are drawn");
+        gis_page_add_number_of(to, thinning->whole, "feature is drawn", "features are drawn");
         gis_text_add(to, ", with every corner.");
         add_barrier_note(model, thinning, to);
         return true;
     }
     gis_text_add(to, "The layer is large, so that the map is thinned: ");
-    add_number_of(to, thinning->whole, "feature is", "features are");
+    gis_page_add_number_of(to, thinning->whole, "feature is", "features are");
     gis_text_add(to, " drawn with every corner, those in conflict and the longest moves before all others; ");
     gis_report_count(to, thinning->simpler);
     gis_text_add(to, " others are simplified by up to ");
@@ -268,7 +225,7 @@ bool gis_page_moves(const gis_page_model *model, const gis_thinning *thinning, g
     gis_text_add(to, "<section id=\"moves\"><h2>How far features moved</h2>\n");
     if (!gis_page_add_histogram(model, to, error)) return false;
     gis_text_add(to, "<p class=\"note\">");
-    add_number_of(to, model->n_moved, "move", "moves");
+    gis_page_add_number_of(to, model->n_moved, "move", "moves");
     gis_text_add(to, ", together ");
     gis_report_length(to, model->request->summary->total, &model->unit);
     gis_text_add(to, "; half of them no longer than ");

@@ -18,6 +18,10 @@ gis_page_section gis_page_blocked;     /* the table of conflicts that remain */
 gis_page_section gis_page_certificate; /* what is proved, and what was asked for */
 gis_page_section gis_page_colophon;    /* by whom and when the page was made */
 
+/* Pairs in conflict between blocks, of every kind. */
+size_t gis_page_count(const sunder_conflict_counts *counts);
+/* "12 features" */
+void gis_page_add_number_of(gis_text *to, size_t n, const char *one, const char *many);
 /* A link that shows a window of the map: its opening tag. */
 void gis_page_open_link(const double window[4], gis_text *to);
 /* The name of a feature, escaped, and set apart from the words about it. */

@@ -9,8 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* More rows than anybody reads, and fewer than a browser is slow with. */
-enum { MOST_ROWS = 1000 };
+/* Rows of conflicts: as many as a reader goes through, so that the page has few nodes; on paper as many as fit on two
+ * sheets, the style sheet leaves out the others. */
+enum { MOST_ROWS = 100, MOST_ON_PAPER = 30 };
 
 static void open_number(gis_text *to, double value)
 {
@@ -116,6 +117,17 @@ static void add_reasons(const gis_page_model *model, gis_text *to)
     gis_text_add(to, "</dl>\n");
 }
 
+/* How many there are, where not all are shown. */
+static void add_rest(const gis_page_model *model, size_t shown, const char *class, gis_text *to)
+{
+    if (model->n_conflicts <= shown) return;
+    gis_text_print(to, "<p class=\"note %s\">The worst %zu of ", class, shown);
+    gis_report_count(to, model->n_conflicts);
+    gis_text_add(to, "; all are in the layer <bdi>");
+    gis_escape_markup(to, model->request->main_layer);
+    gis_text_add(to, "_conflicts</bdi> of the output.</p>\n");
+}
+
 bool gis_page_blocked(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
 {
     static const struct {
@@ -129,7 +141,8 @@ bool gis_page_blocked(const gis_page_model *model, const gis_thinning *thinning,
     if (model->n_conflicts == 0) return true;
     gis_text_add(to, "<section id=\"blocked\"><h2>What is blocked, and why</h2>\n");
     add_reasons(model, to);
-    gis_text_add(to, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Conflicts that remain\">"
+    gis_text_add(to, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+                     "aria-label=\"Conflicts that remain. Arrow keys go through the table.\">"
                      "<table class=\"sortable\"><thead><tr>");
     for (size_t k = 0; k < sizeof heads / sizeof *heads; k++)
         gis_text_print(to, "<th scope=\"col\" class=\"%s\">%s</th>", heads[k].class, heads[k].words);
@@ -138,13 +151,8 @@ bool gis_page_blocked(const gis_page_model *model, const gis_thinning *thinning,
     for (size_t k = 0; ok && k < model->n_conflicts && k < MOST_ROWS; k++)
         ok = add_row(model, model->conflict[k], to, error);
     gis_text_add(to, "</tbody></table></div>\n");
-    if (model->n_conflicts > MOST_ROWS) {
-        gis_text_print(to, "<p class=\"note\">The worst %d of ", (int)MOST_ROWS);
-        gis_report_count(to, model->n_conflicts);
-        gis_text_add(to, "; all are in the layer <bdi>");
-        gis_escape_markup(to, model->request->main_layer);
-        gis_text_add(to, "_conflicts</bdi> of the output.</p>\n");
-    }
+    add_rest(model, MOST_ROWS, "on-screen", to);
+    add_rest(model, MOST_ON_PAPER, "on-paper", to);
     gis_text_add(to, "</section>\n");
     return ok;
 }

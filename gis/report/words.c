@@ -10,7 +10,7 @@ const char *gis_page_kind(sunder_conflict_kind kind)
     static const char *const words[] = {
         [SUNDER_CONFLICT_OVERLAP] = "overlap",
         [SUNDER_CONFLICT_TOO_CLOSE] = "too close",
-        [SUNDER_CONFLICT_BARRIER] = "on a barrier's line",
+        [SUNDER_CONFLICT_BARRIER] = "on a barrier",
         [SUNDER_CONFLICT_BARRIER_DRAWN] = "on what is drawn of a barrier",
         [SUNDER_CONFLICT_BARRIER_NEAR] = "too close to a barrier",
         [SUNDER_CONFLICT_CONTAINED] = "one within the other",

@@ -3,9 +3,12 @@
     report.py CHROMIUM PROFILE FOLDER
 
 FOLDER holds two.html (two squares that overlap, moved one unit each), town.html, town.json (its --stats), town.geojson
-(its output), evil.html (a hostile layer, whose name is in evil.txt), many.html, roads.html, and pages of layers with next to nothing.
+(its output), evil.html (a hostile layer, whose name is in evil.txt), quarter.html, quarter.json (much of it blocked, beside
+roads), many.html, roads.html, and pages of layers with next to nothing.
 """
+import base64
 import json
+import math
 import os
 import sys
 import time
@@ -102,10 +105,14 @@ def ask_under(browser):
 
 
 # ---- The town ------------------------------------------------------------------------------------------------------------
+def town_features():
+    with open(os.path.join(folder, "town.geojson")) as file:
+        return json.load(file)["features"]
+
+
 def ask_colours(page):
     """Every building, where the output has it, in the colour of its status."""
-    with open(os.path.join(folder, "town.geojson")) as file:
-        features = json.load(file)["features"]
+    features = town_features()
     box, at, picture = map_box(page), place(page), page.picture(".map canvas")
     colours = {"moved": MOVED, "unmoved": UNMOVED, "blocked": BLOCKED, "fixed": FIXED}
     asked = {name: 0 for name in colours}
@@ -209,7 +216,8 @@ def ask_page(page):
         stats = json.load(file)
     text = page.evaluate("document.body.innerText")
     numbers = page.evaluate("Array.from(document.querySelectorAll('.histogram .count'), (t) => Number(t.textContent))")
-    demand(sum(numbers) == stats["moved"], "the histogram counts %s of %s" % (numbers, stats["moved"]))
+    lengths = sum(f["properties"]["sunder_len"] > 0 for f in town_features())
+    demand(sum(numbers) == lengths > 0, "the histogram counts %s of %s" % (numbers, lengths))
     rows = page.evaluate("document.querySelectorAll('#blocked tbody tr').length")
     after = stats["conflicts"]["after"]
     demand(rows == sum(after[k] for k in after if k != "inside_blocks") > 0, "%s rows of conflicts" % rows)
@@ -253,8 +261,6 @@ def ask_town(browser):
     ask_colours(page)
     ask_hands(page)
     ask_page(page)
-    paper = page.call("Page.printToPDF", printBackground=True)["data"]
-    demand(len(paper) > 30000, "the page does not print")
     quiet(page, "town.html")
 
     page = browser.open(address("town.html"), 1280, 900, dark=True)
@@ -271,6 +277,110 @@ def ask_town(browser):
     picture = page.picture()
     colours = {picture.at(x, y) for y in range(450, 900, 2) for x in range(100, 1180, 2)}
     demand(any(near(c, MOVED, 4) for c in colours), "without scripts there is no picture of the map")
+
+
+# ---- A quarter where much is blocked, beside roads: what a reader prints, and goes through by keys -------------------------
+def is_shown(page, selector):
+    return page.evaluate("Array.from(document.querySelectorAll(%s), (e) => e.getClientRects().length > 0)" % json.dumps(selector))
+
+
+def pages_of(pdf):
+    return pdf.count(b"/Type /Page\n") + pdf.count(b"/Type /Page ") + pdf.count(b"/Type/Page/")
+
+
+def ask_print(browser):
+    page = browser.open(address("quarter.html"), 1280, 900)
+    screen = {"pictures": is_shown(page, ".still svg.overview"), "map": is_shown(page, ".map canvas")}
+    demand(screen == {"pictures": [False, False], "map": [True]}, "the map on the screen: %s" % screen)
+    page.call("Emulation.setEmulatedMedia", media="print")
+    page.rest()
+    bars = page.evaluate("Array.from(document.querySelectorAll('.histogram rect'), (r) => { const b = r.getBoundingClientRect();"
+                         "return b.width * b.height * (getComputedStyle(r).fill !== 'none') })")
+    demand(len(bars) > 3 and min(bars) > 0, "the printed histogram has no bars: %s" % bars)
+    boxes = page.evaluate("Array.from(document.querySelectorAll('.still svg.overview'), (e) => { const r = e.getBoundingClientRect();"
+                          "return [r.left, r.top, r.width, r.height] })")
+    demand(len(boxes) == 2 and boxes[0][1] == boxes[1][1] and boxes[0][0] + boxes[0][2] <= boxes[1][0] and
+           min(boxes[0][2:] + boxes[1][2:]) > 100, "before and after are not side by side: %s" % boxes)
+    demand(page.evaluate("(() => { const [a, b] = document.querySelectorAll('.still svg.overview');"
+                         "return a.getAttribute('viewBox') === b.getAttribute('viewBox') &&"
+                         "a.querySelector('.stood') !== null && b.querySelector('.moved') !== null })()"),
+           "the printed maps are not the same extent before and after")
+    demand(not any(is_shown(page, ".controls, .map canvas, .skip")), "what only a screen can use is printed")
+    with open(os.path.join(folder, "quarter.json")) as file:
+        after = json.load(file)["conflicts"]["after"]
+    left, rows = sum(after[k] for k in after if k != "inside_blocks"), sum(is_shown(page, "#blocked tbody tr"))
+    demand(left > 100 and 20 <= rows < left, "%d of %d rows are printed" % (rows, left))
+    rest = page.evaluate("document.querySelector('#blocked .note.on-paper').textContent")
+    demand(is_shown(page, "#blocked .note.on-paper") == [True] and str(rows) in rest and str(left) in rest, "the rest is not told: " + rest)
+    ask_free_with(page, "on paper")
+    # A sheet more for a second page of the table is all that it may take.
+    sheets = lambda: pages_of(base64.b64decode(page.call("Page.printToPDF", printBackground=True, preferCSSPageSize=True)["data"]))
+    all_sheets = sheets()
+    page.evaluate("document.getElementById('blocked').remove()")
+    others = sheets()
+    demand(0 < others < all_sheets <= others + 2, "the table takes %d sheets of %d" % (all_sheets - others, all_sheets))
+    quiet(page, "quarter.html")
+
+
+def ask_free_with(page, where):
+    """What would free a pair is there as a whole: within its cell, and the cell within what is seen of the table."""
+    cut = page.evaluate("Array.from(document.querySelectorAll('#blocked tbody td:last-child')).filter((td) => {"
+                        "const r = td.getBoundingClientRect(), s = td.closest('.scroll').getBoundingClientRect();"
+                        "return r.width > 0 && (r.right > s.right + 1 || td.scrollWidth > td.clientWidth + 1 ||"
+                        "Array.from(td.querySelectorAll('bdi')).some((b) => b.scrollWidth > b.clientWidth + 1 && b.clientWidth > 0)) }).length")
+    demand(cut == 0, "%s, what would free a pair is cut off in %d rows" % (where, cut))
+
+
+def ask_keys(browser):
+    page = browser.open(address("quarter.html"), 1280, 900)
+    nodes = page.evaluate("(() => { let n = 0; const w = document.createTreeWalker(document); while (w.nextNode()) n++; return n })()")
+    print("a quarter of 1,500 buildings beside roads: %d nodes" % nodes)
+    demand(nodes < 5000, "the page has %d nodes" % nodes)
+    ask_free_with(page, "on the screen")
+    stops = lambda: page.evaluate("Array.from(document.querySelectorAll('#blocked *')).filter((e) => e.tabIndex >= 0).length")
+    demand(stops() == 1, "a table has %d stops" % stops())
+    page.press("Tab")
+    demand(page.evaluate("document.activeElement.className") == "skip", "the first stop is no link past the map")
+    demand(page.evaluate("document.activeElement.getBoundingClientRect().top") >= 0, "the link past the map is not seen when it is chosen")
+    page.evaluate("document.activeElement.click()")
+    page.press("Tab")
+    demand(page.evaluate("document.activeElement.closest('#places') !== null"), "the link past the map leads nowhere")
+    page.evaluate("document.querySelector('#blocked th button').focus()")
+    focused = lambda: page.evaluate("(() => { const e = document.activeElement; return [e.tagName, e.closest('tr')?.rowIndex,"
+                                    "e.closest('th, td')?.cellIndex] })()")
+    for key, wanted in (("ArrowRight", ["BUTTON", 0, 1]), ("ArrowDown", ["A", 1, 0]), ("ArrowDown", ["A", 2, 0]),
+                        ("End", ["A", 100, 0]), ("Home", ["BUTTON", 0, 0])):
+        page.press(key)
+        demand(focused() == wanted, "%s in the table leads to %s, not %s" % (key, focused(), wanted))
+    demand(stops() == 1, "the table has %d stops after it was gone through" % stops())
+
+
+def ask_marks(browser):
+    """Far away one disc stands for many conflicts; closer there are more of them."""
+    page = browser.open(address("quarter.html"), 1280, 900)
+    marks = lambda: int(page.evaluate("document.querySelector('.map canvas').dataset.marks"))
+    page.evaluate("document.querySelector('[data-do=all]').click()")
+    page.rest()
+    far = marks()
+    with open(os.path.join(folder, "quarter.json")) as file:
+        after = json.load(file)["conflicts"]["after"]
+    left = sum(after[k] for k in after if k != "inside_blocks")
+    print("%d conflicts, %d marks at the whole extent" % (left, far))
+    demand(0 < far < left / 2, "%d marks for %d conflicts" % (far, left))
+    picture = page.picture(".map canvas")
+    link = [picture.at(x, y) for y in range(0, picture.height, 2) for x in range(0, picture.width, 2)]
+    covered = sum(near(colour, (0xB0, 0x25, 0x6E), 8) for colour in link) / len(link)
+    demand(0 < covered < 0.1, "marks cover %.0f %% of the map" % (100 * covered))
+    page.evaluate("document.querySelector('#blocked tbody a.show').click()")
+    page.rest()
+    demand(0 < marks() <= 40, "%d marks about one conflict" % marks())
+
+
+def ask_lede(browser):
+    page = browser.open(address("quarter.html"), 1280, 900)
+    lede = page.evaluate("document.querySelector('.lede').textContent").replace("\u00a0", " ").replace("\u202f", " ")
+    for words in ("1:25 000", "0.2 mm (5 m) apart", "kept off roads, drawn 0.3 mm wide, with a gap of 0.1 mm", "no move is longer than 3 m"):
+        demand(words in lede.lower().replace("1:25000", "1:25 000"), "the lead does not say '%s': %s" % (words, lede))
 
 
 def ask_hostile(browser):
@@ -323,7 +433,7 @@ def ask_degenerate(browser):
 
 
 with Browser(program, profile) as opened:
-    for ask in (ask_two, ask_under, ask_town, ask_hostile, ask_many, ask_degenerate):
+    for ask in (ask_two, ask_under, ask_town, ask_print, ask_keys, ask_marks, ask_lede, ask_hostile, ask_many, ask_degenerate):
         print("----", ask.__name__)
         ask(opened)
 sys.exit(1 if wrong else 0)

@@ -27,7 +27,7 @@ class Reader(html.parser.HTMLParser):
         given = dict(attributes)
         for name, value in attributes:
             if name.startswith("on") or name == "style": wrong.append(f"{tag} has {name}")
-            if name in ("src", "href", "action", "data", "srcset", "xlink:href") and not (value or "").startswith("#at="):
+            if name in ("src", "href", "action", "data", "srcset", "xlink:href") and not (value or "").startswith(("#at=", "#after-map")):
                 wrong.append(f"{tag} leads to {value}")
         if tag in ("link", "iframe", "img", "object", "embed", "base", "foreignobject"): wrong.append(f"there is a {tag}")
         if tag == "style" or tag == "script":

@@ -111,26 +111,74 @@ function drawArrows(context, layer, view, features, colours) {
   }
 }
 
-// Links of conflicts, with a disc where one would be too short to be seen; a ring if nothing is proved of it.
+// Marks that would lie on each other are one: each joins the first that is no farther from it than so many pixels, the
+// worst conflicts first, so that no two discs of that size overlap. They depend on the scale alone, and stay as they are
+// when the map is dragged.
+const clusterReach = 30;
+
+function makeClusters(conflicts, scale) {
+  const clusters = [], squares = new Map(), square = (v) => Math.floor(v / clusterReach);
+  for (const { proved, ends } of conflicts) {
+    if (Math.hypot(ends[2] - ends[0], ends[3] - ends[1]) * scale > 12) continue;
+    const x = (ends[0] + ends[2]) / 2 * scale, y = -(ends[1] + ends[3]) / 2 * scale;
+    let cluster;
+    for (let i = square(x) - 1; i <= square(x) + 1 && !cluster; i++)
+      for (let j = square(y) - 1; j <= square(y) + 1 && !cluster; j++)
+        cluster = squares.get(i + "," + j)?.find((each) => Math.hypot(each.x - x, each.y - y) < clusterReach);
+    if (cluster) {
+      cluster.n++;
+      cluster.proved = cluster.proved || proved;
+      continue;
+    }
+    clusters.push({ x, y, n: 1, proved });
+    const key = square(x) + "," + square(y);
+    if (!squares.has(key)) squares.set(key, []);
+    squares.get(key).push(clusters[clusters.length - 1]);
+  }
+  return clusters;
+}
+
+// A disc, or a ring if nothing is proved of it; of several a larger one with their number.
+function drawCluster(context, view, { x, y, n, proved }, colours) {
+  const radius = n === 1 ? 5 : Math.min(clusterReach / 2 - 1, 7 + 1.5 * Math.log2(n));
+  context.beginPath();
+  context.arc(view.x + x, view.y + y, radius, 0, 2 * Math.PI);
+  if (proved || n > 1) {
+    context.fillStyle = proved ? colours.link : colours.paper;
+    context.fill();
+  }
+  context.stroke();
+  if (n === 1) return;
+  context.fillStyle = proved ? colours.paper : colours.link;
+  context.fillText(n, view.x + x, view.y + y);
+}
+
+// Links of conflicts; where one would be too short to be seen, a disc. layer.marks: how many discs there are.
 function drawLinks(context, layer, view, colours) {
-  context.strokeStyle = context.fillStyle = colours.link;
+  if (layer.clusters?.scale !== view.scale) layer.clusters = { scale: view.scale, all: makeClusters(layer.conflicts, view.scale) };
+  context.strokeStyle = colours.link;
   context.lineCap = "round";
-  for (const { proved, ends } of layer.conflicts) {
+  context.lineWidth = 3;
+  for (const { ends } of layer.conflicts) {
     const x0 = view.x + ends[0] * view.scale, y0 = view.y - ends[1] * view.scale;
     const x1 = view.x + ends[2] * view.scale, y1 = view.y - ends[3] * view.scale;
     if (Math.max(x0, x1) < -9 || Math.min(x0, x1) > view.width + 9 || Math.max(y0, y1) < -9 || Math.min(y0, y1) > view.height + 9)
       continue;
-    context.lineWidth = 3;
     context.beginPath();
     context.moveTo(x0, y0);
     context.lineTo(x1, y1);
     context.stroke();
-    if (Math.hypot(x1 - x0, y1 - y0) > 12) continue;
-    context.lineWidth = 2;
-    context.beginPath();
-    context.arc((x0 + x1) / 2, (y0 + y1) / 2, 5, 0, 2 * Math.PI);
-    if (proved) context.fill();
-    else context.stroke();
+  }
+  context.lineWidth = 2;
+  context.font = "600 11px system-ui, sans-serif";
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  layer.marks = 0;
+  for (const cluster of layer.clusters.all) {
+    const x = view.x + cluster.x, y = view.y + cluster.y;
+    if (x < -clusterReach || x > view.width + clusterReach || y < -clusterReach || y > view.height + clusterReach) continue;
+    drawCluster(context, view, cluster, colours);
+    layer.marks++;
   }
 }
 

@@ -69,6 +69,7 @@ function makeMap(layer) {
     }
     if (state.mark) drawMark(now);
     drawScale();
+    canvas.dataset.marks = layer.marks ?? 0;
     state.drawn = true;
   }
 
@@ -278,7 +279,7 @@ function makeMap(layer) {
     }
     draw();
   }
-  box.querySelector(".overview").remove();
+  document.querySelector(".still").classList.add("with-map");
   canvas.hidden = false;
   for (const each of document.querySelectorAll(".needs-script")) each.hidden = false;
   new ResizeObserver(resize).observe(box);
