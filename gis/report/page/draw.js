@@ -114,12 +114,12 @@ function drawArrows(context, layer, view, features, colours) {
 // Marks that would lie on each other are one: each joins the first that is no farther from it than so many pixels, the
 // worst conflicts first, so that no two discs of that size overlap. They depend on the scale alone, and stay as they are
 // when the map is dragged.
-const clusterReach = 30;
+const clusterReach = 30, shortLink = 12;
 
 function makeClusters(conflicts, scale) {
   const clusters = [], squares = new Map(), square = (v) => Math.floor(v / clusterReach);
   for (const { proved, ends } of conflicts) {
-    if (Math.hypot(ends[2] - ends[0], ends[3] - ends[1]) * scale > 12) continue;
+    if (Math.hypot(ends[2] - ends[0], ends[3] - ends[1]) * scale > shortLink) continue;
     const x = (ends[0] + ends[2]) / 2 * scale, y = -(ends[1] + ends[3]) / 2 * scale;
     let cluster;
     for (let i = square(x) - 1; i <= square(x) + 1 && !cluster; i++)
@@ -153,12 +153,13 @@ function drawCluster(context, view, { x, y, n, proved }, colours) {
   context.fillText(n, view.x + x, view.y + y);
 }
 
-// Links of conflicts; where one would be too short to be seen, a disc. layer.marks: how many discs there are.
+// Links of conflicts; where one would be too short to be seen, a disc. layer.marks: how many links and discs are seen.
 function drawLinks(context, layer, view, colours) {
   if (layer.clusters?.scale !== view.scale) layer.clusters = { scale: view.scale, all: makeClusters(layer.conflicts, view.scale) };
   context.strokeStyle = colours.link;
   context.lineCap = "round";
   context.lineWidth = 3;
+  layer.marks = 0;
   for (const { ends } of layer.conflicts) {
     const x0 = view.x + ends[0] * view.scale, y0 = view.y - ends[1] * view.scale;
     const x1 = view.x + ends[2] * view.scale, y1 = view.y - ends[3] * view.scale;
@@ -168,12 +169,12 @@ function drawLinks(context, layer, view, colours) {
     context.moveTo(x0, y0);
     context.lineTo(x1, y1);
     context.stroke();
+    layer.marks += Math.hypot(x1 - x0, y1 - y0) > shortLink;
   }
   context.lineWidth = 2;
   context.font = "600 11px system-ui, sans-serif";
   context.textAlign = "center";
   context.textBaseline = "middle";
-  layer.marks = 0;
   for (const cluster of layer.clusters.all) {
     const x = view.x + cluster.x, y = view.y + cluster.y;
     if (x < -clusterReach || x > view.width + clusterReach || y < -clusterReach || y > view.height + clusterReach) continue;
