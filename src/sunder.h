@@ -658,8 +658,8 @@ SUNDER_API sunder_status sunder_layer_check_moves(const sunder_layer *before, co
  * none of the barrier's lines but such as c lies on, and none of its areas' edges of which c lies strictly on the outer
  * side: so what stands in an area may leave it, and not come in again. The side anchor is that of
  * sunder_layer_set_side_anchors(), such as the point that a symbol is drawn at; else it is an interior point of the
- * largest part that all such lines and edges leave of the feature; the anchor, where none of them meets its interior:
- * src/displacement/layer/side_anchor.c has the rule. */
+ * largest part that all such lines and edges leave of the feature, of parts equal within the tolerance the one with the
+ * most room; the anchor, where none of them meets its interior: src/displacement/layer/side_anchor.c has the rule. */
 SUNDER_API sunder_status sunder_layer_separate(const sunder_layer *layer, const sunder_layer_options *options,
                                                sunder_report **out, sunder_error *err);
 SUNDER_API void sunder_report_free(sunder_report *report);

@@ -48,6 +48,7 @@ static bool check_moves(check_run *run, gis_error *error)
     gis_layer_box(&run->input, box);
     gis_resolve_original(run->options, &run->request, gis_source_name(run->input.source), &original);
     original.also = box;
+    original.moves = true; /* the same barriers count as when its features were moved */
     if (!gis_moves_check(&original, &run->input, &run->progress, &run->moves, error)) return false;
     const gis_source *before = run->moves.original.source;
     return gis_destinations_spare(&run->to, before, error) &&

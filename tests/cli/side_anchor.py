@@ -118,6 +118,23 @@ class Parts:
         return (-left + right) / 2, y
 
 
+def room(point, box, lines):
+    """Beyond the point, away from the middle of the box: the square of the way to the first line, if that is no farther
+    than twice the width and height of the box together."""
+    px, py = point
+    dx, dy = px - Fraction(box[0] + box[2], 2), py - Fraction(box[1] + box[3], 2)
+    best = Fraction(2 * (box[2] - box[0] + box[3] - box[1])) ** 2
+    for (ax, ay), (bx, by) in lines:
+        den = dx * (by - ay) - dy * (bx - ax)
+        if den == 0:
+            continue
+        along = ((ax - px) * (by - ay) - (ay - py) * (bx - ax)) / den
+        across = ((ax - px) * dy - (ay - py) * dx) / den
+        if along > 0 and 0 <= across <= 1:
+            best = min(best, along * along * (dx * dx + dy * dy))
+    return best
+
+
 def side_anchor(outline, lines, plain, unit):
     """plain: the anchor, as doubles; unit: of the integers, so many to one. None where no line cuts the feature."""
     lines = [e for e in lines if e[0] != e[1]]
@@ -125,6 +142,9 @@ def side_anchor(outline, lines, plain, unit):
         return None
     parts = Parts(outline, lines)
     largest = parts.largest()
+    if len(largest) > 1:
+        rooms = {k: room(parts.point(k), outline.box, lines) for k in largest}
+        largest = [k for k in largest if rooms[k] == max(rooms.values())]
     if parts.holder(*(Fraction(v) * unit for v in plain)) in largest:
         return plain
     x, y, part = min((*parts.point(k), k) for k in largest)

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# The side of a point is that of the point itself, whatever its symbol; and what stands in an area of as=boundary stays in
-# it with its anchor.
+# The side of a point is that of the point itself, whatever its symbol; what stands in an area of as=boundary stays in it
+# with its anchor; and of what a road cuts in half the side is that with room.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 export PYTHONDONTWRITEBYTECODE=1 SOURCE_DATE_EPOCH=1700000000
 kept() { /usr/bin/python3 "$SUNDER_SOURCE/tests/cli/kept_sides.py" "$@" || fail "kept_sides.py $*"; }
@@ -45,5 +45,33 @@ for kind in points houses; do
     ogrinfo -q -al -ro $kind.gpkg $kind >whole.txt
     ogrinfo -q -al -ro $kind-parts.gpkg $kind >parts.txt
     cmp -s whole.txt parts.txt || fail "$kind: other moves in parts"
+done
+# Houses that the middle line of a road cuts in half, or nearly so, with another road on one side: away from that, though
+# the part there is a little larger. Upright and level roads, the other road on either side.
+layer roads.gpkg roads LINESTRING <<'X'
+id,WKT
+1,"LINESTRING(0 0,300 0)"
+2,"LINESTRING(0 20,300 20)"
+3,"LINESTRING(-20 0,-20 300)"
+4,"LINESTRING(-40 0,-40 300)"
+X
+layer halves.gpkg halves POLYGON <<'X'
+id,WKT
+1,"POLYGON((140 16,150 16,150 24,140 24,140 16))"
+2,"POLYGON((240 15.9375,250 15.9375,250 23.9375,240 23.9375,240 15.9375))"
+3,"POLYGON((80 -4,90 -4,90 4,80 4,80 -4))"
+4,"POLYGON((-24 140,-16 140,-16 150,-24 150,-24 140))"
+5,"POLYGON((-44 240,-36 240,-36 250,-44 250,-44 240))"
+6,"POLYGON((40 15,50 15,50 24,40 24,40 15))"
+X
+for limit in '' '--max-shift 15'; do
+    # shellcheck disable=SC2086
+    run separate halves.gpkg o.gpkg -q --overwrite --gap 2 --barrier roads.gpkg,width=12 $limit
+    ogr2ogr -f CSV moved.csv o.gpkg -sql "SELECT CAST(id AS INTEGER) AS id, round(sunder_dx, 6) AS dx, round(sunder_dy, 6) AS dy FROM halves WHERE CAST(id AS INTEGER) < 6"
+    same "$(tail -n +2 moved.csv | tr -d '"' | tr '\n' ';')" '1,0,12;2,0,12.0625;3,0,-12;4,12,0;5,-12,0;' "halves $limit:"
+    rm moved.csv
+    # shellcheck disable=SC2086
+    run check o.gpkg -l halves --before halves.gpkg --gap 2 --barrier roads.gpkg,width=12 $limit
+    says out 'worse 0, limit 0, side 0, jump 0'
 done
 finish

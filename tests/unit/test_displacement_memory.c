@@ -182,6 +182,20 @@ static void check_moves_beside_barriers(void **state)
 
 enum { TEETH = 120 };
 
+typedef struct lines {
+    const sunder_i_side *line[1];
+    size_t n;
+} lines;
+
+static bool find_lines(void *user, const double box[4], const sunder_i_side *const **line, size_t *n)
+{
+    const lines *all = user;
+    (void)box;
+    *line = all->line;
+    *n = all->n;
+    return true;
+}
+
 /* A comb cut in two by a line through its anchor: another one is found at a height where all teeth are crossed, by more
  * numbers than memory is fetched for at once. */
 static bool attempt_anchor(void *context)
@@ -202,7 +216,10 @@ static bool attempt_anchor(void *context)
         sunder_shape_anchor(shape, anchor);
         const double from[2] = {anchor[0], anchor[1] - 500}, to[2] = {anchor[0], anchor[1] + 500};
         const sunder_i_side side = {.from = from, .to = to}, *const sides[1] = {&side};
-        status = sunder_i_side_anchor(shape, sides, 1, anchor, NULL);
+        lines both = {{&side}, 1};
+        /* All parts are as good as the largest, so that the room of each is asked for. */
+        const sunder_i_side_scope scope = {1e6, INFINITY, find_lines, &both};
+        status = sunder_i_side_anchor(shape, sides, 1, &scope, anchor, NULL);
         if (!status) assert_true(anchor[0] != from[0]);
     }
     sunder_shape_free(shape);

@@ -54,6 +54,7 @@ static inline bool sunder_i_is_present(const sunder_feature *feature)
 /* The options with every default filled in. */
 typedef struct sunder_i_rules {
     double gap, tolerance;
+    double barriers_known; /* so far about features; INFINITY: all are */
     const sunder_shape *disc; /* of the tolerance, for sunder_i_overlap_is_thin(); the model's */
     bool touch_joins, containment_joins, list_inside;
     double thin; /* 0: nobody asks what a tolerance would join */

@@ -47,6 +47,7 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *o, sunder_i_rules *r
         return sunder_i_fail(err, SUNDER_EARG, "the reach of barriers, %g, is negative or no number", o->barrier_reach);
     rules->gap = o->gap;
     rules->tolerance = tolerance;
+    rules->barriers_known = o->barrier_reach;
     rules->disc = NULL; /* until there is a model */
     rules->touch_joins = !o->no_blocks && !o->no_touch;
     rules->containment_joins = !o->no_blocks && o->contained == SUNDER_CONTAINMENT_BLOCK;

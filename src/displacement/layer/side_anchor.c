@@ -5,7 +5,12 @@
  * whoever applies it:
  *
  *   no line meets a member's interior        the plain anchor (sunder_shape_anchor())
- *   else, of the parts with the most area    the plain anchor, if one of them holds it, off all lines
+ *   else, of the parts with the most area,   those with the most room (side_room.c)
+ *     and those to whose area no more than
+ *     the tolerance times the width and
+ *     height of the feature's box together
+ *     is missing
+ *   of these, of those with the most area    the plain anchor, if one of them holds it, off all lines
  *   else                                     on the horizontal line through the middle of a part's height, the middle
  *                                            of the widest interval that the part, without the lines, has there, the
  *                                            first from the left of equal ones; of several parts the smallest such
@@ -178,15 +183,44 @@ static bool misses(const sunder_shape *s, const sunder_i_side *side)
     return true;
 }
 
-/* Of the lines that may meet its interior. */
-static sunder_status choose_of(const sunder_shape *shape, const sunder_i_side *const *side, size_t n, double anchor[2],
-                               sunder_error *err)
+/* Leaves only the parts with the most room. */
+static sunder_status keep_roomiest(sunder_i_side_cut *c, const sunder_i_side_scope *scope, sunder_error *err)
 {
+    const double reach = sunder_i_side_room_reach(c->shape, scope->known);
+    const sunder_i_side *const *line;
+    sunder_i_ratio most = {.den = {NULL, 0}};
+    double box[4];
+    size_t lines, kept = 0;
+    sunder_i_box_grow(c->shape->box, reach, box);
+    if (!scope->find(scope->user, box, &line, &lines)) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < c->parts; k++) {
+        sunder_i_rational_point at;
+        const sunder_status status = point_of(c, &c->part[k], &at, err);
+        if (status) return status;
+        const sunder_i_ratio room = sunder_i_side_room(c, at, line, lines, reach);
+        const int order = most.den.size ? sunder_i_ratio_cmp(&c->arena, room, most) : 1;
+        if (order > 0) {
+            most = room;
+            kept = 0;
+        }
+        if (order >= 0) c->part[kept++] = c->part[k];
+    }
+    c->parts = kept;
+    return SUNDER_OK;
+}
+
+/* Of the lines that may meet its interior. */
+static sunder_status choose_of(const sunder_shape *shape, const sunder_i_side *const *side, size_t n,
+                               const sunder_i_side_scope *scope, double anchor[2], sunder_error *err)
+{
+    const double *box = shape->box, slack = scope->tolerance * ((box[2] - box[0]) + (box[3] - box[1]));
     sunder_i_side_cut cut;
     sunder_status status = sunder_i_side_cut_make(shape, side, n, &cut, err);
     if (!status && cut.any) {
-        sunder_i_side_cut_keep_largest(&cut);
-        status = choose(&cut, anchor, err);
+        sunder_i_side_cut_keep_largest(&cut, slack);
+        if (cut.parts > 1) status = keep_roomiest(&cut, scope, err);
+        if (!status) sunder_i_side_cut_keep_largest(&cut, 0);
+        if (!status) status = choose(&cut, anchor, err);
     }
     if (!status && (cut.arena.failed || cut.lattice.arena.failed)) status = sunder_i_no_memory(err);
     sunder_i_side_cut_free(&cut);
@@ -194,7 +228,7 @@ static sunder_status choose_of(const sunder_shape *shape, const sunder_i_side *c
 }
 
 sunder_status sunder_i_side_anchor(const sunder_shape *shape, const sunder_i_side *const *side, size_t n,
-                                   double anchor[2], sunder_error *err)
+                                   const sunder_i_side_scope *scope, double anchor[2], sunder_error *err)
 {
     sunder_shape_anchor(shape, anchor);
     const sunder_i_side **near = n ? sunder_i_alloc(n, sizeof *near) : NULL;
@@ -202,7 +236,7 @@ sunder_status sunder_i_side_anchor(const sunder_shape *shape, const sunder_i_sid
     if (n && !near) return sunder_i_no_memory(err);
     for (size_t k = 0; k < n; k++)
         if (!misses(shape, side[k])) near[left++] = side[k];
-    const sunder_status status = left ? choose_of(shape, near, left, anchor, err) : SUNDER_OK;
+    const sunder_status status = left ? choose_of(shape, near, left, scope, anchor, err) : SUNDER_OK;
     sunder_i_free(near);
     return status;
 }

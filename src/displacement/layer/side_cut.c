@@ -92,6 +92,18 @@ sunder_i_rational_point sunder_i_side_cut_point(sunder_i_side_cut *c, const doub
         at[0], at[1], sunder_i_big_shl(m, sunder_i_big_i64(m, 1), (unsigned long)(c->lattice.exponent - unit))};
 }
 
+/* A length, or with power 2 an area. */
+sunder_i_ratio sunder_i_side_cut_in_units(sunder_i_side_cut *c, double size, int power)
+{
+    const long by = power * c->lattice.exponent;
+    sunder_i_ratio r = sunder_i_ratio_double(&c->arena, sunder_i_min(size, DBL_MAX));
+    if (by < 0)
+        r.num = sunder_i_big_shl(&c->arena, r.num, (unsigned long)-by);
+    else
+        r.den = sunder_i_big_shl(&c->arena, r.den, (unsigned long)by);
+    return r;
+}
+
 /* The nearest doubles to a point. */
 void sunder_i_side_cut_doubles(sunder_i_side_cut *c, const sunder_i_rational_point *at, double xy[2])
 {
@@ -270,24 +282,27 @@ void sunder_i_side_cut_free(sunder_i_side_cut *c)
     sunder_i_lattice_free(&c->lattice);
 }
 
-void sunder_i_side_cut_keep_largest(sunder_i_side_cut *c)
+void sunder_i_side_cut_keep_largest(sunder_i_side_cut *c, double slack)
 {
+    sunder_i_arena *m = &c->arena;
+    const double twice = ldexp(2 * slack, (int)(-2 * c->lattice.exponent));
     double least = -INFINITY;
     size_t n = 0;
     for (size_t k = 0; k < c->parts; k++) least = sunder_i_max(least, c->part[k].area - c->part[k].off);
     for (size_t k = 0; k < c->parts; k++)
-        if (!(c->part[k].area + c->part[k].off < least)) c->part[n++] = c->part[k];
+        if (!(c->part[k].area + c->part[k].off + 1.0000001 * twice < least)) c->part[n++] = c->part[k];
     c->parts = n;
     if (n < 2) return;
     sunder_i_ratio largest = exact_area(c, &c->part[0]);
-    n = 1;
-    for (size_t k = 1; k < c->parts && !c->arena.failed; k++) {
+    for (size_t k = 1; k < c->parts && !m->failed; k++) {
         const sunder_i_ratio area = exact_area(c, &c->part[k]);
-        const int order = sunder_i_ratio_cmp(&c->arena, area, largest);
-        if (order > 0) largest = area;
-        if (order > 0) n = 0;
-        if (order >= 0) c->part[n++] = c->part[k];
+        if (sunder_i_ratio_cmp(m, area, largest) > 0) largest = area;
     }
+    const sunder_i_ratio missing = sunder_i_side_cut_in_units(c, 2 * slack, 2);
+    n = 0;
+    for (size_t k = 0; k < c->parts && !m->failed; k++)
+        if (sunder_i_ratio_cmp(m, sunder_i_ratio_add(m, exact_area(c, &c->part[k]), missing), largest) >= 0)
+            c->part[n++] = c->part[k];
     c->parts = n;
 }
 

@@ -4,6 +4,7 @@
 
 #include "displacement/layer/sides.h"
 
+#include "number/ratio.h"
 #include "planar_map/planar_map.h"
 
 /* A face of a member's map that is within the member. */
@@ -31,8 +32,8 @@ typedef struct sunder_i_side_cut {
 sunder_status sunder_i_side_cut_make(const sunder_shape *shape, const sunder_i_side *const *side, size_t n,
                                      sunder_i_side_cut *out, sunder_error *err);
 void sunder_i_side_cut_free(sunder_i_side_cut *cut);
-/* Leaves only the largest ones: the first, and those of the same area. */
-void sunder_i_side_cut_keep_largest(sunder_i_side_cut *cut);
+/* Leaves only the largest ones: those to whose area no more than `slack` is missing (in units of the layer). */
+void sunder_i_side_cut_keep_largest(sunder_i_side_cut *cut, double slack);
 
 /* Called with the two ends of each half-edge that has the part on its left; slits come twice. */
 typedef void (*sunder_i_visit_side_cut)(sunder_i_side_cut *cut, const sunder_i_rational_point *from,
@@ -43,6 +44,15 @@ void sunder_i_side_cut_boundary(sunder_i_side_cut *cut, const sunder_i_cut_part 
 /* Does the part hold the point, off all lines? */
 sunder_status sunder_i_side_cut_holds(const sunder_i_cut_part *part, sunder_i_rational_point at, bool *holds,
                                       sunder_error *err);
+/* ---- side_room.c: the room that the feature has beyond a point of it, as a square in units of the lattice ---- */
+
+/* How far it is looked, and which lines have to be known: those as near to the shape's box. */
+double sunder_i_side_room_reach(const sunder_shape *shape, double known);
+sunder_i_ratio sunder_i_side_room(sunder_i_side_cut *cut, sunder_i_rational_point point,
+                                  const sunder_i_side *const *line, size_t n, double reach);
+
+/* A length of the layer in units of the lattice; with power 2 an area. */
+sunder_i_ratio sunder_i_side_cut_in_units(sunder_i_side_cut *cut, double size, int power);
 /* Any doubles as a point of the cut's plane, and the nearest doubles to such a point. */
 sunder_i_rational_point sunder_i_side_cut_point(sunder_i_side_cut *cut, const double xy[2]);
 void sunder_i_side_cut_doubles(sunder_i_side_cut *cut, const sunder_i_rational_point *at, double xy[2]);

@@ -17,6 +17,7 @@
  * In the model the lines are pieces of two corners, in the order of the barriers' parts, and a part's body has those of
  * the part. */
 #include "displacement/layer/sides.h"
+#include "displacement/layer/reads.h"
 
 #include "base/parallel.h"
 #include "separation/separation.h"
@@ -103,12 +104,29 @@ static sunder_status take_all_lines(sunder_i_model *model, sunder_error *err)
 
 /* ---- Side anchors ------------------------------------------------------------------------------------------------ */
 
-/* Appends the lines that meet the box. */
-static bool find_lines(const sunder_i_model *model, const double box[4], sunder_i_list *near,
-                       const sunder_i_side ***line, size_t *n, size_t *capacity)
+/* Lines that were asked for. */
+typedef struct line_list {
+    const sunder_i_model *model;
+    sunder_i_list near;
+    const sunder_i_side **line;
+    size_t n, capacity;
+    uint32_t body; /* on whose behalf it is looked farther than about a feature */
+} line_list;
+
+static void free_lines(line_list *l)
 {
+    sunder_i_free(l->line);
+    sunder_i_free(l->near.item);
+}
+
+/* Those that meet the box. */
+static bool find_lines(line_list *l, const double box[4])
+{
+    const sunder_i_model *model = l->model;
+    sunder_i_list *near = &l->near;
+    l->n = 0;
     near->n = 0;
-    if (!sunder_i_rtree_query(&model->tree, box, near)) return false;
+    if (!sunder_i_look_about(model, &model->tree, box, near)) return false;
     if (near->n) qsort(near->item, near->n, sizeof *near->item, sunder_i_by_number);
     for (size_t k = 0; k < near->n; k++) {
         const sunder_i_body *body = &model->body[model->body_of[near->item[k]]];
@@ -116,10 +134,23 @@ static bool find_lines(const sunder_i_model *model, const double box[4], sunder_
             double own[4];
             box_of_line(&model->side[i], own);
             if (!sunder_i_box_meet(own, box)) continue;
-            if (!sunder_i_reserve(line, capacity, *n + 1, sizeof **line)) return false;
-            (*line)[(*n)++] = &model->side[i];
+            if (!sunder_i_reserve(&l->line, &l->capacity, l->n + 1, sizeof *l->line)) return false;
+            l->line[l->n++] = &model->side[i];
         }
     }
+    return true;
+}
+
+static bool find_more(void *user, const double box[4], const sunder_i_side *const **line, size_t *n)
+{
+    line_list *l = user;
+    sunder_i_reading reading;
+    sunder_i_reads_begin(&reading, l->model, l->body);
+    const bool found = find_lines(l, box);
+    sunder_i_reads_end(&reading);
+    if (!found) return false;
+    *line = l->line;
+    *n = l->n;
     return true;
 }
 
@@ -134,24 +165,23 @@ static const double *given_anchor(const sunder_i_model *model, size_t f)
 static sunder_status find_some_anchors(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const sunder_i_model *model = context;
-    sunder_i_list near = {0};
-    const sunder_i_side **line = NULL;
-    size_t capacity = 0;
+    line_list about = {.model = model}, around = {.model = model};
+    const sunder_i_side_scope scope = {model->rules.tolerance, model->rules.barriers_known, find_more, &around};
     sunder_status status = SUNDER_OK;
     for (size_t f = begin; f < end && !status; f++) {
         const sunder_shape *shape = sunder_i_thing_shape(model, f);
         const double *given = given_anchor(model, f);
-        size_t n = 0;
         if (!model->present[f]) continue;
         if (given) {
             memcpy(model->side_at + 2 * f, given, 2 * sizeof *given);
             continue;
         }
-        if (!find_lines(model, shape->box, &near, &line, &n, &capacity)) status = sunder_i_no_memory(err);
-        if (!status) status = sunder_i_side_anchor(shape, line, n, model->side_at + 2 * f, err);
+        around.body = model->body_of[f];
+        if (!find_lines(&about, shape->box)) status = sunder_i_no_memory(err);
+        if (!status) status = sunder_i_side_anchor(shape, about.line, about.n, &scope, model->side_at + 2 * f, err);
     }
-    sunder_i_free(line);
-    sunder_i_free(near.item);
+    free_lines(&about);
+    free_lines(&around);
     return status;
 }
 

@@ -18,8 +18,17 @@ bool sunder_i_side_faces(const sunder_i_model *model, const sunder_i_side *side,
 
 /* ---- side_anchor.c ----------------------------------------------------------------------------------------------- */
 
+/* What a side anchor is chosen by, besides the lines about the feature. */
+typedef struct sunder_i_side_scope {
+    double tolerance; /* of touching */
+    double known;     /* lines are known as far as this about features */
+    /* Those that meet a box, until it is called again. False if memory is out. */
+    bool (*find)(void *user, const double box[4], const sunder_i_side *const **line, size_t *n);
+    void *user;
+} sunder_i_side_scope;
+
 /* The side anchor of a feature, of these lines; the others do not meet its box. */
 sunder_status sunder_i_side_anchor(const sunder_shape *shape, const sunder_i_side *const *side, size_t n,
-                                   double anchor[2], sunder_error *err);
+                                   const sunder_i_side_scope *scope, double anchor[2], sunder_error *err);
 
 #endif
