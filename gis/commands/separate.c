@@ -23,6 +23,7 @@ static bool solve_and_write(gis_separate_run *run, gis_error *error)
     gis_progress_stage(&run->progress, GIS_SEPARATE_READ, GIS_SEPARATE_DONE);
     if (!gis_layer_run(&run->input, sunder_layer_separate, &run->progress, &run->report, &run->summary, error))
         return false;
+    if (!gis_layer_warn_of_far_moves(&run->input, run->report, error)) return false;
     gis_progress_stage(&run->progress, GIS_SEPARATE_DONE, 1);
     double begin = gis_clock();
     if (!gis_separate_write_layers(run, error) || !gis_sink_finish(run->sink, &result, error)) return false;

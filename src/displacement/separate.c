@@ -173,6 +173,15 @@ static sunder_status optimise(sunder_i_solver *s, sunder_error *err)
     return status ? status : sunder_i_solver_put_in_contact(s, err);
 }
 
+/* What has no solution as long as coarse bodies are held is solved once more, with these let go. */
+static sunder_status solve_without_holding(sunder_i_solver *s, sunder_error *err)
+{
+    bool again;
+    sunder_status status = sunder_i_solver_let_go(s, &again, err);
+    if (!status && again) status = seek(s, FOUND, FOUND, err);
+    return status || !again ? status : optimise(s, err);
+}
+
 /* Without limits first, and then, if one is overstepped, within them: what nothing oversteps changes nothing. */
 static sunder_status solve(sunder_i_solver *s, sunder_error *err)
 {
@@ -185,6 +194,7 @@ static sunder_status solve(sunder_i_solver *s, sunder_error *err)
     if (!status && lifted) status = sunder_i_solver_move_inside(s, err);
     if (!status && lifted) status = seek(s, FOUND_WITHOUT_LIMITS, FOUND, err);
     if (!status && lifted && any_of(s, s->wanted)) status = optimise(s, err);
+    if (!status) status = solve_without_holding(s, err);
     if (!status) status = sunder_i_solver_uphold(s, err);
     for (size_t b = 0; b < s->model.bodies; b++) s->wanted[b] = true;
     /* What was mended, or settled about what was, is proved once more; nothing gets worse by that. */
@@ -200,6 +210,7 @@ static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const s
     sunder_status status = start(s, layer, options, TO_SEPARATE, report, err);
     if (!status) status = sunder_i_solver_find_infeasible(s, NULL, err);
     if (!status) status = prepare(s, err);
+    if (!status && !(s->let_go = sunder_i_calloc(s->model.bodies, sizeof *s->let_go))) status = sunder_i_no_memory(err);
     if (!status && !sunder_i_progress(&s->model.rules, PREPARED)) status = sunder_i_no_memory(err);
     if (!status) status = solve(s, err);
     if (!status && !sunder_i_progress(&s->model.rules, FOUND)) status = sunder_i_no_memory(err);
@@ -299,6 +310,7 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
 {
     const double solved = sunder_i_now();
     sunder_i_solver_forget_clusters(s);
+    sunder_i_solver_end_holding(s);
     sunder_status status = relate_last(s, err);
     const double related = sunder_i_now();
     if (!status) status = explain(s, options, report, err);

@@ -53,6 +53,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->cheapest);
     sunder_i_free(s->limit);
     sunder_i_free(s->aside);
+    sunder_i_free(s->let_go);
     sunder_i_free(s->went);
     sunder_i_relaxations_free(&s->waiting);
     sunder_i_free(s->carrier);
@@ -174,7 +175,7 @@ double sunder_i_solver_margin(const sunder_i_solver *s, const uint32_t *b, size_
     unsigned widened = 0;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *body = &s->model.body[b[k]];
-        if (body->pieces == 0) continue;
+        if (body->pieces == 0 || body->held) continue;
         for (int c = 0; c < 4; c++) {
             const double far = fabs(body->origin[c & 1]) + fabs(body->box[c]);
             if (far > largest) largest = far;

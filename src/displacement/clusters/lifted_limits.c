@@ -244,6 +244,14 @@ static bool doubt(sunder_i_solver *s)
     return true;
 }
 
+sunder_status sunder_i_solver_begin_again(sunder_i_solver *s, const bool *back, sunder_error *err)
+{
+    send_home(s, back);
+    const sunder_status status = forget(s, back) ? sunder_i_solver_relate(s, err) : sunder_i_no_memory(err);
+    /* Else who once was in a cluster with a fixed body would pass for known to it. */
+    return status ? status : sunder_i_solver_gather(s, err);
+}
+
 sunder_status sunder_i_solver_restore_limits(sunder_i_solver *s, sunder_error *err)
 {
     sunder_i_model *model = &s->model;
@@ -261,12 +269,9 @@ sunder_status sunder_i_solver_restore_limits(sunder_i_solver *s, sunder_error *e
             back[b] = !model->body[b].fixed && root[sunder_i_union_find(s->parent, b)];
             s->doubtful[b] = s->doubtful[b] || back[b];
         }
-        send_home(s, back);
         memset(s->aside, 0, model->bodies * sizeof *s->aside);
-        status = forget(s, back) ? sunder_i_solver_relate(s, err) : sunder_i_no_memory(err);
+        status = sunder_i_solver_begin_again(s, back, err);
     }
-    /* Else who once was in a cluster with a fixed body would pass for known to it. */
-    if (!status) status = sunder_i_solver_gather(s, err);
     sunder_i_free(root);
     return status;
 }

@@ -138,6 +138,7 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
             continue;
         }
         if (!are_together(s, i, j)) {
+            sunder_i_solver_hold(s, i, j);
             if (!sunder_i_solver_add_edge(s, i, j)) return sunder_i_no_memory(err);
             carry(s, r->a, r->b);
             *any = true;

@@ -75,6 +75,7 @@ typedef struct sunder_i_solver {
     bool *cheapest; /* [bodies] there are none: it stands where a solution had it that was known to be the cheapest */
     double *limit;  /* [bodies] the limits, while they are lifted */
     bool *aside;    /* [bodies] left as they are while limits are lifted; NULL: they never were */
+    bool *let_go;   /* [bodies] held once, and no longer (held.c); NULL: none is ever held */
     double *went;   /* [2 * bodies] where those stood that were set aside because they went too far */
     sunder_i_relaxations waiting;    /* of what was set aside */
     uint32_t *carrier;               /* [bodies] whose place to start from instead of its own, or SUNDER_I_NOBODY */

@@ -40,6 +40,19 @@ sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_erro
  */
 sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, sunder_error *err);
 
+/* What is marked goes home, forgets what it was joined with and what was given up of it; clusters are gathered anew. */
+sunder_status sunder_i_solver_begin_again(sunder_i_solver *solver, const bool *back, sunder_error *err);
+
+/* ---- held.c ------------------------------------------------------------------------------------------------------ */
+
+/* Of two bodies in conflict the one whose moves are coarse beside the other is fixed from now on, if it can be. */
+void sunder_i_solver_hold(sunder_i_solver *solver, uint32_t i, uint32_t j);
+/* Bodies that are held and still in conflict may move from now on: *any, and then what hangs together with them, which
+ * is what is wanted from now on, has begun again. */
+sunder_status sunder_i_solver_let_go(sunder_i_solver *solver, bool *any, sunder_error *err);
+/* What was held is fixed no longer, for the report; nothing is proved of it but by pairs. */
+void sunder_i_solver_end_holding(sunder_i_solver *solver);
+
 /* ---- move_inside.c ----------------------------------------------------------------------------------------------- */
 
 /* Sends those there that cannot be parted, but go inside. */

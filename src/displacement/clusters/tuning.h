@@ -12,6 +12,13 @@
 /* Room for clusters is made for the edges that there are and such a part of them, for a round adds few. */
 #define SPARE_ROOM 8
 
+/* ---- Coarse moves (held.c) --------------------------------------------------------------------------------------- */
+
+/* A body is held beside a neighbour whose last place is finer by so many bits, and whose size and gap are less than so
+ * many of its own last places: a house of 10 m beside a vertex at 1e16, not at 1e15. */
+#define COARSE_BITS 10
+#define COARSE_PLACES 64
+
 /* ---- Crowds (clusters.c) ----------------------------------------------------------------------------------------- */
 
 /* So many bodies that may go anywhere begin from where prices of area put them. Of 7,650 symbols in Germany it makes

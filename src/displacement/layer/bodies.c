@@ -11,15 +11,16 @@
 
 /* The box of a thing's pieces from that origin. Most are made of corners as given, and so is their box: rounding keeps
  * order, so that box less the origin is the box of the corners less the origin. */
-static void box_of_pieces(const sunder_i_model *model, uint32_t thing, const double origin[2], double box[4])
+static void box_of_pieces(const sunder_i_model *model, uint32_t thing, const sunder_i_body *body, double box[4])
 {
     const sunder_shape *shape = sunder_i_thing_shape(model, thing);
-    for (size_t c = 0; c < 4; c++) box[c] = shape->box[c] - origin[c & 1];
+    for (size_t c = 0; c < 4; c++) box[c] = sunder_i_from_origin(body, shape->box[c], c & 1);
     if (shape->rational) {
         sunder_i_box_clear(box);
         for (uint32_t k = 0; k < shape->piece_end[shape->pieces - 1]; k++) {
             const double *xy = shape->xy + 2 * (size_t)sunder_i_piece_vertices(shape)[k];
-            sunder_i_box_include(box, (double[]){xy[0] - origin[0], xy[1] - origin[1]});
+            sunder_i_box_include(
+                box, (double[]){sunder_i_from_origin(body, xy[0], 0), sunder_i_from_origin(body, xy[1], 1)});
         }
     }
     const double beyond = sunder_i_reach_beyond(model, thing);
@@ -34,6 +35,7 @@ static sunder_status measure_some(void *context, size_t begin, size_t end, sunde
     for (size_t b = begin; b < end; b++) {
         sunder_i_body *body = &model->body[b];
         body->clear = INFINITY;
+        body->reach = 0x1p400; /* products of two such lengths are doubles */
         sunder_i_box_clear(body->box);
         const uint32_t first = model->member[body->member];
         memcpy(body->origin, sunder_i_home_box(model, first), sizeof body->origin);
@@ -42,7 +44,7 @@ static sunder_status measure_some(void *context, size_t begin, size_t end, sunde
             const uint32_t f = model->member[body->member + k];
             double box[4];
             if (!model->present[f] || sunder_i_thing_shape(model, f)->pieces == 0) continue;
-            box_of_pieces(model, f, body->origin, box);
+            box_of_pieces(model, f, body, box);
             sunder_i_box_join(body->box, box);
             body->pieces += sunder_i_thing_shape(model, f)->pieces;
         }

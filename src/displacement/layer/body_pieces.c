@@ -57,9 +57,10 @@ size_t sunder_i_convex_hull(double *p, size_t n, double *out)
 
 /* A corner of a shape from that origin. Both coordinates are there before one is written, so that they are written at
  * once: whoever reads them at once, into a box, waits for those that were written one by one. */
-static inline void from_origin(const sunder_shape *shape, uint32_t v, const double origin[2], double out[2])
+static inline void from_origin(const sunder_shape *shape, uint32_t v, const sunder_i_body *body, double out[2])
 {
-    const double x = shape->xy[2 * (size_t)v] - origin[0], y = shape->xy[2 * (size_t)v + 1] - origin[1];
+    const double x = sunder_i_from_origin(body, shape->xy[2 * (size_t)v], 0),
+                 y = sunder_i_from_origin(body, shape->xy[2 * (size_t)v + 1], 1);
     out[0] = x;
     out[1] = y;
 }
@@ -82,14 +83,14 @@ static bool is_its_outline(const sunder_shape *shape, const double *corner)
 size_t sunder_i_outline_of(const sunder_i_model *model, uint32_t thing, double *point, double *out)
 {
     const sunder_shape *shape = sunder_i_thing_shape(model, thing);
-    const double *origin = model->body[model->body_of[thing]].origin;
+    const sunder_i_body *body = &model->body[model->body_of[thing]];
     const uint32_t n = shape->vertices;
     if (!sunder_i_is_barrier(model, thing) && shape->pieces == 1 && shape->piece_end[0] == n) {
         for (uint32_t k = 0; k < n; k++)
-            from_origin(shape, sunder_i_piece_vertices(shape)[k], origin, out + 2 * (size_t)k);
+            from_origin(shape, sunder_i_piece_vertices(shape)[k], body, out + 2 * (size_t)k);
         if (is_its_outline(shape, out)) return n;
     }
-    for (uint32_t v = 0; v < n; v++) from_origin(shape, v, origin, point + 2 * (size_t)v);
+    for (uint32_t v = 0; v < n; v++) from_origin(shape, v, body, point + 2 * (size_t)v);
     return sunder_i_convex_hull(point, n, out);
 }
 
@@ -112,7 +113,7 @@ static void cut_member(const sunder_i_model *model, const sunder_i_body *body, u
         *to = (sunder_i_body_piece){.corner = *corner, .corners = shape->piece_end[p] - from, .feature = f};
         sunder_i_box_clear(to->box);
         for (; from < shape->piece_end[p]; from++, *corner += 2) {
-            from_origin(shape, sunder_i_piece_vertices(shape)[from], body->origin, *corner);
+            from_origin(shape, sunder_i_piece_vertices(shape)[from], body, *corner);
             sunder_i_box_include(to->box, *corner);
         }
         if (beyond > 0) sunder_i_box_grow(to->box, beyond, to->box);

@@ -32,8 +32,10 @@ typedef struct sunder_i_body {
     double limit;               /* the strictest of its members' */
     const sunder_i_extras *has; /* besides; never NULL */
     bool fixed;                 /* limit 0 counts too */
+    bool held;                  /* fixed for now: its moves are coarse beside a neighbour (clusters/held.c) */
     bool has_seams;             /* they were looked for */
     bool pinned;                /* stays where it came from: rounding would make a pair of it stand worse (uphold.c) */
+    double reach;               /* for the search no corner is farther from the origin, along either axis */
     double origin[2];           /* its corners are stored relative to this */
     double box[4];              /* of its pieces, relative to the origin */
     double clear; /* the least of its members', in sunder_i_model.clear; INFINITY where jumps are allowed */
@@ -81,6 +83,13 @@ typedef struct sunder_i_side {
         *area; /* which has it as the edge from that vertex, and lies on its left; NULL: it bounds none */
     uint32_t vertex;
 } sunder_i_side;
+
+/* A coordinate from the body's origin, along axis c. One that is farther than `reach` is drawn in. Proofs see corners
+ * as given. */
+static inline double sunder_i_from_origin(const sunder_i_body *body, double v, size_t c)
+{
+    return sunder_i_max(-body->reach, sunder_i_min(v - body->origin[c], body->reach));
+}
 
 /* May it move at all? */
 static inline bool sunder_i_may_move(const sunder_i_body *body) { return !body->fixed && !body->pinned; }
