@@ -166,8 +166,8 @@ id,WKT
 2,"POLYGON((12 0,22 0,22 10,12 10,12 0))"
 3,"POLYGON((0 14,10 14,10 24,0 24,0 14))"
 X
-beside() { # WKT KEYS STATUS WITH LIMIT: solved without a limit, unless there is nothing to do
-    local limit status=0
+beside() { # WKT KEYS STATUS WITH LIMIT [STATUS WITHOUT]: solved without a limit, unless there is nothing to do
+    local limit status=${4:-0}
     rm -f k.gpkg
     printf 'id,WKT\n1,"%s"\n' "$1" | layer k.gpkg k GEOMETRY
     for limit in '' '--max-shift 8'; do
@@ -180,7 +180,7 @@ beside() { # WKT KEYS STATUS WITH LIMIT: solved without a limit, unless there is
 beside 'LINESTRING EMPTY' ,width=9 0
 beside 'GEOMETRYCOLLECTION EMPTY' ,width=9 0
 beside 'MULTILINESTRING((5 5,5 5),(11 5,11 5,11 5))' ,width=3 0          # of no length
-beside 'LINESTRING(-1e300 0,1e300 1)' ,width=3 3                         # far on both sides
+beside 'LINESTRING(-1e300 0,1e300 1)' ,width=3 3 3                       # far on both sides: left, and said so
 beside 'POLYGON((-1e15 -1e15,1e15 -1e15,1e15 1e15,-1e15 1e15,-1e15 -1e15))' '' 3
 beside 'POLYGON((0 0,10 0,10 10,0 10,0 0))' '' 3                         # a feature itself
 beside 'LINESTRING(-5 12,50 12)' ,width=0,gap=0 0                        # in nobody's way

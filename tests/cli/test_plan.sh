@@ -165,7 +165,7 @@ cp -r done7 spoilt
 printf '\7' | dd of=spoilt/status bs=1 seek=60 conv=notrunc 2>/dev/null
 refused 1 'spoilt/status: it was altered' merge spoilt none.gpkg
 cp plan64/features plan64/cells spoilt
-refused 1 'not those of this plan' separate --shard 1 spoilt
+refused 1 'dealt to other shards' separate --shard 1 spoilt
 mkdir empty
 refused 1 'there is no plan in it' merge empty none.gpkg
 refused 1 'there is no plan in it' plan town.gpkg empty "${call[@]}" --shards 2

@@ -275,8 +275,9 @@ static bool join(double w, double tolerance)
 
 static void test_slot(void **state)
 {
-    for (double tolerance = 0x1p-20; tolerance < 4; tolerance *= 1.75) {
-        const double hair = 0x1p-47; /* of what 20 + w holds exactly, as it holds the disc's corners */
+    for (double any = 0x1p-20; any < 4; any *= 1.75) {
+        const double hair = 0x1p-47;                                /* 20 + w holds it exactly, */
+        const double tolerance = ldexp(floor(ldexp(any, 45)), -45); /* and the disc's corners on the axes */
         sunder_shape *disc;
         double box[4];
         assert_int_equal(sunder_shape_disc(tolerance / 2, 16, true, &disc, NULL), SUNDER_OK);

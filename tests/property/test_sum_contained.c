@@ -199,7 +199,7 @@ static void test_parts(void **state)
         polyset_free(&q);
     }
     print_message("%zu parts inside another\n", gone);
-    assert_true(gone > n);
+    assert_true(2 * gone > n); /* there are some: about one a layer */
 }
 
 /* A row of squares: each one's sides towards its neighbours are inside these, all but the first and the last; sides
