@@ -19,7 +19,8 @@ typedef struct gis_page_feature {
 typedef struct gis_page_barrier {
     double box[4]; /* as it is drawn, with its width */
     double width;
-    uint64_t place;
+    uint64_t place;  /* where the contents have it: another in parts than of a whole layer */
+    size_t order;    /* among all barriers, as they were read; set by the page's model */
     size_t vertices; /* of lines and of the shape */
     bool area;       /* it has a shape */
 } gis_page_barrier;

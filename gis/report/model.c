@@ -54,7 +54,7 @@ static int by_width(const void *left, const void *right)
     const gis_page_barrier *a = left, *b = right;
     if (a->area != b->area) return a->area ? -1 : 1;
     if (a->width != b->width) return a->width < b->width ? -1 : 1;
-    return (a->place > b->place) - (a->place < b->place);
+    return (a->order > b->order) - (a->order < b->order);
 }
 
 /* Of a network that goes on beyond the layer only what lies about the layer is of interest. */
@@ -68,9 +68,11 @@ static bool take_barriers(gis_page_model *model, gis_error *error)
     if (!contents->fill_barriers(contents->of, model->barrier, error)) return false;
     double rim = beyond * fmax(model->extent[2] - model->extent[0], model->extent[3] - model->extent[1]);
     for (int k = 0; k < 4; k++) seen[k] = model->extent[k] + (k < 2 ? -rim : rim);
-    for (size_t k = 0; k < contents->barriers; k++)
+    for (size_t k = 0; k < contents->barriers; k++) {
+        model->barrier[k].order = k;
         if (!model->empty && gis_box_meets(model->barrier[k].box, seen))
             model->barrier[model->n_barriers++] = model->barrier[k];
+    }
     if (model->n_barriers) qsort(model->barrier, model->n_barriers, sizeof *model->barrier, by_width);
     return true;
 }
