@@ -513,7 +513,7 @@ SUNDER_API sunder_status sunder_layer_set_barriers(sunder_layer *layer, const su
 
 /* The side anchors of features that have one of their own, such as the points at which symbols are drawn; each is kept
  * as it is, on a line or off the feature, too: see sunder_layer_separate(). xy: two coordinates of each feature, which
- * are copied; not finite: of that feature it is found by the rule. NULL: of all.
+ * are copied. Where they are not finite the rule gives that feature's side anchor; xy NULL: the rule gives all.
  * Fails   only for want of memory */
 SUNDER_API sunder_status sunder_layer_set_side_anchors(sunder_layer *layer, const double *xy, sunder_error *err);
 

@@ -14,10 +14,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* So much of the name stands in that of the temporary file, which has to be short enough for the file system, too. */
+/* The temporary file's name repeats at most this many bytes of the final name, so that no file system finds it too
+ * long. */
 enum { SHOWN_OF_NAME = 100 };
 
-/* DIRECTORY/NAME.sunder-XXXXXX: the letters are drawn when it is made, so that nobody can have it ready. */
+/* DIRECTORY/NAME.sunder-XXXXXX: mkstemp() draws the letters, so that the name cannot be foreseen. */
 static char *beside(const char *path)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;

@@ -34,7 +34,7 @@ typedef struct gis_layout {
     size_t blocks;
     double memory;  /* bytes that a process may take, about; what takes far more is told of. 0: it does not matter */
     bool by_places; /* in proofs features are called by their places in the input: FIDs tell nobody apart */
-    double *explain, *verify; /* borrowed: the seconds of these stages are added to them; NULL: nobody asks */
+    double *explain, *verify; /* borrowed: the seconds of these stages are added to them; NULL: not measured */
 } gis_layout;
 
 /* numbered: some features have a block in their demands, and all are looked through. `how` is left to be filled in,

@@ -6,7 +6,7 @@
 
 #include <stdbool.h>
 
-/* What holds of a driver that is not listed is the absence of all of these. */
+/* A driver that is not listed has none of these. */
 enum {
     /* What it keeps. */
     GIS_KEEPS_FIDS = 1 << 0,    /* any 64-bit FID comes back as it was */

@@ -257,14 +257,14 @@ bool gis_sink_check_whole(const gis_sink_layer *layer, OGRLayerH as_written, gis
 
 /* ---- sink_registered.c ------------------------------------------------------------------------------------------- */
 
-/* Of a layer that was added to a database, all of which is written. */
+/* For a layer that was added to a database, once all of its rows are written: is it listed as a reader expects? */
 bool gis_sink_check_registered(const gis_sink_layer *layer, gis_error *error);
 
 void gis_sink_forget_sent(gis_sink_layer *layer);
 /* Keeps the values of the feature that was remembered last; NULL: it has none of the program's own. */
 bool gis_sink_remember_values(gis_sink_layer *layer, const gis_value *values, gis_error *error);
 void gis_sink_forget_values(gis_sink_layer *layer);
-/* The values of feature i of those that were sent; NULL: none are kept. */
+/* The values that were sent for feature i; NULL: none are kept. */
 const gis_value *gis_sink_sent_values(const gis_sink_layer *layer, size_t i);
 /* Would more digits keep what was seen to change? */
 bool gis_sink_may_rewrite(const gis_sink_layer *layer, const gis_sink_result *seen);

@@ -199,7 +199,7 @@ typedef struct sunder_i_small_ring {
     bool turned;
 } sunder_i_small_ring;
 
-/* Corner i of such a ring of n is this one of those given. */
+/* Which of the n corners as given is corner i of the canonical ring. */
 static inline uint32_t sunder_i_small_ring_corner(sunder_i_small_ring ring, uint32_t n, uint32_t i)
 {
     const uint32_t k = ring.turned ? ring.start + n - i : ring.start + i;

@@ -28,8 +28,8 @@ typedef struct sunder_i_exact {
     long exponent;
 } sunder_i_exact;
 
-/* What only shapes have of which some corner is no pair of doubles, those of many corners, and those made of pieces
- * (of_pieces.c): few. */
+/* Numbers that few shapes need: those with a corner that is no pair of doubles, those with many corners, and those made
+ * from pieces (of_pieces.c). */
 typedef struct sunder_i_numbers {
     sunder_i_arena arena;   /* of the numbers of corners */
     sunder_i_exact *exact;  /* [vertices] of rational shapes */

@@ -72,8 +72,8 @@ static void find_rows(sunder_i_tight *f)
     for (size_t c = 0; c < 2; c++) find_rows_along(f, c);
 }
 
-/* A row on which nobody presses stands where its moves, by weight, add up to nothing: its bodies stood a margin apart,
- * so the place of the first one is off by about that. */
+/* A row that nothing presses on is cheapest where its weighted moves add up to zero. Its bodies stood a margin apart,
+ * so the place of the first body is off by about that margin. */
 static bool centre_rows(sunder_i_tight *f)
 {
     double *sum = sunder_i_calloc(2 * f->rows, sizeof *sum), *weight = sum ? sum + f->rows : NULL;

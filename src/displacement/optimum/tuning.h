@@ -95,7 +95,7 @@
 /* Rows are drawn away from their contacts so often at most (where two meet at a narrow angle it takes many turns), and
  * brought back by a unit so often; not from a contact along which they hardly move. */
 #define TIGHT_TURNS 1000
-/* A row whose moves add up to no more than so many margins a body is taken for one on which nobody presses. */
+/* If the weighted moves of a row add up to at most TIGHT_OFF_CENTRE margins a body, nothing is taken to press on it. */
 #define TIGHT_OFF_CENTRE 16
 #define TIGHT_STEPS_BACK 16
 #define TIGHT_PULL 0x1p-20

@@ -151,9 +151,10 @@ static sunder_status least_for_gap(const sunder_i_model *model, const sunder_con
     return status;
 }
 
-/* The largest gap up to `most` that the two can keep within their limits, nobody else being there, to within `step`:
- * *does, and none that is larger than *above. The least move that leaves a gap g is as a rule as long as the one that
- * parts them and g more: so the next g is what the limits leave of the last move, and mostly the second one it is. */
+/* The largest gap up to `most` that the two can keep within their limits if they were alone, to within `step`: the
+ * pair can keep *does, and no gap larger than *above. The least move that leaves a gap g is as a rule as long as the
+ * one that parts them and g more: so the next g is what the limits leave of the last move, and mostly the second one
+ * it is. */
 static sunder_status gap_of_pair(const sunder_i_model *model, const sunder_conflict *c, double most, double step,
                                  double *does, double *above, sunder_error *err)
 {
@@ -177,7 +178,7 @@ static sunder_status gap_of_pair(const sunder_i_model *model, const sunder_confl
     return SUNDER_OK;
 }
 
-/* Has nobody else to do with the question? */
+/* Is no other feature or barrier within reach of the question? */
 static bool are_alone(const sunder_i_model *model, const sunder_i_surroundings *a, const sunder_conflict *c)
 {
     bool alone = a->feature.n == (c->b < model->features ? 2 : 1);
@@ -242,8 +243,8 @@ static sunder_status try_no_gap(gap_search *g, sunder_error *err)
     return status;
 }
 
-/* The largest gap with which there is a solution, to within a hundredth of the layer's: nobody else being about it is
- * that of the pair. Else it is looked for between the one that is known and the pair's, by halves, as often as the
+/* The largest gap with which there is a solution, to within a hundredth of the layer's. For a pair without neighbours
+ * it is the pair's own; else it is bisected between the gap that is known to work and the pair's own, as often as the
  * effort allows. */
 static sunder_status need_gap(const sunder_i_questions *questions, const sunder_i_surroundings *a, sunder_conflict *c,
                               budget *left, sunder_error *err)

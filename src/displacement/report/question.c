@@ -114,8 +114,8 @@ static sunder_status take_part(const sunder_i_solver *s, sunder_i_surroundings *
     return status;
 }
 
-/* How far that of two features which went farther stands from home: the answer may be a little more of that. Not beside
- * barriers, where what is owed has the drawn width in it, and more about it takes longer. */
+/* The longer of the two features' moves so far: the answer may be a little longer. 0 beside barriers, where the gap
+ * that is owed includes the drawn width and a larger surroundings would only take longer. */
 static double gone_already(const sunder_i_model *model, const sunder_conflict *c)
 {
     if (c->b >= model->features) return 0;

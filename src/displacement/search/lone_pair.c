@@ -79,7 +79,7 @@ static bool round_one(const sunder_i_search *s, uint32_t k, double t[4], double 
 
 /* The share of each of `away`, as doubles hold it. The one with the coarser unit is rounded first, the other makes up
  * for it: so the relative move is `away` where that is a multiple of the finer unit. Then the latter goes `steps` of
- * its units farther along each axis of which `along` has the bit. False if doubles do not hold that. */
+ * its units farther along each axis whose bit `along` has. False if doubles do not hold that. */
 static bool share_rounded(const sunder_i_search *s, const double away[2], unsigned along, double t[4])
 {
     const double share = s->mass[1] / (s->mass[0] + s->mass[1]);

@@ -11,7 +11,7 @@ size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j
                                  size_t most, double (*places)[2]);
 /* The free place of body i nearest to where it came from, all others as they stand, no longer than limit. */
 bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit, double place[2]);
-/* The same however far it is, where nobody may jump, too. */
+/* The same without a limit of distance, also where jumps are forbidden. */
 bool sunder_i_search_free_body_anywhere(sunder_i_search *s, uint32_t i, double place[2]);
 
 /* ---- confined.c: pairs that are shut in -------------------------------------------------------------------------- */
