@@ -79,6 +79,13 @@ static void check_places(rng *r, const set *s)
         const double angle = (double)rng_int(r, 0, 62) / 10 + 0.05, dir[2] = {cos(angle), sin(angle)};
         const double depth = sunder_i_forbidden_depth(&s->forbidden, u), oracle = depth_of(s, u[0], u[1]);
         assert_true(fabs(depth - oracle) <= hair);
+        for (size_t g = 0; g <= s->forbidden.pieces; g++) { /* whatever was guessed, beyond all pieces, too */
+            const double asked[] = {0x1p-40 * s->forbidden.size, depth * 0.75, depth, depth + 1};
+            size_t guess = g;
+            for (int e = 0; e < 4; e++)
+                assert_true(!(asked[e] > 0) ||
+                            sunder_i_forbidden_is_deeper(&s->forbidden, u, asked[e], &guess) == (depth > asked[e]));
+        }
         const double way = sunder_i_forbidden_exit(&s->forbidden, u, dir, INFINITY);
         assert_true(depth_of(s, u[0] + way * dir[0], u[1] + way * dir[1]) <= hair);
         const double half = sunder_i_forbidden_exit(&s->forbidden, u, dir, way / 2);

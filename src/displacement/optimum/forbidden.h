@@ -118,6 +118,9 @@ bool sunder_i_forbidden_span(const sunder_i_forbidden *forbidden, const sunder_i
                              const double from[2], const double dir[2], double span[2]);
 /* How deep u is in the union, in doubles: the most of radius less distance; 0 where it is in none. */
 double sunder_i_forbidden_depth(const sunder_i_forbidden *forbidden, const double u[2]);
+/* Is u deeper than `hair` > 0, a share of 2^-45 of the size at least? The answer is that of the depth, but it does not
+ * depend on all pieces: *guess, the number of a piece, is tried first, and is the piece that covers u if one does. */
+bool sunder_i_forbidden_is_deeper(const sunder_i_forbidden *forbidden, const double u[2], double hair, size_t *guess);
 /* Is u within `hair` of the union? */
 bool sunder_i_forbidden_is_near(const sunder_i_forbidden *forbidden, const double u[2], double hair);
 /* How far along the ray from u the first place is that is in none of the pieces; no less than `most`, if it is no

@@ -201,6 +201,28 @@ double sunder_i_forbidden_depth(const sunder_i_forbidden *f, const double u[2])
     return depth;
 }
 
+/* In the disc that lies in the piece grown, well off its rim, u is deeper whatever the edges are. */
+static bool piece_is_deeper(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *p, const double u[2],
+                            double hair)
+{
+    const double x = u[0] - p->middle[0], y = u[1] - p->middle[1], safe = p->within - 2 * hair;
+    return (safe > 0 && x * x + y * y < safe * safe) || p->radius - sunder_i_forbidden_distance(f, p, u) > hair;
+}
+
+bool sunder_i_forbidden_is_deeper(const sunder_i_forbidden *f, const double u[2], double hair, size_t *guess)
+{
+    const double at[4] = {u[0], u[1], u[0], u[1]};
+    if (*guess < f->pieces && piece_is_deeper(f, &f->piece[*guess], u, hair)) return true;
+    sunder_i_forbidden_walk walk;
+    sunder_i_forbidden_start(&walk, f);
+    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, at));) {
+        if (!piece_is_deeper(f, p, u, hair)) continue;
+        *guess = (size_t)(p - f->piece);
+        return true;
+    }
+    return false;
+}
+
 bool sunder_i_forbidden_is_near(const sunder_i_forbidden *f, const double u[2], double hair)
 {
     for (size_t k = 0; k < f->pieces; k++)

@@ -15,10 +15,10 @@
 
 /* ---- Reflex corners ---------------------------------------------------------------------------------------------- */
 
-static bool is_free(const sunder_i_forbidden *f, const double u[2], uint64_t *steps)
+static bool is_free(const sunder_i_forbidden *f, const double u[2], size_t *guess, uint64_t *steps)
 {
     *steps += 1 + (sunder_i_forbidden_is_many(f) ? sunder_i_forbidden_look(f) : f->pieces / 4);
-    return sunder_i_forbidden_depth(f, u) <= FREE_HAIR * f->size;
+    return !sunder_i_forbidden_is_deeper(f, u, FREE_HAIR * f->size, guess);
 }
 
 /* False if memory is out, or the work is to stop. */
@@ -27,7 +27,7 @@ static bool note(sunder_i_reflex *out, const sunder_i_forbidden *f, double x, do
     const double u[2] = {x, y};
     /* Of two outlines with long arcs thousands of places are asked about between two questions of the caller. */
     if (!sunder_i_steps(1 + (f->pieces + f->edges) / 4)) return false;
-    if (!is_free(f, u, steps)) return true;
+    if (!is_free(f, u, &out->cover, steps)) return true;
     if (!sunder_i_reserve(&out->place, &out->capacity, out->n + 1, sizeof *out->place)) return false;
     out->place[out->n][0] = x;
     out->place[out->n++][1] = y;

@@ -50,6 +50,7 @@ bool sunder_i_region_cover(const sunder_i_region *region, const sunder_i_forbidd
 typedef struct sunder_i_reflex {
     double (*place)[2];
     size_t n, capacity;
+    size_t cover; /* the number of the piece that covered the last place that was not free: a guess for the next */
 } sunder_i_reflex;
 
 bool sunder_i_reflex_find(sunder_i_reflex *reflex, const sunder_i_forbidden *forbidden, uint64_t *steps);
