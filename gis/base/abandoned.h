@@ -4,8 +4,8 @@
  * The maker of a file or directory holds a lock on it (flock(2)), which the system lets go of with the process, however
  * that ends: what is not locked was abandoned. Where nothing can be locked, all counts as in use. Others may make files
  * and directories of such names, too, or give them to what lies there: so only files of the effective user are removed,
- * and only directories of that user alone (base/trust.h) which say themselves that they are being made, by the file
- * GIS_BEING_MADE. */
+ * and only private directories of that user (base/trust.h) that hold the file GIS_BEING_MADE, the mark of a directory
+ * that is being made. */
 #ifndef GIS_ABANDONED_H
 #define GIS_ABANDONED_H
 

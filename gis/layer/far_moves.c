@@ -1,7 +1,8 @@
 /* far_moves.c: moves that are longer than the layer is wide, where coordinates of it are corrupt.
  *
- * The *sound* features are those whose largest coordinate is at most a million times the median of these. Where all are
- * sound no move is told of: two features on one place may have to go farther than a small layer is wide. */
+ * A feature is *sound* if its largest coordinate is at most a million times the median of all features' largest
+ * coordinates. If all are sound there is no warning: two features in one place may have to move farther than a small
+ * layer is wide. */
 #include "base/message.h"
 #include "layer/input.h"
 

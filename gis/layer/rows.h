@@ -9,8 +9,8 @@
 /* A FID as a value; null if there is none. */
 gis_value gis_fid_as_value(GIntBig fid);
 /* What a block is called: by its first member, that is by the FID, or, where FIDs are not unique, by the place in the
- * input. first: that place; -1: no block, which is null. In a format without null a feature alone is called as a block
- * of which it is the only member: no other feature has that number. */
+ * input. first: that place; -1: no block, which is null. In a format without null the value of a feature
+ * that stands alone is its own number, which no other feature has. */
 gis_value gis_block_as_value(bool fids_unique, int64_t first, GIntBig fid);
 
 /* ---- LAYER ------------------------------------------------------------------------------------------------------- */
