@@ -41,7 +41,8 @@ typedef struct gis_layer_facts {
 bool gis_layer_spool(const gis_layer_input_request *request, unsigned shards, const char *directory,
                      gis_layer_facts *facts, gis_error *error);
 void gis_layer_facts_clear(gis_layer_facts *facts);
-/* The barriers within reach of these features alone, as they are now, into `barriers` of a directory. */
+/* Spools the barriers within reach of the features as they stand now, and no others, into the directory's
+ * `barriers`. */
 bool gis_layer_spool_barriers(const gis_layer_input *input, double reach, gis_spool *features, const char *directory,
                               gis_error *error);
 

@@ -28,7 +28,7 @@ typedef enum gis_not_finite {
 typedef struct gis_source_facts {
     size_t features, content[GIS_CONTENTS]; /* how many are of each content */
     bool fids_unique;                       /* all FIDs are set and different */
-    bool fids_negative;                     /* some of those that are set are less than 0 */
+    bool fids_negative;                     /* at least one FID is less than 0 */
     bool multipolygons;                     /* there is a MultiPolygon */
 } gis_source_facts;
 

@@ -3,8 +3,8 @@
  * A stage that belongs to the effective user alone (base/trust.h) and whose lock can be had was abandoned. Nothing else
  * that has the name of a stage is touched: where other users may write, it may hold a record of their making. If it
  * has a record and a new file is still in it, the run did not finish: what stepped aside goes back, what came to a
- * place that was empty is taken away (if it is the very file of the record), and the output is as it was. What has
- * come to one of these places since is not replaced. Each step may be repeated: a run that is killed at this leaves
+ * place that was empty is taken away (if it is the very file of the record), and the output is as it was. A file
+ * that another run has put there since is not replaced. Each step may be repeated: a run that is killed at this leaves
  * what the next one can finish. If no new file is in it, all were put in place, and only the stage remained. An empty
  * stage is removed. */
 #define _GNU_SOURCE
