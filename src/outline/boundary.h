@@ -11,8 +11,9 @@
 #include "outline/coverage.h"
 #include "sum/sum.h"
 
-/* Takes the vertices of coverage over (the sum's vertices), which stand on that lattice; lines have so many classes.
- * Fills all but lattice, origin and seconds. Fails with SUNDER_ENOMEM; the caller then frees the sum. */
+/* Takes over the vertices of `coverage`, which stand on that lattice, as the sum's vertices; `lines` tells the classes
+ * of directions. Fills every member but lattice, origin and seconds. Fails with SUNDER_ENOMEM; the caller then frees
+ * the sum. */
 sunder_status sunder_i_boundary_build(sunder_i_lattice *lattice, uint32_t classes, const sunder_i_lines *lines,
                                       sunder_i_coverage *coverage, sunder_sum *out, sunder_error *err);
 

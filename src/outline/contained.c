@@ -1,8 +1,8 @@
-/* Where many members are grown by one shape and overlap, most of their sides lie inside some other part, and the
- * cells (culling.h) spend most of their time on such; where members nearly coincide, no cell parts them, and all their
- * sides would meet all parts along their lines. Of ragged operands one in five of the subsums that are made lies inside
- * another. An open convex set holds a side if it holds both its ends, and a part if it holds its corners; which parts
- * may hold them is read off a grid. A filter: what it does not find is found by the cells. */
+/* When many members are grown by one shape and overlap, most of their sides lie inside some other part, and the cells
+ * (culling.h) would spend most of their time on those sides; when members nearly coincide, no cell separates them, and
+ * all their sides would meet all parts along their lines. Among ragged operands, one in five subsums lies inside
+ * another. An open convex set holds a side if it holds both its ends, and a part if it holds its corners; a grid tells
+ * which parts may hold them. This is a filter: the cells find what it misses. */
 #include "outline/contained.h"
 
 #include "base/watch.h"
@@ -13,7 +13,7 @@
 
 #define NONE UINT32_MAX
 
-/* Parts looked at, and how many may be. */
+/* Number of parts looked at, and its limit. */
 typedef struct looks {
     size_t spent, allowed;
 } looks;
@@ -72,9 +72,9 @@ static bool holds_both(const sunder_i_part_grid *g, uint32_t part, sunder_i_poin
            holds(g, part, a);
 }
 
-/* A part that holds the segment ab; NONE if none is found. The one that held the side before is asked first, then those
- * that reach into the square of one of its ends, whichever are fewer; what is found goes to the front, for what holds
- * one side holds others. */
+/* A part that holds the segment ab; NONE if none is found. The part that held the previous side is tried first, then
+ * the parts listed in the square of one end, the shorter list of the two. The part found moves to the front of its
+ * list, since a part that holds one side tends to hold others. */
 static uint32_t find_holder(dropper *d, sunder_i_point a, sunder_i_point b, uint32_t own, uint32_t hint)
 {
     sunder_i_part_grid *g = &d->grid;
@@ -121,8 +121,8 @@ static bool holds_part(const dropper *d, uint32_t part, uint32_t other)
     return true;
 }
 
-/* Is it inside another? One that holds it reaches into the squares of all its corners: the shortest list is looked
- * through, which mostly is that of a corner near the outline. */
+/* Does another part hold this one? Such a part is listed in the squares of all corners: the shortest of these lists is
+ * searched, usually that of a corner near the outline. */
 static bool is_contained(dropper *d, uint32_t part)
 {
     const sunder_i_part_grid *g = &d->grid;
@@ -143,10 +143,10 @@ static bool is_contained(dropper *d, uint32_t part)
     return false;
 }
 
-/* Looks are saved where something is dropped; where sides are held by several parts together, not by one, that is
- * noticed soon, and the rest is left to the cells. The smallest parts come first: of features one within the other only
- * the last, which nothing holds, is looked for in vain. Parts that are dropped hold others all the same: what is inside
- * one of them is inside the one that holds it. */
+/* A part that is dropped earns further looks; sides held by several parts together, but by none alone, soon use the
+ * looks up, and the rest is left to the cells. The smallest parts come first: among nested features only the outermost,
+ * which nothing holds, is searched for in vain. Parts that are dropped still hold others: what lies inside one of them
+ * also lies inside the part that holds it. */
 static void drop(dropper *d)
 {
     sunder_i_convex_pieces *s = d->parts;

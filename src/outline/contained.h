@@ -4,10 +4,10 @@
 
 #include "convex/pieces.h"
 
-/* Takes the mark of a candidate from sides that are inside one part, ends included: nothing on them is boundary or
- * degenerate. Not all such are found. Fails only with SUNDER_ENOMEM. */
+/* Unmarks candidates that lie inside one part, ends included: nothing on them is boundary or degenerate. Not all such
+ * candidates are found. Fails only with SUNDER_ENOMEM. */
 sunder_status sunder_i_drop_contained_sides(sunder_i_convex_pieces *parts, sunder_error *err);
-/* And removes parts that are inside another, borders included. The others keep their order, not their numbers. */
+/* Removes parts that lie inside another, borders included. The remaining parts keep their order, not their numbers. */
 sunder_status sunder_i_drop_contained(sunder_i_convex_pieces *parts, sunder_error *err);
 
 #endif

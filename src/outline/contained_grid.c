@@ -10,9 +10,9 @@
 typedef sunder_i_part_grid grid;
 typedef sunder_i_part_box box;
 
-/* sunder_i_approx() is off by half an ulp of the largest, 2^-53 of it, which is less than 2^60 units here: by 2^7, and
- * by half a unit where that is rounded. False if memory is out, or if all is next to nothing, where
- * doubles underflow. */
+/* sunder_i_approx() is off by half an ulp of the largest coordinate, i.e. 2^-53 of it, and the largest is below 2^60
+ * units here: so it is off by 2^7 units, and by another half where that is rounded. False if memory is out, or if all
+ * coordinates are so small that doubles underflow. */
 static bool take_corners(grid *g, bool *no_memory)
 {
     const sunder_i_convex_pieces *s = g->parts;
@@ -59,7 +59,7 @@ static void measure(grid *g)
     }
 }
 
-/* Boxes stand for what they hold: whether one is larger is of no consequence but for time. */
+/* Boxes stand in for the parts: an error in the order by size costs time only. */
 static bool order_by_extent(grid *g)
 {
     const size_t n = g->parts->n;
@@ -106,8 +106,8 @@ static void visit(grid *g, uint32_t part, bool fill)
         }
 }
 
-/* In most layers an entry or two for each square a part touches; where a few parts are far larger than the others
- * the lists would not be worth their room. */
+/* In most layers a part has one or two entries for each square that it touches; where a few parts are far larger than
+ * the others the lists would take too much memory. */
 static bool make_lists(grid *g)
 {
     const uint32_t n = (uint32_t)g->parts->n;

@@ -1,5 +1,5 @@
-/* A grid of squares, each with the parts of which the box reaches into it, to ask which parts may hold a point.
- * Internal to contained*.c. */
+/* A grid of squares, each with the parts whose boxes reach into it: which parts may hold a given point? Internal to
+ * contained*.c. */
 #ifndef SUNDER_I_CONTAINED_GRID_H
 #define SUNDER_I_CONTAINED_GRID_H
 
@@ -9,8 +9,8 @@ typedef struct sunder_i_part_box {
     int64_t low[2], high[2];
 } sunder_i_part_box;
 
-/* Squares of 2^shift units; in each the parts of which the box reaches into it. The units are those of a narrow
- * lattice; of a wide one the coordinates are rounded to 60 bits of the largest, and may be off by so much each. */
+/* Squares of 2^shift units, each with the parts whose boxes reach into it. The units are those of a narrow lattice; on
+ * a wide lattice coordinates are rounded to 60 bits of the largest, and may be off by `error` units. */
 typedef struct sunder_i_part_grid {
     const sunder_i_convex_pieces *parts;
     const sunder_i_point *corner;
@@ -24,8 +24,8 @@ typedef struct sunder_i_part_grid {
     uint32_t *end, *list; /* [squares] past its last entry in list */
 } sunder_i_part_grid;
 
-/* NULL lists where they would not be worth their room, or all is next to nothing. False if memory is out; it is to be
- * freed in any case. */
+/* `list` is NULL where the lists would take too much memory, or all coordinates are too small. False if memory is out;
+ * the caller frees the grid in any case. */
 bool sunder_i_part_grid_build(sunder_i_part_grid *grid, const sunder_i_convex_pieces *parts);
 void sunder_i_part_grid_free(sunder_i_part_grid *grid);
 
@@ -34,7 +34,7 @@ static inline uint32_t sunder_i_part_grid_column(const sunder_i_part_grid *grid,
     return (uint32_t)((at - grid->all.low[axis]) >> grid->shift);
 }
 
-/* How many parts there are in the list of the square with this point, the largest first at first; *from: where in
+/* How many parts are listed in the square that holds this point, initially in order of falling size; *from: where in
  * list. */
 static inline uint32_t sunder_i_part_grid_at(const sunder_i_part_grid *grid, sunder_i_point p, uint32_t *from)
 {
@@ -52,7 +52,7 @@ static inline bool sunder_i_part_grid_reaches(const sunder_i_part_grid *grid, ui
     return p.x > b->low[0] + e && p.x < b->high[0] - e && p.y > b->low[1] + e && p.y < b->high[1] - e;
 }
 
-/* The same of the box of another part. */
+/* The same for the box of another part. */
 static inline bool sunder_i_part_grid_encloses(const sunder_i_part_grid *grid, uint32_t part, uint32_t other)
 {
     const sunder_i_part_box *a = &grid->reach[part], *b = &grid->reach[other];

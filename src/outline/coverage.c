@@ -315,8 +315,8 @@ static void take_whole_sides(finder *f, uint32_t first, uint32_t end)
     }
 }
 
-/* Room for what most lines yield, a stretch and one new vertex: growing step by step would touch several times the
- * memory. */
+/* Reserves memory for what most lines yield, a stretch and one new vertex: growing step by step would touch several
+ * times that. */
 static bool reserve_usual(finder *f, const sunder_i_culled *culled)
 {
     sunder_i_coverage *o = f->out;
@@ -327,7 +327,7 @@ static bool reserve_usual(finder *f, const sunder_i_culled *culled)
            sunder_i_reserve(&o->stretch, &o->stretches_capacity, usual + culled->whole + 1, sizeof *o->stretch);
 }
 
-/* All lines that an open leaf holds: the others are covered throughout. */
+/* Lines that pass through an open leaf: all others are covered throughout. */
 static bool sweep_lines(finder *f, const sunder_i_line_parts *by_line)
 {
     size_t first = 0;

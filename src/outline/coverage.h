@@ -1,15 +1,15 @@
-/* What of the candidate sides is not covered by any open part, found line by line.
+/* Which stretches of the candidate sides no open part covers, found line by line.
  *
- * All candidates on one supporting line are treated together. Each part paired with the line (culling.h) either
- * crosses it, and then covers an open interval of it; or rests on it with a side, and then covers one bank of the
- * line along that side (closed interval); or touches it in a corner, or not at all. Sorting the ends along the line
- * and counting gives, exactly:
+ * All candidates on one supporting line are treated together. Each part paired with the line (culling.h) either crosses
+ * it, and then covers an open interval of it; or rests on it with a side, and then covers one bank of the line along
+ * that side (closed interval); or touches it in a corner, or not at all. Sorting the ends along the line and counting
+ * gives, exactly:
  *
  *   uncovered, one bank covered    a stretch of the boundary of the sum
  *   uncovered, both banks covered  a stretch of a degenerate segment
  *   an uncovered point alone       a degenerate point, unless some stretch of another line ends or passes there
  *
- * Stretches are cut at every point where anything happens on the line, so that those of different lines meet in ends
+ * Stretches are cut at every point where anything happens on the line, so stretches of different lines meet in ends
  * only. No face is classified and no winding number counted; holes of the operands, touching members and exact fits
  * need no special case. */
 #ifndef SUNDER_I_COVERAGE_H
@@ -34,7 +34,7 @@ typedef struct sunder_i_coverage {
     bool sorted; /* vertices where stretches end are numbered lexicographically */
 } sunder_i_coverage;
 
-/* Takes the pairs out of `culled`. Fails with SUNDER_ENOMEM. */
+/* Takes over the pairs of `culled`. Fails with SUNDER_ENOMEM. */
 sunder_status sunder_i_coverage_find(const sunder_i_convex_pieces *parts, const sunder_i_lines *lines,
                                      sunder_i_culled *culled, sunder_i_coverage *out, sunder_error *err);
 void sunder_i_coverage_free(sunder_i_coverage *coverage);

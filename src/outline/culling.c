@@ -1,6 +1,6 @@
-/* The hierarchy of cells, from the root down: a cell is halved, each part is asked of each half whether it is beyond
- * it, holds it, or has sides that pass, and the half is closed, left, or put on the stack (culling.h says what comes of
- * it). What makes a descent worth while and what ends it is in tuning.h. */
+/* The hierarchy of cells, from the root down: a cell is halved; each part is tested against each half (is the half
+ * outside it, inside it, or do sides of it pass?); and each half is closed, kept as a leaf, or pushed on the stack
+ * (culling.h tells what becomes of it). tuning.h holds the numbers that decide when a cell is split further. */
 #include "outline/culling_inner.h"
 
 #include "base/watch.h"
@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-/* Beside coordinates near 2^500 the directions of such are not known as doubles. */
+/* With coordinates near 2^500 the directions of sides this short are not known in doubles. */
 #define SHORT_SIDE 0x1p-500
 
 /* Do two half-planes cover the box? f and g are the cross products of filter_part(), positive inside; if f + r g
@@ -28,7 +28,8 @@ static bool both_hold(const builder *b, const approx_side *f, const approx_side 
     return fc + r * gc - reach > error;
 }
 
-/* Two parts, each with a single side in the box, that cover it together: seams between neighbouring pieces. */
+/* Do two parts, each with a single side in the box, cover it together? This happens at seams between neighbouring
+ * pieces. */
 static bool find_two(const builder *b, const cell *c, const box *where_to, uint32_t two[2])
 {
     uint32_t side[SINGLES], part[SINGLES], n = 0;
@@ -48,7 +49,7 @@ static bool find_two(const builder *b, const cell *c, const box *where_to, uint3
     return false;
 }
 
-/* Shrinks the cell to what its candidates in the box need, and chooses the axis to split across. Returns how many
+/* Shrinks the cell to what its candidates in the box need, and chooses the axis to split across. Returns the number of
  * lines they are on. */
 static size_t shrink(builder *b, cell *c, const box *whole)
 {
@@ -66,9 +67,9 @@ static size_t shrink(builder *b, cell *c, const box *whole)
         b->stamp[x->line] = b->cells;
     }
     c->b = need;
-    /* Across the axis along which candidates are short beside the cell: fewer of them fall into both halves. Or where
-     * that is nearly the same, across the longer one: else ends of sides along one line draw cells to that line, which
-     * may be as long as before. */
+    /* Splits across the axis along which candidates are short in proportion to the cell, so that fewer of them fall
+     * into both halves; where both axes are nearly equal, across the longer side of the cell, since otherwise the ends
+     * of sides along one line would shrink cells to that line. */
     const double w = need.high[0] - need.low[0], h = need.high[1] - need.low[1];
     const double across[2] = {span[0] * h, span[1] * w};
     const bool even = across[0] <= AXES_EVEN * across[1] && across[1] <= AXES_EVEN * across[0];
@@ -88,9 +89,10 @@ typedef struct half {
     uint32_t stamp;  /* of is_half_plane_known() */
 } half;
 
-/* In the half the part is one half-plane, about to be listed. Is one listed that is the same, with the same candidate
- * along its border; or, parallel to it, certainly wider? Then within the half there is nothing to it but its border,
- * and in the second case that is covered. If it is the wider one, it takes the other's place. */
+/* In this half the part is one half-plane, about to be listed. Is a part listed that is the same half-plane, with the
+ * same candidate along its border, or a parallel one that is certainly wider? Then, within the half, this part adds
+ * nothing but its border, and in the second case that border is covered. If this part is the wider one, it replaces the
+ * listed one. */
 static bool is_half_plane_known(builder *b, half *h, uint32_t part, uint32_t side)
 {
     const approx_side *s = &b->side[side];
@@ -121,8 +123,7 @@ static bool is_half_plane_known(builder *b, half *h, uint32_t part, uint32_t sid
     return true;
 }
 
-/* Takes note of what one part is in one half: its runs that pass are behind the half's list, n of them with so
- * many sides. */
+/* Records how one part meets one half: the runs that pass follow the half's list, n of them with `sides` sides. */
 static void settle_entry(builder *b, half *h, uint32_t part, uint32_t n, uint32_t sides)
 {
     if (n == 0) {
@@ -183,7 +184,7 @@ static passed pass_run(const builder *b, const half *h, run r, double hx, double
     }
 }
 
-/* One part against one half, from its run i on; of the runs before, n with so many sides pass. */
+/* One part against one half, from run i on; n of the runs before i pass, with n + `more` sides. */
 static void filter_one(builder *b, half *h, const run *runs, const entry *source, uint32_t i, uint32_t n, uint32_t more,
                        double hx, double hy)
 {
@@ -210,7 +211,7 @@ static void filter_one(builder *b, half *h, const run *runs, const entry *source
     settle_entry(b, h, source->part, n, n + more);
 }
 
-/* A part that is in one half with all that it has: every side passes. In the upper cells that are nearly all. */
+/* A part whose whole extent lies in one half: every side passes. Most parts of the upper cells are such. */
 static bool keep_whole(const builder *b, half h[2], const run *runs, const entry *source)
 {
     const box *reach = &b->reach[source->part];
@@ -264,15 +265,15 @@ static void filter_part(builder *b, half h[2], const run *runs, const entry *sou
     if (!miss1) filter_one(b, &h[1], runs, source, i, n1, more1, hx, hy);
 }
 
-/* A cell with many sides that splits well is split on, across its longer axis, without a closer look. */
+/* A cell with many sides that splits well is split on, across its longer axis, without looking at its candidates. */
 static size_t halve(cell *c, const half *h)
 {
     c->axis = h->b.high[1] - h->b.low[1] > h->b.high[0] - h->b.low[0];
     return h->sides;
 }
 
-/* Along which axis splits can still tell anything: not below what start points may be off by, where details are small
- * beside the coordinates that they have. False if along neither. */
+/* The axis along which a split can still separate anything: no cell becomes smaller than the error of the start points,
+ * which matters where details are small beside their coordinates. False if neither axis can. */
 static bool choose_axis(const builder *b, cell *c)
 {
     const double room = 4 * b->error;
@@ -283,7 +284,7 @@ static bool choose_axis(const builder *b, cell *c)
 /* Pairs of a side and a part other than its own. */
 static double pairs_of(size_t sides, size_t entries) { return entries > 1 ? (double)sides * (double)(entries - 1) : 0; }
 
-/* By how much they have grown in the halves, on the whole, since they were fewest. */
+/* By what factor the pairs of all halves together have grown since they were fewest. */
 static double growth_of(const cell *c, const half h[2])
 {
     const double before = pairs_of(c->sides, c->entry_to - c->entry_from);
@@ -292,7 +293,7 @@ static double growth_of(const cell *c, const half h[2])
     return before > 0 ? sunder_i_greater(1, c->growth * (after / before)) : 1;
 }
 
-/* What is left of a half when its lists are made: a cell to split further, or settled. */
+/* What becomes of a half once its lists are made: a cell to split further, or settled. */
 static void settle_half(builder *b, const cell *parent, const half *h, double growth)
 {
     if (h->held) {
@@ -356,8 +357,8 @@ static bool reserve_halves(builder *b, const cell *c)
     return false;
 }
 
-/* Halves on the stack take the place of their cell's lists, which nobody asks for again, unless it is split on trial.
- * So all lists together are hardly longer than those of the root. */
+/* Halves on the stack overwrite their cell's lists, which are not needed again unless the cell is split on trial. So
+ * all lists together are hardly longer than those of the root. */
 static void take_place(builder *b, const cell *c, size_t waiting)
 {
     const size_t entries = c->entry_to - c->entry_from, runs = c->run_to - c->run_from;

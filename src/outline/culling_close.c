@@ -1,4 +1,4 @@
-/* The end: which pairs of a line and a part come of a cell that is not split further, and which fates of the
+/* Leaves: which pairs of a line and a part come from a cell that is not split further, and the verdicts on
  * candidates. */
 #include "outline/culling_inner.h"
 
@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-/* Neighbouring leaves have most of their pairs in common (features that overlap: nine of ten). Those pushed of late are
- * known again, by their slot; what has been driven out of it comes in twice, which does no harm. */
+/* Neighbouring leaves share most of their pairs (with overlapping features nine of ten). A table recognises pairs that
+ * were pushed recently; a pair that was evicted from it is pushed twice, which does no harm. */
 static bool is_known(builder *b, uint64_t pair)
 {
     uint64_t *slot = &b->recent[(pair * 0x9e3779b97f4a7c15u) >> (64 - b->recent_bits)];
@@ -61,7 +61,7 @@ void sunder_i_cells_cover(builder *b, uint32_t side, uint32_t part)
     push_pair(b, line, part);
 }
 
-/* Every line of the candidates at hand is covered by the part where it passes here. */
+/* Within this box the part covers the line of every candidate gathered. */
 static void cover_all(builder *b, uint32_t part)
 {
     b->cells++;
@@ -83,15 +83,15 @@ void sunder_i_cells_close(builder *b, const cell *parent, const box *c, uint32_t
     if (other != one && !b->no_memory) cover_all(b, other);
 }
 
-/* A leaf that one part alone reaches into. */
+/* A leaf that only one part reaches into. */
 void sunder_i_cells_lone_leaf(builder *b, const cell *c)
 {
     sunder_i_cells_gather(b, c->run_from, c->run_to, &c->b);
     for (size_t i = 0; i < b->crossing_n; i++) b->out->fate[b->crossing[i].side] |= ALONE;
 }
 
-/* All pairs of a leaf, but for parts that are nowhere near the one candidate of a line. The candidates are
- * gathered. */
+/* Pushes all pairs of a leaf, except for parts that are certainly away from the only candidate of a line. The
+ * candidates are gathered already. */
 void sunder_i_cells_open_leaf(builder *b, const cell *c)
 {
     const uint32_t once = ++b->cells, again = ++b->cells; /* stamps of lines met once, and more often */
@@ -114,8 +114,8 @@ void sunder_i_cells_open_leaf(builder *b, const cell *c)
     }
 }
 
-/* A trial may take half of what it can save, and leave half the pairs. Marks that it left on candidates stay: they only
- * make more of them open. */
+/* A trial may spend half of what it can save, and must leave at most half the pairs. Marks that it set on candidates
+ * stay: they only make more candidates open. */
 void sunder_i_cells_end_trial(builder *b)
 {
     trial *t = &b->trial;
@@ -131,8 +131,7 @@ void sunder_i_cells_end_trial(builder *b)
     b->done = t->done + t->of.share;
 }
 
-/* Of the marks the fates. An open candidate is paired with its own part, where leaves that it has to itself did
- * not do so. */
+/* Turns marks into verdicts. An open candidate is paired with its own part where no leaf has done so. */
 bool sunder_i_cells_fates(builder *b)
 {
     const sunder_i_convex_pieces *s = b->parts;

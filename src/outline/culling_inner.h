@@ -1,4 +1,4 @@
-/* What the files of the cells share: the builder, and questions about boxes. Internal to culling*.c. */
+/* What the culling files share: the builder, and tests of boxes. Internal to culling*.c. */
 #ifndef SUNDER_I_CULLING_INNER_H
 #define SUNDER_I_CULLING_INNER_H
 
@@ -19,15 +19,15 @@ typedef struct box {
 } box;
 
 typedef struct entry {
-    uint32_t part, runs; /* how many entries of the run list are its */
+    uint32_t part, runs; /* how many entries of the run list belong to it */
 } entry;
 
-/* Consecutive sides of one part whose vectors lie in one quadrant: they climb or fall together, so the box of the
- * run is that of its ends. Where operands have many sides, as rounded ones do, most questions are answered for a
- * whole run at once; it falls apart where a cell becomes as small as it is. */
+/* Consecutive sides of one part whose vectors lie in one quadrant: they climb or fall together, so the box of the run
+ * is that of its ends. Where operands have many sides, as rounded ones do, one test mostly settles a whole run; a run
+ * is split where a cell becomes as small as the run. */
 typedef uint32_t run; /* its length less one above RUN_BITS, its first side below; a single side is its own number */
 
-#define RUN_BITS 27 /* where there are more sides than these bits can number, every run is a single side */
+#define RUN_BITS 27 /* with more sides than these bits can number, every run is a single side */
 
 typedef struct cell {
     box b;
@@ -40,18 +40,18 @@ typedef struct cell {
     double trial;  /* the pairs of a line and a part of one that is split on trial only; else 0 */
 } cell;
 
-/* A cell that is split although its pairs grow: features one within the other, or many that overlap by much, part only
- * in cells as small as their distances, and may multiply on the way there. Where that takes more than the cell's own
- * pairs, all is as if it had never been split. */
+/* A cell that is split although its pairs grow: nested features, or many that overlap deeply, separate only in cells as
+ * small as their distances, and may multiply on the way there. If the trial takes more than the cell's own pairs,
+ * everything is restored as if the cell had never been split. */
 typedef struct trial {
     bool on;
     cell of;
-    size_t stack_n; /* what there was before */
+    size_t stack_n; /* counts before the trial */
     sunder_i_pairs_mark pairs;
     double done, spent;
 } trial;
 
-/* A candidate and what of the box at hand it may pass through. */
+/* A candidate, and the part of the current box that it may pass through. */
 typedef struct crossing {
     uint32_t side, line;
     box clipped;
@@ -64,8 +64,8 @@ typedef struct half_plane {
     uint32_t entry, run; /* where it stands in the half's lists */
 } half_plane;
 
-/* Marks of a candidate while the cells are made: it passes through a leaf of several parts; through one of its
- * own part alone; it is, in some cell, not all of its line's story. */
+/* Marks of a candidate while the cells are made: it passes through a leaf of several parts; it passes through a leaf of
+ * its own part alone; it does not, in some cell, tell everything about its line. */
 enum { PASSES = 1, ALONE = 2, CONTESTED = 4 };
 
 typedef struct builder {
@@ -90,7 +90,7 @@ typedef struct builder {
     trial trial;
     uint32_t *stamp;    /* [lines] the last cell that counted the line */
     half_plane *widest; /* [2 * classes] by rank */
-    uint64_t *recent;   /* [2^recent_bits] pairs pushed of late; UINT64_MAX: none */
+    uint64_t *recent;   /* [2^recent_bits] recently pushed pairs; UINT64_MAX: none */
     int recent_bits;
     bool *shared;   /* [lines] somewhere one part stands for several along the line */
     uint32_t cells; /* stamps given out */
@@ -151,21 +151,21 @@ bool sunder_i_cells_root(builder *b, cell *root);
 
 /* ---- culling_close.c: what becomes of cells that are not split further ---- */
 
-/* No pair is known to have been pushed. */
+/* Empties the table of recently pushed pairs. */
 void sunder_i_cells_forget_pairs(builder *b);
 /* Lists the candidates of some runs that pass through a box: b->crossing. */
 void sunder_i_cells_gather(builder *b, size_t from, size_t to, const box *c);
-/* What of a side, if it is a candidate, is in the half at hand is inside a part. */
+/* The part of a candidate side that lies in the current half is inside a part. */
 void sunder_i_cells_cover(builder *b, uint32_t side, uint32_t part);
 /* The box is inside `one`, or inside `one` and `other` together. */
 void sunder_i_cells_close(builder *b, const cell *parent, const box *c, uint32_t one, uint32_t other);
-/* One part alone reaches into it. */
+/* Only one part reaches into the leaf. */
 void sunder_i_cells_lone_leaf(builder *b, const cell *c);
-/* Several do; the candidates are gathered. */
+/* Several parts reach into the leaf; its candidates are gathered. */
 void sunder_i_cells_open_leaf(builder *b, const cell *c);
-/* Ends the trial where it has taken too long: its cell is left as it was. */
+/* Ends the trial if it has taken too long: its cell is left as it was. */
 void sunder_i_cells_end_trial(builder *b);
-/* In the end: of the marks the fates. False if memory is out. */
+/* Last step: turns marks into verdicts. False if memory is out. */
 bool sunder_i_cells_fates(builder *b);
 
 #endif

@@ -6,9 +6,9 @@
 #include "outline/tuning.h"
 #include "predicate/predicate.h"
 
-/* The large arrays, in one block and with room that is never touched: glibc keeps up to twice the largest block
- * freed so far, and with that all memory of a sum for the next one, instead of giving it back and fetching it again
- * page by page. */
+/* The large arrays, in one block with spare room that is never touched: glibc keeps up to twice the largest block freed
+ * so far, and so keeps all memory of one sum for the next, instead of returning it and fetching it again page by
+ * page. */
 static bool make_room(builder *b)
 {
     const sunder_i_convex_pieces *s = b->parts;
@@ -94,7 +94,8 @@ static bool one_quadrant(const approx_side *s, const approx_side *t)
            (s->dy < 0) == (t->dy < 0);
 }
 
-/* Lists the sides of a part in runs; single ones where it has few, which then are sooner looked at one by one. */
+/* Lists the sides of a part in runs; as single sides where it has few, which are then tested one by one at less
+ * cost. */
 static void add_runs(builder *b, uint32_t part)
 {
     const uint32_t first = sunder_i_convex_pieces_first(b->parts, part), end = b->parts->end[part];

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#define FEW 8 /* so many at one place need no memory */
+#define FEW 8 /* up to this many at one place need no memory */
 
 typedef struct context {
     const sunder_i_events *events;

@@ -20,8 +20,8 @@ static bool reserve(sunder_i_pairs *p)
     return true;
 }
 
-/* Does the pair go on with the last row? Of a row's first pair it is open what it will have in common with others:
- * where that is its line, it is turned about. */
+/* Does the pair continue the last row? As long as a row has one pair, its common member is undecided: if that turns out
+ * to be the line, the row is turned round. */
 static bool goes_on(sunder_i_pairs *p, uint32_t line, uint32_t part)
 {
     if (p->row >= p->n) return false;
@@ -71,7 +71,7 @@ typedef struct lists {
     uint32_t *item;
 } lists;
 
-/* Of how many there are in each list, where it begins; their sum. */
+/* Turns the lengths of lists into the places where they begin; returns their sum. */
 static size_t begin_lists(size_t *of, uint32_t n)
 {
     size_t sum = 0;
@@ -83,7 +83,7 @@ static size_t begin_lists(size_t *of, uint32_t n)
     return sum;
 }
 
-/* Of the pairs of wanted lines: counts the lines of each part, or writes them there where there are items. */
+/* Over the pairs of wanted lines: counts the lines of each part, or writes them to `items` where that is given. */
 static void list_lines(const sunder_i_pairs *p, const bool *wanted, lists *of_part)
 {
     size_t *end = of_part->end;
@@ -101,7 +101,7 @@ static void list_lines(const sunder_i_pairs *p, const bool *wanted, lists *of_pa
     }
 }
 
-/* Lists of parts, which come in order: so they are sorted in the lists of lines. */
+/* Lists by part are read in order, so each line's list comes out sorted. */
 static bool turn_over(const lists *of_part, uint32_t parts, uint32_t lines, sunder_i_line_parts *out)
 {
     const size_t n = parts ? of_part->end[parts - 1] : 0;

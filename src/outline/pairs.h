@@ -1,8 +1,8 @@
-/* Which part matters to which line: pairs as the cells find them, in no order and with repeats, read line by line in
+/* Which part matters to which line: pairs in the order in which the cells find them, with repeats, read line by line in
  * the end.
  *
- * Most come in rows, many lines with one part or many parts with one line, and are kept so, in four bytes each: of all
- * that there is at once while a sum is made they are among what grows most. */
+ * Most come in rows, many lines with one part or many parts with one line, and are stored as rows, four bytes each:
+ * pairs are among the largest arrays that exist while a sum is made. */
 #ifndef SUNDER_I_PAIRS_H
 #define SUNDER_I_PAIRS_H
 
@@ -10,9 +10,8 @@
 
 #include <stddef.h>
 
-/* A row begins with what its pairs have in common, marked if that is the line and not the part; then come the others,
- * of which the last is marked. A row of one has, as it begins, its part in front. There are fewer lines and parts than
- * 2^31. */
+/* A row begins with the member that its pairs share, marked if that is a line and not a part; the other members follow,
+ * the last of them marked. A row of one pair begins with its part. There are fewer than 2^31 lines and parts. */
 #define SUNDER_I_PAIRS_MARK 0x80000000u
 
 typedef struct sunder_i_pairs {
@@ -27,7 +26,7 @@ typedef struct sunder_i_pairs_mark {
     size_t n, count;
 } sunder_i_pairs_mark;
 
-/* For sunder_i_pairs_add(): where the pair does not simply go on with the last row. */
+/* For sunder_i_pairs_add(): the pair does not continue the last row. */
 bool sunder_i_pairs_begin(sunder_i_pairs *pairs, uint32_t line, uint32_t part);
 
 /* False if memory is out. */
@@ -45,7 +44,7 @@ static inline bool sunder_i_pairs_add(sunder_i_pairs *pairs, uint32_t line, uint
     return true;
 }
 
-/* What comes later can be taken back. */
+/* Remembers the end of the list, so that pairs added later can be taken back. */
 sunder_i_pairs_mark sunder_i_pairs_mark_here(sunder_i_pairs *pairs);
 void sunder_i_pairs_take_back(sunder_i_pairs *pairs, sunder_i_pairs_mark mark);
 void sunder_i_pairs_free(sunder_i_pairs *pairs);
@@ -56,8 +55,8 @@ typedef struct sunder_i_line_parts {
     uint32_t *part; /* of each line rising, with repeats */
 } sunder_i_line_parts;
 
-/* Of the lines that are wanted; of the others none is listed. So many lines and parts there are. False if memory is
- * out: *out is to be freed in any case. */
+/* Sorts the pairs of the wanted lines; the lists of other lines are empty. `lines` and `parts` are the numbers of lines
+ * and parts. False if memory is out; the caller frees *out in any case. */
 bool sunder_i_pairs_by_line(const sunder_i_pairs *pairs, const bool *wanted, uint32_t lines, uint32_t parts,
                             sunder_i_line_parts *out);
 void sunder_i_line_parts_free(sunder_i_line_parts *by_line);

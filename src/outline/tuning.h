@@ -1,34 +1,36 @@
-/* Numbers of this room that are no error bounds: they decide how long the outline takes to find, never what it is. */
+/* Numbers of this room that are not error bounds: they decide how long it takes to find the outline, never what it
+ * is. */
 #ifndef SUNDER_I_OUTLINE_TUNING_H
 #define SUNDER_I_OUTLINE_TUNING_H
 
 /* ---- Cells (culling.c) ------------------------------------------------------------------------------------------- */
 
-/* Up to so many pairs of a line and a part other than its own make a leaf: then looking at a pair costs less than
- * sorting it out. Measured on stars, combs, forks and random polygons. */
+/* A cell with at most this many pairs of a line and a part other than its own becomes a leaf: looking at the pairs then
+ * costs less than splitting. Measured on stars, combs, forks and random polygons. */
 #define LEAF_PAIRS 96
-#define LEAF_PAIRS_OF_TWO 6 /* the next split may leave each of two parts alone with its sides */
+#define LEAF_PAIRS_OF_TWO 6 /* the next split may isolate each of two parts with its sides */
 /* Sides that nearly coincide pass, as a bundle, through both halves of a cell, and through both halves of these: every
- * split doubles what there is to ask and none brings anything. So a cell is left as it is where the pairs of a side and
- * a part have grown by more than this since some ancestor had them, unless a trial shows that it pays to go on. As one
- * split at most doubles them, all leaves together have no more than four times the pairs of the root, whatever the
+ * split doubles the pairs and decides nothing. So a cell is left as it is where the pairs of a side and a part have
+ * grown by more than this factor since the ancestor that had fewest, unless a trial shows that splitting pays. Since a
+ * split at most doubles the pairs, all leaves together have at most four times the pairs of the root, whatever the
  * input. */
 #define MOST_GROWTH 2
-#define TRIAL_PAIRS 4096 /* what fewer cost is no matter */
-/* Nor is it split on after so many splits in a row of which one half keeps nine tenths of the sides, and an eighth of
- * its parts more: that may be a cluster in a corner of the cell, which may be far below it in size and is worth the
- * way the more pairs it has; or sides that are truly concurrent. */
+#define TRIAL_PAIRS 4096 /* below this number of pairs the cost does not matter */
+/* A cell is not split on either after STUBBORN_SPLITS splits in a row in which one half keeps nine tenths of the sides,
+ * plus one split for every STUBBORN_SHARE parts. Such sides may be a cluster in a corner of the cell, perhaps far
+ * smaller than the cell, which is worth more splits the more parts it has; or they may be truly concurrent. */
 #define STUBBORN_SPLITS 6
 #define STUBBORN_SHARE 8
 #define KEPT(sides, of) (10 * (sides) >= 9 * (of))
-/* A half with more sides than this, fewer than its cell had by a tenth, is halved as it is: to shrink it to what its
- * candidates need every one of them would have to be looked at. */
+/* A half with more sides than this, but less than nine tenths of its cell's, is halved as it is: shrinking it to its
+ * candidates would mean looking at each of them. */
 #define MANY_SIDES 250
-/* Along both axes candidates are as long beside the cell where one is at most so many times the other. */
+/* Candidates count as equally long along both axes, in proportion to the cell, where the ratio is at most this. */
 #define AXES_EVEN 1.3
-/* So many parts with one side in the cell are tried in pairs; more are rare. */
+/* At most this many parts with one side in the cell are tried in pairs; more are rare. */
 #define SINGLES 8
-/* The table of pairs pushed of late: 64 KB, which stay in the second-level cache; more hardly finds more. */
+/* The table of recently pushed pairs: 64 KB, which fits the second-level cache; a larger one finds hardly more
+ * repeats. */
 #define RECENT_BITS_MOST 13
 #define RECENT_BITS_LEAST 6
 
@@ -39,31 +41,32 @@
 
 /* ---- Pairs (culling_close.c) ------------------------------------------------------------------------------------- */
 
-/* What a pair costs that is pushed, and then sorted and read again for its line, in sides of a split. */
+/* Cost of pushing a pair, sorting it and reading it for its line, in units of one side in a split. */
 #define PAIR_COST 4
 
 /* ---- Contained sides and parts ----------------------------------------------------------------------------------- */
 
-/* Parts looked at for one side: those at the front of a square's list hold most. */
+/* At most this many parts are tried for one side; those at the front of a square's list hold most sides. */
 #define LOOKS 1024
-/* A side that is dropped saves some thousand instructions, about what so many looks cost. */
+/* A side that is dropped saves some thousand instructions, about the cost of this many looks. */
 #define LOOKS_SAVED 64
-/* So much is looked for on trust, in sides that cost LOOKS, and in looks for each part. */
+/* Initial credit: SIDES_ON_TRUST sides at LOOKS looks each, and LOOKS_ON_TRUST looks for each part. */
 #define SIDES_ON_TRUST 4
 #define LOOKS_ON_TRUST 4
-/* So many looks for each part are taken on trust for one that it is inside of, those at its corners' squares among
- * them; and so many more for each corner of a part that is dropped: half of what a corner takes in the cells. */
+/* Initial credit of looks for each part, to find a part that holds it, including the parts listed at its corners; a
+ * part that is dropped earns PART_LOOKS_SAVED looks for each of its corners: half of what a corner costs in the
+ * cells. */
 #define PART_LOOKS_ON_TRUST 16
 #define PART_LOOKS_SAVED 256
-/* The lists of a square have so many entries for each part, or they are not worth their room. */
+/* The squares' lists may hold at most this many entries for each part; beyond that they take too much memory. */
 #define MOST_ENTRIES 64.0
-/* And there are no more squares than this for each part. */
+/* At most this many squares for each part. */
 #define MOST_SQUARES 4.0
 
 /* ---- The table of vertices --------------------------------------------------------------------------------------- */
 
-/* So many taken slots in a row do not come about by chance: in a table of n places, half full, the longest row is about
- * 5 ln n long. */
+/* A run of this many taken slots does not come about by chance: in a table of n places, half full, the longest run is
+ * about 5 ln n long. */
 #define CROWD 128
 
 #endif

@@ -1,11 +1,11 @@
-/* A hash table over a fine grid of the approximate coordinates. Two approximations of one point differ by far less
- * than a grid step, so they fall in one grid square, or both close to the border between two: looking into every
+/* A hash table over a fine grid of the approximate coordinates. Two approximations of one point differ by far less than
+ * a grid step, so they fall into one grid square, or both lie close to the border between two: looking into every
  * square that the error reaches finds the point. Equality itself is decided exactly: by the numbers of two lines that
- * meet there, for which no point has to be read or made, or by the coordinates.
+ * meet there, which takes no coordinates, or by the coordinates.
  *
- * Where the approximations cannot tell places apart (small detail far from the origin, in a sum of which another member
- * is farther still) one square would come to hold all of them. Then the table is made anew with hashes of the exact
- * coordinates, which cost two divisions of big integers each. */
+ * Where the approximations cannot separate points (small detail far from the origin, in a sum that has a member farther
+ * still) one square would come to hold all of them. Then the table is rebuilt with hashes of the exact coordinates,
+ * which cost two divisions of big integers each. */
 #include "outline/vertex_table.h"
 
 #include "outline/tuning.h"
@@ -69,7 +69,7 @@ static squares squares_near(const sunder_i_vertex_table *g, double x, double y)
     return (squares){square_of(g, x - g->error, y - g->error), square_of(g, x + g->error, y + g->error)};
 }
 
-/* The place of p, if it is known; *crowded is set if that was hard to tell. */
+/* The slot of p, if p is known; sets *crowded if finding it took a long run of taken slots. */
 static uint32_t find_near(const sunder_i_vertex_table *g, const sunder_i_hpoint *p, bool *crowded)
 {
     const squares s = squares_near(g, p->ax, p->ay);
@@ -107,7 +107,8 @@ static uint32_t hash_of(const sunder_i_vertex_table *g, const sunder_i_hpoint *p
     return g->exact ? (uint32_t)sunder_i_hpoint_hash(g->lattice, p) : hash(square_of(g, p->ax, p->ay));
 }
 
-/* A table at most half full with so many places; what is there is entered anew, with other hashes if asked. */
+/* A table with room for `places` vertices, at most half full; known vertices are entered again, by exact hashes if
+ * asked. */
 static bool make_table(sunder_i_vertex_table *g, size_t places, bool other_hashes)
 {
     size_t size = 16;
@@ -131,7 +132,8 @@ bool sunder_i_vertex_table_init(sunder_i_vertex_table *table, sunder_i_lattice *
 {
     memset(table, 0, sizeof *table);
     table->lattice = lattice;
-    /* Off the powers of two, where lattice points stand; 2^-40 of the whole keeps different places apart on maps. */
+    /* A step that is no power of two, since lattice points stand on those; 2^-40 of the whole keeps different places of
+     * a map apart. */
     table->per_step = 1 / (most * 0x1.23456p-40 + 0x1p-800);
     /* Each approximation is within 2^-50 of its coordinate's size (predicate.h). */
     table->error = most * 0x1p-48;

@@ -1,5 +1,5 @@
-/* One vertex for each place: points found on different lines are told to be one by the lines that meet there, or are
- * compared exactly. */
+/* One vertex for each place: points found on different lines are recognised as one by the lines that meet there, or by
+ * exact comparison. */
 #ifndef SUNDER_I_VERTEX_TABLE_H
 #define SUNDER_I_VERTEX_TABLE_H
 
@@ -32,19 +32,19 @@ typedef struct sunder_i_vertex_table {
 
 #define SUNDER_I_NO_VERTEX UINT32_MAX
 
-/* most: a bound on the approximate coordinates; expected: a guess at how many places; appended: and how many of
- * those that are appended. False if memory is out. */
+/* most: a bound on the approximate coordinates; expected: an estimate of the number of places, and `appended` of those
+ * that are appended. False if memory is out. */
 bool sunder_i_vertex_table_init(sunder_i_vertex_table *table, sunder_i_lattice *lattice, double most, size_t expected,
                                 size_t appended);
-/* The place near (ax, ay), each off by less than three quarters of table->error, where two of these lines met;
- * SUNDER_I_NO_VERTEX if none is known. *is_new: there is no place at all that it might be. */
+/* The place near (ax, ay), each off by less than three quarters of table->error, where two of these lines meet;
+ * SUNDER_I_NO_VERTEX if none is known. *is_new: no known place can be this one. */
 uint32_t sunder_i_vertex_table_find(const sunder_i_vertex_table *table, double ax, double ay,
                                     const sunder_i_vertex_lines *lines, bool *is_new);
-/* The number of the place of p, on these lines (NULL: none is known), made if it is new, which may be known;
- * SUNDER_I_NO_VERTEX if memory is out. */
+/* The number of the place p on these lines (NULL: no lines are known); it is added if it is not known yet. `is_new`
+ * tells that it cannot be known. SUNDER_I_NO_VERTEX if memory is out. */
 uint32_t sunder_i_vertex_table_add(sunder_i_vertex_table *table, const sunder_i_hpoint *p,
                                    const sunder_i_vertex_lines *lines, bool is_new);
-/* The same for a point that is known to be new and never to be asked for again. */
+/* The same for a point that is certainly new and will not be looked up again. */
 uint32_t sunder_i_vertex_table_append(sunder_i_vertex_table *table, const sunder_i_hpoint *p);
 void sunder_i_vertex_table_free(sunder_i_vertex_table *table);
 
