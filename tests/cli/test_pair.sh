@@ -27,6 +27,11 @@ expect 0 pair square:2 square:1 o.gpkg --stats s.json
 same "$(json .contact s.json) $(value o.gpkg pair 1 contact) $(value o.gpkg pair 1 len)" 'edge edge 1.5'
 expect 0 pair square:2 square:1 --stats -
 same "$(json .dx out)" '-3/2'
+# Options of the sum that a pair, whose answer does not come by a sum, has no use for.
+for option in '--algorithm convolution' '--seed 1' '--decomposition vertical' '--order given'; do
+    # shellcheck disable=SC2086 # an option and its value
+    refused 2 "unknown option ${option%% *}" pair square:2 square:1 $option
+done
 refused 2 'negative' pair square:2 square:1 --gap -1
 refused 2 '--gap' pair square:2 square:1 --gap inf
 refused 1 'there is no CRS' pair square:2 square:1 --gap 1m

@@ -24,7 +24,7 @@ for words in '--gap LENGTH' '[gap / 10]' '[repair]' '[0]' 'units of the layer' '
 done
 rm commands
 for size in 0 -3 2X 2GB G; do refused 2 'not a size' separate a b "--max-memory=$size"; done
-for option in --decomposition --order --planar-map; do refused 2 "unknown option" pair square:1 square:1 $option; done
+for option in --algorithm --decomposition --order --seed --planar-map; do refused 2 "unknown option" pair square:1 square:1 $option; done
 refused 2 'must be one of' sum square:1 square:1 --algorithm quickest
 refused 2 'unknown command' dissolve a b
 refused 2 'which command'

@@ -114,7 +114,7 @@ OPTIONS = (
     Option("--align", FLAG, ("buffer",), "Turn the shape to the main direction of each feature or block",
            "So that a square follows the walls.", False),
     # ---- Sums ----
-    Option("--algorithm", CHOICE, ("sum", "pair"), "The road to the sum", "All give the same result.",
+    Option("--algorithm", CHOICE, ("sum",), "The road to the sum", "All give the same result.",
            0, ("auto", "convolution", "arrangement", "incremental", "divide"),
            ("Chosen for these", "Convolution", "Arrangement of convex subsums", "Convex subsums one after another",
             "Convex subsums, halves joined")),
@@ -128,7 +128,7 @@ OPTIONS = (
            "Copied into the id columns. Empty: the id that QGIS shows, where the layer had to be copied."),
     Option("--effort", NUMBER, ("separate",), "Effort", "How hard to look for better sides and for proofs: 0 not at "
            "all, 10 ten times as hard.", 1.0),
-    Option("--seed", COUNT, ("separate", "sum", "pair"), "Seed", "For what is drawn at random.", 0),
+    Option("--seed", COUNT, ("separate", "sum"), "Seed", "For what is drawn at random.", 0),
     Option("--invalid", CHOICE, EVERY, "Invalid geometries", "Polygons that cross themselves, for example.",
            0, ("repair", "skip", "fail"), ("Repair", "Skip", "Stop with a message")),
     Option("--threads", COUNT, EVERY, "Threads", "Results are the same for every number. 0: all processors.", 0),
