@@ -4,7 +4,7 @@
 
 #include <time.h>
 
-/* Seconds since some moment that stays the same. */
+/* Seconds since a fixed moment. */
 static inline double sunder_i_now(void)
 {
     struct timespec t;

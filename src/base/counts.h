@@ -1,4 +1,4 @@
-/* What has been counted between two moments. */
+/* Differences of counters between two moments. */
 #ifndef SUNDER_I_COUNTS_H
 #define SUNDER_I_COUNTS_H
 

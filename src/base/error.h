@@ -12,7 +12,7 @@ sunder_status sunder_i_fail_at(sunder_error *err, sunder_status status, size_t p
                                const char *format, ...) __attribute__((format(printf, 6, 7)));
 /* SUNDER_ECANCEL: a progress function asked to stop. */
 sunder_status sunder_i_cancelled(sunder_error *err);
-/* The error of work that was given no memory, or otherwise cut short: SUNDER_ENOMEM, or, where that is why (watch.h),
+/* The error of work that was refused memory or cut short: SUNDER_ENOMEM or, if the watch (watch.h) is the cause,
  * SUNDER_ECANCEL or SUNDER_ESIZE. */
 sunder_status sunder_i_no_memory(sunder_error *err);
 

@@ -1,13 +1,13 @@
 /* A binary heap in an array: what comes before all others stands first, and an item never comes before the one at half
  * its place.
  *
- * Which of equal items comes out first is part of the contract, since what a search happens upon may depend on it: a
- * new item climbs past those that it comes before, and past no equals; one that sinks goes below the right child where
- * that comes before the left one, else the left, and stops above its equals. An order in which no two items are equal
- * leaves nothing to that.
+ * The order in which equal items come out is part of the contract, since a search may depend on it: a new item climbs
+ * past items that it comes before, and past no equals; an item that sinks goes below the right child where that comes
+ * before the left one, else below the left child, and stops above its equals. If no two items are equal, this does not
+ * matter.
  *
- * Items have any size; the functions are inlined where size and order are known, so that they cost what a heap written
- * by hand would. */
+ * Items have any size; the functions are inlined where size and order are known, so that they cost as much as a heap
+ * written by hand. */
 #ifndef SUNDER_I_HEAP_H
 #define SUNDER_I_HEAP_H
 
@@ -22,7 +22,7 @@ typedef bool (*sunder_i_before)(const void *a, const void *b);
 
 #define SUNDER_I_INLINE static inline __attribute__((always_inline))
 
-/* Puts an item of its own, v, at place i of n or above. */
+/* Moves v, an item outside the array, up from place i. */
 SUNDER_I_INLINE void sunder_i_heap_climb(void *heap, size_t i, size_t size, const void *v, sunder_i_before before)
 {
     unsigned char *at = heap;
@@ -31,13 +31,14 @@ SUNDER_I_INLINE void sunder_i_heap_climb(void *heap, size_t i, size_t size, cons
     memcpy(at + i * size, v, size);
 }
 
-/* Puts v at place i of n or below. */
+/* Moves v down from place i of n. */
 SUNDER_I_INLINE void sunder_i_heap_sink(void *heap, size_t n, size_t i, size_t size, const void *v,
                                         sunder_i_before before)
 {
     unsigned char *at = heap;
     for (size_t k = 2 * i + 1; k < n; i = k, k = 2 * k + 1) {
-        /* Without a branch: which of the two it is is anyone's guess. An only child does not come before itself. */
+        /* Without a branch, since neither child is more likely than the other. An only child does not come before
+         * itself. */
         const size_t right = k + 1 < n ? k + 1 : k;
         k += (size_t)before(at + right * size, at + k * size);
         if (!before(at + k * size, v)) break;

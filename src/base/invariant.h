@@ -1,9 +1,9 @@
 /* Invariants that run where NDEBUG is not set: the debug preset, and one configuration of the tests.
  *
- * SUNDER_I_ASSERT  a condition that costs no more than what is done about it anyway.
+ * SUNDER_I_ASSERT  a condition that costs no more than the work that it guards.
  * SUNDER_I_CHECK   a checker, which returns NULL or a sentence. Checkers look at everything, some of them at all pairs:
- *                  so they are asked of things of moderate size only, n of them. Some allocate: under an allocator of
- *                  the caller's, a test's that counts what is asked of it, nothing is checked. */
+ *                  they are skipped where there are more than SUNDER_I_CHECKED things. Some allocate: nothing is checked
+ *                  under an allocator of the caller's, e.g. that of a test that counts allocations. */
 #ifndef SUNDER_I_INVARIANT_H
 #define SUNDER_I_INVARIANT_H
 
@@ -15,7 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define SUNDER_I_CHECKED 256 /* a quadratic checker takes a millisecond for so many, so that tests can ask it often */
+#define SUNDER_I_CHECKED 256 /* a quadratic checker takes a millisecond for this many, so tests can call it often */
 
 bool sunder_i_allocator_is_own(void); /* memory.c: was none set? */
 

@@ -18,8 +18,8 @@ static inline bool sunder_i_list_push(sunder_i_list *list, uint32_t item)
     return true;
 }
 
-/* An empty list becomes a copy, with no room to spare: of a million lists most hold nothing, or little. False if memory
- * is out. */
+/* An empty list becomes a copy, without spare capacity: in a million lists most hold few numbers, or none. False if
+ * memory is out. */
 bool sunder_i_list_copy(sunder_i_list *list, const sunder_i_list *from);
 
 /* For qsort() and bsearch(). */

@@ -61,8 +61,8 @@ void sunder_i_free(void *memory)
     if (memory) hook_free(memory);
 }
 
-/* So many elements for at least `need`, which is more than the capacity: doubled; 0 if there cannot be so many. A first
- * capacity that was worked out is kept to. */
+/* A capacity for at least `need` elements, which is more than the present capacity: doubled; 0 if that cannot be
+ * addressed. A first capacity is taken as asked for. */
 static size_t grown(size_t capacity, size_t need)
 {
     size_t want = capacity ? capacity : need > 16 ? need : 16;
@@ -151,7 +151,7 @@ void *sunder_i_arena_alloc(sunder_i_arena *arena, size_t n, size_t size)
         arena->failed = true;
         return NULL;
     }
-    /* Mostly there is room; of nothing one byte is taken. */
+    /* Usually the chunk has room; a request for nothing takes one byte. */
     if (!c || __builtin_mul_overflow(n, size, &b) || b > c->size - c->used) return alloc_in_new_chunk(arena, n, size);
     b = (b + 15 + (b == 0)) & ~(size_t)15;
     if (b > c->size - c->used) return alloc_in_new_chunk(arena, n, size);

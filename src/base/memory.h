@@ -1,9 +1,9 @@
 /* Memory: the allocation hooks, and arenas on top of them.
  *
  * Nothing in the library calls malloc itself. Long-lived arrays come from sunder_i_alloc() and friends, which return
- * NULL when memory is out; what lives as long as one computation comes from an arena. An arena remembers a failed
- * allocation (`failed`) and from then on hands out nothing, so that a stage made of many small allocations can be
- * checked once, at its end. A thread that is to stop is refused memory, too (watch.h). */
+ * NULL when memory is out; memory that lives as long as one computation comes from an arena. An arena remembers a
+ * failed allocation (`failed`) and from then on returns NULL, so that a stage of many small allocations is checked
+ * once, at its end. A thread that is to stop is refused memory, too (watch.h). */
 #ifndef SUNDER_I_MEMORY_H
 #define SUNDER_I_MEMORY_H
 
@@ -48,7 +48,7 @@ void sunder_i_arena_init_on(sunder_i_arena *arena, void *memory, size_t bytes);
 /* n * size bytes, 16-byte aligned, uninitialised, alive until the arena is freed or released past here; NULL if it
  * failed. */
 void *sunder_i_arena_alloc(sunder_i_arena *arena, size_t n, size_t size);
-/* sunder_i_reserve() in an arena, where what has been outgrown stays. */
+/* sunder_i_reserve() in an arena; outgrown arrays stay in it. */
 bool sunder_i_arena_reserve(sunder_i_arena *arena, void *array, size_t *capacity, size_t need, size_t size);
 sunder_i_mark sunder_i_arena_mark(const sunder_i_arena *arena);
 void sunder_i_arena_release(sunder_i_arena *arena, sunder_i_mark mark);

@@ -1,4 +1,4 @@
-/* Numbers mixed into one from which a place in a table is taken. */
+/* Mixes numbers into one hash, from which a place in a table is taken. */
 #ifndef SUNDER_I_MIX_H
 #define SUNDER_I_MIX_H
 
@@ -7,7 +7,7 @@
 
 #define SUNDER_I_MIXER UINT64_C(0x9e3779b97f4a7c15) /* odd, its bits without pattern */
 
-/* With the bits of one more double; the upper half is mixed best. */
+/* Mixes in the bits of one more double; the upper half of the result is mixed best. */
 static inline uint64_t sunder_i_mix(uint64_t so_far, double x)
 {
     uint64_t bits;

@@ -1,8 +1,7 @@
-/* Independent work on several threads. Which thread does what is left to chance; where the result goes is not.
+/* Independent work on several threads. The assignment of work to threads is arbitrary; the place of each result is not.
  *
- * Work may ask for threads itself: it gets those that have no more to do where it is done. So the last of many items,
- * if it is a large one, is not left to one thread while the others wait, and no more threads run than were asked for.
- */
+ * Work may ask for threads itself: it gets idle threads of the run that it belongs to. So a large item that comes last
+ * does not occupy one thread while the others wait, and no more threads run than the caller asked for. */
 #include "base/parallel.h"
 
 #include "base/memory.h"
@@ -21,14 +20,14 @@ typedef struct job {
     const uint64_t *order; /* [n] items in the low halves; NULL: as they are numbered */
     atomic_size_t next;    /* first item not handed out */
     atomic_bool failed;
-    atomic_size_t idle;   /* threads that were to be had, and have nothing to do */
+    atomic_size_t idle;   /* idle threads that nested work may take */
     pthread_mutex_t lock; /* of what follows */
     size_t failed_at;     /* the least failing item so far */
     sunder_status status;
     sunder_error error;
 } job;
 
-/* What the calling thread works for; NULL: nothing that was handed out. */
+/* The run that the calling thread works for; NULL: none. */
 static _Thread_local job *here;
 
 static void fail(job *j, size_t begin, sunder_status status, const sunder_error *error)
@@ -43,7 +42,7 @@ static void fail(job *j, size_t begin, sunder_status status, const sunder_error 
     pthread_mutex_unlock(&j->lock);
 }
 
-/* So many of those that are idle, or fewer. */
+/* Takes up to `most` of the idle threads; returns how many. */
 static size_t take_idle(job *j, size_t most)
 {
     size_t idle = atomic_load(&j->idle), taken;
@@ -73,7 +72,7 @@ static void *run(void *argument)
     return NULL;
 }
 
-/* j->work, context, n, grain and order are given. */
+/* The caller has set j->work, context, n, grain and order. */
 static sunder_status run_on(unsigned threads, job *j, sunder_error *err)
 {
     enum { MOST = 256 };
@@ -90,7 +89,7 @@ static sunder_status run_on(unsigned threads, job *j, sunder_error *err)
     const size_t helpers = most < parts - 1 ? most : parts - 1;
     atomic_init(&j->idle, most - helpers);
     pthread_t helper[MOST];
-    /* A thread that cannot be had is no error: those that run take its share. */
+    /* A thread that cannot be started is no error: the others do its share. */
     while (started < helpers && pthread_create(&helper[started], NULL, run, j) == 0) started++;
     run(j);
     for (size_t i = 0; i < started; i++) pthread_join(helper[i], NULL);

@@ -1,12 +1,13 @@
-/* Questions in vain: of one kind, and of one cluster, so many may be asked in vain yet, and each that has an answer
- * makes good some. Where none is left, ever more pass between two that are asked. */
+/* Patience: how many questions of one kind, in one cluster, may still go unanswered. An answer earns some back. Once
+ * the patience is used up, only every `stride`-th question is asked, and each one that goes unanswered doubles the
+ * stride. */
 #ifndef SUNDER_I_PATIENCE_H
 #define SUNDER_I_PATIENCE_H
 
 #include <stdbool.h>
 
 typedef struct sunder_i_patience {
-    unsigned most, regained; /* at first, and for each answer */
+    unsigned most, regained; /* initial value, and earned by each answer */
     unsigned left, stride, passed;
 } sunder_i_patience;
 
@@ -15,7 +16,7 @@ static inline sunder_i_patience sunder_i_patience_of(unsigned most, unsigned reg
     return (sunder_i_patience){most, regained, most, 1, 0};
 }
 
-/* Is the next one to be asked? */
+/* Is the next question to be asked? */
 static inline bool sunder_i_patience_asks(sunder_i_patience *p)
 {
     if (p->left) return true;

@@ -1,6 +1,6 @@
-/* Pseudo-random numbers for orders of insertion: splitmix64 [SLF14]. Results must not depend on them; times, and what a
- * search happens upon, do. So draws and their order are part of what is promised here: one draw for each of the
- * numbers that are left to choose from, from all of them down to two. */
+/* Pseudo-random numbers for orders of insertion: splitmix64 [SLF14]. Sums do not depend on them; times, and the course
+ * of a search, do. So the draws and their order are part of the contract: one draw for each choice, from all n items
+ * down to two. */
 #ifndef SUNDER_I_RANDOM_H
 #define SUNDER_I_RANDOM_H
 
@@ -19,8 +19,8 @@ static inline uint64_t sunder_i_draw(uint64_t *state)
     return z ^ (z >> 31);
 }
 
-/* Which of n items of that size, all of one array, takes the last place: the two change places. One step of a shuffle
- * by Fisher and Yates, from the back. random: a number drawn. */
+/* Swaps a random item with the last of n items of this size, which stand in one array: one step of a Fisher-Yates
+ * shuffle from the back. random: a number drawn. */
 static inline void sunder_i_shuffle_step(void *array, size_t n, size_t size, uint64_t random)
 {
     unsigned char *const chosen = (unsigned char *)array + (size_t)(random % n) * size;

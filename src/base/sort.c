@@ -55,8 +55,8 @@ bool sunder_i_sort_indices(uint32_t *index, size_t n, comparison compare, void *
     return true;
 }
 
-/* Bits of a digit: a pass counts 2^DIGIT of them whatever the number of keys, so of some hundred keys digits are short,
- * and fewer are inserted one by one. */
+/* Bits of a digit: a pass counts 2^DIGIT values whatever the number of keys, so some hundred keys take short digits,
+ * and fewer keys are sorted by insertion. */
 #define DIGIT 11
 #define SHORT_DIGIT 8
 #define SOME_KEYS 2048 /* measured: from here on the longer digits take less */

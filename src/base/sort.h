@@ -1,5 +1,5 @@
-/* Sorting on memory of our own: stable merge sort of indices by an exact comparison, radix sort of keys; and where
- * mostly few are sorted, often, insertion. */
+/* Sorting on memory from our own hooks: stable merge sort of indices by an exact comparison, radix sort of keys, and
+ * insertion sort for short lists that are sorted often. */
 #ifndef SUNDER_I_SORT_H
 #define SUNDER_I_SORT_H
 
@@ -12,18 +12,18 @@
 bool sunder_i_sort_indices(uint32_t *index, size_t n, int (*compare)(void *context, uint32_t a, uint32_t b),
                            void *context);
 
-/* For that: the greater of two doubles, of an array that is the context, comes first. */
+/* A comparison for it: the greater of two doubles, in the array that is the context, comes first. */
 int sunder_i_descending(void *doubles, uint32_t a, uint32_t b);
 
 /* Sorts n keys ascending. False if memory is out. */
 bool sunder_i_sort_keys(uint64_t *key, size_t n);
 
-/* Fewer than that are sorted by insertion: the corners of most features, the bodies of most clusters. */
+/* Shorter lists are sorted by insertion: the corners of most features, the bodies of most clusters. */
 #define SUNDER_I_FEW_TO_SORT 25
-/* Items are no larger than that. */
+/* The largest size of an item. */
 #define SUNDER_I_MOST_ITEM 48
 
-/* Sorts n items like qsort(). The comparison is compiled in; items that it calls equal are alike in all that counts. */
+/* Sorts n items like qsort(). The comparison is compiled in; items that it calls equal must be interchangeable. */
 static inline void sunder_i_sort_few(void *list, size_t n, size_t size, int (*compare)(const void *, const void *))
 {
     char *item = list;
@@ -47,8 +47,8 @@ typedef struct sunder_i_valued {
     uint32_t item, mark;
 } sunder_i_valued;
 
-/* Sorts n of them by value, ascending and stable. There is room for 2 n, and what the second half holds is lost. False
- * where the work is to stop. */
+/* Sorts n of them by value, ascending and stable. The array has room for 2 n items; the contents of its second half are
+ * lost. False where the work is to stop. */
 bool sunder_i_sort_valued(sunder_i_valued *valued, size_t n);
 
 #endif

@@ -1,9 +1,9 @@
-/* Asking whether the work may go on: from the innermost watch outwards, each asked by one thread at a time. */
+/* May the work go on? Watches are asked from the innermost outwards, each by one thread at a time. */
 #include "base/watch.h"
 
 _Thread_local sunder_i_thread sunder_i_this_thread;
 
-/* Whoever has the lock is asking already. */
+/* A thread that finds the lock taken does not wait: the holder is asking already. */
 static void ask(sunder_i_watch *watch)
 {
     if (pthread_mutex_trylock(&watch->lock) != 0) return;

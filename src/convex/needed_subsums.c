@@ -1,14 +1,14 @@
-/* Most subsums of ragged operands lie deep inside the sum, where a few large ones cover all: these are found without
- * making the others.
+/* Most subsums of ragged operands lie deep inside the sum, where a few large ones cover all the others. These few are
+ * found without making the others.
  *
- * The box of the whole sum is halved into cells. What may reach into a cell is kept as pairs of groups of pieces
- * (piece_tree.h), one of each operand, which stand for all sums of the one's pieces with the other's and are opened as
- * the cells become small. A cell that lies inside one subsum is done with: that one is needed, and of whatever else
- * reaches into the cell nothing is, here. In a cell that few reach into all of them are needed. Nothing reaches into
- * the rest. So every subsum is covered, cell by cell, by needed ones; and as cells are closed and their holders open,
- * the union is the same set, its degenerate holes included.
+ * The box of the whole sum is halved into cells. The subsums that may reach into a cell are kept as pairs of groups of
+ * pieces (piece_tree.h), one group of each operand; a pair stands for all sums of pieces of the two, and is opened as
+ * cells become small. A cell that lies inside one subsum is finished: that subsum is needed, and no other is needed for
+ * this cell. In a cell that few subsums reach into, all of them are needed. So every subsum is covered, cell by cell,
+ * by needed ones; and since cells are closed and their holders open, the union is the same set, degenerate holes
+ * included.
  *
- * Floating point with one-sided error bounds: a wrong "don't know" makes one subsum more. */
+ * Floating point with one-sided error bounds: a wrong "don't know" costs one subsum more. */
 #include "convex/needed_subsums.h"
 
 #include "base/extremes.h"
@@ -18,37 +18,38 @@
 #include <math.h>
 #include <string.h>
 
-/* Numbers that decide how long it takes, never what comes out but for subsums more or less; by measurement on stars,
+/* Numbers that decide how long it takes, and how many subsums beyond the needed ones are kept; measured on stars,
  * random polygons, forks, covered forks, robots and grids. */
 
-/* A cell that no more reach into is not halved further: the larger, the more subsums are found needed, and it is those
- * that take memory. Nor is a half into which more reach, if together with the other it has nearly twice the cell's:
+/* A cell with at most this many subsums is not halved further: the larger the number, the more subsums are taken as
+ * needed, and these take memory. Nor is a half with more, if the two halves together have nearly twice the cell's:
  * halves of such halves will be no better (copies side by side, far longer than they are apart). */
 #define LEAF 32
 #define STUBBORN_LEAF 256
 #define STUBBORN_GROWTH 1.75
-/* A pair of groups is opened where it is so many times as large as the cell. */
+/* A pair of groups is opened where it is this many times as large as the cell. */
 #define COARSE 12
-/* Pairs of groups looked at in a cell, below each one listed for it, for a subsum that holds it. */
+/* Pairs of groups tried in a cell, below each listed pair, for a subsum that holds the cell. */
 #define LOOKS 64
-/* For each subsum so many pairs may be looked at in all, handed down from cell to cell: less than it costs to make one
- * and to find it covered. */
+/* Credit for each subsum: how many pairs may be looked at in all, handed down from cell to cell. Less than the cost of
+ * making one and finding it covered. */
 #define CREDIT 32.0
-/* A cell that is not halved further, or has no credit left, is lent what it is worth to leave out those of its subsums
- * that are not listed yet. No more is lent than has been saved so, and a share of all looks on trust: along the outline
- * of stars two dozen looks save one subsum. On loan more than that few are a cell to halve. */
+/* A cell that is not halved further, or has no credit left, may borrow what leaving out its unlisted subsums would
+ * save. The total lent is limited by what loans have saved so far, plus a share of all looks as an advance: along the
+ * outline of stars two dozen looks save one subsum. On a loan, a cell with more than this many subsums is halved. */
 #define ON_TRUST 0.1
 #define FEW 6
-/* Going round a subsum costs so many looks at pairs. */
+/* The cost of walking round a subsum, in looks at pairs. */
 #define WALK 4
-/* Where more than this share of all is needed, or the subsums cover their box less than that many times, and the
- * largest does not have a tenth of it and that share of the others inside, leaving some out gains nothing. */
+/* Leaving subsums out does not pay where more than MOST_NEEDED of all are needed; nor where the subsums cover their box
+ * fewer than LEAST_LAYERS times on average, unless the largest sample has LARGE_SHARE of the box and holds LEAST_HELD
+ * of the other samples. */
 #define MOST_NEEDED 0.5
 #define LEAST_LAYERS 4
 #define LARGE_SHARE 0.1
 #define LEAST_HELD 0.25
 #define SAMPLES 64
-/* Halved more often than that, a box is a point in doubles. */
+/* A box halved more often than this is a point in doubles. */
 #define DEPTH 96
 
 typedef struct pair {
@@ -61,15 +62,15 @@ typedef struct cell {
     double subsums;  /* in these */
     double credit;
     int depth;
-    bool stubborn; /* its parent was halved in vain */
+    bool stubborn; /* halving its parent gained nothing */
 } cell;
 
-/* The looks that a cell and those below it may take beyond their credit; one at a time. */
+/* A loan: the looks that a cell and those below it may take beyond their credit; one loan at a time. */
 typedef struct loan {
     bool on;
     size_t cells;            /* on the stack below it */
-    size_t listed, unlisted; /* subsums listed before it, and those that were to be listed for want of it */
-    double looks;            /* of the finder, before it */
+    size_t listed, unlisted; /* subsums listed when it began, and those that would have been listed without it */
+    double looks;            /* the finder's looks when it began */
 } loan;
 
 typedef struct finder {
@@ -81,12 +82,12 @@ typedef struct finder {
     size_t pairs, capacity;
     cell *stack;
     size_t cells, cells_capacity;
-    double spent;    /* looks, on the cell at hand */
+    double spent;    /* looks at the current cell */
     double subsums;  /* in the pairs listed for a half */
     uint64_t holder; /* the subsum that holds the window, once `held` */
-    double worth;    /* of a subsum that is left out, in looks; 0: nothing is lent */
-    double looks;    /* on all cells so far */
-    double balance;  /* worth of what was saved on loan, less what it took */
+    double worth;    /* the worth of leaving a subsum out, in looks; 0: no loans */
+    double looks;    /* looks at all cells so far */
+    double balance;  /* what loans have saved, less what they took, in looks */
     loan loan;
     bool held, no_memory;
 } finder;
@@ -96,14 +97,14 @@ static uint64_t subsum_of(const finder *f, uint32_t a, uint32_t b)
     return (uint64_t)f->p->group[a].piece << 32 | f->q->group[b].piece;
 }
 
-/* Where is the window, seen from the sum of the longest pieces of two groups? */
+/* Where does the window lie, relative to the sum of the longest pieces of two groups? */
 static sunder_i_window_place place_of(finder *f, uint32_t a, uint32_t b, const sunder_i_cell_window *w)
 {
     f->spent += WALK;
     return sunder_i_approx_sum_sees(f->p, f->p->group[a].piece, f->q, f->q->group[b].piece, w);
 }
 
-/* ---- What reaches into a window ---- */
+/* ---- Pairs that reach into a window ---- */
 
 static bool apart(const sunder_i_piece_group *a, const sunder_i_piece_group *b, const sunder_i_cell_window *w)
 {
@@ -127,14 +128,14 @@ static double size_of(const sunder_i_piece_group *g)
     return sunder_i_max(g->high[0] - g->low[0], g->high[1] - g->low[1]);
 }
 
-/* Is it the first of two groups that is to be opened? The larger one of those with several pieces is. */
+/* Which of two groups is opened: the larger of those with several pieces. True for the first. */
 static bool opens_first(const sunder_i_piece_group *a, const sunder_i_piece_group *b)
 {
     return b->pieces == 1 || (a->pieces > 1 && size_of(a) >= size_of(b));
 }
 
-/* Lists what of a pair reaches into the window, opened until no pair is larger than `size`; until one subsum is found
- * to hold the window. */
+/* Lists the parts of a pair that reach into the window, opened until none is larger than `size`; stops when one subsum
+ * is found to hold the window. */
 static void list_pair(finder *f, uint32_t a, uint32_t b, const sunder_i_cell_window *w, double size)
 {
     const sunder_i_piece_group *ga = &f->p->group[a], *gb = &f->q->group[b];
@@ -158,9 +159,9 @@ static void list_pair(finder *f, uint32_t a, uint32_t b, const sunder_i_cell_win
         list_pair(f, first ? part[k] : a, first ? b : part[k], w, size);
 }
 
-/* ---- What holds one ---- */
+/* ---- A subsum that holds a window ---- */
 
-/* May one subsum of the pair? */
+/* May a subsum of the pair hold the window? */
 static bool may_hold(const sunder_i_piece_group *a, const sunder_i_piece_group *b, const sunder_i_cell_window *w)
 {
     for (int k = 0; k < SUNDER_I_WAYS; k++) {
@@ -174,7 +175,7 @@ static bool may_hold(const sunder_i_piece_group *a, const sunder_i_piece_group *
 static bool find_holder(finder *f, uint32_t a, uint32_t b, const sunder_i_cell_window *w, int *looks)
 {
     const sunder_i_piece_group *ga = &f->p->group[a], *gb = &f->q->group[b];
-    if (--*looks < 0 || !sunder_i_step()) return false; /* told to stop: whoever lists pairs next says so */
+    if (--*looks < 0 || !sunder_i_step()) return false; /* told to stop; the next listing of pairs reports it */
     f->spent++;
     if (!may_hold(ga, gb, w)) return false;
     if (ga->pieces == 1 && gb->pieces == 1) {
@@ -197,7 +198,7 @@ static bool is_held(finder *f, const cell *c, const sunder_i_cell_window *w)
     return false;
 }
 
-/* ---- What is needed ---- */
+/* ---- Needed subsums ---- */
 
 static void need(finder *f, uint64_t subsum)
 {
@@ -206,8 +207,8 @@ static void need(finder *f, uint64_t subsum)
     l->all = (double)l->n > MOST_NEEDED * f->whole;
 }
 
-/* Lists the pairs of pieces whose subsums reach into the cell, behind all lists; or one that holds it is needed, and
- * nothing is left to do. */
+/* Appends the pairs of pieces whose subsums reach into the cell to the lists; if one of them holds the cell it becomes
+ * needed, and the cell is finished. */
 static bool list_single(finder *f, const cell *c, const sunder_i_cell_window *w)
 {
     f->held = false;
@@ -224,8 +225,8 @@ static void need_listed(finder *f, const cell *c)
 
 /* ---- Cells ---- */
 
-/* Puts one half of a cell on the stack, with what of the cell's pairs reaches into it, unless nothing does, or one
- * subsum holds it. */
+/* Pushes one half of a cell, with those of the cell's pairs that reach into it, unless none does, or one subsum holds
+ * it. */
 static void put_half(finder *f, const cell *c, const double box[4])
 {
     const sunder_i_cell_window w = sunder_i_cell_window_of(box, f->error);
@@ -247,7 +248,7 @@ static void put_half(finder *f, const cell *c, const double box[4])
     f->stack[f->cells++] = (cell){{box[0], box[1], box[2], box[3]}, from, f->pairs, f->subsums, 0, c->depth + 1, false};
 }
 
-/* Both halves across the longer axis; what credit is left goes to them by what they have to do. */
+/* Halves the cell across its longer axis; the remaining credit is divided in proportion to the halves' pairs. */
 static void halve(finder *f, const cell *c)
 {
     const int axis = c->box[3] - c->box[1] > c->box[2] - c->box[0];
@@ -288,7 +289,8 @@ static void pay_back(finder *f)
 
 /* ---- The descent ---- */
 
-/* In a cell that is not halved further all that reaches into it is needed, or one that holds it. Else true. */
+/* Is the cell to be halved further? If not, the subsums that reach into it are taken as needed, or the one that holds
+ * it. */
 static bool goes_on(finder *f, cell *c, const sunder_i_cell_window *w)
 {
     const double leaf = c->stubborn ? STUBBORN_LEAF : f->loan.on ? FEW : LEAF;
@@ -309,7 +311,7 @@ static void descend(finder *f)
         if (f->loan.on && f->cells == f->loan.cells) pay_back(f);
         cell c = f->stack[--f->cells];
         const sunder_i_cell_window w = sunder_i_cell_window_of(c.box, f->error);
-        f->pairs = c.to; /* lists above are of cells that are done with */
+        f->pairs = c.to; /* lists above belong to finished cells */
         f->spent = 0;
         if (!goes_on(f, &c, &w)) continue;
         if (is_held(f, &c, &w))
@@ -320,7 +322,7 @@ static void descend(finder *f)
     }
 }
 
-/* Samples: spread over all, and those of long pieces. */
+/* Samples: spread evenly, and those of long pieces. */
 static pair sample_of(const finder *f, uint32_t k)
 {
     return (pair){(uint32_t)((uint64_t)k * 7919 % f->p->pieces->n), (uint32_t)((uint64_t)k * 104729 % f->q->pieces->n)};
@@ -347,7 +349,7 @@ static uint32_t count_held(const finder *f, pair in)
     return held;
 }
 
-/* Do the subsums lie in layers, or in one of them? */
+/* Do the subsums overlap in several layers, or lie mostly inside one of them? */
 static bool is_worth_it(const finder *f, const double box[4])
 {
     double sum = 0, most = 0;

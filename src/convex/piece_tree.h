@@ -1,5 +1,5 @@
 /* A tree over convex pieces: the longest piece of each group stands at its root, the others fall into two groups by
- * where they are. So a group near the root that is opened gives a long piece first, of which sums are wide.
+ * position. So opening a group near the root gives a long piece first, whose sums are wide.
  *
  * A group is a single piece or a node of the tree; all of it in doubles, in the units of sunder_i_approx(). */
 #ifndef SUNDER_I_PIECE_TREE_H
@@ -16,7 +16,7 @@ typedef struct sunder_i_piece_group {
     double widest[SUNDER_I_WAYS];                   /* the greatest extent of one piece */
     uint32_t pieces;                                /* how many */
     uint32_t piece;                                 /* the longest */
-    uint32_t part[3]; /* what a group of several falls into: the longest piece alone, then the others; NO_GROUP */
+    uint32_t part[3]; /* the subgroups: the longest piece alone, then the others; NO_GROUP */
 } sunder_i_piece_group;
 
 /* A side that starts in a corner, and that corner. */
@@ -32,7 +32,7 @@ typedef struct sunder_i_piece_tree {
     double most; /* the greatest magnitude of a coordinate */
 } sunder_i_piece_tree;
 
-/* Of ranked pieces, at least one, which must outlive the tree. False if memory is out. */
+/* Of ranked pieces, at least one; they must outlive the tree. False if memory is out. */
 bool sunder_i_piece_tree_build(const sunder_i_convex_pieces *pieces, sunder_i_piece_tree *out);
 void sunder_i_piece_tree_free(sunder_i_piece_tree *tree);
 /* The box xmin, ymin, xmax, ymax of a piece. */

@@ -44,7 +44,7 @@ void sunder_i_convex_pieces_add_shape(sunder_i_convex_pieces *list, const sunder
     }
 }
 
-/* Gives back what is past n elements. Where that fails the array keeps it. */
+/* Shrinks the array to n elements. If that fails the array keeps its size. */
 static void cut_off(void *array, size_t n, size_t size)
 {
     void *old;
@@ -58,7 +58,7 @@ void sunder_i_convex_pieces_remove(sunder_i_convex_pieces *list, const bool *gon
     uint32_t n = 0, corners = 0;
     for (uint32_t i = 0, first = 0; i < list->n; i++) {
         const uint32_t end = list->end[i], m = end - first;
-        if (!gone[i] && n == i) { /* where nothing has gone so far, all is in its place */
+        if (!gone[i] && n == i) { /* nothing was removed so far: each is in its place */
             corners += m;
             n++;
         } else if (!gone[i]) {
@@ -89,7 +89,7 @@ static uint32_t sides_of(const sunder_i_convex_pieces *list, uint32_t piece)
     return n < 2 ? 0 : n;
 }
 
-/* The vectors of all sides, one after the other; how many. */
+/* Writes the vectors of all sides, one after the other; returns how many. */
 static size_t side_vectors(sunder_i_lattice *l, const sunder_i_convex_pieces *list, sunder_i_point *side)
 {
     size_t sides = 0;
@@ -109,7 +109,7 @@ static void rotate(void *array, size_t size, uint32_t n, uint32_t by, void *room
     memcpy(item + (n - by) * size, room, by * size);
 }
 
-/* Sides on one line have one rank: the first of them comes first, which may stand at the end of the list. */
+/* Collinear sides have one rank: the first of them, which may stand at the end of the list, comes first. */
 static void start_with_least(sunder_i_convex_pieces *list, uint32_t first, uint32_t n, void *room)
 {
     uint32_t *rank = list->rank + first, least = 0;
@@ -123,7 +123,7 @@ static void start_with_least(sunder_i_convex_pieces *list, uint32_t first, uint3
     if (list->vertex) rotate(list->vertex + first, sizeof *list->vertex, n, least, room);
 }
 
-/* Takes the ranks of its sides, each piece turned to start with its least. */
+/* Sets the ranks of the sides, each piece rotated to start with its least. */
 static size_t take_ranks(sunder_i_convex_pieces *list, const uint32_t *rank, void *room)
 {
     size_t sides = 0;
@@ -192,7 +192,8 @@ bool sunder_i_convex_pieces_init_sum(const sunder_i_convex_pieces *a, const sund
     return true;
 }
 
-/* A point only shifts, and two parallel segments make a segment, so nothing is special but two points. */
+/* A point only shifts the other piece, and two parallel segments make a segment, so only two points are a special
+ * case. */
 static void add_sum(const sunder_i_convex_pieces *a, uint32_t i, const sunder_i_convex_pieces *b, uint32_t j,
                     sunder_i_convex_pieces *out)
 {

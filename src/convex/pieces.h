@@ -1,15 +1,15 @@
-/* Lists of convex pieces, points and segments among them: of shapes, of obstacles, and of sums of them; as parts of a
- * union, what outline/ unites.
+/* Lists of convex pieces, points and segments among them: of shapes, of obstacles, and of sums of these. outline/
+ * unites them.
  *
  * A piece is a counter-clockwise list of corners: three or more, convex, straight ones allowed; two for a segment (its
  * two sides run there and back); one, without a side, for a point. int(s + B) of a segment or a point s is open and
  * convex all the same, and a list may be a union by itself.
  *
- * Once ranked (directions.h), each piece starts with a side of the least rank, and ranks do not fall: so that a sum is
- * a merge of two lists (merge.h).
+ * Once ranked (directions.h), each piece starts with a side of the least rank, and ranks do not fall: so a sum is a
+ * merge of two lists (merge.h).
  *
- * A side is a *candidate* where it can carry boundary of the union: of a shape's pieces the edges, not
- * the diagonals. */
+ * A side is a *candidate* where it can carry boundary of the union: of a shape's pieces the edges, not the
+ * diagonals. */
 #ifndef SUNDER_I_CONVEX_PIECES_H
 #define SUNDER_I_CONVEX_PIECES_H
 
@@ -22,17 +22,17 @@ typedef struct sunder_i_convex_pieces {
     sunder_i_point *corner;    /* [corners] */
     uint32_t *rank;            /* [corners] of the side that starts there; unused for points */
     bool *candidate;           /* [corners] likewise */
-    uint32_t *vertex;          /* [corners] of the shape, or NULL: nobody asks */
-    sunder_i_lattice *lattice; /* these three are borrowed, and set by those who rank or sum */
+    uint32_t *vertex;          /* [corners] the shape's vertex at each corner; NULL: not kept */
+    sunder_i_lattice *lattice; /* these three are borrowed, and set by ranking and by summing */
     uint32_t classes;
     const sunder_i_point *direction; /* [classes] */
 } sunder_i_convex_pieces;
 
-/* Room for so many; false if memory is out. */
+/* Reserves room for n pieces and `corners` corners; false if memory is out. */
 bool sunder_i_convex_pieces_init(sunder_i_convex_pieces *list, size_t n, size_t corners);
 void sunder_i_convex_pieces_free(sunder_i_convex_pieces *list);
 
-/* Takes these out, and gives back what of the room is left then; not all. The others keep their order. */
+/* Removes these pieces, and returns spare memory, not all of it. The others keep their order. */
 void sunder_i_convex_pieces_remove(sunder_i_convex_pieces *list, const bool *gone);
 
 /* Piece i has the corners from this index on, up to end[i]. */
@@ -41,15 +41,15 @@ static inline uint32_t sunder_i_convex_pieces_first(const sunder_i_convex_pieces
     return i ? list->end[i - 1] : 0;
 }
 
-/* The next corner of the piece that is being added; its end is set by whoever adds it. */
+/* Appends a corner to the piece that is being added; the caller sets the piece's end. */
 static inline void sunder_i_convex_pieces_add_corner(sunder_i_convex_pieces *list, sunder_i_point at, bool candidate)
 {
     list->corner[list->corners] = at;
     list->candidate[list->corners++] = candidate;
 }
 
-/* The convex pieces of a shape, whose vertices stand at these places (turned by half a turn, perhaps). There
- * is room. */
+/* Appends the convex pieces of a shape whose vertices stand at these places (perhaps turned by half a turn). The caller
+ * has reserved the room. */
 void sunder_i_convex_pieces_add_shape(sunder_i_convex_pieces *list, const sunder_shape *shape,
                                       const sunder_i_point *at);
 

@@ -9,7 +9,7 @@
 
 #define LEAST_SLOTS 1024
 
-/* Where in the table a subsum stands, or the free slot where it would. */
+/* The slot of a subsum, or the free slot where it would be entered. */
 static size_t slot_of(const sunder_i_subsum_list *l, uint64_t subsum)
 {
     size_t at = (size_t)((subsum * SUNDER_I_MIXER) >> 32) & (l->slots - 1);

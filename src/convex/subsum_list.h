@@ -10,15 +10,15 @@
 typedef struct sunder_i_subsum_list {
     uint64_t *pair;
     size_t n, capacity;
-    uint32_t *slot; /* [slots] places in the list, past which one is; 0: free */
+    uint32_t *slot; /* [slots] index in the list, plus one; 0: free */
     size_t slots;   /* a power of two, or 0 */
-    bool all;       /* it does not pay to leave any out: the list says nothing */
+    bool all;       /* leaving some out does not pay: the list is empty and means all subsums */
 } sunder_i_subsum_list;
 
-/* Puts one on the list that is not there yet. False if memory is out. */
+/* Appends one that is not in the list yet. False if memory is out. */
 bool sunder_i_subsum_list_add(sunder_i_subsum_list *list, uint64_t subsum);
 bool sunder_i_subsum_list_has(const sunder_i_subsum_list *list, uint64_t subsum);
-/* No more will be added or asked for: ascending. False if memory is out. */
+/* Sorts the list once it is complete. False if memory is out. */
 bool sunder_i_subsum_list_finish(sunder_i_subsum_list *list);
 void sunder_i_subsum_list_free(sunder_i_subsum_list *list);
 

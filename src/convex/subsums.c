@@ -1,5 +1,5 @@
-/* Subsums: the operands' pieces are made and ranked, those of the one are merged with those of the other where the
- * union needs it, and sides are asked whether they can carry boundary. */
+/* Subsums: the operands' pieces are made and ranked, each piece of one is merged with each of the other where the union
+ * needs it, and sides are tested for whether they can carry boundary. */
 #include "convex/subsums.h"
 
 #include "base/watch.h"
@@ -35,8 +35,8 @@ static void take_edge_ranks(operand *o)
         if (o->pieces.candidate[k]) o->edge_rank[o->pieces.vertex[k]] = o->pieces.rank[k];
 }
 
-/* Does the exterior angle at vertex v hold the rank r? The vertex is convex then, a left turn. Where others stand at
- * its place each has a sector of its own (shape.h), and what one of them covers is covered. */
+/* Does the exterior angle at vertex v contain the rank r? The vertex is then convex, a left turn. Where several
+ * vertices stand at one place each has a sector of its own (shape.h), and what any of them covers is covered. */
 static bool holds(const operand *o, uint32_t v, uint32_t r, uint32_t classes)
 {
     const sunder_shape *s = o->shape;
@@ -46,7 +46,7 @@ static bool holds(const operand *o, uint32_t v, uint32_t r, uint32_t classes)
     return turn < classes && step <= turn;
 }
 
-/* Is side k of a an edge that the corner of b at a vertex carries? */
+/* Is side k of a an edge for which the corner of b is a vertex whose exterior angle contains its direction? */
 static bool is_candidate(const operand *a, uint32_t k, const operand *b, uint32_t vertex, uint32_t classes)
 {
     return a->pieces.candidate[k] && holds(b, vertex, a->pieces.rank[k], classes);
@@ -79,7 +79,7 @@ static uint32_t corners_of(const sunder_i_convex_pieces *list, uint32_t piece)
     return list->end[piece] - sunder_i_convex_pieces_first(list, piece);
 }
 
-/* Those of a list that leaves some out. */
+/* The subsums of a list that leaves some out. */
 static bool add_listed(const operand *p, const operand *q, const sunder_i_subsum_list *list,
                        sunder_i_convex_pieces *out)
 {
@@ -109,7 +109,7 @@ static bool add_all(const operand *p, const operand *q, sunder_i_convex_pieces *
     return true;
 }
 
-/* Fewer subsums are made at once. */
+/* Below this number all subsums are made. */
 #define FEW_SUBSUMS 256
 /* Making one and finding it covered takes some ten thousand instructions (stars, random polygons). */
 #define SUBSUM_WORTH 128.0

@@ -1,11 +1,11 @@
-/* [LP80]: a line moves over the rectangles, with the ranges that it cuts out of them in a segment tree. Where it stands
- * on ends and beginnings of rectangles, those that end are taken out first: then the tree covers what rectangles cover
- * on the line itself, and what it leaves free below one that ended, or that is about to begin, is contour.
+/* A sweep line moves over the rectangles and keeps the ranges that it cuts out of them in a segment tree [LP80]. Where
+ * rectangles begin and end on the line, those that end are removed first: then the tree covers what rectangles cover on
+ * the line itself, and a free place beside one that ended, or that is about to begin, is contour.
  *
- * Places and what is between them are elements by turns: rank r is element 2 r, and what follows it 2 r + 1. An open
- * rectangle covers the elements between its ends only, so that places which nothing covers are found like stretches,
- * and seams where rectangles meet end to end stay free. A free place between covered stretches, below a rectangle that
- * ended and one that begins, is a degenerate point: nothing else comes near it. */
+ * Ranks and the stretches between them alternate as elements of the tree: rank r is element 2 r, and the stretch above
+ * it 2 r + 1. An open rectangle covers only the elements between its ends, so that single free places are found like
+ * stretches, and seams where rectangles meet end to end stay free. A free place between covered stretches, below a
+ * rectangle that ended and one that begins, is a degenerate point: nothing else comes near it. */
 #include "rectilinear/contour.h"
 
 #include "base/watch.h"
@@ -34,8 +34,8 @@ static range range_of(const finder *f, uint32_t i)
 
 static uint32_t key_of(const rectangle *r, int axis, bool high) { return high ? r->high[axis] : r->low[axis]; }
 
-/* Counting sort, stable, of rectangles that stand in the order `from` (NULL: as they are); `end` becomes for each place
- * the index past its last rectangle. */
+/* Stable counting sort of rectangles that stand in the order `from` (NULL: as they are); end[p] becomes the index past
+ * the last rectangle of place p. */
 static void sort_by(const sunder_i_ranked_rectangles *in, const uint32_t *from, int axis, bool high, uint32_t *to,
                     uint32_t *end)
 {
@@ -80,8 +80,8 @@ static void add_point(finder *f, sunder_i_contour_point p)
     o->point[o->points++] = p;
 }
 
-/* What is free of elements that rectangles cover on these sides of the line. Where both sides are covered, the elements
- * begin and end with a stretch, so that a place alone has covered ones beside it. */
+/* Lists the free elements among those that rectangles cover on these sides of the line. Where both sides are covered,
+ * the elements begin and end with a stretch, so that a single free place has covered elements beside it. */
 static void add_free(finder *f, uint32_t line, range r, uint32_t sides)
 {
     f->runs.n = 0;
@@ -95,7 +95,7 @@ static void add_free(finder *f, uint32_t line, range r, uint32_t sides)
     }
 }
 
-/* The union of the ranges of some rectangles that stand in order; how many remain. */
+/* Unites the ranges of some rectangles that stand in order; returns how many remain. */
 static size_t unite(const finder *f, const uint32_t *item, size_t n, range *out)
 {
     size_t ranges = 0;

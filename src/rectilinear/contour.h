@@ -4,8 +4,8 @@
 
 #include "rectilinear/rectangles.h"
 
-/* No point of it is covered, except perhaps its ends; what lies before it, after it, or both, is. Before and after are
- * meant along the axis across. */
+/* A stretch of a line that no rectangle covers (its ends may be covered), with rectangles before it, after it, or both,
+ * along the axis across the line. */
 typedef struct sunder_i_contour_stretch {
     uint32_t line;     /* rank along the axis across */
     uint32_t from, to; /* ranks along the line, from < to */
@@ -14,7 +14,7 @@ typedef struct sunder_i_contour_stretch {
 
 enum { SUNDER_I_COVERED_BEFORE = 1, SUNDER_I_COVERED_AFTER = 2 };
 
-/* A point that no rectangle covers, though all around it is covered. */
+/* A point that no rectangle covers, while everything around it is covered. */
 typedef struct sunder_i_contour_point {
     uint32_t line, at;
 } sunder_i_contour_point;
@@ -26,7 +26,8 @@ typedef struct sunder_i_contour {
     size_t points, points_capacity;
 } sunder_i_contour;
 
-/* The contour on lines across the axis: of coordinate x for axis 0, y for axis 1. False if memory is out. */
+/* The contour on lines across the axis: lines of constant x for axis 0, of constant y for axis 1. False if memory is
+ * out. */
 bool sunder_i_contour_find(const sunder_i_ranked_rectangles *rectangles, int axis, sunder_i_contour *out);
 void sunder_i_contour_free(sunder_i_contour *contour);
 

@@ -1,6 +1,6 @@
-/* Ranges are entered from the elements up: what of a range shares a node with one of its ends is counted there, child
- * by child. The nodes between are whole, and in turn children of nodes one level up: those that share one with an end
- * are counted there, and so on. */
+/* A range is entered from the elements upwards: the part of it that shares a node with one of its ends is counted
+ * there, child by child. The nodes between are covered as a whole, and are in turn children of nodes one level up,
+ * where the same is done. */
 #include "rectilinear/cover_tree.h"
 
 #include <string.h>
@@ -34,7 +34,8 @@ void sunder_i_cover_tree_free(sunder_i_cover_tree *tree)
 /* The bits from..to, both inclusive. */
 static uint64_t bits_of(uint32_t from, uint32_t to) { return ALL << from & ALL >> (CHILDREN - 1 - to); }
 
-/* One more, or one less, of each child that has a bit in `by`: carries go on to the next digit. */
+/* Adds one to, or subtracts one from, the count of each child that has a bit in `by`: carries go on to the next
+ * digit. */
 static void change_children(sunder_i_cover_tree *t, node *v, uint64_t by, bool more)
 {
     uint64_t carry = by;
@@ -59,7 +60,7 @@ static void change_children(sunder_i_cover_tree *t, node *v, uint64_t by, bool m
     }
 }
 
-/* Tells the nodes above what has become of node i, as far up as that is new. */
+/* Updates the ancestors of node i, as far up as anything changes. */
 static void tell_above(sunder_i_cover_tree *t, uint32_t level, uint32_t i)
 {
     const node *v = &t->level[level][i];
@@ -76,7 +77,7 @@ static void tell_above(sunder_i_cover_tree *t, uint32_t level, uint32_t i)
     }
 }
 
-/* The ranges that children from..last of node i of a level have for their own are one more, or one less. */
+/* Children from..last of node i of a level have one range of their own more, or one less. */
 static void change(sunder_i_cover_tree *t, uint32_t level, uint32_t i, uint32_t from, uint32_t last, bool more)
 {
     node *v = &t->level[level][i];
@@ -107,7 +108,7 @@ void sunder_i_cover_tree_remove(sunder_i_cover_tree *tree, uint32_t from, uint32
     change_range(tree, from, to, false);
 }
 
-/* ---- What is free ---- */
+/* ---- Free elements ---- */
 
 typedef struct finder {
     const sunder_i_cover_tree *tree;
@@ -131,7 +132,7 @@ static void add_run(finder *f, uint32_t from, uint32_t to)
     o->item[o->n++] = (sunder_i_element_run){from, to};
 }
 
-/* How many bits are one from the lowest on, of which there is one at least. */
+/* The number of trailing one bits; there is at least one. */
 static uint32_t ones(uint64_t bits) { return ~bits ? (uint32_t)__builtin_ctzll(~bits) : CHILDREN; }
 
 /* The children of a node that are asked for: `low` is the first of them all, from..last are asked for of the level. */
@@ -140,7 +141,7 @@ static uint64_t asked_for(uint32_t low, uint32_t from, uint32_t last)
     return bits_of(from > low ? from - low : 0, last - low < CHILDREN ? last - low : CHILDREN - 1);
 }
 
-/* Of a node of the lowest level. */
+/* The same for a node of the lowest level. */
 static void find_elements(finder *f, uint32_t i)
 {
     const uint32_t low = i << CHILD_BITS;
@@ -152,7 +153,7 @@ static void find_elements(finder *f, uint32_t i)
     }
 }
 
-/* Of node i of a level, of which some elements are asked for. */
+/* Visits node i of a level, some elements of which are in the query. */
 static void find(finder *f, uint32_t level, uint32_t i)
 {
     if (level == 0) {
@@ -180,7 +181,7 @@ bool sunder_i_cover_tree_free_runs(const sunder_i_cover_tree *tree, uint32_t fro
                                    sunder_i_element_runs *out)
 {
     finder f = {tree, from, to - 1, out->n, out, false};
-    /* The first node that has all of the range below it; one above with ranges of its own covers that. */
+    /* The lowest node that has the whole range below it; an ancestor with ranges of its own covers all of it. */
     uint32_t level = 0, top = from >> CHILD_BITS;
     for (uint32_t last = f.last >> CHILD_BITS; top != last; level++) top >>= CHILD_BITS, last >>= CHILD_BITS;
     for (uint32_t k = level + 1, i = top; k < tree->levels; k++, i >>= CHILD_BITS)

@@ -1,9 +1,9 @@
-/* A segment tree: how many of the ranges put in cover each element, and which elements of a range none does. A question
- * goes down only to where covered and free elements mix, so it costs O((k + 1) log n) for k runs found.
+/* A segment tree that counts the ranges that cover each element, and lists the elements of a range that none covers. A
+ * query descends only to where covered and free elements mix, so it costs O((k + 1) log n) for k runs found.
  *
- * Nodes have 64 children, which are bits of words: those of the lowest are elements, those of the others are nodes. How
- * many ranges a child has for its own is counted in all 64 at once: its bit of the first number is the lowest digit of
- * its count, that of the next number the next digit, and so on. */
+ * Nodes have 64 children, which are bits of words: children of the lowest nodes are elements, those of others are
+ * nodes. A child's own ranges are counted for all 64 children at once, bit-sliced: its bit of the first number is the
+ * lowest digit of its count, that of the next number the next digit, and so on. */
 #ifndef SUNDER_I_COVER_TREE_H
 #define SUNDER_I_COVER_TREE_H
 
@@ -12,18 +12,18 @@
 #define SUNDER_I_COVER_LEVELS 6  /* 64^6 are more than there are elements */
 #define SUNDER_I_COVER_DIGITS 29 /* so that a node has 256 bytes */
 
-/* A bit for each child. What a child is, counts its own ranges and those of what is below. */
+/* One bit for each child. A child is covered by its own ranges and by those of the nodes below it. */
 typedef struct sunder_i_cover_node {
-    uint64_t own;  /* it has ranges of its own, and so is covered */
-    uint64_t full; /* all below it is covered by ranges of what is below */
-    uint64_t some; /* some of that is */
+    uint64_t own;  /* the child has ranges of its own, and so is covered */
+    uint64_t full; /* ranges below the child cover all of it */
+    uint64_t some; /* ranges below the child cover some of it */
     uint64_t digit[SUNDER_I_COVER_DIGITS];
 } sunder_i_cover_node;
 
 typedef struct sunder_i_cover_tree {
     sunder_i_cover_node *level[SUNDER_I_COVER_LEVELS]; /* from the lowest to the root; the first is the allocation */
     uint32_t levels;
-    uint32_t digits; /* that any count has had so far */
+    uint32_t digits; /* the most digits that any count has needed */
 } sunder_i_cover_tree;
 
 /* Elements from (inclusive) to (exclusive). */
@@ -39,7 +39,7 @@ typedef struct sunder_i_element_runs {
 /* All of them free; false if memory is out. */
 bool sunder_i_cover_tree_init(sunder_i_cover_tree *tree, uint32_t elements);
 void sunder_i_cover_tree_free(sunder_i_cover_tree *tree);
-/* One range more, or one of those put in less; from < to. There are never more than 2^SUNDER_I_COVER_DIGITS - 1. */
+/* Adds a range, or removes one that was added; from < to. At most 2^SUNDER_I_COVER_DIGITS - 1 ranges at a time. */
 void sunder_i_cover_tree_add(sunder_i_cover_tree *tree, uint32_t from, uint32_t to);
 void sunder_i_cover_tree_remove(sunder_i_cover_tree *tree, uint32_t from, uint32_t to);
 /* Appends the longest runs of free elements in a range, ascending. False if memory is out. */

@@ -1,17 +1,16 @@
-/* A line moves over a polygon, along the axis that makes fewer rectangles. What of the line is inside is a list of
- * spans, between ends where inside and outside change; where edges stand on the line their ends are changes too, and
- * two at one place are none. A span that begins and ends as one did before goes on; of those that do not, a rectangle
- * is cut off. */
+/* A line sweeps over a polygon, along the axis that makes fewer rectangles. The inside part of the line is a list of
+ * spans, between ends where inside and outside change; ends of edges on the line are changes too, and two changes at
+ * one place cancel. A span with the ends of an earlier one continues it; every other earlier span is cut off as a
+ * rectangle. */
 #include "base/sort.h"
 #include "base/watch.h"
 #include "rectilinear/rectangles.h"
 
-/* So many spans may be looked at in all: teeth of as many lengths as there are teeth take a number quadratic in
- * these. */
+/* The limit on spans looked at: teeth of n different lengths make a number quadratic in n. */
 #define MOST_LOOKS ((size_t)1 << 24)
 
 typedef struct span {
-    int64_t low, high, since; /* the rectangle that is growing began there */
+    int64_t low, high, since; /* the rectangle that is growing starts there */
 } span;
 
 typedef struct cutter {
@@ -76,8 +75,8 @@ static void add_rectangle(cutter *c, const span *s, int64_t until)
     r->high[!c->axis] = s->high;
 }
 
-/* The ends of the spans beyond the line: what is an end of a span before it, or of an edge on it, but not of both.
- * Returns how many. */
+/* The ends of the spans beyond the line: an end of a span before it or of an edge on it, but not of both. Returns how
+ * many. */
 static size_t find_ends(cutter *c, size_t marks)
 {
     size_t n = 0, m = 0;
@@ -92,7 +91,7 @@ static size_t find_ends(cutter *c, size_t marks)
     return n;
 }
 
-/* Goes past the line at `here`, on which edges with so many marks stand. */
+/* Moves past the line at `here`; edges that stand on it have `marks` ends. */
 static void pass(cutter *c, int64_t here, size_t marks)
 {
     const size_t n = find_ends(c, marks) / 2;
@@ -111,7 +110,7 @@ static void pass(cutter *c, int64_t here, size_t marks)
     c->spans = n;
 }
 
-/* Edges of one line may follow one on the other where rings touch; both ends of the common place are no change. */
+/* Where rings touch, an edge of one line may continue one of another; both ends at the common place then cancel. */
 static size_t add_mark(cutter *c, size_t marks, int64_t at)
 {
     if (marks > 0 && c->mark[marks - 1] == at) return marks - 1;

@@ -15,8 +15,8 @@ static uint32_t rank_of(const int64_t *at, uint32_t n, int64_t what, uint64_t *c
     return (uint32_t)(low - at);
 }
 
-/* Keys are counted from the least coordinate: so they are in the order of the coordinates, and as short as can be,
- * whatever their signs. Behind each, if there is room, is the number of the coordinate: then ranks are read off. */
+/* Keys are coordinates less the least one: they have its order, and are as short as possible, whatever the signs. The
+ * number of the coordinate is appended to each key if there is room: then ranks can be read off. */
 typedef struct keys {
     uint64_t *key; /* [n] */
     size_t n;

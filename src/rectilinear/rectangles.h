@@ -1,5 +1,5 @@
-/* Open rectangles with sides along the axes: their coordinates sorted once for all, and each by the numbers of its
- * own, its ranks. Internal to this folder. */
+/* Open rectangles with sides along the axes: the distinct coordinates, sorted, and each rectangle by its ranks among
+ * them. Internal to this folder. */
 #ifndef SUNDER_I_RECTANGLES_H
 #define SUNDER_I_RECTANGLES_H
 
@@ -31,8 +31,8 @@ typedef struct sunder_i_ranked_rectangles {
 
 /* Do all edges run along an axis? */
 bool sunder_i_is_rectilinear(const sunder_shape *shape, const sunder_i_point *at);
-/* Rectangles with disjoint interiors whose closures make up each polygon of such a shape; an empty list if there are
- * so many edges, so placed, that this road is none. False if memory is out. */
+/* Rectangles with disjoint interiors whose closures make up each polygon of such a shape; an empty list if there would
+ * be too many. False if memory is out. */
 bool sunder_i_rectangles_cut(const sunder_shape *shape, const sunder_i_point *at, sunder_i_rectangle_list *out);
 
 /* ---- rank.c ---- */

@@ -1,5 +1,5 @@
-/* Both operands fall into rectangles, the sum of one of each is a rectangle, and these are united. As for all pieces,
- * the sum is the closure of the union of the open ones [AFH00]. */
+/* Both operands are cut into rectangles, the sum of one of each is a rectangle, and these are united. As with all
+ * convex pieces, the sum is the closure of the union of the open ones [AFH00]. */
 #include "rectilinear/rectilinear_sum.h"
 
 #include "base/watch.h"
@@ -7,9 +7,9 @@
 #include "rectilinear/rectangles.h"
 #include "rectilinear/union.h"
 
-#define MOST_RECTANGLES ((size_t)1 << 24) /* in the union; the general road finds fewer, perhaps */
-#define RECTANGLE_WORTH 0                 /* looks on loan cost more than uniting (fat covers: 1.4 times in all) */
-#define FEW_RECTANGLES 512                /* so many are all made: to ask which are needed would cost more */
+#define MOST_RECTANGLES ((size_t)1 << 24) /* beyond this the general road may need fewer pieces */
+#define RECTANGLE_WORTH 0                 /* looks on credit cost more than uniting (fat covers: 1.4 times in all) */
+#define FEW_RECTANGLES 512                /* below this all sums are made: choosing costs more */
 
 static const sunder_i_point axis_direction[2] = {{1, 0}, {0, 1}};
 
@@ -57,7 +57,7 @@ static void add_sum(const sunder_i_rectangle *a, const sunder_i_rectangle *b, su
     }
 }
 
-/* The sums that are needed; none if that is too many. */
+/* The sums that are needed; an empty list if there are too many. */
 static bool make_sums(const sunder_i_rectangle_list *a, const sunder_i_rectangle_list *b, sunder_i_lattice *lattice,
                       sunder_i_rectangle_list *out)
 {

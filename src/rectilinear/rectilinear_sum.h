@@ -5,9 +5,9 @@
 #include "shape/shape.h"
 #include "sum/sum.h"
 
-/* Fills the outline of an empty sum, which stands on a lattice that both operands are placed on, and sets *done; leaves
- * both alone where a side is aslant, or the lattice not narrow, or rectangles would be too many. Fails with
- * SUNDER_ENOMEM, SUNDER_ECANCEL. */
+/* Fills the outline of an empty sum, which stands on a lattice that both operands are placed on, and sets *done.
+ * Changes neither where a side is not along an axis, the lattice is not narrow, or there would be too many rectangles.
+ * Fails with SUNDER_ENOMEM, SUNDER_ECANCEL. */
 sunder_status sunder_i_rectilinear_sum(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,
                                        const sunder_shape *q, const sunder_i_point *at_q, bool *done,
                                        sunder_error *err);

@@ -1,6 +1,6 @@
-/* Contours along both axes are put together at their ends, and traced like all outlines (outline/boundary.h). Ends are
- * met in order of y and x on the one kind of lines, of x and y on the other; a counting sort brings the former into the
- * order of the latter, and one walk along both numbers the vertices, lexicographically. */
+/* Contours along both axes are joined at their ends and traced like all outlines (outline/boundary.h). Ends on rows
+ * come in order of y, then x, ends on columns in order of x, then y; a counting sort brings the former into the order
+ * of the latter, and one walk along both numbers the vertices, lexicographically. */
 #include "rectilinear/union.h"
 
 #include "base/watch.h"
@@ -73,7 +73,7 @@ static bool add_vertex(const joiner *j, sunder_i_coverage *to, sunder_i_lattice 
 
 static bool before(place p, place q) { return p.x != q.x ? p.x < q.x : p.y < q.y; }
 
-/* Gives all ends their vertices: those of rows in j->vertex, those of columns one after the other in `column`. */
+/* Gives every end its vertex: ends on rows in j->vertex, ends on columns one after the other in `column`. */
 static bool number_vertices(joiner *j, sunder_i_coverage *to, sunder_i_lattice *lattice, uint32_t *column)
 {
     const uint32_t rows = j->ends[ROWS], columns = j->ends[COLUMNS];
@@ -89,7 +89,7 @@ static bool number_vertices(joiner *j, sunder_i_coverage *to, sunder_i_lattice *
     return true;
 }
 
-/* Of a row what comes before is on its right, below; of a column it is on its left. */
+/* The region before a row is on its right, below it; the region before a column is on its left. */
 static uint8_t banks_of(int kind, uint32_t sides)
 {
     const bool left = sides & (kind == ROWS ? SUNDER_I_COVERED_AFTER : SUNDER_I_COVERED_BEFORE);
@@ -141,7 +141,7 @@ static bool join(joiner *j, sunder_i_lattice *lattice, sunder_i_coverage *to)
 
 static const sunder_i_point along[KINDS] = {{1, 0}, {0, 1}};
 
-/* Of each line a side that is there for its sake: where it starts and the rank of its direction. */
+/* One side stands in for each line: its start and the rank of its direction. */
 typedef struct grid_lines {
     sunder_i_point *at;
     uint32_t *rank;

@@ -10,7 +10,7 @@
 #include <emmintrin.h>
 #endif
 
-/* The box of nothing: it meets no other, and what is joined to it is all there is. */
+/* The empty box: it meets no other box, and the hull of it and another box is that box. */
 static inline void sunder_i_box_clear(double box[4])
 {
     box[0] = box[1] = INFINITY;
@@ -26,8 +26,8 @@ static inline void sunder_i_box_of_segment(const double a[2], const double b[2],
     }
 }
 
-/* The least box that holds this one and the box from `low` to `high`. Without branches: which coordinates are beyond
- * the others is anyone's guess. */
+/* The least box that holds this one and the box from `low` to `high`. Without branches, since branch prediction fails
+ * here. */
 static inline void sunder_i_box_widen(double box[4], const double low[2], const double high[2])
 {
 #ifdef __SSE2__
@@ -41,7 +41,7 @@ static inline void sunder_i_box_widen(double box[4], const double low[2], const 
 #endif
 }
 
-/* And a point, and another box. */
+/* The same for a point, and for another box. */
 static inline void sunder_i_box_include(double box[4], const double at[2]) { sunder_i_box_widen(box, at, at); }
 static inline void sunder_i_box_join(double box[4], const double other[4])
 {
@@ -53,7 +53,7 @@ static inline bool sunder_i_box_meet(const double a[4], const double b[4])
     return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
 }
 
-/* The same without branches, for many boxes of which nobody can guess which do. */
+/* The same without branches, for many boxes where branch prediction fails. */
 static inline bool sunder_i_box_meet_any(const double a[4], const double b[4])
 {
 #ifdef __SSE2__
@@ -65,13 +65,13 @@ static inline bool sunder_i_box_meet_any(const double a[4], const double b[4])
 #endif
 }
 
-/* The same where both may be off: do they come that near to each other? */
+/* The same with a tolerance: are they within `reach` of each other in both axes? */
 static inline bool sunder_i_box_near(const double a[4], const double b[4], double reach)
 {
     return a[0] <= b[2] + reach && b[0] <= a[2] + reach && a[1] <= b[3] + reach && b[1] <= a[3] + reach;
 }
 
-/* Does a point come that near to the box? What is no number does. */
+/* Is a point within `reach` of the box in both axes? True for NaN. */
 static inline bool sunder_i_box_near_point(const double box[4], double x, double y, double reach)
 {
 #ifdef __SSE2__
@@ -90,7 +90,7 @@ static inline void sunder_i_box_sum(const double a[4], const double b[4], double
     for (int k = 0; k < 4; k++) out[k] = a[k] + b[k];
 }
 
-/* Does a point come that near to the sum? */
+/* Is a point within `reach` of the sum in both axes? */
 static inline bool sunder_i_box_sum_near_point(const double a[4], const double b[4], double x, double y, double reach)
 {
     double sum[4];
@@ -112,7 +112,7 @@ static inline void sunder_i_box_distance(const double box[4], double out[2])
 #endif
 }
 
-/* nextafter() downwards, or (up) upwards: numbers of one sign follow each other as their bits do. */
+/* nextafter() downwards, or (up) upwards: adjacent doubles of one sign have adjacent bit patterns. */
 static inline double sunder_i_box_step(double x, bool up)
 {
     uint64_t bits;

@@ -1,11 +1,12 @@
 /* A packed tree of boxes over items in a good order.
  *
  * The perfect binary tree over blocks of consecutive items, in heap order and without pointers: node 1 is the root, the
- * children of node i are 2 i and 2 i + 1, and the leaves are the last half. A node's box is the hull of what lies
- * below. Nothing is sorted here: who builds a tree knows an order in which neighbours are near each other (along a
- * ring, along a space-filling curve), and keeps it. On the order speed depends and nothing else.
+ * children of node i are 2 i and 2 i + 1, and the leaves are the last half. A node's box is the hull of the boxes below
+ * it. Nothing is sorted here: the caller supplies an order in which neighbours are close to each other (along a ring,
+ * along a space-filling curve), and the tree keeps it. The order affects speed only.
  *
- * Walks are written out where they are made, since they differ in what they pass by and in whom they look at first:
+ * Callers write their walks as loops, since they differ in the boxes that they skip and in the child that they visit
+ * first:
  *
  *     sunder_i_box_walk_start(&walk, tree);
  *     for (size_t node; sunder_i_box_walk_next(&walk, &node);) {
@@ -27,12 +28,12 @@
 
 typedef struct sunder_i_box_tree {
     size_t n;         /* items */
-    size_t block;     /* of so many each */
-    size_t leaves;    /* a power of two, so many that blocks * leaves >= n */
-    double (*box)[4]; /* [2 * leaves] the first is none */
+    size_t block;     /* items in a block */
+    size_t leaves;    /* a power of two; blocks * leaves >= n */
+    double (*box)[4]; /* [2 * leaves] the first is unused */
 } sunder_i_box_tree;
 
-/* A tree over n items, its boxes still to come: room for 2 * leaves of them. */
+/* A tree over n items, with uninitialised boxes: room for 2 * leaves of them. */
 static inline sunder_i_box_tree sunder_i_box_tree_of(size_t n, size_t block)
 {
     sunder_i_box_tree tree = {n, block, 1, NULL};
@@ -52,7 +53,7 @@ static inline size_t sunder_i_box_tree_end(const sunder_i_box_tree *tree, size_t
     return end < tree->n ? end : tree->n;
 }
 
-/* Makes all boxes. add(of, i, box): makes the box hold item i, too. */
+/* Fills in all boxes. add(of, i, box) extends the box by item i. */
 static inline __attribute__((always_inline)) void
 sunder_i_box_tree_fill(sunder_i_box_tree *tree, void (*add)(const void *of, size_t i, double box[4]), const void *of)
 {
@@ -67,7 +68,7 @@ sunder_i_box_tree_fill(sunder_i_box_tree *tree, void (*add)(const void *of, size
     }
 }
 
-/* The nodes that wait: one on each level, and the tree is less than 64 levels deep. */
+/* The stack of a walk: one node on each level, and the tree is less than 64 levels deep. */
 typedef struct sunder_i_box_walk {
     size_t node[64];
     unsigned n;
@@ -86,7 +87,7 @@ static inline bool sunder_i_box_walk_next(sunder_i_box_walk *walk, size_t *node)
     return true;
 }
 
-/* Both children of a node wait; `first` comes next. */
+/* Pushes both children of a node; `first` is visited next. */
 static inline void sunder_i_box_walk_open(sunder_i_box_walk *walk, size_t first, size_t second)
 {
     SUNDER_I_ASSERT(walk->n + 2 <= sizeof walk->node / sizeof *walk->node);

@@ -1,5 +1,5 @@
 /* Order along a space-filling curve: neighbours in the order are mostly neighbours in the plane, so that trees over it
- * have small boxes. Only speed depends on it; doubles are good enough. */
+ * have small boxes. It affects speed only, so doubles are good enough. */
 #include "spatial/curve.h"
 
 #include "base/extremes.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The bits of two 16-bit numbers in turn (Morton order). */
+/* Interleaves the bits of two 16-bit numbers (Morton order). */
 static uint32_t interleave(uint32_t x, uint32_t y)
 {
     const uint32_t mask[4] = {0x00ff00ff, 0x0f0f0f0f, 0x33333333, 0x55555555};

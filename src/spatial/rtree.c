@@ -1,8 +1,8 @@
-/* A packed R-tree: boxes sorted along a Hilbert curve, sixteen to a node, level upon level [KF93]. It answers with
- * closed boxes and loses nothing: boxes above are the exact hulls of those below, also when a box moves, which then are
- * made anew from the leaf to the root. Which leaf is in which node stays as it was, so that nodes sprawl as their
- * members part; when they have become half as large again the tree is worn, and whoever moves boxes builds it anew.
- * Where the curve's grid is too coarse to tell centres apart only speed suffers. */
+/* A packed R-tree: boxes sorted along a Hilbert curve, sixteen to a node, level upon level [KF93]. Boxes are closed,
+ * and a query misses nothing: the boxes of nodes are the exact hulls of those below, also when a box moves, since then
+ * they are recomputed from the leaf to the root. Leaves stay in their nodes, so nodes sprawl as their members move
+ * apart; once they have grown by half the tree is worn, and a caller that moves boxes rebuilds it. Where the curve's
+ * grid is too coarse to tell centres apart only speed suffers. */
 #include "spatial/rtree.h"
 
 #include "base/sort.h"
@@ -11,10 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Children of a node: many, so that there are few levels to mend when a box moves. */
+/* Children of a node: many, so that there are few levels to update when a box moves. */
 #define FANOUT SUNDER_I_RTREE_RUN
-/* The tree is worn when its nodes have so many times the size that they were packed to: queries then look at about that
- * many times the nodes, and building anew costs about as much as asking once for each box. */
+/* The tree is worn when its nodes have grown by this factor since it was packed: queries then visit about that many
+ * times the nodes, and rebuilding costs about as much as one query for each box. */
 #define WORN 1.5
 
 /* The position of cell (x, y) of a 65536 x 65536 grid on the Hilbert curve; by halving the square. */
@@ -37,7 +37,7 @@ static uint32_t hilbert(uint32_t x, uint32_t y)
     return d;
 }
 
-/* Which of 65536 columns the middle of [low, high] is in; halves keep it finite. */
+/* The column, one of 65536, that holds the middle of [low, high]; halves prevent overflow. */
 static uint32_t cell(double low, double high, double all_low, double all_high)
 {
     const double width = all_high / 2 - all_low / 2;
@@ -46,7 +46,7 @@ static uint32_t cell(double low, double high, double all_low, double all_high)
     return v <= 0 ? 0 : v >= 65535 ? 65535 : (uint32_t)v;
 }
 
-/* Items by their places along the curve, each behind its place in one number. */
+/* Sort keys: the place along the curve in the upper half, the item's number in the lower. */
 static sunder_status sort_places(const double *box, const bool *present, size_t n, uint64_t **out, size_t *leaves)
 {
     uint64_t *places = sunder_i_alloc(n, sizeof *places);
@@ -176,7 +176,7 @@ void sunder_i_rtree_free(sunder_i_rtree *tree)
     memset(tree, 0, sizeof *tree);
 }
 
-/* The leaves of a node of the lowest level that meet the box, or what they hold (items): appended. */
+/* Appends the leaves, or their items (`items`), of a lowest-level node that meet the box. */
 static inline bool take_leaves(const sunder_i_rtree *tree, size_t first, size_t end, const double box[4], bool items,
                                sunder_i_list *hits)
 {
@@ -197,7 +197,7 @@ static inline bool query(const sunder_i_rtree *tree, const double box[4], bool i
 {
     if (tree->leaves == 0) return true;
     if (tree->levels == 1) return take_leaves(tree, 0, 1, box, items, hits);
-    /* At most 16 siblings wait on each of at most 16 levels; what is not to wait is written behind them. */
+    /* The stack holds at most 16 siblings on each of at most 16 levels; rejected children are written above the top. */
     struct {
         size_t node;
         unsigned level;

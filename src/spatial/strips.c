@@ -6,19 +6,19 @@
 #include <math.h>
 #include <string.h>
 
-/* Strips at most: beyond that the array of their ends costs more than shorter lists save. */
+/* The largest number of strips: beyond it the array of their ends costs more than shorter lists save. */
 #define MOST_STRIPS (1u << 20)
-/* Strips that an item is in, on average, at most: what bounds the memory. */
+/* An item is in at most this many strips on average, which bounds the memory. */
 #define ENTRIES_EACH 8
 
-/* Monotone in the height, so what holds of heights holds of strips. */
+/* Monotone in the height: comparisons of heights carry over to strips. */
 static uint32_t strip_of(const sunder_i_strips *s, double height)
 {
     const double k = (height - s->low) * s->per_unit;
     return !(k > 0) ? 0 : k < s->n ? (uint32_t)k : s->n - 1;
 }
 
-/* As many strips as there may be, or half of them, ...; how many entries that makes. */
+/* Chooses the number of strips: the most allowed, or half of that, and so on; returns the number of entries. */
 static size_t choose_count(sunder_i_strips *s, const double (*span)[2], size_t n, size_t most, double high)
 {
     size_t entries;
@@ -45,7 +45,7 @@ bool sunder_i_strips_build(sunder_i_strips *s, const double (*span)[2], size_t n
     s->end = sunder_i_calloc((size_t)s->n + 1, sizeof *s->end);
     s->item = sunder_i_alloc(entries, sizeof *s->item);
     if (!s->end || !s->item) return false;
-    /* Counts, one place up; then where each strip starts, which filling turns into where it ends. */
+    /* Counts, one place up; a prefix sum then gives the start of each strip, which filling turns into its end. */
     for (size_t i = 0; i < n; i++)
         for (uint32_t k = strip_of(s, span[i][0]), last = strip_of(s, span[i][1]); k <= last; k++) s->end[k + 1]++;
     for (uint32_t k = 0; k < s->n; k++) s->end[k + 1] += s->end[k];

@@ -1,5 +1,6 @@
-/* Things by height: a plane in horizontal strips, each with a list of what reaches into it. Who asks what a horizontal
- * meets looks at one list. Heights are doubles; a span must hold what the caller's errors may add. */
+/* Items by height: the plane in horizontal strips, each with a list of the items that reach into it. To find what a
+ * horizontal line meets, search one list. Heights are doubles; the caller's spans must include the error of its
+ * coordinates. */
 #ifndef SUNDER_I_STRIPS_H
 #define SUNDER_I_STRIPS_H
 
@@ -14,13 +15,13 @@ typedef struct sunder_i_strips {
     uint32_t *item; /* entries, in rising order in each strip */
 } sunder_i_strips;
 
-/* Of n items with the spans low, high (low <= high, finite). So many strips that an item is in a few of them on
- * average, and no more than `most`, or one: few questions are not worth many strips. False if memory is out; the strips
- * can be freed all the same. */
+/* Strips for n items with the spans low, high (low <= high, finite): as many that an item is in a few strips on
+ * average, at most `most`, and at least one. Few queries do not justify many strips. False if memory is out; the caller
+ * frees the strips in any case. */
 bool sunder_i_strips_build(sunder_i_strips *strips, const double (*span)[2], size_t n, size_t most);
 void sunder_i_strips_free(sunder_i_strips *strips);
 
-/* Entries [*from, *to) are all whose spans hold the height, and others. */
+/* Entries [*from, *to) are a superset of the items whose spans hold the height. */
 void sunder_i_strips_at(const sunder_i_strips *strips, double height, size_t *from, size_t *to);
 
 #endif
