@@ -1,42 +1,41 @@
-/* A polygon P, with holes or not, plus one convex polygon Q: no decomposition and no arrangement of many subsums, only
- * one walk around P. Most buildings are such. Several such sums are united by the way, in *rounds*.
+/* A polygon P, with or without holes, plus one convex polygon Q: no decomposition and no arrangement of many subsums,
+ * only one walk around P. Most buildings and symbols make such sums. Several of them can be united in one pass, as
+ * *rounds*.
  *
- * The convolution [GRS83] of P's rings with Q is a closed curve for each ring: every side of P moved by the corner of Q
- * that is extreme in its outward direction, joined at a convex vertex v by the arc of v + Q between the two corners, at
- * a reflex one by that arc run backwards. Its winding number at x is the Euler characteristic of the meet of P and x -
- * Q: how many pieces that has, less the holes of P that lie inside x - Q. Here
+ * The convolution [GRS83] of P's rings with Q is one closed curve for each ring: every side of P moved by the corner of
+ * Q that is extreme in its outward direction, joined at a convex vertex v by the arc of v + Q between the two corners,
+ * at a reflex one by that arc run backwards. Its winding number at x is the Euler characteristic of the intersection of
+ * P and x - Q: the number of its components less the number of holes of P that lie inside x - Q. Here
  *
- *  - holes of P into which Q does not fit by its box are left out, which changes nothing, and no other has a box that
- *    fits into Q's, so that the number counts pieces: the interiors meet at x exactly where it is positive, and nowhere
- *    is it negative;
- *  - an arc run backwards is replaced by its chord. The number rises by one between arc and chord, which is inside
- *    v + Q, where it was positive already. So what is positive remains the same.
+ *  - holes of P into which Q's box does not fit are left out, which changes nothing, and no other hole has a box that
+ *    fits into Q's. So the number counts components: the interiors meet at x exactly where it is positive, and it is
+ *    never negative;
+ *  - an arc run backwards is replaced by its chord. The number rises by one between arc and chord; that region is
+ *    inside v + Q, where it was positive already. So the set where it is positive remains the same.
  *
- * Of several rounds the numbers are added up. None is negative anywhere, so what is positive is the union, and all that
- * is said here of one holds of them together.
+ * With several rounds the numbers add up. None is ever negative, so the set where the sum is positive is the union, and
+ * everything said here of one round holds for them together.
  *
- * Where a vertex of P touches an edge from outside (from inside, and in vertices, they share the place, which is
- * declined), think of it as drawn back a little: that is a simple ring with the same curve but for a little, of a set
- * inside P that in the limit has all of its interior. Tame curves stay so when they are moved a little, and nothing of
- * theirs collapses in the limit.
+ * P may have a vertex that touches one of its edges from outside. (A vertex that touches from inside, or touches
+ * another vertex, stands twice in the curve, which is then declined.) Imagine that vertex moved off the edge by a small
+ * amount: the ring becomes simple, its curve changes by as small an amount, and it bounds a subset of P that tends to
+ * all of P's interior. Tame curves remain tame under small moves, and no part of them collapses in the limit.
  *
- * The curve is tame if no two links have a point in common but those that follow each other, in their ends, and pairs
- * that cross in their insides, no third one passing there. Then walk along it with the number on the right hand. It
- * changes only where another link crosses, by one, and the pieces of links that have 0 on their right bound the sum,
- * all of them.
+ * The curve is *tame* if two links meet only in these ways: consecutive links in their common end, and pairs that cross
+ * in their relative interiors, with no third link through that point. Now walk along the curve and keep the winding
+ * number on the right-hand side. It changes only where another link crosses, by one; the pieces of links with 0 on
+ * their right are the boundary of the sum.
  *
- * There are no degenerate holes then. A point that the interiors do not meet in, all around it they do, is on the
- * curve. On a chord, ends included, it is not: x - Q has the reflex vertex v on its boundary or around it, and reaches
- * into P. Beside a moved side or arc the number is positive on both hands, so on the right hand there is a piece other
- * than the one that the link's own contact brings and takes away; that piece is still there on the link, since for it
- * to vanish there another link would have to pass. At a crossing the same holds of the quarter to the right of both
- * links.
+ * There are no degenerate holes then. A degenerate hole would lie on the curve. It cannot lie on a chord, ends
+ * included: x - Q has the reflex vertex v on its boundary or in its interior, and so reaches into P. Beside a moved
+ * side or an arc the number is positive on both sides, so on the right there is a component other than the one that the
+ * link's own contact creates and removes. That component is still there on the link, since another link would have to
+ * pass for it to vanish. At a crossing the same argument holds for the quarter to the right of both links.
  *
- * Rings of the result: as no point has two boundary pieces but a vertex where one goes on in the other, they are simple
- * and have no points in common. An outer one turns left in its smallest vertex; of one round there is one, as P and
- * Q are connected. Collinear vertices cannot arise: sides of P and of Q of one direction are joined. All tests are
- * exact, and on a narrow lattice; elsewhere nothing is tried, and where the curve is not tame the general road is
- * taken. */
+ * Rings of the result: no point has two boundary pieces, except a vertex where one continues the other, so the rings
+ * are simple and disjoint. An outer ring turns left in its smallest vertex; a round has one outer ring, since P and Q
+ * are connected. Collinear vertices cannot arise: parallel sides of P and Q are joined. All tests are exact and need a
+ * narrow lattice; on other lattices, and where the curve is not tame, the general road is taken. */
 #include "minkowski/convolution.h"
 
 #include "base/watch.h"
@@ -59,7 +58,7 @@ typedef struct walker {
     box *reach;     /* [rings] of the curve */
     sunder_i_traced *to;
     uint32_t first;   /* vertex of this curve's rings in the sum */
-    uint32_t *leaves; /* [vertices of these] the link on which the ring goes on */
+    uint32_t *leaves; /* [vertices of these] the link that continues the ring */
 } walker;
 
 static uint32_t stop_begin(const sunder_i_convolution *c, uint32_t link) { return link ? c->stop_end[link - 1] : 0; }
@@ -150,7 +149,7 @@ static void number_ring(walker *w, uint32_t ring)
 
 /* ---- Rings ---- */
 
-/* A vertex, and the link on which its ring goes on. */
+/* A vertex, and the link that continues its ring. */
 static bool add_vertex(walker *w, sunder_i_hpoint at, uint32_t leaves)
 {
     sunder_i_traced *t = w->to;
@@ -258,7 +257,7 @@ static void find_components(walker *w, size_t first_ring)
     if (t->components == before + 1) return;
     for (size_t r = first_ring; r < t->rings; r++) {
         if (t->ring[r].outer) continue;
-        if (!sunder_i_steps(t->rings - first_ring)) w->tame = false; /* told to stop: whoever asks next says so */
+        if (!sunder_i_steps(t->rings - first_ring)) w->tame = false; /* told to stop: the next allocation fails */
         size_t best = t->rings;
         for (size_t o = first_ring; o < t->rings; o++)
             if (t->ring[o].outer && holds(w, &t->ring[o], t->vertex[t->ring[r].start]) &&
@@ -312,7 +311,7 @@ static sunder_status trace(sunder_i_convolution *c, sunder_i_traced *to, bool *d
     return walk(c, to, done) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* What is needed for a building and a disc takes so much. */
+/* Stack memory that suffices for a building and a disc. */
 enum { LENT = 16384 };
 
 sunder_status sunder_i_convolution_trace(sunder_i_traced *to, const sunder_i_round *round, size_t rounds, bool *done,

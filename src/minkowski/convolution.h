@@ -38,19 +38,19 @@ typedef struct sunder_i_traced {
     uint32_t components;
 } sunder_i_traced;
 
-/* So many rings take part in one curve at most: each is located by asking all others, or their boxes. */
+/* At most this many rings take part in one curve: each is located by testing all others, or their boxes. */
 #define SUNDER_I_MOST_CURVES 512
 
 /* Adds the union of the sums of some rounds, and sets *done; leaves all as it was where the curve does not prove the
  * result: the general road has to be taken then. Fails only with SUNDER_ENOMEM. */
 sunder_status sunder_i_convolution_trace(sunder_i_traced *to, const sunder_i_round *round, size_t rounds, bool *done,
                                          sunder_error *err);
-/* Puts what is traced into the sum, in canonical order, and frees the rest. With `keep` false, or on failure, nothing
- * is put there. */
+/* Moves the traced rings into the sum, in canonical order, and frees the rest. With `keep` false, or on failure, the
+ * sum stays empty. */
 sunder_status sunder_i_traced_end(sunder_i_traced *traced, bool keep, sunder_error *err);
 
-/* The sum of one polygon and a convex one: fills in the vertices and rings of sum, which stands on a lattice that both
- * operands are placed on, and sets *done; leaves both alone where the curve does not prove it. */
+/* The sum of one polygon and a convex one: fills in the vertices and rings of `sum`, which stands on a lattice that
+ * both operands are placed on, and sets *done. Changes neither where the curve does not prove the result. */
 sunder_status sunder_i_convolution_sum(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,
                                        const sunder_shape *q, const sunder_i_point *at_q, bool *done,
                                        sunder_error *err);

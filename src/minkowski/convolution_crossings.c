@@ -24,7 +24,7 @@ typedef struct crosser {
  * is left to the general road, which has a better order. */
 static const size_t patience = 256;
 
-/* Branches that nobody foresees take longer here than tests that were not needed: so these are without. */
+/* Without branches, since these are mispredicted so often that superfluous tests cost less. */
 
 /* May they meet in nothing but the end that they share, by their making? A side is on a line that supports v + Q at
  * both of its vertices v. Two sides with a chord between them cross, mostly. */
@@ -158,7 +158,7 @@ typedef struct stop_order {
     const sunder_i_stop *stop;
 } stop_order;
 
-/* Of stops on one link. */
+/* Compares stops on one link. */
 static int compare_stops(void *context, uint32_t a, uint32_t b)
 {
     const stop_order *o = context;

@@ -84,10 +84,10 @@ static uint32_t ring_end(const mover *t, uint32_t r)
 }
 static uint32_t ring_begin(const mover *t, uint32_t r) { return r ? ring_end(t, r - 1) : 0; }
 
-/* A hole that is narrower than Q one way or the other is of no consequence and left out [BFHHM15]: where x - Q's
- * interior has no point in common with P it lies in one hole, connected as it is, and does not fit into this one. One
- * that is just as large as Q both ways may be filled by a translate of -Q, where winding numbers do not count pieces:
- * then *fits is false. */
+/* Drops a hole that is narrower than Q along x or y, which changes nothing [BFHHM15]: where the interior of x - Q does
+ * not meet P it lies in one hole, since it is connected, and it does not fit into this one. A hole with exactly Q's
+ * extent along both axes may be filled by a translate of -Q, where winding numbers do not count components: then *fits
+ * is false. */
 static void leave_out_holes(const mover *t, bool *fits)
 {
     int64_t size[2], own[2];
@@ -125,10 +125,10 @@ static bool find_corners(mover *t, uint32_t start)
     return true;
 }
 
-/* Where Q has a side of the same direction the two are joined to one; but at a reflex end it would be run back at once,
- * and is left out. So with two such ends Q's side is taken off P's, and what is left is run backwards where that is the
- * shorter one: then Q reaches into P at both ends wherever these two are in contact, and what is said of chords holds
- * (convolution.c). False where nothing is left, which may be an exact fit. */
+/* A side of Q with the direction of P's side is joined to it. At a reflex end it would be run back at once, and is left
+ * out. So with two reflex ends Q's side is subtracted from P's, and the difference is run backwards where Q's side is
+ * the longer: then Q reaches into P at both ends wherever the two sides are in contact, and the argument about chords
+ * holds (convolution.c). False where the difference is zero, which may be an exact fit. */
 static bool move_sides(mover *t, uint32_t begin, uint32_t end)
 {
     const bool *reflex = t->reflex;

@@ -24,13 +24,13 @@ typedef struct sunder_i_stop {
 
 typedef struct sunder_i_convolution {
     sunder_i_lattice *lattice;
-    sunder_i_arena memory; /* of all of this, and of who works on it */
+    sunder_i_arena memory; /* the work and its scratch memory */
     const sunder_i_round *round;
     size_t rounds;
     uint32_t rings, vertices; /* of all rounds' P */
     uint32_t links;
     sunder_i_point *corner; /* [links] where each link starts */
-    uint32_t *next;         /* [links] the one that starts where it ends */
+    uint32_t *next;         /* [links] the link that starts where this one ends */
     uint32_t *ring_end;     /* [rings] in links */
     bool *left_out;         /* [rings] holes of no consequence: they have no links */
     bool *chord;            /* [links] */

@@ -13,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Members that meet so many others, on the average, make large groups, if not one. */
+/* Members that meet more others than this on average form large groups, if not a single one. */
 #define MOST_MEETINGS 32
 
 typedef struct grouper {
@@ -49,8 +49,8 @@ static bool is_convex(const sunder_shape *s, const sunder_i_point *at, uint32_t 
 
 /* ---- Groups ---- */
 
-/* Adds the box of a polygon. Doubles are off by no more than a 2^53rd of what they stand for, so that those of two sums
- * that have a point in common, widened, overlap. */
+/* Adds the box of a polygon. Doubles are off by at most 2^-53 of the value, so the widened boxes of two sums that share
+ * a point overlap. */
 static void add_box(const sunder_shape *s, const sunder_i_point *at, uint32_t polygon, double box[4])
 {
     const uint32_t ring = first_ring(s, polygon), begin = first_vertex(s, ring);

@@ -11,10 +11,10 @@ typedef struct sunder_i_members_left {
     size_t n;
 } sunder_i_members_left;
 
-/* Members of the set `many` whose sums with `one` are in no contact with those of others, or but with few, are traced
- * together with these by the convolution, into an empty sum that stands on a lattice that both operands are placed on.
- * What is left out is in *left, and is apart from what is traced; the sum is left alone if all is. Fails only with
- * SUNDER_ENOMEM. */
+/* Traces, by the convolution, the sums with `one` of those members of the set `many` whose sums touch no other
+ * member's, or only few; the result goes into an empty sum that stands on a lattice that both operands are placed on.
+ * *left: the members left out; their sums are disjoint from what is traced. If all are left out the sum stays empty.
+ * Fails only with SUNDER_ENOMEM. */
 sunder_status sunder_i_members_sum(sunder_sum *sum, const sunder_shape *many, const sunder_i_point *at_many,
                                    const sunder_shape *one, const sunder_i_point *at_one, sunder_i_members_left *left,
                                    sunder_error *err);

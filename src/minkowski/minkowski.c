@@ -1,7 +1,7 @@
-/* Which road leads to the sum: a merge for two convex operands; the convolution where one is convex and the other one
- * polygon, unless it is not tame; rectangles where all sides run along the axes; the reduced convolution of two simple
- * polygons, unless that is large or not tame; else the outline of the union of all subsums. Other roads are taken when
- * asked for (../unions/). */
+/* Which road leads to the sum? A merge for two convex operands; the convolution where one is convex and the other is
+ * one polygon, unless the curve is not tame; rectangles where all sides run along the axes; the reduced convolution for
+ * two simple polygons, unless it is large or not tame; else the outline of the union of all subsums. Other roads are
+ * taken on request (../unions/). */
 #include "minkowski/minkowski.h"
 
 #include "base/clock.h"

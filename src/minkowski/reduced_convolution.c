@@ -1,40 +1,41 @@
-/* Two simple polygons P and Q, neither of them convex: the outline of O = int P + int Q off the reduced convolution,
- * without pieces and subsums. Of fifty vertices each, that has some hundred segments and a few thousand crossings.
+/* Two simple polygons P and Q, neither of them convex: the outline of O = int P + int Q from the reduced convolution,
+ * without pieces and subsums. For operands of fifty vertices it has some hundred segments and a few thousand crossings.
  *
  * The *segments* of the reduced convolution [BL11]: each convex vertex of one operand carries the sides of the other
- * whose directions are between those of its own two sides. Asked for are operands of which no side has the direction
- * of a side of the other, so that "between" leaves no doubt. Let x be in P + Q, but not in O: then P and x - Q touch,
- * with disjoint interiors. Each place where they touch is
+ * whose directions lie strictly between those of its own two sides. Operands with a pair of parallel sides of one
+ * direction are declined, so that "between" is unambiguous. Let x be in P + Q, but not in O: then P and x - Q touch,
+ * with disjoint interiors. Each place where they touch is one of
  *
  *   a vertex on the inside of a side   the vertex is convex, and carries the side: x is inside a segment
- *   two convex vertices                a line parts them, so the directions that they carry have an interval in common;
- *                                      the segments of its first and its last direction end and begin in x
- *   a convex and a reflex vertex       the one fits into the other's notch, and carries both its sides: one segment
- *                                      ends and the other begins in x
+ *   two convex vertices                a line separates them, so the directions that they carry have an interval in
+ *                                      common; the segments of its first and its last direction end and begin in x
+ *   a convex and a reflex vertex       the convex one fits into the other's notch, and carries both its sides: one
+ *                                      segment ends and the other begins in x
  *
- * (sides that lie along each other have one direction, and two reflex vertices overlap). So the boundary of O, its
- * degenerate holes included, is on segments. These have loose ends where a convex vertex carries one side only of those
- * at a reflex one; it reaches into the other operand there, and the end is in O.
+ * (Sides in contact along a stretch would have one direction, and two reflex vertices overlap.) So the boundary of O,
+ * its degenerate holes included, is on segments. A segment has a loose end where a convex vertex carries only one of
+ * the two sides at a reflex vertex; the convex vertex reaches into the other operand there, so the end is in O.
  *
- * All is *tame* if no two segments have a point in common but those that follow each other as above, in that end, and
- * pairs that cross in their insides, no third one passing there. A place x on segments that is not in O then has one
- * contact for each segment, or two that follow each other, and no other. Close to it O is what these contacts give:
+ * The segments are *tame* if two of them meet only in these ways: consecutive segments, as above, in their common end,
+ * and pairs that cross in their relative interiors, with no third segment through that point. A place x on segments
+ * that is not in O then has one contact for each segment, or for two consecutive ones, and no other. Near x, these
+ * contacts determine O:
  *
- *   inside one segment       its left side
- *   where one follows another   what is left of both, or of either: the segment that follows goes on
- *   where two cross          what is left of either, the free wedge being right of both
+ *   inside one segment          its left side
+ *   where one continues another the left of both, or of either: the second segment continues the boundary
+ *   where two cross             the left of either; the free wedge is right of both
  *
- * In no case has x, or a line through x, the sum all around it: there are no degenerate holes. And between two stops
- * all of a segment is in O, or all of it is boundary. So the boundary is made of whole *links* between stops, each of
- * which is followed by one only: at a crossing by one of the other segment, if the link comes to that on its right, and
- * goes on to its left. A link that comes from the left is in O, as is one that leads to a loose end, and one is in O
- * where the one after it is. So what is boundary are *cycles* of links, and of each cycle all or nothing is: one place
- * of it is asked (reduced_convolution_inside.c). The one through the smallest vertex of the sum is not asked, being the
- * outer ring. There is no other outer one, as O is connected.
+ * In no case does the sum surround x, or a line through x: there are no degenerate holes. Between two stops, a segment
+ * is in O entirely, or is boundary entirely. So the boundary consists of whole *links* between stops, and each link has
+ * one successor: at a crossing it is a link of the other segment, provided that the first link arrives at the other
+ * segment's right side. A link that arrives from the left is in O, so is one that leads to a loose end, and so is a
+ * link whose successor is in O. The rest are *cycles* of links, and a cycle is boundary entirely or not at all: one
+ * place of it is tested (reduced_convolution_inside.c). The cycle through the smallest vertex of the sum needs no test,
+ * being the outer ring. There is no other outer ring, since O is connected.
  *
- * No two cycles meet, and none meets itself, as at a crossing only one link leaves to the right of both. A vertex where
- * links follow each other is no straight one. All that is decided here is exact or certain; where it is not, or not
- * tame, nothing is done, and the general road is taken. */
+ * No two cycles meet, and none meets itself, since at a crossing only one link leaves to the right of both. A vertex
+ * between consecutive links is never straight. Every decision here is exact or certain; where it would not be, or the
+ * segments are not tame, this road declines and the general road is taken. */
 #include "minkowski/reduced_convolution_inner.h"
 
 #include "base/watch.h"

@@ -6,8 +6,8 @@
 #include "shape/shape.h"
 #include "sum/canonical.h"
 
-/* Fills in the vertices and rings of sum, which stands on a lattice that both operands are placed on, and sets *done;
- * leaves both alone where the reduced convolution does not prove the result, or may take longer than the general road.
+/* Fills in the vertices and rings of `sum`, which stands on a lattice that both operands are placed on, and sets *done.
+ * Changes neither where the reduced convolution does not prove the result, or may take longer than the general road.
  * Fails only with SUNDER_ENOMEM. */
 sunder_status sunder_i_reduced_convolution_sum(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,
                                                const sunder_shape *q, const sunder_i_point *at_q, bool *done,

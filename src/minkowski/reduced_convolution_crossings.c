@@ -33,8 +33,8 @@ static bool may_meet(sunder_i_reduced *r, uint32_t a, uint32_t b)
     return sunder_i_segments_meet(r->lattice, s->from, s_end, t->from, t_end) == SUNDER_I_APART;
 }
 
-/* Of segments s and t, and the way from the start of s to that of t: s0 and s1 tell on which side of the line of s the
- * other begins and ends, t0 and t1 the same of the line of t and s. */
+/* For segments s and t: s0 and s1 tell on which side of the line of s the start and the end of t lie, t0 and t1 the
+ * same for the line of t and s; from the vector between the two starts. */
 static meeting brief_meeting(sunder_i_point s, sunder_i_point t, sunder_i_point way)
 {
     const int64_t d = sunder_i_brief_cross(s, t);
@@ -118,8 +118,8 @@ static bool list_members(sunder_i_reduced *r, strips *s)
     return s->member;
 }
 
-/* Those behind the first of a list that may meet it. Two that have several strips in common are taken in the lowest of
- * these, where one of them begins. No branch depends on what is found: which are near nobody foresees. */
+/* Collects those behind the first of a list that may meet it. A pair with several strips in common is taken in the
+ * lowest of them, where one of the two begins. Without branches, since these would be mispredicted. */
 static size_t find_near(const member *list, size_t n, uint32_t *near)
 {
     const member own = list[0];

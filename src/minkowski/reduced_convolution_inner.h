@@ -30,8 +30,8 @@ typedef struct sunder_i_reduced_segment {
     uint32_t next; /* the segment that starts where it ends, by its making; or NO_SEGMENT */
 } sunder_i_reduced_segment;
 
-/* What of two segments tells whether they may meet, along one axis: about where they begin and end, in steps from the
- * least coordinate of all, rounded alike. */
+/* The approximate extent of a segment along one axis, which tells whether two may meet: in steps from the least
+ * coordinate of all, rounded alike. */
 typedef struct sunder_i_steps_along {
     uint32_t low, high;
 } sunder_i_steps_along;
@@ -45,7 +45,7 @@ typedef struct sunder_i_reduced_crossing {
 
 typedef struct sunder_i_reduced {
     sunder_i_lattice *lattice;
-    sunder_i_arena small, memory; /* of the operands; of segments and all that comes after */
+    sunder_i_arena small, memory; /* for the operands; for segments and all later stages */
     void *room;                   /* where that one begins, or NULL */
     sunder_i_chain_operand operand[2];
     uint32_t classes;
@@ -64,7 +64,7 @@ typedef struct sunder_i_reduced {
 
 /* The segment that vertex j of the other operand makes of side i of operand a; or NO_SEGMENT. */
 uint32_t sunder_i_reduced_segment_of(const sunder_i_reduced *r, int a, uint32_t i, uint32_t j);
-/* The one that starts at the sum of a vertex of each operand, of which there is one at most (reduced_convolution.c). */
+/* The segment that starts at the sum of a vertex of each operand; there is at most one (reduced_convolution.c). */
 static inline uint32_t sunder_i_reduced_starting_at(const sunder_i_reduced *r, uint32_t i, uint32_t j)
 {
     const uint32_t of_first = sunder_i_reduced_segment_of(r, 0, i, j);
@@ -112,7 +112,7 @@ static inline uint32_t sunder_i_reduced_stop_begin(const sunder_i_reduced *r, ui
 
 /* ---- reduced_convolution_inside.c ---- */
 
-/* What is asked about places on the segments, in doubles. */
+/* State for the tests of places on segments, in doubles. */
 typedef struct sunder_i_place_query {
     const sunder_i_reduced *reduced;
     double error;     /* of places and coordinates, with room for what differences and products of them add */
@@ -120,7 +120,7 @@ typedef struct sunder_i_place_query {
     double *value;    /* [n of the second] scratch */
     uint32_t *order;  /* [n of the first] its sides, the longest first */
     uint32_t last[2]; /* the two sides that crossed last */
-    size_t left;      /* so much may still be looked at: sides and vertices */
+    size_t left;      /* budget: sides and vertices that may still be looked at */
 } sunder_i_place_query;
 
 typedef enum sunder_i_place_in_sum { SUNDER_I_INSIDE, SUNDER_I_NOT_INSIDE, SUNDER_I_UNCERTAIN } sunder_i_place_in_sum;

@@ -1,10 +1,10 @@
-/* Is a place x on a segment inside the sum? In doubles with one-sided bounds, so that the answer may be that it is not
- * certain.
+/* Is a place x on a segment inside the sum? In doubles with one-sided bounds, so the answer may be "not certain".
  *
- * It is inside where some side of P crosses some side of x - Q, in the insides of both, and if x is inside there mostly
- * are such: x is on a segment, so that x - Q has its boundary in contact with P's, and is not all inside P; nor is P
- * inside x - Q. Where none is found the winding number of the whole convolution [GRS83] is asked beside the
- * segment: that is the number of pieces in which P meets x - Q, both being simply connected. */
+ * It is inside where some side of P crosses some side of x - Q, in the relative interiors of both, and if x is inside
+ * such a crossing usually exists: since x is on a segment, the boundaries of x - Q and P are in contact, so neither
+ * contains the other in its interior. If none is found, the winding number of the whole convolution [GRS83] is computed
+ * just beside the segment: it is the number of components of the intersection of P and x - Q, both being simply
+ * connected. */
 #include "minkowski/reduced_convolution_inner.h"
 
 #include "base/extremes.h"
@@ -20,8 +20,8 @@
  * than 2^-48 * most * (|dx| + |dy|) again. Twice the whole is used. */
 #define ERROR SUNDER_I_DOUBT(0x1p-46)
 
-/* So many sides and vertices may be looked at in all, for each vertex of the operands: random polygons of a hundred
- * vertices take some five hundred. Where a sum of large operands has many holes the general road is the shorter one. */
+/* The budget of sides and vertices looked at, for each vertex of the operands: random polygons of a hundred vertices
+ * take some five hundred. Where a sum of large operands has many holes the general road is faster. */
 #define PATIENCE 4096
 
 /* The sides of P, the longest first: of those some cross a side of x - Q the soonest. */
@@ -132,7 +132,8 @@ static bool some_sides_cross(sunder_i_place_query *in, place x)
 
 /* ---- Winding numbers ---- */
 
-/* What is left of a place, of the curve from one point to another: 1 where it goes down there, -1 where it goes up. */
+/* Contribution of one stretch of the curve to the winding number at x, counted along the ray to the left: 1 where the
+ * stretch crosses the ray downwards, -1 upwards. */
 static int passes(const sunder_i_place_query *in, place x, sunder_i_point from, sunder_i_point along, bool *certain)
 {
     const double low = (double)from.y - x.y, high = (double)(from.y + along.y) - x.y;
@@ -184,7 +185,7 @@ sunder_i_place_in_sum sunder_i_place_query_ask(sunder_i_place_query *in, uint32_
     const sunder_i_reduced_segment *s = &in->reduced->segment[segment];
     const place x = {(double)s->from.x + at * (double)s->along.x, (double)s->from.y + at * (double)s->along.y};
     if (some_sides_cross(in, x)) return SUNDER_I_INSIDE;
-    const size_t all = 4 * (size_t)in->reduced->segments; /* of the whole convolution, about */
+    const size_t all = 4 * (size_t)in->reduced->segments; /* approximate size of the whole convolution */
     if (in->left < all || !sunder_i_steps(all)) return SUNDER_I_UNCERTAIN;
     in->left -= all;
     return winding_says(in, x, s);

@@ -7,19 +7,20 @@
 
 #include <string.h>
 
-/* The general road follows the outline, this one the arrangement of all segments, of which there may be as many as
- * pairs of a side and a vertex. So it is for operands of which there are no more than so many for each vertex; and,
- * whatever these are, for so many as a key has room for. */
+/* The general road's cost follows the outline, this road's the arrangement of all segments, whose number can reach the
+ * product of sides and vertices. So this road is limited to MOST_FOR_EACH segments for each vertex of the operands, and
+ * in any case to the number that a key has room for. */
 #define MOST_FOR_EACH 13
 #define MOST_SEGMENTS (1u << 20)
-/* Of more segments it is told beforehand, from so many of them, whether more pairs have to be looked at than pay: so
- * many for each vertex of the operand that has fewer, and a third of them where numbers are long. The general road
- * takes longer by this operand more than by how often segments cross. Measured on stars and random polygons of up to
- * 100 vertices each, and of 600 and 1300 by 12. */
+/* With more than FEW_SEGMENTS segments, SAMPLES of them give an estimate of the pairs that overlap along both axes.
+ * This road is declined above MOST_PAIRS pairs for each vertex of the smaller operand, a third of that where numbers
+ * are long: the general road's time depends more on the smaller operand than on the number of crossings. Measured on
+ * stars and random polygons of up to 100 vertices each, and of 600 and 1300 by 12. */
 #define FEW_SEGMENTS 1024
 #define SAMPLES 64
 #define MOST_PAIRS 768.0
-/* Bytes for each segment, twice what those of stars need; for what does not go by their number; and at most. */
+/* Bytes reserved for each segment, twice what stars need; bytes that do not depend on their number; and the most
+ * reserved. */
 #define ROOM_FOR_EACH 1024
 #define MORE_ROOM 16384
 #define MOST_ROOM (1u << 22)
@@ -163,7 +164,7 @@ static void make(const sunder_i_reduced *r, int b, uint32_t step, made *out)
     }
 }
 
-/* Where it ends the next one starts. */
+/* The next segment starts where this one ends. */
 static uint32_t next_of(const sunder_i_reduced *r, const made *s)
 {
     const uint32_t end = sunder_i_vertex_after(&r->operand[s->of], s->side);
@@ -257,9 +258,8 @@ static bool arrange(sunder_i_reduced *r, const made *s)
     return true;
 }
 
-/* Memory for n segments, their stops and links, in one block and with room that is never touched: glibc keeps up to
- * twice the largest block freed so far (../outline/culling_root.c). Where it is not enough the arena goes on elsewhere.
- */
+/* Memory for n segments, their stops and links, in one block with spare room that is never touched: glibc keeps up to
+ * twice the largest block freed so far (../outline/culling_root.c). If it is not enough the arena allocates more. */
 static bool make_room(sunder_i_reduced *r, uint32_t n)
 {
     const size_t bytes = n < MOST_ROOM / ROOM_FOR_EACH ? (size_t)n * ROOM_FOR_EACH + MORE_ROOM : MOST_ROOM;
@@ -269,7 +269,7 @@ static bool make_room(sunder_i_reduced *r, uint32_t n)
     return true;
 }
 
-/* Vertices of one ring, none of which another touches. */
+/* Vertices of one ring, touched by no other ring. */
 static bool is_simple(const sunder_shape *s)
 {
     return s->form->cleaned.rings == 1 && !s->touches && !s->repaired && !s->flat && !s->rational;
@@ -284,7 +284,8 @@ bool sunder_i_reduced_build(sunder_i_reduced *r, const sunder_i_point *at[2], bo
     for (int k = 0; k < 2; k++)
         if (!operand_init(&r->small, &r->operand[k], at[k])) return false;
     *fits =
-        (along_axes(&r->operand[0]) & along_axes(&r->operand[1])) == 0; /* what many have in common, and soon seen */
+        /* a common reason to decline, and quickly tested */
+        (along_axes(&r->operand[0]) & along_axes(&r->operand[1])) == 0;
     if (!*fits) return true;
     if (!rank_sides(r)) return false;
     const uint32_t n = number(r, 1, number(r, 0, 0));
