@@ -146,7 +146,7 @@ sunder_status sunder_i_apart_by(const sunder_shape *p, const double tp[2], const
 sunder_status sunder_i_meet(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                             double gap, double tolerance, sunder_i_encounter *out, sunder_error *err)
 {
-    /* Of boxes that only touch nothing follows. */
+    /* Boxes that only touch prove nothing. */
     const double far = sunder_i_max(sunder_i_max(gap, tolerance), 0x1p-1074);
     *out = (sunder_i_encounter){.apart = true};
     if (p->pieces == 0 || q->pieces == 0 || sunder_i_boxes_apart(p, tp, q, tq, far)) return SUNDER_OK;

@@ -1,10 +1,10 @@
 /* Does one set lie in another, both closed?
  *
- * P lies in Q exactly when no piece C of P has interior outside Q. If some does, then int C either misses Q altogether
- * or meets the boundary of Q along a stretch of positive length, since a closed set that is the closure of its interior
- * has no boundary without length. So: the interior of C must overlap a piece of Q, and along every boundary edge of a
- * member of Q, as far as it runs inside C, the side that is not the member's own must be covered by other pieces
- * (members may overlap and touch): almost everywhere, which is decided by closed intervals on the edge. */
+ * P lies in Q exactly when no piece C of P has interior outside Q. If some piece has, then int C either misses Q
+ * altogether or meets the boundary of Q along a stretch of positive length, since every part of the boundary of a
+ * closed set that is the closure of its interior has length. So P lies in Q if every C overlaps a piece of Q, and along
+ * every boundary edge of a member of Q, within C, other pieces cover the side that is not the member's own (members may
+ * overlap and touch). "Almost everywhere" suffices, so closed intervals on the edge decide. */
 #include "separation/separation.h"
 
 #include "base/invariant.h"

@@ -1,12 +1,11 @@
-/* Does a point on its straight way meet a set? And does the set hold it to begin with?
+/* Does a point on its straight path meet a set? And does the set hold it at the start?
  *
- * A closed set that does not hold the way's start is met exactly when one of its boundary edges is: the way comes in
- * somewhere, or touches. So the edges are asked (predicate/passage.c, in doubles first), those whose boxes the way's
- * box meets; and only where one is met, whether the start is held: by a convex piece, closed, since these cover the set
- * and share their diagonals.
+ * A closed set that does not hold the start of the path is met exactly when one of its boundary edges is. So the edges
+ * whose boxes meet the path's box are tested (predicate/passage.c, in doubles first). Only if one is met is the start
+ * tested: against the convex pieces, closed, since these cover the set and share their diagonals.
  *
- * Corners that are no doubles (of a repaired shape) are put as rational points, and all questions about the set are
- * asked in big integers then. */
+ * Corners that are not doubles (those of a repaired shape) become rational points, and all tests of the set are done in
+ * big integers then. */
 #include "separation/separation.h"
 
 #include "predicate/rational_point.h"
@@ -95,7 +94,7 @@ static long lower_unit(const sunder_shape *p, uint32_t v, long unit)
     return unit;
 }
 
-/* Vertex i of those asked for: n of them in `which`, or all. */
+/* Vertex i of the n vertices listed in `which`, or of all. */
 static uint32_t asked(const uint32_t *which, uint32_t i) { return which ? which[i] : i; }
 
 static bool put(rationals *r, const sunder_i_passage *way, const sunder_shape *p, const uint32_t *which, uint32_t n)

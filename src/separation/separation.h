@@ -1,9 +1,9 @@
-/* Two features: are they apart, how far, and what is the least translation that takes them apart. The public functions
- * are in sunder.h; these are the same questions for shapes that stand translated by exact vectors.
+/* Two features: are they apart, how far, and what is the least translation that separates them? The public functions
+ * are in sunder.h; these are the same questions for shapes moved by exact vectors.
  *
- * P may also be flat, of pieces without area, segments and points (shape/of_pieces.h): then what is said of its
- * interior holds of all of P, which the interior of Q may not meet; and that is taken for the union of the interiors of
- * Q's pieces, which have to cover it (displacement/layer/seamless.h). */
+ * P may also be flat, made of pieces without area, segments and points (shape/of_pieces.h): then statements about its
+ * interior hold for all of P, which the interior of Q may not meet; and Q's interior is taken as the union of the
+ * interiors of its pieces, which have to cover it (displacement/layer/seamless.h). */
 #ifndef SUNDER_I_SEPARATION_H
 #define SUNDER_I_SEPARATION_H
 
@@ -67,7 +67,7 @@ typedef struct sunder_i_pair {
  * longer least translation that takes the interiors apart. Exact. */
 sunder_status sunder_i_pair_worsened(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse, sunder_error *err);
 
-/* How it stood, for who asks that of the same pair again and again: zero at first, filled in by the first question. */
+/* The state at the start, kept between calls about the same pair: zero at first, filled in by the first call. */
 typedef struct sunder_i_depth {
     enum { SUNDER_I_STOOD_UNKNOWN, SUNDER_I_STOOD_APART, SUNDER_I_STOOD_IN_EACH_OTHER } stood;
     double away[2];         /* in each other: the least translation of Q that takes the interiors apart, ... */

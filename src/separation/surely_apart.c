@@ -1,6 +1,6 @@
-/* Are two sets surely farther apart than a length? A line that parts them, with room for all rounding: of two convex
- * sets that are apart there is one along an edge of either, or nearly. Most pairs whose boxes are near each other are
- * told so for a tenth of what an exact answer takes; of all others nothing is said. */
+/* Are two sets surely farther apart than a length? Looks for a line that separates them by more than all rounding:
+ * between two convex sets that are apart there is one along an edge of either, or nearly. This settles most pairs with
+ * neighbouring boxes at a tenth of the cost of an exact answer; for all others the result is "not known". */
 #include "separation/separation.h"
 
 #include "shape/shape.h"
@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/* Sets with more corners are better asked by their pieces. */
+/* Sets with more corners are better tested piece by piece. */
 #define MOST_CORNERS 24
 /* Squares of shorter edges are lost below all doubles. */
 #define SHORTEST 0x1p-450
@@ -50,10 +50,10 @@ static double beyond(const corners *p, const corners *q, const double n[2])
     return least - most;
 }
 
-/* Along an edge of one of them, that faces the other: which way that is, is told by their middles. A product of n with
- * a corner is off by |n| (in the sum of its coordinates) times what the corner is off and 2^-51 of its size, so the
- * difference of two by twice 2^-50 of that; and the difference itself rounds by less than once more. The length of n,
- * and what is asked for, are off by 2^-50 of themselves. */
+/* Tests the edges of one set that face the other; their middles tell the direction. A product of n with a corner is off
+ * by |n| (in the sum of its coordinates) times the corner's error and 2^-51 of its size, so the difference of two by
+ * twice 2^-50 of that; and the difference itself rounds by less than once more. The length of n and the required
+ * distance are off by 2^-50 of themselves. */
 static bool parts_along(const sunder_shape *s, const corners *at, const corners *p, const corners *q,
                         const double way[2], double far, double size)
 {
@@ -78,7 +78,7 @@ bool sunder_i_surely_apart(const sunder_shape *p, const double tp[2], const sund
     if (p->rational || q->rational || p->vertices > MOST_CORNERS || q->vertices > MOST_CORNERS) return false;
     corners at_p, at_q;
     const double of_p = place(p, s, origin, &at_p), of_q = place(q, t, origin, &at_q), size = sunder_i_max(of_p, of_q);
-    /* No product comes near the greatest double; what is lost below the least is nothing beside the doubt. */
+    /* No product comes near the greatest double; underflow is negligible beside the doubt. */
     if (!(size < 0x1p400 && size > 0x1p-400 && far < 0x1p400)) return false;
     const double way[2] = {(q->box[0] - p->box[0]) + (q->box[2] - p->box[2]) + 2 * (t[0] - s[0]),
                            (q->box[1] - p->box[1]) + (q->box[3] - p->box[3]) + 2 * (t[1] - s[1])};

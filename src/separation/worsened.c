@@ -54,9 +54,9 @@ static square end_square(sunder_i_operands *g, int side, uint32_t v, uint32_t ed
     return (square){{sunder_i_rational_dot(m, *d, *d), sunder_i_big_mul(m, d->w, d->w)}, 2 * l->exponent};
 }
 
-/* All ends against all edges: the least in doubles first, then exactly the least of those that it may be. A coordinate
- * in doubles is off by g->error at most; with u = 2^-53 and coordinates of no more than M, the foot of the
- * perpendicular is off by less than 16 u M besides, and a distance by no more than 8 g->error + 32 u M. */
+/* All ends against all edges: the least distance in doubles first, then exactly for those that may be the least. A
+ * coordinate in doubles is off by g->error at most; with u = 2^-53 and coordinates of at most M, the foot of the
+ * perpendicular is off by less than 16 u M besides, and a distance by at most 8 g->error + 32 u M. */
 static square least_square(sunder_i_operands *g)
 {
     double least = INFINITY;

@@ -1,4 +1,4 @@
-/* What is asked of a least translation; and from an exact vector on the lattice to what the caller gets: nearest
+/* Options of a least translation; and the step from an exact vector on the lattice to the caller's form: nearest
  * doubles and texts. */
 #ifndef SUNDER_I_ANSWER_H
 #define SUNDER_I_ANSWER_H

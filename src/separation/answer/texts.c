@@ -31,8 +31,8 @@ static inline void put_word(char *at, uint64_t digits)
     memcpy(at, &digits, sizeof digits);
 }
 
-/* Decimal digits of v, below 10^19, before `end`, and no fewer than so many; returns the first. Up to seven bytes
- * before that are written over. */
+/* Writes the decimal digits of v, below 10^19, before `end`, at least `least` of them; returns the first
+ * digit. Up to seven bytes before it are overwritten. */
 static char *put_low_digits(char *end, uint64_t v, int least)
 {
     char *at = end;

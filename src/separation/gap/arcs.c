@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* In doubles: are both crossings for certain too far, or covered, or is there none? What is asked is far more than
- * their errors: the sine of the half angle at the centers is above 1e-3, and so is its cosine. */
+/* In doubles: is each of the two crossings certainly too far or covered, or is there none? The margins are far larger
+ * than the errors: the sine of the half angle at the centres is above 1e-3, and so is its cosine. */
 static bool arcs_idle(sunder_i_gap_state *s, const double a[2], const double b[2])
 {
     const double vx = b[0] - a[0], vy = b[1] - a[1], gap = s->gap, best = s->best, e = 8 * s->g->error;

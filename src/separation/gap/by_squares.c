@@ -1,13 +1,13 @@
-/* With a gap and many pairs of pieces: which of them matter. The plane is searched in squares, nearest to the origin
- * first, as without a gap (squares.h), with subsums grown by the gap. A square that a grown subsum covers whole keeps
- * that one, a square that few come near keeps those. So the subsums kept cover within the limit what all of them cover,
- * and of a point it is enough to ask those of its square; boundary runs through open squares only, so segments are
- * taken from these. The limit comes down to the first square that nothing comes near, or that has a middle that is free
- * for certain.
+/* With a gap and many pairs of pieces: which of them matter? The plane is searched in squares, nearest to the origin
+ * first, as without a gap (squares.h), with subsums grown by the gap. A square that one grown subsum covers entirely
+ * keeps that one; a square that few subsums come near keeps those. So within the limit the subsums kept cover what all
+ * of them cover, and a point is tested against those of its square only; the boundary runs through open squares only,
+ * so segments are taken from these. The limit is lowered to the first square that no subsum comes near, or whose middle
+ * is certainly free.
  *
- * Squares are covered by more than all rounding, and what is farther than the gap by less than 2^-17 of the magnitude
- * counts as near: a point may be asked in either of two squares where it cannot be told in which it is, and so may one
- * beside it (rational.c). */
+ * Squares are covered by more than all rounding, and a distance that exceeds the gap by less than 2^-17 of the
+ * magnitude counts as near: so where it is uncertain which of two squares holds a point, or a point beside it
+ * (rational.c), either square will do. */
 #include "base/extremes.h"
 #include "base/invariant.h"
 #include "separation/gap/gap.h"

@@ -68,8 +68,8 @@ bool sunder_i_gap_near_box(const sunder_i_gap_state *s, size_t k, double x, doub
 }
 
 /* Only sides that may see the point from outside can be nearest: those over whose line it stands, or within the error
- * of a height. (To ask for the sign alone would not do: outside a sharp corner a point is far away, and over either
- * side by next to nothing.) Whoever is inside and so near to a side's line is as near to a side's foot, and found. */
+ * of a height. (The sign alone would not do: outside a sharp corner a point is far away, yet hardly above either side.)
+ * A point that is inside and this close to a side's line is as close to a side's foot, and found. */
 double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_subsum *r, double x, double y)
 {
     double least = -1;
@@ -124,8 +124,8 @@ static double beside_diagonal(const sunder_i_gap_state *s, const sunder_i_gap_su
     return (turn * (dx * vy - dy * vx) - s->error * (fabs(vx) + fabs(vy))) / sunder_i_gap_length(dx, dy);
 }
 
-/* By one triangle of the fan: whoever is deep in it is as deep in the piece, and whoever stands far out over one side
- * is as far from it. */
+/* By one triangle of the fan: a point deep in the triangle is as deep in the piece, and a point far outside over one
+ * side is as far from the piece. */
 static sunder_i_fan_answer by_triangle(const sunder_i_gap_state *s, const sunder_i_gap_subsum *r, double x, double y,
                                        double deep, double far, uint32_t *side)
 {

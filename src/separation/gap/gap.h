@@ -12,8 +12,8 @@
 #define SUNDER_I_GAP_MORE (1 + 0x1p-40)
 #define SUNDER_I_GAP_MORE_FLOATS (1 + 0x1p-20)
 
-/* A rational answer beside an irrational one is longer by no more than this much of it: nothing that is measured is
- * known so well, and the room beside most points is wider by far. */
+/* A rational answer beside an irrational one is longer by at most this fraction: no measured length is known this
+ * precisely, and the free space beside most points is far wider. */
 #define SUNDER_I_GAP_LONGER 4e-10
 
 /* A stretch of boundary: the line a + t d moved by the gap to its right, outward; or the circle of radius g about a. */
@@ -52,12 +52,12 @@ typedef struct sunder_i_gap_problem {
     const sunder_i_point *center; /* corners that arcs may go round */
     size_t centers;
     const sunder_i_gap_quadtree *quadtree; /* NULL: all subsums matter everywhere */
-    bool bound_only;                       /* of the answer `at` is not wanted */
+    bool bound_only;                       /* the answer's `at` is not needed */
 } sunder_i_gap_problem;
 
-/* Many pairs of pieces: the operands' subsums become those that matter within the limit, which comes down, the segments
- * those near boundary, and the quadtree says which subsums are near where; not *done: this is not the way to search
- * these. False if memory is out. The quadtree is to be freed in any case. */
+/* With many pairs of pieces: reduces the operands' subsums to those that matter within the limit, which it lowers, and
+ * the segments to those near the boundary; the quadtree tells which subsums are near a place. *done is false if these
+ * operands are not suited. False if memory is out. The caller frees the quadtree in any case. */
 bool sunder_i_gap_by_squares(sunder_i_gap_problem *problem, sunder_i_gap_quadtree *quadtree, bool *done);
 void sunder_i_gap_quadtree_free(sunder_i_gap_quadtree *quadtree);
 /* The numbers of all subsums that, grown, come near a point, or of one that covers it for certain. */
@@ -78,9 +78,9 @@ sunder_status sunder_i_gap_search(const sunder_i_gap_problem *problem, sunder_i_
 
 /* The point of the curve's line or circle that is nearest to the origin; of a circle about the origin the leftmost. */
 void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *curve, sunder_i_surd_point *out);
-/* A common point of two curves, the first of which is a line if one is: on a line and a circle the one farther along
- * the line (sign 1) or the other one (-1), on two circles left (1) or right of the way from c's center to d's. False if
- * there is none, or all. */
+/* A common point of two curves; if one is a line it is the first: on a line and a circle the one farther along the line
+ * (sign 1) or the other one (-1), on two circles the one left (1) or right of the direction from c's centre to d's.
+ * False if there is none, or the curves coincide. */
 bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *c,
                            const sunder_i_gap_curve *d, int sign, sunder_i_surd_point *out);
 /* The rational point of a line of rational length that stands along / 2^bits lattice units from the foot of the
@@ -122,7 +122,7 @@ void sunder_i_surd_point_scaled(sunder_i_operands *operands, const sunder_i_surd
  * units, a guess. */
 unsigned long sunder_i_surd_point_digits(sunder_i_operands *operands, const sunder_i_surd_point *at, double about,
                                          sunder_i_big xy[2]);
-/* The distance from the origin in units, rounded down, of a point known to so many bits. */
+/* The distance from the origin in units, rounded down, of a point known to `bits` bits. */
 double sunder_i_surd_point_length_down(sunder_i_operands *operands, const sunder_i_big xy[2], unsigned long bits);
 
 /* ---- The exact check (verify.c) ---- */

@@ -1,9 +1,9 @@
 /* Which least translation leaves a gap g between two sets?
  *
  * The problem is set up on the lattice, with the gap beside it as a fraction of its own: a gap of many digits does not
- * make the lattice finer. The origin is asked first. Then candidates for boundary are listed, all of them or those that
- * the search by squares finds to matter, and the search begins (search.c). What it finds is asked again of every pair
- * of pieces, as are the doubles nearest to it (verify.c). */
+ * make the lattice finer. The origin is tested first. Then candidates for boundary are listed, all of them or those
+ * that the search by squares finds to matter, and the search begins (search.c). Its result, and the doubles nearest to
+ * it, are checked against every pair of pieces (verify.c). */
 #include "separation/gap/search.h"
 
 #include "base/sort.h"
@@ -123,8 +123,8 @@ static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a,
     return texts ? sunder_i_answer_texts(g, &v, out, err) : SUNDER_OK;
 }
 
-/* So many pairs of pieces, those with many corners cut up, are searched by squares: fewer than without a gap, for here
- * a point is asked of all subsums that are listed, and arcs are crossed with each other. */
+/* Operands with this many pairs of pieces, those with many corners cut up, are searched by squares: fewer than without
+ * a gap, since here a point is tested against all subsums listed, and arcs are crossed with each other. */
 #define SQUARES_FROM 4096
 
 /* By squares, with pieces of few corners; where that leads nowhere the operands are as they were. */
@@ -169,8 +169,8 @@ static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options
     return SUNDER_OK;
 }
 
-/* The operands and the gap beside them. A gap that dwarfs them goes on the lattice too, whose units are then chosen to
- * suit. */
+/* Places the operands, with the gap beside them. A gap far larger than the operands goes on the lattice too, whose
+ * units are then chosen to suit. */
 static sunder_status set_up(sunder_i_operands *g, sunder_i_gap_problem *problem, const sunder_shape *p,
                             const sunder_shape *q, const sunder_i_least_options *o, bool gap_on_lattice,
                             sunder_error *err)

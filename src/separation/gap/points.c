@@ -37,7 +37,7 @@ static bool solve(sunder_i_gap_state *s, sunder_i_gap_point *p)
 
 /* ---- What is near ---- */
 
-/* What is asked about: a point, exactly and within `doubt`, and (if not NULL) the curves that it was made from. */
+/* The point tested, exactly and within `doubt`, and (if not NULL) the curves that it was made from. */
 typedef struct question {
     const sunder_i_surd_point *at;
     double x, y, doubt;

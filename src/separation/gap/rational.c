@@ -113,8 +113,8 @@ sunder_i_gap_way sunder_i_gap_way_off(sunder_i_gap_state *s, const sunder_i_gap_
 
 /* Ways narrower than this are left to exact steps: doubles would have to go too far along them to get off. */
 #define NARROW 0x1p-20
-/* The first step is of some ulps, so that doubles beside the point are another place; each further one is 8 times as
- * long, so many in all. */
+/* The first step is some ulps long, so that doubles beside the point differ from it; each further step is 8 times as
+ * long, DOUBLES_TRIED steps in all. */
 #define FIRST_STEP 0x1p-49
 #define DOUBLES_TRIED 8
 

@@ -1,11 +1,11 @@
 /* The search with a gap.
  *
- * As without one, the stretches of boundary are taken best first and moved past what covers them. What is different is
- * that places are irrational. In numbers with a known error (gap/search.h) most of them are seen to be covered: a point
- * by a grown subsum whose distance is less than the gap by more than all rounding, a stretch from point to point so
- * covered. What that leaves open is asked exactly, of points that are fractions of integers and square roots
- * (boundary_points.c): nothing is discarded or found that is not so. So the first free point is the nearest
- * one, and its length the bound; equal ones are told apart exactly as well.
+ * As without one, the stretches of boundary are taken best first and moved past what covers them. The difference is
+ * that places are irrational. Numbers with a known error (gap/search.h) show most of them to be covered: a point by a
+ * grown subsum whose distance is less than the gap by more than all rounding, a stretch from one such point to another.
+ * The rest is decided exactly, with points that are fractions of integers and square roots (boundary_points.c): nothing
+ * is discarded or found that is not so. So the first free point is the nearest one, and its length the bound; ties are
+ * broken exactly as well.
  *
  * Where the nearest point is irrational, a rational one beside it is given (rational.c). */
 #include "separation/gap/search.h"
@@ -116,7 +116,7 @@ static sunder_contact kind_of(const sunder_i_gap_free_point *f, sunder_i_gap_roo
     }
 }
 
-/* What is given of what was found, and what is said of it. */
+/* Turns the point found into the answer, and its length into the bound. */
 static sunder_status conclude(sunder_i_gap_state *s, sunder_i_gap_answer *out, sunder_error *err)
 {
     const sunder_i_gap_free_point *f = &s->found;

@@ -1,7 +1,7 @@
 /* The search with a gap: along moved sides, past what covers them. Certain steps first: from a point that a grown
- * subsum covers to another one that it covers, since it is convex. What is left at the end of a walk is the exact place
- * where the line leaves the last subsum; points.c decides about it, and if it is covered after all, by less than
- * the margin, the way goes on from there: exactly, subsum by subsum, until certain steps are possible again. */
+ * subsum covers to another one that it covers, since it is convex. The walk ends at the exact place where the line
+ * leaves the last subsum; points.c decides about it, and if it is covered after all, by less than the margin, the walk
+ * continues exactly from there, subsum by subsum, until certain steps are possible again. */
 #include "separation/gap/search.h"
 
 #include "separation/operands/fan.h"
@@ -103,8 +103,8 @@ static way_out leave_by_halving(sunder_i_gap_state *s, const moved *m, const sun
     return w;
 }
 
-/* Nearly where the moved line leaves grown subsum k. Only a guess: whoever concludes from it checks it. No disc is left
- * later than it ends in the direction of the line, and no side later than the discs at its ends. */
+/* An estimate of where the moved line leaves grown subsum k, which the caller checks. No disc is left later than it
+ * ends in the direction of the line, and no side later than the discs at its ends. */
 static way_out leave(sunder_i_gap_state *s, const moved *m, size_t k, bool forwards)
 {
     way_out w = {.any = false};
@@ -261,7 +261,7 @@ void sunder_i_gap_take_segment(sunder_i_gap_state *s, size_t segment)
     const bool past = !before && sunder_i_operands_dot(s->g, m.line.b, m.line.d) <= 0;
     const double t = before ? 0 : past ? 1 : sunder_i_min(1, sunder_i_max(0, -(m.ax * m.dx + m.ay * m.dy) / m.square));
     const double x = m.ax + t * m.dx, y = m.ay + t * m.dy;
-    const bool tiny = !(m.length > SUNDER_I_SHORTEST); /* then nothing of this is known */
+    const bool tiny = !(m.length > SUNDER_I_SHORTEST); /* then this is unknown */
     const double key = tiny ? 0 : sunder_i_gap_length(x, y) - s->error;
     if (key > s->best) return;
     if (!tiny && sunder_i_gap_cover(s, x, y, 0) >= 0) {

@@ -108,8 +108,8 @@ static bool is_outside(const checking *c, const side *s, const sunder_i_operand_
 
 typedef enum parting { PARTED_NOT, PARTED, PARTED_FAR } parting;
 
-/* Does a side of p have all of q on its right? *by: one that has; of those that have them by more than the gap for
- * certain, so that there is no more to ask, if there are any. */
+/* Does a side of p have all of q on its right? *by: such a side; if there is one that certainly has q more than the gap
+ * away, so that the pair is settled, that one. */
 static parting side_parts(const checking *c, const sunder_i_operand_piece *p, const sunder_i_operand_piece *q, side *by)
 {
     bool parts = false;
@@ -127,8 +127,8 @@ static parting side_parts(const checking *c, const sunder_i_operand_piece *p, co
     return parts ? PARTED : PARTED_NOT;
 }
 
-/* The corners of p and of q that may be within the gap of the other one: side `by`, of p, has all of q on its right, so
- * whoever is farther from its line than that, is. */
+/* The corners of p and of q that may be within the gap of the other piece: side `by`, of p, has all of q on its right,
+ * so a corner farther than the gap from its line is farther from the other piece. */
 typedef struct close_by {
     uint32_t *p, *q, pn, qn;
 } close_by;

@@ -16,7 +16,7 @@ typedef struct sunder_i_board {
     size_t list_n, list_capacity;
 } sunder_i_board;
 
-/* So many subsums make a board worth while: with fewer, to ask them all takes less than to make it. */
+/* From this many subsums on a board pays: with fewer, testing them all takes less than making it. */
 #define SUNDER_I_BOARD_FROM 512
 
 /* Of the subsums listed; those that are tried are made. Sets operands->held. False if memory is out. */

@@ -1,9 +1,9 @@
-/* Is a point of a line covered by a subsum, and where does the line leave that?
+/* Is a point of a line covered by a subsum, and where does the line leave that subsum?
  *
- * A point is a + t d with an exact fraction t, so that no point is ever constructed: the side of a subsum's side that
- * it is on is the sign of A + t B, with A and B cross products on the lattice, and the line leaves at t = -A / B.
- * Doubles settle what clears their error bound; of subsums with many sides they find the few that have to be asked
- * (fan.h, and by halving between the corners farthest to either side of the line). */
+ * A point is a + t d with an exact fraction t, so no point is ever constructed: its side of a subsum's side is the sign
+ * of A + t B, with A and B cross products on the lattice, and the line leaves at t = -A / B. Doubles decide where they
+ * clear their error bound; for subsums with many sides they select the few sides to be tested (fan.h, and by bisection
+ * between the corners farthest to either side of the line). */
 #include "separation/obstacle/carrier.h"
 #include "base/invariant.h"
 #include "separation/obstacle/board.h"
@@ -118,9 +118,9 @@ static int side_says(const sunder_i_subsum *s, uint32_t k, double x, double y)
     return v > s->bound[k] ? 1 : v < -s->bound[k] ? -1 : 0;
 }
 
-/* The same of the diagonal from the lowest corner to corner k. Coordinates are within e, and so both differences u, w
+/* The same for the diagonal from the lowest corner to corner k. Coordinates are within e, so the differences u, w are
  * within 2 e and an ulp, which e exceeds by far: their cross product is within 2 e (|u| + |w|) + 8 e^2, in sums of
- * absolute coordinates, and its own rounding, which is below e |u|. */
+ * absolute coordinates, plus its own rounding, which is below e |u|. */
 static int diagonal_says(const sunder_i_subsum *s, uint32_t k, double x, double y, double e)
 {
     const double u[2] = {s->cx[k] - s->cx[0], s->cy[k] - s->cy[0]}, w[2] = {x - s->cx[0], y - s->cy[0]};
@@ -279,9 +279,9 @@ static double height(const sunder_i_carrier *line, const sunder_i_subsum *s, uin
     return line->dx * (s->cy[k] - line->ay) - line->dy * (s->cx[k] - line->ax);
 }
 
-/* Counter-clockwise round a convex polygon whose interior a line meets, corners are to its right, then to its left, and
- * never again. So between any corner that is certainly to its right and one that is certainly to its left there is one
- * side through which it leaves, found by halving; only corners that doubles cannot place are left between, and the
+/* Counter-clockwise round a convex polygon whose interior a line meets, there is one run of corners to its right and
+ * one to its left. So between any corner that is certainly to its right and one that is certainly to its left there is
+ * one side through which it leaves, found by bisection; that leaves only corners that doubles cannot place, and the
  * sides at them. Backwards it is the other way round. */
 static stretch leaving(const sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_subsum *s,
                        bool forwards)
@@ -327,9 +327,10 @@ static inline sunder_i_i128 narrow_height(const sunder_i_carrier *line, const su
     return sunder_i_narrow_cross(line->d, sunder_i_narrow_sub(s->corner[k], line->a));
 }
 
-/* Of plain numbers. Whoever meets the interior of a bounded convex set leaves it by one side, or by one corner, which
- * is taken for the end of the side that comes first: forwards that side begins on the right of the line and ends on its
- * left or on it, backwards the other way round. So there is a turn to be told for each corner, and one fraction. */
+/* In plain integers. A line that meets the interior of a bounded convex set leaves it through one side, or through one
+ * corner, which counts as the end of the side that comes first: forwards that side begins on the right of the line and
+ * ends on its left or on it, backwards the other way round. So each corner takes one orientation test, and the answer
+ * one fraction. */
 static sunder_i_fraction narrow_exit(const sunder_i_carrier *line, const sunder_i_subsum *s, stretch near,
                                      bool forwards)
 {
@@ -384,6 +385,6 @@ sunder_i_fraction sunder_i_carrier_exit(sunder_i_operands *g, const sunder_i_car
             sunder_i_crossing(l, line->a, line->b, s->corner[k], s->corner[k + 1 < s->sides ? k + 1 : 0]);
         take_first(g, &t, forwards, &best, &any);
     }
-    SUNDER_I_ASSERT(any || l->arena.failed); /* whoever meets the interior of a bounded set leaves it */
+    SUNDER_I_ASSERT(any || l->arena.failed); /* a line that meets the interior of a bounded set leaves it */
     return best;
 }

@@ -1,13 +1,13 @@
-/* A vertex is met by the edges whose directions lie between those of its two edges. Directions are numbers, and so a
- * vertex stands for a range of them, and an edge meets it if its number is in the range. Where there are many, numbers
- * are put into sectors first, so that an edge is asked of those vertices only that meet some edge of its sector: of a
- * round outline one or two. */
+/* Edges meet a vertex if their directions lie between those of its two edges. Directions become numbers, a vertex a
+ * range of numbers, and an edge meets it if its number is in the range. With many vertices, numbers are put into
+ * sectors first, and an edge is tested against those vertices only that meet its sector: one or two for a round
+ * outline. */
 #include "separation/obstacle/cones.h"
 
 #include <math.h>
 #include <string.h>
 
-#define SECTORS_FROM 64 /* fewer are asked one by one */
+#define SECTORS_FROM 64 /* fewer are tested one by one */
 #define SECTORS_MOST 65536
 #define LISTED_MOST 4 /* times, on average, one may be listed */
 #define HALF_TURN 0x80000000u
@@ -49,7 +49,7 @@ static sunder_i_direction edge_direction(const sunder_i_operands *g, int side, u
 /* Between the edges that arrive and leave, neither vague; false if that is more than half a turn for certain. */
 static inline bool cone_between(uint32_t in, uint32_t out, uint32_t slack, sunder_i_cone *cone)
 {
-    const uint32_t turn = out - in + 2 * slack; /* of a straight corner it may come out below nothing */
+    const uint32_t turn = out - in + 2 * slack; /* at a straight corner it may come out negative */
     *cone = (sunder_i_cone){in - 2 * slack, turn + 2 * slack};
     return turn <= HALF_TURN + 4 * slack;
 }
@@ -99,8 +99,8 @@ static uint32_t sectors_of(sunder_i_cone cone, int shift, uint32_t *n)
     return first;
 }
 
-/* So many sectors, a power of two, that cones are listed a few times each; the shift that tells them, or 0: not worth
- * it. */
+/* Chooses the number of sectors, a power of two, such that a cone is in a few sectors on average; returns the shift
+ * that gives a sector, or 0: sectors do not pay. */
 static int choose_sectors(const sunder_i_cones *c)
 {
     if (c->n < SECTORS_FROM) return 0;
@@ -193,7 +193,7 @@ bool sunder_i_cones_find(sunder_i_operands *g, int side, sunder_i_cones *c)
 uint32_t sunder_i_cones_met(const sunder_i_cones *c, sunder_i_direction edge, uint32_t *met, uint32_t *looked_at)
 {
     uint32_t n = 0;
-    /* Without branches: which corners pass is anyone's guess. */
+    /* Without branches, since it cannot be predicted which corners pass. */
     if (c->sectors && !edge.vague) {
         const uint32_t at = edge.at >> c->shift;
         const uint32_t first = at ? c->sector_end[at - 1] : 0, last = c->sector_end[at];

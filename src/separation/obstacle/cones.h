@@ -50,7 +50,7 @@ static inline sunder_i_direction sunder_i_cones_edge(const sunder_i_cones *cones
 /* Memory: the lattice's arena; false if it is out. */
 bool sunder_i_cones_find(sunder_i_operands *operands, int side, sunder_i_cones *cones);
 
-/* Of so few cones those that an edge meets, and perhaps more, are the bits of a word. */
+/* With at most this many cones, those that an edge may meet are the bits of a word. */
 #define SUNDER_I_CONES_FEW 32
 
 /* Of n edges, those that leave vertices `first` and so on, whose cones these are not: met[k] for the k-th. Four cones
@@ -67,8 +67,8 @@ static inline void sunder_i_cones_met_few(const sunder_i_cones *c, const sunder_
     }
 }
 
-/* The cones that an edge meets, ascending, and perhaps more. met: room for cones->n + 1. Returns how many; *looked_at:
- * of how many it was asked. */
+/* The cones that an edge may meet, ascending: a superset. met: room for cones->n + 1. Returns how many; *looked_at: the
+ * number of cones tested. */
 uint32_t sunder_i_cones_met(const sunder_i_cones *cones, sunder_i_direction edge, uint32_t *met, uint32_t *looked_at);
 
 #endif

@@ -77,7 +77,7 @@ static inline size_t put(const sunder_i_operands *g, const edge *e, uint32_t v, 
     return near;
 }
 
-/* So many edges are asked at a time, and then whether the work may go on. */
+/* Edges handled between two checks of whether the work may go on. */
 #define EDGES_AT_ONCE 32
 
 /* The edges of operand `side` at the corners of the other, which has few. What is in doubt about their directions is

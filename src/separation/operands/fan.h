@@ -1,15 +1,16 @@
-/* A convex polygon of many sides, asked by few of them.
+/* A convex polygon of many sides, tested by a few of them.
  *
- * Corner 0 and the others make a fan of triangles. The one that a point stands in, or over whose side away from corner
- * 0 it stands, is found by halving; whoever is for certain in a triangle of corners is inside, and whoever is for
- * certain on the right of a side is not. All in doubles, so what is in doubt is left to who asks. */
+ * Corner 0 and the others make a fan of triangles. Bisection finds the triangle that holds the point, or over whose
+ * outer side the point stands; a point certainly in a triangle is inside, and a point certainly on the right of a side
+ * is outside. All in doubles; the caller decides what they leave in doubt. */
 #ifndef SUNDER_I_FAN_H
 #define SUNDER_I_FAN_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Polygons of so many sides are asked by halving, of others all sides are looked at: about where that is as fast. */
+/* Polygons with more sides than this are tested by bisection, others side by side: about where both are equally
+ * fast. */
 #define SUNDER_I_SIDES_MANY 24
 
 /* The triangle of corners 0, low and low + 1. */

@@ -1,8 +1,8 @@
-/* Two operands on one lattice, and doubles for all that is on it.
+/* Two operands on one lattice, and doubles for everything on it.
  *
- * Mostly the coordinates of both, and the vectors that they stand moved by, are integers below 2^62 in one unit, a
- * power of two, and near each other: then no general lattice has to be chosen, and a pair of buildings takes no longer
- * to set up than to ask. Everything else goes the general way (shape/place.c). */
+ * Usually the coordinates of both, and their translations, are integers below 2^62 in one unit, a power of two, and
+ * near each other: then no general lattice has to be chosen, and setting up a pair of buildings takes no longer than
+ * testing it. Other operands go the general way (shape/place.c). */
 #include "separation/operands/operands.h"
 
 #include "spatial/box.h"

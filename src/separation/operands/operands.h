@@ -1,9 +1,8 @@
-/* Two operands on one lattice, with what the rooms of separation/ ask of them again and again: coordinates as
- * doubles with a bound on their error, boxes of the convex pieces, and the convex subsums R_ij = P_i + (-Q_j), made
- * when wanted.
+/* Two operands on one lattice, with what all rooms of separation/ need: coordinates as doubles with a bound on their
+ * error, boxes of the convex pieces, and the convex subsums R_ij = P_i + (-Q_j), made on demand.
  *
- * "Units" are those of sunder_i_approx(): lattice units over 2^approx_shift. Doubles only ever settle a question when
- * they clear the bound; else the lattice decides. */
+ * "Units" are those of sunder_i_approx(): lattice units over 2^approx_shift. Doubles settle a question only when they
+ * clear the bound; else the lattice decides. */
 #ifndef SUNDER_I_OPERANDS_H
 #define SUNDER_I_OPERANDS_H
 
@@ -13,8 +12,8 @@
 #include "spatial/box.h"
 #include "spatial/lanes.h"
 
-/* Sides shorter than this, in units, are left out of what is concluded in doubles: their squares come near to the end
- * of the range of doubles, 2^-1022, and what is divided by them is not known to a few ulps any more. */
+/* Shorter sides, in units, take no part in conclusions from doubles: their squares come near 2^-1022, the end of the
+ * range of doubles, and quotients by them have a relative error of more than a few ulps. */
 #define SUNDER_I_SHORTEST 0x1p-480
 
 /* R_ij = P_i + (-Q_j): the convex subsums that a sum is the union of (convex/subsums.h), one by one, since a pair needs
@@ -33,9 +32,9 @@ typedef struct sunder_i_subsum {
 /* Sides with more of them are asked one by one, or by halving. */
 #define SUNDER_I_SIDES_IN_A_WORD 32
 
-/* What doubles say of a point and a subsum of that many sides or fewer: false if a side has it on its right by more
- * than so many bounds; else the set of sides in doubt, all others having it on their left for certain. Without
- * branches: which side it is is anyone's guess. */
+/* Tests a point against a subsum of at most this many sides, in doubles: false if the point is to the right of a side
+ * by more than `bounds` error bounds; else *in_doubt is the set of sides in doubt, and the point is certainly to the left
+ * of all others. Without branches, since the decisive side cannot be predicted. */
 static inline bool sunder_i_subsum_may_hold(const sunder_i_subsum *s, double x, double y, double bounds,
                                             uint32_t *in_doubt)
 {
@@ -61,7 +60,7 @@ typedef struct sunder_i_turned_piece {
 typedef struct sunder_i_operands {
     const sunder_shape *shape[2];
     sunder_i_placed placed;
-    const sunder_i_point *at[2]; /* vertices on the lattice; Q's reflected if that was asked for */
+    const sunder_i_point *at[2]; /* vertices on the lattice; Q's reflected if requested */
     double *xy[2];               /* the same as doubles */
     double *piece_box[2];        /* [4 * pieces] x0 y0 x1 y1 */
     double box[2][4];
@@ -76,7 +75,7 @@ typedef struct sunder_i_operands {
     sunder_i_turned_piece *turned[2]; /* [pieces] */
     sunder_i_subsum *subsum; /* those within reach (sunder_i_operands_reach); they that may cover the origin first */
     size_t subsums;
-    struct sunder_i_board *board; /* what is known of them all together; NULL: nothing (board.h) */
+    struct sunder_i_board *board; /* the board over all of them (board.h); NULL: none */
 } sunder_i_operands;
 
 typedef struct sunder_i_operands_options {
@@ -103,9 +102,9 @@ void sunder_i_operands_fill_boxes(sunder_i_operands *operands, int side);
 
 /* Cuts up the pieces that have many corners (cut_pieces.c); false if memory is out. */
 bool sunder_i_operands_cut(sunder_i_operands *operands);
-/* And takes those that there were before again. */
+/* Restores the pieces as they were before the cut. */
 void sunder_i_operands_uncut(sunder_i_operands *operands, const sunder_i_operands *before);
-/* About how many pairs of pieces there would be then. */
+/* The approximate number of pairs of pieces after a cut. */
 uint64_t sunder_i_operands_parts(const sunder_i_operands *operands);
 
 /* Do the boxes of P + tp and Q + tq stand at least gap apart in one coordinate? True only if that is certain. */

@@ -1,7 +1,7 @@
 /* Do the interiors of two sets meet? They do if those of two pieces do, and two convex pieces have disjoint interiors
  * exactly if a side of one of them has all of the other on its right, or on it: the separating axis theorem, in the
- * plane and for closed sets that may touch. One of the pieces may be a segment, of two sides, there and back, or a
- * point, which has none: then it is asked whether the other's interior meets it. */
+ * plane and for closed sets that may touch. One of the pieces may be a segment, with two sides, there and back, or a
+ * point, which has none: then the question is whether the other's interior meets it. */
 #include "separation/operands/operands.h"
 
 /* Does a side of piece i of operand `side` have all of piece j of the other one on its right, or on it? */

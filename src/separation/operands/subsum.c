@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Does a box come within the radius, being so far off in x and in y? Without branches: it is anyone's guess. */
+/* Does a box at offsets x and y come within the radius? Without branches, since the outcome cannot be predicted. */
 static inline uint32_t touches_disc(const double d[2], double radius)
 {
     const double x = d[0], y = d[1];
@@ -32,7 +32,7 @@ static pair_walk all_pairs(const sunder_i_operands *g)
     return (pair_walk){g, 0, 0, (size_t)g->shape[0]->pieces * g->shape[1]->pieces};
 }
 
-/* So many of them are looked at between two questions whether the work may go on. */
+/* Subsums looked at between two checks of whether the work may go on. */
 #define PAIRS_AT_ONCE 64
 
 static size_t next_pairs(const pair_walk *w) { return w->left < PAIRS_AT_ONCE ? w->left : PAIRS_AT_ONCE; }
@@ -204,8 +204,8 @@ bool sunder_i_operands_turn(sunder_i_operands *g)
 
 /* ---- The merge ---- */
 
-/* Both start at their lowest corners, so that their sides are sorted by angle in [0, 2 pi), and the two sides at hand
- * are never pi or more apart: the side before the further one came before the other, and turns by less than pi. */
+/* Both start at their lowest corners, so their sides are sorted by angle in [0, 2 pi), and the two current sides are
+ * never pi or more apart: the side before the farther one came before the other, and turns by less than pi. */
 static uint32_t merge(sunder_i_operands *g, const sunder_i_turned_piece *a, const sunder_i_turned_piece *b,
                       sunder_i_point *corner, sunder_i_point *side)
 {

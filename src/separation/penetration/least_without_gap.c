@@ -9,8 +9,8 @@
 /* Two buildings, their subsums and candidates fit in this: no allocation then but for the answer. */
 #define SMALL_BYTES 24576
 
-/* num / den of the vector d, both divided by what they have in common with each other, and d and den by theirs: the
- * numbers of the point are as short then as they can be made without looking at where the line begins. */
+/* Reduces num / den and the vector d, first by the common divisors of num and den, then by those of d and den: the
+ * point's numbers become as short as possible without looking at where the line begins. */
 static sunder_i_hpoint reduced_point(sunder_i_lattice *l, const sunder_i_free_point *f)
 {
     const sunder_i_point a = f->line.a, d = f->line.d;

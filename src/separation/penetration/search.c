@@ -20,7 +20,7 @@ typedef struct search {
     double limit;
     size_t first; /* the subsum that covered the last foot: often it covers the next one too */
     sunder_i_fraction zero, one;
-    const double *square; /* what is searched: a square, or NULL: everything */
+    const double *square; /* the square searched, or NULL: everything */
     double from, to;      /* the part of the line at hand that is in the square, or all of it */
 } search;
 
@@ -187,7 +187,7 @@ static void try_all(search *s, sunder_i_candidates *heap)
     sunder_i_operands *g = s->g;
     while (heap->n && !g->placed.lattice.arena.failed) {
         const sunder_i_candidate c = sunder_i_candidates_pop(heap);
-        if (sqrt(c.square) - 4 * g->error > s->limit) break; /* as all others are: the nearest comes first */
+        if (sqrt(c.square) - 4 * g->error > s->limit) break; /* like all others: the nearest comes first */
         SUNDER_I_ASSERT(heap->n == 0 || c.square <= heap->item[0].square);
         const sunder_i_carrier line = sunder_i_candidate_carrier(g, &c);
         try_candidate(s, &line);
@@ -230,7 +230,7 @@ static void search_square(search *s, sunder_i_candidates *heap, sunder_i_mark ma
     } else if (!g->placed.lattice.arena.failed) {
         sunder_i_arena_release(&g->placed.lattice.arena, mark);
         g->placed.lattice.pool_n = pooled;
-        s->best_point_known = s->best_point_known && g->placed.lattice.narrow; /* it may be made of those numbers */
+        s->best_point_known = s->best_point_known && g->placed.lattice.narrow; /* it may share those numbers */
     }
 }
 
@@ -254,7 +254,7 @@ static sunder_i_squares_next search_squares(search *s, sunder_i_squares *squares
     while ((next = sunder_i_squares_pop(squares, s->limit, box, &mark, &heap)) == SUNDER_I_SQUARES_OPEN)
         search_square(s, &heap, mark, &list, &n);
     s->square = NULL;
-    g->subsum = list; /* near the answer: how it touches is asked of them */
+    g->subsum = list; /* near the answer: they tell how it touches */
     g->subsums = n;
     return next;
 }
@@ -268,7 +268,7 @@ static bool by_squares(search *s, bool *done)
     const sunder_i_squares_next end = search_squares(s, squares);
     sunder_i_squares_free(squares);
     *done = end == SUNDER_I_SQUARES_END;
-    if (!*done) { /* what was found so far is not known to be nearest */
+    if (!*done) { /* the point found so far may not be the nearest */
         s->best = (sunder_i_free_point){.found = false};
         s->best_point_known = false;
         s->limit = limit;
@@ -294,12 +294,13 @@ sunder_status sunder_i_nearest_by_squares(sunder_i_operands *g, double limit, bo
     return SUNDER_OK;
 }
 
-/* Operands of so many pairs of pieces, those with many corners cut up, are searched square by square; with fewer their
- * pairs are listed before the trees for squares are made. */
+/* Operands with at least this many pairs of pieces, those with many corners cut up, are searched square by square; with
+ * fewer, their pairs are listed before the trees for squares are made. */
 #define SQUARES_FROM 16384
-/* Where squares are not the way, most of the pairs may still be far off, as of neighbouring countries, and would fill
- * the memory: so the search begins in a small disc then, and in one so many times as wide where that holds no free
- * point, and so on, so many times. Countries that overlap by a sliver are parted in the first, 8^-4 of the way out. */
+/* Where squares are not suited, most of the pairs may still be far off, as with neighbouring countries, and listing
+ * them would fill the memory. So the search begins in a small disc, and continues in one WIDEN_BY times as wide where
+ * that holds no free point, up to WIDEN_TIMES times. Countries that overlap by a sliver separate in the first disc, at
+ * 8^-4 of the way out. */
 #define WIDEN_BY 8
 #define WIDEN_TIMES 4
 

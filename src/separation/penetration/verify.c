@@ -29,7 +29,7 @@ static int exact_side(sunder_i_operands *g, const sunder_i_free_point *f, sunder
 typedef struct side_line {
     uint32_t a, b;
     double ux, uy, x, y; /* b - a, and x - a, x the point found */
-    double bound;        /* whoever is left or right of it by more than that, times its length, is so for certain */
+    double bound;        /* a corner farther from the line than that, times its length, is certainly on its side */
 } side_line;
 
 static inline side_line line_of(const sunder_i_operands *g, const sunder_i_free_point *f, int side, uint32_t a,
@@ -49,8 +49,7 @@ static inline side_line line_of(const sunder_i_operands *g, const sunder_i_free_
                        .bound = (fabs(ux) + fabs(uy)) * per_length + fixed};
 }
 
-/* So many corners are compared with a side before it is asked what came out: which of them it is that stands on its
- * left is anyone's guess. */
+/* Corners compared with a side before the results are looked at: it cannot be predicted which corner is to its left. */
 #define CORNERS_AT_ONCE 8
 
 /* Which corners c = corner[0] .. corner[n - 1] leave it open whether x - c is left of the side, as a set, the last one

@@ -1,15 +1,15 @@
-/* What covers a square whole: a box inside P and one inside -Q whose sum, a box, has it in its interior, so that any
- * placement from the square makes the two overlap; or a subsum. And where nothing does, the pairs of pieces that come
- * near it.
+/* What covers a square entirely: a box inside P and one inside -Q whose sum, a box, has the square in its interior, so
+ * that any placement from the square makes the two overlap; or a subsum. If nothing covers it: the pairs of pieces that
+ * come near it.
  *
  * Where the operands overlap deeply a few large boxes cover large squares. Spikes have no boxes inside, but the sum of
- * two that cross is a parallelogram that covers many a square. Among millions of pairs one is found in the two trees of
- * convex sets, the most promising nodes first: the sum of their chiefs is asked itself, and says for all below them how
- * deep the square can be. If that leads nowhere soon there are many that nearly cover it, and its quarters are better
- * asked; it is not worth while then to list who comes near.
+ * two spikes that cross is a parallelogram that covers many squares. Among millions of pairs such a sum is found in the
+ * two trees of convex sets, the most promising nodes first: the sum of their chiefs is tested, and bounds how deep the
+ * square can be in any sum below them. If that does not succeed soon, many sums nearly cover the square and its
+ * quarters are tested instead; the pairs near it are then not listed.
  *
- * All in doubles or floats and one-sided: covered is certain, and a pair that is not listed stays off by more than the
- * error. */
+ * All in doubles or floats and one-sided: "covered" is certain, and a pair that is not listed stays away by more than
+ * the error. */
 #include "separation/squares/squares_inner.h"
 
 #include "base/heap.h"
@@ -51,8 +51,8 @@ bool sunder_i_squares_boxes_cover(sunder_i_squares *q, const double at[4])
 
 /* ---- Sums of convex sets ---- */
 
-/* A sum grown by a disc of radius g covers a square if one grown by a square of half the width g / sqrt(2) does, and
- * that if the sum itself covers what is left of the square, so much smaller; somewhat less than that, for rounding. */
+/* A sum grown by a disc of radius g covers a square if one grown by a square of half the width g / sqrt(2) does, i.e.
+ * if the sum itself covers the square shrunk by that; somewhat less than that, for rounding. */
 #define SQUARE_IN_DISC 0.70
 
 void sunder_i_squares_query(sunder_i_squares *q, const double at[4], double less[4])
@@ -90,8 +90,8 @@ static bool push_node(sunder_i_squares *q, sunder_i_node_pair v)
     return true;
 }
 
-/* Of two nodes the one with more that stands out of its chief is opened. Its parts are looked at by their chiefs; those
- * of which no sum can cover the square are dropped. */
+/* Opens the node whose members stand out of its chief by more. Its children are tested by their chiefs, and dropped if
+ * no sum of theirs can cover the square. */
 static sunder_i_covering open_pair(sunder_i_squares *q, const sunder_i_node_pair *v)
 {
     const sunder_i_inner_convex *b = q->inner;

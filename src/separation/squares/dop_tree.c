@@ -103,7 +103,7 @@ static uint32_t ordered(float v)
 static void select_least(uint64_t *key, size_t n, size_t m)
 {
     uint64_t seed = n;
-    size_t low = 0, high = n; /* what is before low is among the least, and what is from high on is not */
+    size_t low = 0, high = n; /* items before `low` are among the least, items from `high` on are not */
     while (high - low > 1) {
         const uint64_t pivot = key[low + sunder_i_draw(&seed) % (high - low)];
         size_t i = low, j = high;

@@ -1,8 +1,8 @@
-/* The convex pieces of an operand, by place: a tree with their extents in eight directions (discrete oriented polytopes
- * of sixteen sides [KHMSZ98]), so that long thin pieces that lie aslant are told apart too. Of two such trees, one of P
- * and one of -Q, it is asked which subsums come near a square of the plane, and which may cover it.
+/* The convex pieces of an operand, by position: a tree with their extents in eight directions (discrete oriented
+ * polytopes of sixteen sides [KHMSZ98]), so that long thin pieces at an angle are separated too. Two such trees, one of
+ * P and one of -Q, tell which subsums come near a square of the plane, and which may cover it.
  *
- * Extents are single floats, rounded as it comes: the square is widened instead, by more than all that
+ * Extents are single floats, rounded to nearest; the square is widened instead, by more than all rounding
  * (sunder_i_dop_query()). */
 #ifndef SUNDER_I_DOP_TREE_H
 #define SUNDER_I_DOP_TREE_H
@@ -35,14 +35,14 @@ double sunder_i_float_scale(const sunder_i_operands *operands);
 sunder_i_dop sunder_i_dop_nowhere(void);
 void sunder_i_dop_add(sunder_i_dop *extents, float x, float y);
 
-/* Of n convex sets with these extents. False if memory is out; to be freed all the same. */
+/* A tree of n convex sets with these extents. False if memory is out; the caller frees it in any case. */
 bool sunder_i_dop_tree_build(sunder_i_dop_tree *tree, const sunder_i_dop *extent, uint32_t n);
 void sunder_i_dop_tree_free(sunder_i_dop_tree *tree);
 
-/* The extents of a square, widened by what doubles and floats may be off by, and by so many units. */
+/* The extents of a square, widened by the error of doubles and floats, and by `by` units. */
 sunder_i_dop sunder_i_dop_query(const sunder_i_operands *operands, const double square[4], double by);
 
-/* Four floats at a time, whatever the machine makes of it. */
+/* Four floats at a time, as vector types that compilers map to the machine. */
 typedef float sunder_i_floats __attribute__((vector_size(16)));
 typedef int32_t sunder_i_masks __attribute__((vector_size(16)));
 typedef int64_t sunder_i_halves __attribute__((vector_size(16)));

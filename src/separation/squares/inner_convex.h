@@ -1,10 +1,10 @@
-/* Convex sets inside an operand, by place: its pieces, and the largest of the boxes that its quartering found inside
- * (quadtree.h). Of those of P and of -Q it is asked which subsums come near a square of the plane, and for two
- * whose sum covers it. A spike has no box inside, nor is there one piece behind a rugged coast; but the sum of a spike
- * and a box is as good as any.
+/* Convex sets inside an operand, by position: its pieces, and the largest of the boxes that its quadtree found inside
+ * (quadtree.h). Those of P and of -Q tell which subsums come near a square of the plane, and whether the sum of two
+ * covers it. A spike has no box inside, and no single piece lies behind a rugged coast; but the sum of a spike and a
+ * box covers as well as any.
  *
- * Each node of the tree has a chief among its sets, and it is known how far the others stand out of it: so the sum of
- * two chiefs says how deep a square can be in any sum of their nodes. */
+ * Each node of the tree has a chief among its sets, and a bound on how far the others stand out of it: so the sum of
+ * two chiefs tells how deep a square can be in any sum of their nodes. */
 #ifndef SUNDER_I_INNER_CONVEX_H
 #define SUNDER_I_INNER_CONVEX_H
 
@@ -35,7 +35,7 @@ typedef struct sunder_i_inner_convex {
     sunder_i_inner_convex_node *node; /* [2 * all.leaves] */
 } sunder_i_inner_convex;
 
-/* Of operand `side`. False if memory is out; to be freed all the same. */
+/* The tree of operand `side`. False if memory is out; the caller frees it in any case. */
 bool sunder_i_inner_convex_build(sunder_i_inner_convex *inner, const sunder_i_operands *operands, int side,
                                  const sunder_i_quadtree *quadtree);
 void sunder_i_inner_convex_free(sunder_i_inner_convex *inner);

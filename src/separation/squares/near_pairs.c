@@ -4,7 +4,7 @@
 
 #include "base/watch.h"
 
-/* With a gap those that are farther by little more than that are listed too, as the search with a gap asks beside its
+/* With a gap, pairs slightly farther than the gap are listed too, since the search with a gap tests places beside its
  * points. */
 static sunder_i_square_position position_to_subsum(const sunder_i_squares *q, uint32_t i, uint32_t j)
 {

@@ -136,8 +136,7 @@ static bool quarter_all(builder *b)
     return true;
 }
 
-/* Nodes without a full one below are of no use: whoever comes to them need not look further. Children come after their
- * parents. */
+/* Marks nodes with no full node below them: queries need not descend into them. Children come after their parents. */
 static void drop_rest(sunder_i_quadtree *o)
 {
     for (size_t k = o->nodes; k-- > 0;) {

@@ -15,7 +15,7 @@ typedef struct sunder_i_quadtree {
     size_t nodes, nodes_capacity;
 } sunder_i_quadtree;
 
-/* Of operand `side`. False if memory is out; to be freed all the same. */
+/* The quadtree of operand `side`. False if memory is out; the caller frees it in any case. */
 bool sunder_i_quadtree_build(sunder_i_quadtree *quadtree, const sunder_i_operands *operands, int side);
 void sunder_i_quadtree_free(sunder_i_quadtree *quadtree);
 

@@ -77,7 +77,8 @@ static uint32_t tries_to_cover(int depth)
 sunder_i_square_state sunder_i_squares_look(sunder_i_squares *q, const sunder_i_square *s)
 {
     const int patience = s->depth > PATIENT ? s->depth - PATIENT : 0;
-    q->covered = q->gap == 0 && sunder_i_squares_boxes_cover(q, s->box); /* with a gap it is asked what covers it */
+    /* with a gap: the caller asks what covers it */
+    q->covered = q->gap == 0 && sunder_i_squares_boxes_cover(q, s->box);
     q->pairs = 0;
     if (!sunder_i_step()) return SUNDER_I_SQUARE_NO_MEMORY;
     if (q->covered) return SUNDER_I_SQUARE_CLOSED;
@@ -130,7 +131,7 @@ static bool make_tables(sunder_i_squares *q, int side)
 
 bool sunder_i_squares_worth(const sunder_i_operands *g, uint64_t pairs)
 {
-    if (g->shape[0]->flat) return false; /* what has no area covers no square */
+    if (g->shape[0]->flat) return false; /* sets without area cover no square */
     return (uint64_t)g->shape[0]->pieces * g->shape[1]->pieces >= SUNDER_I_SQUARES_WHOLE &&
            sunder_i_operands_parts(g) >= pairs;
 }

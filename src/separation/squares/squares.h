@@ -15,7 +15,7 @@ typedef enum sunder_i_squares_next {
     SUNDER_I_SQUARES_NO_MEMORY
 } sunder_i_squares_next;
 
-/* Are these operands of so many pieces, those with many corners cut up, that they make `pairs` pairs? */
+/* Do the operands' pieces, those with many corners cut up, make at least `pairs` pairs? */
 bool sunder_i_squares_worth(const sunder_i_operands *operands, uint64_t pairs);
 
 /* Of all translations with coordinates up to `reach`, with subsums grown by a disc of radius `gap`. NULL if memory is
@@ -23,8 +23,8 @@ bool sunder_i_squares_worth(const sunder_i_operands *operands, uint64_t pairs);
 sunder_i_squares *sunder_i_squares_new(sunder_i_operands *operands, double reach, double gap);
 void sunder_i_squares_free(sunder_i_squares *squares);
 
-/* The next open square that comes within `limit` units of the origin. The operands' subsums become those of which the
- * boxes come near it, and *candidates those that pass through it; both in the lattice's arena, above *mark. */
+/* The next open square that comes within `limit` units of the origin. The operands' subsums become those whose boxes
+ * come near it, and *candidates those that pass through it; both in the lattice's arena, above *mark. */
 sunder_i_squares_next sunder_i_squares_pop(sunder_i_squares *squares, double limit, double box[4], sunder_i_mark *mark,
                                            sunder_i_candidates *candidates);
 /* The operands' subsums become those that may cover the origin, unless *covered says that one does. False if memory is

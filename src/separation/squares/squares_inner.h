@@ -13,8 +13,8 @@ typedef struct sunder_i_square {
     uint32_t best[2]; /* the nodes whose chiefs' sum was nearest to covering the square that this is a quarter of */
 } sunder_i_square;
 
-/* What covered the last square is remembered for each of so many fields a side of the plane: neighbours are often
- * covered by the same two convex sets, and all of it fits the cache. */
+/* The pair that covered the last square is remembered for each field of a grid with this many fields a side: neighbours
+ * are often covered by the same two convex sets, and the grid fits the cache. */
 #define SUNDER_I_SQUARES_MEMORY 64
 
 /* Nodes of the two trees of convex sets, and how deep the square is in the sum of their chiefs. */
@@ -41,7 +41,7 @@ struct sunder_i_squares {
     uint32_t covering[2]; /* the convex sets whose sum covers it, if it is covered by one */
     uint32_t (*pair)[2];  /* pieces of P and of Q whose subsums come near it */
     size_t pairs, pairs_capacity;
-    uint32_t tries;   /* of the search for what may cover it */
+    uint32_t tries;   /* for the search for what may cover it */
     bool covered;     /* by the subsum that was looked at last */
     uint32_t best[2]; /* the nodes whose chiefs' sum is nearest to covering it, of those tried */
     float best_depth;

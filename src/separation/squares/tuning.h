@@ -6,54 +6,55 @@
 
 /* ---- Is it worth while? ---- */
 
-/* Below so many pairs of whole pieces nothing is cut up: to list all pairs costs nothing then. Of how many pairs of
- * parts it is worth while who asks says (penetration/search.c, gap/least_with_gap.c). */
+/* Below this many pairs of whole pieces nothing is cut up: listing all pairs is cheap then. The callers decide from how
+ * many pairs of parts on squares pay (penetration/search.c, gap/least_with_gap.c). */
 #define SUNDER_I_SQUARES_WHOLE 64
 
 /* ---- A square (squares.c) ---- */
 
-/* A square that so few pairs of pieces come near is searched as it is: about what can be listed and asked at the cost
- * of cutting it up further. Past a depth of PATIENT halvings it is twice as many for each, for as many may truly meet
- * in one point, and then no cutting helps. */
+/* A square that at most FEW_PAIRS pairs of pieces come near is searched as it is: about what can be listed and tested
+ * at the cost of halving it further. Past a depth of PATIENT halvings the limit doubles with each, since that many
+ * pairs may truly meet in one point, where halving does not help. */
 #define FEW_PAIRS 32
 #define PATIENT 8
-/* So many sums are tried to cover a square; past COVER_PATIENT halvings twice as many for each, up to COVER_MOST
- * doublings, for there may be one that does among thousands that nearly do, as of two stars. */
+/* Sums tried to cover a square; past COVER_PATIENT halvings the number doubles with each, up to COVER_MOST doublings,
+ * since one sum may cover the square among thousands that nearly do, as with two stars. */
 #define COVER_TRIES 16
 #define COVER_PATIENT 5
 #define COVER_MOST 18
-/* And to cover the origin, which is asked once and ends the search for two sets that are apart. */
+/* Sums tried to cover the origin, once; success ends the search for two sets that are apart. */
 #define ORIGIN_TRIES 1024
-/* By then a square is far smaller than what floats tell apart (inner_convex.h); and the tries can still be numbered. */
+/* At this depth a square is far smaller than the resolution of floats (inner_convex.h); and the number of tries still
+ * fits its type. */
 #define DEEPEST_SQUARE 28
-/* So many squares, so many for each piece, and one for so many pairs of pieces are looked at: each is worth some
- * microseconds, and what else could be done takes all pairs of pieces. */
+/* At most this many squares are looked at: MOST_SQUARES, plus MOST_EACH for each piece, plus one for every MOST_PAIRS
+ * pairs of pieces. Each takes some microseconds, and the alternative looks at all pairs of pieces. */
 #define MOST_SQUARES 20000
 #define MOST_EACH 8
 #define MOST_PAIRS 32
 
 /* ---- What covers a square (covering.c) ---- */
 
-/* Pairs of boxes that are looked at to cover one square; what so many do not cover is sooner covered in parts. */
+/* Pairs of boxes tried to cover one square; a square that these do not cover is better covered in quarters. */
 #define MOST_BOX_PAIRS 1000
-/* Nodes are taken by how deep the square is in the sum of their chiefs, and by this much of how deep it can be in any
- * by their extents. Those about the pair that covered nearly the square that this is a quarter of, so many levels up,
- * come along with the roots. By measurement on stars; nothing of it matters much. */
+/* Nodes are ranked by how deep the square is in the sum of their chiefs, plus this share of how deep it can be in any
+ * of their sums by their extents. The pair that nearly covered an ancestor of the square, LEVELS_UP levels up, is tried
+ * along with the roots. Measured on stars; neither number matters much. */
 #define EXTENTS_COUNT 0.25f
 #define LEVELS_UP 2
 
 /* ---- Boxes inside an operand (quadtree.c, inner_convex.c) ---- */
 
-/* The quadtree is no deeper than this, where a box has 2^-14 of the operand's width and holds little; */
+/* The quadtree is no deeper than this; a box there has 2^-14 of the operand's width and holds little. */
 #define DEEPEST_BOX 14
-/* and not so deep that boundary passes through more boxes than so many for each edge: many edges that are long beside
- * the operand, as of a star, pass through nearly all. */
+/* The quadtree is no deeper than the depth at which the boundary passes through more than this many boxes for each
+ * edge: edges that are long in proportion to the operand, as of a star, pass through nearly all boxes. */
 #define BOXES_EACH 16
-/* Of the boxes inside so many are asked, the largest, and as many as a quarter of the pieces besides: small
- * boxes hold little beside the pieces about them. */
+/* The largest boxes inside are kept: this many, plus a quarter of the number of pieces. Small boxes hold little beside
+ * the pieces around them. */
 #define BOXES_LEAST 64
-/* Where in a box it is asked whether an operand has it: off its middle and its diagonals, through which sides of pieces
- * often pass, at about sqrt(2) - 1 and 2 - sqrt(3) of its width and height. Any place would be right. */
+/* Where in a box the test "is it inside the operand?" is made: off its middle and its diagonals, through which sides of
+ * pieces often pass, at about sqrt(2) - 1 and 2 - sqrt(3) of its width and height. Any place would be right. */
 #define ASK_X 0.4142
 #define ASK_Y 0.2679
 
