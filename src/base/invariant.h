@@ -2,8 +2,8 @@
  *
  * SUNDER_I_ASSERT  a condition that costs no more than the work that it guards.
  * SUNDER_I_CHECK   a checker, which returns NULL or a sentence. Checkers look at everything, some of them at all pairs:
- *                  they are skipped where there are more than SUNDER_I_CHECKED things. Some allocate: nothing is checked
- *                  under an allocator of the caller's, e.g. that of a test that counts allocations. */
+ *                  they are skipped for more than SUNDER_I_CHECKED things. Some allocate: nothing is checked under an
+ *                  allocator of the caller's, e.g. that of a test that counts allocations. */
 #ifndef SUNDER_I_INVARIANT_H
 #define SUNDER_I_INVARIANT_H
 

@@ -106,7 +106,7 @@ const char *sunder_i_decomposition_check(sunder_i_lattice *l, const sunder_shape
                                          const sunder_i_decomposition *d)
 {
     const sunder_i_mark mark = sunder_i_arena_mark(&l->arena);
-    const sunder_counts counts = l->counts; /* what is checked is no part of the work */
+    const sunder_counts counts = l->counts; /* checks do not count as work */
     const char *wrong = d->corners < s->vertices ? "vertices are missing" : NULL;
     for (uint32_t i = 0; i < d->corners && !wrong; i++) wrong = check_corner(l, s, at, d, i);
     for (uint32_t i = 0; i < d->pieces && !wrong; i++) wrong = check_piece(l, d, i);
@@ -115,7 +115,7 @@ const char *sunder_i_decomposition_check(sunder_i_lattice *l, const sunder_shape
         wrong = check_area(l, s, at, d, polygon, &i);
     if (!wrong && i != d->pieces) wrong = "pieces do not stand in the order of their members";
     l->counts = counts;
-    if (l->arena.failed) return NULL; /* nothing can be told */
+    if (l->arena.failed) return NULL; /* nothing can be checked */
     sunder_i_arena_release(&l->arena, mark);
     return wrong;
 }

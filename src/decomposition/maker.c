@@ -1,5 +1,5 @@
-/* What all decompositions are made with: the rings of a shape on its lattice, a member's vertices on end, and lists of
- * pieces, their corners and Steiner points that grow as pieces are found, and are cut to size at the end. */
+/* Shared tools of all decompositions: the rings of a shape on its lattice, the vertices of one member after another,
+ * and lists of pieces, their corners and Steiner points, which grow as pieces are found and are trimmed at the end. */
 #include "decomposition/maker.h"
 
 #include "base/invariant.h"

@@ -24,7 +24,7 @@
 
 #define ROUNDS 8 /* it settles in two or three */
 
-/* One operand and where it stands. */
+/* One operand and its place on the lattice. */
 typedef struct side {
     sunder_i_maker *m;
     sunder_i_program **program; /* [polygons] NULL where there is none */
@@ -32,7 +32,7 @@ typedef struct side {
     uint32_t *diagonals;        /* [polygons] of the last solution */
     double *lengths;
     double boundary;
-    double pieces, perimeters; /* of all pieces: k, and b + 2 d */
+    double pieces, perimeters; /* sums over all pieces: k, and b + 2 d */
 } side;
 
 static double boundary_of(const sunder_i_rings *r)
@@ -97,7 +97,7 @@ static double objective(const side *p, const side *q) { return q->pieces * p->pe
 
 static bool solve_both(side *p, side *q)
 {
-    double weight[2][2] = {{1, 0}, {1, 0}}; /* of p and of q: each, by length */
+    double weight[2][2] = {{1, 0}, {1, 0}}; /* the diagonals of p and of q, by length */
     if (!solve(p, 1, 0) || !solve(q, 1, 0)) return false;
     double least = objective(p, q);
     for (int i = 0; i < ROUNDS; i++) {

@@ -59,7 +59,7 @@ typedef struct stage {
     bool erode;
 } stage;
 
-/* Of a stage's work so much is the part that is being done: from and to are fractions of the stage. */
+/* The share of a stage's work that the current part has: from and to are fractions of the stage. */
 typedef struct share {
     double from, to;
 } share;
@@ -171,8 +171,8 @@ static bool is_above(const solid *s, sunder_i_arena *scratch, size_t i, const su
     return sunder_i_rational_cmp(scratch, &s->figure->at[s->figure->ring[i]], at, 1) > 0;
 }
 
-/* Is a place inside the figure, which it is not on the boundary of? A ray to the left crosses the sides that it begins
- * to the right of, of which one end is above it and the other is not. */
+/* Is a place inside the figure, off its boundary? A ray to the left crosses the sides that begin to its left and have
+ * exactly one end above it. */
 static bool is_in_figure(const solid *s, sunder_i_arena *scratch, sunder_i_rational_point at)
 {
     bool odd = false;

@@ -139,7 +139,7 @@ static bool add_bands(const eroder *e, const sunder_i_point *begin, sunder_i_con
 
 /* ---- Inside or outside ---- */
 
-/* The sides of the figure by height, for who asks whether a place is inside. */
+/* The sides of the figure by height, to decide whether a place is inside. */
 typedef struct locator {
     const eroder *e;
     sunder_i_lattice *lattice;
@@ -224,7 +224,7 @@ static void keep_inside(sunder_i_coverage *c, uint32_t *parent, const uint8_t *i
     c->vertices.n = n;
 }
 
-/* Forgets what is outside: one place is asked about for all that hangs together. */
+/* Drops what is outside: one place is tested for each connected group of stretches. */
 static bool drop_outside(const eroder *e, sunder_i_coverage *c)
 {
     locator l;

@@ -1,27 +1,28 @@
-/* F + C, or the erosion of F, which is what F^c + C leaves, for a convex C, where the corners of F are rational: one
- * walk along the convolution [GRS83], as ../minkowski/convolution.c has it for integers. Let X be F or its complement.
+/* F + C, or the erosion of F, which is the complement of F^c + C, for a convex C, where the corners of F are rational:
+ * one walk along the convolution [GRS83], as ../minkowski/convolution.c has it for integers. Let X be F or its
+ * complement.
  *
- * Bands (dilate_erode.c) are as many as F has sides, and each has the corners of C. After a dilation by an n-gon most
- * sides of F are those of arcs, some n for each corner of what was dilated: so an erosion by bands costs n^2, where
- * the sides of the arcs, moved along the complement's convolution by -C, run back to the corner that the arc was made
- * around, all of them. What is left are the sides of what was dilated, and at each corner where two arcs or sides of F
- * meet the part of -C between them: about as many links as the result has sides.
+ * There is one band (dilate_erode.c) for each side of F, with the corners of C. After a dilation by an n-gon most sides
+ * of F are those of arcs, some n for each corner of the set that was dilated, so an erosion by bands costs n^2. Along
+ * the complement's convolution by -C, the moved sides of such an arc run back to the corner that the arc was made
+ * around. What remains are the sides of the set that was dilated, and, at each corner where two arcs or sides of F
+ * meet, the part of -C between them: about as many links as the result has sides.
  *
- * Why the winding numbers prove the result, and when the curve is *tame*, is said in ../minkowski/convolution.c. What
- * is different here:
+ * ../minkowski/convolution.c tells why the winding numbers prove the result, and when the curve is *tame*. The
+ * differences here:
  *
- *  - The complement is not bounded: far away the number is 1, and it counts the pieces of X in x - C all the same.
- *    Pieces have holes only where a part of F lies inside x - C; by the boxes of F's outer rings none does, or nothing
- *    of F is left and its ring is left out.
- *  - A side of which nothing is left is a corner v, and so is a whole arc of them: the boundary of v - C lies along
+ *  - The complement is not bounded: far away the number is 1, and it still counts the components of X in x - C.
+ *    Components have holes only where a part of F lies inside x - C; by the boxes of F's outer rings either none
+ *    does, or nothing of F is left and its ring is left out.
+ *  - A side with nothing left is a corner v, and so is a whole arc of such sides: the boundary of v - C lies along
  *    it. The sides there and those before and behind turn by less than half a turn together, else the curve is
- *    declined: so x - C moves off all of them for x beside v on the free side. No piece comes of that contact then,
- *    and a piece that is there at x and vanishes at v does so in another contact, whose link passes v, or which is a
- *    corner at v.
- *  - Corners of several parts of the curve in one place are common (figure_convolution_places.c). They are taken where
- *    one sector of the place is free, so that the place is a corner of the result, and no degenerate hole.
+ *    declined: so x - C moves off all of them for x beside v on the free side. That contact creates no component then,
+ *    and a component that is there at x and vanishes at v does so in another contact, whose link passes v, or which is
+ *    a corner at v.
+ *  - Corners of several parts of the curve often share one place (figure_convolution_places.c). They are accepted where
+ *    exactly one sector of the place is free, so that the place is a corner of the result, and no degenerate hole.
  *
- * All corners are those of F plus those of C, and crossings of two links: no numbers grow longer than by bands. */
+ * All corners are those of F plus those of C, and crossings of two links: no numbers grow longer than with bands. */
 #include "morphology/figure_convolution.h"
 
 #include "base/extremes.h"
@@ -62,7 +63,7 @@ static uint32_t stop_begin(const sunder_i_figure_convolution *c, uint32_t link)
 
 /* ---- Places to the left ---- */
 
-/* Segments by height, for those who ask what passes to the left of a place. */
+/* Segments by height, to find those that pass to the left of a place. */
 static bool build_strips(sunder_i_strips *strips, double (*span)[2], size_t n, double error)
 {
     for (size_t i = 0; i < n; i++) {

@@ -27,7 +27,7 @@ typedef struct islands {
     bool stopped;
 } islands;
 
-/* One island's progress as the whole's. Fractions told never fall, whoever tells them. */
+/* One island's progress as the whole's. Reported fractions never fall, whichever thread reports them. */
 typedef struct teller {
     islands *all;
     size_t sides;
@@ -69,7 +69,7 @@ static sunder_status dilate_again(const islands *all, const sunder_sum_options *
     return status;
 }
 
-/* The cheapest road first: after a dilation most of the boundary is arcs, of which the convolution leaves nothing. */
+/* The cheapest road first: after a dilation most of the boundary is arcs, which vanish along the convolution. */
 static sunder_status erode(const islands *all, const sunder_i_figure *figure, const sunder_sum_options *options,
                            sunder_sum *eroded, sunder_error *err)
 {
@@ -131,7 +131,7 @@ static sunder_status work(void *context, size_t begin, size_t end, sunder_error 
 static sunder_status run(islands *all, sunder_sum **out, sunder_error *err)
 {
     all->part = sunder_i_calloc(all->n + 1, sizeof *all->part);
-    /* Of a closing, the dilation has added B's origin already. */
+    /* In a closing, the dilation has added B's origin already. */
     sunder_sum *sum = sunder_i_morphology_operands_sum(all->operands, all->open || all->dilated ? 0 : -1);
     sunder_status status = all->part && sum ? SUNDER_OK : sunder_i_no_memory(err);
     if (status == SUNDER_OK) {

@@ -119,9 +119,9 @@ sunder_status sunder_i_islands(const sunder_i_morphology_operands *operands, con
  * sums. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL. */
 sunder_status sunder_i_union_of_members(const sunder_shape *shape, const sunder_shape *b,
                                         const sunder_sum_options *options, sunder_sum **out, sunder_error *err);
-/* The same as a shape of which the members have disjoint interiors and share no wall: a wall that two share is inside,
- * and yet their pieces leave it out, so that a segment or a point, which has no area, would pass along it. *out stays
- * NULL where there is one member only, or where members cross in places that no doubles hold; else the corners are the
+/* The same as a shape whose members have disjoint interiors and share no wall: a wall that two members share is inside
+ * the set, yet their pieces leave it out, so a segment or a point, which has no area, would pass along it. *out stays
+ * NULL if there is one member only, or if members cross in places that are not doubles; else the corners are the
  * members' own. */
 sunder_status sunder_i_without_seams(const sunder_shape *shape, sunder_shape **out, sunder_error *err);
 

@@ -12,8 +12,7 @@ typedef struct sunder_i_path {
     size_t n;
 } sunder_i_path;
 
-/* So many bits behind the point that the path's length has some 320 significant ones; 64 at least. Memory in the
- * arena. */
+/* The number of bits behind the point that gives the path's length some 320 significant bits; 64 at least. */
 unsigned long sunder_i_path_length_bits(const sunder_i_filter *filter, sunder_i_arena *arena,
                                         const sunder_i_path *path);
 

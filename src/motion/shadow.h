@@ -13,8 +13,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* At most so many bins, and so many in a turn of 1 where a sector is narrower: more of them hide more, and cost more to
- * fill for each part. */
+/* The largest number of bins, and the number in a turn of 1 where a sector is narrower: more of them hide more, and
+ * cost more to fill for each part. */
 #define SUNDER_I_BINS 512
 /* Corners of a part that are used, at most: a hull of some of its corners hides no more than it does. */
 #define SUNDER_I_CAST_CORNERS 16

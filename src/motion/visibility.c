@@ -209,7 +209,7 @@ static void near_box(const look *k, const double box[4], double out[4])
     }
 }
 
-/* Is nothing of the box (from the start) of interest? For those who cast shadows, besides: is it too narrow for one? */
+/* For casting shadows: is it too narrow to cast one? */
 static bool is_out(const look *k, const double box[4], bool casts)
 {
     if (!(box[0] <= box[2])) return true; /* nothing in it */

@@ -1,6 +1,6 @@
-/* Balls. u = 2^-53 is the unit roundoff. What a radius is computed with is rounded a few times, by u of itself each
- * time, which MORE makes good. A middle below 2^-900, of which products lose bits, has a radius of 1/2 or more beside
- * it, and what is lost, 2^-1074, is less than MORE adds to that. */
+/* Balls. u = 2^-53 is the unit roundoff. Computing a radius rounds a few times, by a relative u each time, which MORE
+ * makes good. Products of a centre below 2^-900 lose bits, but such a centre comes with a radius of at least 1/2, and
+ * the loss, 2^-1074, is less than MORE adds to that. */
 #include "number/ball.h"
 
 #include "number/lattice.h"
@@ -13,7 +13,7 @@
 
 #define U 0x1p-53
 #define MORE (1 + 0x1p-50)
-#define FAR 200 /* a term less by so many bits is a radius, and nothing else */
+#define FAR 200 /* a term smaller by this many bits only adds to the radius */
 
 static const sunder_i_ball ANYTHING = {0, INFINITY, 0};
 

@@ -23,7 +23,7 @@ sunder_i_ball sunder_i_ball_sub(sunder_i_ball a, sunder_i_ball b);
 sunder_i_ball sunder_i_ball_mul(sunder_i_ball a, sunder_i_ball b);
 /* Nothing is known where b may be zero, or nearly. */
 sunder_i_ball sunder_i_ball_div(sunder_i_ball a, sunder_i_ball b);
-/* Of what is known not to be negative. */
+/* For a value that is known not to be negative. */
 sunder_i_ball sunder_i_ball_sqrt(sunder_i_ball a);
 
 /* a times 2^shift. */

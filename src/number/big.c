@@ -322,7 +322,7 @@ static double round_positive(sunder_i_arena *arena, sunder_i_big q, bool inexact
     return isinf(v) && dir == DOWN ? 0x1.fffffffffffffp1023 : v;
 }
 
-/* m * 2^exponent, where that neither underflows nor overflows. */
+/* m * 2^exponent, which must neither underflow nor overflow. */
 static double scaled(uint64_t m, long exponent)
 {
     const uint64_t bits = (uint64_t)(exponent + 1023) << 52;

@@ -1,15 +1,15 @@
-/* Integers beyond what GMP works on with stack memory alone.
+/* Integers longer than GMP can work on with stack memory alone.
  *
- * GMP takes scratch memory for large operands from its own allocator, which ends the process where there is none, and
- * which is the process's to choose, not a library's. Below some thousand limbs it stays on the stack: a single piece of
- * up to 32,512 bytes (TMP_ALLOC in its gmp-impl.h). So mpn_ functions are given operands of SUNDER_I_GMP_LIMBS limbs at
- * most, with which none of them wants 4,000 limbs of scratch at once: products that long are far below the Fourier
- * transform, the quotient and gcd below what needs inverses. What is longer is put together here from such pieces, on
- * arena memory. (mpn_get_str takes its table of powers from the heap however short the number: it is not used.)
+ * GMP takes scratch memory for large operands from its own allocator, which ends the process when memory is out, and
+ * which only the process may replace, not a library. Below some thousand limbs it stays on the stack: a single piece of
+ * up to 32,512 bytes (TMP_ALLOC in its gmp-impl.h). So mpn_ functions are given operands of at most SUNDER_I_GMP_LIMBS
+ * limbs, for which none of them needs 4,000 limbs of scratch at once: products of that length are far below the Fourier
+ * transform, the quotient and gcd below what needs inverses. Longer results are put together here from such pieces, on
+ * arena memory. (mpn_get_str takes its table of powers from the heap even for short numbers: it is not used.)
  *
- * Karatsuba for products, Burnikel and Ziegler for quotients, Lehmer for the gcd: the asymptotics of GMP's larger
- * machinery are given up. Numbers of this size are corners of repaired scribbles and coordinates from end to end of the
- * range of doubles, multiplied out. */
+ * Karatsuba for products, Burnikel and Ziegler for quotients, Lehmer for the gcd: the asymptotics of GMP's faster
+ * algorithms are given up. Numbers of this size are corners of repaired scribbles, and products of coordinates that
+ * span the range of doubles. */
 #ifndef SUNDER_I_HUGE_H
 #define SUNDER_I_HUGE_H
 

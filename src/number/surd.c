@@ -1,14 +1,15 @@
-/* A number of height h is lo + hi r with lo, hi of height h - 1 and r the root h - 1: all goes by halves. The sign of
- * lo + hi r, where the two disagree, is that of lo times that of lo^2 - hi^2 r^2, one root less: no bound on the
- * separation of roots is needed, and squares are made only where the topmost bits do not tell. Each root doubles the
- * lengths; two are the rule here, and four come up where two points with two roots each are compared. */
+/* A number of height h is lo + hi r with lo, hi of height h - 1 and r the root h - 1: every operation recurses on the
+ * halves. The sign of lo + hi r, where the two disagree, is that of lo times that of lo^2 - hi^2 r^2, which has one
+ * root less: no bound on the separation of roots is needed, and squares are computed only where the leading bits do not
+ * decide. Each root doubles the lengths; two are usual here, and four arise where two points with two roots each are
+ * compared. */
 #include "number/surd.h"
 
 #define PARTS(height) ((size_t)1 << (height))
 
 static const sunder_i_big ZERO = {NULL, 0};
 
-/* Parts to fill in, all zero; a single one, which nobody writes to, if memory is out. */
+/* The parts of a new number, all zero; if memory is out, a shared zero that is never written to. */
 static sunder_i_big *new_parts(sunder_i_arena *arena, int height, sunder_i_surd *out)
 {
     sunder_i_big *part = sunder_i_arena_alloc(arena, PARTS(height), sizeof *part);

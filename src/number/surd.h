@@ -1,10 +1,10 @@
 /* Numbers with square roots, exactly: sums of integers times products of the roots r_0, r_1, ... where the square of
- * r_i is such a number over the roots before it. All that a few square roots in a row can make, up to a denominator
- * that the holder keeps.
+ * r_i is such a number over the roots before it. They cover every expression in a few nested square roots, up to a
+ * denominator that the holder keeps.
  *
- * Part k of a number stands beside the product of the roots whose bits are set in k. The roots need not be independent
- * over the rationals: signs come out right all the same. Results live in the arena, as those of big.h do; a failed
- * allocation sets arena->failed and yields zero. */
+ * Part k of a number is the coefficient of the product of the roots whose bits are set in k. The roots need not be
+ * independent over the rationals: signs are right all the same. Results live in the arena, as those of big.h do; a
+ * failed allocation sets arena->failed and yields zero. */
 #ifndef SUNDER_I_SURD_H
 #define SUNDER_I_SURD_H
 

@@ -1,8 +1,8 @@
-/* What determinants on a narrow lattice are made of, and how far doubles are believed.
+/* The building blocks of determinants on a narrow lattice, and how far doubles are trusted.
  *
- * All filters and native predicates of sums go through these few words, so that a benchmark can build the library a
- * second time with another header of this name, which computes in doubles and believes all of them
- * (tests/bench/naive/): the difference is what exactness costs. */
+ * All filters and native predicates of sums use these few functions and macros, so that a benchmark can build the
+ * library a second time with another header of this name, which computes in doubles and trusts all of them
+ * (tests/bench/naive/): the difference is the cost of exactness. */
 #ifndef SUNDER_I_TRUST_H
 #define SUNDER_I_TRUST_H
 
@@ -16,7 +16,7 @@ static inline int sunder_i_det_sign(sunder_i_det v) { return sunder_i_i128_sign(
 static inline double sunder_i_det_double(sunder_i_det v) { return sunder_i_i128_double(v); }
 static inline sunder_i_i128 sunder_i_det_i128(sunder_i_det v) { return v; }
 
-/* What a double may be off by, of which that bound was derived. */
+/* The error of a double from which that bound is derived. */
 #define SUNDER_I_DOUBT(bound) (bound)
 /* May numbers that doubles do not tell apart differ? */
 #define SUNDER_I_DOUBLES_MAY_ERR 1

@@ -108,7 +108,7 @@ double sunder_i_i256_double_long(const sunder_i_i256 *a)
 
 /* Binary: of two odd numbers the difference is even, and its odd part has the same divisors in common with the lesser
  * one. */
-/* Of odd numbers. Without branches: which of the two is the greater is anyone's guess. */
+/* For odd numbers. Without branches, since which is greater cannot be predicted. */
 static uint64_t odd_gcd_64(uint64_t a, uint64_t b)
 {
     while (a != b) {

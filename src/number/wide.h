@@ -28,7 +28,7 @@ static inline double sunder_i_i128_double(sunder_i_i128 v)
     return sunder_i_i128_is_short(v) ? (double)(int64_t)v : (double)v;
 }
 
-/* Without a branch: which sign it has is anyone's guess. */
+/* Without a branch, since the sign cannot be predicted. */
 static inline sunder_i_u128 sunder_i_i128_abs(sunder_i_i128 v)
 {
     const uint64_t high = (uint64_t)(v >> 64), below = -(high >> 63);

@@ -152,7 +152,7 @@ sunder_i_map_line sunder_i_line_copy(const sunder_i_map_line *from, sunder_i_are
 bool sunder_i_map_broken(sunder_i_planar_map *map);
 /* SUNDER_OK, or the failure of a broken map. */
 sunder_status sunder_i_map_status(sunder_i_planar_map *map, sunder_error *err);
-/* Makes room for so many more; pointers into the arrays are stale afterwards. */
+/* Reserves room for more elements; pointers into the arrays are stale afterwards. */
 bool sunder_i_map_room(sunder_i_planar_map *map, size_t vertices, size_t edges, size_t trapezoids, size_t nodes);
 bool sunder_i_map_push(sunder_i_planar_map *map, sunder_i_list *list, uint32_t item);
 /* New ones, within the room made. */

@@ -98,7 +98,7 @@ bool sunder_i_map_renew(sunder_i_planar_map *map)
 
 /* Nodes of the history for each trapezoid that is alive, and for a map of any size, before it is made anew: vertices
  * gone, lines and the history of what is gone outweigh the map after many removals, and lead to places the long way
- * round. So many keep the cost of starting afresh below that of the insertions that made it necessary. */
+ * round. This number keeps the cost of starting afresh below that of the insertions that made it necessary. */
 #define HISTORY_EACH 64
 #define HISTORY_LEAST 65536
 

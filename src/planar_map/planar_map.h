@@ -56,16 +56,16 @@ void sunder_i_planar_map_free(sunder_i_planar_map *map);
 sunder_status sunder_i_planar_map_insert_polygon(sunder_i_planar_map *map, const sunder_i_rational_point *corner,
                                                  const sunder_i_point *along, size_t n, sunder_error *err);
 
-/* Adds the segment from a to b (a != b), with so many regions on its left and right that have it on their boundary.
- * `below` of the vertices in its relative interior grows by the count on its lower side, that of its ends does not.
- * That is right for convex regions; where a corner of a region touches the inside of one of its own edges, and the
- * region is not below it, the covered count of that vertex means nothing (those of edges and faces do). On success
- * *first and *last (may be NULL) are the vertices at a and b. */
+/* Adds the segment from a to b (a != b), with `left` and `right` regions on its two sides that have it on their
+ * boundary. `below` of the vertices in its relative interior grows by the count on its lower side, that of its ends
+ * does not. That is right for convex regions; where a corner of a region touches the inside of one of its own edges,
+ * and the region is not below it, the covered count of that vertex is meaningless (those of edges and faces are right).
+ * On success *first and *last (may be NULL) are the vertices at a and b. */
 sunder_status sunder_i_planar_map_insert_segment(sunder_i_planar_map *map, sunder_i_rational_point a,
                                                  sunder_i_rational_point b, uint32_t left, uint32_t right,
                                                  uint32_t *first, uint32_t *last, sunder_error *err);
-/* Adds a point as a vertex (isolated, or splitting the edge that it lies on), with so many more regions below it that
- * have it on their boundary. */
+/* Adds a point as a vertex (isolated, or splitting the edge that it lies on), and adds `below` to the regions below it
+ * that have it on their boundary. */
 sunder_status sunder_i_planar_map_insert_point(sunder_i_planar_map *map, sunder_i_rational_point at, uint32_t below,
                                                uint32_t *vertex, sunder_error *err);
 

@@ -119,7 +119,7 @@ static int order(const sunder_i_passage *p, const double c[2], int k, bool end)
     return sunder_i_accumulator_sign(&sum);
 }
 
-/* Of two on one line, or of which one is a point: they meet where their shadows on both axes do. */
+/* Two segments on one line, or one of them a point: they meet where their projections on both axes do. */
 static bool share_coordinates(const void *context)
 {
     const meeting *m = context;

@@ -83,7 +83,7 @@ int sunder_i_rational_cmp(sunder_i_arena *arena, const sunder_i_rational_point *
     return sunder_i_big_cmp(sunder_i_times(arena, a, v->w), sunder_i_times(arena, b, u->w));
 }
 
-/* Of so many limbs a product takes longer than its topmost bits. */
+/* From this many limbs on a product takes longer than the product of the leading bits. */
 #define LONG_LIMBS 8
 
 static bool is_long(const sunder_i_rational_point *u)

@@ -1,13 +1,13 @@
-/* The anchor of a shape: a point of its interior that depends on the point set and on nothing else. The interior is
- * that of the union of all members, whose common walls are inside it. The rule, whoever applies it:
+/* The anchor of a shape: a point of its interior that depends on the point set only. The interior is that of the union
+ * of all members, so walls that members share are inside it. The rule:
  *
- *   of the open intervals that the interior has on the horizontal line through the middle of its height, the middle of
- *   the widest one, the first from the left of equal ones, to the nearest doubles;
- *   where it has none there (it is in several parts), the same of what of it lies below that line.
+ *   take the open intervals of the interior on the horizontal line at half its height; the anchor is the middle of the
+ *   widest one, the leftmost of equal ones, rounded to the nearest doubles;
+ *   if there are none on that line (the interior is in several parts), apply the rule to the part of it below the line.
  *
- * An anchor has no way to fail, so nothing is allocated for it: of few corners all numbers stand on the stack, and the
- * range of doubles bounds their size; of many, and of corners that are no doubles, it is worked out when the shape is
- * made (measure_rational.c). */
+ * Finding an anchor cannot fail, so it allocates nothing: for few corners all numbers stand on the stack, and the range
+ * of doubles bounds their size; for many, and for corners that are not doubles, the anchor is computed when the shape
+ * is made (measure_rational.c). */
 #include "shape/shape.h"
 #include "shape/widest_interval.h"
 

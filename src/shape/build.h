@@ -38,7 +38,7 @@ typedef struct sunder_i_rings {
 
 #define SUNDER_I_MADE 0x80000000u
 
-/* Makes room for so many more (rings.c); contents stay. False if memory is out. */
+/* Reserves room for more vertices, rings or polygons (rings.c); contents stay. False if memory is out. */
 bool sunder_i_rings_grow(sunder_i_rings *r, sunder_i_arena *arena, size_t vertices, size_t rings, size_t polygons);
 
 /* Order by x, by y, and lexicographic (x first). */
@@ -180,8 +180,8 @@ void sunder_i_bridge_holes(const sunder_i_rings *r, uint32_t ring_lo, uint32_t r
  * NONE. False if memory is out. */
 bool sunder_i_triangulate(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, sunder_i_arena *arena,
                           sunder_i_mesh *mesh);
-/* May the diagonal h, of which g is the twin, go: are the pieces on its sides together strictly convex at both its
- * ends? */
+/* May the diagonal h, whose twin is g, be removed: is the union of the pieces on its two sides strictly convex at both
+ * its ends? */
 bool sunder_i_mesh_removable(const sunder_i_rings *r, const sunder_i_mesh *mesh, uint32_t h, uint32_t g);
 void sunder_i_mesh_remove(sunder_i_mesh *mesh, uint32_t h, uint32_t g);
 /* Removes diagonals while the pieces stay strictly convex. */
@@ -214,7 +214,7 @@ sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32
 void sunder_i_shape_measure(sunder_shape *shape, const sunder_i_extent *known);
 /* Of another shape whose places are as much alike. */
 void sunder_i_shape_copy_shared(sunder_shape *shape, const bool *shared);
-/* Where it is known that no two places are alike. */
+/* Where no two places are known to coincide. */
 void sunder_i_shape_mark_none_shared(sunder_shape *shape);
 /* Fills shared[] by comparing places. The arena is for scratch; false if memory is out. */
 bool sunder_i_shape_mark_shared(sunder_shape *shape, sunder_i_arena *arena);

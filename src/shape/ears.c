@@ -31,7 +31,7 @@
 #define TREE_FROM 24
 /* Corners in a block of the tree: to ask whether one forbids a cut takes longer than to look at a box. */
 #define LEAF 4
-/* Up to so many bridges the corners still come in the order of one ring, more or less. */
+/* Up to this many bridges the corners still come in roughly the order of one ring. */
 #define FEW_BRIDGES 8
 
 enum { CONVEX, BLUNT, CUT };
@@ -84,7 +84,7 @@ typedef struct side {
 
 typedef struct triangle {
     uint32_t a, b, c;
-    bool sided; /* the sides are known; where nothing comes near, nobody asks for them */
+    bool sided; /* the sides are known; they are not needed where nothing comes near */
     side side[3];
     double box[4];
 } triangle;

@@ -1,8 +1,8 @@
 /* The numbers of a ring of few corners: see few_corners.h. */
 #include "shape/few_corners.h"
 
-/* Of each n: the last corner, all of them, the first one again. So from the first of these numbers on stands who comes
- * before each corner, from the third on who comes after each. */
+/* For each n: the last corner, all corners, the first corner again. So row n, read from its first number on, gives the
+ * predecessor of each corner; read from its third number on, the successor. */
 static const uint32_t round_about[] = {
     2,  0, 1, 2, 0,                                             /* 3 */
     3,  0, 1, 2, 3, 0,                                          /* 4 */
@@ -20,7 +20,7 @@ static const uint32_t round_about[] = {
     15, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0 /* 16 */
 };
 
-/* Of each n the number itself, and all corners. */
+/* For each n: the number itself, and all corners. */
 static const uint32_t whole[] = {
     3,  0, 1, 2,                                             /* 3 */
     4,  0, 1, 2, 3,                                          /* 4 */
@@ -56,7 +56,7 @@ static const bool none[SUNDER_I_FEW_CORNERS];
     }
 #define FORM(n, given_n) [given_n] = {GIVEN(given_n), CLEANED(n), NULL}
 
-/* Of n corners, of whatever number given. */
+/* For n corners of any number of vertices as given. */
 #define FORMS(n)                                                                                                       \
     [n] = {FORM(n, 3),  FORM(n, 4),  FORM(n, 5),  FORM(n, 6),  FORM(n, 7),  FORM(n, 8),  FORM(n, 9), FORM(n, 10),      \
            FORM(n, 11), FORM(n, 12), FORM(n, 13), FORM(n, 14), FORM(n, 15), FORM(n, 16), FORM(n, 17)}

@@ -7,8 +7,8 @@
 /* Buildings have more corners seldom. */
 #define SUNDER_I_FEW_CORNERS 16
 
-/* One ring of n corners, 3 to SUNDER_I_FEW_CORNERS, numbered from 0 along it, which stand in different places and are
- * doubles; it was given with so many vertices, n to SUNDER_I_FEW_CORNERS + 1. */
+/* One ring of n corners, 3 to SUNDER_I_FEW_CORNERS, numbered from 0 along it; they stand in different places and are
+ * doubles. The ring was given with n to SUNDER_I_FEW_CORNERS + 1 vertices. */
 const sunder_i_form *sunder_i_few_form(uint32_t n, size_t given);
 /* Is it one of these? */
 bool sunder_i_is_few_form(const sunder_i_form *of);

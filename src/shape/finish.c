@@ -57,7 +57,7 @@ static layout plan(const double *xy, const size_t *ring_end, const size_t *poly_
     return l;
 }
 
-/* Arrays that are to be filled. */
+/* Arrays to be filled. */
 typedef struct arrays {
     size_t *given_ring_end, *given_poly_end;
     uint32_t *ring_end, *poly_end, *next, *prev, *piece_end;
@@ -85,7 +85,7 @@ static void lay_out_rings(sunder_shape *s, unsigned char *block, size_t *used, c
     s->form = form;
 }
 
-/* Where its marks are, of which places are shared. */
+/* The places of a shape's marks, some of which are shared. */
 static void set_shared(sunder_shape *s, const bool *shared) { ((sunder_i_form *)s->form)->cleaned.shared = shared; }
 
 /* With block NULL it only counts. */
@@ -172,8 +172,8 @@ sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32
     return s;
 }
 
-/* The marks of a shape of which some corners may share their places; NULL where it is known that none do, since even
- * the nearest doubles differ. */
+/* The marks of a shape some of whose corners may share a place; NULL where none do, which is known if even the nearest
+ * doubles differ. */
 static bool *own_marks(sunder_shape *s)
 {
     return sunder_i_is_few_form(s->form) ? NULL : (bool *)s->form->cleaned.shared;

@@ -92,8 +92,8 @@ static bool pair(void *user, uint32_t e, uint32_t f)
     return true;
 }
 
-/* With so many pairs for each edge, boxes do not tell edges apart, as of long thin spikes: a sweep does. By
- * measurement: coasts, pixels and combs have one to four. */
+/* With more pairs than this for each edge, boxes do not separate edges, e.g. those of long thin spikes: a sweep is
+ * used. Measured: coasts, pixels and combs have one to four. */
 #define PAIRS_EACH 24
 
 /* By the tree; where that has too many pairs, only if something does meet. */

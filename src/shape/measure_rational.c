@@ -18,9 +18,9 @@ static sunder_i_big edge_area(sunder_i_arena *arena, const sunder_i_lattice *l, 
     return sunder_i_big_div_floor(arena, term, den);
 }
 
-/* Twice the area, the sum over all edges (rings run with the interior on their left), with so many bits behind the
- * point; it is true, or too small by less than *lost in the last of them. Most corners of most shapes are plain
- * numbers, whose products, below 2^124, are summed by themselves until they overflow. */
+/* Twice the area, the sum over all edges (rings run with the interior on their left), with `bits` bits behind the
+ * point; exact, or too small by less than *lost units of the last bit. Most corners of most shapes are plain numbers,
+ * whose products, below 2^124, are summed separately until they overflow. */
 static sunder_i_big sum_edges(sunder_i_arena *arena, const sunder_shape *shape, const sunder_i_placed *placed,
                               unsigned long bits, int64_t *lost)
 {

@@ -1,5 +1,4 @@
-/* The rings of a shape: room for them while it is made, its corners for those who draw it, and its rings as
- * given for those who keep it. */
+/* The rings of a shape: memory for them while it is made, its corners for drawing, and its rings as given. */
 #include "shape/build.h"
 
 #include <string.h>

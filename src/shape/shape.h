@@ -129,7 +129,7 @@ static inline size_t sunder_i_shape_raw_vertices(const sunder_shape *s)
 /* Area and anchor of a rational shape that is complete but for them. False if memory is out. */
 bool sunder_i_shape_measure_pieces(sunder_shape *shape);
 
-/* Up to so many corners an anchor is found on the stack, whenever it is asked for; of more it is kept. */
+/* Up to this many corners an anchor is computed on the stack on demand; with more it is stored. */
 #define SUNDER_I_ANCHOR_CORNERS 64
 /* The anchor to be kept, of a shape with numbers of its own whose corners are doubles. False if memory is out. */
 bool sunder_i_shape_measure_anchor(sunder_shape *shape);

@@ -270,7 +270,7 @@ static bool is_nested(const polygon *p)
 
 /* ---- Pieces ---- */
 
-/* What others ask of rings (build.h), for those who need it: with holes, or too many corners to share their numbers. */
+/* The results that other stages need of rings (build.h): with holes, or too many corners to share their numbers. */
 typedef struct made_rings {
     sunder_i_rings r;
     sunder_i_lattice lattice;

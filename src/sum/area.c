@@ -36,7 +36,7 @@ static sunder_i_ratio total_of(sunder_i_arena *arena, const adder *a)
     return total;
 }
 
-/* Every so many edges have their numbers in an arena of their own, of which only the sum is kept. */
+/* Edges are summed in groups of this size; the arena of a group is freed, and only its sum is kept. */
 #define EDGES 256
 
 static sunder_i_ratio area_twice(sunder_i_arena *arena, const sunder_sum *sum)

@@ -36,14 +36,14 @@ static const sunder_i_hpoint *first_place(const sunder_i_found *f, uint32_t ring
     return &f->place[f->vertex[f->ring[ring].start]];
 }
 
-/* Puts rings in order of which the doubles left it open. */
+/* Sorts rings whose order the doubles left open. */
 static bool settle_rings(sunder_i_found *f, const sunder_i_valued *k, size_t n, uint32_t *order)
 {
     for (size_t i = 0; i < n; i++) order[i] = k[i].item;
     return n == 1 || sunder_i_sort_indices(order, n, compare_rings, f);
 }
 
-/* The same for rings of which y is told apart by doubles; x is the same for all. */
+/* The same for rings with one x, whose y differ as doubles. */
 static bool sort_column(sunder_i_found *f, sunder_i_valued *k, size_t n, uint32_t *order)
 {
     for (size_t i = 0; i < n; i++) k[i].value = first_place(f, k[i].item)->ay;
@@ -213,7 +213,7 @@ bool sunder_i_canonical(sunder_i_found *found, sunder_sum *out)
 
 /* ---- The checker ---- */
 
-/* Of two rows of vertices. */
+/* Compares two rows of vertices. */
 static int compare_rows(sunder_sum *sum, const uint32_t *v, size_t m, const uint32_t *w, size_t n)
 {
     for (size_t i = 0; i < m && i < n; i++) {
@@ -248,7 +248,7 @@ static const char *check_polygons(sunder_sum *sum)
 
 const char *sunder_i_canonical_check(sunder_sum *sum)
 {
-    const sunder_counts counts = sum->lattice.counts; /* what is checked is no part of the work */
+    const sunder_counts counts = sum->lattice.counts; /* checks do not count as work */
     const char *wrong = check_polygons(sum);
     for (size_t i = 0; i < sum->segments && !wrong; i++) {
         const uint32_t *s = sum->segment + 2 * i;
@@ -258,5 +258,5 @@ const char *sunder_i_canonical_check(sunder_sum *sum)
     for (size_t i = 1; i < sum->points && !wrong; i++)
         if (sunder_i_sum_vertex_cmp(sum, sum->point[i - 1], sum->point[i]) >= 0) wrong = "points are out of order";
     sum->lattice.counts = counts;
-    return sum->lattice.arena.failed ? NULL : wrong; /* without memory nothing can be told */
+    return sum->lattice.arena.failed ? NULL : wrong; /* without memory nothing can be checked */
 }

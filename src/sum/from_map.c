@@ -29,8 +29,8 @@
 
 typedef struct outline {
     sunder_i_planar_map *map;
-    const sunder_i_inside *inside; /* NULL: what is covered */
-    uint32_t *component;           /* [faces] a forest; roots stand for components */
+    const sunder_i_inside *inside; /* NULL: the covered ones */
+    uint32_t *component;           /* [faces] a forest; its roots are the components */
     bool *done;                    /* [half-edges] */
     uint32_t *vertex;              /* of all rings, then ends of segments, then points; as the map numbers them */
     size_t vertices, vertex_capacity;
@@ -231,9 +231,9 @@ static void renumber(uint32_t *vertex, size_t n, uint32_t *number, uint32_t *nex
     }
 }
 
-/* In lowest terms, as sums of the other roads have them. Every vertex of a sum is a corner of the convolution or a
- * crossing of two of its sides, which lie on lines through lattice points along lattice vectors: so it fits where
- * crossings of such lines do, though here it may have come from Steiner points. */
+/* In lowest terms, as the other roads give them. Every vertex of a sum is a corner of the convolution or a crossing of
+ * two of its sides, which lie on lines through lattice points along lattice vectors: so it fits where crossings of such
+ * lines do, though here it may have come from Steiner points. */
 static bool reduced(sunder_i_lattice *lattice, sunder_i_arena *arena, const sunder_i_planar_map *map, uint32_t v,
                     sunder_i_hpoint *out)
 {

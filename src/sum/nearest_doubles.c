@@ -1,10 +1,10 @@
-/* Vertices of a sum as the nearest doubles, and how far these are off, without text and without one allocation each.
+/* Vertices of a sum as the nearest doubles, and their deviation, without texts and without one allocation for each.
  *
  * Nearly all vertices are lattice points: n 2^e + both origins. Where the origins are not too far out that is the sum
- * of three doubles that stand for themselves, of which two are added exactly, so that it is rounded once. Else, on a
- * narrow lattice, it is an integer of at most 126 bits, whose conversion rounds once, too. Crossings have a fraction
- * besides, and one bit tells whether there is any: that is all that rounding has to know. Others take the big integers.
- * The deviation is measured, and rounded up. */
+ * of three exact doubles, two of which add exactly, so that it is rounded once. Otherwise, on a narrow lattice, it is
+ * an integer of at most 126 bits, whose conversion rounds once, too. Crossings also have a fraction, and one bit tells
+ * whether it is nonzero, which is all that rounding needs. The rest take the big integers. The deviation is measured,
+ * and rounded up. */
 #include "sum/sum.h"
 
 #include <limits.h>
@@ -62,10 +62,9 @@ static bool divide(const sunder_i_i256 *n, const mp_limb_t w[2], mp_size_t limbs
     return true;
 }
 
-/* (n / w + origin) times the unit, w > 0; false where that cannot be told here. With i units, i a whole number of 55
- * bits or more, and a fraction, the double next to the sum is the one next to i + 1/2, if there is a fraction: no
- * double and no middle of two lies strictly between whole numbers of that size. Smaller ones are taken 2^64 times as
- * large. */
+/* (n / w + origin) times the unit, w > 0; false where that cannot be decided here. For i units, i a whole number of at
+ * least 55 bits, plus a nonzero fraction, the nearest double is the one nearest to i + 1/2: no double and no midpoint
+ * of two lies strictly between whole numbers of that size. Smaller numbers are scaled by 2^64. */
 static bool ratio_double(const sunder_i_i256 *n, sunder_i_i128 denominator, sunder_i_i128 origin, double unit,
                          double *x, double *off)
 {

@@ -1,16 +1,16 @@
-/* In what order subsums go in.
+/* In what order are subsums inserted?
  *
- * Random is what the expected costs of the vertical decomposition stand on. Fat, the largest first, is for unions that
- * drop what is covered: a large subsum that is in early swallows small ones before they cross each other, so that the
- * cost follows the output and not the arrangement beneath it. The paper leaves open what fat means. Three measures
- * stand to reason:
+ * Random order is what the expected costs of the vertical decomposition are based on. Fat first, i.e. the largest
+ * first, is for unions that drop covered parts: a large subsum inserted early swallows small ones before they cross
+ * each other, so that the cost follows the output and not the arrangement beneath it. The paper does not define "fat".
+ * Three measures are reasonable:
  *
- *     area       what the subsum swallows, in expectation, if what comes later is spread evenly
+ *     area       the expected amount that the subsum swallows, if later ones are spread evenly
  *     breadth    area by perimeter, which for a convex set is from a half to one times the radius of its largest disc:
  *                a long thin subsum swallows little whatever its area
  *     round      area by the square of the perimeter, fatness as the literature on fat objects has it, without a size
  *
- * and README.md has the counts of each. The measure is taken in doubles: it chooses an order, and every order gives the
+ * README.md has the counts of each. The measure is taken in doubles: it chooses an order, and every order gives the
  * same union. */
 #include "base/random.h"
 #include "base/sort.h"
@@ -52,7 +52,7 @@ static double fatness_of(sunder_i_uniting *u, uint32_t subsum)
     return area;
 }
 
-/* Equals, of which translates of pieces make many, stay in random order: the sort is stable. */
+/* Equal items, common among translates of pieces, stay in random order: the sort is stable. */
 static bool sort_by_fatness(sunder_i_uniting *u, uint32_t *subsum, uint32_t n)
 {
     const uint32_t first = n ? subsum[0] : 0;

@@ -33,8 +33,8 @@ typedef struct sunder_i_subsum {
 #define SUNDER_I_SIDES_IN_A_WORD 32
 
 /* Tests a point against a subsum of at most this many sides, in doubles: false if the point is to the right of a side
- * by more than `bounds` error bounds; else *in_doubt is the set of sides in doubt, and the point is certainly to the left
- * of all others. Without branches, since the decisive side cannot be predicted. */
+ * by more than `bounds` error bounds; else *in_doubt is the set of sides in doubt, and the point is certainly to the
+ * left of all others. Without branches, since the decisive side cannot be predicted. */
 static inline bool sunder_i_subsum_may_hold(const sunder_i_subsum *s, double x, double y, double bounds,
                                             uint32_t *in_doubt)
 {
