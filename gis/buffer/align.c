@@ -3,14 +3,14 @@
  * Walls are taken modulo a right angle: each side of length L and angle a is the vector L (cos 4a, sin 4a), and a
  * quarter of the angle of their sum is the main direction, in (-45, 45] degrees. The shape is turned about the origin
  * and its corners rounded to doubles: it is a choice of shape, and what is done with that shape is exact. Corners that
- * this leaves in straight walls are taken out in the end (round/straight.c).
+ * this leaves in straight walls are taken out in the end (geometry/round/straight.c).
  *
  * A dissolved set has a direction for each of its blocks: features whose dilations by the shape as given hang together.
  * Each block is made by itself, rounded, and the blocks are united, since turned shapes may reach into each other; the
  * union's crossings are rounded once more. */
 #include "buffer/buffer.h"
 
-#include "base/core.h"
+#include "base/core_error.h"
 
 #include <cpl_conv.h>
 #include <cpl_quad_tree.h>

@@ -2,9 +2,9 @@
 #ifndef GIS_BUFFER_H
 #define GIS_BUFFER_H
 
+#include "geometry/round/round.h"
 #include "layer/input.h"
-#include "round/round.h"
-#include "write/sink.h"
+#include "write/sink/sink.h"
 
 /* What is asked for. Strings are borrowed until the buffer is cleared. */
 typedef struct gis_buffer_request {

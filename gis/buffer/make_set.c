@@ -2,7 +2,7 @@
  * rounding moves is added up, never estimated. */
 #include "buffer/buffer.h"
 
-#include "base/core.h"
+#include "base/core_error.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* pair.c: sunder pair. The least translation of Q that takes its interior off P, as JSON, or as a layer `pair`:
  * the line from the anchor of Q to where it goes. */
-#include "base/core.h"
+#include "base/core_error.h"
 #include "base/message.h"
 #include "commands/commands.h"
 #include "commands/resolve.h"

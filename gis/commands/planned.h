@@ -3,7 +3,7 @@
 #define GIS_PLANNED_H
 
 #include "options/options.h"
-#include "plan/plan.h"
+#include "shards/plan/plan.h"
 
 /* Zeroed: nothing. */
 typedef struct gis_planned {

@@ -1,5 +1,5 @@
 /* route.c: sunder route. A shortest way for a robot among obstacles, contact allowed, as JSON, or as layers. */
-#include "base/core.h"
+#include "base/core_error.h"
 #include "base/message.h"
 #include "commands/commands.h"
 #include "commands/report.h"

@@ -4,8 +4,8 @@
 #define GIS_SEPARATE_RUN_H
 
 #include "base/json.h"
-#include "layer/in_parts.h"
 #include "options/options.h"
+#include "shards/run/run.h"
 #include "write/deliver.h"
 
 /* Bits of --layers. */

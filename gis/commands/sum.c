@@ -1,5 +1,5 @@
 /* sum.c: sunder sum. JSON with the canonical sum on stdout, or layers, and the figures. */
-#include "base/core.h"
+#include "base/core_error.h"
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "base/resources.h"

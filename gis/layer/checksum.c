@@ -3,9 +3,9 @@
 #include "layer/checksum.h"
 
 #include "base/interrupt.h"
+#include "disk/checksum.h"
 #include "read/fields.h"
 #include "read/source_checksum.h"
-#include "spool/checksum.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +26,7 @@ static bool add_field(const gis_layer_input *input, int field, uint64_t *checksu
         const bool set = OGR_F_IsFieldSetAndNotNull(feature, field) != 0;
         char *value = set ? gis_field_key(feature, field) : NULL;
         if (set && !value) return gis_no_memory(error);
-        *checksum = gis_spool_checksum_of(*checksum, value, set ? strlen(value) + 1 : 0);
+        *checksum = gis_checksum_of(*checksum, value, set ? strlen(value) + 1 : 0);
         free(value);
         if (!gis_go_on(error)) return false;
     }
@@ -41,7 +41,7 @@ static bool add_marks(const gis_layer_input *input, const char *option, const ch
     if (!where) return true;
     if (!marks) return gis_no_memory(error);
     const bool done = gis_source_mark(input->source, option, where, marks, error);
-    for (size_t i = 0; i < n && done; i++) *checksum = gis_spool_checksum_of(*checksum, &marks[i], sizeof *marks);
+    for (size_t i = 0; i < n && done; i++) *checksum = gis_checksum_of(*checksum, &marks[i], sizeof *marks);
     free(marks);
     return done;
 }
@@ -66,7 +66,7 @@ bool gis_layer_checksums_add(gis_layer_checksums *sums, const gis_layer_input *i
 
 uint64_t gis_layer_checksums_end(const gis_layer_checksums *sums)
 {
-    return gis_spool_checksum_of(0, sums->of, sizeof sums->of);
+    return gis_checksum_of(0, sums->of, sizeof sums->of);
 }
 
 bool gis_layer_checksum(const gis_layer_input_request *request, const gis_source_facts *facts, uint64_t *checksum,

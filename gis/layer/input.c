@@ -2,7 +2,7 @@
  * the core. Hints about a misunderstood call stand here, where its failure is known to come of opening. */
 #include "layer/input.h"
 
-#include "base/core.h"
+#include "base/core_error.h"
 #include "base/message.h"
 #include "read/crs_units.h"
 #include "read/fields.h"

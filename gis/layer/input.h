@@ -2,8 +2,8 @@
 #ifndef GIS_LAYER_INPUT_H
 #define GIS_LAYER_INPUT_H
 
-#include "barrier/barrier.h"
 #include "base/progress.h"
+#include "layer/barriers/barrier.h"
 #include "layer/block_keys.h"
 #include "layer/rules.h"
 #include "read/shape.h"
@@ -36,7 +36,7 @@ typedef struct gis_layer_shaping gis_layer_shaping; /* shapes.c */
 typedef struct gis_layer_input {
     const gis_layer_input_request *request;
     gis_source *source;
-    size_t n;       /* features; of a source that is read by batches, those of the batch (spooling.h) */
+    size_t n;       /* features; of a source that is read by batches, those of the batch (layer_spooling.h) */
     bool points;    /* the features are points, and the shapes the symbols at them */
     bool as_chords; /* arcs are taken as their polylines, and not grown to contain the arcs */
     gis_crs_units units;
@@ -100,8 +100,8 @@ bool gis_layer_limits(gis_layer_input *input, gis_error *error);
 
 /* Blocks by the numbers that keys have so far, for who ranks them when all are known. */
 bool gis_layer_number_blocks(gis_layer_input *input, gis_block_keys *keys, gis_error *error);
-/* The parts of weighing that spooling.c needs apart: of an area beside the median of all (which sorts them), and the
- * factor of a field. */
+/* The parts of weighing that layer_spooling.c needs apart: of an area beside the median of all (which sorts them), and
+ * the factor of a field. */
 double gis_layer_median(double *areas, size_t n);
 double gis_layer_area_weight(gis_weighting by, double area, double median);
 bool gis_layer_weigh_by_field(gis_layer_input *input, gis_error *error);

@@ -2,7 +2,7 @@
  * result alone (sunder_blk), the original has it from there. */
 #include "layer/moves.h"
 
-#include "base/core.h"
+#include "base/core_error.h"
 #include "base/message.h"
 #include "read/fields.h"
 

@@ -3,7 +3,7 @@
 #define GIS_LAYER_PROOF_H
 
 #include "layer/input.h"
-#include "proof/lines.h"
+#include "layer/proof_lines.h"
 
 /* The first line, but for the counts. */
 gis_proof_head gis_proof_head_of(const gis_layer_input *input, const sunder_layer_summary *summary);

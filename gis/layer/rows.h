@@ -3,8 +3,7 @@
 #ifndef GIS_LAYER_ROWS_H
 #define GIS_LAYER_ROWS_H
 
-#include "parts/barriers.h"
-#include "write/sink.h"
+#include "write/sink/sink.h"
 
 /* A FID as a value; null if there is none. */
 gis_value gis_fid_as_value(GIntBig fid);

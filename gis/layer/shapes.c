@@ -4,11 +4,11 @@
 #include "layer/input.h"
 #include "layer/shapes_ahead.h"
 
-#include "base/core.h"
+#include "base/core_error.h"
 #include "base/interrupt.h"
 #include "base/message.h"
+#include "geometry/round/round.h"
 #include "read/fields.h"
-#include "round/round.h"
 
 #include <cpl_conv.h>
 #include <math.h>

@@ -3,9 +3,9 @@
  * features, and the first that fails, do not depend on threads. */
 #include "layer/shapes_ahead.h"
 
-#include "base/beside.h"
 #include "base/interrupt.h"
 #include "base/resources.h"
+#include "base/side_thread.h"
 
 #include <stdatomic.h>
 

@@ -2,7 +2,7 @@
  * taken together as one set: strictly where all are valid, by the even-odd rule where one had to be repaired by it. */
 #include "read/shape.h"
 
-#include "base/core.h"
+#include "base/core_error.h"
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "base/resources.h"

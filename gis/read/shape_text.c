@@ -2,12 +2,12 @@
  * name of a file is a data source: who has one called "POLYGON (...)" means it. */
 #include "read/shape_text.h"
 
-#include "base/core.h"
+#include "base/core_error.h"
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "base/resources.h"
 #include "base/spelling.h"
-#include "read/wkt.h"
+#include "geometry/wkt.h"
 
 #include <errno.h>
 #include <stdio.h>

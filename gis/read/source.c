@@ -8,14 +8,14 @@
 #include "base/message.h"
 #include "base/path.h"
 #include "base/resources.h"
-#include "read/borrow.h"
-#include "read/packed.h"
+#include "geometry/packed.h"
+#include "geometry/packed_borrowing.h"
+#include "gpkg/sqlite_calls.h"
+#include "gpkg/sqlite_lock.h"
+#include "gpkg/table.h"
 #include "read/source_layer.h"
 #include "read/source_mark.h"
-#include "read/table.h"
 #include "read/where.h"
-#include "sqlite/calls.h"
-#include "sqlite/lock.h"
 
 #include <cpl_conv.h>
 #include <cpl_vsi.h>

@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 #include "base/value.h"
-#include "read/geometry.h"
+#include "geometry/geometry.h"
 
 /* Kinds of layer that a command takes; combine with |. A layer of unknown type, or of collections, counts as all. */
 enum { GIS_TAKES_POLYGONS = 1, GIS_TAKES_POINTS = 2, GIS_TAKES_LINES = 4 };

@@ -4,7 +4,7 @@
 
 #include "base/array.h"
 #include "base/interrupt.h"
-#include "spool/checksum.h"
+#include "disk/checksum.h"
 
 #include <cpl_port.h>
 #include <stdlib.h>
@@ -22,7 +22,7 @@ static bool geometry_checksum(checking *c, size_t i, uint64_t *checksum, gis_err
     size_t n = 0;
     if (gis_source_plain(c->source, i, 0, 0, c->none, NULL, &packed, &n)) {
         if (!packed) return gis_no_memory(error);
-        *checksum = gis_spool_checksum_of(*checksum, packed, n);
+        *checksum = gis_checksum_of(*checksum, packed, n);
         return true;
     }
     OGRGeometryH geometry = gis_source_geometry(c->source, i);
@@ -32,7 +32,7 @@ static bool geometry_checksum(checking *c, size_t i, uint64_t *checksum, gis_err
         if (OGR_G_ExportToIsoWkb(geometry, CPL_IS_LSB ? wkbNDR : wkbXDR, c->bytes) != OGRERR_NONE)
             return gis_fail(error, "layer %s: a geometry has no well-known binary", gis_source_name(c->source));
     }
-    *checksum = gis_spool_checksum_of(*checksum, c->bytes, n);
+    *checksum = gis_checksum_of(*checksum, c->bytes, n);
     return true;
 }
 
@@ -44,7 +44,7 @@ bool gis_source_checksum(const gis_source *source, uint64_t *checksum, gis_error
     for (int f = 0; done && f < fields; f++) c.none[f] = -1;
     for (size_t i = 0; done && i < gis_source_count(source); i++) {
         const GIntBig fid = gis_source_fid(source, i);
-        *checksum = gis_spool_checksum_of(*checksum, &fid, sizeof fid);
+        *checksum = gis_checksum_of(*checksum, &fid, sizeof fid);
         done = geometry_checksum(&c, i, checksum, error) && gis_go_on(error);
     }
     free(c.none);

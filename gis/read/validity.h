@@ -2,7 +2,7 @@
 #ifndef GIS_VALIDITY_H
 #define GIS_VALIDITY_H
 
-#include "base/polygons.h"
+#include "geometry/polygons.h"
 #include "read/source.h"
 
 /* --invalid: taken as what the rings enclose by the even-odd rule; left out; an error. */

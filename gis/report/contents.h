@@ -4,7 +4,7 @@
 #define GIS_REPORT_CONTENTS_H
 
 #include "base/text.h"
-#include "layer/in_parts.h"
+#include "shards/run/run.h"
 
 /* A box is xmin, ymin, xmax, ymax. */
 typedef struct gis_page_feature {

@@ -1,5 +1,5 @@
 /* held.c: see contents.h. A page of a layer that is held in memory, with its report. */
-#include "base/box.h"
+#include "geometry/box.h"
 #include "report/contents.h"
 
 #include <math.h>

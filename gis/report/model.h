@@ -3,7 +3,7 @@
 #ifndef GIS_REPORT_MODEL_H
 #define GIS_REPORT_MODEL_H
 
-#include "base/box.h"
+#include "geometry/box.h"
 #include "report/number.h"
 #include "report/page.h"
 

@@ -1,8 +1,8 @@
 /* spooled.c: see contents.h. A page of a layer that was separated in parts: shapes and names are read from the spool
  * one by one, what became of features from lists that lie in order on disk. */
 #include "base/array.h"
+#include "disk/file.h"
 #include "report/contents.h"
-#include "spool/file.h"
 
 #include <stdlib.h>
 #include <string.h>

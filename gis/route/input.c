@@ -4,8 +4,8 @@
 
 #include "base/interrupt.h"
 #include "base/message.h"
+#include "geometry/wkt.h"
 #include "read/crs_units.h"
-#include "read/wkt.h"
 
 #include <cpl_conv.h>
 #include <math.h>

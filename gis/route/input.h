@@ -2,7 +2,7 @@
 #ifndef GIS_ROUTE_INPUT_H
 #define GIS_ROUTE_INPUT_H
 
-#include "read/lines.h"
+#include "geometry/lines.h"
 #include "read/shape.h"
 #include "route/coordinate.h"
 

@@ -2,8 +2,8 @@
  * answers are exact; how far the doubles of any layer are from them is added up as they are written. */
 #include "route/layers.h"
 
-#include "base/core.h"
-#include "read/geometry.h"
+#include "base/core_error.h"
+#include "geometry/geometry.h"
 #include "sum/layers.h"
 
 #include <float.h>

@@ -3,7 +3,7 @@
 #define GIS_ROUTE_LAYERS_H
 
 #include "route/input.h"
-#include "write/sink.h"
+#include "write/sink/sink.h"
 
 /* The layers MAIN (a feature a leg) and MAIN_placements (the robot along it); with --free-space also MAIN_obstacles,
  * MAIN_free_space, MAIN_degenerate_segments and MAIN_degenerate_points. *deviation: the largest distance of anything

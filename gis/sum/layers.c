@@ -3,7 +3,7 @@
  * and may fall together there. */
 #include "sum/layers.h"
 
-#include "read/geometry.h"
+#include "geometry/geometry.h"
 
 #include <math.h>
 

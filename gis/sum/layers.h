@@ -2,9 +2,9 @@
 #ifndef GIS_SUM_LAYERS_H
 #define GIS_SUM_LAYERS_H
 
-#include "round/round.h"
+#include "geometry/round/round.h"
 #include "sunder.h"
-#include "write/sink.h"
+#include "write/sink/sink.h"
 
 /* The layers MAIN, MAIN_degenerate_segments and MAIN_degenerate_points; the largest deviation of all. */
 bool gis_write_sum(gis_sink *sink, const sunder_sum *sum, OGRSpatialReferenceH crs, double *deviation,

@@ -3,8 +3,8 @@
 #include "sum/layers.h"
 
 #include "base/interrupt.h"
-#include "read/geometry.h"
-#include "round/steps.h"
+#include "geometry/geometry.h"
+#include "geometry/round/steps.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,9 +2,9 @@
  * meaning. */
 #include "sum/operands.h"
 
+#include "geometry/wkt.h"
 #include "read/crs_units.h"
 #include "read/source_files.h"
-#include "read/wkt.h"
 
 #include <stdlib.h>
 #include <string.h>

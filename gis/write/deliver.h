@@ -4,8 +4,8 @@
 #define GIS_DELIVER_H
 
 #include "base/json.h"
-#include "base/text_file.h"
-#include "write/sink.h"
+#include "disk/text_file.h"
+#include "write/sink/sink.h"
 
 /* Where results go, and what is read besides, lest one replace the other. Strings are borrowed. */
 typedef struct gis_destinations {

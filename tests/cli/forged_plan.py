@@ -19,7 +19,7 @@ MARK, CELLS_HEAD, ENTRY, PLAN_HEAD, PLAN_NUMBERS, STAMP, CHUNK, END = 16, 16, 80
 
 
 def checksum_of(checksum, data):
-    """gis_spool_checksum_of()."""
+    """gis_checksum_of()."""
     for at in range(0, len(data), 8):
         word = int.from_bytes(data[at:at + 8], "little")
         checksum = (checksum ^ word) * 0x9E3779B97F4A7C15 & MASK

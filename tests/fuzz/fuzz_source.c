@@ -2,8 +2,8 @@
  * of packed ones: both are refused, or both have the same. GDAL itself is not what is asked; it is taken as it is
  * installed. */
 #include "base/error.h"
+#include "geometry/lines.h"
 #include "read/fields.h"
-#include "read/lines.h"
 #include "read/source.h"
 #include "read/validity.h"
 

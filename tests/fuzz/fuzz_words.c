@@ -1,5 +1,5 @@
 /* Hostile command lines: the words of a command, a line each, and the parts of a --barrier. */
-#include "barrier/barrier.h"
+#include "layer/barriers/barrier.h"
 #include "options/options.h"
 
 #include "bytes.h"

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "base/polygons.h"
+#include "geometry/polygons.h"
 #include "random.h"
 
 #include <gmp.h>

@@ -6,9 +6,9 @@
 
 #include <cmocka.h>
 
-#include "parts/result.h"
-#include "plan/plan.h"
 #include "scratch.h"
+#include "shards/parts/part_result.h"
+#include "shards/plan/plan.h"
 
 #include <stdio.h>
 #include <stdlib.h>

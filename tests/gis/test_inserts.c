@@ -7,10 +7,10 @@
 
 #include <cmocka.h>
 
-#include "base/keyed.h"
-#include "sqlite/insert.h"
-#include "sqlite/rows.h"
-#include "sqlite/select.h"
+#include "base/keyed_sort.h"
+#include "gpkg/sqlite_insert.h"
+#include "gpkg/sqlite_rows.h"
+#include "gpkg/sqlite_select.h"
 
 #include <gdal.h>
 #include <stdio.h>

@@ -10,9 +10,9 @@
 
 #include <cmocka.h>
 
-#include "parts/join.h"
 #include "random.h"
 #include "scratch.h"
+#include "shards/parts/join.h"
 
 #include <math.h>
 #include <stdio.h>

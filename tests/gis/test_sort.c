@@ -6,10 +6,10 @@
 
 #include <cmocka.h>
 
-#include "base/curve.h"
+#include "disk/external_sort.h"
+#include "geometry/curve.h"
 #include "random.h"
 #include "scratch.h"
-#include "spool/sort.h"
 
 #include <stdlib.h>
 #include <string.h>

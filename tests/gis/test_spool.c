@@ -7,12 +7,12 @@
 
 #include <cmocka.h>
 
+#include "disk/external_sort.h"
 #include "random.h"
 #include "scratch.h"
-#include "spool/index.h"
-#include "spool/record.h"
-#include "spool/sort.h"
-#include "spool/spool.h"
+#include "shards/spool/spool.h"
+#include "shards/spool/spool_index.h"
+#include "shards/spool/spool_record.h"
 
 #include <math.h>
 #include <stdio.h>

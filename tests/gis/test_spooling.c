@@ -8,9 +8,9 @@
 
 #include "base/message.h"
 #include "layer/output.h"
-#include "layer/spooling.h"
 #include "random.h"
 #include "scratch.h"
+#include "shards/run/layer_spooling.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>

@@ -7,8 +7,8 @@
 #include <cmocka.h>
 
 #include "base/message.h"
+#include "gpkg/table.h"
 #include "read/source.h"
-#include "read/table.h"
 #include "scratch.h"
 
 #include <cpl_conv.h>

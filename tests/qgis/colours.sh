@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # A separated layer opens in QGIS with the looks that its GeoPackage carries: every status has its colour, arrows and
-# conflicts are drawn over the buildings. Colours are those of gis/write/style_qml.c.
+# conflicts are drawn over the buildings. Colours are those of gis/gpkg/style_qml.c.
 set -eu
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 python=/usr/bin/python3 # QGIS's modules belong to the system's Python, whatever python3 is first on the path

@@ -1,0 +1,12 @@
+/* core_error.h: what the library says when it fails, as an error of the program. */
+#ifndef GIS_CORE_ERROR_H
+#define GIS_CORE_ERROR_H
+
+#include "base/error.h"
+#include "sunder.h"
+
+/* False, with the library's sentence as the error, after "WHO: " unless who is NULL. Of work that was stopped the error
+ * is GIS_INTERRUPTED alone. */
+bool gis_core_failed(gis_error *error, const char *who, const sunder_error *why);
+
+#endif

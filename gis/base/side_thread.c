@@ -1,0 +1,94 @@
+/* side_thread.c: see side_thread.h. */
+#include "base/side_thread.h"
+
+#include <cpl_error.h>
+#include <pthread.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct piece {
+    void (*work)(void *context);
+    void *context;
+} piece;
+
+struct gis_beside {
+    pthread_t thread;
+    pthread_mutex_t lock; /* of what follows */
+    pthread_cond_t changed;
+    piece left[GIS_BESIDE_PIECES]; /* to do, the first of them first */
+    size_t n;
+    bool end;
+};
+
+/* The work is done without the lock, and counts as left to do until it has ended. What GDAL would say on this thread is
+ * said by the results of the work. */
+static void *serve(void *argument)
+{
+    gis_beside *b = argument;
+    CPLPushErrorHandler(CPLQuietErrorHandler);
+    pthread_mutex_lock(&b->lock);
+    while (!b->end || b->n > 0) {
+        if (b->n == 0) {
+            pthread_cond_wait(&b->changed, &b->lock);
+            continue;
+        }
+        const piece first = b->left[0];
+        pthread_mutex_unlock(&b->lock);
+        first.work(first.context);
+        pthread_mutex_lock(&b->lock);
+        b->n--;
+        memmove(b->left, b->left + 1, b->n * sizeof *b->left);
+        pthread_cond_broadcast(&b->changed);
+    }
+    pthread_mutex_unlock(&b->lock);
+    CPLPopErrorHandler();
+    return NULL;
+}
+
+gis_beside *gis_beside_new(void)
+{
+    gis_beside *b = calloc(1, sizeof *b);
+    if (!b) return NULL;
+    pthread_mutex_init(&b->lock, NULL);
+    pthread_cond_init(&b->changed, NULL);
+    if (pthread_create(&b->thread, NULL, serve, b) == 0) return b;
+    pthread_cond_destroy(&b->changed);
+    pthread_mutex_destroy(&b->lock);
+    free(b);
+    return NULL;
+}
+
+void gis_beside_do(gis_beside *b, void (*work)(void *context), void *context)
+{
+    if (!b) {
+        work(context);
+        return;
+    }
+    gis_beside_wait(b, GIS_BESIDE_PIECES - 1);
+    pthread_mutex_lock(&b->lock);
+    b->left[b->n++] = (piece){work, context};
+    pthread_cond_broadcast(&b->changed);
+    pthread_mutex_unlock(&b->lock);
+}
+
+void gis_beside_wait(gis_beside *b, size_t left)
+{
+    if (!b) return;
+    pthread_mutex_lock(&b->lock);
+    while (b->n > left) pthread_cond_wait(&b->changed, &b->lock);
+    pthread_mutex_unlock(&b->lock);
+}
+
+void gis_beside_free(gis_beside *b)
+{
+    if (!b) return;
+    pthread_mutex_lock(&b->lock);
+    b->end = true;
+    pthread_cond_broadcast(&b->changed);
+    pthread_mutex_unlock(&b->lock);
+    pthread_join(b->thread, NULL);
+    pthread_cond_destroy(&b->changed);
+    pthread_mutex_destroy(&b->lock);
+    free(b);
+}

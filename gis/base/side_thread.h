@@ -1,0 +1,23 @@
+/* side_thread.h: work on a thread of its own, one piece after the other, beside the caller's, which goes on meanwhile.
+ */
+#ifndef GIS_SIDE_THREAD_H
+#define GIS_SIDE_THREAD_H
+
+#include <stddef.h>
+
+typedef struct gis_beside gis_beside;
+
+/* As many pieces can be given before the first of them has ended. */
+enum { GIS_BESIDE_PIECES = 3 };
+
+/* NULL where there can be no other thread: then the caller's does what it is given, as it is given. */
+gis_beside *gis_beside_new(void);
+/* Does work(context), which is to end by itself, once what was given before has ended; waits where that is as much as
+ * can be given. From here until it is known to have ended what the work uses is the work's alone. */
+void gis_beside_do(gis_beside *beside, void (*work)(void *context), void *context);
+/* Until so many pieces at most, those that were given last, are left; what the others wrote can be read then. */
+void gis_beside_wait(gis_beside *beside, size_t left);
+/* Waits for all of them, too. */
+void gis_beside_free(gis_beside *beside);
+
+#endif

@@ -1,0 +1,228 @@
+/* external_sort.c: see external_sort.h. Records are gathered until they fill the memory that they may take; then they
+ * are sorted and written behind the last such part, into one file; in the end parts are merged by a heap of their first
+ * records. */
+#include "disk/external_sort.h"
+
+#include "base/array.h"
+#include "base/keyed_sort.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A sorted part, and what of it was read but not yet taken. */
+typedef struct run {
+    uint64_t from, end; /* in the file: what was not yet read */
+    unsigned char *at;  /* room of its own; the records in it begin at `used` and end at `filled` */
+    size_t used, filled, room;
+} run;
+
+struct gis_sorter {
+    char *directory, *parts;
+    size_t most; /* bytes of a part */
+    gis_spool_file runs;
+    run *run;
+    size_t n, capacity;
+    unsigned char *part; /* records of the part that is gathered, in the order in which they came */
+    size_t used, room;
+    gis_keyed *place; /* where each is, and a key of it */
+    size_t places, place_room;
+};
+
+static int compare(const gis_sort_head *p, const gis_sort_head *q)
+{
+    if (p->first != q->first) return p->first < q->first ? -1 : 1;
+    return (p->second > q->second) - (p->second < q->second);
+}
+
+static gis_sort_head *head_of(unsigned char *record) { return (void *)record; }
+
+static bool fail_content(const gis_spool_file *file, gis_error *error)
+{
+    return gis_fail(error, "%s: it is not what was written", file->path);
+}
+
+/* ---- Parts ------------------------------------------------------------------------------------------------------- */
+
+enum { LEAST_ROOM = 1 << 16 };
+
+/* For so many bytes more. No more room than a part may take: one that doubles would be twice the bound. */
+static bool make_room(gis_sorter *s, size_t bytes, gis_error *error)
+{
+    if (s->room - s->used >= bytes) return true;
+    size_t room = 2 * s->room > LEAST_ROOM ? 2 * s->room : LEAST_ROOM;
+    if (room > s->most) room = s->most;
+    if (room < s->used + bytes) room = s->used + bytes;
+    unsigned char *larger = realloc(s->part, room);
+    if (!larger) return gis_no_memory(error);
+    s->part = larger;
+    s->room = room;
+    return true;
+}
+
+/* By the first keys, by the second where these agree, and else as they came: by the second keys first, since what is
+ * sorted keeps its order. */
+static bool sort_part(gis_sorter *s, gis_error *error)
+{
+    gis_keyed *place = s->place;
+    for (size_t k = 0; k < s->places; k++) place[k].key = head_of(s->part + place[k].with)->second;
+    if (!gis_keyed_sort(place, s->places)) return gis_no_memory(error);
+    for (size_t k = 0; k < s->places; k++) place[k].key = head_of(s->part + place[k].with)->first;
+    return gis_keyed_sort(place, s->places) || gis_no_memory(error);
+}
+
+static bool write_part(gis_sorter *s, gis_error *error)
+{
+    if (!sort_part(s, error)) return false;
+    if (!s->runs.stream && !gis_spool_file_create(&s->runs, s->directory, s->parts, error)) return false;
+    if (!gis_array_reserve(&s->run, &s->capacity, s->n + 1, sizeof *s->run)) return gis_no_memory(error);
+    run *next = &s->run[s->n++];
+    *next = (run){.from = s->runs.size};
+    for (size_t k = 0; k < s->places; k++) {
+        unsigned char *record = s->part + s->place[k].with;
+        if (!gis_spool_file_write(&s->runs, record, head_of(record)->bytes, error)) return false;
+    }
+    next->end = s->runs.size;
+    s->places = s->used = 0;
+    return gis_go_on(error);
+}
+
+static bool take_part(gis_sorter *s, gis_spool_take *take, void *user, gis_error *error)
+{
+    if (!sort_part(s, error)) return false;
+    for (size_t k = 0; k < s->places; k++)
+        if (!take(user, s->part + s->place[k].with, error)) return false;
+    return true;
+}
+
+/* ---- Merging ----------------------------------------------------------------------------------------------------- */
+
+static gis_sort_head *first_of(const run *r) { return head_of(r->at + r->used); }
+
+/* Has the first record of what is left whole in memory; *any = false: nothing is left. */
+static bool refill(gis_sorter *s, run *r, size_t share, bool *any, gis_error *error)
+{
+    const size_t have = r->filled - r->used;
+    *any = have > 0 || r->from < r->end;
+    if (!*any || (have >= sizeof(gis_sort_head) && have >= first_of(r)->bytes)) return true;
+    /* The share, or what the record needs that is there in part. */
+    size_t wanted = share;
+    if (have >= sizeof(gis_sort_head) && first_of(r)->bytes > wanted) wanted = first_of(r)->bytes;
+    if (have) memmove(r->at, r->at + r->used, have);
+    if (r->room < wanted) {
+        unsigned char *larger = realloc(r->at, wanted);
+        if (!larger) return gis_no_memory(error);
+        r->at = larger;
+        r->room = wanted;
+    }
+    const size_t more = r->end - r->from < wanted - have ? (size_t)(r->end - r->from) : wanted - have;
+    if (more == 0) return fail_content(&s->runs, error);
+    if (!gis_spool_file_read(&s->runs, r->from, r->at + have, more, error)) return false;
+    r->from += more;
+    r->used = 0;
+    r->filled = have + more;
+    return refill(s, r, share, any, error); /* once more where the record is larger than its share */
+}
+
+/* Runs lie in the order in which their records came. */
+static bool before(const run *a, const run *b)
+{
+    const int by_keys = compare(first_of(a), first_of(b));
+    return by_keys ? by_keys < 0 : a < b;
+}
+
+/* The heap's entry i sinks to where it belongs. */
+static void sink(run **heap, size_t n, size_t i)
+{
+    for (size_t child; (child = 2 * i + 1) < n; i = child) {
+        if (child + 1 < n && before(heap[child + 1], heap[child])) child++;
+        if (!before(heap[child], heap[i])) return;
+        run *lower = heap[i];
+        heap[i] = heap[child];
+        heap[child] = lower;
+    }
+}
+
+static bool merge_heap(gis_sorter *s, run **heap, size_t share, gis_spool_take *take, void *user, gis_error *error)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < s->n; k++) {
+        bool any;
+        if (!refill(s, &s->run[k], share, &any, error)) return false;
+        if (any) heap[n++] = &s->run[k];
+    }
+    for (size_t i = n / 2; i-- > 0;) sink(heap, n, i);
+    while (n > 0) {
+        run *least = heap[0];
+        bool any;
+        if (!gis_go_on(error) || !take(user, least->at + least->used, error)) return false;
+        least->used += first_of(least)->bytes;
+        if (!refill(s, least, share, &any, error)) return false;
+        if (!any) heap[0] = heap[--n];
+        sink(heap, n, 0);
+    }
+    return true;
+}
+
+/* Reading less at once would cost a seek for every few records. */
+enum { LEAST_SHARE = 1 << 16 };
+
+static bool merge(gis_sorter *s, gis_spool_take *take, void *user, gis_error *error)
+{
+    free(s->part);
+    free(s->place);
+    s->part = NULL;
+    s->place = NULL;
+    run **heap = malloc((s->n + 1) * sizeof *heap);
+    if (!heap) return gis_no_memory(error);
+    size_t share = s->most / (s->n + 1);
+    if (share < LEAST_SHARE) share = LEAST_SHARE;
+    const bool done = gis_spool_file_flush(&s->runs, error) && merge_heap(s, heap, share, take, user, error);
+    free(heap);
+    return done;
+}
+
+/* ---- Records as they come ---------------------------------------------------------------------------------------- */
+
+bool gis_sorter_new(const char *directory, const char *parts, size_t most, gis_sorter **out, gis_error *error)
+{
+    gis_sorter *s = calloc(1, sizeof *s);
+    if (!s) return gis_no_memory(error);
+    *s = (gis_sorter){.directory = strdup(directory), .parts = strdup(parts), .most = most};
+    if (!s->directory || !s->parts) {
+        gis_sorter_free(s);
+        return gis_no_memory(error);
+    }
+    *out = s;
+    return true;
+}
+
+bool gis_sorter_add(gis_sorter *s, const void *record, gis_error *error)
+{
+    const size_t bytes = (size_t)((const gis_sort_head *)record)->bytes;
+    if (s->places && s->used + bytes > s->most && !write_part(s, error)) return false;
+    if (!make_room(s, bytes, error)) return false;
+    if (!gis_array_reserve(&s->place, &s->place_room, s->places + 1, sizeof *s->place)) return gis_no_memory(error);
+    memcpy(s->part + s->used, record, bytes);
+    s->place[s->places++].with = s->used;
+    s->used += bytes;
+    return true;
+}
+
+bool gis_sorter_take(gis_sorter *s, gis_spool_take *take, void *user, gis_error *error)
+{
+    if (s->n == 0) return take_part(s, take, user, error);
+    return write_part(s, error) && merge(s, take, user, error);
+}
+
+void gis_sorter_free(gis_sorter *s)
+{
+    if (!s) return;
+    for (size_t k = 0; k < s->n; k++) free(s->run[k].at);
+    free(s->run);
+    free(s->part);
+    free(s->place);
+    free(s->directory);
+    free(s->parts);
+    gis_spool_file_close(&s->runs);
+    free(s);
+}

@@ -1,0 +1,299 @@
+/* geometry.c: OGR geometries to arrays and back, and their translation in place.
+ *
+ * Geometries nest (a collection holds collections); the functions here recurse on that depth, which GDAL's own
+ * readers bound by 32, never on the number of vertices or parts. */
+#include "geometry/geometry.h"
+
+#include <cpl_conv.h>
+#include <float.h>
+#include <math.h>
+
+static bool is_polygon(OGRwkbGeometryType flat)
+{
+    return flat == wkbPolygon || flat == wkbCurvePolygon || flat == wkbTriangle;
+}
+
+/* Point, or a curve with vertices of its own. A LinearRing calls itself a LineString. */
+static bool is_leaf(OGRwkbGeometryType flat)
+{
+    return flat == wkbPoint || flat == wkbLineString || flat == wkbCircularString;
+}
+
+/* ---- What is in it ----------------------------------------------------------------------------------------------- */
+
+enum { HAS_POLYGON = 1, HAS_LINE = 2, HAS_POINT = 4 };
+
+static unsigned contents_of(OGRGeometryH geometry)
+{
+    if (OGR_G_IsEmpty(geometry)) return 0;
+    OGRwkbGeometryType flat = wkbFlatten(OGR_G_GetGeometryType(geometry));
+    if (is_polygon(flat)) return HAS_POLYGON;
+    if (flat == wkbPoint) return HAS_POINT;
+    if (is_leaf(flat) || flat == wkbCompoundCurve) return HAS_LINE;
+    unsigned found = 0;
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++) found |= contents_of(OGR_G_GetGeometryRef(geometry, i));
+    return found;
+}
+
+gis_content gis_geometry_content(OGRGeometryH geometry)
+{
+    unsigned found = geometry ? contents_of(geometry) : 0;
+    return !found ? GIS_NOTHING : found & HAS_POLYGON ? GIS_POLYGONS : found == HAS_POINT ? GIS_POINTS : GIS_OTHER;
+}
+
+bool gis_geometry_is_finite(OGRGeometryH geometry)
+{
+    if (!geometry || OGR_G_IsEmpty(geometry)) return true;
+    if (is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry)))) {
+        int n = OGR_G_GetPointCount(geometry);
+        for (int i = 0; i < n; i++)
+            if (!isfinite(OGR_G_GetX(geometry, i)) || !isfinite(OGR_G_GetY(geometry, i))) return false;
+        return true;
+    }
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
+        if (!gis_geometry_is_finite(OGR_G_GetGeometryRef(geometry, i))) return false;
+    return true;
+}
+
+/* ---- Polygons to arrays ------------------------------------------------------------------------------------------ */
+
+static bool append_polygon(OGRGeometryH polygon, gis_polygons *set, gis_error *error)
+{
+    size_t rings_before = set->rings;
+    for (int r = 0; r < OGR_G_GetGeometryCount(polygon); r++) {
+        OGRGeometryH ring = OGR_G_GetGeometryRef(polygon, r);
+        int n = OGR_G_GetPointCount(ring);
+        if (n <= 0) {
+            if (r == 0) return true; /* no outer ring: the polygon encloses nothing, whatever its holes */
+            continue;
+        }
+        if (!gis_polygons_reserve(set, (size_t)n, error)) return false;
+        double *to = set->xy + 2 * set->vertices;
+        OGR_G_GetPoints(ring, to, 2 * (int)sizeof *to, to + 1, 2 * (int)sizeof *to, NULL, 0);
+        set->vertices += (size_t)n;
+        if (!gis_polygons_end_closed_ring(set, error)) return false;
+    }
+    return set->rings == rings_before || gis_polygons_end_polygon(set, error);
+}
+
+static bool append_polygons(OGRGeometryH geometry, gis_polygonal_part *part, gis_error *error)
+{
+    if (OGR_G_IsEmpty(geometry)) return true;
+    OGRwkbGeometryType flat = wkbFlatten(OGR_G_GetGeometryType(geometry));
+    if (is_polygon(flat)) return append_polygon(geometry, &part->set, error);
+    if (is_leaf(flat) || flat == wkbCompoundCurve) return true;
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
+        if (!append_polygons(OGR_G_GetGeometryRef(geometry, i), part, error)) return false;
+    return true;
+}
+
+/* How far the arc through three points may be from the chords that GDAL draws for it. Its vertices lie on the circle,
+ * so a chord of length c of a circle of radius R is at most the sagitta R - sqrt(R^2 - c^2/4) away. GDAL chooses the
+ * step so that chords differ from arc to arc, hence each arc is linearised by itself here and its longest chord taken.
+ * Everything is in doubles, whose error is far below the slack added at the end: 1e-9 of the radius is some 1e6 times
+ * the relative rounding error of a dozen operations, and the vertices themselves are off by some ulps of a
+ * coordinate. */
+static double sagitta_of(double chord, double radius)
+{
+    double half = chord / 2, rest = radius * radius - half * half;
+    return half * half / (radius + sqrt(fmax(0, rest))); /* R - sqrt(R^2 - c^2/4), without its cancellation */
+}
+
+static bool arc_deviation(OGRGeometryH arc, double *deviation, gis_error *error)
+{
+    double x[3], y[3], largest = 0;
+    for (int i = 0; i < 3; i++) {
+        x[i] = OGR_G_GetX(arc, i);
+        y[i] = OGR_G_GetY(arc, i);
+        largest = fmax(largest, fmax(fabs(x[i]), fabs(y[i])));
+    }
+    double ax = x[1] - x[0], ay = y[1] - y[0], bx = x[2] - x[1], by = y[2] - y[1], cx = x[2] - x[0], cy = y[2] - y[0];
+    double area2 = fabs(ax * cy - ay * cx);
+    double radius = cx == 0 && cy == 0 ? hypot(ax, ay) / 2 /* a full circle: the middle point is opposite */
+                                       : hypot(ax, ay) * hypot(bx, by) * hypot(cx, cy) / (2 * area2);
+    OGRGeometryH line = OGR_G_GetLinearGeometry(arc, 0, NULL);
+    if (!line) return gis_fail(error, "GDAL cannot linearise an arc");
+    double longest = 0;
+    int n = OGR_G_GetPointCount(line);
+    for (int i = 1; i < n; i++)
+        longest = fmax(longest, hypot(OGR_G_GetX(line, i) - OGR_G_GetX(line, i - 1),
+                                      OGR_G_GetY(line, i) - OGR_G_GetY(line, i - 1)));
+    OGR_G_DestroyGeometry(line);
+    double slack = 16 * DBL_EPSILON * largest;
+    double sagitta = 0; /* collinear points (an infinite radius) make a straight piece, on which the chords lie */
+    if (isfinite(radius)) sagitta = sagitta_of(longest, radius);
+    if (isfinite(radius) && n == 2 && area2 > 0) /* drawn as one chord, even if it spans more than half the circle */
+        sagitta = fmax(sagitta, area2 / hypot(cx, cy));
+    *deviation = fmax(*deviation, sagitta + 1e-9 * fmin(radius, longest) + slack);
+    return true;
+}
+
+static bool arcs_deviation(OGRGeometryH geometry, double *deviation, gis_error *error)
+{
+    OGRwkbGeometryType flat = wkbFlatten(OGR_G_GetGeometryType(geometry));
+    if (flat == wkbPoint || flat == wkbLineString) return true;
+    if (flat != wkbCircularString) {
+        for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
+            if (!arcs_deviation(OGR_G_GetGeometryRef(geometry, i), deviation, error)) return false;
+        return true;
+    }
+    int n = OGR_G_GetPointCount(geometry);
+    for (int i = 0; i + 2 < n; i += 2) {
+        OGRGeometryH arc = OGR_G_CreateGeometry(wkbCircularString);
+        if (!arc) return gis_no_memory(error);
+        for (int k = 0; k < 3; k++) OGR_G_AddPoint_2D(arc, OGR_G_GetX(geometry, i + k), OGR_G_GetY(geometry, i + k));
+        bool done = arc_deviation(arc, deviation, error);
+        OGR_G_DestroyGeometry(arc);
+        if (!done) return false;
+    }
+    return true;
+}
+
+bool gis_geometry_polygonal_part(OGRGeometryH geometry, gis_polygonal_part *part, gis_error *error)
+{
+    part->set.vertices = part->set.rings = part->set.polygons = 0;
+    part->linearised = 0;
+    if (!geometry) return true;
+    if (!OGR_G_HasCurveGeometry(geometry, TRUE)) return append_polygons(geometry, part, error);
+    OGRGeometryH linear = OGR_G_GetLinearGeometry(geometry, 0, NULL);
+    if (!linear) return gis_fail(error, "GDAL cannot linearise the arcs of a geometry");
+    bool done = append_polygons(linear, part, error) && arcs_deviation(geometry, &part->linearised, error);
+    OGR_G_DestroyGeometry(linear);
+    return done;
+}
+
+void gis_polygonal_part_clear(gis_polygonal_part *part)
+{
+    gis_polygons_clear(&part->set);
+    *part = (gis_polygonal_part){0};
+}
+
+static size_t count_vertices(OGRGeometryH geometry)
+{
+    if (OGR_G_IsEmpty(geometry)) return 0;
+    if (is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry)))) return (size_t)OGR_G_GetPointCount(geometry);
+    size_t n = 0;
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++) n += count_vertices(OGR_G_GetGeometryRef(geometry, i));
+    return n;
+}
+
+static double *copy_vertices(OGRGeometryH geometry, double *to)
+{
+    if (OGR_G_IsEmpty(geometry)) return to;
+    if (is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry)))) {
+        int n = OGR_G_GetPointCount(geometry);
+        OGR_G_GetPoints(geometry, to, 2 * (int)sizeof *to, to + 1, 2 * (int)sizeof *to, NULL, 0);
+        return to + 2 * n;
+    }
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
+        to = copy_vertices(OGR_G_GetGeometryRef(geometry, i), to);
+    return to;
+}
+
+bool gis_geometry_points(OGRGeometryH geometry, double **xy, size_t *n, gis_error *error)
+{
+    size_t count = geometry ? count_vertices(geometry) : 0;
+    double *made = VSIMalloc2(count + 1, 2 * sizeof *made);
+    if (!made) return gis_no_memory(error);
+    if (count) copy_vertices(geometry, made);
+    *xy = made;
+    *n = count;
+    return true;
+}
+
+/* ---- Translation ------------------------------------------------------------------------------------------------- */
+
+static void translate_leaf(OGRGeometryH leaf, double dx, double dy)
+{
+    int n = OGR_G_GetPointCount(leaf);
+    bool z = OGR_G_Is3D(leaf), m = OGR_G_IsMeasured(leaf);
+    for (int i = 0; i < n; i++) {
+        double x = OGR_G_GetX(leaf, i) + dx, y = OGR_G_GetY(leaf, i) + dy;
+        /* The setter of the right dimension: another one would add or zero Z or M. */
+        if (z && m)
+            OGR_G_SetPointZM(leaf, i, x, y, OGR_G_GetZ(leaf, i), OGR_G_GetM(leaf, i));
+        else if (m)
+            OGR_G_SetPointM(leaf, i, x, y, OGR_G_GetM(leaf, i));
+        else if (z)
+            OGR_G_SetPoint(leaf, i, x, y, OGR_G_GetZ(leaf, i));
+        else
+            OGR_G_SetPoint_2D(leaf, i, x, y);
+    }
+}
+
+static void translate(OGRGeometryH geometry, double dx, double dy)
+{
+    if (OGR_G_IsEmpty(geometry)) return; /* giving an empty point coordinates would make it a point */
+    if (is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry)))) {
+        translate_leaf(geometry, dx, dy);
+        return;
+    }
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++) translate(OGR_G_GetGeometryRef(geometry, i), dx, dy);
+}
+
+bool gis_geometry_translate(OGRGeometryH geometry, double dx, double dy, gis_error *error)
+{
+    (void)error;
+    if (geometry && (dx != 0 || dy != 0)) translate(geometry, dx, dy);
+    return true;
+}
+
+/* ---- New geometries ---------------------------------------------------------------------------------------------- */
+
+OGRGeometryH gis_geometry_line(const double from[2], const double to[2])
+{
+    OGRGeometryH line = OGR_G_CreateGeometry(wkbLineString);
+    if (line) {
+        OGR_G_AddPoint_2D(line, from[0], from[1]);
+        OGR_G_AddPoint_2D(line, to[0], to[1]);
+    }
+    return line;
+}
+
+OGRGeometryH gis_geometry_point(const double xy[2])
+{
+    OGRGeometryH point = OGR_G_CreateGeometry(wkbPoint);
+    if (point) OGR_G_SetPoint_2D(point, 0, xy[0], xy[1]);
+    return point;
+}
+
+static OGRGeometryH new_ring(const double *xy, size_t first, size_t end)
+{
+    OGRGeometryH ring = OGR_G_CreateGeometry(wkbLinearRing);
+    if (!ring) return NULL;
+    size_t n = end - first;
+    bool closed = n > 1 && xy[2 * first] == xy[2 * end - 2] && xy[2 * first + 1] == xy[2 * end - 1];
+    OGR_G_SetPointCount(ring, (int)n + !closed);
+    for (size_t i = 0; i < n; i++) OGR_G_SetPoint_2D(ring, (int)i, xy[2 * (first + i)], xy[2 * (first + i) + 1]);
+    if (!closed && n > 0) OGR_G_SetPoint_2D(ring, (int)n, xy[2 * first], xy[2 * first + 1]);
+    return ring;
+}
+
+OGRGeometryH gis_geometry_polygon(const gis_polygons *set, size_t p)
+{
+    OGRGeometryH polygon = OGR_G_CreateGeometry(wkbPolygon);
+    for (size_t r = p ? set->poly_end[p - 1] : 0; polygon && r < set->poly_end[p]; r++) {
+        OGRGeometryH ring = new_ring(set->xy, r ? set->ring_end[r - 1] : 0, set->ring_end[r]);
+        if (!ring || OGR_G_AddGeometryDirectly(polygon, ring) != OGRERR_NONE) {
+            OGR_G_DestroyGeometry(ring);
+            OGR_G_DestroyGeometry(polygon);
+            polygon = NULL;
+        }
+    }
+    return polygon;
+}
+
+OGRGeometryH gis_geometry_polygons(const gis_polygons *set, bool multi)
+{
+    if (set->polygons == 1 && !multi) return gis_geometry_polygon(set, 0);
+    OGRGeometryH all = OGR_G_CreateGeometry(wkbMultiPolygon);
+    for (size_t p = 0; all && p < set->polygons; p++) {
+        OGRGeometryH polygon = gis_geometry_polygon(set, p);
+        if (!polygon || OGR_G_AddGeometryDirectly(all, polygon) != OGRERR_NONE) {
+            OGR_G_DestroyGeometry(polygon);
+            OGR_G_DestroyGeometry(all);
+            all = NULL;
+        }
+    }
+    return all;
+}

@@ -1,0 +1,146 @@
+/* index_boxes.c: see index_boxes.h. */
+#include "gpkg/index_boxes.h"
+
+#include "base/array.h"
+#include "base/keyed_sort.h"
+#include "disk/external_sort.h"
+#include "geometry/curve.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Noting ------------------------------------------------------------------------------------------------------ */
+
+/* A box as it is sorted. */
+typedef struct record {
+    gis_sort_head head;
+    gis_index_box box;
+} record;
+
+static float below(double x)
+{
+    float f = (float)x;
+    return (double)f > x ? nextafterf(f, -INFINITY) : f;
+}
+
+static float above(double x)
+{
+    float f = (float)x;
+    return (double)f < x ? nextafterf(f, INFINITY) : f;
+}
+
+/* Rounded outwards. */
+static void set(gis_index_box *out, GIntBig fid, const OGREnvelope *box)
+{
+    out->fid = fid;
+    out->side[0] = below(box->MinX);
+    out->side[1] = above(box->MaxX);
+    out->side[2] = below(box->MinY);
+    out->side[3] = above(box->MaxY);
+}
+
+static bool store(gis_index_boxes *boxes, const gis_index_box *box, gis_error *error)
+{
+    return (boxes->file.stream || gis_spool_file_create(&boxes->file, boxes->scratch, "boxes.XXXXXX", error)) &&
+           gis_spool_file_write(&boxes->file, box, sizeof *box, error);
+}
+
+/* In memory a box is made where it stays: made elsewhere and copied whole right after its parts it would wait for all
+ * that was written before to reach the cache, some hundred nanoseconds for a row. */
+bool gis_index_boxes_add(gis_index_boxes *boxes, GIntBig fid, const OGREnvelope *box, gis_error *error)
+{
+    gis_index_box passing, *one = &passing;
+    if (!boxes->scratch) {
+        if (!gis_array_reserve(&boxes->at, &boxes->capacity, boxes->n + 1, sizeof *boxes->at))
+            return gis_no_memory(error);
+        one = &boxes->at[boxes->n];
+    }
+    set(one, fid, box);
+    if (boxes->scratch && !store(boxes, one, error)) return false;
+    if (boxes->n++ == 0) memcpy(boxes->around, one->side, sizeof one->side);
+    for (int k = 0; k < 4; k++)
+        boxes->around[k] = k % 2 ? fmaxf(boxes->around[k], one->side[k]) : fminf(boxes->around[k], one->side[k]);
+    return true;
+}
+
+void gis_index_boxes_clear(gis_index_boxes *boxes)
+{
+    free(boxes->at);
+    gis_spool_file_close(&boxes->file);
+    *boxes = (gis_index_boxes){.scratch = boxes->scratch};
+}
+
+/* ---- Order ------------------------------------------------------------------------------------------------------- */
+
+/* The curve's grid is finer than the boxes of any layer need to be told apart. */
+enum { CURVE_BITS = 16 };
+
+/* Where the centre lies along the curve. Boxes at the same place keep the order in which they came. */
+static uint32_t along(const gis_index_boxes *boxes, const gis_index_box *box)
+{
+    const float *around = boxes->around, *side = box->side;
+    const uint32_t x = gis_curve_cell(((double)side[0] + side[1]) / 2, around[0], around[1], CURVE_BITS);
+    const uint32_t y = gis_curve_cell(((double)side[2] + side[3]) / 2, around[2], around[3], CURVE_BITS);
+    return (uint32_t)gis_curve_position(x, y, CURVE_BITS);
+}
+
+static bool take_from_memory(gis_index_boxes *boxes, gis_index_boxes_take *take, void *user, gis_error *error)
+{
+    gis_keyed *places = malloc((boxes->n + 1) * sizeof *places); /* along the curve, and which box */
+    for (size_t i = 0; places && i < boxes->n; i++) places[i] = (gis_keyed){along(boxes, &boxes->at[i]), i};
+    bool done = (places && gis_keyed_sort(places, boxes->n)) || gis_no_memory(error);
+    for (size_t i = 0; done && i < boxes->n; i++) done = take(user, &boxes->at[places[i].with], error);
+    free(places);
+    return done;
+}
+
+typedef struct taking {
+    gis_index_boxes_take *take;
+    void *user;
+} taking;
+
+static bool take_record(void *user, const unsigned char *bytes, gis_error *error)
+{
+    const taking *t = user;
+    const record *one = (const void *)bytes;
+    return t->take(t->user, &one->box, error);
+}
+
+/* So many are read at a time. */
+enum { STRETCH = 4096 };
+
+static bool sort_file(gis_index_boxes *boxes, gis_sorter *sorter, gis_error *error)
+{
+    gis_index_box *box = malloc(STRETCH * sizeof *box);
+    bool done = (box || gis_no_memory(error)) && gis_spool_file_flush(&boxes->file, error);
+    for (size_t k = 0; k < boxes->n && done; k += STRETCH) {
+        const size_t n = boxes->n - k < STRETCH ? boxes->n - k : STRETCH;
+        done = gis_spool_file_read(&boxes->file, k * sizeof *box, box, n * sizeof *box, error) && gis_go_on(error);
+        for (size_t i = 0; i < n && done; i++) {
+            const record one = {.head = {sizeof one, along(boxes, &box[i]), 0}, .box = box[i]};
+            done = gis_sorter_add(sorter, &one, error);
+        }
+    }
+    free(box);
+    return done;
+}
+
+static bool take_from_disk(gis_index_boxes *boxes, gis_index_boxes_take *take, void *user, gis_error *error)
+{
+    taking t = {take, user};
+    gis_sorter *sorter = NULL;
+    const bool done =
+        boxes->n == 0 || (gis_sorter_new(boxes->scratch, "boxes-sorted.XXXXXX", GIS_SPOOL_RUN, &sorter, error) &&
+                          sort_file(boxes, sorter, error) && gis_sorter_take(sorter, take_record, &t, error));
+    gis_sorter_free(sorter);
+    return done;
+}
+
+bool gis_index_boxes_in_order(gis_index_boxes *boxes, gis_index_boxes_take *take, void *user, gis_error *error)
+{
+    const bool done =
+        boxes->scratch ? take_from_disk(boxes, take, user, error) : take_from_memory(boxes, take, user, error);
+    gis_index_boxes_clear(boxes);
+    return done;
+}

@@ -1,0 +1,277 @@
+/* style_qml.c: the QGIS style documents, put together from a few symbols.
+ *
+ * Colours: what stays is quiet grey, what moved is teal, what stands fast is near black, what is still in conflict is
+ * red; arrows are blue, conflicts magenta, those with barriers violet. Where a proved conflict has a disc and a thick
+ * line, an unresolved one has a ring and a thin line. Teal, red, blue and magenta stay apart for most colour-blind
+ * readers because they differ in lightness too. Properties are written as <prop>, which QGIS 3.0 and all later versions
+ * read. */
+#include "gpkg/layer_styles.h"
+#include "sunder.h"
+
+#include <stdio.h>
+
+typedef enum kind { OF_POINTS, OF_LINES, OF_POLYGONS } kind;
+
+static kind kind_of(OGRwkbGeometryType type)
+{
+    OGRwkbGeometryType flat = wkbFlatten(type);
+    if (flat == wkbPoint || flat == wkbMultiPoint) return OF_POINTS;
+    if (OGR_GT_IsSubClassOf(flat, wkbCurve) || OGR_GT_IsSubClassOf(flat, wkbMultiCurve)) return OF_LINES;
+    return OF_POLYGONS;
+}
+
+static void add_property(gis_text *to, const char *key, const char *value)
+{
+    gis_text_print(to, "<prop k=\"%s\" v=\"%s\"/>", key, value);
+}
+
+static void begin_layer(gis_text *to, const char *class)
+{
+    gis_text_print(to, "<layer class=\"%s\" enabled=\"1\" pass=\"0\" locked=\"0\">", class);
+}
+
+static void add_fill(gis_text *to, const char *colour, const char *outline)
+{
+    begin_layer(to, "SimpleFill");
+    add_property(to, "color", colour);
+    add_property(to, "style", "solid");
+    add_property(to, "outline_style", "solid");
+    add_property(to, "outline_color", outline);
+    add_property(to, "outline_width", "0.1");
+    add_property(to, "outline_width_unit", "MM");
+    gis_text_print(to, "</layer>");
+}
+
+static void add_line(gis_text *to, const char *colour, const char *width)
+{
+    begin_layer(to, "SimpleLine");
+    add_property(to, "line_color", colour);
+    add_property(to, "line_style", "solid");
+    add_property(to, "line_width", width);
+    add_property(to, "line_width_unit", "MM");
+    add_property(to, "capstyle", "round");
+    gis_text_print(to, "</layer>");
+}
+
+/* One property of a symbol layer as an expression of QGIS. */
+static void add_expression(gis_text *to, const char *property, const char *expression)
+{
+    gis_text_print(to,
+                   "<data_defined_properties><Option type=\"Map\"><Option name=\"name\" type=\"QString\" value=\"\"/>"
+                   "<Option name=\"properties\" type=\"Map\"><Option name=\"%s\" type=\"Map\">"
+                   "<Option name=\"active\" type=\"bool\" value=\"true\"/>"
+                   "<Option name=\"expression\" type=\"QString\" value=\"%s\"/>"
+                   "<Option name=\"type\" type=\"int\" value=\"3\"/></Option></Option>"
+                   "<Option name=\"type\" type=\"QString\" value=\"collection\"/></Option>"
+                   "</data_defined_properties>",
+                   property, expression);
+}
+
+/* A line whose width, in millimetres, is an expression of QGIS. */
+static void add_line_by(gis_text *to, const char *colour, const char *expression)
+{
+    begin_layer(to, "SimpleLine");
+    add_property(to, "line_color", colour);
+    add_property(to, "line_style", "solid");
+    add_property(to, "line_width", "0.3");
+    add_property(to, "line_width_unit", "MM");
+    add_property(to, "capstyle", "round");
+    add_expression(to, "outlineWidth", expression);
+    gis_text_print(to, "</layer>");
+}
+
+/* outline NULL: none; size_by NULL: `size` for all, else an expression of QGIS. */
+static void add_marker(gis_text *to, const char *shape, const char *colour, const char *size, const char *size_by,
+                       const char *outline)
+{
+    begin_layer(to, "SimpleMarker");
+    add_property(to, "name", shape);
+    add_property(to, "color", colour);
+    add_property(to, "outline_style", outline ? "solid" : "no");
+    if (outline) {
+        add_property(to, "outline_color", outline);
+        add_property(to, "outline_width", "0.4");
+        add_property(to, "outline_width_unit", "MM");
+    }
+    add_property(to, "size", size);
+    add_property(to, "size_unit", "MM");
+    if (size_by) add_expression(to, "size", size_by);
+    gis_text_print(to, "</layer>");
+}
+
+static const char *symbol_type(kind of) { return of == OF_POINTS ? "marker" : of == OF_LINES ? "line" : "fill"; }
+
+static void begin_symbol(gis_text *to, const char *type, const char *name)
+{
+    gis_text_print(to, "<symbol name=\"%s\" type=\"%s\" alpha=\"1\" clip_to_extent=\"1\" force_rhr=\"0\">", name, type);
+}
+
+/* A marker drawn along a line: at its last vertex, turned with it, or at its first. */
+static void add_marker_line(gis_text *to, const char *placement, const char *parent, const char *shape,
+                            const char *colour, const char *size, const char *size_by, const char *outline)
+{
+    begin_layer(to, "MarkerLine");
+    add_property(to, "placement", placement);
+    add_property(to, "rotate", "1");
+    char name[32];
+    snprintf(name, sizeof name, "@%s@1", parent);
+    begin_symbol(to, "marker", name);
+    add_marker(to, shape, colour, size, size_by, outline);
+    gis_text_print(to, "</symbol></layer>");
+}
+
+static void add_symbol(gis_text *to, kind of, const char *name, const char *colour, const char *outline)
+{
+    begin_symbol(to, symbol_type(of), name);
+    if (of == OF_POINTS)
+        add_marker(to, "circle", colour, "2", NULL, NULL);
+    else if (of == OF_LINES)
+        add_line(to, colour, "0.6");
+    else
+        add_fill(to, colour, outline);
+    gis_text_print(to, "</symbol>\n");
+}
+
+/* ---- Renderers --------------------------------------------------------------------------------------------------- */
+
+/* Of the statuses in sunder_st, whose words are the core's. */
+static const struct {
+    const char *colour, *outline;
+} statuses[] = {
+    [SUNDER_FEATURE_UNMOVED] = {"190,190,190,255", "130,130,130,255"},
+    [SUNDER_FEATURE_MOVED] = {"27,158,119,255", "15,95,70,255"},
+    [SUNDER_FEATURE_FIXED] = {"64,64,64,255", "20,20,20,255"},
+    [SUNDER_FEATURE_BLOCKED] = {"215,25,28,255", "120,0,0,255"},
+    [SUNDER_FEATURE_SKIPPED] = {"235,235,230,255", "190,190,185,255"},
+};
+enum { STATUSES = sizeof statuses / sizeof *statuses };
+
+static void add_by_status(gis_text *to, kind of)
+{
+    gis_text_print(to,
+                   "<renderer-v2 type=\"categorizedSymbol\" attr=\"sunder_st\" forceraster=\"0\" symbollevels=\"0\" "
+                   "enableorderby=\"0\">\n<categories>\n");
+    for (int i = 0; i < STATUSES; i++) {
+        const char *word = sunder_feature_status_string((sunder_feature_status)i);
+        gis_text_print(to, "<category value=\"%s\" label=\"%s\" symbol=\"%d\" render=\"true\"/>\n", word, word, i);
+    }
+    gis_text_print(to, "</categories>\n<symbols>\n");
+    for (int i = 0; i < STATUSES; i++) {
+        char name[12];
+        snprintf(name, sizeof name, "%d", i);
+        add_symbol(to, of, name, statuses[i].colour, statuses[i].outline);
+    }
+    gis_text_print(to, "</symbols>\n</renderer-v2>\n");
+}
+
+static void begin_single(gis_text *to)
+{
+    gis_text_print(to, "<renderer-v2 type=\"singleSymbol\" forceraster=\"0\" symbollevels=\"0\" enableorderby=\"0\">\n"
+                       "<symbols>\n");
+}
+
+static void end_single(gis_text *to) { gis_text_print(to, "</symbols>\n</renderer-v2>\n"); }
+
+/* A head of fixed size at the end of each move: moves are often shorter on the sheet than any arrow. */
+static void add_arrows(gis_text *to)
+{
+    static const char blue[] = "31,78,200,255";
+    begin_single(to);
+    begin_symbol(to, "line", "0");
+    add_line(to, blue, "0.4");
+    add_marker_line(to, "lastvertex", "0", "filled_arrowhead", blue, "1.8", NULL, NULL);
+    gis_text_print(to, "</symbol>\n");
+    end_single(to);
+}
+
+/* Of conflicts, in QGIS's expressions; a null is no answer, and so neither. */
+#define IS_BARRIER "&quot;kind&quot; IN ('barrier','barrier_drawn','barrier_near')"
+#define IS_OPEN "coalesce(&quot;reason&quot;,'') = 'unresolved'"
+#define IS_ALLOWED "coalesce(&quot;reason&quot;,'') IN ('kept','same_block')"
+
+/* The size of a conflict's disc: by how much of the required distance is missing, as a share of the most. */
+#define BY_MISSING "coalesce(1.8 + 1.6 * sqrt(&quot;missing&quot; / nullif(maximum(&quot;missing&quot;), 0)), 2.2)"
+
+/* How a conflict is drawn: with what, and whether it is known that it could not be solved. */
+static const struct {
+    const char *label, *filter, *colour;
+    bool open; /* a thin line, and a ring */
+} conflict_rules[] = {
+    {"between features", "NOT (" IS_BARRIER ") AND NOT (" IS_OPEN ") AND NOT (" IS_ALLOWED ")", "231,0,138,255", false},
+    {"between features, unresolved", "NOT (" IS_BARRIER ") AND (" IS_OPEN ")", "231,0,138,255", true},
+    {"with a barrier", "(" IS_BARRIER ") AND NOT (" IS_OPEN ")", "106,27,154,255", false},
+    {"with a barrier, unresolved", "(" IS_BARRIER ") AND (" IS_OPEN ")", "106,27,154,255", true},
+    {"allowed", "NOT (" IS_BARRIER ") AND (" IS_ALLOWED ")", "150,150,150,255", false},
+};
+enum { CONFLICT_RULES = sizeof conflict_rules / sizeof *conflict_rules };
+
+/* Thick lines; and a disc at one end, since the link of two features that touch has no length and would not show. The
+ * disc grows with `missing`, from the least that is seen to about twice that. */
+static void add_conflict_symbol(gis_text *to, int rule)
+{
+    const char *colour = conflict_rules[rule].colour;
+    bool open = conflict_rules[rule].open;
+    char name[12];
+    snprintf(name, sizeof name, "%d", rule);
+    begin_symbol(to, "line", name);
+    add_line(to, colour, open ? "0.5" : "1.2");
+    add_marker_line(to, "firstvertex", name, "circle", open ? "255,255,255,255" : colour, "2.2", BY_MISSING,
+                    open ? colour : NULL);
+    gis_text_print(to, "</symbol>\n");
+}
+
+static void add_conflicts(gis_text *to)
+{
+    gis_text_print(to, "<renderer-v2 type=\"RuleRenderer\" forceraster=\"0\" symbollevels=\"0\" "
+                       "enableorderby=\"0\">\n<rules key=\"conflicts\">\n");
+    for (int k = 0; k < CONFLICT_RULES; k++)
+        gis_text_print(to, "<rule key=\"conflict %d\" symbol=\"%d\" label=\"%s\" filter=\"%s\"/>\n", k, k,
+                       conflict_rules[k].label, conflict_rules[k].filter);
+    gis_text_print(to, "</rules>\n<symbols>\n");
+    for (int k = 0; k < CONFLICT_RULES; k++) add_conflict_symbol(to, k);
+    gis_text_print(to, "</symbols>\n</renderer-v2>\n");
+}
+
+/* A line as wide as its share of the greatest force. They cover the map, so their rule is switched off until its box in
+ * the legend is marked. */
+static void add_pushes(gis_text *to)
+{
+    gis_text_print(to, "<renderer-v2 type=\"RuleRenderer\" forceraster=\"0\" symbollevels=\"0\" enableorderby=\"0\">\n"
+                       "<rules key=\"pushes\">\n<rule key=\"push\" symbol=\"0\" label=\"what presses on what\" "
+                       "checkstate=\"0\"/>\n</rules>\n<symbols>\n");
+    begin_symbol(to, "line", "0");
+    add_line_by(to, "106,61,154,255",
+                "coalesce(0.3 + 2.2 * sqrt(&quot;force&quot; / nullif(maximum(&quot;force&quot;), 0)), 0.3)");
+    gis_text_print(to, "</symbol>\n");
+    end_single(to);
+}
+
+static void add_plain(gis_text *to, kind of, const char *colour, const char *outline)
+{
+    begin_single(to);
+    add_symbol(to, of, "0", colour, outline);
+    end_single(to);
+}
+
+void gis_style_qml(gis_text *to, gis_style style, OGRwkbGeometryType type)
+{
+    kind of = kind_of(type);
+    if (style == GIS_STYLE_NONE) return;
+    gis_text_print(to, "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
+                       "<qgis version=\"3.22.0\" styleCategories=\"Symbology\">\n");
+    switch (style) {
+    case GIS_STYLE_NONE: break;
+    case GIS_STYLE_STATUS: add_by_status(to, of); break;
+    case GIS_STYLE_DISPLACEMENT: add_arrows(to); break;
+    case GIS_STYLE_CONFLICTS: add_conflicts(to); break;
+    case GIS_STYLE_PUSHES: add_pushes(to); break;
+    case GIS_STYLE_SYMBOLS: add_plain(to, of, "166,206,227,255", "31,78,120,255"); break;
+    case GIS_STYLE_RESULT:
+        if (of == OF_POLYGONS)
+            add_plain(to, of, "166,206,227,255", "31,78,120,255");
+        else
+            add_plain(to, of, "231,0,138,255", "");
+        break;
+    }
+    gis_text_print(to, "<blendMode>0</blendMode>\n<layerGeometryType>%d</layerGeometryType>\n</qgis>\n", (int)of);
+}

@@ -1,0 +1,263 @@
+/* table.c: see table.h. The statement is GDAL's own, so rows come in its order; what a database has to say of one that
+ * cannot be read is left to GDAL, too, which reads it again. Where that order is that of the keys the rows behind the
+ * middle one are read by another thread, which has the file open once more. */
+#include "gpkg/table.h"
+
+#include "base/array.h"
+#include "base/interrupt.h"
+#include "base/path.h"
+#include "base/side_thread.h"
+#include "gpkg/blob.h"
+#include "gpkg/second_connection.h"
+#include "gpkg/sqlite_names.h"
+#include "gpkg/sqlite_select.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Columns before those of the fields. */
+enum { FID, GEOMETRY, FIELDS };
+
+static char *select_statement(OGRLayerH layer)
+{
+    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer);
+    char *sql = gis_sql_append_name(CPLStrdup("SELECT "), OGR_L_GetFIDColumn(layer));
+    sql = gis_sql_append_name(gis_sql_append(sql, ", "), OGR_L_GetGeometryColumn(layer));
+    for (int i = 0; i < OGR_FD_GetFieldCount(definition); i++)
+        sql = gis_sql_append_name(gis_sql_append(sql, ", "), OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i)));
+    return gis_sql_append_name(gis_sql_append(sql, " FROM "), OGR_L_GetName(layer));
+}
+
+/* Is it what GDAL would take as it stands into a field of that type? */
+static bool suits(const gis_value *value, OGRFieldType type)
+{
+    switch (value->kind) {
+    case GIS_TEXT: return type == OFTString && CPLIsUTF8(value->as.text, -1);
+    case GIS_REAL: return type == OFTReal;
+    case GIS_INTEGER:
+        return type == OFTInteger64 ||
+               (type == OFTInteger && value->as.integer >= INT32_MIN && value->as.integer <= INT32_MAX);
+    default: return true;
+    }
+}
+
+/* *record = NULL: the row is not plain. */
+static bool pack(gis_packed *packed, void *statement, gis_value *value, const unsigned char **record, gis_error *error)
+{
+    gis_value fid;
+    size_t size, bytes;
+    bool null;
+    *record = NULL;
+    if (!gis_sqlite_select_value(statement, FID, &fid) || fid.kind != GIS_INTEGER) return true;
+    for (int i = 0; i < packed->fields; i++)
+        if (!gis_sqlite_select_value(statement, FIELDS + i, &value[i]) || !suits(&value[i], packed->type[i]))
+            return true;
+    const unsigned char *blob = gis_sqlite_select_bytes(statement, GEOMETRY, &size, &null);
+    const unsigned char *geometry = blob ? gis_blob_geometry(blob, size, &bytes) : NULL;
+    if (!geometry || bytes > INT32_MAX || !gis_blob_is_polygonal(geometry, bytes)) return true;
+    const unsigned char *packed_row = gis_packed_add_row(packed, fid.as.integer, geometry, bytes, value);
+    if (!packed_row) return gis_no_memory(error);
+    *record = gis_packed_is_finite(packed_row) ? packed_row : NULL;
+    return true;
+}
+
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
+
+/* Rows that a statement gives, and where they go. */
+typedef struct reading {
+    void *statement;
+    gis_sqlite_next next; /* what it has come to */
+    gis_packed *packed;
+    gis_value *value; /* room for those of a row */
+} reading;
+
+/* Comes to the first row: from here on nobody changes the file. */
+static void begin(reading *r, void *database, const char *sql, gis_packed *packed)
+{
+    *r = (reading){.packed = packed, .statement = gis_sqlite_select_begin(database, sql), .next = GIS_SQLITE_BROKEN};
+    if (!r->statement) return;
+    r->value = CPLCalloc((size_t)packed->fields + 1, sizeof *r->value);
+    r->next = gis_sqlite_select_next(r->statement);
+}
+
+static void end(reading *r)
+{
+    gis_sqlite_select_end(r->statement);
+    CPLFree(r->value);
+}
+
+static bool read_rows(reading *r, gis_table_take *take, void *user, bool *all, gis_error *error)
+{
+    for (; r->next == GIS_SQLITE_HAS_ROW; r->next = gis_sqlite_select_next(r->statement)) {
+        const unsigned char *record;
+        if (!pack(r->packed, r->statement, r->value, &record, error)) return false;
+        if (!record) return true;
+        if (!take(user, record, error) || !gis_go_on(error)) return false;
+    }
+    *all = r->next == GIS_SQLITE_AT_END;
+    return gis_go_on(error); /* a statement that is cut short */
+}
+
+/* ---- In halves --------------------------------------------------------------------------------------------------- */
+
+/* Keys so far from each other are those of a table that takes longer to read than a thread to begin. */
+enum { MANY_ROWS = 5000 };
+
+/* What SQLite tells of how it goes about a statement: in one step, told by these words (older versions have one word
+ * more in front of the name), and others behind them if `more`. */
+static bool goes_by(void *database, const char *sql, const char *verb, const char *name, const char *way, bool more)
+{
+    enum { DETAIL = 3 };
+    char *explain = gis_sql_append(CPLStrdup("EXPLAIN QUERY PLAN "), sql);
+    void *statement = gis_sqlite_select_begin(database, explain);
+    gis_value told;
+    bool so = statement && gis_sqlite_select_next(statement) == GIS_SQLITE_HAS_ROW &&
+              gis_sqlite_select_value(statement, DETAIL, &told) && told.kind == GIS_TEXT,
+         found = false;
+    for (int older = 0; so && older < 2; older++) {
+        char *words = gis_printed("%s %s%s%s", verb, older ? "TABLE " : "", name, way);
+        const size_t n = strlen(words);
+        found = found || (strncmp(told.as.text, words, n) == 0 && (more || told.as.text[n] == 0));
+        CPLFree(words);
+    }
+    so = so && gis_sqlite_select_next(statement) == GIS_SQLITE_AT_END;
+    gis_sqlite_select_end(statement);
+    CPLFree(explain);
+    return so && found;
+}
+
+/* Rows up to a key, and those beyond. */
+typedef struct halves {
+    char *sql[2];
+    void *again; /* the database, for the latter; NULL: it is to be read as one */
+} halves;
+
+/* Do rows come by rising keys, as they lie in the table, in each half and in all of it? Not those of a view, and not
+ * where an index has all there is to read. */
+static bool rise(void *database, OGRLayerH layer, const char *all, const halves *h)
+{
+    const char *name = OGR_L_GetName(layer);
+    bool so = goes_by(database, all, "SCAN", name, "", false);
+    for (int k = 0; k < 2; k++)
+        so = so && goes_by(database, h->sql[k], "SEARCH", name, " USING INTEGER PRIMARY KEY (rowid", true);
+    return so;
+}
+
+static halves divide(void *database, OGRLayerH layer, const char *all)
+{
+    const char *key = OGR_L_GetFIDColumn(layer);
+    int64_t middle;
+    uint64_t span;
+    halves h = {0};
+    if (!gis_sqlite_find_middle(database, OGR_L_GetName(layer), key, &middle, &span) || span < MANY_ROWS) return h;
+    h.sql[0] = gis_sql_append_stretch(CPLStrdup(all), key, GIS_SQLITE_UP_TO, middle);
+    h.sql[1] = gis_sql_append_stretch(CPLStrdup(all), key, GIS_SQLITE_BEYOND, middle);
+    if (rise(database, layer, all, &h)) h.again = gis_sqlite_again_open(database);
+    return h;
+}
+
+static void clear_halves(halves *h)
+{
+    CPLFree(h->sql[0]);
+    CPLFree(h->sql[1]);
+    gis_sqlite_again_close(h->again);
+}
+
+/* What the other thread reads. */
+typedef struct half {
+    reading rows;
+    gis_packed packed;
+    const unsigned char **record;
+    size_t n, capacity;
+    bool done, all;
+    gis_error error; /* if not done */
+} half;
+
+static bool keep(void *user, const unsigned char *record, gis_error *error)
+{
+    half *h = user;
+    if (!gis_array_reserve(&h->record, &h->capacity, h->n + 1, sizeof *h->record)) return gis_no_memory(error);
+    h->record[h->n++] = record;
+    return true;
+}
+
+static void read_half(void *context)
+{
+    half *h = context;
+    h->done = read_rows(&h->rows, keep, h, &h->all, &h->error);
+}
+
+static bool take_half(half *h, gis_packed *packed, gis_table_take *take, void *user, bool *all, gis_error *error)
+{
+    *all = h->done && h->all;
+    if (!h->done) *error = h->error;
+    if (!*all) return h->done;
+    if (!gis_packed_join(packed, &h->packed)) return gis_no_memory(error);
+    for (size_t k = 0; k < h->n; k++)
+        if (!take(user, h->record[k], error) || !gis_go_on(error)) return false;
+    return true;
+}
+
+/* Both are at their first rows. */
+static bool read_both(reading *first, half *second, gis_table_take *take, void *user, bool *all, gis_error *error)
+{
+    gis_beside *beside = gis_beside_new();
+    gis_beside_do(beside, read_half, second);
+    const bool done = read_rows(first, take, user, all, error);
+    gis_beside_free(beside);
+    return done && (!*all || take_half(second, first->packed, take, user, all, error));
+}
+
+/* *tried = false: nothing was given, and it is to be read as one. */
+static bool read_halves(void *database, OGRLayerH layer, const char *sql, gis_packed *packed, gis_table_take *take,
+                        void *user, bool *tried, bool *all, gis_error *error)
+{
+    halves h = divide(database, layer, sql);
+    half second = {0};
+    reading first = {0};
+    bool done = !h.again || gis_packed_begin(&second.packed, layer, error);
+    if (done && h.again) {
+        begin(&first, database, h.sql[0], packed);
+        begin(&second.rows, h.again, h.sql[1], &second.packed);
+    }
+    *tried = first.statement && first.next == GIS_SQLITE_HAS_ROW && second.rows.next == GIS_SQLITE_HAS_ROW;
+    if (done && *tried) done = read_both(&first, &second, take, user, all, error);
+    end(&first);
+    end(&second.rows);
+    gis_packed_clear(&second.packed);
+    free(second.record);
+    clear_halves(&h);
+    return done;
+}
+
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
+
+static bool read_all(void *database, const char *sql, gis_packed *packed, gis_table_take *take, void *user, bool *all,
+                     gis_error *error)
+{
+    reading rows;
+    begin(&rows, database, sql, packed);
+    const bool done = !rows.statement || read_rows(&rows, take, user, all, error);
+    end(&rows);
+    return done;
+}
+
+bool gis_table_read(GDALDatasetH dataset, OGRLayerH layer, unsigned threads, gis_packed *packed, gis_table_take *take,
+                    void *user, bool *all, gis_error *error)
+{
+    *all = false;
+    if (!packed->definition || !EQUAL(GDALGetDriverShortName(GDALGetDatasetDriver(dataset)), "GPKG") ||
+        !OGR_L_GetFIDColumn(layer)[0] || !OGR_L_GetGeometryColumn(layer)[0])
+        return true;
+    void *database = GDALGetInternalHandle(dataset, "SQLITE_HANDLE");
+    if (!database) return true;
+    char *sql = select_statement(layer);
+    bool tried = false, done = true;
+    if (threads > 1) done = read_halves(database, layer, sql, packed, take, user, &tried, all, error);
+    if (done && !tried) done = read_all(database, sql, packed, take, user, all, error);
+    CPLFree(sql);
+    return done;
+}

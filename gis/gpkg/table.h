@@ -1,0 +1,23 @@
+/* table.h: the features of a GeoPackage's table as records (packed.h), past GDAL.
+ *
+ * Of each feature GDAL makes a dozen pieces of memory, which a record then is made of: where rows are plain it can be
+ * made of the row itself. */
+#ifndef GIS_GPKG_TABLE_H
+#define GIS_GPKG_TABLE_H
+
+#include "geometry/packed.h"
+
+#include <gdal.h>
+
+/* Takes a record; false, with *error, ends it all. */
+typedef bool gis_table_take(void *user, const unsigned char *record, gis_error *error);
+
+/* Gives all rows of the layer, in the order in which GDAL gives features, as what gis_packed_add() would make of these;
+ * by the caller's thread, while with more threads than one another reads ahead.
+ * *all = false: they are not all plain, and GDAL has to read the layer, of which some records were given. Plain is a
+ * Polygon or MultiPolygon with finite coordinates of which nothing is empty, and values of the types of their fields.
+ * Fails if memory is out, `take` does, or a signal came. */
+bool gis_table_read(GDALDatasetH dataset, OGRLayerH layer, unsigned threads, gis_packed *packed, gis_table_take *take,
+                    void *user, bool *all, gis_error *error);
+
+#endif

@@ -1,0 +1,217 @@
+/* barrier_reach.c: what of a barrier layer may be in the way of anything. A barrier is within reach if some feature
+ * that goes as far as any may comes as near to it as half its width and its distance. That is asked of boxes in a tree,
+ * so that what lies between features far from each other is not read for both. Where the features lie in cells on disk
+ * the tree is that of the cells, and the boxes of a cell's features are read when they are asked for; CELLS_HELD cells
+ * are kept. */
+#include "layer/barriers/barrier.h"
+
+#include "base/interrupt.h"
+#include "read/fields.h"
+
+#include <cpl_conv.h>
+#include <cpl_quad_tree.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CELLS_HELD = 2048 };
+
+/* Cells that were looked up: [CELLS_HELD] of them, the oldest of which goes first. */
+typedef struct looked_up {
+    gis_box_cells from;
+    double (**box)[4]; /* [from.cells] NULL: not held */
+    size_t *n;
+    size_t *number; /* [boxes of the tree] which cells they are */
+    size_t held[CELLS_HELD], at;
+    bool failed;
+    gis_error error;
+} looked_up;
+
+struct gis_barrier_targets {
+    double (*box)[4];
+    size_t n;
+    CPLQuadTree *tree; /* of the boxes; NULL: there are none */
+    looked_up *cells;  /* NULL: these are the features' */
+};
+
+static void bounds_of(const void *box, CPLRectObj *out)
+{
+    const double *b = box;
+    *out = (CPLRectObj){b[0], b[1], b[2], b[3]};
+}
+
+gis_barrier_targets *gis_barrier_targets_new(const double (*box)[4], size_t n)
+{
+    gis_barrier_targets *targets = calloc(1, sizeof *targets);
+    double(*copy)[4] = calloc(n + 1, sizeof *copy);
+    if (!targets || !copy) {
+        free(targets);
+        free(copy);
+        return NULL;
+    }
+    *targets = (gis_barrier_targets){.box = copy, .n = n};
+    CPLRectObj all = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < n; i++) {
+        for (int k = 0; k < 4; k++) copy[i][k] = box[i][k];
+        all = (CPLRectObj){fmin(all.minx, box[i][0]), fmin(all.miny, box[i][1]), fmax(all.maxx, box[i][2]),
+                           fmax(all.maxy, box[i][3])};
+    }
+    if (n == 0) return targets;
+    targets->tree = CPLQuadTreeCreate(&all, bounds_of);
+    CPLQuadTreeSetMaxDepth(targets->tree, CPLQuadTreeGetAdvisedMaxDepth(n < INT_MAX ? (int)n : INT_MAX));
+    for (size_t i = 0; i < n; i++) CPLQuadTreeInsert(targets->tree, copy[i]);
+    return targets;
+}
+
+/* ---- Of boxes in cells ------------------------------------------------------------------------------------------- */
+
+static void free_cells(looked_up *cells)
+{
+    for (size_t k = 0; cells->box && k < cells->from.cells; k++) free(cells->box[k]);
+    free(cells->box);
+    free(cells->n);
+    free(cells->number);
+    free(cells);
+}
+
+/* Those that hold anything. *box: their boxes. */
+static looked_up *list_cells(const gis_box_cells *from, double (*box)[4], size_t *n)
+{
+    const size_t cells = from->cells;
+    looked_up *out = calloc(1, sizeof *out);
+    if (!out) return NULL;
+    *out = (looked_up){.from = *from,
+                       .box = calloc(cells + 1, sizeof *out->box),
+                       .n = calloc(cells + 1, sizeof *out->n),
+                       .number = calloc(cells + 1, sizeof *out->number)};
+    if (!out->box || !out->n || !out->number) {
+        free_cells(out);
+        return NULL;
+    }
+    for (size_t k = 0; k < CELLS_HELD; k++) out->held[k] = SIZE_MAX;
+    *n = 0;
+    for (size_t k = 0; k < cells; k++) {
+        const double *own = from->around(from->of, k);
+        if (!(own[0] <= own[2])) continue;
+        memcpy(box[*n], own, sizeof *box);
+        out->number[(*n)++] = k;
+    }
+    return out;
+}
+
+gis_barrier_targets *gis_barrier_targets_of_cells(const gis_box_cells *from)
+{
+    size_t n;
+    double(*box)[4] = calloc(from->cells + 1, sizeof *box);
+    looked_up *cells = box ? list_cells(from, box, &n) : NULL;
+    gis_barrier_targets *targets = cells ? gis_barrier_targets_new((const double(*)[4])box, n) : NULL;
+    free(box);
+    if (targets)
+        targets->cells = cells;
+    else if (cells)
+        free_cells(cells);
+    return targets;
+}
+
+bool gis_barrier_targets_sound(const gis_barrier_targets *targets, gis_error *error)
+{
+    if (!targets->cells || !targets->cells->failed) return true;
+    *error = targets->cells->error;
+    return false;
+}
+
+static bool look_up(looked_up *cells, size_t cell)
+{
+    size_t *place = &cells->held[cells->at];
+    if (cells->box[cell]) return true;
+    if (*place != SIZE_MAX) {
+        free(cells->box[*place]);
+        cells->box[*place] = NULL;
+    }
+    cells->at = (cells->at + 1) % CELLS_HELD;
+    *place = cell;
+    cells->box[cell] = malloc((cells->from.boxes(cells->from.of, cell) + 1) * sizeof **cells->box);
+    if (!cells->box[cell])
+        gis_no_memory(&cells->error);
+    else if (cells->from.read(cells->from.of, cell, cells->box[cell], &cells->n[cell], &cells->error))
+        return true;
+    cells->failed = true;
+    return false;
+}
+
+/* Does some feature of the cell meet the box? */
+static bool cell_meets(looked_up *cells, size_t cell, const double box[4])
+{
+    if (cells->failed || !look_up(cells, cell)) return false;
+    for (size_t k = 0; k < cells->n[cell]; k++) {
+        const double *own = cells->box[cell][k];
+        if (own[0] <= box[2] && box[0] <= own[2] && own[1] <= box[3] && box[1] <= own[3]) return true;
+    }
+    return false;
+}
+
+void gis_barrier_targets_free(gis_barrier_targets *targets)
+{
+    if (!targets) return;
+    if (targets->cells) free_cells(targets->cells);
+    if (targets->tree) CPLQuadTreeDestroy(targets->tree);
+    free(targets->box);
+    free(targets);
+}
+
+/* A box grown by so much on all sides; rounded outward, as the sums are off by less. */
+static void grow(const double box[4], double by, double out[4])
+{
+    for (int k = 0; k < 4; k++) {
+        const double to = k < 2 ? -INFINITY : INFINITY;
+        out[k] = nextafter(nextafter(box[k] + (k < 2 ? -by : by), to), to);
+    }
+}
+
+bool gis_barrier_is_near(const gis_barrier_surroundings *around, const double box[4], double distance)
+{
+    double grown[4];
+    int n = 0;
+    if (!around->targets->tree) return false;
+    grow(box, around->reach + distance, grown);
+    if (!isfinite(around->reach + distance)) return true;
+    const CPLRectObj asked = {grown[0], grown[1], grown[2], grown[3]};
+    looked_up *cells = around->targets->cells;
+    void **found = CPLQuadTreeSearch(around->targets->tree, &asked, &n);
+    bool near = n > 0 && !cells;
+    for (int k = 0; k < n && cells && !near; k++) {
+        const double(*own)[4] = found[k];
+        near = cell_meets(cells, cells->number[own - (const double(*)[4])around->targets->box], grown);
+    }
+    CPLFree(found);
+    return near;
+}
+
+bool gis_barrier_reach_box(const gis_barrier_surroundings *around, double distance, double box[4])
+{
+    const gis_barrier_targets *targets = around->targets;
+    double all[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < targets->n; i++)
+        for (int k = 0; k < 4; k++) all[k] = (k < 2 ? fmin : fmax)(all[k], targets->box[i][k]);
+    grow(all, around->reach + distance, box);
+    return isfinite(around->reach + distance);
+}
+
+bool gis_barrier_greatest(OGRLayerH layer, const char *field, double *greatest)
+{
+    static const char *geometry[] = {"OGR_GEOMETRY", NULL};
+    const int at = OGR_FD_GetFieldIndex(OGR_L_GetLayerDefn(layer), field);
+    const bool ignores = OGR_L_TestCapability(layer, OLCIgnoreFields);
+    bool ok = at >= 0;
+    *greatest = 0;
+    if (!ok || (ignores && OGR_L_SetIgnoredFields(layer, geometry) != OGRERR_NONE)) return false;
+    OGR_L_ResetReading(layer);
+    for (OGRFeatureH feature; ok && (feature = OGR_L_GetNextFeature(layer)) != NULL; OGR_F_Destroy(feature)) {
+        const double width = gis_field_is_blank(feature, at) ? 0 : gis_field_number(feature, at);
+        if (width > *greatest) *greatest = width;
+        ok = isfinite(width) && !gis_interrupted();
+    }
+    if (ignores) OGR_L_SetIgnoredFields(layer, NULL);
+    return ok;
+}

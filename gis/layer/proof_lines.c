@@ -1,0 +1,444 @@
+/* proof_lines.c: see proof_lines.h. Numbers are the shortest decimals that read back as the doubles they are. */
+#include "layer/proof_lines.h"
+
+#include "base/interrupt.h"
+
+#include <cpl_port.h>
+#include <math.h>
+#include <stdlib.h>
+
+enum { VERSION = 2 };
+
+/* ---- Things ------------------------------------------------------------------------------------------------------ */
+
+static void put_feature(gis_proof_lines *w, size_t feature)
+{
+    gis_json_signed(&w->json, w->things.feature(w->things.of, feature));
+}
+
+/* A feature, or a barrier as "LAYER:FID". */
+static void put_thing(gis_proof_lines *w, const char *key, size_t thing)
+{
+    if (key) gis_json_key(&w->json, key);
+    if (thing < w->things.n) {
+        put_feature(w, thing);
+        return;
+    }
+    const char *layer;
+    const int64_t fid = w->things.barrier(w->things.of, thing, &layer);
+    gis_text name = {0};
+    gis_text_print(&name, "%s:" CPL_FRMT_GIB, layer, (GIntBig)fid);
+    if (gis_text_get(&name))
+        gis_json_string(&w->json, gis_text_get(&name));
+    else
+        w->json.text.failed = true;
+    gis_text_clear(&name);
+}
+
+static void put_place(gis_proof_lines *w, const char *key, double x, double y)
+{
+    if (key) gis_json_key(&w->json, key);
+    gis_json_open(&w->json, '[');
+    gis_json_double(&w->json, x);
+    gis_json_double(&w->json, y);
+    gis_json_close(&w->json, ']');
+}
+
+static void put_corners(gis_proof_lines *w, const char *key, const double *xy, size_t n)
+{
+    gis_json_key(&w->json, key);
+    gis_json_open(&w->json, '[');
+    for (size_t k = 0; k < n; k++) put_place(w, NULL, xy[2 * k], xy[2 * k + 1]);
+    gis_json_close(&w->json, ']');
+}
+
+static void put_sizes(gis_proof_lines *w, const char *key, const size_t *number, size_t n)
+{
+    gis_json_key(&w->json, key);
+    gis_json_open(&w->json, '[');
+    for (size_t k = 0; k < n; k++) gis_json_size(&w->json, number[k]);
+    gis_json_close(&w->json, ']');
+}
+
+/* Members of blocks as lists, in the order of the input. */
+static bool list_blocks(gis_proof_lines *w, gis_error *error)
+{
+    const size_t n = w->things.n;
+    w->next = malloc((n + 1) * sizeof *w->next);
+    w->first = malloc((n + 1) * sizeof *w->first);
+    if (!w->next || !w->first) return gis_no_memory(error);
+    for (size_t i = 0; i < n; i++) w->first[i] = n;
+    for (size_t i = n; i-- > 0;) {
+        const size_t of = gis_proof_block(w, i);
+        w->next[i] = w->first[of];
+        w->first[of] = i;
+    }
+    return true;
+}
+
+size_t gis_proof_block(const gis_proof_lines *w, size_t feature)
+{
+    const int64_t block = sunder_report_block(w->report, feature);
+    return block < 0 ? feature : (size_t)block;
+}
+
+bool gis_proof_lines_begin(gis_proof_lines *w, const gis_proof_things *things, const sunder_report *report,
+                           gis_error *error)
+{
+    *w = (gis_proof_lines){.things = *things, .report = report};
+    return list_blocks(w, error);
+}
+
+void gis_proof_lines_clear(gis_proof_lines *w)
+{
+    free(w->next);
+    free(w->first);
+    gis_json_clear(&w->json);
+    *w = (gis_proof_lines){0};
+}
+
+/* ---- Conflicts --------------------------------------------------------------------------------------------------- */
+
+static void put_ways(gis_proof_lines *w, const sunder_proof *proof, const sunder_proof_node *node)
+{
+    put_thing(w, "a", node->a);
+    put_thing(w, "b", node->b);
+    put_corners(w, "A", proof->corner + 2 * node->part_a, node->corners_a);
+    put_corners(w, "B", proof->corner + 2 * node->part_b, node->corners_b);
+    if (node->chord) {
+        put_thing(w, "c", node->c);
+        put_corners(w, "side_b", proof->corner + 2 * node->sides, 2);
+        put_corners(w, "side_c", proof->corner + 2 * node->sides + 4, 2);
+    }
+    if (node->slack) gis_json_put_bool(&w->json, "slack", true);
+    if (node->held) gis_json_put_bool(&w->json, "held", true);
+    if (node->shadow)
+        gis_json_put_bool(&w->json, "shadow", true);
+    else
+        gis_json_put_double(&w->json, "clearance", node->clearance);
+    gis_json_key(&w->json, "ways");
+    gis_json_open(&w->json, '[');
+    for (size_t k = node->way; k < node->way + node->ways; k++) {
+        const sunder_proof_way *way = &proof->way[k];
+        gis_json_open(&w->json, '{');
+        put_place(w, "n", way->n[0], way->n[1]);
+        gis_json_put_double(&w->json, "d", way->d);
+        gis_json_put_size(&w->json, "next", way->next);
+        gis_json_close(&w->json, '}');
+    }
+    gis_json_close(&w->json, ']');
+}
+
+/* The two ways between whose lines a block stays where it is, each by its node and its place there. */
+static void put_still(gis_proof_lines *w, const sunder_proof *proof, const sunder_proof_node *leaf)
+{
+    gis_json_key(&w->json, "still");
+    gis_json_open(&w->json, '[');
+    for (size_t k = 0; k < 2; k++) {
+        gis_json_open(&w->json, '[');
+        gis_json_size(&w->json, leaf->line_node[k]);
+        gis_json_size(&w->json, leaf->line_way[k] - proof->node[leaf->line_node[k]].way);
+        gis_json_close(&w->json, ']');
+    }
+    gis_json_close(&w->json, ']');
+}
+
+static void put_proof(gis_proof_lines *w, const sunder_proof *proof)
+{
+    gis_json_key(&w->json, "proof");
+    gis_json_open(&w->json, '[');
+    for (size_t k = 0; k < proof->nodes; k++) {
+        const sunder_proof_node *node = &proof->node[k];
+        gis_json_open(&w->json, '{');
+        if (node->ways) put_ways(w, proof, node);
+        gis_json_key(&w->json, "forces");
+        gis_json_open(&w->json, '[');
+        for (size_t f = node->force; f < node->force + node->forces; f++) {
+            const sunder_proof_force *force = &proof->force[f];
+            gis_json_open(&w->json, '{');
+            gis_json_put_size(&w->json, "node", force->node);
+            gis_json_put_size(&w->json, "way", force->way - proof->node[force->node].way);
+            gis_json_put_bool(&w->json, "behind", force->behind);
+            gis_json_put_double(&w->json, "force", force->force);
+            gis_json_close(&w->json, '}');
+        }
+        gis_json_close(&w->json, ']');
+        if (node->still) put_still(w, proof, node);
+        gis_json_close(&w->json, '}');
+    }
+    gis_json_close(&w->json, ']');
+}
+
+void gis_proof_conflict(gis_proof_lines *w, size_t k)
+{
+    size_t n;
+    const sunder_conflict *c = &sunder_report_conflicts(w->report, &n)[k];
+    const sunder_proof *proof = sunder_report_proof(w->report, k);
+    put_thing(w, "a", c->a);
+    put_thing(w, "b", c->b);
+    gis_json_put_string(&w->json, "kind", sunder_conflict_kind_string(c->kind));
+    gis_json_put_string(&w->json, "reason", sunder_reason_string(c->reason));
+    if (c->crowded) gis_json_put_bool(&w->json, "crowded", true);
+    if (c->inside_block) gis_json_put_bool(&w->json, "inside_block", true);
+    gis_json_key(&w->json, "blocked_by");
+    gis_json_open(&w->json, '[');
+    for (size_t i = 0; i < c->n_blocked_by; i++) put_thing(w, NULL, c->blocked_by[i]);
+    gis_json_close(&w->json, ']');
+    if (proof && proof->within > 0) gis_json_put_double(&w->json, "within", proof->within);
+    if (proof) put_proof(w, proof);
+}
+
+/* ---- Trees ------------------------------------------------------------------------------------------------------- */
+
+static void put_members(gis_proof_lines *w, size_t thing)
+{
+    const size_t n = w->things.n, first = w->first[gis_proof_block(w, thing)];
+    gis_json_key(&w->json, "features");
+    gis_json_open(&w->json, '[');
+    for (size_t i = first; i < n; i = w->next[i]) {
+        const sunder_feature *f = w->things.demands(w->things.of, i);
+        gis_json_open(&w->json, '{');
+        gis_json_key(&w->json, "fid");
+        put_feature(w, i);
+        gis_json_put_double(&w->json, "weight", f->weight);
+        gis_json_put_double(&w->json, "max_shift", f->max_shift);
+        if (f->shape) {
+            double at[2];
+            sunder_shape_anchor(f->shape, at);
+            put_place(w, "anchor", at[0], at[1]);
+        }
+        gis_json_close(&w->json, '}');
+    }
+    gis_json_close(&w->json, ']');
+}
+
+static void put_body(gis_proof_lines *w, const sunder_bound_body *body)
+{
+    gis_json_open(&w->json, '{');
+    if (body->thing < w->things.n)
+        put_members(w, body->thing);
+    else
+        put_thing(w, "barrier", body->thing);
+    gis_json_put_double(&w->json, "weight", body->weight);
+    put_place(w, "shift", body->shift[0], body->shift[1]);
+    gis_json_close(&w->json, '}');
+}
+
+static void put_piece(gis_proof_lines *w, const sunder_bound_tree *tree, const sunder_bound_piece *piece)
+{
+    gis_json_open(&w->json, '{');
+    gis_json_put_size(&w->json, "i", piece->i);
+    gis_json_put_size(&w->json, "j", piece->j);
+    put_thing(w, "a", piece->a);
+    put_thing(w, "b", piece->b);
+    if (piece->shadow) gis_json_put_bool(&w->json, "shadow", true);
+    if (!isnan(piece->clearance)) gis_json_put_double(&w->json, "clearance", piece->clearance);
+    put_corners(w, "A", tree->corner + 2 * piece->part_a, piece->corners_a);
+    put_corners(w, "B", tree->corner + 2 * piece->part_b, piece->corners_b);
+    gis_json_close(&w->json, '}');
+}
+
+static void put_cut(gis_proof_lines *w, const sunder_bound_tree *tree, const sunder_bound_cut *cut)
+{
+    static const char *const kinds[] = {[SUNDER_BOUND_CUT_LIMIT] = "limit",
+                                        [SUNDER_BOUND_CUT_CONE] = "cone",
+                                        [SUNDER_BOUND_CUT_DISC] = "disc",
+                                        [SUNDER_BOUND_CUT_HULL] = "hull"};
+    gis_json_open(&w->json, '{');
+    gis_json_put_string(&w->json, "kind", kinds[cut->kind]);
+    gis_json_put_size(&w->json, "i", cut->i);
+    if (cut->j != SIZE_MAX) gis_json_put_size(&w->json, "j", cut->j);
+    put_place(w, "n", cut->n[0], cut->n[1]);
+    gis_json_put_double(&w->json, "d", cut->d);
+    if (cut->kind == SUNDER_BOUND_CUT_HULL) put_sizes(w, "pieces", tree->named + cut->named, cut->names);
+    gis_json_close(&w->json, '}');
+}
+
+static void put_forces(gis_proof_lines *w, const char *key, const sunder_bound_force *force, size_t n)
+{
+    gis_json_key(&w->json, key);
+    gis_json_open(&w->json, '[');
+    for (size_t k = 0; k < n; k++) {
+        gis_json_open(&w->json, '[');
+        gis_json_size(&w->json, force[k].cut);
+        gis_json_double(&w->json, force[k].force);
+        gis_json_close(&w->json, ']');
+    }
+    gis_json_close(&w->json, ']');
+}
+
+static bool are_same_forces(const sunder_bound_tree *tree, const sunder_bound_node *p, const sunder_bound_node *q)
+{
+    bool same = q->bys == p->forces;
+    for (size_t k = 0; same && k < q->bys; k++) {
+        const sunder_bound_force *f = &tree->force[q->by + k], *g = &tree->force[p->force + k];
+        same = f->cut == g->cut && f->force == g->force;
+    }
+    return same;
+}
+
+static void put_node(gis_proof_lines *w, const sunder_bound_tree *tree, const sunder_bound_node *node)
+{
+    gis_json_open(&w->json, '{');
+    gis_json_key(&w->json, "parent");
+    if (node->parent == SIZE_MAX)
+        gis_json_null(&w->json);
+    else
+        gis_json_size(&w->json, node->parent);
+    gis_json_key(&w->json, "cuts");
+    gis_json_open(&w->json, '[');
+    for (size_t k = node->cut; k < node->cut + node->cuts; k++) put_cut(w, tree, &tree->cut[k]);
+    gis_json_close(&w->json, ']');
+    if (node->bys && !are_same_forces(tree, &tree->node[node->parent], node))
+        put_forces(w, "by", tree->force + node->by, node->bys);
+    put_forces(w, "forces", tree->force + node->force, node->forces);
+    if (node->empty) {
+        gis_json_key(&w->json, "empty");
+        gis_json_open(&w->json, '{');
+        gis_json_put_size(&w->json, "i", node->i);
+        gis_json_put_size(&w->json, "j", node->j);
+        put_sizes(w, "pieces", tree->named + node->named, node->names);
+        gis_json_close(&w->json, '}');
+    }
+    gis_json_close(&w->json, '}');
+}
+
+/* Of each row the place of the first price that is not 0, and all from there to the last; of a row of zeros nothing. */
+static void put_price_row(gis_proof_lines *w, const uint32_t *price, size_t columns)
+{
+    size_t first = 0, end = columns;
+    while (first < columns && !price[first]) first++;
+    while (end > first && !price[end - 1]) end--;
+    gis_json_open(&w->json, '[');
+    if (first < end) gis_json_size(&w->json, first);
+    for (size_t k = first; k < end; k++) gis_json_size(&w->json, price[k]);
+    gis_json_close(&w->json, ']');
+}
+
+static void put_prices(gis_proof_lines *w, const sunder_bound_prices *prices)
+{
+    gis_json_key(&w->json, "prices");
+    gis_json_open(&w->json, '{');
+    gis_json_put_double(&w->json, "side", prices->side);
+    gis_json_put_double(&w->json, "unit", prices->unit);
+    gis_json_key(&w->json, "x");
+    gis_json_signed(&w->json, prices->x);
+    gis_json_key(&w->json, "y");
+    gis_json_signed(&w->json, prices->y);
+    gis_json_put_size(&w->json, "columns", prices->columns);
+    gis_json_key(&w->json, "rows");
+    gis_json_open(&w->json, '[');
+    for (size_t j = 0; j < prices->rows; j++) put_price_row(w, prices->price + j * prices->columns, prices->columns);
+    gis_json_close(&w->json, ']');
+    gis_json_close(&w->json, '}');
+}
+
+bool gis_proof_tree(gis_proof_lines *w, const sunder_bound_tree *tree, gis_error *error)
+{
+    gis_json_put_double(&w->json, "bound", tree->bound);
+    gis_json_key(&w->json, "bodies");
+    gis_json_open(&w->json, '[');
+    for (size_t k = 0; k < tree->bodies; k++) put_body(w, &tree->body[k]);
+    gis_json_close(&w->json, ']');
+    if (tree->prices.price) {
+        put_prices(w, &tree->prices);
+        return gis_go_on(error);
+    }
+    gis_json_key(&w->json, "pieces");
+    gis_json_open(&w->json, '[');
+    for (size_t k = 0; k < tree->pieces; k++) put_piece(w, tree, &tree->piece[k]);
+    gis_json_close(&w->json, ']');
+    gis_json_key(&w->json, "nodes");
+    gis_json_open(&w->json, '[');
+    for (size_t k = 0; k < tree->nodes; k++) {
+        if (!gis_go_on(error)) return false;
+        put_node(w, tree, &tree->node[k]);
+    }
+    gis_json_close(&w->json, ']');
+    return true;
+}
+
+/* ---- Heads of lines, and what is no part's ----------------------------------------------------------------------- */
+
+static void end_line(gis_json *json)
+{
+    gis_json_close(json, '}');
+    gis_json_raw(json, "\n");
+    json->need_comma = false;
+}
+
+void gis_proof_line(gis_json *json, const char *key, size_t number, const char *rest)
+{
+    gis_json_open(json, '{');
+    gis_json_put_size(json, key, number);
+    gis_json_raw(json, ", ");
+    gis_json_raw(json, rest);
+    end_line(json);
+}
+
+void gis_proof_head_line(gis_json *json, const gis_proof_head *head)
+{
+    gis_json_open(json, '{');
+    gis_json_put_size(json, "sunder_proof", VERSION);
+    gis_json_put_string(json, "layer", head->layer);
+    gis_json_put_double(json, "gap", head->gap);
+    gis_json_put_double(json, "max_shift", head->max_shift);
+    gis_json_put_string(json, "contained", sunder_containment_string(head->contained));
+    gis_json_put_bool(json, "allow_jumps", head->allow_jumps);
+    gis_json_put_double(json, "lower_bound", head->summary->lower_bound);
+    gis_json_put_size(json, "conflicts", head->conflicts);
+    gis_json_put_size(json, "trees", head->trees);
+    end_line(json);
+}
+
+void gis_proof_block_begins(gis_json *json)
+{
+    gis_json_open(json, '{');
+    gis_json_key(json, "block");
+    gis_json_open(json, '[');
+}
+
+void gis_proof_block_ends(gis_json *json)
+{
+    gis_json_close(json, ']');
+    end_line(json);
+}
+
+bool gis_proof_print(gis_json *json, FILE *to, gis_error *error)
+{
+    const char *text = gis_json_text(json);
+    if (!text) return gis_no_memory(error);
+    const bool done = fwrite(text, 1, json->text.length, to) == json->text.length;
+    gis_text_empty(&json->text);
+    return done && gis_go_on(error);
+}
+
+/* ---- Whose trees come first -------------------------------------------------------------------------------------- */
+
+static size_t first_of_tree(const gis_proof_lines *w, const sunder_bound_tree *tree)
+{
+    size_t first = SIZE_MAX;
+    for (size_t k = 0; k < tree->bodies; k++) {
+        const sunder_bound_body *body = &tree->body[k];
+        if (body->thing >= w->things.n || !isfinite(body->weight)) continue;
+        const size_t own = gis_proof_block(w, body->thing);
+        if (own < first) first = own;
+    }
+    return first;
+}
+
+bool gis_proof_order(const gis_proof_lines *w, gis_proof_place **out, size_t *n, gis_error *error)
+{
+    const sunder_bound_tree *tree = sunder_report_bound_trees(w->report, n);
+    gis_proof_place *place = *out = malloc((*n + 1) * sizeof *place);
+    if (!place) return gis_no_memory(error);
+    for (size_t from = 0, end; from < *n; from = end) {
+        size_t first = SIZE_MAX;
+        for (end = from; end < *n && tree[end].group == tree[from].group; end++) {
+            const size_t own = first_of_tree(w, &tree[end]);
+            if (own < first) first = own;
+        }
+        for (size_t k = from; k < end; k++) place[k] = (gis_proof_place){first, k - from, k};
+    }
+    return true;
+}

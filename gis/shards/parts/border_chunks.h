@@ -1,0 +1,31 @@
+/* border_chunks.h: which chunks of the parts' files have to be held in memory while parts are joined: those with worlds
+ * that are not complete, and those that meet a chunk of another run, or a world that was separated once more. All
+ * others can have no world in common with another run, and none that wrote where another read. */
+#ifndef GIS_BORDER_CHUNKS_H
+#define GIS_BORDER_CHUNKS_H
+
+#include "shards/parts/part_file.h"
+
+typedef struct gis_held_chunk {
+    gis_part_file *file;
+    size_t chunk; /* of the file */
+    bool held, wanted;
+} gis_held_chunk;
+
+/* file, files, runs are given: runs from that number on are no file's. */
+typedef struct gis_holding {
+    gis_part_file *file;
+    size_t files;
+    unsigned runs;
+    gis_held_chunk *chunk;
+    size_t chunks;
+    size_t seen; /* worlds of the result that were compared with chunks */
+} gis_holding;
+
+/* The first, added to the result. */
+bool gis_hold_at_borders(gis_holding *holding, gis_part_result *held, gis_error *error);
+/* The second: with those worlds of the result that are new. */
+bool gis_hold_what_met(gis_holding *holding, gis_part_result *held, gis_error *error);
+void gis_holding_clear(gis_holding *holding);
+
+#endif

@@ -1,0 +1,385 @@
+/* contact_group.c: see contact_group.h. Cell by cell along the curve lots are made of features. Those features that
+ * come near a cell that is still to be looked at are remembered until the last of these was; so what is remembered at a
+ * time lies along the border between what was looked at and what was not. */
+#include "shards/parts/contact_group.h"
+
+#include "base/array.h"
+#include "base/core_error.h"
+#include "base/interrupt.h"
+#include "geometry/box.h"
+#include "shards/parts/box_pairs.h"
+#include "shards/parts/disjoint_sets.h"
+#include "shards/parts/part_memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { LOTS = 1 << 12 }; /* so many are there before any are forgotten */
+/* So many pairs a feature: where more meet they lie in piles, and hang together by boxes alone. */
+static const size_t patience = 500;
+
+typedef struct member {
+    double box[4]; /* with half the reach about it */
+    uint64_t place;
+    size_t lot;
+    sunder_shape *shape; /* owned; NULL: boxes alone are asked, or it is read when it is asked for */
+    bool inside;         /* its box lies in another one's, and boxes alone are asked */
+} member;
+
+typedef struct members {
+    member *at;
+    size_t n, room;
+} members;
+
+typedef struct looking {
+    const gis_layout *layout;
+    double reach;
+    bool by_shapes;
+    size_t patience;   /* so many pairs of boxes that meet may still be looked at for their shapes */
+    gis_together *lot; /* [lots], sums at the roots */
+    size_t *parent;    /* [lots] */
+    size_t lots, lot_room, parent_room, enough_lots;
+    gis_together largest; /* of those that are complete, and forgotten */
+    size_t *of_block;     /* [layout->blocks] a lot of it, or SIZE_MAX */
+    size_t *beside;       /* [besides] the cells that come near the one that is looked at, by number */
+    size_t besides, beside_room;
+    size_t *last;  /* [cells] of those beside one, which may be it itself */
+    members *cell; /* [cells] what is remembered of it */
+    members here;  /* of the cell that is looked at */
+    member **swept;
+    size_t swept_n, swept_room;
+    gis_sweep sweep;
+    sunder_shape *read; /* by gis_spool_read_one() */
+    gis_error *error;
+    bool failed;
+} looking;
+
+/* ---- Lots -------------------------------------------------------------------------------------------------------- */
+
+static double bytes_of(const gis_layout *layout, const gis_together *t)
+{
+    return gis_part_bytes(layout->how.keep_trees, layout->how.effort, (double)t->features, (double)t->vertices);
+}
+
+static bool add_lot(looking *l, const double box[4], size_t vertices)
+{
+    if (!gis_array_reserve(&l->lot, &l->lot_room, l->lots + 1, sizeof *l->lot) ||
+        !gis_array_reserve(&l->parent, &l->parent_room, l->lots + 1, sizeof *l->parent))
+        return false;
+    gis_together *to = &l->lot[l->lots];
+    *to = (gis_together){.features = 1, .vertices = vertices};
+    memcpy(to->box, box, sizeof to->box);
+    l->parent[l->lots] = l->lots;
+    l->lots++;
+    return true;
+}
+
+static void join(looking *l, size_t a, size_t b)
+{
+    const size_t x = gis_set_root(l->parent, a), y = gis_set_root(l->parent, b);
+    if (x == y) return;
+    gis_together *to = &l->lot[x < y ? x : y];
+    const gis_together *from = &l->lot[x < y ? y : x];
+    to->features += from->features;
+    to->vertices += from->vertices;
+    gis_box_join(to->box, from->box);
+    gis_set_join(l->parent, x, y);
+}
+
+/* Whom the block's number joins. */
+static void join_block(looking *l, int64_t number, size_t one)
+{
+    const gis_part_block *block = gis_layout_block(l->layout, number);
+    if (!block) return;
+    size_t *first = &l->of_block[block - l->layout->block];
+    if (*first == SIZE_MAX) *first = one;
+    join(l, *first, one);
+}
+
+static void consider(looking *l, const gis_together *lot)
+{
+    if (bytes_of(l->layout, lot) > bytes_of(l->layout, &l->largest)) l->largest = *lot;
+}
+
+/* A lot that is remembered: by the number of its root, which is marked as one that stays. */
+static void keep_lot(const looking *l, size_t *to, size_t *lot)
+{
+    *lot = gis_set_root(l->parent, *lot);
+    to[*lot] = 0;
+}
+
+/* Of lots that nobody remembers any more nothing but the largest is of interest. */
+static bool forget_lots(looking *l, gis_error *error)
+{
+    const size_t cells = gis_spool_cells(l->layout->spool);
+    size_t *to = malloc((l->lots + 1) * sizeof *to), n = 0;
+    if (!to) return gis_no_memory(error);
+    for (size_t k = 0; k < l->lots; k++) to[k] = SIZE_MAX;
+    for (size_t c = 0; c < cells; c++)
+        for (size_t k = 0; k < l->cell[c].n; k++) keep_lot(l, to, &l->cell[c].at[k].lot);
+    for (size_t b = 0; b < l->layout->blocks; b++)
+        if (l->of_block[b] != SIZE_MAX) keep_lot(l, to, &l->of_block[b]);
+    for (size_t k = 0; k < l->lots; k++) {
+        if (to[k] != SIZE_MAX) {
+            to[k] = n;
+            l->lot[n++] = l->lot[k];
+        } else if (l->parent[k] == k) {
+            consider(l, &l->lot[k]);
+        }
+    }
+    for (size_t c = 0; c < cells; c++)
+        for (size_t k = 0; k < l->cell[c].n; k++) l->cell[c].at[k].lot = to[l->cell[c].at[k].lot];
+    for (size_t b = 0; b < l->layout->blocks; b++)
+        if (l->of_block[b] != SIZE_MAX) l->of_block[b] = to[l->of_block[b]];
+    for (size_t k = 0; k < n; k++) l->parent[k] = k;
+    l->lots = n;
+    free(to);
+    return true;
+}
+
+/* ---- Who is within reach of whom --------------------------------------------------------------------------------- */
+
+static bool keep_shape(void *user, const gis_spool_feature *feature, gis_error *error)
+{
+    looking *l = user;
+    (void)error;
+    l->read = (sunder_shape *)feature->demands.shape;
+    return true;
+}
+
+static sunder_shape *shape_of(looking *l, member *m)
+{
+    l->read = NULL;
+    if (!m->shape && gis_spool_read_one(l->layout->spool, m->place, keep_shape, l, l->error)) m->shape = l->read;
+    return m->shape;
+}
+
+static bool are_within_reach(looking *l, member *a, member *b)
+{
+    bool apart = true;
+    sunder_error why;
+    const sunder_shape *p = shape_of(l, a), *q = p ? shape_of(l, b) : NULL;
+    if (!q)
+        l->failed = true;
+    else if (sunder_pair_apart(p, q, l->reach, &apart, &why) != SUNDER_OK)
+        l->failed = !gis_core_failed(l->error, "what hangs together", &why);
+    return !apart;
+}
+
+/* Boxes join whatever meets: one in another has nothing to add. */
+static gis_sweep_on join_boxes(looking *l, member *p, member *q, const gis_swept *a, const gis_swept *b)
+{
+    join(l, p->lot, q->lot);
+    if (a->box[2] >= b->box[2] && a->box[1] <= b->box[1] && a->box[3] >= b->box[3]) {
+        q->inside = true;
+        return GIS_SWEEP_A_ALONE;
+    }
+    const bool within = b->box[2] >= a->box[2] && b->box[1] <= a->box[1] && b->box[3] >= a->box[3];
+    return within ? GIS_SWEEP_B_ALONE : GIS_SWEEP_BOTH;
+}
+
+/* kind: is it one of those remembered? These have been asked among themselves. */
+static gis_sweep_on join_if_near(void *user, const gis_swept *a, const gis_swept *b)
+{
+    looking *l = user;
+    member *p = l->swept[a->of], *q = l->swept[b->of];
+    if (!l->by_shapes) return join_boxes(l, p, q, a, b);
+    if (l->failed || l->patience == 0) return GIS_SWEEP_A_ALONE; /* it is in vain */
+    if (a->kind && b->kind) return GIS_SWEEP_BOTH;
+    l->patience--;
+    if (gis_set_root(l->parent, p->lot) != gis_set_root(l->parent, q->lot) && are_within_reach(l, p, q))
+        join(l, p->lot, q->lot);
+    return GIS_SWEEP_BOTH;
+}
+
+static bool sweep_too(looking *l, member *m, int kind, gis_error *error)
+{
+    if (!gis_array_reserve(&l->swept, &l->swept_room, l->swept_n + 1, sizeof(member *))) return gis_no_memory(error);
+    l->swept[l->swept_n++] = m;
+    return gis_sweep_add(&l->sweep, m->box, l->swept_n - 1, kind, error);
+}
+
+static void drop_shapes(members *all)
+{
+    for (size_t k = 0; k < all->n; k++) {
+        sunder_shape_free(all->at[k].shape);
+        all->at[k].shape = NULL;
+    }
+}
+
+/* Box of a cell, as members have theirs. */
+static void box_of(const looking *l, size_t cell, double box[4])
+{
+    memcpy(box, gis_spool_cell_at(l->layout->spool, cell)->box, 4 * sizeof *box);
+    for (int c = 0; c < 4; c++) box[c] += (c < 2 ? -1 : 1) * l->reach / 2;
+}
+
+/* The features of the cell among themselves, and with those of the cells beside it that came before. */
+static bool join_cell(looking *l, size_t cell, gis_error *error)
+{
+    double box[4];
+    bool done = true;
+    box_of(l, cell, box);
+    l->swept_n = 0;
+    for (size_t k = 0; k < l->here.n && done; k++) done = sweep_too(l, &l->here.at[k], 0, error);
+    for (size_t b = 0; b < l->besides && done; b++) {
+        members *there = &l->cell[l->beside[b]];
+        for (size_t k = 0; k < there->n && done; k++)
+            if (gis_box_meets(box, there->at[k].box)) done = sweep_too(l, &there->at[k], 1, error);
+    }
+    if (done) gis_sweep_run(&l->sweep, join_if_near, l);
+    for (size_t b = 0; b < l->besides; b++) drop_shapes(&l->cell[l->beside[b]]);
+    return done && !l->failed && gis_go_on(error);
+}
+
+/* ---- Cells ------------------------------------------------------------------------------------------------------- */
+
+static bool add_member(members *to, const member *m, gis_error *error)
+{
+    if (!gis_array_reserve(&to->at, &to->room, to->n + 1, sizeof *to->at)) return gis_no_memory(error);
+    to->at[to->n++] = *m;
+    return true;
+}
+
+static void forget(members *all)
+{
+    drop_shapes(all);
+    free(all->at);
+    *all = (members){0};
+}
+
+static bool take(looking *l, const gis_spool_feature *feature, const double box[4], size_t vertices, gis_error *error)
+{
+    member own = {.place = feature->place, .lot = l->lots, .shape = (sunder_shape *)feature->demands.shape};
+    for (int c = 0; c < 4; c++) own.box[c] = box[c] + (c < 2 ? -1 : 1) * l->reach / 2;
+    if (gis_box_is_empty(box) || feature->demands.fixed) {
+        sunder_shape_free(own.shape);
+        return true;
+    }
+    if (!add_member(&l->here, &own, error)) {
+        sunder_shape_free(own.shape);
+        return false;
+    }
+    if (!add_lot(l, box, vertices)) return gis_no_memory(error);
+    join_block(l, feature->demands.block, own.lot);
+    return true;
+}
+
+static bool glance(void *user, const gis_spool_feature *feature, const double box[4], size_t vertices, gis_error *error)
+{
+    return take(user, feature, box, vertices, error);
+}
+
+static bool visit(void *user, const gis_spool_feature *feature, gis_error *error)
+{
+    double box[4];
+    sunder_shape_box(feature->demands.shape, box);
+    return take(user, feature, box, sunder_shape_vertices(feature->demands.shape), error);
+}
+
+/* Those of the cell that come near one that is still to be looked at. */
+static bool remember(looking *l, size_t cell, gis_error *error)
+{
+    bool done = true;
+    drop_shapes(&l->here);
+    for (size_t k = 0; k < l->here.n && done; k++) {
+        bool near = false;
+        if (l->here.at[k].inside) continue;
+        for (size_t b = l->besides; b-- > 0 && l->beside[b] > cell && !near;) {
+            double box[4];
+            box_of(l, l->beside[b], box);
+            near = gis_box_meets(box, l->here.at[k].box);
+        }
+        done = !near || add_member(&l->cell[cell], &l->here.at[k], error);
+    }
+    l->here.n = 0;
+    return done;
+}
+
+/* By all boxes: where large features lie everywhere, a list of all that are beside each other would be no small one. */
+static bool find_beside(looking *l, size_t cell, gis_error *error)
+{
+    double box[4], other[4];
+    box_of(l, cell, box);
+    l->besides = 0;
+    for (size_t k = 0; k < gis_spool_cells(l->layout->spool); k++) {
+        box_of(l, k, other);
+        if (k == cell || !gis_box_meets(box, other)) continue;
+        if (!gis_array_reserve(&l->beside, &l->beside_room, l->besides + 1, sizeof *l->beside))
+            return gis_no_memory(error);
+        l->beside[l->besides++] = k;
+    }
+    l->last[cell] = l->besides && l->beside[l->besides - 1] > cell ? l->beside[l->besides - 1] : cell;
+    return true;
+}
+
+static bool look_at(looking *l, size_t cell, gis_error *error)
+{
+    gis_spool *spool = l->layout->spool;
+    const bool done =
+        find_beside(l, cell, error) &&
+        (l->by_shapes ? gis_spool_read(spool, cell, visit, l, error) : gis_spool_skim(spool, cell, glance, l, error)) &&
+        join_cell(l, cell, error) && remember(l, cell, error);
+    for (size_t b = 0; b < l->besides && l->beside[b] < cell; b++)
+        if (l->last[l->beside[b]] == cell) forget(&l->cell[l->beside[b]]);
+    return done;
+}
+
+static bool look(looking *l, gis_error *error)
+{
+    bool done = true;
+    l->enough_lots = LOTS;
+    for (size_t k = 0; k < gis_spool_cells(l->layout->spool) && done && l->patience > 0; k++) {
+        done = look_at(l, k, error);
+        if (done && l->lots > l->enough_lots) {
+            done = forget_lots(l, error);
+            l->enough_lots = LOTS + 2 * l->lots;
+        }
+    }
+    for (size_t k = 0; k < l->lots && done; k++)
+        if (l->parent[k] == k) consider(l, &l->lot[k]);
+    return done;
+}
+
+static void clear(looking *l)
+{
+    for (size_t k = 0; l->cell && k < gis_spool_cells(l->layout->spool); k++) forget(&l->cell[k]);
+    forget(&l->here);
+    free(l->cell);
+    free(l->swept);
+    free(l->beside);
+    free(l->last);
+    free(l->lot);
+    free(l->parent);
+    free(l->of_block);
+    gis_sweep_clear(&l->sweep);
+}
+
+/* *whole: there was patience enough. */
+static bool find(const gis_layout *layout, double reach, bool by_shapes, gis_together *out, bool *whole,
+                 gis_error *error)
+{
+    looking l = {.layout = layout, .reach = reach, .by_shapes = by_shapes, .error = error};
+    l.patience = patience * gis_spool_features(layout->spool) + 1;
+    gis_box_clear(l.largest.box);
+    l.of_block = malloc((layout->blocks + 1) * sizeof *l.of_block);
+    l.cell = calloc(gis_spool_cells(layout->spool) + 1, sizeof *l.cell);
+    l.last = calloc(gis_spool_cells(layout->spool) + 1, sizeof *l.last);
+    for (size_t b = 0; l.of_block && b < layout->blocks; b++) l.of_block[b] = SIZE_MAX;
+    const bool done = ((l.of_block && l.cell && l.last) || gis_no_memory(error)) && look(&l, error);
+    *out = l.largest;
+    *whole = l.patience > 0;
+    clear(&l);
+    return done;
+}
+
+bool gis_parts_together(const gis_layout *layout, double reach, double enough, gis_together *out, gis_error *error)
+{
+    gis_together by_shapes;
+    bool whole;
+    if (!find(layout, reach, false, out, &whole, error)) return false;
+    if (bytes_of(layout, out) <= enough) return true;
+    if (!find(layout, reach, true, &by_shapes, &whole, error)) return false;
+    if (whole) *out = by_shapes;
+    return true;
+}

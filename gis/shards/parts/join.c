@@ -1,0 +1,207 @@
+/* join.c: see join.h. */
+#include "shards/parts/join.h"
+#include "shards/parts/border_chunks.h"
+#include "shards/parts/box_pairs.h"
+#include "shards/parts/disjoint_sets.h"
+
+#include "base/array.h"
+#include "base/interrupt.h"
+
+#include <stdlib.h>
+
+/* ---- Which worlds stand ------------------------------------------------------------------------------------------ */
+
+/* A feature, and a world that has it. */
+typedef struct holding {
+    size_t index, world;
+} holding;
+
+static int by_holding(const void *a, const void *b)
+{
+    const holding *p = a, *q = b;
+    if (p->index != q->index) return p->index < q->index ? -1 : 1;
+    return (p->world > q->world) - (p->world < q->world);
+}
+
+typedef struct joining {
+    const gis_layout *layout;
+    gis_part_result *r; /* what is held */
+    size_t *parent;     /* [worlds] of those that are separated again, in lumps */
+    bool *again;        /* [worlds] */
+    unsigned run;
+} joining;
+
+static void lump(joining *j, size_t a, size_t b)
+{
+    j->again[a] = j->again[b] = true;
+    gis_set_join(j->parent, a, b);
+}
+
+static bool stands(const gis_part_world *w) { return !w->gone && !w->loose; }
+
+/* All features of worlds that stand, sorted. */
+static holding *list_holdings(const gis_part_result *r, size_t *n)
+{
+    holding *list = malloc((r->rows + 1) * sizeof *list);
+    *n = 0;
+    for (size_t w = 0; list && w < r->worlds; w++)
+        for (size_t k = 0; k < r->world[w].rows && stands(&r->world[w]); k++)
+            list[(*n)++] = (holding){r->row[r->world[w].row + k].index, w};
+    if (list && *n) qsort(list, *n, sizeof *list, by_holding);
+    return list;
+}
+
+static bool are_alike(const gis_part_result *r, const gis_part_world *a, const gis_part_world *b)
+{
+    if (a->rows != b->rows) return false;
+    for (size_t k = 0; k < a->rows; k++)
+        if (r->row[a->row + k].index != r->row[b->row + k].index) return false;
+    return true;
+}
+
+/* Worlds that have a feature in common: one, found in two parts; else they are separated together. */
+static bool compare_holdings(joining *j, gis_error *error)
+{
+    size_t n;
+    gis_part_result *r = j->r;
+    holding *list = list_holdings(r, &n);
+    if (!list) return gis_no_memory(error);
+    for (size_t k = 1; k < n; k++) {
+        if (list[k].index != list[k - 1].index) continue;
+        gis_part_world *a = &r->world[list[k - 1].world], *b = &r->world[list[k].world];
+        if (a->gone || b->gone) continue;
+        if (a->complete && b->complete && are_alike(r, a, b)) {
+            b->gone = true;
+            list[k].world = list[k - 1].world;
+        } else {
+            lump(j, list[k - 1].world, list[k].world);
+        }
+    }
+    free(list);
+    return true;
+}
+
+static gis_sweep_on lump_if_met(void *user, const gis_swept *a, const gis_swept *b)
+{
+    joining *j = user;
+    const gis_part_world *world = j->r->world;
+    if (a->kind != b->kind && world[a->of].run != world[b->of].run) lump(j, a->of, b->of);
+    return GIS_SWEEP_BOTH;
+}
+
+/* Worlds of different runs of which one wrote where the other read. */
+static bool compare_footprints(joining *j, gis_error *error)
+{
+    gis_sweep sweep = {0};
+    const gis_part_result *r = j->r;
+    bool done = true;
+    for (size_t w = 0; w < r->worlds && done; w++)
+        for (size_t k = 0; k < r->world[w].footprints && stands(&r->world[w]) && done; k++) {
+            const sunder_footprint *f = &r->footprint[r->world[w].footprint + k];
+            done = gis_sweep_add(&sweep, f->read, w, 0, error) && gis_sweep_add(&sweep, f->wrote, w, 1, error);
+        }
+    if (done) gis_sweep_run(&sweep, lump_if_met, j);
+    gis_sweep_clear(&sweep);
+    return done;
+}
+
+/* ---- Once more --------------------------------------------------------------------------------------------------- */
+
+typedef struct of_lump {
+    size_t *index, n; /* sorted */
+} of_lump;
+
+static int by_size(const void *a, const void *b)
+{
+    const size_t *p = a, *q = b;
+    return (*p > *q) - (*p < *q);
+}
+
+static bool is_of_lump(const void *user, size_t cell, size_t index)
+{
+    const of_lump *l = user;
+    (void)cell;
+    return l->n && bsearch(&index, l->index, l->n, sizeof index, by_size);
+}
+
+/* The worlds of a lump, as one part: they are gone, and what is found of their features takes their place. */
+static bool separate_lump(joining *j, size_t root, size_t worlds, gis_error *error)
+{
+    gis_part_result *r = j->r;
+    of_lump which = {0};
+    gis_boxes_list boxes = {0};
+    size_t room = 0;
+    bool done = true;
+    for (size_t w = root; w < worlds && done; w++) {
+        gis_part_world *world = &r->world[w];
+        if (!j->again[w] || world->gone || gis_set_root(j->parent, w) != root) continue;
+        for (size_t k = 0; k < world->footprints && done; k++)
+            done = gis_boxes_add(&boxes, r->footprint[world->footprint + k].seen, j->layout->halo, error);
+        done = done && (gis_array_reserve(&which.index, &room, which.n + world->rows, sizeof *which.index) ||
+                        gis_no_memory(error));
+        for (size_t k = 0; k < world->rows && done; k++) which.index[which.n++] = r->row[world->row + k].index;
+        world->gone = true;
+    }
+    if (done && which.n) qsort(which.index, which.n, sizeof *which.index, by_size);
+    done = done && gis_part_separate(j->layout, &boxes, is_of_lump, &which, j->run++, r, error);
+    free(which.index);
+    free(boxes.box);
+    return done;
+}
+
+/* So many rounds go by lumps of their own. After them all that was ever separated again is separated again together:
+ * then no two of it are of different runs, and each round takes in others, or is the last. */
+enum { APART = 12 };
+
+/* All that were separated again become one lump, if there is anything to be done. */
+static void lump_all(joining *j)
+{
+    size_t first = SIZE_MAX;
+    for (size_t w = 0; w < j->r->worlds && first == SIZE_MAX; w++)
+        if (j->again[w]) first = w;
+    for (size_t w = 0; w < j->r->worlds && first != SIZE_MAX; w++)
+        if (stands(&j->r->world[w]) && (j->again[w] || j->r->world[w].run >= gis_spool_shards(j->layout->spool)))
+            lump(j, first, w);
+}
+
+/* *any: there was something to be separated again. */
+static bool settle(joining *j, unsigned round, bool *any, gis_error *error)
+{
+    const size_t n = j->r->worlds;
+    bool done = true;
+    *any = false;
+    j->parent = malloc((n + 1) * sizeof *j->parent);
+    j->again = calloc(n + 1, sizeof *j->again);
+    if (!j->parent || !j->again) done = gis_no_memory(error);
+    for (size_t w = 0; w < n && done; w++) j->parent[w] = w;
+    done = done && compare_holdings(j, error) && compare_footprints(j, error);
+    for (size_t w = 0; w < n && done; w++)
+        if (stands(&j->r->world[w]) && !j->r->world[w].complete) j->again[w] = true;
+    if (done && round >= APART) lump_all(j);
+    for (size_t w = 0; w < n && done; w++) {
+        if (!j->again[w] || j->r->world[w].gone || gis_set_root(j->parent, w) != w) continue;
+        *any = true;
+        done = separate_lump(j, w, n, error);
+    }
+    free(j->parent);
+    free(j->again);
+    return done;
+}
+
+bool gis_parts_join(const gis_layout *layout, gis_part_file *file, size_t files, const char *directory, gis_joined *out,
+                    gis_error *error)
+{
+    gis_part_result held = {0};
+    gis_holding chunks = {.file = file, .files = files, .runs = gis_spool_shards(layout->spool)};
+    joining j = {.layout = layout, .r = &held, .run = gis_spool_shards(layout->spool)};
+    bool any = true;
+    *out = (gis_joined){0};
+    bool done = gis_hold_at_borders(&chunks, &held, error);
+    for (unsigned round = 0; any && done; round++)
+        done = gis_go_on(error) && settle(&j, round, &any, error) && gis_hold_what_met(&chunks, &held, error);
+    out->runs = j.run;
+    done = done && gis_joined_gather(out, &chunks, &held, directory, error);
+    gis_holding_clear(&chunks);
+    gis_part_result_clear(&held);
+    return done;
+}

@@ -1,0 +1,44 @@
+/* join.h: what parts tell, as the whole layer's.
+ *
+ * Worlds that are not complete, or of which one wrote where another read that was found in another run, are separated
+ * again, with all that they saw and each other, until there are none: then what is left are the worlds of the whole
+ * layer. A block is whoever is linked in some part.
+ *
+ * Results of parts lie in files. In memory are chunks that meet others (border_chunks.h), what was separated again, and
+ * a few numbers for each feature of a block; what is told of features and of pairs is put in order on disk. */
+#ifndef GIS_SHARDS_JOIN_H
+#define GIS_SHARDS_JOIN_H
+
+#include "shards/parts/border_chunks.h"
+#include "shards/parts/part.h"
+#include "shards/parts/sorted_results.h"
+
+/* Zeroed: nothing. */
+typedef struct gis_joined {
+    gis_sorted rows;      /* by features: of each one row, or one still; other features are as they are alone */
+    gis_sorted conflicts; /* by (a, b): one conflict each */
+    gis_sorted pushes;    /* likewise */
+    gis_sorted trees;     /* by groups, each by its first feature that moves */
+    gis_part_link *block; /* a: a feature of a block, b: the block's first; by features */
+    bool *fixed;          /* [blocks] at the block's first: someone of it is fixed, and so all are */
+    size_t blocks;
+    sunder_layer_summary summary; /* but for features, vertices and skipped, which are the layer's */
+    int64_t longest_fid;          /* of summary.max_feature */
+    unsigned runs;
+} gis_joined;
+
+/* file: of all parts, open. directory: for what is sorted, until *out is cleared. */
+bool gis_parts_join(const gis_layout *layout, gis_part_file *file, size_t files, const char *directory, gis_joined *out,
+                    gis_error *error);
+void gis_joined_clear(gis_joined *joined);
+
+/* joined_lists.c: the lists and sums of the worlds that stand: of what is held, which is cleared, and of the chunks
+ * that are not. */
+bool gis_joined_gather(gis_joined *out, gis_holding *holding, gis_part_result *held, const char *directory,
+                       gis_error *error);
+/* A feature's entry in block[]; NULL: it is of no block. */
+const gis_part_link *gis_joined_block(const gis_joined *joined, size_t feature);
+/* The status of a feature that is of no world. */
+sunder_feature_status gis_joined_status(const gis_joined *joined, const gis_part_still *still);
+
+#endif

@@ -1,0 +1,324 @@
+/* joined_lists.c: what worlds tell, as lists by features, and as sums. Sums are exact until they are rounded once. */
+#include "shards/parts/border_chunks.h"
+#include "shards/parts/disjoint_sets.h"
+#include "shards/parts/join.h"
+
+#include "base/array.h"
+#include "base/interrupt.h"
+#include "base/resources.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct gathering {
+    gis_joined *out;
+    gis_part_result one;   /* a thing by itself */
+    gis_part_result links; /* of all */
+    gis_part_file *file;   /* of all shards */
+    size_t files;
+    sunder_total proved, by_pairs, total, cost;
+    size_t block;     /* how far features of blocks are, while rows go by */
+    uint64_t last[2]; /* keys of what was kept last */
+    bool any, more;   /* something was; there is a row at which rows are, while conflicts go by */
+} gathering;
+
+/* ---- Things of a result, one by one ------------------------------------------------------------------------------ */
+
+/* Of a feature that has both, the row comes first. */
+enum { ROW, STILL };
+
+static bool put_row(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
+{
+    gis_part_result_empty(&g->one);
+    return gis_part_copy_row(&g->one, r, k, error) &&
+           gis_sorted_add(&g->out->rows, r->row[k].index, ROW, &g->one, error);
+}
+
+static bool put_still(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
+{
+    gis_part_result_empty(&g->one);
+    return gis_part_copy_still(&g->one, r, k, error) &&
+           gis_sorted_add(&g->out->rows, r->still[k].index, STILL, &g->one, error);
+}
+
+static bool put_conflict(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
+{
+    const sunder_conflict *c = &r->conflict[k].is;
+    gis_part_result_empty(&g->one);
+    return gis_part_copy_conflict(&g->one, r, k, error) &&
+           gis_part_file_fetch(g->file, g->files, &g->one, &g->one.conflict->line, error) &&
+           gis_sorted_add(&g->out->conflicts, c->a, c->b, &g->one, error);
+}
+
+static bool put_push(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
+{
+    const sunder_push *p = &r->push[k].is;
+    gis_part_result_empty(&g->one);
+    return gis_part_copy_push(&g->one, r, k, error) && gis_sorted_add(&g->out->pushes, p->a, p->b, &g->one, error);
+}
+
+static bool put_tree(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
+{
+    gis_part_result_empty(&g->one);
+    return gis_part_copy_tree(&g->one, r, k, error) &&
+           gis_part_file_fetch(g->file, g->files, &g->one, &g->one.tree->line, error) &&
+           gis_sorted_add(&g->out->trees, r->tree[k].first, r->tree[k].among, &g->one, error);
+}
+
+static void add_counts(sunder_conflict_counts *to, const sunder_conflict_counts *from)
+{
+    to->overlap += from->overlap;
+    to->too_close += from->too_close;
+    to->barrier += from->barrier;
+    to->barrier_drawn += from->barrier_drawn;
+    to->barrier_near += from->barrier_near;
+    to->contained += from->contained;
+    to->duplicate += from->duplicate;
+    to->inside_blocks += from->inside_blocks;
+}
+
+static bool put_world(gathering *g, const gis_part_result *r, const gis_part_world *w, gis_error *error)
+{
+    sunder_layer_summary *s = &g->out->summary;
+    bool done = true;
+    if (w->gone) return true;
+    for (size_t k = 0; k < w->rows && done; k++) done = put_row(g, r, w->row + k, error);
+    for (size_t k = 0; k < w->conflicts && done; k++) done = put_conflict(g, r, w->conflict + k, error);
+    for (size_t k = 0; k < w->pushes && done; k++) done = put_push(g, r, w->push + k, error);
+    for (size_t k = 0; k < w->trees && done; k++) done = put_tree(g, r, w->tree + k, error);
+    if (w->loose) return done;
+    add_counts(&s->before, &w->before);
+    add_counts(&s->after, &w->after);
+    s->thin += w->thin;
+    s->clusters += w->clusters;
+    s->clusters_optimal += w->clusters_optimal;
+    for (size_t k = w->bound; k < w->bound + w->bounds; k++) {
+        sunder_total_add(&g->proved, r->bound[k].proved);
+        sunder_total_add(&g->by_pairs, r->bound[k].by_pairs);
+    }
+    return done;
+}
+
+static bool put_result(gathering *g, const gis_part_result *r, gis_error *error)
+{
+    bool done = true;
+    for (size_t w = 0; w < r->worlds && done; w++) done = put_world(g, r, &r->world[w], error);
+    for (size_t k = 0; k < r->stills && done; k++) done = put_still(g, r, k, error);
+    for (size_t k = 0; k < r->links && done; k++) done = gis_part_copy_link(&g->links, r, k, error);
+    g->out->summary.verified = g->out->summary.verified && !r->unverified;
+    return done && gis_go_on(error);
+}
+
+static bool put_everything(gathering *g, const gis_holding *h, gis_part_result *held, gis_error *error)
+{
+    gis_part_result chunk = {0};
+    bool done = true;
+    for (size_t k = 0; k < h->chunks && done; k++)
+        if (!h->chunk[k].held)
+            done =
+                gis_part_file_read(h->chunk[k].file, h->chunk[k].chunk, &chunk, error) && put_result(g, &chunk, error);
+    gis_part_result_clear(&chunk);
+    done = done && put_result(g, held, error);
+    gis_part_result_clear(held); /* sorting needs the room */
+    gis_memory_back();
+    return done;
+}
+
+/* ---- Blocks ------------------------------------------------------------------------------------------------------ */
+
+static int by_number(const void *a, const void *b)
+{
+    const size_t *p = a, *q = b;
+    return (*p > *q) - (*p < *q);
+}
+
+static size_t place_in(const size_t *sorted, size_t n, size_t index)
+{
+    return (size_t)((const size_t *)bsearch(&index, sorted, n, sizeof index, by_number) - sorted);
+}
+
+static int by_feature(const void *a, const void *b)
+{
+    const gis_part_link *p = a, *q = b;
+    return (p->a > q->a) - (p->a < q->a);
+}
+
+const gis_part_link *gis_joined_block(const gis_joined *j, size_t feature)
+{
+    const gis_part_link key = {feature, 0};
+    return j->blocks ? bsearch(&key, j->block, j->blocks, sizeof key, by_feature) : NULL;
+}
+
+/* Whoever is linked is of one block, which is called by its first. */
+static bool gather_blocks(gis_joined *j, const gis_part_result *r, gis_error *error)
+{
+    size_t n = 0, *index = malloc((2 * r->links + 1) * sizeof *index), *parent;
+    if (!index) return gis_no_memory(error);
+    for (size_t k = 0; k < r->links; k++) {
+        index[n++] = r->link[k].a;
+        index[n++] = r->link[k].b;
+    }
+    if (n) qsort(index, n, sizeof *index, by_number);
+    size_t out = 0;
+    for (size_t k = 0; k < n; k++)
+        if (k == 0 || index[k] != index[k - 1]) index[out++] = index[k];
+    n = out;
+    parent = malloc((n + 1) * sizeof *parent);
+    j->block = malloc((n + 1) * sizeof *j->block);
+    j->fixed = calloc(n + 1, sizeof *j->fixed);
+    for (size_t k = 0; k < n && parent && j->block; k++) parent[k] = k;
+    for (size_t k = 0; k < r->links && parent && j->block; k++)
+        gis_set_join(parent, place_in(index, n, r->link[k].a), place_in(index, n, r->link[k].b));
+    for (size_t k = 0; k < n && parent && j->block; k++) {
+        const size_t root = gis_set_root(parent, k);
+        j->block[j->blocks++] = (gis_part_link){index[k], index[root]};
+        j->summary.blocks += root == k;
+    }
+    const bool done = parent && j->block && j->fixed;
+    free(index);
+    free(parent);
+    return done || gis_no_memory(error);
+}
+
+/* ---- In order ---------------------------------------------------------------------------------------------------- */
+
+/* Was one with the same keys kept? */
+static bool is_again(gathering *g, uint64_t first, uint64_t second)
+{
+    const bool again = g->any && g->last[0] == first && g->last[1] == second;
+    g->last[0] = first;
+    g->last[1] = second;
+    g->any = true;
+    return again;
+}
+
+static void sum_row(gathering *g, const gis_part_row *row)
+{
+    sunder_layer_summary *s = &g->out->summary;
+    const double *t = row->move, length = hypot(t[0], t[1]);
+    s->blocked += row->status == SUNDER_FEATURE_BLOCKED;
+    if (t[0] == 0 && t[1] == 0) return;
+    s->moved += row->status == SUNDER_FEATURE_MOVED;
+    s->blocked_moved += row->status == SUNDER_FEATURE_BLOCKED;
+    s->rounded += row->rounded;
+    sunder_total_add(&g->total, length);
+    sunder_total_add(&g->cost, row->weight * (t[0] * t[0] + t[1] * t[1]));
+    if (!(length > s->max)) return;
+    s->max = length;
+    s->max_feature = row->index;
+    g->out->longest_fid = row->fid;
+}
+
+/* One that is fixed fixes its block, of which no part may know both ends. */
+static void sum_still(gathering *g, const gis_part_still *still)
+{
+    gis_joined *j = g->out;
+    j->summary.before.inside_blocks += still->inside;
+    j->summary.after.inside_blocks += still->inside;
+    while (g->block < j->blocks && j->block[g->block].a < still->index) g->block++;
+    if (still->status == SUNDER_FEATURE_FIXED && g->block < j->blocks && j->block[g->block].a == still->index)
+        j->fixed[gis_joined_block(j, j->block[g->block].b) - j->block] = true;
+}
+
+static bool keep_feature(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep,
+                         gis_error *error)
+{
+    gathering *g = user;
+    (void)error;
+    *keep = !is_again(g, head->first, 0);
+    if (*keep && one->rows) sum_row(g, one->row);
+    if (*keep && one->stills) sum_still(g, one->still);
+    return true;
+}
+
+/* Of pushes, and of trees. */
+static bool keep_once(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep, gis_error *error)
+{
+    (void)one;
+    (void)error;
+    *keep = !is_again(user, head->first, head->second);
+    return true;
+}
+
+static bool is_inside_overlap(const sunder_conflict *conflict)
+{
+    return conflict->inside_block && conflict->kind == SUNDER_CONFLICT_OVERLAP;
+}
+
+/* What was found inside a block to which something happened in another part, that part tells. */
+static bool keep_conflict(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep,
+                          gis_error *error)
+{
+    gathering *g = user;
+    gis_sorted *rows = &g->out->rows;
+    *keep = false;
+    if (one->conflict[0].loose) {
+        while (g->more && (rows->head.first < head->first))
+            if (!gis_sorted_next(rows, &g->more, error)) return false;
+        if (g->more && rows->head.first == head->first && rows->one.rows) return true;
+    }
+    *keep = !is_again(g, head->first, head->second);
+    if (*keep) g->out->summary.inside_overlaps += is_inside_overlap(&one->conflict[0].is);
+    return true;
+}
+
+static bool sort_everything(gathering *g, gis_error *error)
+{
+    gis_joined *j = g->out;
+    if (!gis_sorted_sort(&j->rows, keep_feature, g, error) || !gis_sorted_next(&j->rows, &g->more, error)) return false;
+    g->any = false;
+    if (!gis_sorted_sort(&j->conflicts, keep_conflict, g, error)) return false;
+    g->any = false;
+    if (!gis_sorted_sort(&j->pushes, keep_once, g, error)) return false;
+    g->any = false;
+    return gis_sorted_sort(&j->trees, keep_once, g, error);
+}
+
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
+
+static bool begin(gis_joined *j, const char *directory, gis_error *error)
+{
+    j->longest_fid = -1;
+    j->summary.max_feature = SIZE_MAX;
+    j->summary.verified = true;
+    return gis_sorted_begin(&j->rows, directory, "rows", error) &&
+           gis_sorted_begin(&j->conflicts, directory, "conflicts", error) &&
+           gis_sorted_begin(&j->pushes, directory, "pushes", error) &&
+           gis_sorted_begin(&j->trees, directory, "trees", error);
+}
+
+bool gis_joined_gather(gis_joined *j, gis_holding *holding, gis_part_result *held, const char *directory,
+                       gis_error *error)
+{
+    gathering g = {.out = j, .file = holding->file, .files = holding->files};
+    const bool done = begin(j, directory, error) && put_everything(&g, holding, held, error) &&
+                      gather_blocks(j, &g.links, error) && sort_everything(&g, error);
+    gis_part_result_clear(&g.one);
+    gis_part_result_clear(&g.links);
+    sunder_layer_summary *s = &j->summary;
+    s->lower_bound = sunder_total_below(&g.proved);
+    s->pair_bound = sunder_total_below(&g.by_pairs);
+    s->total = sunder_total_nearest(&g.total);
+    s->cost = sunder_total_nearest(&g.cost);
+    const size_t moved = s->moved + s->blocked_moved;
+    if (moved) s->mean = s->total / (double)moved;
+    return done;
+}
+
+sunder_feature_status gis_joined_status(const gis_joined *j, const gis_part_still *still)
+{
+    const gis_part_link *own = still->status == SUNDER_FEATURE_UNMOVED ? gis_joined_block(j, still->index) : NULL;
+    return own && j->fixed[gis_joined_block(j, own->b) - j->block] ? SUNDER_FEATURE_FIXED : still->status;
+}
+
+void gis_joined_clear(gis_joined *j)
+{
+    gis_sorted_clear(&j->rows);
+    gis_sorted_clear(&j->conflicts);
+    gis_sorted_clear(&j->pushes);
+    gis_sorted_clear(&j->trees);
+    free(j->block);
+    free(j->fixed);
+    *j = (gis_joined){0};
+}

@@ -1,0 +1,15 @@
+/* part_memory.c: see part_memory.h. Measured on towns, where they take the most. */
+#include "shards/parts/part_memory.h"
+
+#include <math.h>
+
+static const double bytes_a_feature = 2000, bytes_a_vertex = 120;
+/* Of proofs, without search, and more with --effort 1. Where that proves all groups, as in towns, more effort takes no
+ * more; else the tree of a single group may take hundreds of megabytes more, which nobody knows beforehand. */
+static const double bytes_a_proof = 3000, bytes_of_effort = 8000;
+
+double gis_part_bytes(bool proofs, double effort, double features, double vertices)
+{
+    const double more = proofs ? bytes_a_proof + bytes_of_effort * fmin(1, effort) : 0;
+    return GIS_PART_BYTES_ANYWAY + (bytes_a_feature + more) * features + bytes_a_vertex * vertices;
+}

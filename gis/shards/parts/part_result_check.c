@@ -1,0 +1,99 @@
+/* part_result_check.c: see part_result_check.h. Checksums tell bytes that were altered by chance; who alters them on
+ * purpose writes checksums that agree. So every number by which something is looked up is held against how many of them
+ * there are. */
+#include "shards/parts/part_result_check.h"
+
+#include <string.h>
+
+static bool holds(size_t from, size_t n, size_t all) { return from <= all && n <= all - from; }
+
+/* A flag as the compiler reads it: other bytes are no bool. */
+static bool is_flag(const bool *flag)
+{
+    unsigned char byte;
+    memcpy(&byte, flag, sizeof byte);
+    return byte <= 1;
+}
+
+static bool is_text(const gis_part_result *r, size_t at) { return at == GIS_NO_TEXT || at < r->texts; }
+
+static bool is_line(const gis_part_result *r, const gis_part_line *line)
+{
+    return line->file != 0 || line->bytes == 0 || holds((size_t)line->from, (size_t)line->bytes, r->lines);
+}
+
+static bool is_place(size_t index, uint64_t places) { return places == 0 || index < places; }
+
+static bool is_status(sunder_feature_status status) { return (unsigned)status <= SUNDER_FEATURE_SKIPPED; }
+
+static bool are_worlds(const gis_part_result *r, uint64_t places)
+{
+    for (size_t k = 0; k < r->worlds; k++) {
+        const gis_part_world *w = &r->world[k];
+        if (!is_place(w->first, places) || !is_flag(&w->complete) || !is_flag(&w->gone) || !is_flag(&w->loose) ||
+            !holds(w->row, w->rows, r->rows) || !holds(w->footprint, w->footprints, r->footprints) ||
+            !holds(w->bound, w->bounds, r->bounds) || !holds(w->conflict, w->conflicts, r->conflicts) ||
+            !holds(w->push, w->pushes, r->pushes) || !holds(w->tree, w->trees, r->trees))
+            return false;
+    }
+    return true;
+}
+
+static bool are_rows(const gis_part_result *r, uint64_t places)
+{
+    for (size_t k = 0; k < r->rows; k++)
+        if (!is_place(r->row[k].index, places) || !is_text(r, r->row[k].id) || !is_status(r->row[k].status) ||
+            !is_flag(&r->row[k].rounded))
+            return false;
+    for (size_t k = 0; k < r->stills; k++)
+        if (!is_place(r->still[k].index, places) || !is_status(r->still[k].status)) return false;
+    for (size_t k = 0; k < r->links; k++)
+        if (!is_place(r->link[k].a, places) || !is_place(r->link[k].b, places)) return false;
+    return true;
+}
+
+static bool names(const gis_part_result *r, const gis_part_conflict *c, size_t index)
+{
+    for (size_t k = 0; k < c->names; k++)
+        if (r->name[c->name + k].index == index) return true;
+    return false;
+}
+
+/* All that a conflict mentions stands among its names. */
+static bool is_conflict(const gis_part_result *r, const gis_part_conflict *c, uint64_t places)
+{
+    const sunder_conflict *is = &c->is;
+    bool sound = is_place(is->a, places) && is_place(is->b, places) && is_flag(&is->inside_block) &&
+                 is_flag(&is->crowded) && is_flag(&c->loose) && is_line(r, &c->line) &&
+                 (unsigned)is->kind <= SUNDER_CONFLICT_NOT_A_TRANSLATE &&
+                 (unsigned)is->reason <= SUNDER_REASON_UNRESOLVED && holds(c->blocker, is->n_blocked_by, r->blockers) &&
+                 holds(c->name, c->names, r->names) && names(r, c, is->a) && names(r, c, is->b) &&
+                 (is->need_gone == SIZE_MAX || names(r, c, is->need_gone));
+    for (size_t k = 0; sound && k < is->n_blocked_by; k++) sound = names(r, c, r->blocker[c->blocker + k]);
+    return sound;
+}
+
+static bool are_conflicts(const gis_part_result *r, uint64_t places)
+{
+    for (size_t k = 0; k < r->names; k++)
+        if (!is_place(r->name[k].index, places) || !is_text(r, r->name[k].id)) return false;
+    for (size_t k = 0; k < r->conflicts; k++)
+        if (!is_conflict(r, &r->conflict[k], places)) return false;
+    return true;
+}
+
+static bool are_others(const gis_part_result *r, uint64_t places)
+{
+    for (size_t k = 0; k < r->pushes; k++)
+        if (!is_place(r->push[k].is.a, places) || !is_place(r->push[k].is.b, places) || !is_text(r, r->push[k].layer))
+            return false;
+    for (size_t k = 0; k < r->trees; k++)
+        if (!is_line(r, &r->tree[k].line)) return false;
+    return true;
+}
+
+bool gis_part_result_is_sound(const gis_part_result *r, uint64_t places)
+{
+    return (r->texts == 0 || r->text[r->texts - 1] == '\0') && are_worlds(r, places) && are_rows(r, places) &&
+           are_conflicts(r, places) && are_others(r, places);
+}

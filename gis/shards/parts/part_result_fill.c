@@ -1,0 +1,127 @@
+/* part_result_fill.c: see part_internal.h. Features and barriers are called by their places in the input; a line of
+ * proof, where there is one, goes with what it is of. */
+#include "shards/parts/part_internal.h"
+
+#include "base/array.h"
+#include "layer/barriers/barrier.h"
+
+#include <math.h>
+#include <stdint.h>
+
+static const gis_part_barrier *barrier_of(const gis_part *p, size_t thing)
+{
+    return thing >= p->n && thing != SIZE_MAX ? &p->barriers.item[thing - p->n] : NULL;
+}
+
+size_t gis_part_index_of(const gis_part *p, size_t thing)
+{
+    const gis_part_barrier *barrier = barrier_of(p, thing);
+    if (barrier) return p->layout->features + barrier->number;
+    return thing < p->n ? p->item[thing].feature.index : SIZE_MAX;
+}
+
+static bool add_name(gis_part *p, gis_part_conflict *to, size_t thing, gis_error *error)
+{
+    gis_part_name name = {.index = gis_part_index_of(p, thing)};
+    if (name.index == SIZE_MAX) return true;
+    const gis_part_barrier *barrier = barrier_of(p, thing);
+    name.fid = barrier ? barrier->fid : p->item[thing].feature.fid;
+    const char *text = barrier ? barrier->layer : p->item[thing].feature.id;
+    if (!gis_part_add_text(p->out, text, &name.id, error) || !GIS_PART_MORE(p->out, name, names, 1, error))
+        return false;
+    p->out->name[p->out->names++] = name;
+    to->names++;
+    return true;
+}
+
+bool gis_part_tell_row(gis_part *p, size_t k, gis_error *error)
+{
+    const gis_spool_feature *f = &p->item[k].feature;
+    gis_part_row row = {.index = f->index,
+                        .fid = f->fid,
+                        .from = {f->start[0], f->start[1]},
+                        .weight = f->demands.weight,
+                        .status = sunder_report_status(p->report, k),
+                        .rounded = sunder_report_rounded(p->report, k)};
+    sunder_report_move(p->report, k, &row.move[0], &row.move[1]);
+    if (isnan(row.from[0])) sunder_shape_anchor(f->demands.shape, row.from);
+    if (!gis_part_add_text(p->out, f->id, &row.id, error) || !GIS_PART_MORE(p->out, row, rows, 1, error)) return false;
+    p->out->row[p->out->rows++] = row;
+    return true;
+}
+
+static bool take_line(gis_part *p, gis_part_line *to, gis_error *error)
+{
+    gis_text *made = &p->lines.json.text;
+    const char *line = gis_text_get(made);
+    const bool done = line ? gis_part_add_line(p->out, line, made->length + 1, to, error) : gis_no_memory(error);
+    gis_text_empty(made);
+    p->lines.json.need_comma = false;
+    return done;
+}
+
+bool gis_part_tell_conflict(gis_part *p, size_t number, bool loose, gis_error *error)
+{
+    size_t n;
+    gis_part_result *out = p->out;
+    const sunder_conflict *c = &sunder_report_conflicts(p->report, &n)[number];
+    gis_part_conflict to = {.is = *c, .blocker = out->blockers, .name = out->names, .loose = loose};
+    if (p->lines.report) {
+        gis_proof_conflict(&p->lines, number);
+        if (!take_line(p, &to.line, error)) return false;
+    }
+    if (!GIS_PART_MORE(out, conflict, conflicts, 1, error) ||
+        !GIS_PART_MORE(out, blocker, blockers, c->n_blocked_by, error))
+        return false;
+    to.is.a = gis_part_index_of(p, c->a);
+    to.is.b = gis_part_index_of(p, c->b);
+    to.is.need_gone = gis_part_index_of(p, c->need_gone);
+    to.is.blocked_by = NULL;
+    bool done = add_name(p, &to, c->a, error) && add_name(p, &to, c->b, error) && add_name(p, &to, c->need_gone, error);
+    for (size_t k = 0; k < c->n_blocked_by && done; k++) {
+        out->blocker[out->blockers++] = gis_part_index_of(p, c->blocked_by[k]);
+        done = add_name(p, &to, c->blocked_by[k], error);
+    }
+    out->conflict[out->conflicts++] = to;
+    return done;
+}
+
+/* Where a feature stands at the end, and its FID. */
+static int64_t stand(const gis_part *p, size_t thing, double at[2])
+{
+    double move[2];
+    sunder_report_move(p->report, thing, &move[0], &move[1]);
+    sunder_shape_anchor(p->item[thing].feature.demands.shape, at);
+    for (int c = 0; c < 2; c++) at[c] += move[c];
+    return p->item[thing].feature.fid;
+}
+
+bool gis_part_tell_push(gis_part *p, const sunder_push *push, gis_error *error)
+{
+    const gis_part_barrier *barrier = barrier_of(p, push->b);
+    gis_part_push to = {.is = *push};
+    to.fid[0] = stand(p, push->a, to.from);
+    if (barrier)
+        gis_barrier_corner(&barrier->demands.geometry, to.from, to.to);
+    else
+        to.fid[1] = stand(p, push->b, to.to);
+    if (barrier) to.fid[1] = barrier->fid;
+    to.is.a = gis_part_index_of(p, push->a);
+    to.is.b = gis_part_index_of(p, push->b);
+    if (!gis_part_add_text(p->out, barrier ? barrier->layer : NULL, &to.layer, error) ||
+        !GIS_PART_MORE(p->out, push, pushes, 1, error))
+        return false;
+    p->out->push[p->out->pushes++] = to;
+    return true;
+}
+
+bool gis_part_tell_tree(gis_part *p, const gis_proof_place *place, gis_error *error)
+{
+    size_t n;
+    gis_part_tree to = {gis_part_index_of(p, place->first), place->among, {0}};
+    if (!gis_proof_tree(&p->lines, &sunder_report_bound_trees(p->report, &n)[place->tree], error) ||
+        !take_line(p, &to.line, error) || !GIS_PART_MORE(p->out, tree, trees, 1, error))
+        return false;
+    p->out->tree[p->out->trees++] = to;
+    return true;
+}

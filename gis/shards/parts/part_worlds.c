@@ -1,0 +1,236 @@
+/* part_worlds.c: see part_internal.h. */
+#include "shards/parts/part_internal.h"
+
+#include "base/array.h"
+#include "geometry/box.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+
+/* ---- Completeness ---------------------------------------------------------------------------------------------- */
+
+/* Quarters of quarters: finer than that a box is not cut. */
+enum { DEPTH = 7 };
+
+static bool is_within(const double box[4], const double of[4])
+{
+    return of[0] <= box[0] && of[1] <= box[1] && box[2] <= of[2] && box[3] <= of[3];
+}
+
+/* Is everything of the layer that meets the box in the part? */
+static bool is_known(const gis_part *p, const double box[4], int depth)
+{
+    bool any = false;
+    for (size_t k = 0; k < p->boxes->n; k++) {
+        if (is_within(box, p->boxes->box[k])) return true;
+        any = any || gis_box_meets(box, p->boxes->box[k]);
+    }
+    bool empty = true;
+    for (size_t k = 0; k < gis_spool_cells(p->spool) && empty; k++)
+        empty = !gis_box_meets(box, gis_spool_cell_at(p->spool, k)->box);
+    empty = empty && !gis_barriers_may_meet(&p->layout->barriers, box);
+    if (empty || !any || depth == 0) return empty;
+    const double x = box[0] / 2 + box[2] / 2, y = box[1] / 2 + box[3] / 2;
+    const double quarter[4][4] = {
+        {box[0], box[1], x, y}, {x, box[1], box[2], y}, {box[0], y, x, box[3]}, {x, y, box[2], box[3]}};
+    for (int k = 0; k < 4; k++)
+        if (!is_known(p, quarter[k], depth - 1)) return false;
+    return true;
+}
+
+/* ---- Worlds ---------------------------------------------------------------------------------------------------- */
+
+static bool add_footprints(gis_part *p, const sunder_world *w, gis_part_world *to, gis_error *error)
+{
+    size_t n;
+    const sunder_footprint *all = sunder_report_footprints(p->report, &n);
+    if (!GIS_PART_MORE(p->out, footprint, footprints, w->footprints, error)) return false;
+    to->complete = true;
+    for (size_t k = 0; k < w->footprints; k++) {
+        const sunder_footprint *f = &all[w->footprint + k];
+        p->out->footprint[p->out->footprints++] = *f;
+        to->complete = to->complete && is_known(p, f->seen, DEPTH);
+    }
+    return true;
+}
+
+/* What belongs to a world: features, conflicts or pushes by their numbers. */
+typedef struct belonging {
+    size_t world, at;
+} belonging;
+
+static int by_world(const void *a, const void *b)
+{
+    const belonging *p = a, *q = b;
+    if (p->world != q->world) return p->world < q->world ? -1 : 1;
+    return (p->at > q->at) - (p->at < q->at);
+}
+
+/* Of all worlds, one behind the other, and how far each list is used up. */
+typedef struct belongings {
+    belonging *feature, *conflict, *push, *tree;
+    gis_proof_place *place; /* [trees]; NULL: there are none */
+    size_t features, conflicts, pushes, trees, f, c, p, t;
+} belongings;
+
+static bool list_belongings(const gis_part *p, belongings *all, gis_error *error)
+{
+    const sunder_conflict *conflict = sunder_report_conflicts(p->report, &all->conflicts);
+    const sunder_push *push = sunder_report_pushes(p->report, &all->pushes);
+    if (p->lines.report && !gis_proof_order(&p->lines, &all->place, &all->trees, error)) return false;
+    all->features = p->n;
+    all->tree = malloc((all->trees + 1) * sizeof *all->tree);
+    all->feature = malloc((p->n + 1) * sizeof *all->feature);
+    all->conflict = malloc((all->conflicts + 1) * sizeof *all->conflict);
+    all->push = malloc((all->pushes + 1) * sizeof *all->push);
+    if (!all->feature || !all->conflict || !all->push || !all->tree) return gis_no_memory(error);
+    for (size_t k = 0; k < p->n; k++) all->feature[k] = (belonging){sunder_report_world(p->report, k), k};
+    for (size_t k = 0; k < all->conflicts; k++)
+        all->conflict[k] = (belonging){sunder_report_world_of_pair(p->report, conflict[k].a, conflict[k].b), k};
+    for (size_t k = 0; k < all->pushes; k++)
+        all->push[k] = (belonging){sunder_report_world_of_pair(p->report, push[k].a, push[k].b), k};
+    for (size_t k = 0; k < all->trees; k++)
+        all->tree[k] = (belonging){sunder_report_world(p->report, all->place[k].first), k};
+    qsort(all->tree, all->trees, sizeof *all->tree, by_world);
+    qsort(all->feature, all->features, sizeof *all->feature, by_world);
+    qsort(all->conflict, all->conflicts, sizeof *all->conflict, by_world);
+    qsort(all->push, all->pushes, sizeof *all->push, by_world);
+    return true;
+}
+
+static bool is_wanted(const gis_part *p, const belongings *all, size_t number)
+{
+    for (size_t k = all->f; k < all->features && all->feature[k].world == number; k++)
+        if (p->item[all->feature[k].at].wanted) return true;
+    return false;
+}
+
+static bool add_members(gis_part *p, belongings *all, size_t number, gis_error *error)
+{
+    size_t n;
+    const sunder_push *push = sunder_report_pushes(p->report, &n);
+    for (size_t k = all->f; k < all->features && all->feature[k].world == number; k++)
+        if (!gis_part_tell_row(p, all->feature[k].at, error)) return false;
+    for (size_t k = all->c; k < all->conflicts && all->conflict[k].world == number; k++)
+        if (!gis_part_tell_conflict(p, all->conflict[k].at, false, error)) return false;
+    for (size_t k = all->p; k < all->pushes && all->push[k].world == number; k++)
+        if (!gis_part_tell_push(p, &push[all->push[k].at], error)) return false;
+    for (size_t k = all->t; k < all->trees && all->tree[k].world == number; k++)
+        if (!gis_part_tell_tree(p, &all->place[all->tree[k].at], error)) return false;
+    return true;
+}
+
+static void pass_by(belongings *all, size_t number)
+{
+    while (all->f < all->features && all->feature[all->f].world == number) all->f++;
+    while (all->c < all->conflicts && all->conflict[all->c].world == number) all->c++;
+    while (all->p < all->pushes && all->push[all->p].world == number) all->p++;
+    while (all->t < all->trees && all->tree[all->t].world == number) all->t++;
+}
+
+static bool add_world(gis_part *p, size_t number, belongings *all, gis_error *error)
+{
+    size_t n;
+    gis_part_result *out = p->out;
+    const sunder_world *w = &sunder_report_worlds(p->report, &n)[number];
+    const sunder_world_bound *bound = sunder_report_world_bounds(p->report, &n);
+    gis_part_world to = {.first = gis_part_index_of(p, w->first),
+                         .run = p->run,
+                         .row = out->rows,
+                         .footprint = out->footprints,
+                         .footprints = w->footprints,
+                         .bound = out->bounds,
+                         .bounds = w->bounds,
+                         .conflict = out->conflicts,
+                         .push = out->pushes,
+                         .tree = out->trees,
+                         .before = w->before,
+                         .after = w->after,
+                         .thin = w->thin,
+                         .clusters = w->clusters,
+                         .clusters_optimal = w->clusters_optimal};
+    if (!GIS_PART_MORE(out, bound, bounds, w->bounds, error) || !add_footprints(p, w, &to, error)) return false;
+    for (size_t k = 0; k < w->bounds; k++) out->bound[out->bounds++] = bound[w->bound + k];
+    if (!add_members(p, all, number, error)) return false;
+    to.rows = out->rows - to.row;
+    to.conflicts = out->conflicts - to.conflict;
+    to.pushes = out->pushes - to.push;
+    to.trees = out->trees - to.tree;
+    if (!GIS_PART_MORE(out, world, worlds, 1, error)) return false;
+    out->world[out->worlds++] = to;
+    return true;
+}
+
+/* Conflicts inside blocks that nothing happened to. */
+static bool add_loose(gis_part *p, const belongings *all, gis_error *error)
+{
+    size_t n;
+    gis_part_result *out = p->out;
+    const sunder_conflict *conflict = sunder_report_conflicts(p->report, &n);
+    for (size_t k = all->c; k < all->conflicts; k++) {
+        const sunder_conflict *c = &conflict[all->conflict[k].at];
+        if (!p->item[c->a].wanted) continue;
+        if (!GIS_PART_MORE(out, world, worlds, 1, error)) return false;
+        out->world[out->worlds++] = (gis_part_world){.first = gis_part_index_of(p, c->a),
+                                                     .run = p->run,
+                                                     .complete = true,
+                                                     .loose = true,
+                                                     .row = out->rows,
+                                                     .footprint = out->footprints,
+                                                     .bound = out->bounds,
+                                                     .push = out->pushes,
+                                                     .tree = out->trees,
+                                                     .conflict = out->conflicts,
+                                                     .conflicts = 1};
+        if (!gis_part_tell_conflict(p, all->conflict[k].at, true, error)) return false;
+    }
+    return true;
+}
+
+bool gis_part_tell_worlds(gis_part *p, gis_error *error)
+{
+    size_t n;
+    belongings all = {0};
+    sunder_report_worlds(p->report, &n);
+    bool done = list_belongings(p, &all, error);
+    for (size_t k = 0; k < n && done; k++) {
+        if (is_wanted(p, &all, k)) done = add_world(p, k, &all, error);
+        pass_by(&all, k);
+    }
+    done = done && add_loose(p, &all, error);
+    free(all.feature);
+    free(all.conflict);
+    free(all.push);
+    free(all.tree);
+    free(all.place);
+    return done;
+}
+
+/* ---- Others ------------------------------------------------------------------------------------------------------ */
+
+static sunder_feature_status status_alone(const gis_part *p, size_t k)
+{
+    const sunder_feature *demands = &p->item[k].feature.demands;
+    return demands->fixed || demands->max_shift == 0 ? SUNDER_FEATURE_FIXED : SUNDER_FEATURE_UNMOVED;
+}
+
+/* Who was asked for and is of no world, if that is not all there is to say; and whose block it is, by pairs with the
+ * block's first. */
+bool gis_part_tell_others(gis_part *p, gis_error *error)
+{
+    gis_part_result *out = p->out;
+    for (size_t k = 0; k < p->n; k++) {
+        const int64_t block = sunder_report_block(p->report, k);
+        if (block >= 0 && (size_t)block != k) {
+            if (!GIS_PART_MORE(out, link, links, 1, error)) return false;
+            out->link[out->links++] = (gis_part_link){gis_part_index_of(p, (size_t)block), gis_part_index_of(p, k)};
+        }
+        if (!p->item[k].wanted || sunder_report_world(p->report, k) != SIZE_MAX) continue;
+        const gis_part_still still = {gis_part_index_of(p, k), sunder_report_inside(p->report, k),
+                                      sunder_report_status(p->report, k)};
+        if (block < 0 && !still.inside && still.status == status_alone(p, k)) continue;
+        if (!GIS_PART_MORE(out, still, stills, 1, error)) return false;
+        out->still[out->stills++] = still;
+    }
+    return true;
+}

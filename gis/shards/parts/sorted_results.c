@@ -1,0 +1,127 @@
+/* sorted_results.c: see sorted_results.h. */
+#include "shards/parts/sorted_results.h"
+
+#include "base/array.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* So much is read at a time. */
+enum { BUFFER = 1 << 18 };
+
+/* There are several of these at a time. */
+static const size_t RUN = GIS_SPOOL_RUN / 4;
+
+enum { NAME = 64 };
+
+static void name_of(const gis_sorted *s, const char *suffix, char name[NAME])
+{
+    snprintf(name, NAME, "%s.%s", s->name, suffix);
+}
+
+bool gis_sorted_begin(gis_sorted *s, const char *directory, const char *called, gis_error *error)
+{
+    char parts[NAME];
+    *s = (gis_sorted){.directory = directory, .name = called};
+    name_of(s, "runs", parts);
+    return gis_sorter_new(directory, parts, RUN, &s->sorter, error);
+}
+
+bool gis_sorted_add(gis_sorted *s, uint64_t first, uint64_t second, const gis_part_result *one, gis_error *error)
+{
+    const gis_sort_head head = {sizeof head + gis_part_result_size(one), first, second};
+    if (!gis_array_reserve(&s->record, &s->room, head.bytes, 1)) return gis_no_memory(error);
+    memcpy(s->record, &head, sizeof head);
+    gis_part_result_store(one, s->record + sizeof head);
+    return gis_sorter_add(s->sorter, s->record, error);
+}
+
+/* ---- Sorting ----------------------------------------------------------------------------------------------------- */
+
+typedef struct sorting {
+    gis_sorted *sorted;
+    gis_spool_file out;
+    gis_sorted_keep *keep;
+    void *user;
+} sorting;
+
+static bool load(gis_sorted *s, const unsigned char *record, gis_error *error)
+{
+    bool sound;
+    memcpy(&s->head, record, sizeof s->head);
+    return gis_part_result_load(&s->one, record + sizeof s->head, (size_t)s->head.bytes - sizeof s->head, &sound,
+                                error) &&
+           (sound || gis_fail(error, "%s/%s: it is not what was written", s->directory, s->name));
+}
+
+static bool take(void *user, const unsigned char *record, gis_error *error)
+{
+    sorting *own = user;
+    gis_sorted *s = own->sorted;
+    bool keep = false;
+    if (!load(s, record, error) || !own->keep(own->user, &s->head, &s->one, &keep, error)) return false;
+    s->n += keep;
+    return !keep || gis_spool_file_write(&own->out, record, (size_t)s->head.bytes, error);
+}
+
+bool gis_sorted_sort(gis_sorted *s, gis_sorted_keep *keep, void *user, gis_error *error)
+{
+    char name[NAME];
+    sorting own = {.sorted = s, .keep = keep, .user = user};
+    name_of(s, "sorted", name);
+    const bool done = gis_spool_file_create(&own.out, s->directory, name, error) &&
+                      gis_sorter_take(s->sorter, take, &own, error) && gis_spool_file_flush(&own.out, error);
+    gis_sorter_free(s->sorter);
+    s->sorter = NULL;
+    s->file = own.out;
+    gis_sorted_again(s);
+    return done;
+}
+
+/* ---- Reading ----------------------------------------------------------------------------------------------------- */
+
+void gis_sorted_again(gis_sorted *s)
+{
+    s->used = s->filled = 0;
+    s->from = 0;
+}
+
+/* At least so many bytes in the buffer. */
+static bool fill(gis_sorted *s, size_t needed, gis_error *error)
+{
+    const size_t have = s->filled - s->used;
+    if (have >= needed) return true;
+    const size_t wanted = needed < BUFFER ? BUFFER : needed;
+    if (!gis_array_reserve(&s->buffer, &s->buffer_room, wanted, 1)) return gis_no_memory(error);
+    memmove(s->buffer, s->buffer + s->used, have);
+    const uint64_t left = s->file.size - s->from;
+    const size_t more = left < wanted - have ? (size_t)left : wanted - have;
+    if (have + more < needed) return gis_fail(error, "%s: it is not what was written", s->file.path);
+    if (!gis_spool_file_read(&s->file, s->from, s->buffer + have, more, error)) return false;
+    s->from += more;
+    s->used = 0;
+    s->filled = have + more;
+    return true;
+}
+
+bool gis_sorted_next(gis_sorted *s, bool *any, gis_error *error)
+{
+    gis_sort_head head;
+    *any = s->used < s->filled || s->from < s->file.size;
+    if (!*any) return true;
+    if (!fill(s, sizeof head, error)) return false;
+    memcpy(&head, s->buffer + s->used, sizeof head);
+    if (!fill(s, (size_t)head.bytes, error) || !load(s, s->buffer + s->used, error)) return false;
+    s->used += (size_t)head.bytes;
+    return true;
+}
+
+void gis_sorted_clear(gis_sorted *s)
+{
+    gis_sorter_free(s->sorter);
+    gis_spool_file_close(&s->file);
+    gis_part_result_clear(&s->one);
+    free(s->record);
+    free(s->buffer);
+    *s = (gis_sorted){0};
+}

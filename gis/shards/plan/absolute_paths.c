@@ -1,0 +1,106 @@
+/* absolute_paths.c: see plan.h. A plan is made in one directory and merged in another, perhaps; what its call names is
+ * found all the same. Of names that GDAL's drivers make sense of those forms are known in which a file stands by
+ * itself. */
+#include "shards/plan/plan.h"
+
+#include "base/path.h"
+
+#include <cpl_conv.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Is there a file whose path are the first n bytes? */
+static bool is_there(const char *path, size_t n)
+{
+    char *name = gis_printed("%.*s", (int)n, path);
+    const bool there = n > 0 && access(name, F_OK) == 0;
+    CPLFree(name);
+    return there;
+}
+
+/* The text with the current directory before what stands at `at`. */
+static char *prefixed(const char *text, size_t at)
+{
+    char *here = gis_path_here();
+    if (!here) return CPLStrdup(text);
+    const size_t size = strlen(here) + strlen(text) + 2;
+    char *out = CPLCalloc(1, size);
+    snprintf(out, size, "%.*s%s/%s", (int)at, text, here, text + at);
+    CPLFree(here);
+    return out;
+}
+
+/* /vsizip/a.zip/b.gpkg, /vsigzip//vsizip/...: where the name of a file begins, if it is one in this directory. */
+static bool find_in_archive(const char *source, size_t *at)
+{
+    size_t from = 0;
+    while (strncmp(source + from, "/vsi", 4) == 0) {
+        const size_t name = strcspn(source + from + 1, "/") + 1;
+        if (!source[from + name]) return false;
+        from += name + 1;
+    }
+    from += source[from] == '{';
+    if (from == 0 || source[from] == '/') return false;
+    for (size_t n = 0; n == 0 || source[from + n]; n++) {
+        n += strcspn(source + from + n, "/}");
+        if (is_there(source + from, n)) {
+            *at = from;
+            return true;
+        }
+        if (!source[from + n]) break;
+    }
+    return false;
+}
+
+/* GPKG:town.gpkg:buildings */
+static bool find_behind_driver(const char *source, size_t *at)
+{
+    const char *colon = strchr(source, ':');
+    if (!colon || colon[1] == '/') return false;
+    *at = (size_t)(colon + 1 - source);
+    const char *rest = colon + 1;
+    return is_there(rest, strlen(rest)) || is_there(rest, strcspn(rest, ":"));
+}
+
+char *gis_plan_absolute_source(const char *source)
+{
+    size_t at = 0;
+    if (*source == '/' ? find_in_archive(source, &at)
+                       : is_there(source, strlen(source)) || find_behind_driver(source, &at))
+        return prefixed(source, is_there(source, strlen(source)) && *source != '/' ? 0 : at);
+    return CPLStrdup(source);
+}
+
+char *gis_plan_absolute_output(const char *path)
+{
+    return *path == '/' || strcmp(path, "-") == 0 ? CPLStrdup(path) : prefixed(path, 0);
+}
+
+char *gis_plan_absolute_shape(const char *shape)
+{
+    if (*shape == '@' && shape[1] != '/' && strcmp(shape, "@-") != 0) return prefixed(shape, 1);
+    return CPLStrdup(shape);
+}
+
+/* A comma within the name is written \, and the keys begin at the first other one. */
+char *gis_plan_absolute_barrier(const char *barrier)
+{
+    size_t n = 0;
+    while (barrier[n] && barrier[n] != ',') n += barrier[n] == '\\' && barrier[n + 1] == ',' ? 2 : 1;
+    char *plain = CPLStrdup(barrier);
+    size_t length = 0;
+    for (size_t k = 0; k < n; k++)
+        if (!(barrier[k] == '\\' && barrier[k + 1] == ',')) plain[length++] = barrier[k];
+    plain[length] = '\0';
+    char *found = gis_plan_absolute_source(plain);
+    char *out = CPLCalloc(1, 2 * strlen(found) + strlen(barrier + n) + 1), *to = out;
+    for (const char *c = found; *c; c++) {
+        if (*c == ',') *to++ = '\\';
+        *to++ = *c;
+    }
+    strcpy(to, barrier + n);
+    CPLFree(found);
+    CPLFree(plain);
+    return out;
+}

@@ -1,0 +1,66 @@
+/* barrier_spooling.c: barriers onto the disk, for a layer in parts: a batch of the source at a time, each as it is
+ * read. */
+#include "shards/run/barrier_spooling.h"
+
+#include "shards/spool/barrier_spool.h"
+
+#include <cpl_conv.h>
+
+/* Features of a batch. */
+enum { BATCH = 8192 };
+
+typedef struct spooling {
+    gis_barriers_writer *writer;
+    const gis_barrier_request *request;
+    size_t n;
+} spooling;
+
+static bool take(void *user, const gis_barrier_common *common, gis_barrier_feature *f, gis_error *error)
+{
+    spooling *s = user;
+    const gis_part_barrier barrier = {
+        .number = s->n++,
+        .fid = f->fid,
+        .layer = common->layer,
+        .demands = {.geometry = {f->shape, f->lines.xy, f->lines.end, f->lines.lines},
+                    .width = f->width,
+                    .gap = s->request->gap.text ? common->distance : -1,
+                    .side = s->request->side},
+    };
+    const bool done = gis_barriers_add(s->writer, &barrier, error);
+    gis_barrier_feature_clear(f);
+    return done;
+}
+
+bool gis_barriers_spool(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
+                        const char *directory, gis_error *error)
+{
+    spooling s = {0};
+    bool done = gis_barriers_create(directory, around->gap, &s.writer, error);
+    for (size_t k = 0; k < n && done; k++) {
+        gis_barrier_common common;
+        s.request = &requests[k];
+        done = gis_barrier_visit(&requests[k], around, BATCH, take, &s, &common, error);
+        CPLFree(common.layer);
+    }
+    done = done && gis_barriers_finish(s.writer, error);
+    gis_barriers_writer_free(s.writer);
+    return done;
+}
+
+/* ---- Targets ----------------------------------------------------------------------------------------------------- */
+
+static const double *box_of_cell(void *spool, size_t cell) { return gis_spool_cell_at(spool, cell)->box; }
+
+static size_t features_of_cell(void *spool, size_t cell) { return gis_spool_cell_at(spool, cell)->features; }
+
+static bool read_boxes(void *spool, size_t cell, double (*box)[4], size_t *n, gis_error *error)
+{
+    return gis_spool_boxes(spool, cell, box, n, error);
+}
+
+gis_barrier_targets *gis_barrier_targets_of_spool(gis_spool *spool)
+{
+    const gis_box_cells cells = {spool, gis_spool_cells(spool), box_of_cell, features_of_cell, read_boxes};
+    return gis_barrier_targets_of_cells(&cells);
+}

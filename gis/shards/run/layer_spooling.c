@@ -1,0 +1,308 @@
+/* layer_spooling.c: see layer_spooling.h. Each batch goes through the stages of a layer that is read whole (input.h);
+ * what these ask of all features is left open, and settled when the spool is sorted: weights by the median of areas,
+ * and the numbers of blocks. */
+#include "shards/run/layer_spooling.h"
+
+#include "base/array.h"
+#include "base/message.h"
+#include "disk/file.h"
+#include "geometry/box.h"
+#include "layer/checksum.h"
+#include "layer/output.h"
+#include "read/crs_units.h"
+#include "shards/run/barrier_spooling.h"
+
+#include <cpl_conv.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* Features of a batch: enough that beginning one costs nothing. */
+enum { BATCH = 8192 };
+
+typedef struct spooling {
+    gis_layer_input input;
+    gis_layer_facts *facts;
+    const char *directory;
+    gis_spool_writer *writer;
+    gis_spool_writer *aside; /* NULL: nothing lies there yet */
+    gis_spool_file status;
+    gis_block_keys keys;
+    double *areas, median; /* of those that count, where weights ask for it */
+    size_t n_areas, room;
+    double shapes[4]; /* box of all shapes */
+    gis_layer_checksums sums;
+} spooling;
+
+/* ---- One batch --------------------------------------------------------------------------------------------------- */
+
+static bool by_area(const spooling *s) { return s->input.request->rules.weighting != GIS_WEIGHTING_EVEN; }
+
+static bool weigh(spooling *s, gis_error *error)
+{
+    gis_layer_input *input = &s->input;
+    if (!by_area(s)) return gis_layer_weights(input, error);
+    if (!gis_array_reserve(&s->areas, &s->room, s->n_areas + input->n, sizeof *s->areas)) return gis_no_memory(error);
+    for (size_t i = 0; i < input->n; i++)
+        if (!input->feature[i].ignored) s->areas[s->n_areas++] = sunder_shape_area(input->shape[i]);
+    return gis_layer_weigh_by_field(input, error);
+}
+
+/* The stages up to what is known of a batch. */
+static bool take_demands(spooling *s, gis_error *error)
+{
+    gis_layer_input *input = &s->input;
+    double box[4];
+    if (!gis_layer_make_room(input, true, error) || !gis_layer_shapes(input, error)) return false;
+    gis_layer_default_demands(input);
+    gis_layer_box(input, box);
+    gis_box_join(s->shapes, box);
+    if (!gis_layer_marks(input, error) || !gis_layer_number_blocks(input, &s->keys, error) || !weigh(s, error) ||
+        !gis_layer_limits(input, error))
+        return false;
+    gis_layer_box(input, box);
+    gis_box_join(s->facts->box, box);
+    return true;
+}
+
+static bool id_text(const gis_layer_input *input, size_t i, char **copy, char number[64], const char **text,
+                    gis_error *error)
+{
+    gis_value id;
+    *text = number;
+    if (!gis_id_value(input, i, copy, &id, error)) return false;
+    switch (id.kind) {
+    case GIS_NULL: *text = NULL; break;
+    case GIS_INTEGER: snprintf(number, 64, "%" PRId64, (int64_t)id.as.integer); break;
+    case GIS_REAL: snprintf(number, 64, "%.17g", id.as.real); break;
+    case GIS_TEXT: *text = id.as.text; break;
+    }
+    return true;
+}
+
+/* Begun with the first feature that lies there. */
+static gis_spool_writer *open_aside(spooling *s, gis_error *error)
+{
+    if (s->aside) return s->aside;
+    char *path = gis_spool_inside(s->directory, GIS_SPOOL_ASIDE);
+    if (!path)
+        gis_no_memory(error);
+    else if (mkdir(path, 0777) != 0 && errno != EEXIST)
+        gis_fail(error, "%s: it cannot be made: %s", path, strerror(errno));
+    else
+        gis_spool_create(path, gis_source_extent(s->input.source), &s->aside, error);
+    free(path);
+    return s->aside;
+}
+
+static bool add_feature(spooling *s, size_t i, char **copy, gis_error *error)
+{
+    const gis_layer_input *input = &s->input;
+    const bool aside = input->feature[i].ignored;
+    gis_spool_writer *to = aside ? open_aside(s, error) : s->writer;
+    char number[64];
+    gis_spool_feature feature = {.index = gis_source_first(input->source) + i,
+                                 .fid = gis_source_fid(input->source, i),
+                                 .demands = input->feature[i],
+                                 .start = {NAN, NAN},
+                                 .area = by_area(s) ? sunder_shape_area(input->shape[i]) : 0};
+    feature.demands.shape = input->shape[i];
+    s->facts->aside += aside;
+    return to && (!input->points || gis_arrow_start(input, i, feature.start, error)) &&
+           id_text(input, i, copy, number, &feature.id, error) && gis_spool_add(to, &feature, error);
+}
+
+/* What conflicts with nothing lies aside, if it is seen, and nowhere otherwise. */
+static bool is_spooled(const spooling *s, size_t i)
+{
+    const gis_layer_input *input = &s->input;
+    return !input->feature[i].ignored ||
+           (input->request->drawn && input->shape[i] && !sunder_shape_is_empty(input->shape[i]));
+}
+
+static void note_feature(gis_layer_facts *facts, const gis_layer_input *input, size_t i, unsigned char *status)
+{
+    const sunder_feature *demands = &input->feature[i];
+    const sunder_shape *shape = input->shape[i];
+    *status = demands->ignored                            ? SUNDER_FEATURE_SKIPPED
+              : demands->fixed || demands->max_shift == 0 ? SUNDER_FEATURE_FIXED
+                                                          : SUNDER_FEATURE_UNMOVED;
+    facts->skipped += demands->ignored;
+    facts->vertices += shape ? sunder_shape_vertices(shape) : 0;
+    facts->multi = facts->multi || (shape && sunder_shape_polygons(shape) > 1);
+    if (!demands->ignored && !demands->fixed) facts->longest_limit = fmax(facts->longest_limit, demands->max_shift);
+}
+
+static bool add_batch(spooling *s, gis_error *error)
+{
+    char *copy = NULL;
+    bool done = true;
+    for (size_t i = 0; done && i < s->input.n; i++) {
+        unsigned char status;
+        note_feature(s->facts, &s->input, i, &status);
+        done = gis_spool_file_write(&s->status, &status, sizeof status, error) &&
+               (!is_spooled(s, i) || add_feature(s, i, &copy, error)) && gis_go_on(error);
+    }
+    free(copy);
+    return done;
+}
+
+/* ---- What is settled at the end ---------------------------------------------------------------------------------- */
+
+static bool settle(void *user, gis_spool_feature *feature, gis_error *error)
+{
+    const spooling *s = user;
+    sunder_feature *demands = &feature->demands;
+    if (demands->block >= 0) demands->block = s->keys.rank[demands->block];
+    if (!by_area(s)) return true;
+    demands->weight *= gis_layer_area_weight(s->input.request->rules.weighting, feature->area, s->median);
+    if (gis_layer_is_weight(demands->weight)) return true;
+    char who[GIS_WHO_SIZE];
+    gis_name_subject(&(gis_subject){NULL, gis_source_name(s->input.source), feature->fid != OGRNullFID, feature->fid,
+                                    feature->index, feature->id},
+                     who, sizeof who);
+    return gis_layer_wrong_weight(who, demands->weight, error);
+}
+
+static void fill_facts(spooling *s)
+{
+    const gis_layer_input *input = &s->input;
+    gis_layer_facts *facts = s->facts;
+    facts->name = CPLStrdup(gis_source_name(input->source));
+    facts->units = input->units;
+    facts->gap = input->gap;
+    facts->max_shift = input->max_shift;
+    facts->tolerance = input->tolerance;
+    facts->points = input->points;
+    facts->has_id = input->id_field >= 0;
+    facts->id_type = gis_id_type(input);
+    facts->invalid = input->invalid;
+    facts->null = input->null;
+    facts->other = input->other;
+}
+
+static void say_what_is_known(const spooling *s)
+{
+    const gis_source *source = s->input.source;
+    gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(source));
+    gis_crs_units_warn(gis_source_crs(source), gis_source_name(source),
+                       s->shapes[0] <= s->shapes[2] ? s->shapes : NULL);
+    gis_layer_warn_of_others(&s->input, s->facts->source.content[GIS_POINTS] > 0);
+}
+
+/* ---- The layer --------------------------------------------------------------------------------------------------- */
+
+/* All batches. *again: conditions were asked by FIDs, which turned out not to be unique. */
+static bool read_batches(spooling *s, const gis_layer_input_request *request, const char *directory, bool *again,
+                         gis_error *error)
+{
+    gis_layer_input *input = &s->input;
+    if (!gis_layer_begin(request, true, input, error) || !gis_layer_lengths(input, error) ||
+        !gis_spool_create(directory, gis_source_extent(input->source), &s->writer, error) ||
+        !gis_spool_file_create(&s->status, directory, "status.part", error))
+        return false;
+    for (bool any = true; any;)
+        if (!gis_layer_checksums_add(&s->sums, input, error) || !take_demands(s, error) ||
+            !add_batch(s, error) || !gis_source_next(input->source, &any, error))
+            return false;
+    s->facts->checksum = gis_layer_checksums_end(&s->sums);
+    if (!gis_source_find_facts(input->source, &s->facts->source, error)) return false;
+    *again = (request->rules.ignore_where || request->rules.fixed_where) && !s->facts->source.fids_unique &&
+             !request->source.fids_mean_nothing && !gis_source_is_result(input->source);
+    return true;
+}
+
+bool gis_layer_spool_barriers(const gis_layer_input *input, double reach, gis_spool *features, const char *directory,
+                              gis_error *error)
+{
+    const gis_layer_input_request *request = input->request;
+    gis_barrier_targets *targets = gis_barrier_targets_of_spool(features);
+    const gis_barrier_surroundings around = {
+        .crs = gis_source_crs(input->source),
+        .units = &input->units,
+        .targets = targets,
+        .reach = reach,
+        .gap = input->gap,
+        .invalid = request->invalid,
+        .output = request->output,
+        .update = request->update,
+    };
+    const bool done = (targets || gis_no_memory(error)) &&
+                      gis_barriers_spool(request->barrier, request->barriers, &around, directory, error);
+    gis_barrier_targets_free(targets);
+    return done;
+}
+
+/* Those within reach of what is in the spool now. */
+static bool spool_barriers(spooling *s, const char *directory, gis_error *error)
+{
+    const gis_layer_input_request *request = s->input.request;
+    gis_spool *spool = NULL;
+    s->facts->barrier_reach = INFINITY;
+    if (request->barriers == 0) return true;
+    if (!gis_spool_open(directory, &spool, error)) return false;
+    s->facts->barrier_reach = gis_layer_barrier_reach(request->moves ? s->facts->longest_limit : 0);
+    const bool done = gis_layer_spool_barriers(&s->input, s->facts->barrier_reach, spool, directory, error);
+    gis_spool_close(spool);
+    return done;
+}
+
+static bool finish(spooling *s, unsigned shards, const char *directory, gis_error *error)
+{
+    const bool settles = by_area(s) || s->keys.n > 0;
+    gis_layer_drop_features(&s->input);
+    if (!gis_block_keys_rank(&s->keys, error)) return false;
+    s->median = gis_layer_median(s->areas, s->n_areas);
+    free(s->areas);
+    s->areas = NULL;
+    fill_facts(s);
+    say_what_is_known(s);
+    return gis_spool_finish(s->writer, shards, settles ? settle : NULL, s, error) &&
+           (!s->aside || gis_spool_finish(s->aside, 1, NULL, NULL, error)) &&
+           gis_spool_file_place(&s->status, directory, "status", error) && spool_barriers(s, directory, error);
+}
+
+static void clear(spooling *s)
+{
+    gis_spool_writer_free(s->writer);
+    gis_spool_writer_free(s->aside);
+    gis_spool_file_close(&s->status);
+    gis_block_keys_clear(&s->keys);
+    free(s->areas);
+    gis_layer_input_clear(&s->input);
+}
+
+static bool spool_once(const gis_layer_input_request *request, unsigned shards, const char *directory,
+                       gis_layer_facts *facts, bool *again, gis_error *error)
+{
+    spooling s = {.directory = directory, .facts = facts};
+    *facts = (gis_layer_facts){0};
+    *again = false;
+    gis_box_clear(facts->box);
+    gis_box_clear(s.shapes);
+    const bool done =
+        read_batches(&s, request, directory, again, error) && (*again || finish(&s, shards, directory, error));
+    clear(&s);
+    return done;
+}
+
+bool gis_layer_spool(const gis_layer_input_request *request, unsigned shards, const char *directory,
+                     gis_layer_facts *facts, gis_error *error)
+{
+    gis_layer_input_request by_batches = *request;
+    bool again;
+    by_batches.source.batch = BATCH;
+    if (!spool_once(&by_batches, shards, directory, facts, &again, error)) return false;
+    if (!again) return true;
+    by_batches.source.fids_mean_nothing = true;
+    return spool_once(&by_batches, shards, directory, facts, &again, error);
+}
+
+void gis_layer_facts_clear(gis_layer_facts *facts)
+{
+    CPLFree(facts->name);
+    facts->name = NULL;
+}

@@ -1,0 +1,73 @@
+/* run_proof.c: the file of --proof, of a layer that was separated in parts: lines that lie in order on disk. */
+#include "layer/proof.h"
+#include "shards/run/run.h"
+
+#include <stdlib.h>
+
+/* Members of blocks as lists: the next of the same block, by places in joined.block. */
+static bool put_blocks(const gis_in_parts *p, gis_json *json, FILE *to, gis_error *error)
+{
+    const gis_joined *j = &p->joined;
+    const size_t n = j->blocks;
+    size_t *next = malloc((n + 1) * sizeof *next), *last = malloc((n + 1) * sizeof *last);
+    bool done = (next && last) || gis_no_memory(error);
+    for (size_t k = 0; k < n && done; k++) {
+        const size_t first = (size_t)(gis_joined_block(j, j->block[k].b) - j->block);
+        next[k] = n;
+        if (first != k) next[last[first]] = k;
+        last[first] = k;
+    }
+    for (size_t k = 0; k < n && done; k++) {
+        if (j->block[k].a != j->block[k].b) continue;
+        gis_proof_block_begins(json);
+        for (size_t m = k; m < n; m = next[m])
+            gis_json_signed(json, p->facts.source.fids_unique ? (int64_t)p->block_fid[m] : (int64_t)j->block[m].a);
+        gis_proof_block_ends(json);
+        done = gis_proof_print(json, to, error);
+    }
+    free(next);
+    free(last);
+    return done;
+}
+
+static bool put_conflicts(gis_in_parts *p, gis_json *json, FILE *to, gis_error *error)
+{
+    gis_sorted *conflicts = &p->joined.conflicts;
+    bool any = true;
+    gis_sorted_again(conflicts);
+    for (size_t k = 0; gis_sorted_next(conflicts, &any, error) && any; k++) {
+        gis_proof_line(json, "conflict", k, gis_part_line_of(&conflicts->one, &conflicts->one.conflict->line));
+        if (!gis_proof_print(json, to, error)) return false;
+    }
+    return !any;
+}
+
+static bool put_trees(gis_in_parts *p, gis_json *json, FILE *to, gis_error *error)
+{
+    gis_sorted *trees = &p->joined.trees;
+    bool any = true;
+    size_t group = SIZE_MAX;
+    uint64_t first = UINT64_MAX;
+    gis_sorted_again(trees);
+    while (gis_sorted_next(trees, &any, error) && any) {
+        group += first != trees->head.first;
+        first = trees->head.first;
+        gis_proof_line(json, "group", group, gis_part_line_of(&trees->one, &trees->one.tree->line));
+        if (!gis_proof_print(json, to, error)) return false;
+    }
+    return !any;
+}
+
+bool gis_in_parts_proof(gis_in_parts *p, const gis_layer_input *input, const sunder_layer_summary *summary, FILE *to,
+                        gis_error *error)
+{
+    gis_json json = {0};
+    gis_proof_head head = gis_proof_head_of(input, summary);
+    head.conflicts = p->joined.conflicts.n;
+    head.trees = p->joined.trees.n;
+    gis_proof_head_line(&json, &head);
+    const bool done = gis_proof_print(&json, to, error) && put_blocks(p, &json, to, error) &&
+                      put_conflicts(p, &json, to, error) && put_trees(p, &json, to, error);
+    gis_json_clear(&json);
+    return done;
+}

@@ -1,0 +1,323 @@
+/* barrier_spool.c: see barrier_spool.h. In the spool a barrier is a feature of other words: its index is the number,
+ * its weight the width, its limit the gap, its being fixed that it has sides, and its id the name of its layer. */
+#include "shards/spool/barrier_spool.h"
+
+#include "base/array.h"
+#include "base/core_error.h"
+#include "disk/file.h"
+#include "geometry/box.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* ---- Copies ------------------------------------------------------------------------------------------------------ */
+
+static void free_barrier(gis_part_barrier *barrier)
+{
+    sunder_shape_free((sunder_shape *)barrier->demands.geometry.shape);
+    free((double *)barrier->demands.geometry.xy);
+    free((size_t *)barrier->demands.geometry.line_end);
+    free((char *)barrier->layer);
+}
+
+static void *copy_of(const void *from, size_t bytes)
+{
+    void *copy = malloc(bytes + 1);
+    if (copy && bytes) memcpy(copy, from, bytes);
+    return copy;
+}
+
+static size_t points_of(const sunder_obstacle *o) { return o->lines ? o->line_end[o->lines - 1] : 0; }
+
+/* Of lines, and of the name; the shape of `to` is its own. */
+static bool own_rest(gis_part_barrier *to, gis_error *error)
+{
+    sunder_obstacle *o = &to->demands.geometry;
+    o->xy = o->lines ? copy_of(o->xy, 2 * points_of(o) * sizeof *o->xy) : NULL;
+    o->line_end = o->lines ? copy_of(o->line_end, o->lines * sizeof *o->line_end) : NULL;
+    to->layer = copy_of(to->layer, strlen(to->layer) + 1);
+    return (to->layer && (!o->lines || (o->xy && o->line_end))) || gis_no_memory(error);
+}
+
+/* ---- Those that are everywhere ----------------------------------------------------------------------------------- */
+
+/* What a barrier can stand for; of several that do the smallest is taken. */
+enum { ANY, LINES, BARE, MOST, FACTS };
+
+struct gis_barriers_writer {
+    char *directory;
+    double gap, most;
+    gis_spool_writer *all;
+    size_t n;
+    struct {
+        gis_part_barrier barrier;
+        size_t size;
+        bool there;
+    } fact[FACTS];
+};
+
+/* What it owes, rounded up as the core does it: half the width, and the gap. */
+static double owed(const gis_barriers_writer *w, const sunder_barrier *b)
+{
+    const double half = b->width / 2, gap = b->gap < 0 ? w->gap : b->gap, sum = half + gap, back = sum - half;
+    return (half - (sum - back)) + (gap - back) > 0 ? nextafter(sum, INFINITY) : sum;
+}
+
+static size_t size_of(const sunder_obstacle *o)
+{
+    return points_of(o) + (o->shape ? sunder_shape_vertices(o->shape) : 0);
+}
+
+static bool copy_barrier(const gis_part_barrier *from, gis_part_barrier *to, gis_error *error)
+{
+    sunder_shape *shape = NULL;
+    sunder_error why;
+    const double *xy;
+    const size_t *ring_end, *poly_end;
+    *to = *from;
+    to->demands.geometry.shape = NULL;
+    if (!own_rest(to, error)) return false;
+    if (!from->demands.geometry.shape) return true;
+    const size_t n = sunder_shape_given(from->demands.geometry.shape, &xy, &ring_end, &poly_end);
+    const bool repaired = sunder_shape_repaired(from->demands.geometry.shape);
+    if (sunder_shape_from_rings(xy, ring_end, poly_end, n, repaired ? SUNDER_VALIDITY_EVEN_ODD : SUNDER_VALIDITY_STRICT,
+                                &shape, &why) != SUNDER_OK)
+        return gis_core_failed(error, "--barrier", &why);
+    to->demands.geometry.shape = shape;
+    return true;
+}
+
+static bool note(gis_barriers_writer *w, const gis_part_barrier *barrier, gis_error *error)
+{
+    const sunder_obstacle *o = &barrier->demands.geometry;
+    const double own = owed(w, &barrier->demands);
+    const size_t size = size_of(o);
+    const bool more = own > w->most || w->n == 1,
+               is[FACTS] = {size > 0, o->lines > 0, own == 0, own >= w->most || more};
+    if (more) w->most = own;
+    for (int k = 0; k < FACTS; k++) {
+        if (!is[k] || (w->fact[k].there && w->fact[k].size <= size && !(k == MOST && more))) continue;
+        free_barrier(&w->fact[k].barrier);
+        w->fact[k].there = true;
+        w->fact[k].size = size;
+        if (!copy_barrier(barrier, &w->fact[k].barrier, error)) return false;
+    }
+    return true;
+}
+
+/* ---- Writing ----------------------------------------------------------------------------------------------------- */
+
+static bool add(gis_spool_writer *to, const gis_part_barrier *b, double reach, gis_error *error)
+{
+    const gis_spool_feature feature = {
+        .index = b->number,
+        .fid = b->fid,
+        .demands = {.shape = b->demands.geometry.shape,
+                    .weight = b->demands.width,
+                    .max_shift = b->demands.gap,
+                    .block = -1,
+                    .fixed = b->demands.side},
+        .start = {NAN, NAN},
+        .id = b->layer,
+        .lines = b->demands.geometry,
+        .reach = reach,
+    };
+    return gis_spool_add(to, &feature, error);
+}
+
+/* A directory that is there is taken as it is. */
+static bool make_directory(const char *path, gis_error *error)
+{
+    return mkdir(path, 0777) == 0 || errno == EEXIST ||
+           gis_fail(error, "%s: it cannot be made: %s", path, strerror(errno));
+}
+
+bool gis_barriers_create(const char *directory, double gap, gis_barriers_writer **out, gis_error *error)
+{
+    gis_barriers_writer *w = calloc(1, sizeof *w);
+    if (!w) return gis_no_memory(error);
+    w->gap = gap;
+    w->directory = gis_spool_inside(directory, GIS_BARRIERS);
+    const bool done = (w->directory || gis_no_memory(error)) && make_directory(w->directory, error) &&
+                      gis_spool_create(w->directory, NULL, &w->all, error);
+    if (done)
+        *out = w;
+    else
+        gis_barriers_writer_free(w);
+    return done;
+}
+
+bool gis_barriers_add(gis_barriers_writer *w, const gis_part_barrier *barrier, gis_error *error)
+{
+    w->n++;
+    return note(w, barrier, error) && add(w->all, barrier, owed(w, &barrier->demands), error);
+}
+
+bool gis_barriers_finish(gis_barriers_writer *w, gis_error *error)
+{
+    char *path = gis_spool_inside(w->directory, GIS_BARRIERS_EVERYWHERE);
+    gis_spool_writer *few = NULL;
+    bool done =
+        (path || gis_no_memory(error)) && make_directory(path, error) && gis_spool_create(path, NULL, &few, error);
+    for (int k = 0; k < FACTS && done; k++) {
+        bool again = !w->fact[k].there;
+        for (int i = 0; i < k; i++)
+            again = again || (w->fact[i].there && w->fact[i].barrier.number == w->fact[k].barrier.number);
+        if (!again) done = add(few, &w->fact[k].barrier, owed(w, &w->fact[k].barrier.demands), error);
+    }
+    done = done && gis_spool_finish(few, 1, NULL, NULL, error) && gis_spool_finish(w->all, 1, NULL, NULL, error);
+    gis_spool_writer_free(few);
+    free(path);
+    return done;
+}
+
+void gis_barriers_writer_free(gis_barriers_writer *w)
+{
+    if (!w) return;
+    for (int k = 0; k < FACTS; k++) free_barrier(&w->fact[k].barrier);
+    gis_spool_writer_free(w->all);
+    free(w->directory);
+    free(w);
+}
+
+/* ---- Reading ----------------------------------------------------------------------------------------------------- */
+
+bool gis_barriers_open(const char *directory, gis_spooled_barriers *out, gis_error *error)
+{
+    char *all = gis_spool_inside(directory, GIS_BARRIERS),
+         *few = all ? gis_spool_inside(all, GIS_BARRIERS_EVERYWHERE) : NULL;
+    *out = (gis_spooled_barriers){0};
+    const bool done = (few || gis_no_memory(error)) && gis_spool_open(all, &out->all, error) &&
+                      gis_spool_open(few, &out->everywhere, error);
+    free(all);
+    free(few);
+    return done;
+}
+
+void gis_barriers_close(gis_spooled_barriers *spool)
+{
+    gis_spool_close(spool->all);
+    gis_spool_close(spool->everywhere);
+    *spool = (gis_spooled_barriers){0};
+}
+
+bool gis_barriers_may_meet(const gis_spooled_barriers *spool, const double box[4])
+{
+    for (size_t k = 0; spool->all && k < gis_spool_cells(spool->all); k++)
+        if (gis_box_meets(box, gis_spool_cell_at(spool->all, k)->box)) return true;
+    return false;
+}
+
+typedef struct loading {
+    gis_barriers_list *out;
+    const double (*box)[4];
+    size_t n;
+    bool all; /* whatever they meet */
+} loading;
+
+static bool meets_any(const loading *l, const double box[4])
+{
+    for (size_t k = 0; k < l->n; k++)
+        if (gis_box_meets(l->box[k], box)) return true;
+    return l->all;
+}
+
+/* As it was when its box was written. */
+static void box_of(const gis_spool_feature *f, double box[4])
+{
+    const size_t points = points_of(&f->lines);
+    if (!sunder_shape_is_empty(f->demands.shape)) sunder_shape_box(f->demands.shape, box);
+    for (size_t k = 0; k < 2 * points; k++) {
+        box[k % 2] = fmin(box[k % 2], f->lines.xy[k]);
+        box[k % 2 + 2] = fmax(box[k % 2 + 2], f->lines.xy[k]);
+    }
+    for (int c = 0; c < 4; c++)
+        box[c] = c < 2 ? nextafter(box[c] - f->reach, -INFINITY) : nextafter(box[c] + f->reach, INFINITY);
+}
+
+static bool take(void *user, const gis_spool_feature *f, gis_error *error)
+{
+    loading *l = user;
+    double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    sunder_shape *shape = (sunder_shape *)f->demands.shape;
+    box_of(f, box);
+    const bool wanted = meets_any(l, box);
+    if (!wanted || sunder_shape_is_empty(shape)) {
+        sunder_shape_free(shape);
+        shape = NULL;
+    }
+    if (!wanted) return true;
+    gis_barriers_list *to = l->out;
+    if (!gis_array_reserve(&to->item, &to->capacity, to->n + 1, sizeof *to->item)) {
+        sunder_shape_free(shape);
+        return gis_no_memory(error);
+    }
+    gis_part_barrier *b = &to->item[to->n++];
+    *b = (gis_part_barrier){
+        .number = f->index,
+        .fid = f->fid,
+        .layer = f->id ? f->id : "",
+        .demands = {
+            .geometry = f->lines, .width = f->demands.weight, .gap = f->demands.max_shift, .side = f->demands.fixed}};
+    b->demands.geometry.shape = shape;
+    return own_rest(b, error);
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const gis_part_barrier *p = a, *q = b;
+    return (p->number > q->number) - (p->number < q->number);
+}
+
+/* Each once: of those that are everywhere some were read twice. */
+static void sort(gis_barriers_list *list)
+{
+    size_t kept = 0;
+    if (list->n) qsort(list->item, list->n, sizeof *list->item, by_number);
+    for (size_t k = 0; k < list->n; k++) {
+        if (kept && list->item[kept - 1].number == list->item[k].number)
+            free_barrier(&list->item[k]);
+        else
+            list->item[kept++] = list->item[k];
+    }
+    list->n = kept;
+}
+
+bool gis_barriers_load(const gis_spooled_barriers *spool, const double (*box)[4], size_t n, gis_barriers_list *out,
+                       gis_error *error)
+{
+    loading l = {.out = out, .box = box, .n = n};
+    bool done = true;
+    *out = (gis_barriers_list){0};
+    if (!spool->all) return true;
+    for (size_t k = 0; k < gis_spool_cells(spool->all) && done; k++)
+        if (meets_any(&l, gis_spool_cell_at(spool->all, k)->box)) done = gis_spool_read(spool->all, k, take, &l, error);
+    l.all = true;
+    for (size_t k = 0; k < gis_spool_cells(spool->everywhere) && done; k++)
+        done = gis_spool_read(spool->everywhere, k, take, &l, error);
+    sort(out);
+    return done;
+}
+
+bool gis_barriers_set(const gis_barriers_list *list, sunder_layer *layer, gis_error *error)
+{
+    sunder_error why;
+    if (list->n == 0) return true;
+    sunder_barrier *barrier = malloc(list->n * sizeof *barrier);
+    if (!barrier) return gis_no_memory(error);
+    for (size_t k = 0; k < list->n; k++) barrier[k] = list->item[k].demands;
+    const bool done = sunder_layer_set_barriers(layer, barrier, list->n, &why) == SUNDER_OK;
+    free(barrier);
+    return done || gis_core_failed(error, "--barrier", &why);
+}
+
+void gis_barriers_list_clear(gis_barriers_list *list)
+{
+    for (size_t k = 0; k < list->n; k++) free_barrier(&list->item[k]);
+    free(list->item);
+    *list = (gis_barriers_list){0};
+}

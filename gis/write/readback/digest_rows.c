@@ -1,0 +1,255 @@
+/* digest_rows.c: a GeoPackage's layer read back row by row, past GDAL.
+ *
+ * What is asked is whether every row is what was sent: its bytes are looked at where SQLite holds them, without a
+ * feature being made of each. Anything that is not as plain as what is written here mostly is left to GDAL, which then
+ * reads the whole layer: another type of geometry or of a value, a header with extensions, bytes that end too soon, an
+ * error. */
+#include "write/sink/digest.h"
+
+#include "base/array.h"
+#include "base/resources.h"
+#include "base/side_thread.h"
+#include "gpkg/blob.h"
+#include "gpkg/second_connection.h"
+#include "gpkg/sql.h"
+#include "gpkg/sqlite_select.h"
+
+#include <cpl_conv.h>
+#include <stdlib.h>
+
+enum { POINT_BYTES = 16 };
+
+/* A layer of so many is read by two threads. */
+enum { MANY_ROWS = 5000 };
+
+/* The machine's order of bytes: doubles can be taken as they stand. */
+#ifdef CPL_LSB
+static const unsigned char order = wkbNDR;
+#else
+static const unsigned char order = wkbXDR;
+#endif
+
+/* What is left of a blob. */
+typedef struct reading {
+    const unsigned char *at, *end;
+    uint64_t so_far;
+} reading;
+
+static bool number(reading *r, uint32_t *n)
+{
+    if (r->end - r->at < (ptrdiff_t)sizeof *n) return false;
+    memcpy(n, r->at, sizeof *n);
+    r->at += sizeof *n;
+    return true;
+}
+
+/* n points, at least one. */
+static bool points(reading *r, size_t n)
+{
+    if (n == 0 || (size_t)(r->end - r->at) / POINT_BYTES < n) return false;
+    r->so_far = gis_mix(r->so_far, n);
+    for (size_t k = 0; k < 2 * n; k++, r->at += sizeof(double)) {
+        double x;
+        memcpy(&x, r->at, sizeof x);
+        r->so_far = gis_mix_double(r->so_far, x);
+    }
+    return true;
+}
+
+static bool ring_or_line(reading *r)
+{
+    uint32_t n;
+    return number(r, &n) && points(r, n);
+}
+
+/* As mix_geometry() of digests.c does it; false if that is not known here, or something is empty. */
+static bool geometry(reading *r, bool part)
+{
+    uint32_t type, n;
+    if (r->at == r->end || *r->at++ != order || !number(r, &type)) return false;
+    if (type == wkbLineString) return ring_or_line(r);
+    if (type == wkbPolygon)
+        r->so_far = gis_mix(r->so_far, GIS_MIX_POLYGON);
+    else if (part || (type != wkbMultiPolygon && type != wkbMultiLineString))
+        return false;
+    bool good = number(r, &n) && n > 0;
+    for (; good && n > 0; n--) good = type == wkbPolygon ? ring_or_line(r) : geometry(r, true);
+    return good;
+}
+
+static bool blob(const unsigned char *bytes, size_t size, uint64_t *so_far)
+{
+    size_t rest;
+    const unsigned char *at = gis_blob_geometry(bytes, size, &rest);
+    if (!at) return false;
+    reading r = {at, at + rest, *so_far};
+    if (!geometry(&r, false) || r.at != r.end) return false;
+    *so_far = r.so_far;
+    return true;
+}
+
+/* Is it of the type that GDAL would give it in such a field? */
+static bool suits(const gis_value *value, const gis_plain_field *field)
+{
+    switch (value->kind) {
+    case GIS_TEXT: return field->type == OFTString;
+    case GIS_REAL: return field->type == OFTReal;
+    case GIS_INTEGER:
+        return field->type == OFTInteger64 ||
+               (field->type == OFTInteger && value->as.integer >= INT32_MIN && value->as.integer <= INT32_MAX);
+    default: return true;
+    }
+}
+
+/* Columns: the FID, the geometry, the fields. */
+static bool row(const gis_digests *all, void *statement, gis_digest *out)
+{
+    gis_value value;
+    size_t size;
+    bool null;
+    *out = (gis_digest){GIS_MIX_START, GIS_MIX_START};
+    if (!gis_sqlite_select_value(statement, 0, &value) || value.kind != GIS_INTEGER) return false;
+    if (all->with_fid) out->place = gis_mix(out->place, (uint64_t)value.as.integer);
+    for (size_t i = 0; i < all->n_fields; i++) {
+        if (!gis_sqlite_select_value(statement, (int)i + 2, &value) || !suits(&value, &all->fields[i])) return false;
+        out->values = gis_mix_plain(out->values, &value, &all->fields[i]);
+    }
+    const unsigned char *bytes = gis_sqlite_select_bytes(statement, 1, &size, &null);
+    if (null)
+        out->place = gis_mix(out->place, GIS_MIX_NOTHING);
+    else if (!bytes || !blob(bytes, size, &out->place))
+        return false;
+    out->values = gis_mix(out->values, out->place);
+    return true;
+}
+
+/* ---- Stretches of a layer ---------------------------------------------------------------------------------------- */
+
+static char *select_statement(const gis_digests *all, OGRLayerH layer)
+{
+    char *sql = gis_sql_append_name(CPLStrdup("SELECT "), OGR_L_GetFIDColumn(layer));
+    sql = gis_sql_append_name(gis_sql_append(sql, ", "), OGR_L_GetGeometryColumn(layer));
+    for (size_t i = 0; i < all->n_fields; i++)
+        sql = gis_sql_append_name(gis_sql_append(sql, ", "), all->fields[i].name);
+    return gis_sql_append_name(gis_sql_append(sql, " FROM "), OGR_L_GetName(layer));
+}
+
+static void *begin_stretch(const gis_digests *all, void *database, OGRLayerH layer, gis_sqlite_stretch which,
+                           int64_t last)
+{
+    char *sql = gis_sql_append_stretch(select_statement(all, layer), OGR_L_GetFIDColumn(layer), which, last);
+    void *statement = gis_sqlite_select_begin(database, sql);
+    CPLFree(sql);
+    return statement;
+}
+
+/* ---- The other half, on another thread --------------------------------------------------------------------------- */
+
+/* What another connection reads meanwhile, as it stands. */
+typedef struct half {
+    const gis_digests *all;
+    void *statement;
+    gis_digest *at;
+    size_t n, capacity;
+    bool done;
+} half;
+
+static void read_half(void *context)
+{
+    half *h = context;
+    gis_sqlite_next next = GIS_SQLITE_AT_END;
+    h->done = true;
+    while (h->done && (next = gis_sqlite_select_next(h->statement)) == GIS_SQLITE_HAS_ROW) {
+        h->done = !gis_interrupted() && gis_array_reserve(&h->at, &h->capacity, h->n + 1, sizeof *h->at) &&
+                  row(h->all, h->statement, &h->at[h->n]);
+        h->n += h->done;
+    }
+    h->done = h->done && next == GIS_SQLITE_AT_END;
+}
+
+/* Row by row, as they are read. */
+static bool read_stretch(gis_digests *all, void *statement, gis_digests_read *read)
+{
+    gis_sqlite_next next = GIS_SQLITE_BROKEN;
+    gis_error unheard; /* GDAL comes to it, too */
+    bool done = statement;
+    while (done && (next = gis_sqlite_select_next(statement)) == GIS_SQLITE_HAS_ROW) {
+        gis_digest one;
+        done = !gis_interrupted() && row(all, statement, &one) && gis_digests_read_add(read, all, one, &unheard);
+    }
+    return done && next == GIS_SQLITE_AT_END;
+}
+
+static bool add_half(gis_digests *all, const half *h, gis_digests_read *read)
+{
+    gis_error unheard;
+    bool done = h->done;
+    for (size_t k = 0; done && k < h->n; k++) done = gis_digests_read_add(read, all, h->at[k], &unheard);
+    return done;
+}
+
+/* The first half here, the second there. other: the file once more. */
+static bool read_halves(gis_sink_layer *layer, void *database, void *other, OGRLayerH as_written,
+                        gis_digests_read *read)
+{
+    gis_digests *all = &layer->digests;
+    int64_t middle;
+    uint64_t span;
+    if (!gis_sqlite_find_middle(database, OGR_L_GetName(as_written), OGR_L_GetFIDColumn(as_written), &middle, &span))
+        return false;
+    half second = {.all = all, .statement = begin_stretch(all, other, as_written, GIS_SQLITE_BEYOND, middle)};
+    void *first = begin_stretch(all, database, as_written, GIS_SQLITE_UP_TO, middle);
+    bool done = first && second.statement;
+    if (done) {
+        gis_beside *beside = gis_beside_new();
+        gis_beside_do(beside, read_half, &second);
+        done = read_stretch(all, first, read);
+        gis_beside_free(beside);
+        done = done && add_half(all, &second, read);
+    }
+    gis_sqlite_select_end(first);
+    gis_sqlite_select_end(second.statement);
+    free(second.at);
+    return done;
+}
+
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
+
+static bool read_all(gis_sink_layer *layer, void *database, OGRLayerH as_written, gis_digests_read *read)
+{
+    void *statement = begin_stretch(&layer->digests, database, as_written, GIS_SQLITE_ALL, 0);
+    const bool done = read_stretch(&layer->digests, statement, read);
+    gis_sqlite_select_end(statement);
+    return done;
+}
+
+static bool may_be_plain(const gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written)
+{
+    const gis_digests *all = &layer->digests;
+    for (size_t i = 0; i < all->n_fields; i++)
+        if (all->fields[i].read < 0) return false;
+    return dataset && layer->sink->format.geopackage && all->wanted && all->values_comparable && all->with_z == 0 &&
+           OGR_L_GetFIDColumn(as_written)[0] && OGR_L_GetGeometryColumn(as_written)[0];
+}
+
+/* The file once more, for a layer that takes longer to read than that; NULL: there is no other thread for it. */
+static void *open_again(const gis_sink_layer *layer, void *database)
+{
+    if (layer->written < MANY_ROWS || gis_threads(layer->sink->request.threads) == 1) return NULL;
+    return gis_sqlite_again_open(database);
+}
+
+bool gis_read_rows(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written, gis_digests_read *read)
+{
+    void *database =
+        may_be_plain(layer, dataset, as_written) ? GDALGetInternalHandle(dataset, "SQLITE_HANDLE") : NULL;
+    if (!database) return false;
+    void *other = open_again(layer, database);
+    const bool done =
+        other ? read_halves(layer, database, other, as_written, read) : read_all(layer, database, as_written, read);
+    gis_sqlite_again_close(other);
+    if (done && read->n == layer->written) return true;
+    free(read->at);
+    *read = (gis_digests_read){0};
+    return false;
+}

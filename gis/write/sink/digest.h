@@ -1,0 +1,74 @@
+/* digest.h: how the numbers of a feature are made (digests.c says what for): from a feature of GDAL's, from a
+ * record of the source, from a row that is read. */
+#ifndef GIS_DIGEST_H
+#define GIS_DIGEST_H
+
+#include "write/sink/sink_internal.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+enum { GIS_MIX_START = 1, GIS_MIX_NOTHING, GIS_MIX_POLYGON, GIS_MIX_NO_VALUE, GIS_MIX_TEXT };
+
+static inline uint64_t gis_mix(uint64_t so_far, uint64_t word)
+{
+    uint64_t h = (so_far ^ word) * 0x9E3779B97F4A7C15u; /* odd, its bits without pattern: 2^64 over the golden ratio */
+    return h ^ h >> 29;
+}
+
+/* -0 counts as 0, as some formats keep it; so do all NaNs as one. */
+static inline uint64_t gis_mix_double(uint64_t so_far, double x)
+{
+    uint64_t word;
+    x = isnan(x) ? NAN : x + 0.0;
+    memcpy(&word, &x, sizeof word);
+    return gis_mix(so_far, word);
+}
+
+static inline uint64_t gis_mix_bytes(uint64_t so_far, const char *bytes, size_t n)
+{
+    for (; n >= 8; bytes += 8, n -= 8) {
+        uint64_t word;
+        memcpy(&word, bytes, 8);
+        so_far = gis_mix(so_far, word);
+    }
+    uint64_t rest = 0;
+    memcpy(&rest, bytes, n);
+    return gis_mix(gis_mix(so_far, rest), n);
+}
+
+static inline uint64_t gis_mix_text(uint64_t so_far, const char *text, int width)
+{
+    size_t n = strlen(text);
+    if (width > 0 && n > (size_t)width) /* a format may cut it there: width counts signs, and none is under a byte */
+        n = (size_t)width;
+    return gis_mix_bytes(gis_mix(so_far, GIS_MIX_TEXT), text, n);
+}
+
+static inline uint64_t gis_mix_plain(uint64_t so_far, const gis_value *value, const gis_plain_field *as)
+{
+    switch (value->kind) {
+    case GIS_TEXT: return gis_mix_text(so_far, value->as.text, as->width);
+    case GIS_INTEGER: return gis_mix(so_far, (uint64_t)value->as.integer);
+    case GIS_REAL:
+        return isnan(value->as.real) ? gis_mix(so_far, GIS_MIX_NO_VALUE) : gis_mix_double(so_far, value->as.real);
+    default: return gis_mix(so_far, GIS_MIX_NO_VALUE);
+    }
+}
+
+/* What is read, as it comes, beside what was sent: the list is kept only from where the two differ, as before that it
+ * is the other. Zeroed: nothing yet. */
+typedef struct gis_digests_read {
+    gis_digest *at; /* all that was read, if they differ */
+    size_t n, capacity;
+    bool differ;
+} gis_digests_read;
+
+bool gis_digests_read_add(gis_digests_read *read, gis_digests *all, gis_digest one, gis_error *error);
+
+/* The numbers of all rows of the layer, read past GDAL. False, and *read is zeroed, if a row is not plain, or SQLite
+ * cannot be had, or anything at all is amiss: then it is for GDAL to read, and to say what it is. */
+bool gis_read_rows(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written, gis_digests_read *read);
+
+#endif

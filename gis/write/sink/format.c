@@ -1,0 +1,115 @@
+/* format.c: finding the driver for an output, and what our promises mean in its format. */
+#include "write/sink/format.h"
+
+#include "base/path.h"
+#include "write/sink/abilities.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <string.h>
+
+static const char *const texts[] = {"GeoJSON", "GeoJSONSeq", "CSV", "GML", "KML", NULL};
+
+static bool can_create(GDALDriverH driver)
+{
+    return GDALGetMetadataItem(driver, GDAL_DCAP_VECTOR, NULL) && GDALGetMetadataItem(driver, GDAL_DCAP_CREATE, NULL);
+}
+
+static bool has_extension(GDALDriverH driver, const char *extension)
+{
+    const char *all = GDALGetMetadataItem(driver, GDAL_DMD_EXTENSIONS, NULL);
+    if (!all) all = GDALGetMetadataItem(driver, GDAL_DMD_EXTENSION, NULL);
+    char **each = CSLTokenizeString2(all ? all : "", " ", 0);
+    bool found = CSLFindString(each, extension) >= 0;
+    CSLDestroy(each);
+    return found;
+}
+
+static bool has_prefix(GDALDriverH driver, const char *path)
+{
+    const char *prefix = GDALGetMetadataItem(driver, GDAL_DMD_CONNECTION_PREFIX, NULL);
+    return prefix && prefix[0] && EQUALN(path, prefix, strlen(prefix));
+}
+
+static const char *extension_of(const char *path)
+{
+    size_t length = strlen(path);
+    return length > 8 && EQUAL(path + length - 8, ".shp.zip") ? "shp.zip" : gis_path_extension(path);
+}
+
+static GDALDriverH driver_for(const char *path)
+{
+    /* Endings that several drivers claim, or that GDAL's own list lacks. */
+    static const char *const first[][2] = {{"json", "GeoJSON"},           {"shz", "ESRI Shapefile"},
+                                           {"shp.zip", "ESRI Shapefile"}, {"db", "SQLite"},
+                                           {"sqlite", "SQLite"},          {"gdb", "OpenFileGDB"}};
+    char extension[32];
+    CPLStrlcpy(extension, extension_of(path), sizeof extension);
+    for (size_t i = 0; i < sizeof first / sizeof *first; i++)
+        if (EQUAL(extension, first[i][0]) && GDALGetDriverByName(first[i][1])) return GDALGetDriverByName(first[i][1]);
+    for (int i = 0; i < GDALGetDriverCount(); i++)
+        if (can_create(GDALGetDriver(i)) && has_prefix(GDALGetDriver(i), path)) return GDALGetDriver(i);
+    for (int i = 0; extension[0] && i < GDALGetDriverCount(); i++)
+        if (can_create(GDALGetDriver(i)) && has_extension(GDALGetDriver(i), extension)) return GDALGetDriver(i);
+    return NULL;
+}
+
+/* Is anything written with the driver, and to such a name? */
+static bool check_able(const gis_abilities *able, const char *path, bool connection, gis_error *error)
+{
+    if (able->refused && !connection)
+        return gis_fail_usage(error, "%s: nothing can be written as %s: %s", path, able->driver, able->refused);
+    char **endings = CSLTokenizeString2(able->endings ? able->endings : "", " ", 0);
+    const bool directory = (able->has & GIS_TAKES_DIRECTORY) && !extension_of(path)[0];
+    const bool ends = !able->endings || connection || directory || CSLFindString(endings, extension_of(path)) >= 0 ||
+                      strncmp(path, "/vsistdout", 10) == 0 || strcmp(path, "/dev/stdout") == 0;
+    CSLDestroy(endings);
+    return ends || gis_fail_usage(error, "%s: the name of a file of %s has to end in one of these: %s", path,
+                                  able->driver, able->endings);
+}
+
+bool gis_format_find(const char *path, const char *name, const char *const *layer_options, gis_format *out,
+                     gis_error *error)
+{
+    gis_format format = {.driver = name ? GDALGetDriverByName(name) : driver_for(path)};
+    if (!format.driver && name) return gis_fail_usage(error, "--of %s: GDAL has no such format", name);
+    if (!format.driver) return gis_fail_usage(error, "%s: the name does not tell the format; give it with --of", path);
+    format.name = GDALGetDescription(format.driver);
+    if (!can_create(format.driver))
+        return gis_fail_usage(error, "--of %s: GDAL cannot create vector data in this format", format.name);
+    const gis_abilities able = gis_abilities_of(format.name);
+    if (!check_able(&able, path, has_prefix(format.driver, path), error)) return false;
+    format.database = has_prefix(format.driver, path);
+    format.shapefile = EQUAL(format.name, "ESRI Shapefile");
+    format.geopackage = EQUAL(format.name, "GPKG");
+    format.sqlite = format.geopackage || EQUAL(format.name, "SQLite");
+    format.only_written =
+        !GDALGetMetadataItem(format.driver, GDAL_DCAP_OPEN, NULL) || (able.has & GIS_IS_NOT_READ);
+    format.abilities = able.has;
+    format.own_field = able.own_field;
+    format.keeps_fids = able.has & GIS_KEEPS_FIDS;
+    format.keeps_doubles = able.has & GIS_KEEPS_DOUBLES;
+    format.keeps_values = able.has & GIS_KEEPS_VALUES;
+    format.keeps_order = able.has & GIS_KEEPS_ORDER;
+    format.reprojects = able.has & GIS_REPROJECTS;
+    format.one_layer = able.has & GIS_ONE_LAYER;
+    format.lines = CSLFindString((CSLConstList)texts, format.name) >= 0;
+    format.keeps_vertices = format.keeps_doubles || format.shapefile;
+    if (EQUAL(format.name, "GeoJSON") && CPLFetchBool((CSLConstList)layer_options, "RFC7946", false))
+        format.reprojects = true;
+    if ((able.has & GIS_TAKES_DIRECTORY) && !has_extension(format.driver, extension_of(path)) &&
+        !EQUAL(extension_of(path), "csv"))
+        format.one_layer = false;
+    *out = format;
+    return true;
+}
+
+bool gis_format_has_option(const gis_format *format, const char *option)
+{
+    const char *list = GDALGetMetadataItem(format->driver, GDAL_DS_LAYER_CREATIONOPTIONLIST, NULL);
+    char quoted[64];
+    snprintf(quoted, sizeof quoted, "name='%s'", option);
+    if (list && strstr(list, quoted)) return true;
+    snprintf(quoted, sizeof quoted, "name=\"%s\"", option);
+    return list && strstr(list, quoted);
+}

@@ -1,0 +1,237 @@
+/* sink_checks.c: what can be refused before any work is done: a place that is taken, or is an input, or where others
+ * are at work; a format that would change the coordinates. What can only be known afterwards is read back. */
+#define _GNU_SOURCE
+#include "base/message.h"
+#include "base/path.h"
+#include "base/trust.h"
+#include "gpkg/sqlite_calls.h"
+#include "gpkg/sqlite_lock.h"
+#include "read/source_files.h"
+#include "write/sink/abilities.h"
+#include "write/sink/sink_internal.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* ---- What exists ------------------------------------------------------------------------------------------------- */
+
+bool gis_sink_exists(const char *path)
+{
+    VSIStatBufL status;
+    return VSIStatExL(path, &status, VSI_STAT_EXISTS_FLAG) == 0;
+}
+
+bool gis_sink_is_directory(const char *path)
+{
+    VSIStatBufL status;
+    return VSIStatExL(path, &status, VSI_STAT_EXISTS_FLAG | VSI_STAT_NATURE_FLAG) == 0 && VSI_ISDIR(status.st_mode);
+}
+
+static GDALDatasetH open_quietly(const char *path, unsigned flags, const gis_format *format)
+{
+    const char *drivers[] = {format ? format->name : NULL, NULL};
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    GDALDatasetH dataset = GDALOpenEx(path, GDAL_OF_VECTOR | flags, format ? drivers : NULL, NULL, NULL);
+    gis_listen_end();
+    gis_listener_clear(&listener);
+    return dataset;
+}
+
+static bool has_layer(GDALDatasetH dataset, const char *name)
+{
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    bool found = GDALDatasetGetLayerByName(dataset, name) != NULL;
+    gis_listen_end();
+    gis_listener_clear(&listener);
+    return found;
+}
+
+/* The layer that the output is to have exists, or is the very input. */
+static bool check_layer_name(const gis_sink *sink, GDALDatasetH dataset, const char *suffix, bool is_source,
+                             gis_error *error)
+{
+    char *name = gis_sink_name_for(sink, suffix);
+    bool done = true;
+    if (is_source && EQUAL(name, OGR_L_GetName(gis_source_layer(sink->source))))
+        done = gis_fail(error, "layer %s of %s is the input itself; give the output another name with --output-layer",
+                        name, sink->request.path);
+    else if (!sink->request.overwrite_layer && has_layer(dataset, name))
+        done = gis_fail(error, "%s has a layer %s already; --overwrite-layer replaces it, --output-layer names another",
+                        sink->request.path, name);
+    CPLFree(name);
+    return done;
+}
+
+static bool check_layer_names(const gis_sink *sink, gis_error *error)
+{
+    GDALDatasetH dataset = open_quietly(sink->request.path, GDAL_OF_READONLY, NULL);
+    if (!dataset) return gis_fail(error, "%s: cannot be opened to add layers", sink->request.path);
+    bool is_source = gis_source_lies_in(sink->source, sink->request.path);
+    bool done = check_layer_name(sink, dataset, "", is_source, error);
+    for (const char *const *suffix = sink->request.suffixes; done && suffix && *suffix; suffix++)
+        done = check_layer_name(sink, dataset, *suffix, is_source, error);
+    GDALClose(dataset);
+    return done;
+}
+
+/* What is renamed over is gone: a device or a pipe would be taken from the whole system. A link that leads nowhere
+ * would show when all is done. */
+static bool check_is_file(const char *path, gis_error *error)
+{
+    struct stat status;
+    if (lstat(path, &status) == 0 && S_ISLNK(status.st_mode) && stat(path, &status) != 0)
+        return gis_fail(error, "%s is a link that leads nowhere; remove it, or make what it leads to", path);
+    if (!gis_link_may_be_followed(path, "the output", error)) return false;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
+        return gis_fail(error, "%s is no ordinary file; it is not replaced", path);
+    return true;
+}
+
+/* A file that the output is to have, of a format of one layer a file. */
+static bool check_file(const gis_sink *sink, const char *suffix, gis_error *error)
+{
+    char *name = gis_sink_file_for(sink, suffix);
+    char *directory = gis_path_directory(sink->request.path), *path = gis_path_join(directory, name);
+    CPLFree(directory);
+    bool replace = sink->request.overwrite || sink->request.overwrite_layer;
+    bool done = check_is_file(path, error);
+    if (done && gis_sink_exists(path)) {
+        if (gis_source_lies_in(sink->source, path))
+            done = gis_fail(error, "%s: input and output are the same", path);
+        else if (!replace)
+            done = gis_fail(error, "%s exists already; --overwrite replaces it", path);
+        else if (gis_sink_is_directory(path))
+            done = gis_fail(error, "%s is a directory; it is not replaced by a file", path);
+    }
+    CPLFree(name);
+    CPLFree(path);
+    return done;
+}
+
+static bool check_files(const gis_sink *sink, gis_error *error)
+{
+    bool done = check_file(sink, "", error);
+    for (const char *const *suffix = sink->request.suffixes; done && suffix && *suffix && !sink->to_stdout; suffix++)
+        done = check_file(sink, *suffix, error);
+    return done;
+}
+
+/* A transaction of another program was interrupted: SQLite takes back what is half done of it when a program opens the
+ * database that may write. What is there before the work is what was there before that transaction. */
+static void settle_journal(const gis_sink *sink)
+{
+    const char *path = sink->request.path;
+    gis_say_warning(GIS_MESSAGE_REMAINS,
+                    "%s-journal is left of a transaction that was interrupted; SQLite rolls it back", path);
+    GDALDatasetH dataset = sink->request.update ? open_quietly(path, GDAL_OF_UPDATE, &sink->format) : NULL;
+    if (dataset) GDALClose(dataset);
+}
+
+/* What SQLite finds beside a database it takes for a part of it. */
+static bool check_companions(const char *path, gis_error *error)
+{
+    const char *planted = gis_sqlite_planted_companion(path);
+    return !planted || gis_fail(error, GIS_SQLITE_PLANTED, path, planted, path);
+}
+
+/* A SQLite database has companions that belong to its content, and others may have it open. */
+static bool check_database_file(const gis_sink *sink, gis_error *error)
+{
+    const char *path = sink->request.path;
+    if (!check_companions(path, error)) return false;
+    bool there = gis_sink_exists(path);
+    if (!there && (gis_sqlite_has_journal(path) || gis_sqlite_has_log(path)))
+        return gis_fail(error, "%s%s is left of another database and would count as part of the new one; move it away",
+                        path, gis_sqlite_has_log(path) ? "-wal" : "-journal");
+    if (there && gis_sqlite_has_journal(path) && !gis_sqlite_being_written(path)) settle_journal(sink);
+    if (there && sink->request.overwrite && !gis_source_lies_in(sink->source, path) && !gis_sqlite_can_replace(path) &&
+        gis_sqlite_in_use(path))
+        return gis_fail(error, "%s is in use by another program: close it there, or write another file", path);
+    return true;
+}
+
+static bool check_whole(gis_sink *sink, gis_error *error)
+{
+    const char *path = sink->request.path;
+    if (!check_is_file(path, error) || (sink->format.sqlite && !check_database_file(sink, error))) return false;
+    bool there = gis_sink_exists(path);
+    if (there && sink->request.update) {
+        sink->updating = true;
+        if (sink->format.sqlite && sink->place == GIS_PLACE_FILE) sink->place = GIS_PLACE_DATABASE;
+        return check_layer_names(sink, error);
+    }
+    /* A new member of the archive that is read counts, too: its directory is written anew. */
+    if ((there || sink->place == GIS_PLACE_MEMORY) && gis_source_lies_in(sink->source, path))
+        return gis_fail(error, "%s: input and output are the same; --update adds layers of other names to it", path);
+    if (!there) return true;
+    if (!sink->request.overwrite)
+        return gis_fail(error, "%s exists already; --overwrite replaces it, --update adds layers to it", path);
+    if (gis_sink_is_directory(path)) { /* none is taken away but a dataset of the kind that will replace it */
+        GDALDatasetH old = open_quietly(path, GDAL_OF_READONLY, &sink->format);
+        if (!old)
+            return gis_fail(error, "%s is a directory, and no %s dataset: it is not replaced", path, sink->format.name);
+        GDALClose(old);
+    }
+    return true;
+}
+
+static bool check_database(gis_sink *sink, gis_error *error)
+{
+    if (sink->request.overwrite)
+        return gis_fail_usage(error, "--overwrite would replace a whole database; use --overwrite-layer");
+    sink->updating = true;
+    return check_layer_names(sink, error);
+}
+
+bool gis_sink_check_existing(gis_sink *sink, gis_error *error)
+{
+    if (sink->to_stdout) return true;
+    if (sink->place == GIS_PLACE_DATABASE) return check_database(sink, error);
+    return sink->format.one_layer ? check_files(sink, error) : check_whole(sink, error);
+}
+
+/* ---- Formats that have no place for some features ---------------------------------------------------------------- */
+
+bool gis_sink_check_geometries(const gis_sink *sink, gis_error *error)
+{
+    if (!sink->request.features || !(sink->format.abilities & GIS_NEEDS_GEOMETRY)) return true;
+    const size_t n =
+        gis_source_content_count(sink->source, GIS_NOTHING) + gis_source_content_count(sink->source, GIS_BROKEN);
+    return n == 0 || gis_fail(error,
+                              "%s: %s drops features without geometry, and %zu of layer %s ha%s none: select the "
+                              "others with --where, or write another format",
+                              sink->request.path, sink->format.name, n, gis_source_name(sink->source),
+                              n == 1 ? "s" : "ve");
+}
+
+/* ---- Formats that cannot hold the coordinates -------------------------------------------------------------------- */
+
+static bool is_wgs84(OGRSpatialReferenceH crs)
+{
+    const char *code = OSRGetAuthorityCode(crs, NULL), *authority = OSRGetAuthorityName(crs, NULL);
+    return code && authority &&
+           ((EQUAL(authority, "EPSG") && EQUAL(code, "4326")) || (EQUAL(authority, "OGC") && EQUAL(code, "CRS84")));
+}
+
+bool gis_sink_check_reprojection(const gis_sink *sink, gis_error *error)
+{
+    OGRSpatialReferenceH crs = sink->source ? gis_source_crs(sink->source) : NULL;
+    if ((sink->format.abilities & GIS_NEEDS_WGS84) && !(crs && is_wgs84(crs)))
+        return gis_fail(error, "%s: %s holds coordinates of WGS 84 alone; write another format, or reproject the layer",
+                        sink->request.path, sink->format.name);
+    if (sink->format.only_written && !sink->request.allow_inexact && !sink->format.reprojects)
+        return gis_fail(error,
+                        "%s: %s is only written, so that nothing could be said of the written features; write "
+                        "another format, or give --allow-inexact-output",
+                        sink->request.path, sink->format.name);
+    if (!sink->format.reprojects || sink->request.allow_inexact || !crs || is_wgs84(crs)) return true;
+    return gis_fail(error,
+                    "%s: %s would reproject the coordinates to WGS 84, so that nothing could be said of the written "
+                    "features; write another format, or give --allow-inexact-output",
+                    sink->request.path, sink->format.name);
+}

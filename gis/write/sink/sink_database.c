@@ -1,0 +1,309 @@
+/* sink_database.c: layers added to a database, in one transaction.
+ *
+ * A SQLite file (a GeoPackage) is written where it is: a copy renamed over it would lose what others write meanwhile,
+ * and a log that another program keeps beside it would be applied to the new file. Its write lock is taken first, by a
+ * statement that changes nothing (GDAL begins its transactions without a lock); then it is made sure that what GDAL
+ * read when it opened the file is still so, else it is opened again. From there to the end nobody else writes. The mode
+ * of the journal stays as it is, and so does SQLite's syncing: an interrupted transaction is rolled back by whoever
+ * opens the database next. */
+#define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
+#include "base/path.h"
+#include "gpkg/layer_styles.h"
+#include "gpkg/sql.h"
+#include "gpkg/sqlite_calls.h"
+#include "gpkg/sqlite_lock.h"
+#include "write/sink/sink_internal.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+/* ---- Opening ----------------------------------------------------------------------------------------------------- */
+
+bool gis_sink_open_for_update(gis_sink *sink, gis_error *error)
+{
+    char *path = gis_sink_inside(sink, sink->main_file);
+    gis_sqlite_heed_signals();
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    sink->dataset = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
+    gis_listen_end();
+    CPLFree(path);
+    if (!sink->dataset)
+        gis_fail(error, "%s: cannot be opened to add layers: %s", sink->request.path,
+                 gis_listener_reason(&listener, "GDAL gives no reason"));
+    else if (!GDALDatasetTestCapability(sink->dataset, ODsCCreateLayer))
+        gis_fail(error, "%s: no layers can be added to it", sink->request.path);
+    gis_listener_clear(&listener);
+    return sink->dataset && GDALDatasetTestCapability(sink->dataset, ODsCCreateLayer);
+}
+
+bool gis_sink_begin_transaction(gis_sink *sink, gis_error *error)
+{
+    if (!GDALDatasetTestCapability(sink->dataset, ODsCTransactions)) {
+        if (sink->place == GIS_PLACE_DATABASE)
+            return gis_fail(error, "%s: the database has no transactions", sink->request.path);
+        return true;
+    }
+    sink->in_transaction = GDALDatasetStartTransaction(sink->dataset, FALSE) == OGRERR_NONE;
+    return sink->in_transaction || gis_fail(error, "%s: no transaction can be started", sink->request.path);
+}
+
+static bool in_sqlite_file(const gis_sink *sink) { return sink->place == GIS_PLACE_DATABASE && sink->format.sqlite; }
+
+/* ---- The lock of a SQLite file ----------------------------------------------------------------------------------- */
+
+/* What must be the same before GDAL opens the file and after the lock is had: the file itself (another may have been
+ * renamed to its place) and the count of changes of the schema, which every layer made or removed is one of. */
+typedef struct version {
+    dev_t device;
+    ino_t inode;
+    char *schema; /* NULL: it cannot be read */
+} version;
+
+static version version_of(const char *path, GDALDatasetH dataset)
+{
+    struct stat status = {0};
+    version now = {0};
+    if (stat(path, &status) == 0) now = (version){status.st_dev, status.st_ino, NULL};
+    now.schema = dataset ? gis_sql_ask(dataset, "PRAGMA schema_version") : NULL;
+    return now;
+}
+
+static bool same_version(const version *a, const version *b)
+{
+    return a->device == b->device && a->inode == b->inode && a->schema && b->schema &&
+           strcmp(a->schema, b->schema) == 0;
+}
+
+static version version_before(const gis_sink *sink)
+{
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    GDALDatasetH dataset = GDALOpenEx(sink->request.path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
+    version before = version_of(sink->request.path, dataset);
+    if (dataset) GDALClose(dataset);
+    gis_listen_end();
+    gis_listener_clear(&listener);
+    return before;
+}
+
+/* Any statement that could write takes the lock, and waits for it if it is the first one of its transaction. */
+static char *locking_statement(const gis_sink *sink)
+{
+    char *table = gis_sql_ask(sink->dataset, "SELECT name FROM sqlite_master WHERE type = 'table' AND name NOT LIKE "
+                                             "'sqlite_%' AND sql NOT LIKE 'CREATE VIRTUAL%' ORDER BY rowid LIMIT 1");
+    char *quoted = table ? CPLEscapeString(table, -1, CPLES_SQLI) : NULL;
+    char *sql = quoted ? gis_printed("DELETE FROM \"%s\" WHERE 0", quoted) : NULL;
+    CPLFree(table);
+    CPLFree(quoted);
+    return sql;
+}
+
+static bool fail_locked(const gis_sink *sink, const char *reason, gis_error *error)
+{
+    return gis_fail(error,
+                    "%s is in use by another program, which did not let go of it within %g s (%s); nothing was "
+                    "changed",
+                    sink->request.path, gis_sqlite_patience() / 1000., reason);
+}
+
+/* ---- Nothing outside the transaction ----------------------------------------------------------------------------- */
+
+/* SQLite ends a transaction by itself when the disk fails, and GDAL may go on: each further statement would be a
+ * transaction of its own, and be committed. Two things are set against that. A second connection reads all the time, so
+ * that nobody can commit, this program included, until it lets go (in WAL mode readers stop nobody; but there nothing
+ * is written before the commit, if the cache keeps what it has, and what is not written cannot fail). And a temporary
+ * table that goes when the transaction goes tells whether it is still the one that was begun. */
+#define MARK "sunder_transaction"
+
+static bool guard(gis_sink *sink, gis_error *error)
+{
+    char *journal = gis_printed("%s-journal", sink->request.path);
+    sink->journal = gis_leftover_until(GIS_DECIDING, journal);
+    CPLFree(journal);
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    sink->reader = GDALOpenEx(sink->request.path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
+    if (sink->reader) sink->reading = GDALDatasetExecuteSQL(sink->reader, "SELECT name FROM sqlite_master", NULL, NULL);
+    OGRFeatureH row = sink->reading ? OGR_L_GetNextFeature(sink->reading) : NULL; /* the first of several */
+    if (row) OGR_F_Destroy(row);
+    gis_listen_end();
+    gis_listener_clear(&listener);
+    return (row || gis_fail(error, "%s: cannot be read while it is written", sink->request.path)) &&
+           gis_sql_run(sink->dataset, "PRAGMA cache_spill = 0", "the database", error) &&
+           gis_sql_run(sink->dataset, "PRAGMA busy_timeout = 0", "the database", error) &&
+           gis_sql_run(sink->dataset, "CREATE TEMP TABLE " MARK " (x)", "the database", error);
+}
+
+static void unguard(gis_sink *sink)
+{
+    if (sink->reading) GDALDatasetReleaseResultSet(sink->reader, sink->reading);
+    if (sink->reader) GDALClose(sink->reader);
+    gis_leftover_forget(sink->journal);
+    sink->reading = NULL;
+    sink->reader = NULL;
+    sink->journal = NULL;
+}
+
+/* A transaction that fails is rolled back by writing what the file held, up to its end. */
+static bool may_write_all_of(const char *path, gis_error *error)
+{
+    struct rlimit limit;
+    struct stat status;
+    if (getrlimit(RLIMIT_FSIZE, &limit) != 0 || stat(path, &status) != 0 || status.st_size <= 0 ||
+        limit.rlim_cur == RLIM_INFINITY || (rlim_t)status.st_size <= limit.rlim_cur)
+        return true;
+    return gis_fail(error, "%s: it is larger than a file that this process may write (ulimit -f); nothing was changed",
+                    path);
+}
+
+static bool begin_locked(gis_sink *sink, gis_error *error)
+{
+    if (!may_write_all_of(sink->request.path, error)) return false;
+    char *sql = locking_statement(sink);
+    gis_error reason;
+    bool done =
+        !sql ? fail_locked(sink, "its tables cannot be read", error)
+             : gis_sink_begin_transaction(sink, error) && (gis_sql_run(sink->dataset, sql, "the database", &reason) ||
+                                                           fail_locked(sink, reason.message, error));
+    CPLFree(sql);
+    return done && guard(sink, error);
+}
+
+bool gis_sink_unbroken(gis_sink *sink, gis_error *error)
+{
+    if (!in_sqlite_file(sink) || !sink->in_transaction) return true;
+    char *mark = gis_sql_ask(sink->dataset, "SELECT 1 FROM sqlite_temp_master WHERE name = '" MARK "'");
+    bool there = mark != NULL;
+    CPLFree(mark);
+    return there || gis_fail(error, "%s: writing failed, and the database took it all back; is the disk full?",
+                             sink->request.path);
+}
+
+static void abandon(gis_sink *sink)
+{
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    gis_sink_roll_back(sink);
+    if (sink->dataset) GDALClose(sink->dataset);
+    sink->dataset = NULL;
+    gis_listen_end();
+    gis_listener_clear(&listener);
+}
+
+/* Who loses the race for the lock opens the file again, as it is then; so many times in a row is no race. */
+enum { ATTEMPTS = 50 };
+
+bool gis_sink_open_sqlite(gis_sink *sink, gis_error *error)
+{
+    for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
+        version before = version_before(sink), after = {0};
+        bool locked = gis_sink_open_for_update(sink, error) && begin_locked(sink, error);
+        if (locked) after = version_of(sink->request.path, sink->dataset);
+        bool done = locked && same_version(&before, &after);
+        CPLFree(before.schema);
+        CPLFree(after.schema);
+        if (done) return true;
+        abandon(sink);
+        if (!locked) return false;
+    }
+    return gis_fail(error, "%s: other programs keep changing it; nothing was changed by this one", sink->request.path);
+}
+
+/* ---- Layers that are there --------------------------------------------------------------------------------------- */
+
+/* With the lock held: what was found before the work may have changed. */
+bool gis_sink_make_room(gis_sink *sink, const char *name, gis_error *error)
+{
+    for (int i = 0; i < GDALDatasetGetLayerCount(sink->dataset); i++) {
+        if (!EQUAL(OGR_L_GetName(GDALDatasetGetLayer(sink->dataset, i)), name)) continue;
+        if (!sink->request.overwrite_layer)
+            return gis_fail(error,
+                            "%s has a layer %s by now: --overwrite-layer replaces it, --output-layer names "
+                            "another",
+                            sink->request.path, name);
+        if (sink->format.geopackage && !gis_styles_forget(sink->dataset, name, error)) return false;
+        gis_listener listener = {0};
+        gis_listen_begin(&listener);
+        bool done = GDALDatasetDeleteLayer(sink->dataset, i) == OGRERR_NONE && !listener.failures;
+        gis_listen_end();
+        if (!done)
+            gis_fail(error, "%s: layer %s cannot be replaced: %s", sink->request.path, name,
+                     gis_listener_reason(&listener, "GDAL gives no reason"));
+        gis_listener_clear(&listener);
+        return done && gis_sink_unbroken(sink, error);
+    }
+    return true;
+}
+
+/* ---- The end of the transaction ---------------------------------------------------------------------------------- */
+
+bool gis_sink_flush(gis_sink *sink, gis_error *error)
+{
+    gis_sink_layer *last = sink->n_layers ? sink->layers[sink->n_layers - 1] : NULL;
+    if (sink->place != GIS_PLACE_DATABASE || !last || !last->layer) return true;
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    GDALFlushCache(sink->dataset);
+    gis_listen_end();
+    bool done = !listener.failures;
+    if (!done)
+        gis_fail(error, "%s, layer %s: writing failed: %s", sink->request.path, last->name,
+                 gis_listener_reason(&listener, "GDAL gives no reason"));
+    gis_listener_clear(&listener);
+    return done && gis_sink_unbroken(sink, error);
+}
+
+/* What GDAL would still like to note when it closes the file would be outside the transaction. */
+static void seal(gis_sink *sink)
+{
+    if (in_sqlite_file(sink)) gis_sql_run(sink->dataset, "PRAGMA query_only = 1", "the database", NULL);
+}
+
+void gis_sink_roll_back(gis_sink *sink)
+{
+    if (sink->in_transaction) {
+        GDALDatasetRollbackTransaction(sink->dataset);
+        seal(sink);
+    }
+    sink->in_transaction = false;
+    unguard(sink);
+}
+
+/* The moment at which readers must let go, and are waited for. */
+static bool clear_the_way(gis_sink *sink, gis_error *error)
+{
+    char wait[64];
+    snprintf(wait, sizeof wait, "PRAGMA busy_timeout = %d", gis_sqlite_patience());
+    if (!in_sqlite_file(sink)) return true;
+    if (!gis_sink_unbroken(sink, error) || !gis_sql_run(sink->dataset, wait, "the database", error)) return false;
+    unguard(sink);
+    return true;
+}
+
+bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
+{
+    if (!sink->in_transaction) return true;
+    bool final = sink->place == GIS_PLACE_DATABASE; /* else it is in the stage */
+    if (!clear_the_way(sink, error) || (final && !gis_decide(error))) return false;
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    bool done = GDALDatasetCommitTransaction(sink->dataset) == OGRERR_NONE && !listener.failures;
+    gis_listen_end();
+    sink->in_transaction = !done; /* to be rolled back */
+    if (final) gis_set_outcome(done ? GIS_DECIDED : GIS_OPEN);
+    if (!done && sink->format.sqlite && strstr(listener.first, "locked"))
+        fail_locked(sink, listener.first, error);
+    else if (!done)
+        gis_fail(error, "%s: writing failed: %s", sink->request.path,
+                 gis_listener_reason(&listener, "the transaction cannot be committed"));
+    else
+        seal(sink);
+    gis_listener_clear(&listener);
+    return done;
+}

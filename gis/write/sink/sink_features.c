@@ -1,0 +1,211 @@
+/* sink_features.c: features on their way out. What is sent is remembered until it has been read back: by a digest where
+ * the format keeps every value, else as it is. */
+#include "write/sink/sink_internal.h"
+
+#include "base/array.h"
+#include "base/interrupt.h"
+#include "read/fields.h"
+
+#include <cpl_conv.h>
+#include <inttypes.h>
+#include <stdlib.h>
+
+static bool remember(gis_sink_layer *layer, gis_sent sent, gis_error *error)
+{
+    if (!gis_array_reserve(&layer->sent, &layer->capacity, layer->n_sent + 1, sizeof *layer->sent)) {
+        OGR_G_DestroyGeometry(sent.made);
+        return gis_no_memory(error);
+    }
+    layer->sent[layer->n_sent++] = sent;
+    return true;
+}
+
+void gis_sink_forget_sent(gis_sink_layer *layer)
+{
+    gis_sink_forget_values(layer);
+    for (size_t i = 0; i < layer->n_sent; i++) OGR_G_DestroyGeometry(layer->sent[i].made);
+    free(layer->sent);
+    layer->sent = NULL;
+    layer->n_sent = layer->capacity = 0;
+}
+
+/* ---- Attributes -------------------------------------------------------------------------------------------------- */
+
+/* The FID of a feature that is written like it was read. */
+static void set_fid(const gis_sink_layer *layer, OGRFeatureH to, GIntBig fid)
+{
+    if (layer->fid_field >= 0 && fid != OGRNullFID) OGR_F_SetFieldInteger64(to, layer->fid_field, fid);
+    OGR_F_SetFID(to, layer->request.like_source && layer->sink->fids_kept ? fid : OGRNullFID);
+}
+
+/* The program's own. */
+static void set_values(const gis_sink_layer *layer, OGRFeatureH to, const gis_value *values)
+{
+    for (size_t i = 0; i < layer->request.n_fields; i++) {
+        int field = layer->own[i];
+        if (field < 0) continue;
+        switch (values[i].kind) {
+        case GIS_NULL: OGR_F_SetFieldNull(to, field); break;
+        case GIS_INTEGER: OGR_F_SetFieldInteger64(to, field, values[i].as.integer); break;
+        case GIS_REAL: OGR_F_SetFieldDouble(to, field, values[i].as.real); break;
+        case GIS_TEXT: OGR_F_SetFieldString(to, field, values[i].as.text); break;
+        }
+    }
+}
+
+/* GDAL writes a list into a text as people read it, and cuts what is long. */
+static bool set_lists(const gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, gis_error *error)
+{
+    bool done = true;
+    for (int i = 0; layer->lists && done && i < OGR_F_GetFieldCount(feature); i++) {
+        const int field = layer->field_map[i];
+        if (field < 0 || !OGR_F_IsFieldSetAndNotNull(feature, i) ||
+            !gis_field_type_is_list(OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, i))) ||
+            OGR_Fld_GetType(OGR_F_GetFieldDefnRef(to, field)) != OFTString)
+            continue;
+        gis_json list = {0};
+        gis_field_list(feature, i, &list);
+        const char *text = gis_json_text(&list);
+        if (text) OGR_F_SetFieldString(to, field, text);
+        done = text || gis_no_memory(error);
+        gis_json_clear(&list);
+    }
+    return done;
+}
+
+static bool set_attributes(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, const gis_value *values,
+                           gis_error *error)
+{
+    if (feature && (layer->request.like_source || layer->request.copied)) {
+        if (OGR_F_SetFromWithMap(to, feature, TRUE, layer->field_map) != OGRERR_NONE)
+            return gis_fail(error, "layer %s: the attributes of FID %" PRId64 " cannot be copied", layer->name,
+                            (int64_t)OGR_F_GetFID(feature));
+        set_fid(layer, to, OGR_F_GetFID(feature));
+        if (!set_lists(layer, to, feature, error)) return false;
+    }
+    set_values(layer, to, values);
+    return true;
+}
+
+/* ---- Geometry ---------------------------------------------------------------------------------------------------- */
+
+/* GDAL drops M values and draws arcs as chords without a word where a format has neither. */
+static void note_losses(gis_sink_layer *layer, OGRFeatureH to)
+{
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(to);
+    if (!geometry || !layer->request.as_source) return;
+    if (!layer->can_measure && OGR_G_IsMeasured(geometry) && !layer->sink->format.shapefile)
+        gis_sentences_add(&layer->sink->losses, "M values are not written: %s has none", layer->sink->format.name);
+    if (!layer->can_curve && OGR_G_HasCurveGeometry(geometry, TRUE))
+        gis_sentences_add(&layer->sink->losses, "arcs are written as chords: %s has no arcs", layer->sink->format.name);
+}
+
+/* ---- Writing ----------------------------------------------------------------------------------------------------- */
+
+static void hear_warnings(gis_sink_layer *layer, const gis_listener *listener)
+{
+    if (layer->keep_sent && layer->sink->format.keeps_order)
+        return; /* changed values are found when the layer is read back, and told once a field */
+    for (size_t i = 0; i < listener->warnings.n; i++)
+        gis_sentences_add(&layer->sink->warnings, "%s", listener->warnings.items[i]);
+}
+
+/* from: the FID that it was read with; NULL: it was not read. */
+static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, const GIntBig *from, gis_error *error)
+{
+    GIntBig fid = OGR_F_GetFID(to);
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    bool done = OGR_L_CreateFeature(layer->layer, to) == OGRERR_NONE && !listener.failures;
+    gis_listen_end();
+    if (done)
+        layer->written++;
+    else if (from)
+        gis_fail(error, "%s, layer %s: FID %" PRId64 " cannot be written: %s", layer->sink->request.path, layer->name,
+                 (int64_t)*from, gis_listener_reason(&listener, "GDAL gives no reason"));
+    else
+        gis_fail(error, "%s, layer %s: feature %zu cannot be written: %s", layer->sink->request.path, layer->name,
+                 layer->written + 1, gis_listener_reason(&listener, "GDAL gives no reason"));
+    hear_warnings(layer, &listener);
+    gis_listener_clear(&listener);
+    return done && gis_rtree_add(&layer->tree, to, error) && gis_digests_add(&layer->digests, to, fid, error);
+}
+
+/* The feature has all it needs; it is fitted to the format, and written. */
+static bool send(gis_sink_layer *layer, OGRFeatureH to, const GIntBig *from, gis_error *error)
+{
+    if (layer->promote) gis_sink_promote(layer, to);
+    if (layer->request.as_source && !gis_sink_holds(layer, OGR_F_GetGeometryRef(to))) OGR_F_SetGeometry(to, NULL);
+    note_losses(layer, to);
+    return (!layer->wind || gis_geometry_wind_clockwise(OGR_F_GetGeometryRef(to), error)) &&
+           create_feature(layer, to, from, error);
+}
+
+bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geometry, const gis_value *values,
+                    gis_error *error)
+{
+    OGRFeatureH to = gis_go_on(error) ? OGR_F_Create(OGR_L_GetLayerDefn(layer->layer)) : NULL;
+    if (!to) {
+        OGR_G_DestroyGeometry(geometry);
+        return gis_no_memory(error);
+    }
+    bool done = set_attributes(layer, to, feature, values, error); /* brings the feature's geometry, replaced next */
+    if (done && layer->keep_sent)
+        done = remember(layer, (gis_sent){feature, geometry ? OGR_G_Clone(geometry) : NULL, false, 0, 0}, error) &&
+               gis_sink_remember_values(layer, values, error);
+    OGR_F_SetGeometryDirectly(to, geometry);
+    const GIntBig from = feature ? OGR_F_GetFID(feature) : OGRNullFID;
+    done = done && send(layer, to, feature ? &from : NULL, error) && gis_sink_watch_digits(layer, to, error);
+    OGR_F_Destroy(to);
+    return done;
+}
+
+bool gis_sink_write_line(gis_sink_layer *layer, const double from[2], const double to[2], const gis_value *values,
+                         gis_error *error)
+{
+    if (!gis_go_on(error)) return false;
+    const gis_row row = layer->keep_sent ? GIS_ROW_GDAL : gis_sink_line(layer, from, to, values, error);
+    if (row != GIS_ROW_GDAL) return row == GIS_ROW_DONE;
+    OGRGeometryH line = gis_geometry_line(from, to);
+    if (!line) return gis_no_memory(error);
+    const bool done = gis_sink_write(layer, NULL, line, values, error);
+    if (done) gis_sink_row_by_gdal(layer, (GIntBig)layer->written);
+    return done;
+}
+
+bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx, double dy, const gis_value *values,
+                          gis_error *error)
+{
+    OGRFeatureH to = gis_go_on(error) ? OGR_F_Create(OGR_L_GetLayerDefn(layer->layer)) : NULL;
+    if (!to) return gis_no_memory(error);
+    bool done = set_attributes(layer, to, feature, values, error);
+    if (done && layer->keep_sent)
+        done = remember(layer, (gis_sent){feature, NULL, true, dx, dy}, error) &&
+               gis_sink_remember_values(layer, values, error);
+    const GIntBig from = OGR_F_GetFID(feature);
+    done = done && gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error) && send(layer, to, &from, error) &&
+           gis_sink_watch_digits(layer, to, error);
+    OGR_F_Destroy(to);
+    return done;
+}
+
+bool gis_sink_write_source(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values,
+                           gis_error *error)
+{
+    const gis_source *source = layer->sink->source;
+    if (layer->keep_sent) return gis_sink_write_moved(layer, gis_source_feature(source, i), dx, dy, values, error);
+    if (!gis_go_on(error)) return false;
+    const gis_row row = gis_sink_row(layer, i, dx, dy, values, error);
+    if (row != GIS_ROW_GDAL) return row == GIS_ROW_DONE;
+    OGRFeatureH to = OGR_F_Create(OGR_L_GetLayerDefn(layer->layer));
+    if (!to) return gis_no_memory(error);
+    const GIntBig from = gis_source_fid(source, i);
+    bool done = gis_source_put(source, i, layer->field_map, dx, dy, to, error);
+    if (done) set_fid(layer, to, from);
+    done = done && (!layer->lists || set_lists(layer, to, gis_source_feature(source, i), error));
+    if (done) set_values(layer, to, values);
+    done = done && send(layer, to, &from, error);
+    OGR_F_Destroy(to);
+    if (done) gis_sink_row_by_gdal(layer, from);
+    return done;
+}
