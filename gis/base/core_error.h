@@ -5,8 +5,8 @@
 #include "base/error.h"
 #include "sunder.h"
 
-/* False, with the library's sentence as the error, after "WHO: " unless who is NULL. Of work that was stopped the error
- * is GIS_INTERRUPTED alone. */
+/* Sets the error to the library's sentence, after "WHO: " unless who is NULL, and returns false. For work that was
+ * stopped the error is GIS_INTERRUPTED alone. */
 bool gis_core_failed(gis_error *error, const char *who, const sunder_error *why);
 
 #endif

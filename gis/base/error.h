@@ -49,7 +49,7 @@ typedef struct gis_listener {
 } gis_listener;
 
 void gis_listen_begin(gis_listener *listener);
-/* Ends listening. What was heard stays readable until gis_listener_clear(). */
+/* Stops listening. What was heard stays readable until gis_listener_clear(). */
 void gis_listen_end(void);
 void gis_listener_clear(gis_listener *listener);
 /* The first failure heard, else `otherwise`. */

@@ -1,5 +1,6 @@
-/* interrupt.c: see interrupt.h. A handler may call next to nothing and may meet the program at any point: so it sets a
- * flag that all work looks at, and, if the work does not look, walks a list that is changed only while signals wait. */
+/* interrupt.c: see interrupt.h. A signal handler may call very few functions and may interrupt the program anywhere. So
+ * it sets a flag that all work polls; for work that does not poll, it walks a list that is changed only while signals
+ * are blocked. */
 #define _GNU_SOURCE
 #include "base/interrupt.h"
 
@@ -19,7 +20,7 @@
 enum { PATIENCE = 1 };
 
 struct gis_leftover {
-    char *path, *back_to; /* back_to: NULL, or where it came from */
+    char *path, *back_to; /* back_to: where to jump back to, or NULL */
     gis_outcome stays;    /* from this outcome on; GIS_OPEN: never */
     gis_leftover *next;
 };
@@ -45,7 +46,7 @@ static void clear_away(void)
     }
 }
 
-/* Nobody listened. While the outcome is being decided nothing could be said of it, and then it is the new one. */
+/* No work polled the flag. If the signal comes while the output is being put in place, the new output stands. */
 static void lose_patience(void)
 {
     if (atomic_load(&outcome) == GIS_DECIDING) alarm(PATIENCE);
@@ -109,8 +110,8 @@ static void catch (int number)
     sigaction(number, &action, NULL);
 }
 
-/* Whoever started the run may want it to go on after its terminal has gone (nohup(1) ignores SIGHUP), or a limit to be
- * reported by the call that meets it. */
+/* A parent may have chosen to ignore the signal: nohup(1) ignores SIGHUP so that the run survives its terminal; a limit
+ * may be meant to be reported by the call that meets it. */
 static bool is_to_be_ignored(int number)
 {
     struct sigaction now;

@@ -1,5 +1,5 @@
-/* json.c: see json.h. A value knows whether a comma is due before it, so that whoever writes a list need not know which
- * of its members comes first; memory that runs out is remembered, and asked for once, at the end. */
+/* json.c: see json.h. Each value knows whether a comma is due before it, so callers that write a list need not treat
+ * the first member specially. A failed allocation is remembered, and tested once, at the end. */
 #include "base/json.h"
 
 #include <float.h>

@@ -27,7 +27,7 @@ void gis_json_signed(gis_json *out, int64_t value);
 void gis_json_double(gis_json *out, double value); /* shortest that reads back; null where not finite */
 void gis_json_bool(gis_json *out, bool value);
 void gis_json_null(gis_json *out);
-void gis_json_raw(gis_json *out, const char *text); /* as it is, commas and all; counts as a value */
+void gis_json_raw(gis_json *out, const char *text); /* copied as it is, commas included; counts as one value */
 
 /* A key and its value. */
 void gis_json_put_string(gis_json *out, const char *key, const char *utf8);

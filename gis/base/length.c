@@ -73,7 +73,7 @@ bool gis_length_parse(const char *text, size_t n, gis_length *out, const char **
     return false;
 }
 
-/* Is the unit of so many metres? */
+/* Is the unit this many metres long? */
 static bool is_unit(const unit *candidate, double metres)
 {
     double own = candidate->numerator / candidate->denominator;

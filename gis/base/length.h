@@ -24,7 +24,7 @@ typedef struct gis_length {
     gis_length_unit unit;
 } gis_length;
 
-/* A length that may have been asked for. */
+/* An optional length. */
 typedef struct gis_optional_length {
     const char *text; /* as it was written; NULL: not given */
     gis_length length;

@@ -19,7 +19,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* So many warnings of a kind are said; a layer of thousands of broken features would say nothing new by the rest. */
+/* At most this many warnings of a kind are printed; in a layer of thousands of broken features the rest would add
+ * nothing. */
 enum { SAID_OF_A_KIND = 10 };
 
 enum { TEXT_SIZE = 2048 }; /* longer ones are cut */
@@ -41,7 +42,7 @@ static const char *const kind_words[GIS_MESSAGE_N] = {
 typedef struct tally {
     gis_message_kind kind;
     char *alike; /* the layer, as messages name it; "": all of the kind */
-    char *first; /* of those that were not said */
+    char *first; /* number of warnings that were not printed */
     size_t n;
 } tally;
 
@@ -58,7 +59,7 @@ static _Thread_local struct {
     char name[GIS_WHO_SIZE], layer[GIS_WHO_SIZE], id[GIS_WHO_SIZE];
     bool has_fid, has_id;
     int64_t fid;
-    size_t before; /* so much of the name is the layer's */
+    size_t before; /* length of the layer's part of the name */
 } last;
 
 /* ---- Subjects ---------------------------------------------------------------------------------------------------- */

@@ -14,8 +14,8 @@ typedef enum gis_message_kind {
     GIS_MESSAGE_ARCS,      /* arcs that are taken as polylines */
     GIS_MESSAGE_CRS,       /* coordinates that are no lengths, or of no known system */
     GIS_MESSAGE_PASSED_BY, /* features that the command does nothing with */
-    GIS_MESSAGE_INPUT,     /* what GDAL says of what is read */
-    GIS_MESSAGE_OUTPUT,    /* what GDAL says of what is written */
+    GIS_MESSAGE_INPUT,     /* GDAL's messages about input */
+    GIS_MESSAGE_OUTPUT,    /* GDAL's messages about output */
     GIS_MESSAGE_LOSS,      /* what the output's format does not hold */
     GIS_MESSAGE_REMAINS,   /* what a run that was ended has left */
     GIS_MESSAGE_MEMORY,    /* what takes more than --max-memory */
@@ -25,7 +25,7 @@ typedef enum gis_message_kind {
 
 typedef struct gis_messages_request {
     bool json;       /* a JSON object a line, not words */
-    bool quiet;      /* of warnings nothing is said; errors are */
+    bool quiet;      /* warnings are suppressed; errors are printed */
     const char *log; /* NULL, or the file that holds all of them; a former log is replaced, another file is not */
 } gis_messages_request;
 

@@ -1,5 +1,5 @@
-/* padding.h: bytes of a structure that no member has. Where things are written as they lie in memory, these are nought:
- * so equal things are equal bytes, whoever wrote them, and nothing goes into a file that was in memory before. */
+/* padding.h: padding bytes of structures. Structures that are written to disk as they lie in memory have their padding
+ * zeroed: equal values then have equal bytes, and no stale memory gets into a file. */
 #ifndef GIS_PADDING_H
 #define GIS_PADDING_H
 

@@ -23,7 +23,7 @@ const char *gis_path_name(const char *path);
 const char *gis_path_extension(const char *path);
 /* The name without its last dot and what follows that. */
 char *gis_path_stem(const char *path);
-/* The current directory; NULL: it has none that can be told. */
+/* The current directory; NULL if it cannot be determined. */
 char *gis_path_here(void);
 
 /* The longest path of a dataset: some 140 bytes are left for what a run or a driver puts into it or behind it (the

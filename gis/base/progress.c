@@ -1,5 +1,5 @@
-/* progress.c: see progress.h. What is shown never goes back: a stage begins where the one before it ended, and what
- * was printed once is not printed again. */
+/* progress.c: see progress.h. Progress never goes back: a stage begins where the previous one ended, and nothing is
+ * printed twice. */
 #include "base/progress.h"
 
 #include "base/interrupt.h"

@@ -16,7 +16,7 @@ typedef struct gis_progress_name {
 typedef struct gis_progress {
     gis_progress_kind kind;
     double from, to; /* the part of the whole that the callback's [0, 1] stands for */
-    int shown;       /* what was printed last; -1: nothing */
+    int shown;       /* the last value printed; -1: none */
     const gis_progress_name
         *name; /* stages that are still to be named, ascending, up to one without a word; NULL: none */
 } gis_progress;
@@ -28,7 +28,7 @@ void gis_progress_names(gis_progress *progress, const gis_progress_name *name);
 void gis_progress_stage(gis_progress *progress, double from, double to);
 /* A sunder_progress; user is a gis_progress. False when a signal asked to stop. */
 bool gis_progress_call(double fraction, void *user);
-/* Whoever has something else to say on stderr in between: it begins a line of its own. */
+/* Ends the current line of progress, so that another message on stderr begins its own line. */
 void gis_progress_break(void);
 /* All is done: a bar ends with the word for it. */
 void gis_progress_done(gis_progress *progress);

@@ -1,5 +1,5 @@
 /* remove_tree.c: see remove_tree.h. Everything is relative to open directories (unlinkat, openat without following
- * links): so no path is put together, which would need memory, and nobody can lead the removal elsewhere meanwhile. */
+ * links): no path is built, which would need memory, and no other process can redirect the removal meanwhile. */
 #define _GNU_SOURCE
 #include "base/remove_tree.h"
 

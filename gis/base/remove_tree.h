@@ -5,7 +5,7 @@
 /* As far as it can be done; a link is removed, not what it leads to. Calls nothing but system calls. Where the system
  * has none that lists a directory (readdir() may not be called in a handler), a directory stays that is not empty. */
 void gis_remove_tree(const char *path);
-/* Of an open directory, by name. */
+/* Removes an entry, by name, of an open directory. */
 void gis_remove_tree_in(int directory, const char *name);
 
 #endif

@@ -1,5 +1,5 @@
-/* resources.c: see resources.h. The clock is POSIX's monotonic one, which nobody sets; the memory is the kernel's own
- * account of the process, the same that `time -v` prints. */
+/* resources.c: see resources.h. The clock is POSIX's monotonic one, which cannot be set; the memory is the kernel's own
+ * account of the process, as printed by `time -v`. */
 #include "base/resources.h"
 
 #include <stdlib.h> /* __GLIBC__ */

@@ -6,7 +6,7 @@
 
 /* Seconds of a clock that never goes back. */
 double gis_clock(void);
-/* As many threads as were asked for; of none (0) as many as there are processors. */
+/* The number of threads asked for; for 0 the number of processors. */
 unsigned gis_threads(unsigned asked);
 /* The greatest amount of memory that the process has held, in bytes; 0: the system does not say. */
 uint64_t gis_peak_rss(void);

@@ -1,5 +1,4 @@
-/* side_thread.h: work on a thread of its own, one piece after the other, beside the caller's, which goes on meanwhile.
- */
+/* side_thread.h: work on a second thread, piece after piece, while the caller continues. */
 #ifndef GIS_SIDE_THREAD_H
 #define GIS_SIDE_THREAD_H
 
@@ -15,7 +14,8 @@ gis_beside *gis_beside_new(void);
 /* Does work(context), which is to end by itself, once what was given before has ended; waits where that is as much as
  * can be given. From here until it is known to have ended what the work uses is the work's alone. */
 void gis_beside_do(gis_beside *beside, void (*work)(void *context), void *context);
-/* Until so many pieces at most, those that were given last, are left; what the others wrote can be read then. */
+/* Waits until at most `left` pieces are unfinished, the most recent ones; the output of all others can be read
+ * then. */
 void gis_beside_wait(gis_beside *beside, size_t left);
 /* Waits for all of them, too. */
 void gis_beside_free(gis_beside *beside);

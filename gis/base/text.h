@@ -15,7 +15,7 @@ typedef struct gis_text {
 void gis_text_clear(gis_text *text);
 /* "" again, with its room. */
 void gis_text_empty(gis_text *text);
-/* What was added, "" if nothing; NULL after a failed allocation. */
+/* The text so far, "" if empty; NULL after a failed allocation. */
 const char *gis_text_get(const gis_text *text);
 
 void gis_text_add_bytes(gis_text *text, const char *bytes, size_t n);

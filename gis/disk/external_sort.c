@@ -45,7 +45,7 @@ static bool fail_content(const gis_spool_file *file, gis_error *error)
 
 enum { LEAST_ROOM = 1 << 16 };
 
-/* For so many bytes more. No more room than a part may take: one that doubles would be twice the bound. */
+/* Makes room for `bytes` further bytes. Never more than a part may take: doubling would exceed the bound. */
 static bool make_room(gis_sorter *s, size_t bytes, gis_error *error)
 {
     if (s->room - s->used >= bytes) return true;
@@ -130,7 +130,7 @@ static bool before(const run *a, const run *b)
     return by_keys ? by_keys < 0 : a < b;
 }
 
-/* The heap's entry i sinks to where it belongs. */
+/* Moves the heap's entry i down to its place. */
 static void sink(run **heap, size_t n, size_t i)
 {
     for (size_t child; (child = 2 * i + 1) < n; i = child) {

@@ -5,8 +5,7 @@
 
 #include "disk/file.h"
 
-/* So many bytes of records are sorted at a time, and no more are held while parts are merged, but for one that is
- * larger. */
+/* At most this many bytes of records are sorted at a time, and held while parts are merged; a single larger record is held as well. */
 #define GIS_SPOOL_RUN ((size_t)16 << 20)
 
 typedef struct gis_sort_head {

@@ -1,5 +1,5 @@
-/* stage.c: the hidden directory and what is put in it. Its maker holds a lock on it as long as it lives: by that a
- * stage whose maker was killed is told from one at work (stage_remains.c). */
+/* stage.c: the hidden directory and its contents. Its maker holds a lock on it as long as the process lives: the lock
+ * distinguishes an abandoned stage from one in use (stage_remains.c). */
 #define _GNU_SOURCE
 #include "disk/stage_internal.h"
 
@@ -81,8 +81,8 @@ static bool choose_letters(char letters[6])
     return true;
 }
 
-/* The new directory, open and, where that can be, locked; -1: errno says why not, EAGAIN: the name was taken, or who
- * sweeps empty stages was there before the lock. */
+/* Makes the new directory, opens it and, where possible, locks it; -1: errno tells why not. EAGAIN: the name was taken,
+ * or another process that removes empty stages held the lock first. */
 static int make_private(int outer, const char *name)
 {
     if (mkdirat(outer, name, 0700) != 0) {
@@ -101,7 +101,7 @@ static int make_private(int outer, const char *name)
     return -1;
 }
 
-/* As often as chance, or another run, may have it. */
+/* As many attempts as collisions with other runs make plausible. */
 enum { ATTEMPTS = 100 };
 
 bool gis_stage_make(gis_stage *stage, gis_error *error)

@@ -34,15 +34,16 @@ bool gis_stage_put_directory(gis_stage *stage, const char *name, gis_error *erro
 /* This file of the final directory belongs to what is replaced: publishing takes it away. */
 void gis_stage_supersede(gis_stage *stage, const char *path);
 
-/* The main file, which nobody has open to write, is complete: the disk begins with it, where the system can be told,
- * and publishing waits for less. May take as long as the disk does; what goes wrong is seen there. */
+/* The main file, which no process has open for writing, is complete: the disk begins to write it, where the system
+ * offers that, so that publishing waits for less. It may take as long as the disk takes; errors show when it is
+ * published. */
 void gis_stage_write_out(const gis_stage *stage);
 
 /* Puts all that was made in its place. A file in the way that is not superseded makes it fail, unless `replace`. */
 bool gis_stage_publish(gis_stage *stage, bool replace, gis_error *error);
 
-/* Looks beside an output for what a run has left that was killed while it put its files there. The old files are
- * brought back; what was done, and what is to be done by hand, is said, a sentence each. Fails if they cannot be
+/* Looks beside an output for the remains of a run that was killed while it put its files there. Brings the old files
+ * back, and reports, one sentence each, what was done and what is to be done by hand. Fails if the files cannot be
  * brought back. */
 bool gis_stage_recover(const char *final_path, gis_sentences *said, gis_error *error);
 

@@ -1,4 +1,4 @@
-/* stage_entries.c: what is in a directory that is open: asked and moved by names, no link followed. */
+/* stage_entries.c: entries of an open directory, queried and moved by name, without following links. */
 #define _GNU_SOURCE /* renameat2() */
 #include "disk/stage_internal.h"
 

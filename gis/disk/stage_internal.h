@@ -1,20 +1,20 @@
 /* stage_internal.h: what the files of the stage share.
  *
- *   stage.c          the hidden directory and what is put in it
+ *   stage.c          the hidden directory and its contents
  *   stage_publish.c  renames, and their undoing
- *   stage_remains.c  what a run left that was killed among its renames
- *   stage_entries.c  what is in an open directory
+ *   stage_remains.c  remains of a run that was killed among its renames
+ *   stage_entries.c  entries of an open directory
  *
- * The output's directory and the stage are opened once. From then on all is done in the open directories, by plain
- * names: a link or another directory that takes the place of one of the paths changes nothing. (GDAL's drivers go by
- * the path.) */
+ * The output's directory and the stage are opened once. From then on everything is done relative to the open
+ * directories, by plain names: if a link or another directory takes the place of one of the paths, nothing changes.
+ * (GDAL's drivers use the path.) */
 #ifndef GIS_STAGE_INTERNAL_H
 #define GIS_STAGE_INTERNAL_H
 
 #include "base/interrupt.h"
 #include "disk/stage.h"
 
-/* The names of all stages begin so; six letters follow. */
+/* The names of all stages begin with this; six letters follow. */
 #define GIS_STAGE_PREFIX ".sunder-"
 /* Inside the stage: where superseded files wait until all is in place, and the record of what publishing will do, which
  * is there while the renames are under way. */
@@ -41,7 +41,7 @@ void gis_stage_place_of(const char *final_path, char **directory, char **name);
 
 /* ---- stage_entries.c: what is in a directory that is open -------------------------------------------------------- */
 
-/* The mark of a file: its inode, size and time of change, none of which a rename changes. False if it is not there. */
+/* Identifies a file: inode, size and time of change, none of which a rename changes. False if there is no such file. */
 enum { GIS_MARK_SIZE = 128 };
 bool gis_entry_mark(int directory, const char *name, char mark[GIS_MARK_SIZE]);
 /* Is something called so? A link counts, wherever it leads. */

@@ -1,10 +1,11 @@
 /* stage_publish.c: the renames that put staged files in place, and their undoing.
  *
- * Everything is synced before the first rename. One rename is one step: a single file that replaces a single file is at
- * every moment the old one or the new one. Several are not, and the process may be killed between two of them: so a
- * record of what will be done is written and synced first, superseded files step aside into the stage, new files come
- * to their places, the main one last. As long as one new file is still in the stage the run did not finish, and whoever
- * finds the record can bring the old state back (stage_remains.c); with the last one the new state is complete. */
+ * Everything is synced before the first rename. A rename is atomic: a single file that replaces a single file is at
+ * every moment the old one or the new one. Several renames are not atomic, and the process may be killed between two of
+ * them. So a record of the plan is written and synced first, superseded files move aside into the stage, then new files
+ * move to their places, the main one last. As long as one new file is still in the stage the run is unfinished, and the
+ * next run that finds the record can restore the old state (stage_remains.c); with the last one the new state is
+ * complete. */
 #define _GNU_SOURCE
 #include "disk/stage_internal.h"
 
@@ -36,7 +37,7 @@ static bool sync_open(int file, const char *shown, gis_error *error)
     return done || gis_fail(error, "%s: cannot be brought to the disk: %s", shown, strerror(errno));
 }
 
-/* An error of the disk is kept for whoever syncs. */
+/* Keeps an error of the disk for the caller of sync. */
 void gis_stage_write_out(const gis_stage *stage)
 {
 #ifdef SYNC_FILE_RANGE_WRITE

@@ -1,12 +1,12 @@
-/* stage_remains.c: what a run left that was killed among its renames, and the way back.
+/* stage_remains.c: remains of a run that was killed among its renames, and the way back.
  *
- * A stage that belongs to the effective user alone (base/trust.h) and whose lock can be had was abandoned. Nothing else
- * that has the name of a stage is touched: where other users may write, it may hold a record of their making. If it
- * has a record and a new file is still in it, the run did not finish: what stepped aside goes back, what came to a
- * place that was empty is taken away (if it is the very file of the record), and the output is as it was. A file
- * that another run has put there since is not replaced. Each step may be repeated: a run that is killed at this leaves
- * what the next one can finish. If no new file is in it, all were put in place, and only the stage remained. An empty
- * stage is removed. */
+ * A stage that belongs to the effective user alone (base/trust.h) and whose lock is free was abandoned. Other entries
+ * with the name of a stage are left alone: where other users may write, they may hold a forged record. If the stage has
+ * a record and a new file is still in it, the run did not finish: files that were moved aside go back, files that came
+ * to an empty place are removed (if they are the very files of the record), and the output is as before. A file that
+ * another run has put there since is not replaced. Each step may be repeated: a run that is killed while it does this
+ * leaves a state that the next one can finish. If no new file is in the stage, all were put in place, and only the
+ * stage remained. An empty stage is removed. */
 #define _GNU_SOURCE
 #include "disk/stage_internal.h"
 
@@ -56,7 +56,7 @@ static const char *fresh_name(const char *entry)
     return blank ? blank + 1 : "";
 }
 
-/* False: it names what is no entry of the directory. */
+/* False if the name is not an entry of the directory. */
 static bool read_line(remains *found, const char *line)
 {
     const char *rest;
@@ -189,7 +189,7 @@ static void tell_way_back(const remains *found, gis_sentences *said)
                       found->directory, found->name, found->directory, found->name);
 }
 
-/* A stage in use stays. Where nothing can be locked nobody knows: then the way back is said. */
+/* A stage in use is left alone. Where locks do not work this is unknown: then a message tells the way back. */
 static bool look_at(remains *found, const char *name, gis_sentences *said, gis_error *error)
 {
     if (flock(found->inner, LOCK_EX | LOCK_NB) == 0) return settle(found, name, said, error);
@@ -199,8 +199,8 @@ static bool look_at(remains *found, const char *name, gis_sentences *said, gis_e
     return true;
 }
 
-/* Of the user's own, but open to others, as it is where a file system gives all directories one mode: what is in it
- * cannot be believed, and may be the former files. */
+/* The stage belongs to the user but is open to others, as on a file system that gives all directories one mode: its
+ * contents cannot be trusted, yet may be the former files. */
 static void look_from_outside(remains *found, const char *name, gis_sentences *said)
 {
     const int opened = openat(found->outer, found->name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);

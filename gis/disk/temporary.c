@@ -16,7 +16,8 @@
 
 #define LETTERS "XXXXXX"
 
-/* Who removes holds the lock meanwhile: it is not to be had, or by then the thing has no name any more. */
+/* A process that removes abandoned files may hold the lock: then it is not free, or by then the file has no name any
+ * more. */
 bool gis_not_abandoned(int descriptor)
 {
     struct stat now;

@@ -1,11 +1,10 @@
-/* temporary.h: what several processes make at once in one directory, each under a name that ends with the program's
- * and six letters of its own, and what of it is left where one was killed.
+/* temporary.h: temporary files and directories that several processes make in one directory, each with a name that ends
+ * in the program's name and six random letters; and their removal after a process was killed.
  *
- * The maker of a file or directory holds a lock on it (flock(2)), which the system lets go of with the process, however
- * that ends: what is not locked was abandoned. Where nothing can be locked, all counts as in use. Others may make files
- * and directories of such names, too, or give them to what lies there: so only files of the effective user are removed,
- * and only private directories of that user (base/trust.h) that hold the file GIS_BEING_MADE, the mark of a directory
- * that is being made. */
+ * The maker of a file or directory holds a lock on it (flock(2)), which the system releases with the process, however
+ * that ends: a file whose lock is free was abandoned and may be removed. Where locks do not work, all count as in use.
+ * Other users may make entries with such names, too: so only files of the effective user are removed, and only private
+ * directories of that user (base/trust.h) that hold the file GIS_BEING_MADE, the mark of an unfinished directory. */
 #ifndef GIS_TEMPORARY_H
 #define GIS_TEMPORARY_H
 

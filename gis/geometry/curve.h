@@ -5,9 +5,9 @@
 #include <math.h>
 #include <stdint.h>
 
-/* Position of a cell of a grid of 2^bits by 2^bits along the curve, bits <= 31: at each level the quadrant in which it
- * lies, then the quadrant's own turn of the plane, which exchanges the axes and may turn both round. Which quadrant it
- * is is as good as random: so there are no branches. */
+/* Position of a cell of a grid of 2^bits by 2^bits along the curve, bits <= 31: at each level the quadrant in which the
+ * cell lies, then the quadrant's own rotation of the plane, which exchanges the axes and may flip both. Without
+ * branches, since the quadrant is as good as random. */
 static inline uint64_t gis_curve_position(uint32_t x, uint32_t y, unsigned bits)
 {
     uint64_t along = 0;

@@ -21,7 +21,7 @@ typedef enum gis_content {
     GIS_POLYGONS, /* at least one polygon, alone or in a collection, curved ones, triangles and surfaces included */
     GIS_POINTS,   /* points, and no polygon and no line */
     GIS_OTHER,    /* lines, or a mixture without polygons */
-    GIS_BROKEN    /* a coordinate is no finite number; told by gis_source_content() alone */
+    GIS_BROKEN    /* a coordinate is not finite; set by gis_source_content() only */
 } gis_content;
 enum { GIS_CONTENTS = GIS_BROKEN + 1 };
 

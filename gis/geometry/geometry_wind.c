@@ -11,9 +11,9 @@ static sunder_point point_at(OGRGeometryH ring, int i)
 
 static bool same_point(sunder_point p, sunder_point q) { return p.x == q.x && p.y == q.y; }
 
-/* +1 counter-clockwise, -1 clockwise, 0 where the lowest vertex is a spike or all is one point. The lowest vertex (of
- * several the rightmost) lies on the hull, so the turn there is the turn of the ring, if the ring is simple; of a ring
- * that crosses itself it is what GDAL's reader of Shapefiles takes for it. n vertices, the closing one left out. */
+/* +1 counter-clockwise, -1 clockwise, 0 where the lowest vertex is a spike or all vertices coincide. The lowest vertex
+ * (the rightmost of several) lies on the hull, so the turn there is the ring's orientation if the ring is simple; for a
+ * ring that crosses itself this agrees with GDAL's reader of Shapefiles. n vertices, without the closing one. */
 static int ring_turn(OGRGeometryH ring, int n)
 {
     int lowest = 0;

@@ -12,14 +12,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { UNSET, EMPTY, VALUE }; /* of a field: not set, null, or what follows */
+enum { UNSET, EMPTY, VALUE }; /* states of a field: not set, null, or the value that follows */
 
 /* A chunk is twice as large as the one before it, from what most layers take as a whole. */
 enum { FIRST_CHUNK = 1 << 16, LARGEST_CHUNK = 4 << 20 };
 
-#define BORROWS UINT32_C(0x80000000) /* no geometry has so many bytes: they fit an int */
+#define BORROWS UINT32_C(0x80000000) /* a geometry has fewer bytes: its size fits an int */
 #define BORROWS_MULTI UINT32_C(0x40000000)
-#define MOST_BORROWED BORROWS_MULTI /* shapes are numbered by what is left */
+#define MOST_BORROWED BORROWS_MULTI /* the remaining values are numbers of shapes */
 
 /* ---- Room -------------------------------------------------------------------------------------------------------- */
 
@@ -76,7 +76,7 @@ static size_t next_chunk(const gis_packed *packed)
     return chunk;
 }
 
-/* So many bytes behind the last record; NULL if memory is out. */
+/* Reserves `size` bytes behind the last record; NULL if memory is out. */
 static unsigned char *take(gis_packed *packed, size_t size)
 {
     if (packed->room - packed->used < size) {
@@ -211,13 +211,13 @@ static uint32_t number_at(const unsigned char **at)
     return number;
 }
 
-/* What there is of the geometry in a record. */
+/* The geometry part of a record. */
 typedef struct place {
     const unsigned char *geometry; /* from its own byte of order on; NULL: its vertices are borrowed */
     const unsigned char *values;   /* behind it */
-    size_t bytes;                  /* of its own */
-    bool multi;                    /* of those that are borrowed */
-    uint32_t shape;                /* and whose they are */
+    size_t bytes;                  /* its own coordinates */
+    bool multi;                    /* the number of borrowed ones */
+    uint32_t shape;                /* and the shape they are borrowed from */
 } place;
 
 static place place_of(const unsigned char *record)
@@ -416,7 +416,7 @@ OGRFeatureH gis_packed_copy(gis_packed *packed, const unsigned char *record)
 
 /* ---- Moved ------------------------------------------------------------------------------------------------------- */
 
-/* Of a geometry that is our own. */
+/* For a geometry that the program owns. */
 static bool visit_moving(void *user, const unsigned char *points, size_t n, bool last)
 {
     const double *move = user;

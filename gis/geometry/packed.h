@@ -1,8 +1,8 @@
 /* packed.h: features in few bytes each, for layers of a million.
  *
- * A feature of GDAL is a dozen pieces of memory, some hundred bytes beside what it says. Most layers are of polygons in
- * the plane, with fields of numbers and texts: of those a record holds the FID, the values and the geometry as
- * well-known binary, one behind the other, and a feature of GDAL is made of it where one is asked for. */
+ * A GDAL feature is a dozen allocations, with some hundred bytes of overhead. Most layers have plane polygons, with
+ * numbers and texts as fields: a record of such a feature holds the FID, the values and the geometry as well-known
+ * binary, one after the other, and a GDAL feature is made from it on demand. */
 #ifndef GIS_PACKED_H
 #define GIS_PACKED_H
 
@@ -23,7 +23,7 @@ typedef struct gis_packed {
     size_t chunks, capacity, used, room; /* of the last chunk */
     OGRFeatureH made;
     const unsigned char *made_of;
-    sunder_shape *const *shape; /* lent: those of whom records borrow their vertices */
+    sunder_shape *const *shape; /* lent: the shapes from which records borrow their vertices */
     unsigned char *moved;       /* room for a geometry */
     size_t moved_room;
 } gis_packed;

@@ -3,7 +3,7 @@
 
 #include "base/side_thread.h"
 
-/* A layer of so many takes longer than a thread to begin. */
+/* Below this number of features starting a thread takes longer than the work. */
 enum { MANY = 5000 };
 
 /* Records [begin, end). */

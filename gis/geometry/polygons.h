@@ -14,7 +14,7 @@ typedef struct gis_polygons {
 } gis_polygons;
 
 void gis_polygons_clear(gis_polygons *set);
-/* Room for so many vertices more. */
+/* Reserves room for `vertices` further vertices. */
 bool gis_polygons_reserve(gis_polygons *set, size_t vertices, gis_error *error);
 bool gis_polygons_vertex(gis_polygons *set, double x, double y, gis_error *error);
 bool gis_polygons_end_ring(gis_polygons *set, gis_error *error);

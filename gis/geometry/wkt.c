@@ -11,7 +11,7 @@
 typedef struct reader {
     const char *start, *at;
     const char *who;
-    int tagged;    /* numbers that Z and M ask for; 0: no tag */
+    int tagged;    /* how many further numbers Z and M take; 0: no tag */
     int dimension; /* numbers in every point, as the first one has them; 0: none read yet */
     gis_polygons *out;
     gis_error *error;

@@ -104,7 +104,7 @@ static bool read_box(arguments *in, const char *value, double box[4], gis_error 
     return true;
 }
 
-/* Whole numbers of so many digits are doubles, all of them. */
+/* Whole numbers of up to this many digits are exact doubles. */
 enum { COUNT_DIGITS = DBL_DIG };
 
 static bool read_count(const gis_option *option, const char *value, double *number, gis_error *error)

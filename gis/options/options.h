@@ -41,7 +41,7 @@ typedef enum gis_option_id {
 } gis_option_id;
 /* clang-format on */
 
-/* What a value is. The kinds of text differ for whoever offers a choice of them: a completion, a dialogue. */
+/* The kind of a value. The kinds of text are for programs that offer choices: a completion, a dialogue. */
 typedef enum gis_option_type {
     GIS_TYPE_FLAG,
     GIS_TYPE_TEXT,
@@ -79,7 +79,7 @@ typedef enum gis_option_group {
     GIS_GROUP_OUTPUT,
     GIS_GROUP_TROUBLE,
     GIS_GROUP_RUNNING,
-    GIS_GROUP_HIDDEN, /* a spelling, described with the option that it stands for */
+    GIS_GROUP_HIDDEN, /* an alternative spelling, described with its option */
     GIS_N_GROUPS
 } gis_option_group;
 
@@ -121,7 +121,7 @@ struct gis_options {
     const gis_command *command;
     bool given[OPT_N];
     const char *text[OPT_N];  /* of texts, CHOICE, OPTIONAL, LENGTH: as given, else the fallback of a CHOICE, or NULL */
-    const char **list[OPT_N]; /* of those that may be given again: NULL-terminated, or NULL */
+    const char **list[OPT_N]; /* values of a repeatable option: NULL-terminated, or NULL */
     gis_length length[OPT_N];
     double number[OPT_N]; /* of COUNT, NUMBER, SCALE */
     double box[4];

@@ -2,16 +2,16 @@
  * command its operands and options in the order of --help:
  *
  *   name, aliases   the long name, and other spellings
- *   kind            what a value is, a word of kinds[] below; "flag": it takes none
- *   values          the words that a value may be, or null: any of its kind. Of "enums" several, with commas
+ *   kind            the kind of a value, a word of kinds[] below; "flag": it takes none
+ *   values          the words that a value may be, or null: any of its kind. With "enums" several, with commas
  *   metavar         the word that stands for a value in --help, or null
- *   repeatable      may it be given again, with one more value?
- *   needed          does the command not run without it?
- *   default         what could be typed for what holds where it is not given; null: nothing could
+ *   repeatable      may the option be repeated, with one more value each time?
+ *   needed          is the option mandatory?
+ *   default         text that has the effect of leaving the option out; null: there is none
  *   default_text    the same in the words of --help
  *   group           command, identity, features, output, trouble, running; hidden: not listed in --help
  *
- * A key that is here stays; more may come. */
+ * These keys are stable; more may be added. */
 #include "base/json.h"
 #include "options/options.h"
 #include "sunder.h"

@@ -5,9 +5,9 @@
 #include "read/shape_text.h"
 #include "read/source.h"
 
-/* All polygons of a layer as one polygonal set; the source stays open for its CRS. What its driver warned of is
- * printed; `who` opens messages. The time from numbers in memory to the shape is added to *building, unless that is
- * NULL; that each feature is judged by itself, to name the one at fault, belongs to the reading. */
+/* All polygons of a layer as one polygonal set; the source stays open for its CRS. Warnings of its driver are printed;
+ * `who` opens messages. Adds the time from coordinates in memory to the shape to *building, unless that is NULL; the
+ * validation of single features, which names the one at fault, counts as reading. */
 bool gis_shape_from_source(const gis_source_request *request, gis_invalid_policy policy, const char *who,
                            gis_source **source, sunder_shape **out, double *building, gis_error *error);
 

@@ -1,5 +1,5 @@
-/* shape_text.c: see shape_text.h. A text is told from a data source by how it begins; but what begins as WKT and is the
- * name of a file is a data source: who has one called "POLYGON (...)" means it. */
+/* shape_text.c: see shape_text.h. The beginning of a text distinguishes WKT from a data source; but if a file of that
+ * name exists, e.g. one called "POLYGON (...)", the file is meant. */
 #include "read/shape_text.h"
 
 #include "base/core_error.h"

@@ -9,8 +9,9 @@
 /* Is it anything but a data source? */
 bool gis_shape_is_text(const char *text);
 
-/* A SHAPE that gis_shape_is_text(); lengths inside are converted by `units`. `who` and the text open messages. A
- * repair is warned of. The time from numbers in memory to the shape is added to *building, unless that is NULL. */
+/* Reads a SHAPE that is a text (gis_shape_is_text()); `units` converts lengths inside. `who` and the text open
+ * messages. A repair gives a warning. Adds the time from coordinates in memory to the shape to *building, unless that
+ * is NULL. */
 bool gis_shape_from_text(const char *text, const char *who, const gis_crs_units *units, gis_invalid_policy policy,
                          sunder_shape **out, double *building, gis_error *error);
 

@@ -43,7 +43,7 @@ struct gis_source {
     size_t n, capacity, contents_capacity;
     gis_packed *packed; /* what records are of */
     gis_source_facts facts;
-    bool fids_missing, fids_rising; /* of all that was read so far: not set; each greater than the one before */
+    bool fids_missing, fids_rising; /* for everything read so far: not set; each greater than the one before */
     GIntBig last_fid;
     size_t batch, first, bytes; /* bytes: of geometries in the batch; see gis_source_request */
     bool may_pack, ended;       /* ended: the last feature was read */
@@ -172,7 +172,7 @@ static bool choose_crs(gis_source *source, const gis_source_request *request, gi
 
 /* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
-/* Batches end where their geometries take so many bytes. */
+/* A batch ends when its geometries take this many bytes. */
 enum { BATCH_BYTES = 32 << 20 };
 
 /* feature: NULL: there is but its record. */
@@ -284,7 +284,7 @@ static bool read_table(gis_source *source, const gis_source_request *request, gi
     return begin_packing(source, error);
 }
 
-/* request: NULL: nobody wants some alone. */
+/* request: NULL: all features are wanted. */
 static bool read_features(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     if (!read_table(source, request, error)) return false;
@@ -319,7 +319,7 @@ static bool read_batch(gis_source *source, const gis_source_request *request, gi
     return done;
 }
 
-/* What was known before still has to be true. */
+/* What an earlier reading found must still hold. */
 static bool ends_as_known(const gis_source *source, gis_error *error)
 {
     const size_t read = source->first + source->n;

@@ -32,8 +32,8 @@ typedef struct gis_source_facts {
     bool multipolygons;                     /* there is a MultiPolygon */
 } gis_source_facts;
 
-/* What to read: which features of which layer of what is at `path`; zeroed members mean "not given". Strings are
- * borrowed for the call. Lists end with NULL. */
+/* What to read: features of a layer of the source at `path`; zeroed members mean "not given". Strings are borrowed for
+ * the call. Lists end with NULL. */
 typedef struct gis_source_request {
     const char *path;
     const char *const *drivers;      /* --if */
@@ -43,7 +43,7 @@ typedef struct gis_source_request {
     const char *where;               /* --where */
     const double *bbox;              /* --bbox: xmin, ymin, xmax, ymax */
     const char *input_crs;           /* --input-crs: replaces the layer's */
-    unsigned takes;                  /* GIS_TAKES_...: no option's, whoever opens the source fills it in */
+    unsigned takes;                  /* GIS_TAKES_...: not from an option; the command sets it */
     const char *layer_option;        /* how messages call what chooses the layer, and the features; NULL: as above */
     const char *where_option;
     const char *layer_like; /* where no layer is named: one of this name, if there is one */
@@ -55,8 +55,9 @@ typedef struct gis_source_request {
     void *user;       /* of these two */
     bool packed;      /* features are packed where they can be: one at a time is asked for, and by one thread */
     unsigned threads; /* to read on; 0: as many as there are processors */
-    size_t batch; /* so many features are read at a time, or fewer that are large; 0: all. Not together with wants */
-    const gis_source_facts *facts; /* NULL, or what was found when the same was read before */
+    size_t batch; /* at most this many features are read at a time, fewer if they are large; 0: all. Not together with
+                   * wants */
+    const gis_source_facts *facts; /* NULL, or the result of an earlier reading of the same source */
     gis_not_finite not_finite;
     bool fids_mean_nothing;        /* FIDs are known not to be unique: gis_source_mark() does not go by them */
 } gis_source_request;
@@ -73,8 +74,7 @@ typedef struct gis_source gis_source;
 bool gis_source_open(const gis_source_request *request, gis_source **out, gis_error *error);
 void gis_source_close(gis_source *source);
 
-/* Reads the next batch in place of the one before it, of which nothing stays; *any = false: there is none, and that
- * batch is empty. */
+/* Replaces the current batch by the next one. *any = false: there is none, and the batch is empty. */
 bool gis_source_next(gis_source *source, bool *any, gis_error *error);
 /* Begins anew, with the first batch, of a source that is read by batches. */
 bool gis_source_again(gis_source *source, bool *any, gis_error *error);
@@ -94,7 +94,7 @@ size_t gis_source_count(const gis_source *source);
 OGRFeatureH gis_source_feature(const gis_source *source, size_t i);
 /* Its geometry; NULL if it has none. */
 OGRGeometryH gis_source_geometry(const gis_source *source, size_t i);
-/* Is it packed? Then nobody else has to wait while its polygons are asked for, until records borrow vertices. */
+/* Is it packed? Then polygons can be read from several threads at once, until records borrow vertices. */
 bool gis_source_is_packed(const gis_source *source, size_t i);
 /* gis_geometry_polygonal_part() of it. */
 bool gis_source_polygons(const gis_source *source, size_t i, gis_polygonal_part *part, gis_error *error);
@@ -106,10 +106,10 @@ bool gis_source_plain(const gis_source *source, size_t i, double dx, double dy, 
  * that is -1. */
 bool gis_source_put(const gis_source *source, size_t i, const int *map, double dx, double dy, OGRFeatureH to,
                     gis_error *error);
-/* Has what is packed take its vertices from the shapes that were made of it, by the features' numbers, NULL: there is
- * none: these have to live as long as features are asked for. Not of a source that is read by batches. */
+/* Lets packed records take their vertices from the shapes made of them, by feature number; NULL: none. The shapes must
+ * live as long as features are read. Not for a source that is read by batches. */
 bool gis_source_borrow(gis_source *source, sunder_shape *const *shape, unsigned threads, gis_error *error);
-/* Makes features of all that is packed, for who keeps them: then they live as long as the source. */
+/* Makes GDAL features of all that is packed; they live as long as the source. */
 bool gis_source_unpack(gis_source *source, gis_error *error);
 /* Its FID as read; OGRNullFID if it has none. */
 GIntBig gis_source_fid(const gis_source *source, size_t i);

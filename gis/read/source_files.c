@@ -29,10 +29,9 @@ static const char *without_driver(const char *path)
     return *path == '"' ? path + 1 : path;
 }
 
-/* The path in the ordinary file system that a virtual path leads to, as far as that is a file: prefixes (a driver's
- * name, /vsizip/, /vsigzip/ within it, /vsisubfile/0_100,) and the braces that may enclose an archive's name are taken
- * off, then the shortest beginning that is a file is the archive. NULL: it leads to none (/vsimem/, a network).
- * CPLFree(). */
+/* The file in the ordinary file system behind a virtual path: prefixes (a driver's name, /vsizip/, /vsigzip/ within it,
+ * /vsisubfile/0_100,) and the braces that may enclose an archive's name are removed, then the shortest prefix that is a
+ * file is the archive. NULL: there is none (/vsimem/, a network). CPLFree(). */
 static char *real_file(const char *name)
 {
     const char *path = without_driver(name);

@@ -4,12 +4,12 @@
 
 #include "read/source.h"
 
-/* Would writing the file at `file` change what is read under `path`? It would if both are the same file, by whatever
- * name, or if an archive or a compressed file is read through GDAL's virtual paths and it is that (/vsizip/a.zip/b.gpkg
- * lies in a.zip), also the other way round. Of what does not exist yet the names are compared. */
+/* Would writing the file at `file` change what is read under `path`? It would if both are the same file, by any name;
+ * or if one is an archive or a compressed file through which the other is read by GDAL's virtual paths
+ * (/vsizip/a.zip/b.gpkg lies in a.zip). If a file does not exist yet the names are compared. */
 bool gis_path_lies_in(const char *path, const char *file);
 
-/* The same of all files of an open source. NULL: false. */
+/* The same for all files of an open source. NULL: false. */
 bool gis_source_lies_in(const gis_source *source, const char *file);
 
 /* False, with an error, if writing the output would replace this source (NULL: there is none). An update adds to it. */

@@ -93,7 +93,7 @@ OGRLayerH gis_choose_layer(GDALDatasetH dataset, const gis_source_request *reque
         }
     }
     if (fit == 1) return fitting;
-    if (visible == 1) return only; /* gis_layer_fits() will say what is wrong with it */
+    if (visible == 1) return only; /* gis_layer_fits() will report what is wrong with it */
     list_layers(dataset, fit ? takes : 0, listed, sizeof listed);
     if (fit)
         gis_fail(error, "%s has several layers that may be meant; choose one with %s: %s", path,

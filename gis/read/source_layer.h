@@ -8,11 +8,12 @@
 #include "base/error.h"
 #include "read/source.h"
 
-/* The layer that the request names, or, where it names none, the only one of a kind that it takes; else NULL and a
- * sentence that lists what there is. Borrowed from the dataset. */
+/* The layer that the request names; if it names none, the only layer of an accepted kind; else NULL, and a sentence
+ * that lists the layers. Borrowed from the dataset. */
 OGRLayerH gis_choose_layer(GDALDatasetH dataset, const gis_source_request *request, gis_error *error);
 
-/* May a layer of this declared type hold what is needed? Else the sentence says what it is and what is needed. */
+/* May a layer of this declared type hold the required geometries? If not, the sentence tells its type and the required
+ * one. */
 bool gis_layer_fits(OGRLayerH layer, const char *name, unsigned takes, gis_error *error);
 
 #endif

@@ -1,6 +1,6 @@
-/* source_mark.c: which features satisfy an expression (--fixed-where, --ignore-where). It is asked of those who know
- * the SQL: a plain layer answers for itself, as it did for --where, and its FIDs tell who is meant; where FIDs mean
- * nothing a layer of memory answers in its place. */
+/* source_mark.c: which features satisfy an expression (--fixed-where, --ignore-where). The layer itself evaluates it
+ * where it can, as it does for --where, and its FIDs identify the features; where FIDs carry no meaning, a layer in
+ * memory evaluates it instead. */
 #define _GNU_SOURCE /* strcasestr() */
 #include "read/source_mark.h"
 
@@ -19,7 +19,7 @@
 /* Takes the FID of a feature that satisfies the condition. */
 typedef bool take_fid(void *user, GIntBig fid);
 
-/* Asks the layer again with both filters. */
+/* Queries the layer again with both filters. */
 static bool ask_layer(const gis_source *source, const char *where, take_fid *take, void *user, gis_error *error)
 {
     OGRLayerH layer = gis_source_layer(source);
@@ -105,7 +105,7 @@ static int compare_ranges(const void *a, const void *b)
     return (p[0] > q[0]) - (p[0] < q[0]);
 }
 
-/* What the layer said of the condition; it is asked where it was not yet. NULL: the error says why. */
+/* The answer to the condition, queried at its first use. NULL: the error tells why. */
 static const gis_marked *find_marked(gis_source *source, const char *where, gis_error *error)
 {
     gis_source_marks *all = gis_source_marks_of(source);

@@ -11,7 +11,7 @@ typedef struct gis_marked {
     size_t n, capacity;
 } gis_marked;
 
-/* One for each condition that was asked about. Zeroed: none. */
+/* One for each condition that was queried. Zeroed: none. */
 typedef struct gis_source_marks {
     gis_marked *marked;
     size_t n, capacity;

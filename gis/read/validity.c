@@ -1,6 +1,6 @@
-/* validity.c: see validity.h. The core is asked strictly first, so that a valid set is taken as it stands and an
- * invalid one is known, with the place at fault; only then is it asked for the even-odd set. Memory that runs out is
- * neither: it is an error under every policy. */
+/* validity.c: see validity.h. The core first reads the set strictly, so a valid set is taken as it is, and an invalid
+ * one is known with the place at fault; only then does it compute the even-odd set. A failed allocation is an error
+ * under every policy. */
 #include "read/validity.h"
 
 #include "base/message.h"

@@ -1,6 +1,6 @@
-/* where.c: see where.h. GDAL hands a condition to the database that holds the layer, in whose SQL it then has
- * to be, and understands it itself for all other formats; what is right for one is unknown to the other, and neither
- * says so. */
+/* where.c: see where.h. GDAL passes a condition to the database that holds the layer, which requires that database's
+ * SQL, and evaluates it itself for all other formats, in its own dialect. A condition in the wrong dialect is an
+ * unknown column to the other, without a hint at the cause. */
 #define _GNU_SOURCE /* strcasestr() */
 #include "read/where.h"
 

@@ -1,16 +1,16 @@
-/* mend_polygon.c: polygons that rounding to doubles has broken.
+/* mend_polygon.c: repairs polygons that rounding to doubles has broken.
  *
- * Vertices have moved by less than an ulp. That breaks a polygon where it was tight to begin with, and sums often are:
- * rings meet in points, a vertex on the middle of another ring's edge, needles thinner than an ulp. Two steps mend it:
+ * Vertices have moved by less than an ulp. That breaks a polygon with tight spots, and sums often have them: rings that
+ * meet in points, a vertex on the middle of another ring's edge, needles thinner than an ulp. Two steps repair it:
  *
- *  - an edge is bent through every vertex that lies within a few ulps of it: a new vertex there, equal to that one.
- *    This moves the edge by no more than that, and rings that crossed by a hair touch again (snap rounding, with the
- *    vertices as the hot pixels);
- *  - if it is invalid still, it is replaced by what its rings enclose by the even-odd rule, taken exactly by the core,
- *    and rounded: what was folded over by a hair falls away, and needles of no width with it. It may become several.
+ *  - an edge is bent through every vertex that lies within a few ulps of it: it gets a new vertex equal to that one.
+ *    This moves the edge by at most that distance, and rings that crossed by a hair touch again (snap rounding, with
+ *    the vertices as the hot pixels);
+ *  - if the polygon is still invalid, it is replaced by the set that its rings enclose by the even-odd rule, computed
+ *    exactly by the core and rounded: tiny folds and needles of no width disappear. It may become several polygons.
  *
- * Rounding the second can break things once more, at other places: both are repeated. In doubles distances are measured
- * only to choose where to bend; the core's exact validation decides what is well. */
+ * Rounding in the second step can break other places: both steps are repeated. Distances in doubles only choose where
+ * to bend; the core's exact validation decides what is valid. */
 #include "base/core_error.h"
 #include "geometry/round/constants.h"
 #include "geometry/round/steps.h"
@@ -104,7 +104,7 @@ typedef struct bend {
     double t, distance, xy[2];
 } bend;
 
-/* Vertices by x, so that an edge looks at those beside it only. */
+/* Vertices by x, so that an edge only looks at those near it. */
 typedef struct column {
     double xy[2];
 } column;
@@ -255,7 +255,7 @@ static bool enclosed(const gis_polygons *set, gis_polygons *out, double *moved, 
 
 /* ---- Both, until all is well ------------------------------------------------------------------------------------- */
 
-/* Appends what is valid to done, and the rest to broken. */
+/* Appends the valid ones to `done`, and the rest to `broken`. */
 static bool sort_out(const gis_polygons *set, gis_polygons *done, gis_polygons *broken, gis_error *error)
 {
     for (size_t p = 0; p < set->polygons; p++) {

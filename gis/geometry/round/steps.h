@@ -1,4 +1,4 @@
-/* steps.h: what the files of rounding share with each other, and with whoever makes polygons of rounded vertices. */
+/* steps.h: functions that the rounding files share, also used to make polygons of rounded vertices. */
 #ifndef GIS_STEPS_H
 #define GIS_STEPS_H
 
