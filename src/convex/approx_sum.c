@@ -23,7 +23,7 @@ sunder_i_cell_window sunder_i_cell_window_of(const double box[4], double error)
                               .hx = box[2] / 2 - box[0] / 2,
                               .hy = box[3] / 2 - box[1] / 2,
                               .error = error};
-    sunder_i_ways_of_box(box, w.low, w.high);
+    sunder_i_half_planes_of_box(box, w.low, w.high);
     for (int k = 0; k < SUNDER_I_WAYS; k++) {
         w.low[k] -= 2 * error; /* x + y is off by what both are */
         w.high[k] += 2 * error;

@@ -69,7 +69,7 @@ static bool sort(sunder_i_lattice *l, sunder_i_point *side, size_t n, uint32_t *
     keys k = {l, side};
     for (size_t i = 0; i < n; i++) {
         order[i] = (uint32_t)i;
-        turned[i] = sunder_i_half_plane(l, side[i]) == 1;
+        turned[i] = sunder_i_direction_half(l, side[i]) == 1;
         if (turned[i]) side[i] = sunder_i_point_neg(l, side[i]);
     }
     if (!(l->narrow ? sort_narrow(&k, order, n) : sunder_i_sort_indices(order, n, compare_keys, &k))) return false;

@@ -39,7 +39,8 @@ void sunder_i_piece_tree_free(sunder_i_piece_tree *tree);
 void sunder_i_piece_tree_box(const sunder_i_piece_tree *tree, uint32_t piece, double box[4]);
 
 /* Extents of a box xmin, ymin, xmax, ymax along the ways. */
-static inline void sunder_i_ways_of_box(const double box[4], double low[SUNDER_I_WAYS], double high[SUNDER_I_WAYS])
+static inline void sunder_i_half_planes_of_box(const double box[4], double low[SUNDER_I_WAYS],
+                                               double high[SUNDER_I_WAYS])
 {
     low[0] = box[0], high[0] = box[2];
     low[1] = box[1], high[1] = box[3];

@@ -10,7 +10,7 @@
  * lies on a candidate.
  *
  * The separation of a pair needs few subsums of P and -Q, nearest first, and makes these one by one: sunder_i_subsum
- * (separation/operands/operands.h) is the same thing, without ranks. */
+ * (separation/operands/pair_operands.h) is the same thing, without ranks. */
 #ifndef SUNDER_I_SUBSUMS_H
 #define SUNDER_I_SUBSUMS_H
 

@@ -3,7 +3,7 @@
  * maker.c         the shape's rings on the lattice; pieces and Steiner points as they come; everything into its place
  *                 at the end
  * ray_shooting.c  rays through a triangulated member, and the vertices seen from one of its vertices
- * diagonals.c     decompositions by diagonals: triangulation; Hertel-Mehlhorn, by length too
+ * by_diagonals.c  decompositions by diagonals: triangulation; Hertel-Mehlhorn, by length too
  * cuts.c          cuts -> pieces
  * vertical.c      vertical cuts
  * bisector.c      cuts near the bisectors of reflex vertices (direction.c chooses them)

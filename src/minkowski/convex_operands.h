@@ -3,7 +3,7 @@
 #define SUNDER_I_CONVEX_OPERANDS_H
 
 #include "shape/shape.h"
-#include "sum/sum.h"
+#include "sum/sum_value.h"
 
 /* Is each of them one convex polygon? */
 bool sunder_i_are_convex(const sunder_shape *p, const sunder_shape *q);

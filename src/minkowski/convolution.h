@@ -3,7 +3,7 @@
 #define SUNDER_I_CONVOLUTION_H
 
 #include "shape/shape.h"
-#include "sum/canonical.h"
+#include "sum/canonical_sum.h"
 
 /* A polygon of p, and one of q, which is convex. */
 typedef struct sunder_i_round {

@@ -3,7 +3,7 @@
 #define SUNDER_I_MEMBERS_H
 
 #include "shape/shape.h"
-#include "sum/sum.h"
+#include "sum/sum_value.h"
 
 /* Those that are left for the general road. */
 typedef struct sunder_i_members_left {

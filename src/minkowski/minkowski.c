@@ -12,12 +12,12 @@
 #include "minkowski/convolution.h"
 #include "minkowski/members.h"
 #include "minkowski/reduced_convolution.h"
-#include "outline/contained.h"
+#include "outline/contained_parts.h"
 #include "outline/outline.h"
 #include "rectilinear/rectilinear_sum.h"
-#include "sum/canonical.h"
-#include "sum/gather.h"
-#include "sum/place.h"
+#include "sum/canonical_sum.h"
+#include "sum/operands_on_lattice.h"
+#include "sum/sum_of_parts.h"
 #include "unions/unions.h"
 
 #include <string.h>

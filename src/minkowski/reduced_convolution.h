@@ -4,7 +4,7 @@
 #define SUNDER_I_REDUCED_CONVOLUTION_H
 
 #include "shape/shape.h"
-#include "sum/canonical.h"
+#include "sum/canonical_sum.h"
 
 /* Fills in the vertices and rings of `sum`, which stands on a lattice that both operands are placed on, and sets *done.
  * Changes neither where the reduced convolution does not prove the result, or may take longer than the general road.

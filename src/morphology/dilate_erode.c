@@ -33,7 +33,7 @@
 #include "base/watch.h"
 #include "predicate/rational_point.h"
 #include "spatial/strips.h"
-#include "sum/canonical.h"
+#include "sum/canonical_sum.h"
 #include "sum/from_map.h"
 
 #include <math.h>

@@ -22,7 +22,7 @@
 #include "base/watch.h"
 #include "convex/merge.h"
 #include "convex/pieces.h"
-#include "outline/contained.h"
+#include "outline/contained_parts.h"
 #include "outline/outline.h"
 #include "predicate/rational_point.h"
 #include "spatial/strips.h"

@@ -30,7 +30,7 @@
 #include "base/watch.h"
 #include "predicate/predicate.h"
 #include "spatial/strips.h"
-#include "sum/canonical.h"
+#include "sum/canonical_sum.h"
 
 #include <math.h>
 #include <string.h>

@@ -10,7 +10,7 @@
 #include "base/extremes.h"
 #include "base/parallel.h"
 #include "morphology/morphology.h"
-#include "sum/gather.h"
+#include "sum/sum_of_parts.h"
 
 #include <pthread.h>
 
@@ -77,8 +77,7 @@ static sunder_status erode(const islands *all, const sunder_i_figure *figure, co
     bool done = false;
     sunder_status status = SUNDER_OK;
     if (all->dilated) status = sunder_i_sum_by_convolution(figure, element, true, eroded, &done, err);
-    if (status == SUNDER_OK && !done)
-        status = sunder_i_erode_by_outline(figure, element, options, eroded, &done, err);
+    if (status == SUNDER_OK && !done) status = sunder_i_erode_by_outline(figure, element, options, eroded, &done, err);
     if (status == SUNDER_OK && !done && !all->dilated)
         status = sunder_i_sum_by_convolution(figure, element, true, eroded, &done, err);
     if (status == SUNDER_OK && !done) status = sunder_i_erode_figure(figure, element, options, eroded, err);

@@ -5,18 +5,18 @@
  *                       them
  * erode_outline.c       an erosion without a map, where all corners are integers
  * figure_convolution.c  a sum of a figure and a convex shape without bands, where the convolution's curve proves it
- * operands.c            what all stages of one operation share: the lattice, and B as a structuring element
+ * morphology_operands.c            what all stages of one operation share: the lattice, and B as a structuring element
  * bands.c               a side plus a convex piece
- * fit.c                 does a convex shape fit into what two shapes have in common?
+ * convex_fit.c                 does a convex shape fit into what two shapes have in common?
  * islands.c             polygon by polygon, on several threads
- * union.c               members that overlap
+ * member_union.c               members that overlap
  * morphology.c          dilate, erode, open, close */
 #ifndef SUNDER_I_MORPHOLOGY_H
 #define SUNDER_I_MORPHOLOGY_H
 
 #include "planar_map/planar_map.h"
 #include "shape/shape.h"
-#include "sum/sum.h"
+#include "sum/sum_value.h"
 
 /* A closed set in units of a lattice: the polygons that its rings bound, their interior on the left, and segments and
  * points without area. All arrays live in the arena. */
@@ -88,7 +88,7 @@ sunder_status sunder_i_erode_by_outline(const sunder_i_figure *figure, const sun
 sunder_status sunder_i_sum_by_convolution(const sunder_i_figure *figure, const sunder_i_structuring_element *element,
                                           bool erode, sunder_sum *sum, bool *done, sunder_error *err);
 
-/* ---- operands.c: P and B on one lattice ---- */
+/* ---- morphology_operands.c: P and B on one lattice ---- */
 
 /* Units and origins as sunder_minkowski_sum() has them; never narrow: corners of later stages have denominators. */
 typedef struct sunder_i_morphology_operands {
@@ -113,7 +113,7 @@ sunder_status sunder_i_islands(const sunder_i_morphology_operands *operands, con
                                sunder_operation operation, const sunder_sum_options *options, sunder_sum **out,
                                sunder_error *err);
 
-/* ---- union.c ---- */
+/* ---- member_union.c ---- */
 
 /* The union of the members of a shape; with b, placed beside it, so that units and origins agree with those of its
  * sums. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL. */
@@ -125,7 +125,7 @@ sunder_status sunder_i_union_of_members(const sunder_shape *shape, const sunder_
  * members' own. */
 sunder_status sunder_i_without_seams(const sunder_shape *shape, sunder_shape **out, sunder_error *err);
 
-/* ---- fit.c ---- */
+/* ---- convex_fit.c ---- */
 
 /* Is there an x such that D + x lies in P + tp and in Q + tq (closed sets)? Exact, degenerate places included: what
  * fits exactly fits. D is convex, and the origin is inside it. NULL translations are zero. */

@@ -6,7 +6,7 @@
 #ifndef SUNDER_I_FILTERED_POINT_H
 #define SUNDER_I_FILTERED_POINT_H
 
-#include "sum/sum.h"
+#include "sum/sum_value.h"
 
 typedef struct sunder_i_filtered_point {
     sunder_i_rational_point at;

@@ -12,7 +12,7 @@
 
 #include "morphology/morphology.h"
 #include "motion/diagonals.h"
-#include "outline/contained.h"
+#include "outline/contained_parts.h"
 #include "outline/outline.h"
 #include "predicate/predicate.h"
 

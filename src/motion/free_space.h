@@ -49,7 +49,7 @@ bool sunder_i_part_tree_build(sunder_i_free_space *space);
 bool sunder_i_leg_is_free(const sunder_i_free_space *space, const sunder_i_filtered_point *p,
                           const sunder_i_filtered_point *q, bool least, uint32_t *part);
 
-/* ---- verify.c ---- */
+/* ---- verify_leg.c ---- */
 
 /* The same question answered along another road, for proofs: the segment as p + t (q - p) is clipped by the sides of
  * every part, one after the other, in rational numbers. */

@@ -3,7 +3,7 @@
 #include "outline/boundary.h"
 
 #include "outline/boundary_graph.h"
-#include "sum/canonical.h"
+#include "sum/canonical_sum.h"
 
 /* Rings and degenerate parts as traced, before they are put in order. */
 typedef struct tracer {

@@ -9,7 +9,7 @@
 #define SUNDER_I_BOUNDARY_H
 
 #include "outline/coverage.h"
-#include "sum/sum.h"
+#include "sum/sum_value.h"
 
 /* Takes over the vertices of `coverage`, which stand on that lattice, as the sum's vertices; `lines` tells the classes
  * of directions. Fills every member but lattice, origin and seconds. Fails with SUNDER_ENOMEM; the caller then frees

@@ -1,17 +1,18 @@
 /* The inside of a planar map: what its files hand each other.
  *
- * sites.c       sites, lines, and the three questions about them
- * map.c         making, freeing, growing, looking
- * history.c     from a point to its trapezoid
- * trapezoids.c  the vertical decomposition: walls put up at a vertex, a segment drawn in
- * merging.c     the reverse: a segment taken out, walls taken down
- * edges.c       half-edges around a vertex; an edge split, joined, made, removed, with the trapezoids
- * insert.c      the walk of a segment through the map
- * polygon.c     a convex polygon, as two chains of segments
- * overlay.c     a map into another; a map made anew
- * mark.c        covered counts
- * clean.c       what is covered goes; unite.c: the same where a polygon was added, the step of the incremental union
- * faces.c, locate.c, invariants.c
+ * sites.c           sites, lines, and the three questions about them
+ * map.c             making, freeing, growing, looking
+ * history.c         from a point to its trapezoid
+ * trapezoids.c      the vertical decomposition: walls put up at a vertex, a segment drawn in
+ * merging.c         the reverse: a segment taken out, walls taken down
+ * edges.c           half-edges around a vertex; an edge split, joined, made, removed, with the trapezoids
+ * insert_segment.c  the walk of a segment through the map
+ * polygon.c         a convex polygon, as two chains of segments
+ * overlay.c         a map into another; a map made anew
+ * mark.c            covered counts
+ * clean_map.c       what is covered goes; unite.c: the same where a polygon was added, the step of the incremental
+ *                   union
+ * faces.c, locate.c, map_invariants.c
  *
  * Trapezoids. A wall goes up and down from each vertex to the next edge. No two vertices are above each other in the
  * sheared order, so each trapezoid has one vertex on its left wall and one on its right wall, and at most two
@@ -227,7 +228,7 @@ bool sunder_i_edge_remove(sunder_i_planar_map *map, uint32_t e);
 void sunder_i_edge_drop_vertex(sunder_i_planar_map *map, uint32_t v); /* isolated */
 void sunder_i_edge_merge(sunder_i_planar_map *map, uint32_t v);       /* mergeable */
 
-/* ---- insert.c ---- */
+/* ---- insert_segment.c ---- */
 
 /* The vertex at a site (numbers in map->arena), made where there is none. NOWHERE if memory is out. */
 uint32_t sunder_i_map_vertex_at(sunder_i_planar_map *map, const sunder_i_site *site);
@@ -244,7 +245,7 @@ bool sunder_i_map_glide(sunder_i_planar_map *map, uint32_t *t, const sunder_i_si
 uint32_t sunder_i_map_walk(sunder_i_planar_map *map, uint32_t v, const sunder_i_site *target, uint32_t line,
                            uint32_t up, uint32_t down, bool record);
 
-/* ---- clean.c ---- */
+/* ---- clean_map.c ---- */
 
 /* Counts of an edge and of a vertex that stay, for the union as one region. */
 void sunder_i_map_settle_edge(sunder_i_planar_map *map, uint32_t e);

@@ -203,7 +203,7 @@ static int number_sign(const sunder_i_lattice *l, int64_t n)
     return sunder_i_is_plain(n) ? (n > 0) - (n < 0) : sunder_i_big_sign(l->pool[n - INT64_MIN].ratio.num);
 }
 
-int sunder_i_half_plane(sunder_i_lattice *l, sunder_i_point u)
+int sunder_i_direction_half(sunder_i_lattice *l, sunder_i_point u)
 {
     const int sx = number_sign(l, u.x), sy = number_sign(l, u.y);
     return sy < 0 || (sy == 0 && sx < 0);
@@ -211,7 +211,7 @@ int sunder_i_half_plane(sunder_i_lattice *l, sunder_i_point u)
 
 int sunder_i_angle_cmp(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v)
 {
-    const int hu = sunder_i_half_plane(l, u), hv = sunder_i_half_plane(l, v);
+    const int hu = sunder_i_direction_half(l, u), hv = sunder_i_direction_half(l, v);
     if (hu != hv) return hu < hv ? -1 : 1;
     return -sunder_i_cross_sign(l, u, v);
 }

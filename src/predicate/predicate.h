@@ -30,7 +30,7 @@ int sunder_i_orient(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point 
 int sunder_i_cross_sign(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_point v);
 int sunder_i_dot_sign(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_point v);
 /* 0 for angles in [0, pi), 1 for [pi, 2 pi). */
-int sunder_i_half_plane(sunder_i_lattice *lattice, sunder_i_point u);
+int sunder_i_direction_half(sunder_i_lattice *lattice, sunder_i_point u);
 /* Order of two non-zero vectors by angle in [0, 2 pi) from the positive x axis. */
 int sunder_i_angle_cmp(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_point v);
 

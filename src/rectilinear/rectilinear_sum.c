@@ -5,7 +5,7 @@
 #include "base/watch.h"
 #include "convex/needed_subsums.h"
 #include "rectilinear/rectangles.h"
-#include "rectilinear/union.h"
+#include "rectilinear/rectilinear_union.h"
 
 #define MOST_RECTANGLES ((size_t)1 << 24) /* beyond this the general road may need fewer pieces */
 #define RECTANGLE_WORTH 0                 /* looks on credit cost more than uniting (fat covers: 1.4 times in all) */

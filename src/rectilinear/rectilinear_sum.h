@@ -3,7 +3,7 @@
 #define SUNDER_I_RECTILINEAR_SUM_H
 
 #include "shape/shape.h"
-#include "sum/sum.h"
+#include "sum/sum_value.h"
 
 /* Fills the outline of an empty sum, which stands on a lattice that both operands are placed on, and sets *done.
  * Changes neither where a side is not along an axis, the lattice is not narrow, or there would be too many rectangles.

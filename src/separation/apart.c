@@ -5,7 +5,7 @@
  * is the gap to within the error; these are compared exactly, on a lattice that holds the gap, too. */
 #include "separation/separation.h"
 
-#include "separation/operands/operands.h"
+#include "separation/operands/pair_operands.h"
 
 #include "base/extremes.h"
 

@@ -8,7 +8,7 @@
 #include "separation/separation.h"
 
 #include "base/invariant.h"
-#include "separation/operands/operands.h"
+#include "separation/operands/pair_operands.h"
 
 typedef struct interval {
     sunder_i_fraction low, high;

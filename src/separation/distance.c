@@ -1,7 +1,7 @@
 /* The distance of two sets, to about an ulp, and a shortest link. */
 #include "separation/separation.h"
 
-#include "separation/operands/operands.h"
+#include "separation/operands/pair_operands.h"
 
 #include <math.h>
 

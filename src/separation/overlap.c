@@ -1,7 +1,7 @@
 /* Do the interiors of two sets meet? */
 #include "separation/separation.h"
 
-#include "separation/operands/operands.h"
+#include "separation/operands/pair_operands.h"
 
 sunder_status sunder_i_overlap(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                                bool *overlap, sunder_error *err)

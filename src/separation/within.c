@@ -3,7 +3,7 @@
 #include "separation/separation.h"
 
 #include "number/ratio.h"
-#include "separation/least.h"
+#include "separation/least_translation.h"
 
 #include <math.h>
 

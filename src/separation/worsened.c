@@ -6,8 +6,8 @@
 #include "separation/separation.h"
 
 #include "predicate/rational_point.h"
-#include "separation/least.h"
-#include "separation/operands/operands.h"
+#include "separation/least_translation.h"
+#include "separation/operands/pair_operands.h"
 
 #include "base/extremes.h"
 

@@ -1,14 +1,14 @@
 /* A shape in the making: what the stages of sunder_shape_from_rings() hand each other.
  *
  * rings.c          room for them
- * clean.c          one raw ring -> its corners
+ * clean_ring.c          one raw ring -> its corners
  * edge_tree.c      candidate pairs of edges, and edges above a point, without looking at all of them
  * intersections.c  where rings cross (an error) or touch
  * simple.c         that nothing meets, by a sweep, where boxes do not tell edges apart
  * nesting.c        orientation; holes inside outer rings, and not inside each other
- * canonical.c      rings, holes and polygons in an order of the set's own
+ * canonical_rings.c      rings, holes and polygons in an order of the set's own
  * repair.c         the even-odd set of a polygon in its place, by the arrangement of arcs.c and even_odd.c
- * pieces.c         holes bridged (bridge.c), ears cut off (ears.c), triangles merged (merge_triangles.c)
+ * shape_pieces.c         holes bridged (bridge.c), ears cut off (ears.c), triangles merged (merge_triangles.c)
  * finish.c         everything into one block of memory
  * small_polygon.c  all of that for one small polygon that is sound as it is; its pieces are of small_pieces.c
  * few_corners.c    what is the same for all rings of few corners */
@@ -71,7 +71,7 @@ static inline int sunder_i_rings_orient(const sunder_i_rings *r, uint32_t a, uin
  * that agree with u or w are not inside. u and w may agree: the wedge is then all the rest of the circle. */
 bool sunder_i_in_wedge(const sunder_i_rings *r, uint32_t p, uint32_t u, uint32_t w, uint32_t d);
 
-/* ---- clean.c ---- */
+/* ---- clean_ring.c ---- */
 
 typedef enum sunder_i_fault {
     SUNDER_I_SOUND,
@@ -141,12 +141,12 @@ void sunder_i_orient_rings(sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi
 void sunder_i_nesting_check(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_edge_tree *tree,
                             sunder_i_problem *problem);
 
-/* ---- canonical.c ---- */
+/* ---- canonical_rings.c ---- */
 
 /* Puts rings, holes and polygons in their canonical order. The arena is for scratch; false if memory is out. */
 bool sunder_i_rings_canonical(sunder_i_rings *r, sunder_i_arena *arena);
 
-/* ---- pieces.c, bridge.c, merge_triangles.c ---- */
+/* ---- shape_pieces.c, bridge.c, merge_triangles.c ---- */
 
 /* A triangulation by half-edges 3t .. 3t + 2 of triangle t; merging relinks next and prev. */
 typedef struct sunder_i_mesh {

@@ -6,7 +6,7 @@
 #include "shape/from_rings.h"
 
 #include "base/invariant.h"
-#include "shape/rational.h"
+#include "shape/rational_corners.h"
 #include "shape/repair.h"
 #include "shape/small_polygon.h"
 

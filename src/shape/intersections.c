@@ -1,6 +1,6 @@
 /* Where the rings of one polygon meet each other and themselves.
  *
- * Two edges that follow each other meet in their common corner and nowhere else (clean.c has seen to spikes). Any
+ * Two edges that follow each other meet in their common corner and nowhere else (clean_ring.c has seen to spikes). Any
  * others may be apart, cross (an error), share a piece (an error), or touch: an end of one on the other. A touch is
  * fine if the two passages through the point stay on their sides of each other, and an error if they change sides; that
  * is decided locally, from the four directions at the point. Each touch is looked at where the tail of one edge takes

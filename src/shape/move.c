@@ -2,7 +2,7 @@
  * nothing is validated or decomposed again. */
 #include "shape/build.h"
 
-#include "shape/rational.h"
+#include "shape/rational_corners.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #include "shape/repair.h"
 
 #include "shape/even_odd.h"
-#include "shape/rational.h"
+#include "shape/rational_corners.h"
 
 #include <string.h>
 

@@ -2,9 +2,9 @@
  *
  * A shape keeps its input as given (translations need it) and a cleaned form: outer rings counter-clockwise, holes
  * clockwise, so that the interior is on the left of every edge; no repeated vertices, no collinear ones, no spikes.
- * Each ring begins at its smallest vertex, holes and members ascend (canonical.c; a reflected copy keeps the order).
- * Coordinates are doubles, taken exactly, but for those corners of a shape repaired by the even-odd rule that are
- * crossings of two edges as given: each of them has a denominator of its own.
+ * Each ring begins at its smallest vertex, holes and members ascend (canonical_rings.c; a reflected copy keeps the
+ * order). Coordinates are doubles, taken exactly, but for those corners of a shape repaired by the even-odd rule that
+ * are crossings of two edges as given: each of them has a denominator of its own.
  *
  * Rings may touch at points, themselves too, in one way only: each vertex stands for one sector of the interior, from
  * the edge that leaves it counter-clockwise to the edge that comes in, and sectors of one polygon at one place are

@@ -1,5 +1,5 @@
 /* The usual building: one polygon of few corners that is sound as it was given. What the other files of this folder do
- * in general is done here on arrays of fixed size: cleaned (clean.c), looked over for crossings (intersections.c),
+ * in general is done here on arrays of fixed size: cleaned (clean_ring.c), looked over for crossings (intersections.c),
  * turned and nested (nesting.c), joined to its holes (bridge.c) and cut into pieces (small_pieces.c). The shape is the
  * same; only, nothing is repaired or explained here. A polygon in which a corner repeats or is straight, or two edges
  * meet, or a hole is not where holes may be or not in order, or whose coordinates are too long for native integers,
@@ -7,7 +7,7 @@
  *
  * A turn that is not zero at every corner tells that nothing is to be cleaned. If the edges of a ring meet nowhere
  * else, the turn at its smallest corner tells its orientation, and the ring is convex if all turns are to the left. So
- * each ring is read from that corner on (canonical.c) and as its turn says; whether it was sound is asked
+ * each ring is read from that corner on (canonical_rings.c) and as its turn says; whether it was sound is asked
  * afterwards. */
 #include "shape/small_polygon.h"
 

@@ -1,6 +1,6 @@
 /* The exact area of a sum. Vertices have denominators of their own, so terms are reduced, and summed in pairs of one
  * size. */
-#include "sum/sum.h"
+#include "sum/sum_value.h"
 
 /* Twice the area over one edge, x1 y2 - x2 y1, in lattice units: the origin drops out over a closed ring. */
 static sunder_i_ratio edge_term(sunder_i_arena *arena, const sunder_sum *sum, uint32_t u, uint32_t v)

@@ -21,7 +21,7 @@
 #include "sum/from_map.h"
 
 #include "base/watch.h"
-#include "sum/canonical.h"
+#include "sum/canonical_sum.h"
 
 #include "base/union_find.h"
 

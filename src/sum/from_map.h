@@ -3,7 +3,7 @@
 #define SUNDER_I_FROM_MAP_H
 
 #include "planar_map/planar_map.h"
-#include "sum/sum.h"
+#include "sum/sum_value.h"
 
 /* The canonical sum off a marked map: fills vertices, rings, polygons, segments and points of the sum. */
 sunder_status sunder_i_sum_from_map(sunder_i_planar_map *map, sunder_sum *sum, sunder_error *err);

@@ -3,7 +3,7 @@
 #define SUNDER_I_MAP_VIEW_H
 
 #include "planar_map/planar_map.h"
-#include "sum/sum.h"
+#include "sum/sum_value.h"
 
 /* Takes a marked map over for users to look at, also on failure. */
 sunder_status sunder_i_map_view_take(sunder_i_planar_map *map, const sunder_sum *sum, sunder_map **out,

@@ -5,7 +5,7 @@
  * an integer of at most 126 bits, whose conversion rounds once, too. Crossings also have a fraction, and one bit tells
  * whether it is nonzero, which is all that rounding needs. The rest take the big integers. The deviation is measured,
  * and rounded up. */
-#include "sum/sum.h"
+#include "sum/sum_value.h"
 
 #include <limits.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 #ifndef SUNDER_I_TO_SHAPE_H
 #define SUNDER_I_TO_SHAPE_H
 
-#include "sum/sum.h"
+#include "sum/sum_value.h"
 
 /* The polygons of a sum, corners at the nearest doubles; degenerate parts are left out. exact: only where no corner is
  * moved by that; else *out stays as it is. Fails as sunder_shape_from_rings() does. */

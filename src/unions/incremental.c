@@ -8,8 +8,8 @@
  * subsum covers is a degenerate hole, and stays until some later subsum covers it.
  *
  * Cost: what is inserted and what is removed. Good where the union stays small, and better where fat subsums come first
- * (order.c); where no subsum covers much of another's crossings, nothing is gained over the arrangement and removal is
- * paid besides. */
+ * (subsum_order.c); where no subsum covers much of another's crossings, nothing is gained over the arrangement and
+ * removal is paid besides. */
 #include "base/random.h"
 #include "unions/unions.h"
 

@@ -5,7 +5,7 @@
 #include "base/counts.h"
 #include "sum/from_map.h"
 #include "sum/map_view.h"
-#include "sum/place.h"
+#include "sum/operands_on_lattice.h"
 
 #include <inttypes.h>
 #include <string.h>

@@ -4,7 +4,7 @@
  *
  * What the files hand each other:
  * unions.c       the stages: decompose, unite, read the outline off the map
- * order.c        in what order the subsums go in
+ * subsum_order.c        in what order the subsums go in
  * feed.c         subsums made one at a time and put into a map
  * arrangement.c, incremental.c, divide.c    the three unions
  * and sum/from_map.c, sum/map_view.c         from a marked map to the canonical sum; the map, for users */
@@ -13,14 +13,14 @@
 
 #include "convex/convex_sum.h"
 #include "planar_map/planar_map.h"
-#include "sum/sum.h"
+#include "sum/sum_value.h"
 
 /* Fills an empty sum (but for its algorithm) by one of the three roads. On failure the caller frees the sum.
  * Fails with SUNDER_ENOMEM, SUNDER_ECANCEL, or SUNDER_ESIZE where there are too many subsums to number. */
 sunder_status sunder_i_union_sum(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
                                  const sunder_sum_options *options, sunder_error *err);
 
-/* How fat a subsum is; order.c says what each is worth. */
+/* How fat a subsum is; subsum_order.c says what each is worth. */
 typedef enum sunder_i_fatness {
     SUNDER_I_FAT_AREA,    /* area */
     SUNDER_I_FAT_BREADTH, /* area by perimeter: from a half to one times the radius of the largest disc inside */

@@ -27,6 +27,11 @@ while read -r line; do
 done < <(cd "$root" && find src gis tests datasets-synthetic -name '*.[ch]' | sort |
     LC_ALL=C.UTF-8 xargs grep -nE '^.{121,}' | cut -d: -f1,2)
 
+# ---- No two sources of the library share a base name: each is qualified by what it acts on ----
+while read -r name; do
+    say "src: $name names several files: $(cd "$root/src" && find . -name "$name" | sort | tr '\n' ' ')"
+done < <(sources src | grep '\.c$' | sed 's#.*/##' | sort | uniq -d)
+
 # ---- Public enumerators carry the name of their type ----
 while read -r line; do
     say "src/sunder.h: $line"

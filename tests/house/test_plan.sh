@@ -24,8 +24,8 @@ done < <(grep -E '^\| .* \| `[^`]+\.(c|h)` \| `[a-z_0-9]+\(\)` \|$' "$root/src/R
 [ "$asked" -ge 20 ] || say "src/README.md: $asked questions are answered; twenty should be"
 
 # Files in the first column of a README's tables, or in `...`, that look like sources: somewhere below that folder's tree.
-for readme in "$root"/src/*/README.md "$root"/src/*/*/README.md "$root"/gis/README.md "$root"/gis/*/README.md \
-    "$root"/gis/*/*/README.md; do
+for readme in "$root"/src/*/README.md "$root"/src/*/*/README.md "$root"/src/*/*/*/README.md "$root"/gis/README.md \
+    "$root"/gis/*/README.md "$root"/gis/*/*/README.md; do
     [ -f "$readme" ] || continue
     folder=$(dirname "$readme")
     for file in $(grep -oE '`[^` ]*[a-z_0-9*]+\.(c|h)`' "$readme" | tr -d '`' | sort -u); do
@@ -37,8 +37,8 @@ for readme in "$root"/src/*/README.md "$root"/src/*/*/README.md "$root"/gis/READ
 done
 # Functions and types that a README names are in the sources; `name_*` stands for several.
 known=$(grep -rhoE '\b(sunder|gis)_[a-z_0-9]+' --include='*.[ch]' "$root/src" "$root/gis" | sort -u)
-for readme in "$root/README.md" "$root"/src/README.md "$root"/src/*/README.md "$root"/src/*/*/README.md "$root"/gis/README.md \
-    "$root"/gis/*/README.md "$root"/gis/*/*/README.md; do
+for readme in "$root/README.md" "$root"/src/README.md "$root"/src/*/README.md "$root"/src/*/*/README.md \
+    "$root"/src/*/*/*/README.md "$root"/gis/README.md "$root"/gis/*/README.md "$root"/gis/*/*/README.md; do
     [ -f "$readme" ] || continue
     while read -r name; do
         say "${readme#"$root"/}: there is no $name"

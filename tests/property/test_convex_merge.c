@@ -147,7 +147,7 @@ static bool directions_agree(sunder_i_lattice *l, const sunder_i_convex_pieces *
         const sunder_i_point d = sunder_i_point_sub(l, sum->corner[k + 1 < n ? k + 1 : 0], sum->corner[k]);
         const bool turned = sum->rank[k] >= sum->classes;
         if (sunder_i_cross_sign(l, sum->direction[sum->rank[k] - (turned ? sum->classes : 0)], d) != 0) return false;
-        if ((sunder_i_half_plane(l, d) == 1) != turned) return false;
+        if ((sunder_i_direction_half(l, d) == 1) != turned) return false;
     }
     return true;
 }

@@ -4,7 +4,7 @@
  * Inputs are small integers, so what is not exactly at the gap is off it by far more than the 1e-9 allowed to doubles,
  * save for near-coincidences of irrational numbers, which the tolerance of 1e-6 on lengths absorbs. */
 #include "generate.h"
-#include "separation/least.h"
+#include "separation/least_translation.h"
 #include "separation/separation.h"
 #include "slabs.h"
 

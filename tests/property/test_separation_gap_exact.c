@@ -5,7 +5,7 @@
 #include "gap_oracle.h"
 #include "random.h"
 
-#include "separation/least.h"
+#include "separation/least_translation.h"
 #include "separation/separation.h"
 
 #include <math.h>

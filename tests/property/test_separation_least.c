@@ -5,7 +5,7 @@
  * All are made, sorted by length, and the first free one is the answer; of several of that length the lexicographically
  * smallest. Free is decided by cutting both sets into vertical slabs. */
 #include "generate.h"
-#include "separation/least.h"
+#include "separation/least_translation.h"
 #include "separation/separation.h"
 #include "slabs.h"
 

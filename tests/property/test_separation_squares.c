@@ -5,8 +5,8 @@
  * same contact, with an answer hardly longer. */
 #include "failing.h"
 #include "generate.h"
-#include "separation/least.h"
-#include "separation/penetration/search.h"
+#include "separation/least_translation.h"
+#include "separation/penetration/penetration_search.h"
 #include "separation/separation.h"
 
 #include <math.h>

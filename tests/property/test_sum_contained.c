@@ -5,7 +5,7 @@
 #include "generate.h"
 #include "minkowski/minkowski.h"
 #include "oracle.h"
-#include "outline/contained.h"
+#include "outline/contained_parts.h"
 #include "sum_text.h"
 
 #include <math.h>

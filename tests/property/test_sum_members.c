@@ -3,7 +3,7 @@
 #include "generate.h"
 #include "minkowski/members.h"
 #include "roads.h"
-#include "sum/place.h"
+#include "sum/operands_on_lattice.h"
 #include "sum_text.h"
 
 #include <setjmp.h>

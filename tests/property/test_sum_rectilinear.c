@@ -5,7 +5,7 @@
 #include "rectilinear/rectangles.h"
 #include "rectilinear/rectilinear_sum.h"
 #include "roads.h"
-#include "sum/place.h"
+#include "sum/operands_on_lattice.h"
 #include "sum_text.h"
 
 #include <setjmp.h>

@@ -3,7 +3,7 @@
  * one, and least translations do not depend on the rung either. */
 #include "generate.h"
 #include "minkowski/minkowski.h"
-#include "separation/least.h"
+#include "separation/least_translation.h"
 #include "separation/separation.h"
 #include "sum_text.h"
 

@@ -4,7 +4,7 @@
 
 #include "scene_model.h"
 
-#include "displacement/search/search.h"
+#include "displacement/solve/search/cluster_search.h"
 
 typedef struct scene_field {
     sunder_feature *feature; /* [n] of weight 1, in no block */

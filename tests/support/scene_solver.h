@@ -5,7 +5,7 @@
 
 #include "scene_model.h"
 
-#include "displacement/clusters/stages.h"
+#include "displacement/solve/clusters/stages.h"
 
 /* Of a model that is related, which stays the scene's; who is too close hangs together, and no clusters are gathered.
  */

@@ -1,7 +1,7 @@
 /* traced.c: see traced.h. */
 #include "traced.h"
 
-#include "sum/canonical.h"
+#include "sum/canonical_sum.h"
 #include "sum_text.h"
 
 #include <setjmp.h>

@@ -1,5 +1,6 @@
-/* displacement/areas: masses against integrals of another kind; what prices prove against what random moves pay. */
-#include "displacement/areas/areas.h"
+/* displacement/prove/areas: masses against integrals of another kind; what prices prove against the cost of random
+ * moves. */
+#include "displacement/prove/areas/areas.h"
 #include "failing.h"
 #include "random.h"
 

@@ -4,7 +4,7 @@
  * whole sum at places at random. */
 #include "random.h"
 
-#include "displacement/optimum/bundle.h"
+#include "displacement/prove/optimum/bundle.h"
 
 #include <math.h>
 #include <setjmp.h>

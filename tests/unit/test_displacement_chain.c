@@ -3,7 +3,7 @@
 #include "polyset.h"
 #include "scene_model.h"
 
-#include "displacement/proofs/chain.h"
+#include "displacement/prove/proofs/chain.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -152,7 +152,10 @@ static void test_room(void **state)
 
 /* ---- One line for several ways ----------------------------------------------------------------------------------- */
 
-static sunder_i_way way_of(double angle, double d) { return (sunder_i_way){.n = {cos(angle), sin(angle)}, .d = d}; }
+static sunder_i_half_plane way_of(double angle, double d)
+{
+    return (sunder_i_half_plane){.n = {cos(angle), sin(angle)}, .d = d};
+}
 
 /* Whatever is within reach and beyond one of the ways is beyond the line; of those at the ends of their arcs hardly
  * so. */
@@ -163,7 +166,8 @@ static void test_chord(void **state)
     const double reach = 4;
     sunder_i_branching c = {0};
     assert_true(sunder_i_reserve(&c.scratch, &c.scratch_capacity, 8, sizeof *c.scratch));
-    const sunder_i_way ways[] = {way_of(3, 3.5), way_of(3.3, 3), way_of(-2.9, 3.6), way_of(0, 9), way_of(1.5, 4.5)};
+    const sunder_i_half_plane ways[] = {way_of(3, 3.5), way_of(3.3, 3), way_of(-2.9, 3.6), way_of(0, 9),
+                                        way_of(1.5, 4.5)};
     const size_t n = sizeof ways / sizeof *ways;
     memcpy(c.scratch, ways, sizeof ways);
     assert_int_equal(sunder_i_chain_ways(&c, n, reach), n + 1);
@@ -186,7 +190,8 @@ static void test_chord(void **state)
 static void test_only_way(void **state)
 {
     (void)state;
-    sunder_i_way wall[] = {way_of(0, 9), way_of(0.4, 3.6), way_of(-0.2, 1)}, apart[] = {way_of(0, 3), way_of(3, 3)};
+    sunder_i_half_plane wall[] = {way_of(0, 9), way_of(0.4, 3.6), way_of(-0.2, 1)},
+                        apart[] = {way_of(0, 3), way_of(3, 3)};
     assert_true(sunder_i_chain_only_way(wall, 3, 4));
     assert_true(wall[0].d == 1);
     assert_false(sunder_i_chain_only_way(apart, 2, 4));

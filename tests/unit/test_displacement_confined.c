@@ -3,8 +3,8 @@
 #include "random.h"
 #include "scene_model.h"
 
-#include "displacement/optimum/forbidden.h"
-#include "displacement/search/stages.h"
+#include "displacement/prove/optimum/forbidden.h"
+#include "displacement/solve/search/stages.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

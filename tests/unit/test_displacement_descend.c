@@ -1,7 +1,7 @@
 /* displacement/search/descend: who misses a hair beside a wide barrier goes down to the place there, not elsewhere. */
 #include "scene.h"
 
-#include "displacement/search/stages.h"
+#include "displacement/solve/search/stages.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* Orders of elimination: whichever it is, it ranks all, and tells who is joined to whom as eliminating one node after
  * the other does, with sets, in that order. Where nodes stand beside their neighbours dissection takes less than
  * minimum degree; a graph that no line parts it leaves alone. */
-#include "displacement/programs/elimination.h"
+#include "displacement/quadratic/elimination.h"
 #include "random.h"
 
 #include <setjmp.h>

@@ -1,9 +1,9 @@
-/* displacement/optimum: forbidden sets of few and of many pieces, what they cover, and what is free of them; against
- * looking at every piece. Pieces are rectangles, grown, so that the oracle needs no more than a distance. */
+/* displacement/prove/optimum: forbidden sets of few and of many pieces, what they cover, and what is free of them;
+ * against looking at every piece. Pieces are rectangles, grown, so that the oracle needs no more than a distance. */
 #include "random.h"
 
-#include "displacement/optimum/region.h"
-#include "displacement/optimum/tuning.h"
+#include "displacement/prove/optimum/region.h"
+#include "displacement/prove/optimum/tuning.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -359,10 +359,9 @@ static void test_cover_what_can_be(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_few_and_many), cmocka_unit_test(test_down_into_a_notch),
-                                       cmocka_unit_test(test_across_narrow_overlaps),
-                                       cmocka_unit_test(test_cover_by_a_strip),
-                                       cmocka_unit_test(test_behind_the_tree),
-                                       cmocka_unit_test(test_cover_what_can_be)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_few_and_many),           cmocka_unit_test(test_down_into_a_notch),
+        cmocka_unit_test(test_across_narrow_overlaps), cmocka_unit_test(test_cover_by_a_strip),
+        cmocka_unit_test(test_behind_the_tree),        cmocka_unit_test(test_cover_what_can_be)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

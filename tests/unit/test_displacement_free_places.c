@@ -1,7 +1,7 @@
 /* Free places in crowds of convex obstacles, which the search takes through cells: the nearest one is free, and as near
  * as the nearest of all feet of perpendiculars and all crossings of sides that are free, each tested against all. */
 #include "base/watch.h"
-#include "displacement/obstacles/grown_cache.h"
+#include "displacement/geometry/grown_cache.h"
 #include "random.h"
 
 #include <math.h>

@@ -4,10 +4,10 @@
 #include "polyset.h"
 #include "scene_solver.h"
 
-#include "displacement/clusters/stages.h"
-#include "displacement/clusters/tuning.h"
-#include "displacement/proofs/feasibility.h"
+#include "displacement/prove/proofs/feasibility.h"
 #include "displacement/report/question.h"
+#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/tuning.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,10 +1,10 @@
-/* displacement/search: a pair that is free where its way leads gets the sides that it has there, another those of where
- * it stands; what is missed roughly is not forgiven; and a large crowd that goes down roughly first stands free in the
- * end to the last digit, and has nothing left to gain. */
+/* displacement/solve/search: a pair that is free where its way leads gets the sides that it has there, another those of
+ * where it stands; what is missed roughly is not forgiven; and a large crowd that goes down roughly first stands free
+ * in the end to the last digit, and has nothing left to gain. */
 #include "scene_field.h"
 
-#include "displacement/search/stages.h"
-#include "displacement/search/tuning.h"
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -2,7 +2,7 @@
  * that was put there is found again. */
 #include "random.h"
 
-#include "displacement/search/measures.h"
+#include "displacement/solve/search/measures.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

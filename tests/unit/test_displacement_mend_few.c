@@ -2,7 +2,7 @@
  * nobody else moves; where nobody was, or many clash, or it is no large crowd, it is left as it was. */
 #include "scene_field.h"
 
-#include "displacement/search/stages.h"
+#include "displacement/solve/search/stages.h"
 
 #include <math.h>
 #include <setjmp.h>

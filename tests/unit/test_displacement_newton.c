@@ -1,7 +1,7 @@
 /* Newton steps on quadratic programs: what they end with keeps the optimality conditions, of soft programs and of hard
  * ones; of contradictions the forces prove that all solutions are too dear; what is not solved is left as it was; and a
  * compromise of a terrace takes a fraction of the work that it takes the dual methods. */
-#include "displacement/programs/methods.h"
+#include "displacement/quadratic/methods.h"
 #include "random.h"
 
 #include <math.h>

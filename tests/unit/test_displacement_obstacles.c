@@ -1,6 +1,6 @@
 /* The obstacle of two convex pieces: A + (-B), corner by corner. */
 #include "base/memory.h"
-#include "displacement/obstacles/obstacle.h"
+#include "displacement/geometry/obstacle.h"
 #include "random.h"
 
 #include <math.h>

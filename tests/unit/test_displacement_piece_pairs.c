@@ -2,8 +2,8 @@
  * is passed by beforehand; against looking at all of them. Few pieces and many, near and far. */
 #include "random.h"
 
-#include "displacement/search/search.h"
-#include "displacement/search/tuning.h"
+#include "displacement/solve/search/cluster_search.h"
+#include "displacement/solve/search/tuning.h"
 
 #include <math.h>
 #include <setjmp.h>

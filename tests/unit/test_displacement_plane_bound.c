@@ -3,7 +3,7 @@
 #include "random.h"
 #include "scene_model.h"
 
-#include "displacement/proofs/plane.h"
+#include "displacement/prove/proofs/plane.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -3,7 +3,7 @@
 #include "random.h"
 #include "scene_model.h"
 
-#include "displacement/proofs/feasibility.h"
+#include "displacement/prove/proofs/feasibility.h"
 
 #include <math.h>
 #include <setjmp.h>

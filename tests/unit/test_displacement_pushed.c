@@ -2,8 +2,8 @@
  * is taken back so of a row; displacement/search/together: what went the same way but for a hair. */
 #include "scene_board.h"
 
-#include "displacement/search/pushed.h"
-#include "displacement/search/stages.h"
+#include "displacement/solve/search/pushed.h"
+#include "displacement/solve/search/stages.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* The quadratic program on constraints that can and that cannot hold together: what is returned is a number, the moves
  * and forces are numbers, and what is missed is what the moves miss; mended, it is as good as solved. And the nearest
  * place: its forces say that it is the nearest, or that there is none. */
-#include "displacement/programs/nearest.h"
+#include "displacement/quadratic/nearest.h"
 #include "random.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
  * for the search and cannot do otherwise. */
 #include "scene_board.h"
 
-#include "displacement/search/cluster.h"
+#include "displacement/solve/search/cluster.h"
 
 #include <math.h>
 #include <setjmp.h>

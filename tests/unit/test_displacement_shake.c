@@ -1,8 +1,8 @@
-/* displacement/optimum/shake: a group that is shaken never becomes dearer, stays apart, and the same seed gives the
- * same bytes; and displacement/optimum/optimum: what was asked of a group is not asked of it again. */
+/* displacement/solve/search/shake: a group that is shaken never becomes dearer, stays apart, and the same seed gives
+ * the same bytes; and displacement/prove/optimum: what was asked of a group is not asked of it again. */
 #include "scene_model.h"
 
-#include "displacement/optimum/optimum.h"
+#include "displacement/solve/search/shake.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -59,8 +59,11 @@ static void begin(grid *g, size_t wide, size_t high, int teeth, uint64_t seed)
     g->scene.options.seed = seed;
     scene_model_begin(&g->of, &g->scene);
     const size_t n = g->of.model.bodies;
-    g->group = (sunder_i_group){
-        .n = n, .margin = 0x1p-30, .body = calloc(n, sizeof(uint32_t)), .move = calloc(2 * n, sizeof(double))};
+    g->group = (sunder_i_group){.search = &sunder_i_group_search,
+                                .n = n,
+                                .margin = 0x1p-30,
+                                .body = calloc(n, sizeof(uint32_t)),
+                                .move = calloc(2 * n, sizeof(double))};
     for (size_t k = 0; k < n; k++) {
         const double middle[2] = {(double)(wide - 1) / 2, (double)(high - 1) / 2},
                      at[2] = {(double)(k % wide), (double)(k / wide)};

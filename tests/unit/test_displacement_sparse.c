@@ -1,5 +1,5 @@
 /* The sparse factorisation against elimination on the full matrix. */
-#include "displacement/programs/sparse.h"
+#include "displacement/quadratic/sparse.h"
 #include "random.h"
 
 #include <math.h>

@@ -3,8 +3,8 @@
  * room for one. */
 #include "scene_board.h"
 
-#include "displacement/search/stages.h"
-#include "displacement/search/tuning.h"
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -2,7 +2,7 @@
  * bit, also where something else was tried meanwhile. */
 #include "scene_model.h"
 
-#include "displacement/optimum/tree.h"
+#include "displacement/prove/optimum/tree.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -199,7 +199,7 @@ static void test_points(void **state)
             product(b.t, p, q, r, s, false);
             assert_int_equal(sunder_i_cross_sign(l, u, v), mpq_sgn(b.t));
             if (lexicographic(p, q) && lexicographic(r, s)) {
-                const int hu = sunder_i_half_plane(l, u), hv = sunder_i_half_plane(l, v);
+                const int hu = sunder_i_direction_half(l, u), hv = sunder_i_direction_half(l, v);
                 assert_int_equal(sunder_i_angle_cmp(l, u, v), hu != hv ? hu - hv : -mpq_sgn(b.t));
             }
             product(b.t, p, q, r, s, true);

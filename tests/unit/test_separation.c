@@ -1,7 +1,7 @@
 /* Least translations, overlap, containment, gap and distance on small figures with known answers. */
 #include "polyset.h"
 
-#include "separation/least.h"
+#include "separation/least_translation.h"
 #include "separation/separation.h"
 
 #include <gmp.h>

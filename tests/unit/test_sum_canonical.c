@@ -2,7 +2,7 @@
  * any two of them change places. */
 #include "generate.h"
 #include "minkowski/minkowski.h"
-#include "sum/canonical.h"
+#include "sum/canonical_sum.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -16,7 +16,7 @@ typedef enum sunder_i_inclusion_state {
 typedef struct sunder_i_inclusion {
     uint32_t a, b; /* features, a < b */
     bool a_inside; /* a lies in b; else b in a */
-    bool enters;   /* it did not at the start, but is to get there (clusters/move_inside.c) */
+    bool enters;   /* it did not at the start, but is to get there (solve/clusters/move_inside.c) */
     sunder_i_inclusion_state state;
 } sunder_i_inclusion;
 

@@ -20,7 +20,7 @@
 void sunder_i_jumps_free(sunder_i_jumps *jumps)
 {
     sunder_i_free(jumps->pair);
-    sunder_i_way_tree_free(&jumps->ways);
+    sunder_i_path_tree_free(&jumps->ways);
     memset(jumps, 0, sizeof *jumps);
 }
 
@@ -41,8 +41,8 @@ static bool has_moved(const sunder_i_jumps *jumps, const sunder_i_model *model, 
 static bool find_near(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, sunder_i_list *near)
 {
     double way[4];
-    sunder_i_way_box(&jumps->ways, model, f, way);
-    return sunder_i_way_tree_look_about(&jumps->ways, model, way, near);
+    sunder_i_path_box(&jumps->ways, model, f, way);
+    return sunder_i_path_tree_look_about(&jumps->ways, model, way, near);
 }
 
 /* ---- Pairs ------------------------------------------------------------------------------------------------------- */
@@ -179,7 +179,7 @@ sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model 
     if (!sunder_i_forbids_ways(model)) return SUNDER_OK;
     sunder_status status = sunder_i_jumps_begun(jumps) || model->rules.jumps
                                ? SUNDER_OK
-                               : sunder_i_way_tree_begin(&jumps->ways, model, err);
+                               : sunder_i_path_tree_begin(&jumps->ways, model, err);
     const size_t most = changes ? changes->list.n : model->features;
     uint32_t *asked = sunder_i_alloc(most, sizeof *asked);
     if (!status && !asked) status = sunder_i_no_memory(err);
@@ -188,7 +188,7 @@ sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model 
         const uint32_t f = changes ? changes->list.item[k] : (uint32_t)k;
         if (f < model->features && model->present[f]) asked[n++] = f;
     }
-    if (!status && sunder_i_jumps_begun(jumps)) status = sunder_i_way_tree_follow(&jumps->ways, model, asked, n, err);
+    if (!status && sunder_i_jumps_begun(jumps)) status = sunder_i_path_tree_follow(&jumps->ways, model, asked, n, err);
     pair_search s = {jumps, model, changes ? changes->is : NULL, asked, NULL};
     const size_t present = n;
     n = 0;
@@ -209,10 +209,10 @@ sunder_status sunder_i_jumps_follow(sunder_i_jumps *jumps, const sunder_i_model 
 {
     const sunder_i_body *b = &model->body[body];
     if (model->rules.jumps) return SUNDER_OK;
-    sunder_status status = sunder_i_jumps_begun(jumps) ? SUNDER_OK : sunder_i_way_tree_begin(&jumps->ways, model, err);
+    sunder_status status = sunder_i_jumps_begun(jumps) ? SUNDER_OK : sunder_i_path_tree_begin(&jumps->ways, model, err);
     for (uint32_t m = 0; m < b->members && !status; m++) {
         const uint32_t f = model->member[b->member + m];
-        if (model->present[f]) status = sunder_i_way_tree_follow(&jumps->ways, model, &f, 1, err);
+        if (model->present[f]) status = sunder_i_path_tree_follow(&jumps->ways, model, &f, 1, err);
     }
     return status;
 }

@@ -3,19 +3,19 @@
 #define SUNDER_I_JUMPS_H
 
 #include "displacement/layer/changes.h"
-#include "displacement/layer/way_tree.h"
+#include "displacement/layer/path_tree.h"
 
 /* The pairs that break a rule as the features stand, kept up to date while they move: features of which one jumped over
  * the other, and a feature with a part of a barrier whose side it crossed. Zeroed: nothing has moved. */
 typedef struct sunder_i_jumps {
-    sunder_i_way_tree ways; /* straight from home */
-    sunder_i_id_pair *pair; /* things, a < b, of different bodies; sorted */
+    sunder_i_path_tree ways; /* straight from home */
+    sunder_i_id_pair *pair;  /* things, a < b, of different bodies; sorted */
     size_t n;
 } sunder_i_jumps;
 
 void sunder_i_jumps_free(sunder_i_jumps *jumps);
 /* Is there a tree, of ways? There is none while nothing has moved, and where features may jump. */
-static inline bool sunder_i_jumps_begun(const sunder_i_jumps *jumps) { return sunder_i_way_tree_begun(&jumps->ways); }
+static inline bool sunder_i_jumps_begun(const sunder_i_jumps *jumps) { return sunder_i_path_tree_begun(&jumps->ways); }
 /* What changed (sorted; NULL: all) stands elsewhere now, by model->move. Of no effect where no way is forbidden. */
 sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model, const sunder_i_changes *changes,
                                     sunder_error *err);

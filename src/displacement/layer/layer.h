@@ -17,7 +17,7 @@ struct sunder_layer {
     sunder_barrier *barrier;
     size_t barriers;
     double *side_anchor; /* [2 n] the caller's, not finite where the rule is to find it; NULL: of none */
-    /* Of a layer in the order of work (order.c), which has no features of its own; else NULL: */
+    /* Of a layer in the order of work (feature_order.c), which has no features of its own; else NULL: */
     const sunder_layer *given; /* as it was given, in its order */
     uint32_t *number; /* [n + parts] what each was: of a part of a barrier n + the barrier, as the interface counts */
     sunder_feature *part; /* [parts] */
@@ -54,7 +54,7 @@ static inline bool sunder_i_is_present(const sunder_feature *feature)
 /* The options with every default filled in. */
 typedef struct sunder_i_rules {
     double gap, tolerance;
-    double barriers_known; /* so far about features; INFINITY: all are */
+    double barriers_known;    /* so far about features; INFINITY: all are */
     const sunder_shape *disc; /* of the tolerance, for sunder_i_overlap_is_thin(); the model's */
     bool touch_joins, containment_joins, list_inside;
     double thin; /* 0: nobody asks what a tolerance would join */
@@ -72,7 +72,7 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
 /* Tells how far it is; false when the caller asked to stop. */
 bool sunder_i_progress(const sunder_i_rules *rules, double fraction);
 
-/* ---- order.c ----------------------------------------------------------------------------------------------------- */
+/* ---- feature_order.c --------------------------------------------------------------------------------------------- */
 
 typedef struct sunder_i_barriers sunder_i_barriers;
 

@@ -4,7 +4,7 @@
 #ifndef SUNDER_I_MODEL_H
 #define SUNDER_I_MODEL_H
 
-#include "displacement/layer/barriers.h"
+#include "displacement/layer/barrier_parts.h"
 #include "displacement/layer/inclusion.h"
 #include "displacement/layer/relaxation.h"
 #include "displacement/layer/seamless.h"
@@ -32,13 +32,13 @@ typedef struct sunder_i_body {
     double limit;               /* the strictest of its members' */
     const sunder_i_extras *has; /* besides; never NULL */
     bool fixed;                 /* limit 0 counts too */
-    bool held;                  /* fixed for now: its moves are coarse beside a neighbour (clusters/held.c) */
-    bool has_seams;             /* they were looked for */
-    bool pinned;                /* stays where it came from: rounding would make a pair of it stand worse (uphold.c) */
-    double reach;               /* for the search no corner is farther from the origin, along either axis */
-    double origin[2];           /* its corners are stored relative to this */
-    double box[4];              /* of its pieces, relative to the origin */
-    double clear; /* the least of its members', in sunder_i_model.clear; INFINITY where jumps are allowed */
+    bool held;        /* fixed for now: its moves are coarse beside a neighbour (solve/clusters/coarse_bodies.c) */
+    bool has_seams;   /* they were looked for */
+    bool pinned;      /* stays where it came from: rounding would make a pair of it stand worse (uphold.c) */
+    double reach;     /* for the search no corner is farther from the origin, along either axis */
+    double origin[2]; /* its corners are stored relative to this */
+    double box[4];    /* of its pieces, relative to the origin */
+    double clear;     /* the least of its members', in sunder_i_model.clear; INFINITY where jumps are allowed */
 } sunder_i_body;
 
 /* One convex piece of a body, counter-clockwise; a wall is one without area, of two corners. */

@@ -2,7 +2,7 @@
  *
  * A distance is known as a double that is near, and may be above: lengths just below are asked exactly. The length of a
  * least translation is the nearest double: one step up is no less. What lies in another may go deeper, so that a depth
- * would be more than the rule asks (clusters/uphold.c). */
+ * would be more than the rule asks (solve/clusters/uphold.c). */
 #include "displacement/layer/requirement.h"
 #include "displacement/layer/barrier_pairs.h"
 

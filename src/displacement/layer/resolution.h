@@ -4,7 +4,7 @@
  *   inside   one lies in the other, up to the tolerance, and the rules let contained features overlap
  *
  * A pair that is neither is in conflict. The search demands the same in doubles, piece by piece, in words of its own
- * (search/piece_pairs.c), and what it finds is checked against this: a further way has to be told to both. */
+ * (solve/search/piece_pairs.c), and what it finds is checked against this: a further way has to be told to both. */
 #ifndef SUNDER_I_RESOLUTION_H
 #define SUNDER_I_RESOLUTION_H
 

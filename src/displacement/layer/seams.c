@@ -4,9 +4,9 @@
  * the pieces, and meet neither. So it is with an anchor, which is a point, too:
  *
  * An anchor that goes straight along a diagonal, or through a corner where two pieces end, runs between the shadows of
- * the pieces (obstacles/shadow.h), on the boundary of both. The feature is in its way all the same. So proofs, which
- * ask about pieces one by one and may pass on the boundary of each, are given one more about each diagonal: a convex
- * quadrilateral that lies in the feature (seamless.c). */
+ * the pieces (geometry/obstacle_shadow.h), on the boundary of both. The feature is in its way all the same. So proofs,
+ * which ask about pieces one by one and may pass on the boundary of each, are given one more about each diagonal: a
+ * convex quadrilateral that lies in the feature (seamless.c). */
 #include "displacement/layer/model.h"
 
 #include "spatial/box.h"

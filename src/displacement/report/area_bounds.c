@@ -5,10 +5,10 @@
  * together are asked together, those of them of which little is proved, and who has no part and was solved with them.
  * Of these pay those of which every two owe each other the gap. Of two that are listed the larger one does; where
  * features may lie in others, and owe them nothing then, nobody does. */
-#include "displacement/clusters/stages.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
+#include "displacement/solve/clusters/stages.h"
 
 #include "base/list.h"
 #include "base/union_find.h"

@@ -9,10 +9,10 @@
  * stand as in the result; and all go back to where that has them. What it costs is to relate a cluster three times,
  * however many pairs are left of it. So crowds are asked before any of their pairs is asked about by itself, which is
  * then done for fewer of them (needs.c); of others only what these questions left open. */
-#include "displacement/clusters/stages.h"
-#include "displacement/clusters/trial.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
+#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/trial.h"
 
 #include "base/extremes.h"
 #include "base/union_find.h"

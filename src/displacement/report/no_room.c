@@ -1,14 +1,14 @@
 /* Which conflicts that remain have no room, or are of a crowd that has none, with the proof of each.
  *
  * A conflict has no room if it and all pairs that are not listed cannot be solved together, every other listed pair
- * being held no worse than it stood. Each is asked about by itself (proofs/feasibility.c). A proof is then made
+ * being held no worse than it stood. Each is asked about by itself (prove/proofs/feasibility.c). A proof is then made
  * irreducible: without one feature after another, what cannot be proved any more needs it, and so does every part of
  * it; as far as the effort goes.
  *
  * In a crowd what a pair is left for is not what all others have, but what a few about it would need, of which most are
- * left, too: one that has no such proof is crowded if a chain through it (proofs/chain_fewest.c) proves that the pairs
- * of a few features cannot all be solved, whatever is left elsewhere. */
-#include "displacement/proofs/feasibility.h"
+ * left, too: one that has no such proof is crowded if a chain through it (prove/proofs/chain_fewest.c) proves that the
+ * pairs of a few features cannot all be solved, whatever is left elsewhere. */
+#include "displacement/prove/proofs/feasibility.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
@@ -305,7 +305,7 @@ static uint32_t *members_of(const sunder_i_model *model, const uint32_t body[2],
 }
 
 /* The same of two of which one has no limit: of them alone, whoever else is about. Beyond where they are apart for
- * certain nothing but shadows forbids a relative move, and what is shaded there was shaded before (alone.c). */
+ * certain nothing but shadows forbids a relative move, and what is shaded there was shaded before (pair_reasons.c). */
 static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_i_subproblem *q, uint64_t *pool,
                                        sunder_error *err)
 {

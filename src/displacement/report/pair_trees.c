@@ -10,11 +10,11 @@
  * What such trees prove is less by what counts as free in them, a share of some 2^-31. A pair that may get one inside
  * the other is nothing to them, for the two owe each other nothing then. Jumps and sides are not asked about: the least
  * translation of a pair does not ask, either. */
-#include "displacement/clusters/stages.h"
 #include "displacement/layer/reads.h"
-#include "displacement/optimum/tree.h"
+#include "displacement/prove/optimum/tree.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
+#include "displacement/solve/clusters/stages.h"
 
 #include "base/union_find.h"
 

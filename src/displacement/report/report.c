@@ -1,6 +1,6 @@
 /* The report: what was done, feature by feature, and what remains. */
 #include "displacement/report/report.h"
-#include "displacement/proofs/feasibility.h"
+#include "displacement/prove/proofs/feasibility.h"
 
 #include <math.h>
 

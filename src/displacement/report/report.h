@@ -2,8 +2,8 @@
 #ifndef SUNDER_I_REPORT_H
 #define SUNDER_I_REPORT_H
 
-#include "displacement/areas/areas.h"
-#include "displacement/clusters/solver.h"
+#include "displacement/prove/areas/areas.h"
+#include "displacement/solve/clusters/solver.h"
 
 /* ---- report.c ---------------------------------------------------------------------------------------------------- */
 
@@ -55,7 +55,7 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
 /* The report on a layer in the order of work, as one on the layer as it was given: number[k] is what feature k was. */
 sunder_status sunder_i_report_renumber(sunder_report *report, const uint32_t *number, sunder_error *err);
 
-/* ---- conflicts.c ------------------------------------------------------------------------------------------------- */
+/* ---- remaining_conflicts.c --------------------------------------------------------------------------------------- */
 
 /* Fills the report's conflicts from the relations as the features stand. start: the relations and placement before
  * anything moved (equal to the others in a check). reasons: fill the reason of what remains between blocks, as far
@@ -77,7 +77,7 @@ void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relati
  * any is asked, while it is sought or reported. */
 sunder_status sunder_i_report_find_seams(sunder_i_solver *solver, sunder_error *err);
 
-/* ---- alone.c ----------------------------------------------------------------------------------------------------- */
+/* ---- pair_reasons.c ---------------------------------------------------------------------------------------------- */
 
 /* Why conflicts between blocks remain, as far as each pair itself tells: `fixed`, `max_shift`, `side`, `jump`,
  * decided exactly; else `unresolved`. Of a side or a jump the proof that it was decided by; of a limit one, if trees
@@ -162,14 +162,14 @@ sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver 
 sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_solver *solver, sunder_i_parts *parts,
                                          sunder_i_bound_trees *trees, sunder_error *err);
 
-/* ---- pushes.c ---------------------------------------------------------------------------------------------------- */
+/* ---- contact_pushes.c -------------------------------------------------------------------------------------------- */
 
 /* How hard pairs in contact are pressed, where that is wanted. */
 sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *solver, sunder_error *err);
 
 /* ---- no_room.c --------------------------------------------------------------------------------------------------- */
 
-/* Answers a question about a few bodies: sunder_i_decide() (proofs/feasibility.h). */
+/* Answers a question about a few bodies: sunder_i_decide() (prove/proofs/feasibility.h). */
 struct sunder_i_subproblem;
 struct sunder_i_decision;
 typedef sunder_status (*sunder_i_decide_subproblem)(const struct sunder_i_subproblem *subproblem,

@@ -3,10 +3,11 @@
  * none.
  *
  * A question is about the two bodies of a conflict, and whoever of their clusters joins them, which those do that have
- * a limit (proofs/participants.c). Each goes no farther than its limit; of the two of a conflict, where they have none,
- * no farther than what takes them apart for certain (alone.c). Looked at is whoever is within the gap of where one may
- * go, and, where the moves of two are asked about as one, what cannot move within the gap of where both may go
- * (proofs/plane_obstacles.c). Seams of others are never looked at: nothing changes if there are more of them. */
+ * a limit (prove/proofs/participants.c). Each goes no farther than its limit; of the two of a conflict, where they have
+ * none, no farther than what takes them apart for certain (pair_reasons.c). Looked at is whoever is within the gap of
+ * where one may go, and, where the moves of two are asked about as one, what cannot move within the gap of where both
+ * may go (prove/proofs/plane_obstacles.c). Seams of others are never looked at: nothing changes if there are more of
+ * them. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
@@ -78,7 +79,7 @@ static void ask_all(looking *l)
 }
 
 /* While it is sought: all conflicts that hang together with one that was given up, since these are asked about together
- * (clusters/reconsider.c), and the clusters of the two, since those are by themselves. */
+ * (solve/clusters/reconsider.c), and the clusters of the two, since those are by themselves. */
 static bool ask_given_up(looking *l)
 {
     const sunder_i_model *model = &l->solver->model;

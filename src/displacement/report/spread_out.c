@@ -12,9 +12,9 @@
  *
  * Boxes that stand slanted ask for more than their features do, and what is no box may still be in conflict: who
  * asks has to look. */
-#include "displacement/clusters/solver.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
+#include "displacement/solve/clusters/solver.h"
 
 #include "base/extremes.h"
 

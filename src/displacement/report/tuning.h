@@ -42,7 +42,7 @@
 #define CROWD_REDUCING_EACH 30000u
 #define CROWD_EFFORT 30000u
 
-/* ---- A pair by itself (alone.c) ---------------------------------------------------------------------------------- */
+/* ---- A pair by itself (pair_reasons.c) --------------------------------------------------------------------------- */
 
 /* The effort for a proof that it has no solution without a jump, or on its sides: some ten milliseconds; and how many
  * bodies may take part, most of them parts of barriers. */
@@ -71,7 +71,7 @@
  * share, none are made. */
 #define TREES_SHORT 0x1p-28
 
-/* ---- What holds the features where they are (pushes.c) ----------------------------------------------------------- */
+/* ---- What holds the features where they are (contact_pushes.c) --------------------------------------------------- */
 
 /* A limit is reached by a move that is this share shorter; and to what share of the moves their program is solved. */
 #define AT_LIMIT 0x1p-20

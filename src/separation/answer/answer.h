@@ -3,7 +3,7 @@
 #ifndef SUNDER_I_ANSWER_H
 #define SUNDER_I_ANSWER_H
 
-#include "separation/operands/operands.h"
+#include "separation/operands/pair_operands.h"
 
 typedef struct sunder_i_least_options {
     const double *tp, *tq;          /* exact translations, or NULL */

@@ -7,7 +7,7 @@
  *
  * Squares are covered by more than all rounding, and a distance that exceeds the gap by less than 2^-17 of the
  * magnitude counts as near: so where it is uncertain which of two squares holds a point, or a point beside it
- * (rational.c), either square will do. */
+ * (step_to_rational.c), either square will do. */
 #include "base/extremes.h"
 #include "base/invariant.h"
 #include "separation/gap/gap.h"

@@ -6,7 +6,7 @@
 
 #include "number/surd.h"
 #include "separation/answer/answer.h"
-#include "separation/obstacle/reduced_convolution.h"
+#include "separation/obstacle/pair_convolution.h"
 
 /* Makes a number larger by far more than the rounding of some doubles, or of some floats, and by nothing that costs. */
 #define SUNDER_I_GAP_MORE (1 + 0x1p-40)
@@ -125,7 +125,7 @@ unsigned long sunder_i_surd_point_digits(sunder_i_operands *operands, const sund
 /* The distance from the origin in units, rounded down, of a point known to `bits` bits. */
 double sunder_i_surd_point_length_down(sunder_i_operands *operands, const sunder_i_big xy[2], unsigned long bits);
 
-/* ---- The exact check (verify.c) ---- */
+/* ---- The exact check (verify_gap.c) ---- */
 
 /* P and Q + t, t rational, are the gap apart: asked again of every pair of pieces, without the subsums. Exact. */
 bool sunder_i_gap_verify(const sunder_i_gap_problem *problem, const sunder_i_surd_point *t);

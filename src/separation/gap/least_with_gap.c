@@ -2,9 +2,9 @@
  *
  * The problem is set up on the lattice, with the gap beside it as a fraction of its own: a gap of many digits does not
  * make the lattice finer. The origin is tested first. Then candidates for boundary are listed, all of them or those
- * that the search by squares finds to matter, and the search begins (search.c). Its result, and the doubles nearest to
- * it, are checked against every pair of pieces (verify.c). */
-#include "separation/gap/search.h"
+ * that the search by squares finds to matter, and the search begins (gap_search.c). Its result, and the doubles nearest
+ * to it, are checked against every pair of pieces (verify_gap.c). */
+#include "separation/gap/gap_search.h"
 
 #include "base/sort.h"
 #include "separation/squares/squares.h"

@@ -1,5 +1,5 @@
 /* The search with a gap: points that nothing is known to cover are solved for, and asked exactly. */
-#include "separation/gap/search.h"
+#include "separation/gap/gap_search.h"
 
 #include <math.h>
 

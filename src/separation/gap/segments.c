@@ -2,7 +2,7 @@
  * subsum covers to another one that it covers, since it is convex. The walk ends at the exact place where the line
  * leaves the last subsum; points.c decides about it, and if it is covered after all, by less than the margin, the walk
  * continues exactly from there, subsum by subsum, until certain steps are possible again. */
-#include "separation/gap/search.h"
+#include "separation/gap/gap_search.h"
 
 #include "separation/operands/fan.h"
 

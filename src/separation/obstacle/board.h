@@ -3,7 +3,7 @@
 #ifndef SUNDER_I_BOARD_H
 #define SUNDER_I_BOARD_H
 
-#include "separation/operands/operands.h"
+#include "separation/operands/pair_operands.h"
 
 /* A board of n x n squares over [-reach, reach] in both coordinates. */
 typedef struct sunder_i_board {

@@ -3,7 +3,7 @@
 #ifndef SUNDER_I_CARRIER_H
 #define SUNDER_I_CARRIER_H
 
-#include "separation/operands/operands.h"
+#include "separation/operands/pair_operands.h"
 
 /* From a (t = 0) to b (t = 1); d = b - a. */
 typedef struct sunder_i_carrier {

@@ -3,7 +3,7 @@
 #ifndef SUNDER_I_CONES_H
 #define SUNDER_I_CONES_H
 
-#include "separation/operands/operands.h"
+#include "separation/operands/pair_operands.h"
 #include "spatial/lanes.h"
 
 /* The direction of an edge: a number that grows with the angle, a whole turn being 2^32, so that differences come round

@@ -4,7 +4,7 @@
  * A core with corners evenly spaced along the piece keeps most of it together; what is left beyond each of its sides is
  * a cap, which is cut likewise. The parts are convex and make up the piece, so with them for pieces all that is said of
  * subsums holds as before: it does so for any pieces that make up an operand. */
-#include "separation/operands/operands.h"
+#include "separation/operands/pair_operands.h"
 
 #include <string.h>
 

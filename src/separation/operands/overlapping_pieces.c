@@ -2,7 +2,7 @@
  * exactly if a side of one of them has all of the other on its right, or on it: the separating axis theorem, in the
  * plane and for closed sets that may touch. One of the pieces may be a segment, with two sides, there and back, or a
  * point, which has none: then the question is whether the other's interior meets it. */
-#include "separation/operands/operands.h"
+#include "separation/operands/pair_operands.h"
 
 /* Does a side of piece i of operand `side` have all of piece j of the other one on its right, or on it? */
 static bool side_parts(sunder_i_operands *g, int side, uint32_t i, uint32_t j)

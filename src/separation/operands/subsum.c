@@ -1,6 +1,6 @@
 /* Convex subsums: which of them matter, and their corners. The sum of two convex polygons has the sides of both, merged
  * by direction. */
-#include "separation/operands/operands.h"
+#include "separation/operands/pair_operands.h"
 
 #include "base/extremes.h"
 #include "base/invariant.h"

@@ -1,6 +1,6 @@
 /* Are the nearest doubles of a translation free as well? A double is an integer over a power of two on the lattice;
  * where both fit 128 bits the sides of the subsums are asked in these, else in big integers, and doubles first. */
-#include "separation/penetration/search.h"
+#include "separation/penetration/penetration_search.h"
 
 #include "predicate/rational_point.h"
 #include "separation/answer/answer.h"

@@ -1,8 +1,9 @@
-/* How deep are two sets in each other? The nearest point that no subsum covers is looked for (search.c), classified
- * (contact.c), asked again of every pair of pieces (verify.c), and written down. Only then is anything given. */
+/* How deep are two sets in each other? The nearest point that no subsum covers is looked for (penetration_search.c),
+ * classified (free_point_kind.c), asked again of every pair of pieces (verify_penetration.c), and written down. Only
+ * then is anything given. */
 #include "separation/penetration/penetration.h"
 
-#include "separation/penetration/search.h"
+#include "separation/penetration/penetration_search.h"
 
 #include <math.h>
 

@@ -7,7 +7,7 @@
 #ifndef SUNDER_I_DOP_TREE_H
 #define SUNDER_I_DOP_TREE_H
 
-#include "separation/operands/operands.h"
+#include "separation/operands/pair_operands.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef SUNDER_I_QUADTREE_H
 #define SUNDER_I_QUADTREE_H
 
-#include "separation/operands/operands.h"
+#include "separation/operands/pair_operands.h"
 
 /* What a box of the quartering is, if it is not quartered further. */
 enum { SUNDER_I_QUADTREE_FULL = -1, SUNDER_I_QUADTREE_REST = -2 };

@@ -4,7 +4,7 @@
 #ifndef SUNDER_I_SQUARES_H
 #define SUNDER_I_SQUARES_H
 
-#include "separation/obstacle/reduced_convolution.h"
+#include "separation/obstacle/pair_convolution.h"
 
 typedef struct sunder_i_squares sunder_i_squares;
 

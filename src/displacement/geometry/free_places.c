@@ -1,0 +1,384 @@
+/* Places outside a union of open convex polygons, nearest first.
+ *
+ * On the boundary of the union the distance from a target has local minima only at feet of perpendiculars on walls and
+ * where two walls of different obstacles cross: at a corner of one obstacle the distance falls along one of its two
+ * walls. So these are all the candidates; they are taken by distance, and each is tested against all obstacles. Walls
+ * are sorted by distance, and a crossing is no nearer than the farther of its walls, so the search stops as soon as the
+ * walls left are farther than the places found. Among many obstacles the plane about the target is cut into cells
+ * (cells.c): a point asks those that meet its cell, and walls in cells that one obstacle holds are left out at once.
+ * What is counted as work is what it would be without cells, so that these change no result.
+ *
+ * Everything here is in doubles. A place found is a proposal; whether it is free is decided exactly elsewhere. */
+#include "displacement/geometry/free_places.h"
+#include "displacement/geometry/cells.h"
+#include "displacement/geometry/tuning.h"
+
+#include "base/invariant.h"
+#include "base/memory.h"
+#include "base/watch.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A wall, by how far it is from the target. */
+typedef struct near_wall {
+    double distance;
+    const sunder_i_obstacle_side *wall;
+} near_wall;
+
+/* The nearer one; of equals one of the lesser obstacle, then by its normal, then the earlier one. */
+static bool comes_before(const void *a, const void *b)
+{
+    const near_wall *p = a, *q = b;
+    if (p->distance != q->distance) return p->distance < q->distance;
+    const sunder_i_obstacle_side *v = p->wall, *w = q->wall;
+    if (v->obstacle != w->obstacle) return v->obstacle < w->obstacle;
+    if (v->n[0] != w->n[0]) return v->n[0] < w->n[0];
+    return v->n[1] != w->n[1] ? v->n[1] < w->n[1] : v < w;
+}
+
+/* The point of the wall nearest to x. */
+static void nearest_on(const sunder_i_obstacle_side *w, const double x[2], double out[2])
+{
+    const double ex = w->to[0] - w->from[0], ey = w->to[1] - w->from[1], square = ex * ex + ey * ey;
+    double s = square > 0 ? ((x[0] - w->from[0]) * ex + (x[1] - w->from[1]) * ey) / square : 0;
+    s = s < 0 ? 0 : s > 1 ? 1 : s;
+    out[0] = w->from[0] + s * ex;
+    out[1] = w->from[1] + s * ey;
+}
+
+typedef struct harvest {
+    const sunder_i_obstacles *obstacles;
+    const double *target;
+    double limit, spread;
+    size_t most, n;
+    uint32_t *order; /* the obstacles, those that are hit often move to the front */
+    sunder_i_cells cells;
+    double (*place)[2];
+    double *distance;
+    uint64_t work; /* done so far, in constraints looked at */
+} harvest;
+
+/* A segment, or a point, with its box. */
+typedef struct span {
+    double end[2][2], box[4];
+} span;
+
+static inline span span_of(const double a[2], const double b[2])
+{
+    return (span){
+        {{a[0], a[1]}, {b[0], b[1]}},
+        {a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1], a[0] < b[0] ? b[0] : a[0], a[1] < b[1] ? b[1] : a[1]}};
+}
+
+/* Is it within the box, and within those lines? */
+static inline bool is_in_box(const double box[4], const span *of)
+{
+    return (of->box[0] > box[0]) & (of->box[2] < box[2]) & (of->box[1] > box[1]) & (of->box[3] < box[3]);
+}
+
+static inline bool is_in_lines(const harvest *h, uint32_t obstacle, const span *of)
+{
+    const sunder_i_obstacle *it = &h->obstacles->obstacle[obstacle];
+    const sunder_i_obstacle_line *line = h->obstacles->line + it->wall, *end = line + it->walls;
+    for (; line < end; line++)
+        if (line->n[0] * of->end[0][0] + line->n[1] * of->end[0][1] >= line->h ||
+            line->n[0] * of->end[1][0] + line->n[1] * of->end[1][1] >= line->h)
+            return false;
+    return true;
+}
+
+/* Does one of those about that cell, but for `own`, hold all of it? First one that held another thing there. */
+static bool is_held_about(harvest *h, const sunder_i_cell *c, const span *of, uint32_t own)
+{
+    sunder_i_cell_entry *first = h->cells.entry + c->first, *end = first + c->n;
+    for (sunder_i_cell_entry *e = first; e < end; e++) {
+        if (!is_in_box(e->box, of) || e->obstacle == own || !is_in_lines(h, e->obstacle, of)) continue;
+        const sunder_i_cell_entry hit = *e;
+        sunder_i_cell_entry *ahead = first + (e - first) / 2;
+        *e = *ahead;
+        *ahead = hit;
+        return true;
+    }
+    return false;
+}
+
+/* Does one obstacle, but for `own`, hold all of it? Who does is about each place of it, so it is asked of those about
+ * x, a place of it, or an end, wherever they are fewest. */
+static bool is_held(harvest *h, const span *of, const double x[2], uint32_t own)
+{
+    const double *place[3] = {x, of->end[0], of->end[1]};
+    sunder_i_cell *fewest = NULL;
+    for (size_t k = 0; k < 3; k++) {
+        uint32_t cell;
+        if (sunder_i_cells_find(&h->cells, place[k], &cell) && (!fewest || h->cells.cell[cell].n < fewest->n))
+            fewest = &h->cells.cell[cell];
+    }
+    if (fewest) return is_held_about(h, fewest, of, own);
+    const sunder_i_obstacles *o = h->obstacles;
+    for (size_t k = 0; k < o->n; k++) {
+        const uint32_t hit = h->order[k];
+        if (hit == own || !is_in_box(o->obstacle[hit].box, of) || !is_in_lines(h, hit, of)) continue;
+        h->order[k] = h->order[k / 2];
+        h->order[k / 2] = hit;
+        return true;
+    }
+    return false;
+}
+
+/* n obstacles, or walls, are looked at; most of them briefly. */
+static uint64_t work_of(size_t n) { return 1 + n / TESTS_A_STEP; }
+
+static bool work(harvest *h, size_t n)
+{
+    h->work += work_of(n);
+    return sunder_i_steps(1 + n / TESTS_A_WATCH);
+}
+
+/* Takes x if it is free and better than what is there: the places stay sorted, and of two nearer than `spread` the
+ * nearer stays. */
+static void offer(harvest *h, const double x[2])
+{
+    const double d = hypot(x[0] - h->target[0], x[1] - h->target[1]);
+    if (!(d <= h->limit) || (h->n == h->most && d >= h->distance[h->n - 1])) return;
+    if (!work(h, h->obstacles->n)) return;
+    for (size_t k = 0; k < h->n && h->distance[k] <= d; k++)
+        if (hypot(x[0] - h->place[k][0], x[1] - h->place[k][1]) <= h->spread) return;
+    const span point = span_of(x, x);
+    if (is_held(h, &point, x, SUNDER_I_NO_ENTRY)) return;
+    size_t k = 0;
+    while (k < h->n && h->distance[k] <= d) k++;
+    /* Those behind that are too near the new one go. */
+    size_t out = k;
+    for (size_t i = k; i < h->n; i++)
+        if (hypot(x[0] - h->place[i][0], x[1] - h->place[i][1]) > h->spread) {
+            memmove(h->place[out], h->place[i], sizeof h->place[i]);
+            h->distance[out++] = h->distance[i];
+        }
+    h->n = out;
+    if (h->n == h->most) h->n--;
+    for (size_t i = h->n; i > k; i--) {
+        memcpy(h->place[i], h->place[i - 1], sizeof h->place[i]);
+        h->distance[i] = h->distance[i - 1];
+    }
+    h->place[k][0] = x[0];
+    h->place[k][1] = x[1];
+    h->distance[k] = d;
+    h->n++;
+}
+
+static double reach_of(const harvest *h) { return h->n == h->most ? h->distance[h->n - 1] : h->limit; }
+
+/* Crossings of wall w with every wall before it. */
+static void offer_crossings(harvest *h, const sunder_i_obstacle_side *wall, size_t w)
+{
+    const sunder_i_obstacle_side *a = &wall[w];
+    h->work += w;
+    for (size_t v = 0; v < w; v++) {
+        const sunder_i_obstacle_side *b = &wall[v];
+        if (a->obstacle == b->obstacle) continue;
+        const double d1 = b->n[0] * a->from[0] + b->n[1] * a->from[1] - b->h,
+                     d2 = b->n[0] * a->to[0] + b->n[1] * a->to[1] - b->h;
+        if ((d1 > 0) == (d2 > 0)) continue;
+        const double e1 = a->n[0] * b->from[0] + a->n[1] * b->from[1] - a->h,
+                     e2 = a->n[0] * b->to[0] + a->n[1] * b->to[1] - a->h;
+        if ((e1 > 0) == (e2 > 0)) continue;
+        const double s = d1 / (d1 - d2),
+                     x[2] = {a->from[0] + s * (a->to[0] - a->from[0]), a->from[1] + s * (a->to[1] - a->from[1])};
+        offer(h, x);
+    }
+}
+
+/* Does one obstacle hold the whole wall? Most walls are deep inside the union. Its own does not. */
+static bool is_covered(harvest *h, const sunder_i_obstacle_side *w, const double foot[2])
+{
+    const span all = span_of(w->from, w->to);
+    return is_held(h, &all, foot, w->obstacle);
+}
+
+/* The same by cells alone: one obstacle holds those of both ends, and what is between them; or that of one, and the
+ * wall. */
+static bool is_covered_by_cells(const harvest *h, const sunder_i_obstacle_side *w)
+{
+    uint32_t from, to;
+    if (!sunder_i_cells_find(&h->cells, w->from, &from) || !sunder_i_cells_find(&h->cells, w->to, &to)) return false;
+    const uint32_t holder[2] = {h->cells.cell[from].holder, h->cells.cell[to].holder};
+    if (holder[0] != SUNDER_I_NO_ENTRY && holder[0] == holder[1]) return true;
+    const span all = span_of(w->from, w->to);
+    for (size_t k = 0; k < 2; k++)
+        if (holder[k] != SUNDER_I_NO_ENTRY && holder[k] != w->obstacle &&
+            is_in_box(h->obstacles->obstacle[holder[k]].box, &all) && is_in_lines(h, holder[k], &all))
+            return true;
+    return false;
+}
+
+static int by_distance(const void *a, const void *b) { return comes_before(b, a) - comes_before(a, b); }
+
+/* Walls that may matter, n of them; those that one obstacle covers were left out, or will be. */
+typedef struct walls {
+    near_wall *near; /* shelf after shelf, each as it comes */
+    size_t first[SHELVES + 1];
+    sunder_i_obstacle_side *bare; /* those that are not covered, the nearest first */
+    size_t bares;
+    double *covered; /* how far those are that are */
+    size_t left_out;
+} walls;
+
+/* What is on one shelf: feet on those that are not covered. Which ones are is asked before they are sorted: it is most
+ * of them. */
+static bool search_shelf(harvest *h, walls *all, size_t shelf)
+{
+    near_wall *near = all->near + all->first[shelf];
+    size_t n = 0;
+    for (size_t k = 0; k < all->first[shelf + 1] - all->first[shelf]; k++) {
+        double x[2];
+        nearest_on(near[k].wall, h->target, x);
+        if (is_covered(h, near[k].wall, x)) {
+            all->covered[all->left_out++] = near[k].distance;
+        } else {
+            near[n] = near[k];
+            near[n++].distance = hypot(x[0] - h->target[0], x[1] - h->target[1]);
+        }
+        if (!sunder_i_steps(1 + h->obstacles->n / TESTS_A_WATCH)) return false;
+    }
+    if (n) qsort(near, n, sizeof *near, by_distance);
+    for (size_t k = 0; k < n && near[k].distance <= h->limit && near[k].distance <= reach_of(h); k++) {
+        double x[2];
+        if (!work(h, h->obstacles->n)) return false;
+        nearest_on(near[k].wall, h->target, x);
+        offer(h, x);
+        all->bare[all->bares] = *near[k].wall;
+        all->bare[all->bares++].distance = near[k].distance;
+    }
+    return true;
+}
+
+/* The nearest wall of a shelf is no nearer than this. */
+static double distance_of(const harvest *h, size_t shelf)
+{
+    return shelf ? h->limit * (1 - 0x1p-40) * ((double)shelf / SHELVES) : 0;
+}
+
+/* Feet on the walls, then crossings of walls. */
+static void search(harvest *h, walls *all)
+{
+    for (size_t k = 0; k < SHELVES; k++) {
+        if (all->first[k] == all->first[k + 1]) continue;
+        if (!(distance_of(h, k) <= reach_of(h))) break;
+        if (!search_shelf(h, all, k)) return;
+    }
+    for (size_t k = 0; k < all->left_out; k++)
+        if (all->covered[k] <= reach_of(h)) h->work += work_of(h->obstacles->n);
+    for (size_t k = 0; k < all->bares && k < MOST_CROSSED && all->bare[k].distance <= reach_of(h); k++)
+        offer_crossings(h, all->bare, k);
+}
+
+#ifndef NDEBUG
+static const char *check(const harvest *h)
+{
+    for (size_t k = 0; k < h->n; k++)
+        if (!(h->distance[k] <= h->limit) || (k && h->distance[k - 1] > h->distance[k])) return "places are not sorted";
+    return NULL;
+}
+#endif
+
+/* Is all of the obstacle farther than that from the target, by squares? */
+static bool is_beyond(const sunder_i_obstacle *obstacle, const double target[2], double square)
+{
+    double sum = 0;
+    for (int c = 0; c < 2; c++) {
+        const double low = obstacle->box[c] - target[c], high = target[c] - obstacle->box[c + 2];
+        sum += low > 0 ? low * low : high > 0 ? high * high : 0;
+    }
+    return sum > square;
+}
+
+/* Is the line of the wall farther from the target than that, by more than rounding makes of it? */
+static bool is_line_beyond(const sunder_i_obstacle_side *wall, const double target[2], double limit)
+{
+    const double x = wall->n[0] * target[0], y = wall->n[1] * target[1];
+    const double size =
+        fabs(x) + fabs(y) + fabs(wall->from[0]) + fabs(wall->from[1]) + fabs(wall->to[0]) + fabs(wall->to[1]);
+    return fabs(x + y - wall->h) > limit * (1 + 0x1p-20) + 0x1p-40 * size;
+}
+
+/* Walls that may matter, of those within the limit, by about how far they are: into list. Most are farther off, by
+ * squares, which are told apart from the limit's by more than rounding makes of them. Returns how many. */
+static size_t gather(const harvest *h, near_wall *list, walls *all)
+{
+    const sunder_i_obstacles *o = h->obstacles;
+    const double beyond = h->limit * h->limit * (1 + 0x1p-40) + DBL_MIN;
+    size_t n = 0;
+    for (size_t i = 0; i < o->n; i++) {
+        const sunder_i_obstacle *obstacle = &o->obstacle[i];
+        if (is_beyond(obstacle, h->target, beyond)) continue;
+        for (size_t k = obstacle->wall; k < obstacle->wall + obstacle->walls; k++) {
+            const sunder_i_obstacle_side *w = &o->wall[k];
+            double x[2];
+            if (is_line_beyond(w, h->target, h->limit)) continue;
+            nearest_on(w, h->target, x);
+            const double dx = x[0] - h->target[0], dy = x[1] - h->target[1];
+            if (dx * dx + dy * dy > beyond) continue;
+            const double distance = sqrt(dx * dx + dy * dy);
+            if (is_covered_by_cells(h, w))
+                all->covered[all->left_out++] = distance;
+            else
+                list[n++] = (near_wall){distance, w};
+        }
+    }
+    return n;
+}
+
+static size_t shelf_of(const harvest *h, double distance)
+{
+    const double share = distance / h->limit * SHELVES;
+    return share < SHELVES - 1 ? (size_t)share : SHELVES - 1;
+}
+
+/* Puts them on shelves, by distance. */
+static void shelve(const harvest *h, const near_wall *list, size_t n, walls *all)
+{
+    size_t *end = all->first;
+    memset(end, 0, sizeof all->first);
+    for (size_t k = 0; k < n; k++) end[shelf_of(h, list[k].distance) + 1]++;
+    for (size_t k = 0; k < SHELVES; k++) end[k + 1] += end[k];
+    for (size_t k = n; k-- > 0;) all->near[--end[shelf_of(h, list[k].distance) + 1]] = list[k];
+    /* Each shelf's end came down to its beginning. */
+    memmove(all->first, all->first + 1, SHELVES * sizeof *all->first);
+    all->first[SHELVES] = n;
+}
+
+size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2], double limit, double spread,
+                            size_t most, double (*places)[2], uint64_t *steps, bool *failed)
+{
+    double distance[MOST_PLACES];
+    harvest h = {.obstacles = o, .target = target, .limit = limit, .spread = spread, .place = places};
+    h.distance = distance;
+    h.most = most < MOST_PLACES ? most : MOST_PLACES;
+    const size_t each = 2 * sizeof(near_wall) + sizeof(sunder_i_obstacle_side) + sizeof(double);
+    char *memory = sunder_i_alloc(o->walls * each + o->n * sizeof *h.order, 1);
+    if (!memory || o->failed) {
+        *failed = true;
+    } else if (h.most) {
+        walls all = {.near = (near_wall *)(void *)memory};
+        near_wall *list = all.near + o->walls;
+        all.bare = (sunder_i_obstacle_side *)(void *)(list + o->walls);
+        all.covered = (double *)(void *)(all.bare + o->walls);
+        h.order = (uint32_t *)(void *)(all.covered + o->walls);
+        for (size_t k = 0; k < o->n; k++) h.order[k] = (uint32_t)k;
+        offer(&h, target);
+        if (h.n == 0 && !sunder_i_cells_make(o, target, limit, &h.cells)) *failed = true;
+        if (h.n == 0 && !*failed) {
+            shelve(&h, list, gather(&h, list, &all), &all);
+            search(&h, &all);
+        }
+        *failed = *failed || sunder_i_stopped();
+    }
+    SUNDER_I_CHECK(check(&h), h.n);
+    *steps += h.work + 2 * o->walls;
+    sunder_i_cells_free(&h.cells);
+    sunder_i_free(memory);
+    return h.n;
+}

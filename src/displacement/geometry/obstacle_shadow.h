@@ -1,0 +1,35 @@
+/* The shadow of a convex obstacle from the origin; see obstacle_shadow.c. */
+#ifndef SUNDER_I_OBSTACLE_SHADOW_H
+#define SUNDER_I_OBSTACLE_SHADOW_H
+
+#include "displacement/geometry/obstacle.h"
+
+/* Edges of { s k : k in K, s >= 1 } for the convex polygon K of n corners, counter-clockwise; a point or a segment will
+ * do. The first and the last are rays and begin at K: from the one the shadow lies to the right as one looks out, from
+ * the other to the left; between them stand the sides of K that the origin sees. Returns how many, at most n + 1; 0
+ * where the origin is in K, or too near to tell. edge: room for n + 1. */
+size_t sunder_i_shadow_edges(const double *k, size_t n, sunder_i_obstacle_edge *edge);
+/* The support line of such a shadow that is farthest below u. */
+sunder_i_support sunder_i_shadow_support_at(const sunder_i_obstacle_edge *edge, size_t n, const double u[2]);
+/* The shadow as a polygon that holds all of it up to the distance `far` from the origin: its corners into out, room for
+ * n + 3. Returns how many. */
+size_t sunder_i_shadow_corners(const sunder_i_obstacle_edge *edge, size_t n, double far, double *out);
+
+/* The box of the segment from the origin to u, grown by reach: a shadow within reach of u is cast by what meets it. */
+static inline void sunder_i_shadow_way(const double u[2], double reach, double way[4])
+{
+    for (int c = 0; c < 2; c++) {
+        way[c] = (u[c] < 0 ? u[c] : 0) - reach;
+        way[c + 2] = (u[c] > 0 ? u[c] : 0) + reach;
+    }
+}
+
+/* Does the obstacle of what is in box a and what is in box b, whose origin is at `offset`, meet it? By their boxes. */
+static inline bool sunder_i_shadow_may_reach(const double a[4], const double b[4], const double offset[2],
+                                             const double way[4])
+{
+    return a[0] - b[2] - offset[0] <= way[2] && a[2] - b[0] - offset[0] >= way[0] &&
+           a[1] - b[3] - offset[1] <= way[3] && a[3] - b[1] - offset[1] >= way[1];
+}
+
+#endif

@@ -1,0 +1,202 @@
+/* Barriers in parts.
+ *
+ * A barrier may be one long road, or a landuse of a hundred thousand corners, and what stands near it stands near some
+ * metres of it. So it is taken as convex pieces (a line's segments, points, the pieces of a polygonal set), of which a
+ * few that lie together make a part: and parts are what features have relations to, what is indexed by boxes, and what
+ * the search knows as fixed bodies. What is said of a feature and a barrier, though, is said of the whole of it: how
+ * deep the one lies in the other, by which least translation it leaves, whether that is worse than it was. None of
+ * these looks farther than it is long, so the pieces that come so near answer for all (barrier_pairs.c).
+ *
+ *   a point repeated in a line    it is there once; a line of one place is a point
+ *   no area, no points            a barrier without parts, which is in nobody's way */
+#include "displacement/layer/barrier_parts.h"
+
+#include "base/error.h"
+#include "base/extremes.h"
+#include "base/watch.h"
+#include "spatial/curve.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Pieces of a part: so few that a feature beside one of them seldom has to be asked about the others, so many that a
+ * town's roads make no more bodies than its houses do. */
+#define PIECES 8
+
+void sunder_i_barriers_free(sunder_i_barriers *b)
+{
+    for (uint32_t k = 0; b->shape && k < b->parts; k++) sunder_shape_free(b->shape[k]);
+    sunder_i_free(b->shape);
+    sunder_i_free(b->piece);
+    sunder_i_free(b->piece_end);
+    sunder_i_free(b->barrier);
+    sunder_i_free(b->part_end);
+    sunder_i_free(b->half);
+    sunder_i_free(b->required);
+    memset(b, 0, sizeof *b);
+}
+
+/* ---- Pieces ------------------------------------------------------------------------------------------------------ */
+
+typedef struct making {
+    sunder_i_barriers *out;
+    size_t pieces, piece_capacity, part_capacity, barrier_capacity;
+} making;
+
+static bool add_piece(making *m, const sunder_i_piece_of *piece)
+{
+    if (!sunder_i_reserve(&m->out->piece, &m->piece_capacity, m->pieces + 1, sizeof *piece)) return false;
+    m->out->piece[m->pieces++] = *piece;
+    return sunder_i_step();
+}
+
+/* Ends a part, if there are pieces for one. */
+static bool end_part(making *m, uint32_t barrier)
+{
+    sunder_i_barriers *b = m->out;
+    const size_t first = b->parts ? b->piece_end[b->parts - 1] : 0;
+    if (m->pieces == first) return true;
+    if (!sunder_i_reserve(&b->piece_end, &m->part_capacity, b->parts + 1, sizeof *b->piece_end) ||
+        !sunder_i_reserve(&b->barrier, &m->barrier_capacity, b->parts + 1, sizeof *b->barrier))
+        return false;
+    b->piece_end[b->parts] = (uint32_t)m->pieces;
+    b->barrier[b->parts++] = barrier;
+    return true;
+}
+
+/* The same where it is full. */
+static bool end_full_part(making *m, uint32_t barrier)
+{
+    const size_t first = m->out->parts ? m->out->piece_end[m->out->parts - 1] : 0;
+    return m->pieces - first < PIECES || end_part(m, barrier);
+}
+
+static bool add_line(making *m, uint32_t barrier, const double *xy, size_t n)
+{
+    bool any = false;
+    for (size_t k = 1; k < n; k++) {
+        const double *a = xy + 2 * (k - 1);
+        if (a[0] == a[2] && a[1] == a[3]) continue;
+        any = true;
+        if (!add_piece(m, &(sunder_i_piece_of){.n = 2, .xy = a}) || !end_full_part(m, barrier)) return false;
+    }
+    if (!any && n && !add_piece(m, &(sunder_i_piece_of){.n = 1, .xy = xy})) return false;
+    return end_part(m, barrier);
+}
+
+/* The pieces of a polygonal set along a curve, so that neighbours come together. */
+static bool add_shape(making *m, uint32_t barrier, const sunder_shape *shape)
+{
+    const uint32_t n = shape->pieces;
+    double *middle = sunder_i_alloc(2 * (size_t)n, sizeof *middle);
+    uint32_t *order = sunder_i_alloc(n, sizeof *order), *number = sunder_i_alloc(n, sizeof *number);
+    sunder_i_arena arena;
+    sunder_i_arena_init(&arena);
+    bool ok = middle && order && number;
+    for (uint32_t i = 0; ok && i < n; i++) {
+        double box[4];
+        sunder_i_piece_box(&(sunder_i_piece_of){.shape = shape, .piece = i}, box);
+        for (int c = 0; c < 2; c++) middle[2 * (size_t)i + (size_t)c] = box[c] / 2 + box[c + 2] / 2;
+        order[i] = number[i] = i;
+    }
+    if (ok && n > 1) sunder_i_curve_sort(middle, number, order, n, &arena);
+    ok = ok && !arena.failed;
+    for (uint32_t i = 0; ok && i < n; i++)
+        ok = add_piece(m, &(sunder_i_piece_of){.shape = shape, .piece = order[i]}) && end_full_part(m, barrier);
+    sunder_i_arena_free(&arena);
+    sunder_i_free(middle);
+    sunder_i_free(order);
+    sunder_i_free(number);
+    return ok && end_part(m, barrier);
+}
+
+static bool add_barrier(making *m, uint32_t k, const sunder_obstacle *o)
+{
+    if (o->shape && !add_shape(m, k, o->shape)) return false;
+    for (size_t i = 0, from = 0; i < o->lines; from = o->line_end[i++])
+        if (!add_line(m, k, o->xy + 2 * from, o->line_end[i] - from)) return false;
+    m->out->part_end[k] = m->out->parts;
+    return true;
+}
+
+/* ---- Parts ------------------------------------------------------------------------------------------------------- */
+
+/* half the width, and the gap: what rounding the sum leaves is a double [Knu97, 4.2.2]. */
+static void require(double half, double gap, double out[2])
+{
+    const double sum = half + gap, back = sum - half;
+    out[0] = sum;
+    out[1] = (half - (sum - back)) + (gap - back);
+}
+
+static sunder_status make_shapes(sunder_i_barriers *b, sunder_error *err)
+{
+    b->shape = sunder_i_calloc(b->parts, sizeof *b->shape);
+    if (!b->shape) return sunder_i_no_memory(err);
+    for (uint32_t k = 0; k < b->parts; k++) {
+        const uint32_t first = k ? b->piece_end[k - 1] : 0;
+        const sunder_status status =
+            sunder_i_shape_of_pieces(b->piece + first, b->piece_end[k] - first, &b->shape[k], err);
+        if (status) return status;
+        b->flat = b->flat || b->shape[k]->flat;
+        if (!sunder_i_step()) return sunder_i_no_memory(err);
+    }
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, sunder_i_barriers *out, sunder_error *err)
+{
+    memset(out, 0, sizeof *out);
+    making m = {.out = out};
+    out->n = (uint32_t)layer->barriers;
+    out->part_end = sunder_i_alloc(layer->barriers, sizeof *out->part_end);
+    out->half = sunder_i_alloc(layer->barriers, sizeof *out->half);
+    out->required = sunder_i_alloc(layer->barriers, sizeof *out->required);
+    if (!out->part_end || !out->half || !out->required) return sunder_i_no_memory(err);
+    for (uint32_t k = 0; k < out->n; k++) {
+        const sunder_barrier *barrier = &layer->barrier[k];
+        out->half[k] = barrier->width / 2;
+        require(out->half[k], barrier->gap < 0 ? gap : barrier->gap, out->required[k]);
+        if (!isfinite(out->required[k][0]))
+            return sunder_i_fail(err, SUNDER_EARG, "barrier %u: half the width and the gap are too much for a double",
+                                 k);
+        out->farthest = sunder_i_max(out->farthest, sunder_i_required_above(out, k));
+        if (!add_barrier(&m, k, &barrier->geometry)) return sunder_i_no_memory(err);
+        if (m.pieces >= UINT32_MAX - layer->n)
+            return sunder_i_fail(err, SUNDER_ESIZE, "too many pieces of barriers: %zu", m.pieces);
+    }
+    return make_shapes(out, err);
+}
+
+/* ---- What is near ------------------------------------------------------------------------------------------------ */
+
+sunder_status sunder_i_barrier_near(const sunder_i_barriers *b, const sunder_i_rtree *tree, uint32_t first,
+                                    uint32_t barrier, const double box[4], double reach, bool areas, sunder_shape **out,
+                                    sunder_error *err)
+{
+    const uint32_t low = barrier ? b->part_end[barrier - 1] : 0, high = b->part_end[barrier];
+    sunder_i_list near = {0};
+    double grown[4];
+    sunder_i_piece_of *piece = NULL;
+    size_t n = 0, capacity = 0;
+    *out = NULL;
+    sunder_i_box_grow(box, reach, grown);
+    bool ok = sunder_i_rtree_query(tree, grown, &near);
+    if (ok && near.n) qsort(near.item, near.n, sizeof *near.item, sunder_i_by_number);
+    for (size_t k = 0; ok && k < near.n; k++) {
+        if (near.item[k] < first + low || near.item[k] >= first + high) continue;
+        const uint32_t part = near.item[k] - first;
+        for (uint32_t i = part ? b->piece_end[part - 1] : 0; ok && i < b->piece_end[part]; i++) {
+            double own[4];
+            sunder_i_piece_box(&b->piece[i], own);
+            if (!sunder_i_box_meet(own, grown) || (areas && !sunder_i_piece_has_area(&b->piece[i]))) continue;
+            ok = sunder_i_reserve(&piece, &capacity, n + 1, sizeof *piece);
+            if (ok) piece[n++] = b->piece[i];
+        }
+    }
+    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status && n) status = sunder_i_shape_of_pieces(piece, n, out, err);
+    sunder_i_free(piece);
+    sunder_i_free(near.item);
+    return status;
+}

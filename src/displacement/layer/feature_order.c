@@ -1,0 +1,132 @@
+/* The order in which features are worked on, which is no matter of how the caller lists them: by where they lie,
+ * then by their corners, then by what is asked of them. All that follows breaks ties by number (of bodies, of
+ * pieces, of pairs), so the same features in another order get the same moves; only twins that are alike in
+ * everything are told apart by their places in the list, and may change roles. Numbers go up with y, whatever else
+ * the layer holds: a feature far away changes the order of no two others. In the end the report speaks of features
+ * as the caller numbered them (report/renumber.c). */
+#include "displacement/layer/barrier_parts.h"
+
+#include "base/sort.h"
+#include "shape/shape.h"
+
+#include <math.h>
+#include <string.h>
+
+static int by_double(double a, double b) { return a < b ? -1 : a > b; }
+
+static int by_shape(const sunder_shape *a, const sunder_shape *b)
+{
+    if (a == b || !a || !b) return !a - !b;
+    if (a->vertices != b->vertices) return a->vertices < b->vertices ? -1 : 1;
+    int order = 0;
+    for (size_t k = 0; k < 2 * (size_t)a->vertices && order == 0; k++) order = by_double(a->xy[k], b->xy[k]);
+    return order;
+}
+
+static int by_demands(const sunder_feature *a, const sunder_feature *b)
+{
+    int order = by_double(a->weight, b->weight);
+    if (order == 0) order = by_double(a->max_shift, b->max_shift);
+    if (order == 0) order = a->fixed - b->fixed;
+    if (order == 0) order = a->ignored - b->ignored;
+    return order ? order : a->block < b->block ? -1 : a->block > b->block;
+}
+
+/* Where a feature lies, from below; what is absent lies beyond everything. */
+static void place_of(const sunder_layer *layer, uint32_t f, double box[4])
+{
+    const sunder_feature feature = sunder_i_given_feature(layer, f);
+    for (int c = 0; c < 4; c++) box[c] = INFINITY;
+    if (sunder_i_is_present(&feature)) sunder_shape_box(feature.shape, box);
+}
+
+/* What is alike in everything stays in the order of the list. */
+static int by_place(void *context, uint32_t x, uint32_t y)
+{
+    static const int side[4] = {1, 0, 3, 2};
+    const sunder_layer *layer = context;
+    double a[4], b[4];
+    place_of(layer, x, a);
+    place_of(layer, y, b);
+    int order = 0;
+    for (int c = 0; c < 4 && order == 0; c++) order = by_double(a[side[c]], b[side[c]]);
+    if (order == 0) order = by_shape(sunder_i_given_feature(layer, x).shape, sunder_i_given_feature(layer, y).shape);
+    return order ? order : by_demands(sunder_i_demands(layer, x), sunder_i_demands(layer, y));
+}
+
+/* Doubles and these are in the same order; both zeros are one. */
+static uint64_t ordered_bits(double v)
+{
+    const double sum = v + 0.0;
+    uint64_t bits;
+    memcpy(&bits, &sum, sizeof bits);
+    return bits >> 63 ? ~bits : bits | (uint64_t)1 << 63;
+}
+
+/* A key of each: its number, behind as many leading bits of its lower edge, less the lowest, as there is room for. Of
+ * two the one with the greater key lies no lower. */
+static void make_keys(const sunder_layer *layer, uint64_t *key)
+{
+    uint64_t lowest = UINT64_MAX, highest = 0;
+    int shift = 0;
+    for (size_t k = 0; k < layer->n; k++) {
+        double box[4];
+        place_of(layer, (uint32_t)k, box);
+        key[k] = ordered_bits(box[1]);
+        if (!(box[1] < INFINITY)) continue;
+        if (key[k] < lowest) lowest = key[k];
+        if (key[k] > highest) highest = key[k];
+    }
+    while (lowest <= highest && (highest - lowest) >> shift >= UINT32_MAX) shift++;
+    for (size_t k = 0; k < layer->n; k++) {
+        const uint64_t above = key[k] > highest ? UINT32_MAX : (key[k] - lowest) >> shift;
+        key[k] = above << 32 | k;
+    }
+}
+
+/* All by their lower edges at first, in one go; then those whose keys are alike by everything. */
+static bool sort_by_place(const sunder_layer *layer, uint32_t *number)
+{
+    uint64_t *key = sunder_i_alloc(layer->n, sizeof *key);
+    bool ok = key != NULL;
+    if (ok) make_keys(layer, key);
+    ok = ok && sunder_i_sort_keys(key, layer->n);
+    for (size_t k = 0; k < layer->n && ok; k++) number[k] = (uint32_t)key[k];
+    for (size_t first = 0, end; first < layer->n && ok; first = end) {
+        for (end = first + 1; end < layer->n && key[end] >> 32 == key[first] >> 32;) end++;
+        if (end > first + 1) ok = sunder_i_sort_indices(number + first, end - first, by_place, (void *)layer);
+    }
+    sunder_i_free(key);
+    return ok;
+}
+
+/* Parts of barriers behind the features, in the order of the barriers. */
+static void append_parts(const sunder_i_barriers *barriers, sunder_layer *out)
+{
+    for (uint32_t k = 0; k < barriers->parts; k++) {
+        out->part[k] =
+            (sunder_feature){.shape = barriers->shape[k], .weight = 1, .max_shift = 0, .block = -1, .fixed = true};
+        out->number[out->n + k] = (uint32_t)out->n + barriers->barrier[k];
+    }
+}
+
+void sunder_i_ordered_clear(sunder_layer *ordered)
+{
+    sunder_i_free(ordered->number);
+    sunder_i_free(ordered->part);
+    *ordered = (sunder_layer){0};
+}
+
+sunder_status sunder_i_order_layer(const sunder_layer *layer, const sunder_i_barriers *barriers, bool as_given,
+                                   sunder_layer *out, sunder_error *err)
+{
+    const size_t n = layer->n;
+    *out = (sunder_layer){.n = n, .barrier = layer->barrier, .barriers = layer->barriers, .given = layer};
+    out->part = sunder_i_alloc(barriers->parts, sizeof *out->part);
+    out->number = sunder_i_alloc(n + barriers->parts, sizeof *out->number);
+    bool ok = out->part && out->number;
+    for (size_t k = 0; ok && k < n && as_given; k++) out->number[k] = (uint32_t)k;
+    if (ok && !as_given) ok = sort_by_place(layer, out->number);
+    if (ok) append_parts(barriers, out);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}

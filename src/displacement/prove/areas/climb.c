@@ -1,0 +1,157 @@
+/* Payers, and grids that tell them well enough: on a coarse one prices spread in few rounds, on finer ones they are
+ * told better. */
+#include "displacement/prove/areas/climb.h"
+#include "displacement/prove/areas/tuning.h"
+
+#include "spatial/box.h"
+
+#include "base/extremes.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool has_area(const sunder_i_outline *outline) { return outline->rings && outline->area > 0; }
+
+/* Outlines, and the box of where they stood and stand. */
+static sunder_status find_outlines(sunder_i_climb *l, double about, sunder_error *err)
+{
+    double area = 0;
+    size_t n = 0;
+    sunder_i_box_clear(l->box);
+    for (size_t k = 0; k < l->n; k++) {
+        sunder_i_outline *o = &l->outline[k];
+        const sunder_status status = sunder_i_outline_make(l->model, l->body[k], o, err);
+        if (status) return status;
+        if (!has_area(o)) continue;
+        const double *t = l->model->move + 2 * (size_t)l->body[k];
+        for (int c = 0; c < 2; c++) {
+            l->box[c] = sunder_i_min(l->box[c], o->box[c] + sunder_i_min(t[c], 0));
+            l->box[2 + c] = sunder_i_max(l->box[2 + c], o->box[2 + c] + sunder_i_max(t[c], 0));
+        }
+        area += o->area;
+        n++;
+    }
+    l->size = n >= FEWEST ? sqrt(area / (double)n) : 0;
+    if (l->size > 0) sunder_i_box_grow(l->box, about * l->size, l->box);
+    return SUNDER_OK;
+}
+
+/* Nodes at multiples of `coarse` squares, so that coarser grids are among them, with a border all about. False: there
+ * would be too many. */
+static bool lay_grid(const sunder_i_climb *l, double side, unsigned coarse, sunder_i_grid *out)
+{
+    const double step = side * coarse, border = SUNDER_I_GRID_BORDER;
+    const double x = floor(l->box[0] / step) - border, y = floor(l->box[1] / step) - border;
+    const double columns = ceil(l->box[2] / step) + border - x, rows = ceil(l->box[3] / step) + border - y;
+    if (!((columns * coarse + 1) * (rows * coarse + 1) <= MOST_NODES && fabs(x) + fabs(y) < 0x1p40)) return false;
+    *out = (sunder_i_grid){.side = side,
+                           .x = (int64_t)x * coarse,
+                           .y = (int64_t)y * coarse,
+                           .columns = (size_t)columns * coarse + 1,
+                           .rows = (size_t)rows * coarse + 1};
+    return true;
+}
+
+/* The coarsest, which is one in 2^LEVELS of the finest, or less where that would have too many nodes. */
+static void choose_sides(sunder_i_climb *l)
+{
+    sunder_i_grid fine;
+    int exponent;
+    frexp(l->size / SQUARES_ACROSS, &exponent);
+    double finest = ldexp(1, exponent);
+    unsigned coarser = LEVELS;
+    while (coarser > 0 && !(finest > 0x1p-300 && lay_grid(l, finest, 1u << coarser, &fine))) {
+        finest *= 2;
+        coarser--;
+    }
+    l->coarser = coarser;
+    l->left = coarser > 0 ? coarser + 1 : 0;
+    l->side = finest * (1u << coarser);
+}
+
+static void free_masses(sunder_i_climb *l)
+{
+    for (size_t k = 0; k < l->payers; k++) sunder_i_masses_free(&l->payer[k].masses);
+    l->payers = 0;
+}
+
+sunder_status sunder_i_climb_init(sunder_i_climb *l, const sunder_i_model *model, const uint32_t *body, size_t n,
+                                  double about, sunder_error *err)
+{
+    *l = (sunder_i_climb){.model = model, .body = body, .n = n};
+    l->outline = sunder_i_calloc(n, sizeof *l->outline);
+    l->payer = sunder_i_calloc(n, sizeof *l->payer);
+    sunder_status status = l->outline && l->payer ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) status = find_outlines(l, about, err);
+    if (!status && l->size > 0) choose_sides(l);
+    return status;
+}
+
+void sunder_i_climb_free(sunder_i_climb *l)
+{
+    for (size_t k = 0; k < l->n && l->outline; k++) sunder_i_outline_free(&l->outline[k]);
+    free_masses(l);
+    sunder_i_free(l->outline);
+    sunder_i_free(l->payer);
+    sunder_i_free(l->price);
+}
+
+static bool spans_too_much(const sunder_i_outline *o, double side)
+{
+    return !(o->box[2] - o->box[0] < (MOST_SPAN - 2) * side && o->box[3] - o->box[1] < (MOST_SPAN - 2) * side);
+}
+
+/* False if memory is out. */
+static bool make_payers(sunder_i_climb *l, const sunder_i_grid *grid)
+{
+    free_masses(l);
+    for (size_t k = 0; k < l->n; k++) {
+        if (!has_area(&l->outline[k]) || spans_too_much(&l->outline[k], grid->side)) continue;
+        const sunder_i_body *body = &l->model->body[l->body[k]];
+        sunder_i_payer *payer = &l->payer[l->payers++];
+        payer->weight = sunder_i_weight_below(l->model, body);
+        payer->limit = sunder_i_limit_of(body);
+        if (!sunder_i_masses_make(&l->outline[k], grid, &payer->masses)) return false;
+    }
+    return true;
+}
+
+/* The price at a place of the coarse grid; 0 beyond it. */
+static float price_at(const sunder_i_grid *grid, const float *price, int64_t x, int64_t y)
+{
+    const int64_t i = x - grid->x, j = y - grid->y;
+    const bool inside = i >= 0 && j >= 0 && i < (int64_t)grid->columns && j < (int64_t)grid->rows;
+    return inside ? price[(size_t)j * grid->columns + (size_t)i] : 0;
+}
+
+/* The same prices on a grid of half the side, bilinear; all 0 before the first. */
+static float *refine(const sunder_i_climb *l, const sunder_i_grid *fine)
+{
+    float *out = sunder_i_calloc(sunder_i_grid_nodes(fine), sizeof *out);
+    if (!out || !l->price) return out;
+    for (size_t j = 0; j < fine->rows; j++)
+        for (size_t i = 0; i < fine->columns; i++) {
+            const int64_t x = fine->x + (int64_t)i, y = fine->y + (int64_t)j;
+            float sum = 0;
+            for (int k = 0; k < 4; k++) sum += price_at(&l->grid, l->price, (x + (k & 1)) >> 1, (y + (k >> 1)) >> 1);
+            out[j * fine->columns + i] = sum / 4;
+        }
+    return out;
+}
+
+bool sunder_i_climb_on(sunder_i_climb *l)
+{
+    static const unsigned rounds[LEVELS + 1] = ROUNDS;
+    sunder_i_grid grid;
+    l->left--;
+    if (!lay_grid(l, l->side, 1u << l->left, &grid) || !make_payers(l, &grid)) return false;
+    float *price = refine(l, &grid);
+    sunder_i_free(l->price);
+    l->price = price;
+    l->grid = grid;
+    const double across = l->size / l->side;
+    l->patience = PATIENCE * across * across;
+    l->side /= 2;
+    return price && sunder_i_prices_ascend(&grid, l->payer, l->payers, l->patience, rounds[LEVELS - l->left],
+                                           l->model->rules.threads, price);
+}

@@ -1,0 +1,26 @@
+/* Where a crowd may begin: each body in the mean of the places that prices of area leave it to choose from. What
+ * stands in one place comes apart in all directions, and those that stand in a row do not pass each other, as mass
+ * does that is transported at the least cost; so sides are mostly right when the search begins, and what is still
+ * missing is little. */
+#include "displacement/prove/areas/climb.h"
+#include "displacement/prove/areas/tuning.h"
+
+#include <math.h>
+
+sunder_status sunder_i_areas_places(const sunder_i_model *model, const uint32_t *body, size_t n, bool rough,
+                                    double *move, bool *found, sunder_error *err)
+{
+    sunder_i_climb l;
+    *found = false;
+    sunder_status status = sunder_i_climb_init(&l, model, body, n, ROOM_ABOUT * sqrt((double)n), err);
+    /* The finest tells how much is proved, and no places. */
+    const unsigned last = rough && l.left > 1 ? l.left - 1 : 1;
+    while (!status && l.left > last)
+        if (!sunder_i_climb_on(&l)) status = sunder_i_no_memory(err);
+    if (!status && l.price && l.payers == n) {
+        *found = sunder_i_prices_places(&l.grid, l.payer, n, l.patience, model->rules.threads, l.price, move);
+        if (!*found) status = sunder_i_no_memory(err);
+    }
+    sunder_i_climb_free(&l);
+    return status;
+}

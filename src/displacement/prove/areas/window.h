@@ -1,0 +1,39 @@
+/* What of a payer is on the grid when it moved by whole squares: which of its own nodes, and over which of the grid's
+ * they are. */
+#ifndef SUNDER_I_AREAS_WINDOW_H
+#define SUNDER_I_AREAS_WINDOW_H
+
+#include "displacement/prove/areas/areas.h"
+
+typedef struct sunder_i_part_on_grid {
+    size_t column, columns, row, rows; /* of the payer: the first, and past the last */
+    int64_t x, y;                      /* the grid's node under the payer's (0, 0), which may be beyond its border */
+} sunder_i_part_on_grid;
+
+static inline sunder_i_part_on_grid sunder_i_part_on(const sunder_i_grid *grid, const sunder_i_masses *m, int64_t dx,
+                                                     int64_t dy)
+{
+    const int64_t x = m->x + dx, y = m->y + dy;
+    const int64_t left = x < 0 ? -x : 0, low = y < 0 ? -y : 0;
+    int64_t right = (int64_t)grid->columns - x, high = (int64_t)grid->rows - y;
+    if (right > (int64_t)m->columns) right = (int64_t)m->columns;
+    if (high > (int64_t)m->rows) high = (int64_t)m->rows;
+    if (left >= right || low >= high) return (sunder_i_part_on_grid){0, 0, 0, 0, x, y};
+    return (sunder_i_part_on_grid){(size_t)left, (size_t)right, (size_t)low, (size_t)high, x, y};
+}
+
+/* The grid's node under the first of row j of the window. */
+static inline size_t sunder_i_part_node(const sunder_i_grid *grid, const sunder_i_part_on_grid *w, size_t j)
+{
+    return (size_t)(w->y + (int64_t)j) * grid->columns + (size_t)(w->x + (int64_t)w->column);
+}
+
+/* A payer that moved so many squares along either axis, or more, is beyond the grid, where nothing has a price. Payers
+ * stand on the grid. */
+static inline int64_t sunder_i_beyond_grid(const sunder_i_grid *grid, const sunder_i_masses *m)
+{
+    const size_t columns = grid->columns + m->columns, rows = grid->rows + m->rows;
+    return (int64_t)(columns > rows ? columns : rows);
+}
+
+#endif

@@ -1,0 +1,93 @@
+/* The blocks of a group: a few bodies each, that hold all contacts that press, each once.
+ *
+ * They are grown from the contact that presses most and is in none yet, by the body that is pressed most by those in
+ * it. */
+#include "displacement/prove/optimum/blocks.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include <string.h>
+
+static bool holds(const sunder_i_lagrangian *d, uint32_t at)
+{
+    for (size_t k = d->first[d->blocks]; k < d->items; k++)
+        if (d->item[k].at == at) return true;
+    return false;
+}
+
+static bool take(sunder_i_lagrangian *d, uint32_t at)
+{
+    if (at == SUNDER_I_GROUND || holds(d, at)) return true;
+    if (!sunder_i_reserve(&d->item, &d->capacity, d->items + 1, sizeof *d->item)) return false;
+    d->item[d->items++] = (sunder_i_block_copy){.at = at};
+    d->count[at]++;
+    return true;
+}
+
+/* The body outside that the block's bodies press most, by contacts that are in no block yet; of equals the first. */
+static uint32_t most_pressed(sunder_i_lagrangian *d)
+{
+    const sunder_i_contact_forces *c = &d->contacts;
+    uint32_t best = SUNDER_I_GROUND;
+    memset(d->pressure, 0, d->group->n * sizeof *d->pressure);
+    for (size_t k = 0; k < c->n; k++) {
+        const sunder_i_move_cut *cut = &c->cut[k];
+        if (!(c->force[k] > 0) || d->home[k] != SUNDER_I_NOBODY || cut->j == SUNDER_I_GROUND) continue;
+        const bool i = holds(d, cut->i), j = holds(d, cut->j);
+        if (i != j && sunder_i_is_mover_of(d, i ? cut->i : cut->j)) d->pressure[i ? cut->j : cut->i] += c->force[k];
+    }
+    double most = 0;
+    for (uint32_t at = 0; at < d->group->n; at++) {
+        if (!sunder_i_is_mover_of(d, at) || d->pressure[at] <= most) continue;
+        most = d->pressure[at];
+        best = at;
+    }
+    d->steps += c->n * (d->items - d->first[d->blocks] + 1);
+    return best;
+}
+
+/* Contacts whose bodies are all in the block are its from now on; fixed ones come with them. */
+static bool settle_contacts(sunder_i_lagrangian *d)
+{
+    const sunder_i_contact_forces *c = &d->contacts;
+    for (size_t k = 0; k < c->n; k++) {
+        const sunder_i_move_cut *cut = &c->cut[k];
+        if (d->home[k] != SUNDER_I_NOBODY) continue;
+        const bool ground = cut->j == SUNDER_I_GROUND, moves_i = sunder_i_is_mover_of(d, cut->i),
+                   moves_j = !ground && sunder_i_is_mover_of(d, cut->j);
+        if ((moves_i && !holds(d, cut->i)) || (moves_j && !holds(d, cut->j)) || (!moves_i && !moves_j)) continue;
+        d->home[k] = (uint32_t)d->blocks;
+        if (!take(d, cut->i) || !take(d, cut->j)) return false;
+    }
+    return true;
+}
+
+static bool grow_block(sunder_i_lagrangian *d, size_t seed)
+{
+    const sunder_i_move_cut *cut = &d->contacts.cut[seed];
+    if (!sunder_i_reserve(&d->first, &d->first_capacity, d->blocks + 2, sizeof *d->first)) return false;
+    d->first[d->blocks] = d->items;
+    if (!take(d, cut->i) || !take(d, cut->j)) return false;
+    for (size_t size = 2; size < d->size; size++) {
+        const uint32_t next = most_pressed(d);
+        if (next == SUNDER_I_GROUND) break;
+        if (!take(d, next)) return false;
+    }
+    if (!settle_contacts(d)) return false;
+    d->first[++d->blocks] = d->items;
+    return true;
+}
+
+bool sunder_i_make_blocks(sunder_i_lagrangian *d)
+{
+    const sunder_i_contact_forces *c = &d->contacts;
+    for (size_t k = 0; k < c->n; k++) d->home[k] = SUNDER_I_NOBODY;
+    for (;;) {
+        size_t seed = SIZE_MAX;
+        for (size_t k = 0; k < c->n; k++)
+            if (c->force[k] > 0 && d->home[k] == SUNDER_I_NOBODY && (seed == SIZE_MAX || c->force[k] > c->force[seed]))
+                seed = k;
+        d->steps += c->n;
+        if (seed == SIZE_MAX) return true;
+        if (!grow_block(d, seed)) return false;
+    }
+}

@@ -1,0 +1,388 @@
+/* A bound for a group that is too large for one tree, from overlapping blocks [Lagrangian decomposition, GK87].
+ *
+ * Give each block S a share w_i^S of the weights of its bodies, and each body in it a place a_i^S that it is drawn to.
+ * With W_i the sum of a body's shares, less than its weight, v_i = sum of w_i^S a_i^S, c_i = sum of w_i^S |a_i^S|^2,
+ *
+ *     sum w |t|^2  =  sum over S of sum w^S |t - a^S|^2  +  sum over i of (w_i - W_i) |t_i|^2 + 2 t_i.v_i - c_i
+ *                 >=  sum over S of opt(S)  -  sum over i of c_i + |v_i|^2 / (w_i - W_i),
+ *
+ * opt(S) the least that the block's bodies alone can cost so, of which its tree (tree.c) proves a bound. That holds for
+ * any shares and places: so these are doubles as they come, v_i is nearly 0, and what it takes is added up against us.
+ *
+ * Good places make the layout's own the best for each block alone: then nothing is lost. With F_i^S the forces of the
+ * block's contacts on a body (contact_forces.c), it stands still at a_i^S = t_i - F_i^S / (2 w_i^S); so blocks hold all
+ * contacts that press, each once (block_cover.c). In a loose group these places are as good as any; in a dense one they
+ * are worse than none, since under such pressure a block alone goes around what its neighbours would keep it from, and
+ * places have to be found: where a block finds a better layout, that is a cut, which says how little can be proved at
+ * any places, and places are asked next where the cuts promise most (bundle.c), while the effort lasts. Where little
+ * more is promised, larger blocks may do, as long as they prove more.
+ *
+ * (Places drawn towards each other by a subgradient, as copies of a body drift apart, were a third as good: of a group
+ * that costs 2,740 it proved 364 where this proves 690.) */
+#include "displacement/prove/optimum/blocks.h"
+#include "displacement/prove/optimum/tree.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include "base/extremes.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Shares, and the forces on each copy. */
+static void share_out(sunder_i_lagrangian *d)
+{
+    for (size_t m = 0; m < d->items; m++) d->item[m].force[0] = d->item[m].force[1] = 0;
+    const sunder_i_contact_forces *c = &d->contacts;
+    for (size_t k = 0; k < c->n; k++) {
+        if (!(c->force[k] > 0)) continue;
+        const sunder_i_move_cut *cut = &c->cut[k];
+        for (size_t m = d->first[d->home[k]]; m < d->first[d->home[k] + 1]; m++) {
+            const double f = d->item[m].at == cut->j ? c->force[k] : d->item[m].at == cut->i ? -c->force[k] : 0;
+            for (int e = 0; e < 2; e++) d->item[m].force[e] += f * cut->n[e];
+        }
+    }
+    for (size_t m = 0; m < d->items; m++) {
+        sunder_i_block_copy *i = &d->item[m];
+        if (!sunder_i_is_mover_of(d, i->at)) continue;
+        i->share = d->weight[i->at] * (1 - SPARED) / d->count[i->at];
+    }
+}
+
+/* Every copy is drawn to so much of the way to where the contacts' forces hold it. */
+static void draw(sunder_i_lagrangian *d, double part)
+{
+    for (size_t m = 0; m < d->items; m++) {
+        sunder_i_block_copy *i = &d->item[m];
+        for (int e = 0; e < 2 && i->share > 0; e++)
+            i->anchor[e] = part * (d->contacts.program.t[2 * i->at + (size_t)e] - i->force[e] / (2 * i->share));
+    }
+}
+
+/* ---- The bound --------------------------------------------------------------------------------------------------- */
+
+/* What places and shares take: sum of c_i + |v_i|^2 / (w_i - W_i), rounded upwards. Every sum is of at most `items`
+ * terms, each with a few roundings of its own: so it is off by less than (items + 8) 2^-52 of the sum of magnitudes,
+ * and twice that is added. */
+static double taken(const sunder_i_lagrangian *d)
+{
+    const double unit = 2 * ((double)d->items + 8) * 0x1p-52;
+    double all = 0;
+    for (uint32_t at = 0; at < d->group->n; at++) {
+        double whole = 0, v[2] = {0, 0}, size[2] = {0, 0}, own = 0;
+        if (!sunder_i_is_mover_of(d, at) || d->count[at] == 0) continue;
+        for (size_t m = 0; m < d->items; m++) {
+            const sunder_i_block_copy *i = &d->item[m];
+            if (i->at != at) continue;
+            whole += i->share;
+            for (int e = 0; e < 2; e++) {
+                v[e] += i->share * i->anchor[e];
+                size[e] += fabs(i->share * i->anchor[e]);
+                own += i->share * i->anchor[e] * i->anchor[e];
+            }
+        }
+        const double left = d->weight[at] - whole * (1 + unit);
+        if (!(left > 0)) return INFINITY;
+        for (int e = 0; e < 2; e++) v[e] = fabs(v[e]) + unit * size[e];
+        all += own + (v[0] * v[0] + v[1] * v[1]) / left * (1 + 0x1p-48);
+    }
+    return all * (1 + unit) * (1 + (double)d->group->n * 0x1p-52);
+}
+
+/* Lets the last copy of each body make v_i as near to 0 as it can. */
+static void balance(sunder_i_lagrangian *d)
+{
+    for (size_t m = d->items; m-- > 0;) {
+        sunder_i_block_copy *last = &d->item[m];
+        if (!sunder_i_is_mover_of(d, last->at)) continue;
+        double sum[2] = {0, 0};
+        bool is_last = true;
+        for (size_t k = m + 1; k < d->items && is_last; k++) is_last = d->item[k].at != last->at;
+        if (!is_last) continue;
+        for (size_t k = 0; k < m; k++)
+            for (int e = 0; e < 2 && d->item[k].at == last->at; e++) sum[e] += d->item[k].share * d->item[k].anchor[e];
+        for (int e = 0; e < 2; e++) last->anchor[e] = -sum[e] / last->share;
+    }
+}
+
+/* What was found of the block is a cut for the next proposals. */
+static bool note_cut(sunder_i_lagrangian *d, size_t block, double value)
+{
+    const size_t n = d->first[block + 1] - d->first[block];
+    const sunder_i_block_copy *item = d->item + d->first[block];
+    double x[2 * MOST_IN_BLOCK], t[2 * MOST_IN_BLOCK];
+    for (size_t k = 0; k < n; k++)
+        for (size_t e = 0; e < 2; e++) {
+            x[2 * k + e] = item[k].share * item[k].anchor[e];
+            t[2 * k + e] = item[k].t[e];
+            value -= item[k].share * item[k].anchor[e] * item[k].anchor[e];
+        }
+    return sunder_i_bundle_add(&d->bundle, block, value, x, t);
+}
+
+/* The bound of one block, and what it would be at most; where its bodies want to be goes to their copies. trees: NULL,
+ * or those that are kept. */
+static bool ask_block(sunder_i_lagrangian *d, size_t block, sunder_i_bound_trees *trees, double *value, double *most)
+{
+    const size_t n = d->first[block + 1] - d->first[block];
+    sunder_i_block_copy *item = d->item + d->first[block];
+    uint32_t body[MOST_IN_BLOCK];
+    double weight[MOST_IN_BLOCK], anchor[2 * MOST_IN_BLOCK], cost = 0, least = INFINITY;
+    *value = *most = 0;
+    if (n > MOST_IN_BLOCK) return true;
+    for (size_t k = 0; k < n; k++) {
+        const double *t = d->group->move + 2 * (size_t)item[k].at;
+        body[k] = d->group->body[item[k].at];
+        weight[k] = item[k].share;
+        for (size_t e = 0; e < 2; e++) {
+            anchor[2 * k + e] = item[k].anchor[e];
+            cost += item[k].share * (t[e] - item[k].anchor[e]) * (t[e] - item[k].anchor[e]);
+            item[k].t[e] = t[e];
+        }
+    }
+    *most = cost;
+    const sunder_i_task task = {.model = d->model,
+                                .waived = d->waived,
+                                .body = body,
+                                .n = n,
+                                .weight = weight,
+                                .anchor = anchor,
+                                .goal = cost * (1 - OPTIMAL_SHARE),
+                                .keep = trees != NULL};
+    sunder_i_tree tree;
+    bool ok = sunder_i_tree_init(&tree, &task);
+    while (ok && sunder_i_tree_run(&tree, d->each) == SUNDER_I_TREE_FOUND && !tree.failed)
+        if (tree.leaf < least) {
+            least = tree.leaf;
+            for (size_t k = 0; k < n; k++) memcpy(item[k].t, tree.program.t + 2 * k, sizeof item[k].t);
+        }
+    /* Where nothing is decided yet, what the least bound stands on. */
+    if (ok && tree.opens && tree.open[0].value < sunder_i_min(least, task.goal)) {
+        sunder_i_tree_load(&tree, tree.open[0].node);
+        for (size_t k = 0; k < n; k++) memcpy(item[k].t, tree.program.t + 2 * k, sizeof item[k].t);
+    }
+    ok = ok && !tree.failed;
+    if (ok) *value = sunder_i_tree_bound(&tree);
+    if (ok && !trees) ok = note_cut(d, block, *value);
+    if (ok && trees) ok = sunder_i_tree_keep(&tree, trees);
+    d->steps += tree.steps;
+    sunder_i_tree_free(&tree);
+    return ok;
+}
+
+/* enough: what is less is of no use, -INFINITY as good; no block proves more than the layout costs it, so that may be
+ * known before all are asked. */
+static bool evaluate(sunder_i_lagrangian *d, sunder_i_bound_trees *trees, double enough, double *bound)
+{
+    double sum = 0, missed = 0;
+    balance(d);
+    *bound = -INFINITY;
+    for (size_t k = 0; k < d->blocks; k++) {
+        double value, most;
+        if (!ask_block(d, k, trees, &value, &most)) return false;
+        sum = nextafter(sum + value, -INFINITY);
+        missed += most - value;
+        if (d->group->cost - missed < enough) return true;
+    }
+    *bound = nextafter(sum - taken(d), -INFINITY);
+    return true;
+}
+
+/* How far along to the forces' places is most proved? The bound is concave there, as everywhere. */
+static bool begin(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *bound)
+{
+    static const double part[] = {0, 1};
+    *bound = -INFINITY;
+    for (size_t k = 0; k < sizeof part / sizeof *part; k++) {
+        double value;
+        draw(d, part[k]);
+        if (!evaluate(d, NULL, *bound, &value)) return false;
+        if (value <= *bound) continue;
+        *bound = value;
+        memcpy(best, d->item, d->items * sizeof *best);
+        if (part[k] == 1) break;
+    }
+    memcpy(d->item, best, d->items * sizeof *best);
+    return true;
+}
+
+/* With a stride of 1 the first proposal would be a way along the drift of the copies, each away from the mean of its
+ * body's, on which everything that is missing would be proved if it went on as it begins. */
+static double first_stride(const sunder_i_lagrangian *d, const sunder_i_block_copy *best, double missing)
+{
+    double square = 0;
+    for (size_t m = 0; m < d->items; m++)
+        for (size_t e = 0; e < 2; e++) {
+            double mean = 0;
+            for (size_t k = 0; k < d->items; k++)
+                if (best[k].at == best[m].at) mean += best[k].t[e] / d->count[best[m].at];
+            if (best[m].share > 0) square += (best[m].t[e] - mean) * (best[m].t[e] - mean);
+        }
+    return square > 0 ? FIRST_STRIDE * missing / (4 * square) : 1;
+}
+
+/* What is missing; in a crowd, of which blocks prove a small part, no more than they prove as yet. */
+static double hoped_for(double cost, double now) { return now > 0 ? sunder_i_min(cost - now, now) : cost - now; }
+
+static void put_anchors(sunder_i_lagrangian *d, const double *x)
+{
+    for (size_t m = 0; m < d->items; m++)
+        for (size_t e = 0; e < 2 && d->item[m].share > 0; e++) d->item[m].anchor[e] = x[2 * m + e] / d->item[m].share;
+}
+
+/* Looks where the cuts known so far promise most, about the centre (`best`: copies; x: scratch), again and again. The
+ * centre follows where a fair part of what was promised was proved; else strides become shorter. True: little more is
+ * promised, and blocks took so little that larger ones may do. */
+static bool improve(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *centre, double *x, double *bound,
+                    bool *ok)
+{
+    const double cost = d->group->cost;
+    double now = *bound, stride = first_stride(d, best, hoped_for(cost, now)), past = now;
+    size_t in_vain = 0;
+    for (size_t m = 0; m < d->items; m++)
+        for (size_t e = 0; e < 2; e++) centre[2 * m + e] = best[m].share * best[m].anchor[e];
+    for (uint64_t each = d->each; d->steps < d->most && cost - now > BLOCKS_NEAR * cost;) {
+        double value, promise;
+        *ok = sunder_i_bundle_propose(&d->bundle, centre, stride, x, &promise);
+        if (!*ok) break;
+        d->steps += d->bundle.steps;
+        d->bundle.steps = 0;
+        promise -= now;
+        const uint64_t before = d->steps;
+        if (promise <= PROMISED_LITTLE * (cost - now) && each <= d->each / 3) return true;
+        if (promise <= PROMISED_NOTHING * (cost - now)) break;
+        put_anchors(d, x);
+        *ok = evaluate(d, NULL, -INFINITY, &value);
+        if (!*ok) break;
+        each = (d->steps - before) / d->blocks;
+        if (value > *bound) {
+            *bound = value;
+            memcpy(best, d->item, d->items * sizeof *best);
+        }
+        if (++in_vain == LOOKS && *bound - past < PROVED_LITTLE * (cost - past)) break;
+        if (in_vain == LOOKS) {
+            in_vain = 0;
+            past = *bound;
+        }
+        if (value < now + SERIOUS * promise) {
+            stride *= SHORTER;
+            continue;
+        }
+        if (value >= now + promise / 2) stride *= LONGER;
+        now = value;
+        memcpy(centre, x, 2 * d->items * sizeof *x);
+    }
+    return false;
+}
+
+/* The layout itself is the first cut of each block. */
+static bool begin_bundle(sunder_i_lagrangian *d)
+{
+    d->member = sunder_i_alloc(d->items, sizeof *d->member);
+    d->others = sunder_i_alloc(d->items, sizeof *d->others);
+    if (!d->member || !d->others) return false;
+    for (size_t m = 0; m < d->items; m++) {
+        d->member[m] = d->item[m].at;
+        d->others[m] = d->item[m].share > 0 ? 1 - 1.0 / d->count[d->item[m].at] : 0;
+    }
+    d->bundle = (sunder_i_bundle){.blocks = d->blocks,
+                                  .copies = d->items,
+                                  .members = d->group->n,
+                                  .first = d->first,
+                                  .member = d->member,
+                                  .others = d->others};
+    if (!sunder_i_bundle_init(&d->bundle)) return false;
+    for (size_t k = 0; k < d->blocks; k++) {
+        double value = 0;
+        if (d->first[k + 1] - d->first[k] > MOST_IN_BLOCK) continue;
+        for (size_t m = d->first[k]; m < d->first[k + 1]; m++)
+            for (int e = 0; e < 2; e++) {
+                sunder_i_block_copy *i = &d->item[m];
+                i->t[e] = d->group->move[2 * (size_t)i->at + (size_t)e];
+                value += i->share * i->t[e] * i->t[e];
+            }
+        if (!note_cut(d, k, value)) return false;
+    }
+    return true;
+}
+
+static bool prepare(sunder_i_lagrangian *d)
+{
+    const size_t n = d->group->n;
+    d->weight = sunder_i_alloc(n, sizeof *d->weight);
+    d->mass = sunder_i_alloc(n, sizeof *d->mass);
+    d->anchor = sunder_i_calloc(2 * n, sizeof *d->anchor);
+    d->count = sunder_i_calloc(n, sizeof *d->count);
+    d->pressure = sunder_i_alloc(n, sizeof *d->pressure);
+    if (!d->weight || !d->mass || !d->anchor || !d->count || !d->pressure) return false;
+    for (size_t k = 0; k < n; k++) {
+        const sunder_i_body *b = &d->model->body[d->group->body[k]];
+        d->weight[k] = b->fixed ? INFINITY : sunder_i_weight_below(d->model, b);
+        d->mass[k] = b->fixed ? 0 : 0.5 / d->weight[k];
+    }
+    if (!sunder_i_contact_forces_find(&d->contacts, d->model, d->waived, d->group, d->weight, d->mass, d->anchor))
+        return false;
+    d->steps += d->contacts.steps;
+    d->home = sunder_i_alloc(d->contacts.n, sizeof *d->home);
+    return d->home != NULL;
+}
+
+/* By blocks of d->size: *bound and its trees, where that is more. *larger: larger blocks may prove more. */
+static bool ask_blocks(sunder_i_lagrangian *d, double *bound, sunder_i_bound_trees *trees, bool *larger)
+{
+    *larger = false;
+    d->items = d->blocks = 0;
+    memset(d->count, 0, d->group->n * sizeof *d->count);
+    if (!sunder_i_make_blocks(d)) return false;
+    if (d->blocks == 0) return true;
+    share_out(d);
+    d->each = (d->most > d->steps ? d->most - d->steps : 0) / (ROUNDS * d->blocks);
+    sunder_i_block_copy *best = sunder_i_alloc(d->items, sizeof *best);
+    double *centre = sunder_i_alloc(2 * d->items, sizeof *centre), *x = sunder_i_alloc(2 * d->items, sizeof *x), value;
+    bool ok = best && centre && x && begin_bundle(d) && begin(d, best, &value);
+    if (ok) *larger = improve(d, best, centre, x, &value, &ok) && d->blocks > 1;
+    /* Where larger trees prove less they came to no end, and larger ones yet will not. */
+    *larger = *larger && ok && value > d->proved;
+    if (ok) d->proved = sunder_i_max(d->proved, value);
+    if (ok && value > *bound && d->model->rules.keep_trees) {
+        sunder_i_bound_trees made = {0};
+        memcpy(d->item, best, d->items * sizeof *best);
+        ok = evaluate(d, &made, -INFINITY, &value);
+        if (ok && value > *bound) {
+            const sunder_i_bound_trees before = *trees;
+            *trees = made;
+            made = before;
+        }
+        sunder_i_bound_trees_free(&made);
+    }
+    if (ok) *bound = sunder_i_max(*bound, value);
+    sunder_i_free(best);
+    sunder_i_free(centre);
+    sunder_i_free(x);
+    sunder_i_bundle_free(&d->bundle);
+    sunder_i_free(d->member);
+    sunder_i_free(d->others);
+    d->member = NULL;
+    d->others = NULL;
+    return ok;
+}
+
+sunder_status sunder_i_blocks_bound(const sunder_i_model *model, const sunder_i_waived *waived,
+                                    const sunder_i_group *group, uint64_t steps, double known, double *bound,
+                                    sunder_i_bound_trees *trees, sunder_error *err)
+{
+    sunder_i_lagrangian d = {.model = model, .waived = waived, .group = group, .most = steps, .proved = -INFINITY};
+    bool ok = prepare(&d), larger = true;
+    *bound = known;
+    for (d.size = BLOCK; ok && larger && d.steps < d.most; d.size += d.size / 2)
+        ok = ask_blocks(&d, bound, trees, &larger);
+    sunder_i_contact_forces_free(&d.contacts);
+    sunder_i_free(d.weight);
+    sunder_i_free(d.mass);
+    sunder_i_free(d.anchor);
+    sunder_i_free(d.home);
+    sunder_i_free(d.count);
+    sunder_i_free(d.item);
+    sunder_i_free(d.first);
+    sunder_i_free(d.pressure);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}

@@ -1,0 +1,168 @@
+/* A proximal bundle method, by blocks [Lem75; HUL93, chapter XV].
+ *
+ * The bound of blocks.c is a sum over blocks of concave functions of x, the places times the shares: each the least of
+ * lines, one for every layout of the block. Layouts that were found are cuts: they bound the block's value from above
+ * everywhere. Where to look next is where the sum of these promises most, less a square of how far that is, since cuts
+ * know nothing of what is far away.
+ *
+ * That is solved from the other side. Mix the cuts of each block by shares that add up to 1; with T the mix of where
+ * they have the copies, and D of each copy its T less the mean over its member's copies, the promise is the least over
+ * shares of
+ *
+ *     sum of shares (at_rest - 2 centre.t)  +  2 stride |D|^2,        at  x = centre - 2 stride D:
+ *
+ * the cuts are to be mixed so that copies agree. Shares go from the worst cut of a block that has any to its best, a
+ * step of least squares at a time, block after block. It decides nothing: a bound is what trees prove at x. */
+#include "displacement/prove/optimum/bundle.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include "base/extremes.h"
+#include "base/watch.h"
+
+#include <math.h>
+#include <string.h>
+
+#define NO_CUT UINT32_MAX
+
+bool sunder_i_bundle_init(sunder_i_bundle *b)
+{
+    b->mix = sunder_i_alloc(2 * b->copies, sizeof *b->mix);
+    b->mean = sunder_i_alloc(2 * b->members, sizeof *b->mean);
+    b->last = sunder_i_alloc(b->blocks, sizeof *b->last);
+    for (size_t k = 0; b->last && k < b->blocks; k++) b->last[k] = NO_CUT;
+    return b->mix && b->mean && b->last;
+}
+
+void sunder_i_bundle_free(sunder_i_bundle *b)
+{
+    sunder_i_free(b->cut);
+    sunder_i_free(b->t);
+    sunder_i_free(b->mix);
+    sunder_i_free(b->mean);
+    sunder_i_free(b->last);
+    *b = (sunder_i_bundle){0};
+}
+
+static double product(const double *a, const double *b, size_t n)
+{
+    double sum = 0;
+    for (size_t k = 0; k < n; k++) sum += a[k] * b[k];
+    return sum;
+}
+
+bool sunder_i_bundle_add(sunder_i_bundle *b, size_t block, double value, const double *x, const double *t)
+{
+    const size_t from = b->first[block], n = 2 * (b->first[block + 1] - from);
+    if (!sunder_i_reserve(&b->cut, &b->cut_capacity, b->cuts + 1, sizeof *b->cut) ||
+        !sunder_i_reserve(&b->t, &b->capacity, b->numbers + n, sizeof *b->t))
+        return false;
+    b->cut[b->cuts] = (sunder_i_bundle_cut){.block = (uint32_t)block,
+                                            .before = b->last[block],
+                                            .at_rest = value + 2 * product(x, t, n),
+                                            .t = b->numbers,
+                                            .share = b->last[block] == NO_CUT};
+    b->last[block] = (uint32_t)b->cuts++;
+    memcpy(b->t + b->numbers, t, n * sizeof *t);
+    b->numbers += n;
+    return true;
+}
+
+/* mix and mean, of the shares as they are. */
+static void mix_all(sunder_i_bundle *b)
+{
+    memset(b->mix, 0, 2 * b->copies * sizeof *b->mix);
+    memset(b->mean, 0, 2 * b->members * sizeof *b->mean);
+    for (size_t k = 0; k < b->cuts; k++) {
+        const sunder_i_bundle_cut *cut = &b->cut[k];
+        const size_t from = b->first[cut->block], n = b->first[cut->block + 1] - from;
+        for (size_t m = 0; m < 2 * n && cut->share > 0; m++) b->mix[2 * from + m] += cut->share * b->t[cut->t + m];
+    }
+    for (size_t m = 0; m < b->copies; m++)
+        for (size_t c = 0; c < 2; c++) b->mean[2 * (size_t)b->member[m] + c] += (1 - b->others[m]) * b->mix[2 * m + c];
+}
+
+/* By how much the mix of copy m differs from its member's. */
+static double apart(const sunder_i_bundle *b, size_t m, size_t c)
+{
+    return b->others[m] > 0 ? b->mix[2 * m + c] - b->mean[2 * (size_t)b->member[m] + c] : 0;
+}
+
+/* Moves share from cut `from` to cut `to`, of one block, as far as that is of use. */
+static void trade(sunder_i_bundle *b, sunder_i_bundle_cut *from, sunder_i_bundle_cut *to, double stride)
+{
+    const size_t first = b->first[from->block], n = b->first[from->block + 1] - first;
+    double square = 0;
+    for (size_t m = 0; m < n; m++)
+        for (size_t c = 0; c < 2; c++) {
+            const double way = b->t[to->t + 2 * m + c] - b->t[from->t + 2 * m + c];
+            square += b->others[first + m] * way * way;
+        }
+    const double gain = from->slope - to->slope,
+                 share = square > 0 ? sunder_i_min(from->share, gain / (4 * stride * square)) : from->share;
+    from->share -= share;
+    to->share += share;
+    for (size_t m = 0; m < n; m++)
+        for (size_t c = 0; c < 2; c++) {
+            const double way = share * (b->t[to->t + 2 * m + c] - b->t[from->t + 2 * m + c]);
+            b->mix[2 * (first + m) + c] += way;
+            b->mean[2 * (size_t)b->member[first + m] + c] += (1 - b->others[first + m]) * way;
+        }
+}
+
+/* One trade among the cuts of a block; by how much their slopes differed. */
+static double trade_in(sunder_i_bundle *b, size_t block, const double *centre, double stride)
+{
+    const size_t first = b->first[block], n = b->first[block + 1] - first;
+    double pull[2 * MOST_IN_BLOCK];
+    sunder_i_bundle_cut *worst = NULL, *best = NULL;
+    if (n > MOST_IN_BLOCK) return 0;
+    for (size_t m = 0; m < n; m++)
+        for (size_t c = 0; c < 2; c++)
+            pull[2 * m + c] = 4 * stride * apart(b, first + m, c) - 2 * centre[2 * (first + m) + c];
+    for (uint32_t k = b->last[block]; k != NO_CUT; k = b->cut[k].before) {
+        sunder_i_bundle_cut *cut = &b->cut[k];
+        cut->slope = cut->at_rest + product(pull, b->t + cut->t, 2 * n);
+        if (!best || cut->slope < best->slope) best = cut;
+        if (cut->share > 0 && (!worst || cut->slope > worst->slope)) worst = cut;
+    }
+    if (!best || best == worst || !(worst->slope > best->slope)) return 0;
+    const double gain = worst->slope - best->slope;
+    trade(b, worst, best, stride);
+    return gain;
+}
+
+/* Trades until the cuts of each block that have a share are all as good as its best, or nearly so. */
+static bool settle(sunder_i_bundle *b, const double *centre, double stride)
+{
+    double whole = 0;
+    for (size_t k = 0; k < b->cuts; k++) whole = sunder_i_max(whole, fabs(b->cut[k].at_rest));
+    for (int sweep = 0; sweep < SWEEPS; sweep++) {
+        double most = 0;
+        for (size_t k = 0; k < b->blocks; k++) most = sunder_i_max(most, trade_in(b, k, centre, stride));
+        b->steps += b->cuts + b->copies;
+        if (!sunder_i_steps(1 + b->cuts / 16)) return false;
+        if (most <= SWEPT * whole) break;
+    }
+    return true;
+}
+
+bool sunder_i_bundle_propose(sunder_i_bundle *b, const double *centre, double stride, double *x, double *promise)
+{
+    double square = 0;
+    mix_all(b);
+    if (!settle(b, centre, stride)) return false;
+    *promise = 0;
+    for (size_t k = 0; k < b->cuts; k++) {
+        const sunder_i_bundle_cut *cut = &b->cut[k];
+        const size_t from = b->first[cut->block], n = b->first[cut->block + 1] - from;
+        *promise += cut->share * (cut->at_rest - 2 * product(centre + 2 * from, b->t + cut->t, 2 * n));
+    }
+    for (size_t m = 0; m < b->copies; m++)
+        for (size_t c = 0; c < 2; c++) {
+            const double off = apart(b, m, c);
+            x[2 * m + c] = centre[2 * m + c] - 2 * stride * off;
+            square += off * off;
+        }
+    *promise += 2 * stride * square;
+    return true;
+}

@@ -1,0 +1,120 @@
+/* The forces at the contacts of a layout: what would hold every body where it stands, if it were let go.
+ *
+ * Each contact of two bodies is a half-plane of their relative move, tangent to the forbidden set where they stand, and
+ * a body at its limit is in contact with the ground. Of a layout that cannot be bettered in small, the least cost under
+ * these half-planes is its own, and the forces of that program say which contacts matter. In doubles: what is made of
+ * them (blocks.c) is proved by itself. */
+#include "displacement/prove/optimum/blocks.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include "base/watch.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool add_contact(sunder_i_contact_forces *c, uint32_t i, uint32_t j, const double n[2], double d)
+{
+    if (!sunder_i_reserve(&c->cut, &c->capacity, c->n + 1, sizeof *c->cut)) return false;
+    c->cut[c->n++] = (sunder_i_move_cut){i, j, {n[0], n[1]}, d};
+    return true;
+}
+
+static bool look_at(sunder_i_contact_forces *c, const sunder_i_group *g, uint32_t i, uint32_t j)
+{
+    const sunder_i_body *body = c->model->body;
+    const double hair = sunder_i_contact_hair(c->model, &body[g->body[i]], &body[g->body[j]]) + 2 * g->margin;
+    size_t edges = 0;
+    bool ok = sunder_i_contacts_of_pair(c->model, c->waived, g->body[i], g->body[j], g->move + 2 * (size_t)i,
+                                        g->move + 2 * (size_t)j, hair, &c->touch, &edges);
+    c->steps += 16 + 8 * edges;
+    for (size_t k = 0; k < c->touch.n && ok; k++) ok = add_contact(c, i, j, c->touch.item[k].n, c->touch.item[k].d);
+    return ok;
+}
+
+/* Might the two be in contact? By boxes; ways count too, where they matter. */
+static bool are_near(const sunder_i_contact_forces *c, const sunder_i_group *g, uint32_t i, uint32_t j)
+{
+    const sunder_i_model *model = c->model;
+    const double home[2] = {0, 0};
+    double p[4], q[4], start[4];
+    sunder_i_body_box(&model->body[g->body[i]], g->move + 2 * (size_t)i, model->rules.gap * (1 + 0x1p-20), p);
+    sunder_i_body_box(&model->body[g->body[j]], g->move + 2 * (size_t)j, 0, q);
+    if (sunder_i_forbids_ways(model)) {
+        sunder_i_body_box(&model->body[g->body[i]], home, 0, start);
+        sunder_i_box_join(p, start);
+        sunder_i_body_box(&model->body[g->body[j]], home, 0, start);
+        sunder_i_box_join(q, start);
+    }
+    return sunder_i_box_meet(p, q);
+}
+
+static bool find(sunder_i_contact_forces *c, const sunder_i_group *g)
+{
+    for (uint32_t i = 0; i < g->n; i++) {
+        const sunder_i_body *p = &c->model->body[g->body[i]];
+        const double *t = g->move + 2 * (size_t)i, length = hypot(t[0], t[1]), limit = sunder_i_limit_of(p);
+        if (!p->fixed && length > 0 && length >= limit * (1 - 0x1p-30)) {
+            const double n[2] = {t[0] / length, t[1] / length};
+            if (!add_contact(c, i, SUNDER_I_GROUND, n, -limit)) return false;
+        }
+        for (uint32_t j = i + 1; j < g->n; j++) {
+            if (p->fixed && c->model->body[g->body[j]].fixed) continue;
+            if (are_near(c, g, i, j) && !look_at(c, g, i, j)) return false;
+        }
+        c->steps += g->n / 4;
+        if (!sunder_i_steps(1 + g->n / 64)) return false;
+    }
+    return true;
+}
+
+/* Brings the contacts in, the one missed most first. */
+static bool solve(sunder_i_contact_forces *c, const sunder_i_group *g)
+{
+    sunder_i_dual_program *p = &c->program;
+    for (size_t round = 0; round < 4 * c->n + 64; round++) {
+        uint32_t worst = UINT32_MAX;
+        double most = CONTACT_MISSED * sqrt(g->cost);
+        for (uint32_t k = 0; k < c->n; k++) {
+            const double missing = sunder_i_dual_missing(p, &c->cut[k]);
+            if (missing <= most) continue;
+            most = missing;
+            worst = k;
+        }
+        if (worst == UINT32_MAX) break;
+        bool failed;
+        const sunder_i_dual_outcome outcome = sunder_i_dual_add(p, worst, 4 * g->cost, &failed);
+        c->steps += p->steps + c->n;
+        p->steps = 0;
+        if (failed || !sunder_i_steps(1 + (p->acting_n + c->n) / 16)) return false;
+        if (outcome != SUNDER_I_DUAL_SOLVED) break;
+    }
+    return true;
+}
+
+bool sunder_i_contact_forces_find(sunder_i_contact_forces *c, const sunder_i_model *model,
+                                  const sunder_i_waived *waived, const sunder_i_group *g, const double *weight,
+                                  const double *mass, const double *anchor)
+{
+    memset(c, 0, sizeof *c);
+    c->model = model;
+    c->waived = waived;
+    if (!sunder_i_dual_init(&c->program, g->n) || !find(c, g)) return false;
+    c->program.weight = weight;
+    c->program.mass = mass;
+    c->program.anchor = anchor;
+    c->program.cut = c->cut;
+    if (!sunder_i_dual_load(&c->program, NULL, 0) || !solve(c, g)) return false;
+    c->force = sunder_i_calloc(c->n, sizeof *c->force);
+    if (!c->force) return false;
+    for (size_t k = 0; k < c->program.acting_n; k++) c->force[c->program.acting[k].cut] = c->program.acting[k].force;
+    return true;
+}
+
+void sunder_i_contact_forces_free(sunder_i_contact_forces *c)
+{
+    sunder_i_free(c->cut);
+    sunder_i_free(c->force);
+    sunder_i_free(c->touch.item);
+    sunder_i_dual_free(&c->program);
+    memset(c, 0, sizeof *c);
+}

@@ -1,0 +1,183 @@
+/* Is a convex region within a union of convex pieces? Proved in doubles.
+ *
+ * It is if all its corners are in one piece, for pieces are convex. Else it is cut in two, and each half is asked for:
+ * by the line along which the piece that holds its middle, and most of its corners, leaves it at the corner that is
+ * farthest outside, so that pieces which overlap in a strip have to be met there and nowhere else; or, where that line
+ * hardly goes through, across where the region is longest. If the middle of one is in no piece the answer is no. A
+ * region is known up to its blur, a piece's polygon up to its own, and a distance up to a grain: so corners have to be
+ * in by these together, and then the disc of radius blur about each is in the true piece (forbidden.c), and so is all
+ * that lies between them.
+ *
+ * What touches the boundary of the union from within can so not be covered: whoever asks leaves some room. A middle
+ * that is in no piece is told: it says where the union has a gap. So is the middle of a region too small to be divided
+ * again: there the union has one without width, between pieces that no more than touch. */
+#include "displacement/prove/optimum/region.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct covering {
+    const sunder_i_forbidden *forbidden;
+    bool *used;
+    uint64_t steps, most;
+    const sunder_i_forbidden_piece *last; /* that held a region: it may hold the next */
+    double *gap;                          /* NULL, or for a place that is in no piece */
+    sunder_i_regions *left;               /* NULL, or for what is not covered */
+} covering;
+
+static bool is_in(covering *c, const sunder_i_forbidden_piece *p, const double u[2], double blur)
+{
+    c->steps++;
+    if (u[0] <= p->box[0] || u[0] >= p->box[2] || u[1] <= p->box[1] || u[1] >= p->box[3]) return false;
+    c->steps += p->edges;
+    const double deep = blur + p->vague + c->forbidden->grain;
+    if (p->radius > 0) return sunder_i_forbidden_distance(c->forbidden, p, u) < p->radius - deep;
+    const sunder_i_obstacle_edge *edge = c->forbidden->edge + p->edge, *end = edge + p->edges;
+    for (; edge < end; edge++)
+        if (!(edge->n[0] * (u[0] - edge->from[0]) + edge->n[1] * (u[1] - edge->from[1]) < -deep)) return false;
+    return true;
+}
+
+/* How many corners of the region are in it; all of them: it holds the region. */
+static uint32_t corners_in(covering *c, const sunder_i_forbidden_piece *p, const sunder_i_region *r)
+{
+    uint32_t n = 0;
+    for (uint32_t k = 0; k < r->n; k++) n += is_in(c, p, r->xy + 2 * k, r->blur);
+    if (n == r->n && c->used) c->used[p - c->forbidden->piece] = true;
+    return n;
+}
+
+/* The middle of the region, and the direction in which it is longest. */
+static void measure(const sunder_i_region *r, double middle[2], double along[2])
+{
+    double longest = -1;
+    middle[0] = middle[1] = 0;
+    for (uint32_t k = 0; k < r->n; k++) {
+        for (size_t c = 0; c < 2; c++) middle[c] += r->xy[2 * k + c] / r->n;
+        for (uint32_t l = k + 1; l < r->n; l++) {
+            const double x = r->xy[2 * l] - r->xy[2 * k], y = r->xy[2 * l + 1] - r->xy[2 * k + 1];
+            if (x * x + y * y <= longest) continue;
+            longest = x * x + y * y;
+            along[0] = x;
+            along[1] = y;
+        }
+    }
+    longest = sqrt(longest);
+    for (size_t c = 0; c < 2; c++) along[c] = longest > 0 ? along[c] / longest : (double)(c == 0);
+}
+
+/* How far u is outside of the piece grown by its radius, by the line n.u = d that tells most; <= 0: inside. */
+static double leave(covering *c, const sunder_i_forbidden_piece *p, const double u[2], double n[2], double *d)
+{
+    double most = -INFINITY;
+    c->steps += p->edges;
+    if (p->radius > 0) {
+        most = sunder_i_forbidden_normal(c->forbidden, p, u, n) - p->radius;
+        *d = n[0] * u[0] + n[1] * u[1] - most;
+        return most;
+    }
+    for (uint32_t k = 0; k < p->edges; k++) {
+        const sunder_i_obstacle_edge *e = &c->forbidden->edge[p->edge + k];
+        const double off = e->n[0] * (u[0] - e->from[0]) + e->n[1] * (u[1] - e->from[1]);
+        if (!(off > most)) continue;
+        most = off;
+        memcpy(n, e->n, sizeof e->n);
+        *d = e->n[0] * e->from[0] + e->n[1] * e->from[1];
+    }
+    return most;
+}
+
+/* The line n.u = d just within the piece by which it leaves the region at its farthest corner; false: it hardly goes
+ * through between that and the middle. */
+static bool find_leaving(covering *c, const sunder_i_forbidden_piece *p, const sunder_i_region *r,
+                         const double middle[2], double n[2], double *d)
+{
+    double farthest = 0;
+    for (uint32_t k = 0; k < r->n; k++) {
+        double normal[2] = {0, 0}, level = 0;
+        const double off = leave(c, p, r->xy + 2 * k, normal, &level);
+        if (!(off > farthest)) continue;
+        farthest = off;
+        *d = level;
+        memcpy(n, normal, sizeof normal);
+    }
+    const double room = farthest > 0 ? LEAVING_ROOM * (*d - (n[0] * middle[0] + n[1] * middle[1])) : 0;
+    *d -= room;
+    return room > 4 * (r->blur + p->vague + c->forbidden->grain);
+}
+
+static bool is_covered(covering *c, const sunder_i_region *r, int depth);
+
+/* What is on the side of n.u <= d, and then what is on the other. */
+static bool are_halves_covered(covering *c, const sunder_i_region *r, const double n[2], double d, int depth)
+{
+    const double back[2] = {-n[0], -n[1]};
+    sunder_i_region half = *r;
+    sunder_i_region_clip(&half, back, -d, SUNDER_I_NO_CUT, c->forbidden->grain);
+    if (!is_covered(c, &half, depth + 1)) return false;
+    half = *r;
+    sunder_i_region_clip(&half, n, d, SUNDER_I_NO_CUT, c->forbidden->grain);
+    return is_covered(c, &half, depth + 1);
+}
+
+/* What is not covered is left, if that is asked for: so far it counts as covered. It is small: there are few such. */
+static bool leave_over(covering *c, const sunder_i_region *r)
+{
+    return c->left && sunder_i_reserve(&c->left->item, &c->left->capacity, c->left->n + 1, sizeof *c->left->item) &&
+           (c->left->item[c->left->n++] = *r, true);
+}
+
+static bool is_covered(covering *c, const sunder_i_region *r, int depth)
+{
+    double middle[2], along[2], d = 0;
+    if (r->n == 0) return true;
+    if (c->last && corners_in(c, c->last, r) == r->n) return true;
+    measure(r, middle, along);
+    const double at[4] = {middle[0], middle[1], middle[0], middle[1]};
+    const sunder_i_forbidden_piece *most = NULL;
+    uint32_t in_most = 0;
+    sunder_i_forbidden_walk walk;
+    sunder_i_forbidden_start(&walk, c->forbidden);
+    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, c->forbidden, at));) {
+        if (!is_in(c, p, middle, r->blur)) continue;
+        const uint32_t n = p == c->last ? 0 : corners_in(c, p, r);
+        if (most && n <= in_most) continue;
+        most = p;
+        in_most = n;
+        if (n < r->n) continue;
+        c->last = p;
+        c->steps += walk.looks;
+        return true;
+    }
+    c->steps += walk.looks;
+    if (c->gap && (!most || depth == COVER_DEPTH)) memcpy(c->gap, middle, sizeof middle);
+    if ((!most && (!c->left || depth >= LEFT_DEPTH)) || depth == COVER_DEPTH || c->steps > c->most)
+        return leave_over(c, r);
+    if (!most || !find_leaving(c, most, r, middle, along, &d)) {
+        measure(r, middle, along);
+        d = along[0] * middle[0] + along[1] * middle[1];
+    }
+    return are_halves_covered(c, r, along, d, depth);
+}
+
+bool sunder_i_region_is_covered(const sunder_i_region *region, const sunder_i_forbidden *forbidden, bool *used,
+                                double gap[2], uint64_t *steps)
+{
+    covering c = {.forbidden = forbidden, .used = used, .most = COVER_STEPS, .gap = gap};
+    if (gap) gap[0] = gap[1] = NAN;
+    const bool covered = is_covered(&c, region, 0);
+    *steps += c.steps;
+    return covered;
+}
+
+bool sunder_i_region_cover(const sunder_i_region *region, const sunder_i_forbidden *forbidden, sunder_i_regions *left,
+                           uint64_t *steps)
+{
+    covering c = {.forbidden = forbidden, .most = COVER_STEPS, .left = left};
+    const bool ok = is_covered(&c, region, 0);
+    *steps += c.steps;
+    return ok;
+}

@@ -1,0 +1,46 @@
+/* Groups that are crowded: of whose bodies many pairs are left in conflict.
+ *
+ * What is asked of such a pair is that it stands no nearer than it stood, and where the search found no room for it,
+ * it mostly stands just so. A layout with many of them hangs together by distances without room for rounding: what
+ * shaking finds to be cheaper takes a hair of one or the other, and is put back as a whole. Nor does a tree of it prove
+ * more than its pairs do by themselves. */
+#include "displacement/prove/optimum/optimum.h"
+#include "displacement/prove/optimum/tuning.h"
+
+/* Is it a member that may move? */
+static bool has_mover(const sunder_i_model *model, const sunder_i_group *g, uint32_t body)
+{
+    return !model->body[body].fixed && sunder_i_set_has(g->body, g->n, body);
+}
+
+/* How many listed pairs the feature is the first of, with those of other bodies of the group. */
+static size_t count_listed(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g,
+                           uint32_t feature)
+{
+    const sunder_i_waiver first = {.a = feature};
+    size_t listed = 0;
+    for (size_t k = sunder_i_lower_bound(&first, waived->pair, waived->n, sizeof first, sunder_i_by_id_pair);
+         k < waived->n && waived->pair[k].a == feature; k++) {
+        const uint32_t other = model->body_of[waived->pair[k].b];
+        listed += other != model->body_of[feature] && has_mover(model, g, other);
+    }
+    return listed;
+}
+
+size_t sunder_i_group_listed(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g)
+{
+    size_t listed = 0;
+    for (size_t k = 0; k < g->n; k++) {
+        const sunder_i_body *b = &model->body[g->body[k]];
+        for (uint32_t m = 0; m < b->members && !b->fixed; m++)
+            listed += count_listed(model, waived, g, model->member[b->member + m]);
+    }
+    return listed;
+}
+
+bool sunder_i_group_is_crowded(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g)
+{
+    size_t movers = 0;
+    for (size_t k = 0; k < g->n; k++) movers += !model->body[g->body[k]].fixed;
+    return movers > BRANCHED && sunder_i_group_listed(model, waived, g) * CROWDED >= movers;
+}

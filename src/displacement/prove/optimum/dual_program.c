@@ -1,0 +1,331 @@
+/* A node's program, by a dual active set method [GI83], and what its forces prove.
+ *
+ * For forces f >= 0 on cuts n.(t_j - t_i) >= d, every t that keeps the cuts has
+ *
+ *     sum w |t - a|^2  >=  D(f) = sum f (d - n.(a_j - a_i)) - sum over bodies |g_i|^2 / (4 w_i),
+ *
+ * g_i the sum of the forces' vectors on body i, signed by its side [weak duality, BV04, section 5.2]. That holds for
+ * any f, so nothing depends on how they were found: sunder_i_dual_value() adds it up, with a bound on its own rounding.
+ * And sum w |t - a|^2 >= D + sum w |t - t*|^2, t* = a + g / (2 w), which is what cuts by a disc stand on (tree.c).
+ *
+ * The method: the cuts that act are equations, their forces positive, t the least for them. A cut that t violates is
+ * pressed until it holds, or until another's force vanishes, which is let go. D never falls. Where the new cut is a
+ * combination of those that act and none lets go, no t keeps them all: then forces along that combination prove any
+ * value, and they are taken so large that `enough` is proved by evaluating it; where that fails the cut is left alone.
+ *
+ * The products of the cuts that act are kept as a Cholesky factor, which grows by a row, and loses one by rotations. */
+#include "displacement/prove/optimum/dual_program.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include "base/extremes.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The share of a cut's own square below which it is a combination of others. */
+#define DEPENDENT 1e-11
+#define NO_FACTOR 1e-9
+#define FEWEST_ROWS 32
+
+bool sunder_i_dual_init(sunder_i_dual_program *p, size_t bodies)
+{
+    memset(p, 0, sizeof *p);
+    p->bodies = bodies;
+    p->t = sunder_i_alloc(2 * bodies, sizeof *p->t);
+    p->net = sunder_i_alloc(3 * bodies, sizeof *p->net);
+    return p->t && p->net;
+}
+
+void sunder_i_dual_free(sunder_i_dual_program *p)
+{
+    sunder_i_free(p->acting);
+    sunder_i_free(p->factor);
+    sunder_i_free(p->t);
+    sunder_i_free(p->net);
+    sunder_i_free(p->scratch);
+    memset(p, 0, sizeof *p);
+}
+
+/* Room for n rows; the factor is laid out anew. */
+static bool reserve(sunder_i_dual_program *p, size_t n)
+{
+    if (n <= p->capacity) return true;
+    size_t capacity = p->capacity ? p->capacity : FEWEST_ROWS;
+    while (capacity < n) capacity *= 2;
+    sunder_i_cut_force *acting = sunder_i_realloc(p->acting, capacity, sizeof *acting);
+    if (acting) p->acting = acting;
+    double *scratch = sunder_i_realloc(p->scratch, 3 * capacity, sizeof *scratch);
+    if (scratch) p->scratch = scratch;
+    double *factor = sunder_i_alloc(capacity * capacity, sizeof *factor);
+    if (!acting || !scratch || !factor) {
+        sunder_i_free(factor);
+        return false;
+    }
+    for (size_t k = 0; k < p->acting_n; k++)
+        memcpy(factor + k * capacity, p->factor + k * p->capacity, (k + 1) * sizeof *factor);
+    sunder_i_free(p->factor);
+    p->factor = factor;
+    p->capacity = capacity;
+    return true;
+}
+
+static double product(const sunder_i_dual_program *p, const sunder_i_move_cut *a, const sunder_i_move_cut *b)
+{
+    double shared = 0;
+    if (a->i == b->i && a->i != SUNDER_I_GROUND) shared += p->mass[a->i];
+    if (a->j == b->j && a->j != SUNDER_I_GROUND) shared += p->mass[a->j];
+    if (a->i == b->j && a->i != SUNDER_I_GROUND) shared -= p->mass[a->i];
+    if (a->j == b->i && a->j != SUNDER_I_GROUND) shared -= p->mass[a->j];
+    return shared != 0 ? shared * (a->n[0] * b->n[0] + a->n[1] * b->n[1]) : 0;
+}
+
+static double at_anchor(const sunder_i_dual_program *p, const sunder_i_move_cut *c)
+{
+    double v = 0;
+    if (c->j != SUNDER_I_GROUND) v += c->n[0] * p->anchor[2 * c->j] + c->n[1] * p->anchor[2 * c->j + 1];
+    if (c->i != SUNDER_I_GROUND) v -= c->n[0] * p->anchor[2 * c->i] + c->n[1] * p->anchor[2 * c->i + 1];
+    return v;
+}
+
+double sunder_i_dual_missing(const sunder_i_dual_program *p, const sunder_i_move_cut *c)
+{
+    double v = c->d;
+    if (c->j != SUNDER_I_GROUND) v -= c->n[0] * p->t[2 * c->j] + c->n[1] * p->t[2 * c->j + 1];
+    if (c->i != SUNDER_I_GROUND) v += c->n[0] * p->t[2 * c->i] + c->n[1] * p->t[2 * c->i + 1];
+    return v;
+}
+
+/* ---- The factor -------------------------------------------------------------------------------------------------- */
+
+/* row := the row that the cut would have; returns its diagonal squared, and the cut's own square. */
+static double make_row(sunder_i_dual_program *p, const sunder_i_move_cut *c, double *row, double *square)
+{
+    double left = *square = product(p, c, c);
+    for (size_t k = 0; k < p->acting_n; k++) {
+        const double *l = p->factor + k * p->capacity;
+        double v = product(p, c, &p->cut[p->acting[k].cut]);
+        for (size_t m = 0; m < k; m++) v -= l[m] * row[m];
+        row[k] = v / l[k];
+        left -= row[k] * row[k];
+    }
+    p->steps += 1 + p->acting_n * p->acting_n / 16;
+    return left;
+}
+
+/* Solves transposed: out such that sum over k of out_k L_km = row_m. */
+static void solve_back(const sunder_i_dual_program *p, const double *row, double *out)
+{
+    memcpy(out, row, p->acting_n * sizeof *out);
+    for (size_t k = p->acting_n; k-- > 0;) {
+        const double *l = p->factor + k * p->capacity;
+        out[k] /= l[k];
+        for (size_t m = 0; m < k; m++) out[m] -= out[k] * l[m];
+    }
+}
+
+static void append(sunder_i_dual_program *p, uint32_t cut, double force, const double *row, double diagonal)
+{
+    double *l = p->factor + p->acting_n * p->capacity;
+    memcpy(l, row, p->acting_n * sizeof *l);
+    l[p->acting_n] = diagonal;
+    p->acting[p->acting_n++] = (sunder_i_cut_force){cut, force};
+}
+
+/* Takes row `at` out; rotations bring what follows back to a triangle. */
+static void take_out(sunder_i_dual_program *p, size_t at)
+{
+    for (size_t k = at + 1; k < p->acting_n; k++) {
+        memcpy(p->factor + (k - 1) * p->capacity, p->factor + k * p->capacity, (k + 1) * sizeof *p->factor);
+        p->acting[k - 1] = p->acting[k];
+    }
+    p->acting_n--;
+    for (size_t k = at; k < p->acting_n; k++) {
+        double *l = p->factor + k * p->capacity;
+        const double a = l[k], b = l[k + 1], length = sqrt(a * a + b * b), c = a / length, s = b / length;
+        for (size_t m = k; m < p->acting_n; m++) {
+            double *r = p->factor + m * p->capacity;
+            const double x = r[k], y = r[k + 1];
+            r[k] = c * x + s * y;
+            r[k + 1] = c * y - s * x;
+        }
+    }
+    p->steps += 1 + p->acting_n * p->acting_n / 16;
+}
+
+/* ---- Forces ------------------------------------------------------------------------------------------------------ */
+
+void sunder_i_dual_place(sunder_i_dual_program *p)
+{
+    memcpy(p->t, p->anchor, 2 * p->bodies * sizeof *p->t);
+    for (size_t k = 0; k < p->acting_n; k++) {
+        const sunder_i_move_cut *c = &p->cut[p->acting[k].cut];
+        for (int e = 0; e < 2; e++) {
+            const uint32_t b = e ? c->j : c->i;
+            if (b == SUNDER_I_GROUND) continue;
+            const double push = (e ? p->acting[k].force : -p->acting[k].force) * p->mass[b];
+            p->t[2 * b] += push * c->n[0];
+            p->t[2 * b + 1] += push * c->n[1];
+        }
+    }
+}
+
+/* The forces at which all that act are equations. */
+static void balance(sunder_i_dual_program *p)
+{
+    double *y = p->scratch;
+    for (size_t k = 0; k < p->acting_n; k++) {
+        const sunder_i_move_cut *c = &p->cut[p->acting[k].cut];
+        const double *l = p->factor + k * p->capacity;
+        double v = c->d - at_anchor(p, c);
+        for (size_t m = 0; m < k; m++) v -= l[m] * y[m];
+        y[k] = v / l[k];
+    }
+    solve_back(p, y, p->scratch + p->capacity);
+    for (size_t k = 0; k < p->acting_n; k++) p->acting[k].force = p->scratch[p->capacity + k];
+    p->steps += 1 + p->acting_n * p->acting_n / 8;
+}
+
+bool sunder_i_dual_load(sunder_i_dual_program *p, const sunder_i_cut_force *acting, size_t n)
+{
+    if (!reserve(p, n + 1)) return false;
+    p->acting_n = 0;
+    for (size_t k = 0; k < n; k++) {
+        double square;
+        const double left = make_row(p, &p->cut[acting[k].cut], p->scratch, &square);
+        if (left > DEPENDENT * square) append(p, acting[k].cut, acting[k].force, p->scratch, sqrt(left));
+    }
+    for (;;) {
+        size_t worst = 0;
+        balance(p);
+        for (size_t k = 1; k < p->acting_n; k++)
+            if (p->acting[k].force < p->acting[worst].force) worst = k;
+        if (p->acting_n == 0 || p->acting[worst].force >= 0) break;
+        take_out(p, worst);
+    }
+    sunder_i_dual_place(p);
+    return true;
+}
+
+/* All that act pull back by r for each unit of the new force, which is `force` by now; along them `missing` stays, so D
+ * grows without end. */
+static sunder_i_dual_outcome contradict(sunder_i_dual_program *p, uint32_t cut, double force, double missing,
+                                        const double *r, double enough)
+{
+    const size_t n = p->acting_n;
+    double *before = p->scratch + 2 * p->capacity, scale = fabs(enough) / missing;
+    for (size_t k = 0; k < n; k++) before[k] = p->acting[k].force;
+    p->acting[n].cut = cut;
+    p->acting_n = n + 1;
+    for (int attempt = 0; attempt < 24; attempt++, scale *= 2) {
+        for (size_t k = 0; k < n; k++) p->acting[k].force = sunder_i_max(0, before[k] - scale * r[k]);
+        p->acting[n].force = force + scale;
+        if (sunder_i_dual_value(p) >= enough) return SUNDER_I_DUAL_CLOSED;
+    }
+    for (size_t k = 0; k < n; k++) p->acting[k].force = before[k];
+    p->acting_n = n;
+    return SUNDER_I_DUAL_STUCK;
+}
+
+/* The cut whose force vanishes first when all pull back by r, of those that do so by more than `least`; SIZE_MAX: none
+ * does. *step: how far the new force has grown then. */
+static size_t find_leaving(const sunder_i_dual_program *p, const double *r, double least, double *step)
+{
+    size_t leaves = SIZE_MAX;
+    *step = INFINITY;
+    for (size_t k = 0; k < p->acting_n; k++) {
+        if (!(r[k] > least) || !(p->acting[k].force / r[k] < *step)) continue;
+        *step = p->acting[k].force / r[k];
+        leaves = k;
+    }
+    return leaves;
+}
+
+/* Of a combination of those that act: what is less than this share of its largest factor is rounding, and no cut is let
+ * go for it, or the new force would grow beyond all bounds. */
+static double least_factor(const sunder_i_dual_program *p, const double *r)
+{
+    double most = 0;
+    for (size_t k = 0; k < p->acting_n; k++) most = sunder_i_max(most, fabs(r[k]));
+    return NO_FACTOR * most;
+}
+
+sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *p, uint32_t cut, double enough, bool *failed)
+{
+    const sunder_i_move_cut *c = &p->cut[cut];
+    double force = 0;
+    *failed = !reserve(p, p->acting_n + 2);
+    if (*failed) return SUNDER_I_DUAL_STUCK;
+    for (size_t round = 0; round < 4 * p->acting_n + 64; round++) {
+        double *row = p->scratch, *r = p->scratch + p->capacity, square;
+        const double left = make_row(p, c, row, &square);
+        const bool dependent = !(left > DEPENDENT * square);
+        sunder_i_dual_place(p);
+        /* t so far is without the new force. */
+        double missing = c->d - at_anchor(p, c);
+        for (int e = 0; e < 2; e++) {
+            const uint32_t b = e ? c->j : c->i;
+            if (b == SUNDER_I_GROUND) continue;
+            const double v =
+                c->n[0] * (p->t[2 * b] - p->anchor[2 * b]) + c->n[1] * (p->t[2 * b + 1] - p->anchor[2 * b + 1]);
+            missing -= e ? v : -v;
+        }
+        missing -= force * square;
+        solve_back(p, row, r);
+        double longest;
+        const size_t leaves = find_leaving(p, r, dependent ? least_factor(p, r) : 1e-13 * fabs(square), &longest);
+        if (dependent && leaves == SIZE_MAX) {
+            if (!(missing > 0)) break;
+            return contradict(p, cut, force, missing, r, enough);
+        }
+        const double whole = dependent ? INFINITY : sunder_i_max(0, missing) / left,
+                     step = sunder_i_min(whole, longest);
+        for (size_t k = 0; k < p->acting_n; k++) p->acting[k].force = sunder_i_max(0, p->acting[k].force - step * r[k]);
+        force += step;
+        if (whole <= longest) {
+            append(p, cut, force, row, sqrt(left));
+            sunder_i_dual_place(p);
+            return SUNDER_I_DUAL_SOLVED;
+        }
+        take_out(p, leaves);
+    }
+    balance(p);
+    for (size_t k = 0; k < p->acting_n; k++) p->acting[k].force = sunder_i_max(0, p->acting[k].force);
+    sunder_i_dual_place(p);
+    return SUNDER_I_DUAL_STUCK;
+}
+
+/* ---- What the forces prove --------------------------------------------------------------------------------------- */
+
+/* Rounding, with e = 2^-53 and N forces. A term f (d - n.a) is off by at most 8 e of the sum of its parts' magnitudes;
+ * a sum of N by N e of the sum of magnitudes more: (N + 9) e of it is enough, and to add up the magnitudes takes as
+ * much again of itself. A component of g is off by (N + 1) e of the sum of |f n|, which is `weight` below, and |g|^2 /
+ * (4 w) takes four roundings. Four times all that is taken, so that these sums may be rounded themselves; and 2^-900
+ * for what falls below the normal numbers. */
+double sunder_i_dual_value(sunder_i_dual_program *p)
+{
+    const double unit = 4 * ((double)(p->acting_n + p->bodies) + 16) * 0x1p-53;
+    double value = 0, magnitude = 0, taken = 0, *net = p->net;
+    memset(net, 0, 3 * p->bodies * sizeof *net);
+    for (size_t k = 0; k < p->acting_n; k++) {
+        const sunder_i_move_cut *c = &p->cut[p->acting[k].cut];
+        const double f = p->acting[k].force;
+        double part = fabs(c->d);
+        for (int e = 0; e < 2; e++) {
+            const uint32_t b = e ? c->j : c->i;
+            if (b == SUNDER_I_GROUND) continue;
+            part += fabs(c->n[0] * p->anchor[2 * b]) + fabs(c->n[1] * p->anchor[2 * b + 1]);
+            net[3 * b] += e ? f * c->n[0] : -f * c->n[0];
+            net[3 * b + 1] += e ? f * c->n[1] : -f * c->n[1];
+            net[3 * b + 2] += f * (fabs(c->n[0]) + fabs(c->n[1]));
+        }
+        value += f * (c->d - at_anchor(p, c));
+        magnitude += f * part;
+    }
+    for (size_t b = 0; b < p->bodies; b++) {
+        if (!(p->mass[b] > 0) || !(net[3 * b + 2] > 0)) continue;
+        const double x = fabs(net[3 * b]) + unit * net[3 * b + 2], y = fabs(net[3 * b + 1]) + unit * net[3 * b + 2];
+        taken += (x * x + y * y) / (4 * p->weight[b]);
+    }
+    return value - taken - unit * (magnitude + fabs(value) + taken) - 0x1p-900;
+}

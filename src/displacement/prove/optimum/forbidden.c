@@ -1,0 +1,435 @@
+/* The forbidden set of a pair, piece by piece.
+ *
+ * Where convex pieces A and B of two bodies owe each other the distance g, the relative move u may not be in the open
+ * set (A + (-B)) grown by the disc of radius g. So of two bodies the forbidden set is a union of such pieces, arcs and
+ * all. Of pairs that are listed in the report it is asked that they stand no nearer than they stood; if they overlap
+ * still, as they did, that some translation no longer than the one that parted them leaves them disjoint: u may not be
+ * where the disc of that radius about it lies in the union of the pair's open pieces, as it does where it lies in one.
+ * Nothing is asked of those of which one lies in the other, or could get there, with leave to overlap it: leaving them
+ * out makes the set smaller, and a bound no more than weaker.
+ * Courtyards are no matter: the pieces of a feature fill it, and nothing else. Shadows of what anchors may not pass,
+ * and of the lines that side anchors may not cross, are further pieces, and nobody is let off them.
+ *
+ * Rounding, with e = 2^-53: a corner less its origin is off by e of itself (2^-52 of the coordinates where the shape is
+ * rational, whose corners are the nearest doubles), and a - b - offset takes two more roundings, so that 8 e S = 2^-50
+ * S is enough for a corner, S the sum over both coordinates of the greatest |a| + |b| + |offset|. Every corner of K so
+ * is near the difference of a corner of A and one of B, in whatever order edges were merged: K lies in the true polygon
+ * grown by that. By the cancellation law for convex sets, what is in K by as much, or nearer to K than the radius less
+ * as much, is in the true piece. */
+#include "displacement/prove/optimum/forbidden.h"
+#include "displacement/geometry/obstacle_shadow.h"
+#include "displacement/layer/resolution.h"
+#include "displacement/layer/sides.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include "base/extremes.h"
+#include "base/watch.h"
+#include "shape/shape.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void sunder_i_forbidden_free(sunder_i_forbidden *f)
+{
+    sunder_i_free(f->piece);
+    sunder_i_free(f->edge);
+    sunder_i_free(f->tree.box);
+    *f = (sunder_i_forbidden){0};
+}
+
+typedef struct listing {
+    sunder_i_forbidden *out;
+    const sunder_i_model *model;
+    const sunder_i_waived *waived;
+    const sunder_i_body *p, *q;
+    const sunder_i_body_pieces *of_p, *of_q;
+    double offset[2], reach;
+    double window[4]; /* of u that are asked about */
+    size_t most;      /* pieces */
+    bool seams, no_ways;
+    sunder_i_scratch scratch;
+    double *drawn, *hull; /* scratch of shadows */
+    size_t drawn_capacity, hull_capacity;
+} listing;
+
+const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sunder_i_waived *w, uint32_t a, uint32_t b)
+{
+    const uint32_t f = sunder_i_whole_of(model, a), g = sunder_i_whole_of(model, b);
+    const sunder_i_waiver key = {.a = f < g ? f : g, .b = f < g ? g : f};
+    return w->n ? bsearch(&key, w->pair, w->n, sizeof key, sunder_i_by_id_pair) : NULL;
+}
+
+/* Do the two owe each other anything? waiver: NULL, or the pair's. */
+static bool owe(const listing *l, uint32_t f, uint32_t g, const sunder_i_waiver **waiver)
+{
+    *waiver = sunder_i_waiver_of(l->model, l->waived, f, g);
+    if (*waiver && sunder_i_waiver_clearance(*waiver) == -INFINITY) return false;
+    if (sunder_i_is_barrier(l->model, f) || sunder_i_is_barrier(l->model, g)) return true;
+    return !sunder_i_may_get_inside(&l->model->rules, sunder_i_home_box(l->model, f), sunder_i_home_box(l->model, g),
+                                    nextafter(l->reach, INFINITY));
+}
+
+/* S of one coordinate sum: of a piece, and what its coordinates were before they were reckoned from the origin. */
+static double size_of(const listing *l, const sunder_i_body *body, const sunder_i_body_piece *piece)
+{
+    const sunder_shape *shape = sunder_i_thing_shape(l->model, piece->feature);
+    const bool rational = shape && shape->rational;
+    double size = 0;
+    for (size_t c = 0; c < 2; c++) {
+        size += sunder_i_max(fabs(piece->box[c]), fabs(piece->box[c + 2]));
+        if (rational) size += 4 * (fabs(body->origin[c]) + fabs(piece->box[c]) + fabs(piece->box[c + 2]));
+    }
+    return size;
+}
+
+/* K = a + (-B): its corners to l->scratch, *n of them, its edges behind those of the list, which they join if they are
+ * kept. False if memory is out. */
+static bool begin_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
+                        sunder_i_forbidden_piece *piece, size_t *n)
+{
+    sunder_i_forbidden *f = l->out;
+    const size_t most = (size_t)a->corners + b->corners;
+    if (!sunder_i_reserve(&f->piece, &f->piece_capacity, f->pieces + 1, sizeof *f->piece) ||
+        !sunder_i_reserve(&f->edge, &f->edge_capacity, f->edges + most, sizeof *f->edge) || !sunder_i_steps(1))
+        return false;
+    *n = sunder_i_obstacle_corners(a->corner, a->corners, b->corner, b->corners, l->offset, &l->scratch);
+    if (*n == 0) return false;
+    *piece = (sunder_i_forbidden_piece){.edge = (uint32_t)f->edges, .a = a, .b = b, .clearance = NAN};
+    piece->edges = (uint32_t)sunder_i_obstacle_edges(l->scratch.xy, *n, f->edge + f->edges);
+    piece->vague = 0x1p-50 * (size_of(l, l->p, a) + size_of(l, l->q, b) + fabs(l->offset[0]) + fabs(l->offset[1]));
+    return true;
+}
+
+/* A disc about the middle of the piece's box that lies in it: of symbols nearly all of it. */
+static void find_disc_within(const sunder_i_forbidden *f, sunder_i_forbidden_piece *piece)
+{
+    for (size_t c = 0; c < 2; c++) piece->middle[c] = piece->box[c] / 2 + piece->box[c + 2] / 2;
+    double nearest = INFINITY;
+    for (uint32_t k = 0; k < piece->edges; k++) {
+        const sunder_i_obstacle_edge *e = &f->edge[piece->edge + k];
+        const double far = e->n[0] * (e->from[0] - piece->middle[0]) + e->n[1] * (e->from[1] - piece->middle[1]);
+        nearest = far < nearest ? far : nearest;
+    }
+    piece->within = nearest >= 0 ? (nearest + piece->radius) * (1 - WITHIN_HAIR) : 0;
+}
+
+static void keep_piece(sunder_i_forbidden *f, sunder_i_forbidden_piece *piece, const double *xy, size_t n)
+{
+    sunder_i_box_clear(piece->box);
+    for (size_t k = 0; k < n; k++) sunder_i_box_include(piece->box, xy + 2 * k);
+    sunder_i_box_grow(piece->box, piece->radius, piece->box);
+    const uint32_t least = piece->radius > 0 ? 2 : 3; /* with fewer edges it has no interior */
+    if (piece->edges < least) return;
+    find_disc_within(f, piece);
+    f->edges += piece->edges;
+    f->piece[f->pieces++] = *piece;
+}
+
+/* The edges of the polygon xy instead of those that the piece has. False if memory is out. */
+static bool set_edges(sunder_i_forbidden *f, sunder_i_forbidden_piece *piece, const double *xy, size_t n)
+{
+    if (!sunder_i_reserve(&f->edge, &f->edge_capacity, f->edges + n, sizeof *f->edge)) return false;
+    piece->edges = (uint32_t)sunder_i_obstacle_edges(xy, n, f->edge + f->edges);
+    return true;
+}
+
+/* What of the convex polygon has no edge nearer than that, by clipping; returns how many corners, to *out. */
+static size_t move_inwards(const sunder_i_obstacle_edge *edge, size_t edges, double depth, double **in, double **out,
+                           size_t n)
+{
+    for (size_t e = 0; e < edges; e++) {
+        const double *p = *in, *from = edge[e].from, *normal = edge[e].n;
+        size_t kept = 0;
+        for (size_t k = 0; k < n; k++) {
+            const double *a = p + 2 * k, *b = p + 2 * (k + 1 < n ? k + 1 : 0);
+            const double s = normal[0] * (a[0] - from[0]) + normal[1] * (a[1] - from[1]) + depth,
+                         t = normal[0] * (b[0] - from[0]) + normal[1] * (b[1] - from[1]) + depth;
+            if (s <= 0) memcpy(*out + 2 * kept++, a, 2 * sizeof *a);
+            if ((s <= 0) == (t <= 0)) continue;
+            const double share = s / (s - t);
+            for (size_t c = 0; c < 2; c++) (*out)[2 * kept + c] = a[c] + share * (b[c] - a[c]);
+            kept++;
+        }
+        double *swap = *in;
+        *in = *out;
+        *out = swap;
+        n = kept;
+    }
+    return n;
+}
+
+/* All u about which the disc of that radius lies in the piece, whose corners are xy: K moved inwards by as much, and by
+ * all that its corners may be off. For each corner of what is kept it is asked whether the disc about it is in K, with
+ * room for rounding: by the cancellation law its like is in the true piece then, and what is kept is not vague. */
+static bool add_eroded(listing *l, sunder_i_forbidden_piece *piece, const double *xy, size_t n, double depth)
+{
+    sunder_i_forbidden *f = l->out;
+    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
+    double size = depth;
+    for (size_t k = 0; k < 2 * n; k++) size = sunder_i_max(size, fabs(xy[k]));
+    const double least = depth * (1 + 0x1p-50) + piece->vague + 0x1p-48 * size;
+    if (!sunder_i_reserve(&l->drawn, &l->drawn_capacity, 4 * n, sizeof *l->drawn) ||
+        !sunder_i_reserve(&l->hull, &l->hull_capacity, 4 * n, sizeof *l->hull))
+        return false;
+    memcpy(l->drawn, xy, 2 * n * sizeof *xy);
+    double *corner = l->drawn, *scratch = l->hull;
+    const size_t corners = move_inwards(edge, piece->edges, least + 0x1p-48 * size, &corner, &scratch, n);
+    for (size_t k = 0; k < corners; k++)
+        for (uint32_t e = 0; e < piece->edges; e++)
+            if (edge[e].n[0] * (corner[2 * k] - edge[e].from[0]) +
+                    edge[e].n[1] * (corner[2 * k + 1] - edge[e].from[1]) >
+                -least)
+                return true;
+    if (corners < 3) return true;
+    if (!set_edges(f, piece, corner, corners)) return false;
+    piece->vague = 0;
+    keep_piece(f, piece, corner, corners);
+    return true;
+}
+
+static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
+                      const sunder_i_waiver *waiver)
+{
+    sunder_i_forbidden_piece piece;
+    size_t n;
+    if (!begin_piece(l, a, b, &piece, &n)) return false;
+    piece.radius = sunder_i_owed_below(l->model, a->feature, b->feature);
+    if (waiver) {
+        piece.radius = sunder_i_min(piece.radius, sunder_i_max(0, sunder_i_waiver_clearance(waiver)));
+        piece.clearance = sunder_i_min(piece.radius, sunder_i_waiver_clearance(waiver));
+    }
+    if (piece.clearance < 0) return add_eroded(l, &piece, l->scratch.xy, n, -piece.clearance);
+    keep_piece(l->out, &piece, l->scratch.xy, n);
+    return true;
+}
+
+static bool is_full(const listing *l) { return l->out->pieces > l->most; }
+
+static bool add_pieces(listing *l)
+{
+    const double gap = l->model->rules.gap, *w = l->window;
+    for (uint32_t k = 0; k < l->p->pieces && !is_full(l); k++) {
+        const sunder_i_body_piece *a = &l->of_p->piece[k];
+        const double box[4] = {a->box[0] - l->offset[0] - w[2] - gap, a->box[1] - l->offset[1] - w[3] - gap,
+                               a->box[2] - l->offset[0] - w[0] + gap, a->box[3] - l->offset[1] - w[1] + gap};
+        if (!sunder_i_steps(1 + l->q->pieces / 8)) return false;
+        if (!sunder_i_box_meet(box, l->q->box)) continue;
+        for (uint32_t m = 0; m < l->q->pieces; m++) {
+            const sunder_i_body_piece *b = &l->of_q->piece[m];
+            const sunder_i_waiver *waiver;
+            if (!sunder_i_box_meet(box, b->box) || !owe(l, a->feature, b->feature, &waiver)) continue;
+            if (!add_piece(l, a, b, waiver)) return false;
+        }
+    }
+    return true;
+}
+
+/* May a piece of the other lie on a diagonal between pieces of `of`, since it has no area, and is owed nothing? */
+static bool hides_in_seams(const listing *l, const sunder_i_body *of, const sunder_i_body *other)
+{
+    const uint32_t part = l->model->member[other->member];
+    return of->has->seams && sunder_i_is_barrier(l->model, part) && sunder_i_owed_below(l->model, part, part) == 0;
+}
+
+/* What covers the diagonals of one body, and pieces of the other without area; swapped: it is the second of the two. */
+static bool add_covers(listing *l, const sunder_i_body *of, const sunder_i_body *other, bool swapped)
+{
+    const sunder_i_model *model = l->model;
+    const sunder_i_body_pieces *pieces = swapped ? l->of_p : l->of_q;
+    const double sign = swapped ? 1 : -1;
+    if (!hides_in_seams(l, of, other)) return true;
+    for (uint32_t k = of->has->seam; k < of->has->seam + of->has->seams && !is_full(l); k++) {
+        const sunder_i_body_piece *seam = &model->seam[k];
+        double box[4];
+        for (uint32_t c = 0; c < 4; c++)
+            box[c] = seam->box[c] + sign * l->offset[c & 1] + (c < 2 ? -l->reach : l->reach);
+        for (uint32_t m = 0; m < other->pieces; m++) {
+            const sunder_i_body_piece *flat = &pieces->piece[m];
+            const sunder_i_waiver *waiver;
+            if (flat->corners > 2 || !sunder_i_box_meet(box, flat->box)) continue;
+            if (!owe(l, seam->feature, flat->feature, &waiver)) continue;
+            if (!add_piece(l, swapped ? flat : seam, swapped ? seam : flat, waiver)) return false;
+        }
+    }
+    return true;
+}
+
+/* The shadow of K = a + (-B) from u = 0, where a is an anchor of the one body and B a piece of the other, as far as it
+ * matters: the hull of K and of K drawn out so far that it is out of reach. That lies in the shadow, which is convex;
+ * its corners are off by as many times more. What K's own rounding could bring to 0 has no shadow here. */
+static bool add_shadow(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
+{
+    sunder_i_forbidden *f = l->out;
+    const double home[2] = {0, 0};
+    sunder_i_forbidden_piece piece;
+    size_t n;
+    if (!begin_piece(l, a, b, &piece, &n)) return false;
+    const double off = piece.vague;
+    const double distance = piece.edges > 1 ? sunder_i_forbidden_distance(f, &piece, home) : 0;
+    if (!(distance > 4 * off) || distance > l->reach) return true;
+    const double far = 1 + 2 * l->reach / distance;
+    if (!sunder_i_reserve(&l->drawn, &l->drawn_capacity, 4 * n + 2, sizeof *l->drawn)) return false;
+    double *xy = l->drawn;
+    for (size_t k = 0; k < 2 * n; k++) {
+        xy[k] = l->scratch.xy[k];
+        xy[2 * n + k] = far * l->scratch.xy[k];
+    }
+    if (!sunder_i_reserve(&l->hull, &l->hull_capacity, 4 * n + 2, sizeof *l->hull)) return false;
+    const size_t corners = sunder_i_convex_hull(xy, 2 * n, l->hull);
+    if (!set_edges(f, &piece, l->hull, corners)) return false;
+    piece.vague = 2 * far * off;
+    piece.shadow = true;
+    keep_piece(f, &piece, l->hull, corners);
+    return true;
+}
+
+/* May the piece cast a shadow from the anchor that is within reach? By their boxes; swapped: the anchor is of q. */
+static bool may_cast(const listing *l, const sunder_i_body_piece *anchor, const sunder_i_body_piece *piece,
+                     bool swapped)
+{
+    const double *w = l->window,
+                 way[4] = {sunder_i_min(0, w[0]), sunder_i_min(0, w[1]), sunder_i_max(0, w[2]), sunder_i_max(0, w[3])};
+    return swapped ? sunder_i_shadow_may_reach(piece->box, anchor->box, l->offset, way)
+                   : sunder_i_shadow_may_reach(anchor->box, piece->box, l->offset, way);
+}
+
+/* The shadow of one piece from that anchor. */
+static bool add_shadow_of(listing *l, const sunder_i_body_piece *anchor, const sunder_i_body_piece *piece, bool swapped)
+{
+    if (!may_cast(l, anchor, piece, swapped) || sunder_i_is_held(l->model, anchor->feature, piece->feature))
+        return true;
+    return add_shadow(l, swapped ? piece : anchor, swapped ? anchor : piece);
+}
+
+/* Those of what covers diagonals and shared walls. */
+static bool add_seams(listing *l, const sunder_i_body_piece *anchor, const sunder_i_body *other, bool swapped)
+{
+    const sunder_i_model *model = l->model;
+    for (uint32_t k = other->has->seam; k < other->has->seam + other->has->seams; k++)
+        if (!add_shadow_of(l, anchor, &model->seam[k], swapped)) return false;
+    for (uint32_t k = other->has->joint; k < other->has->joint + other->has->joints; k++)
+        if (!sunder_i_is_held(model, anchor->feature, model->joint[k].other) &&
+            !add_shadow_of(l, anchor, &model->joint[k].piece, swapped))
+            return false;
+    return true;
+}
+
+/* Shadows of pieces of `other` from the anchors of `p`; swapped: p is the second of the two. */
+static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_body *other, bool swapped)
+{
+    const sunder_i_model *model = l->model;
+    const sunder_i_body_pieces *from = swapped ? l->of_q : l->of_p, *of = swapped ? l->of_p : l->of_q;
+    const bool counts = l->seams || (l->waived->seamed && l->waived->seamed[other - model->body]);
+    if (sunder_i_is_barrier_body(model, other)) return true;
+    for (uint32_t m = 0; m < p->members && !is_full(l); m++) {
+        const sunder_i_body_piece *anchor = &from->anchor[m];
+        if (!anchor->corners) continue;
+        for (uint32_t k = 0; k < other->pieces; k++)
+            if (!add_shadow_of(l, anchor, &of->piece[k], swapped)) return false;
+        if (counts && !add_seams(l, anchor, other, swapped)) return false;
+    }
+    return true;
+}
+
+/* Shadows of the sides of `part` from the side anchors of `p`. */
+static bool add_sides(listing *l, const sunder_i_body *p, const sunder_i_body *part, bool swapped)
+{
+    const sunder_i_model *model = l->model;
+    for (uint32_t m = 0; m < p->members && part->has->sides && !is_full(l); m++) {
+        const uint32_t f = model->member[p->member + m];
+        const sunder_i_body_piece *anchor = &model->side_anchor[f];
+        if (!anchor->corners) continue;
+        for (uint32_t k = part->has->side; k < part->has->side + part->has->sides; k++) {
+            const sunder_i_side *side = &model->side[k];
+            if (may_cast(l, anchor, &side->piece, swapped) && sunder_i_side_faces(model, side, f) &&
+                !add_shadow(l, swapped ? &side->piece : anchor, swapped ? anchor : &side->piece))
+                return false;
+        }
+    }
+    return true;
+}
+
+static bool add_all(listing *l)
+{
+    if (l->no_ways) return add_pieces(l);
+    if (!add_pieces(l) || !add_covers(l, l->p, l->q, false) || !add_covers(l, l->q, l->p, true)) return false;
+    if (!add_sides(l, l->p, l->q, false) || !add_sides(l, l->q, l->p, true)) return false;
+    return l->model->rules.jumps || (add_shadows_from(l, l->p, l->q, false) && add_shadows_from(l, l->q, l->p, true));
+}
+
+/* False if memory is out. */
+static bool begin(listing *l, uint32_t p, uint32_t q)
+{
+    *l->out = (sunder_i_forbidden){0};
+    l->p = &l->model->body[p];
+    l->q = &l->model->body[q];
+    for (size_t c = 0; c < 2; c++) l->offset[c] = l->q->origin[c] - l->p->origin[c];
+    for (size_t c = 0; c < 4; c++) l->window[c] = c < 2 ? -l->reach : l->reach;
+    l->of_p = sunder_i_pieces_of(l->model, l->p);
+    l->of_q = sunder_i_pieces_of(l->model, l->q);
+    return l->of_p && l->of_q;
+}
+
+static void end(listing *l, double reach)
+{
+    sunder_i_forbidden *f = l->out;
+    sunder_i_free(l->scratch.xy);
+    sunder_i_free(l->drawn);
+    sunder_i_free(l->hull);
+    f->size = 2 * reach;
+    for (size_t k = 0; k < f->pieces; k++)
+        for (size_t c = 0; c < 4; c++) f->size = sunder_i_max(f->size, fabs(f->piece[k].box[c]));
+    f->grain = 0x1p-46 * f->size;
+}
+
+/* Within less reach, while that is too much. */
+static bool list_within(listing *l, uint32_t p, uint32_t q)
+{
+    const double reach = l->reach;
+    bool ok = begin(l, p, q) && add_all(l);
+    while (ok && is_full(l) && l->reach > l->model->rules.gap) {
+        l->out->pieces = l->out->edges = 0;
+        l->reach /= 2;
+        for (size_t c = 0; c < 4; c++) l->window[c] /= 2;
+        ok = add_all(l);
+    }
+    end(l, reach);
+    return ok;
+}
+
+bool sunder_i_forbidden_init(sunder_i_forbidden *f, const sunder_i_model *model, const sunder_i_waived *waived,
+                             uint32_t p, uint32_t q, double reach)
+{
+    listing l = {.out = f, .model = model, .waived = waived, .reach = reach, .most = MOST_PIECES};
+    return list_within(&l, p, q);
+}
+
+bool sunder_i_forbidden_without_ways(sunder_i_forbidden *f, const sunder_i_model *model, const sunder_i_waived *waived,
+                                     uint32_t p, uint32_t q, double reach)
+{
+    listing l = {.out = f, .model = model, .waived = waived, .reach = reach, .most = MOST_PIECES, .no_ways = true};
+    return list_within(&l, p, q);
+}
+
+bool sunder_i_forbidden_init_near(sunder_i_forbidden *f, const sunder_i_model *model, const sunder_i_waived *waived,
+                                  uint32_t p, uint32_t q, const double u[2], double hair)
+{
+    listing l = {.out = f, .model = model, .waived = waived, .most = SIZE_MAX};
+    l.reach = fabs(u[0]) + fabs(u[1]) + hair;
+    const bool begun = begin(&l, p, q);
+    for (size_t c = 0; c < 4; c++) l.window[c] = u[c & 1] + (c < 2 ? -hair : hair);
+    const bool ok = begun && add_all(&l);
+    end(&l, l.reach);
+    return ok;
+}
+
+bool sunder_i_forbidden_with_seams(sunder_i_forbidden *f, const sunder_i_model *model, uint32_t p, uint32_t q,
+                                   double reach, size_t most)
+{
+    const sunder_i_waived none = {0};
+    listing l = {.out = f, .model = model, .waived = &none, .reach = reach, .most = most, .seams = true};
+    const bool ok = begin(&l, p, q) && add_all(&l);
+    end(&l, reach);
+    return ok;
+}

@@ -1,0 +1,286 @@
+/* What is asked of a forbidden set at a place, or along a ray, in doubles.
+ *
+ * Of a set of many pieces those near by are found by a tree of boxes over them, in the order of a curve; of a few each
+ * is looked at. What is answered is the same, up to which of several pieces comes first. */
+#include "displacement/prove/optimum/forbidden.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include "spatial/curve.h"
+
+#include "base/extremes.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+/* ---- Pieces near by ---------------------------------------------------------------------------------------------- */
+
+static void add_box(const void *of, size_t k, double box[4])
+{
+    const sunder_i_forbidden *f = of;
+    sunder_i_box_join(box, f->piece[k].box);
+}
+
+bool sunder_i_forbidden_index(sunder_i_forbidden *f)
+{
+    if (f->pieces <= MANY_PIECES) return true;
+    if (!sunder_i_curve_sort_records(f->piece, f->pieces, sizeof *f->piece, offsetof(sunder_i_forbidden_piece, box)))
+        return false;
+    f->tree = sunder_i_box_tree_of(f->pieces, PIECES_IN_LEAF);
+    f->tree.box = sunder_i_alloc(2 * f->tree.leaves, sizeof *f->tree.box);
+    if (f->tree.box) sunder_i_box_tree_fill(&f->tree, add_box, f);
+    return f->tree.box;
+}
+
+void sunder_i_forbidden_start(sunder_i_forbidden_walk *w, const sunder_i_forbidden *f)
+{
+    w->looks = 0;
+    w->at = sunder_i_forbidden_is_many(f) ? f->tree.n : 0;
+    w->end = f->pieces;
+    if (sunder_i_forbidden_is_many(f))
+        sunder_i_box_walk_start(&w->waiting, &f->tree);
+    else
+        w->waiting.n = 0;
+}
+
+const sunder_i_forbidden_piece *sunder_i_forbidden_next(sunder_i_forbidden_walk *w, const sunder_i_forbidden *f,
+                                                        const double box[4])
+{
+    for (;;) {
+        while (w->at < w->end) {
+            const sunder_i_forbidden_piece *piece = &f->piece[w->at++];
+            w->looks++;
+            if (sunder_i_box_meet(piece->box, box)) return piece;
+        }
+        size_t node;
+        if (!sunder_i_box_walk_next(&w->waiting, &node)) return NULL;
+        w->looks++;
+        if (!sunder_i_box_meet(f->tree.box[node], box)) continue;
+        if (node < f->tree.leaves) {
+            sunder_i_box_walk_open(&w->waiting, 2 * node, 2 * node + 1);
+            continue;
+        }
+        w->at = sunder_i_box_tree_first(&f->tree, node);
+        w->end = sunder_i_box_tree_end(&f->tree, node);
+    }
+}
+
+/* ---- One piece --------------------------------------------------------------------------------------------------- */
+
+double sunder_i_forbidden_distance(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece,
+                                   const double u[2])
+{
+    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
+    double inside = -INFINITY, nearest = INFINITY; /* the latter squared */
+    for (uint32_t k = 0; k < piece->edges; k++) {
+        const sunder_i_obstacle_edge *e = &edge[k];
+        const double wx = u[0] - e->from[0], wy = u[1] - e->from[1], s = e->n[0] * wx + e->n[1] * wy;
+        if (s > inside) inside = s;
+        if (s <= 0) continue;
+        const double along = wy * e->n[0] - wx * e->n[1];
+        double far = s * s;
+        if (along < 0) {
+            far = wx * wx + wy * wy;
+        } else if (along > e->length) {
+            const double past = along - e->length;
+            far += past * past;
+        }
+        if (far < nearest) nearest = far;
+    }
+    return inside <= 0 ? inside : sqrt(nearest);
+}
+
+double sunder_i_forbidden_normal(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece, const double u[2],
+                                 double n[2])
+{
+    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
+    const double distance = sunder_i_forbidden_distance(f, piece, u);
+    double best = INFINITY;
+    for (uint32_t k = 0; k < piece->edges; k++) {
+        const sunder_i_obstacle_edge *e = &edge[k];
+        const double wx = u[0] - e->from[0], wy = u[1] - e->from[1], s = e->n[0] * wx + e->n[1] * wy;
+        const double along = wy * e->n[0] - wx * e->n[1],
+                     past = sunder_i_min(0, along) + sunder_i_max(0, along - e->length);
+        const double far = distance > 0 && s > 0 ? hypot(s, past) : fabs(s);
+        if ((distance > 0 && s <= 0) || fabs(far - fabs(distance)) >= best) continue;
+        best = fabs(far - fabs(distance));
+        /* From the nearest place of the edge; inside, square to its line. */
+        const double out = distance > 0 ? past : 0, length = hypot(s, out);
+        n[0] = length > 0 ? (s * e->n[0] - out * e->n[1]) / length : e->n[0];
+        n[1] = length > 0 ? (s * e->n[1] + out * e->n[0]) / length : e->n[1];
+        if (distance <= 0) {
+            n[0] = e->n[0];
+            n[1] = e->n[1];
+        }
+    }
+    return distance;
+}
+
+static void widen(double span[2], double from, double to)
+{
+    if (from < span[0]) span[0] = from;
+    if (to > span[1]) span[1] = to;
+}
+
+/* What is crossed may be a grain beyond an edge's ends, and every length in the question is off by less than one. */
+#define CLEAR_GRAINS 8
+/* Edges that are passed over together, where the line is near none of them. */
+#define EDGES_AT_ONCE 8
+
+typedef struct crossing {
+    const double *from, *dir;
+    double radius, grain, clear;
+} crossing;
+
+/* How far the first corners of n edges, and the end of the last, lie to the right of the line: off[n + 1]. False: all
+ * lie on one side, and clear of it. */
+static bool look_across(const crossing *c, const sunder_i_obstacle_edge *edge, const sunder_i_obstacle_edge *after,
+                        size_t n, double *off)
+{
+    const double x = c->from[0], y = c->from[1], dx = c->dir[0], dy = c->dir[1];
+    double least = off[n] = (after->from[0] - x) * dy - (after->from[1] - y) * dx, most = least;
+    for (size_t k = 0; k < n; k++) {
+        const double o = off[k] = (edge[k].from[0] - x) * dy - (edge[k].from[1] - y) * dx;
+        least = o < least ? o : least;
+        most = o > most ? o : most;
+    }
+    return least <= c->clear && most >= -c->clear;
+}
+
+/* Where the line is in the disc about the edge's first corner, and where it crosses the edge moved out. */
+static void cross(const crossing *c, const sunder_i_obstacle_edge *e, double off, double span[2])
+{
+    const double wx = e->from[0] - c->from[0], wy = e->from[1] - c->from[1], under = c->radius * c->radius - off * off;
+    if (under >= 0 && c->radius > 0) {
+        const double mid = wx * c->dir[0] + wy * c->dir[1], half = sqrt(under);
+        widen(span, mid - half, mid + half);
+    }
+    /* The edge moved out is crossed so far along it as `out` is to `across`, of which the signs are made alike. */
+    const double across = e->n[0] * c->dir[0] + e->n[1] * c->dir[1],
+                 out = off + c->radius * (e->n[0] * c->dir[1] - e->n[1] * c->dir[0]), along = across < 0 ? -out : out,
+                 speed = fabs(across);
+    if (speed < 1e-14 || along < -c->grain * speed || along > (e->length + c->grain) * speed) return;
+    const double s = (e->n[0] * wx + e->n[1] * wy + c->radius) / across;
+    widen(span, s, s);
+}
+
+/* The line meets the piece grown, if at all, in a segment; its ends are on edges moved out, or on discs about corners,
+ * and all that is there is in the piece. Most edges lie on one side of the line, with both corners and the discs about
+ * them: nothing else is to be asked of those. */
+bool sunder_i_forbidden_span(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece, const double from[2],
+                             const double dir[2], double span[2])
+{
+    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
+    const crossing c = {from, dir, piece->radius, f->grain, piece->radius + CLEAR_GRAINS * f->grain};
+    span[0] = INFINITY;
+    span[1] = -INFINITY;
+    for (size_t at = 0; at < piece->edges; at += EDGES_AT_ONCE) {
+        const size_t left = piece->edges - at, n = left < EDGES_AT_ONCE ? left : EDGES_AT_ONCE;
+        double off[EDGES_AT_ONCE + 1];
+        if (!look_across(&c, edge + at, n < left ? edge + at + n : edge, n, off)) continue;
+        for (size_t k = 0; k < n; k++) {
+            if ((off[k] > c.clear && off[k + 1] > c.clear) || (off[k] < -c.clear && off[k + 1] < -c.clear)) continue;
+            cross(&c, edge + at + k, off[k], span);
+        }
+    }
+    return span[0] < span[1];
+}
+
+/* ---- All of them ------------------------------------------------------------------------------------------------- */
+
+double sunder_i_forbidden_depth(const sunder_i_forbidden *f, const double u[2])
+{
+    const double at[4] = {u[0], u[1], u[0], u[1]};
+    double depth = 0;
+    sunder_i_forbidden_walk walk;
+    sunder_i_forbidden_start(&walk, f);
+    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, at));) {
+        const double d = p->radius - sunder_i_forbidden_distance(f, p, u);
+        if (d > depth) depth = d;
+    }
+    return depth;
+}
+
+/* In the disc that lies in the piece grown, well off its rim, u is deeper whatever the edges are. */
+static bool piece_is_deeper(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *p, const double u[2],
+                            double hair)
+{
+    const double x = u[0] - p->middle[0], y = u[1] - p->middle[1], safe = p->within - 2 * hair;
+    return (safe > 0 && x * x + y * y < safe * safe) || p->radius - sunder_i_forbidden_distance(f, p, u) > hair;
+}
+
+bool sunder_i_forbidden_is_deeper(const sunder_i_forbidden *f, const double u[2], double hair, size_t *guess)
+{
+    const double at[4] = {u[0], u[1], u[0], u[1]};
+    if (*guess < f->pieces && piece_is_deeper(f, &f->piece[*guess], u, hair)) return true;
+    sunder_i_forbidden_walk walk;
+    sunder_i_forbidden_start(&walk, f);
+    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, at));) {
+        if (!piece_is_deeper(f, p, u, hair)) continue;
+        *guess = (size_t)(p - f->piece);
+        return true;
+    }
+    return false;
+}
+
+bool sunder_i_forbidden_is_near(const sunder_i_forbidden *f, const double u[2], double hair)
+{
+    for (size_t k = 0; k < f->pieces; k++)
+        if (sunder_i_box_near_point(f->piece[k].box, u[0], u[1], hair) &&
+            sunder_i_forbidden_distance(f, &f->piece[k], u) < f->piece[k].radius + hair)
+            return true;
+    return false;
+}
+
+/* Is all between two places in one of the pieces, as the discs in them tell? */
+static bool is_within(const sunder_i_forbidden *f, const double u[2], const double v[2])
+{
+    for (size_t k = 0; k < f->pieces && !sunder_i_forbidden_is_many(f); k++) {
+        const sunder_i_forbidden_piece *p = &f->piece[k];
+        const double ux = u[0] - p->middle[0], uy = u[1] - p->middle[1], vx = v[0] - p->middle[0],
+                     vy = v[1] - p->middle[1], square = p->within * p->within;
+        if (p->within > 0 && ux * ux + uy * uy <= square && vx * vx + vy * vy <= square) return true;
+    }
+    return false;
+}
+
+double sunder_i_forbidden_exit(const sunder_i_forbidden *f, const double u[2], const double dir[2], double most)
+{
+    const double to[2] = {u[0] + most * dir[0], u[1] + most * dir[1]};
+    if (most < INFINITY && is_within(f, u, to)) return most;
+    double s = 0;
+    const sunder_i_forbidden_piece *left = NULL; /* the last one: it is left for good */
+    for (bool again = true; again && s < most;) {
+        again = false;
+        const double x = u[0] + s * dir[0], y = u[1] + s * dir[1], at[4] = {x, y, x, y};
+        sunder_i_forbidden_walk walk;
+        sunder_i_forbidden_start(&walk, f);
+        for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, at));) {
+            double span[2];
+            if (p == left || !sunder_i_forbidden_span(f, p, u, dir, span) || span[0] > s + f->grain || span[1] <= s)
+                continue;
+            if (span[1] > s + f->grain) again = true;
+            s = span[1];
+            left = p;
+        }
+    }
+    return s;
+}
+
+double sunder_i_forbidden_entry(const sunder_i_forbidden *f, const double u[2], const double dir[2], double most,
+                                uint64_t *steps)
+{
+    const double to[2] = {u[0] + most * dir[0], u[1] + most * dir[1]};
+    double box[4], first = most;
+    sunder_i_box_of_segment(u, to, box);
+    sunder_i_forbidden_walk walk;
+    sunder_i_forbidden_start(&walk, f);
+    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, box));) {
+        double span[2];
+        *steps += p->edges;
+        if (!sunder_i_forbidden_span(f, p, u, dir, span) || !(span[1] > f->grain)) continue;
+        first = sunder_i_min(first, sunder_i_max(0, span[0]));
+    }
+    *steps += walk.looks;
+    return first;
+}

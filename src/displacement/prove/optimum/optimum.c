@@ -1,0 +1,337 @@
+/* A contact group: what is proved of it, and what its branching finds.
+ *
+ * Any layout costs at least the sum over disjoint groups of what each alone cannot do without. So a group whose layout
+ * costs what is proved of it cannot be bettered, wherever the others go; and what a branching finds that is cheaper
+ * goes down from there to where it is free of all neighbours, as they stand, and is taken. If it runs into one the two
+ * belong together. What the branching does not end with is bounded by blocks (blocks.c). */
+#include "displacement/prove/optimum/optimum.h"
+#include "displacement/prove/optimum/blocks.h"
+#include "displacement/prove/optimum/tree.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include "base/extremes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool sunder_i_group_is_optimal(const sunder_i_group *g)
+{
+    return g->cost - g->bound <= OPTIMAL_SHARE * g->cost + OPTIMAL_MORE;
+}
+
+void sunder_i_group_free(sunder_i_group *g)
+{
+    sunder_i_free(g->body);
+    sunder_i_free(g->move);
+    sunder_i_free(g->guests.item);
+    sunder_i_free(g->joins.item);
+    sunder_i_bound_trees_free(&g->trees);
+    *g = (sunder_i_group){0};
+}
+
+/* Upwards. */
+static double cost_of(const sunder_i_model *model, const uint32_t *body, size_t n, const double *move)
+{
+    double cost = 0;
+    for (size_t k = 0; k < n; k++)
+        cost += model->body[body[k]].weight * (move[2 * k] * move[2 * k] + move[2 * k + 1] * move[2 * k + 1]);
+    return cost * (1 + ((double)n + 8) * 0x1p-50);
+}
+
+/* What is to be proved of a group that costs so much: less than that by half of what still counts as optimal, and by
+ * what a small part of the gap amounts to; or, where that is 0, of the least that moves. (What stands may be a road,
+ * miles long.) No length that is not the layer's own takes part, so that a layer on another scale gets the same moves.
+ */
+static double goal_of(const sunder_i_model *model, const sunder_i_group *g)
+{
+    double length = INFINITY, weight = 0;
+    for (size_t k = 0; k < g->n; k++) {
+        const sunder_i_body *b = &model->body[g->body[k]];
+        if (b->fixed) continue;
+        weight = sunder_i_max(weight, b->weight);
+        length = sunder_i_min(length, SMALL_EXTENT * sunder_i_max(b->box[2] - b->box[0], b->box[3] - b->box[1]));
+    }
+    if (model->rules.gap > 0 || weight == 0) length = model->rules.gap;
+    return g->cost * (1 - OPTIMAL_SHARE / 2) - weight * (SMALL_LENGTH * length) * (SMALL_LENGTH * length);
+}
+
+typedef struct standing {
+    uint32_t body;
+    double t[2];
+} standing;
+
+/* Goes down from where the bodies stand, with a margin; without one, stays there: the cost, or INFINITY. */
+static sunder_status settle(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g,
+                            uint32_t *body, size_t n, bool tight, double *move, double *cost, sunder_error *err)
+{
+    bool found;
+    *cost = INFINITY;
+    if (tight) {
+        if (!sunder_i_tight_place(model, waived, body, n, TIGHT_MARGIN * g->margin, move, &found))
+            return sunder_i_no_memory(err);
+    } else {
+        const sunder_status status = g->search->descend(model, body, n, g->margin, g->cost, move, &found, err);
+        if (status) return status;
+    }
+    if (found) *cost = cost_of(model, body, n, move);
+    return SUNDER_OK;
+}
+
+/* Takes what is cheaper, with the guests that moved. */
+static sunder_status attempt(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                             const uint32_t *body, const double *t, size_t n, bool tight, bool *better,
+                             sunder_error *err)
+{
+    standing *at = sunder_i_alloc(n, sizeof *at);
+    uint32_t *list = sunder_i_alloc(n, sizeof *list);
+    double *move = sunder_i_alloc(2 * n, sizeof *move);
+    sunder_status status = at && list && move ? SUNDER_OK : sunder_i_no_memory(err);
+    *better = false;
+    if (!status && !g->held) {
+        for (size_t k = 0; k < n; k++) at[k] = (standing){body[k], {t[2 * k], t[2 * k + 1]}};
+        qsort(at, n, sizeof *at, sunder_i_by_number);
+        for (size_t k = 0; k < n; k++) {
+            list[k] = at[k].body;
+            memcpy(move + 2 * k, at[k].t, sizeof at[k].t);
+        }
+        double cost;
+        status = settle(model, waived, g, list, n, tight, move, &cost, err);
+        if (!status && cost < g->cost * (1 - CHEAPER)) {
+            sunder_i_free(g->body);
+            sunder_i_free(g->move);
+            g->body = list;
+            g->move = move;
+            g->n = n;
+            g->cost = cost;
+            g->improved = *better = true;
+            g->tight = tight;
+            list = NULL;
+            move = NULL;
+        }
+    }
+    sunder_i_free(at);
+    sunder_i_free(list);
+    sunder_i_free(move);
+    return status;
+}
+
+sunder_status sunder_i_group_descend(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                                     const double *t, sunder_error *err)
+{
+    bool better;
+    return attempt(model, waived, g, g->body, t, g->n, false, &better, err);
+}
+
+/* Blocks make their pairs afresh whenever they are asked: is that too dear for as often as they would have to be? */
+static bool blocks_are_dear(const sunder_i_tree *tree, uint64_t steps)
+{
+    return tree->pair_steps > steps / BLOCKS_ASKED;
+}
+
+/* The tree of a large group that has taken `taken` of the steps: how many it may take in all, which is no more where it
+ * promises nothing. At a higher effort it takes no fewer than at effort 1. */
+static uint64_t steps_of_large(const sunder_i_tree *tree, uint64_t taken, uint64_t steps)
+{
+    const double share = taken ? sunder_i_tree_bound(tree) / tree->task.goal : 0;
+    const uint64_t once = (uint64_t)((double)steps / sunder_i_max(tree->task.model->rules.effort, 1));
+    if (taken == 0) return steps / TREE_FIRST;
+    if (taken < once && blocks_are_dear(tree, once)) return once;
+    if (share >= TREE_WHOLE_SHARE || blocks_are_dear(tree, steps)) return steps;
+    return share >= TREE_SECOND_SHARE ? steps / TREE_SECOND : 0;
+}
+
+/* What a large group's tree takes in place of blocks is not paid for, as they are not. */
+static sunder_status branch(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                            sunder_i_tree *tree, uint64_t steps, bool large, sunder_error *err)
+{
+    for (uint64_t most = large ? steps_of_large(tree, 0, steps) : steps;;) {
+        bool better;
+        const sunder_i_tree_outcome outcome = sunder_i_tree_run(tree, most);
+        if (tree->failed) return sunder_i_no_memory(err);
+        const uint64_t more = outcome == SUNDER_I_TREE_SPENT && large ? steps_of_large(tree, most, steps) : 0;
+        if (more > most) {
+            most = more;
+            continue;
+        }
+        if (outcome != SUNDER_I_TREE_FOUND) break;
+        const double *t = tree->program.t, cost = cost_of(model, tree->body, tree->task.n, t);
+        bool tighter = false;
+        sunder_status status = attempt(model, waived, g, tree->body, t, tree->task.n, false, &better, err);
+        if (!status && !g->blunt && cost < g->cost * (1 - OPTIMAL_SHARE))
+            status = attempt(model, waived, g, tree->body, t, tree->task.n, true, &tighter, err);
+        if (status) return status;
+        if (better || tighter) sunder_i_tree_lower_goal(tree, goal_of(model, g));
+    }
+    g->bound = sunder_i_max(g->bound, sunder_i_tree_bound(tree));
+    g->steps += large && tree->steps > steps / TREE_SECOND ? steps / TREE_SECOND : tree->steps;
+    sunder_i_free(g->joins.item);
+    g->joins = tree->joins;
+    tree->joins = (sunder_i_list){0};
+    return SUNDER_OK;
+}
+
+/* The guests are the group's from now on. */
+static bool keep_guests(sunder_i_group *g, const sunder_i_tree *tree, size_t from)
+{
+    for (size_t k = from; k < tree->task.n; k++)
+        if (!sunder_i_list_push(&g->guests, tree->body[k])) return false;
+    g->guests.n = sunder_i_set_make(g->guests.item, g->guests.n);
+    return true;
+}
+
+/* Blocks are asked in earnest only where a quick look at them proves so much: of what is small enough for a tree that
+ * ended without a proof they seldom prove more than the tree. */
+static sunder_status look_at_blocks(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g,
+                                    double enough, uint64_t steps, bool *promising, sunder_error *err)
+{
+    sunder_i_bound_trees trees = {0};
+    double bound;
+    const sunder_status status = sunder_i_blocks_bound(model, waived, g, steps / QUICK_LOOK, 0, &bound, &trees, err);
+    sunder_i_bound_trees_free(&trees);
+    *promising = bound >= enough;
+    return status;
+}
+
+/* What blocks prove, where that is more. */
+static sunder_status prove_blocks(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                                  uint64_t steps, sunder_error *err)
+{
+    sunder_i_bound_trees trees = {0};
+    double bound;
+    const sunder_status status = sunder_i_blocks_bound(model, waived, g, steps, g->bound, &bound, &trees, err);
+    if (!status && bound > g->bound) {
+        const sunder_i_bound_trees before = g->trees;
+        g->trees = trees;
+        g->bound = bound;
+        trees = before;
+    }
+    sunder_i_bound_trees_free(&trees);
+    return status;
+}
+
+/* Blocks of a crowd: a look at them proves most of what they can; where it proves little, it was too short for as many
+ * pieces as they have. */
+static sunder_status prove_crowd(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                                 uint64_t steps, sunder_error *err)
+{
+    const sunder_status status = prove_blocks(model, waived, g, steps / CROWD_LOOK, err);
+    if (status || g->bound >= QUICK_SHARE * g->cost) return status;
+    return prove_blocks(model, waived, g, steps, err);
+}
+
+/* Blocks of a part, in earnest only where a quick look at them proves a good share of what it costs: where all have
+ * come far, since everybody pushes, what few of them cannot do without is next to nothing, however long they are
+ * asked. */
+static sunder_status prove_part(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *part,
+                                uint64_t steps, double *bound, sunder_i_bound_trees *trees, sunder_error *err)
+{
+    const sunder_status status = sunder_i_blocks_bound(model, waived, part, steps / QUICK_LOOK, 0, bound, trees, err);
+    if (status || *bound < QUICK_SHARE * part->cost) return status;
+    return sunder_i_blocks_bound(model, waived, part, steps, *bound, bound, trees, err);
+}
+
+/* Of a group too large for any program over all of it: parts of neighbours in number, by blocks. */
+static sunder_status prove_parts(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                                 uint64_t steps, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (size_t first = 0; first < g->n && !status; first += PART) {
+        sunder_i_bound_trees trees = {0};
+        sunder_i_group part = {.body = g->body + first,
+                               .move = g->move + 2 * first,
+                               .n = g->n - first < PART ? g->n - first : PART,
+                               .number = g->number};
+        double bound = 0;
+        part.cost = cost_of(model, part.body, part.n, part.move);
+        if (part.cost > 0) status = prove_part(model, waived, &part, steps / g->n * part.n, &bound, &trees, err);
+        if (!status && !sunder_i_bound_trees_take(&g->trees, &trees)) status = sunder_i_no_memory(err);
+        sunder_i_bound_trees_free(&trees);
+        if (bound > 0) g->bound = nextafter(g->bound + bound, -INFINITY);
+    }
+    g->steps += steps;
+    return status;
+}
+
+/* known: what is proved already. If no more is to be proved, nothing is. Of a group that costs little more than when
+ * all was asked of it (it was put back by a rounding error, or has lost or won a few bodies) neither blocks nor parts
+ * are asked again. Of a crowd nothing but these is asked. */
+static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
+                                  sunder_i_group *g, double known, uint64_t steps, sunder_error *err)
+{
+    bool better;
+    g->done = true;
+    g->cost = cost_of(model, g->body, g->n, g->move);
+    if (!isfinite(g->cost)) return SUNDER_OK;
+    size_t movers = 0;
+    for (size_t k = 0; k < g->n; k++) movers += !model->body[g->body[k]].fixed;
+    const double before = g->cost; /* what is found to be cheaper may be put back */
+    const bool asked = g->asked >= ASKED_SHARE * before;
+    if (!asked) g->asked = movers > MOST_TOGETHER ? before : 0;
+    const bool crowded = sunder_i_group_is_crowded(model, waived, g);
+    const bool free_crowd = sunder_i_group_is_free_crowd(model, waived, g);
+    if (movers > MOST_TOGETHER)
+        return asked || free_crowd ? SUNDER_OK
+                                   : prove_parts(model, waived, g, crowded ? steps / CROWD_LOOK : steps, err);
+    const sunder_status polished = attempt(model, waived, g, g->body, g->move, g->n, false, &better, err);
+    if (polished || known >= goal_of(model, g)) return polished;
+    if (crowded) {
+        g->asked = asked ? g->asked : before;
+        return asked ? SUNDER_OK : prove_crowd(model, waived, g, steps, err);
+    }
+    if (movers > BRANCHED) {
+        const bool again = g->shaken_at >= ASKED_SHARE * before;
+        const sunder_status status = g->search->shake(model, waived, g, steps / (again ? 2 * AGAIN : 2), err);
+        if (!again) g->shaken_at = before;
+        /* Whoever patience has sent to another side stands among others now: the next round knows whom to ask. */
+        if (status || (g->shaken && g->improved)) return status;
+    }
+    if (free_crowd && movers > LARGE_FREE_CROWD) return SUNDER_OK;
+    const size_t n = g->n;
+    const sunder_i_task task = {.model = model,
+                                .waived = waived,
+                                .group_of = group_of,
+                                .group = g->number,
+                                .body = g->body,
+                                .n = n,
+                                .goal = goal_of(model, g),
+                                .keep = model->rules.keep_trees};
+    sunder_i_tree tree;
+    sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) status = branch(model, waived, g, &tree, steps, movers > BRANCHED, err);
+    if (!status && !keep_guests(g, &tree, n)) status = sunder_i_no_memory(err);
+    if (!status && task.keep && !sunder_i_tree_keep(&tree, &g->trees)) status = sunder_i_no_memory(err);
+    const bool spent = movers > BRANCHED && (tree.steps >= steps || blocks_are_dear(&tree, steps));
+    const bool small = movers <= BRANCHED && tree.steps >= steps;
+    sunder_i_tree_free(&tree);
+    if (status || g->joins.n || g->bound >= goal_of(model, g)) return status;
+    if (movers <= BRANCHED) status = g->search->shake(model, waived, g, steps / 2, err);
+    if (status || movers <= FEW || asked) return status;
+    g->asked = before;
+    bool promising = !spent;
+    double priced = 0;
+    if (promising && free_crowd) status = sunder_i_group_ask_prices(model, g, &priced, err);
+    if (!status && promising && (small || priced > 0))
+        status =
+            look_at_blocks(model, waived, g, QUICK_AS_MUCH * sunder_i_max(g->bound, priced), steps, &promising, err);
+    return status || !promising ? status : prove_blocks(model, waived, g, steps, err);
+}
+
+sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
+                                   sunder_i_group *g, uint64_t steps, sunder_error *err)
+{
+    sunder_i_group known = {.bound = g->bound, .guests = g->guests, .trees = g->trees};
+    g->bound = 0;
+    g->guests = (sunder_i_list){0};
+    g->trees = (sunder_i_bound_trees){0};
+    const sunder_status status = prove_afresh(model, waived, group_of, g, known.bound, steps, err);
+    if (!status && known.bound > g->bound) {
+        const sunder_i_group less = {.guests = g->guests, .trees = g->trees};
+        g->bound = known.bound;
+        g->guests = known.guests;
+        g->trees = known.trees;
+        known = less;
+    }
+    sunder_i_group_free(&known);
+    return status;
+}

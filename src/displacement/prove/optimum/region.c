@@ -1,0 +1,98 @@
+/* Convex regions, clipped in doubles, of which it is known how far they may be wrong.
+ *
+ * Invariant: the true region T, of all u that keep the cuts exactly, lies in P + B(blur), P the convex hull of the
+ * corners as they are. A clip by n.u >= d keeps it so: u in T is p + e with p in P, |e| <= blur, so n.p >= d - blur.
+ * The signs of n.p - d + blur + 2 grain at the corners are right up to grain (which is more than rounding does to a
+ * product, region.h), so that a corner which is dropped has n.p < d - blur; and where an edge crosses the line the
+ * computed place is one of the edge whose product is right up to grain, rounded by less than grain. So what P loses is
+ * beyond the line, or within a grain of what is left, and blur grows by that. Where the line is nearly parallel to an
+ * edge a place may be far from the true crossing, but then all between the two is within a grain of the line.
+ *
+ * A polygon that would have too many corners is left as it was, and corners within a grain of each other become one:
+ * the region is larger then, or blur is. */
+#include "displacement/prove/optimum/region.h"
+
+#include <math.h>
+#include <string.h>
+
+void sunder_i_region_init(sunder_i_region *r, const double c[2], double reach)
+{
+    const double square[8] = {c[0] - reach, c[1] - reach, c[0] + reach, c[1] - reach,
+                              c[0] + reach, c[1] + reach, c[0] - reach, c[1] + reach};
+    r->n = 4;
+    memcpy(r->xy, square, sizeof square);
+    for (int k = 0; k < 4; k++) r->cut[k] = SUNDER_I_NO_CUT;
+    r->blur = 0x1p-50 * (fabs(c[0]) + fabs(c[1]) + reach);
+}
+
+typedef struct clipping {
+    uint32_t n;
+    double xy[2 * SUNDER_I_REGION_CORNERS];
+    uint32_t cut[SUNDER_I_REGION_CORNERS];
+    double grain;
+    bool full, merged;
+} clipping;
+
+static void add(clipping *c, double x, double y, uint32_t cut)
+{
+    if (c->n) {
+        const double *last = c->xy + 2 * (c->n - 1);
+        if (fabs(last[0] - x) + fabs(last[1] - y) <= c->grain) {
+            c->cut[c->n - 1] = cut;
+            c->merged = true;
+            return;
+        }
+    }
+    if (c->n == SUNDER_I_REGION_CORNERS) {
+        c->full = true;
+        return;
+    }
+    c->xy[2 * c->n] = x;
+    c->xy[2 * c->n + 1] = y;
+    c->cut[c->n++] = cut;
+}
+
+void sunder_i_region_clip(sunder_i_region *r, const double n[2], double d, uint32_t cut, double grain)
+{
+    double s[SUNDER_I_REGION_CORNERS];
+    bool any = false;
+    for (uint32_t k = 0; k < r->n; k++) {
+        s[k] = n[0] * r->xy[2 * k] + n[1] * r->xy[2 * k + 1] - d + r->blur + 2 * grain;
+        any = any || s[k] < 0;
+    }
+    if (!any) return;
+    clipping c;
+    c.n = 0;
+    c.grain = grain;
+    c.full = c.merged = false;
+    for (uint32_t k = 0; k < r->n; k++) {
+        const uint32_t l = k + 1 < r->n ? k + 1 : 0;
+        const double *p = r->xy + 2 * k, *q = r->xy + 2 * l;
+        if (s[k] >= 0) add(&c, p[0], p[1], r->cut[k]);
+        if ((s[k] >= 0) == (s[l] >= 0)) continue;
+        const double share = s[k] / (s[k] - s[l]);
+        /* Where the boundary leaves, the line begins; where it comes back, the side that it comes along. */
+        add(&c, p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]), s[k] >= 0 ? cut : r->cut[k]);
+    }
+    if (c.full) return;
+    r->n = c.n;
+    memcpy(r->xy, c.xy, 2 * c.n * sizeof *c.xy);
+    memcpy(r->cut, c.cut, c.n * sizeof *c.cut);
+    r->blur += (c.merged ? 2 : 1) * grain;
+}
+
+double sunder_i_region_beyond(const sunder_i_region *r, const double u[2], uint32_t *cut)
+{
+    double most = 0;
+    for (uint32_t k = 0; k < r->n; k++) {
+        if (r->cut[k] == SUNDER_I_NO_CUT) continue;
+        const double *p = r->xy + 2 * k, *q = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
+        const double ex = q[0] - p[0], ey = q[1] - p[1], product = (u[0] - p[0]) * ey - (u[1] - p[1]) * ex;
+        if (!(product > 0)) continue;
+        const double length = sqrt(ex * ex + ey * ey), beyond = length > 0 ? product / length : 0;
+        if (beyond <= most) continue;
+        most = beyond;
+        *cut = r->cut[k];
+    }
+    return most;
+}

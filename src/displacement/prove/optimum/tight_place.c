@@ -1,0 +1,146 @@
+/* Places with no room to spare: a slot just as wide as what goes in, a row that just fits between two walls.
+ *
+ * Whoever leaves a margin for rounding finds no way in there, and a place in doubles is off by their rounding. But a
+ * passage has no width at all only where coordinates are few: all multiples of a step that is coarse beside rounding.
+ * Then what two bodies may do to each other along an axis begins and ends at such multiples too. So bodies whose moves
+ * along an axis differ by a multiple of the step, up to a hair, get moves that differ by just that: they are in one
+ * *row*, which moves as a whole. What may not move, and all that stands about, is in the row that stays at 0. Contacts
+ * of bodies in different rows still have room, and get their margin: rows are drawn away from them in turn
+ * [projections, Kac37]. The rest is for those who ask exactly whether the layout holds.
+ *
+ * Nobody of the group need have touched it before: a place without room may be so by what stands outside, a barrier
+ * mostly. So whoever stands within a hair of the place takes part, in rows that stay where they are.
+ *
+ * Shadows are closed: what is on the boundary of one to the last bit has jumped. Where a row has no way out of that,
+ * only coordinates in which a body is squeezed, touched squarely from both sides, are lined up, and all others have
+ * their margins.
+ *
+ *   coordinates without a common step     no place: there, no passage is just as wide as what goes through
+ *   a tight passage that lies obliquely   only where the place is on the lattice, too: else no doubles are in it */
+#include "displacement/prove/optimum/optimum.h"
+#include "displacement/prove/optimum/tight.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include "displacement/layer/rounding.h"
+
+#include "base/extremes.h"
+
+#include <math.h>
+#include <string.h>
+
+static void end(sunder_i_tight *f)
+{
+    sunder_i_free(f->body);
+    sunder_i_free(f->t);
+    sunder_i_free(f->row);
+    sunder_i_free(f->base);
+    sunder_i_free(f->ahead);
+    sunder_i_free(f->stays);
+    sunder_i_free(f->alone);
+    sunder_i_free(f->touch.item);
+    sunder_i_free(f->meeting);
+    sunder_i_free(f->near.item);
+    sunder_i_free(f->corner);
+}
+
+/* Rows of bodies that rounding brought beyond their limits go a unit back to where these stood; false: none is. Where
+ * rows have room it is many units. */
+static bool step_back(sunder_i_tight *f, double unit)
+{
+    bool any = false;
+    for (size_t k = 0; k < 2 * f->n; k += 2) {
+        const sunder_i_body *body = &f->model->body[f->body[k / 2]];
+        const double t[2] = {sunder_i_tight_place_of(f, k), sunder_i_tight_place_of(f, k + 1)};
+        if (body->fixed || sunder_i_is_within_limit(t, sunder_i_limit_of(body))) continue;
+        for (size_t c = 0; c < 2; c++) {
+            if (f->stays[f->row[k + c]] || t[c] == 0) continue;
+            f->base[f->row[k + c]] -= copysign(unit, t[c]);
+            any = true;
+        }
+    }
+    return any;
+}
+
+/* The bases in whole units. */
+static void round_bases(sunder_i_tight *f, double unit)
+{
+    for (size_t row = 0; row < f->rows; row++)
+        if (!f->stays[row]) f->base[row] = unit * rint(f->base[row] / unit);
+}
+
+/* Bases of rows in units that all of the group can hold; steps are whole numbers of these. Two limits that draw a row
+ * to and fro leave it room between them, where there is any, that steps of one unit towards home do not find: it is
+ * drawn a few units farther in. */
+static void round_rows(sunder_i_tight *f)
+{
+    double coarsest = 0, out[2], unit;
+    for (size_t k = 0; k < f->n; k++) {
+        sunder_i_round_move(f->model, f->body[k], f->t + 2 * k, out, &unit);
+        coarsest = sunder_i_max(coarsest, unit);
+    }
+    if (!(coarsest > 0)) return;
+    round_bases(f, coarsest);
+    bool beyond = true;
+    for (int turn = 0; turn < TIGHT_STEPS_BACK && beyond; turn++) beyond = step_back(f, coarsest);
+    if (!beyond) return;
+    f->room = TIGHT_ROOM * coarsest;
+    sunder_i_tight_draw_apart(f);
+    round_bases(f, coarsest);
+}
+
+/* Can all bodies be moved just so? */
+static bool take_places(const sunder_i_tight *f, double *move)
+{
+    for (size_t k = 0; k < 2 * f->n; k++) move[k] = sunder_i_tight_place_of(f, k);
+    for (size_t k = 0; k < f->n; k++) {
+        double out[2];
+        const double *t = move + 2 * k;
+        if (f->model->body[f->body[k]].fixed) {
+            if (t[0] != 0 || t[1] != 0) return false;
+        } else if (!sunder_i_round_move(f->model, f->body[k], t, out, NULL) || out[0] != t[0] || out[1] != t[1]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool fit(sunder_i_tight *f, double *move, bool *found)
+{
+    double *to = sunder_i_alloc(2 * f->n, sizeof *to);
+    const bool ok = to && sunder_i_tight_draw_rows(f);
+    if (ok) {
+        round_rows(f);
+        *found = take_places(f, to);
+        memcpy(move, to, 2 * f->n * sizeof *move);
+    }
+    sunder_i_free(to);
+    return ok;
+}
+
+bool sunder_i_may_be_tight(const sunder_i_model *model, const uint32_t *body, size_t n, bool *may)
+{
+    const double home[2] = {0, 0};
+    sunder_i_tight f = {.model = model, .n = n};
+    bool ok = true;
+    *may = false;
+    if (n > MOST_TIGHT) return true;
+    for (size_t k = 0; k < n && ok; k++) ok = sunder_i_tight_add(&f, body[k], home);
+    ok = ok && sunder_i_tight_find_step(&f, may);
+    end(&f);
+    return ok;
+}
+
+bool sunder_i_tight_place(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *body, size_t n,
+                          double margin, double *move, bool *found)
+{
+    sunder_i_tight f = {.model = model, .waived = waived, .margin = margin};
+    bool ok = true, coarse;
+    *found = false;
+    if (n > MOST_TIGHT) return true;
+    for (size_t k = 0; k < n && ok; k++) ok = sunder_i_tight_add(&f, body[k], move + 2 * k);
+    f.n = n;
+    ok = ok && sunder_i_tight_find_step(&f, &coarse);
+    if (ok && coarse) ok = sunder_i_tight_find_outside(&f) && fit(&f, move, found);
+    end(&f);
+    return ok;
+}

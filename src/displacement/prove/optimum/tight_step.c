@@ -1,0 +1,111 @@
+/* The step that coordinates are multiples of, where they have one, and who takes part in a place with no room to spare:
+ * the group, and those outside that it touches there (tight_place.c). */
+#include "displacement/prove/optimum/optimum.h"
+#include "displacement/prove/optimum/tight.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include "base/extremes.h"
+#include "base/watch.h"
+#include "displacement/layer/rounding.h"
+#include "number/lattice.h"
+
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+bool sunder_i_tight_add(sunder_i_tight *f, uint32_t body, const double t[2])
+{
+    if (!sunder_i_reserve(&f->body, &f->capacity, f->all + 1, sizeof *f->body) ||
+        !sunder_i_reserve(&f->t, &f->places, 2 * f->all + 2, sizeof *f->t))
+        return false;
+    f->body[f->all] = body;
+    memcpy(f->t + 2 * f->all++, t, 2 * sizeof *t);
+    return true;
+}
+
+/* ---- The step ---------------------------------------------------------------------------------------------------- */
+
+static void lower(int *exponent, double v)
+{
+    const int e = sunder_i_low_bit(v);
+    if (e < *exponent) *exponent = e;
+}
+
+/* Corners as they stood: less the body's origin they may be rounded. False if memory is out. */
+static bool lower_by_piece(sunder_i_tight *f, const sunder_i_body_piece *piece, int *exponent)
+{
+    if (!sunder_i_reserve(&f->corner, &f->corners, 2 * (size_t)piece->corners, sizeof *f->corner)) return false;
+    sunder_i_piece_as_given(f->model, piece, f->corner);
+    for (size_t v = 0; v < 2 * (size_t)piece->corners; v++) lower(exponent, f->corner[v]);
+    return true;
+}
+
+/* By the coordinates of a body and what it owes; *known: that is a double. False if memory is out. */
+static bool lower_by_body(sunder_i_tight *f, const sunder_i_body *body, int *exponent, bool *known)
+{
+    const sunder_i_model *model = f->model;
+    const uint32_t thing = model->member[body->member];
+    const double owed = sunder_i_owed_below(model, thing, thing);
+    lower(exponent, owed);
+    *known = owed == sunder_i_owed_above(model, thing, thing);
+    const sunder_i_body_pieces *of = sunder_i_pieces_of(model, body);
+    if (!of) return false;
+    for (uint32_t p = 0; *known && p < body->pieces; p++)
+        if (!lower_by_piece(f, &of->piece[p], exponent)) return false;
+    return true;
+}
+
+static bool is_coarse(const sunder_i_tight *f, int exponent) { return ldexp(1, exponent) >= TIGHT_STEP * f->size; }
+
+bool sunder_i_tight_find_step(sunder_i_tight *f, bool *coarse)
+{
+    *coarse = true;
+    f->exponent = INT_MAX;
+    for (size_t k = 0; k < f->n && *coarse; k++) {
+        const sunder_i_body *body = &f->model->body[f->body[k]];
+        for (int c = 0; c < 4 && !body->fixed; c++) f->size = sunder_i_max(f->size, fabs(body->box[c]));
+        if (!lower_by_body(f, body, &f->exponent, coarse)) return false;
+        /* The step gets no coarser, nor do bodies get smaller: most layers end here, at the first one. */
+        *coarse = *coarse && is_coarse(f, f->exponent);
+    }
+    *coarse = *coarse && f->exponent < INT_MAX && is_coarse(f, f->exponent);
+    if (*coarse) f->hair = sunder_i_min(TIGHT_HAIR * f->size, TIGHT_STEP_HAIR * ldexp(1, f->exponent));
+    return true;
+}
+
+/* ---- Those outside ----------------------------------------------------------------------------------------------- */
+
+static bool takes_part(const sunder_i_tight *f, uint32_t body)
+{
+    for (size_t k = 0; k < f->all; k++)
+        if (f->body[k] == body) return true;
+    return false;
+}
+
+/* Takes the body in, where it is touched by the one at place k, and has coordinates in coarse steps too. */
+static bool take_in(sunder_i_tight *f, size_t k, uint32_t other)
+{
+    const double *stands = f->model->move + 2 * (size_t)other;
+    int exponent = f->exponent;
+    bool known;
+    if (!sunder_i_step() || !sunder_i_contacts_of_pair(f->model, f->waived, f->body[k], other, f->t + 2 * k, stands,
+                                                       f->hair, &f->touch, NULL))
+        return false;
+    if (f->touch.n == 0) return true;
+    if (!lower_by_body(f, &f->model->body[other], &exponent, &known)) return false;
+    if (!known || !is_coarse(f, exponent)) return true;
+    f->exponent = exponent;
+    return sunder_i_tight_add(f, other, stands);
+}
+
+bool sunder_i_tight_find_outside(sunder_i_tight *f)
+{
+    for (size_t k = 0; k < f->n; k++) {
+        if (f->model->body[f->body[k]].fixed) continue;
+        if (!sunder_i_who_is_about(f->model, f->body[k], f->t + 2 * k, f->model->rules.gap + f->hair, &f->near))
+            return false;
+        for (size_t m = 0; m < f->near.n && f->all < 2 * MOST_TIGHT; m++)
+            if (!takes_part(f, f->near.item[m]) && !take_in(f, k, f->near.item[m])) return false;
+    }
+    return true;
+}

@@ -1,0 +1,189 @@
+/* Branch and bound for the least cost of a few bodies, exact for arcs, for shapes that are not convex, and for holes.
+ *
+ * A node says of some pairs that their relative move u_ij = t_j - t_i is in a convex region: what cuts have left of it.
+ * Its program is the least cost under all cuts, which is proved from below by forces (dual_program.c). Where the least
+ * has a pair in conflict, more cuts are made that lose nothing (tree_cuts.c), or the node is divided by three cones
+ * (tree_branch.c). A node whose forces prove the goal is closed; so is one that leaves a pair no room. What has no
+ * conflict is a leaf: nothing below it is cheaper.
+ *
+ * What is proved in the end is the least of the goal and the values of nodes that are open, or leaves; a cut by a disc
+ * takes away only what costs the goal. Of the nodes that are open the one that proves least is looked at next, so the
+ * bound is valid, and the best so far, whenever the effort ends.
+ */
+#include "displacement/prove/optimum/tree.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include "base/extremes.h"
+#include "base/heap.h"
+#include "base/watch.h"
+
+#include <math.h>
+#include <string.h>
+
+static void lend(sunder_i_tree *t)
+{
+    t->task.body = t->body;
+    t->task.weight = t->program.weight = t->weight;
+    t->task.anchor = t->program.anchor = t->anchor;
+    t->program.mass = t->mass;
+    t->program.bodies = t->task.n;
+}
+
+static void set_body(sunder_i_tree *t, size_t k, uint32_t body, double weight)
+{
+    const sunder_i_body *b = &t->task.model->body[body];
+    t->body[k] = body;
+    t->weight[k] = b->fixed ? INFINITY : weight;
+    t->mass[k] = b->fixed ? 0 : 0.5 / weight;
+    t->limit[k] = sunder_i_limit_of(b);
+}
+
+void sunder_i_tree_invite(sunder_i_tree *t, uint32_t body)
+{
+    const size_t n = t->task.n;
+    if (n == t->capacity) return;
+    set_body(t, n, body, sunder_i_weight_below(t->task.model, &t->task.model->body[body]));
+    t->anchor[2 * n] = t->anchor[2 * n + 1] = 0;
+    t->task.n = n + 1;
+    lend(t);
+    sunder_i_dual_place(&t->program);
+}
+
+bool sunder_i_tree_init(sunder_i_tree *t, const sunder_i_task *task)
+{
+    memset(t, 0, sizeof *t);
+    const size_t n = task->n, most = t->capacity = n + MOST_GUESTS;
+    t->task = *task;
+    t->leaf = INFINITY;
+    for (int k = 0; k < SUNDER_I_TREE_RAYS; k++) {
+        const double angle = 6.283185307179586 * k / SUNDER_I_TREE_RAYS;
+        t->ray[k][0] = cos(angle);
+        t->ray[k][1] = sin(angle);
+    }
+    t->body = sunder_i_alloc(most, sizeof *t->body);
+    t->weight = sunder_i_alloc(most, sizeof *t->weight);
+    t->anchor = sunder_i_calloc(2 * most, sizeof *t->anchor);
+    t->mass = sunder_i_alloc(most, sizeof *t->mass);
+    t->limit = sunder_i_alloc(most, sizeof *t->limit);
+    t->pair_at = sunder_i_alloc(most * most, sizeof *t->pair_at);
+    if (!sunder_i_dual_init(&t->program, most) || !t->body || !t->weight || !t->anchor || !t->mass || !t->limit ||
+        !t->pair_at)
+        return false;
+    for (size_t k = 0; k < most * most; k++) t->pair_at[k] = UINT32_MAX;
+    for (size_t k = 0; k < n; k++)
+        set_body(t, k, task->body[k],
+                 task->weight ? task->weight[k]
+                              : sunder_i_weight_below(task->model, &task->model->body[task->body[k]]));
+    if (task->anchor) memcpy(t->anchor, task->anchor, 2 * n * sizeof *t->anchor);
+    lend(t);
+    if (!sunder_i_dual_load(&t->program, NULL, 0)) return false;
+    const uint32_t root = sunder_i_tree_add_node(t, SUNDER_I_NO_NODE, 0);
+    const sunder_i_open open = {0, root};
+    if (t->failed || !sunder_i_reserve(&t->open, &t->open_capacity, 1, sizeof open)) return false;
+    t->open[t->opens++] = open;
+    return true;
+}
+
+void sunder_i_tree_free(sunder_i_tree *t)
+{
+    for (size_t k = 0; k < t->pairs; k++) {
+        sunder_i_forbidden_free(&t->pair[k].forbidden);
+        sunder_i_free(t->pair[k].reflex.place);
+        sunder_i_free(t->pair[k].sides.place);
+    }
+    for (size_t k = 0; k < t->nodes; k++) sunder_i_free(t->node[k].regions);
+    sunder_i_free(t->body);
+    sunder_i_free(t->weight);
+    sunder_i_free(t->anchor);
+    sunder_i_free(t->mass);
+    sunder_i_free(t->limit);
+    sunder_i_free(t->pair_at);
+    sunder_i_free(t->pair);
+    sunder_i_free(t->cut);
+    sunder_i_free(t->note);
+    sunder_i_free(t->force);
+    sunder_i_free(t->node);
+    sunder_i_free(t->open);
+    sunder_i_free(t->path.item);
+    sunder_i_free(t->touched.item);
+    sunder_i_free(t->near.item);
+    sunder_i_free(t->joins.item);
+    sunder_i_free(t->named.item);
+    sunder_i_free(t->used);
+    sunder_i_free(t->conflict);
+    sunder_i_free(t->tried.place);
+    sunder_i_free(t->kept);
+    sunder_i_free(t->kept_factor);
+    sunder_i_dual_free(&t->program);
+    memset(t, 0, sizeof *t);
+}
+
+double sunder_i_tree_bound(const sunder_i_tree *t)
+{
+    double bound = sunder_i_min(t->task.goal, t->leaf);
+    if (t->opens) bound = sunder_i_min(bound, t->open[0].value);
+    return bound;
+}
+
+void sunder_i_tree_lower_goal(sunder_i_tree *t, double goal) { t->task.goal = sunder_i_min(t->task.goal, goal); }
+
+/* Looks into one node. True if its least has no conflicts, or none that a division tells more of: *leaf is what that is
+ * proved to cost. */
+static bool look_into(sunder_i_tree *t, uint32_t node, double *leaf)
+{
+    sunder_i_tree_load(t, node);
+    for (int round = 0; !t->failed; round++) {
+        /* Cuts by discs stand on the forces at hand, so these belong to the node above. */
+        const double value = sunder_i_max(t->node[node].value, sunder_i_dual_value(&t->program));
+        t->node[node].value = value;
+        if (value >= t->task.goal) {
+            t->node[node].state = SUNDER_I_CLOSED;
+            return false;
+        }
+        sunder_i_tree_find_conflicts(t);
+        if (t->conflicts == 0 && !t->failed) sunder_i_tree_meet(t);
+        if (t->failed) return false;
+        if (t->conflicts == 0) {
+            t->node[node].state = SUNDER_I_LEAF;
+            *leaf = value;
+            return true;
+        }
+        if (round == MOST_REFINED) break;
+        bool empty;
+        const uint32_t child = sunder_i_tree_add_node(t, node, value);
+        if (t->failed) return false;
+        const size_t made = sunder_i_tree_refine(t, sunder_i_dual_value(&t->program), &empty);
+        t->node[node].state = SUNDER_I_REFINED;
+        if (empty) {
+            t->node[child].state = SUNDER_I_EMPTY;
+            return false;
+        }
+        if (made) t->node[child].value = sunder_i_max(value, sunder_i_tree_solve(t));
+        if (t->failed) return false;
+        sunder_i_tree_keep_forces(t, child);
+        node = child;
+        if (!made) break;
+    }
+    if (t->failed) return false;
+    sunder_i_tree_divide(t, node);
+    *leaf = t->node[node].value;
+    return !t->failed && t->node[node].state == SUNDER_I_LEAF;
+}
+
+sunder_i_tree_outcome sunder_i_tree_run(sunder_i_tree *t, uint64_t steps)
+{
+    while (t->opens && !t->failed) {
+        if (t->open[0].value >= sunder_i_min(t->task.goal, t->leaf)) return SUNDER_I_TREE_PROVED;
+        if (t->steps > steps) return SUNDER_I_TREE_SPENT;
+        sunder_i_open next;
+        sunder_i_heap_pop(t->open, &t->opens, sizeof next, &next, sunder_i_opens_first);
+        const uint64_t before = t->steps;
+        double leaf = INFINITY;
+        const bool found = look_into(t, next.node, &leaf);
+        if (!sunder_i_steps(1 + (size_t)(t->steps - before) / 64)) t->failed = true;
+        if (!found) continue;
+        t->leaf = sunder_i_min(t->leaf, leaf);
+        return t->joins.n ? SUNDER_I_TREE_JOINED : SUNDER_I_TREE_FOUND;
+    }
+    return SUNDER_I_TREE_PROVED;
+}

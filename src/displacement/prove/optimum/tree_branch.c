@@ -1,0 +1,190 @@
+/* Branches: a node is divided where the least of its program has a pair in conflict.
+ *
+ *            q1 . . . n . . . q2        u lies in the forbidden set. Three rays from u, each two less than a straight
+ *              \      |      /          angle apart, part the plane into cones: between the ways out q1 and q2 of a
+ *               \  A  |     /           line a little nearer than the nearest way out n, and two behind. What is free
+ *                \    |    /            in a cone has a hull that misses u, mostly, since u is in the forbidden set: so
+ *              C  `.  |  .'  B          each child is cut off from u. No free place is lost: a cut of a cone stands a
+ *                    `u'                grain behind u, so that the cones cover all.
+ *                     |
+ *
+ * Of the deepest conflicts each is tried: what would its children prove? The one that leaves least is taken [strong
+ * branching]. Trials use cuts that are not proved; children prove theirs. */
+#include "displacement/prove/optimum/tree.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include "base/extremes.h"
+#include "base/heap.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct branching_rays {
+    double ray[3][2];
+} branching_rays;
+
+static void choose_rays(sunder_i_tree *t, const sunder_i_tree_conflict *c, branching_rays *out)
+{
+    const sunder_i_tree_pair *p = &t->pair[c->pair];
+    const sunder_i_forbidden *f = &p->forbidden;
+    double nearest = INFINITY, n[2] = {1, 0};
+    for (int k = 0; k < SUNDER_I_TREE_RAYS; k++) {
+        const double *dir = t->ray[k];
+        const double way = sunder_i_forbidden_exit(f, c->u, dir, nearest);
+        if (way >= nearest) continue;
+        nearest = way;
+        n[0] = dir[0];
+        n[1] = dir[1];
+    }
+    t->steps += SUNDER_I_TREE_RAYS * sunder_i_forbidden_look(f);
+    const double ahead = (1 - NEARER) * nearest, mid[2] = {c->u[0] + ahead * n[0], c->u[1] + ahead * n[1]};
+    for (int k = 0; k < 2; k++) {
+        const double side = k ? 1 : -1, dir[2] = {-side * n[1], side * n[0]};
+        /* No wider than 84 degrees: the angle to the ray behind stays less than straight. */
+        double way = sunder_i_min(sunder_i_forbidden_exit(f, mid, dir, 10 * ahead), 10 * ahead);
+        /* In a slot without width the way out is beside u as well as ahead: a ray along it would leave it to both of
+         * its cones, and one of these would have u in its hull. */
+        if (way < IN_SLOT * ahead) way = BESIDE_SLOT * ahead;
+        const double x = ahead * n[0] + way * dir[0], y = ahead * n[1] + way * dir[1], length = sqrt(x * x + y * y);
+        out->ray[k][0] = length > 0 ? x / length : n[0];
+        out->ray[k][1] = length > 0 ? y / length : n[1];
+    }
+    out->ray[2][0] = -n[0];
+    out->ray[2][1] = -n[1];
+}
+
+/* The two cuts of cone k: left of its first ray, right of the next. */
+static void cone_cuts(const sunder_i_tree *t, const sunder_i_tree_conflict *c, const branching_rays *b, int k,
+                      double n[2][2], double d[2])
+{
+    const double *r = b->ray[k], *s = b->ray[(k + 1) % 3], grain = t->pair[c->pair].forbidden.grain;
+    n[0][0] = -r[1];
+    n[0][1] = r[0];
+    n[1][0] = s[1];
+    n[1][1] = -s[0];
+    for (int e = 0; e < 2; e++) d[e] = n[e][0] * c->u[0] + n[e][1] * c->u[1] - grain;
+}
+
+/* The share of what is missing that cone k would prove. */
+static double try_cone(sunder_i_tree *t, const sunder_i_tree_conflict *c, const branching_rays *b, int k, double value)
+{
+    const double grain = t->pair[c->pair].forbidden.grain;
+    double n[2][2], d[2], m[2], e;
+    bool none;
+    cone_cuts(t, c, b, k, n, d);
+    sunder_i_region region = t->pair[c->pair].region;
+    for (int x = 0; x < 2; x++) sunder_i_region_clip(&region, n[x], d[x], SUNDER_I_NO_CUT, grain);
+    if (!sunder_i_tree_propose(t, c->pair, &region, c->u, m, &e, &none)) return none ? 1 : 0;
+    /* A cut for the trial alone: it is taken back. */
+    const sunder_i_region before = t->pair[c->pair].region;
+    const size_t cuts = t->cuts;
+    const uint32_t own = t->nodes ? t->node[t->nodes - 1].cuts : 0;
+    sunder_i_tree_cut(t, SUNDER_I_CUT_HULL, c->pair, m, e);
+    if (t->failed) return 0;
+    const double then = sunder_i_tree_solve(t);
+    t->cuts = cuts;
+    t->node[t->nodes - 1].cuts = own;
+    t->pair[c->pair].region = before;
+    sunder_i_tree_restore_program(t);
+    return sunder_i_min(1, sunder_i_max(0, (then - value) / (t->task.goal - value)));
+}
+
+static int by_weight(const void *a, const void *b)
+{
+    const sunder_i_tree_conflict *p = a, *q = b;
+    if (p->depth != q->depth) return p->depth > q->depth ? -1 : 1;
+    return p->pair < q->pair ? -1 : p->pair > q->pair;
+}
+
+/* The conflict to divide by. */
+static sunder_i_tree_conflict choose(sunder_i_tree *t, double value, branching_rays *rays)
+{
+    for (size_t k = 0; k < t->conflicts; k++) t->conflict[k].depth /= sqrt(t->pair[t->conflict[k].pair].slackness);
+    qsort(t->conflict, t->conflicts, sizeof *t->conflict, by_weight);
+    const size_t n = t->conflicts < TRIED ? t->conflicts : TRIED;
+    sunder_i_tree_conflict best = t->conflict[0];
+    double least = INFINITY;
+    sunder_i_tree_keep_program(t);
+    for (size_t k = 0; k < n && !t->failed; k++) {
+        branching_rays b;
+        double left = 0;
+        choose_rays(t, &t->conflict[k], &b);
+        for (int e = 0; e < 3 && !t->failed && left < least; e++) {
+            const double rest = 1 - (n > 1 ? try_cone(t, &t->conflict[k], &b, e, value) : 0);
+            left += rest * rest * rest;
+        }
+        if (left >= least) continue;
+        least = left;
+        best = t->conflict[k];
+        *rays = b;
+    }
+    return best;
+}
+
+/* Is the conflict that the node was divided by where it was, in a child without a cut? Then that will tell no more: it
+ * would be divided by the same rays for ever. */
+static bool is_stuck(const sunder_i_tree *t, const sunder_i_tree_conflict *c)
+{
+    const sunder_i_tree_pair *p = &t->pair[c->pair];
+    const double *at = t->program.t, x = at[2 * p->j] - at[2 * p->i], y = at[2 * p->j + 1] - at[2 * p->i + 1];
+    return fabs(x - c->u[0]) + fabs(y - c->u[1]) <= STUCK * p->forbidden.grain;
+}
+
+/* Leaves out the conflicts that nodes above were divided by in vain, since when nothing more was proved. */
+static void leave_out_stuck(sunder_i_tree *t, uint32_t node)
+{
+    const double least = t->node[node].value * (1 - HOLDS);
+    for (uint32_t at = node; t->node[at].parent != SUNDER_I_NO_NODE; at = t->node[at].parent) {
+        const uint32_t parent = t->node[at].parent;
+        size_t kept = 0;
+        if (t->node[parent].value < least) return;
+        for (size_t k = 0; k < t->conflicts; k++)
+            if (!t->node[at].stuck || t->conflict[k].pair != t->node[parent].pair) t->conflict[kept++] = t->conflict[k];
+        t->conflicts = kept;
+    }
+}
+
+void sunder_i_tree_divide(sunder_i_tree *t, uint32_t node)
+{
+    const double value = t->node[node].value;
+    branching_rays rays = {0};
+    leave_out_stuck(t, node);
+    if (t->conflicts == 0) sunder_i_tree_meet(t);
+    if (t->conflicts == 0 || t->failed) {
+        t->node[node].state = SUNDER_I_LEAF;
+        return;
+    }
+    const sunder_i_tree_conflict c = choose(t, value, &rays);
+    if (t->failed) return;
+    t->node[node].state = SUNDER_I_DIVIDED;
+    t->node[node].pair = c.pair;
+    const sunder_i_region region = t->pair[c.pair].region;
+    for (int k = 0; k < 3 && !t->failed; k++) {
+        double n[2][2], d[2];
+        bool empty = false;
+        const uint32_t child = sunder_i_tree_add_node(t, node, value);
+        if (t->failed) return;
+        cone_cuts(t, &c, &rays, k, n, d);
+        for (int e = 0; e < 2 && !t->failed; e++) sunder_i_tree_cut(t, SUNDER_I_CUT_CONE, c.pair, n[e], d[e]);
+        const bool cut = !t->failed && sunder_i_tree_cut_hull(t, c.pair, c.u, &empty);
+        if (t->failed) return;
+        if (empty) {
+            t->node[child].state = SUNDER_I_EMPTY;
+        } else {
+            t->node[child].value = sunder_i_max(value, sunder_i_tree_solve(t));
+            sunder_i_tree_keep_forces(t, child);
+            t->node[child].stuck = !cut && is_stuck(t, &c);
+            if (t->node[child].value >= t->task.goal) t->node[child].state = SUNDER_I_CLOSED;
+        }
+        if (t->node[child].state == SUNDER_I_OPEN) {
+            const sunder_i_open open = {t->node[child].value, child};
+            if (!sunder_i_reserve(&t->open, &t->open_capacity, t->opens + 1, sizeof *t->open))
+                t->failed = true;
+            else
+                sunder_i_heap_push(t->open, &t->opens, sizeof *t->open, &open, sunder_i_opens_first);
+            sunder_i_tree_keep_regions(t, child);
+        }
+        t->pair[c.pair].region = region;
+        sunder_i_tree_restore_program(t);
+    }
+}

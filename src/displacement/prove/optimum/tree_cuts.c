@@ -1,0 +1,189 @@
+/* Cuts at a node: what they take away is forbidden, or too dear.
+ *
+ * Disc. With D what the node's forces f prove and t* their least, every t that keeps the cuts to the node costs at
+ * least D + sum w |t - t*|^2 (dual_program.c). So one that costs less than the goal has
+ *     |u_ij - u*_ij|  <=  |t_i - t*_i| + |t_j - t*_j|  <=  sqrt((goal - D) (1 / w_i + 1 / w_j))
+ * by Cauchy and Schwarz: lines about that disc are cuts.
+ *
+ * Hull. What is forbidden of a region is no loss: a line beyond which all of the region is forbidden is a cut. It is
+ * proposed by the hull of what is left, in doubles, and made a hair farther out, if it is then proved that what it
+ * takes away is covered. */
+#include "displacement/prove/optimum/tree.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include "base/watch.h"
+
+#include <math.h>
+#include <string.h>
+
+/* How far t* may be from the least of the forces as they are: rounding of the sum of pushes on a body (the size of
+ * which dual_value() leaves), and of the anchor. */
+static double doubt(const sunder_i_tree *t, uint32_t b)
+{
+    const double size =
+        t->program.net[3 * b + 2] * t->mass[b] + fabs(t->task.anchor[2 * b]) + fabs(t->task.anchor[2 * b + 1]);
+    return (double)(t->program.acting_n + 16) * 0x1p-51 * size;
+}
+
+/* Keeps the region of the pair in the disc about u. value: what the forces prove. */
+static size_t cut_disc(sunder_i_tree *t, uint32_t pair, const double u[2], double value)
+{
+    const sunder_i_tree_pair *p = &t->pair[pair];
+    const double radius = sqrt((t->task.goal - value) * p->slackness) * (1 + 0x1p-40) + doubt(t, p->i) +
+                          doubt(t, p->j) + p->forbidden.grain;
+    size_t made = 0;
+    for (int k = 0; k < SUNDER_I_TREE_RAYS && !t->failed; k += 2) {
+        const double n[2] = {t->ray[k][0], t->ray[k][1]};
+        const double d = n[0] * u[0] + n[1] * u[1] - radius * (1 + 0x1p-48);
+        double least = INFINITY;
+        p = &t->pair[pair];
+        for (uint32_t c = 0; c < p->region.n; c++) {
+            const double at = n[0] * p->region.xy[2 * c] + n[1] * p->region.xy[2 * c + 1];
+            if (at < least) least = at;
+        }
+        if (!(least < d - DISC_SHARE * radius)) continue;
+        sunder_i_tree_cut(t, SUNDER_I_CUT_DISC, pair, n, d);
+        made++;
+    }
+    return made;
+}
+
+/* The reflex corners of a pair of few pieces, once and for all. */
+static bool know_reflex(sunder_i_tree *t, sunder_i_tree_pair *p)
+{
+    if (p->has_reflex || sunder_i_forbidden_is_many(&p->forbidden)) return true;
+    p->has_reflex = true;
+    if (!sunder_i_reflex_find(&p->reflex, &p->forbidden, &t->steps)) t->failed = true;
+    return !t->failed;
+}
+
+bool sunder_i_tree_propose(sunder_i_tree *t, uint32_t pair, const sunder_i_region *region, const double u[2],
+                           double n[2], double *d, bool *none)
+{
+    sunder_i_tree_pair *p = &t->pair[pair];
+    double place[2];
+    *none = region->n == 0;
+    if (*none || !know_reflex(t, p)) return false;
+    /* A trial leaves what is known of the pair's own region. */
+    sunder_i_free_sides *sides = region == &p->region ? &p->sides : &t->tried;
+    if (sides == &t->tried) sides->any = false;
+    if (!sunder_i_free_sides_find(sides, &p->sides, region, &p->forbidden, &t->steps)) {
+        t->failed = true;
+        return false;
+    }
+    if (!sunder_i_free_hull_nearest(sides, &p->forbidden, &p->reflex, u, place, &t->steps)) {
+        *none = true;
+        return false;
+    }
+    n[0] = place[0] - u[0];
+    n[1] = place[1] - u[1];
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1]);
+    if (!(length > IN_HULL * p->forbidden.size)) return false;
+    for (int c = 0; c < 2; c++) n[c] /= length;
+    *d = n[0] * place[0] + n[1] * place[1];
+    return true;
+}
+
+/* Is the region within what the pair may not do? Where the proof is kept, the pieces that it stands on are named. gap:
+ * as of sunder_i_region_is_covered(). */
+static bool is_covered(sunder_i_tree *t, const sunder_i_tree_pair *p, const sunder_i_region *region, double gap[2],
+                       uint32_t *named, uint32_t *names)
+{
+    const sunder_i_forbidden *f = &p->forbidden;
+    if (!t->task.keep) return sunder_i_region_is_covered(region, f, NULL, gap, &t->steps);
+    if (!sunder_i_reserve(&t->used, &t->used_capacity, f->pieces, sizeof *t->used)) {
+        t->failed = true;
+        return false;
+    }
+    if (f->pieces) memset(t->used, 0, f->pieces * sizeof *t->used);
+    if (!sunder_i_region_is_covered(region, f, t->used, gap, &t->steps)) return false;
+    *named = (uint32_t)t->named.n;
+    for (uint32_t k = 0; k < f->pieces; k++)
+        if (t->used[k] && !sunder_i_list_push(&t->named, k)) t->failed = true;
+    *names = (uint32_t)t->named.n - *named;
+    return true;
+}
+
+/* Is the pair left no room at the last node? Proved, and noted there. gap: as of sunder_i_region_is_covered(). */
+static bool is_empty(sunder_i_tree *t, uint32_t pair, double gap[2])
+{
+    const sunder_i_tree_pair *p = &t->pair[pair];
+    sunder_i_tree_node *node = &t->node[t->nodes - 1];
+    node->pair = pair;
+    return is_covered(t, p, &p->region, gap, &node->named, &node->names);
+}
+
+/* Cuts off what is before the line, but for some room, if that is forbidden. */
+static bool try_cut(sunder_i_tree *t, uint32_t pair, const double n[2], double d, double room, double gap[2])
+{
+    const sunder_i_tree_pair *p = &t->pair[pair];
+    const double back[2] = {-n[0], -n[1]};
+    uint32_t named = 0, names = 0;
+    sunder_i_region cap = p->region;
+    sunder_i_region_clip(&cap, back, room - d, SUNDER_I_NO_CUT, p->forbidden.grain);
+    if (!is_covered(t, p, &cap, gap, &named, &names)) return false;
+    const uint32_t cut = sunder_i_tree_cut(t, SUNDER_I_CUT_HULL, pair, n, d - room);
+    if (t->failed) return false;
+    t->note[cut].named = named;
+    t->note[cut].names = names;
+    return true;
+}
+
+/* The cut that was proposed, with some room. */
+static bool try_rooms(sunder_i_tree *t, uint32_t pair, const double u[2], const double n[2], double d, double gap[2])
+{
+    const sunder_i_forbidden *f = &t->pair[pair].forbidden;
+    const double far = CUT_FAR_ROOM * (d - (n[0] * u[0] + n[1] * u[1])), size = f->size;
+    if (!sunder_i_forbidden_is_many(f) &&
+        (try_cut(t, pair, n, d, CUT_ROOM * size, gap) || try_cut(t, pair, n, d, CUT_MORE_ROOM * size, gap)))
+        return true;
+    return try_cut(t, pair, n, d, far, gap);
+}
+
+/* What is proposed stands on the reflex corners that are known: of many pieces some, of a few all but such as lie in
+ * gaps without width. Where it is refuted by a place that is free, that leads to one more. */
+bool sunder_i_tree_cut_hull(sunder_i_tree *t, uint32_t pair, const double u[2], bool *empty)
+{
+    double before = NAN;
+    *empty = false;
+    for (int tries = 0; tries < MOST_GAPS && !t->failed; tries++) {
+        sunder_i_tree_pair *p = &t->pair[pair];
+        double n[2], d, gap[2];
+        bool none;
+        if (sunder_i_tree_propose(t, pair, &p->region, u, n, &d, &none)) {
+            if (d == before) return false; /* the same again */
+            before = d;
+            if (try_rooms(t, pair, u, n, d, gap)) return true;
+        } else {
+            *empty = none && is_empty(t, pair, gap);
+            if (!none || *empty) return false;
+            for (int c = 0; c < 2; c++) n[c] = gap[c] - u[c];
+            const double length = sqrt(n[0] * n[0] + n[1] * n[1]);
+            if (!(length > 0)) return false;
+            for (int c = 0; c < 2; c++) n[c] /= length;
+        }
+        if (t->failed || !(fabs(gap[0]) < INFINITY)) return false;
+        const double down[2] = {-n[0], -n[1]};
+        const size_t known = p->reflex.n;
+        p = &t->pair[pair];
+        if (!sunder_i_reflex_seek(&p->reflex, &p->forbidden, &p->region, gap, down, &t->steps)) t->failed = true;
+        if (p->reflex.n == known) return false;
+    }
+    return false;
+}
+
+size_t sunder_i_tree_refine(sunder_i_tree *t, double value, bool *empty)
+{
+    size_t made = 0, discs = 0;
+    sunder_i_tree_node *node = &t->node[t->nodes - 1];
+    *empty = false;
+    for (size_t k = 0; k < t->conflicts && !*empty && !t->failed; k++) {
+        const sunder_i_tree_conflict c = t->conflict[k];
+        const uint64_t before = t->steps;
+        discs += cut_disc(t, c.pair, c.u, value);
+        made += sunder_i_tree_cut_hull(t, c.pair, c.u, empty);
+        if (!sunder_i_steps(1 + (size_t)(t->steps - before) / 64)) t->failed = true;
+    }
+    if (t->task.keep && discs && !t->failed) sunder_i_tree_note_forces(t, &node->by, &node->bys);
+    return made;
+}

@@ -1,0 +1,158 @@
+/* Pairs of a task: what they may not do, made where they are first met, and who is in conflict at a node's least. */
+#include "displacement/geometry/anchor_reach.h"
+#include "displacement/prove/optimum/body_contact.h"
+#include "displacement/prove/optimum/tree.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include "base/extremes.h"
+#include "base/watch.h"
+
+#include <math.h>
+
+/* More than any rounding of what a length is computed from. */
+#define ABOVE (1 + 0x1p-40)
+
+static double slackness_of(const sunder_i_tree *t, uint32_t i, uint32_t j)
+{
+    return (1 / t->task.weight[i] + 1 / t->task.weight[j]) * ABOVE;
+}
+
+/* A layout that costs less than the goal has |u - c| <= sqrt(goal (1 / w_i + 1 / w_j)), c the difference of the
+ * anchors. Limits are no part of it, so that one that nothing oversteps changes nothing. */
+static void set_root(const sunder_i_tree *t, sunder_i_tree_pair *p)
+{
+    const double *a = t->task.anchor + 2 * p->i, *b = t->task.anchor + 2 * p->j;
+    p->reach = sqrt(sunder_i_max(0, t->task.goal) * p->slackness) * ABOVE;
+    for (int c = 0; c < 2; c++) p->centre[c] = b[c] - a[c];
+    p->reach += 0x1p-50 * (fabs(a[0]) + fabs(a[1]) + fabs(b[0]) + fabs(b[1]));
+}
+
+static uint32_t *place_of(sunder_i_tree *t, uint32_t i, uint32_t j) { return &t->pair_at[(size_t)i * t->capacity + j]; }
+
+sunder_i_tree_pair *sunder_i_tree_pair_of(sunder_i_tree *t, uint32_t i, uint32_t j)
+{
+    uint32_t *at = place_of(t, i, j);
+    if (*at != UINT32_MAX) return &t->pair[*at];
+    if (!sunder_i_reserve(&t->pair, &t->pair_capacity, t->pairs + 1, sizeof *t->pair)) {
+        t->failed = true;
+        return NULL;
+    }
+    sunder_i_tree_pair *p = &t->pair[t->pairs];
+    *p = (sunder_i_tree_pair){.i = i, .j = j, .slackness = slackness_of(t, i, j)};
+    *at = (uint32_t)t->pairs++;
+    set_root(t, p);
+    const double far = fabs(p->centre[0]) + fabs(p->centre[1]) + 2 * p->reach;
+    const bool listed = (t->task.no_ways ? sunder_i_forbidden_without_ways : sunder_i_forbidden_init)(
+        &p->forbidden, t->task.model, t->task.waived, t->task.body[i], t->task.body[j], far);
+    if (!listed || !sunder_i_forbidden_index(&p->forbidden)) t->failed = true;
+    t->steps += 8 * p->forbidden.edges;
+    t->pair_steps += 8 * p->forbidden.edges;
+    sunder_i_region_init(&p->region, p->centre, p->reach);
+    return p;
+}
+
+/* Might an anchor of the one have passed the other on the way there, or a side anchor a side? By boxes: the way of the
+ * relative move meets what the anchors see of the other. */
+static bool may_pass(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q, const double t[2],
+                     const double v[2])
+{
+    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]},
+                 u[2] = {v[0] - t[0], v[1] - t[1]};
+    double way[4];
+    sunder_i_shadow_way(u, 0, way);
+    if (p->has->sides && sunder_i_shadow_may_reach(p->box, sunder_i_side_anchors(model, q), offset, way)) return true;
+    if (q->has->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, way)) return true;
+    return !model->rules.jumps && (sunder_i_anchors_may_reach(model, p, q, false, offset, way) ||
+                                   sunder_i_anchors_may_reach(model, p, q, true, offset, way));
+}
+
+/* Do the boxes of the two stand within the gap of each other? */
+static bool are_near(const sunder_i_tree *t, uint32_t i, uint32_t j)
+{
+    const sunder_i_body *p = &t->task.model->body[t->task.body[i]], *q = &t->task.model->body[t->task.body[j]];
+    const double *at = t->program.t, gap = t->task.model->rules.gap;
+    if (may_pass(t->task.model, p, q, at + 2 * i, at + 2 * j)) return true;
+    for (uint32_t c = 0; c < 2; c++) {
+        const double v = q->origin[c] + at[2 * j + c] - p->origin[c] - at[2 * i + c];
+        if (p->box[c] >= q->box[c + 2] + v + gap || q->box[c] + v >= p->box[c + 2] + gap) return false;
+    }
+    return true;
+}
+
+static void look_at(sunder_i_tree *t, uint32_t i, uint32_t j)
+{
+    const double *at = t->program.t;
+    if (!(t->mass[i] + t->mass[j] > 0) || !are_near(t, i, j)) return;
+    const sunder_i_tree_pair *p = sunder_i_tree_pair_of(t, i, j);
+    if (!p || p->forbidden.pieces == 0) return;
+    const double u[2] = {at[2 * j] - at[2 * i], at[2 * j + 1] - at[2 * i + 1]};
+    const double depth = sunder_i_forbidden_depth(&p->forbidden, u);
+    t->steps +=
+        4 + (sunder_i_forbidden_is_many(&p->forbidden) ? sunder_i_forbidden_look(&p->forbidden) : p->forbidden.pieces);
+    if (depth <= IN_CONFLICT * p->forbidden.size) return;
+    if (!sunder_i_reserve(&t->conflict, &t->conflict_capacity, t->conflicts + 1, sizeof *t->conflict))
+        t->failed = true;
+    else
+        t->conflict[t->conflicts++] = (sunder_i_tree_conflict){(uint32_t)(p - t->pair), depth, {u[0], u[1]}};
+}
+
+void sunder_i_tree_find_conflicts(sunder_i_tree *t)
+{
+    t->conflicts = 0;
+    for (uint32_t i = 0; i < t->task.n && !t->failed; i++) {
+        if (!sunder_i_steps(1 + t->task.n / 64)) t->failed = true;
+        for (uint32_t j = i + 1; j < t->task.n && !t->failed; j++) look_at(t, i, j);
+    }
+    t->steps += t->task.n * t->task.n / 16;
+}
+
+/* ---- Those outside ----------------------------------------------------------------------------------------------- */
+
+/* Is body i, where it stands at the node, in conflict with one outside, where that stands in the layer? */
+static bool runs_into(sunder_i_tree *t, uint32_t i, uint32_t other)
+{
+    const sunder_i_model *model = t->task.model;
+    const double *at = t->program.t + 2 * i, *to = model->move + 2 * (size_t)other;
+    const double u[2] = {to[0] - at[0], to[1] - at[1]};
+    sunder_i_forbidden f;
+    if (!sunder_i_forbidden_init(&f, model, t->task.waived, t->body[i], other, 2 * (fabs(u[0]) + fabs(u[1]))))
+        t->failed = true;
+    const bool conflict = f.pieces && sunder_i_forbidden_depth(&f, u) > IN_CONFLICT * f.size;
+    t->steps += 8 * f.edges;
+    sunder_i_forbidden_free(&f);
+    return conflict;
+}
+
+static bool takes_part(const sunder_i_tree *t, uint32_t body)
+{
+    for (size_t k = 0; k < t->task.n; k++)
+        if (t->body[k] == body) return true;
+    return false;
+}
+
+/* Bodies outside that body i might meet at the node, or on its way there: in t->near, ascending. */
+static void find_near(sunder_i_tree *t, uint32_t i)
+{
+    const sunder_i_model *model = t->task.model;
+    if (!sunder_i_who_is_about(model, t->body[i], t->program.t + 2 * i, model->rules.gap, &t->near)) t->failed = true;
+    t->steps += 16 + t->near.n * t->task.n / 8;
+}
+
+void sunder_i_tree_meet(sunder_i_tree *t)
+{
+    const size_t n = t->task.n;
+    for (uint32_t i = 0; i < n && !t->failed && t->task.group_of; i++) {
+        if (!(t->mass[i] > 0)) continue;
+        find_near(t, i);
+        for (size_t k = 0; k < t->near.n && !t->failed; k++) {
+            const uint32_t other = t->near.item[k];
+            if (takes_part(t, other) || !runs_into(t, i, other)) continue;
+            if (t->task.group_of[other] == SUNDER_I_NOBODY && t->task.n < t->capacity) {
+                sunder_i_tree_invite(t, other);
+                look_at(t, i, (uint32_t)t->task.n - 1);
+            } else if (!sunder_i_list_push(&t->joins, other)) {
+                t->failed = true;
+            }
+        }
+    }
+}

@@ -1,0 +1,72 @@
+/* Regions of open nodes, kept until their turn comes.
+ *
+ * The state of a node can be made again from the cuts on its path, one clip after the other; kept as it was when the
+ * node was opened it is the same, and costs a copy. A tree keeps so much and no more: beyond that it makes them again.
+ */
+#include "displacement/prove/optimum/tree.h"
+#include "displacement/prove/optimum/tuning.h"
+
+#include <string.h>
+
+/* A pair's region among those of a node; its corners follow, then the cuts of its sides. */
+typedef struct kept_region {
+    uint32_t pair, n;
+    double blur;
+} kept_region;
+
+static size_t size_of(uint32_t corners)
+{
+    const size_t cuts = corners * sizeof(uint32_t), odd = cuts % sizeof(double);
+    return sizeof(kept_region) + 2 * corners * sizeof(double) + cuts + (odd ? sizeof(double) - odd : 0);
+}
+
+void sunder_i_tree_keep_regions(sunder_i_tree *t, uint32_t node)
+{
+    size_t size = 0;
+    for (size_t k = 0; k < t->touched.n; k++) size += size_of(t->pair[t->touched.item[k]].region.n);
+    if (size == 0 || t->kept_bytes + size > MOST_KEPT_BYTES) return;
+    char *at = sunder_i_alloc(size, 1);
+    if (!at) {
+        t->failed = true;
+        return;
+    }
+    t->node[node].regions = at;
+    t->node[node].regions_size = size;
+    t->kept_bytes += size;
+    for (size_t k = 0; k < t->touched.n; k++) {
+        const uint32_t pair = t->touched.item[k];
+        const sunder_i_region *r = &t->pair[pair].region;
+        const kept_region head = {pair, r->n, r->blur};
+        memcpy(at, &head, sizeof head);
+        memcpy(at + sizeof head, r->xy, 2 * r->n * sizeof *r->xy);
+        memcpy(at + sizeof head + 2 * r->n * sizeof *r->xy, r->cut, r->n * sizeof *r->cut);
+        at += size_of(r->n);
+    }
+}
+
+void sunder_i_tree_take_regions(sunder_i_tree *t, uint32_t node)
+{
+    const char *at = t->node[node].regions, *end = at + t->node[node].regions_size;
+    while (at < end) {
+        kept_region head;
+        memcpy(&head, at, sizeof head);
+        sunder_i_region *r = &t->pair[head.pair].region;
+        /* Those that a trial alone had cut are as they begin. */
+        if (t->pair[head.pair].touched) {
+            r->n = head.n;
+            r->blur = head.blur;
+            memcpy(r->xy, at + sizeof head, 2 * head.n * sizeof *r->xy);
+            memcpy(r->cut, at + sizeof head + 2 * head.n * sizeof *r->xy, head.n * sizeof *r->cut);
+        }
+        at += size_of(head.n);
+    }
+    sunder_i_tree_drop_regions(t, node);
+}
+
+void sunder_i_tree_drop_regions(sunder_i_tree *t, uint32_t node)
+{
+    sunder_i_free(t->node[node].regions);
+    t->kept_bytes -= t->node[node].regions_size;
+    t->node[node].regions = NULL;
+    t->node[node].regions_size = 0;
+}

@@ -1,0 +1,333 @@
+/* The branches of a branch and bound: by which way a pair parts, and which of its cases are void.
+ *
+ * Depth first. A node whose program contradicts itself is a leaf. Else the candidate shows pairs of pieces that are
+ * nearer than they owe; one of them is chosen, and each of its ways (half_planes.c) is a case: beyond this line, and
+ * behind those before it. If the proof of a case does not use what the case says, it is a proof of the node as well,
+ * and the other cases need not be looked at: so choices that have nothing to do with a contradiction do not multiply it
+ * [conflict-directed backjumping, Pro93]. */
+#include "displacement/prove/proofs/branching.h"
+#include "displacement/prove/proofs/tuning.h"
+
+#include "base/extremes.h"
+#include "base/invariant.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TURN 6.28318530717958647692
+
+/* ---- Which pair next --------------------------------------------------------------------------------------------- */
+
+/* A convex polygon, counter-clockwise. */
+typedef struct area {
+    size_t n;
+    double xy[2 * MOST_CORNERS];
+} area;
+
+/* Keeps what has n.u >= d; a cut that would make too many corners is left out. */
+static void cut(area *p, const double n[2], double d)
+{
+    area out = {.n = 0};
+    for (size_t k = 0; k < p->n; k++) {
+        const double *u = p->xy + 2 * k, *v = p->xy + 2 * (k + 1 < p->n ? k + 1 : 0);
+        const double su = n[0] * u[0] + n[1] * u[1] - d, sv = n[0] * v[0] + n[1] * v[1] - d;
+        if (out.n + 2 > MOST_CORNERS) return;
+        if (su >= 0) memcpy(out.xy + 2 * out.n++, u, 2 * sizeof *u);
+        if ((su > 0 && sv < 0) || (su < 0 && sv > 0)) {
+            const double s = su / (su - sv);
+            out.xy[2 * out.n] = u[0] + s * (v[0] - u[0]);
+            out.xy[2 * out.n++ + 1] = u[1] + s * (v[1] - u[1]);
+        }
+    }
+    *p = out;
+}
+
+/* What limits and claims leave of the relative moves of a pair, roughly. */
+static area room_of(const sunder_i_branching *c, const sunder_i_violation *o)
+{
+    area room = {.n = DISC_SIDES};
+    const uint32_t i = sunder_i_branching_place(c, o->p),
+                   j = o->slack ? sunder_i_branching_slack(c, o->slack) : sunder_i_branching_place(c, o->q);
+    const double last = o->slack ? -o->slack->clearance : sunder_i_branching_limit(c, &c->model->body[o->q]),
+                 reach = sunder_i_branching_limit(c, &c->model->body[o->p]) + last;
+    const double r = reach / cos(TURN / (2 * DISC_SIDES));
+    for (int k = 0; k < DISC_SIDES; k++) {
+        room.xy[2 * k] = r * cos(TURN * k / DISC_SIDES);
+        room.xy[2 * k + 1] = r * sin(TURN * k / DISC_SIDES);
+    }
+    const bool takes_part = j != SUNDER_I_GROUND || !(last > 0);
+    for (size_t k = 0; k < c->claims && takes_part; k++) {
+        const sunder_i_claim *s = &c->claim[k];
+        const double behind[2] = {-s->n[0], -s->n[1]};
+        if (s->i == i && s->j == j) cut(&room, s->n, s->d);
+        if (s->i == j && s->j == i) cut(&room, behind, s->d);
+    }
+    return room;
+}
+
+/* How many ways are open to a pair, roughly, at most `most`. */
+static size_t count_ways(const sunder_i_branching *c, const sunder_i_violation *o, size_t ways, size_t most)
+{
+    const area room = room_of(c, o);
+    size_t open = 0;
+    for (size_t k = 0; k < ways && open < most; k++) {
+        double best = -INFINITY;
+        for (size_t v = 0; v < room.n; v++)
+            best = sunder_i_max(best, c->scratch[k].n[0] * room.xy[2 * v] + c->scratch[k].n[1] * room.xy[2 * v + 1]);
+        open += best >= c->scratch[k].d;
+    }
+    return open;
+}
+
+/* The one with the fewest ways open; its ways are then in c->scratch. */
+static size_t choose(sunder_i_branching *c, const sunder_i_violation *deepest, size_t n, size_t *ways)
+{
+    size_t best = 0, fewest = SIZE_MAX;
+    for (size_t k = 0;
+         k < n && fewest && deepest[k].known == deepest[0].known && deepest[k].depth >= DEEP * deepest[0].depth; k++) {
+        *ways = sunder_i_branching_ways(c, &deepest[k]);
+        if (c->failed) return 0;
+        const size_t open = count_ways(c, &deepest[k], *ways, fewest);
+        c->looked += *ways * 4;
+        if (open >= fewest) continue;
+        fewest = open;
+        best = k;
+    }
+    *ways = sunder_i_branching_ways(c, &deepest[best]);
+    return best;
+}
+
+/* ---- The tree ---------------------------------------------------------------------------------------------------- */
+
+static sunder_i_node *add_node(sunder_i_branching *c)
+{
+    if (!sunder_i_reserve(&c->node, &c->node_capacity, c->nodes + 1, sizeof *c->node)) return NULL;
+    sunder_i_node *node = &c->node[c->nodes++];
+    *node = (sunder_i_node){.way = c->ways, .force = c->forces, .chord = SIZE_MAX};
+    return node;
+}
+
+bool sunder_i_branching_add_leaf(sunder_i_branching *c, sunder_i_levels *levels, size_t *root)
+{
+    *root = c->nodes;
+    memset(levels, 0, sizeof *levels);
+    sunder_i_node *node = add_node(c);
+    if (!node || !sunder_i_reserve(&c->force, &c->force_capacity, c->forces + c->claims, sizeof *c->force))
+        return false;
+    bool still = false;
+    for (size_t k = 0; k < c->claims; k++) {
+        const sunder_i_claim *s = &c->claim[k];
+        if (!(s->force > 0)) continue;
+        sunder_i_levels_add(levels, s->level);
+        c->force[c->forces++] = (sunder_proof_force){s->node, s->way, s->behind, s->force};
+        node->forces++;
+        const uint32_t between = c->still ? sunder_i_branching_place(c, c->between) : SUNDER_I_GROUND;
+        still = still || (c->still && (s->i == between || s->j == between));
+    }
+    node->still = still;
+    for (unsigned k = 0; k < 2 && still; k++) {
+        sunder_i_levels_add(levels, c->claim[k].level);
+        node->line_node[k] = c->claim[k].node;
+        node->line_way[k] = c->claim[k].way;
+    }
+    return true;
+}
+
+bool sunder_i_branching_add_branch(sunder_i_branching *c, const sunder_i_violation *o, size_t ways, size_t *root)
+{
+    *root = c->nodes;
+    sunder_i_node *node = add_node(c);
+    if (!node || !sunder_i_reserve(&c->way, &c->way_capacity, c->ways + ways, sizeof *c->way)) return false;
+    if (o->chord) {
+        if (!sunder_i_reserve(&c->chord, &c->chord_capacity, c->chords + 1, sizeof *c->chord)) return false;
+        node->chord = c->chords;
+        c->chord[c->chords++] = *o->chord;
+    }
+    node->a = o->a->feature;
+    node->b = o->b->feature;
+    node->part_a = o->a;
+    node->part_b = o->b;
+    node->clearance = o->clearance;
+    node->shadow = o->shadow;
+    node->slack = o->slack != NULL;
+    node->held = o->held;
+    node->ways = ways;
+    memcpy(c->way + c->ways, c->scratch, ways * sizeof *c->way);
+    c->ways += ways;
+    return true;
+}
+
+bool sunder_i_branching_push(sunder_i_branching *c, uint32_t i, uint32_t j, size_t node, size_t way, bool behind,
+                             unsigned level)
+{
+    if (!sunder_i_reserve(&c->claim, &c->claim_capacity, c->claims + 1, sizeof *c->claim)) return false;
+    const sunder_i_half_plane *w = &c->way[way];
+    const double sign = behind ? -1 : 1;
+    SUNDER_I_ASSERT(level < SUNDER_I_LEVELS && i < c->bodies && (j < c->bodies || j == SUNDER_I_GROUND) && i != j);
+    c->claim[c->claims++] = (sunder_i_claim){.i = i,
+                                             .j = j,
+                                             .n = {sign * w->n[0], sign * w->n[1]},
+                                             .d = sign * w->d,
+                                             .node = node,
+                                             .way = way,
+                                             .behind = behind,
+                                             .level = level};
+    return true;
+}
+
+/* Are the claims those of both walls, and no others? Then who is between them stays where it is (corridor.c). */
+static bool is_between(const sunder_i_branching *c, unsigned level)
+{
+    bool between = c->walls == 2 && level == 1 && c->claims == 2;
+    for (size_t k = 0; k < 2 && between; k++)
+        between = !c->claim[k].behind && c->claim[k].level == k && c->claim[k].way == c->node[c->claim[k].node].way;
+    return between;
+}
+
+static void set_still(sunder_i_branching *c, bool still)
+{
+    const uint32_t at = sunder_i_branching_place(c, c->between);
+    c->still = still;
+    c->limit[at] = still ? 0 : sunder_i_branching_limit(c, &c->model->body[c->between]);
+}
+
+/* The cases of a node, one after the other, from the candidate that is there. */
+static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violation *o, size_t node, unsigned level,
+                                  sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
+{
+    const uint32_t i = sunder_i_branching_join(c, o->p),
+                   j = o->slack ? sunder_i_branching_join_slack(c, o->slack) : sunder_i_branching_join(c, o->q);
+    if (c->failed) return sunder_i_no_memory(err);
+    const size_t first = c->node[node].way, end = first + c->node[node].ways, claims = c->claims, bodies = c->bodies;
+    double *t = sunder_i_alloc(2 * bodies, sizeof *t);
+    if (!t) return sunder_i_no_memory(err);
+    memcpy(t, c->t, 2 * bodies * sizeof *t);
+    sunder_status status = SUNDER_OK;
+    memset(levels, 0, sizeof *levels);
+    *root = node;
+    *verdict = SUNDER_I_INFEASIBLE;
+    for (size_t way = first; way < end && !status && *verdict == SUNDER_I_INFEASIBLE; way++) {
+        sunder_i_levels used;
+        size_t below = 0;
+        sunder_i_branching_begin(c, bodies);
+        memcpy(c->t, t, 2 * bodies * sizeof *t);
+        const size_t before = c->claims;
+        bool ok = sunder_i_branching_push(c, i, j, node, way, false, level);
+        const bool between = ok && is_between(c, level);
+        if (between) set_still(c, true);
+        const bool dead = ok && sunder_i_branching_is_dead_end(c);
+        if (dead)
+            ok = sunder_i_branching_add_leaf(c, &used, &below);
+        else if (ok)
+            status = sunder_i_branching_search(c, level + 1, verdict, &used, &below, err);
+        if (between) set_still(c, false);
+        if (!ok) status = sunder_i_no_memory(err);
+        if (status || *verdict != SUNDER_I_INFEASIBLE) break;
+        c->way[way].next = below;
+        if (!sunder_i_levels_has(&used, level)) {
+            *root = below;
+            *levels = used;
+            break;
+        }
+        for (size_t k = 0; k < sizeof used.bit / sizeof *used.bit; k++) levels->bit[k] |= used.bit[k];
+        /* What comes now is behind this line; one beyond everybody's limits need not be said to be so. */
+        c->claims = before;
+        if (!dead && !sunder_i_branching_push(c, i, j, node, way, true, level)) status = sunder_i_no_memory(err);
+    }
+    sunder_i_levels_drop(levels, level);
+    c->claims = claims;
+    sunder_i_free(t);
+    return status;
+}
+
+/* What the candidate violates; where that seems to be nothing, and is to be said of it, by lines made for it. */
+static size_t look(sunder_i_branching *c, sunder_i_violation deepest[SUNDER_I_CHOICES])
+{
+    size_t n = sunder_i_branching_violations(c, deepest);
+    if (n || c->failed || c->subproblem->coarse > 0) return n;
+    c->closely = true;
+    n = sunder_i_branching_violations(c, deepest);
+    c->closely = false;
+    return n;
+}
+
+/* The branches of a wall, from where all stand. */
+static sunder_status search_wall(sunder_i_branching *c, unsigned level, sunder_i_verdict *verdict,
+                                 sunder_i_levels *levels, size_t *root, sunder_error *err)
+{
+    const sunder_i_corridor_wall *w = &c->wall[level];
+    const sunder_i_violation o = {.p = c->between,
+                                  .q = c->model->body_of[w->b->feature],
+                                  .a = w->a,
+                                  .b = w->b,
+                                  .clearance = w->clearance,
+                                  .slack = w->slack,
+                                  .held = true};
+    const size_t ways = sunder_i_branching_wall_ways(c, w);
+    size_t node;
+    if (!c->failed && ways == 0) return SUNDER_OK;
+    if (c->failed || !sunder_i_branching_add_branch(c, &o, ways, &node)) return sunder_i_no_memory(err);
+    return search_cases(c, &o, node, level, verdict, levels, root, err);
+}
+
+/* Who is not beyond a wall that is of an overlap leaves it by its other side, or its end: with all of its pieces. The
+ * one that the candidate's slack leaves deepest; false: it parts them all. */
+static bool find_left(sunder_i_branching *c, sunder_i_violation *deepest)
+{
+    *deepest = (sunder_i_violation){.depth = 2 * c->hair};
+    if (c->walls == 0) return false;
+    const sunder_i_body *p = &c->model->body[c->between];
+    const sunder_i_body_pieces *pieces = sunder_i_pieces_of(c->model, p);
+    if (!pieces) c->failed = true;
+    for (size_t k = 0; k < c->walls && !c->failed; k++)
+        for (uint32_t l = 0; l < p->pieces && c->wall[k].slack && !c->failed; l++) {
+            sunder_i_violation o = {.p = c->between,
+                                    .q = c->model->body_of[c->wall[k].b->feature],
+                                    .a = &pieces->piece[l],
+                                    .b = c->wall[k].b,
+                                    .clearance = c->wall[k].clearance,
+                                    .slack = c->wall[k].slack,
+                                    .known = true};
+            if (o.a->feature != c->wall[k].a->feature || sunder_i_branching_ways(c, &o) == 0) continue;
+            o.depth = -c->scratch[0].at;
+            if (o.depth > deepest->depth) *deepest = o;
+        }
+    return deepest->a && !c->failed;
+}
+
+static sunder_status branch(sunder_i_branching *c, const sunder_i_violation *o, unsigned level,
+                            sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
+{
+    const size_t ways = sunder_i_branching_ways(c, o);
+    size_t node;
+    if (level == SUNDER_I_LEVELS || sunder_i_branching_is_over(c))
+        return c->failed ? sunder_i_no_memory(err) : SUNDER_OK;
+    if (c->failed || !sunder_i_branching_add_branch(c, o, ways, &node)) return sunder_i_no_memory(err);
+    return search_cases(c, o, node, level, verdict, levels, root, err);
+}
+
+sunder_status sunder_i_branching_search(sunder_i_branching *c, unsigned level, sunder_i_verdict *verdict,
+                                        sunder_i_levels *levels, size_t *root, sunder_error *err)
+{
+    sunder_i_node_outcome outcome;
+    *verdict = SUNDER_I_UNKNOWN;
+    if (level < c->walls) return search_wall(c, level, verdict, levels, root, err);
+    sunder_status status = sunder_i_branching_solve(c, &outcome, err);
+    if (status || outcome == SUNDER_I_NODE_UNDECIDED) return status;
+    if (outcome == SUNDER_I_NODE_INFEASIBLE) {
+        *verdict = SUNDER_I_INFEASIBLE;
+        return sunder_i_branching_add_leaf(c, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
+    }
+    sunder_i_violation deepest[SUNDER_I_CHOICES];
+    if (!c->still && find_left(c, &deepest[0])) return branch(c, &deepest[0], level, verdict, levels, root, err);
+    if (c->failed) return sunder_i_no_memory(err);
+    size_t n = look(c, deepest);
+    while (n == 0 && !c->failed && !sunder_i_branching_is_over(c) && sunder_i_branching_widen(c)) n = look(c, deepest);
+    if (n == 0 && !c->failed) *verdict = SUNDER_I_FEASIBLE;
+    if (n == 0 || c->failed || level == SUNDER_I_LEVELS || sunder_i_branching_is_over(c))
+        return c->failed ? sunder_i_no_memory(err) : SUNDER_OK;
+    size_t ways, node;
+    const size_t best = choose(c, deepest, n, &ways);
+    if (c->failed || !sunder_i_branching_add_branch(c, &deepest[best], ways, &node)) return sunder_i_no_memory(err);
+    return search_cases(c, &deepest[best], node, level, verdict, levels, root, err);
+}

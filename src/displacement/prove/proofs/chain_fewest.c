@@ -1,0 +1,222 @@
+/* The shortest chain through a pair where all owe each other all, listed or not: it says that these few cannot all be
+ * solved, whatever is done elsewhere.
+ *
+ * Here nothing is known of where they could stand, and the sums are those at home: along a row d of each link, less
+ * L |n - n'| at each body between two and L at the end (chain.c). What links win may be of either sign, so that there
+ * are no potentials; but chains are short, and are found a link at a time from either end of the pair: of those of k
+ * links the best few. The fewest of both ends that win together are the chain,
+ *
+ *       o <- o <- (i   j) -> o -> o -> o
+ *       the one end   pair   the other
+ *
+ * if none of its own stretches, without an end or both, wins by itself: then every member is needed, as far as chains
+ * tell. A stretch without the pair that does is a reason of its own, for others. */
+#include "displacement/prove/proofs/chain.h"
+#include "displacement/prove/proofs/tuning.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct reached {
+    uint32_t link;
+    uint32_t from; /* the place in the round before */
+    double won;    /* by all up to this one, but for the end */
+} reached;
+
+/* Chains from one end of the pair, by rounds: those of k links are round[first[k]] to round[first[k + 1]]. */
+typedef struct reach {
+    uint32_t body; /* which is pushed along n */
+    double n[2];
+    double least; /* what a chain has to have won, but for the limit of its last body, to be gone on with */
+    reached item[FEWEST_MOST * FEWEST_KEPT];
+    size_t first[FEWEST_MOST + 2];
+    size_t rounds;                /* of that there are any */
+    double won[FEWEST_MOST + 1];  /* the most with so many links, the end included; -INFINITY: none */
+    size_t best[FEWEST_MOST + 1]; /* its last */
+} reach;
+
+static double limit_of(const sunder_i_chains *g, uint32_t body) { return sunder_i_limit_of(&g->of.model->body[body]); }
+
+/* What is lost where a body is pushed along n and pushes along m. */
+static double turn(const sunder_i_chains *g, uint32_t body, const double n[2], const double m[2])
+{
+    return limit_of(g, body) * hypot(n[0] - m[0], n[1] - m[1]);
+}
+
+/* Is the body on the way to a place of round k? */
+static bool is_behind(const sunder_i_chains *g, const reach *r, size_t k, size_t at, uint32_t body)
+{
+    for (; k > 0; k--) {
+        if (g->link[r->item[at].link].j == body) return true;
+        at = r->first[k - 1] + r->item[at].from;
+    }
+    return r->body == body;
+}
+
+/* One more of those with so many links, if it is one of the best few; in no order. */
+static void keep(reach *r, size_t k, const reached *found)
+{
+    reached *item = r->item + r->first[k];
+    size_t n = r->first[k + 1] - r->first[k], least = 0;
+    if (n < FEWEST_KEPT) {
+        item[n] = *found;
+        r->first[k + 1]++;
+        return;
+    }
+    for (size_t i = 1; i < n; i++)
+        if (item[i].won < item[least].won) least = i;
+    if (found->won > item[least].won) item[least] = *found;
+}
+
+/* From a place of round k, or the pair, to all that the body there may push. False if memory is out. */
+static bool push_on(sunder_i_chains *g, reach *r, size_t k, size_t at, uint32_t other)
+{
+    const uint32_t body = k ? g->link[r->item[at].link].j : r->body;
+    const double *first = k ? g->link[r->item[at].link].n : r->n, n[2] = {first[0], first[1]}; /* links move */
+    const double won = k ? r->item[at].won : 0;
+    if (limit_of(g, body) == 0) return true;
+    const sunder_i_chain_links *of = sunder_i_chains_find(g, body);
+    if (!of) return false;
+    g->work += of->n;
+    for (size_t l = of->first; l < of->first + of->n; l++) {
+        const sunder_i_chain_link *link = &g->link[l];
+        const reached found = {(uint32_t)l, (uint32_t)(k ? at - r->first[k] : 0),
+                               won - turn(g, body, n, link->n) - link->spare};
+        if (found.won + limit_of(g, link->j) <= r->least || link->j == other || is_behind(g, r, k, at, link->j))
+            continue;
+        keep(r, k + 1, &found);
+    }
+    return true;
+}
+
+/* The most that chains of k links win. */
+static void note_end(const sunder_i_chains *g, reach *r, size_t k)
+{
+    r->won[k] = k ? -INFINITY : -limit_of(g, r->body);
+    for (size_t at = r->first[k]; k && at < r->first[k + 1]; at++) {
+        const double won = r->item[at].won - limit_of(g, g->link[r->item[at].link].j);
+        if (won <= r->won[k]) continue;
+        r->won[k] = won;
+        r->best[k] = at;
+    }
+}
+
+/* One more round of an end; other: whom it may not come to. False if memory is out. */
+static bool go_on(sunder_i_chains *g, reach *r, uint32_t other)
+{
+    const size_t k = r->rounds;
+    r->first[k + 2] = r->first[k + 1];
+    if (k == 0 && !push_on(g, r, 0, 0, other)) return false;
+    for (size_t at = r->first[k]; k && at < r->first[k + 1]; at++)
+        if (!push_on(g, r, k, at, other)) return false;
+    note_end(g, r, ++r->rounds);
+    return true;
+}
+
+/* What follows on a body wins no more than its limit, or that stretch would win by itself; nor does the other end of
+ * the pair win more than the limit of who is there. */
+static void begin(const sunder_i_chains *g, reach *r, uint32_t body, double nx, double ny, double least)
+{
+    r->least = least;
+    r->body = body;
+    r->n[0] = nx;
+    r->n[1] = ny;
+    r->rounds = 0;
+    r->first[0] = r->first[1] = 0;
+    note_end(g, r, 0);
+}
+
+/* ---- Does any stretch of it win by itself? ----------------------------------------------------------------------- */
+
+/* A chain from end to end: what its links demand, along which lines, and whom they are between. */
+typedef struct row {
+    double d[2 * FEWEST_MOST + 1], n[2 * FEWEST_MOST + 1][2], limit[2 * FEWEST_MOST + 2];
+    size_t links;
+} row;
+
+/* The links of an end from the pair on, into link[k]. */
+static void list(const reach *r, size_t k, uint32_t *link)
+{
+    for (size_t at = r->best[k]; k > 0; k--) {
+        link[k - 1] = r->item[at].link;
+        at = r->first[k - 1] + r->item[at].from;
+    }
+}
+
+static void make_row(const sunder_i_chains *g, const sunder_i_chain_link *pair, const sunder_i_half_plane *way,
+                     const sunder_i_pushing *chain, row *out)
+{
+    const size_t left = chain->n - chain->right;
+    out->links = chain->n + 1;
+    for (size_t k = 0; k < left; k++) {
+        const sunder_i_chain_link *l = &g->link[chain->link[chain->n - 1 - k]];
+        out->d[k] = -l->spare;
+        out->n[k][0] = -l->n[0];
+        out->n[k][1] = -l->n[1];
+        out->limit[k] = limit_of(g, l->j);
+    }
+    out->d[left] = way->d;
+    memcpy(out->n[left], way->n, sizeof way->n);
+    out->limit[left] = limit_of(g, pair->i);
+    out->limit[left + 1] = limit_of(g, pair->j);
+    for (size_t k = 0; k < chain->right; k++) {
+        const sunder_i_chain_link *l = &g->link[chain->link[k]];
+        out->d[left + 1 + k] = -l->spare;
+        memcpy(out->n[left + 1 + k], l->n, sizeof l->n);
+        out->limit[left + 2 + k] = limit_of(g, l->j);
+    }
+}
+
+/* Does one win that is not all of it? */
+static bool has_less(const row *r)
+{
+    for (size_t from = 0; from < r->links; from++) {
+        double won = -r->limit[from];
+        for (size_t k = from; k < r->links; k++) {
+            if (k > from) won -= r->limit[k] * hypot(r->n[k][0] - r->n[k - 1][0], r->n[k][1] - r->n[k - 1][1]);
+            won += r->d[k];
+            if (won - r->limit[k + 1] > 0 && k + 1 - from < r->links) return true;
+        }
+    }
+    return false;
+}
+
+/* ---- The fewest -------------------------------------------------------------------------------------------------- */
+
+/* So many links of the one end and of the other: a chain, if they win, and need each other. False if memory is out. */
+static bool try_chain(const sunder_i_chains *g, const sunder_i_chain_link *pair, const sunder_i_half_plane *way,
+                      const reach of[2], size_t right, size_t left, sunder_i_pushing *chain, bool *found)
+{
+    const double won = way->d + of[0].won[right] + of[1].won[left];
+    row r;
+    if (!(won > CHAIN_MARGIN * (fabs(way->d) + limit_of(g, pair->i) + limit_of(g, pair->j)))) return true;
+    chain->link = sunder_i_alloc(right + left + 1, sizeof *chain->link);
+    if (!chain->link) return false;
+    chain->right = right;
+    chain->n = right + left;
+    list(&of[0], right, chain->link);
+    list(&of[1], left, chain->link + right);
+    make_row(g, pair, way, chain, &r);
+    *found = !has_less(&r);
+    if (*found) return true;
+    sunder_i_free(chain->link);
+    chain->link = NULL;
+    return true;
+}
+
+bool sunder_i_chain_fewest(sunder_i_chains *g, const sunder_i_chain_link *pair, const sunder_i_half_plane *way,
+                           sunder_i_pushing *chain, bool *found)
+{
+    reach *of = sunder_i_alloc(2, sizeof *of);
+    bool ok = of != NULL;
+    *found = false;
+    if (ok) begin(g, &of[0], pair->j, way->n[0], way->n[1], -way->d - limit_of(g, pair->i));
+    if (ok) begin(g, &of[1], pair->i, -way->n[0], -way->n[1], -way->d - limit_of(g, pair->j));
+    for (size_t n = 0; n <= FEWEST_MOST && ok && !*found; n++) {
+        for (size_t right = 0; right <= n && ok && !*found; right++)
+            ok = try_chain(g, pair, way, of, right, n - right, chain, found);
+        if (n < FEWEST_MOST && ok && !*found) ok = go_on(g, &of[0], pair->i) && go_on(g, &of[1], pair->j);
+    }
+    sunder_i_free(of);
+    return ok;
+}

@@ -1,0 +1,169 @@
+/* The record of a chain as of any other branch and bound: a node for each of its links. */
+#include "displacement/prove/proofs/chain.h"
+
+#include <string.h>
+
+/* One node of the way down, and the claim that leads on. */
+typedef struct builder {
+    sunder_i_branching *c;
+    sunder_i_claim *claim; /* of the chain so far */
+    size_t claims, capacity;
+    size_t root;
+    size_t open; /* the way whose next is the node to come; SIZE_MAX: the root */
+} builder;
+
+static void hang(builder *b, size_t node)
+{
+    if (b->open == SIZE_MAX)
+        b->root = node;
+    else
+        b->c->way[b->open].next = node;
+}
+
+/* Only memory that is out makes it false. */
+static bool must(const builder *b, bool ok)
+{
+    b->c->failed = b->c->failed || !ok;
+    return ok;
+}
+
+/* The node of two pieces, with the ways in scratch. False if memory is out. */
+static bool add_node(builder *b, const sunder_i_chain_link *l, size_t ways, size_t *node)
+{
+    const sunder_i_violation o = {.p = l->i, .q = l->j, .a = l->a, .b = l->b, .clearance = l->clearance};
+    if (!must(b, sunder_i_branching_add_branch(b->c, &o, ways, node))) return false;
+    hang(b, *node);
+    return true;
+}
+
+/* Two places, and a node that is about them. */
+typedef struct between {
+    uint32_t i, j;
+    size_t node;
+} between;
+
+/* A leaf for a way that contradicts the limits of its two, or with one of those before it out of the question. False:
+ * it does not, by a hair, or memory is out. */
+static bool add_dead_end(builder *b, const between *at, size_t way, const size_t *behind, size_t n)
+{
+    sunder_i_branching *c = b->c;
+    sunder_i_levels levels;
+    size_t leaf = 0;
+    c->claims = 0;
+    for (size_t k = 0; k < n; k++)
+        if (!must(b, sunder_i_branching_push(c, at->i, at->j, at->node, behind[k], true, 0))) return false;
+    if (!must(b, sunder_i_branching_push(c, at->i, at->j, at->node, way, false, 0))) return false;
+    if (!sunder_i_branching_is_dead_end(c) || !must(b, sunder_i_branching_add_leaf(c, &levels, &leaf))) return false;
+    c->way[way].next = leaf;
+    return true;
+}
+
+/* What the way says is of the chain, whose next node hangs below it. False if memory is out. */
+static bool go_on(builder *b, const between *at, size_t way)
+{
+    sunder_i_branching *c = b->c;
+    c->claims = 0;
+    if (!must(b, sunder_i_branching_push(c, at->i, at->j, at->node, way, false, 0)) ||
+        !must(b, sunder_i_reserve(&b->claim, &b->capacity, b->claims + 1, sizeof *b->claim)))
+        return false;
+    b->claim[b->claims++] = c->claim[0];
+    b->open = way;
+    return true;
+}
+
+/* The node of a link, whose first way leads on and no other. False: not so by a hair, or memory is out. */
+static bool add_link(builder *b, const sunder_i_chain_link *l)
+{
+    sunder_i_branching *c = b->c;
+    const sunder_i_body *p = &c->model->body[l->i], *q = &c->model->body[l->j];
+    const double reach = sunder_i_branching_limit(c, p) + sunder_i_branching_limit(c, q);
+    size_t n = sunder_i_branching_fill_ways(c, p, l->a, q, l->b, l->clearance, false, NULL);
+    if (!c->failed) n = sunder_i_chain_ways(c, n, reach);
+    if (c->failed || n == 0) return false;
+    between at = {sunder_i_branching_join(c, l->i), sunder_i_branching_join(c, l->j), 0};
+    if (c->failed || !add_node(b, l, n, &at.node)) return false;
+    const size_t first = c->node[at.node].way;
+    for (size_t k = 1; k < n; k++)
+        if (!add_dead_end(b, &at, first + k, &first, 1)) return false;
+    return go_on(b, &at, first);
+}
+
+/* All forces are 1: do they win more than the limits lose? */
+static bool add_end(builder *b)
+{
+    sunder_i_branching *c = b->c;
+    sunder_i_levels levels;
+    size_t leaf = 0;
+    if (!must(b, sunder_i_reserve(&c->claim, &c->claim_capacity, b->claims, sizeof *c->claim))) return false;
+    memcpy(c->claim, b->claim, b->claims * sizeof *c->claim);
+    c->claims = b->claims;
+    for (size_t k = 0; k < c->claims; k++) c->claim[k].force = 1;
+    if (!sunder_i_branching_is_contradiction(c) || !must(b, sunder_i_branching_add_leaf(c, &levels, &leaf)))
+        return false;
+    hang(b, leaf);
+    return true;
+}
+
+/* The pair's node, below which each of its ways has its chain, or a dead end. */
+static bool build(builder *b, const sunder_i_chains *g, const sunder_i_chain_link *pair, const sunder_i_half_plane *way,
+                  size_t ways, const sunder_i_pushing *chain, size_t *behind)
+{
+    sunder_i_branching *c = b->c;
+    between at = {sunder_i_branching_join(c, pair->i), sunder_i_branching_join(c, pair->j), 0};
+    size_t done = 0;
+    if (c->failed || !must(b, sunder_i_reserve(&c->scratch, &c->scratch_capacity, ways, sizeof *c->scratch)))
+        return false;
+    memcpy(c->scratch, way, ways * sizeof *way);
+    if (!add_node(b, pair, ways, &at.node)) return false;
+    for (size_t k = 0; k < ways; k++) {
+        const size_t number = c->node[at.node].way + k;
+        if (chain[done].way != k) {
+            if (!add_dead_end(b, &at, number, behind, done)) return false;
+            continue;
+        }
+        b->claims = 0;
+        if (!go_on(b, &at, number)) return false;
+        for (size_t l = 0; l < chain[done].n; l++)
+            if (!add_link(b, &g->link[chain[done].link[l]])) return false;
+        if (!add_end(b)) return false;
+        behind[done++] = number;
+    }
+    return true;
+}
+
+static void clear(sunder_i_branching *c)
+{
+    sunder_i_free(c->body);
+    sunder_i_free(c->t);
+    sunder_i_free(c->limit);
+    sunder_i_free(c->shift);
+    sunder_i_free(c->net);
+    sunder_i_free(c->weight);
+    sunder_i_free(c->claim);
+    sunder_i_free(c->node);
+    sunder_i_free(c->way);
+    sunder_i_free(c->force);
+    sunder_i_free(c->scratch);
+}
+
+sunder_proof *sunder_i_chain_prove(sunder_i_chains *g, const sunder_i_subproblem *subproblem,
+                                   const sunder_i_chain_link *pair, const sunder_i_half_plane *way, size_t ways,
+                                   const sunder_i_pushing *chain, size_t n, bool *failed)
+{
+    sunder_i_subproblem of = *subproblem;
+    sunder_i_branching c = {.subproblem = &of, .model = of.model};
+    builder b = {.c = &c, .open = SIZE_MAX};
+    of.coarse = g->of.coarse;
+    sunder_proof *proof = NULL;
+    size_t *behind = sunder_i_alloc(n + 1, sizeof *behind);
+    if (must(&b, behind != NULL) && build(&b, g, pair, way, ways, chain, behind)) {
+        proof = sunder_i_proof_of(&c, b.root);
+        must(&b, proof != NULL);
+    }
+    sunder_i_free(behind);
+    *failed = c.failed;
+    g->work += sunder_i_branching_work(&c);
+    sunder_i_free(b.claim);
+    clear(&c);
+    return proof;
+}

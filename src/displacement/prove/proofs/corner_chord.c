@@ -1,0 +1,171 @@
+/* Chords across corners that two sides of barriers share.
+ *
+ * Each side casts its shadow from the anchor a (geometry/obstacle_shadow.h). Where sides pb and bq meet in b, on either
+ * side of the way from a through b, the two shadows have the ray beyond b as their common boundary: all of it is
+ * forbidden, but lines that leave the one or the other leave a crack about it, which is as narrow as rounding, and no
+ * line closes.
+ *
+ * Let p' be in the shadow of pb, q' in that of bq, and let the chord p'q' pass the ray at c, beyond b. The shadow of
+ * pb is convex, holds p' and c, and holds what lies behind any of its points; so it holds all that lies behind p'c.
+ * Likewise with q'. So what lies behind the chord is in the two shadows together, exactly and whatever p' and q' are,
+ * and its ways are claims like others; and its lines pass the crack well to the left and the right.
+ *
+ * The corner is cut a little (CHORD of the sides), and the chord moved away from the anchor until it passes beyond b,
+ * and a little more (BEYOND), so that rounding to doubles does no harm; what is wanted of it is asked of the doubles
+ * then, by predicates. The sliver between b and the chord stays open to this. */
+#include "displacement/prove/proofs/plane.h"
+#include "displacement/prove/proofs/tuning.h"
+
+#include "displacement/layer/barrier_parts.h"
+
+#include "base/extremes.h"
+
+#include <string.h>
+
+static double cross(const double u[2], const double v[2]) { return u[0] * v[1] - u[1] * v[0]; }
+static double dot(const double u[2], const double v[2]) { return u[0] * v[0] + u[1] * v[1]; }
+
+static int side_of(const double p[2], const double q[2], const double u[2])
+{
+    return sunder_orient(&(sunder_point){p[0], p[1]}, &(sunder_point){q[0], q[1]}, &(sunder_point){u[0], u[1]});
+}
+
+const sunder_i_side *sunder_i_branching_side_of(const sunder_i_model *model, const sunder_i_body_piece *piece)
+{
+    const sunder_i_body *of = &model->body[model->body_of[piece->feature]];
+    for (uint32_t k = of->has->side; k < of->has->side + of->has->sides; k++)
+        if (piece == &model->side[k].piece) return &model->side[k];
+    return NULL;
+}
+
+/* Is the place in the shadow of the segment from b to p? */
+static bool is_shaded(const double a[2], const double b[2], const double p[2], const double place[2])
+{
+    const int turn = side_of(a, b, p);
+    return turn != 0 && side_of(a, b, place) == turn && side_of(a, p, place) != turn && side_of(b, p, place) != 0 &&
+           side_of(b, p, place) == -side_of(b, p, a);
+}
+
+/* Does what the chord casts lie in the shadows of both? In front of the anchor all of the way, so it passes the ray
+ * beyond b where b is on the anchor's side of it. */
+static bool is_behind(const double a[2], const double b[2], const double p[2], const double q[2], const double chord[4])
+{
+    if (!is_shaded(a, b, p, chord) || !is_shaded(a, b, q, chord + 2)) return false;
+    const double way[2] = {b[0] - a[0], b[1] - a[1]};
+    for (int k = 0; k < 4; k += 2) {
+        const double at[2] = {chord[k] - a[0], chord[k + 1] - a[1]};
+        if (!(dot(at, way) > 0.5 * dot(way, way))) return false;
+    }
+    const int anchor = side_of(chord, chord + 2, a);
+    return side_of(a, b, p) == -side_of(a, b, q) && anchor != 0 && side_of(chord, chord + 2, b) == anchor;
+}
+
+bool sunder_i_branching_make_chord(const double a[2], const double b[2], const double p[2], const double q[2],
+                                   double chord[4])
+{
+    const double way[2] = {b[0] - a[0], b[1] - a[1]}, size = dot(way, way);
+    double u[2], v[2];
+    for (int c = 0; c < 2; c++) {
+        u[c] = way[c] + CHORD * (p[c] - b[c]);
+        v[c] = way[c] + CHORD * (q[c] - b[c]);
+    }
+    /* Where uv passes the ray: so many times as far as b is. */
+    const double left = cross(way, u), right = cross(way, v);
+    if (!(size > 0) || !(left * right < 0)) return false;
+    const double share = left / (left - right), passes = ((1 - share) * dot(u, way) + share * dot(v, way)) / size;
+    if (!(passes > 0.5)) return false;
+    const double times = (1 + BEYOND) * sunder_i_max(1, 1 / passes);
+    for (int c = 0; c < 2; c++) {
+        chord[c] = a[c] + times * u[c];
+        chord[2 + c] = a[c] + times * v[c];
+    }
+    return is_behind(a, b, p, q, chord);
+}
+
+size_t sunder_i_branching_chord_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *anchor,
+                                     const sunder_i_body *q, const double chord[4])
+{
+    double at[4];
+    for (int k = 0; k < 4; k++) at[k] = chord[k] - q->origin[k & 1];
+    const sunder_i_parting parting = {.a = anchor->corner,
+                                      .b = at,
+                                      .na = 1,
+                                      .nb = 2,
+                                      .offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}};
+    const size_t most = SUNDER_I_HALF_PLANES_A_CORNER * 3 + SUNDER_I_HALF_PLANES_MORE;
+    c->looked += most;
+    if (!sunder_i_reserve(&c->scratch, &c->scratch_capacity, most, sizeof *c->scratch)) {
+        c->failed = true;
+        return 0;
+    }
+    return sunder_i_half_planes_past(&parting, c->scratch);
+}
+
+/* ---- In the plane of one move ------------------------------------------------------------------------------------ */
+
+/* A side, from its end that the anchor's way leads by. */
+typedef struct spoke {
+    const sunder_i_plane_obstacle *of;
+    const sunder_i_side *side;
+    const double *end, *other;
+} spoke;
+
+/* Does the way of the anchor lead through that end, nearly? It moves by -u. */
+static bool is_beside(const double a[2], const double end[2], const double u[2])
+{
+    const double to[2] = {end[0] - a[0], end[1] - a[1]}, along = -dot(to, u);
+    return along > 0 && fabs(cross(to, u)) <= BESIDE * along;
+}
+
+/* The spoke of an obstacle that is a side; false: it has none. */
+static bool find_spoke(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, const double u[2], spoke *s)
+{
+    const sunder_i_model *model = g->c->model;
+    if (!o->shadow || !sunder_i_is_barrier_body(model, &model->body[o->q])) return false;
+    const double *a = model->side_at + 2 * (size_t)o->a->feature;
+    const double *c = o->b->corner, *q = model->body[o->q].origin;
+    for (int k = 0; k < 2; k++) {
+        const double end[2] = {c[2 * k] + q[0], c[2 * k + 1] + q[1]};
+        if (!is_beside(a, end, u)) continue;
+        const sunder_i_side *side = sunder_i_branching_side_of(model, o->b);
+        if (!side || (side->area && side->area->rational)) return false;
+        *s = (spoke){o, side, k ? side->to : side->from, k ? side->from : side->to};
+        return true;
+    }
+    return false;
+}
+
+/* Do the chord across the corner that two spokes share, and its ways, leave the move out? */
+static bool shuts(sunder_i_plane *g, const spoke *s, const spoke *r, const double u[2], sunder_i_chord *chord,
+                  size_t *ways)
+{
+    const sunder_i_model *model = g->c->model;
+    const double *a = model->side_at + 2 * (size_t)s->of->a->feature;
+    if (s->of->a != r->of->a || s->end[0] != r->end[0] || s->end[1] != r->end[1] ||
+        !sunder_i_branching_make_chord(a, s->end, s->other, r->other, chord->at))
+        return false;
+    chord->side[0] = s->side;
+    chord->side[1] = r->side;
+    *ways = sunder_i_branching_chord_ways(g->c, &model->body[g->p], s->of->a, &model->body[s->of->q], chord->at);
+    return !g->c->failed && sunder_i_branching_depth(g->c, *ways, u) > 0;
+}
+
+const sunder_i_plane_obstacle *sunder_i_plane_find_chord(sunder_i_plane *g, const double u[2], sunder_i_chord *chord,
+                                                         size_t *ways)
+{
+    const struct sunder_i_plane_kept *kept = g->kept;
+    spoke spokes[SPOKES];
+    size_t n = 0;
+    g->c->looked += g->obstacles;
+    for (size_t r = 0; r < g->runs; r++) {
+        const sunder_i_plane_run *run = &kept->run[g->run[r]];
+        if (!run->side) continue;
+        for (size_t k = run->first; k < run->end && n < SPOKES; k++) {
+            if (kept->box[4 * k] > kept->box[4 * k + 2] || !find_spoke(g, &kept->obstacle[k], u, &spokes[n])) continue;
+            for (size_t i = 0; i < n && !g->c->failed; i++)
+                if (shuts(g, &spokes[i], &spokes[n], u, chord, ways)) return spokes[i].of;
+            n++;
+        }
+    }
+    return NULL;
+}

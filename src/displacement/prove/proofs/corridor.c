@@ -1,0 +1,454 @@
+/* Who may slide along a line only, and is on a lattice that has no other place there.
+ *
+ * A block on both sides of a straight road, in conflict with it on both, may stand no nearer to the one side nor to the
+ * other: what is left to it is to slide along the road. In the reals that is a way out; but moves are such that doubles
+ * hold every corner afterwards, so they are multiples of the unit in the last place of the coordinates, and on the line
+ * of a segment whose ends are doubles likewise the next such place is as far away as the segment is long, divided by
+ * what the numbers of its two coordinates have in common. Mostly that is farther than any limit.
+ *
+ * So where branching has led to a solution of the reals, it is asked whether one of the bodies that it was about is
+ * held between two such lines. The lines have to be told without any rounding. The pair of a line is listed, and stands
+ * no worse than it stood:
+ *
+ *       A - B grown by what the two stood apart          N = a normal of A - B, a vector of doubles: the edge that it
+ *      ___________________________                           is of has corners of doubles, and their difference is one
+ *                 u = 0           \                      the line N.u = 0 passes the place where they stood, at the
+ *      _____P___________Q______                              distance that they had: exactly that of the whole pair
+ *              A - B           \
+ *
+ * N.u >= 0 is then one of the ways out of the pair of parts, as half_planes.c finds them, in place of the one that is
+ * next to it: of all of the boundary of what is forbidden, that line has to tell of what is on it alone, as long as no
+ * other edge is nearly parallel to it. Whether the pair of parts stood as the whole pair did is asked exactly
+ * (layer/barrier_pairs.h).
+ *
+ * Of an overlap with a barrier no one pair of parts may be as deep as the whole: what lies across a road of several
+ * pieces leaves it by the last of them. There the line is that at which this last one lets go of the road, so that its
+ * slack v (feasibility.h) has to take it there, n.(u + v) >= h. If the overlap was h / |n| deep at most, no v does more
+ * than h along n, and n.u >= 0 again. How deep it was is asked beside the hull of the feature, exactly.
+ *
+ * Of two such lines of one body, one opposite to the other, the first two branches are made;
+ * between them its limit is 0 (branches.c). */
+#include "displacement/layer/barrier_pairs.h"
+#include "displacement/layer/reads.h"
+#include "displacement/prove/proofs/branching.h"
+#include "displacement/prove/proofs/tuning.h"
+
+#include "shape/shape.h"
+
+#include "base/extremes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Exactly --------------------------------------------------------------------------------------------------- */
+
+/* q - p, if that is a double. The rounding error of a difference is itself a double [Knu97, 4.2.2]. */
+static bool subtract(double q, double p, double *out)
+{
+    const double s = q - p, back = s - q;
+    *out = s;
+    return isfinite(s) && (q - (s - back)) - (p + back) == 0;
+}
+
+/* Is p q - r s nothing? */
+static bool are_equal_products(double p, double q, double r, double s)
+{
+    const double a = p * q, b = r * s;
+    return a == b && fma(p, q, -a) == fma(r, s, -b);
+}
+
+static bool are_parallel(const double m[2], const double n[2]) { return are_equal_products(m[0], n[1], m[1], n[0]); }
+
+static double dot(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
+
+/* A multiple of the normal that is still one of doubles, about 1 long. */
+static void scale(double n[2])
+{
+    const int e = ilogb(hypot(n[0], n[1]));
+    for (int x = 0; x < 2; x++) n[x] = ldexp(n[x], -e);
+    for (int bits = 10; bits > 0; bits--) {
+        const double times = rint(ldexp(1, bits) / hypot(n[0], n[1])), m[2] = {times * n[0], times * n[1]};
+        if (fma(times, n[0], -m[0]) != 0 || fma(times, n[1], -m[1]) != 0) continue;
+        for (int x = 0; x < 2; x++) n[x] = ldexp(m[x], -bits);
+        return;
+    }
+}
+
+/* ---- The lattice ------------------------------------------------------------------------------------------------- */
+
+/* The exponent of the unit of one coordinate, wherever the body may go: all of its corners stay between two powers of
+ * two that follow each other. */
+static bool find_unit(const sunder_i_model *model, const sunder_i_body *body, size_t c, int *unit)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (uint32_t k = 0; k < body->members; k++) {
+        const sunder_shape *shape = sunder_i_thing_shape(model, model->member[body->member + k]);
+        for (size_t v = 0; shape && v < sunder_i_shape_raw_vertices(shape); v++) {
+            low = sunder_i_min(low, shape->raw_xy[2 * v + c]);
+            high = sunder_i_max(high, shape->raw_xy[2 * v + c]);
+        }
+    }
+    low = nextafter(low - body->limit, -INFINITY);
+    high = nextafter(high + body->limit, INFINITY);
+    if (!isfinite(high - low) || !(low > 0 || high < 0) || ilogb(low) != ilogb(high)) return false;
+    *unit = ilogb(low) - 52;
+    return *unit >= -1022;
+}
+
+/* v = odd * 2^exponent. */
+static uint64_t odd_part(double v, int *exponent)
+{
+    uint64_t m = (uint64_t)ldexp(frexp(fabs(v), exponent), 53);
+    *exponent -= 53;
+    for (; (m & 1) == 0; m >>= 1) ++*exponent;
+    return m;
+}
+
+static uint64_t common_divisor(uint64_t p, uint64_t q)
+{
+    while (q) {
+        const uint64_t rest = p % q;
+        p = q;
+        q = rest;
+    }
+    return p;
+}
+
+/* Are all other places of the line n.t = 0 beyond the body's limit? Places have i and j units; with n0 = p / unit 0
+ * and n1 = q / unit 1 they have p i + q j = 0, and the nearest is q and -p, divided by what they have in common. */
+static bool is_alone(const sunder_i_model *model, const sunder_i_body *body, const double n[2])
+{
+    int unit[2], e[2];
+    if (n[0] == 0 || n[1] == 0 || !find_unit(model, body, 0, &unit[0]) || !find_unit(model, body, 1, &unit[1]))
+        return false;
+    const uint64_t p = odd_part(n[0], &e[0]), q = odd_part(n[1], &e[1]), odd = common_divisor(p, q);
+    for (int x = 0; x < 2; x++) e[x] += unit[x];
+    const int common = e[0] < e[1] ? e[0] : e[1];
+    const double i = ldexp((double)(q / odd), e[1] - common + unit[0]),
+                 j = ldexp((double)(p / odd), e[0] - common + unit[1]);
+    return hypot(i, j) > body->limit * (1 + 0x1p-40);
+}
+
+/* ---- A line ------------------------------------------------------------------------------------------------------ */
+
+/* Two parts of a pair, and the line of u that passes where they stood. */
+typedef struct facing {
+    sunder_i_corridor_wall wall;
+    double a[2 * WALL_CORNERS], b[2 * WALL_CORNERS]; /* their corners as given */
+} facing;
+
+/* The normal of an edge of A - B: the k-th edge of A, or behind these of B; not scaled. False: not of doubles. */
+static bool normal_of(const facing *f, size_t k, double n[2])
+{
+    const size_t na = f->wall.a->corners, nb = f->wall.b->corners;
+    const bool of_a = k < na;
+    const double *xy = of_a ? f->a : f->b, *p = xy + 2 * (of_a ? k : k - na),
+                 *q = xy + 2 * (of_a ? (k + 1) % na : (k - na + 1) % nb);
+    double x, y;
+    const bool exact_x = subtract(q[0], p[0], &x), exact_y = subtract(q[1], p[1], &y);
+    n[0] = of_a ? y : -y;
+    n[1] = of_a ? -x : x;
+    return exact_x && exact_y;
+}
+
+/* The corner that is farthest along n. */
+static const double *farthest(const double *xy, size_t corners, const double n[2], double sign)
+{
+    const double *best = xy;
+    for (size_t k = 1; k < corners; k++) {
+        const double d[2] = {xy[2 * k] - best[0], xy[2 * k + 1] - best[1]};
+        if (sign * dot(n, d) > 0) best = xy + 2 * k;
+    }
+    return best;
+}
+
+/* How far u = 0 is from the line of an edge of A - B, negative inside. */
+static double beyond(const facing *f, const double n[2])
+{
+    const double *p = farthest(f->a, f->wall.a->corners, n, 1), *q = farthest(f->b, f->wall.b->corners, n, -1),
+                 d[2] = {p[0] - q[0], p[1] - q[1]};
+    return -dot(n, d) / hypot(n[0], n[1]);
+}
+
+/* Does the foot of u = 0 on the k-th edge lie on that, a hair from its ends? */
+static bool has_foot(const facing *f, size_t k, const double n[2], double hair)
+{
+    const size_t na = f->wall.a->corners, nb = f->wall.b->corners;
+    const bool of_a = k < na;
+    const double *other = of_a ? farthest(f->b, nb, n, -1) : farthest(f->a, na, n, 1),
+                 *p = of_a ? f->a + 2 * k : f->b + 2 * (k - na),
+                 *q = of_a ? f->a + 2 * ((k + 1) % na) : f->b + 2 * ((k - na + 1) % nb),
+                 to_p[2] = {p[0] - other[0], p[1] - other[1]}, to_q[2] = {q[0] - other[0], q[1] - other[1]},
+                 e[2] = {q[0] - p[0], q[1] - p[1]}, room = hair * hypot(e[0], e[1]);
+    return dot(to_p, e) < -room && dot(to_q, e) > room;
+}
+
+/* Nearly so, but not just so. */
+static bool are_nearly_parallel(const double n[2], const double other[2])
+{
+    const double size = hypot(other[0], other[1]) * hypot(n[0], n[1]);
+    return dot(n, other) > 0 && !are_parallel(n, other) &&
+           fabs(n[0] * other[1] - n[1] * other[0]) < NEARLY_PARALLEL * size;
+}
+
+/* Of all other edges: none is nearly parallel to the k-th, save for those that are just so; and none is less deep,
+ * where the parts are in each other. */
+static bool stands_out(const facing *f, size_t k, const double n[2], double hair)
+{
+    const double depth = beyond(f, n);
+    for (size_t m = 0; m < f->wall.a->corners + f->wall.b->corners; m++) {
+        double other[2];
+        if (m == k) continue;
+        if (!normal_of(f, m, other) || are_nearly_parallel(n, other)) return false;
+        if (dot(n, other) > 0 && are_parallel(n, other)) continue;
+        if (depth < 0 && !(beyond(f, other) < depth - hair)) return false;
+    }
+    return true;
+}
+
+/* Is the k-th edge of A - B such a line? */
+static bool is_line(const sunder_i_branching *c, facing *f, size_t k, double clearance)
+{
+    double *n = f->wall.n;
+    /* Long enough that no edge that turns from it has a line in common with it (half_planes.c: less than a hair). */
+    if (!normal_of(f, k, n) || !(NEARLY_PARALLEL * hypot(n[0], n[1]) > 8 * c->hair)) return false;
+    if (!(fabs(beyond(f, n) - clearance) <= c->hair)) return false;
+    if (!(clearance >= 0 ? has_foot(f, k, n, c->hair) : beyond(f, n) < -c->hair)) return false;
+    if (!stands_out(f, k, n, c->hair)) return false;
+    scale(n);
+    return true;
+}
+
+/* ---- A line that a translation out of an overlap has to reach ---------------------------------------------------- */
+
+/* Is none of the corners farther along n than corner `at`, exactly? */
+static bool is_extreme(const double *xy, size_t corners, const double n[2], const double at[2])
+{
+    for (size_t k = 0; k < corners; k++) {
+        double d[2];
+        if (!subtract(xy[2 * k], at[0], &d[0]) || !subtract(xy[2 * k + 1], at[1], &d[1])) return false;
+        const double size = fabs(n[0] * d[0]) + fabs(n[1] * d[1]);
+        if (dot(n, d) < -0x1p-50 * size || are_equal_products(n[0], d[0], -n[1], d[1])) continue;
+        return false;
+    }
+    return true;
+}
+
+/* The k-th edge of A - B, of the extreme corners `hull` of the feature that A is of: one that all of the feature has to
+ * be moved to, along n, and at which it is as far as the pair's overlap at the start was deep. */
+static bool is_far_line(const sunder_i_branching *c, facing *f, size_t k, const double *hull, size_t corners)
+{
+    double *n = f->wall.n, d[2];
+    if (!normal_of(f, k, n) || !(NEARLY_PARALLEL * hypot(n[0], n[1]) > 8 * c->hair)) return false;
+    if (!(fabs(beyond(f, n) - f->wall.clearance) <= c->hair)) return false;
+    for (size_t m = 0; m < f->wall.a->corners + f->wall.b->corners; m++) {
+        double other[2];
+        if (m == k) continue;
+        if (!normal_of(f, m, other) || are_nearly_parallel(n, other)) return false;
+    }
+    const double *p = farthest(f->a, f->wall.a->corners, n, 1), *q = farthest(f->b, f->wall.b->corners, n, -1);
+    scale(n);
+    if (!is_extreme(hull, corners, n, p) || !subtract(p[0], q[0], &d[0]) || !subtract(p[1], q[1], &d[1])) return false;
+    f->wall.d = dot(n, d) - 0x1p-48 * (fabs(n[0] * d[0]) + fabs(n[1] * d[1]));
+    return true;
+}
+
+/* ---- The lines of a body ----------------------------------------------------------------------------------------- */
+
+typedef struct looking {
+    sunder_i_branching *branching;
+    uint32_t mover;
+    sunder_i_corridor_wall *line;
+    size_t n, capacity;
+    sunder_status status;
+    sunder_error *err;
+} looking;
+
+static bool is_rational(const sunder_i_model *model, uint32_t f) { return sunder_i_thing_shape(model, f)->rational; }
+
+/* Takes the line, if the pair stood as `part`, of the feature, and the other thing's part did. */
+static void take_line(looking *g, const facing *f, const double *part, size_t corners)
+{
+    const sunder_i_corridor_wall *w = &f->wall;
+    bool same;
+    g->status = sunder_i_parts_stand_so(g->branching->model, w->a->feature, w->b->feature,
+                                        &(sunder_i_piece_of){.n = (uint32_t)corners, .xy = part},
+                                        &(sunder_i_piece_of){.n = w->b->corners, .xy = f->b}, &same, g->err);
+    if (g->status || !same) return;
+    if (!sunder_i_reserve(&g->line, &g->capacity, g->n + 1, sizeof *g->line))
+        g->status = sunder_i_no_memory(g->err);
+    else
+        g->line[g->n++] = *w;
+}
+
+static void look_at(looking *g, const sunder_i_body_piece *a, const sunder_i_body_piece *b, double clearance)
+{
+    const sunder_i_model *model = g->branching->model;
+    facing f = {.wall = {.a = a, .b = b, .clearance = clearance}};
+    g->branching->looked += a->corners * b->corners;
+    if (a->corners > WALL_CORNERS || b->corners > WALL_CORNERS) return;
+    sunder_i_piece_as_given(model, a, f.a);
+    sunder_i_piece_as_given(model, b, f.b);
+    for (size_t k = 0; k < a->corners + b->corners && !g->status; k++)
+        if (is_line(g->branching, &f, k, clearance)) take_line(g, &f, f.a, a->corners);
+}
+
+static void look_at_depth(looking *g, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
+                          const sunder_i_requirement *r, const double *hull, size_t corners)
+{
+    const sunder_i_model *model = g->branching->model;
+    facing f = {.wall = {.a = a, .b = b, .clearance = r->clearance, .slack = r}};
+    g->branching->looked += a->corners * b->corners;
+    if (a->corners > WALL_CORNERS || b->corners > WALL_CORNERS) return;
+    sunder_i_piece_as_given(model, a, f.a);
+    sunder_i_piece_as_given(model, b, f.b);
+    for (size_t k = 0; k < a->corners + b->corners && !g->status; k++)
+        if (is_far_line(g->branching, &f, k, hull, corners)) take_line(g, &f, hull, corners);
+}
+
+/* The corners of the hull of a feature, as given, counter-clockwise and strictly convex; false: it is none so. */
+static bool find_hull(const sunder_i_model *model, uint32_t f, double **hull, size_t *corners)
+{
+    const sunder_shape *shape = sunder_i_thing_shape(model, f);
+    const size_t n = shape->vertices;
+    double *xy = sunder_i_alloc(2 * n, sizeof *xy);
+    *hull = sunder_i_alloc(2 * (n + 1), sizeof **hull);
+    *corners = 0;
+    if (xy && *hull) {
+        memcpy(xy, shape->xy, 2 * n * sizeof *xy);
+        *corners = sunder_i_convex_hull(xy, n, *hull);
+    }
+    for (size_t k = 0; k < *corners; k++) {
+        const double *p = *hull + 2 * k, *q = *hull + 2 * ((k + 1) % *corners), *r = *hull + 2 * ((k + 2) % *corners);
+        if (sunder_orient(&(sunder_point){p[0], p[1]}, &(sunder_point){q[0], q[1]}, &(sunder_point){r[0], r[1]}) <= 0)
+            *corners = 0;
+    }
+    sunder_i_free(xy);
+    return *corners > 2;
+}
+
+/* All pieces of the feature, and of the barrier those that its hull meets. */
+static void look_at_overlap(looking *g, uint32_t f, const sunder_i_requirement *r)
+{
+    sunder_i_branching *c = g->branching;
+    const sunder_i_model *model = c->model;
+    const sunder_i_body *p = &model->body[g->mover];
+    double *hull = NULL;
+    size_t corners;
+    if (find_hull(model, f, &hull, &corners))
+        for (size_t n = 0; n < c->near.n && !g->status; n++) {
+            const sunder_i_body *q = &model->body[model->body_of[c->near.item[n]]];
+            const sunder_i_body_pieces *of_p = sunder_i_pieces_of(model, p), *of_q = sunder_i_pieces_of(model, q);
+            sunder_i_branching_join(c, model->body_of[c->near.item[n]]);
+            if (!of_p || !of_q) g->status = sunder_i_no_memory(g->err);
+            for (uint32_t k = 0; k < p->pieces && !g->status; k++)
+                for (uint32_t l = 0; l < q->pieces && !g->status; l++)
+                    if (of_p->piece[k].feature == f)
+                        look_at_depth(g, &of_p->piece[k], &of_q->piece[l], r, hull, corners);
+        }
+    sunder_i_free(hull);
+}
+
+/* Feature f of the mover, and what stands: a feature, or part of a barrier. */
+static void look_at_pair(looking *g, uint32_t f, uint32_t standing, double clearance)
+{
+    const sunder_i_model *model = g->branching->model;
+    const sunder_i_body *p = &model->body[g->mover], *q = &model->body[model->body_of[standing]];
+    const double reach = fabs(clearance) + g->branching->hair;
+    const sunder_i_body_pieces *of_p = sunder_i_pieces_of(model, p), *of_q = sunder_i_pieces_of(model, q);
+    sunder_i_branching_join(g->branching, model->body_of[standing]); /* which tells how large a hair is */
+    if (!of_p || !of_q) g->status = sunder_i_no_memory(g->err);
+    for (uint32_t k = 0; k < p->pieces && !g->status; k++) {
+        const sunder_i_body_piece *a = &of_p->piece[k];
+        double box[4];
+        if (a->feature != f) continue;
+        for (uint32_t x = 0; x < 4; x++)
+            box[x] = a->box[x] + (p->origin[x & 1] - q->origin[x & 1]) + (x < 2 ? -reach : reach);
+        for (uint32_t l = 0; l < q->pieces && !g->status; l++)
+            if (of_q->piece[l].feature == standing && sunder_i_box_meet(box, of_q->piece[l].box))
+                look_at(g, a, &of_q->piece[l], clearance);
+    }
+}
+
+static void look_at_requirement(looking *g, const sunder_i_requirement *r)
+{
+    sunder_i_branching *c = g->branching;
+    const sunder_i_model *model = c->model;
+    const uint32_t f = model->body_of[r->a] == g->mover ? r->a : r->b, other = f == r->a ? r->b : r->a;
+    double clearance, box[4];
+    if (sunder_i_limit_of(&model->body[model->body_of[other]]) > 0 || is_rational(model, f)) return;
+    if ((r->a == c->subproblem->a && r->b == c->subproblem->b) || !sunder_i_branching_owe(c, f, other, &clearance))
+        return;
+    if (!sunder_i_is_barrier(model, other)) {
+        if (!is_rational(model, other)) look_at_pair(g, f, other, clearance);
+        return;
+    }
+    const uint32_t end = (uint32_t)model->features + model->barriers->part_end[sunder_i_barrier_of(model, other)];
+    sunder_i_box_grow(sunder_i_home_box(model, f), fabs(clearance) + c->hair, box);
+    c->near.n = 0;
+    if (!sunder_i_look_about(model, &model->tree, box, &c->near)) g->status = sunder_i_no_memory(g->err);
+    if (c->near.n) qsort(c->near.item, c->near.n, sizeof *c->near.item, sunder_i_by_number);
+    size_t out = 0;
+    for (size_t k = 0; k < c->near.n; k++)
+        if (c->near.item[k] >= other && c->near.item[k] < end && !is_rational(model, c->near.item[k]))
+            c->near.item[out++] = c->near.item[k];
+    c->near.n = out;
+    for (size_t k = 0; k < c->near.n && !g->status; k++) look_at_pair(g, f, c->near.item[k], clearance);
+    if (clearance < 0 && !g->status) look_at_overlap(g, f, r);
+}
+
+static bool is_of(const sunder_i_model *model, uint32_t thing, uint32_t body) { return model->body_of[thing] == body; }
+
+/* Two lines of the body that leave it one place; slack: or lines that a slack has to reach. */
+static bool choose(const looking *g, bool slack, sunder_i_corridor_wall out[2])
+{
+    const sunder_i_model *model = g->branching->model;
+    for (size_t k = 0; k < g->n; k++)
+        for (size_t l = k + 1; l < g->n; l++) {
+            const double *m = g->line[k].n, *n = g->line[l].n;
+            if (!slack && (g->line[k].slack || g->line[l].slack)) continue;
+            if (!(dot(m, n) < 0) || !are_parallel(m, n) || !is_alone(model, &model->body[g->mover], n)) continue;
+            out[0] = g->line[k];
+            out[1] = g->line[l];
+            return true;
+        }
+    return false;
+}
+
+sunder_status sunder_i_branching_find_corridor(sunder_i_branching *c, uint32_t body, sunder_error *err)
+{
+    const sunder_i_model *model = c->model;
+    const sunder_i_subproblem *q = c->subproblem;
+    looking g = {.branching = c, .mover = body, .err = err};
+    for (size_t k = 0; k < q->required_n && !g.status; k++)
+        if (is_of(model, q->required[k].a, body) || is_of(model, q->required[k].b, body))
+            look_at_requirement(&g, &q->required[k]);
+    if (!g.status && (choose(&g, false, c->wall) || choose(&g, true, c->wall))) {
+        c->walls = 2;
+        c->between = body;
+    }
+    sunder_i_free(g.line);
+    return g.status;
+}
+
+size_t sunder_i_branching_wall_ways(sunder_i_branching *c, const sunder_i_corridor_wall *wall)
+{
+    const sunder_i_body *p = &c->model->body[c->between], *q = &c->model->body[c->model->body_of[wall->b->feature]];
+    const size_t n =
+        sunder_i_branching_fill_ways(c, p, wall->a, q, wall->b, wall->slack ? 0 : wall->clearance, false, NULL);
+    const double length = hypot(wall->n[0], wall->n[1]);
+    size_t at = n;
+    for (size_t k = 0; k < n; k++) {
+        const sunder_i_half_plane *w = &c->scratch[k];
+        const double sine = (w->n[0] * wall->n[1] - w->n[1] * wall->n[0]) / length;
+        if (dot(w->n, wall->n) > 0 && fabs(sine) < 0x1p-40 && fabs(w->d - wall->d / length) <= 4 * c->hair) {
+            if (at < n) return 0;
+            at = k;
+        }
+    }
+    if (at == n) return 0;
+    c->scratch[at] = c->scratch[0];
+    c->scratch[0] = (sunder_i_half_plane){.n = {wall->n[0], wall->n[1]}, .d = wall->d};
+    return n;
+}

@@ -1,0 +1,269 @@
+/* Half-planes of which one holds whatever parts A from B + u, proved in doubles.
+ *
+ * Let K = A + (-B). Without a clearance the two are apart exactly when u is not in the interior of K, with a
+ * clearance g exactly when u is not in that of K grown by the disc of radius g; call it O. Take any half-planes n.u
+ * >= d such that each point of the boundary of O lies in one, and let T be what lies in none of them. T is convex,
+ * so connected, and misses that boundary; so if one point of T is in O, all of T is, and whoever is outside O is in
+ * one of the half-planes. So nothing needs to be known exactly: n may be any vector near the normal of an edge PQ,
+ * as long as d is no more than n.P and n.Q, and even the order in which edges of A and B are merged may err where
+ * they are parallel but for rounding: the boundary is then another closed curve in K around the same point.
+ *
+ *              n2    n'
+ *              |   /         An edge's line stands off by g. Round the corner Q, between the directions n1, n2 of two
+ *      ________Q____ n1      edges, each w of length 1 has n'.w >= c for c the less of n'.n1 and n'.n2, so the arc
+ *              |             Q + g w is beyond n'.u = n'.Q + c g. Two such lines at a right angle make c 0.92.
+ *              |
+ *
+ * So what is asked for at a corner is up to a thirteenth less than the clearance. Where a place matters that keeps all
+ * of these lines, and not the clearance, one that is made for it stands for a turn so small that it passes beyond it.
+ *
+ * Edges that turn by little, or not at all (two walls that face each other make one each), have one line for all, that
+ * of their chord: two that are the same but for rounding would each be a case, and the cases of a row of houses double
+ * with each.
+ *
+ * A negative clearance -s: some v with |v| <= s takes u + v out of the interior of K. If T, made without a
+ * clearance, has all of u + v in it, then u is not such; so the half-planes move inward by s.
+ *
+ * Rounding, with e = 2^-53 and S the sum over both coordinates of the greatest |a| + |b| + |offset|: corners less
+ * their origin are off by e of themselves, and P = (a - b) - offset takes two more roundings: 3 e S in all, for both
+ * coordinates; n.P adds 3 e |P|, and the last sum one more. So 8 e S = 2^-50 S is enough. The direction of an edge
+ * of length l is off by no more than 2^-50 S / l, its tilt: the point Q + g n1 of the true n1 is within the line's
+ * offset up to a share of its square, an arc's up to its own size. */
+#include "displacement/prove/proofs/half_planes.h"
+#include "displacement/geometry/obstacle.h"
+
+#include "convex/merge.h"
+
+#include "base/extremes.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+#define UNIT 0x1p-50
+
+/* Corners that turn by less than this cosine tells are within an edge's own rounding. */
+#define STRAIGHT (1 - 0x1p-51)
+/* Up to these one line, or two, go round a corner, else four. */
+#define SLIGHT 0.92
+#define SQUARE -0.01
+/* Half the turn that a line may stand for that is made for one place. */
+#define WIDEST 0.3
+/* Edges that one line may tell of. */
+#define MOST_IN_RUN 16
+
+typedef struct side {
+    double n[2], tilt;
+} side;
+
+typedef struct walk {
+    const sunder_i_parting *parting;
+    sunder_i_half_plane *way;
+    size_t n;
+    double slack, size;
+    double inner[2]; /* a point of the interior of K */
+    bool holds;      /* it is in T so far */
+} walk;
+
+static double dot(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
+
+/* Adds the half-plane n.u >= base - slack + off. */
+static void add(walk *w, const double n[2], double base, double off)
+{
+    const double d = base - w->slack;
+    if (!(dot(n, w->inner) < d - w->slack)) w->holds = false;
+    w->way[w->n++] = (sunder_i_half_plane){.n = {n[0], n[1]}, .d = d + off};
+}
+
+/* Edges of K, one after the other, of which one line tells: that of their chord. */
+typedef struct run {
+    double corner[2 * (MOST_IN_RUN + 1)];
+    size_t edges;
+    side first, last;
+} run;
+
+static void begin_run(run *r, const double from[2], const double to[2], const side *s)
+{
+    memcpy(r->corner, from, 2 * sizeof *from);
+    memcpy(r->corner + 2, to, 2 * sizeof *to);
+    r->edges = 1;
+    r->first = r->last = *s;
+}
+
+/* Can the two, of which the second goes on where the first ends, be told of by one line? Between edges that turn by t,
+ * a chord of length l is no more than l tan(t / 2) / 2 from any corner, or l t / 2 where t is small. */
+static bool can_join(const walk *w, const run *r, const run *next)
+{
+    const double sine = r->first.n[0] * next->last.n[1] - r->first.n[1] * next->last.n[0];
+    const double *p = r->corner, *q = next->corner + 2 * next->edges;
+    return r->edges + next->edges <= MOST_IN_RUN && dot(r->first.n, next->last.n) > SLIGHT &&
+           fabs(sine) * hypot(q[0] - p[0], q[1] - p[1]) / 2 <= sunder_i_max(w->parting->coarse, w->slack);
+}
+
+static void join(run *r, const run *next)
+{
+    memcpy(r->corner + 2 * (r->edges + 1), next->corner + 2, 2 * next->edges * sizeof *r->corner);
+    r->edges += next->edges;
+    r->last = next->last;
+}
+
+/* Every corner of the run is beyond its line, and so is what stands off by the gap in the direction of any normal of
+ * the run, which is the line's up to a share of the square of what they turn by. */
+static void add_run(walk *w, const run *r)
+{
+    const double g = w->parting->clearance, *p = r->corner, *q = r->corner + 2 * r->edges;
+    const double length = hypot(q[0] - p[0], q[1] - p[1]);
+    side s = r->first;
+    if (r->edges > 1) {
+        s.n[0] = (q[1] - p[1]) / length;
+        s.n[1] = (p[0] - q[0]) / length;
+        s.tilt = fabs(r->first.n[0] * r->last.n[1] - r->first.n[1] * r->last.n[0]) + r->first.tilt + r->last.tilt;
+    }
+    double base = INFINITY;
+    for (size_t k = 0; k <= r->edges; k++) base = sunder_i_min(base, dot(s.n, r->corner + 2 * k));
+    const double off = g >= 0 ? g * sunder_i_max(0, 1 - 2 * UNIT - s.tilt * s.tilt) : g * (1 + 2 * UNIT);
+    add(w, s.n, base, off);
+}
+
+static void bisect(const double n1[2], const double n2[2], double out[2])
+{
+    const bool acute = dot(n1, n2) > 0;
+    out[0] = acute ? n1[0] + n2[0] : n2[1] - n1[1];
+    out[1] = acute ? n1[1] + n2[1] : n1[0] - n2[0];
+    const double length = sqrt(dot(out, out));
+    out[0] /= length;
+    out[1] /= length;
+}
+
+/* Lines round corner q, in 2^halvings parts of the turn from n1 to n2. */
+static void add_arc(walk *w, const double q[2], const double n1[2], const double n2[2], double tilt, int halvings)
+{
+    double n[2];
+    bisect(n1, n2, n);
+    if (halvings) {
+        add_arc(w, q, n1, n, tilt, halvings - 1);
+        add_arc(w, q, n, n2, tilt, halvings - 1);
+        return;
+    }
+    const double c = sunder_i_min(dot(n, n1), dot(n, n2)) - 2 * UNIT - tilt;
+    add(w, n, dot(n, q), w->parting->clearance * sunder_i_max(0, c));
+}
+
+static double cross(const double p[2], const double q[2]) { return p[0] * q[1] - p[1] * q[0]; }
+
+/* As many lines as the turn takes; none, if there is none. */
+static void add_arcs(walk *w, const double q[2], const double n1[2], const double n2[2], double tilt)
+{
+    const double cosine = dot(n1, n2);
+    if (cross(n1, n2) > 0 && cosine < STRAIGHT)
+        add_arc(w, q, n1, n2, tilt, cosine > SLIGHT ? 0 : cosine > SQUARE ? 1 : 2);
+}
+
+/* The direction, turned by an angle, but no farther than to the end. */
+static void turn_to(const double n[2], double angle, const double end[2], double out[2])
+{
+    const double c = cos(angle), s = sin(angle), v[2] = {c * n[0] - s * n[1], s * n[0] + c * n[1]};
+    const bool beyond = angle > 0 ? cross(v, end) <= 0 : cross(v, end) >= 0;
+    const double length = sqrt(dot(v, v));
+    out[0] = beyond ? end[0] : v[0] / length;
+    out[1] = beyond ? end[1] : v[1] / length;
+}
+
+/* Is the place that is asked about within the clearance of corner q, in a direction between the two? Then one line is
+ * turned to there, and stands off by so much that it passes between the place and the arc. */
+static bool turn_at(walk *w, const double q[2], const side *from, const side *to)
+{
+    const double *at = w->parting->at, g = w->parting->clearance, tilt = from->tilt + to->tilt;
+    if (!at) return false;
+    const double v[2] = {at[0] - q[0], at[1] - q[1]}, r = sqrt(dot(v, v)), n[2] = {v[0] / r, v[1] / r};
+    if (!(r > 0) || !(r < g) || !(cross(from->n, n) > 0) || !(cross(n, to->n) > 0)) return false;
+    const double angle = sunder_i_min(WIDEST, sqrt((g - r) / g));
+    double low[2], high[2];
+    turn_to(n, -angle, from->n, low);
+    turn_to(n, angle, to->n, high);
+    add_arcs(w, q, from->n, low, tilt);
+    add_arc(w, q, low, high, tilt, 0);
+    add_arcs(w, q, high, to->n, tilt);
+    return true;
+}
+
+static void turn(walk *w, const double q[2], const side *from, const side *to)
+{
+    if (!(w->parting->clearance > 0) || cross(from->n, to->n) <= 0 || dot(from->n, to->n) >= STRAIGHT) return;
+    if (!turn_at(w, q, from, to)) add_arcs(w, q, from->n, to->n, from->tilt + to->tilt);
+}
+
+/* The next edge of K: it joins the last run, or is another. The first run may yet be joined by the last, and waits. */
+static void take_run(walk *w, run *first, run *last, const run *now)
+{
+    if (last->edges && can_join(w, last, now)) {
+        join(last, now);
+        return;
+    }
+    if (last->edges) turn(w, last->corner + 2 * last->edges, &last->last, &now->first);
+    if (last->edges && first->edges)
+        add_run(w, last);
+    else if (last->edges)
+        *first = *last;
+    *last = *now;
+}
+
+static void end_runs(walk *w, const run *first, run *last)
+{
+    if (first->edges == 0) {
+        add_run(w, last);
+    } else if (can_join(w, last, first)) {
+        join(last, first);
+        add_run(w, last);
+    } else {
+        turn(w, first->corner, &last->last, &first->first);
+        add_run(w, first);
+        add_run(w, last);
+    }
+}
+
+static void measure(walk *w)
+{
+    const sunder_i_parting *p = w->parting;
+    w->size = p->vague;
+    for (size_t c = 0; c < 2; c++) {
+        double a = 0, b = 0, mean_a = 0, mean_b = 0;
+        for (size_t k = 0; k < p->na; k++) a = sunder_i_max(a, fabs(p->a[2 * k + c])), mean_a += p->a[2 * k + c];
+        for (size_t k = 0; k < p->nb; k++) b = sunder_i_max(b, fabs(p->b[2 * k + c])), mean_b += p->b[2 * k + c];
+        w->size += a + b + fabs(p->offset[c]);
+        w->inner[c] = mean_a / (double)p->na - mean_b / (double)p->nb - p->offset[c];
+    }
+    w->slack = UNIT * w->size;
+}
+
+static void corner(const sunder_i_parting *p, size_t a, size_t b, double out[2])
+{
+    for (size_t c = 0; c < 2; c++) out[c] = p->a[2 * a + c] - p->b[2 * b + c] - p->offset[c];
+}
+
+size_t sunder_i_half_planes_between(const sunder_i_parting *p, sunder_i_half_plane *out)
+{
+    walk w = {.parting = p, .way = out, .holds = true};
+    measure(&w);
+    /* From the lowest corner of A less the highest of B, both sequences of edges turn from direction 0 to 2 pi. */
+    const size_t a0 = sunder_i_extreme_corner(p->a, p->na, 1), b0 = sunder_i_extreme_corner(p->b, p->nb, -1);
+    sunder_i_merge m = sunder_i_merge_of((uint32_t)p->na, (uint32_t)p->nb);
+    run first = {.edges = 0}, last = first;
+    double from[2], to[2];
+    corner(p, a0, b0, from);
+    for (;; from[0] = to[0], from[1] = to[1]) {
+        const size_t a = (a0 + m.next_a) % p->na, a1 = (a + 1) % p->na, b = (b0 + m.next_b) % p->nb,
+                     b1 = (b + 1) % p->nb;
+        const double u[2] = {p->a[2 * a1] - p->a[2 * a], p->a[2 * a1 + 1] - p->a[2 * a + 1]};
+        const double v[2] = {p->b[2 * b] - p->b[2 * b1], p->b[2 * b + 1] - p->b[2 * b1 + 1]};
+        if (!SUNDER_I_MERGE_NEXT(&m, sunder_i_turns_first(u, v) ? -1 : 1)) break;
+        const double *e = m.of_a ? u : v, length = sqrt(dot(e, e));
+        corner(p, (a0 + m.next_a) % p->na, (b0 + m.next_b) % p->nb, to);
+        if (!(length > 0)) continue;
+        run now;
+        begin_run(&now, from, to, &(side){{e[1] / length, -e[0] / length}, w.slack / length});
+        take_run(&w, &first, &last, &now);
+    }
+    if (last.edges) end_runs(&w, &first, &last);
+    return w.holds ? w.n : 0;
+}

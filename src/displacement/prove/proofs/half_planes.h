@@ -1,0 +1,39 @@
+/* By which lines a convex part of one feature may pass a convex part of another. */
+#ifndef SUNDER_I_HALF_PLANES_H
+#define SUNDER_I_HALF_PLANES_H
+
+#include <stddef.h>
+
+/* Two convex polygons, counter-clockwise, each relative to an origin, and what they owe each other: to be `clearance`
+ * apart or, if that is negative, to need a translation of no more than -clearance to be so with none. */
+typedef struct sunder_i_parting {
+    const double *a, *b;
+    size_t na, nb;
+    double offset[2]; /* the origin of B less that of A */
+    double vague;     /* corners are off by 2^-52 of this besides their own rounding: 0 if coordinates are doubles */
+    double clearance;
+    const double *at; /* NULL, or a relative move at which the lines are to tell whether the clearance is kept */
+    double coarse;    /* lines may be short by so much of what they could say, where one can stand for several */
+} sunder_i_parting;
+
+/* A half-plane of relative moves u of B. */
+typedef struct sunder_i_half_plane {
+    double n[2], d; /* n.u >= d; n of length 1 within 2^-51 */
+    double at;      /* n.u - d where it matters */
+    size_t next;    /* in a proof: the node for this case */
+} sunder_i_half_plane;
+
+#define SUNDER_I_HALF_PLANES_A_CORNER 5
+#define SUNDER_I_HALF_PLANES_MORE 8
+
+/* Half-planes such that every u outside the shadow of A + (-B) from the origin (geometry/obstacle_shadow.h), or on its
+ * boundary, lies in one of them, exactly; one of the two is an anchor, of one corner, and the clearance does not
+ * matter. Room and answer as below; 0 too where the origin is too near to the obstacle. */
+size_t sunder_i_half_planes_past(const sunder_i_parting *parting, sunder_i_half_plane *out);
+
+/* Half-planes such that every u at which the two keep their clearance lies in one of them, exactly. out: room for
+ * SUNDER_I_HALF_PLANES_A_CORNER (na + nb) + SUNDER_I_HALF_PLANES_MORE of them. Returns how many; 0 where rounding hides
+ * the parts' own interior. */
+size_t sunder_i_half_planes_between(const sunder_i_parting *parting, sunder_i_half_plane *out);
+
+#endif

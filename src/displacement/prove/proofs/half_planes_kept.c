@@ -1,0 +1,71 @@
+/* The ways between two pieces that are made for no place are the same for every candidate of a tree, and asked for in
+ * hundreds of thousands of its nodes: so they are kept while it lasts. Where two pairs have one place, the last has it.
+ * What is kept tells nobody anything but sooner: ways are the same, and what they cost is counted the same. */
+#include "displacement/prove/proofs/branching.h"
+#include "displacement/prove/proofs/tuning.h"
+
+#include <string.h>
+
+struct sunder_i_half_planes_kept {
+    const sunder_i_body_piece *a, *b; /* NULL: nothing is kept here */
+    double clearance;
+    bool shadow;
+    sunder_i_half_plane *way;
+    size_t n, capacity;
+};
+
+/* By what the piece is, not by where it is kept: that is another place in every run. */
+static uint64_t mix(const sunder_i_body_piece *piece)
+{
+    uint64_t bits[4], mixed = piece->feature;
+    memcpy(bits, piece->box, sizeof bits);
+    for (int c = 0; c < 4; c++) mixed = mixed * UINT64_C(0x9e3779b97f4a7c15) + (bits[c] ^ bits[c] >> 32);
+    return mixed;
+}
+
+static size_t place_of(const sunder_i_body_piece *a, const sunder_i_body_piece *b)
+{
+    const uint64_t mixed = (mix(a) ^ mix(a) >> 29) * UINT64_C(0x9e3779b97f4a7c15) + mix(b);
+    return (size_t)((mixed * UINT64_C(0xd1342543de82ef95)) >> (64 - WAYS_KEPT_BITS));
+}
+
+void sunder_i_branching_forget_ways(sunder_i_branching *c)
+{
+    for (size_t k = 0; k < (size_t)1 << WAYS_KEPT_BITS && c->kept; k++) sunder_i_free(c->kept[k].way);
+    sunder_i_free(c->kept);
+    c->kept = NULL;
+}
+
+/* Makes them, and keeps them here; false if memory is out. */
+static bool keep(sunder_i_branching *c, struct sunder_i_half_planes_kept *here, const sunder_i_body *p,
+                 const sunder_i_body *q, const struct sunder_i_half_planes_kept *asked)
+{
+    here->a = NULL;
+    here->n = sunder_i_branching_fill_ways(c, p, asked->a, q, asked->b, asked->clearance, asked->shadow, NULL);
+    if (c->failed || !sunder_i_reserve(&here->way, &here->capacity, here->n, sizeof *here->way)) return false;
+    if (here->n) memcpy(here->way, c->scratch, here->n * sizeof *here->way);
+    here->a = asked->a;
+    here->b = asked->b;
+    here->clearance = asked->clearance;
+    here->shadow = asked->shadow;
+    return true;
+}
+
+const sunder_i_half_plane *sunder_i_branching_keep_ways(sunder_i_branching *c, const sunder_i_body *p,
+                                                        const sunder_i_body_piece *a, const sunder_i_body *q,
+                                                        const sunder_i_body_piece *b, double clearance, bool shadow,
+                                                        size_t *n)
+{
+    const struct sunder_i_half_planes_kept asked = {.a = a, .b = b, .clearance = clearance, .shadow = shadow};
+    *n = 0;
+    if (!c->kept) c->kept = sunder_i_calloc((size_t)1 << WAYS_KEPT_BITS, sizeof *c->kept);
+    struct sunder_i_half_planes_kept *here = c->kept ? &c->kept[place_of(a, b)] : NULL;
+    if (here && here->a == a && here->b == b && here->clearance == clearance && here->shadow == shadow) {
+        c->looked += a->corners + b->corners;
+    } else if (!here || !keep(c, here, p, q, &asked)) {
+        c->failed = true;
+        return NULL;
+    }
+    *n = here->n;
+    return here->way;
+}

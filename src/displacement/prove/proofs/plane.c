@@ -1,0 +1,332 @@
+/* The same question in one plane: of a body that alone may move, among what stands, or of two by themselves, whose
+ * relative move is all that matters.
+ *
+ * Then what claims leave of the moves is a convex polygon, and whatever forbids one of them covers a part of it. So all
+ * pieces that are within reach have their ways made once, and the polygon is divided: by the ways of the piece that,
+ * of those which hold its middle, takes most of it. What each way leaves is asked for again, of the pieces that meet
+ * it; what none leaves a thing of is a leaf, and the two or three claims whose lines bound what was there, with the
+ * limit, contradict each other. A middle that no piece holds is a place where nothing is forbidden.
+ *
+ * The polygon is in doubles, and decides nothing: it tells which claims to ask about (program.c). What is recorded is a
+ * tree like any other.
+ *
+ * A block of eighty houses between five roads has some hundred pieces in its way, of which thirty are enough: a
+ * candidate at a time (branches.c), all of the block is looked at again in each node, and the proof takes a hundred
+ * times as long. */
+#include "displacement/prove/proofs/plane.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- Dividing ---------------------------------------------------------------------------------------------------- */
+
+/* Do the claim and those two sides, or some of them, contradict the limits? */
+static bool contradict(sunder_i_plane *g, uint32_t claim, const uint32_t by[2])
+{
+    sunder_i_branching *c = g->c;
+    g->c->looked += 4;
+    if (c->claim[claim].d > g->reach && sunder_i_branching_contradict(c, &claim, 1)) return true;
+    const uint32_t all[3] = {claim, by[0], by[1]};
+    for (size_t k = 0; k < 2; k++) {
+        const uint32_t two[2] = {claim, by[k]};
+        if (by[k] != SUNDER_I_NO_CLAIM && by[k] != claim && sunder_i_branching_contradict(c, two, 2)) return true;
+    }
+    return by[0] != SUNDER_I_NO_CLAIM && by[1] != SUNDER_I_NO_CLAIM && by[0] != claim && by[1] != claim &&
+           sunder_i_branching_contradict(c, all, 3);
+}
+
+/* Is the region beyond the limits? */
+static bool is_out_of_reach(sunder_i_plane *g, const uint32_t by[2])
+{
+    for (size_t k = 0; k < 2; k++) {
+        const uint32_t other[2] = {by[1 - k], SUNDER_I_NO_CLAIM};
+        if (by[k] != SUNDER_I_NO_CLAIM && contradict(g, by[k], other)) return true;
+    }
+    return false;
+}
+
+/* A region's place among those of the question at hand, and of that which is known. */
+typedef struct place {
+    uint32_t made, known;
+} place;
+
+static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, place at, unsigned level,
+                            sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err);
+
+/* What the cases of a node say, as they are gone through. */
+typedef struct cases {
+    sunder_i_plane_region rest; /* behind the ways so far */
+    bool none;                  /* that is nothing, by what this claim and sides say */
+    uint32_t claim, by[2];
+    unsigned thin; /* how often it was nothing but a sliver */
+    place below;   /* of the first way's */
+} cases;
+
+/* The same where by are the sides that bound what was there. Where many lines meet in a corner they may be the wrong
+ * two: then any others are taken that do, or none. */
+static bool any_contradict(sunder_i_plane *g, uint32_t claim, uint32_t by[2])
+{
+    if (contradict(g, claim, by)) return true;
+    for (by[1] = 0; by[1] < g->c->claims; by[1]++)
+        for (by[0] = 0; by[0] < by[1]; by[0]++)
+            if (contradict(g, claim, by)) return true;
+    by[0] = by[1] = SUNDER_I_NO_CLAIM;
+    return false;
+}
+
+/* Keeps what has n.u >= d. False: that is nothing, which the claim and sides prove, if anything does.
+ *
+ * Where pieces touch, as the parts of a house do, what two claims leave is a line, or a point: no area, and no
+ * contradiction. What covers the seam shows it, if the claims are taken for a little less than they say, here and in
+ * no proof. */
+static bool keep(sunder_i_plane *g, sunder_i_plane_region *r, const double n[2], double d, uint32_t claim,
+                 uint32_t by[2], unsigned *thin)
+{
+    if (sunder_i_plane_clip(r, n, d, claim, by)) return true;
+    if (any_contradict(g, claim, by) || g->thin + *thin >= MOST_SLIVERS) return false;
+    if (!sunder_i_plane_clip(r, n, d - ldexp(SLIVER * g->reach, -(int)(g->thin + *thin)), claim, by)) return false;
+    ++*thin;
+    return true;
+}
+
+/* One case: beyond this way, and behind those before it. *dead: it is void by itself. */
+static sunder_status divide_case(sunder_i_plane *g, cases *s, size_t node, size_t way, unsigned level, bool *dead,
+                                 sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
+{
+    sunder_i_branching *c = g->c;
+    const sunder_i_half_plane *w = &c->way[way];
+    if (!sunder_i_branching_push(c, g->i, g->j, node, way, false, level)) return sunder_i_no_memory(err);
+    const uint32_t last = (uint32_t)c->claims - 1;
+    uint32_t by[2];
+    unsigned thin = s->thin;
+    sunder_i_plane_region part = s->rest;
+    *dead = s->none || !keep(g, &part, w->n, w->d, last, by, &thin);
+    if (!*dead) {
+        const uint32_t k = (uint32_t)(way - c->node[node].way);
+        const place at = {s->below.made == SUNDER_I_NO_CHOICE ? s->below.made : s->below.made + k,
+                          s->below.known == SUNDER_I_NO_CHOICE ? s->below.known : s->below.known + k};
+        g->thin += thin;
+        const sunder_status status = divide(g, &part, at, level + 1, verdict, levels, root, err);
+        g->thin -= thin;
+        return status;
+    }
+    *verdict =
+        (s->none ? contradict(g, s->claim, s->by) : contradict(g, last, by)) ? SUNDER_I_INFEASIBLE : SUNDER_I_UNKNOWN;
+    if (*verdict == SUNDER_I_INFEASIBLE && !sunder_i_branching_add_leaf(c, levels, root))
+        return sunder_i_no_memory(err);
+    return SUNDER_OK;
+}
+
+/* What comes now is behind this way. */
+static bool go_behind(sunder_i_plane *g, cases *s, size_t node, size_t way, unsigned level)
+{
+    const sunder_i_half_plane *w = &g->c->way[way];
+    const double back[2] = {-w->n[0], -w->n[1]};
+    if (!sunder_i_branching_push(g->c, g->i, g->j, node, way, true, level)) return false;
+    if (s->none) return true;
+    s->claim = (uint32_t)g->c->claims - 1;
+    s->none = !keep(g, &s->rest, back, -w->d, s->claim, s->by, &s->thin);
+    return true;
+}
+
+static sunder_status divide_all(sunder_i_plane *g, const sunder_i_plane_region *r, size_t node, place first,
+                                unsigned level, sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root,
+                                sunder_error *err)
+{
+    sunder_i_branching *c = g->c;
+    const size_t begin = c->node[node].way, end = begin + c->node[node].ways, claims = c->claims;
+    cases s = {.rest = *r, .below = first};
+    sunder_status status = SUNDER_OK;
+    memset(levels, 0, sizeof *levels);
+    *root = node;
+    *verdict = SUNDER_I_INFEASIBLE;
+    for (size_t way = begin; way < end; way++) {
+        sunder_i_levels used;
+        size_t below = 0;
+        bool dead = false;
+        const size_t before = c->claims;
+        status = divide_case(g, &s, node, way, level, &dead, verdict, &used, &below, err);
+        if (status || *verdict != SUNDER_I_INFEASIBLE) break;
+        c->way[way].next = below;
+        if (!sunder_i_levels_has(&used, level)) { /* it does not use what the case says: it proves the node */
+            *root = below;
+            *levels = used;
+            break;
+        }
+        sunder_i_levels_join(levels, &used);
+        c->claims = before;
+        if (!dead && !go_behind(g, &s, node, way, level)) status = sunder_i_no_memory(err);
+        if (status) break;
+    }
+    sunder_i_levels_drop(levels, level);
+    c->claims = claims;
+    return status;
+}
+
+/* What a region is divided by: an obstacle, or a chord. */
+typedef struct divider {
+    const sunder_i_plane_obstacle *obstacle; /* NULL: nothing is in the way */
+    size_t ways;
+    sunder_i_chord chord;
+    bool across;
+    place below;
+} divider;
+
+static bool find_divider(sunder_i_plane *g, const sunder_i_plane_region *r, place at, const double middle[2],
+                         divider *by)
+{
+    sunder_i_branching *c = g->c;
+    double share;
+    *by = (divider){.obstacle = sunder_i_plane_choose(g, r, middle, sunder_i_plane_choices_known(g, at.known), &share)};
+    const sunder_i_plane_obstacle *o = by->obstacle;
+    const uint32_t chosen = o ? (uint32_t)(o - g->kept->obstacle) : SUNDER_I_NO_CHOICE;
+    by->ways = o ? o->ways : 0;
+    if (c->failed || !sunder_i_plane_choices_add(g, at.made, chosen, by->ways, share, &by->below.made)) return false;
+    by->below.known = o ? sunder_i_plane_choices_below(g, at.known, chosen) : SUNDER_I_NO_CHOICE;
+    if (o) return true;
+    by->below.made = SUNDER_I_NO_CHOICE;
+    by->obstacle = sunder_i_plane_find_chord(g, middle, &by->chord, &by->ways);
+    by->across = by->obstacle;
+    if (!by->obstacle && !c->failed && !(c->subproblem->coarse > 0))
+        by->obstacle = sunder_i_plane_choose_closely(g, middle, &by->ways);
+    return !c->failed;
+}
+
+static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, place at, unsigned level,
+                            sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
+{
+    sunder_i_branching *c = g->c;
+    double nearest[2] = {0, 0}, middle[2];
+    uint32_t by[2] = {SUNDER_I_NO_CLAIM, SUNDER_I_NO_CLAIM};
+    *verdict = SUNDER_I_UNKNOWN;
+    if (level == SUNDER_I_LEVELS || c->looked > PLANE_EFFORT) return SUNDER_OK;
+    if (sunder_i_plane_distance(r, nearest, by) > g->reach) {
+        if (!is_out_of_reach(g, by)) return SUNDER_OK;
+        *verdict = SUNDER_I_INFEASIBLE;
+        return sunder_i_branching_add_leaf(c, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
+    }
+    sunder_i_plane_middle(r, nearest, g->reach, middle);
+    divider d;
+    size_t node;
+    if (!find_divider(g, r, at, middle, &d)) return sunder_i_no_memory(err);
+    if (!d.obstacle && !g->thin) { /* a sliver is forbidden, by a hair */
+        *verdict = SUNDER_I_FEASIBLE;
+        memcpy(g->free, middle, sizeof middle);
+    }
+    if (!d.obstacle) return SUNDER_OK;
+    const sunder_i_plane_obstacle *o = d.obstacle;
+    const sunder_i_violation v = {
+        .a = o->a, .b = o->b, .clearance = o->clearance, .shadow = o->shadow, .chord = d.across ? &d.chord : NULL};
+    if (!sunder_i_branching_add_branch(c, &v, d.ways, &node)) return sunder_i_no_memory(err);
+    return divide_all(g, r, node, d.below, level, verdict, levels, root, err);
+}
+
+/* ---- The question ------------------------------------------------------------------------------------------------ */
+
+/* Which two bodies it is about: the one that may move, or the two, in whichever order they are asked about. False:
+ * there are more. */
+static bool find_bodies(const sunder_i_branching *c, sunder_i_plane *g)
+{
+    const sunder_i_subproblem *asked = c->subproblem;
+    size_t moving = 0;
+    g->p = g->q = SUNDER_I_GROUND;
+    for (size_t k = 0; k < asked->bodies; k++) {
+        if (!(sunder_i_limit_of(&c->model->body[asked->body[k]]) > 0)) continue;
+        moving++;
+        *(g->p == SUNDER_I_GROUND ? &g->p : &g->q) = asked->body[k];
+    }
+    if (moving == 2 && g->p > g->q) {
+        const uint32_t p = g->p;
+        g->p = g->q;
+        g->q = p;
+    }
+    return moving == 1 || moving == 2;
+}
+
+/* Does nobody else have a say? */
+static bool is_all(const sunder_i_branching *c, const sunder_i_plane *g)
+{
+    const sunder_i_subproblem *asked = c->subproblem;
+    const sunder_i_model *model = c->model;
+    if (!asked->feature || asked->reserves) return false;
+    if (g->q != SUNDER_I_GROUND && model->sides && asked->every_side && !asked->any_way) return false;
+    for (size_t k = 0; k < asked->features; k++) {
+        const uint32_t body = model->body_of[asked->feature[k]];
+        if (body != g->p && body != g->q && (g->q != SUNDER_I_GROUND || sunder_i_limit_of(&model->body[body]) > 0))
+            return false;
+    }
+    return true;
+}
+
+/* What is forbidden is found. False if memory is out. */
+static bool begin(sunder_i_branching *c, sunder_i_plane *g, sunder_i_planes *own)
+{
+    g->i = sunder_i_branching_join(c, g->p);
+    g->j = g->q == SUNDER_I_GROUND ? SUNDER_I_GROUND : sunder_i_branching_join(c, g->q);
+    for (size_t k = 0; k < c->bodies && !c->failed; k++) g->reach += c->limit[k];
+    sunder_i_plane_disc(&g->disc, g->reach);
+    sunder_i_planes *planes = c->subproblem->planes ? c->subproblem->planes : own;
+    return !c->failed && (g->kept = sunder_i_planes_take(planes, g)) != NULL && sunder_i_plane_list(g) &&
+           sunder_i_plane_index_begin(g);
+}
+
+static void end(sunder_i_branching *c, sunder_i_plane *g, sunder_i_planes *own, sunder_i_plane_answer *answer)
+{
+    answer->p = g->p;
+    answer->q = g->q;
+    memcpy(answer->u, g->free, sizeof g->free);
+    answer->free = answer->verdict == SUNDER_I_FEASIBLE;
+    if (answer->free && !is_all(c, g)) answer->verdict = SUNDER_I_UNKNOWN;
+    sunder_i_planes_clear(own);
+    sunder_i_free(g->run);
+    sunder_i_free(g->place);
+    sunder_i_free(g->few);
+    sunder_i_free(g->fresh);
+    sunder_i_plane_choices_free(&g->made);
+}
+
+sunder_status sunder_i_branching_plane(sunder_i_branching *c, sunder_i_plane_answer *answer, sunder_error *err)
+{
+    *answer = (sunder_i_plane_answer){.verdict = SUNDER_I_UNKNOWN};
+    sunder_i_plane g = {.c = c};
+    sunder_i_planes own = {0};
+    if (!find_bodies(c, &g)) return SUNDER_OK;
+    const bool ok = begin(c, &g, &own) && sunder_i_plane_choices_begin(&g);
+    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    if (ok) {
+        sunder_i_levels levels;
+        const place all = {0, 0};
+        status = divide(&g, &g.disc, all, 0, &answer->verdict, &levels, &answer->root, err);
+        if (!status && !sunder_i_plane_choices_end(&g, answer->verdict == SUNDER_I_INFEASIBLE))
+            status = sunder_i_no_memory(err);
+    }
+    end(c, &g, &own, answer);
+    return status;
+}
+
+sunder_status sunder_i_branching_plane_try(sunder_i_branching *c, const double (*at)[2], size_t n,
+                                           sunder_i_plane_answer *answer, sunder_error *err)
+{
+    *answer = (sunder_i_plane_answer){.verdict = SUNDER_I_UNKNOWN};
+    sunder_i_plane g = {.c = c};
+    sunder_i_planes own = {0};
+    if (!n || !find_bodies(c, &g)) return SUNDER_OK;
+    const bool ok = begin(c, &g, &own);
+    for (size_t k = 0; k < n && ok && !c->failed && answer->verdict == SUNDER_I_UNKNOWN; k++) {
+        if (!sunder_i_plane_is_free(&g, at[k])) continue;
+        answer->verdict = SUNDER_I_FEASIBLE;
+        memcpy(g.free, at[k], sizeof g.free);
+    }
+    const sunder_status status = ok && !c->failed ? SUNDER_OK : sunder_i_no_memory(err);
+    end(c, &g, &own, answer);
+    return status;
+}
+
+bool sunder_i_branching_plane_bodies(const sunder_i_branching *c, uint32_t *p, uint32_t *q)
+{
+    sunder_i_plane g = {.c = NULL};
+    if (!find_bodies(c, &g)) return false;
+    *p = g.p;
+    *q = g.q;
+    return true;
+}

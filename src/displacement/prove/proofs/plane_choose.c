@@ -1,0 +1,130 @@
+/* What is in the way of a place in the plane of one relative move, and which of that a region is divided by: of all
+ * that hold its middle, what takes most of it. */
+#include "displacement/prove/proofs/plane.h"
+
+#include "base/extremes.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Does it hold the place, in its box, and all about it as far as that? */
+static bool holds(sunder_i_plane *g, sunder_i_plane_item *item, const double u[2], double about)
+{
+    const sunder_i_plane_obstacle *o = &g->kept->obstacle[item->at];
+    if (!o->made) {
+        if (!sunder_i_plane_make_ways(g, item->at)) return false;
+        memcpy(item->box, g->kept->box + 4 * (size_t)item->at, sizeof item->box);
+    }
+    if (!o->ways) return false;
+    for (const sunder_i_half_plane *w = g->kept->way + o->way, *end = w + o->ways; w < end; w++)
+        if (!(sunder_i_plane_at(w->n, u) < w->d - about)) return false;
+    return true;
+}
+
+/* No more of what is in the box is in that one. */
+static double most_shared(const double box[4], const double of[4])
+{
+    const double x = (box[2] < of[2] ? box[2] : of[2]) - (box[0] > of[0] ? box[0] : of[0]),
+                 y = (box[3] < of[3] ? box[3] : of[3]) - (box[1] > of[1] ? box[1] : of[1]);
+    return x * y * (1 + 0x1p-30);
+}
+
+static double shared(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, const sunder_i_plane_region *r)
+{
+    const sunder_i_half_plane *way = g->kept->way + o->way;
+    sunder_i_plane_polygon part;
+    sunder_i_plane_take_corners(&part, r);
+    for (size_t k = 0; k < o->ways; k++)
+        if (!sunder_i_plane_clip_behind(&part, &way[k])) return 0;
+    return sunder_i_plane_area_of(&part);
+}
+
+/* The obstacle to divide a region by. */
+typedef struct choice {
+    double box[4], whole, about, share;
+    const sunder_i_plane_obstacle *best;
+} choice;
+
+/* Takes that one instead if it holds the place and takes more of the region, of equals if it was found first. */
+static void weigh(sunder_i_plane *g, const sunder_i_plane_region *r, const double u[2], sunder_i_plane_item *item,
+                  choice *to)
+{
+    if (most_shared(to->box, item->box) < to->share) return;
+    const sunder_i_plane_obstacle *o = &g->kept->obstacle[item->at];
+    if (to->best && to->share >= to->whole && o->rank > to->best->rank) return;
+    if (!holds(g, item, u, to->about)) return;
+    const double share = sunder_i_min(shared(g, o, r), to->whole);
+    if (share < to->share || (to->best && share == to->share && o->rank > to->best->rank)) return;
+    to->share = share;
+    to->best = o;
+}
+
+const sunder_i_plane_obstacle *sunder_i_plane_choose(sunder_i_plane *g, const sunder_i_plane_region *r,
+                                                     const double u[2], const sunder_i_plane_choice *known,
+                                                     double *share)
+{
+    sunder_i_branching *c = g->c;
+    choice to = {.share = -1};
+    sunder_i_box_clear(to.box);
+    for (uint32_t k = 0; k < r->n; k++) sunder_i_box_include(to.box, r->xy + 2 * k);
+    to.whole = sunder_i_plane_area(r) * (1 - 0x1p-30); /* who takes so much takes all */
+    if (g->thin) to.about = 2 * SLIVER * g->reach;     /* what begins in a seam does not cover it */
+    if (known) {
+        to.share = known->share;
+        to.best = known->obstacle == SUNDER_I_NO_CHOICE ? NULL : &g->kept->obstacle[known->obstacle];
+        for (size_t k = 0; k < g->freshes; k++)
+            if (sunder_i_plane_is_in(g->fresh[k].box, u)) weigh(g, r, u, &g->fresh[k], &to);
+    } else if (sunder_i_plane_index_find(g, u)) {
+        for (size_t k = 0; k < g->about_place; k++) weigh(g, r, u, g->place[k], &to);
+    } else {
+        c->failed = true;
+    }
+    c->looked += PLACE_LOOK + g->obstacles / BOXES_A_STEP;
+    *share = to.share;
+    if (!to.best || c->failed) return NULL;
+    if (!sunder_i_reserve(&c->scratch, &c->scratch_capacity, to.best->ways, sizeof *c->scratch)) {
+        c->failed = true;
+        return NULL;
+    }
+    memcpy(c->scratch, g->kept->way + to.best->way, to.best->ways * sizeof *c->scratch);
+    return to.best;
+}
+
+/* Does it hold the place, by lines that are made for that? Its ways are in c->scratch then. */
+static bool holds_closely(sunder_i_plane *g, size_t at, const double u[2], size_t *ways)
+{
+    sunder_i_branching *c = g->c;
+    const sunder_i_plane_obstacle *o = &g->kept->obstacle[at];
+    double box[4];
+    sunder_i_plane_bound(g, o, o->clearance, box);
+    c->looked++;
+    if (u[0] < box[0] || u[0] > box[2] || u[1] < box[1] || u[1] > box[3]) return false;
+    *ways = sunder_i_branching_fill_ways(c, &c->model->body[g->p], o->a, &c->model->body[o->q], o->b, o->clearance,
+                                         false, u);
+    return c->failed || sunder_i_branching_depth(c, *ways, u) > 2 * c->hair;
+}
+
+const sunder_i_plane_obstacle *sunder_i_plane_choose_closely(sunder_i_plane *g, const double u[2], size_t *ways)
+{
+    const struct sunder_i_plane_kept *kept = g->kept;
+    for (size_t r = 0; r < g->runs; r++) {
+        const sunder_i_plane_run *run = &kept->run[g->run[r]];
+        if (run->shadow || !(run->clearance > 0)) continue;
+        for (size_t k = run->first; k < run->end; k++)
+            if (kept->box[4 * k] <= kept->box[4 * k + 2] && holds_closely(g, k, u, ways)) return &kept->obstacle[k];
+    }
+    return NULL;
+}
+
+bool sunder_i_plane_is_free(sunder_i_plane *g, const double u[2])
+{
+    sunder_i_chord chord;
+    size_t ways;
+    if (hypot(u[0], u[1]) > g->reach) return false;
+    if (!sunder_i_plane_index_find(g, u)) g->c->failed = true;
+    g->c->looked += PLACE_LOOK + g->obstacles / BOXES_A_STEP;
+    for (size_t k = 0; k < g->about_place && !g->c->failed; k++)
+        if (holds(g, g->place[k], u, 0)) return false;
+    return !g->c->failed && !sunder_i_plane_find_chord(g, u, &chord, &ways) &&
+           !sunder_i_plane_choose_closely(g, u, &ways);
+}

@@ -1,0 +1,55 @@
+/* Planes of relative moves that were asked about, for who asks about the same bodies again: two blocks of dozens of
+ * houses stand in a hundred conflicts, each of which is asked about, and once more without each feature of its proof
+ * (report/no_room.c). The pieces are the same each time, tens of thousands of them, and so are the ways of all but
+ * those that are asked about. What is kept tells nobody anything but sooner: answers are the same, and what they cost
+ * is counted the same. */
+#include "displacement/prove/proofs/plane.h"
+
+#include <string.h>
+
+static void free_kept(struct sunder_i_plane_kept *kept)
+{
+    if (!kept) return;
+    sunder_i_free(kept->obstacle);
+    sunder_i_free(kept->box);
+    sunder_i_free(kept->run);
+    sunder_i_free(kept->item);
+    sunder_i_free(kept->tree.box);
+    for (size_t k = 0; k < 2; k++) sunder_i_plane_choices_free(&kept->proofs[k]);
+    sunder_i_free(kept->way);
+    sunder_i_free(kept);
+}
+
+void sunder_i_planes_clear(sunder_i_planes *planes)
+{
+    for (size_t k = 0; k < SUNDER_I_PLANES_KEPT; k++) free_kept(planes->plane[k]);
+    memset(planes, 0, sizeof *planes);
+}
+
+static bool is_of(const struct sunder_i_plane_kept *kept, const sunder_i_plane *g)
+{
+    return kept->p == g->p && kept->q == g->q && kept->reach == g->reach && kept->coarse == g->c->subproblem->coarse;
+}
+
+/* The last that was asked about stands first. */
+struct sunder_i_plane_kept *sunder_i_planes_take(sunder_i_planes *planes, const sunder_i_plane *g)
+{
+    size_t at = 0;
+    while (at + 1 < SUNDER_I_PLANES_KEPT && planes->plane[at] && !is_of(planes->plane[at], g)) at++;
+    struct sunder_i_plane_kept *found = planes->plane[at];
+    if (found && !is_of(found, g)) {
+        free_kept(found);
+        found = NULL;
+    }
+    memmove(planes->plane + 1, planes->plane, at * sizeof(planes->plane[0]));
+    planes->plane[0] = found;
+    if (found) return found;
+    found = sunder_i_calloc(1, sizeof *found);
+    if (!found) return NULL;
+    found->p = g->p;
+    found->q = g->q;
+    found->reach = g->reach;
+    found->coarse = g->c->subproblem->coarse;
+    planes->plane[0] = found;
+    return sunder_i_plane_find(g, found) ? found : NULL;
+}

@@ -1,0 +1,212 @@
+/* The convex program of one node of a branch and bound, and the proof that it has no solution.
+ *
+ * The claims to the node say n.(t_j - t_i) >= d, and limits |t| <= L. Forces f >= 0 on the claims, of any size, prove
+ * that no t does both if
+ *
+ *     sum of f d  >  sum over the bodies of L |sum of f n, signed by the side of the pair|,
+ *
+ * for any t would make the left side at most the sum of f n.(t_j - t_i), which is at most the right [Farkas; BV04,
+ * section 5.8]. The program's own forces are tried, whatever it restored with.
+ *
+ * Limits enter it as tangents, added where a solution oversteps one. The program asks for the solution nearest to the
+ * last candidate (quadratic/nearest.c), which kept all but the last claim, and so is few steps away; and a hair more
+ * than the claims say. What has a solution but not with that hair is asked without, and then, since between two walls
+ * in one line there is room for rounding only, half a hair less. */
+#include "displacement/prove/proofs/branching.h"
+#include "displacement/prove/proofs/tuning.h"
+
+#include "base/extremes.h"
+#include "base/watch.h"
+
+#include <math.h>
+
+/* ---- The sum ----------------------------------------------------------------------------------------------------- */
+
+/* No force on either body of a claim so far. A sum is of those that claims are about, however many take part. */
+static void begin(sunder_i_branching *c, const sunder_i_claim *s)
+{
+    c->net[2 * s->i] = c->net[2 * s->i + 1] = c->weight[s->i] = 0;
+    if (s->j != SUNDER_I_GROUND) c->net[2 * s->j] = c->net[2 * s->j + 1] = c->weight[s->j] = 0;
+}
+
+/* What the limit of a body loses; told once. */
+static double take_lost(sunder_i_branching *c, uint32_t b, double share)
+{
+    const double *net = c->net + 2 * (size_t)b;
+    const double lost = c->limit[b] * (sqrt(net[0] * net[0] + net[1] * net[1]) + share * c->weight[b]);
+    begin(c, &(sunder_i_claim){.i = b, .j = SUNDER_I_GROUND});
+    return lost;
+}
+
+/* Rounding, with e = 2^-53 and N claims, |n| <= 1 + 4 e: a sum of N products is off by (N + 1) e of the sum of their
+ * magnitudes, and that by as much of itself. A body's net force is so off by 2 (N + 2) e of its weight, the sum of the
+ * forces on it, each way. What follows takes four times that, and 2^-1000 for what falls below the normal numbers. */
+bool sunder_i_branching_is_contradiction(sunder_i_branching *c)
+{
+    const double share = (double)(c->claims + c->bodies + 8) * 0x1p-50;
+    double won = 0, all = 0, lost = 0;
+    for (size_t k = 0; k < c->claims; k++) begin(c, &c->claim[k]);
+    for (size_t k = 0; k < c->claims; k++) {
+        const sunder_i_claim *s = &c->claim[k];
+        if (!(s->force > 0)) continue;
+        won += s->force * s->d;
+        all += s->force * fabs(s->d);
+        for (size_t x = 0; x < 2; x++) c->net[2 * s->i + x] -= s->force * s->n[x];
+        c->weight[s->i] += s->force;
+        if (s->j == SUNDER_I_GROUND) continue;
+        for (size_t x = 0; x < 2; x++) c->net[2 * s->j + x] += s->force * s->n[x];
+        c->weight[s->j] += s->force;
+    }
+    for (size_t k = 0; k < c->claims; k++) {
+        const sunder_i_claim *s = &c->claim[k];
+        if (!(s->force > 0)) continue;
+        lost += take_lost(c, s->i, share);
+        if (s->j != SUNDER_I_GROUND) lost += take_lost(c, s->j, share);
+    }
+    return isfinite(all) && won - share * all - 0x1p-1000 > lost * (1 + share);
+}
+
+/* Forces on two claims of one pair, such that they balance at the shortest relative move that is as both say; false if
+ * one alone tells that move. */
+static bool balance(sunder_i_claim *p, sunder_i_claim *q)
+{
+    const double sign = p->i == q->i ? 1 : -1, cosine = sign * (p->n[0] * q->n[0] + p->n[1] * q->n[1]);
+    const double square = sunder_i_max(1 - cosine * cosine, 0x1p-100);
+    p->force = p->d - cosine * q->d;
+    q->force = q->d - cosine * p->d;
+    if (!(p->force > 0) || !(q->force > 0)) return false;
+    p->force /= square;
+    q->force /= square;
+    return true;
+}
+
+bool sunder_i_branching_is_dead_end(sunder_i_branching *c)
+{
+    sunder_i_claim *last = &c->claim[c->claims - 1];
+    const double reach = c->limit[last->i] + (last->j == SUNDER_I_GROUND ? 0 : c->limit[last->j]);
+    for (size_t k = 0; k < c->claims; k++) c->claim[k].force = 0;
+    last->force = 1;
+    if (last->d > reach && sunder_i_branching_is_contradiction(c)) return true;
+    for (size_t k = 0; k + 1 < c->claims; k++) {
+        sunder_i_claim *other = &c->claim[k];
+        if (!(other->i == last->i && other->j == last->j) && !(other->i == last->j && other->j == last->i)) continue;
+        if (balance(last, other) && sunder_i_branching_is_contradiction(c)) return true;
+        other->force = 0;
+    }
+    return false;
+}
+
+/* Forces of three such that they pull nowhere; false: none. */
+static bool balance_three(sunder_i_claim *p, sunder_i_claim *q, sunder_i_claim *r)
+{
+    const double of_p = q->n[0] * r->n[1] - q->n[1] * r->n[0], of_q = r->n[0] * p->n[1] - r->n[1] * p->n[0],
+                 of_r = p->n[0] * q->n[1] - p->n[1] * q->n[0], sign = of_p + of_q + of_r < 0 ? -1 : 1;
+    p->force = sign * of_p;
+    q->force = sign * of_q;
+    r->force = sign * of_r;
+    return p->force > 0 && q->force > 0 && r->force > 0;
+}
+
+bool sunder_i_branching_contradict(sunder_i_branching *c, const uint32_t *of, size_t n)
+{
+    bool is_set = n == 1;
+    for (size_t k = 0; k < c->claims; k++) c->claim[k].force = 0;
+    if (n == 1) c->claim[of[0]].force = 1;
+    if (n == 2) is_set = balance(&c->claim[of[0]], &c->claim[of[1]]);
+    if (n == 3) is_set = balance_three(&c->claim[of[0]], &c->claim[of[1]], &c->claim[of[2]]);
+    return is_set && sunder_i_branching_is_contradiction(c);
+}
+
+/* ---- The program ------------------------------------------------------------------------------------------------- */
+
+static double at(const double n[2], const double *t) { return n[0] * t[0] + n[1] * t[1]; }
+
+/* By how much the candidate misses what a claim says. */
+static double missed_by(const sunder_i_branching *c, const sunder_i_claim *s)
+{
+    return s->d - (s->j == SUNDER_I_GROUND ? 0 : at(s->n, c->t + 2 * (size_t)s->j)) + at(s->n, c->t + 2 * (size_t)s->i);
+}
+
+/* One more constraint: body b may not go beyond its limit where it is on its way to there, as that looks from the
+ * candidate. False if it is there already. */
+static bool add_tangent(sunder_i_branching *c, uint32_t b, const double to[2])
+{
+    sunder_i_quadratic *p = &c->program;
+    const double length = sqrt(at(to, to)), n[2] = {-to[0] / length, -to[1] / length};
+    for (size_t k = c->claims; k < p->n; k++)
+        if (p->constraint[k].j == b && at(n, p->constraint[k].n) > SAME_TANGENT) return false;
+    if (!sunder_i_reserve(&p->constraint, &p->capacity, p->n + 1, sizeof *p->constraint)) {
+        c->failed = true;
+        return false;
+    }
+    p->constraint[p->n++] = (sunder_i_constraint){
+        .i = SUNDER_I_GROUND, .j = b, .n = {n[0], n[1]}, .d = -c->limit[b] - at(n, c->t + 2 * (size_t)b)};
+    return true;
+}
+
+/* Claims, of which that much more is asked, and tangents for those who stand at their limit. */
+static bool load(sunder_i_branching *c, double margin)
+{
+    sunder_i_quadratic *p = &c->program;
+    if (!sunder_i_reserve(&p->constraint, &p->capacity, c->claims, sizeof *p->constraint)) return false;
+    p->bodies = c->bodies;
+    p->t = c->shift;
+    p->n = 0;
+    for (size_t k = 0; k < c->claims; k++) {
+        const sunder_i_claim *s = &c->claim[k];
+        p->constraint[p->n++] =
+            (sunder_i_constraint){.i = s->i, .j = s->j, .n = {s->n[0], s->n[1]}, .d = missed_by(c, s) + margin};
+    }
+    for (uint32_t b = 0; b < c->bodies; b++) {
+        const double *t = c->t + 2 * (size_t)b;
+        if (sqrt(at(t, t)) > AT_LIMIT * c->limit[b]) add_tangent(c, b, t);
+    }
+    return !c->failed && sunder_i_nearest_begin(&c->nearest, p);
+}
+
+/* Tangents where the solution oversteps a limit; false: there is none to add. */
+static bool add_tangents(sunder_i_branching *c)
+{
+    bool added = false;
+    for (uint32_t b = 0; b < c->bodies; b++) {
+        const double t[2] = {c->t[2 * b] + c->shift[2 * b], c->t[2 * b + 1] + c->shift[2 * b + 1]};
+        if (sqrt(at(t, t)) > c->limit[b] + c->hair) added = add_tangent(c, b, t) || added;
+    }
+    return added;
+}
+
+/* Does the solution keep the limits, and say what the claims do, up to a hair? Then it is the candidate. */
+static bool is_candidate(sunder_i_branching *c)
+{
+    double worst = 0;
+    for (size_t k = 0; k < 2 * c->bodies; k++) c->t[k] += c->shift[k];
+    for (size_t k = 0; k < c->claims; k++) worst = sunder_i_max(worst, missed_by(c, &c->claim[k]));
+    for (size_t b = 0; b < c->bodies; b++)
+        worst = sunder_i_max(worst, sqrt(at(c->t + 2 * b, c->t + 2 * b)) - c->limit[b]);
+    return worst <= c->hair;
+}
+
+static sunder_i_node_outcome solve(sunder_i_branching *c)
+{
+    sunder_i_quadratic *p = &c->program;
+    sunder_i_nearest_outcome outcome = SUNDER_I_NEAREST_FOUND;
+    for (int round = 0; round < ROUNDS && outcome == SUNDER_I_NEAREST_FOUND; round++) {
+        outcome = sunder_i_nearest_go_on(&c->nearest, p, c->t, c->limit, c->hair / SOLVED_TO);
+        if (outcome != SUNDER_I_NEAREST_FOUND || !add_tangents(c)) break;
+    }
+    for (size_t k = 0; k < c->claims; k++) c->claim[k].force = p->constraint[k].force;
+    if (outcome == SUNDER_I_NEAREST_NONE && sunder_i_branching_is_contradiction(c)) return SUNDER_I_NODE_INFEASIBLE;
+    return outcome == SUNDER_I_NEAREST_FOUND && is_candidate(c) ? SUNDER_I_NODE_CANDIDATE : SUNDER_I_NODE_UNDECIDED;
+}
+
+sunder_status sunder_i_branching_solve(sunder_i_branching *c, sunder_i_node_outcome *outcome, sunder_error *err)
+{
+    *outcome = SUNDER_I_NODE_UNDECIDED;
+    static const double hairs[] = {1, 0, -0.5};
+    for (size_t k = 0; k < sizeof hairs / sizeof *hairs && *outcome == SUNDER_I_NODE_UNDECIDED; k++) {
+        if (!load(c, hairs[k] * c->hair)) return sunder_i_no_memory(err);
+        *outcome = solve(c);
+        if (c->failed || !sunder_i_look()) return sunder_i_no_memory(err);
+    }
+    return SUNDER_OK;
+}

@@ -1,0 +1,106 @@
+/* Half-planes of which one holds whatever relative move jumps over nothing, proved in doubles.
+ *
+ * The shadow O = { s k : k in K, s >= 1 } of a convex K that does not hold the origin is closed, convex, and bounded by
+ * the sides of K that the origin sees and by two rays. As in half_planes.c: if half-planes hold every point of that
+ * boundary, what lies in none of them is convex and misses it; so if one point of it is in O, all of it is, and whoever
+ * is outside O, or on its boundary, is in one of the half-planes.
+ *
+ * A side that is seen, or that is thought to be, gives n.u >= d with d no more than n.P and n.Q, whatever n. A ray from
+ * the corner L runs along s L, s >= 1, without end: so its line goes through the origin (d = 0), and n is tilted so far
+ * towards L that n.C > 0 for every corner C that may be the true tangent corner in place of L, each in its direction up
+ * to rounding; and for the sides between the two, which lie between such corners.
+ *
+ * Rounding: corners of K are off by less than the slack of half_planes.c in each coordinate. Two corners that are taken
+ * for one direction, though a cross product of theirs is of the other sign, are so by no more than 4 slack (|C| +
+ * |L|); so C is beside the line of L by no more than 8 slack (1 + |C| / |L|), which is less than the tilt times |C|
+ * where that is 2^6 slack / m, m the least distance of a corner. Where m is not 2^16 slack at least, nothing is
+ * said. */
+#include "displacement/geometry/obstacle_shadow.h"
+#include "displacement/prove/proofs/half_planes.h"
+
+#include "base/extremes.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#define UNIT 0x1p-50
+#define TILT 64
+#define FAR_ENOUGH 0x1p16
+
+static double dot(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
+
+/* Corner k of A + (-B), of which one is a single corner; the other's order is turned where it is B. */
+static void corner(const sunder_i_parting *p, size_t k, double out[2])
+{
+    const double *a = p->a + 2 * (p->na > 1 ? k : 0), *b = p->b + 2 * (p->nb > 1 ? k : 0);
+    for (int c = 0; c < 2; c++) out[c] = a[c] - b[c] - p->offset[c];
+}
+
+static double size_of(const sunder_i_parting *p)
+{
+    double size = p->vague;
+    for (size_t c = 0; c < 2; c++) {
+        double a = 0, b = 0;
+        for (size_t k = 0; k < p->na; k++) a = sunder_i_max(a, fabs(p->a[2 * k + c]));
+        for (size_t k = 0; k < p->nb; k++) b = sunder_i_max(b, fabs(p->b[2 * k + c]));
+        size += a + b + fabs(p->offset[c]);
+    }
+    return size;
+}
+
+/* The corner with no other to its right (sign +1) or left (-1), seen from the origin. */
+static size_t tangent(const sunder_i_parting *p, size_t n, double sign)
+{
+    size_t best = 0;
+    double at[2], u[2];
+    corner(p, 0, at);
+    for (size_t k = 1; k < n; k++) {
+        corner(p, k, u);
+        if (!(sign * (at[0] * u[1] - at[1] * u[0]) < 0)) continue;
+        best = k;
+        at[0] = u[0];
+        at[1] = u[1];
+    }
+    return best;
+}
+
+/* The half-plane beyond the ray from that corner; sign +1: to its left. */
+static sunder_i_half_plane beside(const double l[2], double sign, double tilt)
+{
+    const double length = sqrt(dot(l, l)), d[2] = {l[0] / length, l[1] / length};
+    double n[2] = {-sign * d[1] + tilt * d[0], sign * d[0] + tilt * d[1]};
+    const double norm = sqrt(dot(n, n));
+    return (sunder_i_half_plane){.n = {n[0] / norm, n[1] / norm}, .d = 0};
+}
+
+size_t sunder_i_half_planes_past(const sunder_i_parting *p, sunder_i_half_plane *out)
+{
+    const size_t n = p->na > 1 ? p->na : p->nb;
+    const double slack = UNIT * size_of(p);
+    double middle[2] = {0, 0}, least = INFINITY, u[2], v[2];
+    size_t ways = 0;
+    for (size_t k = 0; k < n; k++) {
+        corner(p, k, u);
+        least = sunder_i_min(least, sqrt(dot(u, u)));
+        for (int c = 0; c < 2; c++) middle[c] += 2 * u[c] / (double)n; /* well within the shadow */
+    }
+    if (!(least >= FAR_ENOUGH * slack)) return 0;
+    const double tilt = TILT * slack / least;
+    corner(p, tangent(p, n, -1), u);
+    out[ways++] = beside(u, 1, tilt);
+    corner(p, tangent(p, n, 1), u);
+    out[ways++] = beside(u, -1, tilt);
+    for (size_t k = 0; k < n; k++) {
+        corner(p, k, u);
+        corner(p, k + 1 < n ? k + 1 : 0, v);
+        const double e[2] = {v[0] - u[0], v[1] - u[1]}, length = sqrt(dot(e, e));
+        const double m[2] = {e[1] / length, -e[0] / length};
+        if (!(length > 0)) continue;
+        const double d = sunder_i_min(dot(m, u), dot(m, v)) - slack;
+        /* m is the outer normal: the origin sees the side where it lies beyond it, at d < 0, or may. */
+        if (d < slack) out[ways++] = (sunder_i_half_plane){.n = {m[0], m[1]}, .d = d};
+    }
+    for (size_t k = 0; k < ways; k++)
+        if (!(dot(out[k].n, middle) < out[k].d - 8 * slack)) return 0;
+    return ways;
+}

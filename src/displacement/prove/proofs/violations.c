@@ -1,0 +1,400 @@
+/* What a candidate runs into: pairs of convex pieces that are nearer than they owe, anchors that jumped over a piece or
+ * crossed a side, and the ways out. */
+#include "displacement/geometry/anchor_reach.h"
+#include "displacement/layer/barrier_parts.h"
+#include "displacement/layer/reads.h"
+#include "displacement/layer/sides.h"
+#include "displacement/prove/proofs/branching.h"
+#include "displacement/prove/proofs/tuning.h"
+
+#include "base/extremes.h"
+#include "base/list.h"
+#include "shape/shape.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool is_rational(const sunder_i_model *model, uint32_t f) { return sunder_i_thing_shape(model, f)->rational; }
+
+/* The pieces of a body; NULL, and noted, if memory is out. */
+static const sunder_i_body_pieces *pieces_of(sunder_i_branching *c, const sunder_i_body *body)
+{
+    const sunder_i_body_pieces *pieces = sunder_i_pieces_of(c->model, body);
+    if (!pieces) c->failed = true;
+    return pieces;
+}
+
+size_t sunder_i_branching_fill_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
+                                    const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
+                                    const double *at)
+{
+    const sunder_i_model *model = c->model;
+    const double reach = sunder_i_branching_limit(c, p) + sunder_i_branching_limit(c, q),
+                 coarse = isfinite(reach) ? c->subproblem->coarse * reach : 0;
+    sunder_i_parting parting = {.a = a->corner,
+                                .b = b->corner,
+                                .na = a->corners,
+                                .nb = b->corners,
+                                .offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]},
+                                .clearance = clearance,
+                                .at = at,
+                                .coarse = coarse};
+    /* Corners of rational shapes are known as the nearest doubles. */
+    for (int x = 0; x < 4; x++) {
+        if (is_rational(model, a->feature)) parting.vague += fabs(p->origin[x & 1]) + fabs(a->box[x]);
+        if (is_rational(model, b->feature)) parting.vague += fabs(q->origin[x & 1]) + fabs(b->box[x]);
+    }
+    const size_t most = SUNDER_I_HALF_PLANES_A_CORNER * (parting.na + parting.nb) + SUNDER_I_HALF_PLANES_MORE;
+    c->looked += parting.na + parting.nb;
+    if (!sunder_i_reserve(&c->scratch, &c->scratch_capacity, most, sizeof *c->scratch)) {
+        c->failed = true;
+        return 0;
+    }
+    return shadow ? sunder_i_half_planes_past(&parting, c->scratch)
+                  : sunder_i_half_planes_between(&parting, c->scratch);
+}
+
+double sunder_i_branching_depth(const sunder_i_branching *c, size_t ways, const double u[2])
+{
+    double at = -INFINITY;
+    for (size_t k = 0; k < ways; k++) {
+        sunder_i_half_plane *w = &c->scratch[k];
+        w->at = w->n[0] * u[0] + w->n[1] * u[1] - w->d;
+        at = sunder_i_max(at, w->at);
+    }
+    return ways ? -at : -INFINITY;
+}
+
+/* How deep the pieces of two bodies are in each other at the relative move u, or an anchor in a shadow. */
+static double find_depth(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
+                         const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
+                         const double u[2])
+{
+    size_t n;
+    const sunder_i_half_plane *way = sunder_i_branching_keep_ways(c, p, a, q, b, clearance, shadow, &n);
+    double at = -INFINITY;
+    for (size_t k = 0; k < n; k++) at = sunder_i_max(at, way[k].n[0] * u[0] + way[k].n[1] * u[1] - way[k].d);
+    return n ? -at : -INFINITY;
+}
+
+/* The same by ways that are made for u. */
+static double find_depth_closely(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
+                                 const sunder_i_body *q, const sunder_i_body_piece *b, double clearance,
+                                 const double u[2])
+{
+    return sunder_i_branching_depth(c, sunder_i_branching_fill_ways(c, p, a, q, b, clearance, false, u), u);
+}
+
+/* A body, and where it stands. */
+typedef struct standing {
+    uint32_t number;
+    const sunder_i_body *body;
+    double t[2];
+} standing;
+
+static standing stand(const sunder_i_branching *c, uint32_t body)
+{
+    standing s = {.number = body, .body = &c->model->body[body]};
+    const uint32_t at = sunder_i_branching_place(c, body);
+    if (at != SUNDER_I_GROUND) memcpy(s.t, c->t + 2 * (size_t)at, sizeof s.t);
+    return s;
+}
+
+/* Is that what a slack is for? */
+static bool has_slack(const sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body *q, double clearance)
+{
+    return c->subproblem->slack && clearance < 0 &&
+           (sunder_i_is_barrier_body(c->model, p) || sunder_i_is_barrier_body(c->model, q));
+}
+
+static void look_at(sunder_i_branching *c, const standing *s, const standing *r, sunder_i_violation *worst)
+{
+    const sunder_i_body *p = s->body, *q = r->body;
+    const double u[2] = {r->t[0] - s->t[0], r->t[1] - s->t[1]};
+    double box[4], shift[4], clearance = 0;
+    for (uint32_t x = 0; x < 4; x++) {
+        shift[x] =
+            p->origin[x & 1] - q->origin[x & 1] - u[x & 1] + (x < 2 ? -c->model->rules.gap : c->model->rules.gap);
+        box[x] = p->box[x] + shift[x];
+    }
+    c->looked++;
+    if (p->pieces == 0 || q->pieces == 0 || !sunder_i_box_meet(box, q->box)) return;
+    const sunder_i_body_pieces *of_p = pieces_of(c, p), *of_q = pieces_of(c, q);
+    if (!of_p || !of_q) return;
+    for (uint32_t k = 0; k < p->pieces; k++) {
+        const sunder_i_body_piece *a = &of_p->piece[k];
+        for (uint32_t x = 0; x < 4; x++) box[x] = a->box[x] + shift[x];
+        c->looked++;
+        if (!sunder_i_box_meet(box, q->box)) continue;
+        c->looked += q->pieces / 4;
+        for (uint32_t l = 0; l < q->pieces; l++) {
+            const sunder_i_body_piece *b = &of_q->piece[l];
+            if (!sunder_i_box_meet(box, b->box)) continue;
+            if (!sunder_i_branching_owe(c, a->feature, b->feature, &clearance)) continue;
+            if (has_slack(c, p, q, clearance)) continue;
+            const double depth = c->closely ? find_depth_closely(c, p, a, q, b, clearance, u)
+                                            : find_depth(c, p, a, q, b, clearance, false, u);
+            if (depth > worst->depth)
+                *worst = (sunder_i_violation){s->number, r->number, a,     b,          clearance, depth,
+                                              NULL,      false,     false, c->closely, false,     NULL};
+        }
+    }
+}
+
+/* Of that is the passing of a piece by an anchor; swapped: which is r's. */
+static void look_at_shadow(sunder_i_branching *c, const standing *s, const standing *r, const double u[2],
+                           const sunder_i_body_piece *anchor, const sunder_i_body_piece *piece, bool swapped,
+                           sunder_i_violation *worst)
+{
+    const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
+    const double depth = find_depth(c, s->body, a, r->body, b, 0, true, u);
+    if (depth > worst->depth)
+        *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, NULL, true, false, false, false, NULL};
+}
+
+/* The move of the barrier, as the feature's body sees it, that is to part the two. */
+static void move_of_slack(const sunder_i_branching *c, const sunder_i_requirement *required, const double *t,
+                          double u[2])
+{
+    const uint32_t place = sunder_i_branching_slack(c, required);
+    const double *v = place == SUNDER_I_GROUND ? required->shift : c->t + 2 * (size_t)place;
+    for (size_t x = 0; x < 2; x++) u[x] = v[x] - t[x];
+}
+
+/* Does the slack part the pieces of feature f from this part of the barrier? */
+static void look_at_part(sunder_i_branching *c, const standing *s, uint32_t f, uint32_t part, const double u[2],
+                         const sunder_i_requirement *required, sunder_i_violation *worst)
+{
+    const sunder_i_model *model = c->model;
+    const sunder_i_body *p = s->body, *q = &model->body[model->body_of[part]];
+    const sunder_i_body_pieces *of_p = pieces_of(c, p), *of_q = pieces_of(c, q);
+    if (!of_p || !of_q) return;
+    for (uint32_t k = 0; k < p->pieces; k++) {
+        const sunder_i_body_piece *a = &of_p->piece[k];
+        double box[4];
+        for (uint32_t x = 0; x < 4; x++) box[x] = a->box[x] + p->origin[x & 1] - q->origin[x & 1] - u[x & 1];
+        c->looked++;
+        if (a->feature != f || !sunder_i_box_meet(box, q->box)) continue;
+        c->looked += q->pieces / 4;
+        for (uint32_t l = 0; l < q->pieces; l++) {
+            const sunder_i_body_piece *b = &of_q->piece[l];
+            if (!sunder_i_box_meet(box, b->box)) continue;
+            const double depth = find_depth(c, p, a, q, b, 0, false, u);
+            if (depth > worst->depth)
+                *worst = (sunder_i_violation){.p = s->number,
+                                              .q = model->body_of[part],
+                                              .a = a,
+                                              .b = b,
+                                              .clearance = required->clearance,
+                                              .depth = depth,
+                                              .slack = required,
+                                              .known = true};
+        }
+    }
+}
+
+/* A feature and a barrier that it is held to an overlap with. */
+static void look_at_slack(sunder_i_branching *c, const standing *s, const sunder_i_requirement *required,
+                          sunder_i_violation *worst)
+{
+    const sunder_i_model *model = c->model;
+    const uint32_t f = required->a,
+                   end = (uint32_t)model->features + model->barriers->part_end[sunder_i_barrier_of(model, required->b)];
+    double u[2], box[4], clearance;
+    if (!model->present[f] || !sunder_i_branching_owe(c, f, required->b, &clearance) || !(clearance < 0)) return;
+    move_of_slack(c, required, s->t, u);
+    for (uint32_t x = 0; x < 4; x++) box[x] = sunder_i_home_box(model, f)[x] - u[x & 1];
+    c->looked += LOOK_WORK;
+    c->near.n = 0;
+    if (!sunder_i_look_about(model, &model->tree, box, &c->near)) c->failed = true;
+    for (size_t k = 0; k < c->near.n && !c->failed; k++)
+        if (c->near.item[k] >= required->b && c->near.item[k] < end)
+            look_at_part(c, s, f, c->near.item[k], u, required, worst);
+}
+
+/* Over which pieces of one did anchors of the other jump? swapped: the anchors are those of r. */
+static void look_past(sunder_i_branching *c, const standing *s, const standing *r, bool swapped,
+                      sunder_i_violation *worst)
+{
+    const sunder_i_model *model = c->model;
+    const sunder_i_body *p = s->body, *q = r->body, *of = swapped ? q : p, *other = swapped ? p : q;
+    const double u[2] = {r->t[0] - s->t[0], r->t[1] - s->t[1]},
+                 offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
+    double way[4];
+    sunder_i_shadow_way(u, 0, way);
+    c->looked++;
+    if (!sunder_i_anchors_may_reach(model, p, q, swapped, offset, way)) return;
+    const sunder_i_body_pieces *from = pieces_of(c, of), *pieces = pieces_of(c, other);
+    if (!from || !pieces) return;
+    for (uint32_t m = 0; m < of->members; m++) {
+        const uint32_t f = model->member[of->member + m];
+        const sunder_i_body_piece *anchor = &from->anchor[m];
+        c->looked += 1 + (other->pieces + other->has->seams) / 4;
+        for (uint32_t l = 0; l < other->pieces + other->has->seams && anchor->corners; l++) {
+            const sunder_i_body_piece *piece =
+                l < other->pieces ? &pieces->piece[l] : &model->seam[other->has->seam + l - other->pieces];
+            if (sunder_i_shadow_may_reach((swapped ? piece : anchor)->box, (swapped ? anchor : piece)->box, offset,
+                                          way) &&
+                sunder_i_branching_shades(c, f, piece->feature))
+                look_at_shadow(c, s, r, u, anchor, piece, swapped, worst);
+        }
+    }
+}
+
+/* Which sides of the one, part of a barrier, did side anchors of the other cross? swapped: the part is s. */
+static void look_across(sunder_i_branching *c, const standing *s, const standing *r, bool swapped,
+                        sunder_i_violation *worst)
+{
+    const sunder_i_model *model = c->model;
+    const sunder_i_body *p = s->body, *q = r->body, *of = swapped ? q : p, *part = swapped ? p : q;
+    const double u[2] = {r->t[0] - s->t[0], r->t[1] - s->t[1]},
+                 offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
+    double way[4];
+    sunder_i_shadow_way(u, 0, way);
+    c->looked++;
+    if (!sunder_i_shadow_may_reach(swapped ? p->box : sunder_i_side_anchors(model, p),
+                                   swapped ? sunder_i_side_anchors(model, q) : q->box, offset, way))
+        return;
+    for (uint32_t m = 0; m < of->members; m++) {
+        const uint32_t f = model->member[of->member + m];
+        const sunder_i_body_piece *anchor = &model->side_anchor[f];
+        c->looked += 1 + part->has->sides / 4;
+        for (uint32_t l = part->has->side; l < part->has->side + part->has->sides && anchor->corners; l++) {
+            const sunder_i_side *side = &model->side[l];
+            if (sunder_i_shadow_may_reach((swapped ? &side->piece : anchor)->box,
+                                          (swapped ? anchor : &side->piece)->box, offset, way) &&
+                sunder_i_branching_shades(c, f, side->piece.feature) && sunder_i_side_faces(model, side, f))
+                look_at_shadow(c, s, r, u, anchor, &side->piece, swapped, worst);
+        }
+    }
+}
+
+static void look_at_all(sunder_i_branching *c, const standing *s, const standing *r, sunder_i_violation *worst)
+{
+    look_at(c, s, r, worst);
+    if (c->subproblem->any_way) return;
+    if (s->body->has->sides || r->body->has->sides) look_across(c, s, r, s->body->has->sides > 0, worst);
+    if (c->model->rules.jumps || c->subproblem->any_jump || sunder_i_is_barrier_body(c->model, s->body) ||
+        sunder_i_is_barrier_body(c->model, r->body))
+        return;
+    look_past(c, s, r, false, worst);
+    look_past(c, s, r, true, worst);
+}
+
+/* Bodies that a member of this one may meet, in c->near, ascending. */
+static bool find_near(sunder_i_branching *c, const standing *s)
+{
+    const sunder_i_model *model = c->model;
+    c->near.n = 0;
+    for (uint32_t m = 0; m < s->body->members; m++) {
+        const uint32_t f = model->member[s->body->member + m];
+        double box[4], grown[4];
+        if (!model->present[f]) continue;
+        for (uint32_t x = 0; x < 4; x++) box[x] = sunder_i_home_box(model, f)[x] + s->t[x & 1];
+        if (sunder_i_forbids_ways(model))
+            sunder_i_box_join(box, sunder_i_home_box(model, f)); /* what it passed on its way, too */
+        sunder_i_box_grow(box, model->rules.gap, grown);
+        c->looked += LOOK_WORK;
+        if (!sunder_i_look_about(model, &model->tree, grown, &c->near)) return false;
+    }
+    sunder_i_things_to_bodies(model, &c->near);
+    return true;
+}
+
+/* First what nobody has to join for, so that a few are done with before there are more of them; then the deepest. */
+static bool comes_before(const sunder_i_violation *o, const sunder_i_violation *than)
+{
+    return o->known != than->known ? o->known : o->depth > than->depth;
+}
+
+static size_t insert(sunder_i_violation deepest[SUNDER_I_CHOICES], size_t n, const sunder_i_violation *o)
+{
+    if (!o->a || (n == SUNDER_I_CHOICES && !comes_before(o, &deepest[n - 1]))) return n;
+    size_t k = n < SUNDER_I_CHOICES ? n++ : n - 1;
+    for (; k > 0 && comes_before(o, &deepest[k - 1]); k--) deepest[k] = deepest[k - 1];
+    deepest[k] = *o;
+    return n;
+}
+
+/* Those of the slacks of a body's members. Returns how many there are now. */
+static size_t look_at_slacks(sunder_i_branching *c, const standing *s, sunder_i_violation deepest[SUNDER_I_CHOICES],
+                             size_t n)
+{
+    const sunder_i_subproblem *q = c->subproblem;
+    for (uint32_t m = 0; m < s->body->members && q->slack; m++) {
+        const uint32_t f = c->model->member[s->body->member + m];
+        const sunder_i_requirement key = {.a = f, .b = (uint32_t)c->model->features};
+        for (size_t k = sunder_i_lower_bound(&key, q->required, q->required_n, sizeof key, sunder_i_by_id_pair);
+             k < q->required_n && q->required[k].a == f && !c->failed; k++) {
+            sunder_i_violation o = {.depth = 2 * c->hair};
+            if (q->required[k].clearance < 0 && q->required[k].clearance > -INFINITY)
+                look_at_slack(c, s, &q->required[k], &o);
+            n = insert(deepest, n, &o);
+        }
+    }
+    return n;
+}
+
+size_t sunder_i_branching_violations(sunder_i_branching *c, sunder_i_violation deepest[SUNDER_I_CHOICES])
+{
+    size_t n = 0;
+    for (uint32_t i = 0; i < c->bodies; i++) {
+        if (c->body[i] == SUNDER_I_NOBODY) continue;
+        const standing s = stand(c, c->body[i]);
+        n = look_at_slacks(c, &s, deepest, n);
+        for (uint32_t j = i + 1; j < c->bodies; j++) {
+            if (c->body[j] == SUNDER_I_NOBODY) continue;
+            sunder_i_violation o = {.depth = 2 * c->hair};
+            const standing r = stand(c, c->body[j]);
+            look_at_all(c, &s, &r, &o);
+            o.known = true;
+            n = insert(deepest, n, &o);
+        }
+        /* The others stand where they were. */
+        if (!find_near(c, &s)) c->failed = true;
+        for (size_t k = 0; k < c->near.n && !c->failed; k++) {
+            sunder_i_violation o = {.depth = 2 * c->hair};
+            if (sunder_i_branching_place(c, c->near.item[k]) != SUNDER_I_GROUND) continue;
+            const standing r = stand(c, c->near.item[k]);
+            look_at_all(c, &s, &r, &o);
+            o.known = !(sunder_i_limit_of(r.body) > 0);
+            n = insert(deepest, n, &o);
+        }
+    }
+    return n;
+}
+
+static int by_nearness(const void *a, const void *b)
+{
+    const sunder_i_half_plane *p = a, *q = b;
+    if (p->at != q->at) return p->at < q->at ? 1 : -1;
+    return p->n[0] != q->n[0] ? (p->n[0] < q->n[0] ? 1 : -1) : (p->n[1] < q->n[1]) - (p->n[1] > q->n[1]);
+}
+
+/* What is kept, into c->scratch. */
+static size_t take_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
+                        const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow)
+{
+    size_t n;
+    const sunder_i_half_plane *way = sunder_i_branching_keep_ways(c, p, a, q, b, clearance, shadow, &n);
+    if (n && !sunder_i_reserve(&c->scratch, &c->scratch_capacity, n, sizeof *c->scratch)) c->failed = true;
+    if (n && !c->failed) memcpy(c->scratch, way, n * sizeof *way);
+    return c->failed ? 0 : n;
+}
+
+size_t sunder_i_branching_ways(sunder_i_branching *c, const sunder_i_violation *o)
+{
+    const standing s = stand(c, o->p), r = stand(c, o->q);
+    double u[2] = {r.t[0] - s.t[0], r.t[1] - s.t[1]};
+    if (o->slack) move_of_slack(c, o->slack, s.t, u);
+    const double clearance = o->slack ? 0 : o->clearance;
+    size_t n;
+    if (o->closely)
+        n = sunder_i_branching_fill_ways(c, s.body, o->a, r.body, o->b, clearance, o->shadow, u);
+    else
+        n = take_ways(c, s.body, o->a, r.body, o->b, clearance, o->shadow);
+    sunder_i_branching_depth(c, n, u);
+    if (n) qsort(c->scratch, n, sizeof *c->scratch, by_nearness);
+    return n;
+}

@@ -1,0 +1,236 @@
+/* min |t|^2 under constraints n.(t_j - t_i) >= d, by the dual method of Goldfarb and Idnani [GI83].
+ *
+ * It begins at t = 0, where no constraint acts, and lets in one that is missed after another, the worst first. Its
+ * normal v is the sum of what acts, by some shares, and of a rest z at a right angle to that:
+ *
+ *     t goes along z until v holds, v's force grows as much, the others' change by their shares;
+ *     one whose force comes to zero before that no longer acts.
+ *
+ * At each place t is the nearest one under what acts, and it is farther each time, so no set acts twice and the method
+ * ends; it takes some steps a constraint that acts in the end, where methods that approach the solution take hundreds
+ * of passes. Where all shares are negative, v and those that act, each by its share, sum up to z: there is no solution
+ * if z can be moved along by less than v misses, within the limits [Farkas].
+ *
+ * The normals that act are kept as Q R, Q orthonormal (made so twice, [GVL13, 5.2]; at first by what the normal itself
+ * has along each axis, which is two bodies' numbers), and rows of R are turned by Givens rotations where one goes. So
+ * two walls that all but oppose each other are told from two that do.
+ *
+ *   the normals that act span all      z is rounding, and is taken for nothing: so is a rest below 1e-14
+ *   one that acts is missed again      by rounding: it is let in again, and its other self goes */
+#include "displacement/quadratic/nearest.h"
+#include "displacement/quadratic/tuning.h"
+
+#include "base/extremes.h"
+#include "base/list.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The square of what is left of a normal by rounding. */
+#define NOTHING 1e-28
+
+void sunder_i_nearest_free(sunder_i_nearest *w)
+{
+    sunder_i_free(w->set);
+    sunder_i_free(w->force);
+    sunder_i_free(w->axis);
+    sunder_i_free(w->factor);
+    sunder_i_free(w->part);
+    sunder_i_free(w->share);
+    sunder_i_free(w->rest);
+}
+
+bool sunder_i_nearest_begin(sunder_i_nearest *w, sunder_i_quadratic *p)
+{
+    const size_t n = 2 * p->bodies;
+    w->dims = n;
+    w->n = 0;
+    memset(p->t, 0, n * sizeof *p->t);
+    for (size_t k = 0; k < p->n; k++) p->constraint[k].force = 0;
+    return sunder_i_reserve(&w->set, &w->set_capacity, n, sizeof *w->set) &&
+           sunder_i_reserve(&w->force, &w->force_capacity, n, sizeof *w->force) &&
+           sunder_i_reserve(&w->axis, &w->axis_capacity, n * n, sizeof *w->axis) &&
+           sunder_i_reserve(&w->factor, &w->factor_capacity, n * n, sizeof *w->factor) &&
+           sunder_i_reserve(&w->part, &w->part_capacity, n, sizeof *w->part) &&
+           sunder_i_reserve(&w->share, &w->share_capacity, n, sizeof *w->share) &&
+           sunder_i_reserve(&w->rest, &w->rest_capacity, n, sizeof *w->rest);
+}
+
+/* ---- The factors ------------------------------------------------------------------------------------------------- */
+
+/* Of vectors of an even length: four sums, of which none waits for another. */
+static inline double product(const double *restrict a, const double *restrict b, size_t n)
+{
+    double sum[4] = {0, 0, 0, 0};
+    size_t d = 0;
+    for (; d + 4 <= n; d += 4)
+        for (size_t e = 0; e < 4; e++) sum[e] += a[d + e] * b[d + e];
+    for (size_t e = 0; d + e < n; e++) sum[e] += a[d + e] * b[d + e];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+static inline void take_off(double along, const double *restrict axis, double *restrict rest, size_t n)
+{
+    for (size_t d = 0; d < n; d++) rest[d] -= along * axis[d];
+}
+
+/* The normal along an axis: it has numbers for two bodies only. */
+static inline double normal_along(const sunder_i_constraint *c, const double *axis)
+{
+    double along = 0;
+    if (c->j != SUNDER_I_GROUND) along += c->n[0] * axis[2 * (size_t)c->j] + c->n[1] * axis[2 * (size_t)c->j + 1];
+    if (c->i != SUNDER_I_GROUND) along -= c->n[0] * axis[2 * (size_t)c->i] + c->n[1] * axis[2 * (size_t)c->i + 1];
+    return along;
+}
+
+/* The part, shares and rest of a normal. Returns the square of the rest, 0 where that is nothing. */
+static double take_apart(sunder_i_nearest *w, const sunder_i_constraint *c)
+{
+    const size_t dims = w->dims;
+    memset(w->rest, 0, dims * sizeof *w->rest);
+    for (size_t x = 0; x < 2; x++) {
+        if (c->j != SUNDER_I_GROUND) w->rest[2 * (size_t)c->j + x] += c->n[x];
+        if (c->i != SUNDER_I_GROUND) w->rest[2 * (size_t)c->i + x] -= c->n[x];
+    }
+    for (size_t k = 0; k < w->n; k++) {
+        const double *axis = w->axis + k * dims;
+        w->part[k] = normal_along(c, axis);
+        take_off(w->part[k], axis, w->rest, dims);
+    }
+    for (size_t k = 0; k < w->n; k++) {
+        const double *axis = w->axis + k * dims, along = product(axis, w->rest, dims);
+        take_off(along, axis, w->rest, dims);
+        w->part[k] += along;
+    }
+    for (size_t k = w->n; k-- > 0;) {
+        double share = w->part[k];
+        for (size_t l = k + 1; l < w->n; l++) share -= w->factor[l * dims + k] * w->share[l];
+        w->share[k] = share / w->factor[k * dims + k];
+    }
+    const double square = product(w->rest, w->rest, dims);
+    return w->n < dims && square > NOTHING ? square : 0;
+}
+
+/* Lets in the one that was taken apart. */
+static void let_in(sunder_i_nearest *w, size_t constraint, double force, double square)
+{
+    const double length = sqrt(square);
+    double *axis = w->axis + w->n * w->dims, *factor = w->factor + w->n * w->dims;
+    for (size_t d = 0; d < w->dims; d++) axis[d] = w->rest[d] / length;
+    memcpy(factor, w->part, w->n * sizeof *factor);
+    factor[w->n] = length;
+    w->set[w->n] = (uint32_t)constraint;
+    w->force[w->n++] = force;
+}
+
+/* Takes out the k-th. */
+static void let_go(sunder_i_nearest *w, size_t k)
+{
+    const size_t dims = w->dims, after = w->n - k - 1;
+    memmove(w->set + k, w->set + k + 1, after * sizeof *w->set);
+    memmove(w->force + k, w->force + k + 1, after * sizeof *w->force);
+    memmove(w->factor + k * dims, w->factor + (k + 1) * dims, after * dims * sizeof *w->factor);
+    w->n--;
+    for (; k < w->n; k++) {
+        double *low = w->axis + k * dims, *high = low + dims;
+        const double *own = w->factor + k * dims, length = hypot(own[k], own[k + 1]);
+        const double c = own[k] / length, s = own[k + 1] / length;
+        for (size_t l = k; l < w->n; l++) {
+            double *f = w->factor + l * dims, at = f[k];
+            f[k] = c * at + s * f[k + 1];
+            f[k + 1] = c * f[k + 1] - s * at;
+        }
+        for (size_t d = 0; d < dims; d++) {
+            const double at = low[d];
+            low[d] = c * at + s * high[d];
+            high[d] = c * high[d] - s * at;
+        }
+    }
+}
+
+/* ---- The steps --------------------------------------------------------------------------------------------------- */
+
+/* Whose force is the first to come to zero, if v's grows; n: nobody's. *step: by how much it may. */
+static size_t first_to_go(const sunder_i_nearest *w, double *step)
+{
+    size_t first = w->n;
+    *step = INFINITY;
+    for (size_t k = 0; k < w->n; k++) {
+        if (!(w->share[k] > 0) || !(w->force[k] / w->share[k] < *step)) continue;
+        *step = w->force[k] / w->share[k];
+        first = k;
+    }
+    return first;
+}
+
+/* Is what can be gained along the rest, within the limits, less than what is missed? */
+static bool is_out_of_reach(const sunder_i_nearest *w, const sunder_i_quadratic *p, const double *from,
+                            const double *limit, double missed)
+{
+    double most = 0;
+    for (size_t b = 0; b < p->bodies; b++) {
+        const double *z = w->rest + 2 * b, x = from[2 * b] + p->t[2 * b], y = from[2 * b + 1] + p->t[2 * b + 1];
+        most += limit[b] * sqrt(z[0] * z[0] + z[1] * z[1]) - z[0] * x - z[1] * y;
+    }
+    return most < missed;
+}
+
+static void set_forces(const sunder_i_nearest *w, sunder_i_quadratic *p, const double *force, double sign)
+{
+    for (size_t k = 0; k < p->n; k++) p->constraint[k].force = 0;
+    for (size_t k = 0; k < w->n; k++) p->constraint[w->set[k]].force = sunder_i_max(0, sign * force[k]);
+}
+
+/* Makes one constraint hold. FOUND: it does. */
+static sunder_i_nearest_outcome satisfy(sunder_i_nearest *w, sunder_i_quadratic *p, size_t which, const double *from,
+                                        const double *limit)
+{
+    const sunder_i_constraint *c = &p->constraint[which];
+    double own = 0, most;
+    for (int step = 0; step < MOST_NEAREST; step++) {
+        const double square = take_apart(w, c), missed = sunder_i_max(0, c->d - sunder_i_stretch(c, p->t));
+        const size_t first = first_to_go(w, &most);
+        p->work += 1 + w->n * w->dims / 4;
+        if (first == w->n && is_out_of_reach(w, p, from, limit, missed)) {
+            set_forces(w, p, w->share, -1);
+            p->constraint[which].force = 1;
+            return SUNDER_I_NEAREST_NONE;
+        }
+        const bool holds = square > 0 && missed / square <= most;
+        const double by = holds ? missed / square : most;
+        if (!isfinite(by)) return SUNDER_I_NEAREST_NOT_SURE;
+        for (size_t d = 0; d < w->dims && square > 0; d++) p->t[d] += by * w->rest[d];
+        for (size_t k = 0; k < w->n; k++) w->force[k] = sunder_i_max(0, w->force[k] - by * w->share[k]);
+        own += by;
+        if (holds) {
+            let_in(w, which, own, square);
+            return SUNDER_I_NEAREST_FOUND;
+        }
+        let_go(w, first);
+    }
+    return SUNDER_I_NEAREST_NOT_SURE;
+}
+
+sunder_i_nearest_outcome sunder_i_nearest_go_on(sunder_i_nearest *w, sunder_i_quadratic *p, const double *from,
+                                                const double *limit, double tolerance)
+{
+    for (int step = 0; step < MOST_NEAREST; step++) {
+        size_t worst = p->n;
+        double most = tolerance;
+        p->work += p->n;
+        for (size_t k = 0; k < p->n; k++) {
+            const double missed = p->constraint[k].d - sunder_i_stretch(&p->constraint[k], p->t);
+            if (!(missed > most)) continue;
+            most = missed;
+            worst = k;
+        }
+        if (worst == p->n) {
+            set_forces(w, p, w->force, 1);
+            return SUNDER_I_NEAREST_FOUND;
+        }
+        const sunder_i_nearest_outcome outcome = satisfy(w, p, worst, from, limit);
+        if (outcome != SUNDER_I_NEAREST_FOUND) return outcome;
+    }
+    return SUNDER_I_NEAREST_NOT_SURE;
+}

@@ -1,0 +1,289 @@
+/* The same program by Newton steps on the moves, from forces that are nearly right.
+ *
+ * A soft program has no constraints any more: what is missed by v > 0 costs v^2 / (2 give), with give = softness *
+ * (mass_i + mass_j), and its force is v / give. The sum of all that and of the cost of the moves is convex and smooth,
+ * of pieces that are quadratic: those constraints act that are missed. A Newton step goes to the least of the piece at
+ * hand, or to where the sum is least on the way; once a whole step leaves the piece what it is, that is the solution
+ * [QS93]. It takes some steps from forces that are nearly right, a dozen or two from none, where what the dual methods
+ * take grows with the length of chains, and with contradictions without end.
+ *
+ * A hard program is a sequence of soft ones [Roc76]: each constraint is owed give * force more, with the force that it
+ * had before, so that where forces no longer change nothing is missed. The less give is the fewer it takes, so it
+ * falls; where contradictions let forces grow, they soon prove that all solutions cost too much, if they do. */
+#include "displacement/quadratic/methods.h"
+#include "displacement/quadratic/normal_equations.h"
+#include "displacement/quadratic/tuning.h"
+
+#include "base/extremes.h"
+#include "base/watch.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct newton {
+    sunder_i_quadratic *p;
+    sunder_i_normal normal;
+    double *x, *step;    /* [n + 2] where the bodies are, and a step; zero at the ground */
+    double *give, *owed; /* [m] what a force of 1 yields, 0 where neither end can move; what is owed, with the forces */
+    double *left;        /* [m] of that: it acts if it is positive, and then the force is left / give */
+    double *along;       /* [m] what a step takes off */
+    double *first;       /* [m] forces, to go back to */
+    double *before;      /* [m] those before the last step of the sequence */
+    double *memory;
+} newton;
+
+static bool prepare(newton *q, sunder_i_quadratic *p)
+{
+    memset(q, 0, sizeof *q);
+    q->p = p;
+    if (!sunder_i_normal_init(&q->normal, p)) return false;
+    const size_t places = q->normal.n + 2, m = q->normal.m;
+    q->memory = sunder_i_calloc(2 * places + 6 * m, sizeof *q->memory);
+    if (!q->memory) return false;
+    q->x = q->memory;
+    q->step = q->x + places;
+    q->give = q->step + places;
+    q->owed = q->give + m;
+    q->left = q->owed + m;
+    q->along = q->left + m;
+    q->first = q->along + m;
+    q->before = q->first + m;
+    for (size_t c = 0; c < m; c++) q->first[c] = p->constraint[c].force;
+    return true;
+}
+
+/* ---- One soft program -------------------------------------------------------------------------------------------- */
+
+static void look(newton *q)
+{
+    for (size_t c = 0; c < q->normal.m; c++)
+        q->left[c] = q->give[c] > 0 ? q->owed[c] - sunder_i_normal_stretch(&q->normal.row[c], q->x) : 0;
+}
+
+/* To the least of the piece at hand. False if the matrix is none that has one, as far as doubles can tell. */
+static bool find_step(newton *q)
+{
+    sunder_i_normal *a = &q->normal;
+    sunder_i_normal_clear(a);
+    for (size_t k = 0; k < a->n; k++) q->step[k] = -a->h[k] * q->x[k];
+    for (size_t c = 0; c < a->m; c++) {
+        if (!(q->left[c] > 0)) continue;
+        sunder_i_normal_add(a, c, 1 / q->give[c]);
+        sunder_i_normal_spread(&a->row[c], q->left[c] / q->give[c], q->step);
+    }
+    q->p->work += (q->p->bodies <= FEW_BODIES ? WORK_OF_FEW : 1) * (a->matrix.work + 4 * a->m);
+    if (!sunder_i_sparse_factor(&a->matrix)) return false;
+    sunder_i_sparse_solve(&a->matrix, q->step);
+    q->step[a->n] = q->step[a->n + 1] = 0;
+    for (size_t c = 0; c < a->m; c++) q->along[c] = sunder_i_normal_stretch(&a->row[c], q->step);
+    return true;
+}
+
+/* How steep the sum is that far along the step, and how much steeper it gets. */
+static void steepness(const newton *q, double share, const double moves[2], double *slope, double *bend)
+{
+    *slope = moves[0] + share * moves[1];
+    *bend = moves[1];
+    for (size_t c = 0; c < q->normal.m; c++) {
+        const double left = q->left[c] - share * q->along[c];
+        if (!(left > 0)) continue;
+        const double force = q->along[c] / q->give[c];
+        *slope -= left * force;
+        *bend += q->along[c] * force;
+    }
+}
+
+/* The share of the step at which the sum is least, or nearly: its slope grows along the step, in straight pieces, so
+ * Newton's method finds it, kept between a share where the sum still falls and one where it rises. */
+static double find_share(const newton *q)
+{
+    const sunder_i_normal *a = &q->normal;
+    double moves[2] = {0, 0}, low = 0, high = INFINITY, share = 1, whole = 0;
+    for (size_t k = 0; k < a->n; k++) {
+        moves[0] += a->h[k] * q->x[k] * q->step[k];
+        moves[1] += a->h[k] * q->step[k] * q->step[k];
+    }
+    for (int k = 0; k < MOST_SHARES; k++) {
+        double slope, bend;
+        steepness(q, share, moves, &slope, &bend);
+        if (k == 0) whole = fabs(slope);
+        *(slope > 0 ? &high : &low) = share;
+        if (k > 0 && !(fabs(slope) > FLAT * whole)) break;
+        const double before = share;
+        share -= slope / bend;
+        if (!(share > low && share < high)) share = high < INFINITY ? (low + high) / 2 : 2 * before;
+        if (fabs(share - before) < FLAT * before) break;
+    }
+    return share;
+}
+
+/* Goes that share of the step. Returns whether the same constraints act as did; *far: the longest step of a body. */
+static bool go(newton *q, double share, double *far)
+{
+    bool same = true;
+    *far = 0;
+    for (size_t k = 0; k < q->normal.n; k++) {
+        q->x[k] += share * q->step[k];
+        *far = sunder_i_max(*far, fabs(q->step[k]));
+    }
+    for (size_t c = 0; c < q->normal.m; c++) {
+        const bool acted = q->left[c] > 0;
+        q->left[c] -= share * q->along[c];
+        same = same && acted == (q->left[c] > 0);
+    }
+    return same;
+}
+
+/* The least of the sum; false if it was not found. */
+static bool minimise(newton *q, double tolerance)
+{
+    look(q);
+    if (!sunder_i_look()) return false;
+    for (int k = 0; k < MOST_NEWTON && !sunder_i_quadratic_is_done(q->p); k++) {
+        double far;
+        if (!find_step(q)) return false;
+        const double share = find_share(q);
+        const bool same = go(q, share, &far);
+        if ((same && share == 1) || far <= tolerance) return true;
+    }
+    return false;
+}
+
+/* ---- The sequence ------------------------------------------------------------------------------------------------ */
+
+/* What is owed with the forces as they are. */
+static void owe(newton *q, double softness, bool hard)
+{
+    const sunder_i_quadratic *p = q->p;
+    for (size_t c = 0; c < q->normal.m; c++) {
+        const sunder_i_constraint *k = &p->constraint[c];
+        q->give[c] = softness * (sunder_i_mass(p, k->i) + sunder_i_mass(p, k->j));
+        q->owed[c] = k->d + (hard ? q->give[c] * k->force : 0);
+    }
+}
+
+/* The forces that were found. Returns by how much a constraint is missed for their change, or kept: by none is it where
+ * they have not changed. *missed: of that by how much one is missed. */
+static double take_forces(newton *q, double *missed)
+{
+    double most = 0;
+    *missed = 0;
+    look(q);
+    for (size_t c = 0; c < q->normal.m; c++) q->before[c] = q->p->constraint[c].force;
+    for (size_t c = 0; c < q->normal.m; c++) {
+        if (!(q->give[c] > 0)) continue;
+        const double left = sunder_i_max(0, q->left[c]), change = fabs(left - q->give[c] * q->p->constraint[c].force);
+        if (!(change <= most)) most = change;
+        *missed = sunder_i_max(*missed, left - q->give[c] * q->p->constraint[c].force);
+        q->p->constraint[c].force = left / q->give[c];
+    }
+    return most;
+}
+
+static bool solve_soft(newton *q, double softness, double tolerance)
+{
+    owe(q, softness, false);
+    if (!minimise(q, tolerance / CLOSE)) return false;
+    double missed;
+    take_forces(q, &missed);
+    return true;
+}
+
+/* How far to go on along the last step of the forces: as far as what they prove grows, and none of them pulls. Along
+ * f + s g, with t and u where f and g send the bodies, it grows by s (g.d - sum of t.u / mass) - s^2 / 2 sum of
+ * u.u / mass [weak duality, quadratic.c]; that is no farther than proves twice as much as is wanted. rising: those that
+ * fell stay. */
+static double far_along(const newton *q, bool rising)
+{
+    const sunder_i_quadratic *p = q->p;
+    double gain = 0, loss = 0, far = INFINITY, *t = sunder_i_calloc(4 * p->bodies, sizeof *t);
+    if (!t) return 0;
+    double *u = t + 2 * p->bodies;
+    for (size_t c = 0; c < p->n; c++) {
+        const sunder_i_constraint *k = &p->constraint[c];
+        const double more = sunder_i_max(k->force - q->before[c], rising ? 0 : -INFINITY);
+        if (k->force > 0) sunder_i_push(p, k, k->force, t);
+        if (more != 0) sunder_i_push(p, k, more, u);
+        if (more < 0) far = sunder_i_min(far, k->force / -more);
+        gain += more * k->d;
+    }
+    for (size_t b = 0; b < 2 * p->bodies; b++) {
+        if (!(p->mass[b / 2] > 0)) continue;
+        gain -= t[b] * u[b] / p->mass[b / 2];
+        loss += u[b] * u[b] / p->mass[b / 2];
+    }
+    sunder_i_free(t);
+    if (!(gain > 0)) return 0;
+    far = sunder_i_min(far, gain / loss);
+    if (p->most_cost > 0) far = sunder_i_min(far, 4 * p->most_cost / gain);
+    return far < INFINITY ? far : 0;
+}
+
+static void go_along(newton *q, double far, bool rising)
+{
+    for (size_t c = 0; c < q->p->n; c++) {
+        double *force = &q->p->constraint[c].force;
+        const double now = *force, more = now - q->before[c];
+        if (more > 0 || !rising) *force = sunder_i_max(0, now + far * more);
+        q->before[c] = now;
+    }
+}
+
+/* Is it known that all solutions cost too much, by the forces as they are, or along their last step? In a contradiction
+ * by a hair they grow slowly, but in a straight line from some time on. Where they prove it they are the program's. */
+static bool is_beyond(newton *q)
+{
+    if (sunder_i_quadratic_is_beyond(q->p, 0)) return true;
+    const double far = q->p->most_cost > 0 ? far_along(q, true) : 0;
+    if (!(far > 0)) return false;
+    memcpy(q->along, q->before, q->normal.m * sizeof *q->along);
+    go_along(q, far, true);
+    if (sunder_i_quadratic_is_beyond(q->p, 0)) return true;
+    for (size_t c = 0; c < q->normal.m; c++) q->p->constraint[c].force = q->before[c];
+    memcpy(q->before, q->along, q->normal.m * sizeof *q->along);
+    return false;
+}
+
+/* Where forces change as much as they did they go over from one constraint to another that is nearly the same, in steps
+ * that are as long as the hair between the two allows: what is left of that way is gone at once. If no more than a hair
+ * is kept, and nothing missed, which of the two has the force does not matter. (Of few constraints the dual methods
+ * soon tell.) */
+static bool solve_hard(newton *q, double tolerance)
+{
+    const bool few = q->normal.m <= FEW_TO_LEAP;
+    const int most = few ? MOST_FORCES_OF_FEW : MOST_FORCES;
+    double give = FIRST_GIVE, last = INFINITY;
+    if (sunder_i_quadratic_is_beyond(q->p, 0)) return true;
+    for (int k = 0; k < most && !sunder_i_quadratic_is_done(q->p);
+         k++, give = sunder_i_max(LEAST_GIVE, give / LESS_GIVE)) {
+        owe(q, give, true);
+        if (!minimise(q, tolerance / CLOSE)) return false;
+        double missed;
+        const double change = take_forces(q, &missed);
+        if (change <= tolerance || is_beyond(q)) return true;
+        const bool stands = !few && change > STANDS * last;
+        if (stands && missed <= tolerance && change <= HAIR * tolerance) return true;
+        if (stands) go_along(q, far_along(q, false), false);
+        last = change;
+    }
+    return false;
+}
+
+bool sunder_i_quadratic_newton(sunder_i_quadratic *p, double softness, double tolerance, bool *solved)
+{
+    newton q;
+    *solved = false;
+    const bool ok = prepare(&q, p);
+    if (ok) {
+        sunder_i_quadratic_place(p);
+        for (size_t b = 0; b < p->bodies; b++)
+            if (p->mass[b] > 0) memcpy(q.x + q.normal.unknown[b], p->t + 2 * b, 2 * sizeof *q.x);
+        *solved = softness > 0 ? solve_soft(&q, softness, tolerance) : solve_hard(&q, tolerance);
+        for (size_t b = 0; b < p->bodies && *solved; b++)
+            if (p->mass[b] > 0) memcpy(p->t + 2 * b, q.x + q.normal.unknown[b], 2 * sizeof *q.x);
+        for (size_t c = 0; c < p->n && !*solved; c++) p->constraint[c].force = q.first[c];
+    }
+    sunder_i_normal_free(&q.normal);
+    sunder_i_free(q.memory);
+    return ok;
+}

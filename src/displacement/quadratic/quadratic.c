@@ -1,0 +1,213 @@
+/* min sum w_i |t_i|^2 under constraints n.(t_j - t_i) >= d: five methods, one after the other.
+ *
+ * The dual has one multiplier (a force) a constraint, and t follows from the forces: 2 w_i t_i = sum of the forces on
+ * i. Hildreth's method [Hil57] takes one constraint after another and gives its force the value that makes it hold with
+ * equality, or zero. It is quick to find which constraints act, slow to find how strongly where contacts form long
+ * chains. There conjugate gradients that keep the forces non-negative (conjugate_gradients.c) are far quicker, and when
+ * the acting set is known, or nearly, linear equations (active_set.c) give the rest of the digits. Programs of more
+ * than a few dozen constraints are asked first of Newton's method on the moves (newton.c), which takes a fraction of
+ * that where they contradict each other. What resists, and what is large, goes to an interior point method
+ * (interior_point.c).
+ *
+ * With softness s each constraint may be missed by s * (mass_i + mass_j) * force, which adds that to the diagonal of
+ * the dual: contradictions then have a compromise. */
+#include "displacement/quadratic/links.h"
+#include "displacement/quadratic/tuning.h"
+
+#include "base/extremes.h"
+#include "base/invariant.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+void sunder_i_quadratic_place(sunder_i_quadratic *p)
+{
+    memset(p->t, 0, 2 * p->bodies * sizeof *p->t);
+    for (size_t k = 0; k < p->n; k++)
+        if (p->constraint[k].force > 0) sunder_i_push(p, &p->constraint[k], p->constraint[k].force, p->t);
+}
+
+void sunder_i_quadratic_sweep(sunder_i_quadratic *p, double softness)
+{
+    p->work += p->n;
+    for (size_t k = 0; k < p->n; k++) {
+        sunder_i_constraint *c = &p->constraint[k];
+        const double m = sunder_i_mass(p, c->i) + sunder_i_mass(p, c->j);
+        if (!(m > 0)) continue;
+        double change = (c->d - sunder_i_stretch(c, p->t) - softness * m * c->force) / (m * (1 + softness));
+        if (change < -c->force) change = -c->force;
+        if (change == 0) continue;
+        c->force += change;
+        sunder_i_push(p, c, change, p->t);
+    }
+}
+
+double sunder_i_quadratic_worst(const sunder_i_quadratic *p, double softness)
+{
+    double v = 0;
+    for (size_t k = 0; k < p->n; k++) {
+        const sunder_i_constraint *c = &p->constraint[k];
+        const double m = sunder_i_mass(p, c->i) + sunder_i_mass(p, c->j);
+        const double missed = c->d - sunder_i_stretch(c, p->t) - softness * m * c->force;
+        if (missed != missed) return INFINITY; /* without a solution forces can outgrow all numbers */
+        if (missed > v) v = missed;
+    }
+    return v;
+}
+
+/* Weak duality: whatever the forces, no solution costs less than sum f d - sum w |t|^2, with t as they send it. */
+bool sunder_i_quadratic_is_beyond(const sunder_i_quadratic *p, double softness)
+{
+    if (softness > 0 || !(p->most_cost > 0)) return false;
+    double *t = sunder_i_calloc(2 * p->bodies, sizeof *t), least = 0;
+    if (!t) return false;
+    for (size_t k = 0; k < p->n; k++) {
+        const sunder_i_constraint *c = &p->constraint[k];
+        if (!(c->force > 0)) continue;
+        sunder_i_push(p, c, c->force, t);
+        least += c->force * c->d;
+    }
+    for (size_t b = 0; b < p->bodies; b++)
+        if (p->mass[b] > 0) least -= (t[2 * b] * t[2 * b] + t[2 * b + 1] * t[2 * b + 1]) / (2 * p->mass[b]);
+    sunder_i_free(t);
+    return least > p->most_cost * (1 + BEYOND);
+}
+
+/* ---- Sweeps ------------------------------------------------------------------------------------------------------ */
+
+/* The same sweeps one after the other, over links. */
+typedef struct sweeping {
+    const sunder_i_quadratic *p;
+    double softness;
+    sunder_i_link *link; /* [n] */
+    double *t;           /* [2 * (bodies + 1)] */
+    uint32_t *acting;    /* [n] those that acted after the last full sweep: no other begins to act before the next */
+    size_t acting_n;
+} sweeping;
+
+/* What its force moved something by; 0 if it stays. */
+static inline double relax(const sweeping *s, uint32_t k)
+{
+    const sunder_i_link *link = &s->link[k];
+    sunder_i_constraint *c = &s->p->constraint[k];
+    const double m = link->mass[0] + link->mass[1];
+    if (!(m > 0)) return 0;
+    double change = (c->d - sunder_i_link_stretch(link, s->t) - s->softness * m * c->force) / (m * (1 + s->softness));
+    if (change < -c->force) change = -c->force;
+    if (change == 0) return 0;
+    c->force += change;
+    sunder_i_link_push(link, change, s->t);
+    s->t[2 * s->p->bodies] = s->t[2 * s->p->bodies + 1] = 0; /* the ground */
+    return fabs(change) * m;
+}
+
+static double sweep_all(sweeping *s)
+{
+    double farthest = 0;
+    s->acting_n = 0;
+    for (uint32_t k = 0; k < s->p->n; k++) {
+        const double moved = relax(s, k);
+        if (moved > farthest) farthest = moved;
+        if (s->p->constraint[k].force > 0) s->acting[s->acting_n++] = k;
+    }
+    return farthest;
+}
+
+static void sweep_acting(sweeping *s)
+{
+    for (size_t a = 0; a < s->acting_n; a++)
+        if (s->p->constraint[s->acting[a]].force > 0) relax(s, s->acting[a]);
+}
+
+/* Every so many sweeps one over all, until that moves nothing any more. False if memory is out. */
+static bool sweep(sunder_i_quadratic *p, double softness, double tolerance)
+{
+    const size_t places = 2 * (p->bodies + 1);
+    const size_t need = p->n * (sizeof(sunder_i_link) + sizeof(uint32_t)) + places * sizeof(double);
+    _Alignas(double) char few[ON_THE_STACK];
+    char *memory = need <= sizeof few ? few : sunder_i_alloc(need, 1);
+    if (!memory) return false;
+    sweeping s = {.p = p, .softness = softness, .link = (sunder_i_link *)(void *)memory};
+    s.t = (double *)(void *)(s.link + p->n);
+    s.acting = (uint32_t *)(void *)(s.t + places);
+    sunder_i_links_make(p, s.link);
+    memset(s.t, 0, places * sizeof *s.t);
+    for (size_t k = 0; k < p->n; k++)
+        if (p->constraint[k].force > 0) sunder_i_link_push(&s.link[k], p->constraint[k].force, s.t);
+    s.t[places - 2] = s.t[places - 1] = 0;
+    for (int k = 0; k < SWEEPS; k++) {
+        const bool full = k % FULL_SWEEP == 0;
+        p->work += full ? p->n : p->n / 4;
+        if (!full)
+            sweep_acting(&s);
+        else if (sweep_all(&s) <= tolerance)
+            break;
+    }
+    if (need > sizeof few) sunder_i_free(memory);
+    return true;
+}
+
+/* ---- One way after the other ------------------------------------------------------------------------------------- */
+
+/* First the quick ways, which solve almost every program of a few dozen contacts to the last digit. */
+static bool solve_quickly(sunder_i_quadratic *p, double softness, double tolerance)
+{
+    if (!sweep(p, softness, tolerance)) return false;
+    if (!sunder_i_quadratic_gradient(p, softness, tolerance, QUICK_STEPS)) return false;
+    sunder_i_quadratic_place(p);
+    if (sunder_i_quadratic_worst(p, softness) <= tolerance || sunder_i_quadratic_is_beyond(p, softness)) return true;
+    if (!sunder_i_quadratic_equations(p, softness, tolerance)) return false;
+    sunder_i_quadratic_place(p);
+    return true;
+}
+
+#ifndef NDEBUG
+/* Ends are bodies or the ground, forces push, positions are numbers. */
+static const char *check(const sunder_i_quadratic *p)
+{
+    for (size_t k = 0; k < p->n; k++) {
+        const sunder_i_constraint *c = &p->constraint[k];
+        if ((c->i != SUNDER_I_GROUND && c->i >= p->bodies) || (c->j != SUNDER_I_GROUND && c->j >= p->bodies))
+            return "a constraint of no body";
+        if (!(c->force >= 0) || !isfinite(c->force)) return "a force that pulls";
+    }
+    for (size_t k = 0; k < 2 * p->bodies; k++)
+        if (!isfinite(p->t[k])) return "a position that is no number";
+    return NULL;
+}
+#endif
+
+/* What is missed; where forces have outgrown all numbers nothing is moved, and everything is missed. */
+static double finish(sunder_i_quadratic *p)
+{
+    const double missed = sunder_i_quadratic_worst(p, 0);
+    if (missed == INFINITY) {
+        for (size_t k = 0; k < p->n; k++) p->constraint[k].force = 0;
+        sunder_i_quadratic_place(p);
+    }
+    SUNDER_I_CHECK(check(p), p->n);
+    return sunder_i_max(0, missed);
+}
+
+static double give_up(sunder_i_quadratic *p)
+{
+    finish(p);
+    return INFINITY;
+}
+
+double sunder_i_quadratic_solve(sunder_i_quadratic *p, double softness, double tolerance, double scale)
+{
+    bool solved = false;
+    if (p->most_cost > 0 && p->n > FEWEST_NEWTON && p->n <= MOST_QUICK && p->bodies <= MOST_BODIES_NEWTON &&
+        !sunder_i_quadratic_newton(p, softness, tolerance, &solved))
+        return -1;
+    if (!solved && p->n <= MOST_QUICK && !solve_quickly(p, softness, tolerance)) return -1;
+    if (p->n <= MOST_QUICK && sunder_i_quadratic_worst(p, softness) <= tolerance) return finish(p);
+    if (solved) return sunder_i_quadratic_is_beyond(p, softness) ? give_up(p) : finish(p);
+    sunder_i_quadratic_place(p);
+    if (sunder_i_quadratic_is_done(p)) return finish(p);
+    if (sunder_i_quadratic_is_beyond(p, softness)) return give_up(p);
+    if (!sunder_i_quadratic_interior(p, softness, tolerance, scale)) return -1;
+    return sunder_i_quadratic_is_beyond(p, softness) ? give_up(p) : finish(p);
+}

@@ -1,0 +1,115 @@
+/* The structure of a sparse matrix and of its Cholesky factor, by an order of elimination.
+ *
+ * Nodes that are eliminated late have the same neighbours as those after them, but for themselves. In postorder of the
+ * elimination tree such columns stand side by side, and are used as one panel (sparse_factor.c). */
+#include "displacement/quadratic/sparse.h"
+#include "displacement/quadratic/elimination.h"
+
+#include "base/invariant.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void sunder_i_sparse_free(sunder_i_sparse *m)
+{
+    sunder_i_free(m->rank);
+    sunder_i_free(m->column);
+    sunder_i_free(m->row);
+    sunder_i_free(m->diagonal);
+    sunder_i_free(m->block);
+    sunder_i_free(m->first);
+    sunder_i_free(m->link);
+    sunder_i_free(m->at);
+    sunder_i_free(m->y);
+    sunder_i_free(m->panel);
+    sunder_i_free(m->across);
+    memset(m, 0, sizeof *m);
+}
+
+/* ---- Columns ----------------------------------------------------------------------------------------------------- */
+
+/* Does column k have the rows of the one before it, but for itself? */
+static bool continues_panel(const sunder_i_sparse *m, uint32_t k)
+{
+    return k > 0 && m->column[k] > m->column[k - 1] && m->row[m->column[k - 1]] == k &&
+           m->column[k] - m->column[k - 1] == m->column[k + 1] - m->column[k] + 1;
+}
+
+/* Columns from the neighbours, by rank. */
+static bool fill_columns(sunder_i_sparse *m, const sunder_i_elimination *g)
+{
+    size_t entries = 0;
+    for (size_t v = 0; v < m->n; v++) entries += g->near[v].n;
+    m->row = sunder_i_alloc(entries, sizeof *m->row);
+    m->block = sunder_i_alloc(4 * entries, sizeof *m->block);
+    if (!m->row || !m->block) return false;
+    for (size_t v = 0; v < m->n; v++) m->column[m->rank[v] + 1] = g->near[v].n;
+    m->column[0] = 0;
+    for (size_t r = 0; r < m->n; r++) m->column[r + 1] += m->column[r];
+    for (size_t v = 0; v < m->n; v++) {
+        uint32_t *row = m->row + m->column[m->rank[v]];
+        const size_t n = g->near[v].n;
+        for (size_t k = 0; k < n; k++) row[k] = m->rank[g->near[v].item[k]];
+        if (n) qsort(row, n, sizeof *row, sunder_i_by_number);
+        m->work += n * (n + 1) / 2;
+    }
+    for (uint32_t k = 0; k < m->n; k++) m->panel[k] = continues_panel(m, k) ? m->panel[k - 1] : k;
+    return true;
+}
+
+#ifndef NDEBUG
+/* Ranks are a permutation; rows ascend below the diagonal of each column. */
+static const char *check(const sunder_i_sparse *m)
+{
+    size_t sum = 0;
+    for (size_t v = 0; v < m->n; v++) {
+        if (m->rank[v] >= m->n) return "a rank beyond the last";
+        sum += m->rank[v];
+        for (size_t k = m->column[v]; k < m->column[v + 1]; k++)
+            if (m->row[k] <= (k > m->column[v] ? m->row[k - 1] : v) || m->row[k] >= m->n) return "rows do not ascend";
+    }
+    return m->n == 0 || sum == m->n * (m->n - 1) / 2 ? NULL : "ranks are no permutation";
+}
+#endif
+
+bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_id_pair *pair, size_t pairs, const double *place)
+{
+    memset(m, 0, sizeof *m);
+    m->n = n;
+    m->rank = sunder_i_alloc(n, sizeof *m->rank);
+    m->column = sunder_i_calloc(n + 1, sizeof *m->column);
+    m->diagonal = sunder_i_alloc(4 * n, sizeof *m->diagonal);
+    m->first = sunder_i_alloc(n, sizeof *m->first);
+    m->link = sunder_i_alloc(n, sizeof *m->link);
+    m->at = sunder_i_alloc(2 * n, sizeof *m->at);
+    m->y = sunder_i_alloc(2 * n, sizeof *m->y);
+    m->panel = sunder_i_alloc(n, sizeof *m->panel);
+    m->across = sunder_i_alloc(8 * n, sizeof *m->across);
+    if (!m->rank || !m->column || !m->diagonal || !m->first || !m->link || !m->at || !m->y || !m->panel || !m->across)
+        return false;
+    sunder_i_elimination e;
+    const bool ok =
+        sunder_i_elimination_init(&e, n, pair, pairs, m->rank) && sunder_i_eliminate(&e, place) && fill_columns(m, &e);
+    sunder_i_elimination_free(&e);
+    SUNDER_I_CHECK(ok ? check(m) : NULL, n);
+    return ok;
+}
+
+/* ---- Entries ----------------------------------------------------------------------------------------------------- */
+
+void sunder_i_sparse_clear(sunder_i_sparse *m)
+{
+    memset(m->diagonal, 0, 4 * m->n * sizeof *m->diagonal);
+    memset(m->block, 0, 4 * m->column[m->n] * sizeof *m->block);
+}
+
+double *sunder_i_sparse_diagonal(sunder_i_sparse *m, uint32_t a) { return m->diagonal + 4 * (size_t)m->rank[a]; }
+
+double *sunder_i_sparse_block(sunder_i_sparse *m, uint32_t a, uint32_t b, bool *transposed)
+{
+    const uint32_t ra = m->rank[a], rb = m->rank[b], low = ra < rb ? ra : rb, high = ra < rb ? rb : ra;
+    const uint32_t *row = m->row + m->column[low];
+    const uint32_t *found = bsearch(&high, row, m->column[low + 1] - m->column[low], sizeof *row, sunder_i_by_number);
+    *transposed = ra > rb; /* column by column it would be the other way round */
+    return m->block + 4 * (size_t)(found - m->row);
+}

@@ -1,0 +1,220 @@
+/* What holds the features of a contact group where they are: the forces of its last program.
+ *
+ * In the result every pair in contact stands on the boundary of what it may not do, and there has a half-plane that it
+ * keeps: one for each piece that it touches. Of all moves that keep these half-planes, and limits, those of the result
+ * cost least, up to rounding, where it is at an optimum; the multipliers say how hard each pair is pressed. They are
+ * found in doubles, and decide nothing.
+ *
+ *   several pieces of one pair    one push, the sum of theirs (renumber.c)
+ *   a feature at its limit        the limit pushes too, and is nobody's pair
+ *   a pair left in conflict       is held to the distance, or to the depth, that it had */
+#include "displacement/layer/reads.h"
+#include "displacement/prove/optimum/body_contact.h"
+#include "displacement/quadratic/quadratic.h"
+#include "displacement/report/report.h"
+#include "displacement/report/tuning.h"
+#include "displacement/solve/clusters/stages.h"
+
+#include "base/extremes.h"
+#include "base/parallel.h"
+#include "base/watch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Groups that are handed to a thread together, and how many such lots are done before pieces may be forgotten. */
+#define GROUPS_OF_A_LOT 64
+#define LOTS_AT_ONCE 32
+
+/* Found of some groups, one after the other. */
+typedef struct found_pushes {
+    sunder_push *push;
+    size_t n, capacity;
+} found_pushes;
+
+typedef struct pressing {
+    const sunder_i_solver *solver;
+    const sunder_i_group *group;
+    sunder_i_waived waived;
+    sunder_i_quadratic program;
+    sunder_push *push; /* of the constraints: whose */
+    size_t push_capacity;
+    sunder_i_list near;
+    sunder_i_contact_list touch; /* of the pair looked at */
+    found_pushes *found;
+} pressing;
+
+static size_t place_of(const sunder_i_group *g, uint32_t body)
+{
+    const uint32_t *at = bsearch(&body, g->body, g->n, sizeof body, sunder_i_by_number);
+    return at ? (size_t)(at - g->body) : SIZE_MAX;
+}
+
+/* What counts as contact: with what is asked beyond the gap. */
+static double hair_of(const pressing *p, const sunder_i_body *a, const sunder_i_body *b)
+{
+    return sunder_i_contact_hair(&p->solver->model, a, b) + 2 * p->group->margin;
+}
+
+static bool add(pressing *p, const sunder_i_constraint *c, size_t a, size_t b)
+{
+    sunder_i_quadratic *q = &p->program;
+    if (!sunder_i_reserve(&q->constraint, &q->capacity, q->n + 1, sizeof *q->constraint) ||
+        !sunder_i_reserve(&p->push, &p->push_capacity, q->n + 1, sizeof *p->push))
+        return false;
+    p->push[q->n] = (sunder_push){.a = a, .b = b};
+    q->constraint[q->n++] = *c;
+    return true;
+}
+
+/* The half-planes of bodies i and j of the group, where they touch. */
+static bool add_pair(pressing *p, size_t i, size_t j)
+{
+    const sunder_i_model *model = &p->solver->model;
+    const uint32_t a = p->group->body[i], b = p->group->body[j];
+    const double hair = hair_of(p, &model->body[a], &model->body[b]);
+    bool ok = sunder_i_contacts_of_pair(model, &p->waived, a, b, model->move + 2 * (size_t)a,
+                                        model->move + 2 * (size_t)b, hair, &p->touch, NULL);
+    for (size_t k = 0; k < p->touch.n && ok; k++) {
+        const sunder_i_contact *touch = &p->touch.item[k];
+        const sunder_i_constraint c = {
+            .i = (uint32_t)i, .j = (uint32_t)j, .n = {touch->n[0], touch->n[1]}, .d = touch->d};
+        ok = add(p, &c, touch->a, touch->b);
+    }
+    return ok;
+}
+
+/* Those that stand near body i, or near its way there, each pair once. */
+static bool add_pairs_of(pressing *p, size_t i)
+{
+    const sunder_i_model *model = &p->solver->model;
+    const uint32_t b = p->group->body[i];
+    const sunder_i_body *body = &model->body[b];
+    const double home[2] = {0, 0};
+    double box[4], start[4];
+    if (body->fixed || body->pieces == 0) return true;
+    p->near.n = 0;
+    sunder_i_body_box(body, model->move + 2 * (size_t)b, model->rules.gap + hair_of(p, body, body), box);
+    sunder_i_body_box(body, home, model->rules.gap, start);
+    if (sunder_i_forbids_ways(model)) sunder_i_box_join(box, start);
+    sunder_i_reading reading;
+    sunder_i_reads_begin(&reading, model, b);
+    const bool ok = sunder_i_look_about(model, model->standing, box, &p->near);
+    sunder_i_reads_end(&reading);
+    if (!ok) return false;
+    sunder_i_things_to_bodies(model, &p->near);
+    for (size_t k = 0; k < p->near.n; k++) {
+        const size_t j = place_of(p->group, p->near.item[k]);
+        if (j == SIZE_MAX || j == i || (!model->body[p->near.item[k]].fixed && j < i)) continue;
+        if (!sunder_i_step() || !add_pair(p, i, j)) return false;
+    }
+    return true;
+}
+
+/* -t.n >= -|t| for one that stands at its limit. */
+static bool add_limit(pressing *p, size_t i)
+{
+    const sunder_i_model *model = &p->solver->model;
+    const uint32_t b = p->group->body[i];
+    const double *t = model->move + 2 * (size_t)b, length = hypot(t[0], t[1]);
+    if (model->body[b].fixed || !(length > 0) || length < model->body[b].limit * (1 - AT_LIMIT)) return true;
+    const sunder_i_constraint c = {
+        .i = (uint32_t)i, .j = SUNDER_I_GROUND, .n = {t[0] / length, t[1] / length}, .d = -length};
+    return add(p, &c, SIZE_MAX, SIZE_MAX);
+}
+
+/* What presses, each by itself: those of one pair are added up when their numbers are known. */
+static bool report_forces(pressing *p)
+{
+    const sunder_i_quadratic *q = &p->program;
+    found_pushes *r = p->found;
+    for (size_t k = 0; k < q->n; k++) {
+        const sunder_i_constraint *c = &q->constraint[k];
+        if (!(c->force > 0) || !isfinite(c->force) || p->push[k].a == SIZE_MAX) continue;
+        if (!sunder_i_reserve(&r->push, &r->capacity, r->n + 1, sizeof *r->push)) return false;
+        r->push[r->n++] = (sunder_push){p->push[k].a, p->push[k].b, c->force, {c->n[0], c->n[1]}};
+    }
+    return true;
+}
+
+static bool press(pressing *p, const sunder_i_group *g)
+{
+    const sunder_i_model *model = &p->solver->model;
+    double *mass = sunder_i_alloc(g->n, sizeof *mass), *t = sunder_i_calloc(2 * g->n, sizeof *t), size = 0;
+    bool ok = mass && t;
+    p->group = g;
+    p->program.bodies = g->n;
+    p->program.mass = mass;
+    p->program.t = t;
+    p->program.n = 0;
+    p->program.work = 0;
+    for (size_t i = 0; i < g->n && ok; i++) {
+        const sunder_i_body *body = &model->body[g->body[i]];
+        const double *move = model->move + 2 * (size_t)g->body[i];
+        mass[i] = body->fixed ? 0 : 0.5 / body->weight;
+        size = sunder_i_max(size, hypot(move[0], move[1]));
+        ok = add_pairs_of(p, i) && add_limit(p, i);
+    }
+    if (ok && p->program.n && size > 0)
+        ok = sunder_i_quadratic_solve(&p->program, 0, PRESSED * size, size) >= 0 && report_forces(p);
+    sunder_i_free(mass);
+    sunder_i_free(t);
+    return ok;
+}
+
+typedef struct pressing_lots {
+    const sunder_i_solver *solver;
+    size_t first;        /* group of the first lot */
+    found_pushes *found; /* [LOTS_AT_ONCE] */
+} pressing_lots;
+
+static sunder_status press_lots(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const pressing_lots *all = context;
+    const sunder_i_groups *groups = &all->solver->groups;
+    pressing p = {.solver = all->solver, .waived = {.pair = groups->waived, .n = groups->waived_n}};
+    bool ok = true;
+    for (size_t lot = begin; lot < end; lot++) {
+        const size_t first = all->first + lot * GROUPS_OF_A_LOT;
+        p.found = &all->found[lot];
+        for (size_t k = first; k < first + GROUPS_OF_A_LOT && k < groups->n && ok; k++)
+            ok = press(&p, &groups->group[k]);
+    }
+    sunder_i_free(p.program.constraint);
+    sunder_i_free(p.push);
+    sunder_i_free(p.near.item);
+    sunder_i_free(p.touch.item);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+static bool append(sunder_report *report, size_t *capacity, const found_pushes *found)
+{
+    if (found->n == 0) return true;
+    if (!sunder_i_reserve(&report->push, capacity, report->pushes + found->n, sizeof *found->push)) return false;
+    memcpy(report->push + report->pushes, found->push, found->n * sizeof *found->push);
+    report->pushes += found->n;
+    return true;
+}
+
+sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *s, sunder_error *err)
+{
+    if (!s->model.rules.keep_pushes) return SUNDER_OK;
+    /* Without proofs nobody has asked for it yet. */
+    const sunder_status status = s->groups.waived ? SUNDER_OK : sunder_i_solver_waive(s, err);
+    if (status) return status;
+    found_pushes found[LOTS_AT_ONCE];
+    size_t capacity = 0;
+    sunder_status pressed = SUNDER_OK;
+    for (size_t first = 0; first < s->groups.n && !pressed; first += LOTS_AT_ONCE * GROUPS_OF_A_LOT) {
+        pressing_lots all = {s, first, found};
+        memset(found, 0, sizeof found);
+        pressed = sunder_i_parallel(s->model.rules.threads, LOTS_AT_ONCE, SUNDER_I_GRAIN_WHOLE, press_lots, &all, err);
+        for (size_t k = 0; k < LOTS_AT_ONCE; k++) {
+            if (!pressed && !append(report, &capacity, &found[k])) pressed = sunder_i_no_memory(err);
+            sunder_i_free(found[k].push);
+        }
+        sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
+    }
+    return pressed;
+}

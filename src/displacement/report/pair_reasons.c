@@ -1,0 +1,203 @@
+/* Why a pair is left in conflict that has no solution by itself, whoever else is in the layer: neither may move; their
+ * limits are too short; or what their limits leave is forbidden by sides of barriers, or by the rule against jumps.
+ *
+ * That a limit is too short is decided by the least translation of the pair, exactly; that no way is left by
+ * branch and bound (prove/proofs/feasibility.c), which either proves it or is no answer. Its proof is kept: it names
+ * whose way was in the way. For the limits the same branch and bound makes a record, where one is wanted. Of two
+ * features that are shut in (solve/clusters/shut_in_pairs.c) it is known beforehand; a record is looked for all the
+ * same, and where the effort ends first there is none. Where nobody wants more of it than who is in it, and that
+ * can only be the two, it is not. */
+#include "displacement/layer/barrier_pairs.h"
+#include "displacement/prove/proofs/feasibility.h"
+#include "displacement/report/report.h"
+#include "displacement/report/tuning.h"
+
+#include "base/memory.h"
+#include "base/parallel.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static double limit_of(const sunder_i_model *model, size_t f)
+{
+    const sunder_i_body *body = &model->body[model->body_of[f]];
+    return body->fixed ? 0 : body->limit;
+}
+
+/* What questions about the same two bodies have in common. */
+typedef struct common {
+    sunder_i_planes planes;
+    sunder_i_precedents precedents;
+} common;
+
+/* Which rules about ways the pair is asked about under. */
+typedef enum ways_heeded { NO_WAYS, SIDES, SIDES_AND_JUMPS } ways_heeded;
+
+/* The proof that the pair by itself, under those rules, has no solution; NULL if none is found. Whoever is of their
+ * blocks goes with them. instead: a limit for who has none. */
+static sunder_status prove_alone(const sunder_i_model *model, const sunder_conflict *c, ways_heeded ways,
+                                 double instead, common *both, sunder_proof **proof, sunder_error *err)
+{
+    const size_t bodies = c->b < model->features ? 2 : 1;
+    const uint32_t feature[2] = {(uint32_t)c->a, (uint32_t)c->b},
+                   body[2] = {model->body_of[c->a], model->body_of[c->b]};
+    const sunder_i_subproblem alone = {.model = model,
+                                       .body = body,
+                                       .bodies = bodies,
+                                       .a = feature[0],
+                                       .b = feature[1],
+                                       .feature = feature,
+                                       .features = 2,
+                                       .every_side = instead == 0,
+                                       .any_jump = ways != SIDES_AND_JUMPS,
+                                       .any_way = ways == NO_WAYS,
+                                       .every_way = true,
+                                       .instead = instead,
+                                       .planes = &both->planes,
+                                       .precedents = &both->precedents,
+                                       .effort = ALONE_EFFORT,
+                                       .most = ALONE_MOST};
+    sunder_i_decision decision;
+    const sunder_status status = sunder_i_decide(&alone, &decision, err);
+    *proof = decision.proof;
+    decision.proof = NULL;
+    sunder_i_decision_clear(&decision);
+    return status;
+}
+
+/* Where one of the two has no limit. Beyond where the two are apart for certain nothing but shadows forbids a relative
+ * move, and these have no end: whatever direction leads into one there leads on in it for ever. So what has no solution
+ * a little farther than there has none at all; sides, which are about moves of the one, are left out. */
+static sunder_status reason_without_limit(const sunder_i_model *model, sunder_conflict *c, common *both,
+                                          sunder_proof **proof, sunder_error *err)
+{
+    if (model->rules.jumps || c->b >= model->features) return SUNDER_OK;
+    const double within = 2 * sunder_i_farthest_near(model, model->body_of[c->a], model->body_of[c->b]);
+    const sunder_status status = prove_alone(model, c, SIDES_AND_JUMPS, within, both, proof, err);
+    if (*proof) c->reason = SUNDER_REASON_JUMP;
+    return status;
+}
+
+/* Within limits that by themselves leave a solution. */
+static sunder_status reason_of_ways(const sunder_i_model *model, sunder_conflict *c, common *both, sunder_proof **proof,
+                                    sunder_error *err)
+{
+    const bool jump = !model->rules.jumps && c->b < model->features;
+    if (!jump && model->sides == 0) return SUNDER_OK;
+    sunder_status status = prove_alone(model, c, jump ? SIDES_AND_JUMPS : SIDES, 0, both, proof, err);
+    if (status || !*proof) return status;
+    c->reason = jump ? SUNDER_REASON_JUMP : SUNDER_REASON_SIDE;
+    if (!jump || model->sides == 0) return SUNDER_OK;
+    sunder_proof *by_sides = NULL;
+    status = prove_alone(model, c, SIDES, 0, both, &by_sides, err);
+    if (!by_sides) return status;
+    sunder_i_proof_free(*proof);
+    *proof = by_sides;
+    c->reason = SUNDER_REASON_SIDE;
+    return status;
+}
+
+/* That the two are shut in is known, and no third feature can have to do with it. */
+static bool is_told_enough(const sunder_i_model *model, const sunder_conflict *c)
+{
+    return model->rules.drop_proofs && model->body[model->body_of[c->a]].members == 1 &&
+           model->body[model->body_of[c->b]].members == 1;
+}
+
+/* A record of which only that is left that it names nobody but the two. */
+static sunder_status tell_of_nobody(sunder_proof **proof, sunder_error *err)
+{
+    *proof = sunder_i_calloc(1, sizeof **proof);
+    return *proof ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+static sunder_status find_reason(const sunder_i_model *model, sunder_conflict *c, common *both, sunder_proof **proof,
+                                 sunder_error *err)
+{
+    const double limit[2] = {limit_of(model, c->a), limit_of(model, c->b)}, reach = limit[0] + limit[1];
+    const bool shut = c->b < model->features && sunder_i_are_shut_in(model, (uint32_t)c->a, (uint32_t)c->b);
+    c->reason = reach == 0 ? SUNDER_REASON_FIXED : shut ? SUNDER_REASON_JUMP : SUNDER_REASON_UNRESOLVED;
+    if (reach == 0) return SUNDER_OK;
+    if (reach == INFINITY && shut && is_told_enough(model, c)) return tell_of_nobody(proof, err);
+    if (reach == INFINITY) return reason_without_limit(model, c, both, proof, err);
+    sunder_i_resolution resolution;
+    const sunder_status status = sunder_i_resolve_within(model, c->a, c->b, limit, &resolution, err);
+    if (status) return status;
+    if (!resolution.beyond) return reason_of_ways(model, c, both, proof, err);
+    c->reason = SUNDER_REASON_MAX_SHIFT;
+    return model->rules.keep_trees ? prove_alone(model, c, NO_WAYS, 0, both, proof, err) : SUNDER_OK;
+}
+
+/* ---- All of them ------------------------------------------------------------------------------------------------- */
+
+/* A conflict, and the two bodies that it is of: of a barrier's the ground stands for all. */
+typedef struct matter {
+    sunder_i_id_pair bodies;
+    uint32_t conflict;
+} matter;
+
+typedef struct asking {
+    const sunder_i_model *model;
+    sunder_report *report;
+    const matter *matter;
+    const size_t *first; /* [pairs of bodies + 1] */
+} asking;
+
+static int by_bodies(const void *a, const void *b)
+{
+    const matter *p = a, *q = b;
+    const int order = sunder_i_by_id_pair(&p->bodies, &q->bodies);
+    return order ? order : (p->conflict > q->conflict) - (p->conflict < q->conflict);
+}
+
+/* Those of the same two bodies one after the other: what forbids their moves is the same. */
+static sunder_status find_reasons(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const asking *g = context;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = begin; k < end && !status; k++) {
+        common both = {0};
+        for (size_t m = g->first[k]; m < g->first[k + 1] && !status; m++) {
+            const uint32_t at = g->matter[m].conflict;
+            sunder_conflict *c = &g->report->conflict[at];
+            sunder_i_reading reading;
+            sunder_i_reads_begin(&reading, g->model, sunder_i_reader_of(g->model, c->a, c->b));
+            status = find_reason(g->model, c, &both, &g->report->proof[at], err);
+            sunder_i_reads_end(&reading);
+            if (g->model->rules.drop_proofs) sunder_i_proof_strip(g->report->proof[at]);
+        }
+        sunder_i_planes_clear(&both.planes);
+    }
+    return status;
+}
+
+static size_t list_matters(const sunder_report *report, const sunder_i_model *model, matter *list, size_t *first)
+{
+    size_t n = 0, pairs = 0;
+    for (size_t k = 0; k < report->conflicts; k++) {
+        const sunder_conflict *c = &report->conflict[k];
+        if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
+        const uint32_t i = model->body_of[c->a], j = c->b < model->features ? model->body_of[c->b] : SUNDER_I_NOBODY;
+        list[n++] = (matter){i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i}, (uint32_t)k};
+    }
+    if (n) qsort(list, n, sizeof *list, by_bodies);
+    for (size_t k = 0; k < n; k++)
+        if (k == 0 || sunder_i_by_id_pair(&list[k - 1].bodies, &list[k].bodies)) first[pairs++] = k;
+    first[pairs] = n;
+    return pairs;
+}
+
+sunder_status sunder_i_report_reasons(sunder_report *report, const sunder_i_model *model, sunder_error *err)
+{
+    matter *list = sunder_i_alloc(report->conflicts, sizeof *list);
+    size_t *first = sunder_i_alloc(report->conflicts + 1, sizeof *first);
+    sunder_status status = list && first ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) {
+        const asking g = {model, report, list, first};
+        const size_t pairs = list_matters(report, model, list, first);
+        status = sunder_i_parallel(model->rules.threads, pairs, SUNDER_I_GRAIN_WHOLE, find_reasons, (void *)&g, err);
+    }
+    sunder_i_free(list);
+    sunder_i_free(first);
+    return status;
+}

@@ -1,0 +1,400 @@
+/* A whole layer: conflicts make clusters, clusters are solved, what they run into joins them, and exact checks have the
+ * last word.
+ *
+ *     relations as it stands --> edges between bodies --> clusters --> moves, rounded
+ *            ^                                                           |
+ *            +---- relations of what moved, exact <----------------------+
+ *
+ * That is one run of rounds (solve/clusters/settle.c). Here is the order of such runs, and of what comes before,
+ * between and after them. */
+#include "displacement/prove/proofs/feasibility.h"
+#include "displacement/report/report.h"
+#include "displacement/solve/clusters/stages.h"
+
+#include "base/clock.h"
+#include "base/watch.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Shares of the whole that are done, roughly: when all is related, when what was sought without limits is found, when
+ * nothing is left but to report; and of the report, when bounds and pushes are known, when proofs are. */
+#define PREPARED 0.1
+#define FOUND_WITHOUT_LIMITS 0.4
+#define FOUND SUNDER_PROGRESS_SOLVED
+#define BOUNDED 0.84
+#define PROVED 0.9
+/* What was given up is looked at again, each time with what the search ran into since. */
+#define RECONSIDERED 4
+/* Pairs are asked about one by one so often: each time one in a cluster is solved. */
+#define ASKED_ALONE 16
+/* What was given up is asked once more so often: each time what is granted runs into others, and more is given up. */
+#define RETRIED 3
+/* Better sides are looked for so often, where clusters joined since the last time. */
+#define IMPROVED 3
+
+/* How all pairs stand; movers_only: all of which not both are fixed. */
+static sunder_status relate(sunder_i_solver *s, bool movers_only, sunder_error *err)
+{
+    if (!movers_only) return sunder_i_placement_relate(&s->model, &s->placement, NULL, &s->start, err);
+    sunder_i_changes movers;
+    sunder_status status = sunder_i_changes_init(&movers, s->model.things) ? SUNDER_OK : sunder_i_no_memory(err);
+    for (uint32_t f = 0; f < s->model.features && !status; f++)
+        if (s->model.present[f] && !sunder_i_feature(&s->layer, f).fixed) sunder_i_changes_add(&movers, f);
+    if (!status && !sunder_i_changes_sort(&movers)) status = sunder_i_no_memory(err);
+    if (!status) status = sunder_i_placement_relate(&s->model, &s->placement, &movers, &s->start, err);
+    sunder_i_changes_free(&movers);
+    return status;
+}
+
+/* What a layer is read for: all of it; what stands where, in the order of the input; can what moves be solved? */
+typedef enum purpose { TO_SEPARATE, TO_CHECK, TO_ANSWER } purpose;
+
+static sunder_status start(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
+                           purpose what_for, sunder_report **report, sunder_error *err)
+{
+    sunder_i_rules rules;
+    sunder_status status = sunder_i_rules_of(options, &rules, err);
+    if (!status) status = sunder_i_barriers_make(layer, rules.gap, &s->barriers, err);
+    if (!status) status = sunder_i_order_layer(layer, &s->barriers, what_for == TO_CHECK, &s->layer, err);
+    if (!status) status = sunder_i_model_init(&s->layer, &s->barriers, &rules, &s->model, err);
+    if (!status) status = sunder_i_placement_init(&s->model, &s->placement, err);
+    s->model.standing = &s->placement.tree;
+    if (!status) status = relate(s, what_for == TO_ANSWER, err);
+    if (!status) status = sunder_i_model_join(&s->model, &s->start, err);
+    if (!status) status = sunder_i_report_new(&s->model, report, err);
+    if (status) return status;
+    (*report)->summary.pairs_tested = s->start.tested;
+    sunder_i_count_relations(&s->model, &s->start, &(*report)->summary.before);
+    return sunder_i_count_thin_overlaps(&s->model, &s->placement, &s->start, *report, err);
+}
+
+/* Most layers leave nothing to be proved, or little. */
+static sunder_status find_seams_for_proofs(sunder_i_solver *s, sunder_error *err)
+{
+    return s->model.given_up_n ? sunder_i_report_find_seams(s, err) : SUNDER_OK;
+}
+
+/* Relations now are those of the start. False if memory is out. */
+static bool begin_as_at_start(sunder_i_solver *s)
+{
+    const size_t n = s->start.n, size = sizeof *s->now.pair;
+    if (!sunder_i_reserve(&s->now.pair, &s->now.room, n, size)) return false;
+    if (n) memcpy(s->now.pair, s->start.pair, n * size);
+    s->now.n = n;
+    return true;
+}
+
+/* What else is settled beforehand: the bodies in doubles, relations as they stand. */
+static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_status status = sunder_i_model_cut(&s->model, err);
+    if (!status) status = sunder_i_model_anchor(&s->model, err);
+    if (!status && sunder_i_has_bare_barriers(&s->model)) status = sunder_i_model_find_seams(&s->model, err);
+    if (!status) status = sunder_i_solver_find_shut_in(s, err);
+    if (!status) status = sunder_i_solver_init(s, err);
+    if (status) return status;
+    return begin_as_at_start(s) ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+static bool any_of(const sunder_i_solver *s, const bool *flag)
+{
+    for (size_t b = 0; b < s->model.bodies; b++)
+        if (flag[b]) return true;
+    return false;
+}
+
+/* Asks what was given up of clusters that are wanted once more, and again where that made others give up. */
+static sunder_status retry(sunder_i_solver *s, double from, double to, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    memcpy(s->gave_up, s->wanted, s->model.bodies * sizeof *s->gave_up);
+    for (int round = 0; round < RETRIED && any_of(s, s->gave_up) && !status; round++) {
+        status = sunder_i_solver_retry(s, err);
+        memset(s->gave_up, 0, s->model.bodies * sizeof *s->gave_up);
+        if (!status) status = sunder_i_solver_settle(s, from, to, err);
+    }
+    return status;
+}
+
+/* What ran into others while it was improved is another cluster then. */
+static sunder_status improve(sunder_i_solver *s, double from, double to, sunder_error *err)
+{
+    bool improved;
+    sunder_status status = sunder_i_solver_is_improved(s, &improved, err);
+    for (int round = 0; round < IMPROVED && !status && !improved; round++) {
+        status = sunder_i_solver_improve(s, err);
+        if (!status) status = sunder_i_solver_settle(s, from + round * (to - from) / IMPROVED, to, err);
+        if (!status) status = sunder_i_solver_is_improved(s, &improved, err);
+    }
+    return status;
+}
+
+static sunder_status ask_one_by_one(sunder_i_solver *s, double from, double to, sunder_error *err)
+{
+    bool again = true;
+    sunder_status status = SUNDER_OK;
+    for (int round = 0; round < ASKED_ALONE && again && !status; round++) {
+        status = find_seams_for_proofs(s, err);
+        if (!status) status = sunder_i_solver_ask_one_by_one(s, &again, err);
+        if (!status && again) status = sunder_i_solver_settle(s, from, to, err);
+    }
+    return status;
+}
+
+/* Solves, looks again at what was given up, asks it once more, looks for better sides: of the clusters that are wanted,
+ * and of those of which it turns out that they have a better solution. Progress goes from `from` to `to`.
+ *
+ * Rounds are the layer's: they end when no cluster has any use for one. A round does nothing to a cluster that had none
+ * by itself, so that what becomes of one does not depend on how long others take, wherever they are. */
+static sunder_status seek(sunder_i_solver *s, double from, double to, sunder_error *err)
+{
+    const double step = (to - from) / 7;
+    bool again = true;
+    sunder_status status = sunder_i_solver_choose_holders(s, err);
+    if (!status) status = sunder_i_solver_settle(s, from, from + 3 * step, err);
+    for (int round = 0; round < RECONSIDERED && again && !status; round++) {
+        status = find_seams_for_proofs(s, err);
+        if (!status) status = sunder_i_solver_reconsider(s, &again, err);
+        if (!status && again) status = sunder_i_solver_settle(s, from + 3 * step, from + 4 * step, err);
+    }
+    if (!status) status = retry(s, from + 4 * step, from + 5 * step, err);
+    if (!status) status = improve(s, from + 5 * step, to, err);
+    if (!status) status = ask_one_by_one(s, from + 6 * step, to, err);
+    if (!status) status = sunder_i_solver_fit_exactly(s, err);
+    return status ? status : sunder_i_solver_settle(s, to, to, err);
+}
+
+/* What was solved is proved, and what is found to be cheaper is taken; then margins go, where doubles hold contact. */
+static sunder_status optimise(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_status status = sunder_i_solver_optimise(s, err);
+    if (!status && !(s->model.rules.effort > 0)) status = sunder_i_solver_gather_groups(s, err);
+    return status ? status : sunder_i_solver_put_in_contact(s, err);
+}
+
+/* What has no solution as long as coarse bodies are held is solved once more, with these let go. */
+static sunder_status solve_without_holding(sunder_i_solver *s, sunder_error *err)
+{
+    bool again;
+    sunder_status status = sunder_i_solver_let_go(s, &again, err);
+    if (!status && again) status = seek(s, FOUND, FOUND, err);
+    return status || !again ? status : optimise(s, err);
+}
+
+/* Without limits first, and then, if one is overstepped, within them: what nothing oversteps changes nothing. */
+static sunder_status solve(sunder_i_solver *s, sunder_error *err)
+{
+    bool lifted = false;
+    sunder_status status = sunder_i_solver_lift_limits(s, &lifted, err);
+    if (!status && !lifted) status = sunder_i_solver_move_inside(s, err);
+    if (!status) status = seek(s, PREPARED, lifted ? FOUND_WITHOUT_LIMITS : FOUND, err);
+    if (!status) status = optimise(s, err);
+    if (!status && lifted) status = sunder_i_solver_restore_limits(s, err);
+    if (!status && lifted) status = sunder_i_solver_move_inside(s, err);
+    if (!status && lifted) status = seek(s, FOUND_WITHOUT_LIMITS, FOUND, err);
+    if (!status && lifted && any_of(s, s->wanted)) status = optimise(s, err);
+    if (!status) status = solve_without_holding(s, err);
+    if (!status) status = sunder_i_solver_uphold(s, err);
+    for (size_t b = 0; b < s->model.bodies; b++) s->wanted[b] = true;
+    /* What was mended, or settled about what was, is proved once more; nothing gets worse by that. */
+    if (!status) status = sunder_i_solver_optimise(s, err);
+    if (!status && !(s->model.rules.effort > 0)) status = sunder_i_solver_gather_groups(s, err);
+    return status ? status : sunder_i_solver_gather(s, err);
+}
+
+/* To where the report begins. */
+static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
+                          sunder_report **report, sunder_error *err)
+{
+    sunder_status status = start(s, layer, options, TO_SEPARATE, report, err);
+    if (!status) status = sunder_i_solver_find_infeasible(s, NULL, err);
+    if (!status) status = prepare(s, err);
+    if (!status && !(s->let_go = sunder_i_calloc(s->model.bodies, sizeof *s->let_go))) status = sunder_i_no_memory(err);
+    if (!status && !sunder_i_progress(&s->model.rules, PREPARED)) status = sunder_i_no_memory(err);
+    if (!status) status = solve(s, err);
+    if (!status && !sunder_i_progress(&s->model.rules, FOUND)) status = sunder_i_no_memory(err);
+    return status;
+}
+
+/* A question about a conflict: a small layer of its own, of which nothing is reported. It is whether all of it has a
+ * solution: a pair without one ends it, or a proof, or a cluster for which none is found, and nothing is given up or
+ * improved. (Only who has to leave what it lies in finds that out by a search in vain.) */
+static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_options *options,
+                                  const sunder_i_id_pair *pair, size_t n, sunder_i_proof_found *proof,
+                                  sunder_i_solver *s, sunder_error *err)
+{
+    const sunder_i_spared list = {pair, n};
+    sunder_report *report = NULL;
+    sunder_status status = start(s, layer, options, TO_ANSWER, &report, err);
+    sunder_report_free(report);
+    if (!status) status = sunder_i_solver_find_infeasible(s, &list, err);
+    if (status) return status;
+    s->brief = s->model.inclusions == 0;
+    s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, &list);
+    if (s->hopeless) return SUNDER_OK;
+    status = sunder_i_solver_spare(s, &list, err);
+    if (!status) status = prepare(s, err);
+    /* Two may be shut in, too. */
+    s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, &list);
+    if (!status && s->brief && !s->hopeless && *proof == SUNDER_I_PROOF_WANTED) {
+        status = sunder_i_solver_is_proved_hopeless(s, &list, &s->hopeless, err);
+        *proof = s->hopeless ? SUNDER_I_PROOF_FOUND : SUNDER_I_PROOF_IN_VAIN;
+    }
+    if (!status && !s->hopeless) status = sunder_i_solver_move_inside(s, err);
+    if (!status && !s->hopeless) status = sunder_i_solver_choose_holders(s, err);
+    if (!status && !s->hopeless) status = sunder_i_solver_settle(s, 0, 1, err);
+    return status;
+}
+
+/* Relations once more of all that does not stand as it was given, so that the verdict leans on none that was found on
+ * the way; two that do stand so are what they were found to be when nothing had moved. */
+static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_i_changes elsewhere;
+    sunder_status status = sunder_i_changes_init(&elsewhere, s->model.things) ? SUNDER_OK : sunder_i_no_memory(err);
+    for (uint32_t f = 0; f < s->model.features && !status; f++) {
+        const double *t = s->placement.move + 2 * (size_t)f;
+        if (t[0] != 0 || t[1] != 0 || s->placement.was_rounded[f]) sunder_i_changes_add(&elsewhere, f);
+    }
+    if (!status && elsewhere.failed) status = sunder_i_no_memory(err);
+    if (!status && !begin_as_at_start(s)) status = sunder_i_no_memory(err);
+    if (!status) status = sunder_i_placement_relate_again(&s->model, &s->placement, &elsewhere, NULL, &s->now, err);
+    sunder_i_changes_free(&elsewhere);
+    return status ? status : sunder_i_jumps_update(&s->jumps, &s->model, NULL, err);
+}
+
+/* Tells how far things are, if nothing went wrong so far. */
+static sunder_status reach(const sunder_i_solver *s, double fraction, sunder_status status, sunder_error *err)
+{
+    if (status || sunder_i_progress(&s->model.rules, fraction)) return status;
+    return sunder_i_no_memory(err);
+}
+
+/* What remains, why, what would free it, and what no solution can beat. */
+static sunder_status explain(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
+                             sunder_error *err)
+{
+    sunder_i_count_relations(&s->model, &s->now, &report->summary.after);
+    sunder_status status = sunder_i_report_find_seams(s, err);
+    if (!status) status = sunder_i_report_conflicts(report, &s->model, &s->placement, &s->now, true, err);
+    if (!status) status = sunder_i_report_bound(report, s, err);
+    if (!status) status = sunder_i_report_optimality(report, s, err);
+    if (!status) status = sunder_i_report_pushes(report, s, err);
+    status = reach(s, BOUNDED, status, err);
+    if (!status) status = sunder_i_report_proofs(report, s, sunder_i_decide, err);
+    if (!status) status = sunder_i_report_blockers(report, s, err);
+    status = reach(s, PROVED, status, err);
+    if (!status) status = sunder_i_report_crowd_needs(report, s, true, err);
+    if (!status) status = sunder_i_report_needs(report, s, options, work_briefly, err);
+    if (!status) status = sunder_i_report_crowd_needs(report, s, false, err);
+    return reach(s, SUNDER_PROGRESS_EXPLAINED, status, err);
+}
+
+/* The result in the layer's order. */
+static sunder_status fill_report(sunder_i_solver *s, sunder_report *report, sunder_error *err)
+{
+    sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
+    /* What says how all stand is needed no longer, unless another layer may come to lie beside this one. */
+    if (!s->model.rules.keep_worlds) sunder_i_placement_free(&s->model, &s->placement);
+    const sunder_status status = sunder_i_report_features(report, &s->model, err);
+    if (status) return status;
+    sunder_i_report_moves(report, &s->model);
+    return sunder_i_report_worlds(report, s, err);
+}
+
+/* All is related once more, the result is explained, and then it is asked whether it is true: that the pairs are what
+ * was found is known since they were related. */
+static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
+                              double began, sunder_error *err)
+{
+    const double solved = sunder_i_now();
+    sunder_i_solver_forget_clusters(s);
+    sunder_i_solver_end_holding(s);
+    sunder_status status = relate_last(s, err);
+    const double related = sunder_i_now();
+    if (!status) status = explain(s, options, report, err);
+    const double explained = sunder_i_now();
+    if (!status) status = sunder_i_solver_is_upheld(s, &report->summary.verified, err);
+    const double verified = sunder_i_now();
+    if (!status) status = fill_report(s, report, err);
+    if (status) return status;
+    report->summary.seconds_solve = solved - began;
+    report->summary.seconds_verify = (related - solved) + (verified - explained);
+    report->summary.seconds_explain = (explained - related) + (sunder_i_now() - verified);
+    return SUNDER_OK;
+}
+
+/* In the caller's numbers. That takes room for all moves once more, so what they were found with goes first. */
+static sunder_status renumber(sunder_i_solver *s, sunder_report *report, sunder_error *err)
+{
+    uint32_t *number = s->layer.number;
+    s->layer.number = NULL;
+    sunder_i_solver_free(s);
+    const sunder_status status = sunder_i_report_renumber(report, number, err);
+    sunder_i_free(number);
+    return status;
+}
+
+static sunder_status separate(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
+                              sunder_report **report, sunder_error *err)
+{
+    const double began = sunder_i_now();
+    sunder_status status = work(s, layer, options, report, err);
+    if (!status) status = conclude(s, options, *report, began, err);
+    const sunder_i_rules rules = s->model.rules;
+    if (!status) status = renumber(s, *report, err);
+    if (!status) sunder_i_progress(&rules, 1);
+    return status;
+}
+
+static sunder_status check(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
+                           sunder_report **report, sunder_error *err)
+{
+    const double began = sunder_i_now();
+    sunder_status status = start(s, layer, options, TO_CHECK, report, err);
+    if (!status) status = sunder_i_report_conflicts(*report, &s->model, &s->placement, &s->start, false, err);
+    if (!status) status = sunder_i_report_features(*report, &s->model, err);
+    if (!status) status = sunder_i_report_renumber(*report, s->layer.number, err);
+    if (status) return status;
+    sunder_layer_summary *summary = &(*report)->summary;
+    summary->after = summary->before;
+    summary->verified = true;
+    summary->seconds_verify = sunder_i_now() - began;
+    return SUNDER_OK;
+}
+
+typedef sunder_status (*run_stages)(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
+                                    sunder_report **report, sunder_error *err);
+
+static sunder_status run(run_stages stages, const sunder_layer *layer, const sunder_layer_options *options,
+                         sunder_report **out, sunder_error *err)
+{
+    sunder_i_solver s = {0};
+    sunder_i_watch watch;
+    sunder_report *report = NULL;
+    sunder_layer_options o;
+    sunder_layer_options_init(&o);
+    if (options) o = *options;
+    sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
+    const sunder_status status = stages(&s, layer, &o, &report, err);
+    sunder_i_watch_end(&watch);
+    sunder_i_solver_free(&s);
+    if (status)
+        sunder_report_free(report);
+    else
+        *out = report;
+    return status;
+}
+
+sunder_status sunder_layer_separate(const sunder_layer *layer, const sunder_layer_options *options, sunder_report **out,
+                                    sunder_error *err)
+{
+    return run(separate, layer, options, out, err);
+}
+
+sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_options *options, sunder_report **out,
+                                 sunder_error *err)
+{
+    return run(check, layer, options, out, err);
+}

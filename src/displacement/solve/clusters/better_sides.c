@@ -1,0 +1,97 @@
+/* Better sides, for the clusters that were solved since they were last looked for: who is in the way joins first, then
+ * each cluster is improved by itself. What ran into others by it is for the next round of settle.c. */
+#include "displacement/solve/clusters/stages.h"
+
+#include "base/parallel.h"
+
+/* There is nothing to be done for it, or nobody wants it. Of clusters that came together each may have been the
+ * cheapest: then they are so together. */
+static bool is_improved(const sunder_i_solver *s, const sunder_i_cluster *c)
+{
+    bool improved = true, cheapest = true;
+    if (!sunder_i_solver_any_of(s, c->body, c->n, s->wanted)) return true;
+    for (size_t k = 0; k < c->n; k++) {
+        if (s->model.body[c->body[k]].fixed) continue;
+        improved = improved && s->improved[c->body[k]];
+        cheapest = cheapest && s->cheapest[c->body[k]];
+    }
+    return improved || cheapest;
+}
+
+sunder_status sunder_i_solver_is_improved(const sunder_i_solver *s, bool *improved, sunder_error *err)
+{
+    bool *wanted = sunder_i_solver_who_hang_with(s, s->wanted);
+    *improved = true;
+    for (size_t e = 0; e < s->edges && wanted; e++)
+        for (int k = 0; k < 2; k++) {
+            const uint32_t b = k ? s->edge[e].b : s->edge[e].a;
+            if (!s->improved[b] && wanted[b]) *improved = false;
+        }
+    sunder_i_free(wanted);
+    return wanted ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+static sunder_status improve_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const sunder_i_solver *s = context;
+    for (size_t k = begin; k < end; k++) {
+        sunder_i_cluster *c = &s->cluster[k];
+        c->worked_on = !is_improved(s, c);
+        if (!c->worked_on) continue;
+        double *move = sunder_i_solver_load_moves(s, c);
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
+        const sunder_status status = sunder_i_cluster_improve(&s->model, c, move, err);
+        sunder_i_reads_end(&reading);
+        if (status) return status;
+    }
+    return SUNDER_OK;
+}
+
+static sunder_status invite_to_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const sunder_i_solver *s = context;
+    for (size_t k = begin; k < end; k++) {
+        sunder_i_cluster *c = &s->cluster[k];
+        if (is_improved(s, c)) continue;
+        double *move = sunder_i_solver_load_moves(s, c);
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
+        const bool ok = sunder_i_cluster_invite(&s->model, c, move);
+        sunder_i_reads_end(&reading);
+        if (!ok) return sunder_i_no_memory(err);
+    }
+    return SUNDER_OK;
+}
+
+/* Whoever is in the way of a cluster joins it. */
+static sunder_status join_guests(sunder_i_solver *s, sunder_error *err)
+{
+    bool any = false;
+    sunder_status status =
+        sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, invite_to_clusters, s, err);
+    for (size_t k = 0; k < s->clusters && !status; k++)
+        for (size_t g = 0; g < s->cluster[k].guests && !status; g++) {
+            const sunder_i_id_pair *pair = &s->cluster[k].guest[g];
+            any = true;
+            if (!sunder_i_solver_add_edge(s, pair->a, pair->b)) status = sunder_i_no_memory(err);
+        }
+    return status || !any ? status : sunder_i_solver_gather(s, err);
+}
+
+sunder_status sunder_i_solver_improve(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_status status = sunder_i_solver_gather(s, err);
+    if (!status) status = join_guests(s, err);
+    if (!status) status = sunder_i_solver_unite_blocks(s, err);
+    if (!status) status = sunder_i_solver_for_clusters(s, improve_clusters, s, err);
+    if (status) return status;
+    sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
+    status = sunder_i_solver_commit(s, err);
+    for (size_t k = 0; k < s->clusters && !status; k++) {
+        const sunder_i_cluster *c = &s->cluster[k];
+        if (!sunder_i_solver_any_of(s, c->body, c->n, s->wanted)) continue;
+        for (size_t m = 0; m < c->n; m++) s->improved[c->body[m]] = true;
+    }
+    return status ? status : sunder_i_solver_relate(s, err);
+}

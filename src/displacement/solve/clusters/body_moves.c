@@ -1,0 +1,98 @@
+/* Moves on their way between the layer and its clusters: where a cluster starts from, and what becomes of what it
+ * found. Every move of a body goes through sunder_i_solver_place(), which notes what has to be related anew. */
+#include "displacement/layer/rounding.h"
+#include "displacement/solve/clusters/solver.h"
+
+#include "base/parallel.h"
+
+#include <string.h>
+
+double *sunder_i_solver_load_moves(const sunder_i_solver *s, const sunder_i_cluster *c)
+{
+    double *move = s->move + 2 * (size_t)(c->body - s->body);
+    for (size_t k = 0; k < c->n; k++) {
+        const uint32_t b = c->body[k], from = s->carrier[b] == SUNDER_I_NOBODY ? b : s->carrier[b];
+        memcpy(move + 2 * k, s->model.move + 2 * (size_t)from, 2 * sizeof *move);
+    }
+    return move;
+}
+
+static bool goes_elsewhere(const sunder_i_solver *s, uint32_t b, const double *to)
+{
+    return !s->model.body[b].fixed && memcmp(s->model.move + 2 * (size_t)b, to, 2 * sizeof *to) != 0;
+}
+
+/* exact: can it be moved so without rounding? */
+static void place(sunder_i_solver *s, uint32_t b, const double *to, bool exact)
+{
+    sunder_i_model *model = &s->model;
+    const sunder_i_body *body = &model->body[b];
+    memcpy(model->move + 2 * (size_t)b, to, 2 * sizeof *to);
+    if (model->went) sunder_i_box_include(model->went + 4 * (size_t)b, to);
+    s->cheapest[b] = false;
+    for (uint32_t m = 0; m < body->members; m++) {
+        const uint32_t f = model->member[body->member + m];
+        sunder_i_changes_add(&s->changes, f);
+        model->inexact[f] = !exact;
+    }
+}
+
+void sunder_i_solver_place(sunder_i_solver *s, uint32_t b, const double *to)
+{
+    if (goes_elsewhere(s, b, to)) place(s, b, to, sunder_i_is_exact_move(&s->model, b, to));
+}
+
+typedef struct committing {
+    const sunder_i_solver *solver;
+    bool *exact; /* [members] of clusters that were worked on */
+} committing;
+
+static sunder_status find_some_exact(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    (void)err;
+    const committing *c = context;
+    const sunder_i_solver *s = c->solver;
+    for (size_t i = begin; i < end; i++) {
+        const sunder_i_cluster *cluster = &s->cluster[i];
+        const size_t first = (size_t)(cluster->body - s->body), after = first + cluster->n;
+        for (size_t k = first; cluster->worked_on && k < after; k++)
+            c->exact[k] = goes_elsewhere(s, s->body[k], s->move + 2 * k) &&
+                          sunder_i_is_exact_move(&s->model, s->body[k], s->move + 2 * k);
+    }
+    return SUNDER_OK;
+}
+
+static void take_moves(sunder_i_solver *s, const sunder_i_cluster *c, const bool *exact)
+{
+    const size_t first = (size_t)(c->body - s->body);
+    for (size_t k = first; k < first + c->n; k++)
+        if (goes_elsewhere(s, s->body[k], s->move + 2 * k)) place(s, s->body[k], s->move + 2 * k, exact[k]);
+}
+
+sunder_status sunder_i_solver_commit(sunder_i_solver *s, sunder_error *err)
+{
+    committing c = {s, sunder_i_alloc(s->members, sizeof *c.exact)};
+    sunder_status status = c.exact ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status)
+        status = sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_LOOKS, find_some_exact, &c, err);
+    sunder_i_changes_clear(&s->changes);
+    for (size_t i = 0; i < s->clusters && !status; i++)
+        if (s->cluster[i].worked_on) take_moves(s, &s->cluster[i], c.exact);
+    sunder_i_free(c.exact);
+    return status;
+}
+
+sunder_status sunder_i_solver_relate(sunder_i_solver *s, sunder_error *err)
+{
+    return sunder_i_solver_relate_near(s, NULL, err);
+}
+
+sunder_status sunder_i_solver_relate_near(sunder_i_solver *s, const sunder_i_list *things, sunder_error *err)
+{
+    if (!sunder_i_changes_sort(&s->changes)) return sunder_i_no_memory(err);
+    sunder_status status = sunder_i_placement_move(&s->model, &s->placement, &s->changes, err);
+    if (status) return status;
+    status = sunder_i_jumps_update(&s->jumps, &s->model, &s->changes, err);
+    if (status) return status;
+    return sunder_i_placement_relate_again(&s->model, &s->placement, &s->changes, things, &s->now, err);
+}

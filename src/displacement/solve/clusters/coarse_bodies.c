@@ -1,0 +1,112 @@
+/* Bodies whose moves are coarse are tried as fixed first.
+ *
+ * A move of a body is a multiple of the last place of its largest coordinate (../../layer/rounding.c). One corrupt
+ * vertex, at 1e20, makes that 16384 m: to move such a body by what a neighbour misses of the gap throws it, and
+ * whatever it runs into, kilometres off, and the margin that its last place asks for throws the neighbour as far.
+ * So a body is *held* where its last place is coarse beside a neighbour that it is in conflict with: beside what
+ * the neighbour may have to go, which is its size and what is owed, and beside the neighbour's own last place. A
+ * held body is fixed for all stages. Where a conflict is left with one, it is let go, and what hangs together with
+ * it is solved once more from home.
+ *
+ * Nothing is proved of a layout with held bodies: a contact group that has one keeps no bound, and the layer's is
+ * that of pairs there, in which all bodies may move. */
+#include "displacement/layer/resolution.h"
+#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/tuning.h"
+
+#include "base/extremes.h"
+#include "base/union_find.h"
+
+#include <math.h>
+
+/* Exponent of the last place of the body's largest coordinate. */
+static int last_place(const sunder_i_body *b)
+{
+    double largest = 0;
+    int exponent;
+    for (int c = 0; c < 4; c++) largest = sunder_i_max(largest, fabs(b->box[c] + b->origin[c & 1]));
+    frexp(largest, &exponent);
+    return exponent - 53;
+}
+
+static bool is_coarse_beside(const sunder_i_model *model, const sunder_i_body *b, const sunder_i_body *other)
+{
+    const int place = last_place(b);
+    if (place < last_place(other) + COARSE_BITS) return false;
+    const double size = sunder_i_max(other->box[2] - other->box[0], other->box[3] - other->box[1]);
+    return ldexp(COARSE_PLACES, place) > size + model->rules.gap;
+}
+
+/* Has it stood still so far, and is it in no cluster? Then it can be held. */
+static bool is_free_to_hold(const sunder_i_solver *s, uint32_t b)
+{
+    const double *t = s->model.move + 2 * (size_t)b;
+    size_t n;
+    sunder_i_solver_members(s, b, &n);
+    return !s->let_go[b] && n == 0 && t[0] == 0 && t[1] == 0 && sunder_i_union_find(s->parent, b) == b;
+}
+
+/* Corners that are farther away than the nearest coarse coordinate are drawn in for the search: seen from the
+ * neighbours their edges change by less than rounding, and products of such lengths are doubles. */
+static void hold(sunder_i_solver *s, uint32_t b, const sunder_i_body *other)
+{
+    sunder_i_body *body = &s->model.body[b];
+    const double size = sunder_i_max(other->box[2] - other->box[0], other->box[3] - other->box[1]);
+    body->held = body->fixed = true;
+    body->reach = sunder_i_min(body->reach, ldexp(size + s->model.rules.gap, 53) / COARSE_PLACES);
+    for (int c = 0; c < 4; c++) body->box[c] = sunder_i_max(-body->reach, sunder_i_min(body->box[c], body->reach));
+    sunder_i_pieces_forget(&s->model, 0);
+}
+
+void sunder_i_solver_hold(sunder_i_solver *s, uint32_t i, uint32_t j)
+{
+    sunder_i_body *body = s->model.body;
+    if (!s->let_go || body[i].fixed || body[j].fixed) return;
+    for (int e = 0; e < 2; e++) {
+        const uint32_t b = e ? j : i;
+        if (is_coarse_beside(&s->model, &body[b], &body[e ? i : j]) && is_free_to_hold(s, b))
+            hold(s, b, &body[e ? i : j]);
+    }
+}
+
+sunder_status sunder_i_solver_let_go(sunder_i_solver *s, bool *any, sunder_error *err)
+{
+    sunder_i_model *model = &s->model;
+    bool *root = sunder_i_calloc(model->bodies, sizeof *root);
+    *any = false;
+    if (!root) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < s->now.n; k++) {
+        const sunder_i_relation *r = &s->now.pair[k];
+        const uint32_t pair[2] = {model->body_of[r->a], model->body_of[r->b]};
+        if (!sunder_i_is_conflict_of_bodies(model, r)) continue;
+        for (int e = 0; e < 2; e++) {
+            sunder_i_body *body = &model->body[pair[e]];
+            if (!body->held && !s->let_go[pair[e]]) continue;
+            *any = *any || body->held;
+            if (body->held) body->held = body->fixed = false;
+            s->let_go[pair[e]] = root[sunder_i_union_find(s->parent, pair[0])] =
+                root[sunder_i_union_find(s->parent, pair[1])] = true;
+        }
+    }
+    sunder_status status = SUNDER_OK;
+    if (*any) {
+        for (uint32_t b = 0; b < model->bodies; b++) {
+            s->wanted[b] = !model->body[b].fixed && root[sunder_i_union_find(s->parent, b)];
+            s->reconsidered[b] = s->reconsidered[b] && !s->wanted[b];
+        }
+        status = sunder_i_solver_begin_again(s, s->wanted, err);
+    }
+    sunder_i_free(root);
+    return status;
+}
+
+void sunder_i_solver_end_holding(sunder_i_solver *s)
+{
+    for (size_t k = 0; k < s->groups.n; k++) {
+        sunder_i_group *g = &s->groups.group[k];
+        for (size_t m = 0; m < g->n + g->guests.n; m++)
+            if (s->model.body[m < g->n ? g->body[m] : g->guests.item[m - g->n]].held) g->bound = 0;
+    }
+    for (size_t b = 0; b < s->model.bodies; b++)
+        if (s->model.body[b].held) s->model.body[b].fixed = false;
+}

@@ -1,0 +1,178 @@
+/* What hangs together by contact: from what moved, or is in conflict, on and on to what is in contact with such.
+ *
+ * Who is in contact with whom is asked of some thousand bodies at a time, on all threads, and joined when all have been
+ * asked, in the order of the bodies. So it depends on no thread; of two that stand near each other one asks. */
+#include "displacement/solve/clusters/contact_flood.h"
+#include "displacement/layer/reads.h"
+#include "displacement/layer/resolution.h"
+#include "displacement/prove/optimum/body_contact.h"
+
+#include "base/parallel.h"
+#include "base/union_find.h"
+#include "base/watch.h"
+
+#include <string.h>
+
+/* Contacts are looked for of so many bodies, lot by lot, on all threads, before what is found is joined. */
+enum { BODIES_OF_A_LOT = 64, LOTS_AT_ONCE = 64 };
+
+typedef enum standing { ELSEWHERE, WAITS, IN_TURN, LOOKED_AT } standing;
+
+typedef struct contacts {
+    sunder_i_id_pair *pair; /* a body that was looked at, and one in contact with it */
+    size_t n, capacity;
+} contacts;
+
+typedef struct flooding {
+    sunder_i_solver *solver;
+    sunder_i_flood *out;
+    unsigned char *standing; /* [bodies] */
+    size_t turn;             /* the first of those whose turn it is */
+    contacts lot[LOTS_AT_ONCE];
+} flooding;
+
+static bool is_fixed(const flooding *f, uint32_t body) { return f->solver->model.body[body].fixed; }
+
+static bool count(flooding *f, uint32_t body)
+{
+    if (f->standing[body] != ELSEWHERE || is_fixed(f, body)) return true;
+    f->standing[body] = WAITS;
+    return sunder_i_list_push(&f->out->body, body);
+}
+
+/* What moved, and what is in conflict. */
+static bool count_all(flooding *f)
+{
+    const sunder_i_solver *s = f->solver;
+    bool ok = true;
+    for (uint32_t b = 0; b < s->model.bodies && ok; b++)
+        if (s->model.move[2 * b] != 0 || s->model.move[2 * b + 1] != 0) ok = count(f, b);
+    for (size_t k = 0; k < s->now.n && ok; k++) {
+        const sunder_i_relation *r = &s->now.pair[k];
+        if (sunder_i_is_conflict_of_bodies(&s->model, r))
+            ok = count(f, s->model.body_of[r->a]) && count(f, s->model.body_of[r->b]);
+    }
+    return ok;
+}
+
+/* Of two that are looked at the first asks, or of two at a time the lesser. */
+static bool asks(const flooding *f, uint32_t b, uint32_t other)
+{
+    return other != b && f->standing[other] != LOOKED_AT && (f->standing[other] != IN_TURN || b < other);
+}
+
+/* Bodies that stand about one. */
+static bool look_about(const flooding *f, uint32_t b, sunder_i_list *near)
+{
+    const sunder_i_model *model = &f->solver->model;
+    const sunder_i_body *body = &model->body[b];
+    double box[4];
+    near->n = 0;
+    if (body->pieces == 0) return true;
+    const double reach = model->rules.gap + sunder_i_contact_hair(model, body, body);
+    sunder_i_body_box(body, model->move + 2 * (size_t)b, reach, box);
+    sunder_i_reading reading;
+    sunder_i_reads_begin(&reading, model, b);
+    const bool ok = sunder_i_look_about(model, model->standing, box, near);
+    sunder_i_reads_end(&reading);
+    if (!ok) near->n = 0;
+    sunder_i_things_to_bodies(model, near);
+    return ok;
+}
+
+static bool find_contacts(const flooding *f, uint32_t b, sunder_i_list *near, contacts *out)
+{
+    const sunder_i_model *model = &f->solver->model;
+    if (!look_about(f, b, near)) return false;
+    for (size_t k = 0; k < near->n; k++) {
+        const uint32_t other = near->item[k];
+        bool contact = false;
+        if (!asks(f, b, other)) continue;
+        if (!sunder_i_are_in_contact(model, b, other, model->move + 2 * (size_t)b, model->move + 2 * (size_t)other,
+                                     &contact))
+            return false;
+        if (!contact) continue;
+        if (!sunder_i_reserve(&out->pair, &out->capacity, out->n + 1, sizeof *out->pair)) return false;
+        out->pair[out->n++] = (sunder_i_id_pair){b, other};
+    }
+    return true;
+}
+
+static sunder_status find_contacts_of_lots(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    flooding *f = context;
+    sunder_i_list near = {0};
+    bool ok = true;
+    for (size_t lot = begin; lot < end && ok; lot++) {
+        const size_t first = f->turn + lot * BODIES_OF_A_LOT;
+        f->lot[lot].n = 0;
+        for (size_t k = first; k < first + BODIES_OF_A_LOT && k < f->out->body.n && ok; k++)
+            ok = sunder_i_step() && find_contacts(f, f->out->body.item[k], &near, &f->lot[lot]);
+    }
+    sunder_i_free(near.item);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+/* Joins two that are in contact. Fixed ones join none. */
+static bool join(flooding *f, const sunder_i_id_pair *pair)
+{
+    if (is_fixed(f, pair->b)) {
+        if (!sunder_i_reserve(&f->out->touch, &f->out->touch_capacity, f->out->touches + 1, sizeof *f->out->touch))
+            return false;
+        f->out->touch[f->out->touches++] = *pair;
+        return true;
+    }
+    sunder_i_union_join(f->out->parent, pair->a, pair->b);
+    return count(f, pair->b);
+}
+
+/* As many as there are lots for, or are left, in the order of the queue. */
+static sunder_status take_turn(flooding *f, sunder_error *err)
+{
+    const size_t all = (size_t)BODIES_OF_A_LOT * LOTS_AT_ONCE, left = f->out->body.n - f->turn;
+    const size_t n = left < all ? left : all, lots = (n + BODIES_OF_A_LOT - 1) / BODIES_OF_A_LOT;
+    for (size_t k = 0; k < n; k++) f->standing[f->out->body.item[f->turn + k]] = IN_TURN;
+    const sunder_status status =
+        sunder_i_parallel(f->solver->model.rules.threads, lots, SUNDER_I_GRAIN_WHOLE, find_contacts_of_lots, f, err);
+    if (status) return status;
+    for (size_t k = 0; k < n; k++) f->standing[f->out->body.item[f->turn + k]] = LOOKED_AT;
+    f->turn += n;
+    for (size_t lot = 0; lot < lots; lot++)
+        for (size_t k = 0; k < f->lot[lot].n; k++)
+            if (!join(f, &f->lot[lot].pair[k])) return sunder_i_no_memory(err);
+    sunder_i_pieces_forget(&f->solver->model, SUNDER_I_PIECES_HELD);
+    return SUNDER_OK;
+}
+
+static sunder_status flood(flooding *f, sunder_error *err)
+{
+    const sunder_i_groups *groups = &f->solver->groups;
+    sunder_i_union_init(f->out->parent, f->solver->model.bodies);
+    if (!count_all(f)) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < groups->joins; k++) {
+        const sunder_i_id_pair *joined = &groups->joined[k];
+        sunder_i_union_join(f->out->parent, joined->a, joined->b);
+        if (!count(f, joined->a) || !count(f, joined->b)) return sunder_i_no_memory(err);
+    }
+    sunder_status status = SUNDER_OK;
+    while (f->turn < f->out->body.n && !status) status = take_turn(f, err);
+    return status;
+}
+
+sunder_status sunder_i_flood_contacts(sunder_i_solver *s, sunder_i_flood *out, sunder_error *err)
+{
+    flooding f = {.solver = s, .out = out, .standing = sunder_i_calloc(s->model.bodies, sizeof *f.standing)};
+    *out = (sunder_i_flood){.parent = sunder_i_alloc(s->model.bodies, sizeof *out->parent)};
+    const sunder_status status = f.standing && out->parent ? flood(&f, err) : sunder_i_no_memory(err);
+    for (size_t k = 0; k < LOTS_AT_ONCE; k++) sunder_i_free(f.lot[k].pair);
+    sunder_i_free(f.standing);
+    return status;
+}
+
+void sunder_i_flood_free(sunder_i_flood *f)
+{
+    sunder_i_free(f->parent);
+    sunder_i_free(f->body.item);
+    sunder_i_free(f->touch);
+    memset(f, 0, sizeof *f);
+}

@@ -1,0 +1,18 @@
+/* What hangs together by contact in a layout (contact_groups.c makes groups of it). */
+#ifndef SUNDER_I_CONTACT_FLOOD_H
+#define SUNDER_I_CONTACT_FLOOD_H
+
+#include "displacement/solve/clusters/solver.h"
+
+typedef struct sunder_i_flood {
+    uint32_t *parent;        /* [bodies] union-find; fixed ones are by themselves */
+    sunder_i_list body;      /* that moved, are in conflict, or in contact with such, and may move */
+    sunder_i_id_pair *touch; /* one of these, and a fixed one in contact with it */
+    size_t touches, touch_capacity;
+} sunder_i_flood;
+
+/* From the solver's moves and relations, with what its groups have joined; to be freed in any case. */
+sunder_status sunder_i_flood_contacts(sunder_i_solver *solver, sunder_i_flood *out, sunder_error *err);
+void sunder_i_flood_free(sunder_i_flood *flood);
+
+#endif

@@ -1,0 +1,208 @@
+/* Contact groups: what hangs together by contact in the layout, of what moved or is in conflict, and what stands in
+ * contact with such; or what a proof takes together.
+ *
+ * Fixed bodies join none, and are members of all that they are in contact with: they stand in the way of these. A group
+ * is known by the least of its bodies that may move, so that its name does not depend on others, and one that did not
+ * change from one round to the next keeps its proof. */
+#include "displacement/solve/clusters/contact_flood.h"
+#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/tuning.h"
+#include "displacement/solve/search/shake.h"
+
+#include "base/union_find.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void sunder_i_groups_free(sunder_i_groups *g)
+{
+    for (size_t k = 0; k < g->n; k++) sunder_i_group_free(&g->group[k]);
+    sunder_i_free(g->group);
+    sunder_i_free(g->of);
+    sunder_i_free(g->waived);
+    sunder_i_free(g->joined);
+    sunder_i_free(g->spent);
+    sunder_i_free(g->blunt);
+    sunder_i_free(g->shaken);
+    sunder_i_free(g->seamed);
+    memset(g, 0, sizeof *g);
+}
+
+typedef struct gathering {
+    const sunder_i_solver *solver;
+    sunder_i_flood flood;
+    sunder_i_id_pair *member; /* a group's root, and a body of it */
+    size_t members, capacity;
+} gathering;
+
+static bool add_member(gathering *g, uint32_t of, uint32_t body)
+{
+    const uint32_t root = sunder_i_union_find(g->flood.parent, of);
+    if (!sunder_i_reserve(&g->member, &g->capacity, g->members + 1, sizeof *g->member)) return false;
+    g->member[g->members++] = (sunder_i_id_pair){root, body};
+    return true;
+}
+
+static bool list_members(gathering *g)
+{
+    bool ok = true;
+    const sunder_i_flood *f = &g->flood;
+    for (size_t k = 0; k < f->body.n && ok; k++) ok = add_member(g, f->body.item[k], f->body.item[k]);
+    for (size_t k = 0; k < f->touches && ok; k++) ok = add_member(g, f->touch[k].a, f->touch[k].b);
+    if (ok && g->members) qsort(g->member, g->members, sizeof *g->member, sunder_i_by_id_pair);
+    size_t out = 0;
+    for (size_t k = 0; k < g->members; k++)
+        if (k == 0 || sunder_i_by_id_pair(&g->member[k - 1], &g->member[k])) g->member[out++] = g->member[k];
+    g->members = out;
+    return ok;
+}
+
+/* Do those that were shaken pay for nearly all that it costs? */
+static bool is_tired(const sunder_i_solver *s, const sunder_i_group *g)
+{
+    double all = 0, tired = 0;
+    for (size_t k = 0; k < g->n; k++) {
+        const sunder_i_body *b = &s->model.body[g->body[k]];
+        const double *t = g->move + 2 * k, cost = b->fixed ? 0 : b->weight * (t[0] * t[0] + t[1] * t[1]);
+        all += cost;
+        if (s->groups.shaken[g->body[k]]) tired += cost;
+    }
+    return tired > MOSTLY_SHAKEN * all;
+}
+
+/* The group of these members, as they stand; it is known by the least of them that may move, so that its name does not
+ * depend on others. */
+static sunder_status make_group(const sunder_i_solver *s, const sunder_i_id_pair *member, size_t n, sunder_i_group *out,
+                                sunder_error *err)
+{
+    out->body = sunder_i_alloc(n, sizeof *out->body);
+    out->move = sunder_i_alloc(2 * n, sizeof *out->move);
+    if (!out->body || !out->move) return sunder_i_no_memory(err);
+    out->n = n;
+    out->number = SUNDER_I_NOBODY;
+    for (size_t k = 0; k < n; k++) {
+        const uint32_t b = out->body[k] = member[k].b;
+        memcpy(out->move + 2 * k, s->model.move + 2 * (size_t)b, 2 * sizeof *out->move);
+        out->blunt = out->blunt || s->groups.blunt[b];
+        if (out->number == SUNDER_I_NOBODY && !s->model.body[b].fixed) out->number = b;
+    }
+    out->margin = sunder_i_solver_margin(s, out->body, n);
+    out->tired = is_tired(s, out);
+    return SUNDER_OK;
+}
+
+/* A group of the last round that is the same in all that counts, and so keeps its proof. */
+static void keep_proof(sunder_i_group *old, sunder_i_group *now)
+{
+    if (!old->done || old->joins.n || old->n != now->n || memcmp(old->body, now->body, old->n * sizeof *old->body) ||
+        memcmp(old->move, now->move, 2 * old->n * sizeof *old->move))
+        return;
+    const sunder_i_group kept = *old;
+    *old = *now;
+    *now = kept;
+}
+
+/* The number of the group that all bodies of an old one are of, but for such as stand alone now, and no guest of
+ * another's; SUNDER_I_NOBODY: there is none. */
+static uint32_t heir_of(const sunder_i_model *model, const sunder_i_group *old, const uint32_t *of)
+{
+    const uint32_t heir = of[old->number];
+    for (size_t m = 0; m < old->n + old->guests.n; m++) {
+        const uint32_t b = m < old->n ? old->body[m] : old->guests.item[m - old->n];
+        if (!model->body[b].fixed && of[b] != heir && of[b] != SUNDER_I_NOBODY) return SUNDER_I_NOBODY;
+    }
+    return heir;
+}
+
+/* What was proved of bodies holds wherever they stand. So a group knows what was proved of all those that went into
+ * it, until more is proved of it; one of them that stands alone now is its guest. at: the places of the groups by
+ * number. */
+static bool hand_on(const sunder_i_model *model, sunder_i_groups *old, sunder_i_groups *now, const uint32_t *at)
+{
+    bool ok = true;
+    for (size_t k = 0; k < old->n && ok; k++) {
+        sunder_i_group *g = &old->group[k];
+        const uint32_t heir = g->bound > 0 || g->shaken_at > 0 ? heir_of(model, g, now->of) : SUNDER_I_NOBODY;
+        if (heir == SUNDER_I_NOBODY) continue;
+        sunder_i_group *to = &now->group[at[heir]];
+        if (to->done) continue;
+        to->shaken_at += g->shaken_at;
+        if (!(g->bound > 0)) continue;
+        to->bound = to->bound > 0 ? nextafter(to->bound + g->bound, -INFINITY) : g->bound;
+        to->asked += g->asked;
+        for (size_t m = 0; m < g->n && ok; m++)
+            if (!model->body[g->body[m]].fixed && now->of[g->body[m]] == SUNDER_I_NOBODY)
+                ok = sunder_i_list_push(&to->guests, g->body[m]);
+        for (size_t m = 0; m < g->guests.n && ok; m++) ok = sunder_i_list_push(&to->guests, g->guests.item[m]);
+        to->guests.n = sunder_i_set_make(to->guests.item, to->guests.n);
+        ok = ok && sunder_i_bound_trees_take(&to->trees, &g->trees);
+    }
+    return ok;
+}
+
+/* The place of the group of each number; scratch of as many as there are bodies. */
+static void index_groups(const sunder_i_groups *old, uint32_t *at, size_t bodies)
+{
+    for (size_t b = 0; b < bodies; b++) at[b] = SUNDER_I_NOBODY;
+    for (size_t k = 0; k < old->n; k++) at[old->group[k].number] = (uint32_t)k;
+}
+
+static size_t count_groups(const gathering *g)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < g->members; k++) n += k == 0 || g->member[k].a != g->member[k - 1].a;
+    return n;
+}
+
+static sunder_status make_groups(const gathering *g, sunder_i_groups *groups, sunder_error *err)
+{
+    const sunder_i_solver *s = g->solver;
+    uint32_t *at = sunder_i_alloc(s->model.bodies, sizeof *at);
+    sunder_i_groups made = {.group = sunder_i_calloc(count_groups(g), sizeof *made.group),
+                            .of = sunder_i_alloc(s->model.bodies, sizeof *made.of)};
+    sunder_status status = made.group && made.of && at ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) index_groups(groups, at, s->model.bodies);
+    for (size_t b = 0; !status && b < s->model.bodies; b++) made.of[b] = SUNDER_I_NOBODY;
+    for (size_t first = 0, end; first < g->members && !status; first = end) {
+        for (end = first; end < g->members && g->member[end].a == g->member[first].a; end++) {
+        }
+        sunder_i_group *group = &made.group[made.n++];
+        status = make_group(s, g->member + first, end - first, group, err);
+        if (status) break;
+        group->search = &sunder_i_group_search;
+        if (at[group->number] != SUNDER_I_NOBODY) keep_proof(&groups->group[at[group->number]], group);
+        for (size_t k = 0; k < group->n; k++)
+            if (!s->model.body[group->body[k]].fixed) made.of[group->body[k]] = group->number;
+    }
+    if (!status) index_groups(&made, at, s->model.bodies);
+    if (!status && !hand_on(&s->model, groups, &made, at)) status = sunder_i_no_memory(err);
+    sunder_i_free(at);
+    if (status) {
+        sunder_i_groups_free(&made);
+        return status;
+    }
+    sunder_i_groups now = *groups;
+    now.group = made.group;
+    now.n = made.n;
+    now.of = made.of;
+    *groups = (sunder_i_groups){.group = groups->group, .n = groups->n, .of = groups->of};
+    sunder_i_groups_free(groups);
+    *groups = now;
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_solver_gather_groups(sunder_i_solver *s, sunder_error *err)
+{
+    gathering g = {.solver = s};
+    if (!s->groups.spent) s->groups.spent = sunder_i_calloc(s->model.bodies, sizeof *s->groups.spent);
+    if (!s->groups.blunt) s->groups.blunt = sunder_i_calloc(s->model.bodies, sizeof *s->groups.blunt);
+    if (!s->groups.shaken) s->groups.shaken = sunder_i_calloc(s->model.bodies, sizeof *s->groups.shaken);
+    if (!s->groups.seamed) s->groups.seamed = sunder_i_calloc(s->model.bodies, sizeof *s->groups.seamed);
+    const bool ok = s->groups.spent && s->groups.blunt && s->groups.shaken && s->groups.seamed;
+    sunder_status status = ok ? sunder_i_flood_contacts(s, &g.flood, err) : sunder_i_no_memory(err);
+    if (!status && !list_members(&g)) status = sunder_i_no_memory(err);
+    if (!status) status = make_groups(&g, &s->groups, err);
+    sunder_i_flood_free(&g.flood);
+    sunder_i_free(g.member);
+    return status;
+}

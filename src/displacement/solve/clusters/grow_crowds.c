@@ -1,0 +1,155 @@
+/* Crowds take in whom they will run into before any of them is solved.
+ *
+ * What lies on each other in thousands comes apart over the ground of hundreds more, which a crowd finds out when it
+ * is solved: then all of it begins anew with them, and what was solved so far was in vain. Prices of area, on a coarse
+ * grid, tell as much in a fraction of the time: whose rough place is near somebody of another cluster, or alone, takes
+ * him in.
+ * Of Italy's 10,000 symbols one crowd of 1,750 was solved, then 3,032, and then 4,323; now 4,400 are at once.
+ *
+ * Boxes decide, and nothing is exact: who is taken in without need is solved with the crowd as he would be without it,
+ * and who is missed joins in the next round, as anywhere. Only those are taken in that may go anywhere, with all of
+ * their clusters: of what is held no crowd begins where prices put it. */
+#include "displacement/prove/areas/areas.h"
+#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/tuning.h"
+
+#include "base/extremes.h"
+#include "base/union_find.h"
+#include "spatial/rtree.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct growth {
+    sunder_i_solver *solver;
+    bool *placed;        /* [bodies] those of crowds that have rough places ... */
+    double *box;         /* [4 * bodies] ... and what they occupy there */
+    sunder_i_rtree tree; /* of these boxes */
+    bool *held;          /* [bodies] who may not go anywhere, or is of a cluster in which somebody may not */
+    sunder_i_list near;  /* scratch */
+} growth;
+
+/* Smaller ones begin anew at any growth, which takes them next to no time. */
+static bool is_large_crowd(const sunder_i_solver *s, const sunder_i_cluster *c)
+{
+    return c->crowd && c->n > LARGE_GROWN_CROWD && sunder_i_solver_any_of(s, c->body, c->n, s->dirty);
+}
+
+/* The rough places of one crowd after the other, as boxes. */
+static sunder_status place_crowds(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    growth *g = context;
+    const sunder_i_model *model = &g->solver->model;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = begin; k < end && !status; k++) {
+        const sunder_i_cluster *c = &g->solver->cluster[k];
+        if (!is_large_crowd(g->solver, c)) continue;
+        double *move = sunder_i_solver_load_moves(g->solver, c);
+        bool found = false;
+        status = sunder_i_areas_places(model, c->body, c->n, true, move, &found, err);
+        for (size_t m = 0; m < c->n && found && !status; m++) {
+            const uint32_t b = c->body[m];
+            g->placed[b] = true;
+            const sunder_i_body *body = &model->body[b];
+            const double size = sunder_i_max(body->box[2] - body->box[0], body->box[3] - body->box[1]);
+            sunder_i_body_box(body, move + 2 * m, model->rules.gap / 2 + CROWD_GROWN_BY * size, g->box + 4 * (size_t)b);
+        }
+    }
+    return status;
+}
+
+static void find_held(growth *g)
+{
+    const sunder_i_solver *s = g->solver;
+    for (size_t b = 0; b < s->model.bodies; b++) {
+        const sunder_i_body *body = &s->model.body[b];
+        g->held[b] = !sunder_i_may_move(body) || body->pinned || body->limit < INFINITY || (s->aside && s->aside[b]);
+    }
+    for (size_t k = 0; k < s->clusters; k++)
+        for (size_t m = 0; m < s->cluster[k].n && s->cluster[k].limited; m++) g->held[s->cluster[k].body[m]] = true;
+}
+
+static bool may_join(const growth *g, uint32_t b, uint32_t other)
+{
+    return !g->held[other] &&
+           sunder_i_union_find(g->solver->parent, b) != sunder_i_union_find(g->solver->parent, other);
+}
+
+/* Whom a crowd's body runs into at its place: others of crowds at theirs, and all else where it stands. */
+static bool meet(growth *g, uint32_t b)
+{
+    sunder_i_solver *s = g->solver;
+    const double *box = g->box + 4 * (size_t)b;
+    double about[4];
+    g->near.n = 0;
+    if (!sunder_i_rtree_query(&g->tree, box, &g->near)) return false;
+    for (size_t k = 0; k < g->near.n; k++)
+        if (may_join(g, b, g->near.item[k]) && !sunder_i_solver_add_edge(s, b, g->near.item[k])) return false;
+    sunder_i_box_grow(box, s->model.rules.gap / 2, about);
+    g->near.n = 0;
+    if (!sunder_i_look_about(&s->model, &s->placement.tree, about, &g->near)) return false;
+    for (size_t k = 0; k < g->near.n; k++) {
+        const uint32_t j = s->model.body_of[g->near.item[k]];
+        if (g->placed[j] || !may_join(g, b, j)) continue;
+        if (!sunder_i_solver_add_edge(s, b, j)) return false;
+    }
+    return true;
+}
+
+static bool meet_all(growth *g)
+{
+    const sunder_i_solver *s = g->solver;
+    bool ok = true;
+    for (size_t k = 0; k < s->clusters && ok; k++) {
+        const sunder_i_cluster *c = &s->cluster[k];
+        if (!is_large_crowd(s, c)) continue;
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
+        for (size_t m = 0; m < c->n && ok; m++)
+            if (g->placed[c->body[m]]) ok = meet(g, c->body[m]);
+        sunder_i_reads_end(&reading);
+    }
+    return ok;
+}
+
+/* One round: *any, if crowds are others now. */
+static sunder_status grow(growth *g, bool *any, sunder_error *err)
+{
+    sunder_i_solver *s = g->solver;
+    const size_t edges = s->edges;
+    memset(g->placed, 0, s->model.bodies * sizeof *g->placed);
+    sunder_status status = sunder_i_solver_for_clusters(s, place_crowds, g, err);
+    if (!status) status = sunder_i_rtree_build(g->box, g->placed, s->model.bodies, &g->tree, err);
+    if (status) return status;
+    find_held(g);
+    if (!meet_all(g)) status = sunder_i_no_memory(err);
+    sunder_i_rtree_free(&g->tree);
+    *any = s->edges > edges;
+    if (!status && *any) status = sunder_i_solver_gather(s, err);
+    if (!status && *any) status = sunder_i_solver_unite_blocks(s, err);
+    return status;
+}
+
+static bool any_large_crowd(const sunder_i_solver *s)
+{
+    for (size_t k = 0; k < s->clusters; k++)
+        if (is_large_crowd(s, &s->cluster[k])) return true;
+    return false;
+}
+
+sunder_status sunder_i_solver_grow_crowds(sunder_i_solver *s, sunder_error *err)
+{
+    if (!any_large_crowd(s)) return SUNDER_OK;
+    growth g = {.solver = s,
+                .placed = sunder_i_alloc(s->model.bodies, sizeof *g.placed),
+                .box = sunder_i_alloc(4 * s->model.bodies, sizeof *g.box),
+                .held = sunder_i_alloc(s->model.bodies, sizeof *g.held)};
+    sunder_status status = g.placed && g.box && g.held ? SUNDER_OK : sunder_i_no_memory(err);
+    bool any = true;
+    for (int k = 0; k < CROWDS_GROWN && any && !status; k++) status = grow(&g, &any, err);
+    sunder_i_free(g.placed);
+    sunder_i_free(g.box);
+    sunder_i_free(g.held);
+    sunder_i_free(g.near.item);
+    return status;
+}

@@ -1,0 +1,26 @@
+/* What lies in two features that have to part, with leave to overlap both, is kept in one of them; which one, is for
+ * layer/inclusion.c. */
+#include "displacement/layer/resolution.h"
+#include "displacement/solve/clusters/stages.h"
+
+/* Was one that may move in a cluster for which better sides were looked for? It has a place that it keeps, and its
+ * holder. */
+static bool is_settled(const sunder_i_solver *s, const uint32_t pair[2])
+{
+    return sunder_i_solver_any_of(s, pair, 2, s->improved);
+}
+
+sunder_status sunder_i_solver_choose_holders(sunder_i_solver *s, sunder_error *err)
+{
+    if (s->model.inclusions == 0) return SUNDER_OK;
+    bool *conflict = sunder_i_calloc(s->start.n, sizeof *conflict);
+    if (!conflict) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < s->start.n; k++) {
+        const uint32_t pair[2] = {s->model.body_of[s->start.pair[k].a], s->model.body_of[s->start.pair[k].b]};
+        conflict[k] = sunder_i_solver_any_of(s, pair, 2, s->wanted) && !is_settled(s, pair) &&
+                      sunder_i_is_open_conflict(&s->model, &s->start.pair[k]);
+    }
+    const sunder_status status = sunder_i_inclusions_choose(&s->model, &s->start, conflict, err);
+    sunder_i_free(conflict);
+    return status;
+}

@@ -1,0 +1,79 @@
+/* Contact without a margin.
+ *
+ * The search asks for a margin beyond what pairs owe, so that rounding does not eat into it, and bodies stand that much
+ * too far apart. Where coordinates and what is owed are multiples of a step that is coarse beside rounding, doubles
+ * hold places in exact contact, and rows of bodies in contact are put there (../../prove/optimum/tight_place.c). A
+ * contact group takes these places if they cost less and hold exactly (trial.c). Two features that are alone stand in
+ * contact already (../search/lone_pair.c). */
+#include "displacement/prove/optimum/optimum.h"
+#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/trial.h"
+
+#include <string.h>
+
+/* The places of the group's bodies in exact contact; *found. move: [2 * n] as they stand, then those places. */
+static sunder_status find_places(const sunder_i_solver *s, const sunder_i_group *g, double *move, bool *found,
+                                 sunder_error *err)
+{
+    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n, s->groups.seamed};
+    bool may;
+    *found = false;
+    if (!sunder_i_may_be_tight(&s->model, g->body, g->n, &may)) return sunder_i_no_memory(err);
+    if (!may) return SUNDER_OK;
+    return sunder_i_tight_place(&s->model, &waived, g->body, g->n, g->margin, move, found) ? SUNDER_OK
+                                                                                           : sunder_i_no_memory(err);
+}
+
+/* What the moves cost more than those that the bodies have; a difference of two numbers that are nearly equal, so it is
+ * added up body by body. */
+static double dearer(const sunder_i_model *model, const sunder_i_group *g, const double *move)
+{
+    double more = 0;
+    for (size_t k = 0; k < g->n; k++) {
+        const double *to = move + 2 * k, *at = model->move + 2 * (size_t)g->body[k];
+        for (size_t c = 0; c < 2; c++) more += model->body[g->body[k]].weight * ((to[c] - at[c]) * (to[c] + at[c]));
+    }
+    return more;
+}
+
+static sunder_status put_in_contact(sunder_i_solver *s, const sunder_i_group *g, sunder_error *err)
+{
+    const double none[2] = {0, 0};
+    const sunder_i_cluster bodies = {.body = g->body, .n = g->n};
+    sunder_i_trial t = {.solver = s};
+    double *move = sunder_i_alloc(2 * g->n, sizeof *move);
+    if (!move) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < g->n; k++) memcpy(move + 2 * k, s->model.move + 2 * (size_t)g->body[k], 2 * sizeof *move);
+    bool found;
+    sunder_i_reading reading;
+    sunder_i_reads_begin(&reading, &s->model, g->number);
+    sunder_status status = find_places(s, g, move, &found, err);
+    sunder_i_reads_end(&reading);
+    if (!status && found && dearer(&s->model, g, move) < 0) {
+        if (!sunder_i_trial_take_moved(&t, &bodies, move)) status = sunder_i_no_memory(err);
+        if (!status) status = sunder_i_trial_place(&t, none, err);
+    }
+    sunder_i_trial_free(&t);
+    sunder_i_free(move);
+    return status;
+}
+
+static bool has_moved(const sunder_i_model *model, const sunder_i_group *g)
+{
+    for (size_t k = 0; k < g->n; k++) {
+        const double *t = model->move + 2 * (size_t)g->body[k];
+        if (t[0] != 0 || t[1] != 0) return true;
+    }
+    return false;
+}
+
+sunder_status sunder_i_solver_put_in_contact(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < s->groups.n && !status; k++) {
+        const sunder_i_group *g = &s->groups.group[k];
+        if (sunder_i_solver_any_of(s, g->body, g->n, s->wanted) && has_moved(&s->model, g))
+            status = put_in_contact(s, g, err);
+    }
+    return status;
+}

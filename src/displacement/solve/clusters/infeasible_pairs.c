@@ -1,0 +1,103 @@
+/* What limits and fixed bodies leave no solution for by itself: pairs that no admissible moves resolve, found exactly
+ * before anything moves. (What clusters give up later: given_up.c.) */
+#include "displacement/layer/barrier_pairs.h"
+#include "displacement/solve/clusters/stages.h"
+
+#include "base/extremes.h"
+#include "base/parallel.h"
+
+#include <math.h>
+
+typedef struct judging {
+    const sunder_i_solver *solver;
+    const sunder_i_model *model;
+    const sunder_i_spared *spared; /* NULL: none */
+    const sunder_i_relations *start;
+    sunder_i_relaxation *relaxation; /* [start->n] infeasible ones are filled */
+    sunder_i_resolution *resolution; /* [start->n] */
+} judging;
+
+/* Is there surely a move of no more than `reach` that takes b's box the gap off a's? It spares the exact question. */
+static bool boxes_can_part(const double *a, const double *b, double gap, double reach)
+{
+    const double out = sunder_i_min(sunder_i_min(a[2] - b[0], b[2] - a[0]), sunder_i_min(a[3] - b[1], b[3] - a[1]));
+    return out + gap < reach * (1 - 0x1p-40);
+}
+
+/* What is left as it is will be relaxed, whatever its limits; unless it may go inside, which is asked here. */
+static bool is_left(const judging *g, const sunder_i_relation *r)
+{
+    return g->spared && !sunder_i_may_be_inside(&g->model->rules) &&
+           sunder_i_solver_is_spared(g->solver, g->spared, r->a, r->b);
+}
+
+static sunder_status judge(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const judging *g = context;
+    const sunder_i_model *model = g->model;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = begin; k < end && !status; k++) {
+        const sunder_i_relation *r = &g->start->pair[k];
+        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+        const double limit[2] = {sunder_i_limit_of(&model->body[i]), sunder_i_limit_of(&model->body[j])},
+                     reach = limit[0] + limit[1];
+        if (!sunder_i_is_open_conflict(model, r) || reach == INFINITY || is_left(g, r) ||
+            (!sunder_i_is_barrier(model, r->b) &&
+             boxes_can_part(sunder_i_home_box(model, r->a), sunder_i_home_box(model, r->b), model->rules.gap, reach)))
+            continue;
+        status = sunder_i_resolve_within(model, r->a, r->b, limit, &g->resolution[k], err);
+        if (status || !g->resolution[k].beyond) continue;
+        status = sunder_i_relaxation_of(model, r->a, r->b, &g->relaxation[k], err);
+        g->relaxation[k].infeasible = true;
+    }
+    return status;
+}
+
+/* Of another part of the same barrier, just before. */
+static bool is_known(const sunder_i_relaxations *list, const sunder_i_relaxation *t)
+{
+    for (size_t k = list->n; k > 0 && list->item[k - 1].a == t->a; k--)
+        if (list->item[k - 1].b == t->b) return true;
+    return false;
+}
+
+/* Takes over what was found of pair r. */
+static sunder_status note(sunder_i_solver *s, const sunder_i_relation *r, const sunder_i_relaxation *relaxation,
+                          const sunder_i_resolution *resolution, sunder_error *err)
+{
+    sunder_i_model *model = &s->model;
+    if (relaxation->infeasible && is_known(&model->relaxations, relaxation)) return SUNDER_OK;
+    if (relaxation->infeasible)
+        return sunder_i_relaxations_spread(&model->relaxations, model, relaxation, model->rules.gap)
+                   ? SUNDER_OK
+                   : sunder_i_no_memory(err);
+    const sunder_i_body *p = &model->body[model->body_of[r->a]], *q = &model->body[model->body_of[r->b]];
+    const double reach = sunder_i_limit_of(p) + sunder_i_limit_of(q);
+    if (!resolution->apart_beyond || !resolution->inside || hypot(resolution->place[0], resolution->place[1]) > reach)
+        return SUNDER_OK;
+    if (!sunder_i_reserve(&s->entry, &s->entry_capacity, s->entries + 1, sizeof *s->entry))
+        return sunder_i_no_memory(err);
+    s->entry[s->entries++] =
+        (sunder_i_entry){r->a, r->b, resolution->a_inside, {resolution->place[0], resolution->place[1]}};
+    return sunder_i_inclusions_add(model, r->a, r->b, resolution->a_inside, err);
+}
+
+sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *s, const sunder_i_spared *spared, sunder_error *err)
+{
+    const size_t n = s->start.n;
+    judging g = {.solver = s,
+                 .model = &s->model,
+                 .spared = spared,
+                 .start = &s->start,
+                 .relaxation = sunder_i_calloc(n, sizeof *g.relaxation),
+                 .resolution = sunder_i_calloc(n, sizeof *g.resolution)};
+    sunder_status status = g.relaxation && g.resolution ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) status = sunder_i_inclusions_note_nested(&s->model, &s->start, err);
+    if (!status) status = sunder_i_parallel(s->model.rules.threads, n, SUNDER_I_GRAIN_PAIRS, judge, &g, err);
+    for (size_t k = 0; !status && k < n; k++)
+        status = note(s, &s->start.pair[k], &g.relaxation[k], &g.resolution[k], err);
+    if (!status && !sunder_i_relaxations_index(&s->model.relaxations, &s->model)) status = sunder_i_no_memory(err);
+    sunder_i_free(g.relaxation);
+    sunder_i_free(g.resolution);
+    return status;
+}

@@ -1,0 +1,277 @@
+/* Limits of moves: first the layer is solved as if it had none.
+ *
+ * Whatever keeps its limits in that solution is left as it is: so limits that nothing oversteps make no difference,
+ * and a limit is never the reason for a worse solution than is known without it. Only what oversteps them goes back
+ * to where it came from, with all that the search found it to hang together with, and is solved again within its
+ * limits.
+ *
+ * Pairs that no moves within the limits can part would be parted in vain: what hangs together with one at the start
+ * is set aside meanwhile. If others run into it, they go back too. So is a cluster that would become part of a crowd
+ * from where it costs more than if each of its bodies stood at its limit, which is more than any solution within them
+ * costs: it goes home, and pushes nobody about from where it could not stay. (A town of terraces, house by house, grew
+ * into one cluster of thousands, all on their way out of town.)
+ *
+ * With barriers limits are kept from the start: in a net of roads the free place beyond a limit is mostly several
+ * blocks away, and to find it takes long (by measurement; what it would gain is taken back for the limit anyway). */
+#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/tuning.h"
+
+#include "base/union_find.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- Without limits ---------------------------------------------------------------------------------------------- */
+
+/* Marks what hangs together with a pair that limits cannot part; relaxations wait until the limits are back. */
+static bool set_aside(sunder_i_solver *s)
+{
+    sunder_i_model *model = &s->model;
+    const uint32_t *root = sunder_i_solver_conflict_roots(s);
+    bool *hard = sunder_i_calloc(model->bodies, sizeof *hard);
+    const bool ok = root && hard;
+    s->waiting = model->relaxations;
+    memset(&model->relaxations, 0, sizeof model->relaxations);
+    if (ok) {
+        for (size_t k = 0; k < s->waiting.n; k++) {
+            hard[root[model->body_of[s->waiting.item[k].a]]] = true;
+            hard[root[model->body_of[s->waiting.item[k].b]]] = true;
+        }
+        for (size_t k = 0; k < s->entries; k++)
+            hard[root[model->body_of[s->entry[k].a]]] = hard[root[model->body_of[s->entry[k].b]]] = true;
+        for (size_t b = 0; b < model->bodies; b++) s->aside[b] = !model->body[b].fixed && hard[root[b]];
+    }
+    sunder_i_free(hard);
+    return ok;
+}
+
+sunder_status sunder_i_solver_lift_limits(sunder_i_solver *s, bool *lifted, sunder_error *err)
+{
+    sunder_i_model *model = &s->model;
+    *lifted = false;
+    for (size_t b = 0; b < model->bodies; b++)
+        *lifted = *lifted || (!model->body[b].fixed && model->body[b].limit < INFINITY);
+    *lifted = *lifted && s->barriers.parts == 0;
+    if (!*lifted) return SUNDER_OK;
+    s->limit = sunder_i_alloc(model->bodies, sizeof *s->limit);
+    s->aside = sunder_i_calloc(model->bodies, sizeof *s->aside);
+    s->went = sunder_i_calloc(2 * model->bodies, sizeof *s->went);
+    if (!s->limit || !s->aside || !s->went || !set_aside(s)) return sunder_i_no_memory(err);
+    for (size_t b = 0; b < model->bodies; b++) {
+        s->limit[b] = model->body[b].limit;
+        if (!model->body[b].fixed) model->body[b].limit = INFINITY;
+    }
+    return SUNDER_OK;
+}
+
+/* ---- What went too far ------------------------------------------------------------------------------------------- */
+
+static void send_home(sunder_i_solver *s, const bool *back)
+{
+    sunder_i_model *model = &s->model;
+    const double home[2] = {0, 0};
+    sunder_i_changes_clear(&s->changes);
+    for (uint32_t b = 0; b < model->bodies; b++) {
+        if (!back[b]) continue;
+        sunder_i_solver_place(s, b, home);
+        model->body[b].pinned = false;
+        s->widened[b] = 0;
+        s->improved[b] = false;
+        s->carrier[b] = SUNDER_I_NOBODY;
+    }
+    for (size_t k = 0; k < model->inclusions; k++) {
+        sunder_i_inclusion *pair = &model->inclusion[k];
+        if (back[model->body_of[pair->a]] || back[model->body_of[pair->b]])
+            pair->state = pair->enters ? SUNDER_I_STRICT : SUNDER_I_LENIENT;
+    }
+}
+
+/* Does the cluster's solution cost more than any within the limits? */
+static bool is_beyond_use(const sunder_i_solver *s, const sunder_i_cluster *c)
+{
+    double cost = 0, most = 0;
+    for (size_t k = 0; k < c->n; k++) {
+        const uint32_t b = c->body[k];
+        const sunder_i_body *body = &s->model.body[b];
+        const double *t = s->model.move + 2 * (size_t)b;
+        if (body->fixed) continue;
+        cost += body->weight * (t[0] * t[0] + t[1] * t[1]);
+        most += body->weight * s->limit[b] * s->limit[b];
+    }
+    return cost > most;
+}
+
+/* Of two bodies that met, of different clusters: these would be one from now on. */
+static void note_running(const sunder_i_solver *s, uint32_t i, uint32_t j, uint32_t *root)
+{
+    if (s->aside[i] || s->aside[j] || s->model.body[i].fixed || s->model.body[j].fixed) return;
+    sunder_i_union_join(root, sunder_i_union_find(s->parent, i), sunder_i_union_find(s->parent, j));
+}
+
+/* What clusters would become together, by their roots. */
+static void join_running(const sunder_i_solver *s, uint32_t *root)
+{
+    const sunder_i_model *model = &s->model;
+    sunder_i_union_init(root, model->bodies);
+    for (size_t k = 0; k < s->now.n; k++) {
+        const sunder_i_relation *r = &s->now.pair[k];
+        if (!sunder_i_is_conflict_of_bodies(model, r) || sunder_i_relaxations_find(&model->relaxations, r->a, r->b))
+            continue;
+        note_running(s, model->body_of[r->a], model->body_of[r->b], root);
+    }
+    for (size_t k = 0; k < s->jumps.n; k++)
+        note_running(s, model->body_of[s->jumps.pair[k].a], model->body_of[s->jumps.pair[k].b], root);
+}
+
+/* Marks the clusters, by their roots, that are beyond use and would become part of a crowd. root, size: [bodies]
+ * scratch. */
+static void find_running(const sunder_i_solver *s, uint32_t *root, size_t *size, bool *running)
+{
+    join_running(s, root);
+    for (size_t k = 0; k < s->clusters; k++)
+        size[sunder_i_union_find(root, s->member[s->cluster[k].body - s->body].root)] += s->cluster[k].n;
+    for (size_t k = 0; k < s->clusters; k++) {
+        const uint32_t own = s->member[s->cluster[k].body - s->body].root;
+        const size_t together = size[sunder_i_union_find(root, own)];
+        running[own] = together > s->cluster[k].n && together > MOST_LIFTED && is_beyond_use(s, &s->cluster[k]);
+    }
+}
+
+/* Where they stand is remembered: the search may begin there once more. */
+static bool set_running_aside(sunder_i_solver *s, const bool *running, bool *back)
+{
+    bool any = false;
+    for (uint32_t b = 0; b < s->model.bodies; b++) {
+        if (s->model.body[b].fixed || !running[sunder_i_union_find(s->parent, b)]) continue;
+        any = back[b] = s->aside[b] = true;
+        memcpy(s->went + 2 * (size_t)b, s->model.move + 2 * (size_t)b, 2 * sizeof *s->went);
+    }
+    return any;
+}
+
+sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *s, sunder_error *err)
+{
+    const size_t n = s->model.bodies;
+    if (!s->aside || s->model.lifted) return SUNDER_OK;
+    uint32_t *root = sunder_i_alloc(n, sizeof *root);
+    size_t *size = sunder_i_calloc(n, sizeof *size);
+    bool *running = sunder_i_calloc(n, sizeof *running), *back = sunder_i_calloc(n, sizeof *back);
+    sunder_status status = root && size && running && back ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) {
+        find_running(s, root, size, running);
+        if (set_running_aside(s, running, back)) {
+            send_home(s, back);
+            status = sunder_i_solver_relate(s, err);
+        }
+    }
+    sunder_i_free(root);
+    sunder_i_free(size);
+    sunder_i_free(running);
+    sunder_i_free(back);
+    return status;
+}
+
+/* ---- Within them ------------------------------------------------------------------------------------------------- */
+
+/* Marks the sets of two bodies that met, if one of them was set aside. */
+static void note_meeting(sunder_i_solver *s, uint32_t i, uint32_t j, bool *root)
+{
+    if (!s->aside[i] && !s->aside[j]) return;
+    root[sunder_i_union_find(s->parent, i)] = root[sunder_i_union_find(s->parent, j)] = true;
+}
+
+/* Marks the sets, by their roots, of which a body went too far, was set aside, or ran into one that was, or jumped over
+ * it. */
+static void find_offenders(sunder_i_solver *s, bool *root)
+{
+    const sunder_i_model *model = &s->model;
+    for (uint32_t b = 0; b < model->bodies; b++)
+        if (!model->body[b].fixed &&
+            (s->aside[b] || !sunder_i_is_within_limit(model->move + 2 * (size_t)b, model->body[b].limit)))
+            root[sunder_i_union_find(s->parent, b)] = true;
+    for (size_t k = 0; k < s->now.n; k++) {
+        const sunder_i_relation *r = &s->now.pair[k];
+        if (sunder_i_is_conflict_of_bodies(model, r)) note_meeting(s, model->body_of[r->a], model->body_of[r->b], root);
+    }
+    for (size_t k = 0; k < s->jumps.n; k++)
+        note_meeting(s, model->body_of[s->jumps.pair[k].a], model->body_of[s->jumps.pair[k].b], root);
+}
+
+/* Forgets what these bodies were joined with, and what was given up of them. */
+static bool forget(sunder_i_solver *s, const bool *back)
+{
+    sunder_i_model *model = &s->model;
+    sunder_i_relaxations *relaxations = &model->relaxations;
+    size_t out = 0;
+    for (size_t e = 0; e < s->edges; e++)
+        if (!back[s->edge[e].a] && !back[s->edge[e].b]) s->edge[out++] = s->edge[e];
+    s->edges = 0;
+    s->listed = SUNDER_I_NONE_LISTED;
+    sunder_i_union_init(s->parent, model->bodies);
+    for (size_t e = 0; e < out; e++) sunder_i_solver_add_edge(s, s->edge[e].a, s->edge[e].b); /* there is room */
+    out = 0;
+    for (size_t k = 0; k < model->given_up_n; k++)
+        if (!back[model->given_up[k].a] && !back[model->given_up[k].b]) model->given_up[out++] = model->given_up[k];
+    model->given_up_n = out;
+    out = 0;
+    for (size_t k = 0; k < relaxations->n; k++)
+        if (!back[model->body_of[relaxations->item[k].a]] && !back[model->body_of[relaxations->item[k].b]])
+            relaxations->item[out++] = relaxations->item[k];
+    relaxations->n = out;
+    for (size_t k = 0; k < s->waiting.n; k++)
+        if (!sunder_i_relaxations_add(relaxations, &s->waiting.item[k])) return false;
+    sunder_i_relaxations_free(&s->waiting);
+    return sunder_i_relaxations_index(relaxations, model);
+}
+
+/* Within limits more can be proved, and what had a solution without them may have another: whoever hangs together with
+ * one that has a limit is asked about again. (What is without limits is left as it was found, whoever has some.) */
+static bool doubt(sunder_i_solver *s)
+{
+    sunder_i_model *model = &s->model;
+    size_t out = 0;
+    for (size_t b = 0; b < model->bodies; b++)
+        s->doubtful[b] = !model->body[b].fixed && model->body[b].limit < INFINITY;
+    bool *doubtful = sunder_i_solver_who_hang_with(s, s->doubtful);
+    if (!doubtful) return false;
+    for (size_t b = 0; b < model->bodies; b++) s->reconsidered[b] = s->reconsidered[b] && !doubtful[b];
+    for (size_t k = 0; k < s->alone_n; k++)
+        if (!doubtful[model->body_of[s->alone[k].a]] && !doubtful[model->body_of[s->alone[k].b]])
+            s->alone[out++] = s->alone[k];
+    s->alone_n = out;
+    sunder_i_free(s->doubtful);
+    s->doubtful = doubtful;
+    return true;
+}
+
+sunder_status sunder_i_solver_begin_again(sunder_i_solver *s, const bool *back, sunder_error *err)
+{
+    send_home(s, back);
+    const sunder_status status = forget(s, back) ? sunder_i_solver_relate(s, err) : sunder_i_no_memory(err);
+    /* Else who once was in a cluster with a fixed body would pass for known to it. */
+    return status ? status : sunder_i_solver_gather(s, err);
+}
+
+sunder_status sunder_i_solver_restore_limits(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_i_model *model = &s->model;
+    bool *root = sunder_i_calloc(model->bodies, sizeof *root), *back = s->wanted;
+    sunder_status status = root ? SUNDER_OK : sunder_i_no_memory(err);
+    model->lifted = s->went; /* of those that were set aside, and all others as they stand */
+    s->went = NULL;
+    for (uint32_t b = 0; b < model->bodies; b++)
+        if (!s->aside[b]) memcpy(model->lifted + 2 * (size_t)b, model->move + 2 * (size_t)b, 2 * sizeof *model->move);
+    for (size_t b = 0; b < model->bodies; b++) model->body[b].limit = s->limit[b];
+    if (!status && !doubt(s)) status = sunder_i_no_memory(err);
+    if (!status) {
+        find_offenders(s, root);
+        for (uint32_t b = 0; b < model->bodies; b++) {
+            back[b] = !model->body[b].fixed && root[sunder_i_union_find(s->parent, b)];
+            s->doubtful[b] = s->doubtful[b] || back[b];
+        }
+        memset(s->aside, 0, model->bodies * sizeof *s->aside);
+        status = sunder_i_solver_begin_again(s, back, err);
+    }
+    sunder_i_free(root);
+    return status;
+}

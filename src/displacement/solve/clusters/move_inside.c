@@ -1,0 +1,39 @@
+/* Pairs that limits cannot part, of which the one may go inside the other: it is sent there, and kept there from
+ * then on like what lay in it at the start (inclusion.c). Where that fails it is let go, and the pair becomes one like
+ * any other. */
+#include "displacement/layer/rounding.h"
+#include "displacement/solve/clusters/stages.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The inner one goes as far as it may, and the holder comes to meet it. */
+static void send(sunder_i_solver *s, const sunder_i_entry *e)
+{
+    const sunder_i_model *model = &s->model;
+    const uint32_t inner = model->body_of[e->a_inside ? e->a : e->b],
+                   holder = model->body_of[e->a_inside ? e->b : e->a];
+    const double sign = e->a_inside ? -1 : 1, length = hypot(e->place[0], e->place[1]);
+    const double own = sunder_i_limit_of(&model->body[inner]), share = length > own ? own / length : 1;
+    for (int k = 0; k < 2; k++) {
+        const uint32_t b = k ? holder : inner;
+        const double *move = model->move + 2 * (size_t)b, part = k ? -(1 - share) : share;
+        if (model->body[b].fixed || part == 0 || move[0] != 0 || move[1] != 0) continue;
+        double to[2];
+        for (int c = 0; c < 2; c++) to[c] = sign * part * e->place[c];
+        sunder_i_round_move(model, b, to, to, NULL);
+        sunder_i_solver_place(s, b, to);
+    }
+}
+
+sunder_status sunder_i_solver_move_inside(sunder_i_solver *s, sunder_error *err)
+{
+    if (s->entries == 0) return SUNDER_OK;
+    sunder_i_changes_clear(&s->changes);
+    for (size_t k = 0; k < s->entries; k++) {
+        const uint32_t i = s->model.body_of[s->entry[k].a], j = s->model.body_of[s->entry[k].b];
+        send(s, &s->entry[k]);
+        if (!sunder_i_solver_add_edge(s, i, j)) return sunder_i_no_memory(err);
+    }
+    return sunder_i_solver_relate(s, err);
+}

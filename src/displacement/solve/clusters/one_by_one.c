@@ -1,0 +1,429 @@
+/* Has one pair of those that were given up a solution, if the others stay so?
+ *
+ * A cluster gives up pairs until what is left has a solution that the search finds, and reconsider.c asks whether all
+ * of them have one. Between the two lies what is asked here: a pair and all that is owed besides, the other conflicts
+ * that there are now being held no worse (prove/proofs/feasibility.c). It is the question that the report will ask
+ * (report/no_room.c); so what has a solution is not left to be told there that nothing is known of it. The search goes
+ * on from a solution, one in each cluster at a time, and where it can, the pair is no longer given up; else all is left
+ * as it was. A solution without room to spare, which the margins of the search close, is lined up to the last bit
+ * (prove/optimum/tight_place.c): whether it holds is asked exactly, as of all that moved. No pair is asked about twice;
+ * and of a crowd of which nothing is to be known fewer and fewer are. */
+#include "displacement/layer/resolution.h"
+#include "displacement/prove/optimum/optimum.h"
+#include "displacement/prove/proofs/feasibility.h"
+#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/tuning.h"
+
+#include "base/extremes.h"
+#include "base/parallel.h"
+#include "base/patience.h"
+#include "base/union_find.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A relaxation that is asked about, by the cluster that it is of. */
+typedef struct question {
+    uint32_t root, relaxation;
+} question;
+
+typedef struct asking {
+    const sunder_i_solver *solver;
+    const question *question;
+    const size_t *first;                  /* [clusters + 1] questions, cluster after cluster */
+    const sunder_i_requirement *required; /* what conflicts are held to that there are now */
+    size_t required_n;
+    bool *asked;                 /* [questions] */
+    uint64_t *work;              /* [bodies] what questions took in vain so far: of the bodies of each cluster */
+    sunder_i_decision *decision; /* [clusters] */
+} asking;
+
+static bool is_conflict_now(const sunder_i_solver *s, const sunder_i_relaxation *t)
+{
+    const sunder_i_relation *r = sunder_i_relations_find(&s->now, t->a, t->b);
+    return r && sunder_i_is_conflict(r);
+}
+
+/* Those of the relaxations that are conflicts, ascending: by feature and whole barrier, each once. */
+static size_t list_requirements(const sunder_i_solver *s, sunder_i_requirement *required)
+{
+    const sunder_i_model *model = &s->model;
+    size_t n = 0;
+    for (size_t k = 0; k < model->relaxations.n; k++) {
+        const sunder_i_relaxation *t = &model->relaxations.item[k];
+        const uint32_t b = sunder_i_whole_of(model, t->b);
+        if (!is_conflict_now(s, t) || (n && required[n - 1].a == t->a && required[n - 1].b == b)) continue;
+        required[n++] = sunder_i_requirement_of(model, t);
+    }
+    return n;
+}
+
+/* Was the pair asked about? */
+static bool was_asked(const sunder_i_solver *s, const sunder_i_relaxation *t)
+{
+    const sunder_i_id_pair key = {t->a, sunder_i_whole_of(&s->model, t->b)};
+    return s->alone_n && bsearch(&key, s->alone, s->alone_n, sizeof key, sunder_i_by_id_pair);
+}
+
+/* wanted: [bodies] of clusters that are */
+static void list_questions(const sunder_i_solver *s, const bool *wanted, question *list, size_t *first,
+                           size_t *clusters)
+{
+    const sunder_i_model *model = &s->model;
+    size_t n = 0;
+    const sunder_i_relaxation *last = NULL;
+    for (size_t k = 0; k < model->relaxations.n; k++) {
+        const sunder_i_relaxation *t = &model->relaxations.item[k];
+        const uint32_t i = model->body_of[t->a], j = model->body_of[t->b];
+        if (t->infeasible || (model->body[i].fixed && model->body[j].fixed) || !is_conflict_now(s, t)) continue;
+        if (last && last->a == t->a && sunder_i_whole_of(model, last->b) == sunder_i_whole_of(model, t->b)) continue;
+        const uint32_t of = model->body[i].fixed ? j : i, root = sunder_i_union_find(s->parent, of);
+        /* Who was left before anybody moved, and met nobody, is of no cluster. */
+        if (!wanted[of] || was_asked(s, t) || !sunder_i_solver_has_member(s, root, of)) continue;
+        last = t;
+        list[n++] = (question){root, (uint32_t)k};
+    }
+    if (n) qsort(list, n, sizeof *list, sunder_i_by_id_pair);
+    *clusters = 0;
+    for (size_t k = 0; k < n; k++)
+        if (k == 0 || list[k].root != list[k - 1].root) first[(*clusters)++] = k;
+    first[*clusters] = n;
+}
+
+/* How far those may go that have no limit, so that they are asked about, too: past all of their cluster. */
+static double far_for(const sunder_i_model *model, const uint32_t *body, size_t n)
+{
+    double far = 0;
+    for (size_t k = 0; k < n; k++) {
+        const double *box = model->body[body[k]].box;
+        if (!sunder_i_is_barrier_body(model, &model->body[body[k]]))
+            far += box[2] - box[0] + box[3] - box[1] + model->rules.gap;
+    }
+    return far;
+}
+
+/* One question, with a margin; and without one, where there may be a place that just fits. *work grows by what it
+ * took. */
+static sunder_status ask(sunder_i_subproblem *p, sunder_i_decision *decision, uint64_t *work, sunder_error *err)
+{
+    bool tight = false;
+    sunder_status status = sunder_i_decide(p, decision, err);
+    *work += decision->work;
+    if (!status && decision->verdict == SUNDER_I_INFEASIBLE && p->margin > 0 &&
+        !sunder_i_may_be_tight(p->model, p->body, p->bodies, &tight))
+        status = sunder_i_no_memory(err);
+    if (!status && tight) {
+        sunder_i_decision_clear(decision);
+        p->margin = 0;
+        status = sunder_i_decide(p, decision, err);
+        *work += decision->work;
+    }
+    if (!status && decision->verdict == SUNDER_I_FEASIBLE && sunder_i_may_have_slack(p)) {
+        sunder_i_decision_clear(decision);
+        p->slack = true;
+        status = sunder_i_decide(p, decision, err);
+        *work += decision->work;
+    }
+    return status;
+}
+
+/* May both go as far as they like? */
+static bool has_no_limit(const sunder_i_model *model, const sunder_i_relaxation *t)
+{
+    return sunder_i_limit_of(&model->body[model->body_of[t->a]]) == INFINITY &&
+           sunder_i_limit_of(&model->body[model->body_of[t->b]]) == INFINITY;
+}
+
+/* What one question may take, after so many, one after the other, that ended for want of effort: in a crowd that hangs
+ * together by chains of dozens hardly any other ends otherwise, and one that does ends early. So each takes half of
+ * what the one before it did then. */
+static uint64_t effort_for(const sunder_i_model *model, const sunder_i_relaxation *t, unsigned in_vain)
+{
+    if (has_no_limit(model, t)) return EFFORT_BRIEFLY_ALONE;
+    uint64_t effort =
+        EFFORT_ALONE * (1 + (uint64_t)(MORE_EFFORT_ALONE * sunder_i_min(model->rules.effort, MORE_ALONE_UP_TO)));
+    for (unsigned k = ALONE_IN_VAIN; k <= in_vain && effort > EFFORT_BRIEFLY_ALONE; k++) effort /= 2;
+    return effort > EFFORT_BRIEFLY_ALONE ? effort : EFFORT_BRIEFLY_ALONE;
+}
+
+/* What may yet be asked in vain of a cluster with these members. */
+static uint64_t left_to_ask(const asking *g, const uint32_t *member, size_t n)
+{
+    const uint64_t pool = POOL_ALONE + POOL_ALONE_EACH * (uint64_t)n;
+    uint64_t taken = 0;
+    for (size_t k = 0; k < n; k++)
+        if (!g->solver->model.body[member[k]].fixed) taken += g->work[member[k]];
+    return taken < pool ? pool - taken : 0;
+}
+
+/* The first of a cluster's questions that has a solution. */
+static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const asking *g = context;
+    const sunder_i_model *model = &g->solver->model;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = begin; k < end; k++) {
+        sunder_i_decision *decision = &g->decision[k];
+        size_t members;
+        const uint32_t *member = sunder_i_solver_members(g->solver, g->question[g->first[k]].root, &members);
+        uint64_t left = left_to_ask(g, member, members);
+        /* Ended for want of effort, one after the other; the first of a crowd would mostly do, too. */
+        unsigned in_vain = g->first[k + 1] - g->first[k] > MANY_ALONE ? MANY_IN_VAIN : 0;
+        sunder_i_patience patience = sunder_i_patience_of(ALONE_PATIENCE, ALONE_REGAINED);
+        for (size_t q = g->first[k]; q < g->first[k + 1] && left && !status; q++) {
+            if (!sunder_i_patience_asks(&patience)) continue;
+            const sunder_i_relaxation *t = &model->relaxations.item[g->question[q].relaxation];
+            const uint32_t body[2] = {model->body_of[t->a], model->body_of[t->b]};
+            sunder_i_subproblem p = {.model = model,
+                                     .body = body,
+                                     .bodies = sunder_i_is_barrier(model, t->b) ? 1 : 2,
+                                     .a = t->a,
+                                     .b = sunder_i_whole_of(model, t->b),
+                                     .required = g->required,
+                                     .required_n = g->required_n,
+                                     .margin =
+                                         MARGINS * sunder_i_solver_cluster_with(g->solver, g->question[q].root)->margin,
+                                     .no_plane = true, /* a solution is looked for, which it has none of */
+                                     .effort = effort_for(model, t, in_vain),
+                                     .most = MOST_BODIES};
+            p.reserve = member;
+            p.reserves = members;
+            p.instead = far_for(model, p.reserve, p.reserves);
+            for (size_t m = 0; m < p.reserves; m++)
+                if (isfinite(sunder_i_limit_of(&model->body[p.reserve[m]])))
+                    p.farthest = sunder_i_max(p.farthest, sunder_i_limit_of(&model->body[p.reserve[m]]));
+            uint64_t work = 0;
+            sunder_i_reading reading;
+            sunder_i_reads_begin(&reading, model, g->question[q].root);
+            status = ask(&p, decision, &work, err);
+            sunder_i_reads_end(&reading);
+            g->asked[q] = true;
+            const sunder_i_verdict verdict = decision->verdict;
+            if (status || verdict == SUNDER_I_FEASIBLE) break;
+            sunder_i_decision_clear(decision);
+            in_vain = verdict == SUNDER_I_UNKNOWN ? in_vain + 1 : 0;
+            sunder_i_patience_note(&patience, verdict != SUNDER_I_UNKNOWN);
+            g->work[model->body[body[0]].fixed ? body[1] : body[0]] += work;
+            left -= work < left ? work : left;
+        }
+        if (status) return status;
+    }
+    return SUNDER_OK;
+}
+
+/* ---- Going on from a solution ------------------------------------------------------------------------------------ */
+
+/* A solution that one cluster is to go on from, and the relaxations that it does without. */
+typedef struct proposal {
+    uint32_t root, which; /* the relaxation that was asked about */
+    const sunder_i_solution *solution;
+    sunder_i_restored *restored;
+    size_t n;
+} proposal;
+
+static bool is_held(const asking *g, const sunder_i_relaxation *t, const sunder_i_relaxation *asked)
+{
+    const sunder_i_model *model = &g->solver->model;
+    const sunder_i_requirement key = {.a = t->a, .b = sunder_i_whole_of(model, t->b)};
+    if (key.a == asked->a && key.b == sunder_i_whole_of(model, asked->b)) return false;
+    return bsearch(&key, g->required, g->required_n, sizeof key, sunder_i_by_id_pair) != NULL;
+}
+
+static bool propose(const asking *g, uint32_t which, const sunder_i_solution *solution, proposal *out)
+{
+    const sunder_i_model *model = &g->solver->model;
+    const sunder_i_relaxations *all = &model->relaxations;
+    *out = (proposal){.which = which, .solution = solution, .restored = sunder_i_alloc(all->n, sizeof *out->restored)};
+    for (size_t k = 0; k < all->n && out->restored; k++) {
+        const sunder_i_relaxation *t = &all->item[k];
+        const bool met = sunder_i_set_has(solution->body, solution->bodies, model->body_of[t->a]) ||
+                         sunder_i_set_has(solution->body, solution->bodies, model->body_of[t->b]);
+        if (met && !t->infeasible && !is_held(g, t, &all->item[which]))
+            out->restored[out->n++] = sunder_i_restored_of(model, t);
+    }
+    if (out->n) qsort(out->restored, out->n, sizeof *out->restored, sunder_i_by_restored);
+    return out->restored != NULL;
+}
+
+/* Its bodies are one cluster, if none is of another proposal's. *fits: they are. */
+static bool join(sunder_i_solver *s, const sunder_i_solution *solution, bool *taken, bool *fits)
+{
+    *fits = true;
+    for (size_t k = 0; k < solution->bodies && *fits; k++)
+        *fits = !taken[sunder_i_union_find(s->parent, solution->body[k])];
+    for (size_t k = 1; k < solution->bodies && *fits; k++)
+        if (!sunder_i_solver_add_edge(s, solution->body[0], solution->body[k])) return false;
+    if (*fits) taken[sunder_i_union_find(s->parent, solution->body[0])] = true;
+    return true;
+}
+
+/* The first proposal of each cluster. Who was asked about and is in nobody's way now is asked about again. */
+static bool list_proposals(sunder_i_solver *s, const asking *g, size_t clusters, proposal *list, size_t *n)
+{
+    bool *taken = sunder_i_calloc(s->model.bodies, sizeof *taken), ok = taken != NULL, fits;
+    for (size_t k = 0; k < clusters && ok; k++) {
+        const sunder_i_decision *decision = &g->decision[k];
+        if (decision->verdict != SUNDER_I_FEASIBLE) continue;
+        size_t last = g->first[k]; /* of the cluster's questions that was asked */
+        while (last + 1 < g->first[k + 1] && g->asked[last + 1]) last++;
+        ok = join(s, &decision->solution, taken, &fits);
+        g->asked[last] = fits;
+        if (ok && fits) ok = propose(g, g->question[last].relaxation, &decision->solution, &list[(*n)++]);
+    }
+    for (size_t k = 0; k < *n; k++) list[k].root = sunder_i_union_find(s->parent, list[k].solution->body[0]);
+    sunder_i_free(taken);
+    return ok;
+}
+
+typedef struct resuming {
+    const sunder_i_solver *solver;
+    const asking *asked;
+    const proposal *proposal;
+    size_t n;
+} resuming;
+
+/* What the other conflicts are held to, as proofs know it. NULL if memory is out. */
+static sunder_i_waiver *waive_others(const resuming *g, uint32_t which, size_t *n)
+{
+    const sunder_i_model *model = &g->solver->model;
+    const sunder_i_relaxation *t = &model->relaxations.item[which];
+    const uint32_t b = sunder_i_whole_of(model, t->b);
+    sunder_i_waiver *out = sunder_i_alloc(g->asked->required_n, sizeof *out);
+    *n = 0;
+    for (size_t k = 0; k < g->asked->required_n && out; k++) {
+        const sunder_i_requirement *r = &g->asked->required[k];
+        if (r->a != t->a || r->b != b) out[(*n)++] = (sunder_i_waiver){r->a, r->b, r->clearance, r->clearance < 0};
+    }
+    return out;
+}
+
+/* Where the search finds no margin: lined up to the last bit. */
+static sunder_status line_up(const resuming *g, const proposal *x, sunder_i_cluster *c, double *move, bool *done,
+                             sunder_error *err)
+{
+    sunder_i_waived waived = {0};
+    sunder_i_waiver *others = waive_others(g, x->which, &waived.n);
+    waived.pair = others;
+    bool ok = others != NULL &&
+              sunder_i_tight_place(&g->solver->model, &waived, c->body, c->n, MARGINS * c->margin, move, done);
+    sunder_i_free(others);
+    if (ok && *done && x->n) {
+        c->restored = sunder_i_alloc(x->n, sizeof *c->restored);
+        ok = c->restored != NULL;
+        if (ok) memcpy(c->restored, x->restored, x->n * sizeof *c->restored);
+        c->restored_n = ok ? x->n : 0;
+    }
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+static void place(const sunder_i_cluster *c, const sunder_i_solution *solution, double *move)
+{
+    for (size_t k = 0, at = 0; k < solution->bodies; k++) {
+        while (c->body[at] < solution->body[k]) at++;
+        memcpy(move + 2 * at, solution->move + 2 * k, 2 * sizeof *move);
+    }
+}
+
+static sunder_status resume(const resuming *g, const proposal *x, sunder_i_cluster *c, double *move, sunder_error *err)
+{
+    const size_t size = 2 * c->n * sizeof *move;
+    double *stood = sunder_i_alloc(2 * c->n, sizeof *stood);
+    bool done = false;
+    if (!stood) return sunder_i_no_memory(err);
+    memcpy(stood, move, size);
+    place(c, x->solution, move);
+    sunder_status status = sunder_i_cluster_resume(&g->solver->model, c, x->restored, x->n, move, &done, err);
+    if (!status && !done) {
+        memcpy(move, stood, size);
+        place(c, x->solution, move);
+        status = line_up(g, x, c, move, &done, err);
+    }
+    if (!done) memcpy(move, stood, size);
+    sunder_i_free(stood);
+    return status;
+}
+
+static sunder_status resume_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const resuming *g = context;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = begin; k < end && !status; k++) {
+        sunder_i_cluster *c = &g->solver->cluster[k];
+        double *move = sunder_i_solver_load_moves(g->solver, c);
+        c->worked_on = true;
+        const uint32_t root = g->solver->member[c->body - g->solver->body].root;
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, &g->solver->model, root);
+        for (size_t p = 0; p < g->n && !status; p++)
+            if (g->proposal[p].root == root) status = resume(g, &g->proposal[p], c, move, err);
+        sunder_i_reads_end(&reading);
+    }
+    return status;
+}
+
+/* Each is asked about once: what was thought to have a solution, and does not for the search, will not do. */
+static bool note_asked(sunder_i_solver *s, const asking *g, size_t questions)
+{
+    if (!sunder_i_reserve(&s->alone, &s->alone_capacity, s->alone_n + questions, sizeof *s->alone)) return false;
+    for (size_t q = 0; q < questions; q++) {
+        const sunder_i_relaxation *t = &s->model.relaxations.item[g->question[q].relaxation];
+        if (g->asked[q]) s->alone[s->alone_n++] = (sunder_i_id_pair){t->a, sunder_i_whole_of(&s->model, t->b)};
+    }
+    if (s->alone_n) qsort(s->alone, s->alone_n, sizeof *s->alone, sunder_i_by_id_pair);
+    return true;
+}
+
+static sunder_status go_on(sunder_i_solver *s, const asking *asked, size_t clusters, bool *changed, sunder_error *err)
+{
+    resuming g = {.solver = s, .asked = asked};
+    proposal *list = sunder_i_calloc(clusters, sizeof *list);
+    sunder_status status = SUNDER_OK;
+    if (!list || !list_proposals(s, asked, clusters, list, &g.n) || !note_asked(s, asked, asked->first[clusters]))
+        status = sunder_i_no_memory(err);
+    g.proposal = list;
+    *changed = g.n > 0;
+    if (!status && g.n) {
+        status = sunder_i_solver_gather(s, err);
+        if (!status) status = sunder_i_solver_unite_blocks(s, err);
+        if (!status)
+            status =
+                sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, resume_clusters, &g, err);
+        if (!status) status = sunder_i_solver_commit(s, err);
+        if (!status) status = sunder_i_solver_take_over(s, err);
+        if (!status) status = sunder_i_solver_relate(s, err);
+    }
+    for (size_t k = 0; k < g.n; k++) sunder_i_free(list[k].restored);
+    sunder_i_free(list);
+    return status;
+}
+
+sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    const size_t n = s->model.relaxations.n;
+    *changed = false;
+    if (s->model.given_up_n == 0) return SUNDER_OK;
+    sunder_status status = sunder_i_solver_gather(s, err);
+    question *list = sunder_i_alloc(n, sizeof *list);
+    size_t *first = sunder_i_alloc(n + 1, sizeof *first), clusters = 0;
+    sunder_i_requirement *required = sunder_i_alloc(n, sizeof *required);
+    bool *asked = sunder_i_calloc(n, sizeof *asked), *wanted = sunder_i_solver_who_hang_with(s, s->wanted);
+    sunder_i_decision *decision = sunder_i_calloc(n, sizeof *decision);
+    if (!s->alone_work) s->alone_work = sunder_i_calloc(s->model.bodies, sizeof *s->alone_work);
+    if (!status && (!list || !first || !required || !asked || !wanted || !decision || !s->alone_work))
+        status = sunder_i_no_memory(err);
+    if (!status) {
+        list_questions(s, wanted, list, first, &clusters);
+        asking g = {s, list, first, required, list_requirements(s, required), asked, s->alone_work, decision};
+        status = sunder_i_parallel(s->model.rules.threads, clusters, SUNDER_I_GRAIN_WHOLE, ask_clusters, &g, err);
+        if (!status) status = go_on(s, &g, clusters, changed, err);
+    }
+    for (size_t k = 0; k < clusters && decision; k++) sunder_i_decision_clear(&decision[k]);
+    sunder_i_free(list);
+    sunder_i_free(first);
+    sunder_i_free(required);
+    sunder_i_free(asked);
+    sunder_i_free(wanted);
+    sunder_i_free(decision);
+    return status;
+}

@@ -1,0 +1,418 @@
+/* Contact groups of the layout: for each a proof of how little it could cost, and what is cheaper where such is found.
+ *
+ * Each is looked into by itself, all from the places at the round's start; what one finds to be cheaper is taken.
+ * Whoever is in its way, of another group, belongs to it in the next round; so do two groups that have invited the same
+ * guest. What did not change from one round to the next keeps its proof, and what was proved of bodies is known of the
+ * group that they are in then, as long as the same is asked of their pairs. Rounds join groups, or better the layout by
+ * what counts, so they end; there are only so many, and a body is worth only so many steps in all of them.
+ *
+ * Pairs that are left in conflict are to stand no worse than they stood, which is asked exactly of what is taken; what
+ * rounding did to that is mended (uphold.c). So this comes once more after nothing stands worse, and nothing does after
+ * it. */
+#include "displacement/layer/resolution.h"
+#include "displacement/prove/optimum/optimum.h"
+#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/tuning.h"
+
+#include "base/extremes.h"
+#include "base/parallel.h"
+#include "base/watch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Rounds ------------------------------------------------------------------------------------------------------ */
+
+/* Bodies of pairs of the one list that are not in the other, or held to something else there. */
+static void mark_unlike(const sunder_i_model *model, const sunder_i_waiver *one, size_t n, const sunder_i_waiver *other,
+                        size_t m, bool *unlike)
+{
+    for (size_t k = 0; k < n; k++) {
+        const sunder_i_waiver *like = m ? bsearch(&one[k], other, m, sizeof *other, sunder_i_by_id_pair) : NULL;
+        if (!like || sunder_i_waiver_clearance(like) != sunder_i_waiver_clearance(&one[k]))
+            unlike[model->body_of[one[k].a]] = unlike[model->body_of[one[k].b]] = true;
+    }
+}
+
+/* A proof stands on what was asked of the group's pairs: where something else is asked now, it is made again. */
+static bool forget_proofs(sunder_i_solver *s, const sunder_i_waiver *before, size_t n)
+{
+    const sunder_i_model *model = &s->model;
+    sunder_i_groups *groups = &s->groups;
+    bool *unlike = sunder_i_calloc(model->bodies, sizeof *unlike);
+    if (!unlike) return false;
+    mark_unlike(model, before, n, groups->waived, groups->waived_n, unlike);
+    mark_unlike(model, groups->waived, groups->waived_n, before, n, unlike);
+    for (size_t k = 0; k < groups->n; k++) {
+        sunder_i_group *g = &groups->group[k];
+        for (size_t m = 0; m < g->n + g->guests.n; m++) {
+            const uint32_t b = m < g->n ? g->body[m] : g->guests.item[m - g->n];
+            if (!unlike[b] || model->body[b].fixed) continue;
+            g->done = false;
+            g->bound = 0;
+        }
+    }
+    sunder_i_free(unlike);
+    return true;
+}
+
+/* before: the list so far, [n]. */
+static sunder_status list_pair(sunder_i_solver *s, const sunder_i_relation *r, const sunder_i_waiver *before, size_t n,
+                               sunder_error *err)
+{
+    sunder_i_groups *groups = &s->groups;
+    const uint32_t a = r->a, b = sunder_i_whole_of(&s->model, r->b);
+    sunder_i_waiver *last = groups->waived_n ? &groups->waived[groups->waived_n - 1] : NULL;
+    if (last && last->a == a && last->b == b) {
+        last->overlap = last->overlap || r->overlap;
+        return SUNDER_OK;
+    }
+    sunder_i_requirement held = {.clearance = -INFINITY};
+    sunder_status status = SUNDER_OK;
+    const sunder_i_waiver key = {.a = a, .b = b},
+                          *known = n ? bsearch(&key, before, n, sizeof key, sunder_i_by_id_pair) : NULL;
+    if (known)
+        held.clearance = known->stood;
+    else if (sunder_i_is_conflict_of_bodies(&s->model, r))
+        status = sunder_i_requirement_find(&s->model, &s->start, a, b, &held, err);
+    if (!status) groups->waived[groups->waived_n++] = (sunder_i_waiver){a, b, held.clearance, r->overlap};
+    return status;
+}
+
+sunder_status sunder_i_solver_waive(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_i_groups *groups = &s->groups;
+    sunder_i_waiver *before = groups->waived;
+    const size_t n = groups->waived_n;
+    groups->waived_n = 0;
+    groups->waived = sunder_i_alloc(s->now.n, sizeof *groups->waived);
+    sunder_status status = groups->waived ? SUNDER_OK : sunder_i_no_memory(err);
+    for (size_t k = 0; k < s->now.n && !status; k++)
+        if (sunder_i_is_conflict(&s->now.pair[k])) status = list_pair(s, &s->now.pair[k], before, n, err);
+    if (!status && !forget_proofs(s, before, n)) status = sunder_i_no_memory(err);
+    sunder_i_free(before);
+    return status;
+}
+
+/* Groups with a body that is pinned are left as they stand. */
+static void hold(sunder_i_solver *s)
+{
+    for (size_t k = 0; k < s->groups.n; k++)
+        for (size_t m = 0; m < s->groups.group[k].n; m++)
+            if (s->model.body[s->groups.group[k].body[m]].pinned) s->groups.group[k].held = true;
+}
+
+/* What the group's bodies have left, of which each is worth so many steps; a small group is worth as many as one of so
+ * many bodies. Who has spent all gets a part once more: of a group that came about late something is to be proved, too.
+ */
+static uint64_t allowance(const sunder_i_solver *s, const sunder_i_group *g)
+{
+    size_t movers = 0;
+    for (size_t m = 0; m < g->n; m++) movers += !s->model.body[g->body[m]].fixed;
+    const double small = movers && movers < SMALL_GROUP ? (double)SMALL_GROUP / (double)movers : 1;
+    const double each = small * STEPS_EACH * s->model.rules.effort;
+    double steps = 0;
+    for (size_t m = 0; m < g->n; m++)
+        if (!s->model.body[g->body[m]].fixed) steps += sunder_i_max(each / LATE, each - s->groups.spent[g->body[m]]);
+    return (uint64_t)sunder_i_min(steps, 0x1p62);
+}
+
+static bool is_wanted(const sunder_i_solver *s, const sunder_i_group *g)
+{
+    return sunder_i_solver_any_of(s, g->body, g->n, s->wanted);
+}
+
+static sunder_status prove_groups(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const sunder_i_solver *s = context;
+    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n, s->groups.seamed};
+    for (size_t k = begin; k < end; k++) {
+        sunder_i_group *g = &s->groups.group[k];
+        if (g->done || !is_wanted(s, g)) continue;
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, &s->model, g->number);
+        const sunder_status status = sunder_i_group_prove(&s->model, &waived, s->groups.of, g, allowance(s, g), err);
+        sunder_i_reads_end(&reading);
+        if (status) return status;
+    }
+    return SUNDER_OK;
+}
+
+/* Bodies pay for the proofs that were made in this round, all of a group alike. */
+static void charge(sunder_i_solver *s)
+{
+    for (size_t k = 0; k < s->groups.n; k++) {
+        sunder_i_group *g = &s->groups.group[k];
+        for (size_t m = 0; m < g->n; m++) s->groups.spent[g->body[m]] += (double)g->steps / (double)g->n;
+        for (size_t m = 0; m < g->n && g->shaken; m++) s->groups.shaken[g->body[m]] = true;
+        g->shaken = false;
+        g->steps = 0;
+    }
+}
+
+typedef struct taking {
+    sunder_i_solver *solver;
+    uint32_t *by;            /* [bodies] the place in the list of the group that moved it; SUNDER_I_NOBODY: none */
+    double *before;          /* [2 * bodies] */
+    size_t *budget;          /* [bodies] by roots of clusters: bodies that may yet be moved in vain */
+    sunder_i_id_pair mended; /* no pair before this one stands worse: what mends one leaves no other so */
+} taking;
+
+static void place(taking *t, size_t k, bool back)
+{
+    const sunder_i_group *g = &t->solver->groups.group[k];
+    for (size_t m = 0; m < g->n; m++) {
+        const uint32_t b = g->body[m];
+        if (!back) memcpy(t->before + 2 * (size_t)b, t->solver->model.move + 2 * (size_t)b, 2 * sizeof *t->before);
+        /* What stands does not go, and may be of several groups. */
+        if (!back && !t->solver->model.body[b].fixed) t->by[b] = (uint32_t)k;
+        sunder_i_solver_place(t->solver, b, back ? t->before + 2 * (size_t)b : g->move + 2 * m);
+    }
+}
+
+/* Is every coordinate of the group as it should be? */
+static bool is_exact(const sunder_i_model *model, const sunder_i_group *g)
+{
+    for (size_t k = 0; k < g->n; k++) {
+        const sunder_i_body *body = &model->body[g->body[k]];
+        for (uint32_t m = 0; m < body->members; m++)
+            if (model->inexact[model->member[body->member + m]]) return false;
+    }
+    return true;
+}
+
+static bool takes_part(const sunder_i_group *g, uint32_t body)
+{
+    for (size_t m = 0; m < g->n; m++)
+        if (g->body[m] == body) return true;
+    return false;
+}
+
+/* Takes back what the group found. known: it ran into nobody but its own. */
+static bool put_back(taking *t, uint32_t k, bool known)
+{
+    sunder_i_solver *s = t->solver;
+    sunder_i_group *g = k == SUNDER_I_NOBODY ? NULL : &s->groups.group[k];
+    if (!g || !g->improved) return false;
+    g->improved = g->done = false;
+    place(t, k, true);
+    /* What rounding ate into is looked for again with a wider margin; a place without room is looked for no more,
+     * unless it was somebody else who stood in it. */
+    for (size_t m = 0; m < g->n; m++) {
+        const uint32_t b = g->body[m];
+        memcpy(g->move + 2 * m, t->before + 2 * (size_t)b, 2 * sizeof *g->move);
+        if (g->tight && known)
+            s->groups.blunt[b] = true;
+        else if (s->widened[b] < MOST_MARGINS_AGAIN)
+            s->widened[b]++;
+        else
+            g->done = true;
+    }
+    return true;
+}
+
+/* Who moved the one or the other of two features goes back: *any, if somebody did. Of two groups that run into each
+ * other the first one stays, if it can: they are looked at again, together. known: nothing is to be known of the two
+ * but what their group was told. */
+static void part(taking *t, uint32_t a, uint32_t b, bool known, bool *any)
+{
+    const uint32_t p = t->solver->model.body_of[a], q = t->solver->model.body_of[b], i = t->by[p], j = t->by[q];
+    const sunder_i_group *group = t->solver->groups.group;
+    if (i == SUNDER_I_NOBODY && j == SUNDER_I_NOBODY) return;
+    const bool both = i != j && i != SUNDER_I_NOBODY && j != SUNDER_I_NOBODY && group[i].improved && group[j].improved;
+    if (!both || i > j) *any = put_back(t, i, known && i != SUNDER_I_NOBODY && takes_part(&group[i], q)) || *any;
+    if (!both || j > i) *any = put_back(t, j, known && j != SUNDER_I_NOBODY && takes_part(&group[j], p)) || *any;
+}
+
+/* Groups that proofs take together from now on. False if memory is out. */
+static bool note_joined(sunder_i_groups *groups, uint32_t one, uint32_t other)
+{
+    if (!sunder_i_reserve(&groups->joined, &groups->capacity, groups->joins + 1, sizeof *groups->joined)) return false;
+    groups->joined[groups->joins++] = (sunder_i_id_pair){one, other};
+    return true;
+}
+
+/* The same of a jump, which pieces may not tell of: an anchor that goes along a diagonal between two meets neither.
+ * From now on these two have what covers theirs (layer/seams.c). And whom one jumps over may stand far from it now: so
+ * two groups are taken together. False if memory is out. */
+static bool part_jump(taking *t, uint32_t a, uint32_t b, bool *any)
+{
+    sunder_i_groups *groups = &t->solver->groups;
+    const uint32_t body[2] = {t->solver->model.body_of[a], t->solver->model.body_of[b]};
+    const uint32_t group[2] = {groups->of[body[0]], groups->of[body[1]]};
+    const bool known = groups->seamed[body[0]] && groups->seamed[body[1]];
+    for (int k = 0; k < 2; k++) groups->seamed[body[k]] = true;
+    groups->any_seamed = true;
+    part(t, a, b, known, any);
+    return group[0] == group[1] || group[0] == SUNDER_I_NOBODY || group[1] == SUNDER_I_NOBODY ||
+           note_joined(groups, group[0], group[1]);
+}
+
+static bool has_moved(const taking *t, uint32_t thing)
+{
+    return t->by[t->solver->model.body_of[thing]] != SUNDER_I_NOBODY;
+}
+
+/* Has one of the two gone back since pairs were related? What ran into who went back may stay. */
+static bool is_outdated(const sunder_i_solver *s, uint32_t a, uint32_t b)
+{
+    return s->changes.is[a] || s->changes.is[b];
+}
+
+/* A pair in conflict, of which one moved; may_stay: it is listed, and no overlap that had ended. */
+static bool is_in_question(const taking *t, const sunder_i_relation *r, bool *may_stay)
+{
+    sunder_i_solver *s = t->solver;
+    const sunder_i_waived waived = {.pair = s->groups.waived, .n = s->groups.waived_n};
+    if (!sunder_i_is_conflict_of_bodies(&s->model, r) || (!has_moved(t, r->a) && !has_moved(t, r->b))) return false;
+    const sunder_i_waiver *waiver = sunder_i_waiver_of(&s->model, &waived, r->a, r->b);
+    *may_stay = waiver && (!r->overlap || waiver->overlap);
+    return true;
+}
+
+/* The first pair that is listed and stands worse than it stood: what rounding did may be mended, after which relations
+ * are others; or who moved goes back. */
+static sunder_status mend_first(taking *t, bool *any, sunder_error *err)
+{
+    sunder_i_solver *s = t->solver;
+    sunder_status status = SUNDER_OK;
+    const sunder_i_relation from = {.a = t->mended.a, .b = t->mended.b};
+    size_t k = sunder_i_lower_bound(&from, s->now.pair, s->now.n, sizeof from, sunder_i_by_id_pair);
+    for (; k < s->now.n && !status && !*any; k++) {
+        const sunder_i_relation r = s->now.pair[k];
+        bool may_stay, worse = false;
+        if (is_in_question(t, &r, &may_stay) && may_stay) status = sunder_i_solver_is_worse(s, &r, &worse, err);
+        if (status || !worse) continue;
+        status = sunder_i_solver_mend(s, &r, t->budget, any, err);
+        t->mended = *any ? (sunder_i_id_pair){r.a, r.b} : (sunder_i_id_pair){0, 0};
+        if (!status && !*any) part(t, r.a, r.b, true, any);
+    }
+    return status;
+}
+
+/* Does a conflict stand that did not, or worse, or did one jump over another? Then who moved goes back: *any. What
+ * stands worse waits until nothing else is put back, so that others of the layer have no say in what is mended. */
+static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
+{
+    sunder_i_solver *s = t->solver;
+    sunder_status status = SUNDER_OK;
+    *any = false;
+    sunder_i_changes_clear(&s->changes);
+    for (size_t k = 0; k < s->now.n; k++) {
+        const sunder_i_relation *r = &s->now.pair[k];
+        bool may_stay;
+        if (!is_outdated(s, r->a, r->b) && is_in_question(t, r, &may_stay) && !may_stay) part(t, r->a, r->b, true, any);
+    }
+    for (size_t k = 0; k < s->jumps.n && !status; k++) {
+        const sunder_i_id_pair *p = &s->jumps.pair[k];
+        if (!is_outdated(s, p->a, p->b) && !part_jump(t, p->a, p->b, any)) status = sunder_i_no_memory(err);
+    }
+    if (*any) t->mended = (sunder_i_id_pair){0, 0};
+    return status || *any ? status : mend_first(t, any, err);
+}
+
+/* Takes over what was found to be cheaper, where exact relations bear it out: *any. */
+static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
+{
+    const size_t n = s->model.bodies;
+    taking t = {s,
+                sunder_i_alloc(n, sizeof *t.by),
+                sunder_i_alloc(2 * n, sizeof *t.before),
+                sunder_i_solver_patience(s),
+                {0, 0}};
+    sunder_status status = t.by && t.before && t.budget ? SUNDER_OK : sunder_i_no_memory(err);
+    bool again = false;
+    *any = false;
+    if (!status) {
+        for (size_t b = 0; b < n; b++) t.by[b] = SUNDER_I_NOBODY;
+        sunder_i_changes_clear(&s->changes);
+        for (size_t k = 0; k < s->groups.n; k++) {
+            if (!s->groups.group[k].improved) continue;
+            place(&t, k, false);
+            if (!is_exact(&s->model, &s->groups.group[k])) put_back(&t, (uint32_t)k, true);
+            again = true;
+        }
+    }
+    while (!status && again) {
+        status = sunder_i_solver_relate(s, err);
+        if (!status) status = put_back_offenders(&t, &again, err);
+    }
+    for (size_t k = 0; !status && k < s->groups.n; k++) {
+        sunder_i_group *g = &s->groups.group[k];
+        *any = *any || (is_wanted(s, g) && (g->improved || !g->done));
+        g->improved = false;
+    }
+    sunder_i_free(t.budget);
+    sunder_i_free(t.by);
+    sunder_i_free(t.before);
+    return status;
+}
+
+/* Groups of which one is in the other's way, or that have a guest in common. */
+static bool join(sunder_i_solver *s, bool *any)
+{
+    sunder_i_groups *groups = &s->groups;
+    bool ok = true;
+    uint32_t *host = sunder_i_alloc(s->model.bodies, sizeof *host);
+    *any = false;
+    for (size_t b = 0; host && b < s->model.bodies; b++) host[b] = groups->of[b];
+    for (size_t k = 0; k < groups->n && host && ok; k++) {
+        sunder_i_group *g = &groups->group[k];
+        bool joined = false;
+        for (size_t m = 0; m < g->joins.n + g->guests.n && ok && is_wanted(s, g); m++) {
+            const uint32_t b = m < g->joins.n ? g->joins.item[m] : g->guests.item[m - g->joins.n];
+            if (s->model.body[b].fixed || host[b] == g->number) continue;
+            if (host[b] == SUNDER_I_NOBODY) {
+                host[b] = g->number;
+                continue;
+            }
+            ok = note_joined(groups, g->number, host[b]);
+            *any = joined = true;
+        }
+        /* Who is in nobody's group stays so: there is nothing new to be proved of this one. */
+        if (!joined) g->joins.n = 0;
+    }
+    ok = ok && host;
+    sunder_i_free(host);
+    return ok;
+}
+
+static sunder_status prove_each(sunder_i_solver *s, sunder_error *err)
+{
+    const sunder_i_groups *groups = &s->groups;
+    size_t *size = sunder_i_alloc(groups->n, sizeof *size);
+    if (!size) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < groups->n; k++) size[k] = groups->group[k].n;
+    const sunder_status status =
+        sunder_i_parallel_largest_first(s->model.rules.threads, size, groups->n, prove_groups, s, err);
+    sunder_i_free(size);
+    return status;
+}
+
+/* One round over the groups as they stand: *again, if there should be one more. */
+static sunder_status prove_all(sunder_i_solver *s, bool *again, sunder_error *err)
+{
+    bool moved = false;
+    hold(s);
+    sunder_status status = prove_each(s, err);
+    if (!status) charge(s);
+    if (!status) status = join(s, again) ? take_over(s, &moved, err) : sunder_i_no_memory(err);
+    *again = *again || moved;
+    return status;
+}
+
+sunder_status sunder_i_solver_optimise(sunder_i_solver *s, sunder_error *err)
+{
+    bool again = s->model.rules.effort > 0;
+    if (!again) return SUNDER_OK;
+    sunder_status status = sunder_i_solver_waive(s, err);
+    if (!status) status = sunder_i_solver_gather_groups(s, err);
+    for (int round = 0; round < OPTIMISED && again && !status; round++) {
+        if (s->groups.any_seamed) status = sunder_i_model_find_seams(&s->model, err);
+        if (!status) status = prove_all(s, &again, err);
+        if (again && !status) status = sunder_i_solver_waive(s, err);
+        if (again && !status) status = sunder_i_solver_gather_groups(s, err);
+    }
+    return status;
+}

@@ -1,0 +1,258 @@
+/* Is there no solution, or was none found? Pairs that were given up are looked at again, component by component of
+ * the layer's conflicts (prove/proofs/feasibility.c): either it is proved that limits and fixed features leave no room
+ * for all of them, or there is a solution to go on from, or the question stays open. What is said of those that remain
+ * is for report/no_room.c. */
+#include "displacement/layer/rounding.h"
+#include "displacement/prove/proofs/feasibility.h"
+#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/tuning.h"
+
+#include "base/parallel.h"
+#include "base/union_find.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Conflicting pairs of bodies that hang together, and the bodies, ascending. */
+typedef struct component {
+    uint32_t root;
+    const sunder_i_id_pair *pair;
+    size_t pairs;
+    const uint32_t *body;
+    size_t bodies;
+} component;
+
+/* The layer's conflicts at the start, by components; a fixed body joins none. */
+typedef struct components {
+    const uint32_t *root_of; /* [bodies] lent */
+    component *component;
+    size_t n;
+    sunder_i_id_pair *pair;
+    uint32_t *body;
+} components;
+
+typedef struct rooted {
+    uint32_t root;
+    sunder_i_id_pair pair;
+} rooted;
+
+static int by_root(const void *a, const void *b)
+{
+    const rooted *p = a, *q = b;
+    if (p->root != q->root) return p->root < q->root ? -1 : 1;
+    return sunder_i_by_id_pair(&p->pair, &q->pair);
+}
+
+static size_t list_pairs(const sunder_i_solver *s, const uint32_t *root_of, rooted *list)
+{
+    const sunder_i_model *model = &s->model;
+    size_t n = 0;
+    for (size_t k = 0; k < s->start.n; k++) {
+        const sunder_i_relation *r = &s->start.pair[k];
+        if (!sunder_i_is_conflict_of_bodies(model, r)) continue;
+        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+        if (model->body[i].fixed && model->body[j].fixed) continue;
+        list[n++] = (rooted){root_of[model->body[i].fixed ? j : i],
+                             i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i}};
+    }
+    if (n) qsort(list, n, sizeof *list, by_root);
+    size_t out = 0;
+    for (size_t k = 0; k < n; k++)
+        if (k == 0 || by_root(&list[out - 1], &list[k])) list[out++] = list[k];
+    return out;
+}
+
+static void free_components(components *c)
+{
+    sunder_i_free(c->component);
+    sunder_i_free(c->pair);
+    sunder_i_free(c->body);
+}
+
+static sunder_status find_components(sunder_i_solver *s, components *out, sunder_error *err)
+{
+    const size_t most = s->start.n;
+    *out = (components){.root_of = sunder_i_solver_conflict_roots(s),
+                        .component = sunder_i_alloc(most, sizeof *out->component),
+                        .pair = sunder_i_alloc(most, sizeof *out->pair),
+                        .body = sunder_i_alloc(2 * most, sizeof *out->body)};
+    rooted *list = sunder_i_alloc(most, sizeof *list);
+    if (!out->root_of || !out->component || !out->pair || !out->body || !list) {
+        sunder_i_free(list);
+        return sunder_i_no_memory(err);
+    }
+    const size_t n = list_pairs(s, out->root_of, list);
+    for (size_t first = 0, end; first < n; first = end) {
+        uint32_t *body = out->body + 2 * first;
+        for (end = first; end < n && list[end].root == list[first].root; end++) {
+            out->pair[end] = list[end].pair;
+            memcpy(body + 2 * (end - first), &list[end].pair, 2 * sizeof *body);
+        }
+        const size_t bodies = sunder_i_set_make(body, 2 * (end - first));
+        out->component[out->n++] = (component){list[first].root, out->pair + first, end - first, body, bodies};
+    }
+    sunder_i_free(list);
+    return SUNDER_OK;
+}
+
+/* ---- Looking again ----------------------------------------------------------------------------------------------- */
+
+typedef struct asking {
+    const sunder_i_solver *solver;
+    const component *component;
+    const bool *asked; /* [components] */
+    const sunder_i_requirement *required;
+    size_t required_n;
+    sunder_i_decision *decision;
+} asking;
+
+/* The component's bodies and those that the search found it to hang together with, ascending. */
+static sunder_status gather_bodies(const sunder_i_solver *s, const component *c, uint32_t **body, size_t *n,
+                                   sunder_error *err)
+{
+    size_t more;
+    const uint32_t *member = sunder_i_solver_members(s, sunder_i_union_find(s->parent, c->root), &more);
+    *body = sunder_i_alloc(c->bodies + more, sizeof **body);
+    if (!*body) return sunder_i_no_memory(err);
+    memcpy(*body, c->body, c->bodies * sizeof **body);
+    if (more) memcpy(*body + c->bodies, member, more * sizeof **body);
+    *n = sunder_i_set_make(*body, c->bodies + more);
+    return SUNDER_OK;
+}
+
+static sunder_status decide_some(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const asking *g = context;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = begin; k < end && !status; k++) {
+        const component *c = &g->component[k];
+        uint32_t *body = NULL;
+        size_t n = 0;
+        if (!g->asked[k]) continue;
+        status = gather_bodies(g->solver, c, &body, &n, err);
+        const sunder_i_subproblem subproblem = {.model = &g->solver->model,
+                                                .body = body,
+                                                .bodies = n,
+                                                .a = SUNDER_I_NOBODY,
+                                                .b = SUNDER_I_NOBODY,
+                                                .required = g->required,
+                                                .required_n = g->required_n,
+                                                .no_plane = true, /* a solution is looked for, which it has none of */
+                                                .effort = EFFORT * (uint64_t)n,
+                                                .most = MOST_BODIES};
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, subproblem.model, c->root);
+        if (!status) status = sunder_i_decide(&subproblem, &g->decision[k], err);
+        sunder_i_reads_end(&reading);
+        sunder_i_free(body);
+    }
+    return status;
+}
+
+static void mark(const components *all, const sunder_i_model *model, uint32_t body, bool *by_root_of)
+{
+    if (!model->body[body].fixed) by_root_of[all->root_of[body]] = true;
+}
+
+/* What was proved infeasible is held to the clearance of its relaxation; ascending, as relaxations are. */
+static size_t list_requirements(const sunder_i_model *model, sunder_i_requirement *required)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < model->relaxations.n; k++) {
+        const sunder_i_relaxation *t = &model->relaxations.item[k];
+        if (t->infeasible) required[n++] = sunder_i_requirement_of(model, t);
+    }
+    return n;
+}
+
+/* Marks the components in which a pair was given up, but for those that were asked about before in vain. */
+static sunder_status ask(const sunder_i_solver *s, const components *all, bool *asked, sunder_error *err)
+{
+    const sunder_i_model *model = &s->model;
+    bool *root = sunder_i_calloc(model->bodies, sizeof *root);
+    bool *doubtful = sunder_i_solver_who_hang_with(s, s->doubtful);
+    if (!root || !doubtful) {
+        sunder_i_free(root);
+        sunder_i_free(doubtful);
+        return sunder_i_no_memory(err);
+    }
+    for (size_t k = 0; k < model->given_up_n; k++) {
+        mark(all, model, model->given_up[k].a, root);
+        mark(all, model, model->given_up[k].b, root);
+    }
+    for (size_t k = 0; k < all->n; k++)
+        asked[k] = root[all->component[k].root] && doubtful[all->component[k].root] &&
+                   !s->reconsidered[all->component[k].root];
+    sunder_i_free(doubtful);
+    sunder_i_free(root);
+    return SUNDER_OK;
+}
+
+/* Lets no pair of these bodies be given up any longer. */
+static bool take_back(sunder_i_model *model, const sunder_i_solution *solution)
+{
+    size_t out = 0;
+    for (size_t k = 0; k < model->given_up_n; k++)
+        if (!sunder_i_set_has(solution->body, solution->bodies, model->given_up[k].a) &&
+            !sunder_i_set_has(solution->body, solution->bodies, model->given_up[k].b))
+            model->given_up[out++] = model->given_up[k];
+    model->given_up_n = out;
+    out = 0;
+    for (size_t k = 0; k < model->relaxations.n; k++) {
+        const sunder_i_relaxation *t = &model->relaxations.item[k];
+        if (t->infeasible || (!sunder_i_set_has(solution->body, solution->bodies, model->body_of[t->a]) &&
+                              !sunder_i_set_has(solution->body, solution->bodies, model->body_of[t->b])))
+            model->relaxations.item[out++] = *t;
+    }
+    model->relaxations.n = out;
+    return sunder_i_relaxations_index(&model->relaxations, model);
+}
+
+/* Puts the bodies where the solution has them; what it moved becomes one cluster, with which the search goes on. */
+static bool go_on_from(sunder_i_solver *s, const component *c, const sunder_i_solution *solution)
+{
+    bool ok = take_back(&s->model, solution);
+    for (size_t k = 0; k < solution->bodies; k++) {
+        const uint32_t b = solution->body[k];
+        double move[2];
+        if (s->model.body[b].fixed) continue;
+        s->wanted[b] = true;
+        sunder_i_round_move(&s->model, b, solution->move + 2 * k, move, NULL);
+        sunder_i_solver_place(s, b, move);
+        if ((move[0] != 0 || move[1] != 0) && b != c->root) ok = ok && sunder_i_solver_add_edge(s, c->root, b);
+    }
+    return ok;
+}
+
+sunder_status sunder_i_solver_reconsider(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    *changed = false;
+    if (s->model.given_up_n == 0) return SUNDER_OK;
+    components all;
+    sunder_status status = find_components(s, &all, err);
+    if (!status) status = sunder_i_solver_gather(s, err);
+    bool *asked = sunder_i_calloc(all.n, sizeof *asked);
+    sunder_i_decision *decision = sunder_i_calloc(all.n, sizeof *decision);
+    sunder_i_requirement *required = sunder_i_alloc(s->model.relaxations.n, sizeof *required);
+    if (!status && (!asked || !decision || !required)) status = sunder_i_no_memory(err);
+    if (!status) status = ask(s, &all, asked, err);
+    if (!status) {
+        asking g = {s, all.component, asked, required, list_requirements(&s->model, required), decision};
+        status = sunder_i_parallel(s->model.rules.threads, all.n, SUNDER_I_GRAIN_WHOLE, decide_some, &g, err);
+    }
+    if (!status) sunder_i_changes_clear(&s->changes);
+    for (size_t k = 0; k < all.n && !status; k++) {
+        if (decision[k].verdict != SUNDER_I_FEASIBLE) {
+            s->reconsidered[all.component[k].root] |= asked[k];
+            continue;
+        }
+        *changed = true;
+        if (!go_on_from(s, &all.component[k], &decision[k].solution)) status = sunder_i_no_memory(err);
+    }
+    for (size_t k = 0; k < all.n && decision; k++) sunder_i_decision_clear(&decision[k]);
+    sunder_i_free(asked);
+    sunder_i_free(decision);
+    sunder_i_free(required);
+    free_components(&all);
+    return !status && *changed ? sunder_i_solver_relate(s, err) : status;
+}

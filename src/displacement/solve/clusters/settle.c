@@ -1,0 +1,190 @@
+/* The rounds: clusters are solved, their moves checked exactly, and what is found makes work for the next round.
+ *
+ * No edge is removed meanwhile. So each round adds an edge between clusters, or takes a pair of one inside the other a
+ * state further (layer/inclusion.h), or widens the margin of a cluster whose result failed the exact check (a limited
+ * number of times), or is the last: the loop ends. */
+#include "displacement/layer/resolution.h"
+#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/tuning.h"
+
+#include "base/union_find.h"
+
+#include <string.h>
+
+static bool is_dirty(const sunder_i_solver *s, const sunder_i_cluster *c)
+{
+    for (size_t k = 0; k < c->n; k++)
+        if (s->dirty[c->body[k]]) return true;
+    return false;
+}
+
+static sunder_status solve_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const sunder_i_solver *s = context;
+    for (size_t k = begin; k < end; k++) {
+        sunder_i_cluster *c = &s->cluster[k];
+        c->worked_on = is_dirty(s, c);
+        if (!c->worked_on) continue;
+        double *move = sunder_i_solver_load_moves(s, c);
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
+        const sunder_status status = sunder_i_cluster_solve(&s->model, c, move, err);
+        sunder_i_reads_end(&reading);
+        if (status) return status;
+    }
+    return SUNDER_OK;
+}
+
+/* What was solved again is to be improved again. What was measured is kept, for the report. */
+static sunder_status note_solved(sunder_i_solver *s, sunder_error *err)
+{
+    for (size_t k = 0; k < s->clusters; k++) {
+        const sunder_i_cluster *c = &s->cluster[k];
+        if (!is_dirty(s, c)) continue;
+        for (size_t m = 0; m < c->n; m++) {
+            s->improved[c->body[m]] = false;
+            s->cheapest[c->body[m]] = c->cheapest;
+            if (c->crowd) s->crowd[c->body[m]] = (uint32_t)c->n;
+        }
+        if (!(c->measured.least > 0)) continue;
+        if (!sunder_i_reserve(&s->measured, &s->measured_capacity, s->measured_n + 1, sizeof *s->measured))
+            return sunder_i_no_memory(err);
+        s->measured[s->measured_n++] = c->measured;
+    }
+    return SUNDER_OK;
+}
+
+/* What has not moved yet and is cut by the edge of its holder, which has: it starts from where the holder would carry
+ * it, so that the cluster begins from a position without conflicts. */
+static void carry(sunder_i_solver *s, uint32_t f, uint32_t g)
+{
+    const sunder_i_model *model = &s->model;
+    sunder_i_inclusion_state state;
+    for (int e = 0; e < 2; e++) {
+        const uint32_t holder = model->body_of[e ? g : f], inner = model->body_of[e ? f : g];
+        const double *t = model->move + 2 * (size_t)holder, *own = model->move + 2 * (size_t)inner;
+        if (sunder_i_keeps_inside(model, e ? g : f, e ? f : g, &state) && own[0] == 0 && own[1] == 0 &&
+            sunder_i_may_move(&model->body[inner]) && sunder_i_is_within_limit(t, model->body[inner].limit))
+            s->carrier[inner] = holder;
+    }
+}
+
+/* Are the two in one cluster? A fixed body is in those that were last gathered with it: edges added since then are not
+ * known, and may be added again. */
+static bool are_together(const sunder_i_solver *s, uint32_t i, uint32_t j)
+{
+    const bool fixed = s->model.body[i].fixed || s->model.body[j].fixed;
+    if (!fixed) return sunder_i_union_find(s->parent, i) == sunder_i_union_find(s->parent, j);
+    const uint32_t still = s->model.body[i].fixed ? i : j, other = still == i ? j : i;
+    return sunder_i_solver_has_member(s, sunder_i_union_find(s->parent, other), still);
+}
+
+/* A relaxation between bodies of different clusters is not in the way of either, unless it was broken. */
+static sunder_status heed_relaxation(sunder_i_solver *s, const sunder_i_relation *r, bool *any, sunder_error *err)
+{
+    const uint32_t i = s->model.body_of[r->a], j = s->model.body_of[r->b];
+    bool worse;
+    if (are_together(s, i, j)) return SUNDER_OK;
+    const sunder_status status = sunder_i_solver_is_worse(s, r, &worse, err);
+    if (status || !worse) return status;
+    *any = true;
+    return sunder_i_solver_add_edge(s, i, j) ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+/* What a cluster's solution should have given two of its bodies, and by rounding did not: it is solved again with a
+ * wider margin, if that may still grow. */
+static void widen(sunder_i_solver *s, uint32_t i, uint32_t j, bool *any)
+{
+    const uint32_t b = s->model.body[i].fixed ? j : i;
+    if (s->widened[b] >= MOST_MARGINS) return;
+    if (s->dirty[b] && s->widened[b]) return; /* once a round */
+    s->widened[b]++;
+    s->dirty[b] = *any = true;
+}
+
+/* Who jumped over one of another cluster joins it. */
+static sunder_status find_jumps(sunder_i_solver *s, bool *any, sunder_error *err)
+{
+    const sunder_i_model *model = &s->model;
+    for (size_t k = 0; k < s->jumps.n; k++) {
+        const uint32_t i = model->body_of[s->jumps.pair[k].a], j = model->body_of[s->jumps.pair[k].b];
+        if (s->aside && (s->aside[i] || s->aside[j])) continue;
+        if (are_together(s, i, j)) {
+            widen(s, i, j, any);
+            continue;
+        }
+        if (!sunder_i_solver_add_edge(s, i, j)) return sunder_i_no_memory(err);
+        *any = true;
+    }
+    return SUNDER_OK;
+}
+
+/* Conflicts as the features stand make bodies dirty: by a new edge between clusters, or a wider margin within one.
+ * Returns whether there is anything to do. */
+static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
+{
+    sunder_i_model *model = &s->model;
+    memset(s->dirty, 0, model->bodies * sizeof *s->dirty);
+    *any = false;
+    for (size_t k = 0; k < s->now.n; k++) {
+        const sunder_i_relation *r = &s->now.pair[k];
+        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+        if (s->aside && (s->aside[i] || s->aside[j])) continue;
+        if (!sunder_i_is_conflict(r) || i == j) continue;
+        if (!sunder_i_may_move(&model->body[i]) && !sunder_i_may_move(&model->body[j])) continue;
+        if (sunder_i_relaxations_find(&model->relaxations, r->a, r->b)) {
+            const sunder_status status = heed_relaxation(s, r, any, err);
+            if (status) return status;
+            continue;
+        }
+        if (!are_together(s, i, j)) {
+            sunder_i_solver_hold(s, i, j);
+            if (!sunder_i_solver_add_edge(s, i, j)) return sunder_i_no_memory(err);
+            carry(s, r->a, r->b);
+            *any = true;
+            continue;
+        }
+        const uint32_t b = model->body[i].fixed ? j : i;
+        /* What lay in another, and was not kept inside. */
+        sunder_i_inclusion *inclusion = sunder_i_inclusion_find(model, r->a, r->b);
+        if (inclusion && inclusion->state != SUNDER_I_LAPSED) {
+            inclusion->state++;
+            s->dirty[b] = *any = true;
+            continue;
+        }
+        widen(s, i, j, any);
+    }
+    return find_jumps(s, any, err);
+}
+
+static bool is_hopeless(const sunder_i_solver *s)
+{
+    for (size_t k = 0; k < s->clusters; k++)
+        if (s->cluster[k].hopeless) return true;
+    return false;
+}
+
+sunder_status sunder_i_solver_settle(sunder_i_solver *s, double from, double to, sunder_error *err)
+{
+    bool any;
+    sunder_status status = find_work(s, &any, err);
+    for (size_t round = 0; !status && any; round++) {
+        if (!sunder_i_progress(&s->model.rules, from + (to - from) * (1 - 1 / (1 + SHARE_OF_ROUND * (double)round))))
+            return sunder_i_cancelled(err);
+        status = sunder_i_solver_gather(s, err);
+        if (!status) status = sunder_i_solver_unite_blocks(s, err);
+        if (!status) status = sunder_i_solver_grow_crowds(s, err);
+        if (!status) status = sunder_i_solver_for_clusters(s, solve_clusters, s, err);
+        s->hopeless = !status && is_hopeless(s);
+        if (status || s->hopeless) return status;
+        sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
+        status = sunder_i_solver_commit(s, err);
+        if (!status) status = note_solved(s, err);
+        for (size_t k = 0; k < s->members; k++) s->carrier[s->body[k]] = SUNDER_I_NOBODY;
+        if (!status) status = sunder_i_solver_take_over(s, err);
+        if (!status) status = sunder_i_solver_relate(s, err);
+        if (!status) status = sunder_i_solver_set_far_aside(s, err);
+        if (!status) status = find_work(s, &any, err);
+    }
+    return status;
+}

@@ -1,0 +1,82 @@
+/* Two bodies are shut in (shut_in_pairs.c): which of their conflicts have no solution, if the others stay?
+ *
+ * A conflict that has none by itself is left for good. Of the others most have none either, since the rest of the two
+ * blocks is in the way: that is proved in the plane of their relative move (prove/proofs/plane.c), all other conflicts
+ * between the two being held no worse than they stood. Less is never asked of them later, since only pairs that are in
+ * conflict at the start are ever left so; so what has no solution here has none at all, and is not asked for again, in
+ * clusters of dozens of bodies, in vain. An overlap may still be parted short of the gap: who asks for that
+ * (../search/retry_cluster.c) asks all the same. */
+#include "displacement/prove/proofs/feasibility.h"
+#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/tuning.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The members of both, ascending; NULL if memory is out. */
+static uint32_t *members_of(const sunder_i_model *model, const sunder_i_id_pair *bodies, size_t *n)
+{
+    const sunder_i_body *p = &model->body[bodies->a], *q = &model->body[bodies->b];
+    uint32_t *set = sunder_i_alloc((size_t)p->members + q->members, sizeof *set);
+    if (!set) return NULL;
+    memcpy(set, model->member + p->member, p->members * sizeof *set);
+    memcpy(set + p->members, model->member + q->member, q->members * sizeof *set);
+    *n = sunder_i_set_make(set, (size_t)p->members + q->members);
+    return set;
+}
+
+/* What all conflicts between the two are held to: those at hand, and those that limits leave no solution. NULL if
+ * memory is out. */
+static sunder_i_requirement *list_required(const sunder_i_model *model, const sunder_i_id_pair *bodies,
+                                           const sunder_i_relaxation *relaxation, size_t n, size_t *required)
+{
+    const sunder_i_relaxations *all = &model->relaxations;
+    sunder_i_requirement *list = sunder_i_alloc(n + all->n, sizeof *list);
+    *required = 0;
+    for (size_t k = 0; k < n && list; k++) list[(*required)++] = sunder_i_requirement_below(model, &relaxation[k]);
+    for (size_t k = 0; k < all->n && list; k++) {
+        const uint32_t i = model->body_of[all->item[k].a], j = model->body_of[all->item[k].b];
+        if ((i == bodies->a && j == bodies->b) || (i == bodies->b && j == bodies->a))
+            list[(*required)++] = sunder_i_requirement_below(model, &all->item[k]);
+    }
+    if (*required) qsort(list, *required, sizeof *list, sunder_i_by_id_pair);
+    return list;
+}
+
+sunder_status sunder_i_find_unsolvable(const sunder_i_model *model, const sunder_i_id_pair *bodies,
+                                       sunder_i_relaxation *relaxation, size_t n, sunder_error *err)
+{
+    const uint32_t body[2] = {bodies->a, bodies->b};
+    uint64_t in_vain = 0;
+    if ((uint64_t)model->body[body[0]].pieces * model->body[body[1]].pieces > MOST_IN_PLANE) return SUNDER_OK;
+    sunder_i_planes planes = {0};
+    sunder_i_precedents precedents = {0};
+    sunder_i_subproblem two = {.model = model,
+                               .body = body,
+                               .bodies = 2,
+                               .instead = 2 * sunder_i_farthest_near(model, bodies->a, bodies->b),
+                               .coarse = COARSE_IN_PLANE,
+                               .planes = &planes,
+                               .precedents = &precedents,
+                               .effort = 0, /* the plane, and nothing else */
+                               .most = 2};
+    uint32_t *members = members_of(model, bodies, &two.features);
+    sunder_i_requirement *required = list_required(model, bodies, relaxation, n, &two.required_n);
+    sunder_status status = members && required ? SUNDER_OK : sunder_i_no_memory(err);
+    two.feature = members;
+    two.required = required;
+    for (size_t k = 0; k < n && !status && in_vain < EFFORT_IN_VAIN; k++) {
+        if (relaxation[k].infeasible) continue;
+        sunder_i_decision decision;
+        two.a = relaxation[k].a;
+        two.b = relaxation[k].b;
+        status = sunder_i_decide(&two, &decision, err);
+        relaxation[k].infeasible = decision.verdict == SUNDER_I_INFEASIBLE;
+        if (!relaxation[k].infeasible) in_vain += decision.work;
+        sunder_i_decision_clear(&decision);
+    }
+    sunder_i_planes_clear(&planes);
+    sunder_i_free(members);
+    sunder_i_free(required);
+    return status;
+}

@@ -1,0 +1,225 @@
+/* Conflicts that no moves resolve, with or without limits: one body stands in a yard of the other that is too small for
+ * it, and would have to jump out (prove/optimum/shut_in.c). They are found before anything moves, so that no search
+ * begins with asking for a solution: all conflicts of two such bodies are left. Those of which that holds feature by
+ * feature, the rest of their blocks only minding its ways, are infeasible like those that limits leave no solution; of
+ * the others one may have a solution where the rest is left, so they are given up, and asked for again at the end, but
+ * for those that are proved to have none (shut_in_conflicts.c). */
+#include "displacement/solve/clusters/stages.h"
+
+#include "base/parallel.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct judging {
+    const sunder_i_model *model;
+    const sunder_i_id_pair *pair;
+    bool *shut;
+} judging;
+
+static sunder_status judge(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const judging *g = context;
+    for (size_t k = begin; k < end; k++)
+        if (!sunder_i_is_shut_in(g->model, g->pair[k].a, g->pair[k].b, &g->shut[k])) return sunder_i_no_memory(err);
+    return SUNDER_OK;
+}
+
+static sunder_i_id_pair bodies_of(const sunder_i_model *model, const sunder_i_relation *r)
+{
+    const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+    return i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i};
+}
+
+/* Pairs of bodies in conflict, sorted. Returns how many. */
+static size_t list_pairs(const sunder_i_solver *s, sunder_i_id_pair *pair)
+{
+    const sunder_i_model *model = &s->model;
+    size_t n = 0, out = 0;
+    for (size_t k = 0; k < s->start.n; k++) {
+        const sunder_i_relation *r = &s->start.pair[k];
+        if (sunder_i_is_open_conflict(model, r) && !sunder_i_is_barrier(model, r->b)) pair[n++] = bodies_of(model, r);
+    }
+    if (n) qsort(pair, n, sizeof *pair, sunder_i_by_id_pair);
+    for (size_t k = 0; k < n; k++)
+        if (k == 0 || sunder_i_by_id_pair(&pair[k - 1], &pair[k])) pair[out++] = pair[k];
+    return out;
+}
+
+/* Might they be? */
+static sunder_status suspect(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const judging *g = context;
+    (void)err;
+    for (size_t k = begin; k < end; k++) g->shut[k] = sunder_i_may_be_shut_in(g->model, g->pair[k].a, g->pair[k].b);
+    return SUNDER_OK;
+}
+
+/* Of n pairs those of which that was said; how many. */
+static size_t keep_shut(sunder_i_id_pair *pair, const bool *shut, size_t n)
+{
+    size_t out = 0;
+    for (size_t k = 0; k < n; k++)
+        if (shut[k]) pair[out++] = pair[k];
+    return out;
+}
+
+/* A conflict of two bodies that are shut in: is it by itself? */
+typedef struct matter {
+    sunder_i_id_pair bodies, pair;
+    bool shut;
+    sunder_i_relaxation relaxation;
+} matter;
+
+static int by_bodies(const void *a, const void *b)
+{
+    const matter *p = a, *q = b;
+    const int order = sunder_i_by_id_pair(&p->bodies, &q->bodies);
+    return order ? order : sunder_i_by_id_pair(&p->pair, &q->pair);
+}
+
+static int by_pair(const void *a, const void *b)
+{
+    return sunder_i_by_id_pair(&((const matter *)a)->pair, &((const matter *)b)->pair);
+}
+
+/* Those of two bodies, n of them. */
+static sunder_status judge_features(const sunder_i_model *model, matter *list, size_t n, sunder_error *err)
+{
+    sunder_i_id_pair *pair = sunder_i_alloc(n, sizeof *pair);
+    sunder_i_relaxation *relaxation = sunder_i_alloc(n, sizeof *relaxation);
+    bool *shut = sunder_i_calloc(n, sizeof *shut);
+    bool ok = pair && relaxation && shut;
+    for (size_t k = 0; k < n && ok; k++) pair[k] = list[k].pair;
+    ok = ok && sunder_i_which_are_shut_in(model, list->bodies.a, list->bodies.b, pair, n, shut);
+    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    for (size_t k = 0; k < n && !status; k++) {
+        status = sunder_i_relaxation_of(model, pair[k].a, pair[k].b, &relaxation[k], err);
+        list[k].shut = relaxation[k].infeasible = shut[k];
+    }
+    if (!status) status = sunder_i_find_unsolvable(model, &list->bodies, relaxation, n, err);
+    for (size_t k = 0; k < n && !status; k++) list[k].relaxation = relaxation[k];
+    sunder_i_free(pair);
+    sunder_i_free(relaxation);
+    sunder_i_free(shut);
+    return status;
+}
+
+typedef struct judging_features {
+    const sunder_i_model *model;
+    matter *matter;
+    const size_t *first; /* [pairs of bodies + 1] */
+} judging_features;
+
+static sunder_status judge_some(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const judging_features *g = context;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = begin; k < end && !status; k++)
+        status = judge_features(g->model, g->matter + g->first[k], g->first[k + 1] - g->first[k], err);
+    return status;
+}
+
+/* The conflicts between these bodies, n pairs, sorted; how many. out NULL: they are counted only. */
+static size_t find_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, matter *out)
+{
+    size_t found = 0;
+    for (size_t k = 0; k < s->start.n; k++) {
+        const sunder_i_relation *r = &s->start.pair[k];
+        if (!sunder_i_is_open_conflict(&s->model, r) || sunder_i_is_barrier(&s->model, r->b)) continue;
+        const sunder_i_id_pair bodies = bodies_of(&s->model, r);
+        if (!bsearch(&bodies, list, n, sizeof bodies, sunder_i_by_id_pair)) continue;
+        if (out) out[found] = (matter){.bodies = bodies, .pair = {r->a, r->b}};
+        found++;
+    }
+    return found;
+}
+
+/* The same by pairs of bodies, whose first ones are told. */
+static void list_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, matter *out, size_t *first,
+                           size_t *pairs)
+{
+    const size_t found = find_conflicts(s, list, n, out);
+    if (found) qsort(out, found, sizeof *out, by_bodies);
+    *pairs = 0;
+    for (size_t k = 0; k < found; k++)
+        if (k == 0 || sunder_i_by_id_pair(&out[k - 1].bodies, &out[k].bodies)) first[(*pairs)++] = k;
+    first[*pairs] = found;
+}
+
+static sunder_status leave(sunder_i_model *model, const matter *m, sunder_i_relaxations *more, sunder_error *err)
+{
+    if (m->shut) {
+        model->shut_in[model->shut_in_n++] = m->pair;
+    } else {
+        model->given_up[model->given_up_n++] = m->bodies;
+    }
+    return sunder_i_relaxations_add(more, &m->relaxation) ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+/* Leaves the conflicts between these bodies, n pairs, sorted. */
+static sunder_status relax(sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, sunder_error *err)
+{
+    sunder_i_model *model = &s->model;
+    sunder_i_relaxations more = {0};
+    const size_t conflicts = find_conflicts(s, list, n, NULL);
+    matter *found = sunder_i_alloc(conflicts, sizeof *found);
+    size_t *first = sunder_i_alloc(conflicts + 1, sizeof *first), pairs = 0;
+    model->shut_in = sunder_i_alloc(conflicts, sizeof *model->shut_in);
+    model->given_up = sunder_i_alloc(conflicts, sizeof *model->given_up);
+    const bool ok = found && first && model->shut_in && model->given_up;
+    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    if (ok) list_conflicts(s, list, n, found, first, &pairs);
+    judging_features g = {model, found, first};
+    if (!status) status = sunder_i_parallel(model->rules.threads, pairs, SUNDER_I_GRAIN_WHOLE, judge_some, &g, err);
+    if (ok && conflicts) qsort(found, conflicts, sizeof *found, by_pair);
+    for (size_t k = 0; k < conflicts && !status; k++) status = leave(model, &found[k], &more, err);
+    for (size_t k = 0; k < more.n && !status; k++)
+        if (!sunder_i_relaxations_add(&model->relaxations, &more.item[k])) status = sunder_i_no_memory(err);
+    sunder_i_relaxations_free(&more);
+    sunder_i_free(found);
+    sunder_i_free(first);
+    if (model->shut_in_n) qsort(model->shut_in, model->shut_in_n, sizeof *model->shut_in, sunder_i_by_id_pair);
+    sunder_i_sort_given_up(model);
+    if (!status && !sunder_i_relaxations_index(&model->relaxations, model)) status = sunder_i_no_memory(err);
+    return status;
+}
+
+/* Seams and joints: whatever is between pieces of theirs. */
+static sunder_status find_seams(sunder_i_model *model, const sunder_i_id_pair *pair, size_t n, sunder_error *err)
+{
+    uint32_t *body = sunder_i_alloc(2 * n, sizeof *body);
+    if (!body) return sunder_i_no_memory(err);
+    memcpy(body, pair, 2 * n * sizeof *body);
+    const size_t bodies = sunder_i_set_make(body, 2 * n);
+    sunder_status status = sunder_i_model_find_seams_of(model, body, bodies, err);
+    if (!status) status = sunder_i_model_find_joints(model, body, bodies, err);
+    sunder_i_free(body);
+    return status;
+}
+
+sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_i_model *model = &s->model;
+    if (model->rules.jumps) return SUNDER_OK;
+    sunder_i_id_pair *pair = sunder_i_alloc(s->start.n, sizeof *pair);
+    if (!pair) return sunder_i_no_memory(err);
+    size_t n = list_pairs(s, pair);
+    judging g = {model, pair, sunder_i_calloc(n, sizeof *g.shut)};
+    sunder_status status = g.shut ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_TESTS, suspect, &g, err);
+    if (!status) n = keep_shut(pair, g.shut, n);
+    if (!status && n) status = find_seams(model, pair, n, err);
+    if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_WHOLE, judge, &g, err);
+    const size_t out = status ? 0 : keep_shut(pair, g.shut, n);
+    if (!status && out) {
+        status = relax(s, pair, out, err);
+        sunder_i_id_pair *confined = sunder_i_realloc(pair, out, sizeof *pair);
+        model->confined = confined ? confined : pair;
+        model->confined_n = out;
+        pair = NULL;
+    }
+    sunder_i_free(g.shut);
+    sunder_i_free(pair);
+    return status;
+}

@@ -1,0 +1,148 @@
+/* The work on one layer, from its relations to its moves: what the stages share. (How one cluster is solved is a
+ * question to the search: solve/search/cluster.h.) */
+#ifndef SUNDER_I_SOLVER_H
+#define SUNDER_I_SOLVER_H
+
+#include "displacement/layer/jumps.h"
+#include "displacement/layer/placement.h"
+#include "displacement/layer/reads.h"
+#include "displacement/prove/optimum/optimum.h"
+#include "displacement/solve/search/cluster.h"
+
+#include "base/parallel.h"
+#include "separation/separation.h"
+
+typedef struct sunder_i_cluster_member {
+    uint32_t root, body;
+} sunder_i_cluster_member;
+
+/* Features a and b, of which the one is to get inside the other: a move of b that brings them there. */
+typedef struct sunder_i_entry {
+    uint32_t a, b;
+    bool a_inside;
+    double place[2];
+} sunder_i_entry;
+
+/* The contact groups of the layout. */
+typedef struct sunder_i_groups {
+    sunder_i_group *group;
+    size_t n;
+    uint32_t *of;            /* [bodies] the number of the group; SUNDER_I_NOBODY: it stands alone, or is fixed */
+    sunder_i_waiver *waived; /* pairs that are listed; sorted */
+    size_t waived_n;
+    sunder_i_id_pair *joined; /* bodies that proofs take together */
+    size_t joins, capacity;
+    double *spent; /* [bodies] steps of proofs */
+    bool *blunt;   /* [bodies] a place without room did not hold for them */
+    bool *shaken;  /* [bodies] its group was shaken with patience */
+    bool *seamed;  /* [bodies] one that was proposed to jump over another, or was jumped over: along a diagonal? */
+    bool any_seamed;
+} sunder_i_groups;
+
+/* Members of clusters are to be listed, whatever edges there are. */
+#define SUNDER_I_NONE_LISTED SIZE_MAX
+
+typedef struct sunder_i_solver {
+    sunder_i_barriers barriers;
+    sunder_layer layer; /* in the order of work, with parts of barriers behind the features */
+    sunder_i_model model;
+    sunder_i_placement placement;
+    sunder_i_relations start, now;
+    sunder_i_depth *depth; /* [depths] of those pairs of start that were asked about, which are few ... */
+    size_t depths, depth_capacity;
+    uint32_t *depth_at;    /* [start.n] ... where that of each is, and one more; 0: nobody asked. NULL: of none */
+    sunder_i_jumps jumps;  /* as the features stand */
+    sunder_i_entry *entry; /* pairs that cannot be parted, but go inside */
+    size_t entries, entry_capacity;
+    sunder_i_id_pair *edge;
+    size_t edges, edge_capacity;
+    uint32_t *conflict_root;  /* see sunder_i_solver_conflict_roots() */
+    uint32_t *parent;         /* [bodies] union-find over edges */
+    bool *dirty;              /* [bodies] to be solved (again) */
+    unsigned char *widened;   /* [bodies] how often the margin grew */
+    sunder_i_changes changes; /* what moved in this round */
+    bool *reconsidered;       /* [bodies] of the least of a component of conflicts: no solution was found */
+    sunder_i_id_pair *alone;  /* things of pairs that were asked about by themselves (one_by_one.c); sorted */
+    size_t alone_n, alone_capacity;
+    uint64_t *alone_work; /* [bodies] what those questions took in vain, by one body of each pair */
+    bool *wanted;         /* [bodies] what is sought is sought of the clusters that have one of these (clusters.c) */
+    bool *doubtful;       /* [bodies] and of those of such is asked again whether they have a solution */
+    uint32_t *crowd;      /* [bodies] in how large a crowd it began where prices of area put it; 0: in none */
+    bool *gave_up;        /* [bodies] of pairs that were given up since this was last cleared */
+    sunder_bound_pair *measured; /* features that were asked how far they have to go apart; some more than once */
+    size_t measured_n, measured_capacity;
+    bool *improved; /* [bodies] better sides were looked for since the body's cluster was solved */
+    bool *cheapest; /* [bodies] there are none: it stands where a solution had it that was known to be the cheapest */
+    double *limit;  /* [bodies] the limits, while they are lifted */
+    bool *aside;    /* [bodies] left as they are while limits are lifted; NULL: they never were */
+    bool *let_go;   /* [bodies] held once, and no longer (coarse_bodies.c); NULL: none is ever held */
+    double *went;   /* [2 * bodies] where those stood that were set aside because they went too far */
+    sunder_i_relaxations waiting;    /* of what was set aside */
+    uint32_t *carrier;               /* [bodies] whose place to start from instead of its own, or SUNDER_I_NOBODY */
+    sunder_i_cluster_member *member; /* cluster after cluster, bodies ascending */
+    size_t members;
+    uint32_t *body; /* the bodies of member[] */
+    double *move;   /* [2 * members] */
+    sunder_i_cluster *cluster;
+    size_t clusters;
+    size_t room, listed;    /* edges that there is room for here; and that member[] is of */
+    bool brief;             /* the first cluster without a solution ends it: nothing is given up */
+    bool hopeless;          /* there was one */
+    sunder_i_groups groups; /* contact groups, and what is proved of them; with effort 0 nothing */
+} sunder_i_solver;
+
+/* From solver->model, which has its bodies. Failure leaves what sunder_i_solver_free() takes. */
+sunder_status sunder_i_solver_init(sunder_i_solver *solver, sunder_error *err);
+void sunder_i_solver_free(sunder_i_solver *solver);
+
+/* ---- clusters.c: edges and clusters ------------------------------------------------------------------------------ */
+
+/* [bodies] The components of the conflicts at the start, by their roots, lent; a fixed body joins none. NULL if memory
+ * is out. Not for several threads at a time: they are found when somebody first asks. */
+const uint32_t *sunder_i_solver_conflict_roots(sunder_i_solver *solver);
+/* An edge between bodies, which makes them dirty. False if memory is out. */
+bool sunder_i_solver_add_edge(sunder_i_solver *solver, uint32_t i, uint32_t j);
+/* Was the body a member of the cluster of that root when they were last gathered? */
+bool sunder_i_solver_has_member(const sunder_i_solver *solver, uint32_t root, uint32_t body);
+/* The members of the cluster of that root, ascending; NULL and none if it is no cluster's. */
+const uint32_t *sunder_i_solver_members(const sunder_i_solver *solver, uint32_t root, size_t *n);
+/* The cluster of that root, or that the body is of, as they were last gathered; NULL: none. */
+sunder_i_cluster *sunder_i_solver_cluster_with(const sunder_i_solver *solver, uint32_t root);
+sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *solver, uint32_t body);
+/* Does any of them that may move have the flag? flag: [bodies] */
+bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body, size_t n, const bool *flag);
+/* Who hangs together, by edges as they are now, with one that has the flag: [bodies], the caller's. A fixed body hangs
+ * with nobody. NULL if memory is out. */
+bool *sunder_i_solver_who_hang_with(const sunder_i_solver *solver, const bool *flag);
+/* What is asked of these bodies beyond the gap. */
+double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *body, size_t n);
+/* Who stands for the cluster where it is noted what was looked at for it: one that is of no other. */
+static inline uint32_t sunder_i_reader_for(const sunder_i_solver *solver, const sunder_i_cluster *cluster)
+{
+    return solver->member[cluster->body - solver->body].root;
+}
+/* Clusters are not worked on any more: who their members are is all that is left of them, until they are gathered. */
+void sunder_i_solver_forget_clusters(sunder_i_solver *solver);
+/* Work on all clusters as they were last gathered, by their numbers. */
+sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder_i_work work, void *context,
+                                           sunder_error *err);
+/* Clusters from the edges, afresh. */
+sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err);
+/* Unites those blocks of clusters of which the search may ask for the union. A fixed one may be a member of several
+ * clusters: each body once, so that no two threads do the same. */
+sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *solver, sunder_error *err);
+
+/* ---- body_moves.c: between the layer and its clusters ------------------------------------------------------------ */
+
+/* Loads the moves that a cluster starts from, and lends them. */
+double *sunder_i_solver_load_moves(const sunder_i_solver *solver, const sunder_i_cluster *cluster);
+/* Moves body b, unless it is fixed, by a move that was rounded; marks what changed. */
+void sunder_i_solver_place(sunder_i_solver *solver, uint32_t b, const double *move);
+/* Takes over the moves of clusters that were worked on: bodies, features that changed, and whether their coordinates
+ * stayed exact. */
+sunder_status sunder_i_solver_commit(sunder_i_solver *solver, sunder_error *err);
+/* Exact relations of what changed; of what is few, with all things that were near one of them, then or now. */
+sunder_status sunder_i_solver_relate(sunder_i_solver *solver, sunder_error *err);
+sunder_status sunder_i_solver_relate_near(sunder_i_solver *solver, const sunder_i_list *things, sunder_error *err);
+
+#endif

@@ -1,0 +1,129 @@
+/* A question about a conflict: has a small layer a solution in which pairs that are spared are as they were? Most have
+ * none, and a search that finds none has tried all it knows: so it is asked first what can be proved, which costs less.
+ */
+#include "displacement/layer/requirement.h"
+#include "displacement/prove/proofs/feasibility.h"
+#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/tuning.h"
+
+#include <stdlib.h>
+
+bool sunder_i_solver_is_spared(const sunder_i_solver *s, const sunder_i_spared *list, uint32_t a, uint32_t b)
+{
+    const uint32_t p = s->layer.number[a], q = s->layer.number[b];
+    const sunder_i_id_pair key = {p < q ? p : q, p < q ? q : p};
+    return list->n && bsearch(&key, list->pair, list->n, sizeof key, sunder_i_by_id_pair);
+}
+
+sunder_status sunder_i_solver_spare(sunder_i_solver *s, const sunder_i_spared *list, sunder_error *err)
+{
+    sunder_i_model *model = &s->model;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < s->start.n && list->n && !status; k++) {
+        const sunder_i_relation *r = &s->start.pair[k];
+        sunder_i_relaxation relaxation;
+        if (!sunder_i_is_conflict_of_bodies(model, r) || !sunder_i_solver_is_spared(s, list, r->a, r->b)) continue;
+        status = sunder_i_relaxation_of(model, r->a, r->b, &relaxation, err);
+        relaxation.infeasible = true;
+        if (!status && !sunder_i_relaxations_spread(&model->relaxations, model, &relaxation, model->rules.gap))
+            status = sunder_i_no_memory(err);
+    }
+    if (!status && !sunder_i_relaxations_index(&model->relaxations, model)) status = sunder_i_no_memory(err);
+    return status;
+}
+
+bool sunder_i_solver_is_beyond_limits(const sunder_i_solver *s, const sunder_i_spared *list)
+{
+    const sunder_i_model *model = &s->model;
+    for (size_t k = 0; k < model->relaxations.n; k++) {
+        const sunder_i_relaxation *t = &model->relaxations.item[k];
+        if (sunder_i_solver_is_spared(s, list, t->a, t->b)) continue;
+        if (sunder_i_may_move(&model->body[model->body_of[t->a]]) ||
+            sunder_i_may_move(&model->body[model->body_of[t->b]]))
+            return true;
+    }
+    return false;
+}
+
+/* ---- By proof ---------------------------------------------------------------------------------------------------- */
+
+/* What one of the spared is held to: what it is relaxed to, but where it lies in the other or in an area, and may go
+ * deeper. */
+static sunder_status find_requirement(const sunder_i_solver *s, const sunder_i_relation *r, sunder_i_requirement *out,
+                                      sunder_error *err)
+{
+    const sunder_i_model *model = &s->model;
+    const sunder_i_relaxation *t = sunder_i_relaxations_find(&model->relaxations, r->a, r->b);
+    const bool area = sunder_i_is_barrier(model, r->b) && !sunder_i_thing_shape(model, r->b)->flat;
+    if (!t || r->contained || area) return sunder_i_requirement_find(model, &s->start, r->a, r->b, out, err);
+    *out = sunder_i_requirement_below(model, t);
+    return SUNDER_OK;
+}
+
+/* What the spared are held to, sorted: of those that were in conflict. All others owe each other all. */
+static sunder_status find_requirements(const sunder_i_solver *s, const sunder_i_spared *list,
+                                       sunder_i_requirement *required, size_t *n, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    *n = 0;
+    for (size_t k = 0; k < s->start.n && list->n && !status; k++) {
+        const sunder_i_relation *r = &s->start.pair[k];
+        if (!sunder_i_is_conflict_of_bodies(&s->model, r) || !sunder_i_solver_is_spared(s, list, r->a, r->b)) continue;
+        status = find_requirement(s, r, &required[(*n)++], err);
+    }
+    if (!status && *n) qsort(required, *n, sizeof *required, sunder_i_by_id_pair);
+    return status;
+}
+
+/* Is there a conflict to be solved of which it is proved that there is no way? Those of the same two bodies are one
+ * question, as all that is not spared has to hold. */
+static sunder_status prove(const sunder_i_solver *s, const sunder_i_spared *list, sunder_i_subproblem *q, bool *proved,
+                           sunder_error *err)
+{
+    const sunder_i_model *model = &s->model;
+    sunder_i_id_pair last = {SUNDER_I_NOBODY, SUNDER_I_NOBODY};
+    sunder_status status = SUNDER_OK;
+    uint64_t left = EFFORT_BRIEFLY;
+    for (size_t k = 0; k < s->start.n && left && !*proved && !status; k++) {
+        const sunder_i_relation *r = &s->start.pair[k];
+        const uint32_t body[2] = {model->body_of[r->a], model->body_of[r->b]};
+        const bool barrier = sunder_i_is_barrier(model, r->b);
+        const sunder_i_id_pair asked = {body[0], barrier ? SUNDER_I_NOBODY : body[1]};
+        sunder_i_decision decision;
+        if (!sunder_i_is_open_conflict(model, r) || sunder_i_solver_is_spared(s, list, r->a, r->b) ||
+            sunder_i_by_id_pair(&asked, &last) == 0)
+            continue;
+        last = asked;
+        q->effort = left;
+        q->body = body;
+        q->bodies = barrier ? 1 : 2;
+        status = sunder_i_decide(q, &decision, err);
+        *proved = decision.verdict == SUNDER_I_INFEASIBLE;
+        left -= decision.work < left ? decision.work : left;
+        sunder_i_decision_clear(&decision);
+    }
+    return status;
+}
+
+sunder_status sunder_i_solver_is_proved_hopeless(const sunder_i_solver *s, const sunder_i_spared *list, bool *proved,
+                                                 sunder_error *err)
+{
+    sunder_i_planes planes = {0};
+    sunder_i_requirement *required = sunder_i_alloc(s->start.n, sizeof *required);
+    size_t n = 0;
+    sunder_status status = required ? find_requirements(s, list, required, &n, err) : sunder_i_no_memory(err);
+    *proved = false;
+    if (!status) {
+        sunder_i_subproblem q = {.model = &s->model,
+                                 .a = SUNDER_I_NOBODY,
+                                 .b = SUNDER_I_NOBODY,
+                                 .required = required,
+                                 .required_n = n,
+                                 .planes = &planes,
+                                 .most = MOST_BODIES};
+        status = prove(s, list, &q, proved, err);
+    }
+    sunder_i_planes_clear(&planes);
+    sunder_i_free(required);
+    return status;
+}

@@ -1,0 +1,139 @@
+/* One place for a few bodies, tried exactly; see trial.h. */
+#include "displacement/solve/clusters/trial.h"
+#include "displacement/layer/resolution.h"
+#include "displacement/layer/rounding.h"
+#include "displacement/solve/clusters/stages.h"
+
+#include <string.h>
+
+/* What body k of the trial is to move by, if they are all to move by `to`. */
+static void goal_of(const sunder_i_trial *t, size_t k, const double to[2], double goal[2])
+{
+    for (unsigned c = 0; c < 2; c++)
+        goal[c] = t->goal ? t->goal[2 * k + c] : t->along >> c & 1 ? to[c] : t->stood[2 * k + c];
+}
+
+bool sunder_i_trial_take(sunder_i_trial *t, uint32_t b)
+{
+    const double *move = t->solver->model.move + 2 * (size_t)b;
+    if (!sunder_i_reserve(&t->body, &t->body_capacity, t->n + 1, sizeof *t->body) ||
+        !sunder_i_reserve(&t->stood, &t->stood_capacity, 2 * (t->n + 1), sizeof *t->stood))
+        return false;
+    t->body[t->n] = b;
+    memcpy(t->stood + 2 * t->n++, move, 2 * sizeof *move);
+    return true;
+}
+
+static bool is_to_be_parted(const sunder_i_trial *t, const sunder_i_relation *r)
+{
+    const sunder_i_model *model = &t->solver->model;
+    const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+    if (!t->parted || (i < j ? i : j) != t->parted->a || (i < j ? j : i) != t->parted->b) return false;
+    const sunder_i_relaxation *held = sunder_i_relaxations_find(&model->relaxations, r->a, r->b);
+    return sunder_i_is_conflict(r) && !(held && held->infeasible);
+}
+
+/* Is the pair in no conflict but one that it was in, in no overlap that had ended, and no worse than at the start? */
+static sunder_status look_at_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
+{
+    sunder_i_trial *t = context;
+    if (!sunder_i_solver_is_always_listed(t->solver, r)) return SUNDER_OK;
+    const sunder_i_relation *old = sunder_i_relations_find(&t->solver->now, r->a, r->b);
+    bool breaks = !old || !sunder_i_is_conflict(old) || (r->overlap && !old->overlap) || is_to_be_parted(t, r);
+    const sunder_status status = breaks ? SUNDER_OK : sunder_i_solver_breaks_rule(t->solver, r, &breaks, err);
+    t->well = *on = !breaks;
+    return status;
+}
+
+/* Can all of them go there, exactly and within their limits, and does one of them stand elsewhere? */
+static bool can_go(const sunder_i_trial *t, const double to[2])
+{
+    bool any = false;
+    for (size_t k = 0; k < t->n; k++) {
+        double exact[2], goal[2];
+        goal_of(t, k, to, goal);
+        any = any || t->stood[2 * k] != goal[0] || t->stood[2 * k + 1] != goal[1];
+        if (!sunder_i_is_within_limit(goal, t->solver->model.body[t->body[k]].limit) ||
+            !sunder_i_round_move(&t->solver->model, t->body[k], goal, exact, NULL) || exact[0] != goal[0] ||
+            exact[1] != goal[1])
+            return false;
+    }
+    return any;
+}
+
+/* Puts the bodies of a trial there, or back where they stood (to: NULL). */
+static sunder_status put(sunder_i_trial *t, const double *to, sunder_error *err)
+{
+    sunder_i_solver *s = t->solver;
+    sunder_status status = SUNDER_OK;
+    sunder_i_changes_clear(&s->changes);
+    for (size_t k = 0; k < t->n && !status; k++) {
+        double goal[2] = {t->stood[2 * k], t->stood[2 * k + 1]};
+        if (to) goal_of(t, k, to, goal);
+        sunder_i_solver_place(s, t->body[k], goal);
+        status = sunder_i_placement_move_body(&s->model, &s->placement, t->body[k], err);
+        if (!status) status = sunder_i_jumps_follow(&s->jumps, &s->model, t->body[k], err);
+    }
+    return status;
+}
+
+/* Who is near the bodies of the trial as they stand. */
+static bool note_about(sunder_i_trial *t)
+{
+    const sunder_i_solver *s = t->solver;
+    bool ok = true;
+    for (size_t k = 0; k < t->n; k++) {
+        const sunder_i_body *body = &s->model.body[t->body[k]];
+        for (uint32_t m = 0; m < body->members && ok; m++) {
+            const uint32_t f = s->model.member[body->member + m];
+            if (s->model.present[f]) ok = sunder_i_placement_near(&s->model, &s->placement, f, &t->about);
+        }
+    }
+    t->about.n = ok ? sunder_i_set_make(t->about.item, t->about.n) : 0;
+    return ok;
+}
+
+/* Tries one place for them all: they stay there if all is well, else go back. */
+sunder_status sunder_i_trial_place(sunder_i_trial *t, const double to[2], sunder_error *err)
+{
+    sunder_i_solver *s = t->solver;
+    t->well = false;
+    if (!can_go(t, to)) return SUNDER_OK;
+    t->well = true;
+    t->about.n = 0;
+    sunder_status status = note_about(t) ? put(t, to, err) : sunder_i_no_memory(err);
+    for (size_t k = 0; k < t->n && t->well && !status; k++)
+        status = sunder_i_placement_visit(&s->model, &s->placement, t->body[k], &t->near, look_at_pair, t, err);
+    for (size_t k = 0; k < t->n && t->well && !status; k++) {
+        bool jumps;
+        status = sunder_i_jumps_of_body(&s->jumps, &s->model, t->body[k], &t->near, &jumps, err);
+        t->well = !jumps;
+    }
+    if (status) return status;
+    return t->well ? sunder_i_solver_relate_near(s, &t->about, err) : put(t, NULL, err);
+}
+
+bool sunder_i_trial_take_moved(sunder_i_trial *t, const sunder_i_cluster *c, const double *move)
+{
+    const sunder_i_solver *s = t->solver;
+    t->goal = sunder_i_alloc(2 * c->n, sizeof *t->goal);
+    for (size_t k = 0; k < c->n && t->goal; k++) {
+        const uint32_t b = c->body[k];
+        if (!sunder_i_may_move(&s->model.body[b]) ||
+            memcmp(move + 2 * k, s->model.move + 2 * (size_t)b, 2 * sizeof *move) == 0)
+            continue;
+        if (!sunder_i_trial_take(t, b)) return false;
+        memcpy(t->goal + 2 * (t->n - 1), move + 2 * k, 2 * sizeof *move);
+    }
+    return t->goal != NULL;
+}
+
+void sunder_i_trial_free(sunder_i_trial *t)
+{
+    sunder_i_free(t->body);
+    sunder_i_free(t->stood);
+    sunder_i_free(t->goal);
+    sunder_i_free(t->taken);
+    sunder_i_free(t->near.item);
+    sunder_i_free(t->about.item);
+}

@@ -1,0 +1,409 @@
+/* Nothing is made worse: the rule for pairs that stay in conflict, exactly, of the features as they will be written.
+ *
+ * The search heeds relaxations (relaxation.c) up to its own rounding, and moves are rounded to what doubles hold; so
+ * a pair may stand worse by a unit in the last place. Such pairs are mended one by one, the rest keeps its solution:
+ *
+ * - one of the two is put a unit or a few beside its place; or takes the other's move, or one coordinate of it; or all
+ *   that moved alike take one move, or one coordinate of it: where they are then in nobody's way;
+ * - or the search is asked for places near by of the pair and those about it that leave a margin
+ * (../search/pair_margin.c);
+ * - where no such place will do (a slanted corridor of exact width has none), the one whose move is cheaper is pinned
+ *   to where it came from. Its neighbours settle about it, and if they cannot, yield in their turn.
+ *   A pair of the same cluster waits until they have: who was pinned stands in somebody's way meanwhile, and whoever
+ *   that is need not be pinned as well. In a cluster of thousands, which takes long to settle, only pairs of these two
+ *   wait.
+ *
+ * A place that is taken breaks the rule for no pair, a body that is pinned stays so, and with all at home nothing
+ * stands worse: the loop ends. */
+#include "displacement/layer/barrier_pairs.h"
+#include "displacement/layer/reads.h"
+#include "displacement/layer/rounding.h"
+#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/trial.h"
+#include "displacement/solve/clusters/tuning.h"
+
+#include "base/extremes.h"
+#include "base/union_find.h"
+#include "separation/separation.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* ---- The rule ---------------------------------------------------------------------------------------------------- */
+
+/* Do the two stand to each other as they did, exactly? */
+static bool stand_as_they_did(const sunder_i_solver *s, const sunder_i_relation *r)
+{
+    const sunder_i_placement *p = &s->placement;
+    const double *a = p->move + 2 * (size_t)r->a, *b = p->move + 2 * (size_t)r->b;
+    return !p->rounded[r->a] && !p->rounded[r->b] && a[0] == b[0] && a[1] == b[1];
+}
+
+/* The same of a barrier, which stands all of it as it did: any part of it may have been what was in conflict. */
+static sunder_status is_worse_to_barrier(const sunder_i_solver *s, const sunder_i_relation *r, bool *worse,
+                                         sunder_error *err)
+{
+    const sunder_i_relation first = {.a = r->a, .b = sunder_i_whole_of(&s->model, r->b)};
+    const size_t at = sunder_i_lower_bound(&first, s->start.pair, s->start.n, sizeof first, sunder_i_by_id_pair);
+    *worse =
+        at == s->start.n || s->start.pair[at].a != r->a || sunder_i_whole_of(&s->model, s->start.pair[at].b) != first.b;
+    if (*worse || stand_as_they_did(s, r)) return SUNDER_OK;
+    const sunder_i_translate home = sunder_i_at_home(&s->model, r->a),
+                             now = sunder_i_standing(&s->model, &s->placement, r->a);
+    return sunder_i_barrier_worsened(&s->model, &home, &now, r->b, worse, err);
+}
+
+/* What is known of how deep the pair stood at the start, until another is asked about; NULL if memory is out. */
+static sunder_i_depth *depth_of(sunder_i_solver *s, const sunder_i_relation *was)
+{
+    if (!s->depth_at) s->depth_at = sunder_i_calloc(s->start.n, sizeof *s->depth_at);
+    if (!s->depth_at) return NULL;
+    uint32_t *at = &s->depth_at[was - s->start.pair];
+    if (*at == 0) {
+        if (!sunder_i_reserve(&s->depth, &s->depth_capacity, s->depths + 1, sizeof *s->depth)) return NULL;
+        s->depth[s->depths++] = (sunder_i_depth){0};
+        *at = (uint32_t)s->depths;
+    }
+    return &s->depth[*at - 1];
+}
+
+sunder_status sunder_i_solver_is_worse(sunder_i_solver *s, const sunder_i_relation *r, bool *worse, sunder_error *err)
+{
+    const sunder_i_relation *was = sunder_i_relations_find(&s->start, r->a, r->b);
+    *worse = !was || !sunder_i_is_conflict(was);
+    if (sunder_i_is_barrier(&s->model, r->b)) return is_worse_to_barrier(s, r, worse, err);
+    if (*worse || stand_as_they_did(s, r) || (was->contained && r->contained)) return SUNDER_OK;
+    const sunder_i_translate a = sunder_i_standing(&s->model, &s->placement, r->a),
+                             b = sunder_i_standing(&s->model, &s->placement, r->b);
+    const sunder_i_pair before = {sunder_i_thing_shape(&s->model, r->a), sunder_i_thing_shape(&s->model, r->b), NULL,
+                                  NULL},
+                        now = {a.shape, b.shape, a.t, b.t};
+    sunder_i_depth *depth = depth_of(s, was);
+    return depth ? sunder_i_pair_worsened_since(&before, depth, &now, worse, err) : sunder_i_no_memory(err);
+}
+
+/* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */
+bool sunder_i_solver_is_always_listed(const sunder_i_solver *s, const sunder_i_relation *r)
+{
+    return sunder_i_is_conflict(r) && (s->model.body_of[r->a] != s->model.body_of[r->b] || (r->overlap && !r->touch));
+}
+
+sunder_status sunder_i_solver_breaks_rule(sunder_i_solver *s, const sunder_i_relation *r, bool *breaks,
+                                          sunder_error *err)
+{
+    *breaks = false;
+    return sunder_i_solver_is_always_listed(s, r) ? sunder_i_solver_is_worse(s, r, breaks, err) : SUNDER_OK;
+}
+
+sunder_status sunder_i_solver_is_upheld(sunder_i_solver *s, bool *upheld, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    *upheld = s->jumps.n == 0;
+    for (size_t k = 0; k < s->now.n && *upheld && !status; k++) {
+        bool breaks;
+        status = sunder_i_solver_breaks_rule(s, &s->now.pair[k], &breaks, err);
+        *upheld = !status && !breaks;
+    }
+    return status;
+}
+
+/* ---- A place nearby ---------------------------------------------------------------------------------------------- */
+
+/* The units of what the body may be moved by from where it stands. */
+static void units_of(const sunder_i_solver *s, uint32_t b, double unit[2])
+{
+    const double *stood = s->model.move + 2 * (size_t)b;
+    double same[2];
+    for (int c = 0; c < 2; c++) {
+        /* A move of nothing has no unit. */
+        double along[2] = {0, 0};
+        along[c] = stood[c] != 0 ? stood[c] : DBL_MIN;
+        sunder_i_round_move(&s->model, b, along, same, &unit[c]);
+    }
+}
+
+/* The eight places a unit beside its own, and those some units farther: the search lets go of as much. */
+static sunder_status try_nearby(sunder_i_trial *t, sunder_error *err)
+{
+    const double stood[2] = {t->stood[0], t->stood[1]};
+    double unit[2];
+    sunder_status status = SUNDER_OK;
+    units_of(t->solver, t->body[0], unit);
+    t->well = false;
+    for (int step = 1; step <= ALIKE && !t->well && !status; step *= 4)
+        for (int k = 0; k < 9 && !t->well && !status; k++) {
+            const double to[2] = {stood[0] + step * (k % 3 - 1) * unit[0], stood[1] + step * (k / 3 - 1) * unit[1]};
+            if (k != 4) status = sunder_i_trial_place(t, to, err);
+        }
+    return status;
+}
+
+/* ---- All that move as one ---------------------------------------------------------------------------------------- */
+
+/* Do the two move alike, as far as the trial asks, up to a few units? */
+static bool is_alike(const sunder_i_trial *t, uint32_t b, uint32_t other, double hair)
+{
+    const double *p = t->solver->model.move + 2 * (size_t)b, *q = t->solver->model.move + 2 * (size_t)other;
+    for (unsigned c = 0; c < 2; c++)
+        if ((t->along >> c & 1) && !(fabs(p[c] - q[c]) <= hair)) return false;
+    return true;
+}
+
+/* Those about body b who moved as it did. */
+static sunder_status take_alike(sunder_i_trial *t, uint32_t b, double hair, sunder_error *err)
+{
+    const sunder_i_model *model = &t->solver->model;
+    const sunder_i_body *p = &model->body[b];
+    for (uint32_t m = 0; m < p->members; m++) {
+        const uint32_t f = model->member[p->member + m];
+        double box[4];
+        if (!model->present[f]) continue;
+        sunder_i_box_grow(sunder_i_rtree_box(&t->solver->placement.tree, f), model->rules.gap, box);
+        t->near.n = 0;
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, model, b);
+        const bool ok = sunder_i_look_about(model, &t->solver->placement.tree, box, &t->near);
+        sunder_i_reads_end(&reading);
+        if (!ok) return sunder_i_no_memory(err);
+        for (size_t k = 0; k < t->near.n; k++) {
+            const uint32_t other = model->body_of[t->near.item[k]];
+            if (t->taken[other] || !sunder_i_may_move(&t->solver->model.body[other]) || !is_alike(t, b, other, hair))
+                continue;
+            if (!sunder_i_trial_take(t, other)) return sunder_i_no_memory(err);
+            t->taken[other] = true;
+        }
+    }
+    return SUNDER_OK;
+}
+
+/* A row that was pushed along, each of which must not stand worse to the next, has to move as one to the last bit: all
+ * take the move of the one whose coordinates are the coarsest. */
+static sunder_status try_together(sunder_i_trial *t, sunder_error *err)
+{
+    double coarsest = 0, to[2] = {0, 0};
+    sunder_status status = SUNDER_OK;
+    if (!t->taken) t->taken = sunder_i_calloc(t->solver->model.bodies, sizeof *t->taken);
+    if (!t->taken) return sunder_i_no_memory(err);
+    t->taken[t->body[0]] = true;
+    for (size_t k = 0; k < t->n && t->n <= *t->budget && !status; k++) {
+        double unit[2];
+        units_of(t->solver, t->body[k], unit);
+        const double coarse = sunder_i_max(unit[0], unit[1]);
+        if (coarse > coarsest) {
+            coarsest = coarse;
+            memcpy(to, t->stood + 2 * k, sizeof to);
+        }
+        status = take_alike(t, t->body[k], ALIKE * coarsest, err);
+    }
+    for (size_t k = 0; k < t->n; k++) t->taken[t->body[k]] = false;
+    t->well = false;
+    if (!status && t->n <= *t->budget) status = sunder_i_trial_place(t, to, err);
+    if (!t->well) *t->budget -= t->n < *t->budget ? t->n : *t->budget;
+    return status;
+}
+
+/* The ways to mend a pair, the smallest first; what is in common: both coordinates, or one. */
+typedef enum way { NEARBY, PARTNER, TOGETHER } way;
+static const struct {
+    way way;
+    unsigned along;
+} ways[] = {{NEARBY, 3}, {PARTNER, 3}, {PARTNER, 1}, {PARTNER, 2}, {TOGETHER, 3}, {TOGETHER, 1}, {TOGETHER, 2}};
+
+size_t *sunder_i_solver_patience(const sunder_i_solver *s)
+{
+    size_t *budget = sunder_i_alloc(s->model.bodies, sizeof *budget);
+    for (size_t b = 0; b < s->model.bodies && budget; b++) budget[b] = IN_VAIN;
+    return budget;
+}
+
+sunder_status sunder_i_solver_mend(sunder_i_solver *s, const sunder_i_relation *r, size_t *budget, bool *well,
+                                   sunder_error *err)
+{
+    const uint32_t pair[2] = {s->model.body_of[r->a], s->model.body_of[r->b]};
+    sunder_i_trial t = {.solver = s};
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < sizeof ways / sizeof *ways && !t.well && !status; k++)
+        for (int e = 0; e < 2 && !t.well && !status; e++) {
+            const double *other = s->model.move + 2 * (size_t)pair[1 - e], to[2] = {other[0], other[1]};
+            t.n = 0;
+            t.along = ways[k].along;
+            if (!sunder_i_may_move(&s->model.body[pair[e]])) continue;
+            t.budget = &budget[sunder_i_union_find(s->parent, pair[e])];
+            if (!sunder_i_trial_take(&t, pair[e])) status = sunder_i_no_memory(err);
+            if (!status && ways[k].way == NEARBY) status = try_nearby(&t, err);
+            if (!status && ways[k].way == PARTNER) status = sunder_i_trial_place(&t, to, err);
+            if (!status && ways[k].way == TOGETHER) status = try_together(&t, err);
+        }
+    *well = t.well;
+    sunder_i_trial_free(&t);
+    return status;
+}
+
+/* ---- With a margin ----------------------------------------------------------------------------------------------- */
+
+/* Asks the search for places that leave the pair better by the margin, near where all stand: *well, if there are such,
+ * and they hold. */
+static sunder_status ease(sunder_i_solver *s, const sunder_i_relation *r, bool others, bool *well, sunder_error *err)
+{
+    const uint32_t i = s->model.body_of[r->a], j = s->model.body_of[r->b];
+    sunder_i_trial t = {.solver = s};
+    *well = false;
+    sunder_status status = sunder_i_solver_gather(s, err);
+    if (!status) status = sunder_i_solver_unite_blocks(s, err);
+    const sunder_i_cluster *c =
+        status ? NULL : sunder_i_solver_cluster_of(s, sunder_i_may_move(&s->model.body[i]) ? i : j);
+    if (!c) return status;
+    const double none[2] = {0, 0};
+    double *move = sunder_i_solver_load_moves(s, c);
+    bool done;
+    status = sunder_i_cluster_ease(&s->model, c, r->a, r->b, others, move, &done, err);
+    if (!status && done && !sunder_i_trial_take_moved(&t, c, move)) status = sunder_i_no_memory(err);
+    if (!status && done) status = sunder_i_trial_place(&t, none, err);
+    *well = t.well;
+    sunder_i_trial_free(&t);
+    return status;
+}
+
+/* ---- Staying ----------------------------------------------------------------------------------------------------- */
+
+static double cost_of(const sunder_i_solver *s, uint32_t b)
+{
+    const double *t = s->model.move + 2 * (size_t)b;
+    return s->model.body[b].weight * (t[0] * t[0] + t[1] * t[1]);
+}
+
+/* Pins the one whose move is cheaper, of those that may move and did; either if none did, which cannot be. */
+static sunder_status pin(sunder_i_solver *s, uint32_t i, uint32_t j, sunder_error *err)
+{
+    const double home[2] = {0, 0};
+    const bool may_i = sunder_i_may_move(&s->model.body[i]), may_j = sunder_i_may_move(&s->model.body[j]);
+    uint32_t b = may_i ? i : j;
+    if (may_i && may_j && cost_of(s, j) < cost_of(s, i)) b = j;
+    if (may_i && may_j && cost_of(s, b) == 0) b = b == i ? j : i;
+    sunder_i_changes_clear(&s->changes);
+    sunder_i_solver_place(s, b, home);
+    const sunder_status status = sunder_i_solver_relate(s, err);
+    s->model.body[b].pinned = true;
+    return status;
+}
+
+/* Who still jumps over another, since no margin made good what rounding took, stays where it came from. */
+static sunder_status pin_jumps(sunder_i_solver *s, bool *pinned, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    while (s->jumps.n && !status) {
+        *pinned = true;
+        status = pin(s, s->model.body_of[s->jumps.pair[0].a], s->model.body_of[s->jumps.pair[0].b], err);
+    }
+    return status;
+}
+
+/* Whose pairs wait until clusters have settled, and what was asked of clusters in vain. */
+typedef struct waiting {
+    bool *body, *cluster; /* [bodies] the one; by roots, all of it */
+    size_t *vain;         /* [bodies] by roots: bodies of which a margin was asked in vain */
+    uint32_t *size;       /* [bodies] of clusters, by the roots that they had when the pass began */
+} waiting;
+
+static bool waiting_init(waiting *w, size_t bodies)
+{
+    w->body = sunder_i_alloc(bodies, sizeof *w->body);
+    w->cluster = sunder_i_alloc(bodies, sizeof *w->cluster);
+    w->vain = sunder_i_calloc(bodies, sizeof *w->vain);
+    w->size = sunder_i_alloc(bodies, sizeof *w->size);
+    return w->body && w->cluster && w->vain && w->size;
+}
+
+static void waiting_free(waiting *w)
+{
+    sunder_i_free(w->body);
+    sunder_i_free(w->cluster);
+    sunder_i_free(w->vain);
+    sunder_i_free(w->size);
+}
+
+/* Nobody waits; clusters are as large as they are. */
+static void begin_pass(const sunder_i_solver *s, waiting *w)
+{
+    const size_t n = s->model.bodies;
+    memset(w->body, 0, n * sizeof *w->body);
+    memset(w->cluster, 0, n * sizeof *w->cluster);
+    memset(w->size, 0, n * sizeof *w->size);
+    for (uint32_t b = 0; b < n; b++)
+        if (!s->model.body[b].fixed) w->size[sunder_i_union_find(s->parent, b)]++;
+}
+
+/* What stands about a body that was pinned stands in its way for now: its cluster has to settle first. */
+static void hold(sunder_i_solver *s, waiting *w, uint32_t body)
+{
+    const uint32_t root = sunder_i_union_find(s->parent, body);
+    if (s->model.body[body].fixed) return;
+    w->body[body] = true;
+    w->cluster[root] = w->cluster[root] || w->size[root] <= MOST_HELD;
+}
+
+static bool is_held(const sunder_i_solver *s, const waiting *w, uint32_t body)
+{
+    return !s->model.body[body].fixed && (w->body[body] || w->cluster[sunder_i_union_find(s->parent, body)]);
+}
+
+/* ease(), with others and without, unless too much of that was in vain. */
+static sunder_status ease_either_way(sunder_i_solver *s, const sunder_i_relation *r, waiting *w, bool *well,
+                                     sunder_error *err)
+{
+    const uint32_t i = s->model.body_of[r->a], j = s->model.body_of[r->b];
+    const uint32_t root = sunder_i_union_find(s->parent, s->model.body[i].fixed ? j : i);
+    sunder_status status = SUNDER_OK;
+    *well = false;
+    if (w->vain[root] >= EASED_IN_VAIN) return SUNDER_OK;
+    for (int others = 1; others >= 0 && !status && !*well; others--) status = ease(s, r, others, well, err);
+    if (!*well) w->vain[root] += w->size[root];
+    return status;
+}
+
+/* Pairs come and go while they are gone through, those of others of the layer, too: the place of the next one. */
+static size_t first_after(const sunder_i_solver *s, sunder_i_id_pair last)
+{
+    const sunder_i_relation key = {.a = last.a, .b = last.b};
+    const size_t at = sunder_i_lower_bound(&key, s->now.pair, s->now.n, sizeof key, sunder_i_by_id_pair);
+    return at < s->now.n && s->now.pair[at].a == last.a && s->now.pair[at].b == last.b ? at + 1 : at;
+}
+
+sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    size_t *budget = sunder_i_solver_patience(s);
+    waiting held;
+    if (!waiting_init(&held, s->model.bodies) || !budget) status = sunder_i_no_memory(err);
+    for (bool any = s->now.n + s->jumps.n > 0, pinned; any && !status;) {
+        any = pinned = false;
+        begin_pass(s, &held);
+        status = pin_jumps(s, &pinned, err);
+        any = pinned;
+        sunder_i_id_pair last = {0, 0}; /* no pair */
+        for (size_t k; (k = first_after(s, last)) < s->now.n && !status;) {
+            const sunder_i_relation r = s->now.pair[k];
+            last = (sunder_i_id_pair){r.a, r.b};
+            const uint32_t i = s->model.body_of[r.a], j = s->model.body_of[r.b];
+            bool breaks, well = false;
+            status = sunder_i_solver_breaks_rule(s, &r, &breaks, err);
+            if (status || !breaks || (!sunder_i_may_move(&s->model.body[i]) && !sunder_i_may_move(&s->model.body[j])))
+                continue;
+            any = true;
+            if (is_held(s, &held, i) || is_held(s, &held, j)) continue;
+            status = sunder_i_solver_mend(s, &r, budget, &well, err);
+            if (!status && !well) status = ease_either_way(s, &r, &held, &well, err);
+            if (status || well) continue;
+            pinned = true;
+            status = pin(s, i, j, err);
+            hold(s, &held, i);
+            hold(s, &held, j);
+        }
+        if (pinned && !status) status = sunder_i_solver_settle(s, SOUGHT, SOUGHT, err);
+    }
+    for (size_t b = 0; b < s->model.bodies; b++) s->model.body[b].pinned = false;
+    waiting_free(&held);
+    sunder_i_free(budget);
+    return status;
+}

@@ -1,0 +1,413 @@
+/* Is a solution the cheapest of all, whatever the sides?
+ *
+ * Let some constraints n.u >= d be such that every solution no dearer than C keeps them, f forces on them, x the moves
+ * that these make, and V = sum f d - sum w |x|^2, the value of the dual. Any moves t cost V, and what t - x would cost,
+ * and sum f (n.u - d), of which no term is negative for a solution. So where a pair with the relative move u of inverse
+ * masses m and force f has a solution no dearer than C, it lies in the disc
+ *     |u - x_u|^2 + 2 m f (n.u - d) <= 2 m (C - V),   and n.u >= d.
+ * Where the obstacles of their pieces cover all of that which lies before another line, every such solution keeps to
+ * the other side of it; with that constraint V grows, and the discs shrink. It begins with no constraint, x = 0 and
+ * V = 0. If V comes up to the cost of the solution that is asked about, no other sides are any better.
+ *
+ * Lines are asked for that have the normals of the constraints that act on the solution, no farther out than these. On
+ * the side of an obstacle that is a single edge within the disc that is the constraint itself; about a round corner the
+ * line lies the closer to it, the smaller the disc is. All of it is in doubles: it saves work, and proves nothing in
+ * the report. What it takes is not counted as work, so that it takes nothing from a search that goes on. */
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include "base/extremes.h"
+#include "base/invariant.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A constraint that acts, and the obstacle of two pieces that it is of. */
+typedef struct acting {
+    const sunder_i_constraint *constraint;
+    uint32_t i, j; /* places of the two bodies */
+    double fixed;  /* what a body that does not move adds to d */
+    double force;  /* on that, ... */
+    double d;      /* ... which is known to be kept; -INFINITY: nothing ... */
+    double radius; /* ... of a disc so large; INFINITY: of none yet */
+} acting;
+
+typedef struct disc {
+    double centre[2], radius;
+} disc;
+
+/* Obstacles of pieces of two bodies, as they are about a disc. */
+typedef struct covering {
+    sunder_i_obstacle_edge *edge;
+    size_t edges, capacity, first[MOST_COVERING + 1], n; /* the edges of each, one after the other */
+    double gap[MOST_COVERING];                           /* what each is grown by */
+    size_t last;                                         /* which covered what was asked last */
+    disc disc;
+} covering;
+
+typedef struct bounding {
+    sunder_i_search *s;
+    acting *acting; /* [n] */
+    size_t n;
+    sunder_i_quadratic program; /* of those that are known */
+    double cost, least;         /* of the solution; of any, as far as is known */
+    covering about;
+} bounding;
+
+/* ---- What acts --------------------------------------------------------------------------------------------------- */
+
+/* Whose is the piece, in the search? Constraints have it, but of what stands. */
+static uint32_t owner_of(const sunder_i_search *s, uint32_t named, uint32_t piece)
+{
+    const uint32_t owner =
+        named == SUNDER_I_GROUND ? sunder_i_search_place_of(s, sunder_i_body_of_piece(s->model, piece)) : named;
+    SUNDER_I_ASSERT(owner == SUNDER_I_NOBODY ||
+                    piece - s->model->body[s->body[owner]].piece < s->model->body[s->body[owner]].pieces);
+    return owner;
+}
+
+/* Which of two pieces is it? Not one of a wall, nor of a shadow. */
+static bool find_part(const sunder_i_search *s, acting *a)
+{
+    const sunder_i_constraint *c = a->constraint;
+    if (c->key >> 60) return false;
+    double reach;
+    a->i = owner_of(s, c->i, (uint32_t)(c->key >> 32));
+    a->j = owner_of(s, c->j, (uint32_t)c->key);
+    if (a->i == SUNDER_I_NOBODY || a->j == SUNDER_I_NOBODY) return false;
+    if (sunder_i_search_is_relaxed(s, s->body[a->i], s->body[a->j], &reach)) return false;
+    a->fixed = 0;
+    if (c->i == SUNDER_I_GROUND) a->fixed += c->n[0] * s->t[2 * a->i] + c->n[1] * s->t[2 * a->i + 1];
+    if (c->j == SUNDER_I_GROUND) a->fixed -= c->n[0] * s->t[2 * a->j] + c->n[1] * s->t[2 * a->j + 1];
+    return true;
+}
+
+/* False if one is of a kind of which nothing is known here, or there are too many. */
+static bool find_acting(bounding *b)
+{
+    const sunder_i_quadratic *program = &b->s->program;
+    for (size_t k = 0; k < program->n; k++) {
+        const sunder_i_constraint *c = &program->constraint[k];
+        if (!(c->force > 0)) continue;
+        if (b->n == MOST_FORCED) return false;
+        acting *a = &b->acting[b->n++];
+        a->constraint = c;
+        a->radius = INFINITY;
+        a->force = 0;
+        a->d = sunder_i_is_tangent(c) ? c->d : -INFINITY; /* a limit is one, wherever they go */
+        if (!sunder_i_is_tangent(c) && !find_part(b->s, a)) return false;
+    }
+    return true;
+}
+
+/* ---- One line ---------------------------------------------------------------------------------------------------- */
+
+/* How far it is, at least as far as the gap, from the corner where an edge that it faces begins, or ends. */
+static double beyond_corner(const sunder_i_obstacle_edge *edge, size_t n, size_t e, double along, const double at[2])
+{
+    const double *c = along < 0 ? edge[e].from : edge[e + 1 < n ? e + 1 : 0].from;
+    return sqrt((at[0] - c[0]) * (at[0] - c[0]) + (at[1] - c[1]) * (at[1] - c[1]));
+}
+
+/* Is it no farther from obstacle k than the gap, as sunder_i_support_at() tells it? That is so if no line is farther
+ * below it, and it faces an edge, or no corner of those that it faces is farther. */
+static bool is_covered(const covering *o, size_t k, const double at[2])
+{
+    const sunder_i_obstacle_edge *edge = o->edge + o->first[k];
+    const size_t n = o->first[k + 1] - o->first[k];
+    double corner = INFINITY;
+    bool beside = false, faces = false;
+    for (size_t e = 0; e < n; e++) {
+        const double wx = at[0] - edge[e].from[0], wy = at[1] - edge[e].from[1];
+        const double s = edge[e].n[0] * wx + edge[e].n[1] * wy;
+        if (!(s <= o->gap[k])) return false;
+        if (!(s >= 0) || beside) continue;
+        const double along = wy * edge[e].n[0] - wx * edge[e].n[1];
+        faces = faces || s > 0;
+        beside = along >= 0 && along <= edge[e].length;
+        if (!beside) corner = sunder_i_min(corner, beyond_corner(edge, n, e, along, at));
+    }
+    return beside || !faces || corner <= o->gap[k] || sunder_i_support_at(edge, n, at).distance <= o->gap[k];
+}
+
+static bool is_covered_by_any(covering *o, const double at[2])
+{
+    for (size_t k = 0; k < o->n; k++) {
+        const size_t obstacle = o->last + k < o->n ? o->last + k : o->last + k - o->n;
+        if (!is_covered(o, obstacle, at)) continue;
+        o->last = obstacle;
+        return true;
+    }
+    return false;
+}
+
+/* Places of a disc between two lines, seen along them: `out` is how far out, from the centre, `across` how far to the
+ * left. */
+typedef struct between {
+    const disc *disc;
+    const double *n; /* of the lines */
+    double low, out;
+} between;
+
+static void place_at(const between *b, double across, double out, double place[2])
+{
+    place[0] = b->disc->centre[0] + out * b->n[0] - across * b->n[1];
+    place[1] = b->disc->centre[1] + out * b->n[1] + across * b->n[0];
+}
+
+static bool is_covered_at(const covering *o, size_t obstacle, const between *b, double across, double out)
+{
+    double place[2];
+    for (int side = -1; side <= 1; side += 2) {
+        place_at(b, side * across, out, place);
+        if (!is_covered(o, obstacle, place)) return false;
+    }
+    return true;
+}
+
+/* Does one obstacle cover all of it? It is convex: so it does if it covers the corners of a polygon about that, of the
+ * ends of the chords and of tangents of the arcs between them. */
+static bool covers(const covering *o, size_t obstacle, const between *b)
+{
+    const double radius = b->disc->radius;
+    const double begin = acos(sunder_i_min(1, b->out / radius)), end = acos(sunder_i_max(-1, b->low / radius));
+    const double half = (end - begin) / (2 * ARC_SIDES), turn[2] = {cos(half), sin(half)};
+    double out = radius * cos(begin), across = radius * sin(begin);
+    if (!is_covered_at(o, obstacle, b, across, out)) return false;
+    if (!is_covered_at(o, obstacle, b, radius * sin(end), radius * cos(end))) return false;
+    /* From one end of an arc by half a side each time; a corner is where two tangents meet. */
+    for (int k = 0; k < 2 * ARC_SIDES - 1; k++) {
+        const double next = turn[0] * out - turn[1] * across;
+        across = turn[0] * across + turn[1] * out;
+        out = next;
+        if (k % 2 == 0 && !is_covered_at(o, obstacle, b, across / turn[0], out / turn[0])) return false;
+    }
+    return true;
+}
+
+/* Of a strip that runs out, from `left` to `right` across: the corners of what the tangents of the arcs in its middle
+ * leave of it, or more where one of these and a line meet in it. */
+static void find_strip(const between *b, double left, double right, double corner[4][2])
+{
+    const double radius = b->disc->radius, middle = (left + right) / 2;
+    const double height = sqrt(sunder_i_max(radius * radius - middle * middle, 0x1p-20 * radius * radius));
+    const double slope = middle / height, begin = height - slope * (left - middle),
+                 end = height - slope * (right - middle);
+    const bool cut = sunder_i_max(begin, end) > b->out, low = sunder_i_max(-begin, -end) < b->low;
+    place_at(b, left, low ? b->low : -begin, corner[0]);
+    place_at(b, right, low ? b->low : -end, corner[1]);
+    place_at(b, left, cut ? b->out : begin, corner[2]);
+    place_at(b, right, cut ? b->out : end, corner[3]);
+}
+
+/* Does one of them cover each of some strips? */
+static bool cover_strip(covering *o, const between *b, double left, double right, int halvings)
+{
+    double corner[4][2];
+    find_strip(b, left, right, corner);
+    for (size_t k = 0; k < o->n; k++) {
+        const size_t obstacle = o->last + k < o->n ? o->last + k : o->last + k - o->n;
+        int covered = 0;
+        while (covered < 4 && is_covered(o, obstacle, corner[covered])) covered++;
+        if (covered < 4) continue;
+        o->last = obstacle;
+        return true;
+    }
+    const double middle = (left + right) / 2;
+    return halvings > 0 && cover_strip(o, b, left, middle, halvings - 1) &&
+           cover_strip(o, b, middle, right, halvings - 1);
+}
+
+static double half_chord(const between *b, double out)
+{
+    return sqrt(sunder_i_max(0, b->disc->radius * b->disc->radius - out * out));
+}
+
+/* The ends of the outer chord are mostly what is not covered. */
+static bool cover(covering *o, const between *b)
+{
+    const double radius = b->disc->radius;
+    if (b->out <= sunder_i_max(b->low, -radius) || b->low >= radius) return true;
+    const double out = sunder_i_min(radius, b->out);
+    for (int side = -1; side <= 1; side += 2) {
+        double end[2];
+        place_at(b, side * half_chord(b, out), out, end);
+        if (!is_covered_by_any(o, end)) return false;
+    }
+    if (covers(o, o->last, b)) return true;
+    const double across = half_chord(b, out < 0 ? out : sunder_i_max(0, b->low));
+    return o->n > 1 && cover_strip(o, b, -across, 0, STRIP_HALVINGS) && cover_strip(o, b, 0, across, STRIP_HALVINGS);
+}
+
+/* The farthest such line, no farther out than d; or nearly: how much nearer it is, is told to a power of two. From
+ * `known` on, which is kept anyhow. */
+static double find_line(covering *o, const double n[2], double known, double d, double hair)
+{
+    const disc *about = &o->disc;
+    const double centre = n[0] * about->centre[0] + n[1] * about->centre[1];
+    const double nothing = sunder_i_max(known, centre - about->radius);
+    between b = {about, n, known - centre, d - hair - centre};
+    if (cover(o, &b)) return d - hair;
+    int near = 0, far = LINE_HALVINGS;
+    while (far - near > 1) {
+        const int k = (near + far) / 2;
+        b.out = d - ldexp(d - nothing, -k) - centre;
+        if (cover(o, &b))
+            near = k;
+        else
+            far = k;
+    }
+    return near ? d - ldexp(d - nothing, -near) : known;
+}
+
+/* ---- The obstacles of a pair ------------------------------------------------------------------------------------- */
+
+static void add_obstacle(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+{
+    covering *o = context;
+    size_t n;
+    double gap;
+    if (part->shadow || part->inclusion != SUNDER_I_LAPSED || o->n == MOST_COVERING) return;
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    if (!edge || sunder_i_support_at(edge, n, o->disc.centre).distance > gap + o->disc.radius) return;
+    if (!sunder_i_reserve(&o->edge, &o->capacity, o->edges + n, sizeof *o->edge)) {
+        s->failed = true;
+        return;
+    }
+    memcpy(o->edge + o->edges, edge, n * sizeof *edge);
+    o->edges += n;
+    o->gap[o->n++] = gap;
+    o->first[o->n] = o->edges;
+}
+
+static const double *place(const bounding *b, uint32_t i)
+{
+    return b->s->mass[i] > 0 ? b->program.t + 2 * i : b->s->t + 2 * i;
+}
+
+/* Is more known of it now? */
+static bool learn(bounding *b, acting *a)
+{
+    sunder_i_search *s = b->s;
+    const sunder_i_constraint *c = a->constraint;
+    if (sunder_i_is_tangent(c) || a->d >= c->d - 2 * s->tolerance) return false;
+    const double *p = place(b, a->i), *q = place(b, a->j);
+    const double mass = s->mass[a->i] + s->mass[a->j], back = mass * a->force;
+    const double radius = sqrt(2 * mass * sunder_i_max(0, b->cost - b->least));
+    covering *o = &b->about;
+    if (!(radius > 0) || !(radius < SHRUNK * a->radius)) return false;
+    a->radius = radius;
+    o->n = o->edges = o->last = 0;
+    o->disc.centre[0] = q[0] - p[0] - back * c->n[0];
+    o->disc.centre[1] = q[1] - p[1] - back * c->n[1];
+    /* About where the line n.u = d cuts the way out, which forces that are not solved to the end leave a hair off. */
+    const double slack = a->force > 0 ? sunder_i_stretch(c, b->program.t) - a->d : 0;
+    o->disc.radius = sqrt(sunder_i_max(0, radius * radius + back * back - 2 * back * slack));
+    sunder_i_search_piece_pairs(s, a->i, a->j, o->disc.centre, s->gap + o->disc.radius, false, add_obstacle, o);
+    if (s->failed || o->n == 0) return false;
+    const double known = find_line(o, c->n, a->d - a->fixed, c->d - a->fixed, s->tolerance) + a->fixed;
+    if (!(known > a->d)) return false;
+    a->d = known;
+    return true;
+}
+
+/* ---- All of them ------------------------------------------------------------------------------------------------- */
+
+/* x, and V by the forces: whatever they are, no moves that keep the constraints cost less (weak duality). */
+static bool solve(bounding *b)
+{
+    sunder_i_quadratic *p = &b->program;
+    p->n = 0;
+    for (size_t k = 0; k < b->n; k++) {
+        if (!(b->acting[k].d > -INFINITY)) continue;
+        p->constraint[p->n] = *b->acting[k].constraint;
+        p->constraint[p->n++].d = b->acting[k].d;
+    }
+    if (sunder_i_quadratic_solve(p, 0, b->s->tolerance / SOLVED_TO, b->s->extent) < 0) return false;
+    b->least = -sunder_i_search_cost(b->s, p->t);
+    for (size_t k = 0, n = 0; k < b->n; k++) {
+        acting *a = &b->acting[k];
+        a->force = a->d > -INFINITY ? p->constraint[n++].force : 0;
+        if (a->force > 0) b->least += a->force * a->d;
+    }
+    return true;
+}
+
+/* How much less any solution may cost, as a share; told more closely while it is more than `enough`. */
+static double approach(bounding *b, double enough)
+{
+    double left = 1;
+    for (int round = 0; round < FORCED_ROUNDS && left > enough && !b->s->failed; round++) {
+        bool any = false;
+        for (size_t k = 0; k < b->n; k++) any = learn(b, &b->acting[k]) || any;
+        if (!any) break;
+        if (!solve(b)) b->s->failed = true;
+        left = sunder_i_max(0, 1 - b->least / b->cost);
+    }
+    return left;
+}
+
+/* By what share of its cost any solution may be cheaper than s->t, at most; told no more closely than to `enough`. */
+static double find_left(sunder_i_search *s, double enough)
+{
+    const uint64_t steps = s->steps;
+    bounding b = {.s = s, .cost = sunder_i_search_cost(s, s->t)};
+    const size_t room = s->program.n < MOST_FORCED ? s->program.n : MOST_FORCED;
+    if (b.cost == 0) return 0;
+    b.acting = sunder_i_alloc(room, sizeof *b.acting);
+    b.program = (sunder_i_quadratic){.bodies = s->n, .mass = s->mass};
+    b.program.constraint = sunder_i_alloc(room, sizeof *b.program.constraint);
+    b.program.t = sunder_i_calloc(2 * s->n, sizeof *b.program.t);
+    const bool ok = b.acting && b.program.constraint && b.program.t;
+    if (!ok) s->failed = true;
+    const double left = ok && find_acting(&b) ? approach(&b, enough) : 1;
+    sunder_i_free(b.about.edge);
+    sunder_i_free(b.acting);
+    sunder_i_free(b.program.constraint);
+    sunder_i_free(b.program.t);
+    s->steps = steps;
+    return left;
+}
+
+/* Goes down to the last of it. If it is not known to be the cheapest then, all is as it was: also what a search that
+ * goes on from there has left to spend. */
+static bool is_cheapest_below(sunder_i_search *s)
+{
+    const sunder_i_quadratic *p = &s->program;
+    const uint64_t steps = s->steps, work = p->work;
+    const uint32_t tangents = s->tangents;
+    const double settled = s->settled;
+    const size_t n = p->n;
+    double *stood = sunder_i_alloc(2 * s->n, sizeof *stood);
+    sunder_i_constraint *constraint = sunder_i_alloc(n, sizeof *constraint);
+    bool cheapest = false;
+    if (!stood || !constraint) {
+        s->failed = true;
+    } else {
+        memcpy(stood, s->t, 2 * s->n * sizeof *stood);
+        if (n) memcpy(constraint, p->constraint, n * sizeof *constraint);
+        s->settled = SETTLED_BEST;
+        cheapest = sunder_i_search_descend(s) && find_left(s, CHEAPEST) <= CHEAPEST;
+        s->settled = settled;
+        if (!cheapest && !s->failed) {
+            memcpy(s->t, stood, 2 * s->n * sizeof *stood);
+            s->program.n = 0;
+            for (size_t k = 0; k < n && !s->failed; k++) sunder_i_search_add_constraint(s, k, &constraint[k]);
+            s->steps = steps;
+            s->program.work = work;
+            s->tangents = tangents;
+        }
+    }
+    sunder_i_free(stood);
+    sunder_i_free(constraint);
+    return cheapest;
+}
+
+bool sunder_i_search_is_cheapest(sunder_i_search *s)
+{
+    const bool down = sunder_i_search_goes_down(s);
+    const double enough = down ? NEARLY_CHEAPEST : CHEAPEST, left = find_left(s, enough);
+    if (s->failed || left > enough) return false;
+    return left <= CHEAPEST || is_cheapest_below(s);
+}

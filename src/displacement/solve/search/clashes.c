@@ -1,0 +1,61 @@
+/* Which bodies of a cluster clash, and by how much. */
+#include "displacement/solve/search/cluster_search.h"
+
+#include "base/extremes.h"
+
+typedef struct look {
+    const double *t;
+    double worst;
+} look;
+
+static void look_at(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
+{
+    look *l = context;
+    const double u[2] = {l->t[2 * j] - l->t[2 * i], l->t[2 * j + 1] - l->t[2 * i + 1]};
+    bool yields;
+    const double v = sunder_i_search_pair(s, i, j, u, &yields);
+    if (v > l->worst) l->worst = v;
+    if (v <= s->tolerance || s->failed) return;
+    if (!sunder_i_reserve(&s->clash, &s->clash_capacity, s->clashes + 1, sizeof *s->clash)) {
+        s->failed = true;
+        return;
+    }
+    s->clash[s->clashes++] = (sunder_i_clash){i, j, v};
+}
+
+void sunder_i_search_look_at(sunder_i_search *s, const double *t, uint32_t i, uint32_t j)
+{
+    look l = {t, 0};
+    look_at(s, i, j, &l);
+}
+
+double sunder_i_search_look(sunder_i_search *s, const double *t)
+{
+    look l = {t, 0};
+    s->clashes = 0;
+    sunder_i_search_near(s, t, s->gap, look_at, &l);
+    sunder_i_search_passing(s, t, s->gap, look_at, &l);
+    for (uint32_t k = 0; k < s->n; k++) l.worst = sunder_i_max(l.worst, sunder_i_search_overstep(s, k, t));
+    return l.worst;
+}
+
+void sunder_i_search_look_again(sunder_i_search *s, const double *t, uint32_t i)
+{
+    size_t out = 0;
+    for (size_t k = 0; k < s->clashes; k++)
+        if (s->clash[k].i != i && s->clash[k].j != i) s->clash[out++] = s->clash[k];
+    s->clashes = out;
+    look l = {t, 0};
+    const sunder_i_body *p = &s->model->body[s->body[i]];
+    if (p->pieces == 0) return;
+    for (uint32_t j = 0; j < s->n && !s->failed; j++) {
+        const sunder_i_body *q = &s->model->body[s->body[j]];
+        if (j == i || q->pieces == 0) continue;
+        double box[4];
+        for (size_t c = 0; c < 4; c++)
+            box[c] = p->box[c] + p->origin[c & 1] + t[2 * i + (c & 1)] - q->origin[c & 1] - t[2 * j + (c & 1)] +
+                     (c < 2 ? -s->gap : s->gap);
+        if (sunder_i_box_meet(box, q->box) || sunder_i_search_may_pass(s, t, i, j, s->gap))
+            look_at(s, i < j ? i : j, i < j ? j : i, &l);
+    }
+}

@@ -1,0 +1,202 @@
+/* The search for the moves of one cluster: state shared by its stages. All in doubles; see ../../README.md. */
+#ifndef SUNDER_I_CLUSTER_SEARCH_H
+#define SUNDER_I_CLUSTER_SEARCH_H
+
+#include "displacement/geometry/free_places.h"
+#include "displacement/geometry/grown_cache.h"
+#include "displacement/geometry/obstacle_cache.h"
+#include "displacement/geometry/obstacle_shadow.h"
+#include "displacement/layer/inclusion.h"
+#include "displacement/quadratic/quadratic.h"
+#include "displacement/solve/search/cluster.h"
+#include "displacement/solve/search/measures.h"
+
+/* Two bodies of the cluster, by their places in it, and what they miss. */
+typedef struct sunder_i_clash {
+    uint32_t i, j;
+    double violation;
+} sunder_i_clash;
+
+typedef struct sunder_i_search {
+    const sunder_i_model *model;
+    const uint32_t *body;       /* [n] the bodies; the first `own` may move, unless fixed */
+    size_t n, own;              /* ascending up to `own`, and from there on */
+    uint32_t *listed;           /* their list, where it is the search's own */
+    double gap;                 /* the gap and the margin */
+    double tolerance;           /* a violation below this counts as none: a quarter of the margin, or ... */
+    bool roughly;               /* ... so much that it is to be made good yet */
+    double *mass;               /* [n] 1 / (2 weight), or 0 */
+    double *place;              /* [2 n] of a large crowd: where each comes from; NULL */
+    bool *away;                 /* [n] taken out: not there for others that look for room */
+    double *t;                  /* [2 n] where they stand */
+    double *box;                /* [4 n] of the bodies as they stand, relative to the first body's origin */
+    uint32_t *order;            /* [n] for sweeps over boxes */
+    sunder_i_quadratic program; /* its constraints are kept sorted by key */
+    double *next;               /* [2 n] the program's result */
+    bool ended;                 /* nothing was in its way but what the program knows, ... */
+    double seen;                /* ... by a look that found this missed there, ... */
+    uint64_t seen_steps;        /* ... which took so many steps */
+    uint32_t tangents;          /* of limits that were added so far, which tells them apart */
+    sunder_i_constraint *old;   /* the previous round's, for the forces */
+    size_t old_n, old_capacity;
+    sunder_i_clash *clash; /* of the last look */
+    size_t clashes, clash_capacity;
+    sunder_i_relaxations relaxations; /* of pairs that this search has given up; they come before those of the model */
+    sunder_i_restored *restored;      /* those of the model that do not count; sorted */
+    size_t restored_n, restored_capacity;
+    double cap; /* no body is sent farther than this, whatever its limit; INFINITY unless set */
+    struct sunder_i_neighbourhood *neighbourhood; /* lent: changes are tried in it; NULL: with all */
+    sunder_i_rtree ways;                          /* of a large cluster (visited_boxes.c) ... */
+    double *went;                                 /* [2 n] ... for where they stood then; NULL: there is none yet */
+    double least_way;                             /* who passed another has gone farther (shadows.c) ... */
+    bool least_known;                             /* ... if that was asked */
+    sunder_i_list about;                          /* of the last question who is about */
+    sunder_i_scratch scratch;
+    sunder_i_obstacles obstacles;    /* about what a free place is looked for */
+    sunder_i_grown_cache grown;      /* obstacles of pieces as they stood there */
+    sunder_i_obstacle_cache cache;   /* obstacles of pairs of pieces */
+    sunder_i_measures measures;      /* what pairs miss */
+    sunder_i_obstacle_edge *shifted; /* one that is not kept there */
+    size_t shifted_capacity;
+    double extent;          /* the mean size of the bodies */
+    double settled;         /* a round that gains less of the cost is the last */
+    uint64_t steps, effort; /* work done, in constraints looked at; how much may be done for better sides */
+    int clashing;           /* rounds that end in a clash before a descent gives up */
+    uint64_t patience;      /* a descent gives up when so much has been done ... */
+    const double *lead;     /* [2 n] pairs that are free here get the sides that they have here; NULL */
+    const double *back;     /* [2 n] ... or when it comes back to here; NULL */
+    double hope;            /* ... or, from a free position, when it is not going to cost less than this; INFINITY */
+    bool failed;            /* memory is out */
+} sunder_i_search;
+
+/* Looks at the bodies as they stand at move (two doubles a body, copied). */
+bool sunder_i_search_init(sunder_i_search *search, const sunder_i_model *model, const uint32_t *body, size_t n,
+                          double margin, const double *move);
+void sunder_i_search_free(sunder_i_search *search);
+/* NULL, or what is wrong with it: bodies ascend, as said above, positions are numbers, pairs restored are sorted. In
+ * builds that assert. */
+const char *sunder_i_search_check(const sunder_i_search *search);
+/* Work done so far, in constraints looked at. */
+static inline uint64_t sunder_i_search_work(const sunder_i_search *s) { return s->steps + s->program.work; }
+/* How far body i may be sent. */
+double sunder_i_search_limit(const sunder_i_search *search, uint32_t i);
+/* By how much it is farther at t, by more than a hair; else 0 (limits.c). */
+double sunder_i_search_overstep(const sunder_i_search *search, uint32_t i, const double *t);
+/* How many of its bodies may move. */
+size_t sunder_i_search_movers(const sunder_i_search *search);
+/* The place of a body of the model in the search, or SUNDER_I_NOBODY. */
+uint32_t sunder_i_search_place_of(const sunder_i_search *search, uint32_t body);
+/* sum w |t|^2 */
+double sunder_i_search_cost(const sunder_i_search *search, const double *t);
+
+/* ---- surroundings.c ---------------------------------------------------------------------------------------------- */
+
+/* The same for the bodies of a cluster, which stand at move, and those about it, which stay where they stand. If it
+ * fails it is to be freed, too. */
+bool sunder_i_search_init_about(sunder_i_search *search, const sunder_i_model *model, const sunder_i_cluster *cluster,
+                                const double *move);
+
+/* ---- near.c: who stands near whom -------------------------------------------------------------------------------- */
+
+/* Called for every pair of bodies, one of them movable, that stand within reach of each other at t. */
+typedef void (*sunder_i_visit_pair)(sunder_i_search *search, uint32_t i, uint32_t j, void *context);
+
+void sunder_i_search_near(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
+                          void *context);
+/* The same for every pair that might, were one of them, or both, where it came from. */
+void sunder_i_search_near_or_home(sunder_i_search *search, double reach, sunder_i_visit_pair visit, void *context);
+
+/* ---- visited_boxes.c: who was where on the way ------------------------------------------------------------------- */
+
+/* The bodies that body i, put anywhere within reach of where it came from, could meet or pass, and perhaps others:
+ * their places, ascending, in search->about. False if memory is out. */
+bool sunder_i_search_about(sunder_i_search *search, uint32_t i, double reach);
+
+/* ---- piece_pairs.c: what two bodies owe each other, piece by piece ----------------------------------------------- */
+
+/* What two pieces without a relaxation are to keep: the gap, or what a feature owes the barrier; and the margin. */
+double sunder_i_search_owed(const sunder_i_search *search, const sunder_i_body_piece *a, const sunder_i_body_piece *b);
+/* Is there a relaxation between bodies of these numbers? Then shifts are no longer than *reach, which is 0 where
+ * not. */
+bool sunder_i_search_is_relaxed(const sunder_i_search *search, uint32_t body, uint32_t other, double *reach);
+
+/* Two convex pieces, of bodies i and j, or a wall of one and a piece of the other that it keeps inside. */
+typedef struct sunder_i_piece_pair {
+    const sunder_i_body_piece *a, *b;   /* of i, of j */
+    double offset[2];                   /* of j's origin from i's */
+    uint64_t key;                       /* tells it from all others */
+    sunder_i_inclusion_state inclusion; /* of a wall; SUNDER_I_LAPSED: these are pieces that owe each other the gap */
+    bool relaxed;                       /* the bodies: some of the pieces owe each other less */
+    bool shadow;                        /* one of the two is an anchor, which may not pass the other */
+    const sunder_i_relaxation *relaxation; /* ... these; or NULL */
+} sunder_i_piece_pair;
+
+/* The support line of its obstacle, or shadow, of these edges, that is farthest below u. */
+static inline sunder_i_support sunder_i_search_support(const sunder_i_piece_pair *part,
+                                                       const sunder_i_obstacle_edge *edge, size_t n, const double u[2])
+{
+    return part->shadow ? sunder_i_shadow_support_at(edge, n, u) : sunder_i_support_at(edge, n, u);
+}
+
+typedef void (*sunder_i_visit_piece_pair)(sunder_i_search *search, const sunder_i_piece_pair *part, void *context);
+
+/* All pairs of pieces of the two whose boxes are within reach of each other at relative position u, and the shadows
+ * that come as near; yields: they are held to their relaxations, where there are any. */
+void sunder_i_search_piece_pairs(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
+                                 bool yields, sunder_i_visit_piece_pair visit, void *context);
+/* Of that: the walls of `holder` that are within reach of the pieces of `other`, which stands at v from it.
+ * part->offset is the caller's; swapped: the holder is j. */
+void sunder_i_search_walls(sunder_i_search *search, const sunder_i_body *holder, const sunder_i_body *other,
+                           const double v[2], double reach, sunder_i_piece_pair *part, bool swapped,
+                           sunder_i_visit_piece_pair visit, void *context);
+/* The relaxation that pieces a and b are held to; NULL: none, they owe each other the gap. */
+const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *search, const sunder_i_body_piece *a,
+                                                      const sunder_i_body_piece *b);
+/* Shifts the n corners of an obstacle as the relaxation says; returns the gap that it leaves. */
+double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double *corner, size_t n);
+/* Its obstacle A + (-B), in search->scratch, shifted by its relaxation: how many corners (0: memory is out), and
+ * the gap that it owes. */
+size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pair *part, double *gap);
+/* The same as edges, *n of them, which stay until the next call; of a shadow those of shadow.h. NULL: memory is out, or
+ * it casts none. */
+const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_piece_pair *part, size_t *n,
+                                                    double *gap);
+
+/* What pair (i, j) misses at relative position u: of the gap, or where it has none (*yields) of its relaxation. */
+double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], bool *yields);
+
+/* ---- shadows.c: who may not pass whom ---------------------------------------------------------------------------- */
+
+/* All shadows of bodies i and j that may lie within reach of relative position u. */
+void sunder_i_search_shadows(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
+                             sunder_i_visit_piece_pair visit, void *context);
+/* The same between any two bodies of the model. Most go by less than there is room about their anchors. */
+void sunder_i_search_visit_shadows(sunder_i_search *search, const sunder_i_body *p, const sunder_i_body *q,
+                                   const double u[2], double reach, sunder_i_visit_piece_pair visit, void *context);
+
+static inline void sunder_i_search_body_shadows(sunder_i_search *search, const sunder_i_body *p, const sunder_i_body *q,
+                                                const double u[2], double reach, sunder_i_visit_piece_pair visit,
+                                                void *context)
+{
+    const double far = (u[0] < 0 ? -u[0] : u[0]) + (u[1] < 0 ? -u[1] : u[1]) + reach;
+    if (p->clear > far && q->clear > far && p->has->sides + q->has->sides == 0) return;
+    sunder_i_search_visit_shadows(search, p, q, u, reach, visit, context);
+}
+/* Every pair of bodies, one of them movable, that may have passed each other on their way from home to t, or are
+ * within reach of it, and do not stand within reach of each other there. */
+void sunder_i_search_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
+                             void *context);
+/* Is it such a pair? */
+bool sunder_i_search_may_pass(const sunder_i_search *search, const double *t, uint32_t i, uint32_t j, double reach);
+
+/* ---- clashes.c: who clashes, and by how much --------------------------------------------------------------------- */
+
+/* Fills search->clash with the pairs that violate the gap at t, or their relaxation; returns the worst violation, of
+ * a limit of moves too. */
+double sunder_i_search_look(sunder_i_search *search, const double *t);
+/* After a look at t, body i went elsewhere: what it clashes with now, in place of what it did. */
+void sunder_i_search_look_again(sunder_i_search *search, const double *t, uint32_t i);
+/* Appends pair (i, j) to search->clash if it clashes at t. */
+void sunder_i_search_look_at(sunder_i_search *search, const double *t, uint32_t i, uint32_t j);
+
+#endif

@@ -1,0 +1,61 @@
+/* Who went together goes exactly together.
+ *
+ * A row that was pushed along as a whole has one move, but programs tell each of its bodies a hair another, and
+ * rounding makes a unit of that: by which a pair in the row that is left in conflict, and may stand no worse, stands
+ * worse. So those that stand near each other and whose moves differ by less than counts as a miss take the move of one
+ * of them. In a row of hundreds these hairs add up: what is missed at its ends then is made good by pushing it along.
+ * Where that leaves anything in the way all stay as they were. */
+#include "displacement/solve/search/pushed.h"
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include "base/extremes.h"
+#include "base/union_find.h"
+
+#include <math.h>
+#include <string.h>
+
+static void join_alike(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
+{
+    const double *p = s->t + 2 * (size_t)i, *q = s->t + 2 * (size_t)j;
+    if (s->mass[i] > 0 && s->mass[j] > 0 && fabs(p[0] - q[0]) <= s->tolerance && fabs(p[1] - q[1]) <= s->tolerance)
+        sunder_i_union_join(context, i, j);
+}
+
+/* Parts by pushing what clashes, each once. Returns whether nothing does any more. */
+static bool push_apart(sunder_i_search *s)
+{
+    if (sunder_i_search_look(s, s->t) <= s->tolerance) return true;
+    sunder_i_pushed pushed;
+    const size_t n = s->clashes;
+    sunder_i_clash *list = sunder_i_alloc(n, sizeof *list);
+    if (!sunder_i_pushed_init(&pushed, s, sunder_i_max(s->gap, s->extent / SMALL_PART)) || !list) s->failed = true;
+    if (list && n) memcpy(list, s->clash, n * sizeof *list);
+    for (size_t k = 0; k < n && !s->failed; k++) {
+        double along[2];
+        const double missing = sunder_i_pushed_missing(&pushed, list[k].i, list[k].j, along);
+        if (missing > 0 && sunder_i_pushed_reaches(&pushed, list[k].i, list[k].j, along, missing))
+            sunder_i_pushed_part(&pushed, missing);
+    }
+    sunder_i_pushed_free(&pushed);
+    sunder_i_free(list);
+    return !s->failed && sunder_i_search_look(s, s->t) <= s->tolerance;
+}
+
+void sunder_i_search_go_together(sunder_i_search *s)
+{
+    const size_t size = 2 * s->n * sizeof *s->t;
+    uint32_t *root = sunder_i_alloc(s->n, sizeof *root);
+    double *stood = sunder_i_alloc(2 * s->n, sizeof *stood);
+    s->failed = s->failed || !root || !stood;
+    if (!s->failed) {
+        memcpy(stood, s->t, size);
+        sunder_i_union_init(root, s->n);
+        sunder_i_search_near(s, s->t, 2 * s->gap, join_alike, root);
+        for (uint32_t k = 0; k < s->n; k++)
+            memcpy(s->t + 2 * (size_t)k, stood + 2 * (size_t)sunder_i_union_find(root, k), 2 * sizeof *s->t);
+        if (!s->failed && !push_apart(s)) memcpy(s->t, stood, size);
+    }
+    sunder_i_free(root);
+    sunder_i_free(stood);
+}

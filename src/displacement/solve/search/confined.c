@@ -1,0 +1,46 @@
+/* How far it is worth looking for a place of one body beside another, where nothing but a jump takes the two clear of
+ * each other (solve/clusters/shut_in_pairs.c).
+ *
+ * Of such two every relative move is forbidden, be it by what they owe each other or by shadows, of which none is ever
+ * waived. So the only moves that may be free are those at which some two of their features, held to less than they owe,
+ * are nearer than that; and two that were nearer at home than they owe are not so far from there. */
+#include "displacement/solve/search/stages.h"
+
+#include "base/extremes.h"
+
+#include <math.h>
+
+/* How far from u the relative moves may be at which features f of p and g of q are nearer than they owe. */
+static double farthest_near(const sunder_i_search *s, uint32_t f, uint32_t g, const double u[2])
+{
+    const sunder_i_model *model = s->model;
+    const double *a = sunder_i_home_box(model, f), *b = sunder_i_home_box(model, g);
+    const double owed = s->gap + 2 * s->tolerance;
+    double square = 0;
+    for (uint32_t x = 0; x < 2; x++) {
+        const double far = sunder_i_max(fabs(a[x] - b[x + 2] - owed - u[x]), fabs(a[x + 2] - b[x] + owed - u[x]));
+        square += far * far;
+    }
+    return sqrt(square);
+}
+
+static double farthest_of(const sunder_i_search *s, const sunder_i_relaxations *all, uint32_t p, uint32_t q,
+                          const double u[2])
+{
+    const uint32_t *body_of = s->model->body_of;
+    double farthest = 0;
+    for (size_t k = 0; k < all->n; k++) {
+        const uint32_t a = all->item[k].a, b = all->item[k].b;
+        if (body_of[a] == p && body_of[b] == q) farthest = sunder_i_max(farthest, farthest_near(s, a, b, u));
+        if (body_of[a] == q && body_of[b] == p) farthest = sunder_i_max(farthest, farthest_near(s, b, a, u));
+    }
+    return farthest;
+}
+
+bool sunder_i_search_is_confined(const sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double *farthest)
+{
+    const uint32_t p = s->body[i], q = s->body[j];
+    if (!sunder_i_are_confined(s->model, p, q)) return false;
+    *farthest = sunder_i_max(farthest_of(s, &s->relaxations, p, q, u), farthest_of(s, &s->model->relaxations, p, q, u));
+    return true;
+}

@@ -1,0 +1,216 @@
+/* The constraints of a program: what bodies that stand near each other at a position owe each other, as half-planes of
+ * their relative moves, and what a solution ran into beyond those. */
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include "base/extremes.h"
+#include "base/sort.h"
+#include "base/watch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static inline int by_key(const void *a, const void *b)
+{
+    const sunder_i_constraint *c = a, *d = b;
+    return c->key < d->key ? -1 : c->key > d->key;
+}
+
+int sunder_i_by_constraint(const void *a, const void *b) { return by_key(a, b); }
+
+static const sunder_i_constraint *look_up(const sunder_i_constraint *c, size_t n, uint64_t key)
+{
+    const sunder_i_constraint wanted = {.key = key};
+    return n ? bsearch(&wanted, c, n, sizeof *c, sunder_i_by_constraint) : NULL;
+}
+
+/* Pieces of one wall give the same line many times. */
+void sunder_i_search_add_constraint(sunder_i_search *s, size_t first, const sunder_i_constraint *c)
+{
+    sunder_i_quadratic *p = &s->program;
+    for (size_t k = first; k < p->n; k++) {
+        sunder_i_constraint *other = &p->constraint[k];
+        if (fabs(other->n[0] - c->n[0]) > SAME_NORMAL || fabs(other->n[1] - c->n[1]) > SAME_NORMAL) continue;
+        if (other->d < c->d) {
+            const double force = other->force + c->force;
+            *other = *c;
+            other->force = force;
+        }
+        return;
+    }
+    if (!sunder_i_reserve(&p->constraint, &p->capacity, p->n + 1, sizeof *p->constraint)) {
+        s->failed = true;
+        return;
+    }
+    p->constraint[p->n++] = *c;
+}
+
+/* The constraints of pair (i, j): of the pieces that stand no farther apart than gap + reach at relative position near,
+ * with the sides of position u. Those that `known` holds are left as they are. */
+typedef struct sighting {
+    const double *near, *u;
+    double reach;
+    bool yields;
+    const sunder_i_constraint *known;
+    size_t known_n;
+} sighting;
+
+typedef struct sighted {
+    const sighting *at;
+    uint32_t i, j;
+    size_t first; /* of the pair's constraints */
+} sighted;
+
+static void constrain_part(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+{
+    const sighted *pair = context;
+    const sighting *at = pair->at;
+    if (look_up(at->known, at->known_n, part->key)) return;
+    double gap;
+    size_t n;
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    if (!edge) return;
+    sunder_i_support h = sunder_i_search_support(part, edge, n, at->near);
+    if (h.distance > (part->shadow ? gap : sunder_i_max(s->gap, gap)) + at->reach) return;
+    if (at->near != at->u) h = sunder_i_search_support(part, edge, n, at->u);
+    const sunder_i_constraint *before = look_up(s->old, s->old_n, part->key);
+    double d = h.support + gap;
+    /* What the position misses by less than counts as a miss is forgiven: else an exact fit, missed by a hair on two
+     * sides, would be a contradiction. (What is missed roughly is made good: forgiven each round it would add up.) */
+    const double now = h.n[0] * at->u[0] + h.n[1] * at->u[1];
+    if (!s->roughly && now < d && now >= d - s->tolerance) d = now;
+    /* What does not move counts where it stands. */
+    uint32_t ends[2] = {pair->i, pair->j};
+    for (int e = 0; e < 2; e++) {
+        const double *t = s->t + 2 * ends[e];
+        if (s->mass[ends[e]] > 0) continue;
+        d += (e ? -1 : 1) * (h.n[0] * t[0] + h.n[1] * t[1]);
+        ends[e] = SUNDER_I_GROUND;
+    }
+    sunder_i_search_add_constraint(s, pair->first,
+                                   &(sunder_i_constraint){.i = ends[0],
+                                                          .j = ends[1],
+                                                          .n = {h.n[0], h.n[1]},
+                                                          .d = d,
+                                                          .force = before ? before->force : 0,
+                                                          .key = part->key});
+}
+
+static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sighting *at)
+{
+    sighted pair = {at, i, j, s->program.n};
+    sunder_i_search_piece_pairs(s, i, j, at->near, at->reach + s->gap, at->yields, constrain_part, &pair);
+}
+
+/* What a free place beside round corners of the pair keeps too much, at most. Who is parted from a wide barrier in a
+ * corner between two of its parts stands by so much beside the one, but owes it as much as the other: were it out of
+ * reach, the program would send him through it. */
+static double kept_too_much(const sunder_i_search *s, uint32_t i, uint32_t j)
+{
+    const sunder_i_model *model = s->model;
+    double beyond = 0;
+    for (int k = 0; k < 2; k++) {
+        const sunder_i_body *body = &model->body[s->body[k ? j : i]];
+        beyond = sunder_i_max(beyond, sunder_i_reach_beyond(model, model->member[body->member]));
+    }
+    return KEPT_TOO_MUCH * (s->gap + beyond);
+}
+
+typedef struct around {
+    const double *t;
+    double reach;
+    bool as_it_stands; /* whatever clashes is parted where it stands: it misses a hair */
+    bool clashing;
+} around;
+
+static void constrain(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
+{
+    around *a = context;
+    double reach = a->reach;
+    double u[2] = {a->t[2 * j] - a->t[2 * i], a->t[2 * j + 1] - a->t[2 * i + 1]};
+    bool yields;
+    if (sunder_i_search_pair(s, i, j, u, &yields) > s->tolerance) {
+        a->clashing = true;
+        double place[1][2];
+        if (!a->as_it_stands && sunder_i_search_free_pair(s, i, j, u, 0, 1, place)) {
+            memcpy(u, place[0], sizeof u);
+            reach = sunder_i_max(reach, kept_too_much(s, i, j));
+        }
+    }
+    const double *side = u;
+    double ahead[2];
+    if (s->lead) {
+        bool other;
+        for (size_t c = 0; c < 2; c++) ahead[c] = s->lead[2 * (size_t)j + c] - s->lead[2 * (size_t)i + c];
+        if (sunder_i_search_pair(s, i, j, ahead, &other) <= s->tolerance && other == yields) side = ahead;
+    }
+    constrain_pair(s, i, j, &(sighting){u, side, reach, yields, NULL, 0});
+}
+
+/* Mostly they are sorted already. */
+static void sort_constraints(sunder_i_search *s)
+{
+    const sunder_i_constraint *c = s->program.constraint;
+    size_t k = 1;
+    while (k < s->program.n && c[k - 1].key <= c[k].key) k++;
+    if (k < s->program.n) sunder_i_sort_few(s->program.constraint, s->program.n, sizeof *s->program.constraint, by_key);
+}
+
+bool sunder_i_search_constrain(sunder_i_search *s, double reach, bool as_it_stands)
+{
+    sunder_i_quadratic *p = &s->program;
+    /* The last round's constraints become the old ones. */
+    sunder_i_constraint *swap = s->old;
+    const size_t capacity = s->old_capacity;
+    s->old = p->constraint;
+    s->old_n = p->n;
+    s->old_capacity = p->capacity;
+    p->constraint = swap;
+    p->capacity = capacity;
+    p->n = 0;
+    around a = {.t = s->t, .reach = reach, .as_it_stands = as_it_stands};
+    sunder_i_search_near(s, s->t, s->gap + reach, constrain, &a);
+    sunder_i_search_passing(s, s->t, s->gap + reach, constrain, &a);
+    for (size_t k = 0; k < s->old_n && !s->failed; k++)
+        if (sunder_i_is_tangent(&s->old[k]) && s->old[k].force > 0) sunder_i_search_add_constraint(s, p->n, &s->old[k]);
+    sort_constraints(s);
+    memcpy(s->next, s->t, 2 * s->n * sizeof *s->t); /* who is out of patience by now stays where it stands */
+    return a.clashing || sunder_i_search_is_beyond(s, s->t);
+}
+
+/* Pieces in the way of s->next that the sorted `known` does not hold: their sides are those of the reference position,
+ * where they stood apart. */
+static void constrain_met(sunder_i_search *s, const sunder_i_constraint *known, size_t known_n)
+{
+    const uint64_t before = s->steps;
+    s->seen = sunder_i_search_look(s, s->next);
+    s->seen_steps = s->steps - before;
+    const size_t clashes = s->clashes;
+    for (size_t c = 0; c < clashes && !s->failed; c++) {
+        const uint32_t i = s->clash[c].i, j = s->clash[c].j;
+        double u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
+        bool yields;
+        if (sunder_i_search_pair(s, i, j, u, &yields) > s->tolerance) continue;
+        const double w[2] = {s->next[2 * j] - s->next[2 * i], s->next[2 * j + 1] - s->next[2 * i + 1]};
+        constrain_pair(s, i, j, &(sighting){w, u, -s->tolerance, yields, known, known_n});
+    }
+}
+
+bool sunder_i_search_constrain_further(sunder_i_search *s)
+{
+    const bool beyond = sunder_i_search_constrain_limits(s);
+    sort_constraints(s);
+    const size_t before = s->program.n;
+    sunder_i_constraint few[FEW_KNOWN], *known = before <= FEW_KNOWN ? few : sunder_i_alloc(before, sizeof *known);
+    if (!known) {
+        s->failed = true;
+        return false;
+    }
+    if (before) memcpy(known, s->program.constraint, before * sizeof *known);
+    constrain_met(s, known, before);
+    const bool more = beyond || s->program.n > before;
+    if (known != few) sunder_i_free(known);
+    sort_constraints(s);
+    return more;
+}

@@ -1,0 +1,466 @@
+/* Where there is room in a cluster as it stands: for one of a pair beside the other, for a body among all. */
+#include "displacement/geometry/free_places.h"
+#include "displacement/layer/reads.h"
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include "base/extremes.h"
+#include "base/watch.h"
+#include "separation/separation.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- Where there is room ----------------------------------------------------------------------------------------- */
+
+/* What a body is made of: its pieces, or the outlines of its members where pieces would be too many. */
+static uint32_t parts_of(const sunder_i_body *body, bool coarse) { return coarse ? body->members : body->pieces; }
+
+static const sunder_i_body_piece *find_parts(sunder_i_search *s, const sunder_i_body *body, bool coarse)
+{
+    const sunder_i_body_pieces *fine = coarse ? NULL : sunder_i_pieces_of(s->model, body);
+    const sunder_i_body_piece *part = coarse ? sunder_i_outlines_of(s->model, body) : fine ? fine->piece : NULL;
+    if (!part) s->failed = true;
+    return part;
+}
+
+static void add_wall(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+{
+    sunder_i_obstacles *o = context;
+    double gap;
+    const size_t n = sunder_i_search_obstacle(s, part, &gap);
+    if (n) sunder_i_obstacles_add(o, s->scratch.xy, n, sunder_i_max(gap, 0) + 2 * s->tolerance);
+}
+
+/* The walls of either that keep the other inside. */
+static void add_walls(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, const sunder_i_body *q,
+                      const double offset[2], const double v[2], double reach, bool relaxed)
+{
+    sunder_i_piece_pair part = {.offset = {offset[0], offset[1]}, .relaxed = relaxed};
+    const double back[2] = {-v[0], -v[1]};
+    if (p->has->walls) sunder_i_search_walls(s, p, q, v, reach, &part, false, add_wall, o);
+    if (q->has->walls) sunder_i_search_walls(s, q, p, back, reach, &part, true, add_wall, o);
+}
+
+/* Shadows as obstacles: moved by `shift`, and as far as they matter. */
+typedef struct shading {
+    sunder_i_obstacles *obstacles;
+    double shift[2], far;
+} shading;
+
+static void add_shadow(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+{
+    shading *shade = context;
+    double gap;
+    size_t n;
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    if (!edge) return;
+    double *corner = sunder_i_scratch_reserve(&s->scratch, n + 3);
+    if (!corner) {
+        s->failed = true;
+        return;
+    }
+    n = sunder_i_shadow_corners(edge, n, shade->far, corner);
+    for (size_t k = 0; k < 2 * n; k++) corner[k] += shade->shift[k & 1];
+    s->steps += OBSTACLE_WORK;
+    sunder_i_obstacles_add(shade->obstacles, corner, n, sunder_i_max(gap, 0) + 2 * s->tolerance);
+}
+
+/* The shadows between p, which moved by t, and q, for moves of q within reach of `at`. */
+static void add_shadows(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, const double t[2],
+                        const sunder_i_body *q, const double at[2], double reach)
+{
+    const double u[2] = {at[0] - t[0], at[1] - t[1]};
+    shading shade = {o, {t[0], t[1]}, hypot(u[0], u[1]) + reach};
+    sunder_i_search_body_shadows(s, p, q, u, reach + s->gap - s->model->rules.gap, add_shadow, &shade);
+}
+
+typedef struct shade {
+    const double *u;
+    bool deep;
+} shade;
+
+static void take_shade(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+{
+    shade *at = context;
+    double gap;
+    size_t n;
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    at->deep = at->deep || (edge && sunder_i_search_support(part, edge, n, at->u).distance < gap);
+}
+
+/* Does the move `at` of q lie in a shadow between it and p, which moved by t? */
+static bool is_shaded(sunder_i_search *s, const sunder_i_body *p, const double t[2], const sunder_i_body *q,
+                      const double at[2])
+{
+    const double u[2] = {at[0] - t[0], at[1] - t[1]};
+    shade found = {u, false};
+    sunder_i_search_body_shadows(s, p, q, u, s->gap - s->model->rules.gap, take_shade, &found);
+    return found.deep;
+}
+
+static double extent(const double box[4]) { return sunder_i_max(box[2] - box[0], box[3] - box[1]); }
+
+/* Might they, or what a relaxation shifts, be within r of each other at v? No least translation is longer than the
+ * boxes. */
+static bool are_near(const sunder_i_body *p, const sunder_i_body *q, const double v[2], double r)
+{
+    const double far = r + extent(p->box) + extent(q->box);
+    const double box[4] = {p->box[0] - v[0] - far, p->box[1] - v[1] - far, p->box[2] - v[0] + far,
+                           p->box[3] - v[1] + far};
+    return sunder_i_box_meet(box, q->box);
+}
+
+/* Adds the obstacle of two parts. pieces: that is what they are; else outlines, which are not kept. */
+static void add_obstacle(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body_piece *a,
+                         const sunder_i_body_piece *b, const sunder_i_relaxation *relaxation, bool pieces,
+                         const sunder_i_grown_key *key)
+{
+    const bool kept = pieces && !relaxation;
+    if (kept && sunder_i_grown_cache_add(&s->grown, key, o)) return;
+    const size_t n = sunder_i_obstacle_corners(a->corner, a->corners, b->corner, b->corners, key->offset, &s->scratch);
+    double gap = key->gap;
+    if (n == 0) {
+        s->failed = true;
+        return;
+    }
+    if (relaxation)
+        gap = sunder_i_min(gap, sunder_i_search_shift(relaxation, b->feature, s->scratch.xy, n) + 2 * s->tolerance);
+    const size_t before = o->n;
+    sunder_i_obstacles_add(o, s->scratch.xy, n, gap);
+    if (kept && o->n > before && !sunder_i_grown_cache_keep(&s->grown, key, o)) s->failed = true;
+}
+
+/* Adds the obstacles that parts of p make for parts of q, which stands at u, of parts within reach. */
+static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, bool coarse_p,
+                          const sunder_i_body *q, bool coarse_q, const double offset[2], const double u[2],
+                          double reach)
+{
+    const sunder_i_model *model = s->model;
+    double shift;
+    const double v[2] = {offset[0] + u[0], offset[1] + u[1]};
+    if (!are_near(p, q, v, reach + s->gap)) return;
+    const bool relaxed =
+        sunder_i_search_is_relaxed(s, (uint32_t)(p - model->body), (uint32_t)(q - model->body), &shift);
+    const double r = reach + s->gap + shift;
+    const uint32_t np = parts_of(p, coarse_p), nq = parts_of(q, coarse_q);
+    const sunder_i_body_piece *of_p = find_parts(s, p, coarse_p), *of_q = find_parts(s, q, coarse_q);
+    if (!of_p || !of_q) return;
+    if ((p->has->walls || q->has->walls) && (relaxed || model->inclusions))
+        add_walls(s, o, p, q, offset, v, r, relaxed);
+    for (uint32_t k = 0; k < np; k++) {
+        const sunder_i_body_piece *a = &of_p[k];
+        const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};
+        if (a->corners == 0 || !sunder_i_box_meet(box, q->box)) continue;
+        for (uint32_t l = 0; l < nq; l++) {
+            const sunder_i_body_piece *b = &of_q[l];
+            if (b->corners == 0 || !sunder_i_box_meet(box, b->box) ||
+                sunder_i_is_included(model, a->feature, b->feature))
+                continue;
+            const sunder_i_relaxation *relaxation = relaxed ? sunder_i_search_relaxation(s, a, b) : NULL;
+            if (relaxation && relaxation->inside) continue;
+            /* A little more room than is asked, so that no rounding makes a clash of it. */
+            const sunder_i_grown_key key = {(uint64_t)(p->piece + k) << 32 | (q->piece + l),
+                                            {offset[0], offset[1]},
+                                            sunder_i_search_owed(s, a, b) + 2 * s->tolerance};
+            s->steps += OBSTACLE_WORK;
+            add_obstacle(s, o, a, b, relaxation, !coarse_p && !coarse_q, &key);
+            if (s->failed) return;
+        }
+    }
+}
+
+/* Beyond everything, in the four directions: always free, for when all else is full. */
+static bool outside_all(const sunder_i_obstacles *o, const double target[2], double limit, double place[2])
+{
+    double all[4], best = INFINITY;
+    sunder_i_box_clear(all);
+    for (size_t k = 0; k < o->n; k++) sunder_i_box_join(all, o->obstacle[k].box);
+    for (int c = 0; c < 4; c++) {
+        const double d = fabs(all[c] - target[c & 1]);
+        if (!(d < best) || d > limit) continue;
+        best = d;
+        place[c & 1] = all[c];
+        place[1 - (c & 1)] = target[1 - (c & 1)];
+    }
+    return best < INFINITY;
+}
+
+/* The same by the exact search for two shapes, which is the quicker where pieces are many; the vector that it starts
+ * from is cut to few bits. Without the gap: it is the side that matters, and the search with a gap is far slower. */
+static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const sunder_shape *q, const double target[2],
+                              double limit, double place[2])
+{
+    const double none[2] = {0, 0};
+    double from[2];
+    for (int c = 0; c < 2; c++) {
+        int exponent;
+        frexp(sunder_i_max(fabs(p->box[c]), fabs(p->box[c + 2])), &exponent);
+        const double unit = ldexp(1, exponent - 44);
+        from[c] = unit > 0 ? unit * rint(target[c] / unit) : target[c];
+    }
+    sunder_separation least;
+    bool beyond = false, overlap = true;
+    sunder_status status = SUNDER_OK;
+    /* Most of those that are too near do not overlap, which is told much sooner. */
+    if (s->model->rules.gap > 0) status = sunder_i_overlap(p, none, q, from, &overlap, NULL);
+    if (!status && !overlap) {
+        memcpy(place, from, sizeof from);
+        return true;
+    }
+    if (!status) status = sunder_i_separate(p, none, q, from, 0, limit, &least, &beyond, NULL);
+    if (status == SUNDER_ENOMEM || status == SUNDER_ECANCEL) s->failed = true;
+    if (status) return false;
+    place[0] = from[0] + least.dx;
+    place[1] = from[1] + least.dy;
+    sunder_separation_clear(&least);
+    return !beyond && isfinite(place[0]) && isfinite(place[1]);
+}
+
+/* Free places of q about `target`, p as it is, no farther than `reach`. Most lie in no shadow: so those without shadows
+ * come first, and shadows are asked for where one does. outside: beyond everything will do. */
+static size_t find_beside(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *q, bool many,
+                          const double target[2], double reach, double spread, bool outside, size_t most,
+                          double (*places)[2])
+{
+    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}, none[2] = {0, 0};
+    const bool coarse_p = many && !sunder_i_is_barrier_body(s->model, p),
+               coarse_q = many && !sunder_i_is_barrier_body(s->model, q);
+    sunder_i_obstacles *o = &s->obstacles;
+    sunder_i_obstacles_clear(o);
+    add_obstacles(s, o, p, coarse_p, q, coarse_q, offset, target, reach);
+    size_t n = sunder_i_free_places(o, target, reach, spread, most, places, &s->steps, &s->failed);
+    if (n == 0 && outside && outside_all(o, target, INFINITY, places[0])) n = 1;
+    bool shaded = false;
+    for (size_t k = 0; k < n && !shaded && !s->failed; k++) shaded = is_shaded(s, p, none, q, places[k]);
+    if (shaded) {
+        add_shadows(s, o, p, none, q, target, reach);
+        n = sunder_i_free_places(o, target, reach, spread, most, places, &s->steps, &s->failed);
+    }
+    s->failed = s->failed || o->failed;
+    return n;
+}
+
+/* As shapes, or piece by piece? */
+static bool are_many(uint32_t pieces, uint32_t others) { return (uint64_t)pieces * others > MANY_PAIRS; }
+
+bool sunder_i_cluster_may_want_shape(const sunder_i_model *model, uint32_t body)
+{
+    return are_many(model->body[body].pieces, model->most_pieces);
+}
+
+size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double target[2], double spread,
+                                 size_t most, double (*places)[2])
+{
+    const sunder_i_model *model = s->model;
+    const sunder_i_body *p = &model->body[s->body[i]], *q = &model->body[s->body[j]];
+    const double none[2] = {0, 0};
+    const bool many = are_many(p->pieces, q->pieces);
+    const sunder_shape *ps = sunder_i_model_shape(model, s->body[i]), *qs = sunder_i_model_shape(model, s->body[j]);
+    double shift;
+    const bool relaxed = sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift);
+    /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
+    const double shallow = sunder_i_max(2 * s->gap, SHALLOW * sunder_i_min(extent(p->box), extent(q->box)));
+    if (many && most == 1 && model->inclusions == 0 && !relaxed && ps && qs && !ps->flat && !qs->flat &&
+        free_pair_exactly(s, ps, qs, target, shallow, places[0]) && !is_shaded(s, p, none, q, places[0]))
+        return 1;
+    double all = BEYOND_ALL * (extent(p->box) + extent(q->box) + s->gap);
+    const bool confined = sunder_i_search_is_confined(s, i, j, target, &all);
+    double reach = sunder_i_max(2 * s->gap, PAIR_REACH * sunder_i_min(extent(p->box), extent(q->box)));
+    /* Beside a point, to which no gap is owed, it begins with the other one's size: from 0 it would not grow. */
+    if (!(reach > 0)) reach = PAIR_REACH * sunder_i_max(extent(p->box), extent(q->box));
+    for (;; reach *= PAIR_GROWTH) {
+        if (confined) reach = sunder_i_min(reach, all);
+        const size_t n = find_beside(s, p, q, many, target, reach, spread, !confined && reach > all, most, places);
+        if (n || s->failed) return n;
+        if (reach > all || (confined && reach == all) || !(reach > 0)) return 0;
+    }
+}
+
+/* Bodies of the model that stand near a box (relative to body p's origin, at the start), those of this search apart;
+ * appended to hits once each. */
+static bool find_others(sunder_i_search *s, const sunder_i_body *p, const double box[4], sunder_i_list *hits)
+{
+    const sunder_i_model *model = s->model;
+    double where[4];
+    for (int c = 0; c < 4; c++) where[c] = box[c] + p->origin[c & 1];
+    if (!sunder_i_look_about(model, model->standing, where, hits)) return false;
+    sunder_i_things_to_bodies(model, hits);
+    size_t out = 0;
+    for (size_t k = 0; k < hits->n; k++) {
+        const uint32_t b = hits->item[k];
+        if (sunder_i_set_has(s->body, s->own, b) || sunder_i_set_has(s->body + s->own, s->n - s->own, b)) continue;
+        hits->item[out++] = b;
+    }
+    hits->n = out;
+    return true;
+}
+
+/* How many shadows two bodies may cast. */
+static uint64_t count_shadows(const sunder_i_body *p, const sunder_i_body *q)
+{
+    return (uint64_t)p->members * (q->pieces + q->has->sides) + (uint64_t)q->members * (p->pieces + p->has->sides);
+}
+
+/* The others about body i: those of the search, as its list `about` names them, and foreign ones. */
+typedef struct others {
+    sunder_i_search *search;
+    uint32_t i;
+    sunder_i_list foreign;
+    bool coarse; /* parts are outlines */
+} others;
+
+/* The k-th of them, and where it stands; NULL: it is not there. */
+static const sunder_i_body *other_at(const others *all, size_t k, const double **t)
+{
+    const sunder_i_search *s = all->search;
+    const sunder_i_model *model = s->model;
+    const bool own = k < s->about.n;
+    const uint32_t at = own ? s->about.item[k] : all->foreign.item[k - s->about.n], body = own ? s->body[at] : at;
+    if (own && (at == all->i || s->away[at])) return NULL;
+    *t = own ? s->t + 2 * (size_t)at : model->move + 2 * (size_t)body;
+    return model->body[body].pieces ? &model->body[body] : NULL;
+}
+
+static size_t count_others(const others *all) { return all->search->about.n + all->foreign.n; }
+
+/* How many pieces of others lie within reach of body i, by their boxes. */
+static uint64_t count_around(const others *all, const double at[2], double reach)
+{
+    sunder_i_search *s = all->search;
+    const sunder_i_model *model = s->model;
+    const sunder_i_body *p = &model->body[s->body[all->i]];
+    uint64_t n = 0;
+    for (size_t k = 0; k < count_others(all); k++) {
+        const double *t;
+        const sunder_i_body *q = other_at(all, k, &t);
+        double box[4];
+        if (!q) continue;
+        for (int c = 0; c < 4; c++)
+            box[c] = p->box[c] + p->origin[c & 1] + at[c & 1] - q->origin[c & 1] - t[c & 1] +
+                     (c < 2 ? -1 : 1) * (reach + s->gap);
+        if (!sunder_i_box_meet(box, q->box)) continue;
+        const sunder_i_body_piece *piece = find_parts(s, q, false);
+        for (uint32_t l = 0; piece && l < q->pieces; l++) n += sunder_i_box_meet(box, piece[l].box);
+    }
+    return n;
+}
+
+/* Obstacles for body i from all the others, within reach of place `at`. */
+static void surround(others *all, sunder_i_obstacles *o, const double at[2], double reach)
+{
+    sunder_i_search *s = all->search;
+    const sunder_i_model *model = s->model;
+    const sunder_i_body *p = &model->body[s->body[all->i]];
+    all->coarse = (uint64_t)p->pieces * count_around(all, at, reach) > MANY_AROUND;
+    for (size_t k = 0; k < count_others(all) && !s->failed; k++) {
+        const double *t;
+        const sunder_i_body *q = other_at(all, k, &t);
+        if (!q) continue;
+        /* Body q, where it stands, is the fixed partner: the obstacle for t_i is Q + t_q - P. */
+        const double offset[2] = {p->origin[0] - q->origin[0] - t[0], p->origin[1] - q->origin[1] - t[1]};
+        add_obstacles(s, o, q, all->coarse && q->pieces > q->members && !sunder_i_is_barrier_body(model, q), p,
+                      all->coarse, offset, at, reach);
+    }
+}
+
+/* Among very many pieces, shadows of large blocks are left out: whoever is put into one clashes there. */
+static bool has_shadows(const others *all, const sunder_i_body *p, const sunder_i_body *q)
+{
+    return !all->coarse || count_shadows(p, q) <= MANY_SHADOWS;
+}
+
+static bool is_shaded_by_others(const others *all, const double at[2])
+{
+    sunder_i_search *s = all->search;
+    const sunder_i_body *p = &s->model->body[s->body[all->i]];
+    for (size_t k = 0; k < count_others(all) && !s->failed; k++) {
+        const double *t;
+        const sunder_i_body *q = other_at(all, k, &t);
+        if (q && has_shadows(all, p, q) && is_shaded(s, q, t, p, at)) return true;
+    }
+    return false;
+}
+
+static void add_shadows_of_others(const others *all, sunder_i_obstacles *o, const double at[2], double reach)
+{
+    sunder_i_search *s = all->search;
+    const sunder_i_body *p = &s->model->body[s->body[all->i]];
+    for (size_t k = 0; k < count_others(all) && !s->failed; k++) {
+        const double *t;
+        const sunder_i_body *q = other_at(all, k, &t);
+        if (q && has_shadows(all, p, q)) add_shadows(s, o, q, t, p, at, reach);
+    }
+}
+
+/* The free places nearest to `home`, at most `most` of them and no farther than reach; shadows are asked for where the
+ * nearest one is in them. */
+static size_t find_among(others *all, const double home[2], double reach, size_t most, double (*place)[2])
+{
+    sunder_i_search *s = all->search;
+    size_t n = 0;
+    sunder_i_obstacles *o = &s->obstacles;
+    sunder_i_obstacles_clear(o);
+    surround(all, o, home, reach);
+    for (int shadows = 0; shadows < 2; shadows++) {
+        n = sunder_i_free_places(o, home, reach, 0, most, place, &s->steps, &s->failed);
+        if (n == 0 && o->n && outside_all(o, home, reach, place[0])) n = 1;
+        if (n == 0 || shadows || s->failed || !is_shaded_by_others(all, place[0])) break;
+        add_shadows_of_others(all, o, home, reach);
+    }
+    s->failed = s->failed || o->failed;
+    return n;
+}
+
+/* Does body i clash with nothing there? All that it was told of beforehand is asked. */
+static bool is_clear_at(sunder_i_search *s, uint32_t i, const double place[2])
+{
+    const double stood[2] = {s->t[2 * i], s->t[2 * i + 1]};
+    memcpy(s->t + 2 * (size_t)i, place, sizeof stood);
+    const bool clear = sunder_i_search_look(s, s->t) <= s->tolerance;
+    memcpy(s->t + 2 * (size_t)i, stood, sizeof stood);
+    return clear;
+}
+
+/* The free place nearest to where body i began, no farther than `all`, or a little, and within a limit. clear: the
+ * nearest of several where it clashes with nothing; between shadows with a common corner there is a ray in neither. */
+static bool find_free_place(sunder_i_search *s, uint32_t i, double limit, double all, bool clear, double place[2])
+{
+    const sunder_i_body *p = &s->model->body[s->body[i]];
+    const double home[2] = {0, 0}, now = hypot(s->t[2 * i], s->t[2 * i + 1]);
+    for (double reach = 2 * s->gap + sunder_i_max(now, BODY_REACH * extent(p->box));; reach *= BODY_GROWTH) {
+        if (reach > limit) reach = limit;
+        others about = {.search = s, .i = i};
+        const double r = reach + s->gap, box[4] = {p->box[0] - r, p->box[1] - r, p->box[2] + r, p->box[3] + r};
+        if (!find_others(s, p, box, &about.foreign) || !sunder_i_search_about(s, i, r)) s->failed = true;
+        double places[MOST_PLACES][2];
+        size_t n = s->failed ? 0 : find_among(&about, home, reach, clear ? MOST_PLACES : 1, places), k = 0;
+        while (clear && k < n && !s->failed && !is_clear_at(s, i, places[k])) k++;
+        const bool found = k < n;
+        if (found) memcpy(place, places[k], sizeof places[k]);
+        sunder_i_free(about.foreign.item);
+        if (!sunder_i_look()) s->failed = true;
+        if (found || s->failed) return found && !s->failed;
+        if (reach >= limit || reach > all || !(reach > 0)) return false;
+    }
+}
+
+static double beyond_all(const sunder_i_search *s, uint32_t i)
+{
+    const sunder_i_rtree *tree = s->model->standing;
+    return BEYOND_ALL *
+           (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(s->model->body[s->body[i]].box) + s->gap);
+}
+
+bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, double place[2])
+{
+    const double now = hypot(s->t[2 * i], s->t[2 * i + 1]), size = extent(s->model->body[s->body[i]].box);
+    double all = beyond_all(s, i);
+    if (!s->model->rules.jumps) all = sunder_i_min(all, now + FARTHEST_LEAP * (sunder_i_min(size, s->extent) + s->gap));
+    return find_free_place(s, i, limit, all, false, place);
+}
+
+bool sunder_i_search_free_body_anywhere(sunder_i_search *s, uint32_t i, double place[2])
+{
+    return find_free_place(s, i, INFINITY, beyond_all(s, i), true, place);
+}

@@ -1,0 +1,319 @@
+/* Clusters without a solution: limits, fixed bodies, or no room between them.
+ *
+ * Pairs that clash in the end, and clashed at the start, are relaxed (relaxation.c), a few at a time: all others keep
+ * what they owe, and these stand no worse than they stood. Which ones the compromise tells that the search ended in: it
+ * misses most where the contradiction is. After each few the search goes on from there, a crowd from home. In the end
+ * each is asked for again (take_back.c); and all go down from home once more, since a compromise may have pushed some
+ * that nothing needs to move any more.
+ *
+ * Where that leads nowhere all that still clash are relaxed, and what came into a clash besides goes home, until
+ * nothing clashes; in the end all are at home, where every relaxation holds. From there the cluster descends as from
+ * any other solution: nobody is pushed to ease a pair that stays in conflict. (retry_cluster.c asks them again.) */
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include "base/extremes.h"
+#include "base/union_find.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A relaxation for pair (i, j), if there is none by this search yet. */
+bool sunder_i_search_relax(sunder_i_search *s, uint32_t i, uint32_t j)
+{
+    const uint32_t p = s->body[i], q = s->body[j];
+    if (sunder_i_relaxations_between(&s->relaxations, p, q)) return false;
+    const size_t before = s->relaxations.n;
+    /* All that is within what the search asks for: the gap and its margin. */
+    if (sunder_i_relaxations_make(s->model, p, q, s->gap + 2 * s->tolerance, &s->relaxations, NULL)) s->failed = true;
+    return s->relaxations.n > before;
+}
+
+/* ---- One at a time ----------------------------------------------------------------------------------------------- */
+
+/* A clash that may be given up. */
+typedef struct candidate {
+    const sunder_i_clash *clash;
+    bool overlaps; /* at home */
+} candidate;
+
+/* Is p rather to be given up than q? One that does not overlap at home rather than one that does; then the one that
+ * misses most. */
+static bool is_cheaper(const candidate *p, const candidate *q)
+{
+    if (p->overlaps != q->overlaps) return q->overlaps;
+    if (p->clash->violation != q->clash->violation) return p->clash->violation > q->clash->violation;
+    return sunder_i_by_id_pair(p->clash, q->clash) < 0;
+}
+
+/* What clashes now, clashed at home, and is not given up yet. Of each set of clashes that hang together only those that
+ * miss at least that share of what the worst does: what the others miss may be due to these. */
+static size_t list_candidates(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double share,
+                              candidate *list, uint32_t *root, double *worst)
+{
+    size_t listed = 0, out = 0;
+    sunder_i_union_init(root, s->n);
+    for (size_t k = 0; k < s->n; k++) worst[k] = 0;
+    for (size_t k = 0; k < s->clashes; k++) sunder_i_union_join(root, s->clash[k].i, s->clash[k].j);
+    for (size_t k = 0; k < s->clashes; k++) {
+        const sunder_i_clash *c = &s->clash[k],
+                             *home = n ? bsearch(c, at_home, n, sizeof *c, sunder_i_by_id_pair) : NULL;
+        if (!home || sunder_i_relaxations_between(&s->relaxations, s->body[c->i], s->body[c->j])) continue;
+        double *w = &worst[sunder_i_union_find(root, c->i)];
+        *w = sunder_i_max(*w, c->violation);
+        list[listed++] = (candidate){c, home->violation > s->gap};
+    }
+    for (size_t k = 0; k < listed; k++)
+        if (list[k].clash->violation >= share * worst[sunder_i_union_find(root, list[k].clash->i)])
+            list[out++] = list[k];
+    return out;
+}
+
+/* Relaxes those that nothing beside them is cheaper than. Returns whether there was any. */
+static bool relax_cheapest(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double share)
+{
+    const size_t before = s->relaxations.n;
+    uint32_t *root = sunder_i_alloc(s->n, sizeof *root);
+    double *worst = sunder_i_alloc(s->n, sizeof *worst);
+    candidate *list = sunder_i_alloc(s->clashes, sizeof *list);
+    const candidate **best = sunder_i_calloc(s->n, sizeof *best);
+    s->failed = s->failed || !root || !worst || !list || !best;
+    const size_t listed = s->failed ? 0 : list_candidates(s, at_home, n, share, list, root, worst);
+    for (size_t k = 0; k < listed; k++)
+        for (int e = 0; e < 2; e++) {
+            const candidate **b = &best[e ? list[k].clash->j : list[k].clash->i];
+            if (!*b || is_cheaper(&list[k], *b)) *b = &list[k];
+        }
+    for (size_t k = 0; k < listed && !s->failed; k++) {
+        const sunder_i_clash *c = list[k].clash;
+        if (best[c->i] == &list[k] && best[c->j] == &list[k]) sunder_i_search_relax(s, c->i, c->j);
+    }
+    if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
+    sunder_i_free(root);
+    sunder_i_free(worst);
+    sunder_i_free(list);
+    sunder_i_free(best);
+    return s->relaxations.n > before;
+}
+
+static void send_all_home(sunder_i_search *s)
+{
+    for (uint32_t k = 0; k < s->n; k++) sunder_i_search_send_home(s, k);
+    s->program.n = 0;
+}
+
+/* With the same pairs given up, from where all came from: where that ends without clashes and cheaper, it stays
+ * there. */
+static void try_from_home(sunder_i_search *s)
+{
+    sunder_i_search_waive_margins(s);
+    if (s->failed) return;
+    const size_t size = 2 * s->n * sizeof *s->t;
+    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
+    if (!stand) s->failed = true;
+    if (s->failed) return;
+    memcpy(stand, s->t, size);
+    send_all_home(s);
+    if (!sunder_i_search_descend(s) || sunder_i_search_cost(s, stand) <= sunder_i_search_cost(s, s->t))
+        memcpy(s->t, stand, size);
+    sunder_i_free(stand);
+}
+
+/* What is given up in excess of so many is not all asked for again; yet they are few enough to give up gradually. */
+static bool is_crowd(const sunder_i_search *s) { return s->n >= CROWD && s->n <= LARGE_CROWD; }
+
+/* Gives up the cheapest pairs, goes on from there, and so on, more at once each time, as far as the effort goes.
+ * Returns whether nothing clashes in the end.
+ *
+ * A crowd goes on from home: where it ended hundreds are pushed into each other, those too that were given up and may
+ * not stand worse, and the more that is given up the fewer of those that clash there have anything left to give. */
+static bool give_up_gradually(sunder_i_search *s, const sunder_i_clash *at_home, size_t n)
+{
+    const uint64_t work = sunder_i_search_work(s), times = (GIVE_UP_TIMES - 1) * work;
+    const uint64_t little = work + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
+    const uint64_t more = is_crowd(s) ? GIVE_UP_OF_CROWD : times < GIVE_UP_MOST ? times : GIVE_UP_MOST;
+    const uint64_t end = work + more + little;
+    bool done = false;
+    for (double share = FIRST_SHARE; !done && !s->failed && sunder_i_search_work(s) < end; share /= MORE) {
+        sunder_i_search_settle_parts(s);
+        if (!s->failed) sunder_i_search_look(s, s->t);
+        if (s->failed || !relax_cheapest(s, at_home, n, share)) break;
+        s->patience = end;
+        if (is_crowd(s))
+            send_all_home(s);
+        else
+            s->clashing = CLASHING_AGAIN;
+        done = sunder_i_search_descend(s);
+        s->clashing = MOST_CLASHING;
+    }
+    if (done && s->n >= CROWD) sunder_i_search_take_back(s);
+    s->patience = sunder_i_search_work(s) + little;
+    if (done) try_from_home(s);
+    s->patience = UINT64_MAX;
+    return done && !s->failed;
+}
+
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
+
+sunder_i_clash *sunder_i_search_at_home(sunder_i_search *s, size_t *n)
+{
+    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
+    if (!stand) return NULL;
+    memcpy(stand, s->t, 2 * s->n * sizeof *stand);
+    for (uint32_t k = 0; k < s->n; k++) sunder_i_search_send_home(s, k);
+    sunder_i_search_look(s, s->t);
+    memcpy(s->t, stand, 2 * s->n * sizeof *stand);
+    sunder_i_free(stand);
+    *n = s->clashes;
+    sunder_i_clash *at_home = sunder_i_alloc(*n, sizeof *at_home);
+    if (at_home && *n) memcpy(at_home, s->clash, *n * sizeof *at_home);
+    if (at_home && *n) qsort(at_home, *n, sizeof *at_home, sunder_i_by_id_pair);
+    return at_home;
+}
+
+bool sunder_i_search_waive_margins(sunder_i_search *s)
+{
+    size_t n = 0;
+    sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
+    const size_t before = s->relaxations.n;
+    const double margin = s->gap - s->model->rules.gap;
+    if (!at_home) s->failed = true;
+    for (size_t k = 0; k < n && !s->failed; k++)
+        if (at_home[k].violation <= margin + s->tolerance) sunder_i_search_relax(s, at_home[k].i, at_home[k].j);
+    sunder_i_free(at_home);
+    if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
+    return !s->failed && s->relaxations.n > before;
+}
+
+void sunder_i_search_lower(sunder_i_search *s)
+{
+    const size_t size = 2 * s->n * sizeof *s->t;
+    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
+    s->failed = s->failed || !stand;
+    if (!s->failed && sunder_i_search_look(s, s->t) <= s->tolerance) {
+        memcpy(stand, s->t, size);
+        s->program.n = 0;
+        if (!sunder_i_search_descend(s)) memcpy(s->t, stand, size);
+    }
+    sunder_i_free(stand);
+}
+
+/* Who is nearly at home, as only those are whom nothing keeps from it, goes there. */
+static void settle_at_home(sunder_i_search *s)
+{
+    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
+    if (!stand) s->failed = true;
+    if (s->failed) return;
+    memcpy(stand, s->t, 2 * s->n * sizeof *stand);
+    for (uint32_t k = 0; k < s->n; k++)
+        if (hypot(s->t[2 * k], s->t[2 * k + 1]) <= NEARLY_HOME * s->extent) sunder_i_search_send_home(s, k);
+    if (sunder_i_search_look(s, s->t) > s->tolerance) memcpy(s->t, stand, 2 * s->n * sizeof *stand);
+    sunder_i_free(stand);
+}
+
+/* How many clash at t by more than a hair, such as rounding leaves. */
+static size_t count_clashes(sunder_i_search *s, const double *t)
+{
+    size_t n = 0;
+    sunder_i_search_look(s, t);
+    for (size_t k = 0; k < s->clashes; k++) n += s->clash[k].violation > MENDED * s->tolerance;
+    return n;
+}
+
+/* Do fewer clash where the search began than at its end, and few beside those that clashed at home? Then most of it was
+ * solved before, in parts that ran into each other. */
+static bool was_solved_in_parts(sunder_i_search *s, const double *start, size_t at_home)
+{
+    const size_t clashes = count_clashes(s, s->t), then = count_clashes(s, start);
+    return then < clashes && then <= at_home / FEW_LEFT;
+}
+
+/* To where the search began, if fewer clash there than at its end. */
+static void begin_again(sunder_i_search *s, const double *start)
+{
+    if (count_clashes(s, start) < count_clashes(s, s->t)) memcpy(s->t, start, 2 * s->n * sizeof *s->t);
+}
+
+/* Relaxes the pairs that clashed at home of all bodies of which a pair misses at least half of what the worst does. */
+static void relax_about(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool *about)
+{
+    double worst = 0;
+    const size_t before = s->relaxations.n;
+    memset(about, 0, s->n * sizeof *about);
+    for (size_t k = 0; k < s->clashes; k++) worst = sunder_i_max(worst, s->clash[k].violation);
+    for (size_t k = 0; k < s->clashes; k++)
+        if (s->clash[k].violation >= FIRST_SHARE * worst) about[s->clash[k].i] = about[s->clash[k].j] = true;
+    for (size_t k = 0; k < n && !s->failed; k++)
+        if (about[at_home[k].i] || about[at_home[k].j]) sunder_i_search_relax(s, at_home[k].i, at_home[k].j);
+    if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
+}
+
+/* From where parts were solved that ran into each other: gives up what bodies owe others that still clash, and what
+ * those do that clash after that, and so on. Others keep what they have; what is given up in excess is asked for again
+ * (retry_cluster.c). Returns whether nothing clashes in the end. */
+static bool give_up_about(sunder_i_search *s, const double *start, const sunder_i_clash *at_home, size_t n)
+{
+    const size_t size = 2 * s->n * sizeof *s->t;
+    bool *about = sunder_i_alloc(s->n, sizeof *about), done = false;
+    s->failed = s->failed || !about;
+    s->patience = sunder_i_search_work(s) + GIVE_UP_MOST + PATIENCE_EACH * (uint64_t)s->n;
+    for (int ring = 0; ring < MOST_RINGS && !done && !s->failed; ring++) {
+        sunder_i_search_look(s, s->t);
+        if (!s->failed) relax_about(s, at_home, n, about);
+        memcpy(s->t, start, size);
+        s->program.n = 0;
+        done = !s->failed && sunder_i_search_descend(s);
+    }
+    s->patience = UINT64_MAX;
+    if (!done) memcpy(s->t, start, size);
+    sunder_i_free(about);
+    return done && !s->failed;
+}
+
+/* The end of either: what still clashes by a hair yields, and all go down. */
+static void end_free(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool done, bool pushed)
+{
+    if (!s->failed) sunder_i_search_yield(s, at_home, n, 0);
+    sunder_i_search_lower(s);
+    if (done && !s->failed) settle_at_home(s);
+    if (pushed && !s->failed) sunder_i_search_go_together(s);
+}
+
+bool sunder_i_search_give_up_at_home(sunder_i_search *s, const double *start)
+{
+    size_t n = 0;
+    if (s->failed || sunder_i_search_movers(s) <= LARGE_CROWD) return false;
+    sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
+    s->failed = !at_home;
+    const bool pushed = !s->failed && sunder_i_search_push_from_home(s, start, at_home, n, LEFT_AT_HOME);
+    if (pushed) end_free(s, at_home, n, true, true);
+    sunder_i_free(at_home);
+    return pushed;
+}
+
+void sunder_i_search_give_up(sunder_i_search *s, const double *start)
+{
+    size_t n = 0;
+    bool done = false;
+    sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
+    s->failed = s->failed || !at_home;
+    const bool parts = !s->failed && s->n >= CROWD && was_solved_in_parts(s, start, n);
+    const bool pushed = !s->failed && sunder_i_search_push_from_home(s, start, at_home, n, LEFT_BY_PUSHING);
+    if (!s->failed) done = pushed;
+    if (!s->failed && !done && s->n > LARGE_CROWD) begin_again(s, start);
+    if (!s->failed && !done && (!parts || is_crowd(s))) done = give_up_gradually(s, at_home, n);
+    if (!s->failed && !done && !parts) begin_again(s, start);
+    if (!s->failed && !done && parts) {
+        sunder_i_relaxations_free(&s->relaxations);
+        done = give_up_about(s, start, at_home, n);
+    }
+    if (!s->failed && !done) sunder_i_search_clip(s);
+    if (!s->failed && !done) {
+        /* What rounding took of what was solved before is no reason to give anything up. */
+        sunder_i_search_yield(s, at_home, n, MENDED * s->tolerance);
+        if (!s->failed) sunder_i_search_make_good(s);
+    }
+    end_free(s, at_home, n, done, pushed);
+    sunder_i_free(at_home);
+}

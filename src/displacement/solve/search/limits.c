@@ -1,0 +1,97 @@
+/* Limits of moves, as constraints of the programs. A limit is a disc; the program has tangents of it, each of which
+ * holds wherever the body is, and more of them where its solution oversteps one. */
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include "base/extremes.h"
+#include "base/list.h"
+
+#include <math.h>
+#include <string.h>
+
+/* By how much a move may be beyond its limit and count as within it: less than what counts as a miss; where coordinates
+ * are small a share of the limit that is more than what programs leave, and than the margin of an exact fit, which
+ * rounding to the limit then makes good. */
+static double slack(const sunder_i_search *s, double limit)
+{
+    return sunder_i_max(s->tolerance / 2, limit * LIMIT_SLACK);
+}
+
+double sunder_i_search_overstep(const sunder_i_search *s, uint32_t k, const double *t)
+{
+    const double limit = sunder_i_search_limit(s, k);
+    if (!(s->mass[k] > 0) || limit == INFINITY) return 0;
+    const double over = hypot(t[2 * k], t[2 * k + 1]) - limit;
+    return over > slack(s, limit) ? over : 0;
+}
+
+bool sunder_i_search_is_beyond(const sunder_i_search *s, const double *t)
+{
+    for (uint32_t k = 0; k < s->n; k++)
+        if (sunder_i_search_overstep(s, k, t) > 0) return true;
+    return false;
+}
+
+/* The tangents of body k among the first n constraints, which are sorted: from *first on; how many. */
+static size_t tangents_of(const sunder_i_search *s, size_t n, uint32_t k, size_t *first)
+{
+    const sunder_i_constraint *c = s->program.constraint, key = {.key = UINT64_C(1) << 63 | (uint64_t)k << 32};
+    *first = sunder_i_lower_bound(&key, c, n, sizeof key, sunder_i_by_constraint);
+    size_t end = *first;
+    while (end < n && sunder_i_is_tangent(&c[end]) && c[end].j == k) end++;
+    return end - *first;
+}
+
+/* Adds one in that direction, unless one of those before it is as good: then the limit contradicts something else, and
+ * the same again would not help. */
+static void add_tangent(sunder_i_search *s, size_t before, uint32_t k, const double direction[2])
+{
+    const double length = hypot(direction[0], direction[1]);
+    const double n[2] = {-direction[0] / length, -direction[1] / length};
+    size_t first;
+    if (!(length > 0) || !isfinite(n[0]) || !isfinite(n[1])) return;
+    const size_t known = tangents_of(s, before, k, &first);
+    for (size_t c = first; c < first + known; c++) {
+        const double *other = s->program.constraint[c].n;
+        if (n[0] * other[0] + n[1] * other[1] > SAME_TANGENT) return;
+    }
+    sunder_i_search_add_constraint(
+        s, s->program.n,
+        &(sunder_i_constraint){.i = SUNDER_I_GROUND,
+                               .j = k,
+                               .n = {n[0], n[1]},
+                               .d = -sunder_i_search_limit(s, k),
+                               .key = UINT64_C(1) << 63 | (uint64_t)k << 32 | s->tangents++});
+}
+
+/* The force on body k but for that of its limit, times its mass: where it would go if nobody else moved. Returns
+ * whether its limit acts. */
+static bool push_on(const sunder_i_search *s, size_t before, uint32_t k, double push[2])
+{
+    size_t first;
+    const size_t n = tangents_of(s, before, k, &first);
+    bool acts = false;
+    memcpy(push, s->next + 2 * k, 2 * sizeof *push);
+    for (size_t c = first; c < first + n; c++) {
+        const sunder_i_constraint *tangent = &s->program.constraint[c];
+        acts = acts || tangent->force > 0;
+        for (int x = 0; x < 2; x++) push[x] -= s->mass[k] * tangent->force * tangent->n[x];
+    }
+    return acts;
+}
+
+/* Tangents for what s->next oversteps: where it does, which is right where neighbours tell it where to go; and where it
+ * is pushed to, which is right where nothing else holds it. With either alone the other case takes a tangent for each
+ * half of what is left to go. Returns whether there were any. */
+bool sunder_i_search_constrain_limits(sunder_i_search *s)
+{
+    const size_t before = s->program.n;
+    for (uint32_t k = 0; k < s->n; k++) {
+        double push[2];
+        if (!(sunder_i_search_overstep(s, k, s->next) > 0)) continue;
+        const bool acts = push_on(s, before, k, push);
+        add_tangent(s, before, k, s->next + 2 * k);
+        if (acts) add_tangent(s, before, k, push);
+    }
+    return s->program.n > before;
+}

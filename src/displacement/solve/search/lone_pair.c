@@ -1,0 +1,135 @@
+/* Two features that have nobody but each other: the least translation that parts them, which the exact core knows, is
+ * shared by their masses. No other moves of the two are cheaper, whatever the sides, so nothing is left to be sought.
+ * That is so of most pairs of single buildings. The margin that covers rounding is not needed where rounded moves leave
+ * the two apart exactly. Where something else has a say as well (a limit, an anchor that may not be passed) it is seen
+ * where the two would stand, and the search begins as it does for all others. */
+#include "displacement/layer/barrier_pairs.h"
+#include "displacement/layer/rounding.h"
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include "separation/separation.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The feature that the body is; SUNDER_I_NOBODY: it is a block, or part of a barrier. */
+static uint32_t only_feature(const sunder_i_model *model, uint32_t body)
+{
+    const sunder_i_body *b = &model->body[body];
+    return b->members == 1 && !sunder_i_is_barrier_body(model, b) ? model->member[b->member] : SUNDER_I_NOBODY;
+}
+
+/* Are these two that owe each other the gap, and nothing else? */
+static bool is_lone_pair(const sunder_i_search *s, const sunder_i_cluster *cluster)
+{
+    double reach;
+    return s->n == 2 && !cluster->crowd && s->mass[0] + s->mass[1] > 0 && !sunder_i_may_be_inside(&s->model->rules) &&
+           only_feature(s->model, s->body[0]) != SUNDER_I_NOBODY &&
+           only_feature(s->model, s->body[1]) != SUNDER_I_NOBODY &&
+           !sunder_i_search_is_relaxed(s, s->body[0], s->body[1], &reach);
+}
+
+/* What takes them farther apart than this is beyond their limits. */
+static double farthest(const sunder_i_search *s)
+{
+    double sum = 0;
+    for (uint32_t k = 0; k < 2; k++) sum += s->mass[k] > 0 ? sunder_i_search_limit(s, k) : 0;
+    return nextafter(sum, INFINITY);
+}
+
+/* Puts the two apart by `away`, made longer until they keep the margin, too: in a corner between two lines the way to a
+ * margin from both is longer than the margin. */
+static bool stand_apart(sunder_i_search *s, const double away[2])
+{
+    const double length = hypot(away[0], away[1]), margin = s->gap - s->model->rules.gap;
+    const double share = s->mass[1] / (s->mass[0] + s->mass[1]);
+    for (int k = 0; k < MOST_LENGTHENED && !s->failed; k++) {
+        const double longer = 1 + ldexp(margin, k) / length;
+        if (!isfinite(longer * length)) return false;
+        for (size_t c = 0; c < 2; c++) {
+            s->t[c] = (share - 1) * longer * away[c];
+            s->t[2 + c] = share * longer * away[c];
+        }
+        if (sunder_i_search_look(s, s->t) <= s->tolerance) return true;
+    }
+    return false;
+}
+
+/* ---- Exact contact ----------------------------------------------------------------------------------------------- */
+
+/* What the margin is for is asked exactly here: are the two the gap apart, moved by what doubles hold? */
+static sunder_status are_apart(const sunder_i_search *s, const sunder_bound_pair *pair, const double t[4], bool *apart,
+                               sunder_error *err)
+{
+    const sunder_shape *p = sunder_i_thing_shape(s->model, pair->a), *q = sunder_i_thing_shape(s->model, pair->b);
+    return sunder_i_apart(p, t, q, t + 2, s->model->rules.gap, apart, err);
+}
+
+/* Rounds the move of body k of the two; false if doubles do not hold it. *unit: the larger of its units. */
+static bool round_one(const sunder_i_search *s, uint32_t k, double t[4], double *unit)
+{
+    double to[2];
+    *unit = 0;
+    if (!(s->mass[k] > 0)) return true;
+    const bool exact = sunder_i_round_move(s->model, s->body[k], t + 2 * k, to, unit);
+    memcpy(t + 2 * k, to, sizeof to);
+    return exact;
+}
+
+/* The share of each of `away`, as doubles hold it. The one with the coarser unit is rounded first, the other makes up
+ * for it: so the relative move is `away` where that is a multiple of the finer unit. Then the latter goes `steps` of
+ * its units farther along each axis whose bit `along` has. False if doubles do not hold that. */
+static bool share_rounded(const sunder_i_search *s, const double away[2], unsigned along, double t[4])
+{
+    const double share = s->mass[1] / (s->mass[0] + s->mass[1]);
+    double unit[2], shared[4];
+    for (size_t c = 0; c < 2; c++) {
+        t[c] = shared[c] = s->mass[0] > 0 ? (share - 1) * away[c] : 0;
+        t[2 + c] = shared[2 + c] = s->mass[1] > 0 ? share * away[c] : 0;
+    }
+    if (!round_one(s, 0, t, &unit[0]) || !round_one(s, 1, t, &unit[1])) return false;
+    const uint32_t last = s->mass[0] > 0 && (s->mass[1] == 0 || unit[0] <= unit[1]) ? 0 : 1;
+    const double sign = last ? 1 : -1;
+    for (size_t c = 0; c < 2; c++) {
+        const double farther = along >> c & 1 ? copysign(unit[last], away[c]) : 0;
+        t[2 * last + c] = sign * (away[c] + farther) + t[2 * (1 - last) + c];
+    }
+    return round_one(s, last, t, &unit[last]);
+}
+
+/* The share of the least translation itself, without a margin, where doubles hold one that leaves the two just the gap
+ * apart: the nearest, or the next one farther out along either axis. *done: t is it. */
+static sunder_status stand_in_contact(sunder_i_search *s, const sunder_bound_pair *pair, const double away[2],
+                                      bool *done, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    *done = false;
+    for (unsigned along = 0; along < 4 && !*done && !status; along++) {
+        double t[4];
+        if ((along & 1 && away[0] == 0) || (along & 2 && away[1] == 0)) continue;
+        if (!share_rounded(s, away, along, t)) continue;
+        status = are_apart(s, pair, t, done, err);
+        if (!status && *done) memcpy(s->t, t, sizeof t);
+    }
+    return status;
+}
+
+sunder_status sunder_i_search_part_lone_pair(sunder_i_search *s, sunder_i_cluster *cluster, bool *done,
+                                             sunder_error *err)
+{
+    *done = false;
+    if (s->failed || !is_lone_pair(s, cluster)) return SUNDER_OK;
+    const sunder_bound_pair pair = {.a = only_feature(s->model, s->body[0]), .b = only_feature(s->model, s->body[1])};
+    const double stood[4] = {s->t[0], s->t[1], s->t[2], s->t[3]};
+    sunder_i_resolution r;
+    const sunder_status status = sunder_i_resolve_things(s->model, pair.a, pair.b, farthest(s), &r, err);
+    if (status || r.beyond || !(r.least > 0)) return status;
+    cluster->measured = pair;
+    cluster->measured.least = r.least;
+    *done = stand_apart(s, r.away);
+    if (!*done) memcpy(s->t, stood, sizeof stood);
+    if (!*done || !cluster->touching) return SUNDER_OK;
+    bool in_contact;
+    return stand_in_contact(s, &pair, r.away, &in_contact, err);
+}

@@ -1,0 +1,105 @@
+/* A crowd in which somebody was sent home is mended about those whom he clashes with.
+ *
+ * Who is sent home by the rule that nothing is made worse (../clusters/uphold.c) stands in the way of some neighbours,
+ * in a crowd of thousands that stands otherwise. A program of all of them, to begin with one that is no more than a
+ * compromise, takes minutes to find out that they have room, or that they have none. So those that clash are settled
+ * with a few about them, and then with more, everybody else standing (neighbourhood.c). Where that is not enough all
+ * are asked; but of a crowd so large that this takes longer than all before what still clashes yields (yield.c), which
+ * gives up more of the rows that he stood in, and ends.
+ *
+ * It is no way to solve a crowd: parts that ran into each other, settled so before anybody was sent home, leave 1,204
+ * pairs of Germany's symbols within 6 km, where all of it together leaves 349. */
+#include "displacement/solve/search/neighbourhood.h"
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include <string.h>
+
+static const size_t stage[] = MENDING_STAGES;
+
+static bool still_clash(sunder_i_search *s, const sunder_i_clash *c)
+{
+    const double *p = s->t + 2 * (size_t)c->i, *q = s->t + 2 * (size_t)c->j, u[2] = {q[0] - p[0], q[1] - p[1]};
+    bool yields;
+    return sunder_i_search_pair(s, c->i, c->j, u, &yields) > s->tolerance;
+}
+
+static bool settle_each(sunder_i_search *s, const sunder_i_clash *clash, size_t n)
+{
+    sunder_i_neighbourhood about;
+    bool all = true;
+    if (!sunder_i_neighbourhood_init(&about, s)) s->failed = true;
+    for (size_t k = 0; k < n && !s->failed; k++) {
+        const sunder_i_clash *c = &clash[k];
+        bool done = !still_clash(s, c);
+        for (size_t m = 0; m < sizeof stage / sizeof *stage && !done && !s->failed; m++)
+            done = sunder_i_neighbourhood_settle(&about, c->i, c->j, stage[m], s->gap + 2 * c->violation);
+        all = all && done;
+    }
+    sunder_i_neighbourhood_free(&about);
+    return all && !s->failed;
+}
+
+static void yield_rest(sunder_i_search *s)
+{
+    size_t n = 0;
+    sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
+    s->failed = s->failed || !at_home;
+    if (!s->failed) sunder_i_search_yield(s, at_home, n, s->tolerance);
+    sunder_i_free(at_home);
+}
+
+static bool anybody_is_pinned(const sunder_i_search *s)
+{
+    for (size_t k = 0; k < s->n; k++)
+        if (s->model->body[s->body[k]].pinned) return true;
+    return false;
+}
+
+/* By more than a hair; else all is put back. */
+static bool mend(sunder_i_search *s, const sunder_i_clash *clash, size_t n)
+{
+    const size_t size = 2 * s->n * sizeof *s->t;
+    double *stood = sunder_i_alloc(2 * s->n, sizeof *stood);
+    s->failed = s->failed || !stood;
+    if (s->failed) return false;
+    memcpy(stood, s->t, size);
+    bool done = settle_each(s, clash, n);
+    if (!done && !s->failed && sunder_i_search_movers(s) > MOST_AGAIN) {
+        yield_rest(s);
+        done = true;
+    }
+    if (!done) memcpy(s->t, stood, size);
+    sunder_i_free(stood);
+    return done;
+}
+
+/* Of the clashes of the last look those that are no hair; n: in, out. NULL if memory is out. */
+static sunder_i_clash *list_clashes(sunder_i_search *s, size_t *n)
+{
+    sunder_i_clash *list = sunder_i_alloc(s->clashes, sizeof *list);
+    *n = 0;
+    for (size_t k = 0; k < s->clashes && list; k++)
+        if (s->clash[k].violation > s->tolerance) list[(*n)++] = s->clash[k];
+    return list;
+}
+
+bool sunder_i_search_mend_few(sunder_i_search *s)
+{
+    const double tolerance = s->tolerance;
+    size_t n = 0;
+    bool done = false;
+    if (s->failed || sunder_i_search_movers(s) <= LARGE_CROWD || !anybody_is_pinned(s) ||
+        sunder_i_search_is_beyond(s, s->t))
+        return false;
+    sunder_i_search_look(s, s->t);
+    if (s->failed) return false;
+    /* Of a margin that grew since they were settled all miss most; what they have of it is what was found to do. */
+    s->tolerance *= MARGIN_LEFT;
+    sunder_i_clash *list = list_clashes(s, &n);
+    s->failed = !list;
+    if (!s->failed && n && n <= s->n / FEW_CLASHES) done = mend(s, list, n);
+    s->tolerance = tolerance;
+    sunder_i_free(list);
+    return done && !s->failed;
+}

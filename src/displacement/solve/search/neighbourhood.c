@@ -1,0 +1,291 @@
+/* A few bodies of a cluster by themselves: they move, those about them stand, nobody else is looked at.
+ *
+ * Where one pair is tried anew in a cluster of hundreds, most of it has no say. So the pair is tried with the bodies
+ * that it could run into, and those that they could, until there are as many as the caller allows. Whoever stands
+ * farther off is not known to that search; so what moved is looked at among all before it is believed. */
+#include "displacement/solve/search/neighbourhood.h"
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include <math.h>
+#include <string.h>
+
+static void box_at(const sunder_i_search *s, uint32_t i, double grown, double box[4])
+{
+    const sunder_i_body *b = &s->model->body[s->body[i]], *first = &s->model->body[s->body[0]];
+    for (uint32_t c = 0; c < 4; c++)
+        box[c] =
+            b->box[c] + (b->origin[c & 1] - first->origin[c & 1]) + s->t[2 * i + (c & 1)] + (c < 2 ? -grown : grown);
+}
+
+bool sunder_i_neighbourhood_init(sunder_i_neighbourhood *v, sunder_i_search *s)
+{
+    memset(v, 0, sizeof *v);
+    v->all = s;
+    double *box = sunder_i_alloc(4 * s->n, sizeof *box);
+    bool *present = sunder_i_alloc(s->n, sizeof *present);
+    v->place = sunder_i_alloc(s->n, sizeof *v->place);
+    v->moves = sunder_i_calloc(s->n, sizeof *v->moves);
+    v->body = sunder_i_alloc(s->n, sizeof *v->body);
+    v->t = sunder_i_alloc(2 * s->n, sizeof *v->t);
+    bool ok = box && present && v->place && v->moves && v->body && v->t;
+    for (uint32_t i = 0; i < s->n && ok; i++) {
+        box_at(s, i, 0, box + 4 * i);
+        present[i] = s->model->body[s->body[i]].pieces > 0;
+    }
+    ok = ok && !sunder_i_rtree_build(box, present, s->n, &v->tree, NULL);
+    sunder_i_free(box);
+    sunder_i_free(present);
+    return ok;
+}
+
+void sunder_i_neighbourhood_free(sunder_i_neighbourhood *v)
+{
+    sunder_i_rtree_free(&v->tree);
+    sunder_i_free(v->place);
+    sunder_i_free(v->moves);
+    sunder_i_free(v->body);
+    sunder_i_free(v->t);
+    sunder_i_free(v->near.item);
+    memset(v, 0, sizeof *v);
+}
+
+bool sunder_i_neighbourhood_look_about(sunder_i_neighbourhood *v, uint32_t i, double reach)
+{
+    double box[4];
+    box_at(v->all, i, reach, box);
+    v->near.n = 0;
+    if (!sunder_i_rtree_query(&v->tree, box, &v->near)) return false;
+    v->near.n = sunder_i_set_make(v->near.item, v->near.n);
+    return true;
+}
+
+/* What stands far from all of the search has no place in it, and does not move. */
+static void take_in(sunder_i_neighbourhood *v, uint32_t i)
+{
+    if (i == SUNDER_I_NOBODY || v->moves[i] || !(v->all->mass[i] > 0)) return;
+    v->moves[i] = true;
+    v->place[v->n++] = i;
+}
+
+/* The pair, those that they could run into, and those that these could, up to `most` that move; then those that stand
+ * about them. v->wider: there would have been more. */
+static bool gather(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach)
+{
+    v->n = 0;
+    v->wider = false;
+    take_in(v, i);
+    take_in(v, j);
+    for (size_t at = 0; at < v->n && !v->wider; at++) {
+        if (!sunder_i_neighbourhood_look_about(v, v->place[at], reach)) return false;
+        for (size_t k = 0; k < v->near.n && !v->wider; k++) {
+            v->wider = v->n >= most && !v->moves[v->near.item[k]] && v->all->mass[v->near.item[k]] > 0;
+            if (!v->wider) take_in(v, v->near.item[k]);
+        }
+    }
+    v->moving = v->n;
+    for (size_t at = 0; at < v->moving; at++) {
+        if (!sunder_i_neighbourhood_look_about(v, v->place[at], reach)) return false;
+        for (size_t k = 0; k < v->near.n; k++) {
+            const uint32_t who = v->near.item[k];
+            if (v->moves[who]) continue;
+            v->moves[who] = true; /* it is listed */
+            v->place[v->n++] = who;
+        }
+    }
+    for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = k < v->moving;
+    return true;
+}
+
+/* The search among those gathered; what was given up so far is lent by that of the whole. */
+static bool begin(sunder_i_neighbourhood *v, sunder_i_search *part)
+{
+    sunder_i_search *s = v->all;
+    sunder_i_set_make(v->place, v->n);
+    for (size_t k = 0; k < v->n; k++) {
+        v->body[k] = s->body[v->place[k]];
+        memcpy(v->t + 2 * k, s->t + 2 * (size_t)v->place[k], 2 * sizeof *v->t);
+    }
+    /* Places go by number up to s->own, and again from there: bodies are ascending in both, and so they are here. */
+    if (!sunder_i_search_init(part, s->model, v->body, v->n, s->gap - s->model->rules.gap, v->t)) return false;
+    part->own = 0;
+    for (size_t k = 0; k < v->n; k++) {
+        part->own += v->place[k] < s->own;
+        if (!v->moves[v->place[k]]) part->mass[k] = 0;
+    }
+    part->tolerance = s->tolerance;
+    part->extent = s->extent;
+    part->relaxations = s->relaxations;
+    part->restored = s->restored;
+    part->restored_n = s->restored_n;
+    part->cache = s->cache; /* and goes back there */
+    memset(&s->cache, 0, sizeof s->cache);
+    part->patience = PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
+    return true;
+}
+
+/* Gives back what was lent: before the whole is looked at, which would begin another one. */
+static void give_back_cache(sunder_i_neighbourhood *v, sunder_i_search *part)
+{
+    if (part->cache.slots) v->all->cache = part->cache;
+    memset(&part->cache, 0, sizeof part->cache);
+}
+
+static void end(sunder_i_neighbourhood *v, sunder_i_search *part)
+{
+    v->all->steps += part->steps + part->program.work;
+    v->all->failed = v->all->failed || part->failed;
+    memset(&part->relaxations, 0, sizeof part->relaxations);
+    part->restored = NULL;
+    give_back_cache(v, part);
+    sunder_i_search_free(part);
+    for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = false;
+}
+
+/* Did the two go the same way, so that they stand to each other as they stood? stood: [2 n] of all; NULL: not known. */
+static bool went_together(const sunder_i_neighbourhood *v, uint32_t i, uint32_t j, const double *stood)
+{
+    const sunder_i_search *s = v->all;
+    if (!stood || !v->moves[j]) return false;
+    for (size_t x = 0; x < 2; x++) {
+        const size_t a = 2 * (size_t)i + x, b = 2 * (size_t)j + x;
+        if (fabs((s->t[a] - stood[a]) - (s->t[b] - stood[b])) > s->tolerance / TOGETHER) return false;
+    }
+    return true;
+}
+
+/* Are those that moved in nobody's way, wherever he stands? */
+static bool is_free(sunder_i_neighbourhood *v, const double *stood)
+{
+    sunder_i_search *s = v->all;
+    for (size_t m = 0; m < v->n && !s->failed; m++) {
+        const uint32_t i = v->place[m];
+        if (!v->moves[i]) continue;
+        if (!sunder_i_neighbourhood_look_about(v, i, s->gap)) s->failed = true;
+        for (size_t k = 0; k < v->near.n && !s->failed; k++) {
+            const uint32_t j = v->near.item[k], p = i < j ? i : j, q = i < j ? j : i;
+            const double u[2] = {s->t[2 * q] - s->t[2 * p], s->t[2 * q + 1] - s->t[2 * p + 1]};
+            bool yields;
+            if (went_together(v, i, j, stood)) continue;
+            if (i != j && sunder_i_search_pair(s, p, q, u, &yields) > s->tolerance) return false;
+        }
+    }
+    return !s->failed;
+}
+
+/* Puts those that move there: a place for each of v->place. */
+static void put(sunder_i_neighbourhood *v, const double *t)
+{
+    for (size_t k = 0; k < v->n; k++) {
+        double box[4];
+        if (!v->moves[v->place[k]]) continue;
+        memcpy(v->all->t + 2 * (size_t)v->place[k], t + 2 * k, 2 * sizeof *t);
+        box_at(v->all, v->place[k], 0, box);
+        if (v->all->model->body[v->body[k]].pieces) sunder_i_rtree_move(&v->tree, v->place[k], box);
+    }
+}
+
+/* Begins with the pair and those about it as they stand. On failure it has ended. */
+static bool open_part(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach,
+                      sunder_i_search *part)
+{
+    memset(part, 0, sizeof *part);
+    if (gather(v, i, j, most, reach) && begin(v, part)) return true;
+    part->failed = true;
+    end(v, part);
+    return false;
+}
+
+/* Ends the part. Where its search is done, all are put where it went, if nothing is in the way there; else back. */
+static bool end_where_it_went(sunder_i_neighbourhood *v, sunder_i_search *part, bool done)
+{
+    if (done && !part->failed) {
+        give_back_cache(v, part);
+        put(v, part->t);
+        done = is_free(v, NULL);
+        if (!done) put(v, v->t);
+    }
+    end(v, part);
+    return done && !v->all->failed;
+}
+
+bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach)
+{
+    sunder_i_search part;
+    if (!open_part(v, i, j, most, reach, &part)) return false;
+    bool done = v->moving > 0 && sunder_i_search_descend(&part);
+    if (!done && v->moving && !part.failed && sunder_i_search_jump_soon(&part)) {
+        part.patience += PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
+        done = sunder_i_search_descend(&part);
+    }
+    return end_where_it_went(v, &part, done);
+}
+
+bool sunder_i_neighbourhood_make_good(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach)
+{
+    sunder_i_search part;
+    if (!open_part(v, i, j, most, reach, &part)) return false;
+    part.patience *= MENDING_TIMES;
+    const bool done = v->moving > 0 && sunder_i_search_make_good(&part);
+    return end_where_it_went(v, &part, done);
+}
+
+/* What those that move cost, standing at t, a place for each of v->place, less what they cost at `best`, one for
+ * each of all. */
+static double costs_more(const sunder_i_neighbourhood *v, const double *t, const double *best)
+{
+    double sum = 0;
+    for (size_t k = 0; k < v->n; k++) {
+        const uint32_t i = v->place[k];
+        const double *to = t + 2 * k, *from = best + 2 * (size_t)i;
+        if (v->moves[i])
+            sum += (to[0] * to[0] + to[1] * to[1] - from[0] * from[0] - from[1] * from[1]) / (2 * v->all->mass[i]);
+    }
+    return sum;
+}
+
+double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach,
+                                      const double *best, double least)
+{
+    sunder_i_search part;
+    double gain = 0;
+    if (!open_part(v, i, j, most, reach, &part)) return 0;
+    for (size_t k = 0; k < v->n; k++) memcpy(v->t + 2 * k, best + 2 * (size_t)v->place[k], 2 * sizeof *v->t);
+    part.settled = v->all->settled;
+    part.patience = part.steps + SHORT_PATIENCE + SHORT_PATIENCE_EACH * (uint64_t)v->n;
+    part.hope = sunder_i_search_cost(&part, v->t);
+    if (sunder_i_search_descend(&part) && !part.failed) gain = -costs_more(v, part.t, best);
+    if (gain > least) {
+        give_back_cache(v, &part);
+        put(v, part.t);
+        if (!is_free(v, NULL)) gain = 0;
+    }
+    if (!(gain > least)) {
+        put(v, v->t);
+        gain = 0;
+    }
+    end(v, &part);
+    return gain;
+}
+
+bool sunder_i_neighbourhood_put(sunder_i_neighbourhood *v, const double *to)
+{
+    sunder_i_search *s = v->all;
+    for (size_t k = 0; k < v->n; k++) {
+        const size_t i = v->place[k];
+        v->moves[i] = true;
+        v->body[k] = s->body[i];
+        memcpy(v->t + 2 * i, s->t + 2 * i, 2 * sizeof *v->t);
+    }
+    put(v, to);
+    const bool free = is_free(v, v->t);
+    for (size_t k = 0; k < v->n && !free; k++) {
+        const uint32_t i = v->place[k];
+        double box[4];
+        memcpy(s->t + 2 * (size_t)i, v->t + 2 * (size_t)i, 2 * sizeof *v->t);
+        box_at(s, i, 0, box);
+        if (s->model->body[s->body[i]].pieces) sunder_i_rtree_move(&v->tree, i, box);
+    }
+    for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = false;
+    return free;
+}

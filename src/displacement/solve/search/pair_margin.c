@@ -1,0 +1,105 @@
+/* A pair that is left in conflict, and that rounding left a hair worse than it stood, is asked for a margin more.
+ *
+ * What a relaxation demands is kept up to the tolerance of the search, and moves are rounded: where nothing else holds
+ * the pair there is room for a margin as well. It is asked with nobody but the pair moving, then with more and more of
+ * those about it (neighbourhood.c), so that the rest of the solution stays what it is. Others that are left in conflict
+ * and have moved, one against the other, move with them, and rounding would take a hair of these as well: so they are
+ * asked for the margin, too; or only those that have it. */
+#include "displacement/solve/search/neighbourhood.h"
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const size_t stage[] = RETRY_STAGES;
+
+/* Do two bodies of the search stand to each other otherwise than they did, by more than rounding? */
+static bool have_moved(const sunder_i_search *s, uint32_t i, uint32_t j)
+{
+    const double margin = s->gap - s->model->rules.gap;
+    return fabs(s->t[2 * i] - s->t[2 * j]) > margin || fabs(s->t[2 * i + 1] - s->t[2 * j + 1]) > margin;
+}
+
+/* The relaxations of the pair, and of all that have moved, with the margin. */
+static bool ask_margins(sunder_i_search *s, uint32_t a, uint32_t b)
+{
+    const sunder_i_model *model = s->model;
+    bool ok = true;
+    for (size_t k = 0; k < model->relaxations.n && ok; k++) {
+        sunder_i_relaxation t = model->relaxations.item[k];
+        const uint32_t i = sunder_i_search_place_of(s, model->body_of[t.a]),
+                       j = sunder_i_search_place_of(s, model->body_of[t.b]);
+        const bool is_asked = t.a == a && sunder_i_whole_of(model, t.b) == sunder_i_whole_of(model, b);
+        if (i == SUNDER_I_NOBODY || j == SUNDER_I_NOBODY || (!is_asked && !have_moved(s, i, j))) continue;
+        t.gap += s->gap - model->rules.gap;
+        ok = sunder_i_relaxations_add(&s->relaxations, &t);
+    }
+    return ok && sunder_i_relaxations_index(&s->relaxations, model);
+}
+
+static sunder_i_id_pair in_order(uint32_t p, uint32_t q)
+{
+    return p < q ? (sunder_i_id_pair){p, q} : (sunder_i_id_pair){q, p};
+}
+
+/* But for those that have none as they stand. */
+static void spare_others(sunder_i_search *s, uint32_t i, uint32_t j)
+{
+    sunder_i_search_look(s, s->t);
+    sunder_i_id_pair *clash = sunder_i_alloc(s->clashes, sizeof *clash);
+    size_t n = 0, kept = 0;
+    s->failed = s->failed || !clash;
+    if (s->failed) {
+        sunder_i_free(clash);
+        return;
+    }
+    for (size_t c = 0; c < s->clashes; c++) {
+        const uint32_t p = s->clash[c].i, q = s->clash[c].j;
+        if ((p != i || q != j) && (p != j || q != i)) clash[n++] = in_order(s->body[p], s->body[q]);
+    }
+    if (n) qsort(clash, n, sizeof *clash, sunder_i_by_id_pair);
+    for (size_t k = 0; k < s->relaxations.n; k++) {
+        const sunder_i_relaxation *t = &s->relaxations.item[k];
+        const sunder_i_id_pair key = in_order(s->model->body_of[t->a], s->model->body_of[t->b]);
+        if (n && bsearch(&key, clash, n, sizeof key, sunder_i_by_id_pair)) continue;
+        memmove(&s->relaxations.item[kept++], t, sizeof *t);
+    }
+    s->relaxations.n = kept;
+    if (!sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
+    sunder_i_free(clash);
+}
+
+static bool make_good(sunder_i_search *s, uint32_t i, uint32_t j)
+{
+    sunder_i_neighbourhood about;
+    bool done = false, wider = true;
+    if (!sunder_i_neighbourhood_init(&about, s)) s->failed = true;
+    for (size_t k = 0; k < sizeof stage / sizeof *stage && wider && !done && !s->failed; k++) {
+        done = sunder_i_neighbourhood_make_good(&about, i, j, stage[k], s->gap);
+        wider = about.wider;
+    }
+    sunder_i_neighbourhood_free(&about);
+    return done;
+}
+
+sunder_status sunder_i_cluster_ease(const sunder_i_model *model, const sunder_i_cluster *cluster, uint32_t a,
+                                    uint32_t b, bool others, double *move, bool *done, sunder_error *err)
+{
+    sunder_i_search s;
+    bool ok = sunder_i_search_init_about(&s, model, cluster, move) && ask_margins(&s, a, b);
+    *done = false;
+    if (ok && s.relaxations.n) {
+        const uint32_t i = sunder_i_search_place_of(&s, model->body_of[a]),
+                       j = sunder_i_search_place_of(&s, model->body_of[b]);
+        const uint32_t p = i == SUNDER_I_NOBODY ? j : i, q = j == SUNDER_I_NOBODY ? i : j;
+        if (!others) spare_others(&s, p, q);
+        *done = p != SUNDER_I_NOBODY && !s.failed && make_good(&s, p, q);
+        s.n = cluster->n;
+        if (*done && !s.failed) sunder_i_search_round(&s, move);
+    }
+    ok = ok && !s.failed;
+    sunder_i_search_free(&s);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}

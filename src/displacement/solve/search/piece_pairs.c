@@ -1,0 +1,391 @@
+/* What two bodies of a cluster owe each other, piece by piece: the gap, or what they are held to where they are left in
+ * conflict; and the edges of one that keep the other inside. */
+#include "displacement/solve/search/cluster_search.h"
+#include "displacement/solve/search/tuning.h"
+
+#include "base/extremes.h"
+#include "base/watch.h"
+
+#include <math.h>
+
+double sunder_i_search_owed(const sunder_i_search *s, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
+{
+    if (!sunder_i_is_barrier(s->model, a->feature) && !sunder_i_is_barrier(s->model, b->feature)) return s->gap;
+    return s->gap + (sunder_i_owed_above(s->model, a->feature, b->feature) - s->model->rules.gap);
+}
+
+/* Is it one of the model's relaxations that still counts here? */
+static bool still_counts(const sunder_i_search *s, const sunder_i_relaxation *relaxation)
+{
+    if (s->restored_n == 0) return true;
+    const sunder_i_restored wanted = sunder_i_restored_of(s->model, relaxation);
+    const size_t at = sunder_i_restored_at(s->restored, s->restored_n, &wanted);
+    return at == s->restored_n || sunder_i_by_restored(&s->restored[at], &wanted) != 0;
+}
+
+/* Has every relaxation of the model between the two ended here? */
+static bool all_restored(const sunder_i_search *s, const sunder_i_relaxed_bodies *relaxed)
+{
+    const sunder_i_restored first = {{relaxed->i, relaxed->j}, {0, 0}},
+                            last = {{relaxed->i, relaxed->j}, {UINT32_MAX, UINT32_MAX}};
+    return s->restored_n && sunder_i_restored_at(s->restored, s->restored_n, &last) -
+                                    sunder_i_restored_at(s->restored, s->restored_n, &first) ==
+                                relaxed->n;
+}
+
+bool sunder_i_search_is_relaxed(const sunder_i_search *s, uint32_t body, uint32_t other, double *reach)
+{
+    *reach = 0;
+    if (s->relaxations.n + s->model->relaxations.n == 0) return false;
+    const sunder_i_relaxed_bodies *own = sunder_i_relaxations_between(&s->relaxations, body, other),
+                                  *all = sunder_i_relaxations_between(&s->model->relaxations, body, other);
+    if (all && all_restored(s, all)) all = NULL;
+    if (own) *reach = own->reach;
+    if (all) *reach = sunder_i_max(*reach, all->reach);
+    return own || all;
+}
+
+const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *s, const sunder_i_body_piece *a,
+                                                      const sunder_i_body_piece *b)
+{
+    const sunder_i_relaxation *relaxation = sunder_i_relaxations_find(&s->relaxations, a->feature, b->feature);
+    if (relaxation) return relaxation;
+    relaxation = sunder_i_relaxations_find(&s->model->relaxations, a->feature, b->feature);
+    return relaxation && still_counts(s, relaxation) ? relaxation : NULL;
+}
+
+/* Does the wall keep the piece inside, by the rules or by a relaxation? */
+static bool keeps(const sunder_i_search *s, const sunder_i_body_piece *wall, const sunder_i_body_piece *piece,
+                  sunder_i_piece_pair *part)
+{
+    if (sunder_i_keeps_inside(s->model, wall->feature, piece->feature, &part->inclusion)) return true;
+    if (!part->relaxed) return false;
+    const sunder_i_relaxation *relaxation = sunder_i_search_relaxation(s, wall, piece);
+    part->inclusion = SUNDER_I_LENIENT;
+    return relaxation && relaxation->inside && sunder_i_is_inner(s->model, piece->feature, wall->feature);
+}
+
+/* Do the pieces let each other alone? */
+static bool are_exempt(const sunder_i_search *s, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
+                       sunder_i_piece_pair *part)
+{
+    part->inclusion = SUNDER_I_LAPSED;
+    if (part->relaxed) part->relaxation = sunder_i_search_relaxation(s, a, b);
+    return (s->model->inclusions && sunder_i_is_included(s->model, a->feature, b->feature)) ||
+           (part->relaxation && part->relaxation->inside);
+}
+
+typedef struct visiting {
+    sunder_i_search *s;
+    sunder_i_piece_pair *part;
+    const sunder_i_body_piece *from; /* n parts of one body, or walls, numbered from `first` on ... */
+    uint32_t n, first;
+    const sunder_i_body_pieces *of; /* ... whose pieces these are; NULL: walls */
+    const sunder_i_body *other;
+    const sunder_i_body_pieces *facing; /* pieces of that */
+    bool swapped;
+    sunder_i_visit_piece_pair call;
+    void *context;
+} visiting;
+
+/* Part k of `from` with its box, and piece l of the other body. Inline, as what calls it: the innermost loops of the
+ * search. */
+static inline void visit_piece(const visiting *to, uint32_t k, const double box[4], uint32_t l)
+{
+    const sunder_i_body_piece *a = &to->from[k], *b = &to->facing->piece[l];
+    sunder_i_piece_pair *part = to->part;
+    if (!sunder_i_box_meet(box, b->box)) return;
+    part->relaxation = NULL;
+    if (to->of ? are_exempt(to->s, a, b, part) : !keeps(to->s, a, b, part)) return;
+    part->key = (uint64_t)!to->of << 62 | (uint64_t)(to->first + k) << 32 | (to->other->piece + l);
+    part->a = to->swapped ? b : a;
+    part->b = to->swapped ? a : b;
+    to->call(to->s, part, to->context);
+}
+
+/* The box of a part as the other body sees it, grown. */
+static inline void box_seen(const sunder_i_body_piece *a, const double v[2], double reach, double box[4])
+{
+    for (int c = 0; c < 4; c++) box[c] = a->box[c] - v[c & 1] + (c < 2 ? -reach : reach);
+}
+
+/* Does a run of pieces begin with that of this number, one of `left` more, that has nothing to do with the box? */
+static inline bool is_run_beside(const sunder_i_body_pieces *of, uint32_t number, uint32_t left, const double box[4])
+{
+    return number % SUNDER_I_RUN == 0 && left >= SUNDER_I_RUN &&
+           !sunder_i_box_meet(of->run + 4 * (size_t)(number / SUNDER_I_RUN - of->first_run), box);
+}
+
+/* Pieces of the other whose boxes meet the box, ascending; MOST_FACING + 1 if there are more than that. */
+static inline uint32_t find_facing(const visiting *to, const double box[4], uint32_t piece[MOST_FACING])
+{
+    const sunder_i_body *body = to->other;
+    uint32_t n = 0;
+    for (uint32_t l = 0; l < body->pieces; l++) {
+        if (is_run_beside(to->facing, body->piece + l, body->pieces - l, box)) {
+            l += SUNDER_I_RUN - 1;
+            continue;
+        }
+        if (!sunder_i_box_meet(box, to->facing->piece[l].box)) continue;
+        if (n == MOST_FACING) return n + 1;
+        piece[n++] = l;
+    }
+    return n;
+}
+
+/* The box of the other body as the parts see it, grown, and by more than rounding takes: what misses it misses the
+ * other's own, as that sees the part. */
+static inline void box_of_other(const sunder_i_body *other, const double v[2], double reach, double box[4])
+{
+    double most = sunder_i_max(fabs(v[0]), fabs(v[1])) + fabs(reach);
+    for (int c = 0; c < 4; c++) most = sunder_i_max(most, fabs(other->box[c]));
+    const double grown = reach + 0x1p-46 * most;
+    for (int c = 0; c < 4; c++) box[c] = other->box[c] + v[c & 1] + (c < 2 ? -grown : grown);
+}
+
+/* Of the parts from `begin` on as many as face the other body in one go: returns with which to go on. Blocks have
+ * hundreds of pieces of which few face each other, so those of the other that none of these parts comes near are left
+ * out beforehand. */
+static inline uint32_t visit_some(const visiting *to, uint32_t begin, const double v[2], double reach)
+{
+    sunder_i_search *s = to->s;
+    double box[PARTS_AT_ONCE][4], all[4], seen[4];
+    uint32_t part[PARTS_AT_ONCE], piece[MOST_FACING], parts = 0, k = begin;
+    sunder_i_box_clear(all);
+    box_of_other(to->other, v, reach, seen);
+    for (; k < to->n && parts < PARTS_AT_ONCE; k++) {
+        if (to->of && is_run_beside(to->of, to->first + k, to->n - k, seen)) {
+            k += SUNDER_I_RUN - 1;
+            continue;
+        }
+        if (!sunder_i_box_meet(to->from[k].box, seen)) continue;
+        box_seen(&to->from[k], v, reach, box[parts]);
+        if (!sunder_i_box_meet(box[parts], to->other->box)) continue;
+        sunder_i_box_join(all, box[parts]);
+        part[parts++] = k;
+    }
+    if (!sunder_i_steps((k - begin) * (1 + (size_t)to->other->pieces / 8))) s->failed = true;
+    if (parts == 0) return k;
+    const uint32_t facing = find_facing(to, all, piece);
+    for (uint32_t i = 0; i < parts; i++)
+        if (facing <= MOST_FACING)
+            for (uint32_t l = 0; l < facing && !s->failed; l++) visit_piece(to, part[i], box[i], piece[l]);
+        else
+            for (uint32_t l = 0; l < to->other->pieces && !s->failed; l++) visit_piece(to, part[i], box[i], l);
+    return k;
+}
+
+/* All of them, where there are few. */
+static inline void visit_each(const visiting *to, const double v[2], double reach)
+{
+    sunder_i_search *s = to->s;
+    for (uint32_t k = 0; k < to->n; k++) {
+        double box[4];
+        box_seen(&to->from[k], v, reach, box);
+        if (!sunder_i_box_meet(box, to->other->box)) continue;
+        for (uint32_t l = 0; l < to->other->pieces && !s->failed; l++) visit_piece(to, k, box, l);
+    }
+    if (!sunder_i_steps(to->n * (1 + (size_t)to->other->pieces / 8))) s->failed = true;
+}
+
+/* Parts of the one that may stand within `reach` of parts of the other at `v`. */
+static inline void visit_all(const visiting *to, const double v[2], double reach)
+{
+    if (to->n <= FEW_PARTS && to->other->pieces <= FEW_PARTS)
+        visit_each(to, v, reach);
+    else
+        for (uint32_t k = 0; k < to->n;) k = visit_some(to, k, v, reach);
+}
+
+void sunder_i_search_walls(sunder_i_search *s, const sunder_i_body *holder, const sunder_i_body *other,
+                           const double v[2], double reach, sunder_i_piece_pair *part, bool swapped,
+                           sunder_i_visit_piece_pair visit, void *context)
+{
+    const sunder_i_body_pieces *facing = sunder_i_pieces_of(s->model, other);
+    const visiting to = {.s = s,
+                         .part = part,
+                         .from = s->model->wall + holder->has->wall,
+                         .n = holder->has->walls,
+                         .first = holder->has->wall,
+                         .other = other,
+                         .facing = facing,
+                         .swapped = swapped,
+                         .call = visit,
+                         .context = context};
+    if (facing)
+        visit_all(&to, v, reach);
+    else
+        s->failed = true;
+}
+
+/* The same of pieces of both. */
+static void visit_pieces(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *q, const double v[2],
+                         double reach, sunder_i_piece_pair *part, sunder_i_visit_piece_pair visit, void *context)
+{
+    const sunder_i_body_pieces *of = sunder_i_pieces_of(s->model, p), *facing = sunder_i_pieces_of(s->model, q);
+    if (!of || !facing) {
+        s->failed = true;
+        return;
+    }
+    const visiting to = {.s = s,
+                         .part = part,
+                         .from = of->piece,
+                         .n = p->pieces,
+                         .first = p->piece,
+                         .of = of,
+                         .other = q,
+                         .facing = facing,
+                         .call = visit,
+                         .context = context};
+    visit_all(&to, v, reach);
+}
+
+void sunder_i_search_piece_pairs(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach,
+                                 bool yields, sunder_i_visit_piece_pair visit, void *context)
+{
+    const sunder_i_model *model = s->model;
+    const sunder_i_body *p = &model->body[s->body[i]], *q = &model->body[s->body[j]];
+    sunder_i_piece_pair part = {.offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}};
+    const double v[2] = {part.offset[0] + u[0], part.offset[1] + u[1]}, back[2] = {-v[0], -v[1]};
+    double shift = 0;
+    part.relaxed = yields && sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift);
+    reach += shift;
+    visit_pieces(s, p, q, v, reach, &part, visit, context);
+    /* Shadows are seldom in the way: no more of them than that are looked for ahead. */
+    const double ahead = sunder_i_min(reach - shift - s->gap, s->gap / LEAST_REACH);
+    sunder_i_search_body_shadows(s, p, q, u, s->gap - model->rules.gap + ahead, visit, context);
+    if (!part.relaxed && model->inclusions == 0) return;
+    if (p->has->walls) sunder_i_search_walls(s, p, q, v, reach, &part, false, visit, context);
+    if (q->has->walls) sunder_i_search_walls(s, q, p, back, reach, &part, true, visit, context);
+}
+
+double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double *corner, size_t n)
+{
+    double shift[2];
+    const double gap = sunder_i_relaxation_shift(relaxation, of_j, shift);
+    for (size_t k = 0; k < 2 * n; k++) corner[k] -= shift[k & 1];
+    return gap;
+}
+
+/* A + (-B), as it is. */
+static size_t make_obstacle(sunder_i_search *s, const sunder_i_piece_pair *part)
+{
+    const sunder_i_body_piece *a = part->a, *b = part->b;
+    return sunder_i_obstacle_corners(a->corner, a->corners, b->corner, b->corners, part->offset, &s->scratch);
+}
+
+/* What two pieces without a relaxation owe each other, n edges of its obstacle given. */
+static double owed(const sunder_i_search *s, const sunder_i_piece_pair *part, const sunder_i_obstacle_edge *edge,
+                   size_t n)
+{
+    const double margin = s->gap - s->model->rules.gap, home[2] = {0, 0};
+    if (part->shadow) return sunder_i_min(margin, sunder_i_shadow_support_at(edge, n, home).distance);
+    if (part->inclusion == SUNDER_I_LAPSED) return sunder_i_search_owed(s, part->a, part->b);
+    if (part->inclusion == SUNDER_I_STRICT) return margin;
+    return sunder_i_min(margin, sunder_i_support_at(edge, n, home).distance);
+}
+
+/* The edges of what is in s->scratch. */
+static const sunder_i_obstacle_edge *take_edges(sunder_i_search *s, size_t *n)
+{
+    if (!sunder_i_reserve(&s->shifted, &s->shifted_capacity, *n, sizeof *s->shifted)) return NULL;
+    *n = sunder_i_obstacle_edges(s->scratch.xy, *n, s->shifted);
+    return s->shifted;
+}
+
+/* Those of a shadow; they are not kept. */
+static const sunder_i_obstacle_edge *shadow_edges(sunder_i_search *s, const sunder_i_piece_pair *part, size_t *n,
+                                                  double *gap)
+{
+    s->steps++;
+    const size_t corners = make_obstacle(s, part);
+    if (!corners || !sunder_i_steps(1 + corners / 8) ||
+        !sunder_i_reserve(&s->shifted, &s->shifted_capacity, corners + 1, sizeof *s->shifted)) {
+        s->failed = true;
+        return NULL;
+    }
+    *n = sunder_i_shadow_edges(s->scratch.xy, corners, s->shifted);
+    if (*n == 0) return NULL;
+    *gap = owed(s, part, s->shifted, *n);
+    return s->shifted;
+}
+
+const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *s, const sunder_i_piece_pair *part, size_t *n,
+                                                    double *gap)
+{
+    if (part->shadow) return shadow_edges(s, part, n, gap);
+    const sunder_i_obstacle_edge *edge =
+        part->relaxation ? NULL : sunder_i_obstacle_cache_find(&s->cache, part->key, n);
+    *gap = s->gap;
+    s->steps++;
+    if (!edge) {
+        *n = make_obstacle(s, part);
+        if (*n && part->relaxation) {
+            *gap = sunder_i_min(sunder_i_search_owed(s, part->a, part->b),
+                                sunder_i_search_shift(part->relaxation, part->b->feature, s->scratch.xy, *n));
+            edge = take_edges(s, n);
+        } else if (*n) {
+            edge = sunder_i_obstacle_cache_add(&s->cache, part->key, s->scratch.xy, n);
+        }
+    }
+    if (!edge || !sunder_i_steps(1 + *n / 8)) s->failed = true;
+    if (edge && !part->relaxation) *gap = owed(s, part, edge, *n);
+    return edge;
+}
+
+size_t sunder_i_search_obstacle(sunder_i_search *s, const sunder_i_piece_pair *part, double *gap)
+{
+    size_t n = 0;
+    sunder_i_search_edges(s, part, &n, gap);
+    n = s->failed ? 0 : make_obstacle(s, part);
+    if (n && part->relaxation) sunder_i_search_shift(part->relaxation, part->b->feature, s->scratch.xy, n);
+    if (n == 0) s->failed = true;
+    return n;
+}
+
+/* ---- What they miss ---------------------------------------------------------------------------------------------- */
+
+typedef struct missing {
+    const double *u;
+    double worst;
+} missing;
+
+static void measure_part(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+{
+    missing *m = context;
+    double gap;
+    size_t n;
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    if (edge) m->worst = sunder_i_max(m->worst, gap - sunder_i_search_support(part, edge, n, m->u).distance);
+}
+
+/* As if no pair were relaxed: that is the same whenever they stand so. */
+static double measure(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2])
+{
+    missing m = {u, 0};
+    sunder_i_measure *known = sunder_i_measures_slot(&s->measures, s->n, i, j, u);
+    if (!known) {
+        s->failed = true;
+        return 0;
+    }
+    if (sunder_i_measure_is_of(known, i, j, u)) {
+        s->steps += known->steps;
+        return known->missed;
+    }
+    const uint64_t before = s->steps;
+    sunder_i_search_piece_pairs(s, i, j, u, s->gap, false, measure_part, &m);
+    if (!s->failed) *known = (sunder_i_measure){i, j, {u[0], u[1]}, m.worst, s->steps - before};
+    return m.worst;
+}
+
+double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], bool *yields)
+{
+    missing m = {u, measure(s, i, j, u)};
+    double shift;
+    *yields = false;
+    if (m.worst <= s->tolerance || !sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift)) return m.worst;
+    *yields = true;
+    m.worst = 0;
+    sunder_i_search_piece_pairs(s, i, j, u, s->gap, true, measure_part, &m);
+    return m.worst;
+}

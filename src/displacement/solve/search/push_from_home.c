@@ -1,0 +1,75 @@
+/* A crowd that has next to no room within its limits.
+ *
+ * A compromise of thousands that owe each other more than limits let any of them go has everybody at his limit, pushed
+ * into somebody: what to give up is not to be told from there, and each descent that finds that out costs more than all
+ * else. So where nobody has moved yet all is given up at first, everybody at home, and what there is room for is taken
+ * back by pushing (pushed.c), what misses least first, which costs next to nothing. That goes straight on only, and
+ * leaves more than need be; so it is believed where it leaves so much that the crowd is of that kind. Between such
+ * rounds all go down to where they cost least, which spreads what is left of the limits. */
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool begins_at_home(const sunder_i_search *s, const double *start)
+{
+    bool limited = false;
+    for (size_t k = 0; k < s->n; k++) {
+        limited = limited || (s->mass[k] > 0 && sunder_i_search_limit(s, (uint32_t)k) < INFINITY);
+        if (s->mass[k] > 0 && (start[2 * k] != 0 || start[2 * k + 1] != 0)) return false;
+    }
+    return limited;
+}
+
+/* All that clashes at home is given up, and everybody is there. Returns whether nothing clashes then. */
+static bool give_up_all(sunder_i_search *s, const double *start, const sunder_i_clash *at_home, size_t n)
+{
+    memcpy(s->t, start, 2 * s->n * sizeof *s->t);
+    s->program.n = 0;
+    for (size_t k = 0; k < n && !s->failed; k++) {
+        const uint32_t p = s->body[at_home[k].i], q = s->body[at_home[k].j];
+        if (sunder_i_relaxations_make(s->model, p, q, s->gap + 2 * s->tolerance, &s->relaxations, NULL))
+            s->failed = true;
+    }
+    if (!s->failed && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
+    return !s->failed && sunder_i_search_look(s, s->t) <= s->tolerance;
+}
+
+/* Pushes, goes down, pushes again, as long as that takes back any number. Returns whether the first left more than that
+ * share. */
+static bool push_all(sunder_i_search *s, double share)
+{
+    const size_t all = s->relaxations.n;
+    sunder_i_search_push_back(s);
+    if (s->failed || (double)s->relaxations.n <= share * (double)all) return false;
+    for (size_t before = all; before - s->relaxations.n > before / LEAST_PUSHED && !s->failed;) {
+        before = s->relaxations.n;
+        sunder_i_search_lower(s);
+        sunder_i_search_push_back(s);
+    }
+    return !s->failed;
+}
+
+bool sunder_i_search_push_from_home(sunder_i_search *s, const double *start, const sunder_i_clash *at_home, size_t n,
+                                    double share)
+{
+    if (s->n < CROWD || n == 0 || !begins_at_home(s, start)) return false;
+    const size_t size = 2 * s->n * sizeof *s->t;
+    double *stood = sunder_i_alloc(2 * s->n, sizeof *stood);
+    s->failed = s->failed || !stood;
+    if (s->failed) return false;
+    memcpy(stood, s->t, size);
+    const sunder_i_relaxations given_up = s->relaxations;
+    memset(&s->relaxations, 0, sizeof s->relaxations);
+    const bool done = give_up_all(s, start, at_home, n) && push_all(s, share);
+    sunder_i_relaxations other = done ? given_up : s->relaxations;
+    if (!done) {
+        s->relaxations = given_up;
+        memcpy(s->t, stood, size);
+        s->program.n = 0;
+    }
+    sunder_i_relaxations_free(&other);
+    sunder_i_free(stood);
+    return done;
+}

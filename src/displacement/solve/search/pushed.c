@@ -1,0 +1,305 @@
+/* Who is pushed when a pair is parted: whole rows are shifted, without a program.
+ *
+ * Where limits leave little, a pair in the midst of a grid has a solution only if all of its row gives way, from the
+ * pair to either end of the grid, and with it whoever is beside the row and would be run into. That may be thousands.
+ * A few bodies about the pair cannot do it, and a program of all of them for each pair takes too long.
+ *
+ * So one end of the pair gives way along the line between the two, and the other the other way. Two bodies that keep
+ * n.(t_b - t_a) >= d, by `spare` more than that, let a go on along v by x while b stands, if n.v x <= spare; from there
+ * on b is pushed. If all that is pushed goes along v, how far each has to go are difference constraints,
+ *
+ *     x_b >= x_a - spare / n.v      (n.v > 0; else a goes away from b, or beside it),
+ *
+ * and what it takes until b is pushed is a shortest path [Dij59]. How far the end may give way in all is the least, of
+ * all who are pushed, of what it takes to reach them and what their limits leave them along v. Where both ends together
+ * do not give what the pair misses it is not parted so: that is known as soon as it is so of those looked at, of whom
+ * those come first who stand farthest on; so in a row that has given all it has the question ends at the row's ends.
+ *
+ * The lines are support lines of obstacles (../../README.md), which are kept wherever the bodies stand: lines that were
+ * taken elsewhere are no less true, they only say more than need be, and are taken anew where things went far. Nobody
+ * gives way but along v, though a little aside might do: that is for programs (neighbourhood.c). */
+#include "displacement/solve/search/pushed.h"
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include "base/extremes.h"
+#include "base/heap.h"
+
+#include <math.h>
+#include <string.h>
+
+static double at(const double n[2], const double *u) { return n[0] * u[0] + n[1] * u[1]; }
+
+/* ---- Memory ------------------------------------------------------------------------------------------------------ */
+
+bool sunder_i_pushed_init(sunder_i_pushed *p, sunder_i_search *s, double reach)
+{
+    memset(p, 0, sizeof *p);
+    p->reach = reach;
+    bool ok = sunder_i_neighbourhood_init(&p->about, s);
+    p->of = sunder_i_calloc(s->n, sizeof *p->of);
+    p->to = sunder_i_alloc(2 * s->n, sizeof *p->to);
+    for (size_t e = 0; e < 2; e++) {
+        sunder_i_push_front *f = &p->front[e];
+        f->spare = sunder_i_alloc(s->n, sizeof *f->spare);
+        f->reached = sunder_i_alloc(s->n, sizeof *f->reached);
+        ok = ok && f->spare && f->reached;
+        for (size_t k = 0; k < s->n && ok; k++) f->spare[k] = INFINITY;
+    }
+    return ok && p->of && p->to;
+}
+
+void sunder_i_pushed_free(sunder_i_pushed *p)
+{
+    for (size_t k = 0; p->of && p->about.all && k < p->about.all->n; k++) sunder_i_free(p->of[k].line);
+    for (size_t e = 0; e < 2; e++) {
+        sunder_i_free(p->front[e].spare);
+        sunder_i_free(p->front[e].reached);
+        sunder_i_free(p->front[e].heap);
+    }
+    for (size_t w = 0; w < PUSHED_WAYS; w++) sunder_i_free(p->ways[w].next);
+    sunder_i_free(p->of);
+    sunder_i_free(p->to);
+    sunder_i_neighbourhood_free(&p->about);
+    memset(p, 0, sizeof *p);
+}
+
+/* ---- Lines ------------------------------------------------------------------------------------------------------- */
+
+typedef struct taking {
+    sunder_i_push_lines *out;
+    uint32_t other;
+    bool turned;        /* the lines are of a pair whose second body it is */
+    const double *from; /* where the pair stands */
+} taking;
+
+static void take_line(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+{
+    const taking *g = context;
+    sunder_i_push_lines *out = g->out;
+    double gap;
+    size_t n;
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    if (!edge) return;
+    const sunder_i_support h = sunder_i_search_support(part, edge, n, g->from);
+    const double sign = g->turned ? -1 : 1;
+    if (!sunder_i_reserve(&out->line, &out->capacity, out->n + 1, sizeof *out->line)) {
+        s->failed = true;
+        return;
+    }
+    out->line[out->n++] = (sunder_i_push_line){
+        .other = g->other, .n = {sign * h.n[0], sign * h.n[1]}, .d = h.support + gap, .u = {g->from[0], g->from[1]}};
+}
+
+/* All of a body to those that it might push. */
+static void take_lines(sunder_i_pushed *p, uint32_t i)
+{
+    sunder_i_search *s = p->about.all;
+    sunder_i_push_lines *out = &p->of[i];
+    const double reach = s->gap + 2 * p->reach;
+    out->n = 0;
+    out->known = true;
+    memcpy(out->at, s->t + 2 * (size_t)i, sizeof out->at);
+    if (!sunder_i_neighbourhood_look_about(&p->about, i, reach)) s->failed = true;
+    for (size_t k = 0; k < p->about.near.n && !s->failed; k++) {
+        const uint32_t j = p->about.near.item[k], a = i < j ? i : j, b = i < j ? j : i;
+        if (j == i) continue;
+        const double u[2] = {s->t[2 * b] - s->t[2 * a], s->t[2 * b + 1] - s->t[2 * a + 1]};
+        taking g = {out, j, i > j, u};
+        sunder_i_search_piece_pairs(s, a, b, u, reach, true, take_line, &g);
+    }
+}
+
+/* Did what stands about the body go so far since that its lines say little? */
+static bool is_stale(const sunder_i_pushed *p, uint32_t i)
+{
+    const sunder_i_search *s = p->about.all;
+    const sunder_i_push_lines *of = &p->of[i];
+    const double near = PUSHED_STALE * p->reach;
+    if (!of->known || sunder_i_max(fabs(s->t[2 * i] - of->at[0]), fabs(s->t[2 * i + 1] - of->at[1])) > p->reach / 2)
+        return true;
+    for (size_t k = 0; k < of->n; k++) {
+        const uint32_t j = of->line[k].other, a = i < j ? i : j, b = i < j ? j : i;
+        if (fabs(s->t[2 * b] - s->t[2 * a] - of->line[k].u[0]) > near ||
+            fabs(s->t[2 * b + 1] - s->t[2 * a + 1] - of->line[k].u[1]) > near)
+            return true;
+    }
+    return false;
+}
+
+const sunder_i_push_lines *sunder_i_pushed_lines(sunder_i_pushed *p, uint32_t i)
+{
+    if (!p->of[i].fresh && is_stale(p, i)) take_lines(p, i);
+    p->of[i].fresh = true;
+    return &p->of[i];
+}
+
+typedef struct worst {
+    const double *u;
+    double missing, n[2];
+} worst;
+
+static void note_worst(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+{
+    worst *w = context;
+    double gap;
+    size_t n;
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    if (!edge) return;
+    const sunder_i_support h = sunder_i_search_support(part, edge, n, w->u);
+    if (!(gap - h.distance > w->missing)) return;
+    *w = (worst){w->u, gap - h.distance, {h.n[0], h.n[1]}};
+}
+
+double sunder_i_pushed_missing(sunder_i_pushed *p, uint32_t i, uint32_t j, double n[2])
+{
+    sunder_i_search *s = p->about.all;
+    const double u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
+    worst w = {u, 0, {1, 0}};
+    sunder_i_search_piece_pairs(s, i, j, u, s->gap, false, note_worst, &w);
+    memcpy(n, w.n, sizeof w.n);
+    return w.missing;
+}
+
+void sunder_i_pushed_renew(sunder_i_pushed *p, uint32_t i, uint32_t j)
+{
+    p->of[i].known = p->of[j].known = false;
+    p->of[i].fresh = p->of[j].fresh = false;
+}
+
+/* ---- Fronts ------------------------------------------------------------------------------------------------------ */
+
+static bool comes_before(const void *a, const void *b)
+{
+    const sunder_i_push *p = a, *q = b;
+    if (p->spare != q->spare) return p->spare < q->spare;
+    return p->progress != q->progress ? p->progress > q->progress : p->body < q->body;
+}
+
+double sunder_i_pushed_room(const sunder_i_pushed *p, uint32_t k, const double along[2])
+{
+    const sunder_i_search *s = p->about.all;
+    const double limit = sunder_i_search_limit(s, k), *t = s->t + 2 * (size_t)k;
+    if (!(s->mass[k] > 0)) return 0;
+    if (limit == INFINITY) return INFINITY;
+    const double on = at(along, t), left = limit * limit - at(t, t);
+    return sunder_i_max(0, sqrt(sunder_i_max(0, on * on + left)) - on);
+}
+
+static void reach(const sunder_i_pushed *p, sunder_i_push_front *f, uint32_t k, double spare)
+{
+    sunder_i_search *s = p->about.all;
+    const sunder_i_body *b = &s->model->body[s->body[k]], *first = &s->model->body[s->body[0]];
+    if (spare >= f->most || spare >= f->spare[k]) return;
+    if (!sunder_i_reserve(&f->heap, &f->capacity, f->waiting + 1, sizeof *f->heap)) {
+        s->failed = true;
+        return;
+    }
+    if (f->spare[k] == INFINITY) f->reached[f->n++] = k;
+    f->spare[k] = spare;
+    const double place[2] = {b->origin[0] - first->origin[0], b->origin[1] - first->origin[1]};
+    sunder_i_heap_push(f->heap, &f->waiting, sizeof *f->heap, &(sunder_i_push){spare, at(f->along, place), k},
+                       comes_before);
+}
+
+static void begin(const sunder_i_pushed *p, sunder_i_push_front *f, uint32_t k, const double along[2], double most)
+{
+    for (size_t m = 0; m < f->n; m++) f->spare[f->reached[m]] = INFINITY;
+    f->n = f->waiting = 0;
+    f->along[0] = along[0];
+    f->along[1] = along[1];
+    f->most = most;
+    reach(p, f, k, 0);
+}
+
+/* Looks at the next, if there is any that is pushed. but: the body at the other end of the pair. */
+static bool go_on(sunder_i_pushed *p, sunder_i_push_front *f, uint32_t end, uint32_t but)
+{
+    sunder_i_search *s = p->about.all;
+    sunder_i_push e;
+    do {
+        if (f->waiting == 0) return false;
+        sunder_i_heap_pop(f->heap, &f->waiting, sizeof e, &e, comes_before);
+    } while (e.spare > f->spare[e.body] || e.spare >= f->most);
+    f->most = sunder_i_min(f->most, e.spare + sunder_i_pushed_room(p, e.body, f->along));
+    const sunder_i_push_lines *of = sunder_i_pushed_lines(p, e.body);
+    s->steps += 1 + of->n;
+    for (size_t k = 0; k < of->n && !s->failed; k++) {
+        const sunder_i_push_line *l = &of->line[k];
+        const double on = at(l->n, f->along);
+        if (!(on > PUSHED_BESIDE) || (e.body == end && l->other == but)) continue;
+        const double *t = s->t + 2 * (size_t)l->other, *own = s->t + 2 * (size_t)e.body;
+        const double spare = l->n[0] * (t[0] - own[0]) + l->n[1] * (t[1] - own[1]) - l->d;
+        reach(p, f, l->other, e.spare + (spare > s->tolerance ? spare / on : 0));
+    }
+    return true;
+}
+
+bool sunder_i_pushed_reaches(sunder_i_pushed *p, uint32_t i, uint32_t j, const double n[2], double missing)
+{
+    const double back[2] = {-n[0], -n[1]};
+    sunder_i_push_front *f = p->front;
+    if (sunder_i_pushed_is_in_vain(p, i, j, n, missing)) return false;
+    begin(p, &f[0], j, n, missing);
+    begin(p, &f[1], i, back, missing);
+    bool any = true;
+    while (any && f[0].most + f[1].most >= missing && !p->about.all->failed) {
+        any = go_on(p, &f[0], j, i);
+        any = go_on(p, &f[1], i, j) || any;
+    }
+    if (f[0].most + f[1].most >= missing && !p->about.all->failed) return true;
+    sunder_i_pushed_note_in_vain(p);
+    return false;
+}
+
+/* ---- Giving way -------------------------------------------------------------------------------------------------- */
+
+/* How many are pushed if the end gives way as far as it may. */
+static double count_pushed(const sunder_i_push_front *f)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < f->n; k++) n += f->spare[f->reached[k]] < f->most;
+    return (double)n;
+}
+
+/* The side of fewer goes farther, by as much as it is less: so the squares of all moves are least. */
+static void divide(const sunder_i_push_front f[2], double missing, double share[2])
+{
+    const double right = count_pushed(&f[0]), left = count_pushed(&f[1]);
+    share[0] = right + left > 0 ? missing * left / (right + left) : missing / 2;
+    share[0] = sunder_i_max(missing - f[1].most, sunder_i_min(f[0].most, share[0]));
+    share[1] = missing - share[0];
+}
+
+/* Those that went, and those about them, are to be looked at again. */
+static void note_gone(sunder_i_pushed *p)
+{
+    for (size_t k = 0; k < p->about.n; k++) {
+        sunder_i_push_lines *of = &p->of[p->about.place[k]];
+        of->fresh = false;
+        for (size_t m = 0; m < of->n; m++) p->of[of->line[m].other].fresh = false;
+    }
+}
+
+bool sunder_i_pushed_part(sunder_i_pushed *p, double missing)
+{
+    sunder_i_search *s = p->about.all;
+    double share[2];
+    divide(p->front, missing, share);
+    p->about.n = 0;
+    for (size_t e = 0; e < 2; e++) {
+        const sunder_i_push_front *f = &p->front[e];
+        for (size_t k = 0; k < f->n; k++) {
+            const uint32_t b = f->reached[k];
+            const double by = share[e] - f->spare[b];
+            if (!(by > 0)) continue;
+            if (e == 1 && p->front[0].spare[b] < share[0]) return false; /* it cannot go both ways */
+            double *to = p->to + 2 * p->about.n;
+            p->about.place[p->about.n++] = b;
+            for (int x = 0; x < 2; x++) to[x] = s->t[2 * (size_t)b + (size_t)x] + by * f->along[x];
+        }
+    }
+    if (!sunder_i_neighbourhood_put(&p->about, p->to)) return false;
+    note_gone(p);
+    return true;
+}

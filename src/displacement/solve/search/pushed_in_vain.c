@@ -1,0 +1,157 @@
+/* Is pushing in vain? Known for many pairs at once.
+ *
+ * In a crowd that has next to no room hardly any question of pushed.c has an answer, and each looks at hundreds of
+ * bodies until it knows. How far a body may give way in a direction is the same for whoever asks,
+ *
+ *     most(k) = min(what its limit leaves it, spare(k, m) + most(m) of all m that it pushes),
+ *
+ * so shortest paths from all limits at once [Dij59] tell it of all bodies, and by which way: whom each pushes first,
+ * until one comes that is stopped by its own limit. That is done for a few directions, for those of which so much was
+ * asked in vain as it takes. A pair follows the way of either end: what that adds up, as all stand now and in the
+ * pair's own direction, is as much as the end may give way at most, for any way says so, whichever direction it was the
+ * shortest in, and wherever things went since. So nothing is held to be in vain that is not. */
+#include "displacement/solve/search/pushed.h"
+#include "displacement/solve/search/tuning.h"
+
+#include "base/extremes.h"
+#include "base/heap.h"
+
+#include <math.h>
+
+#define FULL_TURN 6.28318530717958647692
+
+static size_t way_along(const double along[2])
+{
+    const double turns = atan2(along[1], along[0]) / FULL_TURN + 1;
+    return (size_t)(turns * PUSHED_WAYS + 0.5) % PUSHED_WAYS;
+}
+
+static double dot(const double a[2], const double b[2]) { return a[0] * b[0] + a[1] * b[1]; }
+
+/* What it takes, along there, until the body that the line is of pushes the other; or is pushed by it, if n.along is
+ * negative. */
+static double spare_of(const sunder_i_search *s, const sunder_i_push_line *l, uint32_t k, double on)
+{
+    const double *own = s->t + 2 * (size_t)k, *t = s->t + 2 * (size_t)l->other;
+    const double spare = l->n[0] * (t[0] - own[0]) + l->n[1] * (t[1] - own[1]) - l->d;
+    return spare > s->tolerance ? spare / fabs(on) : 0;
+}
+
+/* ---- All of one direction ---------------------------------------------------------------------------------------- */
+
+/* How far a body may give way, as far as is known. */
+typedef struct giving {
+    double most;
+    uint32_t body;
+} giving;
+
+static bool gives_less(const void *a, const void *b)
+{
+    const giving *p = a, *q = b;
+    return p->most != q->most ? p->most < q->most : p->body < q->body;
+}
+
+typedef struct survey {
+    sunder_i_pushed *pushed;
+    double along[2];
+    double *most; /* [n] */
+    uint32_t *next;
+    giving *heap;
+    size_t waiting, capacity;
+} survey;
+
+static void give(survey *v, uint32_t k, double most, uint32_t next)
+{
+    if (!(most < v->most[k])) return;
+    if (!sunder_i_reserve(&v->heap, &v->capacity, v->waiting + 1, sizeof *v->heap)) {
+        v->pushed->about.all->failed = true;
+        return;
+    }
+    v->most[k] = most;
+    v->next[k] = next;
+    sunder_i_heap_push(v->heap, &v->waiting, sizeof *v->heap, &(giving){most, k}, gives_less);
+}
+
+/* Those that push the body. Lines between two are nearly the same for both. */
+static void ask_back(survey *v, uint32_t k)
+{
+    sunder_i_search *s = v->pushed->about.all;
+    const sunder_i_push_lines *of = sunder_i_pushed_lines(v->pushed, k);
+    s->steps += 1 + of->n;
+    for (size_t m = 0; m < of->n && !s->failed; m++) {
+        const sunder_i_push_line *l = &of->line[m];
+        const double on = dot(l->n, v->along);
+        if (on < -PUSHED_BESIDE) give(v, l->other, v->most[k] + spare_of(s, l, k, on), k);
+    }
+}
+
+static void look_for_ways(sunder_i_pushed *p, size_t way)
+{
+    sunder_i_search *s = p->about.all;
+    sunder_i_push_ways *w = &p->ways[way];
+    const double angle = FULL_TURN * (double)way / PUSHED_WAYS;
+    survey v = {.pushed = p, .along = {cos(angle), sin(angle)}};
+    if (!w->next) w->next = sunder_i_alloc(s->n, sizeof *w->next);
+    v.next = w->next;
+    v.most = sunder_i_alloc(s->n, sizeof *v.most);
+    s->failed = s->failed || !v.next || !v.most;
+    for (size_t k = 0; k < s->n && !s->failed; k++) v.most[k] = INFINITY;
+    for (uint32_t k = 0; k < s->n && !s->failed; k++) {
+        v.next[k] = SUNDER_I_NOBODY;
+        give(&v, k, sunder_i_pushed_room(p, k, v.along), SUNDER_I_NOBODY);
+    }
+    while (v.waiting && !s->failed) {
+        giving g;
+        sunder_i_heap_pop(v.heap, &v.waiting, sizeof g, &g, gives_less);
+        if (g.most <= v.most[g.body]) ask_back(&v, g.body);
+    }
+    w->in_vain = 0;
+    sunder_i_free(v.most);
+    sunder_i_free(v.heap);
+}
+
+/* ---- One pair ---------------------------------------------------------------------------------------------------- */
+
+static double spare_between(sunder_i_pushed *p, uint32_t k, uint32_t other, const double along[2])
+{
+    const sunder_i_push_lines *of = sunder_i_pushed_lines(p, k);
+    double least = INFINITY;
+    for (size_t m = 0; m < of->n; m++) {
+        const double on = dot(of->line[m].n, along);
+        if (of->line[m].other == other && on > PUSHED_BESIDE)
+            least = sunder_i_min(least, spare_of(p->about.all, &of->line[m], k, on));
+    }
+    return least;
+}
+
+/* No farther than this does an end give way, if no more than `enough` is asked of it; but: the other end, which it does
+ * not push. */
+static double most_along(sunder_i_pushed *p, uint32_t end, uint32_t but, const double along[2], double enough)
+{
+    sunder_i_search *s = p->about.all;
+    const uint32_t *next = p->ways[way_along(along)].next;
+    double most = enough, spare = 0;
+    size_t hops = 0; /* ways that changed since may go in a circle */
+    for (uint32_t k = end; next && hops < s->n && spare < most && !s->failed; k = next[k], hops++) {
+        most = sunder_i_min(most, spare + sunder_i_pushed_room(p, k, along));
+        if (next[k] == SUNDER_I_NOBODY || (k == end && next[k] == but)) break;
+        spare += spare_between(p, k, next[k], along);
+    }
+    s->steps += hops;
+    return most;
+}
+
+bool sunder_i_pushed_is_in_vain(sunder_i_pushed *p, uint32_t i, uint32_t j, const double n[2], double missing)
+{
+    const double back[2] = {-n[0], -n[1]}, most = most_along(p, j, i, n, missing);
+    return !(most + most_along(p, i, j, back, missing) >= missing);
+}
+
+void sunder_i_pushed_note_in_vain(sunder_i_pushed *p)
+{
+    for (size_t e = 0; e < 2; e++) {
+        const size_t way = way_along(p->front[e].along);
+        p->ways[way].in_vain += p->front[e].n;
+        if (p->ways[way].in_vain > PUSHED_SURVEY * p->about.all->n && !p->about.all->failed) look_for_ways(p, way);
+    }
+}

@@ -1,0 +1,207 @@
+/* Other orders of putting bodies back.
+ *
+ * The sides that a solution stands on are mostly a matter of who came first. So a few bodies that stand about one of
+ * which the sides are in doubt are taken out and put back one by one, each at the free place nearest to where it
+ * came from, in another order; all go down from there, and what is cheaper is kept. In doubt are those that
+ * overlapped another by much, for which another side is not much farther, and those that went much farther than any
+ * pair was in conflict by. */
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include "base/extremes.h"
+#include "base/random.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A body, and what it is sorted by. */
+typedef struct ranked {
+    double by;
+    uint32_t index;
+} ranked;
+
+static int by_rank(const void *a, const void *b)
+{
+    const ranked *p = a, *q = b;
+    if (p->by != q->by) return p->by < q->by ? -1 : 1;
+    return p->index < q->index ? -1 : p->index > q->index;
+}
+
+typedef struct reordering {
+    sunder_i_search *search;
+    ranked *doubtful, *near; /* [doubtfuls], the costliest first; [moving] */
+    size_t doubtfuls, moving;
+    uint32_t *out;             /* those that are taken out */
+    double tried[MOST_ORDERS]; /* costs of what was begun with: the same again would end where it did */
+    size_t tries;
+    double *best, cost;
+} reordering;
+
+/* ---- Whose sides are in doubt ------------------------------------------------------------------------------------ */
+
+static double extent(const sunder_i_search *s, uint32_t i)
+{
+    const double *box = s->model->body[s->body[i]].box;
+    return sunder_i_min(box[2] - box[0], box[3] - box[1]);
+}
+
+static bool find_doubtful(reordering *r)
+{
+    sunder_i_search *s = r->search;
+    double *home = sunder_i_alloc(2 * s->n, sizeof *home), worst = 0;
+    bool *deep = sunder_i_calloc(s->n, sizeof *deep);
+    if (home && deep) {
+        for (size_t k = 0; k < 2 * s->n; k++) home[k] = s->mass[k / 2] > 0 ? 0 : s->t[k];
+        sunder_i_search_look(s, home);
+        for (size_t k = 0; k < s->clashes; k++) {
+            const sunder_i_clash *c = &s->clash[k];
+            worst = sunder_i_max(worst, c->violation);
+            if (c->violation - s->gap > DEEP * sunder_i_min(extent(s, c->i), extent(s, c->j)))
+                deep[c->i] = deep[c->j] = true;
+        }
+        for (uint32_t k = 0; k < s->n; k++) {
+            const double x = s->t[2 * k], y = s->t[2 * k + 1];
+            if (s->mass[k] > 0 && (deep[k] || hypot(x, y) > LONG * worst))
+                r->doubtful[r->doubtfuls++] = (ranked){-(x * x + y * y) / s->mass[k], k};
+        }
+        if (r->doubtfuls) qsort(r->doubtful, r->doubtfuls, sizeof *r->doubtful, by_rank);
+    }
+    const bool ok = home && deep;
+    sunder_i_free(home);
+    sunder_i_free(deep);
+    return ok;
+}
+
+/* ---- Out, and in again ------------------------------------------------------------------------------------------- */
+
+/* How far apart the boxes of two bodies are, where they came from (share 0) or where they stand (1). */
+static double apart(const sunder_i_search *s, uint32_t i, uint32_t j, double share)
+{
+    const sunder_i_body *p = &s->model->body[s->body[i]], *q = &s->model->body[s->body[j]];
+    double d[2];
+    for (uint32_t c = 0; c < 2; c++) {
+        const double offset = q->origin[c] - p->origin[c] + share * (s->t[2 * j + c] - s->t[2 * i + c]);
+        d[c] = sunder_i_max(0, sunder_i_max(q->box[c] + offset - p->box[c + 2], p->box[c] - q->box[c + 2] - offset));
+    }
+    return hypot(d[0], d[1]);
+}
+
+/* That body, and those that stand, or stood, nearest to it: n in all. */
+static void choose(reordering *r, uint32_t first, size_t n)
+{
+    const sunder_i_search *s = r->search;
+    size_t m = 0;
+    for (uint32_t k = 0; k < s->n; k++)
+        if (s->mass[k] > 0)
+            r->near[m++] = (ranked){k == first ? -1 : sunder_i_min(apart(s, first, k, 0), apart(s, first, k, 1)), k};
+    qsort(r->near, m, sizeof *r->near, by_rank);
+    for (size_t k = 0; k < n; k++) r->out[k] = r->near[k].index;
+}
+
+/* Shuffled by a sequence that is always the same (xorshift). */
+static void shuffle(uint32_t *order, size_t n, uint64_t *state)
+{
+    for (size_t k = n; k-- > 1;) {
+        *state ^= *state << 13;
+        *state ^= *state >> 7;
+        *state ^= *state << 17;
+        sunder_i_shuffle_step(order, k + 1, sizeof *order, *state);
+    }
+}
+
+static bool is_known(const reordering *r, double cost)
+{
+    for (size_t k = 0; k < r->tries; k++)
+        if (fabs(r->tried[k] - cost) <= SAME_COST * cost) return true;
+    return false;
+}
+
+/* Is there nothing to be had from where all stand? A start that was tried ends where it did; and what clashes, and yet
+ * costs less than what stands, is dearer when nothing clashes any more: of 630 such of a town of 100,000 three came to
+ * anything, and that was next to nothing. What proofs begin from is sought from these, too. */
+static bool is_in_vain(reordering *r, double start)
+{
+    sunder_i_search *s = r->search;
+    if (is_known(r, start)) return true;
+    r->tried[r->tries++] = start;
+    return !(s->model->rules.effort > 0) && start < r->cost && sunder_i_search_look(s, s->t) > s->tolerance;
+}
+
+/* The n bodies in r->out are taken out and put back in this order, and all go down. Who finds no place stays at
+ * home, for all of them to make room. Returns how much of no use that was. */
+static size_t put_back(reordering *r, size_t n)
+{
+    sunder_i_search *s = r->search;
+    for (size_t k = 0; k < n; k++) {
+        s->away[r->out[k]] = true;
+        s->t[2 * r->out[k]] = s->t[2 * r->out[k] + 1] = 0;
+    }
+    for (size_t k = 0; k < n; k++) {
+        const uint32_t i = r->out[k];
+        const double farthest =
+            sunder_i_min(BEYOND_LIMIT * sunder_i_search_limit(s, i), BEYOND_COST * sqrt(2 * s->mass[i] * r->cost));
+        double place[2];
+        if (sunder_i_search_free_body(s, i, farthest, place)) memcpy(s->t + 2 * i, place, sizeof place);
+        s->away[i] = false;
+    }
+    const double start = sunder_i_search_cost(s, s->t), before = r->cost;
+    const bool in_vain = is_in_vain(r, start);
+    s->program.n = 0; /* the forces belong to places that are left */
+    if (!in_vain) sunder_i_search_attempt(s, r->best, &r->cost);
+    memcpy(s->t, r->best, 2 * s->n * sizeof *r->best);
+    return in_vain ? ORDER_IN_VAIN : !(r->cost < before);
+}
+
+/* About what it takes to look for room for all that may move, in pairs of pieces. */
+static uint64_t search_work(const sunder_i_search *s)
+{
+    uint64_t own = 0, all = 0;
+    for (size_t k = 0; k < s->n; k++) {
+        const uint64_t pieces = s->model->body[s->body[k]].pieces;
+        all += pieces;
+        if (s->mass[k] > 0) own += pieces;
+    }
+    return 4 * own * all;
+}
+
+/* A number of orders, from one doubtful body to the next; n: so many are taken out, or 0: first few, then more. */
+static void try_orders(reordering *r, size_t n, size_t most_useless, uint64_t most_work)
+{
+    sunder_i_search *s = r->search;
+    uint64_t state = UINT64_C(0x9e3779b97f4a7c15), last = search_work(s);
+    size_t useless = 0;
+    for (size_t k = 0; k < MOST_ORDERS && useless < most_useless && !s->failed; k++) {
+        const uint64_t before = sunder_i_search_work(s);
+        const size_t out = n ? n : 2 + k / r->doubtfuls % (MOST_OUT - 1);
+        if (before + last >= most_work) break;
+        const size_t taken = out < r->moving ? out : r->moving;
+        choose(r, r->doubtful[k % r->doubtfuls].index, taken);
+        shuffle(r->out, taken, &state);
+        const size_t in_vain = put_back(r, taken);
+        useless = in_vain ? useless + in_vain : 0;
+        last = sunder_i_search_work(s) - before;
+    }
+}
+
+void sunder_i_search_reorder(sunder_i_search *s, double *best, double *cost)
+{
+    reordering r = {.search = s, .best = best, .cost = *cost, .moving = sunder_i_search_movers(s)};
+    const uint64_t work = sunder_i_search_work(s);
+    if (r.moving < 3 || r.moving > MOST_MOVING) return; /* pairs were tried on all sides */
+    r.doubtful = sunder_i_alloc(r.moving, sizeof *r.doubtful);
+    r.near = sunder_i_alloc(r.moving, sizeof *r.near);
+    r.out = sunder_i_alloc(r.moving, sizeof *r.out);
+    if (!r.doubtful || !r.near || !r.out || !find_doubtful(&r)) s->failed = true;
+    if (r.doubtfuls) {
+        try_orders(&r, 0, MOST_USELESS, (1 + MOST_TIMES) * work);
+    } else if (!s->failed && r.moving <= SURE_MOVING) {
+        for (uint32_t k = 0; k < s->n; k++)
+            if (s->mass[k] > 0) r.doubtful[r.doubtfuls++] = (ranked){0, k};
+        try_orders(&r, r.moving, SURE_USELESS, work + work / SURE_SHARE);
+    }
+    *cost = r.cost;
+    sunder_i_free(r.doubtful);
+    sunder_i_free(r.near);
+    sunder_i_free(r.out);
+}

@@ -1,0 +1,365 @@
+/* Pairs that were given up are asked again for all that they owe.
+ *
+ * Pairs that were relaxed together (give_up.c) may be more than need be. So once nothing joins clusters any more each
+ * is asked by itself, those that overlap first, the rest keeping what they have: blocks of which several members are
+ * in conflict for all of these, and then for each, since one may have no solution where others do. At first nobody
+ * but the pair moves, then more and more of those about it (neighbourhood.c), at last the whole cluster. What overlaps
+ * and finds no solution is asked not to overlap, at least, before any pair that is only too near is asked for anything.
+ * All are asked at one stage before any is at the next, so that where the effort ends the small questions have been
+ * put; it grows with the number of bodies and of pairs, and with nothing else. A stage ends before its time where so
+ * many were in vain, one after the other, or so much was done for them. */
+#include "displacement/solve/search/neighbourhood.h"
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const size_t stage[] = RETRY_STAGES;
+#define STAGES (sizeof stage / sizeof *stage)
+
+typedef struct retrying {
+    sunder_i_search *search;
+    const sunder_i_retry *retry;
+    size_t n, moving;
+    bool *settled;         /* [n] nothing is left to be asked */
+    bool *in_vain;         /* [n] with more bodies the question would be the same */
+    double *stand;         /* [2 bodies] */
+    uint64_t effort;       /* the work done (sunder_i_search_work()) at which asking ends */
+    uint64_t in_vain_most; /* at one stage, since something was granted there */
+    bool any;              /* something was resolved */
+    sunder_i_neighbourhood neighbourhood;
+} retrying;
+
+bool sunder_i_can_be_disjoint(const sunder_i_model *model, const sunder_i_relaxation *t)
+{
+    const sunder_i_body *p = &model->body[model->body_of[t->a]], *q = &model->body[model->body_of[t->b]];
+    const double depth = hypot(t->shift[0], t->shift[1]);
+    return depth > 0 && sunder_i_owed_above(model, t->a, t->b) > 0 &&
+           depth <= sunder_i_limit_of(p) + sunder_i_limit_of(q);
+}
+
+/* ---- What is asked ----------------------------------------------------------------------------------------------- */
+
+static const sunder_i_relaxation *relaxation_of(const sunder_i_search *s, const sunder_i_retry *x, size_t k)
+{
+    return &s->model->relaxations.item[x->relaxation[k]];
+}
+
+static size_t find_restored(const sunder_i_search *s, const sunder_i_relaxation *t, bool *known)
+{
+    const sunder_i_restored wanted = sunder_i_restored_of(s->model, t);
+    const size_t at = sunder_i_restored_at(s->restored, s->restored_n, &wanted);
+    *known = at < s->restored_n && sunder_i_by_restored(&s->restored[at], &wanted) == 0;
+    return at;
+}
+
+/* From now on the model's relaxations of this retry do not count, but for those that are infeasible; or they do
+ * again. */
+static bool restore(sunder_i_search *s, const sunder_i_retry *x)
+{
+    if (!sunder_i_reserve(&s->restored, &s->restored_capacity, s->restored_n + x->relaxations, sizeof *s->restored))
+        return false;
+    for (size_t k = 0; k < x->relaxations; k++) {
+        const sunder_i_relaxation *t = relaxation_of(s, x, k);
+        bool known;
+        const size_t at = find_restored(s, t, &known);
+        if (t->infeasible || known) continue;
+        memmove(s->restored + at + 1, s->restored + at, (s->restored_n++ - at) * sizeof *s->restored);
+        s->restored[at] = sunder_i_restored_of(s->model, t);
+    }
+    return true;
+}
+
+static void relax_again(sunder_i_search *s, const sunder_i_retry *x)
+{
+    for (size_t k = 0; k < x->relaxations; k++) {
+        bool known;
+        const size_t at = find_restored(s, relaxation_of(s, x, k), &known);
+        if (known) memmove(s->restored + at, s->restored + at + 1, (--s->restored_n - at) * sizeof *s->restored);
+    }
+}
+
+/* The relaxation, but that what overlapped no longer does, nor will after rounding. */
+static void part_barely(const sunder_i_search *s, sunder_i_relaxation *t)
+{
+    if (t->shift[0] == 0 && t->shift[1] == 0) return;
+    t->shift[0] = t->shift[1] = 0;
+    t->inside = false;
+    t->gap = s->gap - s->model->rules.gap;
+}
+
+/* The retry's relaxations, but that what overlapped no longer does. */
+static bool ask_disjoint(sunder_i_search *s, const sunder_i_retry *x)
+{
+    const sunder_i_model *model = s->model;
+    for (size_t k = 0; k < x->relaxations; k++) {
+        sunder_i_relaxation t = *relaxation_of(s, x, k);
+        if (!sunder_i_can_be_disjoint(model, &t)) continue;
+        part_barely(s, &t);
+        if (!sunder_i_relaxations_insert(&s->relaxations, model, &t)) return false;
+    }
+    return true;
+}
+
+static void resume_overlap(sunder_i_search *s, const sunder_i_retry *x)
+{
+    for (size_t k = 0; k < x->relaxations; k++)
+        if (sunder_i_can_be_disjoint(s->model, relaxation_of(s, x, k)))
+            sunder_i_relaxations_remove(&s->relaxations, s->model, relaxation_of(s, x, k));
+}
+
+/* ---- At one stage ------------------------------------------------------------------------------------------------ */
+
+/* The whole cluster from where it stands: down, and where that is in vain once out of clashes and down again. If that
+ * fails too all are put back. */
+static bool settle_all(retrying *p)
+{
+    sunder_i_search *s = p->search;
+    const size_t size = 2 * s->n * sizeof *p->stand;
+    memcpy(p->stand, s->t, size);
+    s->program.n = 0;
+    s->patience = sunder_i_search_work(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
+    bool done = sunder_i_search_descend(s);
+    if (!done && !s->failed && sunder_i_search_jump_soon(s)) {
+        s->patience = sunder_i_search_work(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
+        done = sunder_i_search_descend(s);
+    }
+    s->patience = UINT64_MAX;
+    if (!done) memcpy(s->t, p->stand, size);
+    return done && !s->failed;
+}
+
+static bool settle_one(retrying *p, size_t k, size_t level)
+{
+    sunder_i_search *s = p->search;
+    if (level == STAGES) return settle_all(p);
+    const sunder_i_id_pair *pair = &p->retry[k].body;
+    const bool done = sunder_i_neighbourhood_settle(&p->neighbourhood, sunder_i_search_place_of(s, pair->a),
+                                                    sunder_i_search_place_of(s, pair->b), stage[level],
+                                                    s->gap + 2 * p->retry[k].missing);
+    p->in_vain[k] = !p->neighbourhood.wider;
+    return done;
+}
+
+/* Asks one for all that is owed, or not to overlap. */
+static bool grant(retrying *p, size_t k, size_t level, bool resolve)
+{
+    sunder_i_search *s = p->search;
+    const sunder_i_retry *x = &p->retry[k];
+    if (!(resolve ? restore(s, x) : ask_disjoint(s, x))) {
+        s->failed = true;
+        return false;
+    }
+    if (settle_one(p, k, level)) return true;
+    if (resolve)
+        relax_again(s, x);
+    else
+        resume_overlap(s, x);
+    return false;
+}
+
+/* What is asked, in this order: as few overlaps as can be, then as few pairs. The relaxations between two bodies are
+ * asked about together first; of those of which that had no solution, each. */
+typedef struct request {
+    bool overlap, resolve, part;
+} request;
+
+static const request requests[] = {{true, true, false}, {true, true, true},   {true, false, false},
+                                   {true, false, true}, {false, true, false}, {false, true, true}};
+#define REQUESTS (sizeof requests / sizeof *requests)
+
+/* Was it granted with others, or is it not what this request is for? */
+static bool is_out(const retrying *p, size_t k, const request *r)
+{
+    const sunder_i_retry *x = &p->retry[k];
+    bool known;
+    if (p->settled[k] || x->overlap != r->overlap || (x->part > 0) != r->part ||
+        !(r->resolve ? x->resolve : x->disjoint))
+        return true;
+    if (!r->part) return false;
+    const sunder_i_relaxation *t = relaxation_of(p->search, x, 0);
+    find_restored(p->search, t, &known);
+    return known || sunder_i_relaxations_find(&p->search->relaxations, t->a, t->b);
+}
+
+/* What was asked in vain at one stage since something was granted there. */
+typedef struct useless {
+    size_t asked;
+    uint64_t since; /* the work done when that began */
+    size_t most;
+} useless;
+
+/* Is it too much to go on? With few nobody is spared. */
+static bool is_useless(const retrying *p, const useless *u, size_t level)
+{
+    if (level == 0 || u->asked == 0) return false;
+    return u->asked >= u->most || sunder_i_search_work(p->search) > u->since + p->in_vain_most;
+}
+
+/* Puts one question to all whom it concerns, stage by stage. */
+static void ask_all(retrying *p, const request *r)
+{
+    sunder_i_search *s = p->search;
+    size_t most = RETRIES_IN_VAIN;
+    memset(p->in_vain, 0, p->n * sizeof *p->in_vain);
+    for (size_t level = p->moving > FEW ? 0 : STAGES; level <= STAGES; level++) {
+        useless u = {0, sunder_i_search_work(s), most};
+        bool any = false;
+        for (size_t k = 0; k < p->n && !s->failed && sunder_i_search_work(s) < p->effort; k++) {
+            if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r) || is_useless(p, &u, level)) continue;
+            p->settled[k] = grant(p, k, level, r->resolve);
+            p->any = p->any || p->settled[k];
+            any = any || p->settled[k];
+            u.asked++;
+            if (p->settled[k]) u = (useless){0, sunder_i_search_work(s), most};
+        }
+        /* What one stage tells of a crowd in vain the next one will, mostly. */
+        most = any || p->n <= FEW_RETRIES || p->n / SHARE_OF_RETRIES >= RETRIES_IN_VAIN ? RETRIES_IN_VAIN
+                                                                                        : p->n / SHARE_OF_RETRIES;
+    }
+}
+
+/* ---- Pairs for an overlap ---------------------------------------------------------------------------------------- */
+
+/* Lets the pairs that were in conflict at the start, and are not now, be as they were then, but that none overlaps:
+ * their relaxations are in `list`. */
+static void sacrifice(sunder_i_search *s, sunder_i_relaxations *list)
+{
+    size_t n = 0, out = 0;
+    sunder_i_clash *clash = sunder_i_search_at_home(s, &n);
+    if (!clash) s->failed = true;
+    for (size_t k = 0; k < n && !s->failed; k++)
+        if (sunder_i_relaxations_make(s->model, s->body[clash[k].i], s->body[clash[k].j], s->gap + 2 * s->tolerance,
+                                      list, NULL))
+            s->failed = true;
+    sunder_i_free(clash);
+    for (size_t k = 0; k < list->n && !s->failed; k++) {
+        sunder_i_relaxation t = list->item[k];
+        const sunder_i_relaxation *old = sunder_i_relaxations_find(&s->model->relaxations, t.a, t.b);
+        bool restored = false;
+        part_barely(s, &t);
+        if (old) find_restored(s, old, &restored);
+        if (sunder_i_relaxations_find(&s->relaxations, t.a, t.b) || (old && !restored)) continue;
+        if (!sunder_i_relaxations_insert(&s->relaxations, s->model, &t)) s->failed = true;
+        list->item[out++] = t;
+    }
+    list->n = s->failed ? 0 : out;
+}
+
+/* Takes the relaxations back, those first that least is missing of, where there is a solution without. */
+static void redeem(retrying *p, sunder_i_relaxations *list)
+{
+    sunder_i_search *s = p->search;
+    for (size_t k = 0; k < list->n && !s->failed; k++) {
+        size_t best = k;
+        for (size_t other = k + 1; other < list->n; other++)
+            if (list->item[other].gap > list->item[best].gap) best = other;
+        const sunder_i_relaxation t = list->item[best];
+        list->item[best] = list->item[k];
+        list->item[k] = t;
+        sunder_i_relaxations_remove(&s->relaxations, s->model, &t);
+        if (sunder_i_search_look(s, s->t) <= s->tolerance || (sunder_i_search_work(s) < p->effort && settle_all(p)))
+            continue;
+        if (!s->failed && !sunder_i_relaxations_insert(&s->relaxations, s->model, &t)) s->failed = true;
+    }
+}
+
+/* From where all came from: sides that others chose do not matter there. */
+static bool grant_from_home(retrying *p, size_t k)
+{
+    sunder_i_search *s = p->search;
+    double *stood = sunder_i_alloc(2 * s->n, sizeof *stood);
+    if (!stood) s->failed = true;
+    if (s->failed) return false;
+    memcpy(stood, s->t, 2 * s->n * sizeof *stood);
+    for (size_t i = 0; i < s->n; i++)
+        if (s->mass[i] > 0) s->t[2 * i] = s->t[2 * i + 1] = 0;
+    const bool granted = grant(p, k, STAGES, false);
+    if (!granted) memcpy(s->t, stood, 2 * s->n * sizeof *stood);
+    sunder_i_free(stood);
+    return granted;
+}
+
+/* What still overlaps, and cannot but at the cost of pairs that keep their gap, is parted at that cost: an overlap
+ * counts for more than any number of pairs. */
+static void trade(retrying *p)
+{
+    sunder_i_search *s = p->search;
+    for (size_t k = 0; k < p->n && p->moving <= MOST_TRADING && sunder_i_search_work(s) < p->effort && !s->failed;
+         k++) {
+        sunder_i_relaxations list = {0};
+        const sunder_i_retry *x = &p->retry[k];
+        const request r = {x->overlap, false, x->part > 0};
+        if (!x->overlap || is_out(p, k, &r)) continue;
+        sacrifice(s, &list);
+        p->settled[k] = list.n && !s->failed && (grant(p, k, STAGES, false) || grant_from_home(p, k));
+        p->any = p->any || p->settled[k];
+        if (p->settled[k]) redeem(p, &list);
+        for (size_t t = 0; t < list.n && !p->settled[k]; t++)
+            sunder_i_relaxations_remove(&s->relaxations, s->model, &list.item[t]);
+        sunder_i_relaxations_free(&list);
+    }
+}
+
+/* Does nothing clash to begin with? Those who joined the cluster may ask for a wider margin than the others kept. What
+ * is missed by a hair, less than half the margin, is none the worse for what is asked here: else one pair that rounding
+ * left so would keep a crowd of hundreds from being asked. */
+static bool is_in_order(sunder_i_search *s)
+{
+    const double hair = 2 * s->tolerance, missed = sunder_i_search_look(s, s->t);
+    if (s->failed || missed <= s->tolerance) return !s->failed;
+    if (missed <= hair) {
+        s->tolerance = hair;
+        return true;
+    }
+    s->patience = sunder_i_search_work(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
+    const bool ok = sunder_i_search_descend(s);
+    s->patience = UINT64_MAX;
+    return ok && !s->failed;
+}
+
+static void retry_all(sunder_i_search *s, const sunder_i_retry *retry, size_t n)
+{
+    if (!is_in_order(s)) return;
+    retrying p = {.search = s,
+                  .retry = retry,
+                  .n = n,
+                  .moving = sunder_i_search_movers(s),
+                  .settled = sunder_i_calloc(n, sizeof *p.settled),
+                  .in_vain = sunder_i_alloc(n, sizeof *p.in_vain),
+                  .stand = sunder_i_alloc(2 * s->n, sizeof *p.stand)};
+    if (!p.settled || !p.in_vain || !p.stand || (p.moving > FEW && !sunder_i_neighbourhood_init(&p.neighbourhood, s)))
+        s->failed = true;
+    const uint64_t pairs = n < MOST_RETRIES ? n : MOST_RETRIES;
+    const uint64_t effort = RETRY_EFFORT + RETRY_EFFORT_EACH * (uint64_t)p.moving + RETRY_EFFORT_PAIR * pairs;
+    p.in_vain_most = effort / SHARE_IN_VAIN > WORK_IN_VAIN ? effort / SHARE_IN_VAIN : WORK_IN_VAIN;
+    for (size_t k = 0; k < REQUESTS && !s->failed; k++) {
+        if (!requests[k].part) p.effort = sunder_i_search_work(s) + effort / 2;
+        ask_all(&p, &requests[k]);
+    }
+    p.effort = sunder_i_search_work(s) + effort / 2;
+    if (!s->failed && s->model->rules.gap > 0) trade(&p);
+    if (p.any && p.moving > FEW) sunder_i_search_lower(s);
+    sunder_i_neighbourhood_free(&p.neighbourhood);
+    sunder_i_free(p.settled);
+    sunder_i_free(p.in_vain);
+    sunder_i_free(p.stand);
+}
+
+sunder_status sunder_i_cluster_retry(const sunder_i_model *model, sunder_i_cluster *cluster,
+                                     const sunder_i_retry *retry, size_t retries, double *move, sunder_error *err)
+{
+    sunder_i_search s;
+    bool ok = sunder_i_search_init_about(&s, model, cluster, move);
+    if (ok) retry_all(&s, retry, retries);
+    ok = ok && !s.failed;
+    if (ok && s.restored_n + s.relaxations.n) {
+        s.n = cluster->n;
+        sunder_i_search_round(&s, move);
+        sunder_i_search_hand_over(&s, cluster);
+    }
+    sunder_i_search_free(&s);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}

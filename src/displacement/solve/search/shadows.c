@@ -1,0 +1,237 @@
+/* No jumps, and sides: shadows between bodies, as further pieces of what they owe each other.
+ *
+ * With a the anchor of a member of one body and B a piece of the other, as they stood, the anchor passes B exactly when
+ * the relative move lies in the shadow of the obstacle K = a + (-B), or B + (-a), from the origin (shadow.c). So a
+ * shadow is made as an obstacle is, of an anchor as a piece of one corner. It owes the margin, so that what was rounded
+ * stands clear of it; but never more than home has. What holds the anchor has no shadow from it. Likewise of a side
+ * anchor and the lines of a part of a barrier that it may not cross (layer/sides.c).
+ *
+ * Most pairs never come near any of it: relative moves are short, and K lies as far from the origin as the anchor does
+ * from B. That is asked of boxes first. */
+#include "displacement/geometry/anchor_reach.h"
+#include "displacement/layer/sides.h"
+#include "displacement/solve/search/cluster_search.h"
+
+#include "base/extremes.h"
+#include "base/sort.h"
+#include "base/watch.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- Of two bodies ----------------------------------------------------------------------------------------------- */
+
+/* The same for a box of p and one of the other body; swapped: p is the second of the two. */
+static bool may_reach(const double p[4], const double other[4], const double offset[2], const double way[4],
+                      bool swapped)
+{
+    return swapped ? sunder_i_shadow_may_reach(other, p, offset, way)
+                   : sunder_i_shadow_may_reach(p, other, offset, way);
+}
+
+/* Shadows of pieces of `other` from the anchors of `p`, of those that may reach `far`; swapped: p is the second of the
+ * two. */
+static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *other, const double way[4],
+                       double far, sunder_i_piece_pair *part, bool swapped, sunder_i_visit_piece_pair visit,
+                       void *context)
+{
+    const sunder_i_model *model = s->model;
+    const sunder_i_body_pieces *of = sunder_i_pieces_of(model, p), *pieces = sunder_i_pieces_of(model, other);
+    if (!of || !pieces) {
+        s->failed = true;
+        return;
+    }
+    for (uint32_t m = 0; m < p->members; m++) {
+        const uint32_t f = model->member[p->member + m];
+        const sunder_i_body_piece *anchor = &of->anchor[m];
+        if (!anchor->corners || model->clear[f] > far ||
+            !may_reach(anchor->box, other->box, part->offset, way, swapped))
+            continue;
+        for (uint32_t l = 0; l < other->pieces && !s->failed; l++) {
+            const sunder_i_body_piece *piece = &pieces->piece[l];
+            const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
+            if (!sunder_i_shadow_may_reach(a->box, b->box, part->offset, way) ||
+                sunder_i_is_held(model, f, piece->feature))
+                continue;
+            part->a = a;
+            part->b = b;
+            part->key = UINT64_C(1) << 61 | (uint64_t)f << 32 | (other->piece + l);
+            visit(s, part, context);
+        }
+        if (!sunder_i_steps(1 + other->pieces / 8)) s->failed = true;
+    }
+    if (!sunder_i_steps(1 + p->members / 8)) s->failed = true;
+}
+
+/* Lines of `other`, part of a barrier, from the side anchors of `p`. */
+static void visit_sides(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *other, const double way[4],
+                        sunder_i_piece_pair *part, bool swapped, sunder_i_visit_piece_pair visit, void *context)
+{
+    const sunder_i_model *model = s->model;
+    for (uint32_t m = 0; m < p->members; m++) {
+        const uint32_t f = model->member[p->member + m];
+        const sunder_i_body_piece *anchor = &model->side_anchor[f];
+        if (!anchor->corners || !may_reach(anchor->box, other->box, part->offset, way, swapped)) continue;
+        for (uint32_t l = other->has->side; l < other->has->side + other->has->sides && !s->failed; l++) {
+            const sunder_i_side *side = &model->side[l];
+            part->a = swapped ? &side->piece : anchor;
+            part->b = swapped ? anchor : &side->piece;
+            if (!sunder_i_shadow_may_reach(part->a->box, part->b->box, part->offset, way) ||
+                !sunder_i_side_faces(model, side, f))
+                continue;
+            part->key = UINT64_C(3) << 60 | (uint64_t)f << 30 | l;
+            visit(s, part, context);
+        }
+        if (!sunder_i_steps(1 + other->has->sides / 8)) s->failed = true;
+    }
+    if (!sunder_i_steps(1 + p->members / 8)) s->failed = true;
+}
+
+/* May one of them have sides that the other may not cross, which are within reach of the way? swapped: it is p. */
+static bool may_cross(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q,
+                      const double offset[2], const double way[4], bool *swapped)
+{
+    *swapped = p->has->sides > 0;
+    if (p->has->sides) return sunder_i_shadow_may_reach(p->box, sunder_i_side_anchors(model, q), offset, way);
+    return q->has->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, way);
+}
+
+/* May one of them jump over the other, were it not for the rule? */
+static bool may_jump(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q)
+{
+    return !model->rules.jumps && !sunder_i_is_barrier_body(model, p) && !sunder_i_is_barrier_body(model, q);
+}
+
+void sunder_i_search_visit_shadows(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *q,
+                                   const double u[2], double reach, sunder_i_visit_piece_pair visit, void *context)
+{
+    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
+    const double far = fabs(u[0]) + fabs(u[1]) + reach;
+    double way[4];
+    bool swapped;
+    sunder_i_shadow_way(u, reach, way);
+    const bool crosses = may_cross(s->model, p, q, offset, way, &swapped), jumps = may_jump(s->model, p, q),
+               from_p = jumps && p->clear <= far && sunder_i_anchors_may_reach(s->model, p, q, false, offset, way),
+               from_q = jumps && q->clear <= far && sunder_i_anchors_may_reach(s->model, p, q, true, offset, way);
+    if (!crosses && !from_p && !from_q) return;
+    sunder_i_piece_pair part = {.offset = {offset[0], offset[1]}, .inclusion = SUNDER_I_LAPSED, .shadow = true};
+    if (crosses) visit_sides(s, swapped ? q : p, swapped ? p : q, way, &part, swapped, visit, context);
+    if (from_p) visit_from(s, p, q, way, far, &part, false, visit, context);
+    if (from_q) visit_from(s, q, p, way, far, &part, true, visit, context);
+}
+
+void sunder_i_search_shadows(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach,
+                             sunder_i_visit_piece_pair visit, void *context)
+{
+    sunder_i_search_body_shadows(s, &s->model->body[s->body[i]], &s->model->body[s->body[j]], u, reach, visit, context);
+}
+
+/* ---- Who may have passed whom ------------------------------------------------------------------------------------ */
+
+/* Where body k was on its way from home to t, from the first body's origin. */
+static void box_of_body(const sunder_i_search *s, const double *t, uint32_t k, double box[4])
+{
+    const sunder_i_body *b = &s->model->body[s->body[k]], *first = &s->model->body[s->body[0]];
+    for (uint32_t c = 0; c < 4; c++) {
+        const double home = b->box[c] + (b->origin[c & 1] - first->origin[c & 1]), at = t[2 * k + (c & 1)];
+        box[c] = home + (c < 2 ? sunder_i_min(at, 0) : sunder_i_max(at, 0));
+    }
+}
+
+/* Do the two stand within reach of each other at t? */
+static bool are_near(const sunder_i_search *s, const double *t, uint32_t i, uint32_t j, double reach)
+{
+    const sunder_i_body *p = &s->model->body[s->body[i]], *q = &s->model->body[s->body[j]];
+    double box[4];
+    for (uint32_t c = 0; c < 4; c++)
+        box[c] = p->box[c] + p->origin[c & 1] + t[2 * i + (c & 1)] - q->origin[c & 1] - t[2 * j + (c & 1)] +
+                 (c < 2 ? -reach : reach);
+    return sunder_i_box_meet(box, q->box);
+}
+
+bool sunder_i_search_may_pass(const sunder_i_search *s, const double *t, uint32_t i, uint32_t j, double reach)
+{
+    const sunder_i_body *p = &s->model->body[s->body[i]], *q = &s->model->body[s->body[j]];
+    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
+    const double u[2] = {t[2 * j] - t[2 * i], t[2 * j + 1] - t[2 * i + 1]};
+    double way[4];
+    bool swapped;
+    if (!sunder_i_forbids_ways(s->model)) return false;
+    sunder_i_shadow_way(u, reach - s->model->rules.gap, way);
+    if (may_cross(s->model, p, q, offset, way, &swapped)) return true;
+    if (!may_jump(s->model, p, q)) return false;
+    return sunder_i_anchors_may_reach(s->model, p, q, false, offset, way) ||
+           sunder_i_anchors_may_reach(s->model, p, q, true, offset, way);
+}
+
+/* Who passed another, and stands clear of it by more than the gap, has gone farther than this and the gap: to the
+ * nearest of all others that does not hold its anchor; or out of its own box, with its side anchor. */
+static double least_way(const sunder_i_search *s)
+{
+    double least = INFINITY;
+    for (size_t k = 0; k < s->n; k++) {
+        const sunder_i_body *b = &s->model->body[s->body[k]];
+        if (b->clear < least) least = b->clear;
+        if (!s->model->sides || !b->pieces) continue;
+        const double *anchors = sunder_i_side_anchors(s->model, b);
+        for (int c = 0; c < 2; c++)
+            least = sunder_i_min(least, sunder_i_min(anchors[c] - b->box[c], b->box[c + 2] - anchors[c + 2]));
+    }
+    return least;
+}
+
+static double length_of(const double *t, size_t k) { return sqrt(t[2 * k] * t[2 * k] + t[2 * k + 1] * t[2 * k + 1]); }
+
+static double longest(const sunder_i_search *s, const double *t)
+{
+    double square = 0;
+    for (size_t k = 0; k < s->n; k++) {
+        const double of_k = t[2 * k] * t[2 * k] + t[2 * k + 1] * t[2 * k + 1];
+        if (of_k > square) square = of_k;
+    }
+    return sqrt(square);
+}
+
+typedef struct swept {
+    double box[4];
+    uint32_t body;
+} swept;
+
+static int by_left(const void *a, const void *b)
+{
+    const swept *p = a, *q = b;
+    if (p->box[0] != q->box[0]) return p->box[0] < q->box[0] ? -1 : 1;
+    return p->body < q->body ? -1 : p->body > q->body;
+}
+
+void sunder_i_search_passing(sunder_i_search *s, const double *t, double reach, sunder_i_visit_pair visit,
+                             void *context)
+{
+    if (!sunder_i_forbids_ways(s->model) || s->n < 2) return;
+    /* Of two that passed, moves together are longer than this. */
+    if (!s->least_known) s->least_way = least_way(s);
+    s->least_known = true;
+    const double least = s->least_way + s->model->rules.gap, most = longest(s, t);
+    if (2 * most < least) return;
+    swept *list = sunder_i_alloc(s->n, sizeof *list);
+    if (!list) {
+        s->failed = true;
+        return;
+    }
+    size_t n = 0;
+    for (uint32_t k = 0; k < s->n; k++) {
+        if (length_of(t, k) + most < least) continue;
+        box_of_body(s, t, k, list[n].box);
+        list[n++].body = k;
+    }
+    sunder_i_sort_few(list, n, sizeof *list, by_left);
+    for (size_t x = 0; x < n && !s->failed; x++)
+        for (size_t y = x + 1; y < n && list[y].box[0] <= list[x].box[2] && !s->failed; y++) {
+            const uint32_t i = list[x].body < list[y].body ? list[x].body : list[y].body,
+                           j = list[x].body ^ list[y].body ^ i;
+            if (list[y].box[1] > list[x].box[3] || list[x].box[1] > list[y].box[3]) continue;
+            if (!(s->mass[i] + s->mass[j] > 0) || are_near(s, t, i, j, reach)) continue;
+            if (sunder_i_search_may_pass(s, t, i, j, reach)) visit(s, i, j, context);
+        }
+    sunder_i_free(list);
+}

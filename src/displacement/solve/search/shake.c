@@ -1,0 +1,262 @@
+/* Better layouts of a contact group by iterated local search [LMS03].
+ *
+ * A descent ends where nothing can be bettered in small: which body passes which on what side was settled early, when
+ * most of them still stood in each other's way. In a dense group that may cost a third more than need be. So, again and
+ * again: one body and those nearest to it are let go, back towards where they came from and a little beside it, and
+ * from there all go down again; what is cheaper stays. A descent that is not going to be cheaper is given up on the way
+ * (descend.c), and so is one that takes long. Whoever is let go is drawn at random, from the user's seed
+ * and in the order of the group's list, so that a group's result does not depend on others.
+ *
+ * Blocks of hundreds of pieces that lay on each other have to go far, and their neighbours with them. Where patience
+ * ended every descent it grows until some come to an end. Who pays most is let go most often then, or all that they
+ * moved by is turned, so that they go to another side, and everybody looks as far about himself as anybody has gone. In
+ * the heaps of Paris what it costs falls by a quarter.
+ *
+ * Most of the group stays where it was when some are let go. So programs begin with the contacts of the best layout and
+ * their forces, which takes half the work.
+ *
+ * That only those let go and their neighbours go down, while all others stand, was tried: eight times as many descents
+ * found less, since in a dense group what one gains by another side all have to make room for.
+ *
+ * It proves nothing; a tree that starts from a cheaper layout proves more of it (prove/optimum/tree.c). */
+#include "displacement/solve/search/shake.h"
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include "base/extremes.h"
+#include "base/random.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct near_body {
+    double square; /* of the distance from the one in the middle */
+    uint32_t at;   /* in the group's list */
+} near_body;
+
+typedef struct shaking {
+    sunder_i_search search;     /* the group's bodies, and those about them, which stand; at `best` between tries */
+    size_t n;                   /* the group's */
+    double *best;               /* [2 * search.n] a solution ... */
+    double cost;                /* ... and its cost */
+    near_body *near;            /* [n] scratch */
+    sunder_i_constraint *force; /* [forces] the contacts of `best` and their forces, from which programs begin */
+    size_t forces, capacity;
+    bool far; /* with patience: all may go elsewhere, and programs begin with no forces */
+    uint64_t random, patience;
+    size_t times, ended; /* tries at most, without patience; those of all that came to an end */
+} shaking;
+
+static int by_nearness(const void *a, const void *b)
+{
+    const near_body *p = a, *q = b;
+    return p->square != q->square ? (p->square < q->square ? -1 : 1) : p->at < q->at ? -1 : p->at > q->at;
+}
+
+/* In [0, 1). */
+static double draw_unit(uint64_t *random) { return (double)(sunder_i_draw(random) >> 11) * 0x1p-53; }
+
+/* The group's bodies that may move, from the one in the middle outwards: into k->near. */
+static size_t list_near(const shaking *k, uint32_t middle)
+{
+    const sunder_i_search *s = &k->search;
+    double centre[4];
+    size_t n = 0;
+    sunder_i_body_box(&s->model->body[s->body[middle]], s->t + 2 * (size_t)middle, 0, centre);
+    for (uint32_t i = 0; i < k->n; i++) {
+        double box[4], square = 0;
+        if (!(s->mass[i] > 0)) continue;
+        sunder_i_body_box(&s->model->body[s->body[i]], s->t + 2 * (size_t)i, 0, box);
+        for (size_t c = 0; c < 2; c++) {
+            const double d = (box[c] + box[c + 2] - centre[c] - centre[c + 2]) / 2;
+            square += d * d;
+        }
+        k->near[n++] = (near_body){square, i};
+    }
+    qsort(k->near, n, sizeof *k->near, by_nearness);
+    return n;
+}
+
+/* The moves of the n nearest are turned, all by the same angle: who was pushed to the one side goes to another. */
+static void turn(shaking *k, size_t n)
+{
+    const double angle = 6.283185307179586 * draw_unit(&k->random), c = cos(angle), s = sin(angle);
+    for (size_t m = 0; m < n; m++) {
+        double *t = k->search.t + 2 * (size_t)k->near[m].at;
+        const double x = c * t[0] - s * t[1];
+        t[1] = s * t[0] + c * t[1];
+        t[0] = x;
+    }
+}
+
+/* The n nearest are let go: to where they came from, or halfway, and up to half their size beside that. */
+static void let_go(shaking *k, size_t n)
+{
+    sunder_i_search *s = &k->search;
+    const double part = sunder_i_draw(&k->random) & 1 ? 0.5 : 0;
+    for (size_t m = 0; m < n; m++) {
+        const uint32_t at = k->near[m].at;
+        const sunder_i_body *body = &s->model->body[s->body[at]];
+        const double size = (body->box[2] - body->box[0] + body->box[3] - body->box[1]) / 2;
+        for (size_t c = 0; c < 2; c++) {
+            double *t = &s->t[2 * (size_t)at + c];
+            *t = part * *t + (draw_unit(&k->random) - 0.5) * size;
+        }
+    }
+}
+
+/* Is it a solution where the group stands, but for what rounding took? */
+static bool begins_free(shaking *k)
+{
+    sunder_i_search *s = &k->search;
+    if (sunder_i_search_look(s, s->t) > s->tolerance && (s->failed || !sunder_i_search_descend(s))) return false;
+    memcpy(k->best, s->t, 2 * s->n * sizeof *k->best);
+    k->cost = sunder_i_search_cost(s, s->t);
+    return true;
+}
+
+/* One of the group's bodies, as likely as it is dear. */
+static uint32_t draw_payer(shaking *k)
+{
+    const sunder_i_search *s = &k->search;
+    const double at = draw_unit(&k->random) * k->cost;
+    double sum = 0;
+    uint32_t last = 0;
+    for (uint32_t i = 0; i < k->n && sum <= at; i++) {
+        if (!(s->mass[i] > 0)) continue;
+        sum += (s->t[2 * i] * s->t[2 * i] + s->t[2 * i + 1] * s->t[2 * i + 1]) / (2 * s->mass[i]);
+        last = i;
+    }
+    return last;
+}
+
+/* The program that the search ended with is that of what it found. False if memory is out. */
+static bool keep_forces(shaking *k)
+{
+    const sunder_i_quadratic *p = &k->search.program;
+    if (!sunder_i_reserve(&k->force, &k->capacity, p->n, sizeof *k->force)) return false;
+    if (p->n) memcpy(k->force, p->constraint, p->n * sizeof *k->force);
+    k->forces = p->n;
+    return true;
+}
+
+/* Most of a group stands as it stood: programs begin with the forces there. False if memory is out. */
+static bool take_forces(shaking *k)
+{
+    sunder_i_quadratic *p = &k->search.program;
+    if (!sunder_i_reserve(&p->constraint, &p->capacity, k->forces, sizeof *p->constraint)) return false;
+    if (k->forces) memcpy(p->constraint, k->force, k->forces * sizeof *p->constraint);
+    p->n = k->forces;
+    return true;
+}
+
+/* Those about one body; true: it came to an end. */
+static bool shake_about(shaking *k, uint32_t middle, bool turned)
+{
+    sunder_i_search *s = &k->search;
+    const size_t movers = list_near(k, middle);
+    const size_t most = movers < SHAKEN ? movers : SHAKEN;
+    const size_t n = most < 2 ? most : 2 + sunder_i_draw(&k->random) % (most - 1);
+    if (turned)
+        turn(k, n);
+    else
+        let_go(k, n);
+    if (!take_forces(k)) s->failed = true;
+    s->patience = sunder_i_search_work(s) + k->patience;
+    if (sunder_i_search_attempt(s, k->best, &k->cost) && !k->far && !keep_forces(k)) s->failed = true;
+    const bool ended = sunder_i_search_work(s) < s->patience;
+    k->ended += ended;
+    return ended;
+}
+
+static uint64_t work_of(uint64_t steps, uint64_t each) { return steps < UINT64_MAX / each ? each * steps : UINT64_MAX; }
+
+/* Until so much work is done, or a good part of it in vain; as long again where no descent came to an end by then. */
+static void shake(shaking *k, uint64_t work)
+{
+    sunder_i_search *s = &k->search;
+    double cost = k->cost;
+    uint64_t gained = sunder_i_search_work(s);
+    const uint64_t vain = (uint64_t)(SHAKE_VAIN * (double)work);
+    for (size_t n = 0; n < k->times && !s->failed; n++) {
+        const uint64_t now = sunder_i_search_work(s);
+        if (now >= (k->ended ? work : work_of(work, SHAKE_AGAIN)) || (k->ended && now - gained >= vain)) break;
+        shake_about(k, (uint32_t)(sunder_i_draw(&k->random) % k->n), false);
+        if (k->cost > cost * (1 - SHAKE_GAIN)) continue;
+        cost = k->cost;
+        gained = sunder_i_search_work(s);
+    }
+}
+
+/* With patience; until it was in vain so often, or so much work is done. */
+static void shake_patiently(shaking *k, uint64_t work)
+{
+    sunder_i_search *s = &k->search;
+    for (size_t vain = 0, hasty = 0; vain < SHAKEN_IN_VAIN && sunder_i_search_work(s) < work && !s->failed;) {
+        const double before = k->cost;
+        const bool turned = sunder_i_draw(&k->random) % ONE_TURN == 0, ended = shake_about(k, draw_payer(k), turned);
+        vain = k->cost < before * (1 - SHAKEN_LITTLE) ? 0 : vain + ended;
+        hasty = ended ? 0 : hasty + 1;
+        if (hasty < HASTY) continue;
+        k->patience *= MORE_PATIENCE;
+        hasty = 0;
+    }
+}
+
+/* From where the group stands, everybody looking so far about himself at least; what is cheaper goes to the group. */
+static sunder_status shake_group(shaking *k, const sunder_i_model *model, const sunder_i_waived *waived,
+                                 sunder_i_group *g, double about, uint64_t steps, sunder_error *err)
+{
+    const sunder_i_cluster cluster = {.body = g->body, .n = g->n, .margin = g->margin, .about = about};
+    sunder_i_search *s = &k->search;
+    bool ok = sunder_i_search_init_about(s, model, &cluster, g->move), better = false;
+    k->best = sunder_i_alloc(2 * s->n, sizeof *k->best);
+    if (ok && k->best && begins_free(k)) {
+        const double cost = k->cost;
+        s->settled = SHAKE_SETTLED;
+        k->far = about > 0;
+        k->patience = SHAKE_PATIENCE + SHAKE_PATIENCE_EACH * (uint64_t)s->n;
+        if (k->far)
+            shake_patiently(k, work_of(steps, SHAKE_WORK_MOST));
+        else
+            shake(k, work_of(steps, SHAKE_WORK));
+        better = k->cost < cost;
+    }
+    ok = ok && k->best && !s->failed;
+    sunder_i_search_free(s);
+    sunder_i_free(k->force);
+    k->force = NULL;
+    k->forces = k->capacity = 0;
+    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status && better) status = sunder_i_group_descend(model, waived, g, k->best, err);
+    sunder_i_free(k->best);
+    return status;
+}
+
+sunder_status sunder_i_group_shake(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                                   uint64_t steps, sunder_error *err)
+{
+    if (g->held || g->n < 2) return SUNDER_OK;
+    shaking k = {.n = g->n, .random = model->rules.seed, .times = 1 + g->n * g->n / PAIRS_A_SHAKE};
+    double farthest = 0;
+    for (size_t m = 0; m < 2 * g->n; m++) farthest = sunder_i_max(farthest, fabs(g->move[m]));
+    k.near = sunder_i_alloc(k.n, sizeof *k.near);
+    sunder_status status = k.near ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) status = shake_group(&k, model, waived, g, 0, steps, err);
+    if (!status && k.ended == 0 && !g->tired && g->n > HEAP) {
+        status = shake_group(&k, model, waived, g, farthest / 2, steps, err);
+        g->shaken = true;
+    }
+    sunder_i_free(k.near);
+    return status;
+}
+
+static sunder_status descend(const sunder_i_model *model, uint32_t *body, size_t n, double margin, double cost,
+                             double *move, bool *found, sunder_error *err)
+{
+    const sunder_i_cluster cluster = {.body = body, .n = n, .margin = margin};
+    return sunder_i_cluster_descend(model, &cluster, cost, move, found, err);
+}
+
+const sunder_i_layout_search sunder_i_group_search = {descend, sunder_i_group_shake};

@@ -1,0 +1,13 @@
+/* Better layouts of a contact group: what the search offers to the proofs. */
+#ifndef SUNDER_I_SHAKE_H
+#define SUNDER_I_SHAKE_H
+
+#include "displacement/prove/optimum/optimum.h"
+
+extern const sunder_i_layout_search sunder_i_group_search;
+
+/* Looks for better moves at random, in `steps` steps at most. */
+sunder_status sunder_i_group_shake(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *group,
+                                   uint64_t steps, sunder_error *err);
+
+#endif

@@ -1,0 +1,75 @@
+/* Neighbours of a cluster that stay where they stand, for searches that must not run into them. */
+#include "displacement/layer/reads.h"
+#include "displacement/solve/search/cluster_search.h"
+#include "displacement/solve/search/tuning.h"
+
+#include "base/extremes.h"
+
+#include <math.h>
+#include <string.h>
+
+static double farthest(const double t[2]) { return sunder_i_max(fabs(t[0]), fabs(t[1])); }
+
+/* How far bodies of the cluster go, one with another. */
+static double mean_move(const sunder_i_model *model, const sunder_i_cluster *cluster, const double *own)
+{
+    double sum = 0;
+    size_t n = 0;
+    for (size_t k = 0; k < cluster->n; k++) {
+        if (model->body[cluster->body[k]].fixed) continue;
+        sum += farthest(own + 2 * k);
+        n++;
+    }
+    return n ? sum / (double)n : 0;
+}
+
+/* Bodies within reach of the cluster that are not of it, ascending. Each member looks about itself as far as it may
+ * be sent by its own move, or by those of the others as they mostly are: one that had to go far does not make all
+ * the others look that far. */
+static bool find_surroundings(const sunder_i_model *model, const sunder_i_cluster *cluster, const double *own,
+                              sunder_i_list *hits)
+{
+    const double mean = mean_move(model, cluster, own), none[2] = {0, 0};
+    for (size_t k = 0; k < cluster->n; k++) {
+        const sunder_i_body *b = &model->body[cluster->body[k]];
+        if (b->fixed || b->pieces == 0) continue;
+        const double reach = model->rules.gap + cluster->margin +
+                             MOVES_ABOUT * sunder_i_max(sunder_i_max(farthest(own + 2 * k), mean), cluster->about);
+        double box[4];
+        sunder_i_body_box(b, none, reach, box);
+        if (!sunder_i_look_about(model, model->standing, box, hits)) return false;
+    }
+    sunder_i_things_to_bodies(model, hits);
+    size_t out = 0;
+    for (size_t k = 0; k < hits->n; k++)
+        if (!sunder_i_set_has(cluster->body, cluster->n, hits->item[k])) hits->item[out++] = hits->item[k];
+    hits->n = out;
+    return true;
+}
+
+bool sunder_i_search_init_about(sunder_i_search *s, const sunder_i_model *model, const sunder_i_cluster *cluster,
+                                const double *move)
+{
+    sunder_i_list hits = {0};
+    memset(s, 0, sizeof *s);
+    bool ok = find_surroundings(model, cluster, move, &hits);
+    const size_t own = cluster->n, n = own + hits.n;
+    uint32_t *body = sunder_i_alloc(n, sizeof *body);
+    double *stand = sunder_i_alloc(2 * n, sizeof *stand);
+    ok = ok && body && stand;
+    if (ok) {
+        memcpy(body, cluster->body, own * sizeof *body);
+        memcpy(stand, move, 2 * own * sizeof *stand);
+        for (size_t k = own; k < n; k++) {
+            body[k] = hits.item[k - own];
+            memcpy(stand + 2 * k, model->move + 2 * (size_t)body[k], 2 * sizeof *stand);
+        }
+        ok = sunder_i_search_init(s, model, body, n, cluster->margin, stand);
+    }
+    s->listed = body;
+    s->own = own;
+    for (size_t k = own; ok && k < n; k++) s->mass[k] = 0;
+    sunder_i_free(stand);
+    sunder_i_free(hits.item);
+    return ok;
+}

@@ -1,0 +1,74 @@
+/* Where the bodies of a search have been on their way, as boxes: an index for those who look for room.
+ *
+ * A body at home, and wherever it may be put within reach, can meet another, or be kept from passing it, only where
+ * that one stands, stood, or went along: within the box of its way. Most of a large cluster is ruled out by that at
+ * once; of a small one everybody is looked at. */
+#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include "base/extremes.h"
+
+#include <string.h>
+
+/* From the first body's origin, so that where the layer lies makes no difference. */
+static void box_of_way(const sunder_i_search *s, uint32_t k, double box[4])
+{
+    const sunder_i_body *b = &s->model->body[s->body[k]], *first = &s->model->body[s->body[0]];
+    for (uint32_t c = 0; c < 4; c++) {
+        const double home = b->box[c] + (b->origin[c & 1] - first->origin[c & 1]), at = s->t[2 * k + (c & 1)];
+        box[c] = home + (c < 2 ? sunder_i_min(at, 0) : sunder_i_max(at, 0));
+    }
+}
+
+static bool build(sunder_i_search *s)
+{
+    double *box = sunder_i_alloc(4 * s->n, sizeof *box);
+    bool *present = sunder_i_alloc(s->n, sizeof *present);
+    bool ok = box && present;
+    sunder_i_rtree_free(&s->ways);
+    for (uint32_t k = 0; ok && k < s->n; k++) {
+        box_of_way(s, k, box + 4 * (size_t)k);
+        present[k] = s->model->body[s->body[k]].pieces > 0;
+    }
+    ok = ok && sunder_i_rtree_build(box, present, s->n, &s->ways, NULL) == SUNDER_OK;
+    if (ok) memcpy(s->went, s->t, 2 * s->n * sizeof *s->went);
+    sunder_i_free(box);
+    sunder_i_free(present);
+    return ok;
+}
+
+/* To where the bodies stand now. */
+static bool bring_up_to_date(sunder_i_search *s)
+{
+    if (!s->went) {
+        s->went = sunder_i_alloc(2 * s->n, sizeof *s->went);
+        return s->went && build(s);
+    }
+    if (memcmp(s->went, s->t, 2 * s->n * sizeof *s->went) == 0) return true;
+    for (uint32_t k = 0; k < s->n; k++) {
+        double box[4];
+        if (memcmp(s->went + 2 * k, s->t + 2 * k, 2 * sizeof *s->went) == 0) continue;
+        memcpy(s->went + 2 * k, s->t + 2 * k, 2 * sizeof *s->went);
+        box_of_way(s, k, box);
+        if (s->model->body[s->body[k]].pieces) sunder_i_rtree_move(&s->ways, k, box);
+    }
+    return !sunder_i_rtree_is_worn(&s->ways) || build(s);
+}
+
+bool sunder_i_search_about(sunder_i_search *s, uint32_t i, double reach)
+{
+    sunder_i_list *about = &s->about;
+    const sunder_i_body *p = &s->model->body[s->body[i]], *first = &s->model->body[s->body[0]];
+    double box[4];
+    about->n = 0;
+    if (s->n <= MANY) {
+        for (uint32_t k = 0; k < s->n; k++)
+            if (!sunder_i_list_push(about, k)) return false;
+        return true;
+    }
+    for (uint32_t c = 0; c < 4; c++)
+        box[c] = p->box[c] + (p->origin[c & 1] - first->origin[c & 1]) + (c < 2 ? -reach : reach);
+    if (!bring_up_to_date(s) || !sunder_i_rtree_query(&s->ways, box, about)) return false;
+    about->n = sunder_i_set_make(about->item, about->n);
+    return true;
+}

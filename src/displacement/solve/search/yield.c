@@ -1,0 +1,100 @@
+/* Where nothing else leads: what clashes, and clashed at home, is relaxed; what came into a clash besides, and no pair
+ * is left to relax for, goes home. With all at home every relaxation holds, so it ends. */
+#include "displacement/solve/search/stages.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+bool sunder_i_search_send_home(sunder_i_search *s, uint32_t i)
+{
+    if (!(s->mass[i] > 0) || (s->t[2 * i] == 0 && s->t[2 * i + 1] == 0)) return false;
+    s->t[2 * i] = s->t[2 * i + 1] = 0;
+    return true;
+}
+
+/* Who may stand near whom, each where it stands or where it came from: pairs, and of each body which they are. */
+typedef struct neighbours {
+    sunder_i_id_pair *pair;
+    size_t pairs, capacity;
+    size_t *first;   /* [n + 1] */
+    uint32_t *other; /* of body k from first[k] to first[k + 1] */
+} neighbours;
+
+static void free_neighbours(neighbours *g)
+{
+    sunder_i_free(g->pair);
+    sunder_i_free(g->first);
+    sunder_i_free(g->other);
+}
+
+static void add_pair(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
+{
+    neighbours *g = context;
+    if (!sunder_i_reserve(&g->pair, &g->capacity, g->pairs + 1, sizeof *g->pair)) {
+        s->failed = true;
+        return;
+    }
+    g->pair[g->pairs++] = (sunder_i_id_pair){i, j};
+}
+
+static void find_neighbours(sunder_i_search *s, neighbours *g)
+{
+    sunder_i_search_near_or_home(s, s->gap, add_pair, g);
+    g->first = sunder_i_calloc(s->n + 1, sizeof *g->first);
+    g->other = sunder_i_alloc(2 * g->pairs, sizeof *g->other);
+    s->failed = s->failed || !g->first || !g->other;
+    if (s->failed) return;
+    for (size_t k = 0; k < g->pairs; k++) g->first[g->pair[k].a]++, g->first[g->pair[k].b]++;
+    for (size_t k = 0, sum = 0; k <= s->n; k++) g->first[k] = sum += g->first[k]; /* the ends, for now */
+    for (size_t k = g->pairs; k-- > 0;) {
+        g->other[--g->first[g->pair[k].a]] = g->pair[k].b;
+        g->other[--g->first[g->pair[k].b]] = g->pair[k].a;
+    }
+}
+
+/* What clashes now, of the pairs of which one changed: into s->clash. */
+static void look_at_changed(sunder_i_search *s, const neighbours *g, const bool *changed)
+{
+    s->clashes = 0;
+    for (uint32_t i = 0; i < s->n; i++) {
+        if (!changed[i]) continue;
+        for (size_t k = g->first[i]; k < g->first[i + 1] && !s->failed; k++) {
+            const uint32_t j = g->other[k];
+            if (!changed[j] || i < j) sunder_i_search_look_at(s, s->t, i < j ? i : j, i < j ? j : i);
+        }
+    }
+}
+
+/* One pass over what clashes now by more than that. Marks what changed, and returns whether anything did. */
+static bool yield_once(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double hair, bool *changed)
+{
+    bool any = false;
+    const size_t before = s->relaxations.n;
+    memset(changed, 0, s->n * sizeof *changed);
+    for (size_t k = 0; k < s->clashes && !s->failed; k++) {
+        const sunder_i_clash *c = &s->clash[k];
+        if (c->violation <= hair) continue;
+        const bool yields =
+            n && bsearch(c, at_home, n, sizeof *at_home, sunder_i_by_id_pair) && sunder_i_search_relax(s, c->i, c->j);
+        const bool i = yields || sunder_i_search_send_home(s, c->i), j = yields || sunder_i_search_send_home(s, c->j);
+        changed[c->i] = changed[c->i] || i;
+        changed[c->j] = changed[c->j] || j;
+        any = any || i || j;
+    }
+    if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
+    return any;
+}
+
+void sunder_i_search_yield(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double hair)
+{
+    neighbours near = {0};
+    bool *changed = sunder_i_alloc(s->n, sizeof *changed);
+    s->failed = s->failed || !changed;
+    if (!s->failed) sunder_i_search_look(s, s->t);
+    while (!s->failed && yield_once(s, at_home, n, hair, changed)) {
+        if (!near.first) find_neighbours(s, &near);
+        if (!s->failed) look_at_changed(s, &near, changed);
+    }
+    free_neighbours(&near);
+    sunder_i_free(changed);
+}
