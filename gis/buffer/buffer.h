@@ -6,7 +6,7 @@
 #include "layer/input.h"
 #include "write/sink/sink.h"
 
-/* What is asked for. Strings are borrowed until the buffer is cleared. */
+/* The request. Strings are borrowed until the buffer is cleared. */
 typedef struct gis_buffer_request {
     gis_layer_input_request layer;
     gis_shape_request shape;
@@ -44,8 +44,8 @@ typedef struct gis_buffer {
     double area, deviation;
 } gis_buffer;
 
-/* Reads the layer and the shape, and deals the features to sets (gis_buffer_gather). On failure what was read can be
- * released all the same. */
+/* Reads the layer and the shape, and groups the features into sets (gis_buffer_gather). On failure the caller clears
+ * the buffer as well. */
 bool gis_buffer_read(const gis_buffer_request *request, gis_buffer *out, gis_error *error);
 /* Deals the features to sets: by value of the field, in the order in which values come first (each null by itself), or
  * all into one. */

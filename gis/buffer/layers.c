@@ -1,7 +1,7 @@
-/* layers.c: the layers that sunder buffer writes. A feature keeps its FID and attributes; one that vanished, or was
- * empty, has an empty geometry; one without polygons a null one. A set of dissolved features has the value of the
- * field, if one was named, and the number of features in it. Exploded, each polygon of a set is a feature with the
- * attributes of the set, but for the number, which tells nothing of one polygon; what has no polygon is not written. */
+/* layers.c: the layers that sunder buffer writes. A feature keeps its FID and attributes; if it vanished, or was empty,
+ * its geometry is empty; if it had no polygons, null. A set of dissolved features has the value of the field, if one
+ * was named, and the number of its features. With --explode each polygon of a set is a feature with the attributes of
+ * the set, except the number, which does not apply to one polygon; sets without polygons are not written. */
 #include "buffer/buffer.h"
 
 #include "base/interrupt.h"

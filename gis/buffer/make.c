@@ -1,5 +1,5 @@
-/* make.c: all sets, on several threads (one of them: make_set.c). Which thread takes which set is left to chance; what
- * comes of it is not: a set is made of what was read alone, and of several that fail the first one is told. */
+/* make.c: makes all sets, on several threads (one set: make_set.c). The assignment of sets to threads is arbitrary; the
+ * result is not: a set depends on the input only, and if several fail the first one is reported. */
 #include "buffer/buffer.h"
 
 #include "base/interrupt.h"
@@ -13,7 +13,7 @@
 
 typedef struct making {
     gis_buffer *buffer;
-    gis_progress *progress; /* told by whoever holds the lock */
+    gis_progress *progress; /* reported by the thread that holds the lock */
     unsigned threads;       /* for a single set */
     atomic_size_t next;
     atomic_bool stop;
@@ -47,7 +47,8 @@ static void fail(making *m, size_t set, const gis_error *error)
     if (!buffer->request->dissolve) gis_feature_name(&buffer->input, buffer->set[set].member[0], who, sizeof who);
     bool stopped = gis_is_interruption(error);
     pthread_mutex_lock(&m->lock);
-    if (set < m->failed && !(stopped && atomic_load(&m->stop))) { /* what was stopped as another failed is no reason */
+    /* work that was stopped because other work failed is not the cause */
+    if (set < m->failed && !(stopped && atomic_load(&m->stop))) {
         m->failed = set;
         m->error = *error;
         if (*who && !stopped) gis_fail(&m->error, "%s: %s", who, error->message);

@@ -56,7 +56,7 @@ bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder
     return ok;
 }
 
-/* So many vertices of the sum, as doubles; *deviation is raised to what that moves. */
+/* Converts up to this many vertices of the sum to doubles; raises *deviation to their largest error. */
 static bool to_doubles(const sunder_sum *sum, const uint32_t *vertex, size_t n, double *xy, double *deviation,
                        gis_error *error)
 {

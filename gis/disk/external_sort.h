@@ -5,7 +5,8 @@
 
 #include "disk/file.h"
 
-/* At most this many bytes of records are sorted at a time, and held while parts are merged; a single larger record is held as well. */
+/* At most this many bytes of records are sorted at a time, and held while parts are merged; a single larger record is
+ * held as well. */
 #define GIS_SPOOL_RUN ((size_t)16 << 20)
 
 typedef struct gis_sort_head {

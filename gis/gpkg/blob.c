@@ -24,7 +24,7 @@ const unsigned char *gis_blob_geometry(const unsigned char *blob, size_t size, s
     return blob + HEAD + box[kind];
 }
 
-/* What is left of it. */
+/* The unread part. */
 typedef struct rest {
     const unsigned char *at, *end;
 } rest;

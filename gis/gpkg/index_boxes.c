@@ -107,7 +107,7 @@ static bool take_record(void *user, const unsigned char *bytes, gis_error *error
     return t->take(t->user, &one->box, error);
 }
 
-/* So many are read at a time. */
+/* Rows are read in batches of this size. */
 enum { STRETCH = 4096 };
 
 static bool sort_file(gis_index_boxes *boxes, gis_sorter *sorter, gis_error *error)

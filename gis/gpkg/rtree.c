@@ -139,7 +139,7 @@ typedef struct packing {
     GIntBig next; /* number of the next node */
 } packing;
 
-/* As a number without sign, in the same order. */
+/* As an unsigned number in the same order. */
 static uint64_t key_of(int64_t fid) { return (uint64_t)fid ^ UINT64_C(1) << 63; }
 static int64_t fid_of(uint64_t key) { return (int64_t)(key ^ UINT64_C(1) << 63); }
 
@@ -262,7 +262,7 @@ static bool begin_rows(gis_sqlite_rows *rows, GDALDatasetH dataset, OGRLayerH la
 /* Rows at a time, between which the user may stop; and how many are many. */
 enum { STRETCH = 10000, MANY_ROWS = 100 };
 
-/* Of rising keys. */
+/* For ascending keys. */
 static bool write_rows(gis_sqlite_rows *rows, row_of *row, size_t n, gis_error *error)
 {
     bool done = true;

@@ -6,9 +6,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* To be read, by one thread at a time. NULL where SQLite cannot be had, where the database is no plain file, and where
- * it has a log (WAL): there each connection sees what it saw when it began. Elsewhere nobody changes the file as long
- * as a statement of either is being read, so that both see the same if one begins while the other is being read. */
+/* A second, read-only connection, for one thread at a time. NULL where SQLite is not available, where the database is
+ * not a plain file, and where it has a log (WAL), since there each connection sees the state at its start. Elsewhere
+ * the file cannot change while a statement of either connection is being read, so both see the same state if one begins
+ * while the other is being read. */
 void *gis_sqlite_again_open(void *database);
 void gis_sqlite_again_close(void *again);
 

@@ -28,7 +28,7 @@ bool gis_sqlite_find(const char *name, void *function)
 
 /* ---- Signals ----------------------------------------------------------------------------------------------------- */
 
-/* Called every so many steps of a statement, from within it: some thousands of them take a millisecond. */
+/* Called every STEPS steps of a statement, from within it: some thousands of them take a millisecond. */
 enum { STEPS = 1000 };
 
 static int stop(void *user)
@@ -97,7 +97,7 @@ static gis_sqlite_outcome copy_all(const calls *sqlite, sqlite3 *from, sqlite3 *
     int result = OK;
     sqlite3_backup *copy = sqlite->begin(to, "main", from, "main");
     bool done = copy && copy_pages(sqlite, copy, &result, error);
-    if (copy) sqlite->finish(copy); /* rolls back what is not done */
+    if (copy) sqlite->finish(copy); /* rolls back unfinished changes */
     if (done) return GIS_SQLITE_DONE;
     int reason = (result ? result : sqlite->error_code(to)) & RESULT;
     if (reason == NOTADB || reason == CORRUPT) return GIS_SQLITE_CANNOT;

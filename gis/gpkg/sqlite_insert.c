@@ -9,8 +9,9 @@
 
 /* ---- Statements -------------------------------------------------------------------------------------------------- */
 
-/* Rows of one statement: with more a row costs no less. Parameters of one: what every SQLite takes. Held back are at
- * most so many of these statements, and so many bytes: with fewer, threads that wake each other show. */
+/* Rows of one statement: more rows do not make a row cheaper. Parameters of one statement: the number that every SQLite
+ * accepts. At most this many of these statements, and bytes, are held back: with fewer, the cost of waking threads
+ * shows. */
 enum { ROWS_AT_ONCE = 64, MOST_PARAMETERS = 999, MOST_STATEMENTS = 32, MOST_HELD = 1 << 20 };
 
 static void *prepare(void *database, const char *sql)
@@ -20,7 +21,7 @@ static void *prepare(void *database, const char *sql)
     return sqlite && sqlite->prepare(database, sql, -1, &statement, NULL) == GIS_SQLITE_OK ? statement : NULL;
 }
 
-/* The statement for so many rows; NULL if it is not taken. */
+/* The statement for n rows; NULL if SQLite rejects it. */
 static void *prepare_rows(const gis_sqlite_inserts *rows, const char *sql, size_t n)
 {
     const size_t start = strlen(sql);
@@ -96,9 +97,9 @@ static int send(const gis_sqlite_batch *batch, void *statement, size_t first, si
     return stepped == GIS_SQLITE_DONE ? reset : reset != GIS_SQLITE_OK ? reset : stepped;
 }
 
-/* Where one of the rows broke a rule of the table none of them is in it, and all else is as it was: so each is asked by
- * itself, and it is known which. After any other failure SQLite may have taken back the whole transaction, and nothing
- * more is asked of it. */
+/* If one of the rows broke a rule of the table, none of them was inserted and the transaction continues: so each row is
+ * inserted by itself, which identifies the offender. After any other failure SQLite may have rolled back the whole
+ * transaction, and no further statement is run. */
 static bool is_of_one_row(int outcome) { return (outcome & GIS_SQLITE_KIND) == GIS_SQLITE_CONSTRAINT; }
 
 /* n rows from *done on, which counts those that are in: by one statement if it has as many, or one by one. */

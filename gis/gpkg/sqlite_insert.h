@@ -1,10 +1,10 @@
-/* sqlite_insert.h: whole rows into a table of a database that GDAL has open, by statements that are parsed once; and
- * what else is asked of such a database without GDAL's hearing of it.
+/* sqlite_insert.h: inserts whole rows into a table of a database that GDAL has open, by statements that are parsed
+ * once; and other direct access to such a database that GDAL does not notice.
  *
- * Rows are held back until there are some dozens, which go in by one statement: where keys are to rise (AUTOINCREMENT)
- * SQLite looks up and writes the last one once a statement, and that takes as long as the row itself. Some thousands go
- * at once, on another thread if there is to be one, which has the next to go on with when it is done with them: the
- * database is that thread's until gis_sqlite_inserts_flush(). */
+ * Rows are held back until there are some dozens, which one statement inserts: with ascending keys (AUTOINCREMENT)
+ * SQLite looks up and writes the last key once for each statement, which takes as long as a row. Some thousands are
+ * handed over at a time, to a second thread if there is to be one, which works on them while the next are collected:
+ * the database belongs to that thread until gis_sqlite_inserts_flush(). */
 #ifndef GIS_SQLITE_INSERT_H
 #define GIS_SQLITE_INSERT_H
 
@@ -15,7 +15,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A value as it is held back: what is text, or bytes, lies so far into the buffer. */
+/* A value as it is held back: a text, or bytes, lies at this offset of the buffer. */
 typedef struct gis_sqlite_held {
     gis_value value;
     size_t at, size;
@@ -38,21 +38,21 @@ typedef struct gis_sqlite_inserts {
     size_t columns, at_once;
     gis_sqlite_batch batch[GIS_BESIDE_PIECES]; /* one is added to, those before it go in */
     size_t added_to;
-    int64_t failed_key; /* of what went in: the row that was not taken */
+    int64_t failed_key; /* the row that was rejected */
     const char *failed; /* ... and why; NULL: all were */
     gis_beside *beside; /* the other thread; NULL: none */
 } gis_sqlite_inserts;
 
-/* Rows for a statement that ends with "VALUES ", to which is added a bracket of so many parameters: a key, bytes, and
- * values. False where SQLite cannot be had, or does not take it. threads: one at least; with more rows go in on another
- * than the caller's. The struct stays where it is. */
+/* Prepares insertion by a statement that ends with "VALUES ", followed by groups of parameters: a key, bytes, and
+ * values. False where SQLite is not available, or rejects it. threads: at least one; with more, rows are inserted on a
+ * thread other than the caller's. The struct must not move. */
 bool gis_sqlite_inserts_begin(gis_sqlite_inserts *rows, void *database, const char *sql, size_t columns,
                               unsigned threads);
 /* One row; bytes and texts are copied. False, with SQLite's own words in *reason, if it, or one held back before it,
  * is not taken: *key is that one's then. */
 bool gis_sqlite_inserts_add(gis_sqlite_inserts *rows, int64_t *key, const void *bytes, size_t size,
                             const gis_value *values, const char **reason);
-/* What is held back goes in, all of it. */
+/* Inserts all rows that are held back. */
 bool gis_sqlite_inserts_flush(gis_sqlite_inserts *rows, int64_t *key, const char **reason);
 /* What is held back, and is not yet given to go in, is forgotten. */
 void gis_sqlite_inserts_end(gis_sqlite_inserts *rows);

@@ -1,5 +1,5 @@
-/* sqlite_lock.c: see sqlite_lock.h. Questions are put by F_GETLK, which takes no lock and so disturbs nobody; what it
- * cannot know (a file system without locks) counts as nobody there. */
+/* sqlite_lock.c: see sqlite_lock.h. F_GETLK queries a lock without taking it, so no other process is disturbed; where
+ * it cannot know (a file system without locks) the database counts as not in use. */
 #define _GNU_SOURCE
 #include "gpkg/sqlite_lock.h"
 

@@ -55,7 +55,7 @@ static bool insert(const gis_sqlite_rows *rows, void *statement, bool bound, gis
     return (sqlite->reset(statement) == GIS_SQLITE_OK && done) || fail(rows, error);
 }
 
-/* Are they those that SQLite would give, none of which it has to look for? */
+/* Are these the keys that SQLite would assign, without having to look any of them up? */
 static bool follow(const gis_sqlite_rows *rows, const int64_t (*row)[2], size_t n)
 {
     int64_t last = rows->last;

@@ -21,9 +21,9 @@ typedef struct gis_sqlite_rows {
 /* Is the SQLite that is found in this program the one that says this of its source (SQLite's sqlite_source_id())? */
 bool gis_sqlite_is_that_of(const char *source_id);
 
-/* database: GDAL's handle of it, of that SQLite; table: its name, quoted; many: the column of values, where rows will
- * come by the hundred, and the table is empty; else NULL. False with "WHAT cannot be written: the reason"; to be ended
- * all the same. */
+/* database: GDAL's handle of it, for the same SQLite; table: its name, quoted; many: the column of values if hundreds
+ * of rows will come and the table is empty; else NULL. False with "WHAT cannot be written: the reason"; the caller ends
+ * it in any case. */
 bool gis_sqlite_rows_begin(gis_sqlite_rows *rows, void *database, const char *table, const char *many, const char *what,
                            gis_error *error);
 /* n rows, each a key and a value, one after the other. Keys that ascend go behind all others, which is several times as

@@ -134,7 +134,7 @@ static void add_symbol(gis_text *to, kind of, const char *name, const char *colo
 
 /* ---- Renderers --------------------------------------------------------------------------------------------------- */
 
-/* Of the statuses in sunder_st, whose words are the core's. */
+/* For the statuses in sunder_st, whose words are the core's. */
 static const struct {
     const char *colour, *outline;
 } statuses[] = {

@@ -74,7 +74,7 @@ typedef struct reading {
     gis_value *value; /* room for those of a row */
 } reading;
 
-/* Comes to the first row: from here on nobody changes the file. */
+/* Reads the first row: from here on the file cannot change. */
 static void begin(reading *r, void *database, const char *sql, gis_packed *packed)
 {
     *r = (reading){.packed = packed, .statement = gis_sqlite_select_begin(database, sql), .next = GIS_SQLITE_BROKEN};

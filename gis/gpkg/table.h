@@ -12,11 +12,11 @@
 /* Takes a record; false, with *error, ends it all. */
 typedef bool gis_table_take(void *user, const unsigned char *record, gis_error *error);
 
-/* Gives all rows of the layer, in the order in which GDAL gives features, as what gis_packed_add() would make of these;
- * by the caller's thread, while with more threads than one another reads ahead.
- * *all = false: they are not all plain, and GDAL has to read the layer, of which some records were given. Plain is a
- * Polygon or MultiPolygon with finite coordinates of which nothing is empty, and values of the types of their fields.
- * Fails if memory is out, `take` does, or a signal came. */
+/* Gives all rows of the layer, in GDAL's order of features, as gis_packed_add() would make them; on the caller's
+ * thread, while with more than one thread a second one reads ahead. *all = false: not all rows are plain, and GDAL has
+ * to read the layer, although some records were given. Plain means a Polygon or MultiPolygon with finite coordinates
+ * and no empty part, and values of the types of their fields. Fails if memory is out, `take` fails, or a signal
+ * came. */
 bool gis_table_read(GDALDatasetH dataset, OGRLayerH layer, unsigned threads, gis_packed *packed, gis_table_take *take,
                     void *user, bool *all, gis_error *error);
 

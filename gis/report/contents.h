@@ -1,5 +1,5 @@
-/* contents.h: what a page is drawn from: a layer that is held (held.c), or one that lies on disk (spooled.c). What is
- * known of each feature and each barrier is filled in once; shapes, geometries and names are asked for one by one. */
+/* contents.h: the data that a page is drawn from: a layer in memory (held.c), or one on disk (spooled.c). Facts about
+ * each feature and each barrier are filled in once; shapes, geometries and names are fetched one by one. */
 #ifndef GIS_REPORT_CONTENTS_H
 #define GIS_REPORT_CONTENTS_H
 
@@ -34,7 +34,7 @@ typedef struct gis_page_contents {
     bool (*fill_barriers)(void *of, gis_page_barrier *barrier, gis_error *error);
     /* The conflicts that remain, in any order; they live as long as `of`. */
     bool (*conflicts)(void *of, const sunder_conflict **conflict, size_t *n, gis_error *error);
-    /* Of one that has something to draw. What is lent is so until another one is asked for. */
+    /* For an item that has something to draw. Lent data is valid until the next item is fetched. */
     bool (*shape)(void *of, size_t feature, uint64_t place, const sunder_shape **shape, gis_error *error);
     bool (*geometry)(void *of, uint64_t place, sunder_obstacle *geometry, gis_error *error);
     /* FIDs (OGRNullFID: none) and texts: the user's own id, NULL: none; of a barrier the name of its layer. */

@@ -130,7 +130,7 @@ static bool may_be_seen(const gis_picture *picture, const double a[2], const dou
     return true;
 }
 
-/* So far outside that it only gives a direction. */
+/* Points farther outside than this only give a direction. */
 static long whole(double value)
 {
     const double most = 1e8;

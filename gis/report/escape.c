@@ -1,12 +1,12 @@
 /* escape.c: see escape.h.
  *
- * Both ways begin by reading the bytes as UTF-8 [RFC 3629]. What is none (stray and missing continuations, overlong
- * forms, surrogates, numbers past U+10FFFF), and what no page may hold (control characters, noncharacters), becomes
- * U+FFFD: a reader sees that something was there. Marks that turn the direction of all that follows (U+202A to U+202E,
- * U+2066 to U+2069) become so, too: a name could make the words after it read backwards; right-to-left names do not
- * need them, since the page sets names apart (bdi).
+ * Both functions begin by reading the bytes as UTF-8 [RFC 3629]. Invalid sequences (stray and missing continuations,
+ * overlong forms, surrogates, numbers past U+10FFFF), and characters that no page may hold (control characters,
+ * noncharacters), become U+FFFD: a reader sees that something was there. So do marks that change the direction of all
+ * following text (U+202A to U+202E, U+2066 to U+2069): a name could reverse the words after it; right-to-left names do
+ * not need them, since the page isolates names (bdi).
  *
- * A script element ends at "</script" and changes its rules at "<!--": without a "<" it holds neither. U+2028 and
+ * A script element ends at "</script" and changes its rules at "<!--": without a "<" neither can occur. U+2028 and
  * U+2029 end lines in old JavaScript. */
 #include "report/escape.h"
 

@@ -1,5 +1,5 @@
-/* lede.c: the first sentences of the page: what was asked for, as it was typed, and what came of it. A length stands as
- * it was typed ("0.2 mm"), with its value in the layer's unit behind it. */
+/* lede.c: the first sentences of the page: the request, as it was typed, and its result. A length appears as it was
+ * typed ("0.2 mm"), followed by its value in the layer's unit. */
 #include "base/path.h"
 #include "report/escape.h"
 #include "report/sections.h"

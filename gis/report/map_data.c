@@ -25,7 +25,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Conflicts that the map shows, of the worst; a reader who wants more of them has the layer. */
+/* The map shows at most this many conflicts, the worst; the layer has them all. */
 enum { MOST_CONFLICTS = 50000 };
 
 /* A text that is being written, and the place that differences are taken from. */

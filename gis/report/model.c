@@ -57,7 +57,7 @@ static int by_width(const void *left, const void *right)
     return (a->order > b->order) - (a->order < b->order);
 }
 
-/* Of a network that goes on beyond the layer only what lies about the layer is of interest. */
+/* Of a network that extends beyond the layer, only the part around the layer is kept. */
 static bool take_barriers(gis_page_model *model, gis_error *error)
 {
     static const double beyond = 0.1;

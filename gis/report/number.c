@@ -10,8 +10,8 @@
 #define NO_BREAK "\xC2\xA0"
 #define MINUS "\xE2\x88\x92"
 
-/* Below this the first digits stand so far behind the point, and from this on so far before it, that a power of ten is
- * easier to read. */
+/* Below the first bound the leading digits are so far behind the point, and from the second on so far before it, that a
+ * power of ten is easier to read. */
 static const double least_plain = 1e-4, most_plain = 1e15;
 
 /* 17 digits tell doubles apart. */
@@ -129,8 +129,8 @@ void gis_report_area(gis_text *to, double value, const gis_report_unit *unit)
     add_unit(to, value, unit->area);
 }
 
-/* The number of so many digits that is nearest above (sign 1) or below (-1). The digits are put a step farther until
- * what they say is on that side: once, since they are the nearest. */
+/* The number of `digits` digits nearest above (sign 1) or below (-1) the value. The nearest number is moved by one step
+ * in the last digit if it is on the wrong side: once is enough, since it is the nearest. */
 static double to_side(double value, int digits, int sign)
 {
     char text[64];

@@ -15,13 +15,14 @@ typedef struct gis_report_unit {
 gis_report_unit gis_report_unit_of(const char *name);
 
 void gis_report_count(gis_text *to, size_t n);
-/* So many digits, and all before the point; not finite: infinity's sign, or a dash for what is unknown (NAN). */
+/* At most `digits` digits, but all before the point; for values that are not finite: infinity's sign, or a dash for
+ * unknown (NAN). */
 void gis_report_number(gis_text *to, double value, int digits);
 /* Three digits, and the unit. */
 void gis_report_length(gis_text *to, double value, const gis_report_unit *unit);
 /* As many digits as it takes to tell it from another length, three at least. */
 void gis_report_length_beside(gis_text *to, double value, double other, const gis_report_unit *unit);
-/* Of a limit: what is said is no less, or no more, than the value. */
+/* For a bound: the text is not less, or not more, than the value. */
 void gis_report_length_or_more(gis_text *to, double value, const gis_report_unit *unit);
 void gis_report_length_or_less(gis_text *to, double value, const gis_report_unit *unit);
 /* Four digits, and the unit squared; of a lower bound no more than the value. */

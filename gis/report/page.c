@@ -1,4 +1,4 @@
-/* page.c: see page.h. The template is written out; each of its slots is filled by whoever knows it. */
+/* page.c: see page.h. Writes the template; each slot is filled by the file in charge of it. */
 #include "report/page.h"
 
 #include "report/map_data.h"

@@ -11,7 +11,7 @@ typedef struct gis_page_option {
 
 /* What the page is about. All of it is borrowed. */
 typedef struct gis_page_request {
-    const gis_layer_input *input; /* of which the rules and the source's names are asked for alone */
+    const gis_layer_input *input; /* only its rules and the source's names are used */
     const gis_page_contents *contents;
     const sunder_layer_summary *summary;
     const char *unit;   /* of coordinates: the name that the CRS has for it */

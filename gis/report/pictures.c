@@ -48,7 +48,7 @@ static bool add_feature(picture_writer *writer, size_t i, double part, gis_error
 
 typedef bool add_one(picture_writer *writer, size_t feature, double part, gis_error *error);
 
-/* A path of all of one status; none if nothing of them is seen. */
+/* A path for all features of one status; none if they are all invisible. */
 static bool add_path(picture_writer *writer, const char *class, double part, add_one *add, sunder_feature_status status,
                      gis_error *error)
 {
@@ -229,9 +229,9 @@ bool gis_page_add_close_up(const gis_page_model *model, const gis_page_place *pl
 
 /* ---- The whole layer --------------------------------------------------------------------------------------------- */
 
-/* The longer side. Of features that are tiny at this size one is drawn in each square of so many units, as a box, so
- * that a large layer makes no large picture: larger squares where there are many. What moved or is in conflict is drawn
- * first there. */
+/* The longer side of a picture. Features that are tiny at this size are thinned: one is drawn in each square of this
+ * many units, as a box, so that a large layer makes no large picture; the squares are larger where features are many.
+ * Features that moved or are in conflict take precedence. */
 enum { OVERVIEW_SIDE = 10000, OVERVIEW_RIM = 12, SQUARE = 30, LARGE_SQUARE = 80, MANY = 10000 };
 enum { SQUARES = OVERVIEW_SIDE / SQUARE + 1 };
 

@@ -10,13 +10,13 @@ typedef bool gis_page_section(const gis_page_model *model, const gis_thinning *t
 gis_page_section gis_page_title;       /* the layer's name */
 gis_page_section gis_page_lede;        /* what came of the run, in a sentence or two */
 gis_page_section gis_page_figures;     /* the few numbers that matter */
-gis_page_section gis_page_legend;      /* what there is only in some layers */
+gis_page_section gis_page_legend;      /* parts that only some layers have */
 gis_page_section gis_page_map_note;    /* how much of the layer the map draws */
 gis_page_section gis_page_places;      /* close-ups, the worst first */
 gis_page_section gis_page_moves;       /* the histogram */
 gis_page_section gis_page_blocked;     /* the table of conflicts that remain */
-gis_page_section gis_page_certificate; /* what is proved, and what was asked for */
-gis_page_section gis_page_colophon;    /* by whom and when the page was made */
+gis_page_section gis_page_certificate; /* what is proved, and what was requested */
+gis_page_section gis_page_colophon;    /* program and date */
 
 /* Pairs in conflict between blocks, of every kind. */
 size_t gis_page_count(const sunder_conflict_counts *counts);

@@ -14,7 +14,7 @@ struct gis_page_spooled {
     gis_spool *aside; /* NULL: nothing lies there */
     sunder_conflict *conflict;
     size_t conflicts, conflict_room;
-    size_t *blocker; /* of all conflicts, one behind the other */
+    size_t *blocker; /* of all conflicts, concatenated */
     size_t blockers, blocker_room;
     uint64_t *barrier_place; /* [barriers] */
     sunder_shape *lent, *lent_barrier;
@@ -68,7 +68,7 @@ static bool visit_all(gis_spool *spool, gis_spool_visit *visit, filling *f, gis_
     return done;
 }
 
-/* As each would be alone. */
+/* Each as it would be by itself. */
 static bool take_statuses(const gis_page_spooled *s, gis_page_feature *feature, size_t n, gis_error *error)
 {
     unsigned char buffer[STATUS_BUFFER];
@@ -115,7 +115,7 @@ static bool fill(void *of, gis_page_feature *feature, gis_error *error)
 
 /* ---- All barriers ------------------------------------------------------------------------------------------------ */
 
-/* Of one that has no polygons there is no shape. */
+/* A feature without polygons has no shape. */
 static sunder_obstacle geometry_of(const gis_spool_feature *barrier)
 {
     sunder_obstacle out = barrier->lines;

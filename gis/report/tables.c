@@ -32,7 +32,7 @@ static void add_length_cell(const gis_page_model *model, double value, gis_text 
 
 /* ---- Conflicts --------------------------------------------------------------------------------------------------- */
 
-/* Who is in the way besides the two; many are counted. */
+/* The features in the way besides the two; where there are many, their number. */
 static bool add_blockers(const gis_page_model *model, const sunder_conflict *conflict, gis_text *to, gis_error *error)
 {
     enum { MOST_NAMED = 6 };

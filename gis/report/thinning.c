@@ -13,12 +13,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes of the map, of which so much may be spent on what is drawn whole, if not all can be; what a feature and a
- * corner take in it, on the average over layers of buildings. */
+/* Bytes of the map that may be spent on features drawn in full, if not all can be; and the average bytes of a feature
+ * and of a corner, measured over layers of buildings. */
 static const double most_bytes = 6.5e6, most_whole = 0.6;
 enum { FEATURE_BYTES = 24, CORNER_BYTES = 6 };
 
-/* Nearness is asked of a grid of so many cells in each direction. */
+/* Nearness is tested on a grid with this many cells in each direction. */
 enum { CELLS = 512 };
 
 /* The cells that a box meets, a cell more on every side: first and last in x, then in y. */
@@ -52,7 +52,7 @@ static bool is_telling(const gis_page_feature *feature)
     return feature->involved || feature->move[0] != 0 || feature->move[1] != 0;
 }
 
-/* Marks the cells of all that moved or is involved. */
+/* Marks the cells of all features that moved or are in conflict. */
 static void mark_telling(const gis_page_model *model, bool *marked)
 {
     for (size_t i = 0; i < model->n; i++) {

@@ -1,4 +1,4 @@
-/* thinning.h: what of a large layer the page's map draws. */
+/* thinning.h: which features of a large layer the page's map draws. */
 #ifndef GIS_REPORT_THINNING_H
 #define GIS_REPORT_THINNING_H
 
@@ -6,7 +6,7 @@
 #include "report/model.h"
 
 typedef enum gis_drawn {
-    GIS_DRAWN_NOT,     /* nothing to draw, or too small among so many */
+    GIS_DRAWN_NOT,     /* nothing to draw, or too small to draw among so large a number */
     GIS_DRAWN_SIMPLER, /* without corners that lie within the tolerance */
     GIS_DRAWN_WHOLE
 } gis_drawn;

@@ -19,7 +19,7 @@ const char *gis_page_kind(sunder_conflict_kind kind)
     return (size_t)kind < N_OF(words) && words[kind] ? words[kind] : sunder_conflict_kind_string(kind);
 }
 
-/* What a crowd is told of is of people's words alone. */
+/* What is said of a crowd appears in texts for people only. */
 enum { CROWDED = SUNDER_REASON_UNRESOLVED + 1 };
 
 static const struct {

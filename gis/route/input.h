@@ -34,7 +34,7 @@ typedef struct gis_route_input {
     double gap;
 } gis_route_input;
 
-/* Reads everything. On failure what was read can be released all the same. */
+/* Reads everything. On failure the caller clears it as well. */
 bool gis_route_input_read(const gis_route_request *request, gis_route_input *out, gis_error *error);
 void gis_route_input_clear(gis_route_input *input);
 

@@ -112,8 +112,8 @@ static void grow_box(double box[4], const double xy[2])
     }
 }
 
-/* The frame's margin is one of so many parts of the larger side of what it is around, so that free space is seen to go
- * on outside. */
+/* The frame's margin is this fraction of the larger side of its contents, so that the picture shows free space
+ * outside. */
 static const double margins_across = 10;
 
 /* A frame around obstacles and route, with a margin, as far as doubles reach. */

@@ -6,7 +6,7 @@
 #include "sunder.h"
 #include "write/sink/sink.h"
 
-/* The layers MAIN, MAIN_degenerate_segments and MAIN_degenerate_points; the largest deviation of all. */
+/* Writes the layers MAIN, MAIN_degenerate_segments and MAIN_degenerate_points; *deviation is the largest of all. */
 bool gis_write_sum(gis_sink *sink, const sunder_sum *sum, OGRSpatialReferenceH crs, double *deviation,
                    gis_error *error);
 

@@ -7,7 +7,8 @@
 #include "disk/text_file.h"
 #include "write/sink/sink.h"
 
-/* Where results go, and what is read besides, lest one replace the other. Strings are borrowed. */
+/* Destinations of results, and the other files that are read, so that no result replaces an input. Strings are
+ * borrowed. */
 typedef struct gis_destinations {
     const char *output;   /* NULL: none */
     const char *stats;    /* --stats: a file, or "-" for standard output; NULL: nowhere */
@@ -17,10 +18,9 @@ typedef struct gis_destinations {
     const char *shape[3]; /* the SHAPEs of options, any of them NULL */
 } gis_destinations;
 
-/* Is standard output taken by JSON (--stats -) or by the layer (/vsistdout/), so that no summary may go there? Both at
- * once is wrong usage. And can the files of --stats, --report and --proof be made, are no two of them one, and is none
- * of them, nor the output, a file that something is read from? Asked before the work, so that its failure does not come
- * when all is done. */
+/* Checked before the work, so that a failure does not come at its end: is standard output taken by JSON (--stats -) or
+ * by the layer (/vsistdout/), so that no summary may go there? Both at once is wrong usage. Can the files of --stats,
+ * --report and --proof be made, are all of them different, and is none of them, nor the output, a file that is read? */
 bool gis_destinations_check(const gis_destinations *to, bool *stdout_taken, gis_error *error);
 
 /* Is none of the files of --stats, --report and --proof one of the files of this source (the attributes beside a

@@ -1,9 +1,9 @@
-/* compare_features.c: a written layer read back, beside what was sent.
+/* compare_features.c: compares a written layer, read back, with what was sent.
  *
- * A polygon may come back with its rings turned round, started elsewhere, and its holes and members in another order:
+ * A polygon may come back with its rings reversed or started elsewhere, and its holes and members in another order:
  * formats have their own rules, and the set is the same. So both sides are brought to one form (each ring from its
- * smallest vertex, towards the smaller neighbour; holes and members sorted) and compared double by double. What groups
- * rings into other members counts as different. */
+ * smallest vertex, towards the smaller neighbour; holes and members sorted) and compared double by double. A different
+ * grouping of rings into members counts as different. */
 #include "write/sink/sink_internal.h"
 
 #include "base/interrupt.h"

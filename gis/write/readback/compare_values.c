@@ -1,5 +1,5 @@
-/* compare_values.c: values that read back beside those that were sent, in formats that may change them: of the source's
- * fields, of the program's own, and FIDs. What changed is counted, and told by losses.c. */
+/* compare_values.c: compares values read back with those sent, for formats that may change them: the source's fields,
+ * the program's own, and FIDs. Changes are counted, and reported by losses.c. */
 #include "read/fields.h"
 #include "write/sink/sink_internal.h"
 

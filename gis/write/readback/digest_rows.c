@@ -1,9 +1,8 @@
 /* digest_rows.c: a GeoPackage's layer read back row by row, past GDAL.
  *
- * What is asked is whether every row is what was sent: its bytes are looked at where SQLite holds them, without a
- * feature being made of each. Anything that is not as plain as what is written here mostly is left to GDAL, which then
- * reads the whole layer: another type of geometry or of a value, a header with extensions, bytes that end too soon, an
- * error. */
+ * Every row has to be what was sent: its bytes are compared where SQLite holds them, without making a feature of each.
+ * Rows that are not as plain as the usual ones (another type of geometry or of a value, a header with extensions,
+ * truncated bytes, an error) are left to GDAL, which then reads the whole layer. */
 #include "write/sink/digest.h"
 
 #include "base/array.h"
@@ -19,7 +18,7 @@
 
 enum { POINT_BYTES = 16 };
 
-/* A layer of so many is read by two threads. */
+/* A layer of at least this many rows is read by two threads. */
 enum { MANY_ROWS = 5000 };
 
 /* The machine's order of bytes: doubles can be taken as they stand. */
@@ -29,7 +28,7 @@ static const unsigned char order = wkbNDR;
 static const unsigned char order = wkbXDR;
 #endif
 
-/* What is left of a blob. */
+/* The unread part of a blob. */
 typedef struct reading {
     const unsigned char *at, *end;
     uint64_t so_far;

@@ -1,10 +1,10 @@
-/* digests.c: written layers read back, where the format holds every value as it is.
+/* digests.c: written layers read back, for formats that keep every value exactly.
  *
- * There a feature that reads back is equal to the one that was sent, double for double, whatever order the format
- * likes: so a feature becomes two numbers of 64 bits when it is sent (its place: geometry and FID; its values), and two
- * when it is read, and both lists are sorted and compared. No header's count is believed, no copy of the geometries is
- * kept. The numbers are no secret and meet no adversary: that a damaged feature has those of another one is as likely
- * as 2^-64 for each pair. */
+ * In such formats a feature that reads back equals the one that was sent, double for double, but their order may
+ * differ. So a feature becomes two 64-bit hashes when it is sent (geometry and FID; values), and two when it is read,
+ * and both lists are sorted and compared. No count in a header is trusted, and no copy of the geometries is kept. The
+ * hashes are not cryptographic, since there is no adversary: a damaged feature has the hash of another with probability
+ * 2^-64 for each pair. */
 #include "write/sink/digest.h"
 
 #include "base/array.h"
@@ -216,7 +216,7 @@ static bool part_ways(gis_digests_read *read, gis_digests *all, gis_error *error
     return true;
 }
 
-/* Mostly what was sent first reads first, and nothing has to be kept or sorted. */
+/* The features usually come back in the order in which they were sent; then nothing has to be kept or sorted. */
 bool gis_digests_read_add(gis_digests_read *read, gis_digests *all, gis_digest one, gis_error *error)
 {
     bool same = false;

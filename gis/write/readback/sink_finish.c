@@ -1,5 +1,5 @@
-/* sink_finish.c: the end of the writing: close, look at what was written, put it in place. In this order, since a
- * driver may keep errors back until it closes, and what is in place cannot be called back. */
+/* sink_finish.c: the end of writing: close, read back, put in place. In this order, since a driver may keep errors
+ * until it closes, and an output in place cannot be withdrawn. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "base/interrupt.h"
 #include "base/path.h"
@@ -53,8 +53,8 @@ bool gis_sink_fail_reading(const gis_sink_layer *layer, size_t after, const char
                     layer->sink->request.path, layer->name, after, reason);
 }
 
-/* A format that is only written, and the user knows that nothing is verified: what was asked of it is judged by the
- * results of its writes and of its close. */
+/* A write-only format, which the user has accepted as unverified: success is judged by the results of its writes and of
+ * its close. */
 static bool leave_unread(gis_sink_layer *layer, gis_sink_result *result, gis_error *error)
 {
     gis_sink *sink = layer->sink;
@@ -339,8 +339,8 @@ bool gis_sink_finish(gis_sink *sink, gis_sink_result *result, gis_error *error)
     return true;
 }
 
-/* A SQLite file that is no database any more, or not ours to write in, is renamed over while nobody else can open it: a
- * log that is kept beside it would be applied to the new one. */
+/* A SQLite file that is no valid database, or that we may not write to, is replaced by a rename while no other process
+ * has it open: a log beside it would be applied to the new file. */
 static bool rename_over(gis_sink *sink, gis_error *error)
 {
     const char *path = sink->request.path;

@@ -1,6 +1,6 @@
-/* abilities.h: what each of GDAL's drivers can hold, in one table. It is asked before the work, so that what a driver
- * would refuse is refused at once, or written in another way that is told; tests/cli/test_drivers.sh compares it with
- * the drivers that GDAL has. */
+/* abilities.h: what each of GDAL's drivers can hold, in one table. It is consulted before the work, so that an output
+ * that the driver would reject is refused at once, or written in another way, with a message; tests/cli/test_drivers.sh
+ * compares the table with the drivers that GDAL has. */
 #ifndef GIS_ABILITIES_H
 #define GIS_ABILITIES_H
 
@@ -32,7 +32,7 @@ typedef struct gis_abilities {
     const char *driver;
     unsigned has;
     const char *refused; /* why nothing is written with it; NULL: something is */
-    const char *own_field; /* a name that it takes for a column of its own, whoever made it; NULL: there is none */
+    const char *own_field; /* a name that it takes for its own column; NULL: there is none */
     const char *endings; /* the file's name has to end in one of these; NULL: in anything */
 } gis_abilities;
 

@@ -57,8 +57,8 @@ static inline uint64_t gis_mix_plain(uint64_t so_far, const gis_value *value, co
     }
 }
 
-/* What is read, as it comes, beside what was sent: the list is kept only from where the two differ, as before that it
- * is the other. Zeroed: nothing yet. */
+/* Compares what is read with what was sent, item by item: a list of its own is kept only from the first difference on.
+ * Zeroed: nothing yet. */
 typedef struct gis_digests_read {
     gis_digest *at; /* all that was read, if they differ */
     size_t n, capacity;

@@ -1,5 +1,5 @@
-/* digest_list.h: the numbers of features (digest.h), one behind the other as they were sent: in memory, or, where a
- * directory is named, in a file there, which is read as it was written, a stretch at a time. */
+/* digest_list.h: the hashes of features (digest.h) in the order in which they were sent: in memory, or, where a
+ * directory is named, in a file there, which is read in that order, a stretch at a time. */
 #ifndef GIS_DIGEST_LIST_H
 #define GIS_DIGEST_LIST_H
 

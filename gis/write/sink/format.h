@@ -1,4 +1,4 @@
-/* format.h: what is known of the formats that can be written. */
+/* format.h: facts about the formats that can be written. */
 #ifndef GIS_FORMAT_H
 #define GIS_FORMAT_H
 

@@ -1,5 +1,5 @@
-/* sink.c: the life of a sink: what a request means for the place that it names, what is made ready before the work,
- * what is undone after a failure. */
+/* sink.c: the life of a sink: what a request means for its destination, preparations before the work, and their undoing
+ * after a failure. */
 #define _GNU_SOURCE
 #include "base/message.h"
 #include "base/path.h"
@@ -83,8 +83,8 @@ static bool prepare_place(gis_sink *sink, gis_error *error)
     if (sink->place == GIS_PLACE_FILE) {
         if (!gis_stage_new(sink->request.path, &sink->stage, error)) return false;
         sink->main_file = CPLStrdup(gis_stage_main(sink->stage));
-        /* Nobody will read it back, and drivers do not hear of every write that fails: so it is made in memory, and
-         * goes to the disk by writes of our own. */
+        /* The file will not be read back, and drivers do not notice every failed write: so it is made in memory, and
+         * our own code writes it to disk. */
         if (sink->format.only_written && !sink->updating) make_memory(sink);
     } else if (sink->place == GIS_PLACE_MEMORY) {
         if (sink->updating)

@@ -121,8 +121,8 @@ static bool check_files(const gis_sink *sink, gis_error *error)
     return done;
 }
 
-/* A transaction of another program was interrupted: SQLite takes back what is half done of it when a program opens the
- * database that may write. What is there before the work is what was there before that transaction. */
+/* A transaction of another program was interrupted: SQLite rolls it back when a program opens the database for writing.
+ * The state before the work is the state before that transaction. */
 static void settle_journal(const gis_sink *sink)
 {
     const char *path = sink->request.path;

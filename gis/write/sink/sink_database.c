@@ -1,11 +1,11 @@
 /* sink_database.c: layers added to a database, in one transaction.
  *
- * A SQLite file (a GeoPackage) is written where it is: a copy renamed over it would lose what others write meanwhile,
- * and a log that another program keeps beside it would be applied to the new file. Its write lock is taken first, by a
- * statement that changes nothing (GDAL begins its transactions without a lock); then it is made sure that what GDAL
- * read when it opened the file is still so, else it is opened again. From there to the end nobody else writes. The mode
- * of the journal stays as it is, and so does SQLite's syncing: an interrupted transaction is rolled back by whoever
- * opens the database next. */
+ * A SQLite file (a GeoPackage) is written in place: renaming a copy over it would lose what other programs write
+ * meanwhile, and a log that another program keeps beside it would be applied to the new file. The write lock is taken
+ * first, by a statement that changes nothing (GDAL begins its transactions without a lock); then the schema that GDAL
+ * read when it opened the file is checked to be current, else the file is opened again. From there to the end no other
+ * program writes. The journal mode stays, and so does SQLite's syncing: an interrupted transaction is rolled back by
+ * the next program that opens the database. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "base/path.h"
 #include "gpkg/layer_styles.h"
@@ -57,8 +57,8 @@ static bool in_sqlite_file(const gis_sink *sink) { return sink->place == GIS_PLA
 
 /* ---- The lock of a SQLite file ----------------------------------------------------------------------------------- */
 
-/* What must be the same before GDAL opens the file and after the lock is had: the file itself (another may have been
- * renamed to its place) and the count of changes of the schema, which every layer made or removed is one of. */
+/* What must be the same before GDAL opens the file and after the lock is taken: the file itself (another may have been
+ * renamed to its place) and the schema's change count, which every layer made or removed changes. */
 typedef struct version {
     dev_t device;
     ino_t inode;
@@ -114,11 +114,11 @@ static bool fail_locked(const gis_sink *sink, const char *reason, gis_error *err
 
 /* ---- Nothing outside the transaction ----------------------------------------------------------------------------- */
 
-/* SQLite ends a transaction by itself when the disk fails, and GDAL may go on: each further statement would be a
- * transaction of its own, and be committed. Two things are set against that. A second connection reads all the time, so
- * that nobody can commit, this program included, until it lets go (in WAL mode readers stop nobody; but there nothing
- * is written before the commit, if the cache keeps what it has, and what is not written cannot fail). And a temporary
- * table that goes when the transaction goes tells whether it is still the one that was begun. */
+/* SQLite ends a transaction by itself when the disk fails, and GDAL may continue: each further statement would be a
+ * transaction of its own, and be committed. Two measures prevent that. A second connection keeps reading, so that no
+ * connection can commit, this program's included, until it stops (in WAL mode readers do not block commits; but there
+ * nothing is written before the commit, as long as the cache keeps its pages, and what is not written cannot fail). And
+ * a temporary table that disappears with the transaction tells whether it is still the one that was begun. */
 #define MARK "sunder_transaction"
 
 static bool guard(gis_sink *sink, gis_error *error)
@@ -196,7 +196,8 @@ static void abandon(gis_sink *sink)
     gis_listener_clear(&listener);
 }
 
-/* Who loses the race for the lock opens the file again, as it is then; so many times in a row is no race. */
+/* A program that loses the race for the lock opens the file again, in its new state; this many losses in a row are no
+ * race. */
 enum { ATTEMPTS = 50 };
 
 bool gis_sink_open_sqlite(gis_sink *sink, gis_error *error)

@@ -42,8 +42,8 @@ static void supersede(gis_sink *sink, const char *path)
     gis_listener_clear(&listener);
 }
 
-/* What came to this place since the run began is nobody's to replace, unless that was asked for: then publishing
- * fails. */
+/* A file that appeared at this place since the run began must not be replaced unless requested: publishing fails
+ * then. */
 static void supersede_existing(gis_sink *sink, const char *file, bool may_replace)
 {
     if (sink->place != GIS_PLACE_FILE || !may_replace) return;

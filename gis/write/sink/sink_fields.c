@@ -73,9 +73,8 @@ static bool has_name(OGRFeatureDefnH definition, const char *name) /* in small l
     return false;
 }
 
-/* The name that field i of the source gets: its own; or, where the driver takes small letters and capitals for the same
- * and the layer has the name, one with a number behind it, as ogr2ogr does, that no other field has or will have.
- * CPLFree(). */
+/* The name that field i of the source gets: its own; or, where the driver ignores case and the layer has the name
+ * already, one with a number appended, as ogr2ogr does, that no other field has or will have. CPLFree(). */
 static char *name_for(const gis_sink_layer *layer, OGRFeatureDefnH source, int i)
 {
     enum { DIGITS = 12 };

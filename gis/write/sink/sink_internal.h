@@ -146,7 +146,7 @@ struct gis_sink {
     gis_sentences losses, warnings;
 };
 
-/* Is it the main layer, with the fields of the source? Then what is lost of them is told, once. */
+/* Is it the main layer, with the fields of the source? Then losses of these are reported, once. */
 static inline bool gis_sink_tells(const gis_sink_layer *layer)
 {
     return layer->request.like_source && !layer->request.suffix[0];
@@ -158,7 +158,7 @@ char *gis_sink_inside(const gis_sink *sink, const char *file);
 char *gis_sink_name_for(const gis_sink *sink, const char *suffix);
 char *gis_sink_file_for(const gis_sink *sink, const char *suffix);
 
-/* Of any path that GDAL knows. */
+/* For any path that GDAL knows. */
 bool gis_sink_exists(const char *path);
 bool gis_sink_is_directory(const char *path);
 
@@ -202,8 +202,8 @@ void gis_sink_create_fields(gis_sink_layer *layer);
 OGRFeatureDefnH gis_sink_source_fields(const gis_sink_layer *layer);
 /* Has the layer a field of this name that is not the source's? */
 bool gis_sink_makes_field(const gis_sink_layer *layer, const char *name);
-/* Compares the fields, type and CRS of the layer as it is in the dataset with what was asked for; adds losses, one
- * sentence a field, in which the changes of its values stand as well. */
+/* Compares the fields, type and CRS of the layer in the dataset with the requested ones; adds losses, one sentence for
+ * each field, which also tells how its values changed. */
 void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written);
 
 /* Is the source's geometry written? One with a coordinate that is no finite number, which --invalid skip lets through,
@@ -225,7 +225,7 @@ bool gis_sink_check_companions(const gis_sink_layer *layer, OGRLayerH as_written
 
 /* Fails with the sentence that says how many features came back of those written. */
 bool gis_sink_fail_count(const gis_sink_layer *layer, size_t read_back, gis_error *error);
-/* Fails with the sentence that says what the driver reported after so many features. */
+/* Fails with a sentence that gives the driver's report after `after` features. */
 bool gis_sink_fail_reading(const gis_sink_layer *layer, size_t after, const char *reason, gis_error *error);
 
 /* The layer and its fields are made: its features will be noted. */
@@ -252,8 +252,8 @@ bool gis_sink_rows_end(gis_sink_layer *layer, gis_error *error);
 void gis_sink_rows_clear(gis_sink_layer *layer);
 
 void gis_sink_widen(OGREnvelope *around, const OGREnvelope *box);
-/* Of a layer of which rows went past GDAL: its count and its extent (layer->rows.around, and what GDAL wrote) are made
- * those of all rows, whenever GDAL writes them. */
+/* For a layer with rows written past GDAL: its count and its extent (layer->rows.around, and what GDAL wrote) are set
+ * to those of all rows, whenever GDAL writes them. */
 bool gis_sink_note_whole(gis_sink_layer *layer, void *database, gis_error *error);
 /* Does the file tell of that many, and of no less an extent? */
 bool gis_sink_check_whole(const gis_sink_layer *layer, OGRLayerH as_written, gis_error *error);

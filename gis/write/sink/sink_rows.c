@@ -1,10 +1,10 @@
-/* sink_rows.c: rows of a GeoPackage's main layer, and of its layers of lines, past GDAL, where all is plain.
+/* sink_rows.c: rows of a GeoPackage's main layer, and of its layers of lines, past GDAL, where everything is plain.
  *
-  * GDAL makes a feature, its geometry, its blob and its binding for each row. Where the source's records
-  * (geometry/packed.h) hold the geometry as the blob wants it and the values as the columns do, the row is put together
-  * from the record. What GDAL keeps of a layer besides its rows stays GDAL's: the extent and the count of features, of
-  * which it would write too little, are put right as it writes them. The first feature is GDAL's, too: its blob says
-  * how GDAL begins one, and unless the rest of it is byte for byte what would be put together here, nothing is. */
+ * GDAL makes a feature, its geometry, its blob and its binding for each row. Where the source's records
+ * (geometry/packed.h) hold the geometry as the blob needs it and the values as the columns do, the row is built from
+ * the record. GDAL's other data about a layer stay GDAL's: the extent and the count of features, which it would
+ * underestimate, are corrected when it writes them. GDAL also writes the first feature: its blob shows how GDAL begins
+ * one, and unless the rest of it equals, byte for byte, what would be built here, this path is not taken. */
 #include "base/path.h"
 #include "write/sink/sink_internal.h"
 
@@ -287,7 +287,7 @@ static bool flush(gis_sink_layer *layer, gis_error *error)
            fail(layer, key, reason, error);
 }
 
-/* Writes what was put together, unless it is GDAL's. */
+/* Writes the row that was built, unless GDAL writes it. */
 static gis_row settle(gis_sink_layer *layer, gis_row row, GIntBig fid, const OGREnvelope *box, gis_error *error)
 {
     gis_sink_rows *rows = &layer->rows;

@@ -23,7 +23,7 @@ static bool any_field_is(const gis_sink_layer *layer, const char *name)
     return gis_sink_makes_field(layer, name) || (source && OGR_FD_GetFieldIndex(source, name) >= 0);
 }
 
-/* What drivers call these columns unless told; lists end with NULL. */
+/* The drivers' default names of these columns; lists end with NULL. */
 static const char *const usual_fid[] = {"fid", "ogc_fid", "OBJECTID", NULL};
 static const char *const usual_geometry[] = {"geom", "GEOMETRY", "wkb_geometry", "SHAPE", NULL};
 
@@ -177,9 +177,9 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
 {
     gis_sink *sink = layer->sink;
     gis_sink_choose_type(layer);
-    /* shapelib, asked to turn the rings, takes a hole for an outer ring if its Z differ from the outer ring's (it comes
-     * back filled), and an invalid member that lies across another for its hole. Here it is known which rings are
-     * holes: they are turned before, and shapelib is told to keep them. */
+    /* shapelib, asked to orient the rings, takes a hole for an outer ring if its Z differ from the outer ring's (it
+     * comes back filled), and an invalid member that lies across another for its hole. Here it is known which rings are
+     * holes: they are oriented before, and shapelib is told to keep them. */
     layer->wind = sink->format.shapefile;
     if (layer->wind && !CPLGetConfigOption("SHAPE_REWIND_ON_WRITE", NULL)) {
         CPLSetThreadLocalConfigOption("SHAPE_REWIND_ON_WRITE", "NO");

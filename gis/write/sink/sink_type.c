@@ -1,5 +1,5 @@
-/* sink_type.c: the kind of geometry that a layer is declared to hold, and how features come to be of it: as the source
- * says, as several (-nlt PROMOTE_TO_MULTI), or as its features have it where a driver must be told. */
+/* sink_type.c: the type of geometry that a layer is declared to hold, and how features are converted to it: the
+ * source's type, the multi type (-nlt PROMOTE_TO_MULTI), or the type of its features where a driver must be told. */
 #include "write/sink/abilities.h"
 #include "write/sink/sink_internal.h"
 
