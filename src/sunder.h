@@ -146,7 +146,8 @@ SUNDER_API size_t sunder_shape_vertices(const sunder_shape *shape); /* after cle
 SUNDER_API bool sunder_shape_is_empty(const sunder_shape *shape);
 SUNDER_API bool sunder_shape_repaired(const sunder_shape *shape);
 /* Did rings of one polygon meet somewhere, or a ring meet itself, as they were given? If not, the polygons of a strict
- * shape are valid in the sense of OGC simple features, which allows less than SUNDER_VALIDITY_STRICT does. */
+ * shape are valid in the sense of OGC simple features, which allows less than SUNDER_VALIDITY_STRICT does. A repaired
+ * shape counts as one whose rings met. */
 SUNDER_API bool sunder_shape_touches(const sunder_shape *shape);
 /* Rings of one polygon of the cleaned form: 1 + its holes; ring 0 is the outer one. Each ring begins at its smallest
  * corner by x, then y, and holes and polygons ascend by their corners, however they were given; a reflected shape keeps

@@ -197,7 +197,7 @@ static sunder_status add_polygon(builder *b, size_t p, sunder_error *err)
     if (!problem.fault) check_polygon(r, rings, &b->arena, &problem, &touches);
     if (b->arena.failed || b->lattice.arena.failed) return sunder_i_no_memory(err);
     if (problem.fault && b->validity == SUNDER_VALIDITY_STRICT) return sunder_i_fail_problem(b->in, &problem, err);
-    b->touches |= touches;
+    b->touches |= touches || problem.fault; /* after a fault the rest was not looked at */
     if (problem.fault || touches) {
         b->repaired |= problem.fault != SUNDER_I_SOUND;
         r->vertices = vertices;

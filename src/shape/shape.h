@@ -69,7 +69,7 @@ struct sunder_shape {
     double box[4];             /* rounded outward if rational */
     uint32_t vertices, pieces; /* of the cleaned form */
     int low_bit;               /* coordinates are multiples of 2^low_bit; if rational, those that were given */
-    bool touches;              /* as given, rings of one polygon meet somewhere, or a ring meets itself */
+    bool touches;              /* as given, rings of one polygon meet, a ring meets itself, or one was repaired */
     bool flat;                 /* made of convex pieces, with or without area (of_pieces.c) */
     bool repaired, rational;   /* rational: some corner is no pair of doubles */
     double raw_xy[];           /* as given */

@@ -118,7 +118,7 @@ const char *invalid_kind_string(invalid_kind kind);
 void random_invalid(polyset *set, rng *r, invalid_kind kind, int most);
 
 /* Says the same set otherwise: rings turned round, started elsewhere, closed, with repeated vertices and vertices in
- * the middle of edges where these are exact; members in another order. */
+ * the middle of edges where these are exact; members and holes in another order. */
 void random_dress(polyset *set, rng *r);
 
 /* x' = a x + b y, y' = c x + d y; exact for small integers. */

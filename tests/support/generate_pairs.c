@@ -2,6 +2,7 @@
 #include "generate.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 const char *pair_kind_string(pair_kind kind)
 {
@@ -181,19 +182,35 @@ static void dress_ring(polyset *out, rng *r, const double *xy, size_t n)
     polyset_end_ring(out);
 }
 
+/* The numbers from `first` to `end` - 1, in random order. */
+static size_t *shuffled(rng *r, size_t first, size_t end)
+{
+    const size_t n = end - first;
+    size_t *number = test_alloc(n + 1, sizeof *number);
+    for (size_t k = 0; k < n; k++) {
+        const size_t at = (size_t)rng_int(r, 0, (int64_t)k);
+        number[k] = number[at];
+        number[at] = first + k;
+    }
+    return number;
+}
+
 void random_dress(polyset *set, rng *r)
 {
     polyset out;
     polyset_init(&out);
-    const size_t n = set->polygons, shift = (size_t)rng_int(r, 0, (int64_t)n - 1);
-    for (size_t k = 0; k < n; k++) {
-        const size_t p = (k + shift) % n;
-        for (size_t ring = p ? set->poly_end[p - 1] : 0; ring < set->poly_end[p]; ring++) {
-            const size_t from = ring ? set->ring_end[ring - 1] : 0;
+    size_t *member = shuffled(r, 0, set->polygons);
+    for (size_t k = 0; k < set->polygons; k++) {
+        const size_t p = member[k], outer = p ? set->poly_end[p - 1] : 0, rings = set->poly_end[p] - outer;
+        size_t *hole = shuffled(r, outer + 1, outer + rings);
+        for (size_t i = 0; i < rings; i++) {
+            const size_t ring = i ? hole[i - 1] : outer, from = ring ? set->ring_end[ring - 1] : 0;
             dress_ring(&out, r, set->xy + 2 * from, set->ring_end[ring] - from);
         }
+        free(hole);
         polyset_end_polygon(&out);
     }
+    free(member);
     polyset_free(set);
     *set = out;
 }
