@@ -1,10 +1,10 @@
-/* The plane about a target in square cells, each with the obstacles that may meet it and one that holds all of it.
+/* The plane around a target in square cells, each with the obstacles that may meet it and one that contains it, if any.
  *
- * A crowd of obstacles lies many deep over most of what is near the target, so a cell somewhat smaller than an obstacle
- * is mostly held by one: whatever is in it is not free. An obstacle is convex: it is beside a cell if the cell lies
- * beyond one of its walls, and holds it if the cell lies within all of them, which each wall says of a row of cells at
- * once; of one that is neither it is not asked whether they really meet. Cells are taken a little larger than they are,
- * so that rounding of where a point is makes no difference. */
+ * In a crowd most of the plane near the target is covered by many obstacles, so a cell somewhat smaller than an
+ * obstacle is usually inside one: no place in it is free. Obstacles are convex: an obstacle misses a cell that lies
+ * beyond one of its walls, and contains a cell that lies within all of them; each wall decides this for a row of cells
+ * at once. If neither is shown, the obstacle counts as meeting the cell. Cells are taken slightly larger than they are,
+ * so that rounding of a point's position makes no difference. */
 #include "displacement/geometry/cells.h"
 #include "displacement/geometry/tuning.h"
 
@@ -16,7 +16,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The part of what is within limit of the target that obstacles reach; the mean size of these. */
+/* The part of the surroundings, within `limit` of the target, that obstacles reach; and the mean size of these. */
 static double find_extent(const sunder_i_obstacles *o, const double target[2], double limit, double box[4])
 {
     double sum = 0;
@@ -44,7 +44,7 @@ static bool enter(sunder_i_cells *cells, uint32_t at, uint32_t obstacle, bool ho
     return true;
 }
 
-/* Puts what was entered in the order of cells. */
+/* Sorts the entries by cell. */
 static bool sort_entries(const sunder_i_obstacles *o, sunder_i_cells *cells)
 {
     const size_t n = (size_t)cells->across[0] * cells->across[1];
@@ -109,7 +109,7 @@ static bool enter_obstacle(const sunder_i_obstacles *o, uint32_t k, sunder_i_cel
         double meets[2], holds[2];
         uint32_t first;
         if (!cut_row(o, obstacle, cells->low[1] + (y + 0.5) * cells->side, half, meets, holds)) continue;
-        /* The centres of those that meet, and no others. */
+        /* The centres of the cells that meet it, and no others. */
         const uint32_t n =
             range(cells, 0, sunder_i_max(meets[0] - half, box[0]), sunder_i_min(meets[1] + half, box[2]), &first);
         for (uint32_t x = first; x < first + n; x++) {

@@ -2,11 +2,11 @@
  *
  * On the boundary of the union the distance from a target has local minima only at feet of perpendiculars on walls and
  * where two walls of different obstacles cross: at a corner of one obstacle the distance falls along one of its two
- * walls. So these are all the candidates; they are taken by distance, and each is tested against all obstacles. Walls
+ * walls. So these are all the candidates; they are visited by distance, and each is tested against all obstacles. Walls
  * are sorted by distance, and a crossing is no nearer than the farther of its walls, so the search stops as soon as the
- * walls left are farther than the places found. Among many obstacles the plane about the target is cut into cells
- * (cells.c): a point asks those that meet its cell, and walls in cells that one obstacle holds are left out at once.
- * What is counted as work is what it would be without cells, so that these change no result.
+ * remaining walls are farther than the places found. With many obstacles the plane around the target is cut into cells
+ * (cells.c): a point is tested against those that meet its cell, and walls in cells inside an obstacle are skipped at
+ * once. Work is counted as if there were no cells, so that these change no result.
  *
  * Everything here is in doubles. A place found is a proposal; whether it is free is decided exactly elsewhere. */
 #include "displacement/geometry/free_places.h"
@@ -105,8 +105,8 @@ static bool is_held_about(harvest *h, const sunder_i_cell *c, const span *of, ui
     return false;
 }
 
-/* Does one obstacle, but for `own`, hold all of it? Who does is about each place of it, so it is asked of those about
- * x, a place of it, or an end, wherever they are fewest. */
+/* Does one obstacle, other than `own`, contain all of it? Such an obstacle meets every place of it, so those around x,
+ * a place of it, or around an end are tested, wherever they are fewest. */
 static bool is_held(harvest *h, const span *of, const double x[2], uint32_t own)
 {
     const double *place[3] = {x, of->end[0], of->end[1]};
@@ -226,8 +226,8 @@ typedef struct walls {
     size_t left_out;
 } walls;
 
-/* What is on one shelf: feet on those that are not covered. Which ones are is asked before they are sorted: it is most
- * of them. */
+/* The candidates on one shelf: feet on walls that are not covered. Coverage is tested before sorting, since most feet
+ * are covered. */
 static bool search_shelf(harvest *h, walls *all, size_t shelf)
 {
     near_wall *near = all->near + all->first[shelf];
@@ -304,8 +304,8 @@ static bool is_line_beyond(const sunder_i_obstacle_side *wall, const double targ
     return fabs(x + y - wall->h) > limit * (1 + 0x1p-20) + 0x1p-40 * size;
 }
 
-/* Walls that may matter, of those within the limit, by about how far they are: into list. Most are farther off, by
- * squares, which are told apart from the limit's by more than rounding makes of them. Returns how many. */
+/* Lists the walls within the limit, by approximate distance. Most walls are farther, which their squared distances show
+ * by more than rounding. Returns how many. */
 static size_t gather(const harvest *h, near_wall *list, walls *all)
 {
     const sunder_i_obstacles *o = h->obstacles;

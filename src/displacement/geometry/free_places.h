@@ -42,7 +42,7 @@ void sunder_i_obstacles_free(sunder_i_obstacles *obstacles);
 void sunder_i_obstacles_clear(sunder_i_obstacles *obstacles);
 /* Adds the convex polygon d grown by gap; its round corners are replaced by tangents that contain them. */
 void sunder_i_obstacles_add(sunder_i_obstacles *obstacles, const double *d, size_t n, double gap);
-/* Adds once more what was added: its walls and its box. */
+/* Adds again the walls and the box of an obstacle that was added before. */
 void sunder_i_obstacles_add_known(sunder_i_obstacles *obstacles, const sunder_i_obstacle_side *wall, uint32_t walls,
                                   const double box[4]);
 /* Local minima of the distance from target on the boundary of the free space, nearest first, at most `most` of them,

@@ -1,4 +1,4 @@
-/* See grown_cache.h. What is kept is what was made, to the last bit, so that it changes no result. */
+/* See grown_cache.h. A cached value equals what would be computed, to the last bit, so the cache changes no result. */
 #include "displacement/geometry/grown_cache.h"
 #include "displacement/geometry/tuning.h"
 

@@ -5,7 +5,7 @@
 
 #include "displacement/geometry/free_places.h"
 
-/* Of two pieces, as one stands from the other, grown by so much. */
+/* For two pieces in this relative position, grown by this distance. */
 typedef struct sunder_i_grown_key {
     uint64_t pieces;
     double offset[2], gap;

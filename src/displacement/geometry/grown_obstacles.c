@@ -1,4 +1,4 @@
-/* A union of convex polygons, each grown by its gap: its walls, and the lines by which it is told who is within. */
+/* A union of convex polygons, each grown by its gap: its walls, and the lines that decide whether a point is inside. */
 #include "displacement/geometry/free_places.h"
 #include "displacement/geometry/tuning.h"
 
@@ -38,7 +38,7 @@ static inline void add_normal(sunder_i_obstacles *o, const double n[2], const do
         .n = {n[0], n[1]}, .h = n[0] * c[0] + n[1] * c[1] + gap, .from = {c[0], c[1]}, .obstacle = (uint32_t)o->n};
 }
 
-/* Room for so many walls more. */
+/* Reserves room for `more` further walls. */
 static bool reserve_walls(sunder_i_obstacles *o, size_t more)
 {
     const size_t need = o->walls + more, first = need > FEWEST_WALLS ? need : FEWEST_WALLS;
@@ -46,7 +46,7 @@ static bool reserve_walls(sunder_i_obstacles *o, size_t more)
     return !o->failed;
 }
 
-/* By how much normals may turn at a round corner, and the cosine of that; of a polygon of so many corners. */
+/* The largest turn of normals at a round corner, and its cosine, for a polygon of this many corners. */
 typedef struct roundness {
     double turn, cosine;
     size_t corners;
@@ -73,7 +73,7 @@ static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2
     const double turn = atan2(sine, cosine);
     const double angle = turn < -FLAT ? turn + 2 * PI : turn; /* a flat piece turns by half a circle */
     const int steps = (int)ceil(angle / most->turn);
-    /* Beside these there is to be room for the corners' own. */
+    /* Room is needed for the corners' walls as well. */
     if (steps < 2 || !reserve_walls(o, (size_t)steps + most->corners)) return;
     const double turn_cos = cos(angle / steps), turn_sin = sin(angle / steps);
     double t[2] = {n[0], n[1]};

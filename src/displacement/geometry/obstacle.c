@@ -41,8 +41,8 @@ static size_t edge_at(const double *p, size_t n, size_t k, double sign, double o
     return next;
 }
 
-/* Each corner is the difference of two, whichever edges led there: added up edge by edge the last one would miss the
- * first by what rounding added up to, and the edge between the two, of no length to speak of, would look anywhere. */
+/* Each corner is the difference of two vertices, independent of the edges that led there. Summing edges would
+ * accumulate rounding, and the last corner would miss the first by a tiny edge of arbitrary direction. */
 size_t sunder_i_obstacle_corners(const double *a, size_t na, const double *b, size_t nb, const double offset[2],
                                  sunder_i_scratch *scratch)
 {

@@ -9,7 +9,7 @@
 #include <string.h>
 
 typedef struct sunder_i_cached_obstacle {
-    uint64_t key; /* 0: nobody's */
+    uint64_t key; /* 0: unused */
     uint32_t first, n;
 } cached_obstacle;
 

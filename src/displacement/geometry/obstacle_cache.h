@@ -5,7 +5,7 @@
 #include "displacement/geometry/obstacle.h"
 #include <stdint.h>
 
-/* Obstacles by key, for those that are asked for again and again; bounded, so what was put there may be gone. */
+/* Obstacles by key, for repeated use; the cache is bounded, so entries may be evicted. */
 typedef struct sunder_i_obstacle_cache {
     struct sunder_i_cached_obstacle *slot; /* [slots] open addressing; slots is a power of two, or 0 */
     size_t slots, used;

@@ -99,8 +99,8 @@ size_t sunder_i_shadow_corners(const sunder_i_obstacle_edge *edge, size_t n, dou
         out[2 * corners] = edge[k].from[0];
         out[2 * corners++ + 1] = edge[k].from[1];
     }
-    /* Outward along the right ray and back along the left one. Between them the end is cut in two, so that it stays
-     * beyond `far`: an arc of less than half a turn, of which each part's chord is nearer by less than its cosine. */
+    /* Outward along the right ray and back along the left one. The far end between them is cut in two, so that it stays
+     * beyond `far`: for an arc of less than half a turn, the chord of each part is nearer by at most its cosine. */
     const double a[2] = {-right->n[1], right->n[0]}, b[2] = {left->n[1], -left->n[0]};
     double middle[2] = {a[0] + b[0], a[1] + b[1]};
     const double length = hypot(middle[0], middle[1]);

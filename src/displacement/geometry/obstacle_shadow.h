@@ -4,10 +4,10 @@
 
 #include "displacement/geometry/obstacle.h"
 
-/* Edges of { s k : k in K, s >= 1 } for the convex polygon K of n corners, counter-clockwise; a point or a segment will
- * do. The first and the last are rays and begin at K: from the one the shadow lies to the right as one looks out, from
- * the other to the left; between them stand the sides of K that the origin sees. Returns how many, at most n + 1; 0
- * where the origin is in K, or too near to tell. edge: room for n + 1. */
+/* Edges of { s k : k in K, s >= 1 } for the convex polygon K of n corners, counter-clockwise; K may be a point or a
+ * segment. The first and the last edge are rays that begin at K: seen outward, the shadow lies to the right of the
+ * first and to the left of the last; between them are the sides of K that face the origin. Returns how many, at most n
+ * + 1; 0 where the origin is in K, or too near to tell. edge: room for n + 1. */
 size_t sunder_i_shadow_edges(const double *k, size_t n, sunder_i_obstacle_edge *edge);
 /* The support line of such a shadow that is farthest below u. */
 sunder_i_support sunder_i_shadow_support_at(const sunder_i_obstacle_edge *edge, size_t n, const double u[2]);
@@ -24,7 +24,8 @@ static inline void sunder_i_shadow_way(const double u[2], double reach, double w
     }
 }
 
-/* Does the obstacle of what is in box a and what is in box b, whose origin is at `offset`, meet it? By their boxes. */
+/* May it meet the obstacle of the contents of box a and of box b, whose origin is at `offset`? Decided by their
+ * boxes. */
 static inline bool sunder_i_shadow_may_reach(const double a[4], const double b[4], const double offset[2],
                                              const double way[4])
 {

@@ -8,13 +8,13 @@
 /* Round corners are cut by tangents so that normals turn by no more than this: the place proposed keeps at most 2 %
  * more than the gap. */
 #define CORNER_TURN (PI / 8)
-/* A gap below this share of the obstacle needs no more than two tangents at a corner: a place then keeps half of the
- * gap too much, which nobody sees. */
+/* A gap below this share of the obstacle needs at most two tangents at a corner: a place then keeps half the gap too
+ * much, which is invisible. */
 #define NEXT_TO_NOTHING 1e-6
 #define CORNER_TURN_AT_MOST (PI / 2 + FLAT)
 /* A turn to the right by no more than this is none: rounding of normals, where two sides lie on one line. */
 #define FLAT 1e-3
-/* Room for so many walls is made at once: of most searches that is all. */
+/* Initial capacity for walls: sufficient for most searches. */
 #define FEWEST_WALLS 512
 /* Crossings are looked for among at most this many sides, the nearest to the target: it bounds the work where a block
  * stands amid hundreds of neighbours. */
@@ -22,16 +22,16 @@
 /* Places are computed on sides: within this share of the obstacle's size of one counts as on it. Above the rounding of
  * a crossing of sides that do not nearly coincide, below any gap that is asked for. */
 #define ON_A_SIDE 1e-12
-/* Among fewer obstacles cells are not worth making. A cell is this part of the mean obstacle, and there are no more
- * than so many for each. */
+/* With fewer obstacles cells do not pay. A cell is this part of the mean obstacle, and there are at most this many
+ * cells for each obstacle. */
 #define FEW_OBSTACLES 64
 #define CELLS_ACROSS 2
 #define CELLS_EACH 8
-/* Walls are taken by distance, from so many shelves. */
+/* Walls are visited by distance, in this many shelves. */
 #define SHELVES 256
 /* Cells are grown by this share, far above rounding, so that a point need not know in which of two it is. */
 #define CELL_MARGIN 1e-6
-/* More places than this are never asked for at once. */
+/* The most places that are ever requested at once. */
 #define MOST_PLACES 16
 /* Places that may be free are tested against obstacles, most of them briefly: a test counts as this part of a
  * constraint looked at, and as this part of a step of the watch. */
@@ -45,7 +45,7 @@
 
 /* ---- Those that are kept (grown_cache.c) ------------------------------------------------------------------------- */
 
-/* Beyond so many walls all are thrown away: a megabyte. */
+/* Beyond this many walls the cache is emptied: a megabyte. */
 #define MOST_GROWN 16384u
 /* Room to begin with: copying what grows was a hundredth of a town's instructions, with an eighth of it for walls. */
 #define FEWEST_GROWN 64u
@@ -53,7 +53,7 @@
 
 /* ---- The cache --------------------------------------------------------------------------------------------------- */
 
-/* Beyond so many edges all are thrown away: some megabytes. */
+/* Beyond this many edges the cache is emptied: some megabytes. */
 #define MOST_EDGES 131072u
 #define FEWEST_SLOTS 64u
 

@@ -1,9 +1,10 @@
-/* Anchors, what holds them, and how much room they have: a feature whose anchor lies in another, closed, may leave it;
- * and what moves by less than to the nearest of all others jumps over none.
+/* Anchors, the features that contain them, and how much room they have: a feature whose anchor lies in another, closed,
+ * feature may leave that feature; and a feature that moves by less than the distance to its nearest neighbour cannot
+ * jump over any.
  *
- * An anchor is the nearest doubles to an interior point (sunder_shape_anchor()), whichever those are: for a sliver they
- * may lie beside it. The rule is about the anchor as those doubles say it, so it is exact whatever they are; an anchor
- * never lies outside its feature's box, since rounding keeps order. */
+ * An anchor is the nearest doubles to an interior point (sunder_shape_anchor()); for a sliver they may lie beside it.
+ * The rule refers to the anchor as those doubles give it, so it is exact in any case; an anchor never lies outside its
+ * feature's box, since rounding is monotone. */
 #include "displacement/layer/sides.h"
 
 #include "base/extremes.h"
@@ -16,7 +17,7 @@
 /* Runs of the tree that are handed to a thread together: some hundred features. */
 #define RUNS_OF_A_LOT 16
 
-/* Pairs of which the first one's anchor lies in the second, of some runs of the tree. */
+/* Pairs such that the anchor of the first lies in the second, for some runs of the tree. */
 typedef struct held_pairs {
     sunder_i_id_pair *pair;
     size_t n, capacity;
@@ -94,7 +95,7 @@ static void pick(looking *l, const double box[4])
     l->about.n = n;
 }
 
-/* Who stands there, of l->near. */
+/* Which of l->near contain the anchor. */
 static sunder_status look_about(looking *l, uint32_t f, sunder_error *err)
 {
     const sunder_i_model *model = l->model;

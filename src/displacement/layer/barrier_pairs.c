@@ -1,9 +1,9 @@
 /* A feature and a barrier, exactly.
  *
- * Near and overlap are asked of a part; all else is of the whole barrier, for a feature that one part lets go may be in
- * another. The whole is asked within a reach: of the pieces that come so near to the feature's box. If the distance is
- * no more than the reach, or the least translation (and the gap, beside it) no longer, then what was left out would not
- * have changed it: it can be met by no translation so short. Else the reach grows. */
+ * Whether they are near or overlap is asked of one part; everything else of the whole barrier, since a feature that
+ * leaves one part may be inside another. The whole is represented by the pieces within a reach of the feature's box. If
+ * the distance is at most the reach, or the least translation (plus the gap) at most as long, the pieces left out
+ * cannot have changed it, since no translation that short meets them. Otherwise the reach grows. */
 #include "displacement/layer/barrier_pairs.h"
 
 #include "separation/separation.h"
@@ -31,7 +31,7 @@ static void box_of(const sunder_i_translate *feature, double box[4])
 
 static double extent_of(const double box[4]) { return sunder_i_max(box[2] - box[0], box[3] - box[1]); }
 
-/* The feature as what is asked: what has no area asks for pieces that cover its interior. */
+/* The feature in the form that the question needs: against a barrier without area, pieces that cover its interior. */
 static const sunder_shape *facing(const sunder_i_translate *feature, const sunder_shape *other)
 {
     return other->flat && feature->seamless ? feature->seamless : feature->shape;
@@ -121,7 +121,7 @@ static sunder_status find_distance(const sunder_i_model *model, const sunder_i_t
             status =
                 sunder_i_distance(feature->shape, feature->t, near, NULL, &out->distance, out->on[0], out->on[1], err);
         found = near && out->distance <= reach;
-        /* What was found so far shows how far to look. */
+        /* The result so far bounds how far to look. */
         if (near && !found) reach = sunder_i_max(reach, out->distance * ABOVE / GROWTH);
         sunder_shape_free(near);
         if (status) return status;

@@ -42,9 +42,9 @@ sunder_status sunder_i_parts_stand_so(const sunder_i_model *model, uint32_t feat
 sunder_status sunder_i_resolve_things(const sunder_i_model *model, size_t a, size_t b, double upper,
                                       sunder_i_resolution *out, sunder_error *err);
 
-/* The same within the limits of the two, INFINITY for none: what misses them by the last bit of a double is beyond
- * them where no gap is owed (and no place inside the other will do). With a gap, and beside barriers, what is within
- * their rounded sum, rounded up, is not. */
+/* The same within the limits of the two, INFINITY for none. Where no gap is owed (and no place inside the other is
+ * allowed), a length that exceeds the limits by one unit in the last place is beyond them. With a gap, and beside
+ * barriers, lengths up to the rounded-up sum of the limits are within them. */
 sunder_status sunder_i_resolve_within(const sunder_i_model *model, size_t a, size_t b, const double limit[2],
                                       sunder_i_resolution *out, sunder_error *err);
 

@@ -1,14 +1,14 @@
 /* Barriers in parts.
  *
- * A barrier may be one long road, or a landuse of a hundred thousand corners, and what stands near it stands near some
- * metres of it. So it is taken as convex pieces (a line's segments, points, the pieces of a polygonal set), of which a
- * few that lie together make a part: and parts are what features have relations to, what is indexed by boxes, and what
- * the search knows as fixed bodies. What is said of a feature and a barrier, though, is said of the whole of it: how
- * deep the one lies in the other, by which least translation it leaves, whether that is worse than it was. None of
- * these looks farther than it is long, so the pieces that come so near answer for all (barrier_pairs.c).
+ * A barrier may be one long road, or a landuse of a hundred thousand corners, while a feature near it is near some
+ * metres of it. So a barrier is taken as convex pieces (a line's segments, points, the pieces of a polygonal set), and
+ * a few neighbouring pieces form a part. Features have relations to parts, parts are indexed by boxes, and the search
+ * treats them as fixed bodies. Statements about a feature and a barrier, however, are about the whole barrier: how deep
+ * the one lies in the other, which least translation separates them, whether that is worse than before. None of these
+ * looks farther than its own length, so the pieces that near decide for all (barrier_pairs.c).
  *
- *   a point repeated in a line    it is there once; a line of one place is a point
- *   no area, no points            a barrier without parts, which is in nobody's way */
+ *   a point repeated in a line    it is kept once; a line with one distinct point is a point
+ *   no area, no points            a barrier without parts, which obstructs nothing */
 #include "displacement/layer/barrier_parts.h"
 
 #include "base/error.h"
@@ -19,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Pieces of a part: so few that a feature beside one of them seldom has to be asked about the others, so many that a
+/* Pieces of a part: few enough that a feature beside one of them seldom has to look at the others, and enough that a
  * town's roads make no more bodies than its houses do. */
 #define PIECES 8
 
@@ -64,7 +64,7 @@ static bool end_part(making *m, uint32_t barrier)
     return true;
 }
 
-/* The same where it is full. */
+/* The same for a full part. */
 static bool end_full_part(making *m, uint32_t barrier)
 {
     const size_t first = m->out->parts ? m->out->piece_end[m->out->parts - 1] : 0;

@@ -20,8 +20,8 @@ typedef struct sunder_i_barriers {
     bool flat;                /* some piece has no area */
 } sunder_i_barriers;
 
-/* Of the layer's barriers, whose geometry is borrowed; gap: of those that have none of their own. Failure leaves what
- * sunder_i_barriers_free() takes. */
+/* The parts of the layer's barriers, whose geometry is borrowed; gap: for barriers without their own. On failure the
+ * caller still calls sunder_i_barriers_free(). */
 sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, sunder_i_barriers *out, sunder_error *err);
 void sunder_i_barriers_free(sunder_i_barriers *barriers);
 

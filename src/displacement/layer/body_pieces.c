@@ -1,11 +1,11 @@
-/* What the search looks at of a body: its convex pieces in doubles, its members' anchors, their convex outlines.
+/* The search's view of a body: its convex pieces in doubles, its members' anchors, their convex outlines.
  *
- * All of a layer would take more room than its shapes do, and of most bodies of a large one nobody asks: they have no
- * part in a conflict, and none that has comes near. So a body's pieces are made when they are first asked for. What is
- * made depends on the body alone, so it is the same whoever asks first; where several threads do at a time one of them
- * leaves its own to all. What is made stays until the model goes, or, where it is much, until a stage is over and
- * nobody looks at any (sunder_i_pieces_forget): of what a stage looks at the next one looks at a part, and to make it
- * once more is next to nothing beside looking for a place. So it all lies in chunks that go at once. */
+ * Pieces of a whole layer would take more memory than its shapes do, and most bodies of a large layer never need them:
+ * they take part in no conflict and are near none that does. So a body's pieces are made at their first use. They
+ * depend on the body alone, so it does not matter which thread asks first; if several do at a time, one of them
+ * publishes its own. Pieces stay until the model is freed, or, if they take much memory, until a stage ends and no code
+ * refers to them (sunder_i_pieces_forget): the next stage needs only part of them, and making them again is cheap
+ * beside searching for a place. They lie in chunks that are freed at once. */
 #include "displacement/layer/model.h"
 
 #include "base/invariant.h"
@@ -55,8 +55,8 @@ size_t sunder_i_convex_hull(double *p, size_t n, double *out)
     return m;
 }
 
-/* A corner of a shape from that origin. Both coordinates are there before one is written, so that they are written at
- * once: whoever reads them at once, into a box, waits for those that were written one by one. */
+/* A corner of a shape relative to that origin. Both coordinates are computed before either is stored, so that one store
+ * writes both: a later load of both at once would stall on two separate stores. */
 static inline void from_origin(const sunder_shape *shape, uint32_t v, const sunder_i_body *body, double out[2])
 {
     const double x = sunder_i_from_origin(body, shape->xy[2 * (size_t)v], 0),
@@ -128,7 +128,7 @@ static void put_anchor(const sunder_i_model *model, const sunder_i_body *body, u
     for (int c = 0; c < 4; c++) anchor->box[c] = model->anchor_at[2 * (size_t)f + (c & 1)] - body->origin[c & 1];
 }
 
-/* So many runs lie within the body's pieces. */
+/* The number of runs that lie within the body's pieces. */
 static uint32_t count_runs(const sunder_i_body *body, uint32_t *first)
 {
     const uint32_t end = (body->piece + body->pieces) / SUNDER_I_RUN;
@@ -312,7 +312,7 @@ void sunder_i_piece_as_given(const sunder_i_model *model, const sunder_i_body_pi
 {
     const uint32_t f = piece->feature;
     if (anchor_as_given(model, piece, out)) return;
-    /* Pieces of a feature are in the order of the shape's; and whoever has one had them made. */
+    /* The pieces of a feature are in the order of the shape's; a caller that has one knows that they were made. */
     const sunder_shape *shape = sunder_i_thing_shape(model, f);
     const sunder_i_body_piece *first = piece, *all = atomic_load(&model->made[model->body_of[f]])->piece;
     while (first > all && first[-1].feature == f) first--;

@@ -1,5 +1,5 @@
-/* Which features stand elsewhere than when it was last asked: as flags, and as a list, so that what is done about a few
- * of a million costs what those few do. */
+/* Which features have moved since the last query: as flags, and as a list, so that the cost of an update depends on the
+ * number that moved, not on the size of the layer. */
 #ifndef SUNDER_I_CHANGES_H
 #define SUNDER_I_CHANGES_H
 
@@ -14,7 +14,7 @@ typedef struct sunder_i_changes {
     bool failed; /* memory was out: the list is not all */
 } sunder_i_changes;
 
-/* None of so many things. Failure leaves what can be freed. */
+/* An empty set over `things` things. On failure the caller still frees it. */
 static inline bool sunder_i_changes_init(sunder_i_changes *changes, size_t things)
 {
     *changes = (sunder_i_changes){.is = sunder_i_calloc(things, sizeof *changes->is), .things = things};

@@ -1,9 +1,9 @@
-/* The order in which features are worked on, which is no matter of how the caller lists them: by where they lie,
- * then by their corners, then by what is asked of them. All that follows breaks ties by number (of bodies, of
- * pieces, of pairs), so the same features in another order get the same moves; only twins that are alike in
- * everything are told apart by their places in the list, and may change roles. Numbers go up with y, whatever else
- * the layer holds: a feature far away changes the order of no two others. In the end the report speaks of features
- * as the caller numbered them (report/renumber.c). */
+/* The order in which features are processed, independent of the order in which the caller lists them: by position, then
+ * by corners, then by the other input. All later stages break ties by number (of bodies, of pieces, of pairs), so the
+ * same features in another order get the same moves; only twins that are alike in everything are told apart by their
+ * places in the list, and may swap roles. Numbers rise with y, independently of the other features: a feature far away
+ * does not change the order of two others. At the end the report refers to features by the caller's numbers
+ * (report/renumber.c). */
 #include "displacement/layer/barrier_parts.h"
 
 #include "base/sort.h"

@@ -1,12 +1,12 @@
-/* What lies in another feature and may overlap it: how it is kept inside.
+/* A feature that lies in another and may overlap it: how it is kept inside.
  *
- * Such a pair owes no gap, but if the holder's edge came to cut through the inner feature the two would be in conflict.
- * So the edges of the holder are walls to it: convex pieces without area, which it must not cross. As long as no wall
- * crosses it, it is where it was, inside. In the programs walls are constraints like all others; a pair that cannot be
- * kept in the end is let go (lapses), and is parted.
+ * Such a pair owes no gap, but if the holder's edge cut through the inner feature the two would be in conflict. So the
+ * edges of the holder are walls to it: convex pieces without area, which it must not cross. As long as no wall crosses
+ * it, it is inside, where it was. In the programs walls are constraints like all others; a pair that cannot be kept in
+ * the end lapses, and is separated.
  *
- * Many inner features touch their holder's edge, and with a tolerance they may overstep it: what a wall asks of a pair
- * is never more than it had at the start. */
+ * Many inner features touch their holder's edge, and with a tolerance they may overstep it: a wall never demands more
+ * of a pair than held at the start. */
 #include "displacement/layer/model.h"
 
 #include "base/extremes.h"

@@ -6,7 +6,7 @@
 
 typedef struct sunder_i_model sunder_i_model;
 
-/* How the search treats a pair of which one lies in the other, where the rules let that overlap; in this order. */
+/* How the search treats a pair where one lies in the other and the rules allow the overlap; in this order. */
 typedef enum sunder_i_inclusion_state {
     SUNDER_I_LENIENT, /* the one stays inside; it may touch or overstep walls as far as it did at the start */
     SUNDER_I_STRICT,  /* it stays clear of the walls: rounding ate up what leniency left */
@@ -20,11 +20,11 @@ typedef struct sunder_i_inclusion {
     sunder_i_inclusion_state state;
 } sunder_i_inclusion;
 
-/* The pairs of which the relations say so. */
+/* The pairs whose relations say so. */
 sunder_status sunder_i_inclusions_init(sunder_i_model *model, const sunder_i_relations *relations, sunder_error *err);
 /* One more: a, or else b, is to get inside the other. Before the walls are made. */
 sunder_status sunder_i_inclusions_add(sunder_i_model *model, uint32_t a, uint32_t b, bool a_inside, sunder_error *err);
-/* Notes the pairs in conflict of which the one lies in the other, and that limits may leave so. */
+/* Records the pairs in conflict where one lies in the other, and which limits may force to stay so. */
 sunder_status sunder_i_inclusions_note_nested(sunder_i_model *model, const sunder_i_relations *relations,
                                               sunder_error *err);
 /* The walls, for the search; after the pieces are cut. */

@@ -1,11 +1,11 @@
-/* What covers the walls that members of a block share.
+/* Pieces that cover the walls shared by members of a block.
  *
- * As with the diagonals within a feature (seams.c): an anchor that goes straight along a wall where two members touch
- * runs between the shadows of both, on the boundary of each. Each such wall, or the part of it that both have, gets a
- * quadrilateral with a corner in either member. Members touch where an edge of the one lies along an edge of the other
- * exactly; where they stand a hair apart there is a slit, through which an anchor may go.
+ * The case is that of the diagonals within a feature (seams.c): an anchor that moves straight along a wall where two
+ * members touch runs between the shadows of both, on the boundary of each. Each such wall, or the common part of it,
+ * gets a quadrilateral with a corner in either member. Members touch where an edge of one lies exactly along an edge of
+ * the other; where there is the least distance between them, there is a slit through which an anchor may pass.
  *
- * Both members are in the way of whoever meets it: of an anchor that lies in one of them nothing is said. */
+ * Both members block the anchor; an anchor that lies in one of them is exempt. */
 #include "displacement/layer/model.h"
 
 #include "base/watch.h"

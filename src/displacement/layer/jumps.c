@@ -1,10 +1,10 @@
-/* The rule against jumps, and that of sides, exactly, of features as they moved.
+/* The rule against jumps, and the rule of sides, exactly, for features as they moved.
  *
- * A feature's anchor a goes straight from a to a + (t - s), seen from another that moves by s: it may not meet that
- * other where it stood, unless it lay in it to begin with. If it does, then at some moment of both ways, walked evenly,
- * the anchor lies in the other as that stands then; so the boxes of their ways meet. A tree of these boxes gives the
- * pairs; separation/passes.c decides. The parts of barriers that the way of a side anchor comes near are given by the
- * model's tree, and sides.c decides. */
+ * A feature's anchor a moves straight from a to a + (t - s), relative to another feature that moves by s: it may not
+ * meet the old outline of that other, unless it lay in it at the start. If it does, then at some moment of both moves,
+ * at constant speed, the anchor lies in the other as it stands then; so the boxes of their paths meet. A tree of these
+ * boxes gives the candidate pairs; separation/passes.c decides. The model's tree gives the parts of barriers that the
+ * path of a side anchor comes near, and sides.c decides. */
 #include "displacement/layer/jumps.h"
 
 #include "base/invariant.h"
@@ -107,10 +107,10 @@ typedef struct pair_search {
     const sunder_i_model *model;
     const bool *changed;
     const uint32_t *asked;
-    sunder_i_list *found; /* [asked] partners that broke the rule; of two that are asked the lesser has it */
+    sunder_i_list *found; /* [asked] partners that broke the rule; with both in question, the lesser has the pair */
 } pair_search;
 
-/* Of what is present, those that changed; where nothing is known, those that moved: two that did not break no rule. */
+/* The present features that changed; if that is unknown, those that moved: two that did not move break no rule. */
 static bool is_asked(const pair_search *s, uint32_t f)
 {
     return s->changed ? s->changed[f] : has_moved(s->jumps, s->model, f);

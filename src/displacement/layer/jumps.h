@@ -1,11 +1,11 @@
-/* Who jumped over whom, or over which side, exactly; see jumps.c. */
+/* Which features jumped over others, or crossed sides, exactly; see jumps.c. */
 #ifndef SUNDER_I_JUMPS_H
 #define SUNDER_I_JUMPS_H
 
 #include "displacement/layer/changes.h"
 #include "displacement/layer/path_tree.h"
 
-/* The pairs that break a rule as the features stand, kept up to date while they move: features of which one jumped over
+/* The pairs that break a rule in the present positions, updated while features move: two features where one jumped over
  * the other, and a feature with a part of a barrier whose side it crossed. Zeroed: nothing has moved. */
 typedef struct sunder_i_jumps {
     sunder_i_path_tree ways; /* straight from home */

@@ -1,5 +1,4 @@
-/* The layer as the caller gives it: its features, of which weights and limits are numbers that make sense, and its
- * barriers, likewise. */
+/* The layer as the caller gives it: its features, with valid weights and limits, and its barriers. */
 #include "displacement/layer/layer.h"
 
 #include "base/memory.h"
@@ -13,7 +12,7 @@ static bool are_alike(const sunder_feature *f, const sunder_feature *g)
            f->ignored == g->ignored;
 }
 
-/* How often features that follow each other differ in what is asked of them, and one more. */
+/* The number of runs of consecutive features with equal demands. */
 static size_t count_demands(const sunder_feature *feature, size_t n)
 {
     size_t demands = 1;

@@ -8,10 +8,11 @@
 
 #define SUNDER_I_NOBODY UINT32_MAX
 
-/* Of most features of a layer the same is asked, so that is kept by itself, once for as many as follow each other. */
+/* Demands on a feature. Most features of a layer have the same, so each distinct value is stored once for a run of
+ * features. */
 struct sunder_layer {
     const sunder_shape **shape; /* [n] */
-    uint32_t *demand;           /* [n] which of `demands`; NULL: the first, of all */
+    uint32_t *demand;           /* [n] which of `demands`; NULL: the first, for all */
     sunder_feature *demands;    /* features without their shapes */
     size_t n;
     sunder_barrier *barrier;
@@ -23,7 +24,7 @@ struct sunder_layer {
     sunder_feature *part; /* [parts] */
 };
 
-/* What is asked of feature k of a layer as it was given, but for its shape; and with it. */
+/* The demands on feature k of a layer as it was given, without its shape; and with it. */
 static inline const sunder_feature *sunder_i_demands(const sunder_layer *given, size_t k)
 {
     return &given->demands[given->demand ? given->demand[k] : 0];
@@ -54,17 +55,17 @@ static inline bool sunder_i_is_present(const sunder_feature *feature)
 /* The options with every default filled in. */
 typedef struct sunder_i_rules {
     double gap, tolerance;
-    double barriers_known;    /* so far about features; INFINITY: all are */
-    const sunder_shape *disc; /* of the tolerance, for sunder_i_overlap_is_thin(); the model's */
+    double barriers_known;    /* distances between features matter up to this; INFINITY: all */
+    const sunder_shape *disc; /* with the tolerance's diameter, for sunder_i_overlap_is_thin(); the model's */
     bool touch_joins, containment_joins, list_inside;
-    double thin; /* 0: nobody asks what a tolerance would join */
+    double thin; /* 0: joining by tolerance is not needed */
     bool jumps;  /* features may jump over others */
     sunder_containment contained;
     unsigned threads;
     double effort; /* >= 0 */
     uint64_t seed;
     bool keep_trees, keep_pushes, keep_worlds, drop_proofs;
-    sunder_progress progress; /* NULL: nobody asks how far it is */
+    sunder_progress progress; /* NULL: the distance is not needed */
     void *progress_user;
 } sunder_i_rules;
 
@@ -76,9 +77,9 @@ bool sunder_i_progress(const sunder_i_rules *rules, double fraction);
 
 typedef struct sunder_i_barriers sunder_i_barriers;
 
-/* The layer in the order that it is worked on in (or as given). Behind its n features it has a fixed one for each part
- * of its barriers, in their order. It lives as long as the layer, of which it has no copy, and is cleared by
- * sunder_i_ordered_clear(), also on failure. */
+/* The layer in processing order (or as given). Behind its n features it has a fixed one for each part of its barriers,
+ * in their order. It borrows from the layer, which must outlive it; sunder_i_ordered_clear() clears it, also after a
+ * failure. */
 sunder_status sunder_i_order_layer(const sunder_layer *layer, const sunder_i_barriers *barriers, bool as_given,
                                    sunder_layer *out, sunder_error *err);
 void sunder_i_ordered_clear(sunder_layer *ordered);

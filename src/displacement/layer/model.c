@@ -102,7 +102,7 @@ static sunder_status find_some_present(void *context, size_t begin, size_t end, 
     return SUNDER_OK;
 }
 
-/* Who is there, and the tree over these. */
+/* The present features, and the tree over them. */
 static sunder_status build_tree(sunder_i_model *model, sunder_error *err)
 {
     presence p = {model, sunder_i_alloc(4 * model->things, sizeof *p.box), 0};
@@ -170,7 +170,7 @@ static bool unite_labelled(const sunder_layer *layer, uint32_t *parent)
     return true;
 }
 
-/* Numbers the sets by their least members and fills the bodies, of which there may be far fewer than things. False if
+/* Numbers the sets by their least members and fills the bodies; there may be far fewer bodies than things. False if
  * memory is out. */
 static bool number_bodies(sunder_i_model *model, uint32_t *parent)
 {
@@ -223,7 +223,7 @@ static const char *check(const sunder_i_model *model)
 }
 #endif
 
-/* Where each will look, and where it will go. */
+/* The boxes in which each will look, and into which it will move. */
 static bool keep_reads(sunder_i_model *model)
 {
     model->read = sunder_i_alloc(model->bodies, sizeof *model->read);

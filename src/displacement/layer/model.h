@@ -32,7 +32,8 @@ typedef struct sunder_i_body {
     double limit;               /* the strictest of its members' */
     const sunder_i_extras *has; /* besides; never NULL */
     bool fixed;                 /* limit 0 counts too */
-    bool held;        /* fixed for now: its moves are coarse beside a neighbour (solve/clusters/coarse_bodies.c) */
+    bool held;        /* fixed for now: its possible moves are coarse beside a neighbour's
+                       * (solve/clusters/coarse_bodies.c) */
     bool has_seams;   /* they were looked for */
     bool pinned;      /* stays where it came from: rounding would make a pair of it stand worse (uphold.c) */
     double reach;     /* for the search no corner is farther from the origin, along either axis */
@@ -48,18 +49,17 @@ typedef struct sunder_i_body_piece {
     double box[4];
 } sunder_i_body_piece;
 
-/* Pieces that have a box in common, besides their own: whoever looks for some of a body's hundreds passes by the rest
- * so many at a time. */
+/* Pieces that share a box, besides their own boxes: a query among a body's hundreds of pieces skips the others by whole
+ * runs. */
 #define SUNDER_I_RUN 8u
 
-/* What the search looks at of one body: made when somebody first does (body_pieces.c). In a large layer most stand
- * where nobody comes.
+/* The search's view of one body, made at its first use (body_pieces.c). In a large layer most bodies never need it.
  *
  *     piece    [pieces] convex; those of a feature in the order of its shape's
  *     anchor   [members] each as a piece of one corner, of none where there is none; NULL: jumps are allowed
- *     run      [4 * runs] boxes of those runs of SUNDER_I_RUN that are all of this body: they begin at multiples of
- *              that, from first_run of it on
- *     outline  [members] their convex hulls, where somebody asked for them */
+ *     run      [4 * runs] boxes of those runs of SUNDER_I_RUN that belong to this body entirely: they begin at
+ *              multiples of that, from first_run of it on
+ *     outline  [members] their convex hulls, where they were needed */
 typedef struct sunder_i_body_pieces {
     const sunder_i_body_piece *piece, *anchor;
     const double *run;
@@ -147,22 +147,23 @@ struct sunder_i_model {
     bool *present;               /* [things] */
     sunder_i_seamless *seamless; /* [features] where there are barriers without area; else NULL */
     sunder_i_rtree tree;         /* the boxes as they stood at the start; see sunder_i_reach_beyond() */
-    sunder_i_read *read;         /* [bodies] (layer/reads.h); NULL: nobody notes it */
+    sunder_i_read *read;         /* [bodies] (layer/reads.h); NULL: reads are not recorded */
     double *went;                /* [4 * bodies] the box of all moves that each ever had, likewise */
-    const sunder_i_rtree *standing; /* as they stand now: the placement's; lent */
+    const sunder_i_rtree *standing; /* positions as they are now: the placement's; lent */
     sunder_i_body_piece *wall;      /* edges of features that hold others; see inclusion.c */
     double *wall_corner;            /* [4 * walls] */
     size_t walls;
     sunder_i_inclusion *inclusion; /* pairs that may overlap, because one lies in the other; sorted */
     size_t inclusions;
-    sunder_i_inclusion *nested; /* pairs in conflict of which the one lies in the other at the start; sorted */
+    sunder_i_inclusion *nested; /* pairs in conflict where one lay in the other at the start; sorted */
     size_t nested_n;
     sunder_i_relaxations relaxations;
     sunder_i_id_pair *given_up; /* bodies given up: no solution was found that resolves this pair, too; sorted */
     size_t given_up_n;
     sunder_i_id_pair *shut_in; /* features, a < b, that nothing but a jump takes clear of each other: proved; sorted */
     size_t shut_in_n;
-    sunder_i_id_pair *confined; /* bodies i < j of which that is proved, whatever of theirs is in conflict; sorted */
+    sunder_i_id_pair *confined; /* bodies i < j for which that is proved, whichever of their members are in conflict;
+                                 * sorted */
     size_t confined_n;
     double *move;   /* [2 * bodies] where each stands now, relative to the start */
     double *lifted; /* [2 * bodies] where each stood when limits were lifted; NULL: they were not, or still are */
@@ -171,7 +172,7 @@ struct sunder_i_model {
 
 /* ---- Things ------------------------------------------------------------------------------------------------------ */
 
-/* Is the thing a part of a barrier, which has no anchor and no outline? Is the body? Of which barrier? */
+/* Is the thing a part of a barrier, which has no anchor and no outline? Is the body one? Of which barrier? */
 static inline bool sunder_i_is_barrier(const sunder_i_model *model, uint32_t thing) { return thing >= model->features; }
 
 static inline bool sunder_i_is_barrier_body(const sunder_i_model *model, const sunder_i_body *body)
@@ -228,8 +229,8 @@ static inline double sunder_i_owed_above(const sunder_i_model *model, uint32_t f
     return sunder_i_required_above(model->barriers, sunder_i_barrier_of(model, part));
 }
 
-/* What a thing is owed beyond the gap. All boxes of barriers, of bodies and pieces too, are grown by it: so who looks
- * the gap about itself finds whom it owes anything. */
+/* The distance owed to a thing beyond the gap. All boxes of barriers, of bodies and pieces too, are grown by it: so a
+ * query with the gap finds everything to which a distance is owed. */
 static inline double sunder_i_reach_beyond(const sunder_i_model *model, uint32_t thing)
 {
     return sunder_i_max(0, sunder_i_owed_above(model, thing, thing) - model->rules.gap);
@@ -242,7 +243,7 @@ static inline bool sunder_i_are_shut_in(const sunder_i_model *model, uint32_t f,
     return model->shut_in_n && bsearch(&pair, model->shut_in, model->shut_in_n, sizeof pair, sunder_i_by_id_pair);
 }
 
-/* And these two bodies? */
+/* The same for two bodies. */
 static inline bool sunder_i_are_confined(const sunder_i_model *model, uint32_t i, uint32_t j)
 {
     const sunder_i_id_pair pair = {i < j ? i : j, i < j ? j : i};
@@ -255,7 +256,7 @@ static inline bool sunder_i_are_confined(const sunder_i_model *model, uint32_t i
  * were. On failure the model can be given to sunder_i_model_free() all the same. */
 sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_barriers *barriers,
                                   const sunder_i_rules *rules, sunder_i_model *model, sunder_error *err);
-/* A feature where it came from. */
+/* A feature at its original place. */
 sunder_i_translate sunder_i_at_home(const sunder_i_model *model, uint32_t feature);
 /* Joins what the rules join. */
 sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relations *relations, sunder_error *err);
@@ -265,7 +266,7 @@ void sunder_i_model_free(sunder_i_model *model);
 
 /* The numbers of the convex pieces, and the bodies' boxes. */
 sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err);
-/* The body that has the piece of that number. */
+/* The body that has the piece with this number. */
 uint32_t sunder_i_body_of_piece(const sunder_i_model *model, uint32_t piece);
 /* A relative move of two bodies that is longer leaves them apart by more than the gap. */
 double sunder_i_farthest_near(const sunder_i_model *model, uint32_t p, uint32_t q);
@@ -307,8 +308,8 @@ size_t sunder_i_outline_of(const sunder_i_model *model, uint32_t thing, double *
 /* None are made yet, of bodies that are known. False if memory is out: sunder_i_pieces_end() frees what is there. */
 bool sunder_i_pieces_begin(sunder_i_model *model);
 void sunder_i_pieces_end(sunder_i_model *model);
-/* When nobody looks at pieces, between two stages or two questions: those that were made go if they hold more bytes
- * than that, and are made again when they are asked for. */
+/* Called when no code refers to pieces, between two stages or two questions: frees all pieces if they take more bytes
+ * than that; they are made again when needed. */
 void sunder_i_pieces_forget(sunder_i_model *model, size_t most);
 /* Less is not worth forgetting. */
 #define SUNDER_I_PIECES_HELD ((size_t)4 << 20)
@@ -329,8 +330,8 @@ bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);
 
 /* Is there a barrier without area that owes nothing, so that it could hide on a diagonal? */
 bool sunder_i_has_bare_barriers(const sunder_i_model *model);
-/* The seams of all bodies, or of these, but where they are known; after the pieces are cut. Proofs ask for them, the
- * search does not. Pointers to seams are void then. */
+/* Makes the seams of all bodies, or of these, that are not known yet; after the pieces are cut. Proofs need them, the
+ * search does not. Pointers to seams become invalid. */
 sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err);
 sunder_status sunder_i_model_find_seams_of(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 

@@ -1,11 +1,11 @@
-/* The move that took a shape from one place to another, where it is a translate, rounded to doubles.
+/* The move that took a shape from one place to another, if it is a translate, rounded to doubles.
  *
  * If some t makes every sum x + t exact, it is the move: no vertex was rounded. It is found first, since a shorter t
- * that rounds to the same vertices would hide a rule that is broken by a unit in the last place. Where sums were
- * rounded, each vertex allows an interval of t, about as wide as a unit in the last place of x + t. The ends and the
- * middle of the interval that all vertices share are tried, and the difference at a vertex of the least unit; the
- * shortest that fits is the move, so that nothing is called broken for the rounding alone. Each candidate is tested at
- * every vertex. */
+ * that rounds to the same vertices would hide a rule broken by a unit in the last place. Where sums were rounded, each
+ * vertex allows an interval of t, about as wide as a unit in the last place of x + t. Candidates are the ends and the
+ * middle of the common interval of all vertices, and the difference at the vertex with the smallest unit; the shortest
+ * that fits is the move, so that rounding alone never counts as a broken rule. Each candidate is tested at every
+ * vertex. */
 #include "displacement/layer/rounding.h"
 
 #include "shape/shape.h"

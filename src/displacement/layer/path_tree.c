@@ -59,7 +59,7 @@ static const double *home_of(const sunder_i_path_tree *ways, const sunder_i_mode
     return is_by_homes(ways) ? order->box + 4 * leaf : sunder_i_home_box(model, order->item[leaf]);
 }
 
-/* Of what is in the node, as it is now. */
+/* Recomputes the hull of a node's children. */
 static void make_hull(const sunder_i_path_tree *ways, const sunder_i_model *model, unsigned level, size_t node,
                       double hull[4])
 {
@@ -77,7 +77,7 @@ static void make_hull(const sunder_i_path_tree *ways, const sunder_i_model *mode
     }
 }
 
-/* Of all, as they are now. */
+/* Recomputes all hulls. */
 static void make_hulls(sunder_i_path_tree *ways, const sunder_i_model *model)
 {
     const sunder_i_rtree *order = order_of(ways, model);
@@ -86,7 +86,7 @@ static void make_hulls(sunder_i_path_tree *ways, const sunder_i_model *model)
         for (size_t node = order->level[l]; node < order->level[l + 1]; node++) {
             double *hull = hull_of(ways, order, node);
             make_hull(ways, model, l, node, hull);
-            if (hull[0] <= hull[2]) ways->sprawl += size_of(hull); /* of barriers alone it is nothing */
+            if (hull[0] <= hull[2]) ways->sprawl += size_of(hull); /* for barriers alone it is nothing */
         }
 }
 
@@ -110,7 +110,8 @@ sunder_status sunder_i_path_tree_begin(sunder_i_path_tree *ways, const sunder_i_
 
 /* ---- Moving ------------------------------------------------------------------------------------------------------ */
 
-/* The hulls above a leaf hold its way now. They never shrink by that: what they hold in vain is told by the ways. */
+/* Extends the hulls above a leaf by its path. Hulls never shrink by that: the paths themselves reject what a hull holds
+ * in vain. */
 static void widen(sunder_i_path_tree *ways, const sunder_i_model *model, size_t leaf)
 {
     const sunder_i_rtree *order = order_of(ways, model);

@@ -1,4 +1,4 @@
-/* The ways of all features, from where each stood to where it stands, to be asked who came near a box. */
+/* A tree over the paths of all features, from their original to their present places: which came near a box? */
 #ifndef SUNDER_I_PATH_TREE_H
 #define SUNDER_I_PATH_TREE_H
 
@@ -25,8 +25,8 @@ sunder_status sunder_i_path_tree_begin(sunder_i_path_tree *ways, const sunder_i_
 /* These, which are present, have moved, on and on: the last place is what counts. */
 sunder_status sunder_i_path_tree_follow(sunder_i_path_tree *ways, const sunder_i_model *model, const uint32_t *moved,
                                         size_t n, sunder_error *err);
-/* Appends every feature whose way meets the box, which is noted (reads.h). False if memory is out. Until it was told
- * who moved it may name too few. */
+/* Appends every feature whose path meets the box; the read is recorded (reads.h). False if memory is out. It may list
+ * too few until it has been told which features moved. */
 bool sunder_i_path_tree_look_about(const sunder_i_path_tree *ways, const sunder_i_model *model, const double box[4],
                                    sunder_i_list *hits);
 

@@ -105,7 +105,7 @@ sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_place
 
 /* ---- Near pairs -------------------------------------------------------------------------------------------------- */
 
-/* The partners of one feature: n of those of its run. */
+/* The partners of one feature: n of those near its run. */
 typedef struct partners {
     uint32_t run, first, n;
 } partners;
@@ -150,7 +150,7 @@ static bool pick_partners(const pair_search *s, uint32_t f, const sunder_i_list 
     return true;
 }
 
-/* Of those asked that lie in some runs of the tree: who is near a run is looked up once. */
+/* For the features in question that lie in some runs of the tree: the neighbours of a run are looked up once. */
 static sunder_status find_partners(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const pair_search *s = context;
@@ -304,7 +304,7 @@ static uint32_t *list_asked(const sunder_i_model *model, const sunder_i_changes 
     return asked;
 }
 
-/* Every pair of boxes within reach of each other of which one feature changed, as the features stand. */
+/* Every pair of boxes within reach of each other, in the present positions, where at least one feature changed. */
 static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_placement *placement,
                                 const sunder_i_changes *changes, sunder_i_relation **pair, size_t *pairs,
                                 sunder_error *err)
@@ -424,9 +424,9 @@ sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunde
     return SUNDER_OK;
 }
 
-/* Puts these in place of pairs that are listed, if those are all there are of two among `things`, of which one changed.
- * Few change by hairs, at places far from each other: who is near them stays the same, and all other pairs are left
- * alone. */
+/* Replaces the listed pairs between `things` where one changed by these, provided that they are all such pairs.
+ * Rounding changes few features, by tiny amounts, at places far apart: their neighbours stay the same, and all other
+ * pairs are left alone. */
 static bool replace(const sunder_i_changes *changes, const sunder_i_list *things, const sunder_i_relation *pair,
                     size_t n, sunder_i_relations *relations)
 {

@@ -8,7 +8,7 @@
 /* How the features stand at one moment. */
 typedef struct sunder_i_placement {
     double *move;                /* [2 * things] zeros of those that stand as a shape of their own */
-    sunder_shape **rounded;      /* [things] owned shapes of those whose translate was rounded; else NULL */
+    sunder_shape **rounded;      /* [things] owned shapes of features whose translate was rounded; else NULL */
     const sunder_layer *given;   /* NULL, or features are the shapes that they have there, with no move */
     sunder_i_seamless *seamless; /* [things] of both, where there are barriers without area; else NULL */
     bool *was_rounded;           /* [things] at any time */
@@ -47,8 +47,8 @@ void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *pl
 sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunder_i_placement *placement,
                                         const sunder_i_changes *changes, sunder_i_relations *relations,
                                         sunder_error *err);
-/* Relations when all but these (sorted) stood as now, brought up to date. things: NULL, or all of which any was near
- * one of these, then or now, once each: with few of them it takes no look at the rest. On failure relations may lack
+/* Updates relations that are right except for these features (sorted), which have moved since. things: NULL, or every
+ * thing that is or was near one of these, once each: then the rest is not looked at. On failure relations may lack
  * some. */
 sunder_status sunder_i_placement_relate_again(const sunder_i_model *model, const sunder_i_placement *placement,
                                               const sunder_i_changes *changes, const sunder_i_list *things,

@@ -1,9 +1,9 @@
-/* What was looked at: of a layer in parts, how far does a result depend on what stands about?
+/* Read sets: which places of the layer a result depends on, for layers in parts.
  *
- * Between begin and end every question of the thread to a tree of things about what is where is noted for a body, if
- * the model keeps such notes: the place that was asked about, and the bodies that stand there, whole. That is state of
- * the thread, as what asks stands ten calls above what looks. Within a question that is a layer of its own, whose model
- * keeps no notes, places go on being noted. */
+ * Between begin and end, every query of the thread to a tree of things is recorded for a body, if the model records
+ * reads: the place queried, and the bodies there, as a whole. This is state of the thread, since the code that asks is
+ * ten calls above the code that looks. Within a question that is a layer of its own, whose model does not record,
+ * recording continues for the outer one. */
 #ifndef SUNDER_I_READS_H
 #define SUNDER_I_READS_H
 
@@ -12,7 +12,7 @@
 typedef struct sunder_i_reading {
     sunder_i_read box;
     const sunder_i_model *model;
-    sunder_i_read *body; /* whose it is; NULL: nobody's */
+    sunder_i_read *body; /* the body that the reads are recorded for; NULL: none */
     struct sunder_i_reading *outer;
 } sunder_i_reading;
 
@@ -22,7 +22,7 @@ void sunder_i_reads_begin(sunder_i_reading *reading, const sunder_i_model *model
 void sunder_i_reads_end(sunder_i_reading *reading);
 void sunder_i_reads_note(const sunder_i_model *model, const double box[4], const sunder_i_list *hits, size_t before);
 
-/* Whose notes they are, of two, one of which may not move, or be a part of a barrier: the features a and b. */
+/* The owner of the record for the features a and b, one of which may not move, or be a part of a barrier. */
 static inline uint32_t sunder_i_reader_of(const sunder_i_model *model, size_t a, size_t b)
 {
     const uint32_t i = model->body_of[a];

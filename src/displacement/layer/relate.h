@@ -9,7 +9,8 @@
 typedef struct sunder_i_translate {
     const sunder_shape *shape;
     double t[2];
-    const sunder_shape *seamless; /* the same set, as what has no area asks for it (seamless.h); NULL: shape will do */
+    const sunder_shape *seamless; /* the same set in the form needed against things without area (seamless.h); NULL:
+                                   * shape will do */
 } sunder_i_translate;
 
 typedef struct sunder_i_relation {
@@ -38,9 +39,9 @@ const sunder_i_relation *sunder_i_relations_find(const sunder_i_relations *relat
 
 /* ---- thin_overlap.c ---------------------------------------------------------------------------------------------- */
 
-/* Two interiors meet: in no more than the tolerance? That is, the least translation that takes them apart is no longer,
- * or no polygon of 16 corners in the disc of that diameter (sunder_shape_disc()) fits into what the two have in common.
- * Exact. disc: that polygon. */
+/* Two interiors meet: in no more than the tolerance? That is, the least translation that separates them is no longer,
+ * or no polygon of 16 corners in the disc of that diameter (sunder_shape_disc()) fits into their intersection. Exact.
+ * disc: that polygon. */
 sunder_status sunder_i_overlap_is_thin(const sunder_i_translate *a, const sunder_i_translate *b, double tolerance,
                                        const sunder_shape *disc, bool *thin, sunder_error *err);
 /* The polygon, to be freed: it costs more than most of the questions that it is for. NULL where it would be a point. */

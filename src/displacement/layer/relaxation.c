@@ -1,18 +1,17 @@
-/* Pairs that are left in conflict, and what is demanded of them instead of the gap: to stand no worse than they
- * stood.
+/* Pairs that are left in conflict, and what is demanded of them instead of the gap: to stand no worse than at the
+ * start.
  *
- * The search knows one kind of demand, to keep a distance from a convex obstacle, and a relaxation is made of the
- * same:
+ * The search knows one kind of demand, a distance from a convex obstacle, and a relaxation is expressed in it:
  *
- *   disjoint at the start   the pair keeps the distance that it had, which is less than the gap
- *   in each other           with v the least translation of b that parted them: b + v stays off a. Then v, or less,
- *                           still parts them, so they are no deeper in each other than they were.
- *   one inside the other    where it may: it stays inside
+ *   disjoint at the start   the pair keeps its distance, which is less than the gap
+ *   overlapping             with v the least translation of b that separates them: b + v stays off a. Then v, or less,
+ *                           still separates them, so they overlap no deeper than before.
+ *   one inside the other    where that is allowed: it stays inside
  *
- * At the start every relaxation holds, so to leave everything where it was is always a way. (The second demands more
- * than need be: another translation of the same length might part them. The exact check, uphold.c, demands just what
- * is needed. A solution found by those who know that may have turned it: then the pair is held to the way out that it
- * has there, and who is sent home is relaxed anew, as all stood there.) */
+ * At the start every relaxation holds, so leaving everything in place is always feasible. (The second demands more than
+ * necessary: another translation of the same length might separate them. The exact check, uphold.c, demands only what
+ * is necessary. A solution found under the exact rule may separate the pair in another direction: then the pair is held
+ * to the direction that it has there, and bodies that are sent back are relaxed anew, as all stood there.) */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/model.h"
 #include "displacement/layer/resolution.h"
@@ -26,7 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of fewer relaxed bodies one is as soon found; and so many bits each. */
+/* Below this number of relaxed bodies a linear search is as fast; and the bits of the filter for each. */
 #define MARKED_FROM 16
 #define BITS_EACH 16
 
@@ -307,7 +306,7 @@ static sunder_status way_out(const sunder_i_model *model, const sunder_i_relaxat
     return SUNDER_OK;
 }
 
-/* It is as long as the former, less a hair: who stands no deeper may go as deep. */
+/* It is as long as the former one, or slightly shorter: a pair may be as deep as before. */
 sunder_status sunder_i_relaxation_turn(const sunder_i_model *model, const double ta[2], const double tb[2],
                                        sunder_i_relaxation *relaxation, bool *fits, sunder_error *err)
 {

@@ -44,8 +44,8 @@ typedef struct sunder_i_relaxations {
 void sunder_i_relaxations_free(sunder_i_relaxations *relaxations);
 /* Appends one; to be indexed before anything is looked up. False if memory is out. */
 bool sunder_i_relaxations_add(sunder_i_relaxations *relaxations, const sunder_i_relaxation *relaxation);
-/* The same, of a barrier for all of its parts that the feature may come within reach of: what is demanded is of the
- * whole, and a part that was far off would else ask for all that is owed. */
+/* The same for a barrier: for all of its parts that the feature may reach. The demand is on the whole barrier; a part
+ * that was far off would otherwise demand the full distance. */
 bool sunder_i_relaxations_spread(sunder_i_relaxations *relaxations, const sunder_i_model *model,
                                  const sunder_i_relaxation *relaxation, double reach);
 bool sunder_i_relaxations_index(sunder_i_relaxations *relaxations, const sunder_i_model *model);
@@ -64,15 +64,15 @@ bool sunder_i_is_open_conflict(const sunder_i_model *model, const sunder_i_relat
 /* Takes out those of the n pairs, sorted, which owe all again; to be indexed again. */
 void sunder_i_relaxations_restore(sunder_i_relaxations *relaxations, const sunder_i_model *model,
                                   const sunder_i_restored *restored, size_t n);
-/* Where it is, or belongs, among n of them, sorted. */
+/* The place, or insertion point, among n of them, sorted. */
 size_t sunder_i_restored_at(const sunder_i_restored *list, size_t n, const sunder_i_restored *wanted);
 int sunder_i_by_restored(const void *a, const void *b);
 sunder_i_restored sunder_i_restored_of(const sunder_i_model *model, const sunder_i_relaxation *relaxation);
 /* A relaxation for two features, by how they stood at the start. */
 sunder_status sunder_i_relaxation_of(const sunder_i_model *model, uint32_t f, uint32_t g, sunder_i_relaxation *out,
                                      sunder_error *err);
-/* What was relaxed by one way out of an overlap, by the one that is the shortest where a and b are moved by ta and tb:
- * *fits, if it is no longer. Who is turned no longer holds at home. */
+/* Changes a relaxation by one direction of separation to the shortest one with a and b moved by ta and tb: *fits, if it
+ * is no longer than before. After that it does not hold at the start any more. */
 sunder_status sunder_i_relaxation_turn(const sunder_i_model *model, const double ta[2], const double tb[2],
                                        sunder_i_relaxation *relaxation, bool *fits, sunder_error *err);
 /* Appends relaxations for all members of two bodies that stood within reach of each other. */

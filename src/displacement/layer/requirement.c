@@ -1,8 +1,8 @@
-/* How a pair stood at the start, as what it may be held to: never more than it had.
+/* How a pair stood at the start, as the least that it may be held to.
  *
- * A distance is known as a double that is near, and may be above: lengths just below are asked exactly. The length of a
- * least translation is the nearest double: one step up is no less. What lies in another may go deeper, so that a depth
- * would be more than the rule asks (solve/clusters/uphold.c). */
+ * A distance is known as a nearby double, which may be too large: so lengths just below it are tested exactly. The
+ * length of a least translation is the nearest double: one step up is not less. A feature inside another may go deeper,
+ * so a depth would demand more than the rule does (solve/clusters/uphold.c). */
 #include "displacement/layer/requirement.h"
 #include "displacement/layer/barrier_pairs.h"
 

@@ -4,12 +4,12 @@
 
 #include "displacement/layer/model.h"
 
-/* Two things, a < b, that need not be parted (of a barrier the first part stands for all), and what they are held to
- * instead, no better than they stood at the start:
+/* Two things, a < b, that need not be separated (for a barrier its first part stands for all), and what they are held
+ * to instead, no better than at the start:
  *
- *   clearance >= 0          disjoint interiors, and a distance of no less than that
- *   -INFINITY < it < 0      some translation no longer than -clearance leaves them disjoint interiors
- *   -INFINITY               nothing: the one lay in the other, and may lie anywhere in it */
+ *   clearance >= 0               disjoint interiors, and at least this distance
+ *   -INFINITY < clearance < 0    some translation no longer than -clearance makes their interiors disjoint
+ *   -INFINITY                    nothing: one lay in the other, and may lie anywhere in it */
 typedef struct sunder_i_requirement {
     uint32_t a, b;
     double clearance;

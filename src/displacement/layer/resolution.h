@@ -1,10 +1,11 @@
-/* What two features owe each other: the definition that relations, clusters, proofs, report and bound ask, exactly.
+/* What two features owe each other: the exact definition used by relations, clusters, proofs, report and bound.
  *
  *   apart    their interiors are disjoint and their distance is at least the gap
  *   inside   one lies in the other, up to the tolerance, and the rules let contained features overlap
  *
- * A pair that is neither is in conflict. The search demands the same in doubles, piece by piece, in words of its own
- * (solve/search/piece_pairs.c), and what it finds is checked against this: a further way has to be told to both. */
+ * A pair that is neither is in conflict. The search uses the same definition in doubles, piece by piece, in its own
+ * code (solve/search/piece_pairs.c), and its results are checked against this one: a new case has to be added to
+ * both. */
 #ifndef SUNDER_I_RESOLUTION_H
 #define SUNDER_I_RESOLUTION_H
 
@@ -22,7 +23,7 @@ static inline bool sunder_i_is_conflict(const sunder_i_relation *r) { return r->
 /* What it takes to resolve it between a pair, in lengths of relative moves of b. */
 typedef struct sunder_i_resolution {
     double least;      /* proved: no shorter one does it, in any way */
-    bool beyond;       /* proved: none up to the length that was asked about does */
+    bool beyond;       /* proved: no place within the given length does */
     bool apart_beyond; /* proved: none up to that length takes them apart */
     double away[2];    /* about the shortest that takes them apart (not where apart_beyond; not of a barrier) */
     bool inside;       /* `place` is one that brings one of them inside the other, up to the rounding of doubles */

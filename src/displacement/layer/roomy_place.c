@@ -1,6 +1,6 @@
-/* A place with room in what two features have in common, proposed in doubles: squares are looked at best first, each
- * by the distance of its middle from the sides of both, and cut in four while there may be more room in it. Whoever
- * asks checks what is proposed; nothing follows where nothing is. */
+/* Proposes, in doubles, a place with room in the intersection of two features: squares are visited best first, by the
+ * distance of their centres from the sides of both, and quartered while there may be more room in them. The caller
+ * checks the proposal; if there is none, nothing follows. */
 #include "displacement/layer/relate.h"
 
 #include "base/extremes.h"

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* More would wait for each other: no layer has so many clusters of a size that matters. */
+/* More threads would wait for each other: no layer has that many clusters of significant size. */
 #define MOST_THREADS 256
 
 void sunder_layer_options_init(sunder_layer_options *options)

@@ -1,16 +1,16 @@
 /* A set whose pieces leave nothing out.
  *
  * The interiors of the convex pieces of a shape leave out the diagonals between them, and walls that members share.
- * Where the other set has area that is made up for beside them; a segment or a point has nothing beside it, and would
- * lie along a diagonal as if it met nobody (motion/diagonals.h, which tells where they are, and where the lattice can
- * be made finer). Here members are united first, and each diagonal uv gets a convex quadrilateral u - q - v - p, of
- * doubles: p is a corner w of the piece on its right, or a double near the middle m of uv on the way to w, and q
+ * Against a set with area this does not matter, since it also meets the neighbourhood of a diagonal; but a segment or a
+ * point could lie along a diagonal and meet no piece (motion/diagonals.h, which finds diagonals, and handles lattices
+ * that can be made finer). Here members are united first, and each diagonal uv gets a convex quadrilateral u - q - v -
+ * p, of doubles: p is a corner w of the piece on its right, or a double near the middle m of uv on the way to w, and q
  * likewise on its left. That p and q lie in the triangles that the diagonal makes with these corners, and that the
- * quadrilateral is strictly convex, is decided exactly; so its interior lies in the set's, and holds the diagonal but
- * for its ends.
+ * quadrilateral is strictly convex, is decided exactly; so its interior lies in the set's, and holds the diagonal
+ * except its ends.
  *
- * Where no doubles do, in triangles thinner than the unit in the last place, and at corners that are no doubles (of
- * sets that crossed themselves), a diagonal stays as it is: it hides a segment that lies wholly along it. */
+ * Where no doubles qualify, in triangles thinner than the unit in the last place, and at corners that are not doubles
+ * (of sets that crossed themselves), a diagonal is left uncovered: it hides a segment that lies entirely along it. */
 #include "displacement/layer/seamless.h"
 
 #include "base/error.h"
@@ -22,7 +22,8 @@
 #include <math.h>
 #include <string.h>
 
-/* From a corner half way to the middle, and again half, so often: then it is the middle itself, but for rounding. */
+/* From the corner half way to the middle, and half again, this many times: the last is the middle itself, up to
+ * rounding. */
 #define HALVINGS 60
 /* What a quadrilateral counts for, in steps. */
 #define SEAM_STEPS 64

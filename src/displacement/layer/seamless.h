@@ -1,4 +1,4 @@
-/* Convex pieces whose interiors cover the interior of a set, as what has no area asks for; see seamless.c. */
+/* Convex pieces whose interiors cover the interior of a set, as needed against things without area; see seamless.c. */
 #ifndef SUNDER_I_SEAMLESS_H
 #define SUNDER_I_SEAMLESS_H
 
@@ -10,7 +10,7 @@ typedef struct sunder_i_seamless {
     double *corner;      /* ... and others */
 } sunder_i_seamless;
 
-/* Of a shape, which is borrowed. Failure leaves what sunder_i_seamless_free() takes. */
+/* For a shape, which is borrowed. On failure the caller still calls sunder_i_seamless_free(). */
 sunder_status sunder_i_seamless_make(const sunder_shape *shape, sunder_i_seamless *out, sunder_error *err);
 /* A quadrilateral that covers a diagonal, counter-clockwise; and that by which it is found again: the numbers of the
  * diagonal's ends and of the corners beside it, as sunder_i_diagonals has them. */
@@ -21,7 +21,7 @@ typedef struct sunder_i_seam {
 
 /* Those alone, of all diagonals that have one, *n of them in *seam, which is the caller's. False if memory is out. */
 bool sunder_i_seams_find(const sunder_shape *shape, sunder_i_seam **seam, size_t *n);
-/* The corners of one of these again. */
+/* The corners of one of these pieces. */
 void sunder_i_seam_again(const sunder_shape *shape, const uint32_t diagonal[4], double corner[8]);
 /* One about a segment uv that two convex pieces share: corner has u, a corner of the piece on its right, v, and one of
  * the piece on its left. False if no doubles make one. */

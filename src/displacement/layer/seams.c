@@ -1,12 +1,12 @@
-/* What a feature's convex pieces leave out: the diagonals between them.
+/* Pieces that cover the diagonals between a feature's convex pieces.
  *
- * A barrier's segment or point that features may touch, but not meet, has no width: on a diagonal it would lie between
- * the pieces, and meet neither. So it is with an anchor, which is a point, too:
+ * A barrier's segment or point, which features may touch but not meet, has no width: on a diagonal it would lie between
+ * the pieces, and meet neither. The same holds for an anchor, which is a point, too:
  *
- * An anchor that goes straight along a diagonal, or through a corner where two pieces end, runs between the shadows of
- * the pieces (geometry/obstacle_shadow.h), on the boundary of both. The feature is in its way all the same. So proofs,
- * which ask about pieces one by one and may pass on the boundary of each, are given one more about each diagonal: a
- * convex quadrilateral that lies in the feature (seamless.c). */
+ * An anchor that moves straight along a diagonal, or through a corner where two pieces end, runs between the shadows of
+ * the pieces (geometry/obstacle_shadow.h), on the boundary of both, although the feature blocks it. So proofs, which
+ * test pieces one by one and may pass on the boundary of each, get one more piece around each diagonal: a convex
+ * quadrilateral that lies in the feature (seamless.c). */
 #include "displacement/layer/model.h"
 
 #include "spatial/box.h"
@@ -46,7 +46,7 @@ static bool add_seams(gathering *g, uint32_t f)
     return ok;
 }
 
-/* No more room than all seams take, of which large layers have many. */
+/* No more memory than all seams take; large layers have many. */
 static bool fit(void *array, size_t n, size_t size)
 {
     void *had, *fits;
@@ -78,7 +78,7 @@ bool sunder_i_has_bare_barriers(const sunder_i_model *model)
     return false;
 }
 
-/* Has nobody a use for them? */
+/* Are seams useless for this body? */
 static bool are_idle(const sunder_i_model *model) { return model->rules.jumps && !sunder_i_has_bare_barriers(model); }
 
 static bool add_body(gathering *g, sunder_i_body *body)

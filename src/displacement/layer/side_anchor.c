@@ -139,7 +139,7 @@ static sunder_status point_of(sunder_i_side_cut *c, const sunder_i_cut_part *p, 
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
 
-/* Of the parts that are left, all equal. */
+/* Among the remaining parts, which are equal. */
 static sunder_status choose(sunder_i_side_cut *c, double anchor[2], sunder_error *err)
 {
     const sunder_i_rational_point plain = sunder_i_side_cut_point(c, anchor);
@@ -209,7 +209,7 @@ static sunder_status keep_roomiest(sunder_i_side_cut *c, const sunder_i_side_sco
     return SUNDER_OK;
 }
 
-/* Of the lines that may meet its interior. */
+/* With the lines that may meet its interior. */
 static sunder_status choose_of(const sunder_shape *shape, const sunder_i_side *const *side, size_t n,
                                const sunder_i_side_scope *scope, double anchor[2], sunder_error *err)
 {

@@ -1,18 +1,18 @@
-/* Sides: which side of a barrier's lines a feature stands on, it keeps.
+/* Sides: a feature stays on its side of a barrier's lines.
  *
  * The lines are the segments of a barrier's lines and the edges of its areas; points have none. A feature's side anchor
- * goes straight from a to a + t, and may meet none of them, with two exceptions:
+ * moves straight from a to a + t, and may meet none of them, with two exceptions:
  *
- *   an edge that `a` lies inside of     what stands in a polygon may leave it. So only edges whose area begins behind
- *                                       them, as `a` sees them, are in the way: whoever comes into the polygon, from
- *                                       outside or once more, meets one of those, and who leaves it meets none of them
- *   a line that `a` lies on             a side anchor lies on none where doubles hold such a point (side_anchor.c), and
- *                                       elsewhere no side of the line is its own
+ *   an edge with `a` on its inner side  a feature in a polygon may leave it. So only edges whose area lies behind them,
+ *                                       as seen from `a`, block the path: a path that enters the polygon, from outside
+ *                                       or again, meets one of those, and a path that leaves it meets none of them
+ *   a line that `a` lies on             a side anchor lies on no line where doubles hold such a point (side_anchor.c);
+ *                                       elsewhere neither side of the line is its own
  *
- * To see that who comes in meets an edge that faces the start: just before the place where it does, it is outside, in a
- * sector there that two edges bound. If the sector is less than half a plane, its inner points are on the outer sides
- * of both edges' lines; if more, of at least one: and the start is on the same ray. A way that touches an edge which
- * faces its start, and stays inside, counts as coming in: touching is meeting.
+ * Why a path that enters meets an edge facing the start: just before it enters, it is outside, in a sector bounded by
+ * two edges. If the sector is less than half a plane, its inner points are on the outer sides of both edges' lines; if
+ * more, of at least one: and the start is on the same ray. A path that touches an edge facing its start, and stays
+ * inside, counts as entering: touching is meeting.
  *
  * In the model the lines are pieces of two corners, in the order of the barriers' parts, and a part's body has those of
  * the part. */
@@ -154,7 +154,7 @@ static bool find_more(void *user, const double box[4], const sunder_i_side *cons
     return true;
 }
 
-/* The side anchor that the caller gave; NULL where it is to be found. */
+/* The side anchor that the caller gave; NULL if it has to be computed. */
 static const double *given_anchor(const sunder_i_model *model, size_t f)
 {
     const sunder_layer *given = model->layer->given;

@@ -1,4 +1,4 @@
-/* Sides: lines of barriers that features may not cross, and the anchors of which that is asked; exact. See sides.c. */
+/* Sides: lines of barriers that features may not cross, and the anchors that the rule is about; exact. See sides.c. */
 #ifndef SUNDER_I_SIDES_H
 #define SUNDER_I_SIDES_H
 

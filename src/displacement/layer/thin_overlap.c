@@ -1,7 +1,7 @@
-/* How thin is an overlap? By the least translation that takes the two apart, and by the disc that fits into it: of two
- * that interlock, as a house in the notch of another, the translation is as long as the notch is deep, however thin the
- * sliver. The translation is asked first, for as a rule it is the cheaper question; and before the erosion is, a place
- * where the disc may fit is looked for in doubles, and tried exactly: overlaps that are not thin have one. */
+/* How thin is an overlap? By the least translation that separates the two, and by the disc that fits into it: for two
+ * that interlock, such as a house in the notch of another, the translation is as long as the notch is deep, however
+ * thin the sliver. The translation is tried first, since it is usually the cheaper test; and before the erosion, a
+ * place where the disc may fit is proposed in doubles and tested exactly: overlaps that are not thin have one. */
 #include "displacement/layer/relate.h"
 
 #include "morphology/morphology.h"

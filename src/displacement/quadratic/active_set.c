@@ -39,11 +39,11 @@ static void fill_row(const sunder_i_quadratic *p, const equations *e, size_t r, 
     row[r] *= 1 + softness + RAISED;
 }
 
-/* Cholesky factor, a row at a time, and the solution of G f = d. Rows before `from` are those of the last call.
+/* Cholesky factor, a row at a time, and the solution of G f = d. Rows before `from` are kept from the last call.
  *
- * The factor is kept by columns: as soon as an entry of a row is known, what it takes from those that follow in the row
- * is one pass over a column, and most entries are zero, since most constraints have no body in common. Each entry is
- * the same sum in the same order as if it were found by itself. */
+ * The factor is kept by columns: as soon as an entry of a row is known, its contribution to the later entries of the
+ * row is one pass over a column. Most entries are zero, since most constraints have no body in common. Each entry is
+ * the same sum in the same order as if it were computed by itself. */
 static bool solve_equations(sunder_i_quadratic *p, equations *e, size_t from, double softness)
 {
     p->work += e->n * e->n * (e->n - from) / 32 + e->n * e->n / 8;

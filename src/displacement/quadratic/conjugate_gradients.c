@@ -1,14 +1,14 @@
 /* Conjugate gradients on non-negative forces: modified proportioning with reduced gradient projections [Dos09,
  * algorithm 5.8].
  *
- * The dual is min 1/2 f'Gf - d'f over f >= 0. Among the forces that are positive it takes conjugate gradient steps;
- * where such a step would make one negative it stops there and takes a short projected gradient step instead; where the
- * zero forces ask for more than the positive ones are out of balance it lets them in. Each constraint is scaled so that
- * its diagonal in G is 1. G is never formed: a product with it is a push of the bodies and a look at the stretch of
- * each constraint.
+ * The dual is min 1/2 f'Gf - d'f over f >= 0. Among the positive forces it takes conjugate gradient steps. Where such a
+ * step would make a force negative, it stops there and takes a short projected gradient step instead. Where the
+ * gradient at the zero forces exceeds the imbalance of the positive ones, it lets zero forces in. Each constraint is
+ * scaled so that its diagonal in G is 1. G is never formed: a product with it moves the bodies by the forces and reads
+ * the stretch of each constraint.
  *
- * Which forces are positive, and which way a step goes, nobody can foresee: so loops over all constraints choose
- * between two numbers that both are worked out, where they can, and do not branch. */
+ * It is unpredictable which forces are positive and which way a step goes. So loops over all constraints compute both
+ * alternatives and select one, where they can, instead of branching. */
 #include "displacement/quadratic/links.h"
 #include "displacement/quadratic/tuning.h"
 
@@ -18,8 +18,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Sizes of the imbalance: of positive forces (twice, once cut where it would make them negative), of those at zero; and
- * the worst, as a length. */
+/* Norms of the imbalance: of positive forces (twice, once clipped where the step would make them negative), of zero
+ * forces; and the worst, as a length. */
 typedef struct imbalance {
     double cut, zero, worst;
 } imbalance;
@@ -31,7 +31,7 @@ typedef struct dual {
     double *scale;             /* [n] sqrt(mass_i + mass_j); 0 for what cannot move */
     double *f, *g, *step, *gs; /* [n] forces, gradient Gf - d, direction, G times it */
     double *t;                 /* [2 * (bodies + 1)] */
-    uint32_t *pushing;         /* [n] scratch: those of which something is not zero */
+    uint32_t *pushing;         /* [n] scratch: constraints with a nonzero entry */
     sunder_i_link *link;       /* [n] */
     imbalance seen;            /* at the forces as they are ... */
     bool is_seen;              /* ... if it is known */
@@ -71,7 +71,8 @@ static void multiply(dual *q, const double *v, double *out)
     for (size_t k = 0; k < q->n; k++) out[k] = product_of(q, v, k);
 }
 
-/* As sunder_i_min() and sunder_i_max(), of which the first is a number: what is no number is passed over. Inline. */
+/* As sunder_i_min() and sunder_i_max() for a first argument that is a number: a NaN as second argument is ignored.
+ * Inline. */
 static inline double least(double so_far, double x) { return x < so_far ? x : so_far; }
 static inline double most(double so_far, double x) { return x > so_far ? x : so_far; }
 
@@ -101,11 +102,11 @@ static double largest(dual *q)
     return ABOVE_FOUND * value;
 }
 
-/* Along the step: its curvature, or 0 where it is nothing but rounding; how steep it is; how far it goes until a force
- * is zero. Constraints that contradict each other make a direction without curvature, and the dual falls along it
- * without end: a step there could have any length, and be no number at last. The diagonal of G is 1, so sums of n terms
- * are wrong by n 2^-53 of the step's square at most; a chain of n contacts has a curvature of 5 / n^2 of it at least.
- * Between the two there is room up to 100,000 contacts. */
+/* Along the step: its curvature, or 0 where it is only rounding; its slope; and its length until a force becomes zero.
+ * Contradicting constraints give a direction without curvature, along which the dual falls without end: a step there
+ * could have any length, and overflow in the end. The diagonal of G is 1, so sums of n terms are off by at most n 2^-53
+ * of the step's square; a chain of n contacts has a curvature of at least 5 / n^2 of it. The two are apart up to
+ * 100,000 contacts. */
 typedef struct direction {
     double curvature, slope, feasible;
 } direction;
@@ -150,8 +151,8 @@ static imbalance look(const dual *q, double short_step)
     return i;
 }
 
-/* So far along the step. Returns what of the gradient that is left is along it, among the positive forces; the
- * imbalance is seen on the way. */
+/* Takes a step of this length. Returns the component of the remaining gradient along the step, among the positive
+ * forces, and records the imbalance on the way. */
 static double go(dual *q, double taken, double short_step)
 {
     imbalance i = {0, 0, 0};
@@ -167,7 +168,7 @@ static double go(dual *q, double taken, double short_step)
     return along;
 }
 
-/* One step among the positive forces; false where it leads nowhere. */
+/* One step among the positive forces; false if it makes no progress. */
 static bool step_within(dual *q, double short_step)
 {
     const direction d = look_along(q);
@@ -207,8 +208,9 @@ static bool step_in(dual *q)
     return d.curvature > 0;
 }
 
-/* Is nothing out of balance by more than that? Mostly the sweeps have found the forces, and no step needs a length,
- * which takes a dozen products to find. They are counted as work all the same: what is left out changes no result. */
+/* Is every imbalance below the tolerance? Usually the sweeps have found the forces already; then no step needs a
+ * length, which takes a dozen products to find. They are counted as work all the same, so that skipping them changes no
+ * result. */
 static bool is_in_balance(dual *q, double tolerance)
 {
     const double any_length = 1;
@@ -219,7 +221,7 @@ static bool is_in_balance(dual *q, double tolerance)
     return true;
 }
 
-/* What has been found goes to the program. */
+/* Copies the result to the program. */
 static void store(const dual *q)
 {
     for (size_t k = 0; k < q->n; k++)

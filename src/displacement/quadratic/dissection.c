@@ -1,11 +1,11 @@
-/* Elimination by nested dissection [Geo73], by where the nodes stand.
+/* Elimination by nested dissection [Geo73], by the positions of the nodes.
  *
- * Bodies in contact stand beside each other, so that of thousands those in contact with somebody beyond a straight line
- * are few. They part the others into two halves that know nothing of each other, and are eliminated after both, each of
- * which is divided likewise. For a square grid that takes the least there is, up to a constant: for one of 20,000, each
- * in contact with eight, 27 million products where minimum degree takes 48, and 0.08 s to find for 0.52; below some
- * thousands there is little between them. Where somebody is in contact with hundreds, as an outline is that holds a
- * quarter, no line parts them with few: that is left to minimum degree. */
+ * Bodies in contact are next to each other, so among thousands only few have a contact across a given straight line.
+ * These few separate the others into two independent halves. They are eliminated after both halves, and each half is
+ * divided in the same way. For a square grid that is optimal up to a constant: for a grid of 20,000 bodies, each with
+ * eight contacts, it takes 27 million products where minimum degree takes 48, and 0.08 s to find instead of 0.52; below
+ * some thousands of bodies there is little difference. A body with hundreds of contacts, such as an outline that
+ * contains a quarter of the town, leaves no small separator: minimum degree is used there. */
 #include "displacement/quadratic/elimination.h"
 #include "displacement/quadratic/tuning.h"
 
@@ -28,7 +28,7 @@ static int by_spot(const void *a, const void *b)
     return p->node < q->node ? -1 : p->node > q->node;
 }
 
-/* Who is in the one half, who in the other; all else, and who parts them, in neither. */
+/* Divides the nodes into two halves; the separator, and nodes outside the part, are in neither. */
 enum { NEITHER, LOW, HIGH };
 
 typedef struct dissection {
@@ -70,7 +70,8 @@ static size_t count_meeting(const dissection *d, const spot *part, size_t n, int
     return meeting;
 }
 
-/* The part in order: the low half, the high one, and who parts them, so many as it returns; *low: of the first. */
+/* Orders the part: the low half, the high half, then the separator. Returns the size of the separator; *low: the size
+ * of the low half. */
 static size_t divide(dissection *d, spot *part, size_t n, size_t *low)
 {
     const size_t axis = wide_axis(d, part, n), middle = n / 2;
@@ -125,7 +126,7 @@ static bool rank_all(const sunder_i_elimination *e, const double *place, bool *r
 
 /* ---- Neighbours at each one's turn ------------------------------------------------------------------------------- */
 
-/* Those that a node had of old, and those of the nodes whose next it is, who come after it. */
+/* The original neighbours of a node, and those of the nodes whose successor it is, that come after it. */
 typedef struct columns {
     const sunder_i_elimination *e;
     uint32_t *by_rank, *child, *sibling, *seen; /* [n]; whose next a node is, as lists; at whose turn it was last met */

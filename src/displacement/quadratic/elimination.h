@@ -1,5 +1,5 @@
-/* Orders in which the nodes of a graph are eliminated: each joins its neighbours to each other and is gone, and who
- * those are at that moment is its column of the factor of a matrix that has the graph's edges [GL81, chapter 5]. */
+/* Elimination orders of a graph. Eliminating a node joins its neighbours to each other and removes it; its neighbours
+ * at that moment are its column in the factor of a matrix with the graph's edges [GL81, chapter 5]. */
 #ifndef SUNDER_I_ELIMINATION_H
 #define SUNDER_I_ELIMINATION_H
 
@@ -12,7 +12,7 @@ typedef struct sunder_i_elimination {
     uint32_t *rank;      /* [n] out: the turn of each; lent */
 } sunder_i_elimination;
 
-/* Of edges (a, b), a != b, that may come again. False if memory is out; free it all the same. */
+/* A graph of edges (a, b), a != b, with repeats allowed. False if memory is out; the caller frees it in any case. */
 bool sunder_i_elimination_init(sunder_i_elimination *e, size_t n, const sunder_i_id_pair *pair, size_t pairs,
                                uint32_t *rank);
 void sunder_i_elimination_free(sunder_i_elimination *e);
@@ -21,10 +21,10 @@ void sunder_i_elimination_free(sunder_i_elimination *e);
  * tree. place: NULL, or [2 n] where they stand. False if memory is out. */
 bool sunder_i_eliminate(sunder_i_elimination *e, const double *place);
 
-/* Who has fewest neighbours left first (minimum_degree.c). False if memory is out. */
+/* Minimum degree: the node with the fewest remaining neighbours first (minimum_degree.c). False if memory is out. */
 bool sunder_i_minimum_degree(sunder_i_elimination *e);
-/* By halves of the plane, who parts two halves after both (dissection.c); place: [2 n] where they stand. *done: false
- * where what parts them is too much, and nothing was done. False if memory is out. */
+/* Nested dissection: separators after the two halves they separate (dissection.c); place: [2 n] the positions of the
+ * nodes. *done is false, and nothing is changed, where separators are too large. False if memory is out. */
 bool sunder_i_dissect(sunder_i_elimination *e, const double *place, bool *done);
 
 #endif

@@ -107,8 +107,8 @@ static bool advance(interior *q, double tolerance, double *mu)
     return step > LEAST_STEP;
 }
 
-/* Where the forces have sent the bodies, slacks no less than a part of a body: few bodies go no farther than that, and
- * where their program has no solution what comes of it keeps near what the quick methods found. */
+/* Starts where the forces have moved the bodies, with slacks of at least a fraction of a body's size: few bodies move
+ * farther than that, and where their program has no solution the result stays near that of the quick methods. */
 static void begin_near(interior *q, double scale, double mean)
 {
     const sunder_i_quadratic *p = q->p;
@@ -120,10 +120,11 @@ static void begin_near(interior *q, double scale, double mean)
     }
 }
 
-/* Nothing has moved, slacks are as large as the worst miss there, forces such as would mend it. Slacks and forces that
- * begin far below what they become run into zero one after the other: begun near, where chains of contacts send bodies
- * ten times as far as they are large, one in eight of the programs of 10,000 places with symbols of 2 km did not end,
- * and what a solution would have parted had to jump. Begun so all end, in two thirds of the steps. */
+/* Starts with all bodies in place, slacks as large as the worst violation there, and forces in proportion. Slacks and
+ * forces that start far below their final values run into zero one after the other: when started near zero, where
+ * chains of contacts move bodies ten times their own size, one in eight of the programs of 10,000 places with symbols
+ * of 2 km did not converge, and the pairs affected had to jump. Started like this all converge, in two thirds of the
+ * steps. */
 static void begin_far(interior *q, double scale, double mean)
 {
     double worst = FIRST_SLACK * scale;

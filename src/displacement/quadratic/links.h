@@ -1,6 +1,6 @@
-/* The constraints of a program as the dual methods turn them over, hundreds of times each: what they need of one side
- * by side, and the ground as one body more, of no mass, so that nobody asks which end is the ground. Every operation is
- * the one that quadratic.h and methods.h say, in the same order. */
+/* The constraints of a program in the layout that the dual methods need, which pass over them hundreds of times each:
+ * the data of a constraint side by side, and the ground as one more body, of infinite mass, so that no code has to test
+ * which end is the ground. Every operation is the one that quadratic.h and methods.h describe, in the same order. */
 #ifndef SUNDER_I_LINKS_H
 #define SUNDER_I_LINKS_H
 

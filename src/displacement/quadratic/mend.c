@@ -1,10 +1,10 @@
-/* A solved program that has a few more constraints.
+/* A solved program that gets a few more constraints.
  *
- * In a crowd of thousands whose program is solved a dozen bodies overstep their limits, or run into pieces that were
- * out of reach: of 48 programs of a grid of 5,041 squares within limits 20 were solved once more for a handful of
- * constraints. What a few constraints change fades with the contacts between, so those
- * about them are solved while all others stay. With more constraints no solution is cheaper, so that what those cost
- * more than before is the most by which it can be too dear. */
+ * In a crowd of thousands, once its program is solved, a dozen bodies exceed their limits, or run into pieces that were
+ * out of reach: of 48 programs of a grid of 5,041 squares within limits, 20 were solved again for a handful of
+ * constraints. The effect of a few constraints fades with the number of contacts between, so the bodies around them are
+ * solved while all others stay. No solution gets cheaper with more constraints, so the increase in cost bounds how far
+ * the result is from the optimum. */
 #include "displacement/quadratic/methods.h"
 #include "displacement/quadratic/tuning.h"
 
@@ -18,7 +18,7 @@
 
 typedef struct mending {
     sunder_i_quadratic *p;
-    uint32_t *ring;  /* [bodies] contacts from what is missed; OUTSIDE: it stays */
+    uint32_t *ring;  /* [bodies] contacts from a violated constraint; OUTSIDE: it stays */
     uint32_t *place; /* [bodies] number in the part */
     uint32_t *body;  /* [part.bodies] */
     uint32_t *which; /* [part.n] constraints */
@@ -69,7 +69,7 @@ static void mark_missed(mending *m, double tolerance)
     }
 }
 
-/* Whoever is in contact with those of the ring, and not yet of any, is of the next. */
+/* Bodies in contact with those of one ring, and not in a ring yet, form the next ring. */
 static void mark_next(mending *m, uint32_t ring)
 {
     const sunder_i_quadratic *p = m->p;
@@ -98,7 +98,7 @@ static void take_bodies(mending *m)
     part->mass = m->mass;
 }
 
-/* What one that takes part owes; who does not is ground, and counts where it stands. */
+/* The distance owed by a body that takes part; a body that does not is ground, at its present place. */
 static void take_constraints(mending *m)
 {
     const sunder_i_quadratic *p = m->p;
@@ -140,9 +140,9 @@ static void exchange(mending *m)
     for (size_t k = 0; k < m->part.n; k++) swap(&m->p->constraint[m->which[k]].force, &m->part.constraint[k].force);
 }
 
-/* Solves the part, from inside, as all was: what ends a hair beyond what pairs are held to is worse than it stood, and
- * has to go home. *solved: with those who stay it all but solves all, and the program has it. False if memory is
- * out. */
+/* Solves the part by the interior point method, as the whole was: a body that ends slightly beyond what its pairs
+ * require stands worse than before, and would have to go back. *solved: together with the bodies that stay, the result
+ * nearly solves the whole program, which then has it. False if memory is out. */
 static bool solve_part(mending *m, double tolerance, double scale, double more, bool *solved)
 {
     sunder_i_quadratic *p = m->p, *part = &m->part;

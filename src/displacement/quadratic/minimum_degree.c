@@ -1,7 +1,7 @@
 /* Elimination in minimum degree order.
  *
- * Who is in contact with few goes first. Bodies in a plane touch few others, and an outline that holds hundreds of
- * houses comes last of them all, so the factor stays sparse whatever the shape of the cluster [GL81, chapter 5]. */
+ * Nodes with few neighbours go first. Bodies in a plane touch few others, and an outline that contains hundreds of
+ * houses comes last, so the factor stays sparse whatever the shape of the cluster [GL81, chapter 5]. */
 #include "displacement/quadratic/elimination.h"
 
 #include <string.h>
@@ -29,8 +29,8 @@ static void unlist(graph *g, uint32_t v)
         g->tail[g->near[v].n] = g->prev[v];
 }
 
-/* At the end: of equal degrees those come first that have had theirs for longest, so that the elimination goes on all
- * over the graph at once. Where it went on beside the last one a grid of 20,000 took a third more work. */
+/* Appends at the end: among equal degrees the node that has had its degree longest comes first, so that the elimination
+ * spreads over the whole graph. Continuing next to the last node took a third more work on a grid of 20,000. */
 static void enlist(graph *g, uint32_t v)
 {
     const size_t degree = g->near[v].n;

@@ -1,22 +1,23 @@
 /* min |t|^2 under constraints n.(t_j - t_i) >= d, by the dual method of Goldfarb and Idnani [GI83].
  *
- * It begins at t = 0, where no constraint acts, and lets in one that is missed after another, the worst first. Its
- * normal v is the sum of what acts, by some shares, and of a rest z at a right angle to that:
+ * It begins at t = 0, where no constraint is active, and adds one violated constraint after another, the worst first.
+ * The normal v of the new constraint is a combination of the active normals, by some shares, plus a rest z orthogonal
+ * to them:
  *
- *     t goes along z until v holds, v's force grows as much, the others' change by their shares;
- *     one whose force comes to zero before that no longer acts.
+ *     t moves along z until v holds; v's force grows as much, those of the active ones change by their shares;
+ *     a constraint whose force reaches zero before that becomes inactive.
  *
- * At each place t is the nearest one under what acts, and it is farther each time, so no set acts twice and the method
- * ends; it takes some steps a constraint that acts in the end, where methods that approach the solution take hundreds
- * of passes. Where all shares are negative, v and those that act, each by its share, sum up to z: there is no solution
- * if z can be moved along by less than v misses, within the limits [Farkas].
+ * At each stage t is the nearest point under the active constraints, and it gets farther each time. So no active set
+ * repeats, and the method ends, after a few steps for each constraint that is active at the end, where iterative
+ * methods take hundreds of passes. If all shares are negative, v and the active normals, each by its share, sum up to
+ * z: there is no solution if moving along z within the limits cannot make up for the violation of v [Farkas].
  *
- * The normals that act are kept as Q R, Q orthonormal (made so twice, [GVL13, 5.2]; at first by what the normal itself
- * has along each axis, which is two bodies' numbers), and rows of R are turned by Givens rotations where one goes. So
- * two walls that all but oppose each other are told from two that do.
+ * The active normals are kept as Q R, with Q orthonormal (orthogonalised twice, [GVL13, 5.2]; first by the normal's own
+ * entries along each axis, which are those of two bodies), and rows of R are rotated by Givens rotations when a
+ * constraint is removed. So two walls that almost oppose each other are distinguished from two that do.
  *
- *   the normals that act span all      z is rounding, and is taken for nothing: so is a rest below 1e-14
- *   one that acts is missed again      by rounding: it is let in again, and its other self goes */
+ *   the active normals span everything   z is rounding, and counts as zero: so does a rest below 1e-14
+ *   an active one is violated again      by rounding: it is added again, and its earlier copy is removed */
 #include "displacement/quadratic/nearest.h"
 #include "displacement/quadratic/tuning.h"
 
@@ -27,7 +28,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The square of what is left of a normal by rounding. */
+/* The square of the rounding error that remains of a normal. */
 #define NOTHING 1e-28
 
 void sunder_i_nearest_free(sunder_i_nearest *w)
@@ -59,7 +60,7 @@ bool sunder_i_nearest_begin(sunder_i_nearest *w, sunder_i_quadratic *p)
 
 /* ---- The factors ------------------------------------------------------------------------------------------------- */
 
-/* Of vectors of an even length: four sums, of which none waits for another. */
+/* For vectors of an even length: four independent partial sums. */
 static inline double product(const double *restrict a, const double *restrict b, size_t n)
 {
     double sum[4] = {0, 0, 0, 0};
@@ -151,7 +152,7 @@ static void let_go(sunder_i_nearest *w, size_t k)
 
 /* ---- The steps --------------------------------------------------------------------------------------------------- */
 
-/* Whose force is the first to come to zero, if v's grows; n: nobody's. *step: by how much it may. */
+/* The constraint whose force is the first to reach zero as v's grows; n: none. *step: by how much v's may grow. */
 static size_t first_to_go(const sunder_i_nearest *w, double *step)
 {
     size_t first = w->n;

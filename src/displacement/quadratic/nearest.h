@@ -17,7 +17,7 @@ typedef struct sunder_i_nearest {
     uint32_t *set;  /* [n] their places in the program */
     double *force;  /* [n] */
     double *axis;   /* rows of `dims`: an orthonormal basis of what their normals span, and ... */
-    double *factor; /* ... rows of `dims`: the normals in it, of which the k-th has k + 1 entries */
+    double *factor; /* ... rows of `dims`: the active normals in it; the k-th has k + 1 entries */
     double *part;   /* [dims] of the one that comes in: in the basis, ... */
     double *share;  /* [dims] ... as a sum of those that act, ... */
     double *rest;   /* [dims] ... and what is left of it */

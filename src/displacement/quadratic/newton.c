@@ -1,15 +1,15 @@
 /* The same program by Newton steps on the moves, from forces that are nearly right.
  *
- * A soft program has no constraints any more: what is missed by v > 0 costs v^2 / (2 give), with give = softness *
- * (mass_i + mass_j), and its force is v / give. The sum of all that and of the cost of the moves is convex and smooth,
- * of pieces that are quadratic: those constraints act that are missed. A Newton step goes to the least of the piece at
- * hand, or to where the sum is least on the way; once a whole step leaves the piece what it is, that is the solution
- * [QS93]. It takes some steps from forces that are nearly right, a dozen or two from none, where what the dual methods
- * take grows with the length of chains, and with contradictions without end.
+ * A soft program has no hard constraints: a violation v > 0 costs v^2 / (2 give), with give = softness * (mass_i +
+ * mass_j), and its force is v / give. The sum of these costs and the cost of the moves is convex, smooth and piecewise
+ * quadratic: the violated constraints are the active ones. A Newton step goes to the minimum of the current quadratic
+ * piece, or to the least value on the way; once a full step stays in its piece, that is the solution [QS93]. It takes a
+ * few steps from forces that are nearly right, a dozen or two from zero. The dual methods, in contrast, need more steps
+ * with the length of chains, and do not end with contradictions.
  *
- * A hard program is a sequence of soft ones [Roc76]: each constraint is owed give * force more, with the force that it
- * had before, so that where forces no longer change nothing is missed. The less give is the fewer it takes, so it
- * falls; where contradictions let forces grow, they soon prove that all solutions cost too much, if they do. */
+ * A hard program is a sequence of soft ones [Roc76]: each constraint is owed give * force more, with its previous
+ * force, so that once the forces no longer change nothing is violated. A smaller give needs fewer rounds, so it is
+ * reduced; if contradictions let the forces grow, they soon prove that every solution costs too much. */
 #include "displacement/quadratic/methods.h"
 #include "displacement/quadratic/normal_equations.h"
 #include "displacement/quadratic/tuning.h"
@@ -93,8 +93,9 @@ static void steepness(const newton *q, double share, const double moves[2], doub
     }
 }
 
-/* The share of the step at which the sum is least, or nearly: its slope grows along the step, in straight pieces, so
- * Newton's method finds it, kept between a share where the sum still falls and one where it rises. */
+/* The fraction of the step at which the sum is least, approximately: its slope along the step is increasing and
+ * piecewise linear, so Newton's method finds it, bracketed between a fraction where the sum still falls and one where
+ * it rises. */
 static double find_share(const newton *q)
 {
     const sunder_i_normal *a = &q->normal;
@@ -151,7 +152,7 @@ static bool minimise(newton *q, double tolerance)
 
 /* ---- The sequence ------------------------------------------------------------------------------------------------ */
 
-/* What is owed with the forces as they are. */
+/* The distances owed with the present forces. */
 static void owe(newton *q, double softness, bool hard)
 {
     const sunder_i_quadratic *p = q->p;
@@ -189,10 +190,10 @@ static bool solve_soft(newton *q, double softness, double tolerance)
     return true;
 }
 
-/* How far to go on along the last step of the forces: as far as what they prove grows, and none of them pulls. Along
- * f + s g, with t and u where f and g send the bodies, it grows by s (g.d - sum of t.u / mass) - s^2 / 2 sum of
- * u.u / mass [weak duality, quadratic.c]; that is no farther than proves twice as much as is wanted. rising: those that
- * fell stay. */
+/* How far to continue along the last change of the forces: as far as the bound that they prove grows, and no force
+ * becomes negative. Along f + s g, with t and u the moves that f and g cause, the bound grows by s (g.d - sum of t.u /
+ * mass) - s^2 / 2 sum of u.u / mass [weak duality, quadratic.c]; at most until it proves twice what is wanted. rising:
+ * forces that fell are kept. */
 static double far_along(const newton *q, bool rising)
 {
     const sunder_i_quadratic *p = q->p;
@@ -244,10 +245,10 @@ static bool is_beyond(newton *q)
     return false;
 }
 
-/* Where forces change as much as they did they go over from one constraint to another that is nearly the same, in steps
- * that are as long as the hair between the two allows: what is left of that way is gone at once. If no more than a hair
- * is kept, and nothing missed, which of the two has the force does not matter. (Of few constraints the dual methods
- * soon tell.) */
+/* Forces that change as much as in the last round move from one constraint to another that is nearly the same, in steps
+ * limited by the small distance between the two: the rest of that path is taken at once. As long as the violations stay
+ * below a hair, it does not matter which of the two has the force. (With few constraints the dual methods settle it
+ * quickly.) */
 static bool solve_hard(newton *q, double tolerance)
 {
     const bool few = q->normal.m <= FEW_TO_LEAP;

@@ -6,8 +6,8 @@
 #include "displacement/quadratic/quadratic.h"
 #include "displacement/quadratic/sparse.h"
 
-/* One constraint. Places are first numbers of a body's two unknowns; that of the ground comes after all unknowns, so
- * that nobody asks which end it is. */
+/* One constraint. Its places are the first of a body's two unknowns; the ground's place comes after all unknowns, so no
+ * code has to test which end is the ground. */
 typedef struct sunder_i_normal_row {
     uint32_t i, j;
     double n[2];
@@ -22,7 +22,7 @@ typedef struct sunder_i_normal {
     sunder_i_sparse matrix;
 } sunder_i_normal;
 
-/* False if memory is out; free it all the same. */
+/* False if memory is out; the caller frees it in any case. */
 bool sunder_i_normal_init(sunder_i_normal *q, const sunder_i_quadratic *program);
 void sunder_i_normal_free(sunder_i_normal *q);
 /* H alone, and v times what constraint c adds. */

@@ -1,15 +1,15 @@
 /* min sum w_i |t_i|^2 under constraints n.(t_j - t_i) >= d: five methods, one after the other.
  *
- * The dual has one multiplier (a force) a constraint, and t follows from the forces: 2 w_i t_i = sum of the forces on
- * i. Hildreth's method [Hil57] takes one constraint after another and gives its force the value that makes it hold with
- * equality, or zero. It is quick to find which constraints act, slow to find how strongly where contacts form long
- * chains. There conjugate gradients that keep the forces non-negative (conjugate_gradients.c) are far quicker, and when
- * the acting set is known, or nearly, linear equations (active_set.c) give the rest of the digits. Programs of more
- * than a few dozen constraints are asked first of Newton's method on the moves (newton.c), which takes a fraction of
- * that where they contradict each other. What resists, and what is large, goes to an interior point method
- * (interior_point.c).
+ * The dual has one multiplier (a force) for each constraint, and t follows from the forces: 2 w_i t_i = sum of the
+ * forces on i. Hildreth's method [Hil57] visits one constraint after another and sets its force to the value that makes
+ * it hold with equality, or to zero. It quickly finds which constraints are active, but slowly how strongly where
+ * contacts form long chains. There conjugate gradients with non-negative forces (conjugate_gradients.c) are far
+ * quicker, and once the active set is known, or nearly, linear equations (active_set.c) give the remaining digits.
+ * Programs of more than a few dozen constraints first try Newton's method on the moves (newton.c), which takes a
+ * fraction of that where constraints contradict each other. Programs that resist, and large ones, go to an interior
+ * point method (interior_point.c).
  *
- * With softness s each constraint may be missed by s * (mass_i + mass_j) * force, which adds that to the diagonal of
+ * With softness s each constraint may be violated by s * (mass_i + mass_j) * force, which is added to the diagonal of
  * the dual: contradictions then have a compromise. */
 #include "displacement/quadratic/links.h"
 #include "displacement/quadratic/tuning.h"
@@ -120,7 +120,8 @@ static void sweep_acting(sweeping *s)
         if (s->p->constraint[s->acting[a]].force > 0) relax(s, s->acting[a]);
 }
 
-/* Every so many sweeps one over all, until that moves nothing any more. False if memory is out. */
+/* Sweeps over the moving constraints, with a full sweep every FULL_SWEEP-th time, until a full sweep changes nothing.
+ * False if memory is out. */
 static bool sweep(sunder_i_quadratic *p, double softness, double tolerance)
 {
     const size_t places = 2 * (p->bodies + 1);

@@ -22,8 +22,8 @@ typedef struct sunder_i_quadratic {
     sunder_i_constraint *constraint;
     size_t n, capacity;
     double *t;           /* [2 * bodies] out */
-    const double *place; /* [2 * bodies] where in the plane they are, which tells who is near whom; NULL: not known */
-    uint64_t work;       /* done so far, roughly in constraints looked at */
+    const double *place; /* [2 * bodies] positions in the plane, which tell neighbours; NULL: not known */
+    uint64_t work;       /* work so far, approximately in constraints looked at */
     uint64_t most_work;  /* 0, or how much may be: then what is done by then is the solution, such as it is */
     double most_cost;    /* 0, or what no solution that is of use costs more than: where none costs as little, none is
                            looked for any longer */

@@ -14,7 +14,7 @@
 /* What is to be inlined, so that it is compiled for the machine that its caller is: */
 #define INLINE static inline __attribute__((always_inline))
 
-/* Sums of so many blocks, and what is added to them, fit the registers. */
+/* Sums of this many blocks, and the terms added to them, fit the registers. */
 #define ROWS_AT_ONCE 4
 
 /* A block, column by column. */

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* As whole numbers. False if memory is out. */
+/* As integers. False if memory is out. */
 static bool round_prices(const float *price, sunder_i_prices *out)
 {
     const size_t nodes = sunder_i_grid_nodes(&out->grid);

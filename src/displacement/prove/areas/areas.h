@@ -64,7 +64,7 @@ void sunder_i_outline_free(sunder_i_outline *outline);
 
 /* ---- masses.c ---------------------------------------------------------------------------------------------------- */
 
-/* False if memory is out; failure leaves what is freed. */
+/* False if memory is out; the caller frees it in any case. */
 bool sunder_i_masses_make(const sunder_i_outline *outline, const sunder_i_grid *grid, sunder_i_masses *masses);
 void sunder_i_masses_free(sunder_i_masses *masses);
 
@@ -90,8 +90,8 @@ bool sunder_i_prices_prove(const sunder_i_prices *prices, const sunder_i_payer *
 
 /* ---- areas.c ----------------------------------------------------------------------------------------------------- */
 
-/* What bodies, of which all pairs owe each other the gap, cost together at least. *bound: 0 where nothing is proved;
- * else *prices, whose numbers are the caller's, are what it stands on. Members are to be united. */
+/* A lower bound on the total cost of bodies that all owe each other the gap. *bound: 0 where nothing is proved; else
+ * *prices proves it, and the caller frees its numbers. Members are united. */
 sunder_status sunder_i_areas_bound(const sunder_i_model *model, const uint32_t *body, size_t n, sunder_i_prices *prices,
                                    double *bound, sunder_error *err);
 

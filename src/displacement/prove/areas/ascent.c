@@ -16,7 +16,7 @@
 #include <math.h>
 #include <string.h>
 
-/* What of a payer is at a move, in squares. */
+/* The part of a payer's mass that is at a move, in squares. */
 typedef struct part {
     int64_t dx, dy;
     double paid;  /* there */
@@ -36,8 +36,8 @@ typedef struct ascent {
     size_t n;
     double patience;
     unsigned threads;
-    float *price, *half; /* [nodes] what is wished for, blurred; scratch */
-    answer *answer;      /* [AT_ONCE] of payers that are asked together */
+    float *price, *half; /* [nodes] excess demand, blurred; scratch */
+    answer *answer;      /* [AT_ONCE] for payers that are evaluated together */
 } ascent;
 
 /* Asking one payer. */
@@ -73,7 +73,7 @@ static double price_of(const ascent *a, const sunder_i_masses *m, const float *p
     return sum / (double)SUNDER_I_MASS_OF_SQUARE;
 }
 
-/* So much of the payer is there. */
+/* Adds this share of the payer's mass there. */
 static void occupy(const ascent *a, const sunder_i_masses *m, double share, int64_t dx, int64_t dy, float *slope)
 {
     const sunder_i_part_on_grid w = sunder_i_part_on(a->grid, m, dx, dy);
@@ -145,7 +145,7 @@ static bool list_cell(asking *a, int64_t x, int64_t y, double doubt, double *lea
     return true;
 }
 
-/* Of places that count each one's share, from what is paid there; and what the payer pays, softly. */
+/* Turns what is paid at each place into its share of the payer, and computes the payer's soft minimum. */
 static void weigh_shares(answer *s, double heat, double least)
 {
     double sum = 0;
@@ -195,7 +195,7 @@ static bool ask_payer(asking *a)
     return true;
 }
 
-/* Payers that are asked at once, from the first of them. */
+/* Payers that are evaluated at once, from the first of them. */
 typedef struct batch {
     const ascent *ascent;
     const float *price;
@@ -216,7 +216,7 @@ static sunder_status ask_some(void *context, size_t begin, size_t end, sunder_er
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* Asks payers from the first on, as many at once as there is room for the answers of: their number; 0 if memory is
+/* Evaluates payers from the first on, as many at once as there is room for their answers: their number; 0 if memory is
  * out. */
 static size_t ask_at_once(const ascent *a, const float *price, size_t first)
 {
@@ -235,8 +235,7 @@ static void blur_along(const sunder_i_grid *l, size_t stride, const float *restr
     for (size_t k = last; k < nodes; k++) out[k] = (in[k - stride] + 2 * in[k]) / 4;
 }
 
-/* The same along both, BLURRED times. It is its own transpose; what is asked for has room about it for what it
- * spreads. */
+/* The same along both axes, BLURRED times. The operator is its own transpose; demand has a margin for the spread. */
 static void blur(const ascent *a, float *field)
 {
     for (int k = 0; k < BLURRED; k++) {
@@ -279,8 +278,8 @@ static void inner_nodes(const sunder_i_grid *l, size_t j, size_t *first, size_t 
     *end = any ? row + l->columns - border : *first;
 }
 
-/* What a coarser grid's prices, which are blurred, ask for beyond inner nodes is nothing that this grid may ask for: a
- * step that is shortened would leave some of it, level after level nearer to the border. */
+/* Prices of a coarser grid, being blurred, may lie beyond the inner nodes that this grid allows to have a price: these
+ * are removed. A shortened step would keep part of them, nearer to the border with each level. */
 static void keep_inner(const sunder_i_grid *l, float *price)
 {
     for (size_t j = 0; j < l->rows; j++) {
@@ -397,7 +396,7 @@ bool sunder_i_prices_ascend(const sunder_i_grid *grid, const sunder_i_payer *pay
     return ok;
 }
 
-/* In the mean of where it answered. */
+/* Weighted mean of the places that the payer chose. */
 static void find_mean(const ascent *a, const answer *s, double move[2])
 {
     move[0] = move[1] = 0;

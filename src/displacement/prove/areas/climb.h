@@ -12,7 +12,7 @@ typedef struct sunder_i_climb {
     sunder_i_payer *payer;     /* [payers] those that have any area, in their order */
     size_t payers;
     double box[4]; /* of all places that may have a price */
-    double size;   /* of a body of mean area; 0: too few have any */
+    double size;   /* of a body of mean area; 0: too few bodies have any */
     double side;   /* of the next grid */
     double patience;
     unsigned left, coarser; /* grids to come, the next one among them; it is one in 2^coarser of the finest */

@@ -1,13 +1,13 @@
-/* How a body's area is spread over the nodes of a grid.
+/* How a body's area is distributed to the nodes of a grid.
  *
- * Rings are clipped to each row of squares, and what is left to each square of it [SH74]: edges
- * along the border that this leaves cancel out in integrals by Green's formula, whatever the ring. A square gives its
- * four nodes the integrals of (1 - u) (1 - v), u (1 - v), (1 - u) v and u v, (u, v) the place in it.
+ * Rings are clipped to each row of squares, and the result to each square [SH74]: by Green's formula the edges that
+ * clipping adds along the border cancel in integrals, whatever the ring. A square gives its four nodes the integrals of
+ * (1 - u) (1 - v), u (1 - v), (1 - u) v and u v, (u, v) the place in it.
  *
- * Rounding. Coordinates are divided by a power of two, and what is subtracted leaves fewer digits: exact. A corner
- * that clipping makes is off by some units of the last place of numbers below 2^12, the most squares that a body may
- * span; and a corner of the outline by one of the layer's numbers. Either changes the area by no more than so much for
- * each corner; masses are less by more than that. */
+ * Rounding. Coordinates are divided by a power of two, and subtraction leaves fewer digits: exact. A corner that
+ * clipping makes is off by some units in the last place of numbers below 2^12, the most squares that a body may span; a
+ * corner of the outline by one unit of the layer's numbers. Either changes the area by a bounded amount for each
+ * corner; masses are reduced by more than that. */
 #include "displacement/prove/areas/areas.h"
 #include "displacement/prove/areas/tuning.h"
 

@@ -1,7 +1,6 @@
-/* Where a crowd may begin: each body in the mean of the places that prices of area leave it to choose from. What
- * stands in one place comes apart in all directions, and those that stand in a row do not pass each other, as mass
- * does that is transported at the least cost; so sides are mostly right when the search begins, and what is still
- * missing is little. */
+/* Where a crowd may begin: each body at the mean of the places that prices of area leave it to choose from. Bodies that
+ * coincide spread in all directions, and bodies in a row do not pass each other, as in optimal transport; so their
+ * sides are mostly right when the search begins, and little remains to be done. */
 #include "displacement/prove/areas/climb.h"
 #include "displacement/prove/areas/tuning.h"
 

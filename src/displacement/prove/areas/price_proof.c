@@ -1,11 +1,11 @@
-/* What prices prove, in whole numbers.
+/* What prices prove, in integers.
  *
- * Let g(t) be the price of the payer's area when it moved by t, and k a place of the grid. Of k <= t <= k + 1 (in
- * squares) the four values at the corners tell g up to what the prices' kinks allow: along one axis the price that a
- * point of the body meets is linear but for one kink, at a node, and where that is convex, by d, the chord is above it
- * by no more than d / 4. So g(t) is at least the bilinear mean of the corners less E / 4, E the sum over the body's
+ * Let g(t) be the price of the payer's area when it moved by t, and k a place of the grid. For k <= t <= k + 1 (in
+ * squares) the four values at the corners determine g up to the kinks of the prices: along one axis the price at a
+ * point of the body is linear except for one kink, at a node, and where that is convex, by d, the chord is above it by
+ * at most d / 4. So g(t) is at least the bilinear mean of the corners less E / 4, with E the sum over the body's
  * squares of their mass times the greatest such d that they may meet, in x and in y. And |t|^2 is below its own mean
- * over a square of side s by no more than s^2 / 2, so squares are divided further, by the mean alone. */
+ * over a square of side s by at most s^2 / 2, so squares are divided further, by the mean alone. */
 #include "displacement/prove/areas/areas.h"
 #include "displacement/prove/areas/window.h"
 
@@ -15,7 +15,7 @@
 
 #include <math.h>
 
-/* Squares are divided in so many, either way, and all is counted in parts of so many. */
+/* Squares are divided into this many parts along either axis, and everything is counted in units of this fraction. */
 #define PARTS 8
 #define PARTS_SQUARE (PARTS * PARTS)
 
@@ -100,7 +100,7 @@ static int64_t *slot(const asking *a, int64_t dx, int64_t dy)
     return &a->price[(dy + a->reach) * (2 * a->reach + 1) + dx + a->reach];
 }
 
-/* Prices of all moves that are so many squares long in one direction, and no more in the other. */
+/* Prices of all moves that are exactly this many squares long along one axis, and no longer along the other. */
 static void price_ring(const asking *a, int64_t r)
 {
     for (int64_t dy = -r; dy <= r; dy++) {
@@ -190,7 +190,8 @@ static bool ask_payer(const field *f, const sunder_i_payer *payer, int64_t *paid
     if (!a.price) return false;
     ask_rings(&a);
     sunder_i_free(a.price);
-    /* Of what is beyond the grid, and was not looked at, the way alone is paid: no less than to its end. */
+    /* For places beyond the grid, which were not looked at, only the move is paid: at least that to the grid's
+     * border. */
     if (a.reach > beyond && PARTS_SQUARE * a.weight * beyond * beyond < a.least)
         a.least = PARTS_SQUARE * a.weight * beyond * beyond;
     *paid = a.least;

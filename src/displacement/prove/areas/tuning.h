@@ -5,21 +5,21 @@
 
 /* ---- Error bounds (masses.c) ------------------------------------------------------------------------------------- */
 
-/* A body spans no more squares than this, either way. What a corner of what is left of it in a square may change its
- * area by, in parts of a mass: rounding of numbers below 2^12 is 2^-41 of a square, and a mass 2^-20. */
+/* A body spans at most this many squares along either axis. Bound on the change of area by rounding a corner of the
+ * clipped body in a square, in parts of a mass: rounding of numbers below 2^12 is 2^-41 of a square, and a mass
+ * 2^-20. */
 #define MOST_SPAN 4096
 #define CORNER_DOUBT 0x1p-10
 
 /* ---- What bodies occupy (occupied_outline.c) --------------------------------------------------------------------- */
 
-/* The share of half the gap that they are grown by: so who checks it may do with a polygon of 32 corners for the disc.
- */
+/* The share of half the gap by which they are grown: so a checker may use a polygon of 32 corners for the disc. */
 #define HALF_GAP (1 - 0x1p-7)
 
 /* ---- Ascent (ascent.c) ------------------------------------------------------------------------------------------- */
 
-/* The first step, as a share of the price that a square has that is asked for twice; its changes, at most; how often it
- * is shortened, and by how much; over how many values none needs to be more than the least. */
+/* The first step, as a share of the price of a square that is demanded twice; the most steps; how often a step is
+ * shortened, and by which factor; over how many values the least must not be exceeded. */
 #define FIRST_STEP 0.3
 #define STEP_LEAST 1e-4
 #define STEP_MOST 1e4
@@ -28,11 +28,11 @@
 #define SHORTER 0.4
 #define REMEMBERED 10
 #define ENOUGH 1e-4
-/* Places that count for nothing: so many temperatures above the least. */
+/* Places this many temperatures above the least are ignored. */
 #define TOO_DEAR 12
-/* One place in so many, either way, is looked at to see what the least is about. */
+/* One place in this many, along either axis, is sampled to estimate the least. */
 #define GLANCES 4
-/* Payers that are asked before what they answer is added up. */
+/* Payers evaluated before their answers are added up. */
 #define AT_ONCE 1024
 /* A share of the payer that counts for nothing. */
 #define LITTLE 1e-5
@@ -41,8 +41,8 @@
 
 /* Fewer bodies are a tree's. */
 #define FEWEST 4
-/* Squares across a body of mean size, on the finest grid, at least half as many; so many coarser ones, each of twice
- * the side, and the rounds of each, from the coarsest; nodes of the finest at most. */
+/* Squares across a body of mean size on the finest grid, at least half as many; number of coarser grids, each with
+ * squares of twice the side, and the rounds of each, from the coarsest; the most nodes of the finest. */
 #define SQUARES_ACROSS 12
 #define LEVELS 4
 #define ROUNDS                                                                                                         \

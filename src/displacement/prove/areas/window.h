@@ -28,8 +28,8 @@ static inline size_t sunder_i_part_node(const sunder_i_grid *grid, const sunder_
     return (size_t)(w->y + (int64_t)j) * grid->columns + (size_t)(w->x + (int64_t)w->column);
 }
 
-/* A payer that moved so many squares along either axis, or more, is beyond the grid, where nothing has a price. Payers
- * stand on the grid. */
+/* A payer that moved by this many squares along either axis is beyond the grid, where nothing has a price. Payers stand
+ * on the grid. */
 static inline int64_t sunder_i_beyond_grid(const sunder_i_grid *grid, const sunder_i_masses *m)
 {
     const size_t columns = grid->columns + m->columns, rows = grid->rows + m->rows;
