@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-void gis_fill_holes(void *things, size_t count, size_t size, const gis_hole *hole, size_t holes)
+void gis_clear_padding(void *things, size_t count, size_t size, const gis_padding *hole, size_t holes)
 {
     unsigned char *thing = things;
     if (holes == 0) return;

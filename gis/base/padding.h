@@ -6,22 +6,22 @@
 #include <stddef.h>
 
 /* From one byte of a structure up to another. */
-typedef struct gis_hole {
+typedef struct gis_padding {
     size_t from, to;
-} gis_hole;
+} gis_padding;
 
 /* Between a member and the next one; behind the last one. `type` is a name, a member may be one of a member's: a.b. */
-#define GIS_HOLE_END(type, member) (offsetof(type, member) + sizeof((type *)0)->member)
-#define GIS_HOLE_BETWEEN(type, member, next)                                                                           \
+#define GIS_PADDING_START(type, member) (offsetof(type, member) + sizeof((type *)0)->member)
+#define GIS_PADDING_BETWEEN(type, member, next)                                                                        \
     {                                                                                                                  \
-        GIS_HOLE_END(type, member), offsetof(type, next)                                                               \
+        GIS_PADDING_START(type, member), offsetof(type, next)                                                          \
     }
-#define GIS_HOLE_BEHIND(type, member)                                                                                  \
+#define GIS_PADDING_BEHIND(type, member)                                                                               \
     {                                                                                                                  \
-        GIS_HOLE_END(type, member), sizeof(type)                                                                       \
+        GIS_PADDING_START(type, member), sizeof(type)                                                                  \
     }
 
 /* [count] things of `size` bytes, each with these holes. */
-void gis_fill_holes(void *things, size_t count, size_t size, const gis_hole *hole, size_t holes);
+void gis_clear_padding(void *things, size_t count, size_t size, const gis_padding *hole, size_t holes);
 
 #endif

@@ -12,11 +12,11 @@ typedef struct piece {
     void *context;
 } piece;
 
-struct gis_beside {
+struct gis_side_thread {
     pthread_t thread;
     pthread_mutex_t lock; /* of what follows */
     pthread_cond_t changed;
-    piece left[GIS_BESIDE_PIECES]; /* to do, the first of them first */
+    piece left[GIS_SIDE_THREAD_PIECES]; /* to do, the first of them first */
     size_t n;
     bool end;
 };
@@ -25,7 +25,7 @@ struct gis_beside {
  * said by the results of the work. */
 static void *serve(void *argument)
 {
-    gis_beside *b = argument;
+    gis_side_thread *b = argument;
     CPLPushErrorHandler(CPLQuietErrorHandler);
     pthread_mutex_lock(&b->lock);
     while (!b->end || b->n > 0) {
@@ -46,9 +46,9 @@ static void *serve(void *argument)
     return NULL;
 }
 
-gis_beside *gis_beside_new(void)
+gis_side_thread *gis_side_thread_new(void)
 {
-    gis_beside *b = calloc(1, sizeof *b);
+    gis_side_thread *b = calloc(1, sizeof *b);
     if (!b) return NULL;
     pthread_mutex_init(&b->lock, NULL);
     pthread_cond_init(&b->changed, NULL);
@@ -59,20 +59,20 @@ gis_beside *gis_beside_new(void)
     return NULL;
 }
 
-void gis_beside_do(gis_beside *b, void (*work)(void *context), void *context)
+void gis_side_thread_do(gis_side_thread *b, void (*work)(void *context), void *context)
 {
     if (!b) {
         work(context);
         return;
     }
-    gis_beside_wait(b, GIS_BESIDE_PIECES - 1);
+    gis_side_thread_wait(b, GIS_SIDE_THREAD_PIECES - 1);
     pthread_mutex_lock(&b->lock);
     b->left[b->n++] = (piece){work, context};
     pthread_cond_broadcast(&b->changed);
     pthread_mutex_unlock(&b->lock);
 }
 
-void gis_beside_wait(gis_beside *b, size_t left)
+void gis_side_thread_wait(gis_side_thread *b, size_t left)
 {
     if (!b) return;
     pthread_mutex_lock(&b->lock);
@@ -80,7 +80,7 @@ void gis_beside_wait(gis_beside *b, size_t left)
     pthread_mutex_unlock(&b->lock);
 }
 
-void gis_beside_free(gis_beside *b)
+void gis_side_thread_free(gis_side_thread *b)
 {
     if (!b) return;
     pthread_mutex_lock(&b->lock);

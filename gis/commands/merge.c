@@ -30,13 +30,13 @@ static void list_missing(const bool *missing, unsigned shards, char *text, size_
     }
 }
 
-static bool look(const gis_in_parts *parts, const gis_plan *plan, bool *missing, bool *any, gis_error *error)
+static bool look(const gis_shard_run *parts, const gis_plan *plan, bool *missing, bool *any, gis_error *error)
 {
     *any = false;
     for (unsigned k = 0; k < plan->shards; k++) {
         gis_shard_state state;
         gis_error why;
-        if (!gis_in_parts_state(parts, k + 1, plan->stamp, &state, &why, error)) return false;
+        if (!gis_shard_run_state(parts, k + 1, plan->stamp, &state, &why, error)) return false;
         missing[k] = state != GIS_SHARD_DONE;
         *any = *any || missing[k];
         if (state == GIS_SHARD_WRONG) gis_say_warning(GIS_MESSAGE_REMAINS, "%s", why.message);
@@ -44,7 +44,7 @@ static bool look(const gis_in_parts *parts, const gis_plan *plan, bool *missing,
     return true;
 }
 
-static bool all_there(const gis_in_parts *parts, const gis_plan *plan, gis_error *error)
+static bool all_there(const gis_shard_run *parts, const gis_plan *plan, gis_error *error)
 {
     char list[400];
     bool *missing = calloc(plan->shards, sizeof *missing), any;
@@ -65,11 +65,11 @@ static bool resume(gis_separate_run *run, const gis_planned *planned, const char
 {
     const gis_plan *plan = &planned->plan;
     return gis_planned_rules(&planned->options, &run->request.rules, error) &&
-           gis_in_parts_resume(&run->request, directory, &plan->facts, plan->shards, plan->memory, &run->parts,
-                               error) &&
+           gis_shard_run_resume(&run->request, directory, &plan->facts, plan->shards, plan->memory, &run->parts,
+                                error) &&
            gis_plan_check(plan, &run->parts, true, error) && all_there(&run->parts, plan, error) &&
-           gis_in_parts_open(&run->parts, false, &run->input, error) &&
-           gis_in_parts_look_at_barriers(&run->parts, &run->input, error) &&
+           gis_shard_run_open_source(&run->parts, false, &run->input, error) &&
+           gis_shard_run_compare_barriers(&run->parts, &run->input, error) &&
            gis_destinations_spare(&run->to, run->input.source, error);
 }
 
@@ -85,7 +85,7 @@ int gis_command_merge(const gis_options *options)
     run.in_parts = run.merges = true;
     run.stamp = planned.plan.stamp;
     ok = ok && resume(&run, &planned, directory, &error);
-    if (ok) gis_in_parts_tell_together(&run.parts);
+    if (ok) gis_shard_run_warn_of_group(&run.parts);
     run.read = gis_clock() - run.start;
     ok = ok && gis_separate_in_parts(&run, &error) && gis_separate_deliver(&run, &error);
     const int status = gis_separate_end(&run, ok, &error);

@@ -17,7 +17,7 @@ typedef struct plan_run {
     gis_planned planned;
     gis_layer_input_request request;
     gis_plan_place place;
-    gis_in_parts parts;
+    gis_shard_run parts;
     bool quiet, there; /* there: nothing was to be done */
 } plan_run;
 
@@ -65,7 +65,7 @@ static bool make_plan(plan_run *run, gis_error *error)
     bool taken = false;
     if (!gis_plan_place_begin(run->directory, &run->place, error)) return false;
     const char *place = run->place.path;
-    if (!gis_in_parts_begin(&run->request, place, plan->shards, plan->memory, &run->parts, error)) return false;
+    if (!gis_shard_run_begin(&run->request, place, plan->shards, plan->memory, &run->parts, error)) return false;
     plan->facts = *facts; /* which are the parts' still */
     plan->spool = gis_spool_checksum(run->parts.spool);
     const bool written = gis_plan_status_checksum(place, &plan->status, error) &&
@@ -100,7 +100,7 @@ int gis_command_plan(const gis_options *options)
         print(&run);
     }
     const int status = ok ? GIS_DONE : gis_say_failure(&error);
-    gis_in_parts_clear(&run.parts);
+    gis_shard_run_clear(&run.parts);
     gis_plan_place_clear(&run.place);
     gis_layer_input_request_clear(&run.request);
     gis_planned_clear(&run.planned);

@@ -11,8 +11,8 @@
  * the end. */
 static bool read_in_parts(gis_separate_run *run, double memory, gis_error *error)
 {
-    return gis_in_parts_begin(&run->request, NULL, 1, memory, &run->parts, error) &&
-           gis_in_parts_open(&run->parts, false, &run->input, error);
+    return gis_shard_run_begin(&run->request, NULL, 1, memory, &run->parts, error) &&
+           gis_shard_run_open_source(&run->parts, false, &run->input, error);
 }
 
 /* All but the last step, which is gis_deliver()'s. */
@@ -63,7 +63,7 @@ int gis_separate_end(gis_separate_run *run, bool done, const gis_error *error)
     gis_sink_free(run->sink);
     sunder_report_free(run->report);
     gis_layer_input_clear(&run->input);
-    gis_in_parts_clear(&run->parts);
+    gis_shard_run_clear(&run->parts);
     gis_layer_input_request_clear(&run->request);
     return status;
 }

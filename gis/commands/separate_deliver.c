@@ -15,7 +15,7 @@ static bool write_page(const gis_separate_run *run, gis_text *page, gis_error *e
     gis_page_held held = {&run->input, run->report};
     gis_page_spooled *spooled = NULL;
     bool ok = gis_call_list(run->options, &call, error) &&
-              (!run->in_parts || gis_page_spooled_open((gis_in_parts *)&run->parts, &spooled, error));
+              (!run->in_parts || gis_page_spooled_open((gis_shard_run *)&run->parts, &spooled, error));
     const gis_page_contents contents = spooled ? gis_page_contents_of_spool(spooled) : gis_page_contents_of(&held);
     const gis_page_request request = {
         .input = &run->input,
@@ -42,7 +42,7 @@ static bool write_proof(const void *of, FILE *to, gis_error *error)
 {
     const gis_separate_run *run = of;
     if (!run->in_parts) return gis_proof_write(&run->input, run->report, to, error);
-    return gis_in_parts_proof((gis_in_parts *)&run->parts, &run->input, &run->summary, to, error);
+    return gis_shard_run_proof((gis_shard_run *)&run->parts, &run->input, &run->summary, to, error);
 }
 
 bool gis_separate_deliver(const gis_separate_run *run, gis_error *error)

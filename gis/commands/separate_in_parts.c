@@ -11,7 +11,7 @@ static bool open_sink_in_parts(gis_separate_run *run, gis_error *error)
     run->sink = NULL;
     gis_layer_input_clear(&run->input);
     run->whole = true;
-    return gis_in_parts_open(&run->parts, true, &run->input, error) && gis_separate_open_sink(run, error);
+    return gis_shard_run_open_source(&run->parts, true, &run->input, error) && gis_separate_open_sink(run, error);
 }
 
 bool gis_separate_in_parts(gis_separate_run *run, gis_error *error)
@@ -20,17 +20,17 @@ bool gis_separate_in_parts(gis_separate_run *run, gis_error *error)
     if (!open_sink_in_parts(run, error)) return false;
     gis_progress_stage(&run->progress, GIS_SEPARATE_READ, GIS_SEPARATE_DONE);
     const double began = gis_clock();
-    if ((!run->merges && !gis_in_parts_shard(&run->parts, 1, run->stamp, &run->progress, error)) ||
-        !gis_in_parts_solve(&run->parts, run->stamp, &run->summary, error))
+    if ((!run->merges && !gis_shard_run_separate(&run->parts, 1, run->stamp, &run->progress, error)) ||
+        !gis_shard_run_join(&run->parts, run->stamp, &run->summary, error))
         return false;
     run->summary.seconds_solve = gis_clock() - began - run->summary.seconds_explain - run->summary.seconds_verify;
     gis_progress_stage(&run->progress, GIS_SEPARATE_DONE, 1);
     const double begin = gis_clock();
-    const gis_in_parts_layers layers = {
+    const gis_shard_run_layers layers = {
         (run->chosen & GIS_SEPARATE_MAIN) != 0, (run->chosen & GIS_SEPARATE_DISPLACEMENT) != 0,
         (run->chosen & GIS_SEPARATE_CONFLICTS) != 0, (run->chosen & GIS_SEPARATE_PUSHES) != 0,
         (run->chosen & GIS_SEPARATE_SYMBOLS) != 0};
-    if (!gis_in_parts_write(&run->parts, &run->input, &layers, run->sink, error) ||
+    if (!gis_shard_run_write(&run->parts, &run->input, &layers, run->sink, error) ||
         !gis_sink_finish(run->sink, &result, error))
         return false;
     run->write = gis_clock() - begin;

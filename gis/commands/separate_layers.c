@@ -38,7 +38,7 @@ bool gis_separate_open_sink(gis_separate_run *run, gis_error *error)
     request.suffixes = run->suffixes;
     request.features = (run->chosen & GIS_SEPARATE_MAIN) != 0;
     request.polygons = run->chosen & (run->input.points ? GIS_SEPARATE_SYMBOLS : GIS_SEPARATE_MAIN);
-    if (run->in_parts && !(request.scratch = gis_in_parts_scratch(&run->parts, error))) return false;
+    if (run->in_parts && !(request.scratch = gis_shard_run_scratch(&run->parts, error))) return false;
     if (!gis_sink_open(&request, run->input.source, &run->sink, error)) return false;
     if (gis_sink_remembers(run->sink) && (!run->in_parts || run->whole) && !gis_source_unpack(run->input.source, error))
         return false;

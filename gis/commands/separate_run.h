@@ -36,7 +36,7 @@ typedef struct gis_separate_run {
     bool whole;     /* ... but for its source, which is compared with what was written */
     bool merges;    /* ... and its shards are done */
     uint64_t stamp; /* of what they were done for */
-    gis_in_parts parts;
+    gis_shard_run parts;
 } gis_separate_run;
 
 /* ---- separate.c: from beginning to end --------------------------------------------------------------------------- */

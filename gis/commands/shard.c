@@ -52,11 +52,11 @@ static bool deliver(const shard_run *run, const gis_destinations *to, bool taken
 }
 
 /* What is there and is not what it should be is said, and made again. */
-static bool look(shard_run *run, const gis_in_parts *parts, uint64_t stamp, gis_error *error)
+static bool look(shard_run *run, const gis_shard_run *parts, uint64_t stamp, gis_error *error)
 {
     gis_shard_state state;
     gis_error why;
-    if (!gis_in_parts_state(parts, run->k, stamp, &state, &why, error)) return false;
+    if (!gis_shard_run_state(parts, run->k, stamp, &state, &why, error)) return false;
     run->there = state == GIS_SHARD_DONE;
     if (state == GIS_SHARD_WRONG) gis_say_warning(GIS_MESSAGE_REMAINS, "%s; it is made again", why.message);
     return true;
@@ -66,14 +66,14 @@ static bool work(shard_run *run, const gis_planned *planned, gis_progress *progr
 {
     const gis_plan *plan = &planned->plan;
     gis_layer_input_request request = {0};
-    gis_in_parts parts = {0};
+    gis_shard_run parts = {0};
     const bool done =
         gis_resolve_layer(&planned->options, &request, error) &&
         gis_planned_rules(&planned->options, &request.rules, error) &&
-        gis_in_parts_resume(&request, run->directory, &plan->facts, plan->shards, plan->memory, &parts, error) &&
+        gis_shard_run_resume(&request, run->directory, &plan->facts, plan->shards, plan->memory, &parts, error) &&
         gis_plan_check(plan, &parts, false, error) && look(run, &parts, plan->stamp, error) &&
-        (run->there || gis_in_parts_shard(&parts, run->k, plan->stamp, progress, error));
-    gis_in_parts_clear(&parts);
+        (run->there || gis_shard_run_separate(&parts, run->k, plan->stamp, progress, error));
+    gis_shard_run_clear(&parts);
     gis_layer_input_request_clear(&request);
     return done;
 }

@@ -19,7 +19,7 @@ typedef struct run {
 struct gis_sorter {
     char *directory, *parts;
     size_t most; /* bytes of a part */
-    gis_spool_file runs;
+    gis_disk_file runs;
     run *run;
     size_t n, capacity;
     unsigned char *part; /* records of the part that is gathered, in the order in which they came */
@@ -36,7 +36,7 @@ static int compare(const gis_sort_head *p, const gis_sort_head *q)
 
 static gis_sort_head *head_of(unsigned char *record) { return (void *)record; }
 
-static bool fail_content(const gis_spool_file *file, gis_error *error)
+static bool fail_content(const gis_disk_file *file, gis_error *error)
 {
     return gis_fail(error, "%s: it is not what was written", file->path);
 }
@@ -73,20 +73,20 @@ static bool sort_part(gis_sorter *s, gis_error *error)
 static bool write_part(gis_sorter *s, gis_error *error)
 {
     if (!sort_part(s, error)) return false;
-    if (!s->runs.stream && !gis_spool_file_create(&s->runs, s->directory, s->parts, error)) return false;
+    if (!s->runs.stream && !gis_disk_file_create(&s->runs, s->directory, s->parts, error)) return false;
     if (!gis_array_reserve(&s->run, &s->capacity, s->n + 1, sizeof *s->run)) return gis_no_memory(error);
     run *next = &s->run[s->n++];
     *next = (run){.from = s->runs.size};
     for (size_t k = 0; k < s->places; k++) {
         unsigned char *record = s->part + s->place[k].with;
-        if (!gis_spool_file_write(&s->runs, record, head_of(record)->bytes, error)) return false;
+        if (!gis_disk_file_write(&s->runs, record, head_of(record)->bytes, error)) return false;
     }
     next->end = s->runs.size;
     s->places = s->used = 0;
     return gis_go_on(error);
 }
 
-static bool take_part(gis_sorter *s, gis_spool_take *take, void *user, gis_error *error)
+static bool take_part(gis_sorter *s, gis_sort_take *take, void *user, gis_error *error)
 {
     if (!sort_part(s, error)) return false;
     for (size_t k = 0; k < s->places; k++)
@@ -116,7 +116,7 @@ static bool refill(gis_sorter *s, run *r, size_t share, bool *any, gis_error *er
     }
     const size_t more = r->end - r->from < wanted - have ? (size_t)(r->end - r->from) : wanted - have;
     if (more == 0) return fail_content(&s->runs, error);
-    if (!gis_spool_file_read(&s->runs, r->from, r->at + have, more, error)) return false;
+    if (!gis_disk_file_read(&s->runs, r->from, r->at + have, more, error)) return false;
     r->from += more;
     r->used = 0;
     r->filled = have + more;
@@ -142,7 +142,7 @@ static void sink(run **heap, size_t n, size_t i)
     }
 }
 
-static bool merge_heap(gis_sorter *s, run **heap, size_t share, gis_spool_take *take, void *user, gis_error *error)
+static bool merge_heap(gis_sorter *s, run **heap, size_t share, gis_sort_take *take, void *user, gis_error *error)
 {
     size_t n = 0;
     for (size_t k = 0; k < s->n; k++) {
@@ -166,7 +166,7 @@ static bool merge_heap(gis_sorter *s, run **heap, size_t share, gis_spool_take *
 /* Reading less at once would cost a seek for every few records. */
 enum { LEAST_SHARE = 1 << 16 };
 
-static bool merge(gis_sorter *s, gis_spool_take *take, void *user, gis_error *error)
+static bool merge(gis_sorter *s, gis_sort_take *take, void *user, gis_error *error)
 {
     free(s->part);
     free(s->place);
@@ -176,7 +176,7 @@ static bool merge(gis_sorter *s, gis_spool_take *take, void *user, gis_error *er
     if (!heap) return gis_no_memory(error);
     size_t share = s->most / (s->n + 1);
     if (share < LEAST_SHARE) share = LEAST_SHARE;
-    const bool done = gis_spool_file_flush(&s->runs, error) && merge_heap(s, heap, share, take, user, error);
+    const bool done = gis_disk_file_flush(&s->runs, error) && merge_heap(s, heap, share, take, user, error);
     free(heap);
     return done;
 }
@@ -208,7 +208,7 @@ bool gis_sorter_add(gis_sorter *s, const void *record, gis_error *error)
     return true;
 }
 
-bool gis_sorter_take(gis_sorter *s, gis_spool_take *take, void *user, gis_error *error)
+bool gis_sorter_take(gis_sorter *s, gis_sort_take *take, void *user, gis_error *error)
 {
     if (s->n == 0) return take_part(s, take, user, error);
     return write_part(s, error) && merge(s, take, user, error);
@@ -223,6 +223,6 @@ void gis_sorter_free(gis_sorter *s)
     free(s->place);
     free(s->directory);
     free(s->parts);
-    gis_spool_file_close(&s->runs);
+    gis_disk_file_close(&s->runs);
     free(s);
 }

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-char *gis_spool_inside(const char *directory, const char *name)
+char *gis_disk_path(const char *directory, const char *name)
 {
     const size_t size = strlen(directory) + strlen(name) + 2;
     char *path = malloc(size);
@@ -68,15 +68,15 @@ static FILE *open_to_read(const char *path, struct stat *status)
 /* Records are small, and a call for a few of them takes longer than they do. Without it things are only slower. */
 enum { BUFFER = 1 << 17 };
 
-static void add_buffer(gis_spool_file *file)
+static void add_buffer(gis_disk_file *file)
 {
     file->buffer = malloc(BUFFER);
     if (file->buffer) setvbuf(file->stream, file->buffer, _IOFBF, BUFFER);
 }
 
-bool gis_spool_file_create(gis_spool_file *file, const char *directory, const char *name, gis_error *error)
+bool gis_disk_file_create(gis_disk_file *file, const char *directory, const char *name, gis_error *error)
 {
-    *file = (gis_spool_file){.path = gis_spool_inside(directory, name)};
+    *file = (gis_disk_file){.path = gis_disk_path(directory, name)};
     if (!file->path) return gis_no_memory(error);
     gis_hold();
     file->stream = create(file->path, name);
@@ -86,13 +86,13 @@ bool gis_spool_file_create(gis_spool_file *file, const char *directory, const ch
     return file->stream || cannot_write(file->path, error);
 }
 
-bool gis_spool_file_write(gis_spool_file *file, const void *bytes, size_t n, gis_error *error)
+bool gis_disk_file_write(gis_disk_file *file, const void *bytes, size_t n, gis_error *error)
 {
     file->size += n;
     return fwrite(bytes, 1, n, file->stream) == n || cannot_write(file->path, error);
 }
 
-bool gis_spool_file_flush(gis_spool_file *file, gis_error *error)
+bool gis_disk_file_flush(gis_disk_file *file, gis_error *error)
 {
     return fflush(file->stream) == 0 || cannot_write(file->path, error);
 }
@@ -107,9 +107,9 @@ static bool sync_directory(const char *directory, gis_error *error)
     return done;
 }
 
-bool gis_spool_file_place(gis_spool_file *file, const char *directory, const char *name, gis_error *error)
+bool gis_disk_file_place(gis_disk_file *file, const char *directory, const char *name, gis_error *error)
 {
-    char *path = gis_spool_inside(directory, name);
+    char *path = gis_disk_path(directory, name);
     if (!path) return gis_no_memory(error);
     bool done = fflush(file->stream) == 0 && fsync(fileno(file->stream)) == 0;
     done = fclose(file->stream) == 0 && done;
@@ -123,13 +123,13 @@ bool gis_spool_file_place(gis_spool_file *file, const char *directory, const cha
     }
     gis_release();
     free(path);
-    gis_spool_file_close(file);
+    gis_disk_file_close(file);
     return done && sync_directory(directory, error);
 }
 
-bool gis_spool_file_open(gis_spool_file *file, const char *directory, const char *name, gis_error *error)
+bool gis_disk_file_open(gis_disk_file *file, const char *directory, const char *name, gis_error *error)
 {
-    *file = (gis_spool_file){.path = gis_spool_inside(directory, name)};
+    *file = (gis_disk_file){.path = gis_disk_path(directory, name)};
     if (!file->path) return gis_no_memory(error);
     struct stat status;
     file->stream = open_to_read(file->path, &status);
@@ -138,7 +138,7 @@ bool gis_spool_file_open(gis_spool_file *file, const char *directory, const char
     return true;
 }
 
-bool gis_spool_file_read(gis_spool_file *file, uint64_t from, void *to, size_t n, gis_error *error)
+bool gis_disk_file_read(gis_disk_file *file, uint64_t from, void *to, size_t n, gis_error *error)
 {
     char *at = to;
     while (n > 0) {
@@ -153,7 +153,7 @@ bool gis_spool_file_read(gis_spool_file *file, uint64_t from, void *to, size_t n
     return true;
 }
 
-void gis_spool_file_close(gis_spool_file *file)
+void gis_disk_file_close(gis_disk_file *file)
 {
     gis_hold();
     if (file->stream) fclose(file->stream);
@@ -164,5 +164,5 @@ void gis_spool_file_close(gis_spool_file *file)
     gis_release();
     free(file->buffer);
     free(file->path);
-    *file = (gis_spool_file){0};
+    *file = (gis_disk_file){0};
 }

@@ -163,7 +163,7 @@ bool gis_packed_add(gis_packed *packed, OGRFeatureH feature, const unsigned char
     const unsigned char *const at = to;
     to = put(to, &fid, sizeof fid);
     to = put(to, &bytes, sizeof bytes);
-    if (OGR_G_ExportToIsoWkb(geometry, GIS_GIVEN_ORDER, to) != OGRERR_NONE) return gis_no_memory(error);
+    if (OGR_G_ExportToIsoWkb(geometry, GIS_WKB_ORDER, to) != OGRERR_NONE) return gis_no_memory(error);
     to += bytes;
     for (int i = 0; i < packed->fields; i++) to = put_value(to, packed->type[i], OGR_F_GetRawFieldRef(feature, i));
     *record = at;
@@ -303,9 +303,9 @@ static const unsigned char *geometry_of(gis_packed *packed, const unsigned char 
     *bytes = p.bytes;
     if (p.geometry) return p.geometry;
     const sunder_shape *shape = packed->shape[p.shape];
-    *bytes = gis_given_bytes(shape, p.multi);
+    *bytes = gis_shape_wkb_bytes(shape, p.multi);
     if (!gis_array_reserve(&packed->moved, &packed->moved_room, *bytes, 1)) return NULL;
-    gis_given_write(shape, p.multi, packed->moved);
+    gis_shape_wkb_write(shape, p.multi, packed->moved);
     return packed->moved;
 }
 
@@ -337,10 +337,10 @@ bool gis_packed_polygons(gis_packed *packed, const unsigned char *record, gis_po
 /* Is the geometry what the shape was given? *same; false if memory is out. */
 static bool is_given(gis_packed *packed, const place *p, bool multi, const sunder_shape *shape, bool *same)
 {
-    *same = gis_given_bytes(shape, multi) == p->bytes;
+    *same = gis_shape_wkb_bytes(shape, multi) == p->bytes;
     if (!*same) return true;
     if (!gis_array_reserve(&packed->moved, &packed->moved_room, p->bytes, 1)) return false;
-    gis_given_write(shape, multi, packed->moved);
+    gis_shape_wkb_write(shape, multi, packed->moved);
     *same = memcmp(packed->moved, p->geometry, p->bytes) == 0;
     return true;
 }

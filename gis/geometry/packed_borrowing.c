@@ -25,8 +25,8 @@ static void borrow(void *context)
     }
 }
 
-bool gis_borrow(gis_packed *lean, OGRLayerH layer, const unsigned char **record, size_t n, unsigned threads,
-                gis_error *error)
+bool gis_packed_borrow_all(gis_packed *lean, OGRLayerH layer, const unsigned char **record, size_t n, unsigned threads,
+                           gis_error *error)
 {
     const size_t half = threads > 1 && n >= MANY ? n / 2 : n;
     gis_packed other;
@@ -34,10 +34,10 @@ bool gis_borrow(gis_packed *lean, OGRLayerH layer, const unsigned char **record,
     other.shape = lean->shape;
     stretch first = {.lean = lean, .record = record, .end = half};
     stretch second = {.lean = &other, .record = record, .begin = half, .end = n};
-    gis_beside *beside = half < n ? gis_beside_new() : NULL;
-    gis_beside_do(beside, borrow, &second);
+    gis_side_thread *beside = half < n ? gis_side_thread_new() : NULL;
+    gis_side_thread_do(beside, borrow, &second);
     borrow(&first);
-    gis_beside_free(beside);
+    gis_side_thread_free(beside);
     const bool done = first.done && second.done && gis_packed_join(lean, &other);
     gis_packed_clear(&other);
     return done || gis_no_memory(error);

@@ -6,7 +6,7 @@
 
 /* record[i] becomes gis_packed_add_borrowing() of itself, unless it is NULL, for each of n, in `lean`, which has begun
  * and knows the shapes; those that they were stay where they are. layer: theirs. False if memory is out. */
-bool gis_borrow(gis_packed *lean, OGRLayerH layer, const unsigned char **record, size_t n, unsigned threads,
-                gis_error *error);
+bool gis_packed_borrow_all(gis_packed *lean, OGRLayerH layer, const unsigned char **record, size_t n, unsigned threads,
+                           gis_error *error);
 
 #endif

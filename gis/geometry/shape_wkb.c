@@ -17,7 +17,7 @@ static unsigned char *put_number(unsigned char *to, uint32_t number) { return pu
 
 static unsigned char *put_head(unsigned char *to, uint32_t type)
 {
-    *to++ = (unsigned char)GIS_GIVEN_ORDER;
+    *to++ = (unsigned char)GIS_WKB_ORDER;
     return put_number(to, type);
 }
 
@@ -33,7 +33,7 @@ static size_t count_vertices(const double *xy, const size_t *ring_end, size_t ri
     return vertices;
 }
 
-size_t gis_given_bytes(const sunder_shape *shape, bool multi)
+size_t gis_shape_wkb_bytes(const sunder_shape *shape, bool multi)
 {
     const double *xy;
     const size_t *ring_end, *poly_end, polygons = sunder_shape_given(shape, &xy, &ring_end, &poly_end),
@@ -42,7 +42,7 @@ size_t gis_given_bytes(const sunder_shape *shape, bool multi)
            count_vertices(xy, ring_end, rings) * POINT;
 }
 
-void gis_given_write(const sunder_shape *shape, bool multi, unsigned char *to)
+void gis_shape_wkb_write(const sunder_shape *shape, bool multi, unsigned char *to)
 {
     const double *xy;
     const size_t *ring_end, *poly_end, polygons = sunder_shape_given(shape, &xy, &ring_end, &poly_end);

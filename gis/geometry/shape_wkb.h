@@ -10,13 +10,13 @@
 
 /* The machine's order of bytes: doubles can be taken as they stand. */
 #ifdef CPL_LSB
-#define GIS_GIVEN_ORDER wkbNDR
+#define GIS_WKB_ORDER wkbNDR
 #else
-#define GIS_GIVEN_ORDER wkbXDR
+#define GIS_WKB_ORDER wkbXDR
 #endif
 
 /* As a MultiPolygon, or else a Polygon, which a shape of one polygon can be. */
-size_t gis_given_bytes(const sunder_shape *shape, bool multi);
-void gis_given_write(const sunder_shape *shape, bool multi, unsigned char *to);
+size_t gis_shape_wkb_bytes(const sunder_shape *shape, bool multi);
+void gis_shape_wkb_write(const sunder_shape *shape, bool multi, unsigned char *to);
 
 #endif

@@ -42,8 +42,8 @@ static void set(gis_index_box *out, GIntBig fid, const OGREnvelope *box)
 
 static bool store(gis_index_boxes *boxes, const gis_index_box *box, gis_error *error)
 {
-    return (boxes->file.stream || gis_spool_file_create(&boxes->file, boxes->scratch, "boxes.XXXXXX", error)) &&
-           gis_spool_file_write(&boxes->file, box, sizeof *box, error);
+    return (boxes->file.stream || gis_disk_file_create(&boxes->file, boxes->scratch, "boxes.XXXXXX", error)) &&
+           gis_disk_file_write(&boxes->file, box, sizeof *box, error);
 }
 
 /* In memory a box is made where it stays: made elsewhere and copied whole right after its parts it would wait for all
@@ -67,7 +67,7 @@ bool gis_index_boxes_add(gis_index_boxes *boxes, GIntBig fid, const OGREnvelope 
 void gis_index_boxes_clear(gis_index_boxes *boxes)
 {
     free(boxes->at);
-    gis_spool_file_close(&boxes->file);
+    gis_disk_file_close(&boxes->file);
     *boxes = (gis_index_boxes){.scratch = boxes->scratch};
 }
 
@@ -113,10 +113,10 @@ enum { STRETCH = 4096 };
 static bool sort_file(gis_index_boxes *boxes, gis_sorter *sorter, gis_error *error)
 {
     gis_index_box *box = malloc(STRETCH * sizeof *box);
-    bool done = (box || gis_no_memory(error)) && gis_spool_file_flush(&boxes->file, error);
+    bool done = (box || gis_no_memory(error)) && gis_disk_file_flush(&boxes->file, error);
     for (size_t k = 0; k < boxes->n && done; k += STRETCH) {
         const size_t n = boxes->n - k < STRETCH ? boxes->n - k : STRETCH;
-        done = gis_spool_file_read(&boxes->file, k * sizeof *box, box, n * sizeof *box, error) && gis_go_on(error);
+        done = gis_disk_file_read(&boxes->file, k * sizeof *box, box, n * sizeof *box, error) && gis_go_on(error);
         for (size_t i = 0; i < n && done; i++) {
             const record one = {.head = {sizeof one, along(boxes, &box[i]), 0}, .box = box[i]};
             done = gis_sorter_add(sorter, &one, error);
@@ -131,7 +131,7 @@ static bool take_from_disk(gis_index_boxes *boxes, gis_index_boxes_take *take, v
     taking t = {take, user};
     gis_sorter *sorter = NULL;
     const bool done =
-        boxes->n == 0 || (gis_sorter_new(boxes->scratch, "boxes-sorted.XXXXXX", GIS_SPOOL_RUN, &sorter, error) &&
+        boxes->n == 0 || (gis_sorter_new(boxes->scratch, "boxes-sorted.XXXXXX", GIS_SORT_BYTES, &sorter, error) &&
                           sort_file(boxes, sorter, error) && gis_sorter_take(sorter, take_record, &t, error));
     gis_sorter_free(sorter);
     return done;

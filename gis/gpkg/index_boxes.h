@@ -18,7 +18,7 @@ typedef struct gis_index_boxes {
     const char *scratch; /* the directory, borrowed; NULL: memory */
     gis_index_box *at;   /* [n], in memory */
     size_t n, capacity;
-    gis_spool_file file;
+    gis_disk_file file;
     float around[4]; /* all of them, if n > 0 */
 } gis_index_boxes;
 

@@ -358,7 +358,7 @@ static bool fill(GDALDatasetH dataset, OGRLayerH layer, gis_index_boxes *boxes, 
                    .features = boxes->n,
                    .next = 2};
     bool done = all.cell || gis_no_memory(error);
-    done = done && (!all.scratch || gis_sorter_new(all.scratch, "rows.XXXXXX", GIS_SPOOL_RUN, &all.sorter, error)) &&
+    done = done && (!all.scratch || gis_sorter_new(all.scratch, "rows.XXXXXX", GIS_SORT_BYTES, &all.sorter, error)) &&
            write_nodes(dataset, layer, &all, boxes, error) && write_parents(dataset, layer, &all, error) &&
            write_leaves(dataset, layer, &all, error);
     clear_packing(&all);

@@ -40,7 +40,7 @@ static bool has_log(void *database)
 }
 
 /* That it is a file is asked of its name alone: opening and closing it here would take SQLite's locks on it away. */
-void *gis_sqlite_again_open(void *database)
+void *gis_second_connection_open(void *database)
 {
     calls sqlite;
     struct stat status;
@@ -54,7 +54,7 @@ void *gis_sqlite_again_open(void *database)
     return NULL;
 }
 
-void gis_sqlite_again_close(void *again)
+void gis_second_connection_close(void *again)
 {
     calls sqlite;
     if (again && find_all(&sqlite)) sqlite.close(again);

@@ -10,8 +10,8 @@
  * not a plain file, and where it has a log (WAL), since there each connection sees the state at its start. Elsewhere
  * the file cannot change while a statement of either connection is being read, so both see the same state if one begins
  * while the other is being read. */
-void *gis_sqlite_again_open(void *database);
-void gis_sqlite_again_close(void *again);
+void *gis_second_connection_open(void *database);
+void gis_second_connection_close(void *again);
 
 /* Rows of a table by their keys: all, those up to `last`, those beyond. */
 typedef enum gis_sqlite_stretch { GIS_SQLITE_ALL, GIS_SQLITE_UP_TO, GIS_SQLITE_BEYOND } gis_sqlite_stretch;

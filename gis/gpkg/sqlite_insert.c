@@ -51,8 +51,8 @@ bool gis_sqlite_inserts_begin(gis_sqlite_inserts *rows, void *database, const ch
     rows->at_once = MOST_PARAMETERS / columns < ROWS_AT_ONCE ? MOST_PARAMETERS / columns : ROWS_AT_ONCE;
     if (rows->at_once > 1) rows->many = prepare_rows(rows, sql, rows->at_once);
     if (!rows->many) rows->at_once = 1;
-    for (int k = 0; k < GIS_BESIDE_PIECES; k++) rows->batch[k].of = rows;
-    if (threads > 1) rows->beside = gis_beside_new();
+    for (int k = 0; k < GIS_SIDE_THREAD_PIECES; k++) rows->batch[k].of = rows;
+    if (threads > 1) rows->beside = gis_side_thread_new();
     return true;
 }
 
@@ -64,10 +64,10 @@ static void free_batch(gis_sqlite_batch *batch)
 
 void gis_sqlite_inserts_end(gis_sqlite_inserts *rows)
 {
-    gis_beside_free(rows->beside);
+    gis_side_thread_free(rows->beside);
     if (rows->one) gis_sqlite_find_functions()->finalize(rows->one);
     if (rows->many) gis_sqlite_find_functions()->finalize(rows->many);
-    for (int k = 0; k < GIS_BESIDE_PIECES; k++) free_batch(&rows->batch[k]);
+    for (int k = 0; k < GIS_SIDE_THREAD_PIECES; k++) free_batch(&rows->batch[k]);
     *rows = (gis_sqlite_inserts){0};
 }
 
@@ -138,11 +138,11 @@ static void send_all(void *context)
 /* All that goes in is in. */
 static bool await(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
 {
-    gis_beside_wait(rows->beside, 0);
+    gis_side_thread_wait(rows->beside, 0);
     if (!rows->failed) return true;
     *key = rows->failed_key;
     *reason = rows->failed;
-    for (int k = 0; k < GIS_BESIDE_PIECES; k++) rows->batch[k].rows = rows->batch[k].size = 0;
+    for (int k = 0; k < GIS_SIDE_THREAD_PIECES; k++) rows->batch[k].rows = rows->batch[k].size = 0;
     return false;
 }
 
@@ -150,9 +150,9 @@ static bool await(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
  * comes. */
 static bool start(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
 {
-    gis_beside_do(rows->beside, send_all, &rows->batch[rows->added_to]);
-    gis_beside_wait(rows->beside, GIS_BESIDE_PIECES - 1);
-    rows->added_to = (rows->added_to + 1) % GIS_BESIDE_PIECES;
+    gis_side_thread_do(rows->beside, send_all, &rows->batch[rows->added_to]);
+    gis_side_thread_wait(rows->beside, GIS_SIDE_THREAD_PIECES - 1);
+    rows->added_to = (rows->added_to + 1) % GIS_SIDE_THREAD_PIECES;
     gis_sqlite_batch *next = &rows->batch[rows->added_to];
     next->rows = next->size = 0;
     return (rows->beside && !next->refused) || await(rows, key, reason);

@@ -36,11 +36,11 @@ typedef struct gis_sqlite_batch {
 typedef struct gis_sqlite_inserts {
     void *database, *one, *many; /* statements; many NULL: rows go one by one */
     size_t columns, at_once;
-    gis_sqlite_batch batch[GIS_BESIDE_PIECES]; /* one is added to, those before it go in */
+    gis_sqlite_batch batch[GIS_SIDE_THREAD_PIECES]; /* one is added to, those before it go in */
     size_t added_to;
-    int64_t failed_key; /* the row that was rejected */
-    const char *failed; /* ... and why; NULL: all were */
-    gis_beside *beside; /* the other thread; NULL: none */
+    int64_t failed_key;      /* the row that was rejected */
+    const char *failed;      /* ... and why; NULL: all were */
+    gis_side_thread *beside; /* the other thread; NULL: none */
 } gis_sqlite_inserts;
 
 /* Prepares insertion by a statement that ends with "VALUES ", followed by groups of parameters: a key, bytes, and

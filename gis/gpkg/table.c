@@ -155,7 +155,7 @@ static halves divide(void *database, OGRLayerH layer, const char *all)
     if (!gis_sqlite_find_middle(database, OGR_L_GetName(layer), key, &middle, &span) || span < MANY_ROWS) return h;
     h.sql[0] = gis_sql_append_stretch(CPLStrdup(all), key, GIS_SQLITE_UP_TO, middle);
     h.sql[1] = gis_sql_append_stretch(CPLStrdup(all), key, GIS_SQLITE_BEYOND, middle);
-    if (rise(database, layer, all, &h)) h.again = gis_sqlite_again_open(database);
+    if (rise(database, layer, all, &h)) h.again = gis_second_connection_open(database);
     return h;
 }
 
@@ -163,7 +163,7 @@ static void clear_halves(halves *h)
 {
     CPLFree(h->sql[0]);
     CPLFree(h->sql[1]);
-    gis_sqlite_again_close(h->again);
+    gis_second_connection_close(h->again);
 }
 
 /* What the other thread reads. */
@@ -204,10 +204,10 @@ static bool take_half(half *h, gis_packed *packed, gis_table_take *take, void *u
 /* Both are at their first rows. */
 static bool read_both(reading *first, half *second, gis_table_take *take, void *user, bool *all, gis_error *error)
 {
-    gis_beside *beside = gis_beside_new();
-    gis_beside_do(beside, read_half, second);
+    gis_side_thread *beside = gis_side_thread_new();
+    gis_side_thread_do(beside, read_half, second);
     const bool done = read_rows(first, take, user, all, error);
-    gis_beside_free(beside);
+    gis_side_thread_free(beside);
     return done && (!*all || take_half(second, first->packed, take, user, all, error));
 }
 

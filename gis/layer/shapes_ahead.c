@@ -45,9 +45,9 @@ void gis_layer_shapes_ahead(gis_layer_input *input)
 {
     if (input->points || input->n < MANY || gis_threads(input->request->rules.threads) == 1) return;
     making m = {.input = input};
-    gis_beside *beside = gis_beside_new();
+    gis_side_thread *beside = gis_side_thread_new();
     if (!beside) return;
-    gis_beside_do(beside, make, &m);
+    gis_side_thread_do(beside, make, &m);
     make(&m);
-    gis_beside_free(beside);
+    gis_side_thread_free(beside);
 }

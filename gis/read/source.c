@@ -558,7 +558,7 @@ bool gis_source_borrow(gis_source *source, sunder_shape *const *shape, unsigned 
     /* Once more only where all of it succeeds: what is there is good until then. */
     const unsigned char **record = malloc((source->n + 1) * sizeof *record);
     for (size_t i = 0; i < source->n && record; i++) record[i] = read_of(source, i).record;
-    const bool ok = record ? gis_borrow(&lean, source->layer, record, source->n, gis_threads(threads), error)
+    const bool ok = record ? gis_packed_borrow_all(&lean, source->layer, record, source->n, gis_threads(threads), error)
                            : gis_no_memory(error);
     for (size_t i = 0; i < source->n && ok; i++)
         if (record[i]) source->held[i] = record[i];

@@ -59,7 +59,7 @@ gis_page_contents gis_page_contents_of(gis_page_held *held);
 typedef struct gis_page_spooled gis_page_spooled;
 
 /* Of a layer that was separated in parts, and written. parts is borrowed. */
-bool gis_page_spooled_open(gis_in_parts *parts, gis_page_spooled **out, gis_error *error);
+bool gis_page_spooled_open(gis_shard_run *parts, gis_page_spooled **out, gis_error *error);
 gis_page_contents gis_page_contents_of_spool(gis_page_spooled *spooled);
 void gis_page_spooled_close(gis_page_spooled *spooled);
 

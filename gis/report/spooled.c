@@ -10,7 +10,7 @@
 enum { STATUS_BUFFER = 1 << 16 };
 
 struct gis_page_spooled {
-    gis_in_parts *parts;
+    gis_shard_run *parts;
     gis_spool *aside; /* NULL: nothing lies there */
     sunder_conflict *conflict;
     size_t conflicts, conflict_room;
@@ -72,14 +72,14 @@ static bool visit_all(gis_spool *spool, gis_spool_visit *visit, filling *f, gis_
 static bool take_statuses(const gis_page_spooled *s, gis_page_feature *feature, size_t n, gis_error *error)
 {
     unsigned char buffer[STATUS_BUFFER];
-    gis_spool_file file = {0};
-    bool done = gis_spool_file_open(&file, s->parts->directory, "status", error);
+    gis_disk_file file = {0};
+    bool done = gis_disk_file_open(&file, s->parts->directory, "status", error);
     for (size_t k = 0; k < n && done; k += sizeof buffer) {
         const size_t more = n - k < sizeof buffer ? n - k : sizeof buffer;
-        done = gis_spool_file_read(&file, k, buffer, more, error);
+        done = gis_disk_file_read(&file, k, buffer, more, error);
         for (size_t i = 0; i < more && done; i++) feature[k + i].status = buffer[i];
     }
-    gis_spool_file_close(&file);
+    gis_disk_file_close(&file);
     return done;
 }
 
@@ -87,10 +87,10 @@ static bool take_statuses(const gis_page_spooled *s, gis_page_feature *feature, 
 static bool take_rows(const gis_page_spooled *s, gis_page_feature *feature, gis_error *error)
 {
     gis_joined *joined = &s->parts->joined;
-    gis_sorted *rows = &joined->rows;
+    gis_sorted_results *rows = &joined->rows;
     bool any = true;
-    gis_sorted_again(rows);
-    while (gis_sorted_next(rows, &any, error) && any) {
+    gis_sorted_results_rewind(rows);
+    while (gis_sorted_results_next(rows, &any, error) && any) {
         gis_page_feature *to = &feature[rows->head.first];
         if (!gis_go_on(error)) return false;
         if (rows->one.rows) {
@@ -163,11 +163,11 @@ static bool keep_conflict(gis_page_spooled *s, const gis_part_result *one, gis_e
 static bool conflicts(void *of, const sunder_conflict **conflict, size_t *n, gis_error *error)
 {
     gis_page_spooled *s = of;
-    gis_sorted *sorted = &s->parts->joined.conflicts;
+    gis_sorted_results *sorted = &s->parts->joined.conflicts;
     bool any = true;
     s->conflicts = s->blockers = 0;
-    gis_sorted_again(sorted);
-    while (gis_sorted_next(sorted, &any, error) && any)
+    gis_sorted_results_rewind(sorted);
+    while (gis_sorted_results_next(sorted, &any, error) && any)
         if (!gis_go_on(error) || !keep_conflict(s, &sorted->one, error)) return false;
     for (size_t k = 0, at = 0; k < s->conflicts; at += s->conflict[k++].n_blocked_by)
         s->conflict[k].blocked_by = s->blocker + at;
@@ -253,13 +253,13 @@ static bool barrier_name(void *of, size_t barrier, GIntBig *fid, const char **la
 static bool open_aside(gis_page_spooled *s, gis_error *error)
 {
     if (s->parts->facts.aside == 0) return true;
-    char *path = gis_spool_inside(s->parts->directory, GIS_SPOOL_ASIDE);
+    char *path = gis_disk_path(s->parts->directory, GIS_SPOOL_ASIDE);
     const bool done = (path || gis_no_memory(error)) && gis_spool_open(path, &s->aside, error);
     free(path);
     return done;
 }
 
-bool gis_page_spooled_open(gis_in_parts *parts, gis_page_spooled **out, gis_error *error)
+bool gis_page_spooled_open(gis_shard_run *parts, gis_page_spooled **out, gis_error *error)
 {
     gis_page_spooled *s = calloc(1, sizeof *s);
     if (!s) return gis_no_memory(error);

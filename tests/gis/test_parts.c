@@ -163,7 +163,7 @@ static gis_spooled_barriers barriers_of(const town *t)
     if (t->barriers == 0) return spool;
     assert_true(gis_barriers_create(scratch_directory(), t->how.gap, &writer, &error));
     for (size_t k = 0; k < t->barriers; k++) {
-        const gis_part_barrier barrier = {2 * k, (int64_t)k, "roads", t->barrier[k]};
+        const gis_spooled_barrier barrier = {2 * k, (int64_t)k, "roads", t->barrier[k]};
         assert_true(gis_barriers_add(writer, &barrier, &error));
     }
     if (!gis_barriers_finish(writer, &error)) fail_msg("%s", error.message);
@@ -195,8 +195,8 @@ static void demand_same_features(const town *t, const sunder_report *whole, gis_
     size_t block = 0, rows = 0;
     bool any;
     gis_error error;
-    gis_sorted_again(&j->rows);
-    assert_true(gis_sorted_next(&j->rows, &any, &error));
+    gis_sorted_results_rewind(&j->rows);
+    assert_true(gis_sorted_results_next(&j->rows, &any, &error));
     for (size_t k = 0; k < t->n; k++) {
         double move[2], got[2] = {0, 0};
         sunder_feature_status status =
@@ -208,7 +208,7 @@ static void demand_same_features(const town *t, const sunder_report *whole, gis_
             status = one->rows ? one->row->status : gis_joined_status(j, one->still);
             if (one->rows) memcpy(got, one->row->move, sizeof got);
             rows++;
-            assert_true(gis_sorted_next(&j->rows, &any, &error));
+            assert_true(gis_sorted_results_next(&j->rows, &any, &error));
         }
         if (block < j->blocks && j->block[block].a == k) of = (int64_t)j->block[block++].b;
         if (move[0] != got[0] || move[1] != got[1] || status != sunder_report_status(whole, k) ||
@@ -231,7 +231,7 @@ static void demand_same_conflicts(const town *t, const sunder_report *whole, gis
     const sunder_conflict *c = sunder_report_conflicts(whole, &n);
     assert_int_equal(n, j->conflicts.n);
     for (size_t k = 0; k < n; k++) {
-        assert_true(gis_sorted_next(&j->conflicts, &any, &error) && any);
+        assert_true(gis_sorted_results_next(&j->conflicts, &any, &error) && any);
         const sunder_conflict *d = &j->conflicts.one.conflict->is;
         assert_true(c[k].a == d->a && number_of(t, c[k].b) == d->b && c[k].kind == d->kind && c[k].reason == d->reason);
         assert_true(c[k].distance == d->distance && c[k].before == d->before && c[k].depth == d->depth);
@@ -244,7 +244,7 @@ static void demand_same_conflicts(const town *t, const sunder_report *whole, gis
     const sunder_push *p = sunder_report_pushes(whole, &n);
     assert_int_equal(n, j->pushes.n);
     for (size_t k = 0; k < n; k++) {
-        assert_true(gis_sorted_next(&j->pushes, &any, &error) && any);
+        assert_true(gis_sorted_results_next(&j->pushes, &any, &error) && any);
         const sunder_push *q = &j->pushes.one.push->is;
         assert_true(p[k].a == q->a && number_of(t, p[k].b) == q->b && p[k].force == q->force && p[k].n[0] == q->n[0]);
     }
@@ -276,7 +276,7 @@ static void separate_parts(gis_layout *layout, unsigned shards, bool apart)
         const gis_part_stamp stamp = {.version = "1", .shard = k + 1, .shards = apart ? shards : 1};
         const bool opens = apart || k == 0, ends = apart || k + 1 == shards;
         gis_part_result_empty(&result);
-        if (!gis_parts_shards(layout, k, k + 1, &result, &error) ||
+        if (!gis_parts_separate(layout, k, k + 1, &result, &error) ||
             (opens && !gis_part_file_create(&file, scratch_directory(), &stamp, &error)) ||
             !gis_part_file_add(&file, &result, &error) ||
             (ends && !gis_part_file_place(&file, scratch_directory(), &error)))

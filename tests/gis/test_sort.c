@@ -39,7 +39,7 @@ static bool note_keyed(void *user, const unsigned char *record, gis_error *error
 
 static void test_keys(void **state)
 {
-    static const size_t most[] = {1, 200, 5000, GIS_SPOOL_RUN};
+    static const size_t most[] = {1, 200, 5000, GIS_SORT_BYTES};
     static keyed_list list;
     for (size_t n = 0; n < MOST; n = 3 * n + 1)
         for (size_t m = 0; m < sizeof most / sizeof *most; m++) {

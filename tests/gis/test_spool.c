@@ -109,20 +109,20 @@ static void free_board(board *b)
 /* Where features lie, or not quite: some lie outside. */
 static const double frame[4] = {-90000, -70000, 100000, 65000};
 
-static bool put_board(const board *b, const double *around, unsigned shards, gis_spool_settle *settle, gis_error *error)
+static bool put_board(const board *b, const double *around, unsigned parts, gis_spool_settle *settle, gis_error *error)
 {
     gis_spool_writer *writer;
     assert_true(gis_spool_create(scratch_directory(), around, &writer, error));
     for (size_t i = 0; i < b->n; i++) assert_true(gis_spool_add(writer, &b->feature[i], error));
-    const bool done = gis_spool_finish(writer, shards, settle, (void *)b, error);
+    const bool done = gis_spool_finish(writer, parts, settle, (void *)b, error);
     gis_spool_writer_free(writer);
     return done;
 }
 
-static void write_board(const board *b, const double *around, unsigned shards, gis_spool_settle *settle)
+static void write_board(const board *b, const double *around, unsigned parts, gis_spool_settle *settle)
 {
     gis_error error = {0};
-    assert_true(put_board(b, around, shards, settle, &error));
+    assert_true(put_board(b, around, parts, settle, &error));
 }
 
 /* ---- What is read ------------------------------------------------------------------------------------------------ */
@@ -186,7 +186,7 @@ static bool see(void *user, const gis_spool_feature *feature, gis_error *error)
 }
 
 /* Reads all, and checks what the cells say. */
-static void read_board(const board *b, unsigned shards)
+static void read_board(const board *b, unsigned parts)
 {
     gis_spool *spool;
     gis_error error = {0};
@@ -194,7 +194,7 @@ static void read_board(const board *b, unsigned shards)
     unsigned last = 0;
     r->board = b;
     assert_true(gis_spool_open(scratch_directory(), &spool, &error));
-    assert_int_equal(gis_spool_shards(spool), shards);
+    assert_int_equal(gis_spool_parts(spool), parts);
     assert_int_equal(gis_spool_features(spool), b->n);
     for (size_t c = 0; c < gis_spool_cells(spool); c++) {
         const gis_spool_cell *cell = gis_spool_cell_at(spool, c);
@@ -205,8 +205,8 @@ static void read_board(const board *b, unsigned shards)
         assert_int_equal(r->features, cell->features);
         assert_int_equal(r->vertices, cell->vertices);
         assert_memory_equal(r->box, cell->box, sizeof r->box);
-        assert_true(cell->features <= 1000 && cell->shard >= last && cell->shard < shards);
-        last = cell->shard;
+        assert_true(cell->features <= 1000 && cell->part >= last && cell->part < parts);
+        last = cell->part;
     }
     for (size_t i = 0; i < b->n; i++) assert_true(r->found[i]);
     /* Each is found again by itself, where it was. */
@@ -225,11 +225,11 @@ static void test_what_was_put_in(void **state)
     const size_t sizes[] = {0, 1, 999, 2900};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         board *b = draw_board(sizes[k]);
-        for (unsigned shards = 1; shards < 9; shards += 3) {
-            write_board(b, NULL, shards, NULL);
-            read_board(b, shards);
-            write_board(b, frame, shards, NULL);
-            read_board(b, shards);
+        for (unsigned parts = 1; parts < 9; parts += 3) {
+            write_board(b, NULL, parts, NULL);
+            read_board(b, parts);
+            write_board(b, frame, parts, NULL);
+            read_board(b, parts);
         }
         free_board(b);
     }
@@ -325,7 +325,7 @@ static bool note(void *user, const unsigned char *record, gis_error *error)
 /* The same order, whatever fits into memory at a time: also where not even one record does. */
 static void test_order(void **state)
 {
-    static const size_t runs[] = {1, 700, 4096, 100000, GIS_SPOOL_RUN};
+    static const size_t runs[] = {1, 700, 4096, 100000, GIS_SORT_BYTES};
     static const double all[] = {-100000, -70000, 100000, 70000};
     static order o[5];
     board *b = draw_board(2000);
@@ -518,19 +518,19 @@ static void test_given_up(void **state)
 
 static void test_full_disk(void **state)
 {
-    gis_spool_file file = {0};
+    gis_disk_file file = {0};
     gis_error error = {0};
     static char bytes[1 << 16];
     if (access("/dev/full", W_OK) != 0) skip();
-    assert_true(gis_spool_file_create(&file, "/dev", "full", &error) || true);
+    assert_true(gis_disk_file_create(&file, "/dev", "full", &error) || true);
     bool done = true;
-    for (int k = 0; k < 4 && done; k++) done = gis_spool_file_write(&file, bytes, sizeof bytes, &error);
-    done = done && gis_spool_file_flush(&file, &error);
+    for (int k = 0; k < 4 && done; k++) done = gis_disk_file_write(&file, bytes, sizeof bytes, &error);
+    done = done && gis_disk_file_flush(&file, &error);
     assert_false(done);
     assert_non_null(strstr(error.message, "/dev/full: cannot be written: No space left"));
     gis_leftover_forget(file.leftover); /* it is not ours to take away */
     file.leftover = NULL;
-    gis_spool_file_close(&file);
+    gis_disk_file_close(&file);
 }
 
 int main(void)

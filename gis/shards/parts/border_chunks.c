@@ -5,9 +5,9 @@
 
 #include <stdlib.h>
 
-static const gis_part_chunk *of_file(const gis_held_chunk *c) { return &c->file->chunk[c->chunk]; }
+static const gis_part_chunk *of_file(const gis_border_chunk *c) { return &c->file->chunk[c->chunk]; }
 
-static bool list_chunks(gis_holding *h, gis_error *error)
+static bool list_chunks(gis_border_chunks *h, gis_error *error)
 {
     size_t n = 0;
     for (size_t f = 0; f < h->files; f++) n += h->file[f].chunks;
@@ -15,16 +15,16 @@ static bool list_chunks(gis_holding *h, gis_error *error)
     if (!h->chunk) return gis_no_memory(error);
     for (size_t f = 0; f < h->files; f++)
         for (size_t k = 0; k < h->file[f].chunks; k++)
-            h->chunk[h->chunks++] = (gis_held_chunk){.file = &h->file[f], .chunk = k};
+            h->chunk[h->chunks++] = (gis_border_chunk){.file = &h->file[f], .chunk = k};
     return true;
 }
 
-static bool load(gis_holding *h, gis_part_result *held, gis_error *error)
+static bool load(gis_border_chunks *h, gis_part_result *held, gis_error *error)
 {
     gis_part_result one = {0};
     bool done = true;
     for (size_t k = 0; k < h->chunks && done; k++) {
-        gis_held_chunk *c = &h->chunk[k];
+        gis_border_chunk *c = &h->chunk[k];
         if (c->held || !c->wanted) continue;
         c->held = true;
         done = gis_part_file_read(c->file, c->chunk, &one, error) && gis_part_copy_all(held, &one, error);
@@ -34,55 +34,56 @@ static bool load(gis_holding *h, gis_part_result *held, gis_error *error)
     return done;
 }
 
-static gis_sweep_on want_both(void *user, const gis_swept *a, const gis_swept *b)
+static gis_box_pairs_next want_both(void *user, const gis_paired_box *a, const gis_paired_box *b)
 {
-    gis_holding *h = user;
+    gis_border_chunks *h = user;
     if (of_file(&h->chunk[a->of])->run != of_file(&h->chunk[b->of])->run)
         h->chunk[a->of].wanted = h->chunk[b->of].wanted = true;
-    return GIS_SWEEP_BOTH;
+    return GIS_BOX_PAIRS_BOTH;
 }
 
-bool gis_hold_at_borders(gis_holding *h, gis_part_result *held, gis_error *error)
+bool gis_border_chunks_load(gis_border_chunks *h, gis_part_result *held, gis_error *error)
 {
-    gis_sweep sweep = {0};
+    gis_box_pairs pairs = {0};
     bool done = list_chunks(h, error);
     for (size_t k = 0; k < h->chunks && done; k++) {
         h->chunk[k].wanted = of_file(&h->chunk[k])->incomplete;
-        done = gis_sweep_add(&sweep, of_file(&h->chunk[k])->box, k, 0, error);
+        done = gis_box_pairs_add(&pairs, of_file(&h->chunk[k])->box, k, 0, error);
     }
-    if (done) gis_sweep_run(&sweep, want_both, h);
-    gis_sweep_clear(&sweep);
+    if (done) gis_box_pairs_visit(&pairs, want_both, h);
+    gis_box_pairs_clear(&pairs);
     return done && load(h, held, error);
 }
 
 enum { CHUNK, WORLD };
 
-static gis_sweep_on want_chunk(void *user, const gis_swept *a, const gis_swept *b)
+static gis_box_pairs_next want_chunk(void *user, const gis_paired_box *a, const gis_paired_box *b)
 {
-    gis_holding *h = user;
+    gis_border_chunks *h = user;
     if (a->kind != b->kind) h->chunk[(a->kind == CHUNK ? a : b)->of].wanted = true;
-    return GIS_SWEEP_BOTH;
+    return GIS_BOX_PAIRS_BOTH;
 }
 
-bool gis_hold_what_met(gis_holding *h, gis_part_result *held, gis_error *error)
+bool gis_border_chunks_load_new(gis_border_chunks *h, gis_part_result *held, gis_error *error)
 {
-    gis_sweep sweep = {0};
+    gis_box_pairs pairs = {0};
     bool done = true;
     for (size_t k = 0; k < h->chunks && done; k++)
-        if (!h->chunk[k].held) done = gis_sweep_add(&sweep, of_file(&h->chunk[k])->box, k, CHUNK, error);
+        if (!h->chunk[k].held) done = gis_box_pairs_add(&pairs, of_file(&h->chunk[k])->box, k, CHUNK, error);
     for (size_t w = h->seen; w < held->worlds && done; w++) {
         const gis_part_world *world = &held->world[w];
         for (size_t k = 0; k < world->footprints && done; k++) {
             const sunder_footprint *f = &held->footprint[world->footprint + k];
-            done = gis_sweep_add(&sweep, f->read, w, WORLD, error) && gis_sweep_add(&sweep, f->wrote, w, WORLD, error);
+            done = gis_box_pairs_add(&pairs, f->read, w, WORLD, error) &&
+                   gis_box_pairs_add(&pairs, f->wrote, w, WORLD, error);
         }
     }
-    if (done) gis_sweep_run(&sweep, want_chunk, h);
-    gis_sweep_clear(&sweep);
+    if (done) gis_box_pairs_visit(&pairs, want_chunk, h);
+    gis_box_pairs_clear(&pairs);
     return done && load(h, held, error);
 }
 
-void gis_holding_clear(gis_holding *h)
+void gis_border_chunks_clear(gis_border_chunks *h)
 {
     free(h->chunk);
     h->chunk = NULL;

@@ -6,26 +6,26 @@
 
 #include "shards/parts/part_file.h"
 
-typedef struct gis_held_chunk {
+typedef struct gis_border_chunk {
     gis_part_file *file;
     size_t chunk; /* of the file */
     bool held, wanted;
-} gis_held_chunk;
+} gis_border_chunk;
 
 /* file, files, runs are given: runs from that number on are no file's. */
-typedef struct gis_holding {
+typedef struct gis_border_chunks {
     gis_part_file *file;
     size_t files;
     unsigned runs;
-    gis_held_chunk *chunk;
+    gis_border_chunk *chunk;
     size_t chunks;
     size_t seen; /* worlds of the result that were compared with chunks */
-} gis_holding;
+} gis_border_chunks;
 
 /* The first, added to the result. */
-bool gis_hold_at_borders(gis_holding *holding, gis_part_result *held, gis_error *error);
+bool gis_border_chunks_load(gis_border_chunks *chunks, gis_part_result *held, gis_error *error);
 /* The second: with those worlds of the result that are new. */
-bool gis_hold_what_met(gis_holding *holding, gis_part_result *held, gis_error *error);
-void gis_holding_clear(gis_holding *holding);
+bool gis_border_chunks_load_new(gis_border_chunks *chunks, gis_part_result *held, gis_error *error);
+void gis_border_chunks_clear(gis_border_chunks *chunks);
 
 #endif

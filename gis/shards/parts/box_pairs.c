@@ -6,50 +6,53 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool gis_sweep_add(gis_sweep *sweep, const double box[4], size_t of, int kind, gis_error *error)
+bool gis_box_pairs_add(gis_box_pairs *pairs, const double box[4], size_t of, int kind, gis_error *error)
 {
     if (!(box[0] <= box[2])) return true;
-    if (!gis_array_reserve(&sweep->box, &sweep->room, sweep->n + 1, sizeof *sweep->box)) return gis_no_memory(error);
-    gis_swept *to = &sweep->box[sweep->n++];
-    *to = (gis_swept){.of = of, .kind = kind};
+    if (!gis_array_reserve(&pairs->box, &pairs->room, pairs->n + 1, sizeof *pairs->box)) return gis_no_memory(error);
+    gis_paired_box *to = &pairs->box[pairs->n++];
+    *to = (gis_paired_box){.of = of, .kind = kind};
     memcpy(to->box, box, sizeof to->box);
     return true;
 }
 
 static int by_left(const void *a, const void *b)
 {
-    const gis_swept *p = a, *q = b;
+    const gis_paired_box *p = a, *q = b;
     return (p->box[0] > q->box[0]) - (p->box[0] < q->box[0]);
 }
 
-static bool meet(const gis_swept *a, const gis_swept *b) { return a->box[1] <= b->box[3] && b->box[1] <= a->box[3]; }
-
-void gis_sweep_run(gis_sweep *sweep, gis_sweep_meets *meets, void *user)
+static bool meet(const gis_paired_box *a, const gis_paired_box *b)
 {
-    gis_swept *box = sweep->box;
+    return a->box[1] <= b->box[3] && b->box[1] <= a->box[3];
+}
+
+void gis_box_pairs_visit(gis_box_pairs *pairs, gis_box_pairs_visitor *meets, void *user)
+{
+    gis_paired_box *box = pairs->box;
     size_t open = 0;
-    if (sweep->n) qsort(box, sweep->n, sizeof *box, by_left);
-    for (size_t k = 0; k < sweep->n; k++) {
-        const gis_swept next = box[k];
-        gis_sweep_on on = GIS_SWEEP_BOTH;
+    if (pairs->n) qsort(box, pairs->n, sizeof *box, by_left);
+    for (size_t k = 0; k < pairs->n; k++) {
+        const gis_paired_box next = box[k];
+        gis_box_pairs_next on = GIS_BOX_PAIRS_BOTH;
         size_t kept = 0;
         for (size_t i = 0; i < open; i++) {
             if (box[i].box[2] < next.box[0]) continue;
-            if (on != GIS_SWEEP_A_ALONE && meet(&box[i], &next)) on = meets(user, &box[i], &next);
-            if (on != GIS_SWEEP_B_ALONE) {
+            if (on != GIS_BOX_PAIRS_A_ONLY && meet(&box[i], &next)) on = meets(user, &box[i], &next);
+            if (on != GIS_BOX_PAIRS_B_ONLY) {
                 if (kept != i) box[kept] = box[i];
                 kept++;
             }
-            if (on == GIS_SWEEP_B_ALONE) on = GIS_SWEEP_BOTH;
+            if (on == GIS_BOX_PAIRS_B_ONLY) on = GIS_BOX_PAIRS_BOTH;
         }
         open = kept;
-        if (on != GIS_SWEEP_A_ALONE) box[open++] = next; /* open <= k: what stood there was taken */
+        if (on != GIS_BOX_PAIRS_A_ONLY) box[open++] = next; /* open <= k: what stood there was taken */
     }
-    sweep->n = 0;
+    pairs->n = 0;
 }
 
-void gis_sweep_clear(gis_sweep *sweep)
+void gis_box_pairs_clear(gis_box_pairs *pairs)
 {
-    free(sweep->box);
-    *sweep = (gis_sweep){0};
+    free(pairs->box);
+    *pairs = (gis_box_pairs){0};
 }

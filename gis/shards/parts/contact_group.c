@@ -35,20 +35,20 @@ typedef struct looking {
     const gis_layout *layout;
     double reach;
     bool by_shapes;
-    size_t patience;   /* so many pairs of boxes that meet may still be looked at for their shapes */
-    gis_together *lot; /* [lots], sums at the roots */
-    size_t *parent;    /* [lots] */
+    size_t patience;        /* so many pairs of boxes that meet may still be looked at for their shapes */
+    gis_contact_group *lot; /* [lots], sums at the roots */
+    size_t *parent;         /* [lots] */
     size_t lots, lot_room, parent_room, enough_lots;
-    gis_together largest; /* of those that are complete, and forgotten */
-    size_t *of_block;     /* [layout->blocks] a lot of it, or SIZE_MAX */
-    size_t *beside;       /* [besides] the cells that come near the one that is looked at, by number */
+    gis_contact_group largest; /* of those that are complete, and forgotten */
+    size_t *of_block;          /* [layout->blocks] a lot of it, or SIZE_MAX */
+    size_t *beside;            /* [besides] the cells that come near the one that is looked at, by number */
     size_t besides, beside_room;
     size_t *last;  /* [cells] of those beside one, which may be it itself */
     members *cell; /* [cells] what is remembered of it */
     members here;  /* of the cell that is looked at */
     member **swept;
     size_t swept_n, swept_room;
-    gis_sweep sweep;
+    gis_box_pairs pairs;
     sunder_shape *read; /* by gis_spool_read_one() */
     gis_error *error;
     bool failed;
@@ -56,7 +56,7 @@ typedef struct looking {
 
 /* ---- Lots -------------------------------------------------------------------------------------------------------- */
 
-static double bytes_of(const gis_layout *layout, const gis_together *t)
+static double bytes_of(const gis_layout *layout, const gis_contact_group *t)
 {
     return gis_part_bytes(layout->how.keep_trees, layout->how.effort, (double)t->features, (double)t->vertices);
 }
@@ -66,8 +66,8 @@ static bool add_lot(looking *l, const double box[4], size_t vertices)
     if (!gis_array_reserve(&l->lot, &l->lot_room, l->lots + 1, sizeof *l->lot) ||
         !gis_array_reserve(&l->parent, &l->parent_room, l->lots + 1, sizeof *l->parent))
         return false;
-    gis_together *to = &l->lot[l->lots];
-    *to = (gis_together){.features = 1, .vertices = vertices};
+    gis_contact_group *to = &l->lot[l->lots];
+    *to = (gis_contact_group){.features = 1, .vertices = vertices};
     memcpy(to->box, box, sizeof to->box);
     l->parent[l->lots] = l->lots;
     l->lots++;
@@ -78,8 +78,8 @@ static void join(looking *l, size_t a, size_t b)
 {
     const size_t x = gis_set_root(l->parent, a), y = gis_set_root(l->parent, b);
     if (x == y) return;
-    gis_together *to = &l->lot[x < y ? x : y];
-    const gis_together *from = &l->lot[x < y ? y : x];
+    gis_contact_group *to = &l->lot[x < y ? x : y];
+    const gis_contact_group *from = &l->lot[x < y ? y : x];
     to->features += from->features;
     to->vertices += from->vertices;
     gis_box_join(to->box, from->box);
@@ -96,7 +96,7 @@ static void join_block(looking *l, int64_t number, size_t one)
     join(l, *first, one);
 }
 
-static void consider(looking *l, const gis_together *lot)
+static void consider(looking *l, const gis_contact_group *lot)
 {
     if (bytes_of(l->layout, lot) > bytes_of(l->layout, &l->largest)) l->largest = *lot;
 }
@@ -167,36 +167,36 @@ static bool are_within_reach(looking *l, member *a, member *b)
 }
 
 /* Boxes join whatever meets: one in another has nothing to add. */
-static gis_sweep_on join_boxes(looking *l, member *p, member *q, const gis_swept *a, const gis_swept *b)
+static gis_box_pairs_next join_boxes(looking *l, member *p, member *q, const gis_paired_box *a, const gis_paired_box *b)
 {
     join(l, p->lot, q->lot);
     if (a->box[2] >= b->box[2] && a->box[1] <= b->box[1] && a->box[3] >= b->box[3]) {
         q->inside = true;
-        return GIS_SWEEP_A_ALONE;
+        return GIS_BOX_PAIRS_A_ONLY;
     }
     const bool within = b->box[2] >= a->box[2] && b->box[1] <= a->box[1] && b->box[3] >= a->box[3];
-    return within ? GIS_SWEEP_B_ALONE : GIS_SWEEP_BOTH;
+    return within ? GIS_BOX_PAIRS_B_ONLY : GIS_BOX_PAIRS_BOTH;
 }
 
 /* kind: is it one of those remembered? These have been asked among themselves. */
-static gis_sweep_on join_if_near(void *user, const gis_swept *a, const gis_swept *b)
+static gis_box_pairs_next join_if_near(void *user, const gis_paired_box *a, const gis_paired_box *b)
 {
     looking *l = user;
     member *p = l->swept[a->of], *q = l->swept[b->of];
     if (!l->by_shapes) return join_boxes(l, p, q, a, b);
-    if (l->failed || l->patience == 0) return GIS_SWEEP_A_ALONE; /* it is in vain */
-    if (a->kind && b->kind) return GIS_SWEEP_BOTH;
+    if (l->failed || l->patience == 0) return GIS_BOX_PAIRS_A_ONLY; /* it is in vain */
+    if (a->kind && b->kind) return GIS_BOX_PAIRS_BOTH;
     l->patience--;
     if (gis_set_root(l->parent, p->lot) != gis_set_root(l->parent, q->lot) && are_within_reach(l, p, q))
         join(l, p->lot, q->lot);
-    return GIS_SWEEP_BOTH;
+    return GIS_BOX_PAIRS_BOTH;
 }
 
 static bool sweep_too(looking *l, member *m, int kind, gis_error *error)
 {
     if (!gis_array_reserve(&l->swept, &l->swept_room, l->swept_n + 1, sizeof(member *))) return gis_no_memory(error);
     l->swept[l->swept_n++] = m;
-    return gis_sweep_add(&l->sweep, m->box, l->swept_n - 1, kind, error);
+    return gis_box_pairs_add(&l->pairs, m->box, l->swept_n - 1, kind, error);
 }
 
 static void drop_shapes(members *all)
@@ -227,7 +227,7 @@ static bool join_cell(looking *l, size_t cell, gis_error *error)
         for (size_t k = 0; k < there->n && done; k++)
             if (gis_box_meets(box, there->at[k].box)) done = sweep_too(l, &there->at[k], 1, error);
     }
-    if (done) gis_sweep_run(&l->sweep, join_if_near, l);
+    if (done) gis_box_pairs_visit(&l->pairs, join_if_near, l);
     for (size_t b = 0; b < l->besides; b++) drop_shapes(&l->cell[l->beside[b]]);
     return done && !l->failed && gis_go_on(error);
 }
@@ -352,11 +352,11 @@ static void clear(looking *l)
     free(l->lot);
     free(l->parent);
     free(l->of_block);
-    gis_sweep_clear(&l->sweep);
+    gis_box_pairs_clear(&l->pairs);
 }
 
 /* *whole: there was patience enough. */
-static bool find(const gis_layout *layout, double reach, bool by_shapes, gis_together *out, bool *whole,
+static bool find(const gis_layout *layout, double reach, bool by_shapes, gis_contact_group *out, bool *whole,
                  gis_error *error)
 {
     looking l = {.layout = layout, .reach = reach, .by_shapes = by_shapes, .error = error};
@@ -373,9 +373,10 @@ static bool find(const gis_layout *layout, double reach, bool by_shapes, gis_tog
     return done;
 }
 
-bool gis_parts_together(const gis_layout *layout, double reach, double enough, gis_together *out, gis_error *error)
+bool gis_contact_group_find(const gis_layout *layout, double reach, double enough, gis_contact_group *out,
+                            gis_error *error)
 {
-    gis_together by_shapes;
+    gis_contact_group by_shapes;
     bool whole;
     if (!find(layout, reach, false, out, &whole, error)) return false;
     if (bytes_of(layout, out) <= enough) return true;

@@ -6,15 +6,16 @@
 
 #include "shards/parts/part.h"
 
-typedef struct gis_together {
+typedef struct gis_contact_group {
     size_t features, vertices;
     double box[4];
-} gis_together;
+} gis_contact_group;
 
-/* The largest lot by vertices and features, as gis_part_bytes() weighs them. Where that is no more than `enough` bytes
+/* The largest group by vertices and features, as gis_part_bytes() weighs them. Where that is no more than `enough` bytes
  * boxes alone are asked, and *out may be larger than what does hang together; where it is more, shapes are, unless
  * features lie in piles. Fixed features hang together with nothing: nobody waits for them. Takes memory for what lies
  * at the borders of cells. */
-bool gis_parts_together(const gis_layout *layout, double reach, double enough, gis_together *out, gis_error *error);
+bool gis_contact_group_find(const gis_layout *layout, double reach, double enough, gis_contact_group *out,
+                            gis_error *error);
 
 #endif

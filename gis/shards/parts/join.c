@@ -81,27 +81,27 @@ static bool compare_holdings(joining *j, gis_error *error)
     return true;
 }
 
-static gis_sweep_on lump_if_met(void *user, const gis_swept *a, const gis_swept *b)
+static gis_box_pairs_next lump_if_met(void *user, const gis_paired_box *a, const gis_paired_box *b)
 {
     joining *j = user;
     const gis_part_world *world = j->r->world;
     if (a->kind != b->kind && world[a->of].run != world[b->of].run) lump(j, a->of, b->of);
-    return GIS_SWEEP_BOTH;
+    return GIS_BOX_PAIRS_BOTH;
 }
 
 /* Worlds of different runs of which one wrote where the other read. */
 static bool compare_footprints(joining *j, gis_error *error)
 {
-    gis_sweep sweep = {0};
+    gis_box_pairs pairs = {0};
     const gis_part_result *r = j->r;
     bool done = true;
     for (size_t w = 0; w < r->worlds && done; w++)
         for (size_t k = 0; k < r->world[w].footprints && stands(&r->world[w]) && done; k++) {
             const sunder_footprint *f = &r->footprint[r->world[w].footprint + k];
-            done = gis_sweep_add(&sweep, f->read, w, 0, error) && gis_sweep_add(&sweep, f->wrote, w, 1, error);
+            done = gis_box_pairs_add(&pairs, f->read, w, 0, error) && gis_box_pairs_add(&pairs, f->wrote, w, 1, error);
         }
-    if (done) gis_sweep_run(&sweep, lump_if_met, j);
-    gis_sweep_clear(&sweep);
+    if (done) gis_box_pairs_visit(&pairs, lump_if_met, j);
+    gis_box_pairs_clear(&pairs);
     return done;
 }
 
@@ -160,7 +160,7 @@ static void lump_all(joining *j)
     for (size_t w = 0; w < j->r->worlds && first == SIZE_MAX; w++)
         if (j->again[w]) first = w;
     for (size_t w = 0; w < j->r->worlds && first != SIZE_MAX; w++)
-        if (stands(&j->r->world[w]) && (j->again[w] || j->r->world[w].run >= gis_spool_shards(j->layout->spool)))
+        if (stands(&j->r->world[w]) && (j->again[w] || j->r->world[w].run >= gis_spool_parts(j->layout->spool)))
             lump(j, first, w);
 }
 
@@ -192,16 +192,16 @@ bool gis_parts_join(const gis_layout *layout, gis_part_file *file, size_t files,
                     gis_error *error)
 {
     gis_part_result held = {0};
-    gis_holding chunks = {.file = file, .files = files, .runs = gis_spool_shards(layout->spool)};
-    joining j = {.layout = layout, .r = &held, .run = gis_spool_shards(layout->spool)};
+    gis_border_chunks chunks = {.file = file, .files = files, .runs = gis_spool_parts(layout->spool)};
+    joining j = {.layout = layout, .r = &held, .run = gis_spool_parts(layout->spool)};
     bool any = true;
     *out = (gis_joined){0};
-    bool done = gis_hold_at_borders(&chunks, &held, error);
+    bool done = gis_border_chunks_load(&chunks, &held, error);
     for (unsigned round = 0; any && done; round++)
-        done = gis_go_on(error) && settle(&j, round, &any, error) && gis_hold_what_met(&chunks, &held, error);
+        done = gis_go_on(error) && settle(&j, round, &any, error) && gis_border_chunks_load_new(&chunks, &held, error);
     out->runs = j.run;
-    done = done && gis_joined_gather(out, &chunks, &held, directory, error);
-    gis_holding_clear(&chunks);
+    done = done && gis_joined_lists_make(out, &chunks, &held, directory, error);
+    gis_border_chunks_clear(&chunks);
     gis_part_result_clear(&held);
     return done;
 }

@@ -15,12 +15,12 @@
 
 /* Zeroed: nothing. */
 typedef struct gis_joined {
-    gis_sorted rows;      /* by features: of each one row, or one still; other features are as they are alone */
-    gis_sorted conflicts; /* by (a, b): one conflict each */
-    gis_sorted pushes;    /* likewise */
-    gis_sorted trees;     /* by groups, each by its first feature that moves */
-    gis_part_link *block; /* a: a feature of a block, b: the block's first; by features */
-    bool *fixed;          /* [blocks] at the block's first: someone of it is fixed, and so all are */
+    gis_sorted_results rows;      /* by features: of each one row, or one still; other features are as they are alone */
+    gis_sorted_results conflicts; /* by (a, b): one conflict each */
+    gis_sorted_results pushes;    /* likewise */
+    gis_sorted_results trees;     /* by groups, each by its first feature that moves */
+    gis_part_link *block;         /* a: a feature of a block, b: the block's first; by features */
+    bool *fixed;                  /* [blocks] at the block's first: someone of it is fixed, and so all are */
     size_t blocks;
     sunder_layer_summary summary; /* but for features, vertices and skipped, which are the layer's */
     int64_t longest_fid;          /* of summary.max_feature */
@@ -34,8 +34,8 @@ void gis_joined_clear(gis_joined *joined);
 
 /* joined_lists.c: the lists and sums of the worlds that stand: of what is held, which is cleared, and of the chunks
  * that are not. */
-bool gis_joined_gather(gis_joined *out, gis_holding *holding, gis_part_result *held, const char *directory,
-                       gis_error *error);
+bool gis_joined_lists_make(gis_joined *out, gis_border_chunks *chunks, gis_part_result *held, const char *directory,
+                           gis_error *error);
 /* A feature's entry in block[]; NULL: it is of no block. */
 const gis_part_link *gis_joined_block(const gis_joined *joined, size_t feature);
 /* The status of a feature that is of no world. */

@@ -32,14 +32,14 @@ static bool put_row(gathering *g, const gis_part_result *r, size_t k, gis_error 
 {
     gis_part_result_empty(&g->one);
     return gis_part_copy_row(&g->one, r, k, error) &&
-           gis_sorted_add(&g->out->rows, r->row[k].index, ROW, &g->one, error);
+           gis_sorted_results_add(&g->out->rows, r->row[k].index, ROW, &g->one, error);
 }
 
 static bool put_still(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
 {
     gis_part_result_empty(&g->one);
     return gis_part_copy_still(&g->one, r, k, error) &&
-           gis_sorted_add(&g->out->rows, r->still[k].index, STILL, &g->one, error);
+           gis_sorted_results_add(&g->out->rows, r->still[k].index, STILL, &g->one, error);
 }
 
 static bool put_conflict(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
@@ -48,14 +48,15 @@ static bool put_conflict(gathering *g, const gis_part_result *r, size_t k, gis_e
     gis_part_result_empty(&g->one);
     return gis_part_copy_conflict(&g->one, r, k, error) &&
            gis_part_file_fetch(g->file, g->files, &g->one, &g->one.conflict->line, error) &&
-           gis_sorted_add(&g->out->conflicts, c->a, c->b, &g->one, error);
+           gis_sorted_results_add(&g->out->conflicts, c->a, c->b, &g->one, error);
 }
 
 static bool put_push(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
 {
     const sunder_push *p = &r->push[k].is;
     gis_part_result_empty(&g->one);
-    return gis_part_copy_push(&g->one, r, k, error) && gis_sorted_add(&g->out->pushes, p->a, p->b, &g->one, error);
+    return gis_part_copy_push(&g->one, r, k, error) &&
+           gis_sorted_results_add(&g->out->pushes, p->a, p->b, &g->one, error);
 }
 
 static bool put_tree(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
@@ -63,7 +64,7 @@ static bool put_tree(gathering *g, const gis_part_result *r, size_t k, gis_error
     gis_part_result_empty(&g->one);
     return gis_part_copy_tree(&g->one, r, k, error) &&
            gis_part_file_fetch(g->file, g->files, &g->one, &g->one.tree->line, error) &&
-           gis_sorted_add(&g->out->trees, r->tree[k].first, r->tree[k].among, &g->one, error);
+           gis_sorted_results_add(&g->out->trees, r->tree[k].first, r->tree[k].among, &g->one, error);
 }
 
 static void add_counts(sunder_conflict_counts *to, const sunder_conflict_counts *from)
@@ -110,7 +111,7 @@ static bool put_result(gathering *g, const gis_part_result *r, gis_error *error)
     return done && gis_go_on(error);
 }
 
-static bool put_everything(gathering *g, const gis_holding *h, gis_part_result *held, gis_error *error)
+static bool put_everything(gathering *g, const gis_border_chunks *h, gis_part_result *held, gis_error *error)
 {
     gis_part_result chunk = {0};
     bool done = true;
@@ -251,11 +252,11 @@ static bool keep_conflict(void *user, const gis_sort_head *head, const gis_part_
                           gis_error *error)
 {
     gathering *g = user;
-    gis_sorted *rows = &g->out->rows;
+    gis_sorted_results *rows = &g->out->rows;
     *keep = false;
     if (one->conflict[0].loose) {
         while (g->more && (rows->head.first < head->first))
-            if (!gis_sorted_next(rows, &g->more, error)) return false;
+            if (!gis_sorted_results_next(rows, &g->more, error)) return false;
         if (g->more && rows->head.first == head->first && rows->one.rows) return true;
     }
     *keep = !is_again(g, head->first, head->second);
@@ -266,13 +267,15 @@ static bool keep_conflict(void *user, const gis_sort_head *head, const gis_part_
 static bool sort_everything(gathering *g, gis_error *error)
 {
     gis_joined *j = g->out;
-    if (!gis_sorted_sort(&j->rows, keep_feature, g, error) || !gis_sorted_next(&j->rows, &g->more, error)) return false;
+    if (!gis_sorted_results_sort(&j->rows, keep_feature, g, error) ||
+        !gis_sorted_results_next(&j->rows, &g->more, error))
+        return false;
     g->any = false;
-    if (!gis_sorted_sort(&j->conflicts, keep_conflict, g, error)) return false;
+    if (!gis_sorted_results_sort(&j->conflicts, keep_conflict, g, error)) return false;
     g->any = false;
-    if (!gis_sorted_sort(&j->pushes, keep_once, g, error)) return false;
+    if (!gis_sorted_results_sort(&j->pushes, keep_once, g, error)) return false;
     g->any = false;
-    return gis_sorted_sort(&j->trees, keep_once, g, error);
+    return gis_sorted_results_sort(&j->trees, keep_once, g, error);
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
@@ -282,17 +285,17 @@ static bool begin(gis_joined *j, const char *directory, gis_error *error)
     j->longest_fid = -1;
     j->summary.max_feature = SIZE_MAX;
     j->summary.verified = true;
-    return gis_sorted_begin(&j->rows, directory, "rows", error) &&
-           gis_sorted_begin(&j->conflicts, directory, "conflicts", error) &&
-           gis_sorted_begin(&j->pushes, directory, "pushes", error) &&
-           gis_sorted_begin(&j->trees, directory, "trees", error);
+    return gis_sorted_results_begin(&j->rows, directory, "rows", error) &&
+           gis_sorted_results_begin(&j->conflicts, directory, "conflicts", error) &&
+           gis_sorted_results_begin(&j->pushes, directory, "pushes", error) &&
+           gis_sorted_results_begin(&j->trees, directory, "trees", error);
 }
 
-bool gis_joined_gather(gis_joined *j, gis_holding *holding, gis_part_result *held, const char *directory,
-                       gis_error *error)
+bool gis_joined_lists_make(gis_joined *j, gis_border_chunks *chunks, gis_part_result *held, const char *directory,
+                           gis_error *error)
 {
-    gathering g = {.out = j, .file = holding->file, .files = holding->files};
-    const bool done = begin(j, directory, error) && put_everything(&g, holding, held, error) &&
+    gathering g = {.out = j, .file = chunks->file, .files = chunks->files};
+    const bool done = begin(j, directory, error) && put_everything(&g, chunks, held, error) &&
                       gather_blocks(j, &g.links, error) && sort_everything(&g, error);
     gis_part_result_clear(&g.one);
     gis_part_result_clear(&g.links);
@@ -314,10 +317,10 @@ sunder_feature_status gis_joined_status(const gis_joined *j, const gis_part_stil
 
 void gis_joined_clear(gis_joined *j)
 {
-    gis_sorted_clear(&j->rows);
-    gis_sorted_clear(&j->conflicts);
-    gis_sorted_clear(&j->pushes);
-    gis_sorted_clear(&j->trees);
+    gis_sorted_results_clear(&j->rows);
+    gis_sorted_results_clear(&j->conflicts);
+    gis_sorted_results_clear(&j->pushes);
+    gis_sorted_results_clear(&j->trees);
     free(j->block);
     free(j->fixed);
     *j = (gis_joined){0};

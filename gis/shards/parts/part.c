@@ -119,7 +119,7 @@ static int64_t call_feature(const void *of, size_t feature)
 static int64_t call_barrier(const void *of, size_t thing, const char **layer)
 {
     const gis_part *p = of;
-    const gis_part_barrier *barrier = &p->barriers.item[thing - p->n];
+    const gis_spooled_barrier *barrier = &p->barriers.item[thing - p->n];
     *layer = barrier->layer;
     return barrier->fid;
 }
@@ -197,7 +197,7 @@ bool gis_part_separate(const gis_layout *layout, const gis_boxes_list *boxes, gi
                   .out = result};
     bool done = load(&p, error);
     if (done) warn_if_large(&p);
-    done = done && separate(&p, error) && gis_part_tell_worlds(&p, error) && gis_part_tell_others(&p, error);
+    done = done && separate(&p, error) && gis_part_fill_worlds(&p, error) && gis_part_fill_others(&p, error);
     clear(&p);
     return done;
 }

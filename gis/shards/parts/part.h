@@ -52,9 +52,9 @@ typedef bool gis_part_wants(const void *user, size_t cell, size_t index);
 bool gis_part_separate(const gis_layout *layout, const gis_boxes_list *boxes, gis_part_wants *wants, const void *user,
                        unsigned run, gis_part_result *result, gis_error *error);
 
-/* Shards first to end - 1 of the spool, as one part, with what is about their cells (part_of_shard.c). */
-bool gis_parts_shards(const gis_layout *layout, unsigned first, unsigned end, gis_part_result *result,
-                      gis_error *error);
+/* Parts first to end - 1 that the spool is dealt to, as one, with what is about their cells (parts_separate.c). */
+bool gis_parts_separate(const gis_layout *layout, unsigned first, unsigned end, gis_part_result *result,
+                        gis_error *error);
 
 bool gis_boxes_add(gis_boxes_list *list, const double box[4], double reach, gis_error *error);
 

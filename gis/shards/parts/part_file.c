@@ -46,9 +46,9 @@ bool gis_part_file_create(gis_part_file *file, const char *directory, const gis_
     gis_part_file_name(stamp->shard, name);
     gis_remove_abandoned(directory, name);
     strcat(name, GIS_OWN_LETTERS); /* several may be at the same one */
-    return gis_spool_file_create(&file->file, directory, name, error) &&
-           gis_spool_file_write(&file->file, &mark, sizeof mark, error) &&
-           gis_spool_file_write(&file->file, &head, sizeof head, error);
+    return gis_disk_file_create(&file->file, directory, name, error) &&
+           gis_disk_file_write(&file->file, &mark, sizeof mark, error) &&
+           gis_disk_file_write(&file->file, &head, sizeof head, error);
 }
 
 static bool room_for(gis_part_file *file, size_t bytes, gis_error *error)
@@ -70,7 +70,7 @@ static bool write_lines(gis_part_file *file, gis_part_result *r, gis_part_chunk 
     for (size_t k = 0; k < r->conflicts; k++) lies_in(&r->conflict[k].line, file, from);
     for (size_t k = 0; k < r->trees; k++) lies_in(&r->tree[k].line, file, from);
     r->lines = 0;
-    return gis_spool_file_write(&file->file, r->line, (size_t)chunk->lines, error);
+    return gis_disk_file_write(&file->file, r->line, (size_t)chunk->lines, error);
 }
 
 static bool write_chunk(gis_part_file *file, gis_part_result *r, gis_error *error)
@@ -94,7 +94,7 @@ static bool write_chunk(gis_part_file *file, gis_part_result *r, gis_error *erro
     gis_part_result_store(r, file->bytes);
     chunk.checksum = gis_checksum_of(0, file->bytes, (size_t)chunk.bytes);
     file->chunk[file->chunks++] = chunk;
-    return gis_spool_file_write(&file->file, file->bytes, (size_t)chunk.bytes, error);
+    return gis_disk_file_write(&file->file, file->bytes, (size_t)chunk.bytes, error);
 }
 
 /* A world, and where it is on a curve through all of them. */
@@ -163,9 +163,9 @@ bool gis_part_file_place(gis_part_file *file, const char *directory, gis_error *
     const stored_end end = {file->chunks, file->file.size, checksum_of(file, &head)};
     char name[GIS_PART_FILE_NAME];
     gis_part_file_name(file->stamp.shard, name);
-    const bool done = gis_spool_file_write(&file->file, file->chunk, file->chunks * sizeof *file->chunk, error) &&
-                      gis_spool_file_write(&file->file, &end, sizeof end, error) &&
-                      gis_spool_file_place(&file->file, directory, name, error);
+    const bool done = gis_disk_file_write(&file->file, file->chunk, file->chunks * sizeof *file->chunk, error) &&
+                      gis_disk_file_write(&file->file, &end, sizeof end, error) &&
+                      gis_disk_file_place(&file->file, directory, name, error);
     gis_part_file_close(file);
     return done;
 }
@@ -195,17 +195,17 @@ static bool cut_off(const gis_part_file *file, gis_error *error)
 static bool read_list(gis_part_file *file, const stored_stamp *head, gis_error *error)
 {
     stored_end end;
-    gis_spool_file *f = &file->file;
+    gis_disk_file *f = &file->file;
     const uint64_t least = sizeof(gis_spool_mark) + sizeof *head;
     if (f->size < least + sizeof end) return cut_off(file, error);
-    if (!gis_spool_file_read(f, f->size - sizeof end, &end, sizeof end, error)) return false;
+    if (!gis_disk_file_read(f, f->size - sizeof end, &end, sizeof end, error)) return false;
     if (end.from < least || end.from > f->size - sizeof end ||
         end.chunks != (f->size - sizeof end - end.from) / sizeof *file->chunk)
         return cut_off(file, error);
     if (!gis_array_reserve(&file->chunk, &file->room, (size_t)end.chunks + 1, sizeof *file->chunk))
         return gis_no_memory(error);
     file->chunks = (size_t)end.chunks;
-    if (!gis_spool_file_read(f, end.from, file->chunk, file->chunks * sizeof *file->chunk, error)) return false;
+    if (!gis_disk_file_read(f, end.from, file->chunk, file->chunks * sizeof *file->chunk, error)) return false;
     return checksum_of(file, head) == end.checksum ||
            gis_fail(error, "%s: it is not what was written: its checksum is another", f->path);
 }
@@ -217,10 +217,10 @@ bool gis_part_file_open(gis_part_file *file, const char *directory, const gis_pa
     char name[GIS_PART_FILE_NAME];
     *file = (gis_part_file){.stamp = *stamp};
     gis_part_file_name(stamp->shard, name);
-    return gis_spool_file_open(&file->file, directory, name, error) &&
-           gis_spool_file_read(&file->file, 0, &mark, sizeof mark, error) &&
+    return gis_disk_file_open(&file->file, directory, name, error) &&
+           gis_disk_file_read(&file->file, 0, &mark, sizeof mark, error) &&
            gis_spool_mark_check(&mark, WHAT, file->file.path, error) &&
-           gis_spool_file_read(&file->file, sizeof mark, &head, sizeof head, error) && is_ours(file, &head, error) &&
+           gis_disk_file_read(&file->file, sizeof mark, &head, sizeof head, error) && is_ours(file, &head, error) &&
            read_list(file, &head, error);
 }
 
@@ -236,7 +236,7 @@ bool gis_part_file_read(gis_part_file *file, size_t k, gis_part_result *to, gis_
     const uint64_t size = file->file.size;
     if (chunk->bytes > size || chunk->from > size - chunk->bytes) return cut_off(file, error);
     if (!room_for(file, (size_t)chunk->bytes, error) ||
-        !gis_spool_file_read(&file->file, chunk->from, file->bytes, (size_t)chunk->bytes, error))
+        !gis_disk_file_read(&file->file, chunk->from, file->bytes, (size_t)chunk->bytes, error))
         return false;
     if (gis_checksum_of(0, file->bytes, (size_t)chunk->bytes) == chunk->checksum &&
         !gis_part_result_load(to, file->bytes, (size_t)chunk->bytes, &sound, error))
@@ -248,7 +248,7 @@ static bool check_lines(gis_part_file *file, const gis_part_chunk *chunk, gis_er
 {
     if (chunk->lines > chunk->from) return altered(file, error);
     if (!room_for(file, (size_t)chunk->lines, error)) return false;
-    if (!gis_spool_file_read(&file->file, chunk->from - chunk->lines, file->bytes, (size_t)chunk->lines, error))
+    if (!gis_disk_file_read(&file->file, chunk->from - chunk->lines, file->bytes, (size_t)chunk->lines, error))
         return false;
     return gis_checksum_of(0, file->bytes, (size_t)chunk->lines) == chunk->lines_checksum || altered(file, error);
 }
@@ -268,8 +268,8 @@ bool gis_part_file_fetch(gis_part_file *file, size_t n, gis_part_result *to, gis
     if (line->bytes > size || line->from > size - line->bytes) return altered(&file[line->file - 1], error);
     const size_t bytes = (size_t)line->bytes;
     if (!GIS_PART_MORE(to, line, lines, bytes, error) ||
-        !gis_spool_file_read(&file[line->file - 1].file, line->from, (unsigned char *)to->line + to->lines, bytes,
-                             error))
+        !gis_disk_file_read(&file[line->file - 1].file, line->from, (unsigned char *)to->line + to->lines, bytes,
+                            error))
         return false;
     *line = (gis_part_line){to->lines, bytes, 0};
     to->lines += bytes;
@@ -278,7 +278,7 @@ bool gis_part_file_fetch(gis_part_file *file, size_t n, gis_part_result *to, gis
 
 void gis_part_file_close(gis_part_file *file)
 {
-    gis_spool_file_close(&file->file);
+    gis_disk_file_close(&file->file);
     free(file->chunk);
     free(file->bytes);
     *file = (gis_part_file){0};

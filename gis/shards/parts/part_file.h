@@ -28,7 +28,7 @@ typedef struct gis_part_chunk {
 
 /* Zeroed: none. */
 typedef struct gis_part_file {
-    gis_spool_file file;
+    gis_disk_file file;
     gis_part_stamp stamp;
     gis_part_chunk *chunk;
     size_t chunks, room;

@@ -35,15 +35,15 @@ typedef struct gis_part {
 /* The place in the input of a feature, or of a barrier behind all features. */
 size_t gis_part_index_of(const gis_part *p, size_t thing);
 /* Feature k. */
-bool gis_part_tell_row(gis_part *p, size_t k, gis_error *error);
+bool gis_part_fill_row(gis_part *p, size_t k, gis_error *error);
 /* number: among those of the report. */
-bool gis_part_tell_conflict(gis_part *p, size_t number, bool loose, gis_error *error);
-bool gis_part_tell_push(gis_part *p, const sunder_push *push, gis_error *error);
-bool gis_part_tell_tree(gis_part *p, const gis_proof_place *place, gis_error *error);
+bool gis_part_fill_conflict(gis_part *p, size_t number, bool loose, gis_error *error);
+bool gis_part_fill_push(gis_part *p, const sunder_push *push, gis_error *error);
+bool gis_part_fill_tree(gis_part *p, const gis_proof_place *place, gis_error *error);
 
 /* ---- part_worlds.c: all that is told of worlds that have a feature which was asked for, and of those of none ----- */
 
-bool gis_part_tell_worlds(gis_part *p, gis_error *error);
-bool gis_part_tell_others(gis_part *p, gis_error *error);
+bool gis_part_fill_worlds(gis_part *p, gis_error *error);
+bool gis_part_fill_others(gis_part *p, gis_error *error);
 
 #endif

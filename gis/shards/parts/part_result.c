@@ -10,12 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const gis_hole holes_of_world[] = {GIS_HOLE_BETWEEN(gis_part_world, loose, run)};
-static const gis_hole holes_of_row[] = {GIS_HOLE_BEHIND(gis_part_row, rounded)};
-static const gis_hole holes_of_conflict[] = {GIS_HOLE_BETWEEN(gis_part_conflict, is.inside_block, is.need_shift),
-                                             GIS_HOLE_BETWEEN(gis_part_conflict, is.crowded, blocker),
-                                             GIS_HOLE_BEHIND(gis_part_conflict, loose)};
-static const gis_hole holes_of_still[] = {GIS_HOLE_BEHIND(gis_part_still, status)};
+static const gis_padding holes_of_world[] = {GIS_PADDING_BETWEEN(gis_part_world, loose, run)};
+static const gis_padding holes_of_row[] = {GIS_PADDING_BEHIND(gis_part_row, rounded)};
+static const gis_padding holes_of_conflict[] = {GIS_PADDING_BETWEEN(gis_part_conflict, is.inside_block, is.need_shift),
+                                                GIS_PADDING_BETWEEN(gis_part_conflict, is.crowded, blocker),
+                                                GIS_PADDING_BEHIND(gis_part_conflict, loose)};
+static const gis_padding holes_of_still[] = {GIS_PADDING_BEHIND(gis_part_still, status)};
 
 #define HOLES(list) list, sizeof list / sizeof *list
 #define LIST(member, number, ...)                                                                                      \
@@ -26,7 +26,7 @@ static const gis_hole holes_of_still[] = {GIS_HOLE_BEHIND(gis_part_still, status
 
 static const struct list {
     size_t at, count, room, size;
-    const gis_hole *hole;
+    const gis_padding *hole;
     size_t holes;
 } lists[] = {LIST(world, worlds, HOLES(holes_of_world)),
              LIST(row, rows, HOLES(holes_of_row)),
@@ -220,7 +220,7 @@ void gis_part_result_store(const gis_part_result *r, unsigned char *to)
         const size_t bytes = read_count(r, k) * lists[k].size, room = padded(bytes);
         if (room) memset(to + room - 8, 0, 8);
         if (bytes) memcpy(to, read_array(r, k), bytes);
-        gis_fill_holes(to, read_count(r, k), lists[k].size, lists[k].hole, lists[k].holes);
+        gis_clear_padding(to, read_count(r, k), lists[k].size, lists[k].hole, lists[k].holes);
         to += room;
     }
 }

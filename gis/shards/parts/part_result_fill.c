@@ -8,14 +8,14 @@
 #include <math.h>
 #include <stdint.h>
 
-static const gis_part_barrier *barrier_of(const gis_part *p, size_t thing)
+static const gis_spooled_barrier *barrier_of(const gis_part *p, size_t thing)
 {
     return thing >= p->n && thing != SIZE_MAX ? &p->barriers.item[thing - p->n] : NULL;
 }
 
 size_t gis_part_index_of(const gis_part *p, size_t thing)
 {
-    const gis_part_barrier *barrier = barrier_of(p, thing);
+    const gis_spooled_barrier *barrier = barrier_of(p, thing);
     if (barrier) return p->layout->features + barrier->number;
     return thing < p->n ? p->item[thing].feature.index : SIZE_MAX;
 }
@@ -24,7 +24,7 @@ static bool add_name(gis_part *p, gis_part_conflict *to, size_t thing, gis_error
 {
     gis_part_name name = {.index = gis_part_index_of(p, thing)};
     if (name.index == SIZE_MAX) return true;
-    const gis_part_barrier *barrier = barrier_of(p, thing);
+    const gis_spooled_barrier *barrier = barrier_of(p, thing);
     name.fid = barrier ? barrier->fid : p->item[thing].feature.fid;
     const char *text = barrier ? barrier->layer : p->item[thing].feature.id;
     if (!gis_part_add_text(p->out, text, &name.id, error) || !GIS_PART_MORE(p->out, name, names, 1, error))
@@ -34,7 +34,7 @@ static bool add_name(gis_part *p, gis_part_conflict *to, size_t thing, gis_error
     return true;
 }
 
-bool gis_part_tell_row(gis_part *p, size_t k, gis_error *error)
+bool gis_part_fill_row(gis_part *p, size_t k, gis_error *error)
 {
     const gis_spool_feature *f = &p->item[k].feature;
     gis_part_row row = {.index = f->index,
@@ -60,7 +60,7 @@ static bool take_line(gis_part *p, gis_part_line *to, gis_error *error)
     return done;
 }
 
-bool gis_part_tell_conflict(gis_part *p, size_t number, bool loose, gis_error *error)
+bool gis_part_fill_conflict(gis_part *p, size_t number, bool loose, gis_error *error)
 {
     size_t n;
     gis_part_result *out = p->out;
@@ -96,9 +96,9 @@ static int64_t stand(const gis_part *p, size_t thing, double at[2])
     return p->item[thing].feature.fid;
 }
 
-bool gis_part_tell_push(gis_part *p, const sunder_push *push, gis_error *error)
+bool gis_part_fill_push(gis_part *p, const sunder_push *push, gis_error *error)
 {
-    const gis_part_barrier *barrier = barrier_of(p, push->b);
+    const gis_spooled_barrier *barrier = barrier_of(p, push->b);
     gis_part_push to = {.is = *push};
     to.fid[0] = stand(p, push->a, to.from);
     if (barrier)
@@ -115,7 +115,7 @@ bool gis_part_tell_push(gis_part *p, const sunder_push *push, gis_error *error)
     return true;
 }
 
-bool gis_part_tell_tree(gis_part *p, const gis_proof_place *place, gis_error *error)
+bool gis_part_fill_tree(gis_part *p, const gis_proof_place *place, gis_error *error)
 {
     size_t n;
     gis_part_tree to = {gis_part_index_of(p, place->first), place->among, {0}};

@@ -110,13 +110,13 @@ static bool add_members(gis_part *p, belongings *all, size_t number, gis_error *
     size_t n;
     const sunder_push *push = sunder_report_pushes(p->report, &n);
     for (size_t k = all->f; k < all->features && all->feature[k].world == number; k++)
-        if (!gis_part_tell_row(p, all->feature[k].at, error)) return false;
+        if (!gis_part_fill_row(p, all->feature[k].at, error)) return false;
     for (size_t k = all->c; k < all->conflicts && all->conflict[k].world == number; k++)
-        if (!gis_part_tell_conflict(p, all->conflict[k].at, false, error)) return false;
+        if (!gis_part_fill_conflict(p, all->conflict[k].at, false, error)) return false;
     for (size_t k = all->p; k < all->pushes && all->push[k].world == number; k++)
-        if (!gis_part_tell_push(p, &push[all->push[k].at], error)) return false;
+        if (!gis_part_fill_push(p, &push[all->push[k].at], error)) return false;
     for (size_t k = all->t; k < all->trees && all->tree[k].world == number; k++)
-        if (!gis_part_tell_tree(p, &all->place[all->tree[k].at], error)) return false;
+        if (!gis_part_fill_tree(p, &all->place[all->tree[k].at], error)) return false;
     return true;
 }
 
@@ -182,12 +182,12 @@ static bool add_loose(gis_part *p, const belongings *all, gis_error *error)
                                                      .tree = out->trees,
                                                      .conflict = out->conflicts,
                                                      .conflicts = 1};
-        if (!gis_part_tell_conflict(p, all->conflict[k].at, true, error)) return false;
+        if (!gis_part_fill_conflict(p, all->conflict[k].at, true, error)) return false;
     }
     return true;
 }
 
-bool gis_part_tell_worlds(gis_part *p, gis_error *error)
+bool gis_part_fill_worlds(gis_part *p, gis_error *error)
 {
     size_t n;
     belongings all = {0};
@@ -216,7 +216,7 @@ static sunder_feature_status status_alone(const gis_part *p, size_t k)
 
 /* Who was asked for and is of no world, if that is not all there is to say; and whose block it is, by pairs with the
  * block's first. */
-bool gis_part_tell_others(gis_part *p, gis_error *error)
+bool gis_part_fill_others(gis_part *p, gis_error *error)
 {
     gis_part_result *out = p->out;
     for (size_t k = 0; k < p->n; k++) {

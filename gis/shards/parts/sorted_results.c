@@ -10,24 +10,25 @@
 enum { BUFFER = 1 << 18 };
 
 /* There are several of these at a time. */
-static const size_t RUN = GIS_SPOOL_RUN / 4;
+static const size_t RUN = GIS_SORT_BYTES / 4;
 
 enum { NAME = 64 };
 
-static void name_of(const gis_sorted *s, const char *suffix, char name[NAME])
+static void name_of(const gis_sorted_results *s, const char *suffix, char name[NAME])
 {
     snprintf(name, NAME, "%s.%s", s->name, suffix);
 }
 
-bool gis_sorted_begin(gis_sorted *s, const char *directory, const char *called, gis_error *error)
+bool gis_sorted_results_begin(gis_sorted_results *s, const char *directory, const char *called, gis_error *error)
 {
     char parts[NAME];
-    *s = (gis_sorted){.directory = directory, .name = called};
+    *s = (gis_sorted_results){.directory = directory, .name = called};
     name_of(s, "runs", parts);
     return gis_sorter_new(directory, parts, RUN, &s->sorter, error);
 }
 
-bool gis_sorted_add(gis_sorted *s, uint64_t first, uint64_t second, const gis_part_result *one, gis_error *error)
+bool gis_sorted_results_add(gis_sorted_results *s, uint64_t first, uint64_t second, const gis_part_result *one,
+                            gis_error *error)
 {
     const gis_sort_head head = {sizeof head + gis_part_result_size(one), first, second};
     if (!gis_array_reserve(&s->record, &s->room, head.bytes, 1)) return gis_no_memory(error);
@@ -39,13 +40,13 @@ bool gis_sorted_add(gis_sorted *s, uint64_t first, uint64_t second, const gis_pa
 /* ---- Sorting ----------------------------------------------------------------------------------------------------- */
 
 typedef struct sorting {
-    gis_sorted *sorted;
-    gis_spool_file out;
-    gis_sorted_keep *keep;
+    gis_sorted_results *sorted;
+    gis_disk_file out;
+    gis_sorted_results_keep *keep;
     void *user;
 } sorting;
 
-static bool load(gis_sorted *s, const unsigned char *record, gis_error *error)
+static bool load(gis_sorted_results *s, const unsigned char *record, gis_error *error)
 {
     bool sound;
     memcpy(&s->head, record, sizeof s->head);
@@ -57,37 +58,37 @@ static bool load(gis_sorted *s, const unsigned char *record, gis_error *error)
 static bool take(void *user, const unsigned char *record, gis_error *error)
 {
     sorting *own = user;
-    gis_sorted *s = own->sorted;
+    gis_sorted_results *s = own->sorted;
     bool keep = false;
     if (!load(s, record, error) || !own->keep(own->user, &s->head, &s->one, &keep, error)) return false;
     s->n += keep;
-    return !keep || gis_spool_file_write(&own->out, record, (size_t)s->head.bytes, error);
+    return !keep || gis_disk_file_write(&own->out, record, (size_t)s->head.bytes, error);
 }
 
-bool gis_sorted_sort(gis_sorted *s, gis_sorted_keep *keep, void *user, gis_error *error)
+bool gis_sorted_results_sort(gis_sorted_results *s, gis_sorted_results_keep *keep, void *user, gis_error *error)
 {
     char name[NAME];
     sorting own = {.sorted = s, .keep = keep, .user = user};
     name_of(s, "sorted", name);
-    const bool done = gis_spool_file_create(&own.out, s->directory, name, error) &&
-                      gis_sorter_take(s->sorter, take, &own, error) && gis_spool_file_flush(&own.out, error);
+    const bool done = gis_disk_file_create(&own.out, s->directory, name, error) &&
+                      gis_sorter_take(s->sorter, take, &own, error) && gis_disk_file_flush(&own.out, error);
     gis_sorter_free(s->sorter);
     s->sorter = NULL;
     s->file = own.out;
-    gis_sorted_again(s);
+    gis_sorted_results_rewind(s);
     return done;
 }
 
 /* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
-void gis_sorted_again(gis_sorted *s)
+void gis_sorted_results_rewind(gis_sorted_results *s)
 {
     s->used = s->filled = 0;
     s->from = 0;
 }
 
 /* At least so many bytes in the buffer. */
-static bool fill(gis_sorted *s, size_t needed, gis_error *error)
+static bool fill(gis_sorted_results *s, size_t needed, gis_error *error)
 {
     const size_t have = s->filled - s->used;
     if (have >= needed) return true;
@@ -97,14 +98,14 @@ static bool fill(gis_sorted *s, size_t needed, gis_error *error)
     const uint64_t left = s->file.size - s->from;
     const size_t more = left < wanted - have ? (size_t)left : wanted - have;
     if (have + more < needed) return gis_fail(error, "%s: it is not what was written", s->file.path);
-    if (!gis_spool_file_read(&s->file, s->from, s->buffer + have, more, error)) return false;
+    if (!gis_disk_file_read(&s->file, s->from, s->buffer + have, more, error)) return false;
     s->from += more;
     s->used = 0;
     s->filled = have + more;
     return true;
 }
 
-bool gis_sorted_next(gis_sorted *s, bool *any, gis_error *error)
+bool gis_sorted_results_next(gis_sorted_results *s, bool *any, gis_error *error)
 {
     gis_sort_head head;
     *any = s->used < s->filled || s->from < s->file.size;
@@ -116,12 +117,12 @@ bool gis_sorted_next(gis_sorted *s, bool *any, gis_error *error)
     return true;
 }
 
-void gis_sorted_clear(gis_sorted *s)
+void gis_sorted_results_clear(gis_sorted_results *s)
 {
     gis_sorter_free(s->sorter);
-    gis_spool_file_close(&s->file);
+    gis_disk_file_close(&s->file);
     gis_part_result_clear(&s->one);
     free(s->record);
     free(s->buffer);
-    *s = (gis_sorted){0};
+    *s = (gis_sorted_results){0};
 }

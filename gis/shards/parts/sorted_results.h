@@ -7,10 +7,10 @@
 #include "shards/parts/part_result.h"
 
 /* Zeroed: none. */
-typedef struct gis_sorted {
+typedef struct gis_sorted_results {
     const char *directory, *name; /* borrowed */
     gis_sorter *sorter;           /* until it is sorted; and then: */
-    gis_spool_file file;          /* all of them in order */
+    gis_disk_file file;           /* all of them in order */
     size_t n;
     unsigned char *record; /* one that is written */
     size_t room;
@@ -19,22 +19,23 @@ typedef struct gis_sorted {
     uint64_t from;
     gis_sort_head head;  /* of what is read: its keys, and */
     gis_part_result one; /* the thing */
-} gis_sorted;
+} gis_sorted_results;
 
-bool gis_sorted_begin(gis_sorted *sorted, const char *directory, const char *name, gis_error *error);
+bool gis_sorted_results_begin(gis_sorted_results *sorted, const char *directory, const char *name, gis_error *error);
 /* A result with one thing. */
-bool gis_sorted_add(gis_sorted *sorted, uint64_t first, uint64_t second, const gis_part_result *one, gis_error *error);
+bool gis_sorted_results_add(gis_sorted_results *sorted, uint64_t first, uint64_t second, const gis_part_result *one,
+                            gis_error *error);
 
 /* Of things in order: is this one kept? */
-typedef bool gis_sorted_keep(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep,
-                             gis_error *error);
+typedef bool gis_sorted_results_keep(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep,
+                                     gis_error *error);
 /* Sorts what was added, as far as it is kept; nothing is added from then on. */
-bool gis_sorted_sort(gis_sorted *sorted, gis_sorted_keep *keep, void *user, gis_error *error);
+bool gis_sorted_results_sort(gis_sorted_results *sorted, gis_sorted_results_keep *keep, void *user, gis_error *error);
 
 /* Reading begins with the first, again. */
-void gis_sorted_again(gis_sorted *sorted);
+void gis_sorted_results_rewind(gis_sorted_results *sorted);
 /* The next into head and one; *any = false: there is none. */
-bool gis_sorted_next(gis_sorted *sorted, bool *any, gis_error *error);
-void gis_sorted_clear(gis_sorted *sorted);
+bool gis_sorted_results_next(gis_sorted_results *sorted, bool *any, gis_error *error);
+void gis_sorted_results_clear(gis_sorted_results *sorted);
 
 #endif

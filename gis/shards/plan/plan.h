@@ -34,11 +34,11 @@ bool gis_plan_same_call(const gis_plan *a, const gis_plan *b);
 
 bool gis_plan_status_checksum(const char *directory, uint64_t *checksum, gis_error *error);
 /* Of a plan that was read, and parts that were resumed. status: is that asked about, too? It is read whole for it. */
-bool gis_plan_check(const gis_plan *plan, const gis_in_parts *parts, bool status, gis_error *error);
+bool gis_plan_check(const gis_plan *plan, const gis_shard_run *parts, bool status, gis_error *error);
 
 /* ---- plan_description.c: the file `plan.json` -------------------------------------------------------------------- */
 
-bool gis_plan_describe(const gis_plan *plan, const gis_in_parts *parts, const char *directory, gis_error *error);
+bool gis_plan_describe(const gis_plan *plan, const gis_shard_run *parts, const char *directory, gis_error *error);
 
 /* ---- shard_estimates.c: what a scheduler wants to be told beforehand --------------------------------------------- */
 
@@ -50,10 +50,11 @@ typedef struct gis_plan_estimate {
     double bytes, seconds; /* of memory; on one core */
 } gis_plan_estimate;
 
-gis_plan_estimate gis_plan_of_shard(const gis_plan *plan, const gis_plan_load *shard, const gis_layer_rules *rules);
-/* The largest lot that hangs together is taken for one that crosses borders: then it is the merge's. */
-gis_plan_estimate gis_plan_of_together(const gis_in_parts *parts);
-gis_plan_estimate gis_plan_of_merge(const gis_plan *plan, const gis_in_parts *parts);
+gis_plan_estimate gis_plan_estimate_shard(const gis_plan *plan, const gis_plan_load *shard,
+                                          const gis_layer_rules *rules);
+/* The largest contact group is taken for one that crosses borders: then it is the merge's. */
+gis_plan_estimate gis_plan_estimate_group(const gis_shard_run *parts);
+gis_plan_estimate gis_plan_estimate_merge(const gis_plan *plan, const gis_shard_run *parts);
 
 /* ---- plan_place.c: the directory appears whole, or not at all ---------------------------------------------------- */
 

@@ -11,27 +11,27 @@ enum { PIECE = 1 << 16 };
 
 bool gis_plan_status_checksum(const char *directory, uint64_t *checksum, gis_error *error)
 {
-    gis_spool_file file = {0};
+    gis_disk_file file = {0};
     unsigned char piece[PIECE];
     *checksum = 0;
-    bool done = gis_spool_file_open(&file, directory, "status", error);
+    bool done = gis_disk_file_open(&file, directory, "status", error);
     for (uint64_t at = 0; done && at < file.size; at += PIECE) {
         const size_t n = file.size - at < PIECE ? (size_t)(file.size - at) : PIECE;
-        done = gis_spool_file_read(&file, at, piece, n, error) && gis_go_on(error);
+        done = gis_disk_file_read(&file, at, piece, n, error) && gis_go_on(error);
         if (done) *checksum = gis_checksum_of(*checksum, piece, n);
     }
-    gis_spool_file_close(&file);
+    gis_disk_file_close(&file);
     return done;
 }
 
 /* What is said of the whole layer is no more than its files hold: a byte of `status` for each feature. */
-static bool holds_all(const gis_in_parts *parts, gis_error *error)
+static bool holds_all(const gis_shard_run *parts, gis_error *error)
 {
-    gis_spool_file file = {0};
-    const bool opened = gis_spool_file_open(&file, parts->directory, "status", error);
+    gis_disk_file file = {0};
+    const bool opened = gis_disk_file_open(&file, parts->directory, "status", error);
     const bool same = opened && file.size == parts->facts.source.features &&
                       gis_spool_features(parts->spool) <= parts->facts.source.features;
-    gis_spool_file_close(&file);
+    gis_disk_file_close(&file);
     return same || !opened ? same
                            : gis_fail(error,
                                       "%s: the plan is about %zu features, and its files are about others; make it "
@@ -39,7 +39,7 @@ static bool holds_all(const gis_in_parts *parts, gis_error *error)
                                       parts->directory, parts->facts.source.features);
 }
 
-bool gis_plan_check(const gis_plan *plan, const gis_in_parts *parts, bool status, gis_error *error)
+bool gis_plan_check(const gis_plan *plan, const gis_shard_run *parts, bool status, gis_error *error)
 {
     uint64_t now;
     if (!holds_all(parts, error)) return false;

@@ -21,7 +21,7 @@ static void put_shards(gis_json *out, const gis_plan *plan, const gis_plan_load 
         gis_json_put_size(out, "shard", k + 1);
         gis_json_put_size(out, "features", load[k].features);
         gis_json_put_size(out, "vertices", load[k].vertices);
-        put_estimate(out, gis_plan_of_shard(plan, &load[k], rules));
+        put_estimate(out, gis_plan_estimate_shard(plan, &load[k], rules));
         gis_json_close(out, '}');
     }
     gis_json_close(out, ']');
@@ -32,7 +32,7 @@ static void put_most(gis_json *out, const gis_plan *plan, const gis_plan_load *l
 {
     gis_plan_estimate most = {0, 0};
     for (unsigned k = 0; k < plan->shards; k++) {
-        const gis_plan_estimate one = gis_plan_of_shard(plan, &load[k], rules);
+        const gis_plan_estimate one = gis_plan_estimate_shard(plan, &load[k], rules);
         if (one.bytes > most.bytes) most.bytes = one.bytes;
         if (one.seconds > most.seconds) most.seconds = one.seconds;
     }
@@ -44,18 +44,18 @@ static void put_most(gis_json *out, const gis_plan *plan, const gis_plan_load *l
 }
 
 /* What will be one piece of work: the shard's that has all of it, else the merge's. */
-static void put_together(gis_json *out, const gis_in_parts *parts)
+static void put_group(gis_json *out, const gis_shard_run *parts)
 {
     gis_json_key(out, "largest_group");
     gis_json_open(out, '{');
-    gis_json_put_size(out, "features", parts->facts.together.features);
-    gis_json_put_size(out, "vertices", parts->facts.together.vertices);
-    put_estimate(out, gis_plan_of_together(parts));
+    gis_json_put_size(out, "features", parts->facts.group.features);
+    gis_json_put_size(out, "vertices", parts->facts.group.vertices);
+    put_estimate(out, gis_plan_estimate_group(parts));
     gis_json_close(out, '}');
     gis_json_line(out);
 }
 
-static void describe(gis_json *out, const gis_plan *plan, const gis_plan_load *load, const gis_in_parts *parts)
+static void describe(gis_json *out, const gis_plan *plan, const gis_plan_load *load, const gis_shard_run *parts)
 {
     const gis_layer_rules *rules = &parts->request->rules;
     gis_json_open(out, '{');
@@ -74,10 +74,10 @@ static void describe(gis_json *out, const gis_plan *plan, const gis_plan_load *l
     gis_json_put_size(out, "shard_count", plan->shards);
     gis_json_line(out);
     put_most(out, plan, load, rules);
-    put_together(out, parts);
+    put_group(out, parts);
     gis_json_key(out, "merge");
     gis_json_open(out, '{');
-    put_estimate(out, gis_plan_of_merge(plan, parts));
+    put_estimate(out, gis_plan_estimate_merge(plan, parts));
     gis_json_close(out, '}');
     gis_json_line(out);
     put_shards(out, plan, load, rules);
@@ -87,29 +87,29 @@ static void describe(gis_json *out, const gis_plan *plan, const gis_plan_load *l
 
 static void weigh_shards(const gis_plan *plan, const gis_spool *spool, gis_plan_load *load)
 {
-    const unsigned units = gis_spool_shards(spool) / plan->shards;
+    const unsigned parts_each = gis_spool_parts(spool) / plan->shards;
     for (size_t k = 0; k < gis_spool_cells(spool); k++) {
         const gis_spool_cell *cell = gis_spool_cell_at(spool, k);
-        gis_plan_load *to = &load[cell->shard / units];
+        gis_plan_load *to = &load[cell->part / parts_each];
         to->features += cell->features;
         to->vertices += cell->vertices;
     }
 }
 
-bool gis_plan_describe(const gis_plan *plan, const gis_in_parts *parts, const char *directory, gis_error *error)
+bool gis_plan_describe(const gis_plan *plan, const gis_shard_run *parts, const char *directory, gis_error *error)
 {
     gis_json json = {0};
-    gis_spool_file file = {0};
+    gis_disk_file file = {0};
     gis_plan_load *load = calloc(plan->shards, sizeof *load);
     if (!load) return gis_no_memory(error);
     weigh_shards(plan, parts->spool, load);
     describe(&json, plan, load, parts);
     free(load);
     const bool done = (gis_json_text(&json) || gis_no_memory(error)) &&
-                      gis_spool_file_create(&file, directory, "plan.json.part", error) &&
-                      gis_spool_file_write(&file, json.text.at, json.text.length, error) &&
-                      gis_spool_file_place(&file, directory, "plan.json", error);
-    gis_spool_file_close(&file);
+                      gis_disk_file_create(&file, directory, "plan.json.part", error) &&
+                      gis_disk_file_write(&file, json.text.at, json.text.length, error) &&
+                      gis_disk_file_place(&file, directory, "plan.json", error);
+    gis_disk_file_close(&file);
     gis_json_clear(&json);
     return done;
 }

@@ -76,11 +76,11 @@ static void add_text(gis_text *to, const char *text)
     gis_text_add_bytes(to, text, n);
 }
 
-static const gis_hole holes_of_facts[] = {GIS_HOLE_BETWEEN(gis_layer_facts, source.multipolygons, units),
-                                          GIS_HOLE_BETWEEN(gis_layer_facts, units.geographic, units.unit_metres),
-                                          GIS_HOLE_BETWEEN(gis_layer_facts, has_id, id_type),
-                                          GIS_HOLE_BETWEEN(gis_layer_facts, id_type, invalid),
-                                          GIS_HOLE_BETWEEN(gis_layer_facts, multi, checksum)};
+static const gis_padding holes_of_facts[] = {GIS_PADDING_BETWEEN(gis_layer_facts, source.multipolygons, units),
+                                             GIS_PADDING_BETWEEN(gis_layer_facts, units.geographic, units.unit_metres),
+                                             GIS_PADDING_BETWEEN(gis_layer_facts, has_id, id_type),
+                                             GIS_PADDING_BETWEEN(gis_layer_facts, id_type, invalid),
+                                             GIS_PADDING_BETWEEN(gis_layer_facts, multi, checksum)};
 
 static void fill(const gis_plan *plan, gis_text *to)
 {
@@ -93,7 +93,7 @@ static void fill(const gis_plan *plan, gis_text *to)
                                   .shards = plan->shards};
     gis_layer_facts facts = plan->facts;
     facts.name = NULL;
-    gis_fill_holes(&facts, 1, sizeof facts, holes_of_facts, sizeof holes_of_facts / sizeof *holes_of_facts);
+    gis_clear_padding(&facts, 1, sizeof facts, holes_of_facts, sizeof holes_of_facts / sizeof *holes_of_facts);
     gis_text_add_bytes(to, (const char *)&head, sizeof head);
     gis_text_add_bytes(to, (const char *)&numbers, sizeof numbers);
     gis_text_add_bytes(to, (const char *)&facts, sizeof facts);
@@ -106,13 +106,12 @@ static void fill(const gis_plan *plan, gis_text *to)
 bool gis_plan_write(const gis_plan *plan, const char *directory, gis_error *error)
 {
     gis_text bytes = {0};
-    gis_spool_file file = {0};
+    gis_disk_file file = {0};
     fill(plan, &bytes);
-    const bool done = (gis_text_get(&bytes) || gis_no_memory(error)) &&
-                      gis_spool_file_create(&file, directory, NAME ".part", error) &&
-                      gis_spool_file_write(&file, bytes.at, bytes.length, error) &&
-                      gis_spool_file_place(&file, directory, NAME, error);
-    gis_spool_file_close(&file);
+    const bool done =
+        (gis_text_get(&bytes) || gis_no_memory(error)) && gis_disk_file_create(&file, directory, NAME ".part", error) &&
+        gis_disk_file_write(&file, bytes.at, bytes.length, error) && gis_disk_file_place(&file, directory, NAME, error);
+    gis_disk_file_close(&file);
     gis_text_clear(&bytes);
     return done;
 }
@@ -209,7 +208,7 @@ static bool may_be_believed(const char *directory, gis_error *error)
 
 bool gis_plan_read(const char *directory, gis_plan *plan, gis_error *error)
 {
-    gis_spool_file file = {0};
+    gis_disk_file file = {0};
     *plan = (gis_plan){0};
     if (access(directory, F_OK) != 0) return gis_fail(error, "%s: no such directory; sunder plan makes one", directory);
     if (!may_be_believed(directory, error)) return false;
@@ -218,12 +217,12 @@ bool gis_plan_read(const char *directory, gis_plan *plan, gis_error *error)
     CPLFree(path);
     if (!there) return gis_fail(error, "%s: there is no plan in it; sunder plan makes a directory with one", directory);
     char *bytes = NULL;
-    bool done = gis_spool_file_open(&file, directory, NAME, error);
+    bool done = gis_disk_file_open(&file, directory, NAME, error);
     if (done && file.size > MOST_BYTES) done = altered(directory, error);
     done = done && ((bytes = malloc((size_t)file.size + 1)) || gis_no_memory(error)) &&
-           gis_spool_file_read(&file, 0, bytes, (size_t)file.size, error) &&
+           gis_disk_file_read(&file, 0, bytes, (size_t)file.size, error) &&
            read_bytes(directory, bytes, (size_t)file.size, plan, error);
     free(bytes);
-    gis_spool_file_close(&file);
+    gis_disk_file_close(&file);
     return done;
 }

@@ -14,25 +14,26 @@ static double seconds_of(const gis_layer_rules *rules, double features)
     return ceil(seconds_anyway + (seconds_a_feature + seconds_of_effort * rules->effort) * features);
 }
 
-gis_plan_estimate gis_plan_of_shard(const gis_plan *plan, const gis_plan_load *shard, const gis_layer_rules *rules)
+gis_plan_estimate gis_plan_estimate_shard(const gis_plan *plan, const gis_plan_load *shard,
+                                          const gis_layer_rules *rules)
 {
     const double features = (double)shard->features, vertices = (double)shard->vertices;
-    return (gis_plan_estimate){.bytes = fmin(plan->memory, gis_in_parts_bytes(rules, features, vertices)),
+    return (gis_plan_estimate){.bytes = fmin(plan->memory, gis_shard_run_bytes(rules, features, vertices)),
                                .seconds = seconds_of(rules, features)};
 }
 
-gis_plan_estimate gis_plan_of_together(const gis_in_parts *parts)
+gis_plan_estimate gis_plan_estimate_group(const gis_shard_run *parts)
 {
     const gis_layer_rules *rules = &parts->request->rules;
-    const double features = (double)parts->facts.together.features, vertices = (double)parts->facts.together.vertices;
-    return (gis_plan_estimate){.bytes = gis_in_parts_bytes(rules, features, vertices),
+    const double features = (double)parts->facts.group.features, vertices = (double)parts->facts.group.vertices;
+    return (gis_plan_estimate){.bytes = gis_shard_run_bytes(rules, features, vertices),
                                .seconds = seconds_of(rules, features)};
 }
 
-gis_plan_estimate gis_plan_of_merge(const gis_plan *plan, const gis_in_parts *parts)
+gis_plan_estimate gis_plan_estimate_merge(const gis_plan *plan, const gis_shard_run *parts)
 {
     const double features = (double)plan->facts.source.features;
-    const gis_plan_estimate lot = gis_plan_of_together(parts);
-    return (gis_plan_estimate){.bytes = fmax(lot.bytes, gis_in_parts_bytes_written(features, parts->request->drawn)),
+    const gis_plan_estimate lot = gis_plan_estimate_group(parts);
+    return (gis_plan_estimate){.bytes = fmax(lot.bytes, gis_shard_run_bytes_written(features, parts->request->drawn)),
                                .seconds = lot.seconds + ceil(seconds_anyway + seconds_merged * features)};
 }

@@ -18,7 +18,7 @@ typedef struct spooling {
 static bool take(void *user, const gis_barrier_common *common, gis_barrier_feature *f, gis_error *error)
 {
     spooling *s = user;
-    const gis_part_barrier barrier = {
+    const gis_spooled_barrier barrier = {
         .number = s->n++,
         .fid = f->fid,
         .layer = common->layer,

@@ -29,7 +29,7 @@ typedef struct spooling {
     const char *directory;
     gis_spool_writer *writer;
     gis_spool_writer *aside; /* NULL: nothing lies there yet */
-    gis_spool_file status;
+    gis_disk_file status;
     gis_block_keys keys;
     double *areas, median; /* of those that count, where weights ask for it */
     size_t n_areas, room;
@@ -87,7 +87,7 @@ static bool id_text(const gis_layer_input *input, size_t i, char **copy, char nu
 static gis_spool_writer *open_aside(spooling *s, gis_error *error)
 {
     if (s->aside) return s->aside;
-    char *path = gis_spool_inside(s->directory, GIS_SPOOL_ASIDE);
+    char *path = gis_disk_path(s->directory, GIS_SPOOL_ASIDE);
     if (!path)
         gis_no_memory(error);
     else if (mkdir(path, 0777) != 0 && errno != EEXIST)
@@ -143,7 +143,7 @@ static bool add_batch(spooling *s, gis_error *error)
     for (size_t i = 0; done && i < s->input.n; i++) {
         unsigned char status;
         note_feature(s->facts, &s->input, i, &status);
-        done = gis_spool_file_write(&s->status, &status, sizeof status, error) &&
+        done = gis_disk_file_write(&s->status, &status, sizeof status, error) &&
                (!is_spooled(s, i) || add_feature(s, i, &copy, error)) && gis_go_on(error);
     }
     free(copy);
@@ -202,11 +202,11 @@ static bool read_batches(spooling *s, const gis_layer_input_request *request, co
     gis_layer_input *input = &s->input;
     if (!gis_layer_begin(request, true, input, error) || !gis_layer_lengths(input, error) ||
         !gis_spool_create(directory, gis_source_extent(input->source), &s->writer, error) ||
-        !gis_spool_file_create(&s->status, directory, "status.part", error))
+        !gis_disk_file_create(&s->status, directory, "status.part", error))
         return false;
     for (bool any = true; any;)
-        if (!gis_layer_checksums_add(&s->sums, input, error) || !take_demands(s, error) ||
-            !add_batch(s, error) || !gis_source_next(input->source, &any, error))
+        if (!gis_layer_checksums_add(&s->sums, input, error) || !take_demands(s, error) || !add_batch(s, error) ||
+            !gis_source_next(input->source, &any, error))
             return false;
     s->facts->checksum = gis_layer_checksums_end(&s->sums);
     if (!gis_source_find_facts(input->source, &s->facts->source, error)) return false;
@@ -262,14 +262,14 @@ static bool finish(spooling *s, unsigned shards, const char *directory, gis_erro
     say_what_is_known(s);
     return gis_spool_finish(s->writer, shards, settles ? settle : NULL, s, error) &&
            (!s->aside || gis_spool_finish(s->aside, 1, NULL, NULL, error)) &&
-           gis_spool_file_place(&s->status, directory, "status", error) && spool_barriers(s, directory, error);
+           gis_disk_file_place(&s->status, directory, "status", error) && spool_barriers(s, directory, error);
 }
 
 static void clear(spooling *s)
 {
     gis_spool_writer_free(s->writer);
     gis_spool_writer_free(s->aside);
-    gis_spool_file_close(&s->status);
+    gis_disk_file_close(&s->status);
     gis_block_keys_clear(&s->keys);
     free(s->areas);
     gis_layer_input_clear(&s->input);

@@ -19,13 +19,13 @@ typedef struct gis_layer_facts {
     bool has_id; /* there is an --id-field, and its values are of this type: OFTInteger64, OFTReal, OFTString */
     OGRFieldType id_type;
     size_t invalid, null, other;
-    size_t skipped;        /* conflict with nothing: they are not in the spool */
-    size_t aside;          /* of these, so many lie in GIS_SPOOL_ASIDE */
-    size_t vertices;       /* of all shapes, cleaned: as sunder_layer_summary counts them */
-    double box[4];         /* of all that conflicts with anything; box[0] > box[2]: nothing does */
-    bool multi;            /* a shape has several members: symbols are written as MultiPolygons */
-    uint64_t checksum;     /* of all that decides the moves, as it was read (checksum.h) */
-    gis_together together; /* the largest lot that hangs together as the layer stands, or more than that (run.c) */
+    size_t skipped;          /* conflict with nothing: they are not in the spool */
+    size_t aside;            /* of these, so many lie in GIS_SPOOL_ASIDE */
+    size_t vertices;         /* of all shapes, cleaned: as sunder_layer_summary counts them */
+    double box[4];           /* of all that conflicts with anything; box[0] > box[2]: nothing does */
+    bool multi;              /* a shape has several members: symbols are written as MultiPolygons */
+    uint64_t checksum;       /* of all that decides the moves, as it was read (checksum.h) */
+    gis_contact_group group; /* the largest as the layer stands, or more than that (run.c) */
 } gis_layer_facts;
 
 /* Where in the directory what conflicts with nothing lies, and has a shape, if it is to be drawn: a spool of its own,

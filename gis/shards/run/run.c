@@ -17,8 +17,9 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The spool is dealt to so many units, or some more: a part is as many as memory allows. */
-enum { UNITS = 4096 };
+/* The spool is dealt to LEAST_PARTS parts, or a few more: as many neighbouring ones as memory allows are separated as
+ * one. */
+enum { LEAST_PARTS = 4096 };
 enum { BATCH = 16384 };
 
 static const double bytes_anyway = GIS_PART_BYTES_ANYWAY;
@@ -32,9 +33,9 @@ static const double bytes_a_barrier = 1000, bytes_a_barrier_vertex = 300;
 
 /* ---- Onto the disk ----------------------------------------------------------------------------------------------- */
 
-static unsigned units_of(unsigned shards) { return shards * ((UNITS + shards - 1) / shards); }
+static unsigned parts_of(unsigned shards) { return shards * ((LEAST_PARTS + shards - 1) / shards); }
 
-static bool make_directory(gis_in_parts *p, const char *where, gis_error *error)
+static bool make_directory(gis_shard_run *p, const char *where, gis_error *error)
 {
     p->scratch = gis_path_join(where, "parts" GIS_OWN_LETTERS);
     p->scratch_lock = gis_make_directory(p->scratch);
@@ -55,37 +56,37 @@ static double bytes_of_barriers(const gis_spooled_barriers *b)
            bytes_a_barrier_vertex * (double)gis_spool_vertices(b->all);
 }
 
-double gis_in_parts_bytes(const gis_layer_rules *rules, double features, double vertices)
+double gis_shard_run_bytes(const gis_layer_rules *rules, double features, double vertices)
 {
     return gis_part_bytes(rules->keep_trees, rules->effort, features, vertices);
 }
 
-double gis_in_parts_bytes_written(double features, bool drawn)
+double gis_shard_run_bytes_written(double features, bool drawn)
 {
     const double written = fmin(bytes_full, bytes_filled * features) + bytes_written * features,
                  page = drawn ? fmin(bytes_of_page, bytes_of_page / 1e5 * features) + bytes_drawn * features : 0;
     return bytes_anyway + fmax(written, page);
 }
 
-/* How many units fit into what is left of the memory. */
-static bool choose_parts(gis_in_parts *p, double memory, gis_error *error)
+/* How many parts fit into what is left of the memory. */
+static bool choose_parts(gis_shard_run *p, double memory, gis_error *error)
 {
-    const unsigned units = gis_spool_shards(p->spool);
+    const unsigned parts = gis_spool_parts(p->spool);
     const double features = (double)gis_spool_features(p->spool), vertices = (double)gis_spool_vertices(p->spool),
-                 all = gis_in_parts_bytes(&p->request->rules, features, vertices) - bytes_anyway +
+                 all = gis_shard_run_bytes(&p->request->rules, features, vertices) - bytes_anyway +
                        bytes_of_barriers(&p->barriers),
-                 written = gis_in_parts_bytes_written((double)p->facts.source.features, p->request->drawn),
-                 least = fmax(bytes_anyway + all / units, written);
+                 written = gis_shard_run_bytes_written((double)p->facts.source.features, p->request->drawn),
+                 least = fmax(bytes_anyway + all / parts, written);
     if (!(memory > least))
         return gis_fail(error, "--max-memory: %zu features need %.0f MB at least", p->facts.source.features,
                         ceil(least / 1e6) + 1);
     const double left = memory - bytes_anyway;
-    p->at_once = (unsigned)fmin(units, fmax(1, floor(units * left / fmax(all, 1))));
+    p->at_once = (unsigned)fmin(parts, fmax(1, floor(parts * left / fmax(all, 1))));
     return true;
 }
 
 /* What the core is asked for; as gis_layer_core_options() of a layer that is read. */
-static void choose_options(gis_in_parts *p)
+static void choose_options(gis_shard_run *p)
 {
     const gis_layer_input input = {.request = p->request,
                                    .points = p->facts.points,
@@ -97,10 +98,10 @@ static void choose_options(gis_in_parts *p)
     p->layout.how = gis_layer_core_options(&input);
 }
 
-static bool open_spool(gis_in_parts *p, double memory, gis_error *error)
+static bool open_spool(gis_shard_run *p, double memory, gis_error *error)
 {
     const bool done = gis_spool_open(p->directory, &p->spool, error) &&
-                      (gis_spool_shards(p->spool) == units_of(p->shards) ||
+                      (gis_spool_parts(p->spool) == parts_of(p->shards) ||
                        gis_fail(error, "%s: its cells are dealt to other shards; make the plan anew", p->directory)) &&
                       (p->request->barriers == 0 || gis_barriers_open(p->directory, &p->barriers, error)) &&
                       choose_parts(p, memory, error) &&
@@ -115,21 +116,21 @@ static bool open_spool(gis_in_parts *p, double memory, gis_error *error)
 /* Contact groups are within the gap and this much of a metre, or of a unit where there is none. */
 static const double next_to_nothing = 1e-6;
 
-static bool look_together(gis_in_parts *p, gis_error *error)
+static bool find_group(gis_shard_run *p, gis_error *error)
 {
     const double metres = p->facts.units.unit_metres,
                  reach = fmax(p->facts.gap, p->facts.tolerance) + next_to_nothing / (metres > 0 ? metres : 1);
     choose_options(p);
-    if (!gis_parts_together(&p->layout, reach, p->layout.memory, &p->facts.together, error)) return false;
-    gis_in_parts_tell_together(p);
+    if (!gis_contact_group_find(&p->layout, reach, p->layout.memory, &p->facts.group, error)) return false;
+    gis_shard_run_warn_of_group(p);
     return true;
 }
 
 /* What hangs together is one part, whatever its size: it is told of before hours are spent on all the rest. */
-void gis_in_parts_tell_together(const gis_in_parts *p)
+void gis_shard_run_warn_of_group(const gis_shard_run *p)
 {
-    const gis_together *t = &p->facts.together;
-    const double bytes = gis_in_parts_bytes(&p->request->rules, (double)t->features, (double)t->vertices);
+    const gis_contact_group *t = &p->facts.group;
+    const double bytes = gis_shard_run_bytes(&p->request->rules, (double)t->features, (double)t->vertices);
     if (bytes > GIS_PART_LARGE * p->layout.memory)
         gis_say_warning(GIS_MESSAGE_MEMORY,
                         "%zu features hang together as they stand, from (%.12g, %.12g) to (%.12g, %.12g), and are one "
@@ -137,27 +138,27 @@ void gis_in_parts_tell_together(const gis_in_parts *p)
                         t->features, t->box[0], t->box[1], t->box[2], t->box[3], ceil(bytes / 1e6));
 }
 
-bool gis_in_parts_begin(const gis_layer_input_request *request, const char *directory, unsigned shards, double memory,
-                        gis_in_parts *out, gis_error *error)
+bool gis_shard_run_begin(const gis_layer_input_request *request, const char *directory, unsigned shards, double memory,
+                         gis_shard_run *out, gis_error *error)
 {
     const char *where = getenv("TMPDIR");
-    *out = (gis_in_parts){.request = request, .shards = shards};
+    *out = (gis_shard_run){.request = request, .shards = shards};
     if (!directory && !make_directory(out, where && *where ? where : "/tmp", error)) return false;
     out->directory = CPLStrdup(directory ? directory : out->scratch);
-    return gis_layer_spool(request, units_of(shards), out->directory, &out->facts, error) &&
-           open_spool(out, memory, error) && look_together(out, error);
+    return gis_layer_spool(request, parts_of(shards), out->directory, &out->facts, error) &&
+           open_spool(out, memory, error) && find_group(out, error);
 }
 
-bool gis_in_parts_resume(const gis_layer_input_request *request, const char *directory, const gis_layer_facts *facts,
-                         unsigned shards, double memory, gis_in_parts *out, gis_error *error)
+bool gis_shard_run_resume(const gis_layer_input_request *request, const char *directory, const gis_layer_facts *facts,
+                          unsigned shards, double memory, gis_shard_run *out, gis_error *error)
 {
-    *out = (gis_in_parts){.request = request, .shards = shards, .facts = *facts};
+    *out = (gis_shard_run){.request = request, .shards = shards, .facts = *facts};
     out->facts.name = CPLStrdup(facts->name);
     out->directory = CPLStrdup(directory);
     return open_spool(out, memory, error);
 }
 
-bool gis_in_parts_open(gis_in_parts *p, bool whole, gis_layer_input *out, gis_error *error)
+bool gis_shard_run_open_source(gis_shard_run *p, bool whole, gis_layer_input *out, gis_error *error)
 {
     gis_layer_input_request again = *p->request;
     p->whole = whole;
@@ -178,7 +179,7 @@ bool gis_in_parts_open(gis_in_parts *p, bool whole, gis_layer_input *out, gis_er
 
 /* ---- Shards ------------------------------------------------------------------------------------------------------ */
 
-static gis_part_stamp stamp_of(const gis_in_parts *p, unsigned k, uint64_t options)
+static gis_part_stamp stamp_of(const gis_shard_run *p, unsigned k, uint64_t options)
 {
     gis_part_stamp stamp = {.options = options, .spool = gis_spool_checksum(p->spool), .shard = k, .shards = p->shards};
     if (p->barriers.all) stamp.spool = stamp.spool * 31 + gis_spool_checksum(p->barriers.all);
@@ -187,7 +188,7 @@ static gis_part_stamp stamp_of(const gis_in_parts *p, unsigned k, uint64_t optio
 }
 
 /* How far the core is with a part tells nobody anything; but it hears of signals that way. */
-static void begin_listening(gis_in_parts *p, gis_progress *silent)
+static void begin_listening(gis_shard_run *p, gis_progress *silent)
 {
     choose_options(p);
     *silent = gis_progress_new(GIS_PROGRESS_NONE);
@@ -197,22 +198,22 @@ static void begin_listening(gis_in_parts *p, gis_progress *silent)
     p->layout.verify = &p->verify;
 }
 
-static void end_listening(gis_in_parts *p)
+static void end_listening(gis_shard_run *p)
 {
     p->layout.how.progress = NULL;
     p->layout.how.progress_user = NULL;
 }
 
-static bool separate_parts(gis_in_parts *p, unsigned k, gis_part_file *file, gis_progress *progress, gis_error *error)
+static bool separate_parts(gis_shard_run *p, unsigned k, gis_part_file *file, gis_progress *progress, gis_error *error)
 {
-    const unsigned units = gis_spool_shards(p->spool) / p->shards, last = k * units;
+    const unsigned parts = gis_spool_parts(p->spool) / p->shards, last = k * parts;
     gis_part_result result = {0};
     bool done = true;
-    for (unsigned u = last - units; u < last && done; u += p->at_once) {
-        const unsigned end = u + p->at_once < last ? u + p->at_once : last;
+    for (unsigned first = last - parts; first < last && done; first += p->at_once) {
+        const unsigned end = first + p->at_once < last ? first + p->at_once : last;
         gis_part_result_empty(&result);
-        done = gis_parts_shards(&p->layout, u, end, &result, error) && gis_part_file_add(file, &result, error);
-        gis_progress_call((double)(end + units - last) / units, progress);
+        done = gis_parts_separate(&p->layout, first, end, &result, error) && gis_part_file_add(file, &result, error);
+        gis_progress_call((double)(end + parts - last) / parts, progress);
         done = done && gis_go_on(error);
     }
     gis_part_result_clear(&result);
@@ -220,7 +221,7 @@ static bool separate_parts(gis_in_parts *p, unsigned k, gis_part_file *file, gis
     return done;
 }
 
-bool gis_in_parts_shard(gis_in_parts *p, unsigned k, uint64_t options, gis_progress *progress, gis_error *error)
+bool gis_shard_run_separate(gis_shard_run *p, unsigned k, uint64_t options, gis_progress *progress, gis_error *error)
 {
     gis_progress silent;
     gis_part_file file;
@@ -233,7 +234,7 @@ bool gis_in_parts_shard(gis_in_parts *p, unsigned k, uint64_t options, gis_progr
     return done;
 }
 
-static bool open_shard(const gis_in_parts *p, const gis_part_stamp *stamp, gis_part_file *file, gis_error *error)
+static bool open_shard(const gis_shard_run *p, const gis_part_stamp *stamp, gis_part_file *file, gis_error *error)
 {
     const bool done = gis_part_file_open(file, p->directory, stamp, error);
     file->places = p->facts.source.features + (p->barriers.all ? gis_spool_features(p->barriers.all) : 0);
@@ -249,8 +250,8 @@ static bool is_sound(gis_part_file *file, gis_error *error)
     return done;
 }
 
-bool gis_in_parts_state(const gis_in_parts *p, unsigned k, uint64_t options, gis_shard_state *state, gis_error *why,
-                        gis_error *error)
+bool gis_shard_run_state(const gis_shard_run *p, unsigned k, uint64_t options, gis_shard_state *state, gis_error *why,
+                         gis_error *error)
 {
     char name[GIS_PART_FILE_NAME];
     gis_part_file file;
@@ -268,7 +269,7 @@ bool gis_in_parts_state(const gis_in_parts *p, unsigned k, uint64_t options, gis
 
 /* ---- Joining ----------------------------------------------------------------------------------------------------- */
 
-static bool join_files(gis_in_parts *p, uint64_t options, gis_error *error)
+static bool join_files(gis_shard_run *p, uint64_t options, gis_error *error)
 {
     gis_part_file *file = calloc(p->shards, sizeof *file);
     bool done = file || gis_no_memory(error);
@@ -282,7 +283,7 @@ static bool join_files(gis_in_parts *p, uint64_t options, gis_error *error)
     return done;
 }
 
-const char *gis_in_parts_scratch(gis_in_parts *p, gis_error *error)
+const char *gis_shard_run_scratch(gis_shard_run *p, gis_error *error)
 {
     if (p->scratch) return p->scratch;
     gis_remove_abandoned(p->directory, "parts");
@@ -291,10 +292,10 @@ const char *gis_in_parts_scratch(gis_in_parts *p, gis_error *error)
 }
 
 /* Their spool has the same checksum if they are the same. */
-bool gis_in_parts_look_at_barriers(gis_in_parts *p, const gis_layer_input *input, gis_error *error)
+bool gis_shard_run_compare_barriers(gis_shard_run *p, const gis_layer_input *input, gis_error *error)
 {
     if (p->request->barriers == 0) return true;
-    if (!gis_in_parts_scratch(p, error)) return false;
+    if (!gis_shard_run_scratch(p, error)) return false;
     gis_spooled_barriers now = {0};
     gis_error why = {0};
     const bool read = gis_layer_spool_barriers(input, p->facts.barrier_reach, p->spool, p->scratch, &why) &&
@@ -311,11 +312,11 @@ bool gis_in_parts_look_at_barriers(gis_in_parts *p, const gis_layer_input *input
     return gis_go_on(error);
 }
 
-bool gis_in_parts_solve(gis_in_parts *p, uint64_t options, sunder_layer_summary *summary, gis_error *error)
+bool gis_shard_run_join(gis_shard_run *p, uint64_t options, sunder_layer_summary *summary, gis_error *error)
 {
     gis_progress silent;
     begin_listening(p, &silent);
-    const bool done = gis_in_parts_scratch(p, error) && join_files(p, options, error);
+    const bool done = gis_shard_run_scratch(p, error) && join_files(p, options, error);
     end_listening(p);
     gis_layout_clear(&p->layout); /* what is written needs memory, too */
     gis_memory_back();
@@ -328,7 +329,7 @@ bool gis_in_parts_solve(gis_in_parts *p, uint64_t options, sunder_layer_summary 
     return done;
 }
 
-void gis_in_parts_clear(gis_in_parts *p)
+void gis_shard_run_clear(gis_shard_run *p)
 {
     gis_joined_clear(&p->joined);
     gis_layout_clear(&p->layout);
@@ -343,5 +344,5 @@ void gis_in_parts_clear(gis_in_parts *p)
     gis_leftover_forget(p->leftover);
     CPLFree(p->directory);
     CPLFree(p->scratch);
-    *p = (gis_in_parts){0};
+    *p = (gis_shard_run){0};
 }

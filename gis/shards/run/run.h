@@ -1,10 +1,10 @@
 /* run.h: a layer that memory does not hold, separated a part at a time (parts/), by one process or by many.
  *
- *   gis_in_parts_begin   reads the layer onto the disk, into a directory; or gis_in_parts_resume: it is there
- *   gis_in_parts_shard   one of the shards to which it is dealt, part by part; what is told of it, to a file there
- *   gis_in_parts_open    opens the layer again, to be read by batches as it is written
- *   gis_in_parts_solve   joins all shards, with what borders cut
- *   gis_in_parts_write   the layers: the same bytes as of a layer that is separated whole */
+ *   gis_shard_run_begin   reads the layer onto the disk, into a directory; or gis_shard_run_resume: it is there
+ *   gis_shard_run_separate   one of the shards to which it is dealt, part by part; what is told of it, to a file there
+ *   gis_shard_run_open_source    opens the layer again, to be read by batches as it is written
+ *   gis_shard_run_join   joins all shards, with what borders cut
+ *   gis_shard_run_write   the layers: the same bytes as of a layer that is separated whole */
 #ifndef GIS_RUN_H
 #define GIS_RUN_H
 
@@ -15,7 +15,7 @@
 #include "shards/run/layer_spooling.h"
 
 /* Zeroed: nothing. */
-typedef struct gis_in_parts {
+typedef struct gis_shard_run {
     const gis_layer_input_request *request;
     char *directory;
     char *scratch;    /* within it, or itself: what goes in the end */
@@ -24,58 +24,59 @@ typedef struct gis_in_parts {
     gis_layer_facts facts;
     gis_spool *spool;
     gis_spooled_barriers barriers;
-    unsigned shards;  /* of the layer; the spool has a multiple of them, its units */
+    unsigned shards;  /* of the layer; the spool has a multiple of that number of parts */
     bool whole;       /* the source was opened to be held whole */
-    unsigned at_once; /* so many units are a part */
+    unsigned at_once; /* parts of the spool that are separated as one */
     gis_layout layout;
     gis_joined joined;
     double explain, verify; /* seconds that parts took for these stages, in this process */
-    GIntBig *block_fid; /* [joined.blocks] of the features there, from when they are written */
-} gis_in_parts;
+    GIntBig *block_fid;     /* [joined.blocks] of the features there, from when they are written */
+} gis_shard_run;
 
 /* Which layers are written. */
-typedef struct gis_in_parts_layers {
+typedef struct gis_shard_run_layers {
     bool main, displacement, conflicts, pushes, symbols;
-} gis_in_parts_layers;
+} gis_shard_run_layers;
 
 /* Bytes that a process takes, about: for a part of so much; for a layer while it is written, or drawn, when no part is
  * there. */
-double gis_in_parts_bytes(const gis_layer_rules *rules, double features, double vertices);
-double gis_in_parts_bytes_written(double features, bool drawn);
+double gis_shard_run_bytes(const gis_layer_rules *rules, double features, double vertices);
+double gis_shard_run_bytes_written(double features, bool drawn);
 
 /* directory: NULL: one of its own, which goes in the end. memory: bytes that a process may take, about. What will be
  * one piece of work and wants far more than that is told of. */
-bool gis_in_parts_begin(const gis_layer_input_request *request, const char *directory, unsigned shards, double memory,
-                        gis_in_parts *out, gis_error *error);
-/* As after gis_in_parts_begin() with a directory, which is as that left it; facts are copied. */
-bool gis_in_parts_resume(const gis_layer_input_request *request, const char *directory, const gis_layer_facts *facts,
-                         unsigned shards, double memory, gis_in_parts *out, gis_error *error);
+bool gis_shard_run_begin(const gis_layer_input_request *request, const char *directory, unsigned shards, double memory,
+                         gis_shard_run *out, gis_error *error);
+/* As after gis_shard_run_begin() with a directory, which is as that left it; facts are copied. */
+bool gis_shard_run_resume(const gis_layer_input_request *request, const char *directory, const gis_layer_facts *facts,
+                          unsigned shards, double memory, gis_shard_run *out, gis_error *error);
 /* Once more, by who comes to that piece of work. */
-void gis_in_parts_tell_together(const gis_in_parts *parts);
+void gis_shard_run_warn_of_group(const gis_shard_run *parts);
 
 /* Shard k, 1 to shards, to its file in the directory, in place of one that is there. options: of the call, for the
  * file's stamp. */
-bool gis_in_parts_shard(gis_in_parts *parts, unsigned k, uint64_t options, gis_progress *progress, gis_error *error);
+bool gis_shard_run_separate(gis_shard_run *parts, unsigned k, uint64_t options, gis_progress *progress,
+                            gis_error *error);
 /* Is its file there? Sound, and of this plan? *why says what is wrong, if it is there and not that. */
 typedef enum gis_shard_state { GIS_SHARD_MISSING, GIS_SHARD_DONE, GIS_SHARD_WRONG } gis_shard_state;
-bool gis_in_parts_state(const gis_in_parts *parts, unsigned k, uint64_t options, gis_shard_state *state, gis_error *why,
-                        gis_error *error);
+bool gis_shard_run_state(const gis_shard_run *parts, unsigned k, uint64_t options, gis_shard_state *state,
+                         gis_error *why, gis_error *error);
 
 /* As gis_layer_input_read(), but for shapes, demands and the layer. whole: the source is not read by batches. */
-bool gis_in_parts_open(gis_in_parts *parts, bool whole, gis_layer_input *out, gis_error *error);
+bool gis_shard_run_open_source(gis_shard_run *parts, bool whole, gis_layer_input *out, gis_error *error);
 /* Reads the barriers once more, and warns where they are not what the plan was made of, which its moves heed. False: a
  * signal has come, or the directory for it cannot be made. */
-bool gis_in_parts_look_at_barriers(gis_in_parts *parts, const gis_layer_input *input, gis_error *error);
+bool gis_shard_run_compare_barriers(gis_shard_run *parts, const gis_layer_input *input, gis_error *error);
 /* The directory for what goes in the end, made if it is not there; NULL: it cannot be. */
-const char *gis_in_parts_scratch(gis_in_parts *parts, gis_error *error);
+const char *gis_shard_run_scratch(gis_shard_run *parts, gis_error *error);
 /* Of all shards, whose files are there. */
-bool gis_in_parts_solve(gis_in_parts *parts, uint64_t options, sunder_layer_summary *summary, gis_error *error);
+bool gis_shard_run_join(gis_shard_run *parts, uint64_t options, sunder_layer_summary *summary, gis_error *error);
 /* run_layers.c */
-bool gis_in_parts_write(gis_in_parts *parts, const gis_layer_input *input, const gis_in_parts_layers *layers,
-                        gis_sink *sink, gis_error *error);
+bool gis_shard_run_write(gis_shard_run *parts, const gis_layer_input *input, const gis_shard_run_layers *layers,
+                         gis_sink *sink, gis_error *error);
 /* run_proof.c: of what was written, the file of --proof. False: see gis_proof_print(). */
-bool gis_in_parts_proof(gis_in_parts *parts, const gis_layer_input *input, const sunder_layer_summary *summary,
-                        FILE *to, gis_error *error);
-void gis_in_parts_clear(gis_in_parts *parts);
+bool gis_shard_run_proof(gis_shard_run *parts, const gis_layer_input *input, const sunder_layer_summary *summary,
+                         FILE *to, gis_error *error);
+void gis_shard_run_clear(gis_shard_run *parts);
 
 #endif

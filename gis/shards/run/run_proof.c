@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 /* Members of blocks as lists: the next of the same block, by places in joined.block. */
-static bool put_blocks(const gis_in_parts *p, gis_json *json, FILE *to, gis_error *error)
+static bool put_blocks(const gis_shard_run *p, gis_json *json, FILE *to, gis_error *error)
 {
     const gis_joined *j = &p->joined;
     const size_t n = j->blocks;
@@ -30,26 +30,26 @@ static bool put_blocks(const gis_in_parts *p, gis_json *json, FILE *to, gis_erro
     return done;
 }
 
-static bool put_conflicts(gis_in_parts *p, gis_json *json, FILE *to, gis_error *error)
+static bool put_conflicts(gis_shard_run *p, gis_json *json, FILE *to, gis_error *error)
 {
-    gis_sorted *conflicts = &p->joined.conflicts;
+    gis_sorted_results *conflicts = &p->joined.conflicts;
     bool any = true;
-    gis_sorted_again(conflicts);
-    for (size_t k = 0; gis_sorted_next(conflicts, &any, error) && any; k++) {
+    gis_sorted_results_rewind(conflicts);
+    for (size_t k = 0; gis_sorted_results_next(conflicts, &any, error) && any; k++) {
         gis_proof_line(json, "conflict", k, gis_part_line_of(&conflicts->one, &conflicts->one.conflict->line));
         if (!gis_proof_print(json, to, error)) return false;
     }
     return !any;
 }
 
-static bool put_trees(gis_in_parts *p, gis_json *json, FILE *to, gis_error *error)
+static bool put_trees(gis_shard_run *p, gis_json *json, FILE *to, gis_error *error)
 {
-    gis_sorted *trees = &p->joined.trees;
+    gis_sorted_results *trees = &p->joined.trees;
     bool any = true;
     size_t group = SIZE_MAX;
     uint64_t first = UINT64_MAX;
-    gis_sorted_again(trees);
-    while (gis_sorted_next(trees, &any, error) && any) {
+    gis_sorted_results_rewind(trees);
+    while (gis_sorted_results_next(trees, &any, error) && any) {
         group += first != trees->head.first;
         first = trees->head.first;
         gis_proof_line(json, "group", group, gis_part_line_of(&trees->one, &trees->one.tree->line));
@@ -58,8 +58,8 @@ static bool put_trees(gis_in_parts *p, gis_json *json, FILE *to, gis_error *erro
     return !any;
 }
 
-bool gis_in_parts_proof(gis_in_parts *p, const gis_layer_input *input, const sunder_layer_summary *summary, FILE *to,
-                        gis_error *error)
+bool gis_shard_run_proof(gis_shard_run *p, const gis_layer_input *input, const sunder_layer_summary *summary, FILE *to,
+                         gis_error *error)
 {
     gis_json json = {0};
     gis_proof_head head = gis_proof_head_of(input, summary);

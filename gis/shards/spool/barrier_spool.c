@@ -16,7 +16,7 @@
 
 /* ---- Copies ------------------------------------------------------------------------------------------------------ */
 
-static void free_barrier(gis_part_barrier *barrier)
+static void free_barrier(gis_spooled_barrier *barrier)
 {
     sunder_shape_free((sunder_shape *)barrier->demands.geometry.shape);
     free((double *)barrier->demands.geometry.xy);
@@ -34,7 +34,7 @@ static void *copy_of(const void *from, size_t bytes)
 static size_t points_of(const sunder_obstacle *o) { return o->lines ? o->line_end[o->lines - 1] : 0; }
 
 /* Of lines, and of the name; the shape of `to` is its own. */
-static bool own_rest(gis_part_barrier *to, gis_error *error)
+static bool own_rest(gis_spooled_barrier *to, gis_error *error)
 {
     sunder_obstacle *o = &to->demands.geometry;
     o->xy = o->lines ? copy_of(o->xy, 2 * points_of(o) * sizeof *o->xy) : NULL;
@@ -54,7 +54,7 @@ struct gis_barriers_writer {
     gis_spool_writer *all;
     size_t n;
     struct {
-        gis_part_barrier barrier;
+        gis_spooled_barrier barrier;
         size_t size;
         bool there;
     } fact[FACTS];
@@ -72,7 +72,7 @@ static size_t size_of(const sunder_obstacle *o)
     return points_of(o) + (o->shape ? sunder_shape_vertices(o->shape) : 0);
 }
 
-static bool copy_barrier(const gis_part_barrier *from, gis_part_barrier *to, gis_error *error)
+static bool copy_barrier(const gis_spooled_barrier *from, gis_spooled_barrier *to, gis_error *error)
 {
     sunder_shape *shape = NULL;
     sunder_error why;
@@ -91,7 +91,7 @@ static bool copy_barrier(const gis_part_barrier *from, gis_part_barrier *to, gis
     return true;
 }
 
-static bool note(gis_barriers_writer *w, const gis_part_barrier *barrier, gis_error *error)
+static bool note(gis_barriers_writer *w, const gis_spooled_barrier *barrier, gis_error *error)
 {
     const sunder_obstacle *o = &barrier->demands.geometry;
     const double own = owed(w, &barrier->demands);
@@ -111,7 +111,7 @@ static bool note(gis_barriers_writer *w, const gis_part_barrier *barrier, gis_er
 
 /* ---- Writing ----------------------------------------------------------------------------------------------------- */
 
-static bool add(gis_spool_writer *to, const gis_part_barrier *b, double reach, gis_error *error)
+static bool add(gis_spool_writer *to, const gis_spooled_barrier *b, double reach, gis_error *error)
 {
     const gis_spool_feature feature = {
         .index = b->number,
@@ -141,7 +141,7 @@ bool gis_barriers_create(const char *directory, double gap, gis_barriers_writer 
     gis_barriers_writer *w = calloc(1, sizeof *w);
     if (!w) return gis_no_memory(error);
     w->gap = gap;
-    w->directory = gis_spool_inside(directory, GIS_BARRIERS);
+    w->directory = gis_disk_path(directory, GIS_BARRIERS);
     const bool done = (w->directory || gis_no_memory(error)) && make_directory(w->directory, error) &&
                       gis_spool_create(w->directory, NULL, &w->all, error);
     if (done)
@@ -151,7 +151,7 @@ bool gis_barriers_create(const char *directory, double gap, gis_barriers_writer 
     return done;
 }
 
-bool gis_barriers_add(gis_barriers_writer *w, const gis_part_barrier *barrier, gis_error *error)
+bool gis_barriers_add(gis_barriers_writer *w, const gis_spooled_barrier *barrier, gis_error *error)
 {
     w->n++;
     return note(w, barrier, error) && add(w->all, barrier, owed(w, &barrier->demands), error);
@@ -159,7 +159,7 @@ bool gis_barriers_add(gis_barriers_writer *w, const gis_part_barrier *barrier, g
 
 bool gis_barriers_finish(gis_barriers_writer *w, gis_error *error)
 {
-    char *path = gis_spool_inside(w->directory, GIS_BARRIERS_EVERYWHERE);
+    char *path = gis_disk_path(w->directory, GIS_BARRIERS_EVERYWHERE);
     gis_spool_writer *few = NULL;
     bool done =
         (path || gis_no_memory(error)) && make_directory(path, error) && gis_spool_create(path, NULL, &few, error);
@@ -188,8 +188,7 @@ void gis_barriers_writer_free(gis_barriers_writer *w)
 
 bool gis_barriers_open(const char *directory, gis_spooled_barriers *out, gis_error *error)
 {
-    char *all = gis_spool_inside(directory, GIS_BARRIERS),
-         *few = all ? gis_spool_inside(all, GIS_BARRIERS_EVERYWHERE) : NULL;
+    char *all = gis_disk_path(directory, GIS_BARRIERS), *few = all ? gis_disk_path(all, GIS_BARRIERS_EVERYWHERE) : NULL;
     *out = (gis_spooled_barriers){0};
     const bool done = (few || gis_no_memory(error)) && gis_spool_open(all, &out->all, error) &&
                       gis_spool_open(few, &out->everywhere, error);
@@ -256,8 +255,8 @@ static bool take(void *user, const gis_spool_feature *f, gis_error *error)
         sunder_shape_free(shape);
         return gis_no_memory(error);
     }
-    gis_part_barrier *b = &to->item[to->n++];
-    *b = (gis_part_barrier){
+    gis_spooled_barrier *b = &to->item[to->n++];
+    *b = (gis_spooled_barrier){
         .number = f->index,
         .fid = f->fid,
         .layer = f->id ? f->id : "",
@@ -269,7 +268,7 @@ static bool take(void *user, const gis_spool_feature *f, gis_error *error)
 
 static int by_number(const void *a, const void *b)
 {
-    const gis_part_barrier *p = a, *q = b;
+    const gis_spooled_barrier *p = a, *q = b;
     return (p->number > q->number) - (p->number < q->number);
 }
 

@@ -14,12 +14,12 @@
 /* ... within that, those that are of each part. */
 #define GIS_BARRIERS_EVERYWHERE "everywhere"
 
-typedef struct gis_part_barrier {
+typedef struct gis_spooled_barrier {
     size_t number; /* ascending in the order in which they were read; some may be left out */
     int64_t fid;
     const char *layer; /* its name */
     sunder_barrier demands;
-} gis_part_barrier;
+} gis_spooled_barrier;
 
 /* ---- Writing ----------------------------------------------------------------------------------------------------- */
 
@@ -27,7 +27,7 @@ typedef struct gis_barriers_writer gis_barriers_writer;
 
 /* Makes `barriers` in the directory, in place of what is there. gap: of those that have none of their own. */
 bool gis_barriers_create(const char *directory, double gap, gis_barriers_writer **out, gis_error *error);
-bool gis_barriers_add(gis_barriers_writer *writer, const gis_part_barrier *barrier, gis_error *error);
+bool gis_barriers_add(gis_barriers_writer *writer, const gis_spooled_barrier *barrier, gis_error *error);
 bool gis_barriers_finish(gis_barriers_writer *writer, gis_error *error);
 void gis_barriers_writer_free(gis_barriers_writer *writer);
 
@@ -45,7 +45,7 @@ bool gis_barriers_may_meet(const gis_spooled_barriers *spool, const double box[4
 
 /* Those of a part, by their numbers. Zeroed: none. */
 typedef struct gis_barriers_list {
-    gis_part_barrier *item; /* all of each is owned */
+    gis_spooled_barrier *item; /* all of each is owned */
     size_t n, capacity;
 } gis_barriers_list;
 

@@ -3,11 +3,11 @@
  *
  * A spool is two files of a directory. `features` holds a record of each feature, along a Hilbert curve through the
  * centres of their boxes, cell behind cell: about a thousand features each, or fewer that have many vertices. `cells`
- * says of each where it is, what box holds all that its features cover, and to which shard it was dealt: so many
- * vertices and features each, as far as that goes, and neighbours along the curve. Everything is in the machine's own
+ * says of each where it is, what box holds all that its features cover, and to which part it was dealt: about
+ * as many vertices and features each, and neighbours along the curve. Everything is in the machine's own
  * order of bytes, which is told, and has checksums.
  *
- * Writing takes bounded memory: features are sorted by parts of GIS_SPOOL_RUN bytes, which wait on the disk, and these
+ * Writing takes bounded memory: features are sorted by parts of GIS_SORT_BYTES bytes, which wait on the disk, and these
  * merged. So disk is needed for twice what a spool takes in the end. Where nothing was known beforehand of where they
  * lie they wait in the order in which they come, too, until all are there. */
 #ifndef GIS_SPOOL_H
@@ -33,7 +33,7 @@ typedef struct gis_spool_feature {
 typedef struct gis_spool_cell {
     double box[4]; /* xmin, ymin, xmax, ymax of all its shapes; empty ones have none: then box[0] > box[2] */
     size_t features, vertices;
-    unsigned shard; /* from 0 */
+    unsigned part; /* from 0 */
 } gis_spool_cell;
 
 /* ---- Writing ----------------------------------------------------------------------------------------------------- */
@@ -51,9 +51,8 @@ bool gis_spool_add(gis_spool_writer *writer, const gis_spool_feature *feature, g
  * the first in the order of the input is told. */
 typedef bool gis_spool_settle(void *user, gis_spool_feature *feature, gis_error *error);
 
-/* Sorts, cuts into cells, deals these to so many shards (1 or more) and puts the files in place; settle may be NULL. */
-bool gis_spool_finish(gis_spool_writer *writer, unsigned shards, gis_spool_settle *settle, void *user,
-                      gis_error *error);
+/* Sorts, cuts into cells, deals these to `parts` (1 or more) and puts the files in place; settle may be NULL. */
+bool gis_spool_finish(gis_spool_writer *writer, unsigned parts, gis_spool_settle *settle, void *user, gis_error *error);
 /* What was begun and not finished is taken away. */
 void gis_spool_writer_free(gis_spool_writer *writer);
 
@@ -67,7 +66,7 @@ void gis_spool_close(gis_spool *spool);
 
 size_t gis_spool_features(const gis_spool *spool);
 size_t gis_spool_vertices(const gis_spool *spool); /* as given: those of cells add up to it */
-unsigned gis_spool_shards(const gis_spool *spool);
+unsigned gis_spool_parts(const gis_spool *spool);
 /* Of everything in it, other than for a spool of the same features. */
 uint64_t gis_spool_checksum(const gis_spool *spool);
 size_t gis_spool_cells(const gis_spool *spool);

@@ -28,12 +28,12 @@ typedef struct gis_spool_entry {
 typedef struct gis_spool_index {
     gis_spool_entry *entry;
     size_t n, capacity;
-    unsigned shards;
+    unsigned parts;
     uint64_t checksum; /* of all that it says */
 } gis_spool_index;
 
-/* Deals the cells to so many shards. */
-void gis_spool_index_deal(gis_spool_index *index, unsigned shards);
+/* Deals the cells to that many parts. */
+void gis_spool_index_deal(gis_spool_index *index, unsigned parts);
 bool gis_spool_index_write(const gis_spool_index *index, const char *directory, gis_error *error);
 bool gis_spool_index_read(gis_spool_index *index, const char *directory, gis_error *error);
 void gis_spool_index_clear(gis_spool_index *index);

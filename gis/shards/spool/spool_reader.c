@@ -10,7 +10,7 @@
 
 struct gis_spool {
     gis_spool_index index;
-    gis_spool_file file;
+    gis_disk_file file;
     size_t features, vertices;
     gis_spool_room records;
     gis_polygons rings;
@@ -23,16 +23,16 @@ static bool is_possible(const gis_spool *spool, const gis_spool_entry *entry, ui
     const uint64_t size = spool->file.size;
     return entry->from == from && from <= size && entry->bytes <= size - from &&
            entry->cell.features <= entry->bytes / sizeof(gis_spool_head) &&
-           entry->cell.vertices <= entry->bytes / (2 * sizeof(double)) && entry->cell.shard < spool->index.shards;
+           entry->cell.vertices <= entry->bytes / (2 * sizeof(double)) && entry->cell.part < spool->index.parts;
 }
 
 static bool open_features(gis_spool *spool, const char *directory, gis_error *error)
 {
-    gis_spool_file *file = &spool->file;
+    gis_disk_file *file = &spool->file;
     gis_spool_mark mark;
     uint64_t end = sizeof mark;
-    if (!gis_spool_file_open(file, directory, "features", error) ||
-        !gis_spool_file_read(file, 0, &mark, sizeof mark, error) ||
+    if (!gis_disk_file_open(file, directory, "features", error) ||
+        !gis_disk_file_read(file, 0, &mark, sizeof mark, error) ||
         !gis_spool_mark_check(&mark, GIS_SPOOL_FEATURES, file->path, error))
         return false;
     for (size_t k = 0; k < spool->index.n; k++) {
@@ -64,7 +64,7 @@ void gis_spool_close(gis_spool *spool)
 {
     if (!spool) return;
     gis_spool_index_clear(&spool->index);
-    gis_spool_file_close(&spool->file);
+    gis_disk_file_close(&spool->file);
     gis_polygons_clear(&spool->rings);
     free(spool->line_end);
     free(spool->records.at);
@@ -73,7 +73,7 @@ void gis_spool_close(gis_spool *spool)
 
 size_t gis_spool_features(const gis_spool *spool) { return spool->features; }
 size_t gis_spool_vertices(const gis_spool *spool) { return spool->vertices; }
-unsigned gis_spool_shards(const gis_spool *spool) { return spool->index.shards; }
+unsigned gis_spool_parts(const gis_spool *spool) { return spool->index.parts; }
 uint64_t gis_spool_checksum(const gis_spool *spool) { return spool->index.checksum; }
 size_t gis_spool_cells(const gis_spool *spool) { return spool->index.n; }
 const gis_spool_cell *gis_spool_cell_at(const gis_spool *spool, size_t cell) { return &spool->index.entry[cell].cell; }
@@ -83,7 +83,7 @@ static bool load(gis_spool *spool, size_t cell, gis_error *error)
     const gis_spool_entry *entry = &spool->index.entry[cell];
     gis_spool_room *records = &spool->records;
     if (!gis_array_reserve(&records->at, &records->capacity, entry->bytes, 1)) return gis_no_memory(error);
-    if (!gis_spool_file_read(&spool->file, entry->from, records->at, entry->bytes, error)) return false;
+    if (!gis_disk_file_read(&spool->file, entry->from, records->at, entry->bytes, error)) return false;
     records->used = entry->bytes;
     return gis_checksum_of(0, records->at, records->used) == entry->checksum ||
            gis_fail(error, "%s: cell %zu of it is not what was written: its checksum is another", spool->file.path,
@@ -125,12 +125,12 @@ bool gis_spool_read_one(gis_spool *spool, uint64_t place, gis_spool_visit *visit
 {
     gis_spool_room *records = &spool->records;
     gis_spool_head head;
-    if (!gis_spool_file_read(&spool->file, place, &head, sizeof head, error)) return false;
+    if (!gis_disk_file_read(&spool->file, place, &head, sizeof head, error)) return false;
     if (head.bytes > spool->file.size - place)
         return gis_fail(error, "%s: at %llu it is not what was written", spool->file.path, (unsigned long long)place);
     if (!gis_array_reserve(&records->at, &records->capacity, (size_t)head.bytes, 1)) return gis_no_memory(error);
     records->used = (size_t)head.bytes;
-    return gis_spool_file_read(&spool->file, place, records->at, records->used, error) &&
+    return gis_disk_file_read(&spool->file, place, records->at, records->used, error) &&
            visit_record(spool, place, 0, visit, user, error);
 }
 

@@ -27,7 +27,7 @@ struct gis_spool_writer {
     double frame[4];       /* of the curve: where features are said to lie; cleared: nothing is said */
     double box[4];         /* where they do */
     size_t placed, strays; /* that have a box, and of these those that lie beyond the frame */
-    gis_spool_file out;
+    gis_disk_file out;
     gis_spool_room record;
     gis_spool_index index;
     gis_spool_entry cell; /* the one that is being filled, and the records in it */
@@ -47,7 +47,7 @@ bool gis_spool_create(const char *directory, const double frame[4], gis_spool_wr
     memcpy(writer->frame, frame ? frame : writer->box, sizeof writer->frame);
     writer->directory = strdup(directory);
     if (!writer->directory) gis_no_memory(error);
-    if (!writer->directory || !gis_sorter_new(directory, "features.runs", GIS_SPOOL_RUN, &writer->sorter, error)) {
+    if (!writer->directory || !gis_sorter_new(directory, "features.runs", GIS_SORT_BYTES, &writer->sorter, error)) {
         gis_spool_writer_free(writer);
         return false;
     }
@@ -92,7 +92,7 @@ static bool end_cell(gis_spool_writer *writer, gis_error *error)
     if (!gis_array_reserve(&index->entry, &index->capacity, index->n + 1, sizeof *index->entry))
         return gis_no_memory(error);
     index->entry[index->n++] = writer->cell;
-    if (!gis_spool_file_write(&writer->out, writer->records.at, writer->records.used, error)) return false;
+    if (!gis_disk_file_write(&writer->out, writer->records.at, writer->records.used, error)) return false;
     begin_cell(writer);
     return true;
 }
@@ -180,7 +180,7 @@ static bool put_elsewhere(void *user, const unsigned char *record, gis_error *er
 static bool order_again(gis_spool_writer *writer, gis_error *error)
 {
     reordering r = {.writer = writer};
-    const bool done = gis_sorter_new(writer->directory, "features.again", GIS_SPOOL_RUN, &r.to, error) &&
+    const bool done = gis_sorter_new(writer->directory, "features.again", GIS_SORT_BYTES, &r.to, error) &&
                       gis_sorter_take(writer->sorter, put_elsewhere, &r, error);
     gis_sorter_free(writer->sorter);
     writer->sorter = r.to;
@@ -192,25 +192,25 @@ static bool order_again(gis_spool_writer *writer, gis_error *error)
 static bool write_features(gis_spool_writer *writer, gis_error *error)
 {
     const gis_spool_mark mark = gis_spool_mark_of(GIS_SPOOL_FEATURES);
-    if (!gis_spool_file_create(&writer->out, writer->directory, "features.part", error) ||
-        !gis_spool_file_write(&writer->out, &mark, sizeof mark, error))
+    if (!gis_disk_file_create(&writer->out, writer->directory, "features.part", error) ||
+        !gis_disk_file_write(&writer->out, &mark, sizeof mark, error))
         return false;
     begin_cell(writer);
     if (!is_framed(writer) && !order_again(writer, error)) return false;
     if (!gis_sorter_take(writer->sorter, take, writer, error) || !end_cell(writer, error)) return false;
-    if (writer->refused == UINT64_MAX) return gis_spool_file_place(&writer->out, writer->directory, "features", error);
+    if (writer->refused == UINT64_MAX) return gis_disk_file_place(&writer->out, writer->directory, "features", error);
     *error = writer->why;
     return false;
 }
 
-bool gis_spool_finish(gis_spool_writer *writer, unsigned shards, gis_spool_settle *settle, void *user, gis_error *error)
+bool gis_spool_finish(gis_spool_writer *writer, unsigned parts, gis_spool_settle *settle, void *user, gis_error *error)
 {
     writer->settle = settle;
     writer->settle_user = user;
     if (!write_features(writer, error)) return false;
     gis_sorter_free(writer->sorter);
     writer->sorter = NULL;
-    gis_spool_index_deal(&writer->index, shards);
+    gis_spool_index_deal(&writer->index, parts);
     return gis_spool_index_write(&writer->index, writer->directory, error);
 }
 
@@ -218,7 +218,7 @@ void gis_spool_writer_free(gis_spool_writer *writer)
 {
     if (!writer) return;
     gis_sorter_free(writer->sorter);
-    gis_spool_file_close(&writer->out);
+    gis_disk_file_close(&writer->out);
     gis_spool_index_clear(&writer->index);
     free(writer->record.at);
     free(writer->records.at);

@@ -200,10 +200,10 @@ static bool read_halves(gis_sink_layer *layer, void *database, void *other, OGRL
     void *first = begin_stretch(all, database, as_written, GIS_SQLITE_UP_TO, middle);
     bool done = first && second.statement;
     if (done) {
-        gis_beside *beside = gis_beside_new();
-        gis_beside_do(beside, read_half, &second);
+        gis_side_thread *beside = gis_side_thread_new();
+        gis_side_thread_do(beside, read_half, &second);
         done = read_stretch(all, first, read);
-        gis_beside_free(beside);
+        gis_side_thread_free(beside);
         done = done && add_half(all, &second, read);
     }
     gis_sqlite_select_end(first);
@@ -235,7 +235,7 @@ static bool may_be_plain(const gis_sink_layer *layer, GDALDatasetH dataset, OGRL
 static void *open_again(const gis_sink_layer *layer, void *database)
 {
     if (layer->written < MANY_ROWS || gis_threads(layer->sink->request.threads) == 1) return NULL;
-    return gis_sqlite_again_open(database);
+    return gis_second_connection_open(database);
 }
 
 bool gis_read_rows(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written, gis_digests_read *read)
@@ -246,7 +246,7 @@ bool gis_read_rows(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_wri
     void *other = open_again(layer, database);
     const bool done =
         other ? read_halves(layer, database, other, as_written, read) : read_all(layer, database, as_written, read);
-    gis_sqlite_again_close(other);
+    gis_second_connection_close(other);
     if (done && read->n == layer->written) return true;
     free(read->at);
     *read = (gis_digests_read){0};

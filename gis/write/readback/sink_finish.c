@@ -294,10 +294,10 @@ static void write_out(void *stage) { gis_stage_write_out(stage); }
 static bool inspect_files(gis_sink *sink, gis_sink_result *result, gis_error *error)
 {
     const bool apart = sink->stage && !sink->memory && gis_threads(sink->request.threads) > 1;
-    gis_beside *beside = apart ? gis_beside_new() : NULL;
-    if (beside) gis_beside_do(beside, write_out, sink->stage);
+    gis_side_thread *beside = apart ? gis_side_thread_new() : NULL;
+    if (beside) gis_side_thread_do(beside, write_out, sink->stage);
     const bool done = inspect(sink, result, error);
-    gis_beside_free(beside);
+    gis_side_thread_free(beside);
     return done;
 }
 

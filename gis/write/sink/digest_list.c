@@ -8,8 +8,8 @@
 bool gis_digest_list_add(gis_digest_list *list, gis_digest one, gis_error *error)
 {
     if (list->scratch) {
-        if (!(list->file.stream || gis_spool_file_create(&list->file, list->scratch, "digests.XXXXXX", error)) ||
-            !gis_spool_file_write(&list->file, &one, sizeof one, error))
+        if (!(list->file.stream || gis_disk_file_create(&list->file, list->scratch, "digests.XXXXXX", error)) ||
+            !gis_disk_file_write(&list->file, &one, sizeof one, error))
             return false;
         list->n++;
         return true;
@@ -26,8 +26,8 @@ static bool load(gis_digest_list *list, size_t from, size_t n, gis_error *error)
     if (!gis_array_reserve(&list->at, &list->capacity, n, sizeof *list->at)) return gis_no_memory(error);
     list->from = from;
     list->held = from + n;
-    return gis_spool_file_flush(&list->file, error) &&
-           gis_spool_file_read(&list->file, from * sizeof *list->at, list->at, n * sizeof *list->at, error);
+    return gis_disk_file_flush(&list->file, error) &&
+           gis_disk_file_read(&list->file, from * sizeof *list->at, list->at, n * sizeof *list->at, error);
 }
 
 bool gis_digest_list_get(gis_digest_list *list, size_t k, gis_digest *out, gis_error *error)
@@ -47,6 +47,6 @@ bool gis_digest_list_hold(gis_digest_list *list, size_t n, gis_error *error)
 void gis_digest_list_clear(gis_digest_list *list)
 {
     free(list->at);
-    gis_spool_file_close(&list->file);
+    gis_disk_file_close(&list->file);
     *list = (gis_digest_list){.scratch = list->scratch};
 }

@@ -14,7 +14,7 @@ typedef struct gis_digest_list {
     const char *scratch; /* the directory, borrowed; NULL: memory */
     gis_digest *at;      /* held - from of them, from number `from` on; in memory: all */
     size_t n, from, held, capacity;
-    gis_spool_file file;
+    gis_disk_file file;
 } gis_digest_list;
 
 bool gis_digest_list_add(gis_digest_list *list, gis_digest one, gis_error *error);

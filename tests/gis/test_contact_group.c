@@ -112,10 +112,10 @@ static gis_spool *spool_of(const layer *l, unsigned shards)
 static size_t find_largest(const layer *l, gis_spool *spool, double enough)
 {
     gis_layout layout;
-    gis_together found;
+    gis_contact_group found;
     gis_error error;
     assert_true(gis_layout_make(spool, l->reach, true, &layout, &error));
-    assert_true(gis_parts_together(&layout, l->reach, enough, &found, &error));
+    assert_true(gis_contact_group_find(&layout, l->reach, enough, &found, &error));
     assert_int_equal(found.vertices, 4 * found.features);
     gis_layout_clear(&layout);
     return found.features;
