@@ -1,10 +1,10 @@
-/* The branches of a branch and bound: by which way a pair parts, and which of its cases are void.
+/* The branches of a branch and bound: in which direction does a pair separate, and which of its cases are infeasible?
  *
- * Depth first. A node whose program contradicts itself is a leaf. Else the candidate shows pairs of pieces that are
- * nearer than they owe; one of them is chosen, and each of its ways (half_planes.c) is a case: beyond this line, and
- * behind those before it. If the proof of a case does not use what the case says, it is a proof of the node as well,
- * and the other cases need not be looked at: so choices that have nothing to do with a contradiction do not multiply it
- * [conflict-directed backjumping, Pro93]. */
+ * Depth first. A node whose program is infeasible is a leaf. Otherwise the candidate violates some distances between
+ * pieces; one such pair is chosen, and each of its ways (half_planes.c) is a case: beyond this line, and behind the
+ * lines of the earlier cases. If the proof of a case does not use the case's own claim, it is a proof of the node as
+ * well, and the other cases are skipped: so choices unrelated to a contradiction do not multiply it [conflict-directed
+ * backjumping, Pro93]. */
 #include "displacement/prove/proofs/branching.h"
 #include "displacement/prove/proofs/tuning.h"
 
@@ -175,7 +175,7 @@ bool sunder_i_branching_push(sunder_i_branching *c, uint32_t i, uint32_t j, size
     return true;
 }
 
-/* Are the claims those of both walls, and no others? Then who is between them stays where it is (corridor.c). */
+/* Are the claims those of both walls, and no others? Then the body between them stays where it is (corridor.c). */
 static bool is_between(const sunder_i_branching *c, unsigned level)
 {
     bool between = c->walls == 2 && level == 1 && c->claims == 2;
@@ -270,8 +270,8 @@ static sunder_status search_wall(sunder_i_branching *c, unsigned level, sunder_i
     return search_cases(c, &o, node, level, verdict, levels, root, err);
 }
 
-/* Who is not beyond a wall that is of an overlap leaves it by its other side, or its end: with all of its pieces. The
- * one that the candidate's slack leaves deepest; false: it parts them all. */
+/* A body that is not beyond a wall of an overlap may leave the overlap by its other side, or its end, with all of its
+ * pieces. Finds the pair that is deepest under the candidate's slack; false: the slack separates them all. */
 static bool find_left(sunder_i_branching *c, sunder_i_violation *deepest)
 {
     *deepest = (sunder_i_violation){.depth = 2 * c->hair};

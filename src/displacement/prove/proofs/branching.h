@@ -54,7 +54,7 @@ typedef struct sunder_i_claim {
     double force;   /* in the last program */
     size_t node, way;
     bool behind;
-    unsigned level; /* of the branch that says so */
+    unsigned level; /* the branch that makes the claim */
 } sunder_i_claim;
 
 /* A chord across the corner that two sides share, in the shadows of both (corner_chord.c). */
@@ -77,13 +77,13 @@ typedef struct sunder_i_node {
     size_t chord; /* which stands for the second part, which is its first side; SIZE_MAX: none */
 } sunder_i_node;
 
-/* A listed pair of who may move and what stands, and a line that it may not cross, exactly: n.u >= 0, n of doubles and
+/* A listed pair of a movable and a fixed thing, and a line that it may not cross, exactly: n.u >= 0, n of doubles and
  * about 1 long. */
 typedef struct sunder_i_corridor_wall {
-    const sunder_i_body_piece *a, *b; /* a: of who may move */
+    const sunder_i_body_piece *a, *b; /* a: the piece of the movable one */
     double clearance, n[2];
-    /* NULL; or the pair is held to this overlap, and n.(u + v) >= d, v its slack: between the two it is more than d, by
-     * so much that n.u >= 0 all the same. */
+    /* NULL; or the pair is held to this overlap, and n.(u + v) >= d, with v its slack: since d exceeds what v can
+     * contribute, n.u >= 0 follows. */
     const sunder_i_requirement *slack;
     double d;
 } sunder_i_corridor_wall;
@@ -116,7 +116,7 @@ typedef struct sunder_i_branching {
     size_t chords, chord_capacity;
     sunder_i_half_plane *scratch;
     size_t scratch_capacity;
-    struct sunder_i_half_planes_kept *kept; /* NULL, or ways that were asked for (half_planes_kept.c) */
+    struct sunder_i_half_planes_kept *kept; /* NULL, or ways computed before (half_planes_kept.c) */
     sunder_i_list near;
     bool closely; /* lines are made for the candidate (half_planes.h) */
     /* Two walls, opposite to each other, or none: the first branches. The body between them, and whether it is. */
@@ -127,7 +127,7 @@ typedef struct sunder_i_branching {
     bool failed; /* memory is out */
 } sunder_i_branching;
 
-/* Work done so far, and whether that, or who takes part, is more than was allowed. */
+/* Work so far, and whether the work, or the number of participants, exceeds its limit. */
 static inline uint64_t sunder_i_branching_work(const sunder_i_branching *c) { return c->looked + c->program.work; }
 
 static inline bool sunder_i_branching_is_over(const sunder_i_branching *c)
@@ -190,12 +190,12 @@ typedef struct sunder_i_violation {
     uint32_t p, q; /* bodies; p takes part, q may not yet */
     const sunder_i_body_piece *a, *b;
     double clearance, depth;
-    const sunder_i_requirement *slack; /* NULL, or of which pair, a being of the feature and b of the barrier */
+    const sunder_i_requirement *slack; /* NULL, or the pair: a belongs to the feature and b to the barrier */
     bool shadow;                       /* a or b is an anchor, and in the shadow of the other */
-    bool known;                        /* nobody joins for it: both take part already, or one of them never moves */
+    bool known;                        /* it adds no participant: both take part already, or one of them never moves */
     bool closely;                      /* as of sunder_i_branching */
     bool held;                         /* it is a wall */
-    const sunder_i_chord *chord;       /* NULL, or what stands for b */
+    const sunder_i_chord *chord;       /* NULL, or the piece that replaces b */
 } sunder_i_violation;
 
 /* The deepest of the candidate's, one of each pair of bodies: known ones first, the deepest first. Returns how many. */
@@ -206,7 +206,7 @@ size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_vio
 size_t sunder_i_branching_fill_ways(sunder_i_branching *branching, const sunder_i_body *p, const sunder_i_body_piece *a,
                                     const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
                                     const double *at);
-/* The same without a place, kept for who asks again: *n of them, to be read before anything else is asked. */
+/* The same without a place, cached for repeated use: *n of them, valid until the next call. */
 const sunder_i_half_plane *sunder_i_branching_keep_ways(sunder_i_branching *branching, const sunder_i_body *p,
                                                         const sunder_i_body_piece *a, const sunder_i_body *q,
                                                         const sunder_i_body_piece *b, double clearance, bool shadow,
@@ -253,7 +253,7 @@ size_t sunder_i_branching_wall_ways(sunder_i_branching *branching, const sunder_
 
 /* What the plane of one relative move tells of a subproblem. */
 typedef struct sunder_i_plane_answer {
-    sunder_i_verdict verdict; /* feasible only if whoever else is asked about has no say */
+    sunder_i_verdict verdict; /* feasible only if all other things asked about are irrelevant */
     double u[2];              /* then: the move of q less that of p */
     uint32_t p, q;            /* bodies; q may be SUNDER_I_GROUND */
     bool free;                /* a place was met where nothing is forbidden */
@@ -276,7 +276,7 @@ void sunder_i_precedent_note_place(sunder_i_precedent *precedent, const double u
 /* False if memory is out. */
 bool sunder_i_precedent_note_proof(sunder_i_precedent *precedent, const sunder_i_model *model,
                                    const sunder_proof *proof, bool fine);
-/* The things that may be enough for a proof, of those that are asked about; 0: they are no fewer. */
+/* The things that may suffice for a proof, among those asked about; 0: no fewer than all. */
 size_t sunder_i_precedent_things(const sunder_i_precedent *precedent, const sunder_i_subproblem *asked,
                                  uint32_t set[SUNDER_I_PRECEDENT_THINGS + 2]);
 

@@ -1,24 +1,23 @@
-/* A proof from who pushes whom: one direct look for the forces of long chains, which branches would find a link at a
- * time.
+/* A proof by chains of pushes: finds the forces of long chains directly, which branching would find one link at a time.
  *
- * Where limits leave two pieces one way past each other, n.(t_j - t_i) >= d is what any solution keeps. Along a row of
- * such links, each with a force of 1, the sum of program.c is what all d win, less at each body what its limit L loses:
- * L |n - n'| between two links, L at an end, 0 at what stands. With the moves t of the result, which keep what every
- * pair but the one that is asked about is held to, that is by which the pair misses its own d, less
+ * Where limits leave two pieces only one way past each other, every solution keeps n.(t_j - t_i) >= d. Along a chain of
+ * such links, each with a force of 1, the sum of program.c is the sum of all d, less the limits' share at each body: L
+ * |n - n'| between two links, L at an end, 0 at a fixed thing. Let t be the moves of the result, which satisfy every
+ * pair except the one in question. Then the sum equals the violation of that pair's own d, less
  *
- *     the spare n.(t_j - t_i) - d of each link,
+ *     the slack n.(t_j - t_i) - d of each link,
  *     L |n - n'| - t.(n - n') at each body between two, and L - t.n at the end,
  *
- * none of which is negative. So the best chain from either end of the pair is a shortest path [Dij59], potentials as in
- * [Joh77], and is looked for no farther than to where it costs as much as the pair misses: in a row that has no more to
- * give it ends at once, in one that stands as it was it ends with the row.
+ * none of which is negative. So the best chain from either end of the pair is a shortest path [Dij59], with potentials
+ * as in [Joh77], and the search stops where the cost reaches the pair's violation: in a row without slack it ends at
+ * once, in a row in its original place it ends with the row.
  *
- * Each way that limits leave the pair has to have its chain. The proof has a node for each link, of which all other
- * ways contradict the limits of its two bodies, and a leaf with the forces of the chain, added up as in every proof; so
- * nothing that is only nearly so is called proved. Only links of the cluster's bodies are looked at, since of others it
- * is not known where they will stand.
+ * Every way that limits leave the pair needs its own chain. The proof has a node for each link, whose other ways
+ * contradict the limits of its two bodies, and a leaf with the forces of the chain, summed as in every proof; so a near
+ * miss is never called proved. Only links between bodies of the cluster are used, since the final places of others are
+ * not known.
  *
- * From the chains found the links at the ends are dropped that are not needed; without one in between there is none. */
+ * Links at the ends of a chain that are not needed are dropped; a chain cannot do without an inner link. */
 #include "displacement/prove/proofs/chain.h"
 #include "displacement/layer/reads.h"
 #include "displacement/prove/proofs/tuning.h"
@@ -222,7 +221,7 @@ static bool is_straight(const sunder_i_chains *g, const sunder_i_half_plane *way
     return is;
 }
 
-/* The two pieces of the pair, of which all open ways are to have a chain. False if memory is out. */
+/* The two pieces of the pair; each open way needs a chain. False if memory is out. */
 static bool ask_pieces(finding *f, const sunder_i_chain_link *pair)
 {
     sunder_i_chains *g = f->g;
@@ -266,7 +265,7 @@ static bool ask_things(finding *f, uint32_t a, uint32_t b)
     const uint32_t i = model->body_of[a], j = model->body_of[b];
     const sunder_i_body *p = &model->body[i], *r = &model->body[j];
     double clearance;
-    f->g->of.a = f->q->a; /* links are of what is left besides */
+    f->g->of.a = f->q->a; /* links belong to the remaining pairs */
     f->g->of.b = f->q->b;
     const bool owe = sunder_i_branching_owe(&f->g->branching, a, b, &clearance);
     f->g->of.a = f->g->of.b = SUNDER_I_NOBODY;
@@ -291,7 +290,7 @@ static bool ask_things(finding *f, uint32_t a, uint32_t b)
     return true;
 }
 
-/* The same of all parts of a barrier. */
+/* The same for all parts of a barrier. */
 static bool ask_parts(finding *f, uint32_t a, uint32_t barrier)
 {
     const sunder_i_model *model = f->g->of.model;

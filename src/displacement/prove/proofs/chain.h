@@ -1,4 +1,4 @@
-/* Chains: who pushes whom, from end to end, where limits leave no other way; see chain.c. */
+/* Chains of pushes, from end to end, where limits leave no other way; see chain.c. */
 #ifndef SUNDER_I_CHAIN_H
 #define SUNDER_I_CHAIN_H
 
@@ -36,7 +36,7 @@ typedef struct sunder_i_chain_entry {
 
 /* Links of a cluster's bodies, found as they are asked for, and kept from conflict to conflict of it. */
 struct sunder_i_chains {
-    sunder_i_subproblem of; /* the cluster; no pair is asked about */
+    sunder_i_subproblem of; /* the cluster; no pair is in question */
     bool all;               /* listed pairs owe all, too, and everybody stands at home (chain_fewest.c) */
     sunder_i_branching branching;
     sunder_i_chain_links *body; /* [of.reserves] */
@@ -62,11 +62,11 @@ typedef struct sunder_i_pushing {
 void sunder_i_chains_stand(const sunder_i_chains *chains, uint32_t body, double t[2]);
 /* The links of a body; none, if it is not of the cluster. NULL if memory is out. Pointers to links are void then. */
 const sunder_i_chain_links *sunder_i_chains_find(sunder_i_chains *chains, uint32_t body);
-/* Which ways are to be told of first, so that the others are none? A way among n that the limits leave is put first,
- * and with it out of the question no other is left: then true. */
+/* Which of n ways can be put first so that, behind its line, limits leave no other? Puts that way first and returns
+ * true; false if there is none. */
 bool sunder_i_chain_only_way(sunder_i_half_plane *way, size_t n, double reach);
-/* The same of n ways in scratch, of which a line that several have in common may become the first of one more. Returns
- * how many there are then; 0: neither, or memory is out (branching->failed). */
+/* The same for n ways in scratch; a line that several of them imply may be added as the first of one more. Returns
+ * their number then; 0: neither works, or memory is out (branching->failed). */
 size_t sunder_i_chain_ways(sunder_i_branching *branching, size_t n, double reach);
 /* May the two, no farther from each other's places than reach, go this way? And if they do not go the other way? */
 bool sunder_i_chain_is_open(const sunder_i_half_plane *way, double reach);

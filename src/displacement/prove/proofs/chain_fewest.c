@@ -1,16 +1,16 @@
-/* The shortest chain through a pair where all owe each other all, listed or not: it says that these few cannot all be
- * solved, whatever is done elsewhere.
+/* The shortest chain through a pair if every pair owes its full distance, listed or not: it proves that these few
+ * cannot all be solved, whatever happens elsewhere.
  *
- * Here nothing is known of where they could stand, and the sums are those at home: along a row d of each link, less
- * L |n - n'| at each body between two and L at the end (chain.c). What links win may be of either sign, so that there
- * are no potentials; but chains are short, and are found a link at a time from either end of the pair: of those of k
- * links the best few. The fewest of both ends that win together are the chain,
+ * No positions are known here, and the sums are those at the start: along a row the d of each link, less L |n - n'| at
+ * each body between two and L at the end (chain.c). The gain of a link may have either sign, so there are no
+ * potentials; but chains are short, and are built one link at a time from either end of the pair: of the chains of k
+ * links the best few are kept. The shortest pair of ends that together have a positive sum are the chain,
  *
  *       o <- o <- (i   j) -> o -> o -> o
- *       the one end   pair   the other
+ *      one end     pair     the other
  *
- * if none of its own stretches, without an end or both, wins by itself: then every member is needed, as far as chains
- * tell. A stretch without the pair that does is a reason of its own, for others. */
+ * provided that no proper part of it, without one or both ends, is positive by itself: then every member is needed, as
+ * far as chains tell. A positive part without the pair is a reason of its own, for other pairs. */
 #include "displacement/prove/proofs/chain.h"
 #include "displacement/prove/proofs/tuning.h"
 
@@ -30,8 +30,8 @@ typedef struct reach {
     double least; /* what a chain has to have won, but for the limit of its last body, to be gone on with */
     reached item[FEWEST_MOST * FEWEST_KEPT];
     size_t first[FEWEST_MOST + 2];
-    size_t rounds;                /* of that there are any */
-    double won[FEWEST_MOST + 1];  /* the most with so many links, the end included; -INFINITY: none */
+    size_t rounds;                /* of those that exist */
+    double won[FEWEST_MOST + 1];  /* the best sum with this many links, the end included; -INFINITY: none */
     size_t best[FEWEST_MOST + 1]; /* its last */
 } reach;
 
@@ -53,7 +53,7 @@ static bool is_behind(const sunder_i_chains *g, const reach *r, size_t k, size_t
     return r->body == body;
 }
 
-/* One more of those with so many links, if it is one of the best few; in no order. */
+/* Adds a chain of this length if it is among the best few; unordered. */
 static void keep(reach *r, size_t k, const reached *found)
 {
     reached *item = r->item + r->first[k];
@@ -101,7 +101,7 @@ static void note_end(const sunder_i_chains *g, reach *r, size_t k)
     }
 }
 
-/* One more round of an end; other: whom it may not come to. False if memory is out. */
+/* Extends one end by a link; other: the body that it may not reach. False if memory is out. */
 static bool go_on(sunder_i_chains *g, reach *r, uint32_t other)
 {
     const size_t k = r->rounds;
@@ -113,8 +113,8 @@ static bool go_on(sunder_i_chains *g, reach *r, uint32_t other)
     return true;
 }
 
-/* What follows on a body wins no more than its limit, or that stretch would win by itself; nor does the other end of
- * the pair win more than the limit of who is there. */
+/* The part beyond a body gains at most its limit, or that part would be positive by itself; nor does the other end of
+ * the pair gain more than the limit of the body there. */
 static void begin(const sunder_i_chains *g, reach *r, uint32_t body, double nx, double ny, double least)
 {
     r->least = least;
@@ -128,7 +128,7 @@ static void begin(const sunder_i_chains *g, reach *r, uint32_t body, double nx, 
 
 /* ---- Does any stretch of it win by itself? ----------------------------------------------------------------------- */
 
-/* A chain from end to end: what its links demand, along which lines, and whom they are between. */
+/* A chain from end to end: the distances of its links, their lines, and the things they connect. */
 typedef struct row {
     double d[2 * FEWEST_MOST + 1], n[2 * FEWEST_MOST + 1][2], limit[2 * FEWEST_MOST + 2];
     size_t links;
@@ -183,7 +183,8 @@ static bool has_less(const row *r)
 
 /* ---- The fewest -------------------------------------------------------------------------------------------------- */
 
-/* So many links of the one end and of the other: a chain, if they win, and need each other. False if memory is out. */
+/* Combines this many links of one end with that many of the other: a chain, if the sum is positive and both ends are
+ * needed. False if memory is out. */
 static bool try_chain(const sunder_i_chains *g, const sunder_i_chain_link *pair, const sunder_i_half_plane *way,
                       const reach of[2], size_t right, size_t left, sunder_i_pushing *chain, bool *found)
 {

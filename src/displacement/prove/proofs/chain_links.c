@@ -47,16 +47,16 @@ bool sunder_i_chain_only_way(sunder_i_half_plane *way, size_t n, double reach)
     return false;
 }
 
-/* What all ways that are open have in common, whichever it is: beyond what the ends of their arcs, on the circle of all
- * that is within reach, leave between them. False: that says too little, or nothing.
+/* What all open ways imply together: beyond which line are all of them, up to the arcs on the circle of reachable
+ * moves? False: the common line says too little, or nothing.
  *
  *         , - ~ - ,
- *      ,'     w1   \',     The moves within reach and beyond a line are the hull of an arc. So those beyond any of
- *     /          \  | \    several are in the hull of all their arcs, which has one line, the chord: a hair less, so
- *    |     o      \ |  |   that with no move beyond that each of them contradicts the limits.
+ *      ,'     w1   \',     The reachable moves beyond a line are the hull of an arc. So the moves beyond any of several
+ *     /          \  | \    lines are in the hull of all their arcs, which has one line, the chord. It is moved outward
+ *    |     o      \ |  |   slightly, so that each way, with no move beyond the chord, contradicts the limits.
  *     \         w2/\| /
  *      ',       /  ,|'
- *         ' - ~ - '                                                                                                 */
+ *         ' - ~ - ' */
 static bool make_chord(const sunder_i_half_plane *way, size_t n, double reach, sunder_i_half_plane *out)
 {
     double middle = 0, low = 0, high = 0;

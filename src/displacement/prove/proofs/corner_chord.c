@@ -1,18 +1,17 @@
 /* Chords across corners that two sides of barriers share.
  *
  * Each side casts its shadow from the anchor a (geometry/obstacle_shadow.h). Where sides pb and bq meet in b, on either
- * side of the way from a through b, the two shadows have the ray beyond b as their common boundary: all of it is
- * forbidden, but lines that leave the one or the other leave a crack about it, which is as narrow as rounding, and no
- * line closes.
+ * side of the ray from a through b, the two shadows share the ray beyond b as their boundary. All of it is forbidden,
+ * but the lines of either shadow leave a gap around it, as narrow as rounding, that no line closes.
  *
- * Let p' be in the shadow of pb, q' in that of bq, and let the chord p'q' pass the ray at c, beyond b. The shadow of
- * pb is convex, holds p' and c, and holds what lies behind any of its points; so it holds all that lies behind p'c.
- * Likewise with q'. So what lies behind the chord is in the two shadows together, exactly and whatever p' and q' are,
- * and its ways are claims like others; and its lines pass the crack well to the left and the right.
+ * Let p' be in the shadow of pb, q' in that of bq, and let the chord p'q' cross the ray at c, beyond b. The shadow of
+ * pb is convex, contains p' and c, and contains everything behind any of its points; so it contains everything behind
+ * p'c. The same holds for q'. So everything behind the chord is in the union of the two shadows, exactly and whatever
+ * p' and q' are. Its ways are claims like others; and its lines pass the gap well to the left and the right.
  *
- * The corner is cut a little (CHORD of the sides), and the chord moved away from the anchor until it passes beyond b,
- * and a little more (BEYOND), so that rounding to doubles does no harm; what is wanted of it is asked of the doubles
- * then, by predicates. The sliver between b and the chord stays open to this. */
+ * The corner is cut off by a little (CHORD of the sides), and the chord is moved away from the anchor until it passes
+ * beyond b, and a little more (BEYOND), so that rounding to doubles does no harm; predicates test the required
+ * properties on the doubles. The sliver between b and the chord is not covered. */
 #include "displacement/prove/proofs/plane.h"
 #include "displacement/prove/proofs/tuning.h"
 
@@ -69,7 +68,7 @@ bool sunder_i_branching_make_chord(const double a[2], const double b[2], const d
         u[c] = way[c] + CHORD * (p[c] - b[c]);
         v[c] = way[c] + CHORD * (q[c] - b[c]);
     }
-    /* Where uv passes the ray: so many times as far as b is. */
+    /* Where uv crosses the ray, as a multiple of the distance of b. */
     const double left = cross(way, u), right = cross(way, v);
     if (!(size > 0) || !(left * right < 0)) return false;
     const double share = left / (left - right), passes = ((1 - share) * dot(u, way) + share * dot(v, way)) / size;

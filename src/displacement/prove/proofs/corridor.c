@@ -1,33 +1,31 @@
-/* Who may slide along a line only, and is on a lattice that has no other place there.
+/* A body that can only slide along a line, and whose lattice has no other place on that line.
  *
- * A block on both sides of a straight road, in conflict with it on both, may stand no nearer to the one side nor to the
- * other: what is left to it is to slide along the road. In the reals that is a way out; but moves are such that doubles
- * hold every corner afterwards, so they are multiples of the unit in the last place of the coordinates, and on the line
- * of a segment whose ends are doubles likewise the next such place is as far away as the segment is long, divided by
- * what the numbers of its two coordinates have in common. Mostly that is farther than any limit.
+ * A block on both sides of a straight road, in conflict with it on both, may get no nearer to either side: it can only
+ * slide along the road. Over the reals that is a solution; but after a move all corners must be doubles, so moves are
+ * multiples of the unit in the last place of the coordinates. On the line of a segment whose ends are doubles, the next
+ * such place is as far away as the segment is long, divided by the common divisor of its two coordinates. Usually that
+ * is beyond any limit.
  *
- * So where branching has led to a solution of the reals, it is asked whether one of the bodies that it was about is
- * held between two such lines. The lines have to be told without any rounding. The pair of a line is listed, and stands
- * no worse than it stood:
+ * So where branching has found a solution over the reals, this file tests whether one of its bodies is held between two
+ * such lines. The lines have to be known without any rounding. The pair of a line is listed, and may stand no worse
+ * than at the start:
  *
- *       A - B grown by what the two stood apart          N = a normal of A - B, a vector of doubles: the edge that it
- *      ___________________________                           is of has corners of doubles, and their difference is one
- *                 u = 0           \                      the line N.u = 0 passes the place where they stood, at the
- *      _____P___________Q______                              distance that they had: exactly that of the whole pair
+ *       A - B grown by the distance at the start         N = a normal of A - B, a vector of doubles: its edge has
+ *      ___________________________                           corners of doubles, and their difference is one
+ *                 u = 0           \                      the line N.u = 0 passes the original place, at exactly the
+ *      _____P___________Q______                              distance of the whole pair at the start
  *              A - B           \
  *
- * N.u >= 0 is then one of the ways out of the pair of parts, as half_planes.c finds them, in place of the one that is
- * next to it: of all of the boundary of what is forbidden, that line has to tell of what is on it alone, as long as no
- * other edge is nearly parallel to it. Whether the pair of parts stood as the whole pair did is asked exactly
- * (layer/barrier_pairs.h).
+ * N.u >= 0 then replaces the adjacent way among the ways of the pair of parts, as half_planes.c finds them: that line
+ * only has to cover its own part of the forbidden boundary, as long as no other edge is nearly parallel to it. That the
+ * pair of parts had the distance of the whole pair is tested exactly (layer/barrier_pairs.h).
  *
- * Of an overlap with a barrier no one pair of parts may be as deep as the whole: what lies across a road of several
- * pieces leaves it by the last of them. There the line is that at which this last one lets go of the road, so that its
- * slack v (feasibility.h) has to take it there, n.(u + v) >= h. If the overlap was h / |n| deep at most, no v does more
- * than h along n, and n.u >= 0 again. How deep it was is asked beside the hull of the feature, exactly.
+ * For an overlap with a barrier, no single pair of parts may be as deep as the whole: a feature across a road of
+ * several pieces leaves it by the last of them. There the line is the one at which this last piece lets go of the road,
+ * so that its slack v (feasibility.h) has to take it there, n.(u + v) >= h. If the overlap was at most h / |n| deep, no
+ * v contributes more than h along n, and n.u >= 0 again. The depth is tested against the hull of the feature, exactly.
  *
- * Of two such lines of one body, one opposite to the other, the first two branches are made;
- * between them its limit is 0 (branches.c). */
+ * Two opposite lines of one body make the first two branches; between them the limit of the body is 0 (branches.c). */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/reads.h"
 #include "displacement/prove/proofs/branching.h"
@@ -235,8 +233,8 @@ static bool is_extreme(const double *xy, size_t corners, const double n[2], cons
     return true;
 }
 
-/* The k-th edge of A - B, of the extreme corners `hull` of the feature that A is of: one that all of the feature has to
- * be moved to, along n, and at which it is as far as the pair's overlap at the start was deep. */
+/* The k-th edge of A - B, with the extreme corners `hull` of the feature that A belongs to: an edge such that moving
+ * the whole feature beyond it, along n, takes exactly the depth of the pair's overlap at the start. */
 static bool is_far_line(const sunder_i_branching *c, facing *f, size_t k, const double *hull, size_t corners)
 {
     double *n = f->wall.n, d[2];

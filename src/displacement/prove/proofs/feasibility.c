@@ -1,15 +1,14 @@
-/* A few bodies, their limits, and what they run into: is there no solution, or does this one do?
+/* A few bodies, their limits, and the things they meet: is there no solution, or does this one hold?
  *
- * The branch and bound starts from the bodies as they stand. A candidate (program.c) shows what is nearer than it
- * owes (violations.c), and for each there are ways out (half_planes.c), one of which any solution takes: a branch for
- * each, and each void in its turn (branches.c), or there is a candidate in which nothing meets. A body takes part once
- * something met it; who is never met stands where it was, and has no say. So a branch and bound is as large as the
- * conflict.
+ * The branch and bound starts with all bodies in place. A candidate (program.c) has violated distances (violations.c),
+ * and each has several ways out (half_planes.c), one of which every solution takes: each way is a branch. Either every
+ * branch is infeasible (branches.c), or a candidate violates nothing. A body takes part once another met it; a body
+ * that is never met stays in place and is irrelevant. So the size of a branch and bound is that of the conflict.
  *
- * What is asked is never more than what a solution owes: pairs that are held to less, pairs that may overlap (one
- * lies, or could come to lie, in the other, and the rules allow it) and bodies without a limit are left out, gaps
- * and limits are round where a line touches them and cut off inside elsewhere. So nothing that has a solution is
- * ever called infeasible; and every figure that a verdict stands on is rounded against it. */
+ * The question never demands more than a solution owes: pairs that are held to less, pairs that may overlap (one lies,
+ * or could come to lie, in the other, and the rules allow it) and bodies without a limit are left out; gaps and limits
+ * are round where a line touches them and cut off inside elsewhere. So nothing that has a solution is ever called
+ * infeasible; and every figure that supports a verdict is rounded against it. */
 #include "displacement/prove/proofs/branching.h"
 
 #include <math.h>
@@ -101,7 +100,7 @@ static sunder_status decide_in_plane(const sunder_i_subproblem *subproblem, cons
     return status;
 }
 
-/* First by lines that are as coarse as was asked for. */
+/* First with lines as coarse as requested. */
 static sunder_status ask_all(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, plane_told *told,
                              sunder_error *err)
 {
@@ -121,7 +120,7 @@ static sunder_status ask_all(const sunder_i_subproblem *subproblem, sunder_i_dec
     return status;
 }
 
-/* By what was told before. */
+/* By an earlier answer. */
 static sunder_status ask_precedent(const sunder_i_subproblem *subproblem, const sunder_i_precedent *precedent,
                                    sunder_i_decision *decision, plane_told *told, sunder_error *err)
 {

@@ -59,20 +59,20 @@ typedef struct sunder_i_subproblem {
     bool still;              /* only of a body between two lines, which has no place there but its own: corridor.c */
     bool every_side;         /* the sides of barriers that are not among them are heeded, too */
     bool any_jump;           /* features may jump over each other */
-    bool any_way;            /* and cross sides: no way is forbidden */
-    bool every_way;          /* the ways of all members of `body` are heeded, whoever else is not */
+    bool any_way;            /* and cross sides: no relative move is forbidden */
+    bool every_way;          /* the forbidden moves of all members of `body` count, even if other things do not */
     double instead;          /* > 0: a limit for those that have none; else they are not asked about */
     bool no_plane;           /* the plane of one relative move has been asked about, and had no answer */
-    bool fine_plane;         /* and by coarse lines it has none: it is not asked about by them */
-    sunder_i_planes *planes; /* NULL, or kept for who asks about the same bodies again */
-    /* NULL, or what was told before is tried first: then solutions are any that there are, and proofs. */
+    bool fine_plane;         /* and coarse lines give no answer: they are skipped */
+    sunder_i_planes *planes; /* NULL, or a cache for questions about the same bodies */
+    /* NULL, or earlier answers, which are tried first: then any solution, and any proof, may be returned. */
     sunder_i_precedents *precedents;
-    uint64_t effort; /* in constraints looked at; 0: the plane of one relative move is asked, and no more */
+    uint64_t effort; /* in constraints looked at; 0: only the plane of one relative move is examined */
     size_t most;     /* it ends where more bodies than these take part */
 } sunder_i_subproblem;
 
 typedef struct sunder_i_solution {
-    uint32_t *body; /* ascending: those asked about that may move, and what they met */
+    uint32_t *body; /* ascending: the movable bodies asked about, and the things they met */
     double *move;   /* [2 * bodies] */
     size_t bodies;
 } sunder_i_solution;
@@ -83,15 +83,15 @@ typedef struct sunder_i_decision {
     sunder_proof *proof;        /* if SUNDER_I_INFEASIBLE */
     uint64_t work;
     bool straight;             /* the proof is one chain, from end to end along nearly the same line */
-    bool no_plane, fine_plane; /* as above, for who asks again, of these things or fewer */
+    bool no_plane, fine_plane; /* as above, for later questions about these things or fewer */
 } sunder_i_decision;
 
-/* Who pushes whom in a cluster, kept for all questions about its conflicts; of one thread, and of one model, which does
+/* The links of a cluster, cached for all questions about its conflicts; for one thread, and for one model, which does
  * not change (chain.c). */
 typedef struct sunder_i_chains sunder_i_chains;
 
-/* Of the cluster whose bodies are the reserve, and what is required in it; all: of the fewest that cannot all be
- * solved, nothing being required but what is owed. NULL if memory is out. */
+/* For the cluster whose bodies are the reserve, with the requirements in force; all: for the smallest set that cannot
+ * be solved together, where every pair owes its full distance. NULL if memory is out. */
 sunder_i_chains *sunder_i_chains_new(const sunder_i_subproblem *cluster, bool all);
 void sunder_i_chains_free(sunder_i_chains *chains);
 /* Is there a proof that the things a and b of the subproblem push others to their limits, one after the other?
@@ -101,14 +101,14 @@ sunder_status sunder_i_chains_decide(sunder_i_chains *chains, const sunder_i_sub
 
 /* Is anything held to an overlap with a barrier? */
 bool sunder_i_may_have_slack(const sunder_i_subproblem *subproblem);
-/* The answer is to be cleared, also on failure. */
+/* The caller clears the answer, also after a failure. */
 sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, sunder_error *err);
 void sunder_i_decision_clear(sunder_i_decision *decision);
 void sunder_i_proof_free(sunder_proof *proof);
 /* The features that a proof names, and its barriers by their first parts, ascending: into set, which has room for three
  * a node. */
 size_t sunder_i_proof_things(const sunder_i_model *model, const sunder_proof *proof, uint32_t *set);
-/* Leaves nothing of it but whom it names: each two things of its inner nodes once. It proves nothing then. */
+/* Strips the proof to its feature list: the two things of each inner node, once. It can no longer be checked. */
 void sunder_i_proof_strip(sunder_proof *proof);
 
 #endif

@@ -1,34 +1,34 @@
-/* Half-planes of which one holds whatever parts A from B + u, proved in doubles.
+/* Half-planes such that every u that separates A from B + u lies in one of them, proved in doubles.
  *
- * Let K = A + (-B). Without a clearance the two are apart exactly when u is not in the interior of K, with a
- * clearance g exactly when u is not in that of K grown by the disc of radius g; call it O. Take any half-planes n.u
- * >= d such that each point of the boundary of O lies in one, and let T be what lies in none of them. T is convex,
- * so connected, and misses that boundary; so if one point of T is in O, all of T is, and whoever is outside O is in
- * one of the half-planes. So nothing needs to be known exactly: n may be any vector near the normal of an edge PQ,
- * as long as d is no more than n.P and n.Q, and even the order in which edges of A and B are merged may err where
- * they are parallel but for rounding: the boundary is then another closed curve in K around the same point.
+ * Let K = A + (-B). Without a clearance the two are apart exactly when u is not in the interior of K, with a clearance
+ * g exactly when u is not in the interior of K grown by the disc of radius g; call it O. Take any half-planes n.u >= d
+ * such that each point of the boundary of O lies in one, and let T be the set of points in none of them. T is convex,
+ * so connected, and misses that boundary; so if one point of T is in O, all of T is, and every u outside O is in one of
+ * the half-planes. So nothing needs to be known exactly: n may be any vector near the normal of an edge PQ, as long as
+ * d is at most n.P and n.Q. Even the order in which edges of A and B are merged may be wrong where they are parallel up
+ * to rounding: the boundary is then another closed curve in K around the same point.
  *
  *              n2    n'
- *              |   /         An edge's line stands off by g. Round the corner Q, between the directions n1, n2 of two
+ *              |   /         An edge's line is offset by g. Round the corner Q, between the directions n1, n2 of two
  *      ________Q____ n1      edges, each w of length 1 has n'.w >= c for c the less of n'.n1 and n'.n2, so the arc
  *              |             Q + g w is beyond n'.u = n'.Q + c g. Two such lines at a right angle make c 0.92.
  *              |
  *
- * So what is asked for at a corner is up to a thirteenth less than the clearance. Where a place matters that keeps all
- * of these lines, and not the clearance, one that is made for it stands for a turn so small that it passes beyond it.
+ * So at a corner up to a thirteenth of the clearance is lost. If a given place satisfies all of these lines but not the
+ * clearance, a line made for that place covers a turn so small that the place is behind it.
  *
- * Edges that turn by little, or not at all (two walls that face each other make one each), have one line for all, that
- * of their chord: two that are the same but for rounding would each be a case, and the cases of a row of houses double
- * with each.
+ * Edges that turn little, or not at all (two walls that face each other make one each), share one line, that of their
+ * chord: two lines that differ by rounding only would each be a case, and the cases of a row of houses double with
+ * each.
  *
- * A negative clearance -s: some v with |v| <= s takes u + v out of the interior of K. If T, made without a
- * clearance, has all of u + v in it, then u is not such; so the half-planes move inward by s.
+ * A negative clearance -s: some v with |v| <= s takes u + v out of the interior of K. If T, made without a clearance,
+ * contains all of u + v, then there is no such v; so the half-planes move inward by s.
  *
- * Rounding, with e = 2^-53 and S the sum over both coordinates of the greatest |a| + |b| + |offset|: corners less
- * their origin are off by e of themselves, and P = (a - b) - offset takes two more roundings: 3 e S in all, for both
- * coordinates; n.P adds 3 e |P|, and the last sum one more. So 8 e S = 2^-50 S is enough. The direction of an edge
- * of length l is off by no more than 2^-50 S / l, its tilt: the point Q + g n1 of the true n1 is within the line's
- * offset up to a share of its square, an arc's up to its own size. */
+ * Rounding, with e = 2^-53 and S the sum over both coordinates of the greatest |a| + |b| + |offset|: corners less their
+ * origin are off by e of themselves, and P = (a - b) - offset takes two more roundings: 3 e S in all, for both
+ * coordinates; n.P adds 3 e |P|, and the last sum one more. So 8 e S = 2^-50 S is enough. The direction of an edge of
+ * length l is off by at most 2^-50 S / l, its tilt: the point Q + g n1 of the true n1 is within the line's offset up to
+ * a share of its square, an arc's up to its own size. */
 #include "displacement/prove/proofs/half_planes.h"
 #include "displacement/geometry/obstacle.h"
 
@@ -75,7 +75,7 @@ static void add(walk *w, const double n[2], double base, double off)
     w->way[w->n++] = (sunder_i_half_plane){.n = {n[0], n[1]}, .d = d + off};
 }
 
-/* Edges of K, one after the other, of which one line tells: that of their chord. */
+/* Consecutive edges of K that share one line: that of their chord. */
 typedef struct run {
     double corner[2 * (MOST_IN_RUN + 1)];
     size_t edges;
@@ -90,8 +90,8 @@ static void begin_run(run *r, const double from[2], const double to[2], const si
     r->first = r->last = *s;
 }
 
-/* Can the two, of which the second goes on where the first ends, be told of by one line? Between edges that turn by t,
- * a chord of length l is no more than l tan(t / 2) / 2 from any corner, or l t / 2 where t is small. */
+/* Can two runs, the second continuing the first, share one line? Between edges that turn by t, a chord of length l is
+ * at most l tan(t / 2) / 2 from any corner, or l t / 2 where t is small. */
 static bool can_join(const walk *w, const run *r, const run *next)
 {
     const double sine = r->first.n[0] * next->last.n[1] - r->first.n[1] * next->last.n[0];
@@ -107,8 +107,8 @@ static void join(run *r, const run *next)
     r->last = next->last;
 }
 
-/* Every corner of the run is beyond its line, and so is what stands off by the gap in the direction of any normal of
- * the run, which is the line's up to a share of the square of what they turn by. */
+/* Every corner of the run is beyond its line, and so is everything at the gap's distance from it along any normal of
+ * the run; these normals agree with the line's up to a share of the square of their turn. */
 static void add_run(walk *w, const run *r)
 {
     const double g = w->parting->clearance, *p = r->corner, *q = r->corner + 2 * r->edges;
@@ -169,8 +169,8 @@ static void turn_to(const double n[2], double angle, const double end[2], double
     out[1] = beyond ? end[1] : v[1] / length;
 }
 
-/* Is the place that is asked about within the clearance of corner q, in a direction between the two? Then one line is
- * turned to there, and stands off by so much that it passes between the place and the arc. */
+/* Is the given place within the clearance of corner q, in a direction between the two? Then one line is turned to it,
+ * with an offset such that it passes between the place and the arc. */
 static bool turn_at(walk *w, const double q[2], const side *from, const side *to)
 {
     const double *at = w->parting->at, g = w->parting->clearance, tilt = from->tilt + to->tilt;

@@ -13,13 +13,13 @@ typedef struct sunder_i_parting {
     double vague;     /* corners are off by 2^-52 of this besides their own rounding: 0 if coordinates are doubles */
     double clearance;
     const double *at; /* NULL, or a relative move at which the lines are to tell whether the clearance is kept */
-    double coarse;    /* lines may be short by so much of what they could say, where one can stand for several */
+    double coarse;    /* by how much lines may fall short, where one can replace several */
 } sunder_i_parting;
 
 /* A half-plane of relative moves u of B. */
 typedef struct sunder_i_half_plane {
     double n[2], d; /* n.u >= d; n of length 1 within 2^-51 */
-    double at;      /* n.u - d where it matters */
+    double at;      /* n.u - d at the given place */
     size_t next;    /* in a proof: the node for this case */
 } sunder_i_half_plane;
 
@@ -27,8 +27,8 @@ typedef struct sunder_i_half_plane {
 #define SUNDER_I_HALF_PLANES_MORE 8
 
 /* Half-planes such that every u outside the shadow of A + (-B) from the origin (geometry/obstacle_shadow.h), or on its
- * boundary, lies in one of them, exactly; one of the two is an anchor, of one corner, and the clearance does not
- * matter. Room and answer as below; 0 too where the origin is too near to the obstacle. */
+ * boundary, lies in one of them, exactly; one of the two is an anchor, of one corner, and the clearance does not apply.
+ * Room and answer as below; also 0 where the origin is too near to the obstacle. */
 size_t sunder_i_half_planes_past(const sunder_i_parting *parting, sunder_i_half_plane *out);
 
 /* Half-planes such that every u at which the two keep their clearance lies in one of them, exactly. out: room for

@@ -1,6 +1,6 @@
-/* The ways between two pieces that are made for no place are the same for every candidate of a tree, and asked for in
- * hundreds of thousands of its nodes: so they are kept while it lasts. Where two pairs have one place, the last has it.
- * What is kept tells nobody anything but sooner: ways are the same, and what they cost is counted the same. */
+/* A cache of the ways between two pieces that are made for no particular place: they are the same for every candidate
+ * of a tree, and needed in hundreds of thousands of its nodes. Two pairs that hash to one slot evict each other. The
+ * cache only saves time: ways are the same, and their cost is counted the same. */
 #include "displacement/prove/proofs/branching.h"
 #include "displacement/prove/proofs/tuning.h"
 

@@ -1,4 +1,4 @@
-/* Who takes part in a branch and bound, and what they owe each other. */
+/* The participants of a branch and bound, and what they owe each other. */
 #include "displacement/layer/reads.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/prove/proofs/branching.h"

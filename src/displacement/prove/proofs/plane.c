@@ -1,17 +1,17 @@
-/* The same question in one plane: of a body that alone may move, among what stands, or of two by themselves, whose
- * relative move is all that matters.
+/* The same question in one plane: for a single movable body among fixed things, or for two bodies by themselves, where
+ * only their relative move matters.
  *
- * Then what claims leave of the moves is a convex polygon, and whatever forbids one of them covers a part of it. So all
- * pieces that are within reach have their ways made once, and the polygon is divided: by the ways of the piece that,
- * of those which hold its middle, takes most of it. What each way leaves is asked for again, of the pieces that meet
- * it; what none leaves a thing of is a leaf, and the two or three claims whose lines bound what was there, with the
- * limit, contradict each other. A middle that no piece holds is a place where nothing is forbidden.
+ * Then the claims leave a convex polygon of moves, and each thing that forbids moves covers a part of it. So all pieces
+ * within reach have their ways made once, and the polygon is divided by the ways of one piece: of those that cover its
+ * middle, the one that covers most of the polygon. Each part is divided again, by the pieces that meet it. An empty
+ * part is a leaf: the two or three claims whose lines bound it, with the limit, contradict each other. A middle that no
+ * piece covers is a place where nothing is forbidden.
  *
- * The polygon is in doubles, and decides nothing: it tells which claims to ask about (program.c). What is recorded is a
- * tree like any other.
+ * The polygon is in doubles, and decides nothing: it selects the claims to be tested (program.c). The record is a tree
+ * like any other.
  *
- * A block of eighty houses between five roads has some hundred pieces in its way, of which thirty are enough: a
- * candidate at a time (branches.c), all of the block is looked at again in each node, and the proof takes a hundred
+ * A block of eighty houses between five roads has some hundred pieces in its way, thirty of which suffice: by
+ * candidates (branches.c) the whole block would be examined again in each node, and the proof would take a hundred
  * times as long. */
 #include "displacement/prove/proofs/plane.h"
 
@@ -243,7 +243,7 @@ static bool find_bodies(const sunder_i_branching *c, sunder_i_plane *g)
     return moving == 1 || moving == 2;
 }
 
-/* Does nobody else have a say? */
+/* Is no other body relevant? */
 static bool is_all(const sunder_i_branching *c, const sunder_i_plane *g)
 {
     const sunder_i_subproblem *asked = c->subproblem;
@@ -258,7 +258,7 @@ static bool is_all(const sunder_i_branching *c, const sunder_i_plane *g)
     return true;
 }
 
-/* What is forbidden is found. False if memory is out. */
+/* Finds what is forbidden. False if memory is out. */
 static bool begin(sunder_i_branching *c, sunder_i_plane *g, sunder_i_planes *own)
 {
     g->i = sunder_i_branching_join(c, g->p);

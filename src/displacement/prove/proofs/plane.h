@@ -28,9 +28,9 @@ typedef struct sunder_i_plane_obstacle {
     uint32_t run, rank; /* rank: its place among those found, the same for all clearances */
 } sunder_i_plane_obstacle;
 
-/* Obstacles one after the other between the same two features or parts of barriers, which owe each other or of which f
- * may not pass g: all are forbidden, or none. What a pair owes in one question and what it is held to in others make a
- * run each, so that neither has to be made again. */
+/* Consecutive obstacles between the same two features or parts of barriers, which owe each other a distance or where f
+ * may not pass g: all are forbidden, or none. The full distance and a reduced requirement have a run each, so that
+ * neither has to be made again. */
 typedef struct sunder_i_plane_run {
     uint32_t f, g;
     bool shadow, side;
@@ -82,7 +82,7 @@ struct sunder_i_plane_kept {
     sunder_i_plane_choices proofs[2]; /* of the last question that was proved, of many of them and of few */
     sunder_i_half_plane *way;
     size_t ways, way_capacity;
-    uint64_t looked[3]; /* what finding pieces, anchors and sides costs who asks, be it done before */
+    uint64_t looked[3]; /* the counted cost of finding pieces, anchors and sides, even if cached */
 };
 
 typedef struct sunder_i_plane {
@@ -92,7 +92,7 @@ typedef struct sunder_i_plane {
     double reach;
     sunder_i_plane_region disc; /* the polygon around that */
     struct sunder_i_plane_kept *kept;
-    uint32_t *run; /* what is forbidden, as it was found */
+    uint32_t *run; /* the forbidden pieces, in order of discovery */
     size_t runs, run_capacity;
     size_t obstacles; /* of these, in reach */
     bool are_few;
@@ -101,7 +101,7 @@ typedef struct sunder_i_plane {
     sunder_i_plane_item **place; /* those in whose boxes the place is that is looked at */
     size_t about_place, place_capacity;
     const sunder_i_plane_choices *known; /* NULL, or of a question about nearly the same */
-    sunder_i_plane_item *fresh;          /* what is forbidden now that was not in it */
+    sunder_i_plane_item *fresh;          /* pieces forbidden now that were not forbidden then */
     size_t freshes, fresh_capacity;
     sunder_i_plane_choices made; /* in the question at hand */
     unsigned thin;               /* how often the region at hand was nothing but a sliver */
@@ -140,7 +140,7 @@ void sunder_i_plane_middle(const sunder_i_plane_region *region, const double nea
 
 /* ---- plane_obstacles.c ------------------------------------------------------------------------------------------- */
 
-/* Lists what may forbid moves of p beside q, or beside all that stands within reach. False if memory is out. */
+/* Lists the pieces that may forbid moves of p relative to q, or to everything within reach. False if memory is out. */
 bool sunder_i_plane_find(const sunder_i_plane *plane, struct sunder_i_plane_kept *kept);
 /* A box about what limits may leave of an obstacle, empty if nothing. */
 void sunder_i_plane_bound(const sunder_i_plane *plane, const sunder_i_plane_obstacle *obstacle, double clearance,
@@ -173,7 +173,7 @@ bool sunder_i_plane_index_list(const struct sunder_i_plane_kept *kept, const sun
 
 /* Looks for a question that was proved about nearly the same. False if memory is out. */
 bool sunder_i_plane_choices_begin(sunder_i_plane *plane);
-/* What was chosen for a region then, if it is the best still of what was forbidden then; NULL: that is not known. */
+/* The choice made earlier for a region, if it is still the best of the pieces forbidden then; NULL: not known. */
 const sunder_i_plane_choice *sunder_i_plane_choices_known(const sunder_i_plane *plane, uint32_t region);
 /* The first of the regions that what was chosen for one in the known question leaves, if that is this obstacle. */
 uint32_t sunder_i_plane_choices_below(const sunder_i_plane *plane, uint32_t region, uint32_t obstacle);
@@ -187,8 +187,8 @@ void sunder_i_plane_choices_free(sunder_i_plane_choices *choices);
 
 /* ---- plane_choose.c ---------------------------------------------------------------------------------------------- */
 
-/* Of those that hold the place, the one that takes most of the region, of equals the first that was found; its ways are
- * in c->scratch then. NULL: none does. known: what was chosen for that region of all that is not fresh, or NULL. */
+/* Of the pieces that cover the place, the one that covers most of the region, the first found of equal ones; its ways
+ * are in c->scratch then. NULL: none does. known: the choice for that region among all that are not fresh, or NULL. */
 const sunder_i_plane_obstacle *sunder_i_plane_choose(sunder_i_plane *plane, const sunder_i_plane_region *region,
                                                      const double u[2], const sunder_i_plane_choice *known,
                                                      double *share);
@@ -206,7 +206,7 @@ const sunder_i_plane_obstacle *sunder_i_plane_find_chord(sunder_i_plane *plane, 
 
 /* ---- plane_kept.c ------------------------------------------------------------------------------------------------ */
 
-/* What was kept of that plane, or is from now on. NULL if memory is out. */
+/* The cached data of that plane, created if needed. NULL if memory is out. */
 struct sunder_i_plane_kept *sunder_i_planes_take(sunder_i_planes *planes, const sunder_i_plane *plane);
 
 #endif

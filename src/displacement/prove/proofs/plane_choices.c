@@ -1,11 +1,10 @@
-/* What a plane was divided by, for who asks nearly the same of it again: without one feature of a proof, or about the
+/* A cache of the pieces that divided a plane, for nearly equal questions: without one feature of a proof, or about the
  * next conflict of the same two blocks.
  *
- * A region is divided by the obstacle that, of those which hold its middle, takes most of it. If that is forbidden in
- * the next question, too, it is the best still of all that was forbidden before; so only what is new has to be looked
- * at, a few pieces of the pair that is asked about, or nothing. Where it is the best again, the regions that its ways
- * leave are the same, and so on. So the choices are those that would be made without any knowledge, and cost who asks
- * as much. */
+ * A region is divided by the obstacle that covers its middle and most of it. If that obstacle is forbidden in the next
+ * question, too, it is still the best of everything forbidden before; so only new obstacles have to be examined, a few
+ * pieces of the pair in question, or none. If it remains the best, the regions that its ways leave are the same, and so
+ * on. So the choices equal those made without the cache, and their counted cost is the same. */
 #include "displacement/prove/proofs/plane.h"
 
 #include "base/list.h"

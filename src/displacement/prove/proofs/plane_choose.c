@@ -1,5 +1,5 @@
-/* What is in the way of a place in the plane of one relative move, and which of that a region is divided by: of all
- * that hold its middle, what takes most of it. */
+/* Which pieces cover a place in the plane of one relative move, and by which of them is a region divided? By the one
+ * that covers its middle and most of it. */
 #include "displacement/prove/proofs/plane.h"
 
 #include "base/extremes.h"
@@ -21,7 +21,7 @@ static bool holds(sunder_i_plane *g, sunder_i_plane_item *item, const double u[2
     return true;
 }
 
-/* No more of what is in the box is in that one. */
+/* An upper bound on the area that the two boxes share. */
 static double most_shared(const double box[4], const double of[4])
 {
     const double x = (box[2] < of[2] ? box[2] : of[2]) - (box[0] > of[0] ? box[0] : of[0]),
@@ -67,7 +67,7 @@ const sunder_i_plane_obstacle *sunder_i_plane_choose(sunder_i_plane *g, const su
     choice to = {.share = -1};
     sunder_i_box_clear(to.box);
     for (uint32_t k = 0; k < r->n; k++) sunder_i_box_include(to.box, r->xy + 2 * k);
-    to.whole = sunder_i_plane_area(r) * (1 - 0x1p-30); /* who takes so much takes all */
+    to.whole = sunder_i_plane_area(r) * (1 - 0x1p-30); /* a piece that covers this much covers all */
     if (g->thin) to.about = 2 * SLIVER * g->reach;     /* what begins in a seam does not cover it */
     if (known) {
         to.share = known->share;

@@ -1,10 +1,9 @@
-/* What is forbidden about a place in the plane of one relative move.
+/* Which obstacles are near a place in the plane of one relative move?
  *
- * Between two blocks of dozens of houses there are ten thousands of obstacles, of which a place is in some hundred, and
- * thousands of places are asked about. So there is a tree of boxes over all that were made, along a curve; those made
- * since stand behind it, and are looked at one by one, until they are too many. What a question does not heed is in the
- * tree all the same: its run is not asked. A question that heeds a small part of them lists these,
- * and looks at each. */
+ * Between two blocks of dozens of houses there are tens of thousands of obstacles; a place is in some hundred of them,
+ * and thousands of places are tested. So there is a tree of boxes over all obstacles, along a curve; later ones are
+ * appended and tested one by one, until they are too many. Obstacles that a question ignores are still in the tree:
+ * their run is skipped. A question that considers only a small part of them lists these, and tests each. */
 #include "displacement/prove/proofs/plane.h"
 
 #include "spatial/curve.h"
@@ -84,7 +83,7 @@ static void take(sunder_i_plane *g, sunder_i_plane_item *item, const sunder_i_pl
         if (sunder_i_plane_is_in(item->box, u) && run[item->run].asked) g->place[g->about_place++] = item;
 }
 
-/* Of few all are asked. No branches: they would be guessed wrong half of the time. */
+/* A short list is tested entirely. Without branches: half of them would be mispredicted. */
 static void take_few(sunder_i_plane *g, const double u[2])
 {
     size_t n = 0;

@@ -1,8 +1,7 @@
-/* Planes of relative moves that were asked about, for who asks about the same bodies again: two blocks of dozens of
- * houses stand in a hundred conflicts, each of which is asked about, and once more without each feature of its proof
- * (report/no_room.c). The pieces are the same each time, tens of thousands of them, and so are the ways of all but
- * those that are asked about. What is kept tells nobody anything but sooner: answers are the same, and what they cost
- * is counted the same. */
+/* A cache of the planes of relative moves, for questions about the same bodies: two blocks of dozens of houses stand in
+ * a hundred conflicts, each of which is examined, and again without each feature of its proof (report/no_room.c). The
+ * pieces are the same each time, tens of thousands of them, and so are the ways of all except those in question. The
+ * cache only saves time: answers are the same, and their cost is counted the same. */
 #include "displacement/prove/proofs/plane.h"
 
 #include <string.h>
@@ -31,7 +30,7 @@ static bool is_of(const struct sunder_i_plane_kept *kept, const sunder_i_plane *
     return kept->p == g->p && kept->q == g->q && kept->reach == g->reach && kept->coarse == g->c->subproblem->coarse;
 }
 
-/* The last that was asked about stands first. */
+/* The most recently used one stands first. */
 struct sunder_i_plane_kept *sunder_i_planes_take(sunder_i_planes *planes, const sunder_i_plane *g)
 {
     size_t at = 0;

@@ -1,7 +1,7 @@
-/* What is forbidden in the plane of one relative move: pieces that are nearer than they owe, and what anchors may not
- * pass. Which could be is a matter of the model alone, and is found once for all questions about the two bodies; what
- * they owe each other is the question's, of which most ask for the same of nearly all. The ways of each are made once,
- * as in violations.c, when the first place is asked about that they may be about: of most there is none. */
+/* The obstacles in the plane of one relative move: pieces that are nearer than they owe, and pieces that anchors may
+ * not pass. Which pieces qualify depends on the model alone, and is found once for all questions about the two bodies;
+ * what they owe each other depends on the question, and most questions agree on nearly all of it. The ways of each are
+ * made at most once, as in violations.c, when the first place near it is tested; most are never needed. */
 #include "displacement/layer/reads.h"
 #include "displacement/prove/proofs/plane.h"
 
@@ -75,7 +75,7 @@ static bool find_pieces(const finding *w, uint32_t other)
     return true;
 }
 
-/* Of what an anchor may not pass, if it reaches so far; swapped: the anchor is of q. */
+/* Adds a piece that an anchor may not pass, if it is within reach; swapped: the anchor belongs to q. */
 static bool find_shadow(const finding *w, uint32_t q, const sunder_i_body_piece *anchor,
                         const sunder_i_body_piece *piece, bool swapped, uint32_t f, bool side)
 {
@@ -166,7 +166,7 @@ static int by_things(const void *a, const void *b)
     return (p->first > q->first) - (p->first < q->first);
 }
 
-/* Makes one run of all between the same two things, so that what they owe is asked once. */
+/* Makes one run of all obstacles between the same two things, so that what they owe is determined once. */
 static bool join_runs(struct sunder_i_plane_kept *kept)
 {
     sunder_i_plane_obstacle *all = sunder_i_alloc(kept->n, sizeof *all);
@@ -205,8 +205,8 @@ bool sunder_i_plane_find(const sunder_i_plane *g, struct sunder_i_plane_kept *ke
 
 /* ---- What is forbidden ------------------------------------------------------------------------------------------- */
 
-/* A box that no relative move within the limits is outside of that is behind all ways of an obstacle: they stand for no
- * more than A + (-B) and its clearance, or its shadow, which is what is seen of it up to so many times as far off. */
+/* A box such that every relative move within the limits outside of it is behind all ways of an obstacle: its ways cover
+ * A + (-B) with its clearance, or its shadow, i.e. the part of it up to a bounded multiple of its distance. */
 void sunder_i_plane_bound(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, double clearance, double box[4])
 {
     const sunder_i_body *body = g->c->model->body;
@@ -324,7 +324,7 @@ static bool list_run(sunder_i_plane *g, size_t at, double clearance)
         at = kept->run[at].next;
     }
     if (kept->run[at].made)
-        g->c->looked += kept->run[at].cost; /* it costs who asks as much as the first */
+        g->c->looked += kept->run[at].cost; /* the counted cost is that of the first time */
     else if (!make_run(g, at, clearance))
         return false;
     kept->run[at].asked = true;

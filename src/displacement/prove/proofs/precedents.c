@@ -1,16 +1,16 @@
-/* What earlier questions about the same bodies told, for who asks the next one.
+/* Earlier answers about the same bodies, tried first for the next question.
  *
- * Two blocks of dozens of houses of which one stands in a yard of the other are in a hundred conflicts, and each is
- * asked about: has it a solution, if all others stay? What is in the way is nearly always the same few walls of the
- * yard. So the things that were enough for the last proof, and the two that are asked about, are asked first; the
- * answer is a proof for all, and a small one. And where one conflict has a solution, the same relative move solves most
- * others: a place where nothing was in the way is looked at before any is searched for. What is told is the same as
- * without; only which proof, or which solution, may be another. */
+ * Two blocks of dozens of houses, one of them in a yard of the other, are in a hundred conflicts, and each is examined:
+ * has it a solution, if all others stay? The obstacle is nearly always the same few walls of the yard. So the things
+ * that sufficed for the last proof, and the two in question, are tried first; the answer is a proof for the whole, and
+ * a small one. And if one conflict has a solution, the same relative move solves most others: a place that was free
+ * before is tested before any search. The verdict is the same as without; only the proof, or the solution, may
+ * differ. */
 #include "displacement/prove/proofs/branching.h"
 
 #include <string.h>
 
-/* Of those bodies, to the front; what is known least lately makes room for it. */
+/* Moves the entry of those bodies to the front, evicting the least recently used one if needed. */
 sunder_i_precedent *sunder_i_precedents_take(sunder_i_precedents *precedents, uint32_t p, uint32_t q)
 {
     size_t at = 0;

@@ -1,17 +1,17 @@
 /* The convex program of one node of a branch and bound, and the proof that it has no solution.
  *
- * The claims to the node say n.(t_j - t_i) >= d, and limits |t| <= L. Forces f >= 0 on the claims, of any size, prove
- * that no t does both if
+ * The claims up to the node say n.(t_j - t_i) >= d, and the limits |t| <= L. Forces f >= 0 on the claims, of any size,
+ * prove that no t satisfies both if
  *
  *     sum of f d  >  sum over the bodies of L |sum of f n, signed by the side of the pair|,
  *
- * for any t would make the left side at most the sum of f n.(t_j - t_i), which is at most the right [Farkas; BV04,
- * section 5.8]. The program's own forces are tried, whatever it restored with.
+ * since any t would make the left side at most the sum of f n.(t_j - t_i), which is at most the right [Farkas; BV04,
+ * section 5.8]. The program's own forces are tried, however inexact the program's own arithmetic was.
  *
- * Limits enter it as tangents, added where a solution oversteps one. The program asks for the solution nearest to the
- * last candidate (quadratic/nearest.c), which kept all but the last claim, and so is few steps away; and a hair more
- * than the claims say. What has a solution but not with that hair is asked without, and then, since between two walls
- * in one line there is room for rounding only, half a hair less. */
+ * Limits enter the program as tangents, added where a solution exceeds one. The program finds the solution nearest to
+ * the last candidate (quadratic/nearest.c), which satisfied all except the last claim, and so is few steps away; it
+ * demands slightly more than the claims say (a hair). If it has a solution, but not with that hair, it is solved
+ * without it, and then with half a hair less, since between two walls in one line there is room for rounding only. */
 #include "displacement/prove/proofs/branching.h"
 #include "displacement/prove/proofs/tuning.h"
 
@@ -22,14 +22,14 @@
 
 /* ---- The sum ----------------------------------------------------------------------------------------------------- */
 
-/* No force on either body of a claim so far. A sum is of those that claims are about, however many take part. */
+/* Resets the sums of the bodies that claims are about, however many take part. */
 static void begin(sunder_i_branching *c, const sunder_i_claim *s)
 {
     c->net[2 * s->i] = c->net[2 * s->i + 1] = c->weight[s->i] = 0;
     if (s->j != SUNDER_I_GROUND) c->net[2 * s->j] = c->net[2 * s->j + 1] = c->weight[s->j] = 0;
 }
 
-/* What the limit of a body loses; told once. */
+/* The share of a body's limit in the sum; each is counted once. */
 static double take_lost(sunder_i_branching *c, uint32_t b, double share)
 {
     const double *net = c->net + 2 * (size_t)b;
@@ -144,7 +144,7 @@ static bool add_tangent(sunder_i_branching *c, uint32_t b, const double to[2])
     return true;
 }
 
-/* Claims, of which that much more is asked, and tangents for those who stand at their limit. */
+/* Adds the claims, each increased by that amount, and tangents for bodies at their limit. */
 static bool load(sunder_i_branching *c, double margin)
 {
     sunder_i_quadratic *p = &c->program;

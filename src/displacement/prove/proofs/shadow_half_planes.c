@@ -1,20 +1,19 @@
-/* Half-planes of which one holds whatever relative move jumps over nothing, proved in doubles.
+/* Half-planes such that every relative move that jumps over nothing lies in one of them, proved in doubles.
  *
- * The shadow O = { s k : k in K, s >= 1 } of a convex K that does not hold the origin is closed, convex, and bounded by
- * the sides of K that the origin sees and by two rays. As in half_planes.c: if half-planes hold every point of that
- * boundary, what lies in none of them is convex and misses it; so if one point of it is in O, all of it is, and whoever
- * is outside O, or on its boundary, is in one of the half-planes.
+ * The shadow O = { s k : k in K, s >= 1 } of a convex K that does not contain the origin is closed, convex, and bounded
+ * by the sides of K that face the origin and by two rays. As in half_planes.c: if half-planes contain every point of
+ * that boundary, the set of points in none of them is convex and misses it; so if one of its points is in O, all are,
+ * and every point outside O, or on its boundary, is in one of the half-planes.
  *
- * A side that is seen, or that is thought to be, gives n.u >= d with d no more than n.P and n.Q, whatever n. A ray from
- * the corner L runs along s L, s >= 1, without end: so its line goes through the origin (d = 0), and n is tilted so far
- * towards L that n.C > 0 for every corner C that may be the true tangent corner in place of L, each in its direction up
- * to rounding; and for the sides between the two, which lie between such corners.
+ * A side that faces the origin, or seems to, gives n.u >= d with d at most n.P and n.Q, whatever n. A ray from the
+ * corner L consists of all s L, s >= 1: so its line goes through the origin (d = 0), and n is tilted towards L until
+ * n.C > 0 for every corner C that may be the true tangent corner in place of L, each in its direction up to rounding;
+ * and for the sides between the two, which lie between such corners.
  *
  * Rounding: corners of K are off by less than the slack of half_planes.c in each coordinate. Two corners that are taken
- * for one direction, though a cross product of theirs is of the other sign, are so by no more than 4 slack (|C| +
- * |L|); so C is beside the line of L by no more than 8 slack (1 + |C| / |L|), which is less than the tilt times |C|
- * where that is 2^6 slack / m, m the least distance of a corner. Where m is not 2^16 slack at least, nothing is
- * said. */
+ * for one direction, although their cross product has the other sign, satisfy that by at most 4 slack (|C| + |L|); so C
+ * is beside the line of L by at most 8 slack (1 + |C| / |L|), which is less than the tilt times |C| where that is 2^6
+ * slack / m, m the least distance of a corner. If m is below 2^16 slack, there is no answer. */
 #include "displacement/geometry/obstacle_shadow.h"
 #include "displacement/prove/proofs/half_planes.h"
 
@@ -29,7 +28,7 @@
 
 static double dot(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
 
-/* Corner k of A + (-B), of which one is a single corner; the other's order is turned where it is B. */
+/* Corner k of A + (-B), where one of the two is a single corner; the other's order is reversed if it is B. */
 static void corner(const sunder_i_parting *p, size_t k, double out[2])
 {
     const double *a = p->a + 2 * (p->na > 1 ? k : 0), *b = p->b + 2 * (p->nb > 1 ? k : 0);

@@ -5,11 +5,11 @@
 
 /* ---- A node's program (program.c) -------------------------------------------------------------------------------- */
 
-/* It is solved to this part of a hair, with tangents so often. */
+/* The program is solved to this part of a hair, with at most this many rounds of tangents. */
 #define SOLVED_TO 4
 #define ROUNDS 48
-/* A tangent is the same as another up to this cosine: there is less than a hair between them. Who is so far on the way
- * to the limit has one from the start. */
+/* Two tangents count as one up to this cosine: they differ by less than a hair. A body this close to its limit has a
+ * tangent from the start. */
 #define SAME_TANGENT (1 - 0x1p-40)
 #define AT_LIMIT 0.999
 
@@ -19,22 +19,22 @@
 #define DEEP 0.5
 /* What a look at two bodies' pieces costs, in constraints looked at. */
 #define LOOK_WORK 16
-/* Sides of the polygon that stands for the disc of limits where what they leave is measured, and the most corners that
- * cuts of it may make: what would make more is left out, and only a guess is worse for it. */
+/* Sides of the polygon that approximates the disc of limits in measurements, and the most corners that cuts of it may
+ * make; further cuts are skipped, which only makes an estimate worse. */
 #define DISC_SIDES 16
 #define MOST_CORNERS 96
 
 /* ---- Chains (chain.c, chain_links.c) ----------------------------------------------------------------------------- */
 
-/* Lines may be short by so much of how far two may go, which is lost at each link; else walls that are straight but for
- * little had a way for each part of them. */
+/* Lines may fall short by this share of how far two bodies may move, which is lost at each link; without it, walls that
+ * are nearly straight would have a way for each part of them. */
 #define CHAIN_COARSE 0x1p-14
 /* Ways that miss by less than this share are open; and what a chain has to win, as a share of what its pair misses: far
  * more than is added for rounding to a sum of a thousand forces. */
 #define CHAIN_HAIR 0x1p-36
 #define CHAIN_MARGIN 0x1p-20
-/* So much less than the chord of all that is open is told, as a share of reach; and half the arc, as an angle, of which
- * one is: that of more tells little. */
+/* A common line lies this much, as a share of reach, inside the chord of all open ways; and half the arc, as an angle,
+ * up to which a common line is used: for larger arcs it says little. */
 #define CHAIN_CHORD 0x1p-30
 #define CHAIN_WIDEST 2.1
 /* What it costs to look about a body, in links looked at; the most for one conflict, and links of one chain. */
@@ -42,12 +42,11 @@
 #define CHAIN_EFFORT 400000u
 #define CHAIN_MOST 1024
 
-/* Where all is owed (chain_fewest.c): the most links besides the pair's, and of so many links the best few that are
- * gone on with. */
+/* If every pair owes its full distance (chain_fewest.c): the most links besides the pair's, and for each length the
+ * number of best chains that are extended. */
 #define FEWEST_MOST 32
 #define FEWEST_KEPT 8
-/* Links of a straight chain are along the pair's line up to this cosine: who does not follow on one is beside
- * nobody. */
+/* Links of a straight chain follow the pair's line up to this cosine. */
 #define CHAIN_STRAIGHT 0.9
 
 /* ---- Ways that are kept (half_planes_kept.c) --------------------------------------------------------------------- */
@@ -57,13 +56,13 @@
 
 /* ---- Corners that two sides share (corner_chord.c) --------------------------------------------------------------- */
 
-/* A chord cuts off so much of the sides, and passes beyond the corner by so much of the way to it: far more than the
- * cracks between their shadows are wide, and rounding, and less than anything that matters. */
+/* A chord cuts off this share of the sides, and passes beyond the corner by this share of its distance: far more than
+ * rounding and the gaps between the shadows, and too little to matter. */
 #define CHORD 0x1p-16
 #define BEYOND 0x1p-24
 /* How far from the way through the corner, as a share of it, a move may be that a chord is looked for. */
 #define BESIDE 0x1p-20
-/* So many sides with an end there are looked at. */
+/* At most this many sides with an end there are examined. */
 #define SPOKES 32
 
 /* ---- Between two lines (corridor.c) ------------------------------------------------------------------------------ */
@@ -78,24 +77,23 @@
 /* Sides of the polygon around the limits, and the most corners of a region. */
 #define PLANE_SIDES 24
 #define PLANE_CORNERS 48
-/* It ends after so much: some ten milliseconds. Finding what holds a place counts as so much, and as this part of a
- * constraint for each obstacle. */
+/* The search ends after this much work: some ten milliseconds. Finding what covers a place counts as this much, plus
+ * this part of a constraint for each obstacle. */
 #define PLANE_EFFORT 4000000u
 #define PLACE_LOOK 64
 #define BOXES_A_STEP 8
-/* What was chosen before helps where no more than one in so many is forbidden that was not. */
+/* Earlier choices help if at most one in this many obstacles is newly forbidden. */
 #define PLANE_FRESH 8
-/* Of the tree of boxes over all that is forbidden: how many stand in a leaf; and one in so many, and so many, may stand
- * in no order, before it is made again. A question that heeds so few, or less than one in so many, looks at each of
- * them. */
+/* The tree of boxes over all obstacles: items in a leaf; the share, and the number, of unsorted ones before it is
+ * rebuilt; a question that considers at most this many, or less than this share, tests each of them. */
 #define PLANE_LEAF 4
 #define PLANE_LATE 8
 #define PLANE_FEW 512
 #define PLANE_PART 4
 /* Boxes about what is forbidden are wider by this share of the limits: far above rounding. */
 #define BOX_MARGIN 0x1p-40
-/* How wide the seam between two claims is taken to be, as a share of the limits, and half of that each time that one is
- * found in another: wider than rounding, narrower than what covers it. So often. */
+/* The assumed width of the seam between two claims, as a share of the limits, halved each time that a seam is found
+ * inside another: wider than rounding, narrower than what covers it. And how often it is halved. */
 #define SLIVER 0x1p-24
 #define MOST_SLIVERS 4
 

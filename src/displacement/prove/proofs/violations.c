@@ -86,7 +86,7 @@ static double find_depth_closely(sunder_i_branching *c, const sunder_i_body *p, 
     return sunder_i_branching_depth(c, sunder_i_branching_fill_ways(c, p, a, q, b, clearance, false, u), u);
 }
 
-/* A body, and where it stands. */
+/* A body and its position. */
 typedef struct standing {
     uint32_t number;
     const sunder_i_body *body;
@@ -302,7 +302,7 @@ static bool find_near(sunder_i_branching *c, const standing *s)
     return true;
 }
 
-/* First what nobody has to join for, so that a few are done with before there are more of them; then the deepest. */
+/* First violations that add no participant, so that small sets are settled before they grow; then the deepest. */
 static bool comes_before(const sunder_i_violation *o, const sunder_i_violation *than)
 {
     return o->known != than->known ? o->known : o->depth > than->depth;
@@ -372,7 +372,7 @@ static int by_nearness(const void *a, const void *b)
     return p->n[0] != q->n[0] ? (p->n[0] < q->n[0] ? 1 : -1) : (p->n[1] < q->n[1]) - (p->n[1] > q->n[1]);
 }
 
-/* What is kept, into c->scratch. */
+/* Copies the cached ways into c->scratch. */
 static size_t take_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
                         const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow)
 {
