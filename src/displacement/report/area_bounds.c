@@ -1,10 +1,10 @@
-/* What parts of the layer cost because their bodies share no area, where neither pairs nor contact groups prove nearly
- * what they cost.
+/* Bounds by area: what parts of the layer cost because their bodies share no area, where pairs and contact groups prove
+ * much less than the cost.
  *
- * A crowd has many parts: contact groups are those that press on each other in the end. So parts that were solved
- * together are asked together, those of them of which little is proved, and who has no part and was solved with them.
- * Of these pay those of which every two owe each other the gap. Of two that are listed the larger one does; where
- * features may lie in others, and owe them nothing then, nobody does. */
+ * A crowd has many parts, since contact groups are the bodies that push each other in the final layout. So parts that
+ * were solved together are bounded together, if little is proved of them, along with bodies that are in no part and
+ * were solved with them. Among these, bodies count that pairwise owe each other the gap. Of two bodies in a listed
+ * conflict only the larger one counts; where features may lie in others, and owe them nothing then, neither does. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
@@ -79,7 +79,7 @@ static void list_members(payers *p)
     qsort(p->member, p->members, sizeof *p->member, sunder_i_by_id_pair);
 }
 
-/* What the crowd costs, and what is proved of its parts. */
+/* The cost of the crowd, and what is proved of its parts. */
 static void measure(const payers *p, const sunder_i_id_pair *member, size_t n, double *cost, double *proved)
 {
     sunder_total costs = {0}, bounds = {0};

@@ -85,7 +85,7 @@ sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_sol
             status = find_blockers(s, c, &near, &blockers, err);
         else if (!take_from_proof(&s->model, c, report->proof[k], &blockers))
             status = sunder_i_no_memory(err);
-        if (blockers.n == first) continue; /* nobody to name, and perhaps no list yet */
+        if (blockers.n == first) continue; /* nothing to name, and perhaps no list yet */
         c->n_blocked_by = sunder_i_set_make(&blockers.item[first], blockers.n - first);
         blockers.n = first + c->n_blocked_by;
     }

@@ -1,10 +1,11 @@
-/* What no displacement can beat.
+/* The lower bound from pairs.
  *
  * If d is the least separation of a pair, every solution has |t_i| + |t_j| >= d. So its cost is at least the optimum of
  *     min sum w_i r_i^2,  r_i + r_j >= d_ij,  r >= 0,  r_i = 0 where i is fixed,
- * and by weak duality at least sum l_ij d_ij - sum_i (sum_j l_ij)^2 / (4 w_i), over bodies i that may move, for any l
- * >= 0. The multipliers l are found by coordinate ascent; they need not be optimal, only non-negative. The value is
- * then computed with every operation rounded against us: downwards what is added, upwards what is taken away. */
+ * and by weak duality at least sum l_ij d_ij - sum_i (sum_j l_ij)^2 / (4 w_i), over bodies i that may move, for any
+ * l >= 0. Coordinate ascent finds the multipliers l; they need not be optimal, only non-negative. The value is then
+ * computed with every operation rounded against us: terms that are added downwards, terms that are subtracted
+ * upwards. */
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 

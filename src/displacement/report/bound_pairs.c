@@ -83,7 +83,7 @@ static bool is_left(const sunder_i_solver *s, const sunder_i_relation *r)
     return false;
 }
 
-/* Of each pair of blocks the pair of members that is hardest to resolve; of those that were. */
+/* For each pair of blocks, the pair of members that is hardest to resolve, among those that were resolved. */
 sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver *s, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;

@@ -1,13 +1,13 @@
-/* What holds the features of a contact group where they are: the forces of its last program.
+/* The pushes that hold the features of a contact group in place: the forces of its last program.
  *
- * In the result every pair in contact stands on the boundary of what it may not do, and there has a half-plane that it
- * keeps: one for each piece that it touches. Of all moves that keep these half-planes, and limits, those of the result
- * cost least, up to rounding, where it is at an optimum; the multipliers say how hard each pair is pressed. They are
- * found in doubles, and decide nothing.
+ * In the result every pair in contact is on the boundary of its forbidden set, and keeps a half-plane there: one for
+ * each piece that it touches. Of all moves that keep these half-planes, and the limits, those of the result cost least,
+ * up to rounding, at an optimum; the multipliers tell how hard each pair is pushed. They are computed in doubles, and
+ * decide nothing.
  *
  *   several pieces of one pair    one push, the sum of theirs (renumber.c)
- *   a feature at its limit        the limit pushes too, and is nobody's pair
- *   a pair left in conflict       is held to the distance, or to the depth, that it had */
+ *   a feature at its limit        the limit pushes too, but is no pair
+ *   a pair left in conflict       is held to its distance, or its depth, at the start */
 #include "displacement/layer/reads.h"
 #include "displacement/prove/optimum/body_contact.h"
 #include "displacement/quadratic/quadratic.h"
@@ -38,7 +38,7 @@ typedef struct pressing {
     const sunder_i_group *group;
     sunder_i_waived waived;
     sunder_i_quadratic program;
-    sunder_push *push; /* of the constraints: whose */
+    sunder_push *push; /* the pairs that the constraints belong to */
     size_t push_capacity;
     sunder_i_list near;
     sunder_i_contact_list touch; /* of the pair looked at */
@@ -51,7 +51,7 @@ static size_t place_of(const sunder_i_group *g, uint32_t body)
     return at ? (size_t)(at - g->body) : SIZE_MAX;
 }
 
-/* What counts as contact: with what is asked beyond the gap. */
+/* The distance that counts as contact, including the margin beyond the gap. */
 static double hair_of(const pressing *p, const sunder_i_body *a, const sunder_i_body *b)
 {
     return sunder_i_contact_hair(&p->solver->model, a, b) + 2 * p->group->margin;
@@ -200,7 +200,7 @@ static bool append(sunder_report *report, size_t *capacity, const found_pushes *
 sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *s, sunder_error *err)
 {
     if (!s->model.rules.keep_pushes) return SUNDER_OK;
-    /* Without proofs nobody has asked for it yet. */
+    /* Without proofs they have not been computed yet. */
     const sunder_status status = s->groups.waived ? SUNDER_OK : sunder_i_solver_waive(s, err);
     if (status) return status;
     found_pushes found[LOTS_AT_ONCE];

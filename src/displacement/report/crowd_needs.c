@@ -1,14 +1,15 @@
-/* A limit that would free all that is left of a crowd. A question about one pair, with all others where they stand in
- * the result (question.c), is asked of a crowd in vain: nobody has room until everybody has. But layouts of a whole
- * cluster are known: where its bodies stood when limits were lifted, at first; and where that was given up, all of it
- * stretched (spread_out.c). The longest move of one that is a solution is a limit that does for all its pairs.
+/* A limit that would solve all remaining conflicts of a crowd. A question about one pair, with all others as in the
+ * result (question.c), is useless in a crowd: no feature has room unless the whole crowd spreads. But layouts of whole
+ * clusters are known: the positions of its bodies while limits were lifted; and where these were given up, the cluster
+ * stretched as a whole (spread_out.c). The longest move of a layout that is a solution is a limit that suffices for all
+ * its pairs.
  *
- * It is looked at exactly, in the place of the result: the bodies of the cluster are put there, and so is whoever is in
- * their way and has another place in it, until nobody is or one has none. Then no pair may be in conflict that is in
- * none in the result, none that stays so may stand worse than at the start, and nobody may have jumped. All others
- * stand as in the result; and all go back to where that has them. What it costs is to relate a cluster three times,
- * however many pairs are left of it. So crowds are asked before any of their pairs is asked about by itself, which is
- * then done for fewer of them (needs.c); of others only what these questions left open. */
+ * The layout is checked exactly, in place of the result: the bodies of the cluster are put there, and so is each body
+ * in their way that has another place in the layout, until none is in the way or one has no place. Then no pair may be
+ * in conflict that is not in conflict in the result, no remaining conflict may be worse than at the start, and nothing
+ * may have jumped. All others stand as in the result; afterwards all go back. The cost is to relate a cluster three
+ * times, however many of its pairs remain. So crowds are examined before any of their pairs is examined by itself,
+ * which is then done for fewer of them (needs.c); of other clusters only what these questions left open. */
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 #include "displacement/solve/clusters/stages.h"
@@ -23,12 +24,12 @@
 
 typedef struct crowd {
     sunder_report *report;
-    sunder_i_trial trial; /* whom it puts elsewhere, and where these stand in the result */
-    sunder_i_list body;   /* whom it begins with */
+    sunder_i_trial trial; /* the bodies that it moves, and their places in the result */
+    sunder_i_list body;   /* the bodies it begins with */
     const double *goal;   /* [2 * bodies] of the layout */
     bool *taken;          /* [bodies] */
     bool *stays;          /* [conflicts] of the report: in conflict in that layout, too */
-    bool any;             /* somebody more was put elsewhere */
+    bool any;             /* another body was moved */
 } crowd;
 
 static const double *goal(const crowd *g, uint32_t body) { return g->goal + 2 * (size_t)body; }
@@ -70,7 +71,7 @@ static const sunder_conflict *find_listed(const crowd *g, const sunder_i_relatio
     return NULL;
 }
 
-/* Who is in the way goes where the layout has it, too. */
+/* A body in the way goes to its place in the layout, too. */
 static sunder_status make_way(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {
     crowd *g = context;
@@ -168,7 +169,7 @@ static sunder_status free_by(crowd *g, const double *layout, const sunder_i_id_p
     for (size_t k = 0; k < n; k++) g->stays[item[k].b] = false;
     const sunder_status status = try_layout(g, &longest, err);
     *well = !status && g->trial.n && g->trial.well;
-    /* One unit above what is rounded once holds the move. */
+    /* A value rounded once is covered by one unit in the last place more. */
     longest = nextafter(longest, INFINITY);
     for (size_t k = 0; k < n && *well; k++) {
         sunder_conflict *c = &g->report->conflict[item[k].b];

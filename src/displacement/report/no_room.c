@@ -1,13 +1,13 @@
-/* Which conflicts that remain have no room, or are of a crowd that has none, with the proof of each.
+/* Which remaining conflicts have no room, or belong to a crowd that has none; with a proof of each.
  *
- * A conflict has no room if it and all pairs that are not listed cannot be solved together, every other listed pair
- * being held no worse than it stood. Each is asked about by itself (prove/proofs/feasibility.c). A proof is then made
- * irreducible: without one feature after another, what cannot be proved any more needs it, and so does every part of
- * it; as far as the effort goes.
+ * A conflict has no room if it and all unlisted pairs cannot be solved together while every other listed pair stands no
+ * worse than at the start. Each is examined by itself (prove/proofs/feasibility.c). A proof is then made irreducible:
+ * features are removed one after the other, and a feature stays if its removal leaves nothing provable, and so do all
+ * parts of it; as far as the effort goes.
  *
- * In a crowd what a pair is left for is not what all others have, but what a few about it would need, of which most are
- * left, too: one that has no such proof is crowded if a chain through it (prove/proofs/chain_fewest.c) proves that the
- * pairs of a few features cannot all be solved, whatever is left elsewhere. */
+ * In a crowd a pair remains in conflict not because of the unlisted pairs, but because a few features around it, most
+ * of them listed too, need more room than there is. A conflict without the proof above is crowded if a chain through it
+ * (prove/proofs/chain_fewest.c) proves that the pairs of a few features cannot all be solved, whatever else remains. */
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
@@ -56,8 +56,8 @@ static bool take_features(const sunder_i_model *model, const sunder_proof *proof
     return true;
 }
 
-/* Leaves out what the proof can do without, in order of number, while the effort lasts: the feature at hand, and what a
- * proof without it has no more use for. *budget: what it may take, and what of it is left. */
+/* Removes features that the proof can do without, in order of number, while the effort lasts: the current one, and
+ * those that a proof without it no longer uses. *budget: the effort allowed, reduced by what was spent. */
 static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_i_decide_subproblem decide, uint64_t *budget,
                             sunder_proof **proof, sunder_error *err)
 {
@@ -112,7 +112,7 @@ typedef struct matter {
     bool open;
     bool fine;  /* by coarse lines there is a solution */
     bool slack; /* and by fine ones, with a translation for each two parts that are held to an overlap */
-    bool still; /* and with such, too: but is there a place for it that doubles hold? Asked when all else was */
+    bool still; /* also with slack; but has it a place that doubles can represent? Tested after everything else */
     bool no_plane;
 } matter;
 
@@ -124,7 +124,7 @@ typedef struct asking {
     const size_t *first; /* [clusters + 1] matters, cluster after cluster */
     const sunder_i_requirement *required;
     size_t required_n;
-    uint64_t times; /* as much effort as without --effort */
+    uint64_t times; /* multiple of the effort of --effort 1 */
 } asking;
 
 static double farthest_of(const sunder_i_model *model, const uint32_t *body, size_t n)
@@ -137,9 +137,10 @@ static double farthest_of(const sunder_i_model *model, const uint32_t *body, siz
     return farthest;
 }
 
-/* The next of the ways to ask: first by lines that are a little coarse, which make smaller proofs; where that has a
- * solution, as finely as can be; where that has one, with a slack for what is held to overlaps. That is all that reals
- * tell; whether either of the two is held between two lines, with no place there that doubles hold, is for later. */
+/* The next way to ask: first with slightly coarse lines, which make smaller proofs; if that has a solution, with the
+ * finest lines; if that has one, with a slack for pairs that are held to overlaps. That is all that real arithmetic
+ * tells; whether one of the two is held between two lines, without a place that doubles can represent, is asked
+ * later. */
 static bool ask_closer(const sunder_i_subproblem *q, matter *m)
 {
     m->still = m->slack || (m->fine && !sunder_i_may_have_slack(q));
@@ -240,8 +241,8 @@ static sunder_status keep_crowded(const asking *g, const matter *m, const sunder
     return SUNDER_OK;
 }
 
-/* Does the pair push others to their limits, one after the other? What is longer than a few links is irreducible as it
- * comes, as far as such chains tell. crowd: NULL, or the budget of those that are of a crowd. */
+/* Does the pair push others to their limits, one after the other? A chain of more than a few links is irreducible from
+ * the start, as far as such chains tell. crowd: NULL, or the budget of pairs that belong to a crowd. */
 static sunder_status ask_chain(const asking *g, matter *m, sunder_i_subproblem *q, sunder_i_chains *chains,
                                uint64_t *crowd, sunder_error *err)
 {
@@ -276,7 +277,8 @@ static sunder_status ask_chains(const asking *g, matter *first, const matter *la
     return status;
 }
 
-/* When nothing else was proved: is it of a crowd, of which so many owe each other all, listed or not? */
+/* If nothing else was proved: does it belong to a crowd, a few features that all owe each other the full distance,
+ * listed or not? */
 static sunder_status ask_crowd(const asking *g, matter *first, const matter *last, const sunder_i_subproblem *cluster,
                                sunder_error *err)
 {
@@ -304,8 +306,9 @@ static uint32_t *members_of(const sunder_i_model *model, const uint32_t body[2],
     return set;
 }
 
-/* The same of two of which one has no limit: of them alone, whoever else is about. Beyond where they are apart for
- * certain nothing but shadows forbids a relative move, and what is shaded there was shaded before (pair_reasons.c). */
+/* The same for two features where one has no limit: for the two alone, whatever else is near. Beyond the distance at
+ * which they are certainly apart only shadows forbid a relative move, and what is shaded there was shaded before
+ * (pair_reasons.c). */
 static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_i_subproblem *q, uint64_t *pool,
                                        sunder_error *err)
 {
@@ -322,9 +325,8 @@ static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_
     return status;
 }
 
-/* All conflicts of a cluster that are open at one effort, before any is asked about at the next. Where it tells nothing
- * of so many, one after the other, they hang together by more than any proof could hold, and it is the last; of fewer
- * each time, since each costs more, and of a crowd of which the first tells nothing at all. */
+/* All open conflicts of a cluster at one level of effort, before any at the next level. If `patience` questions in a row get no answer, the cluster is too entangled for a proof, and the level is the last; the number falls with each level,
+ * since each costs more, and for a crowd where the first level answers nothing. */
 static sunder_status ask_cluster(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
                                  sunder_error *err)
 {
@@ -352,8 +354,9 @@ static sunder_status ask_cluster(const asking *g, matter *first, const matter *l
     return status;
 }
 
-/* Who stays where it is by its lattice is asked about when all that reals tell is told, with an effort of its own: such
- * questions are large and often in vain, and those that come after them in a cluster have to be left theirs. */
+/* Bodies that stay in place because of their lattice are examined once real arithmetic has told everything, with an
+ * effort of their own: such questions are large and often unanswered, and must not use up the effort of later ones in
+ * the cluster. */
 static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const asking *g = context;

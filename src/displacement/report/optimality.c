@@ -1,10 +1,11 @@
-/* The lower bound of the layer: what is proved of its contact groups, of pairs, or by prices of area, added up part by
- * part.
+/* The lower bound of the layer: what is proved of its contact groups, of pairs, or by prices of area, summed over the
+ * parts.
  *
- * No layout costs less than the sum over disjoint sets of bodies of what each cannot do without. A group's bound owes
- * what all pairs of its bodies owe that were not listed when it was proved, and of those that were that they stand no
- * worse than they stood, and remain disjoint if they were: so it counts if no other pair of them is listed now, none of
- * them overlaps that did not, and no body of it that may move was counted with another group. */
+ * No layout costs less than the sum, over disjoint sets of bodies, of the bound of each set. A group's bound assumes
+ * that all pairs of its bodies keep their distance, except those that were listed when it was proved; of those it
+ * assumes that they stand no worse than at the start, and remain disjoint if they were. So it counts if no other pair
+ * of its bodies is listed now, none of them overlaps that did not, and no movable body of it was counted with another
+ * group. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
@@ -55,8 +56,8 @@ static double cost_of(const sunder_i_model *model, const sunder_i_group *g)
     return cost * (1 + ((double)g->n + 8) * 0x1p-50);
 }
 
-/* What is proved of groups counts no more where it does not hold of the result; the others' costs, and how many of them
- * are optimal. */
+/* Discards what was proved of groups where it does not hold for the result; sums the others' costs, and counts those
+ * that are optimal. */
 static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver *s, sunder_error *err)
 {
     uint32_t *owner = sunder_i_alloc(s->model.bodies, sizeof *owner);
@@ -80,7 +81,7 @@ static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver
 static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, const sunder_i_parts *parts,
                                 sunder_i_bound_trees *of_pairs, sunder_error *err)
 {
-    size_t n = of_pairs->n + parts->areas; /* and room for those of areas */
+    size_t n = of_pairs->n + parts->areas; /* with room for those of areas */
     for (size_t k = 0; k < groups->n; k++) n += groups->group[k].trees.n;
     report->bound_tree = sunder_i_calloc(n, sizeof *report->bound_tree);
     if (!report->bound_tree) return sunder_i_no_memory(err);

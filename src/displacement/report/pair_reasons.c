@@ -1,12 +1,12 @@
-/* Why a pair is left in conflict that has no solution by itself, whoever else is in the layer: neither may move; their
- * limits are too short; or what their limits leave is forbidden by sides of barriers, or by the rule against jumps.
+/* Why a pair remains in conflict that has no solution by itself, whatever else is in the layer: neither may move; their
+ * limits are too short; or sides of barriers, or the rule against jumps, forbid everything within their limits.
  *
- * That a limit is too short is decided by the least translation of the pair, exactly; that no way is left by
- * branch and bound (prove/proofs/feasibility.c), which either proves it or is no answer. Its proof is kept: it names
- * whose way was in the way. For the limits the same branch and bound makes a record, where one is wanted. Of two
- * features that are shut in (solve/clusters/shut_in_pairs.c) it is known beforehand; a record is looked for all the
- * same, and where the effort ends first there is none. Where nobody wants more of it than who is in it, and that
- * can only be the two, it is not. */
+ * That a limit is too short is decided by the least translation of the pair, exactly; that no move is left by branch
+ * and bound (prove/proofs/feasibility.c), which either proves it or gives no answer. Its proof is kept: it names the
+ * features whose shadows are in the way. For limits the same branch and bound makes a record, if one is wanted. Two
+ * features that are shut in (solve/clusters/shut_in_pairs.c) are known beforehand; a record is still attempted, and if
+ * the effort ends first there is none. If only the feature list is wanted, which is the two themselves, no record is
+ * attempted. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/report/report.h"
@@ -30,11 +30,11 @@ typedef struct common {
     sunder_i_precedents precedents;
 } common;
 
-/* Which rules about ways the pair is asked about under. */
+/* The rules about relative moves that apply to the question. */
 typedef enum ways_heeded { NO_WAYS, SIDES, SIDES_AND_JUMPS } ways_heeded;
 
-/* The proof that the pair by itself, under those rules, has no solution; NULL if none is found. Whoever is of their
- * blocks goes with them. instead: a limit for who has none. */
+/* The proof that the pair by itself, under those rules, has no solution; NULL if none is found. Members of their blocks
+ * move with them. instead: a limit for bodies that have none. */
 static sunder_status prove_alone(const sunder_i_model *model, const sunder_conflict *c, ways_heeded ways,
                                  double instead, common *both, sunder_proof **proof, sunder_error *err)
 {
@@ -104,7 +104,7 @@ static bool is_told_enough(const sunder_i_model *model, const sunder_conflict *c
            model->body[model->body_of[c->b]].members == 1;
 }
 
-/* A record of which only that is left that it names nobody but the two. */
+/* A record that is stripped to the two features it names. */
 static sunder_status tell_of_nobody(sunder_proof **proof, sunder_error *err)
 {
     *proof = sunder_i_calloc(1, sizeof **proof);

@@ -1,15 +1,15 @@
-/* Trees for the bound of pairs, of parts of the layer of which it is more than contact groups prove: what counts is
- * what they prove, so that a reader has something to check, and what is told does not depend on whether there is one.
+/* Trees for the bound from pairs, for parts of the layer where it exceeds that of contact groups: the printed bound is
+ * what the trees prove, so that a checker can verify it, and the result does not depend on whether a proof is written.
  *
- * The bound of pairs is sum l d - sum (sum l)^2 / (4 w), by multipliers l (bound.c). A body shares its weight out
- * among its pairs as their multipliers are: w_ij = w l_ij / sum l. Then the least of w_ij |t_i|^2 + w_ji |t_j|^2 over
- * what the pair by itself may do is no less than its part of that sum, l d - l^2 / (4 w_ij) - l^2 / (4 w_ji), by weak
- * duality; and trees of one group add up whose weights of a body are no more than its own. So there is a tree of two
- * bodies for each pair, and those of a part are one group.
+ * The bound from pairs is sum l d - sum (sum l)^2 / (4 w), by multipliers l (bound.c). A body's weight is divided among
+ * its pairs in proportion to their multipliers: w_ij = w l_ij / sum l. Then the least of w_ij |t_i|^2 + w_ji |t_j|^2
+ * over the admissible relative moves of the pair is at least its part of that sum, l d - l^2 / (4 w_ij) - l^2 / (4
+ * w_ji), by weak duality; and the trees of one group add up if their weights for a body sum to at most its own. So
+ * there is a tree of two bodies for each pair, and the trees of a part are one group.
  *
- * What such trees prove is less by what counts as free in them, a share of some 2^-31. A pair that may get one inside
- * the other is nothing to them, for the two owe each other nothing then. Jumps and sides are not asked about: the least
- * translation of a pair does not ask, either. */
+ * Such trees prove slightly less, by a share of some 2^-31 that counts as free. They ignore a pair where one may get
+ * inside the other, since the two owe each other nothing then. Jumps and sides are not considered, as in the least
+ * translation of a pair. */
 #include "displacement/layer/reads.h"
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/report/report.h"

@@ -27,8 +27,8 @@ static int by_number(const void *x, const void *y)
     return a < b ? -1 : a > b;
 }
 
-/* The pair with the lesser first. The link of two that are apart runs from the one to the other; where they overlap
- * it is a translation of the second, of which the opposite does for the first. */
+/* The pair with the lesser number first. The link of two that are apart runs from the first to the second; where they
+ * overlap it is a translation of the second, and its opposite one of the first. */
 static void turn(sunder_conflict *c)
 {
     const size_t a = c->a;
@@ -141,7 +141,7 @@ static sunder_status number_blocks(int64_t *block, size_t n, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* Of several moves that are the longest the first feature's. */
+/* If several moves are the longest, the first feature's. */
 static void find_longest(sunder_report *report)
 {
     const double most = report->summary.max;

@@ -16,7 +16,7 @@ struct sunder_report {
     size_t conflicts;
     size_t *blocker;      /* what all blocked_by point into */
     sunder_proof **proof; /* [conflicts] NULL: there is none; the array too, in a check */
-    bool stripped;        /* of proofs no more is left than whom they name */
+    bool stripped;        /* proofs are stripped to the features they name */
     sunder_bound_pair *bound_pair;
     size_t bound_pairs;
     sunder_bound_tree *bound_tree;
@@ -41,8 +41,8 @@ struct sunder_report {
 
 /* A report of nothing as yet. */
 sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **out, sunder_error *err);
-/* Room for what is said of each feature, which is much in a large layer: blocks, and statuses of those that have not
- * moved. Once. */
+/* Allocates, once, the parts of the report that have an entry for each feature: blocks, and statuses of those that have
+ * not moved. */
 sunder_status sunder_i_report_features(sunder_report *report, const sunder_i_model *model, sunder_error *err);
 /* Moves, statuses and their sums, which are exact until they are rounded once: so they are the same however the work
  * was shared out and however features were listed. */
@@ -73,8 +73,7 @@ void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relati
 
 /* ---- seams_about.c ----------------------------------------------------------------------------------------------- */
 
-/* The seams of all bodies that questions about what is left in conflict, or was given up so far, may come to; before
- * any is asked, while it is sought or reported. */
+/* Makes the seams of all bodies that questions about remaining or given-up conflicts may reach; before any is asked. */
 sunder_status sunder_i_report_find_seams(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- pair_reasons.c ---------------------------------------------------------------------------------------------- */
@@ -107,9 +106,9 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
 
 /* ---- parts.c ----------------------------------------------------------------------------------------------------- */
 
-/* The layer in parts that have nothing to do with each other: bodies that hang together by pairs that a bound stands
- * on, or by a contact group of which something is proved. So what stands elsewhere has no say in which of the two
- * proves more. What is fixed holds none together. */
+/* Divides the layer into independent parts: bodies connected by pairs that contribute to a bound, or by a contact group
+ * of which something is proved. So which of the two proves more is decided in each part by itself. Fixed bodies connect
+ * nothing. */
 typedef struct sunder_i_parts {
     uint32_t *root;    /* [bodies] union-find */
     double *by_pairs;  /* [bodies] what the pairs prove of the part; at its root */
@@ -143,7 +142,7 @@ double sunder_i_part_bound(const sunder_i_parts *parts, uint32_t body);
 
 /* ---- area_bounds.c ----------------------------------------------------------------------------------------------- */
 
-/* Asks parts of which less than nearly all is proved what their area proves. Blocks are united for that. */
+/* Computes bounds by area for parts where less than nearly all of the cost is proved. Blocks are united for that. */
 sunder_status sunder_i_report_area_bounds(sunder_i_solver *solver, sunder_i_parts *parts, sunder_error *err);
 /* Adds the tree of each such part. */
 sunder_status sunder_i_report_area_trees(sunder_report *report, const sunder_i_solver *solver, sunder_i_parts *parts,
@@ -180,8 +179,8 @@ sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solve
 
 /* ---- crowd_needs.c ----------------------------------------------------------------------------------------------- */
 
-/* The need_shift of all conflicts of a cluster, from a layout of it that solves them, if one is known and it is not of
- * all: of clusters of many conflicts (crowds), or of the others. All stand as in the result before and behind. */
+/* The need_shift of all conflicts of a cluster, from a layout that solves them, if one is known and not all is solved:
+ * for clusters of many conflicts (crowds), or for the others. All bodies stand as in the result before and after. */
 sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver *solver, bool crowds,
                                           sunder_error *err);
 
@@ -207,8 +206,8 @@ sunder_status sunder_i_report_needs(sunder_report *report, const sunder_i_solver
 
 /* ---- spread_out.c ------------------------------------------------------------------------------------------------ */
 
-/* Moves that take boxes apart which are in conflict at the start, of bodies, ascending, and of those that stand where
- * they come to, which join them: into goal, which is of all bodies. *found: there are such. */
+/* Moves that separate boxes which are in conflict at the start, for bodies in ascending order, and for the bodies that
+ * stand where they move to: into goal, which has an entry for each body. *found: there are such moves. */
 sunder_status sunder_i_spread_out(const sunder_i_solver *solver, sunder_i_list *body, double *goal, bool *found,
                                   sunder_error *err);
 

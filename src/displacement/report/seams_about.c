@@ -1,13 +1,11 @@
-/* The seams that questions about what is left in conflict may come to. Few conflicts are left of a large layer, and a
- * question about one comes no farther than limits reach from the bodies of its cluster: so most of the layer needs
- * none.
+/* The seams that questions about remaining conflicts may reach. Few conflicts remain in a large layer, and a question
+ * about one reaches no farther than the limits from the bodies of its cluster: so most of the layer needs no seams.
  *
- * A question is about the two bodies of a conflict, and whoever of their clusters joins them, which those do that have
- * a limit (prove/proofs/participants.c). Each goes no farther than its limit; of the two of a conflict, where they have
- * none, no farther than what takes them apart for certain (pair_reasons.c). Looked at is whoever is within the gap of
- * where one may go, and, where the moves of two are asked about as one, what cannot move within the gap of where both
- * may go (prove/proofs/plane_obstacles.c). Seams of others are never looked at: nothing changes if there are more of
- * them. */
+ * A question is about the two bodies of a conflict and the bodies of their clusters that join, which only bodies with a
+ * limit do (prove/proofs/participants.c). Each moves at most by its limit; without limits, the two of a conflict at
+ * most by the distance that certainly separates them (pair_reasons.c). The question looks at bodies within the gap of
+ * these moves, and, where the relative move of two is examined, at fixed things within the gap of where either may go
+ * (prove/proofs/plane_obstacles.c). Seams of other bodies are never looked at; having more of them changes nothing. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
@@ -25,9 +23,9 @@ typedef struct looking {
     sunder_i_solver *solver;
     double *far;     /* [bodies] how far it goes, with a little to spare; negative: it is not asked about */
     bool *met;       /* [bodies] */
-    bool *gathered;  /* [bodies] by its root: the cluster is asked about */
+    bool *gathered;  /* [bodies] by its root: is the cluster asked about? */
     double most;     /* of these */
-    bool any, fixed; /* is one asked about? is there what cannot move? */
+    bool any, fixed; /* is one of them asked about? are there fixed things? */
 } looking;
 
 static void ask(looking *l, uint32_t b, double far)
@@ -102,8 +100,8 @@ static bool ask_given_up(looking *l)
     return ok;
 }
 
-/* Who stands within reach of a feature, of those that cannot move or of all. *left: how much may be looked up still.
- * False if memory is out. */
+/* The things within reach of a feature: the fixed ones, or all. *left: how many lookups remain. False if memory is
+ * out. */
 static bool meet(looking *l, uint32_t f, double reach, bool all, sunder_i_list *near, size_t *left)
 {
     const sunder_i_model *model = &l->solver->model;

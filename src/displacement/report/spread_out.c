@@ -1,17 +1,17 @@
-/* A layout of a cluster that takes no search: all of it, and whoever stands where it comes to, is stretched about its
- * middle, by one factor along x and one along y, and bodies go with the middles of their boxes.
+/* A layout of a cluster that needs no search: the cluster, and all bodies that stand where it expands to, is stretched
+ * about its middle, by one factor along x and one along y; each body moves with the centre of its box.
  *
- * Two boxes that are to be a gap apart are so along x if sx is at least what they need over what their middles are from
- * each other, or along y if sy is; and a pair that was apart along an axis comes no nearer along it. So every conflict
- * asks for an sx or an sy,
+ * Two boxes that must be a gap apart are so along x if sx is at least the required distance divided by that of their
+ * centres, or along y if sy is; and a pair that was apart along an axis comes no nearer along it. So every conflict
+ * demands an sx or an sy,
  *
- *       sy |  x               and any (sx, sy) will do that has each of the points to its left or below it: of the
- *          |    x   x         corners of that staircase the one is taken by which the farthest of the cluster, a corner
- *          |  x   x           of its box, has the shortest way.
+ *       sy |  x               and any (sx, sy) is sufficient that has each of the points to its left or below it: of
+ *          |    x   x         the corners of that staircase the one is taken for which the body farthest from the
+ *          |  x   x           middle, at a corner of the cluster's box, has the shortest move.
  *          +----------- sx
  *
- * Boxes that stand slanted ask for more than their features do, and what is no box may still be in conflict: who
- * asks has to look. */
+ * Boxes of features at an angle demand more than the features do, and shapes other than boxes may still be in conflict:
+ * the caller has to check. */
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 #include "displacement/solve/clusters/solver.h"
@@ -22,7 +22,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* What a conflict asks of the factors: one of the two. */
+/* A conflict's demand on the factors: one of the two suffices. */
 typedef struct asked {
     double x, y;
 } asked;
@@ -45,7 +45,7 @@ static void box_of(const sunder_i_solver *s, uint32_t body, double middle[2], do
     }
 }
 
-/* What a pair in conflict asks for. */
+/* The demand of a pair in conflict. */
 static asked ask(const sunder_i_solver *s, uint32_t i, uint32_t j)
 {
     double at[2], from[2], half[2], other[2], need[2];
@@ -55,7 +55,7 @@ static asked ask(const sunder_i_solver *s, uint32_t i, uint32_t j)
     return (asked){need[0], need[1]};
 }
 
-/* What the conflicts of these bodies at the start ask for; n of them. NULL if memory is out. */
+/* The demands of the conflicts of these bodies at the start; n of them. NULL if memory is out. */
 static asked *list_asked(const sunder_i_solver *s, const uint32_t *body, size_t bodies, size_t *n)
 {
     asked *list = sunder_i_alloc(1, sizeof *list);
@@ -148,7 +148,7 @@ static bool take_in(const sunder_i_solver *s, const stretch *g, sunder_i_list *b
     return ok;
 }
 
-/* The factors for all of these. */
+/* The factors for all of these demands. */
 static sunder_status find_stretch(const sunder_i_solver *s, const sunder_i_list *body, stretch *g, bool *found,
                                   sunder_error *err)
 {

@@ -1,5 +1,5 @@
-/* How many pairs would a small tolerance join? Layers drawn without snapping overlap by hairs along common walls;
- * whoever leaves the tolerance at 0 sees them as conflicts, and is told so. */
+/* How many pairs would a small tolerance join? Layers drawn without snapping have tiny overlaps along common walls; a
+ * user who leaves the tolerance at 0 gets them as conflicts, with this hint. */
 #include "displacement/report/report.h"
 
 #include "base/parallel.h"

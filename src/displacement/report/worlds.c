@@ -1,11 +1,11 @@
-/* Worlds: parts of the layer that had nothing to do with each other.
+/* Worlds: parts of the layer that did not influence each other.
  *
- * Two bodies are of one world if they were ever solved together, if they are in conflict or in contact, or if what
- * was looked at on behalf of the one was a place where the other stood at any time. So had a world's bodies, and
- * what stands still about them, been all there is, every question would have had the same answer, and each of them
- * would stand where it does. What was looked at is told in boxes (layer/reads.h): whoever has a part of a layer, and
- * in it everything that meets a world's boxes, has that world as the whole layer has it. A block is looked at as a
- * whole, whatever of it was met: by its other end it may be fixed. */
+ * Two bodies are of one world if they were ever solved together, if they are in conflict or in contact, or if a place
+ * read on behalf of one was a place where the other stood at any time. So had a world's bodies, and the fixed things
+ * near them, been the whole layer, every question would have had the same answer, and each body would stand where it
+ * does. Reads are recorded as boxes (layer/reads.h): a part of a layer that holds everything that meets a world's boxes
+ * yields that world exactly as the whole layer does. A block is read as a whole, whichever member was met: its other
+ * end may be fixed. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Beyond what is owed: contact is told up to a hair. */
+/* Beyond the distance owed: contact has a small tolerance. */
 #define HAIR 0x1p-16
 
 typedef struct gathering {
@@ -114,7 +114,7 @@ static void find_boxes(gathering *g)
     }
 }
 
-/* Who looked where another stood is of one world with it. */
+/* Joins a body with all bodies that stood where it was read. */
 static sunder_status meet_readers(gathering *g, uint32_t *world, sunder_error *err)
 {
     const size_t n = g->model->bodies;
@@ -242,7 +242,7 @@ static sunder_status count_pairs(sunder_report *report, const gathering *g, sund
     return SUNDER_OK;
 }
 
-/* What is proved of the part of which the body is the root. */
+/* What is proved of the part whose root is the body. */
 static sunder_world_bound bound_of(const sunder_report *report, uint32_t body)
 {
     if (!report->proved) return (sunder_world_bound){0, 0};
@@ -277,7 +277,7 @@ static sunder_status count_proved(sunder_report *report, const gathering *g, sun
     return SUNDER_OK;
 }
 
-/* As the caller numbers features. */
+/* By the caller's numbers of features. */
 static sunder_status keep_each(sunder_report *report, const gathering *g, sunder_error *err)
 {
     const sunder_i_model *model = g->model;
