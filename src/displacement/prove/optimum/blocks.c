@@ -6,19 +6,19 @@
  *     sum w |t|^2  =  sum over S of sum w^S |t - a^S|^2  +  sum over i of (w_i - W_i) |t_i|^2 + 2 t_i.v_i - c_i
  *                 >=  sum over S of opt(S)  -  sum over i of c_i + |v_i|^2 / (w_i - W_i),
  *
- * opt(S) the least that the block's bodies alone can cost so, of which its tree (tree.c) proves a bound. That holds for
- * any shares and places: so these are doubles as they come, v_i is nearly 0, and what it takes is added up against us.
+ * opt(S) the least cost of the block's bodies alone, for which its tree (tree.c) proves a bound. That holds for any
+ * shares and places: so these are doubles as computed, v_i is nearly 0, and its term is rounded against us.
  *
- * Good places make the layout's own the best for each block alone: then nothing is lost. With F_i^S the forces of the
- * block's contacts on a body (contact_forces.c), it stands still at a_i^S = t_i - F_i^S / (2 w_i^S); so blocks hold all
- * contacts that press, each once (block_cover.c). In a loose group these places are as good as any; in a dense one they
- * are worse than none, since under such pressure a block alone goes around what its neighbours would keep it from, and
- * places have to be found: where a block finds a better layout, that is a cut, which says how little can be proved at
- * any places, and places are asked next where the cuts promise most (bundle.c), while the effort lasts. Where little
- * more is promised, larger blocks may do, as long as they prove more.
+ * Good places make the layout itself the best for each block alone: then nothing is lost. With F_i^S the forces of the
+ * block's contacts on a body (contact_forces.c), it is at rest at a_i^S = t_i - F_i^S / (2 w_i^S); so the blocks
+ * together hold all contacts that push, each once (block_cover.c). In a loose group these places are as good as any. In
+ * a dense one they are worse than none, since under such pressure a block alone moves around obstacles in a way that
+ * its neighbours would prevent; places have to be searched for. A better layout of a block is a cut, which bounds what
+ * can be proved at any places, and the next places are where the cuts promise most (bundle.c), while the effort lasts.
+ * If little more is promised, larger blocks are tried, as long as they prove more.
  *
- * (Places drawn towards each other by a subgradient, as copies of a body drift apart, were a third as good: of a group
- * that costs 2,740 it proved 364 where this proves 690.) */
+ * (Moving places towards each other by a subgradient, as the copies of a body drift apart, was a third as good: of a
+ * group that costs 2,740 it proved 364 where this proves 690.) */
 #include "displacement/prove/optimum/blocks.h"
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/prove/optimum/tuning.h"
@@ -48,7 +48,7 @@ static void share_out(sunder_i_lagrangian *d)
     }
 }
 
-/* Every copy is drawn to so much of the way to where the contacts' forces hold it. */
+/* Every copy starts this share of the way to where the contacts' forces hold it. */
 static void draw(sunder_i_lagrangian *d, double part)
 {
     for (size_t m = 0; m < d->items; m++) {
@@ -169,8 +169,8 @@ static bool ask_block(sunder_i_lagrangian *d, size_t block, sunder_i_bound_trees
     return ok;
 }
 
-/* enough: what is less is of no use, -INFINITY as good; no block proves more than the layout costs it, so that may be
- * known before all are asked. */
+/* enough: a smaller result is useless, so -INFINITY may be returned for it; no block proves more than its part of the
+ * layout costs, so this may show before all blocks have been asked. */
 static bool evaluate(sunder_i_lagrangian *d, sunder_i_bound_trees *trees, double enough, double *bound)
 {
     double sum = 0, missed = 0;
@@ -205,8 +205,8 @@ static bool begin(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *bou
     return true;
 }
 
-/* With a stride of 1 the first proposal would be a way along the drift of the copies, each away from the mean of its
- * body's, on which everything that is missing would be proved if it went on as it begins. */
+/* With a stride of 1 the first proposal is a step along the drift of the copies, each away from the mean of its body's,
+ * that would prove everything missing if the bound kept growing at its initial rate. */
 static double first_stride(const sunder_i_lagrangian *d, const sunder_i_block_copy *best, double missing)
 {
     double square = 0;
@@ -220,7 +220,7 @@ static double first_stride(const sunder_i_lagrangian *d, const sunder_i_block_co
     return square > 0 ? FIRST_STRIDE * missing / (4 * square) : 1;
 }
 
-/* What is missing; in a crowd, of which blocks prove a small part, no more than they prove as yet. */
+/* The missing part of the bound; in a crowd, where blocks prove little, at most as much as they prove so far. */
 static double hoped_for(double cost, double now) { return now > 0 ? sunder_i_min(cost - now, now) : cost - now; }
 
 static void put_anchors(sunder_i_lagrangian *d, const double *x)
@@ -229,9 +229,9 @@ static void put_anchors(sunder_i_lagrangian *d, const double *x)
         for (size_t e = 0; e < 2 && d->item[m].share > 0; e++) d->item[m].anchor[e] = x[2 * m + e] / d->item[m].share;
 }
 
-/* Looks where the cuts known so far promise most, about the centre (`best`: copies; x: scratch), again and again. The
- * centre follows where a fair part of what was promised was proved; else strides become shorter. True: little more is
- * promised, and blocks took so little that larger ones may do. */
+/* Repeatedly evaluates the places where the known cuts promise most, around the centre (`best`: copies; x: scratch).
+ * The centre moves if a fair share of the promise was proved; otherwise strides become shorter. True: little more is
+ * promised, and blocks took so few steps that larger ones may pay. */
 static bool improve(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *centre, double *x, double *bound,
                     bool *ok)
 {

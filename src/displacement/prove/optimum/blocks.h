@@ -65,8 +65,8 @@ bool sunder_i_make_blocks(sunder_i_lagrangian *lagrangian);
 
 /* ---- blocks.c ---------------------------------------------------------------------------------------------------- */
 
-/* What is proved of the group by blocks, rounded downwards, in so many steps; the trees that it stands on are kept,
- * where that is asked for, if it is more than what is `known`. */
+/* The bound of the group proved by blocks, rounded downwards, within this many steps; its trees are kept, if requested
+ * and if it exceeds what is `known`. */
 sunder_status sunder_i_blocks_bound(const sunder_i_model *model, const sunder_i_waived *waived,
                                     const sunder_i_group *group, uint64_t steps, double known, double *bound,
                                     sunder_i_bound_trees *trees, sunder_error *err);

@@ -1,10 +1,9 @@
 /* Contacts of two bodies, in doubles.
  *
- * In a layout that was pressed together u, the move of the one less that of the other, stands on the boundary of the
- * pair's forbidden set (forbidden.h): of one piece along a wall, of two in a notch or where arcs meet. Each such piece
- * has a tangent there, and u on its far side. What rounding, and a margin beyond the gap, put between u and the
- * boundary is bridged by a hair: a share of the gap or, where that is 0, of the smaller body, so that a layer on
- * another scale has the same contacts. */
+ * In a compact layout the relative move u of two bodies in contact is on the boundary of the pair's forbidden set
+ * (forbidden.h): of one piece along a wall, of two in a notch or where arcs meet. Each such piece has a tangent there,
+ * with u on its far side. Rounding, and a margin beyond the gap, put u slightly off the boundary; a hair bridges that:
+ * a share of the gap or, if that is 0, of the smaller body, so that a layer on another scale has the same contacts. */
 #include "displacement/prove/optimum/body_contact.h"
 #include "displacement/layer/reads.h"
 #include "displacement/prove/optimum/tuning.h"

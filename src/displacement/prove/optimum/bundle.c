@@ -2,17 +2,16 @@
  *
  * The bound of blocks.c is a sum over blocks of concave functions of x, the places times the shares: each the least of
  * lines, one for every layout of the block. Layouts that were found are cuts: they bound the block's value from above
- * everywhere. Where to look next is where the sum of these promises most, less a square of how far that is, since cuts
- * know nothing of what is far away.
+ * everywhere. The next evaluation is where the sum of the cuts promises most, less a multiple of the squared distance,
+ * since cuts are unreliable far away.
  *
- * That is solved from the other side. Mix the cuts of each block by shares that add up to 1; with T the mix of where
- * they have the copies, and D of each copy its T less the mean over its member's copies, the promise is the least over
- * shares of
+ * That is solved in the dual. Mix the cuts of each block by shares that add up to 1; with T the mix of their positions
+ * of the copies, and D of each copy its T less the mean over its body's copies, the promise is the least over shares of
  *
  *     sum of shares (at_rest - 2 centre.t)  +  2 stride |D|^2,        at  x = centre - 2 stride D:
  *
- * the cuts are to be mixed so that copies agree. Shares go from the worst cut of a block that has any to its best, a
- * step of least squares at a time, block after block. It decides nothing: a bound is what trees prove at x. */
+ * the cuts are mixed so that copies agree. Shares are transferred from the worst cut of a block that has any to its
+ * best, by a least squares step, block after block. This decides nothing: a bound is what trees prove at x. */
 #include "displacement/prove/optimum/bundle.h"
 #include "displacement/prove/optimum/tuning.h"
 

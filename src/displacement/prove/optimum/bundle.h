@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Of one block: its least value at x is no more than `at_rest` - 2 x.t, the product over the copies of the block. */
+/* A cut of one block: its least value at x is at most `at_rest` - 2 x.t, the product over the copies of the block. */
 typedef struct sunder_i_bundle_cut {
     uint32_t block, before; /* the cut of that block before it */
     double at_rest;
@@ -30,7 +30,7 @@ typedef struct sunder_i_bundle {
     uint64_t steps;
 } sunder_i_bundle;
 
-/* The caller sets the numbers, and what is lent. False if memory is out; failure leaves what is freed. */
+/* The caller sets the numbers and the lent arrays. False if memory is out; the caller frees it in any case. */
 bool sunder_i_bundle_init(sunder_i_bundle *bundle);
 void sunder_i_bundle_free(sunder_i_bundle *bundle);
 /* A cut from the block's value at x, and where its bodies are for that: t, of its copies. False if memory is out. */

@@ -1,9 +1,9 @@
-/* The forces at the contacts of a layout: what would hold every body where it stands, if it were let go.
+/* The forces at the contacts of a layout: those that would hold every body in place, if it were let go.
  *
- * Each contact of two bodies is a half-plane of their relative move, tangent to the forbidden set where they stand, and
- * a body at its limit is in contact with the ground. Of a layout that cannot be bettered in small, the least cost under
- * these half-planes is its own, and the forces of that program say which contacts matter. In doubles: what is made of
- * them (blocks.c) is proved by itself. */
+ * Each contact of two bodies is a half-plane of their relative move, tangent to the forbidden set at its present value;
+ * a body at its limit is in contact with the ground. For a locally optimal layout, the least cost under these
+ * half-planes is its own, and the forces of that program tell which contacts matter. In doubles: results made from them
+ * (blocks.c) are proved separately. */
 #include "displacement/prove/optimum/blocks.h"
 #include "displacement/prove/optimum/tuning.h"
 

@@ -1,16 +1,16 @@
 /* Is a convex region within a union of convex pieces? Proved in doubles.
  *
- * It is if all its corners are in one piece, for pieces are convex. Else it is cut in two, and each half is asked for:
- * by the line along which the piece that holds its middle, and most of its corners, leaves it at the corner that is
- * farthest outside, so that pieces which overlap in a strip have to be met there and nowhere else; or, where that line
- * hardly goes through, across where the region is longest. If the middle of one is in no piece the answer is no. A
- * region is known up to its blur, a piece's polygon up to its own, and a distance up to a grain: so corners have to be
- * in by these together, and then the disc of radius blur about each is in the true piece (forbidden.c), and so is all
- * that lies between them.
+ * It is if all its corners are in one piece, since pieces are convex. Otherwise it is cut in two, and each half is
+ * tested. The cut goes through the piece that holds its middle and most of its corners, along the line by which it
+ * leaves the corner that is farthest outside, so that pieces which overlap in a strip have to meet there and nowhere
+ * else; or, if that line hardly cuts the region, across its longest extent. If the middle of a part is in no piece the
+ * answer is no. A region is known up to its blur, a piece's polygon up to its own, and a distance up to a grain: so
+ * corners have to be inside by all of these together; then the disc of radius blur about each is in the true piece
+ * (forbidden.c), and so is everything between them.
  *
- * What touches the boundary of the union from within can so not be covered: whoever asks leaves some room. A middle
- * that is in no piece is told: it says where the union has a gap. So is the middle of a region too small to be divided
- * again: there the union has one without width, between pieces that no more than touch. */
+ * A region that touches the boundary of the union from within cannot be shown to be covered: callers leave some room.
+ * An uncovered middle is returned: it shows a gap of the union. So is the middle of a region too small to be divided
+ * again: there the union has a gap without width, between pieces that only touch. */
 #include "displacement/prove/optimum/region.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -25,7 +25,7 @@ typedef struct covering {
     uint64_t steps, most;
     const sunder_i_forbidden_piece *last; /* that held a region: it may hold the next */
     double *gap;                          /* NULL, or for a place that is in no piece */
-    sunder_i_regions *left;               /* NULL, or for what is not covered */
+    sunder_i_regions *left;               /* NULL, or receives what is not covered */
 } covering;
 
 static bool is_in(covering *c, const sunder_i_forbidden_piece *p, const double u[2], double blur)
@@ -111,7 +111,7 @@ static bool find_leaving(covering *c, const sunder_i_forbidden_piece *p, const s
 
 static bool is_covered(covering *c, const sunder_i_region *r, int depth);
 
-/* What is on the side of n.u <= d, and then what is on the other. */
+/* Clips to n.u <= d, and then to the other side. */
 static bool are_halves_covered(covering *c, const sunder_i_region *r, const double n[2], double d, int depth)
 {
     const double back[2] = {-n[0], -n[1]};
@@ -123,7 +123,8 @@ static bool are_halves_covered(covering *c, const sunder_i_region *r, const doub
     return is_covered(c, &half, depth + 1);
 }
 
-/* What is not covered is left, if that is asked for: so far it counts as covered. It is small: there are few such. */
+/* Appends an uncovered region to the list, if requested; it then counts as covered for now. Such regions are small and
+ * few. */
 static bool leave_over(covering *c, const sunder_i_region *r)
 {
     return c->left && sunder_i_reserve(&c->left->item, &c->left->capacity, c->left->n + 1, sizeof *c->left->item) &&

@@ -1,9 +1,9 @@
-/* Groups that are crowded: of whose bodies many pairs are left in conflict.
+/* Crowded groups: many pairs of their bodies remain in conflict.
  *
- * What is asked of such a pair is that it stands no nearer than it stood, and where the search found no room for it,
- * it mostly stands just so. A layout with many of them hangs together by distances without room for rounding: what
- * shaking finds to be cheaper takes a hair of one or the other, and is put back as a whole. Nor does a tree of it prove
- * more than its pairs do by themselves. */
+ * Such a pair must stand no nearer than at the start, and where the search found no room for it, it usually stands
+ * exactly so. A layout with many of them is held by distances without room for rounding: a cheaper layout found by
+ * perturbation takes a tiny amount of some of these distances, and is undone as a whole. Nor does a tree of the group
+ * prove more than its pairs do by themselves. */
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/tuning.h"
 

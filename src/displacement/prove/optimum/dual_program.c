@@ -5,15 +5,17 @@
  *     sum w |t - a|^2  >=  D(f) = sum f (d - n.(a_j - a_i)) - sum over bodies |g_i|^2 / (4 w_i),
  *
  * g_i the sum of the forces' vectors on body i, signed by its side [weak duality, BV04, section 5.2]. That holds for
- * any f, so nothing depends on how they were found: sunder_i_dual_value() adds it up, with a bound on its own rounding.
- * And sum w |t - a|^2 >= D + sum w |t - t*|^2, t* = a + g / (2 w), which is what cuts by a disc stand on (tree.c).
+ * any f, so it does not matter how they were found: sunder_i_dual_value() evaluates it, with a bound on its own
+ * rounding. And sum w |t - a|^2 >= D + sum w |t - t*|^2, t* = a + g / (2 w), which cuts by a disc are based on
+ * (tree.c).
  *
- * The method: the cuts that act are equations, their forces positive, t the least for them. A cut that t violates is
- * pressed until it holds, or until another's force vanishes, which is let go. D never falls. Where the new cut is a
- * combination of those that act and none lets go, no t keeps them all: then forces along that combination prove any
- * value, and they are taken so large that `enough` is proved by evaluating it; where that fails the cut is left alone.
+ * The method: the active cuts are equations, their forces positive, and t is the minimiser for them. A cut that t
+ * violates gets a growing force until it holds, or until another's force vanishes, which is then released. D never
+ * falls. If the new cut is a combination of active ones and none can be released, no t keeps them all: then forces
+ * along that combination prove any value, and they are taken so large that evaluation proves `enough`; if that fails
+ * the cut is ignored.
  *
- * The products of the cuts that act are kept as a Cholesky factor, which grows by a row, and loses one by rotations. */
+ * The products of the active cuts are kept as a Cholesky factor, which grows by a row, and loses one by rotations. */
 #include "displacement/prove/optimum/dual_program.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -47,7 +49,7 @@ void sunder_i_dual_free(sunder_i_dual_program *p)
     memset(p, 0, sizeof *p);
 }
 
-/* Room for n rows; the factor is laid out anew. */
+/* Reserves room for n rows; the factor is laid out again. */
 static bool reserve(sunder_i_dual_program *p, size_t n)
 {
     if (n <= p->capacity) return true;
@@ -241,8 +243,8 @@ static size_t find_leaving(const sunder_i_dual_program *p, const double *r, doub
     return leaves;
 }
 
-/* Of a combination of those that act: what is less than this share of its largest factor is rounding, and no cut is let
- * go for it, or the new force would grow beyond all bounds. */
+/* In a combination of active cuts, factors below this share of the largest are rounding, and release no cut; otherwise
+ * the new force could grow without bound. */
 static double least_factor(const sunder_i_dual_program *p, const double *r)
 {
     double most = 0;
@@ -261,7 +263,7 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *p, uint32_t cut, 
         const double left = make_row(p, c, row, &square);
         const bool dependent = !(left > DEPENDENT * square);
         sunder_i_dual_place(p);
-        /* t so far is without the new force. */
+        /* t without the new force. */
         double missing = c->d - at_anchor(p, c);
         for (int e = 0; e < 2; e++) {
             const uint32_t b = e ? c->j : c->i;
@@ -298,10 +300,10 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *p, uint32_t cut, 
 /* ---- What the forces prove --------------------------------------------------------------------------------------- */
 
 /* Rounding, with e = 2^-53 and N forces. A term f (d - n.a) is off by at most 8 e of the sum of its parts' magnitudes;
- * a sum of N by N e of the sum of magnitudes more: (N + 9) e of it is enough, and to add up the magnitudes takes as
- * much again of itself. A component of g is off by (N + 1) e of the sum of |f n|, which is `weight` below, and |g|^2 /
- * (4 w) takes four roundings. Four times all that is taken, so that these sums may be rounded themselves; and 2^-900
- * for what falls below the normal numbers. */
+ * a sum of N by N e of the sum of magnitudes more: (N + 9) e of it is enough, and summing the magnitudes adds as much
+ * again. A component of g is off by (N + 1) e of the sum of |f n|, which is `weight` below, and |g|^2 / (4 w) takes
+ * four roundings. Four times all that is used, so that these sums may be rounded themselves; and 2^-900 for
+ * underflow. */
 double sunder_i_dual_value(sunder_i_dual_program *p)
 {
     const double unit = 4 * ((double)(p->acting_n + p->bodies) + 16) * 0x1p-53;

@@ -23,7 +23,7 @@ typedef struct sunder_i_dual_program {
     size_t bodies;
     const double *weight; /* [bodies] */
     const double *mass;   /* [bodies] 1 / (2 weight), or 0 for what is fixed, whose t is its anchor */
-    const double *anchor; /* [2 * bodies] a; 0 for what is fixed */
+    const double *anchor; /* [2 * bodies] a; 0 for fixed ones */
     const sunder_i_move_cut *cut;
     sunder_i_cut_force *acting; /* [acting_n] */
     size_t acting_n, capacity;

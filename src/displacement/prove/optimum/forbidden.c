@@ -1,21 +1,20 @@
 /* The forbidden set of a pair, piece by piece.
  *
  * Where convex pieces A and B of two bodies owe each other the distance g, the relative move u may not be in the open
- * set (A + (-B)) grown by the disc of radius g. So of two bodies the forbidden set is a union of such pieces, arcs and
- * all. Of pairs that are listed in the report it is asked that they stand no nearer than they stood; if they overlap
- * still, as they did, that some translation no longer than the one that parted them leaves them disjoint: u may not be
- * where the disc of that radius about it lies in the union of the pair's open pieces, as it does where it lies in one.
- * Nothing is asked of those of which one lies in the other, or could get there, with leave to overlap it: leaving them
- * out makes the set smaller, and a bound no more than weaker.
- * Courtyards are no matter: the pieces of a feature fill it, and nothing else. Shadows of what anchors may not pass,
- * and of the lines that side anchors may not cross, are further pieces, and nobody is let off them.
+ * set (A + (-B)) grown by the disc of radius g. So the forbidden set of two bodies is a union of such pieces, arcs
+ * included. Listed pairs must stand no nearer than at the start; if they still overlap, as at the start, some
+ * translation no longer than the one that separated them must leave them disjoint: u may not be where the disc of that
+ * radius about it lies in the union of the pair's open pieces, in particular where it lies in one of them. Pairs where
+ * one lies in the other, or could get there, with leave to overlap, are omitted, which makes the set smaller and a
+ * bound at most weaker. Courtyards need no care: the pieces of a feature fill it, and nothing else. Shadows of features
+ * that anchors may not pass, and of lines that side anchors may not cross, are further pieces, without exceptions.
  *
  * Rounding, with e = 2^-53: a corner less its origin is off by e of itself (2^-52 of the coordinates where the shape is
- * rational, whose corners are the nearest doubles), and a - b - offset takes two more roundings, so that 8 e S = 2^-50
- * S is enough for a corner, S the sum over both coordinates of the greatest |a| + |b| + |offset|. Every corner of K so
- * is near the difference of a corner of A and one of B, in whatever order edges were merged: K lies in the true polygon
- * grown by that. By the cancellation law for convex sets, what is in K by as much, or nearer to K than the radius less
- * as much, is in the true piece. */
+ * rational, whose corners are the nearest doubles), and a - b - offset takes two more roundings, so 8 e S = 2^-50 S is
+ * enough for a corner, S the sum over both coordinates of the greatest |a| + |b| + |offset|. So every corner of K is
+ * near the difference of a corner of A and one of B, in whatever order edges were merged: K lies in the true polygon
+ * grown by that. By the cancellation law for convex sets, a point in K by at least that much, or nearer to K than the
+ * radius less that much, is in the true piece. */
 #include "displacement/prove/optimum/forbidden.h"
 #include "displacement/geometry/obstacle_shadow.h"
 #include "displacement/layer/resolution.h"
@@ -159,9 +158,10 @@ static size_t move_inwards(const sunder_i_obstacle_edge *edge, size_t edges, dou
     return n;
 }
 
-/* All u about which the disc of that radius lies in the piece, whose corners are xy: K moved inwards by as much, and by
- * all that its corners may be off. For each corner of what is kept it is asked whether the disc about it is in K, with
- * room for rounding: by the cancellation law its like is in the true piece then, and what is kept is not vague. */
+/* All u such that the disc of that radius about u lies in the piece, whose corners are xy: K moved inwards by the
+ * radius, and by the error of its corners. For each corner of the result, the disc about it is tested to be in K, with
+ * room for rounding: by the cancellation law the corresponding disc is in the true piece then, and the result has no
+ * blur. */
 static bool add_eroded(listing *l, sunder_i_forbidden_piece *piece, const double *xy, size_t n, double depth)
 {
     sunder_i_forbidden *f = l->out;
@@ -255,9 +255,9 @@ static bool add_covers(listing *l, const sunder_i_body *of, const sunder_i_body 
     return true;
 }
 
-/* The shadow of K = a + (-B) from u = 0, where a is an anchor of the one body and B a piece of the other, as far as it
- * matters: the hull of K and of K drawn out so far that it is out of reach. That lies in the shadow, which is convex;
- * its corners are off by as many times more. What K's own rounding could bring to 0 has no shadow here. */
+/* The shadow of K = a + (-B) from u = 0, where a is an anchor of one body and B a piece of the other, as far as it is
+ * within reach: the hull of K and of K scaled up beyond reach. It lies in the shadow, which is convex; the errors of
+ * its corners scale likewise. If rounding could bring K to 0 there is no shadow here. */
 static bool add_shadow(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
 {
     sunder_i_forbidden *f = l->out;

@@ -24,7 +24,7 @@ typedef struct sunder_i_forbidden {
     sunder_i_obstacle_edge *edge;
     size_t edges, edge_capacity;
     sunder_i_box_tree tree; /* over the first pieces, where they are many; else its box is NULL */
-    double size;            /* no coordinate of the pieces grown, or of what is asked of them, is larger */
+    double size;            /* bound on coordinates of the grown pieces, and of places that are tested */
     double grain;           /* more than rounding does to any point, distance or product of that size */
 } sunder_i_forbidden;
 
@@ -34,7 +34,7 @@ typedef struct sunder_i_forbidden {
 typedef struct sunder_i_waiver {
     uint32_t a, b;
     double stood; /* at the start: a clearance, as of layer/requirement.h */
-    bool overlap; /* as things stand */
+    bool overlap; /* in the present positions */
 } sunder_i_waiver;
 
 /* What the pair is held to. */
@@ -46,7 +46,7 @@ static inline double sunder_i_waiver_clearance(const sunder_i_waiver *waiver)
 typedef struct sunder_i_waived {
     const sunder_i_waiver *pair; /* sorted */
     size_t n;
-    const bool *seamed; /* [bodies] of which shadows of what covers their diagonals count too; NULL: of none */
+    const bool *seamed; /* [bodies] whose shadows include those of pieces that cover their diagonals; NULL: none */
 } sunder_i_waived;
 
 /* ---- forbidden.c ------------------------------------------------------------------------------------------------- */
@@ -58,15 +58,15 @@ const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sun
  * False if memory is out; failure leaves what sunder_i_forbidden_free() takes. */
 bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model *model, const sunder_i_waived *waived,
                              uint32_t p, uint32_t q, double reach);
-/* As sunder_i_forbidden_init(), without what anchors and side anchors may not pass. */
+/* As sunder_i_forbidden_init(), without the shadows of anchors and side anchors. */
 bool sunder_i_forbidden_without_ways(sunder_i_forbidden *forbidden, const sunder_i_model *model,
                                      const sunder_i_waived *waived, uint32_t p, uint32_t q, double reach);
 /* All pieces that come within a hair of u, and a few others. */
 bool sunder_i_forbidden_init_near(sunder_i_forbidden *forbidden, const sunder_i_model *model,
                                   const sunder_i_waived *waived, uint32_t p, uint32_t q, const double u[2],
                                   double hair);
-/* As sunder_i_forbidden_init(), with what covers the diagonals between pieces (layer/seams.c), and about `most` pieces
- * at most: all of it only where they are no more. */
+/* As sunder_i_forbidden_init(), with the pieces that cover the diagonals between others (layer/seams.c), and with at
+ * most about `most` pieces: complete only if there are no more. */
 bool sunder_i_forbidden_with_seams(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t p, uint32_t q,
                                    double reach, size_t most);
 void sunder_i_forbidden_free(sunder_i_forbidden *forbidden);
@@ -78,7 +78,7 @@ bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q
 /* *shut: proved, whatever the two do, one jumps over the other, crosses a side, or they stand too near each other.
  * Seams are to be known. False if memory is out. */
 bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, bool *shut);
-/* The same of n pairs of their features: where of all that may be too near those two alone are asked about. */
+/* The same for n pairs of their features: if those two alone, of all that may be too near, are asked about. */
 bool sunder_i_which_are_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, const sunder_i_id_pair *pair,
                                 size_t n, bool *shut);
 
@@ -88,7 +88,7 @@ bool sunder_i_which_are_shut_in(const sunder_i_model *model, uint32_t p, uint32_
 bool sunder_i_forbidden_index(sunder_i_forbidden *forbidden);
 static inline bool sunder_i_forbidden_is_many(const sunder_i_forbidden *forbidden) { return forbidden->tree.box; }
 
-/* What it takes to ask of one place, in steps. */
+/* The cost of testing one place, in steps. */
 static inline uint64_t sunder_i_forbidden_look(const sunder_i_forbidden *forbidden)
 {
     return sunder_i_forbidden_is_many(forbidden) ? 128 : forbidden->pieces + forbidden->edges / 4;

@@ -1,7 +1,7 @@
-/* What is asked of a forbidden set at a place, or along a ray, in doubles.
+/* Tests of a forbidden set at a place, or along a ray, in doubles.
  *
- * Of a set of many pieces those near by are found by a tree of boxes over them, in the order of a curve; of a few each
- * is looked at. What is answered is the same, up to which of several pieces comes first. */
+ * In a set of many pieces, a tree of boxes over them, in the order of a curve, finds those near by; in a set of a few,
+ * each is tested. The answers are the same, except for which of several pieces comes first. */
 #include "displacement/prove/optimum/forbidden.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -155,7 +155,7 @@ static void cross(const crossing *c, const sunder_i_obstacle_edge *e, double off
         const double mid = wx * c->dir[0] + wy * c->dir[1], half = sqrt(under);
         widen(span, mid - half, mid + half);
     }
-    /* The edge moved out is crossed so far along it as `out` is to `across`, of which the signs are made alike. */
+    /* Where the offset edge is crossed, as the ratio of `out` to `across`, whose signs are made equal. */
     const double across = e->n[0] * c->dir[0] + e->n[1] * c->dir[1],
                  out = off + c->radius * (e->n[0] * c->dir[1] - e->n[1] * c->dir[0]), along = across < 0 ? -out : out,
                  speed = fabs(across);
@@ -164,9 +164,9 @@ static void cross(const crossing *c, const sunder_i_obstacle_edge *e, double off
     widen(span, s, s);
 }
 
-/* The line meets the piece grown, if at all, in a segment; its ends are on edges moved out, or on discs about corners,
- * and all that is there is in the piece. Most edges lie on one side of the line, with both corners and the discs about
- * them: nothing else is to be asked of those. */
+/* The line meets the grown piece, if at all, in a segment; its ends are on offset edges, or on discs about corners, and
+ * everything there is in the piece. Most edges lie on one side of the line, with both corners and the discs about them,
+ * and need no further test. */
 bool sunder_i_forbidden_span(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece, const double from[2],
                              const double dir[2], double span[2])
 {

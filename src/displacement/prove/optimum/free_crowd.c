@@ -1,10 +1,9 @@
-/* Groups that may go anywhere, of whom prices of area tell more than blocks do.
+/* Groups that may go anywhere, where prices of area prove more than blocks do.
  *
- * Where every two owe each other the gap and nothing holds anybody, the report asks for prices of all ground that such
- * a crowd stands on (../../report/area_bounds.c): thousands of bodies at once, where blocks know of six at a time. So
- * what blocks prove of one is mostly of no use; they are asked where a quick look at them proves nearly as much as
- * prices of the group alone. Of Italy's 10,000 symbols of 2 mm blocks proved 5e-4 of the bound, in a quarter of the
- * time. */
+ * If all pairs owe each other the gap and nothing limits any body, the report computes prices for all ground that such
+ * a crowd stands on (../../report/area_bounds.c): for thousands of bodies at once, where blocks see six at a time. So
+ * bounds by blocks are mostly useless there; blocks are used where a quick trial proves nearly as much as prices of the
+ * group alone. For Italy's 10,000 symbols of 2 mm blocks proved 5e-4 of the bound, in a quarter of the time. */
 #include "displacement/prove/areas/areas.h"
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/tuning.h"

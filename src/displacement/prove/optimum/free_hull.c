@@ -1,9 +1,9 @@
-/* The hull of what a forbidden set leaves of a region: where a cut may go.
+/* The hull of the part of a region outside a forbidden set: where a cut may go.
  *
  * Arcs of the pieces bulge into the free side, so the extreme points of that hull are among finitely many: corners of
  * the region outside the pieces, places where its sides enter or leave them, and reflex corners, where the boundaries
- * of two pieces cross outside of all others. All in doubles, and pieces count as a hair smaller than they are: what is
- * found here only proposes a cut, which is proved by covered_region.c or not made. */
+ * of two pieces cross outside of all others. All in doubles, and pieces are taken slightly smaller than they are: the
+ * result only proposes a cut, which is proved by covered_region.c or not made. */
 #include "displacement/prove/optimum/region.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -25,7 +25,7 @@ static bool is_free(const sunder_i_forbidden *f, const double u[2], size_t *gues
 static bool note(sunder_i_reflex *out, const sunder_i_forbidden *f, double x, double y, uint64_t *steps)
 {
     const double u[2] = {x, y};
-    /* Of two outlines with long arcs thousands of places are asked about between two questions of the caller. */
+    /* Between two checks for a stop thousands of places may be tested, for two outlines with long arcs. */
     if (!sunder_i_steps(1 + (f->pieces + f->edges) / 4)) return false;
     if (!is_free(f, u, &out->cover, steps)) return true;
     if (!sunder_i_reserve(&out->place, &out->capacity, out->n + 1, sizeof *out->place)) return false;
@@ -301,8 +301,8 @@ static bool is_known(const sunder_i_free_sides *s, const sunder_i_region *r)
     return s->any && s->region.n == r->n && memcmp(s->region.xy, r->xy, 2 * r->n * sizeof *r->xy) == 0;
 }
 
-/* Side k of the region among those of which is known what is free of them: a cut leaves most sides as they were. They
- * go round alike, so it is looked for from `from` on. UINT32_MAX: it is not known. */
+/* Finds side k of the region among the sides whose free parts are known: a cut leaves most sides as they were. Both are
+ * in cyclic order, so the search starts at `from`. UINT32_MAX: not known. */
 static uint32_t find_side(const sunder_i_free_sides *known, const sunder_i_region *r, uint32_t k, uint32_t from)
 {
     const uint32_t n = known->any && known->n < MOST_EXTREME ? known->region.n : 0;

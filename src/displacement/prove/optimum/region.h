@@ -8,8 +8,8 @@
 /* The side of a region that no cut made. */
 #define SUNDER_I_NO_CUT UINT32_MAX
 
-/* A convex polygon, counter-clockwise, that with all within `blur` of it holds the true region: that of all u that keep
- * the cuts made so far, exactly. n = 0: the region is empty. */
+/* A convex polygon, counter-clockwise; everything within `blur` of it contains the true region, of all u that keep the
+ * cuts made so far, exactly. n = 0: the region is empty. */
 typedef struct sunder_i_region {
     uint32_t n;
     double xy[2 * SUNDER_I_REGION_CORNERS];
@@ -54,8 +54,8 @@ typedef struct sunder_i_reflex {
 } sunder_i_reflex;
 
 bool sunder_i_reflex_find(sunder_i_reflex *reflex, const sunder_i_forbidden *forbidden, uint64_t *steps);
-/* Of many pieces only those that matter are looked for, one by one: from a place of the region that is free, down to
- * where no way through what is free leads farther along `down`, or nearly so. False if memory is out. */
+/* With many pieces only the relevant reflex corners are searched for, one by one: from a free place of the region,
+ * downhill along `down` until no free path leads farther, or hardly. False if memory is out. */
 bool sunder_i_reflex_seek(sunder_i_reflex *reflex, const sunder_i_forbidden *forbidden, const sunder_i_region *region,
                           const double from[2], const double down[2], uint64_t *steps);
 
@@ -74,8 +74,8 @@ typedef struct sunder_i_free_sides {
 bool sunder_i_free_sides_find(sunder_i_free_sides *sides, const sunder_i_free_sides *known,
                               const sunder_i_region *region, const sunder_i_forbidden *forbidden, uint64_t *steps);
 
-/* The place nearest to u of the convex hull of what the forbidden set leaves of a region with these sides, in doubles;
- * of many pieces, of what is known of that. False: it leaves nothing. */
+/* The place nearest to u of the convex hull of the part of a region, with these sides, that the forbidden set leaves,
+ * in doubles; with many pieces, of the part that is known. False: it leaves nothing. */
 bool sunder_i_free_hull_nearest(const sunder_i_free_sides *sides, const sunder_i_forbidden *forbidden,
                                 const sunder_i_reflex *reflex, const double u[2], double place[2], uint64_t *steps);
 

@@ -1,13 +1,13 @@
-/* Do two bodies have no relative move that is free? Where jumps are not allowed that may be: what stands in a yard can
- * leave it no more than the yard can leave what stands in it, and if the yard is too small there is no place in it.
+/* Do two bodies have no free relative move? Where jumps are not allowed this happens: a feature in a yard can leave it
+ * no more than the yard can leave the feature, and if the yard is too small there is no place in it.
  *
- * All relative moves within a square are asked about, so large that beyond it the two are apart for certain. There
- * nothing but shadows forbids a move, and these have no end: whatever direction leads into one leads on in it for ever.
- * So if the square is covered (covered_region.c) all of the plane is; whatever limits and fixed features say besides.
- * The two bodies are asked about, each as a whole; or two features, whose blocks go with them and only mind their ways.
+ * All relative moves within a square are examined, so large that beyond it the two are certainly apart. There only
+ * shadows forbid a move, and these are unbounded: a direction that leads into one stays in it. So if the square is
+ * covered (covered_region.c) all of the plane is, whatever limits and fixed features exist. Two bodies are examined,
+ * each as a whole; or two features, whose blocks move with them and only add their shadows.
  *
- * Few pairs are shut in, and most show it at once that they are not: the way straight out is open. So directions are
- * looked along first, in doubles, which decides nothing: where one is open there is nothing to prove. */
+ * Few pairs are shut in, and for most the straight way out is obviously open. So directions are tried first, in
+ * doubles, which decides nothing: if one is open there is nothing to prove. */
 #include "displacement/prove/optimum/forbidden.h"
 #include "displacement/prove/optimum/region.h"
 #include "displacement/prove/optimum/tuning.h"
@@ -59,7 +59,7 @@ static bool is_open(const looking *l, const double dir[2])
     return !runs_into(l, false, to_p, dir) && !runs_into(l, true, l->offset, back);
 }
 
-/* Is there an open direction among so many, straight out first? */
+/* Is one of DIRECTIONS directions open, straight out first? */
 static bool any_is_open(const looking *l)
 {
     double out[2];
@@ -102,7 +102,7 @@ bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q
     for (size_t c = 0; c < 2; c++) l.offset[c] = l.q->origin[c] - l.p->origin[c];
     l.of_p = sunder_i_pieces_of(model, l.p);
     l.of_q = sunder_i_pieces_of(model, l.q);
-    /* Where memory is out whoever asks more closely says so. */
+    /* If memory is out, the exact test that follows reports it. */
     return !l.of_p || !l.of_q || !any_is_open(&l);
 }
 
@@ -133,7 +133,7 @@ static bool is_between(const sunder_i_forbidden_piece *piece, const sunder_i_id_
     return (a == pair->a && b == pair->b) || (a == pair->b && b == pair->a);
 }
 
-/* The shadows of all: into part, which has room for all. */
+/* Writes the shadows of all pieces into `part`, which has room for all. */
 static void keep_shadows(const sunder_i_forbidden *all, sunder_i_forbidden *part)
 {
     part->pieces = 0;
@@ -141,7 +141,7 @@ static void keep_shadows(const sunder_i_forbidden *all, sunder_i_forbidden *part
         if (all->piece[k].shadow) part->piece[part->pieces++] = all->piece[k];
 }
 
-/* And behind the first n, of all other pieces, those of these two features. */
+/* And appends, of all other pieces, those of these two features. */
 static void add_pair(const sunder_i_forbidden *all, const sunder_i_id_pair *pair, size_t n, sunder_i_forbidden *part)
 {
     part->pieces = n;

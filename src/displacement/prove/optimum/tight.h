@@ -18,11 +18,11 @@ typedef struct sunder_i_tight {
     size_t capacity, places;
     int exponent; /* of the step */
     double step, size, hair, margin;
-    double room;   /* what moves are to be shorter than their limits by */
+    double room;   /* moves are to be shorter than their limits by this */
     uint32_t *row; /* [2 * all] of each body's x, and of its y; rows of both axes are numbered together */
     double *base;  /* [2 * all + 1] the move of the first body of each row */
     double *ahead; /* [2 * all] whole steps from there */
-    bool *stays;   /* [2 * all + 1] rows with somebody that stands */
+    bool *stays;   /* [2 * all + 1] rows with a fixed body */
     bool *alone;   /* [2 * all] coordinates that are not lined up */
     size_t rows;
     sunder_i_contact_list touch; /* of the pair looked at */
@@ -37,10 +37,11 @@ typedef struct sunder_i_tight {
 
 /* One more body, which stands there. */
 bool sunder_i_tight_add(sunder_i_tight *f, uint32_t body, const double t[2]);
-/* The step of all coordinates of the group's bodies and of what they owe, and a hair beside those that may move (what
- * stands may be a road, miles long); *coarse: there is one. False if memory is out. */
+/* Finds the common step of all coordinates of the group's bodies and of the distances they owe, and a hair in
+ * proportion to the movable ones (a fixed one may be a road, miles long); *coarse: there is such a step. False if
+ * memory is out. */
 bool sunder_i_tight_find_step(sunder_i_tight *f, bool *coarse);
-/* Whoever else stands within a hair of the place takes part. */
+/* Other bodies within a hair of the place take part, too. */
 bool sunder_i_tight_find_outside(sunder_i_tight *f);
 
 /* ---- tight_rows.c: what moves as one, and how far ---------------------------------------------------------------- */

@@ -1,22 +1,24 @@
-/* Places with no room to spare: a slot just as wide as what goes in, a row that just fits between two walls.
+/* Places without any spare room: a slot just as wide as the feature that goes in, a row that just fits between two
+ * walls.
  *
- * Whoever leaves a margin for rounding finds no way in there, and a place in doubles is off by their rounding. But a
- * passage has no width at all only where coordinates are few: all multiples of a step that is coarse beside rounding.
- * Then what two bodies may do to each other along an axis begins and ends at such multiples too. So bodies whose moves
- * along an axis differ by a multiple of the step, up to a hair, get moves that differ by just that: they are in one
- * *row*, which moves as a whole. What may not move, and all that stands about, is in the row that stays at 0. Contacts
- * of bodies in different rows still have room, and get their margin: rows are drawn away from them in turn
- * [projections, Kac37]. The rest is for those who ask exactly whether the layout holds.
+ * With a margin for rounding there is no way in, and a place in doubles is off by rounding. But a passage has no spare
+ * width only where coordinates are special: all multiples of a step that is coarse compared with rounding. Then the
+ * forbidden interval of two bodies along an axis begins and ends at such multiples too. So bodies whose moves along an
+ * axis differ by a multiple of the step, up to a hair, get moves that differ by exactly that: they form one *row*,
+ * which moves as a whole. Fixed bodies, and everything outside, are in the row that stays at 0. Contacts between
+ * different rows still have room, and get their margin: rows are moved away from them in turn [projections, Kac37].
+ * Callers check exactly whether the layout holds.
  *
- * Nobody of the group need have touched it before: a place without room may be so by what stands outside, a barrier
- * mostly. So whoever stands within a hair of the place takes part, in rows that stay where they are.
+ * The group need not have touched these outside bodies before: the lack of room may be due to something outside,
+ * usually a barrier. So bodies within a hair of the place take part, in rows that stay where they are.
  *
- * Shadows are closed: what is on the boundary of one to the last bit has jumped. Where a row has no way out of that,
- * only coordinates in which a body is squeezed, touched squarely from both sides, are lined up, and all others have
- * their margins.
+ * Shadows are closed: a move that ends exactly on the boundary of one has jumped. If a row cannot avoid that, only
+ * coordinates in which a body is squeezed, touched squarely from both sides, are aligned, and all others have their
+ * margins.
  *
- *   coordinates without a common step     no place: there, no passage is just as wide as what goes through
- *   a tight passage that lies obliquely   only where the place is on the lattice, too: else no doubles are in it */
+ *   coordinates without a common step     no place: no passage is exactly as wide as a feature then
+ * a tight passage at an angle only where the place is on the lattice, too: otherwise no doubles are in
+ * it */
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/tight.h"
 #include "displacement/prove/optimum/tuning.h"

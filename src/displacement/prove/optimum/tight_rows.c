@@ -53,8 +53,7 @@ static void find_row(sunder_i_tight *f, size_t first, size_t k)
     line_up(f, k, row);
 }
 
-/* Coordinate c of all bodies: of those outside first, whose rows stay; at last those that nobody is to be lined up
- * with. */
+/* Coordinate c of all bodies: first those outside, whose rows stay; last those that nothing is to be aligned with. */
 static void find_rows_along(sunder_i_tight *f, size_t c)
 {
     const size_t first = f->rows;
@@ -122,10 +121,10 @@ static bool draw_away(sunder_i_tight *f, const sunder_i_tight_meeting *m)
     return missing > f->margin / 2;
 }
 
-/* Brings a body back within its limit, by the rows that may move. Where one coordinate uses all of the limit up, what
- * is left of the other is 0, however little it missed the limit by: a share e of that is sqrt(2 e) of it. True if it
- * was beyond by half of the margin, or by a part of the room that is to be left: another body's limit may bring the row
- * that they share back out. */
+/* Brings a body back within its limit, by the rows that may move. If one coordinate uses the limit up, the other must
+ * be 0, however slightly the limit was exceeded: a share e of it is sqrt(2 e) of the other coordinate. True if it was
+ * beyond by half of the margin, or by a part of the room that is to remain: another body's limit may move the row that
+ * they share outward again. */
 static bool draw_within(sunder_i_tight *f, size_t k)
 {
     const double limit = sunder_i_max(0, sunder_i_limit_of(&f->model->body[f->body[k]]) - f->room),

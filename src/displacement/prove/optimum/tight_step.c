@@ -1,5 +1,5 @@
-/* The step that coordinates are multiples of, where they have one, and who takes part in a place with no room to spare:
- * the group, and those outside that it touches there (tight_place.c). */
+/* The common step of coordinates, where they have one, and the participants of a place without spare room: the group,
+ * and those outside that it touches there (tight_place.c). */
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/tight.h"
 #include "displacement/prove/optimum/tuning.h"

@@ -1,15 +1,14 @@
 /* Branch and bound for the least cost of a few bodies, exact for arcs, for shapes that are not convex, and for holes.
  *
- * A node says of some pairs that their relative move u_ij = t_j - t_i is in a convex region: what cuts have left of it.
- * Its program is the least cost under all cuts, which is proved from below by forces (dual_program.c). Where the least
- * has a pair in conflict, more cuts are made that lose nothing (tree_cuts.c), or the node is divided by three cones
- * (tree_branch.c). A node whose forces prove the goal is closed; so is one that leaves a pair no room. What has no
- * conflict is a leaf: nothing below it is cheaper.
+ * A node restricts, for some pairs, their relative move u_ij = t_j - t_i to a convex region, that of its cuts. Its
+ * program is the least cost under all cuts, which forces prove from below (dual_program.c). If the minimiser has a pair
+ * in conflict, cuts are added that lose nothing (tree_cuts.c), or the node is divided by three cones (tree_branch.c). A
+ * node whose forces prove the goal is closed; so is one that leaves a pair no room. A node without conflict is a leaf:
+ * nothing below it is cheaper.
  *
- * What is proved in the end is the least of the goal and the values of nodes that are open, or leaves; a cut by a disc
- * takes away only what costs the goal. Of the nodes that are open the one that proves least is looked at next, so the
- * bound is valid, and the best so far, whenever the effort ends.
- */
+ * The result is the least of the goal and the values of nodes that are open, or leaves; a cut by a disc removes only
+ * layouts that cost at least the goal. The open node that proves least is processed next, so the bound is valid, and
+ * the best so far, whenever the effort ends. */
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/prove/optimum/tuning.h"
 

@@ -16,8 +16,8 @@ typedef struct sunder_i_task {
     size_t n;
     const double *weight; /* [n] NULL: the bodies' own; else no more than that */
     const double *anchor; /* [2 n] a; 0 for what does not move; NULL: 0 for all */
-    double goal;          /* it is to be proved that no layout costs less */
-    bool no_ways;         /* nothing is asked about jumps and sides: less is forbidden */
+    double goal;          /* to be proved: no layout costs less */
+    bool no_ways;         /* jumps and sides are ignored: less is forbidden */
     bool keep;            /* what a reader of the proof needs besides is kept: see tree_record.c */
 } sunder_i_task;
 
@@ -31,7 +31,7 @@ typedef enum sunder_i_cut_kind {
 typedef struct sunder_i_cut_note {
     sunder_i_cut_kind kind;
     uint32_t pair;         /* in sunder_i_tree.pair */
-    uint32_t named, names; /* of a hull, where it is kept: the pieces that it stands on, in sunder_i_tree.named */
+    uint32_t named, names; /* for a hull, if recorded: the pieces that prove it, in sunder_i_tree.named */
 } sunder_i_cut_note;
 
 typedef enum sunder_i_node_state {
@@ -48,7 +48,7 @@ typedef struct sunder_i_tree_node {
     uint32_t cut, cuts, force, forces;
     double value; /* proved: no layout below it costs less, or the goal */
     sunder_i_node_state state;
-    bool stuck;    /* what its parent was divided by is where it was */
+    bool stuck;    /* the conflict that divided its parent was at the same place */
     uint32_t pair; /* which it was divided by, or has no room left */
     /* Where it is kept: the forces that its discs stand on, of cuts above it, and the pieces that leave no room. */
     uint32_t by, bys, named, names;
@@ -115,7 +115,7 @@ typedef struct sunder_i_tree {
     sunder_i_list joins; /* bodies of other groups, in the way of a layout that would be cheaper */
     sunder_i_tree_conflict *conflict;
     size_t conflicts, conflict_capacity;
-    sunder_i_free_sides tried; /* of a region that a trial looks at */
+    sunder_i_free_sides tried; /* for a region that a trial examines */
     sunder_i_dual_program program;
     sunder_i_cut_force *kept; /* the program's state, while something else is tried */
     double *kept_factor;
@@ -123,14 +123,14 @@ typedef struct sunder_i_tree {
     size_t kept_bytes; /* of regions, of all open nodes */
     double ray[SUNDER_I_TREE_RAYS][2];
     double leaf;                /* the least value of a leaf */
-    uint64_t steps, pair_steps; /* pair_steps: of these, for making pairs */
+    uint64_t steps, pair_steps; /* pair_steps: the part spent on making pairs */
     bool failed;                /* memory is out */
 } sunder_i_tree;
 
 typedef enum sunder_i_tree_outcome {
     SUNDER_I_TREE_PROVED, /* nothing costs less than the goal, or the least leaf */
     SUNDER_I_TREE_FOUND,  /* program.t has no conflicts: what it leads to may be cheaper */
-    SUNDER_I_TREE_JOINED, /* the same, but for what is in joins */
+    SUNDER_I_TREE_JOINED, /* the same, without those in joins */
     SUNDER_I_TREE_SPENT   /* the effort is */
 } sunder_i_tree_outcome;
 
@@ -140,16 +140,16 @@ bool sunder_i_tree_init(sunder_i_tree *tree, const sunder_i_task *task);
 /* One more body takes part, with its own weight. */
 void sunder_i_tree_invite(sunder_i_tree *tree, uint32_t body);
 void sunder_i_tree_free(sunder_i_tree *tree);
-/* Goes on until so many steps are done in all. */
+/* Continues until `steps` steps are done in all. */
 sunder_i_tree_outcome sunder_i_tree_run(sunder_i_tree *tree, uint64_t steps);
-/* What is proved so far. */
+/* The bound proved so far. */
 double sunder_i_tree_bound(const sunder_i_tree *tree);
-/* A cheaper layout is known: less is to be proved. */
+/* A cheaper layout is known: the goal falls. */
 void sunder_i_tree_lower_goal(sunder_i_tree *tree, double goal);
 
 /* ---- tree_pairs.c ------------------------------------------------------------------------------------------------ */
 
-/* The pair of bodies i and j, made where it is first asked for; NULL if memory is out. */
+/* The pair of bodies i and j, made at its first use; NULL if memory is out. */
 sunder_i_tree_pair *sunder_i_tree_pair_of(sunder_i_tree *tree, uint32_t i, uint32_t j);
 /* The pairs in conflict at program.t, to tree->conflict. */
 void sunder_i_tree_find_conflicts(sunder_i_tree *tree);

@@ -1,15 +1,15 @@
-/* Branches: a node is divided where the least of its program has a pair in conflict.
+/* Branches: a node is divided where the minimiser of its program has a pair in conflict.
  *
  *            q1 . . . n . . . q2        u lies in the forbidden set. Three rays from u, each two less than a straight
- *              \      |      /          angle apart, part the plane into cones: between the ways out q1 and q2 of a
- *               \  A  |     /           line a little nearer than the nearest way out n, and two behind. What is free
- *                \    |    /            in a cone has a hull that misses u, mostly, since u is in the forbidden set: so
- *              C  `.  |  .'  B          each child is cut off from u. No free place is lost: a cut of a cone stands a
- *                    `u'                grain behind u, so that the cones cover all.
+ *              \      |      /          angle apart, divide the plane into cones: between the ways out q1 and q2 on a
+ *               \  A  |     /           line slightly nearer than the nearest way out n, and two behind. The free part
+ *                \    |    /            of a cone has a hull that usually misses u, since u is in the forbidden set: so
+ *              C  `.  |  .'  B          each child is cut off from u. No free place is lost: the cut of a cone lies a
+ *                    `u'                grain behind u, so that the cones cover everything.
  *                     |
  *
- * Of the deepest conflicts each is tried: what would its children prove? The one that leaves least is taken [strong
- * branching]. Trials use cuts that are not proved; children prove theirs. */
+ * Each of the deepest conflicts is tried: what would its children prove? The one whose children prove most is taken
+ * [strong branching]. Trials use cuts that are not proved; children prove theirs. */
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -42,8 +42,8 @@ static void choose_rays(sunder_i_tree *t, const sunder_i_tree_conflict *c, branc
         const double side = k ? 1 : -1, dir[2] = {-side * n[1], side * n[0]};
         /* No wider than 84 degrees: the angle to the ray behind stays less than straight. */
         double way = sunder_i_min(sunder_i_forbidden_exit(f, mid, dir, 10 * ahead), 10 * ahead);
-        /* In a slot without width the way out is beside u as well as ahead: a ray along it would leave it to both of
-         * its cones, and one of these would have u in its hull. */
+        /* In a slot without width the ways out are beside u as well as ahead: a ray along the slot would leave it to
+         * both of its cones, and one of these would have u in its hull. */
         if (way < IN_SLOT * ahead) way = BESIDE_SLOT * ahead;
         const double x = ahead * n[0] + way * dir[0], y = ahead * n[1] + way * dir[1], length = sqrt(x * x + y * y);
         out->ray[k][0] = length > 0 ? x / length : n[0];
@@ -65,7 +65,7 @@ static void cone_cuts(const sunder_i_tree *t, const sunder_i_tree_conflict *c, c
     for (int e = 0; e < 2; e++) d[e] = n[e][0] * c->u[0] + n[e][1] * c->u[1] - grain;
 }
 
-/* The share of what is missing that cone k would prove. */
+/* The share of the missing bound that cone k would prove. */
 static double try_cone(sunder_i_tree *t, const sunder_i_tree_conflict *c, const branching_rays *b, int k, double value)
 {
     const double grain = t->pair[c->pair].forbidden.grain;
@@ -121,7 +121,7 @@ static sunder_i_tree_conflict choose(sunder_i_tree *t, double value, branching_r
     return best;
 }
 
-/* Is the conflict that the node was divided by where it was, in a child without a cut? Then that will tell no more: it
+/* Is the conflict that divided the node at the same place in a child without a cut? Then it must not be used again: it
  * would be divided by the same rays for ever. */
 static bool is_stuck(const sunder_i_tree *t, const sunder_i_tree_conflict *c)
 {

@@ -1,13 +1,13 @@
-/* Cuts at a node: what they take away is forbidden, or too dear.
+/* Cuts at a node: they remove only what is forbidden, or too expensive.
  *
- * Disc. With D what the node's forces f prove and t* their least, every t that keeps the cuts to the node costs at
+ * Disc. With D what the node's forces f prove and t* their minimiser, every t that keeps the cuts to the node costs at
  * least D + sum w |t - t*|^2 (dual_program.c). So one that costs less than the goal has
  *     |u_ij - u*_ij|  <=  |t_i - t*_i| + |t_j - t*_j|  <=  sqrt((goal - D) (1 / w_i + 1 / w_j))
  * by Cauchy and Schwarz: lines about that disc are cuts.
  *
- * Hull. What is forbidden of a region is no loss: a line beyond which all of the region is forbidden is a cut. It is
- * proposed by the hull of what is left, in doubles, and made a hair farther out, if it is then proved that what it
- * takes away is covered. */
+ * Hull. Removing a forbidden part of a region loses nothing: a line beyond which all of the region is forbidden is a
+ * cut. The hull of the free part, in doubles, proposes it; it is moved slightly outward, and made if the part that it
+ * removes is proved to be covered. */
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -16,8 +16,8 @@
 #include <math.h>
 #include <string.h>
 
-/* How far t* may be from the least of the forces as they are: rounding of the sum of pushes on a body (the size of
- * which dual_value() leaves), and of the anchor. */
+/* How far t* may be from the exact minimiser of the forces: rounding of the sum of pushes on a body (whose size
+ * dual_value() returns), and of the anchor. */
 static double doubt(const sunder_i_tree *t, uint32_t b)
 {
     const double size =
@@ -64,7 +64,7 @@ bool sunder_i_tree_propose(sunder_i_tree *t, uint32_t pair, const sunder_i_regio
     double place[2];
     *none = region->n == 0;
     if (*none || !know_reflex(t, p)) return false;
-    /* A trial leaves what is known of the pair's own region. */
+    /* A trial does not change what is known of the pair's own region. */
     sunder_i_free_sides *sides = region == &p->region ? &p->sides : &t->tried;
     if (sides == &t->tried) sides->any = false;
     if (!sunder_i_free_sides_find(sides, &p->sides, region, &p->forbidden, &t->steps)) {
@@ -140,8 +140,8 @@ static bool try_rooms(sunder_i_tree *t, uint32_t pair, const double u[2], const 
     return try_cut(t, pair, n, d, far, gap);
 }
 
-/* What is proposed stands on the reflex corners that are known: of many pieces some, of a few all but such as lie in
- * gaps without width. Where it is refuted by a place that is free, that leads to one more. */
+/* A proposal is based on the known reflex corners: some of them for many pieces, for a few pieces all except those in
+ * gaps without width. If a free place refutes it, that place leads to one more corner. */
 bool sunder_i_tree_cut_hull(sunder_i_tree *t, uint32_t pair, const double u[2], bool *empty)
 {
     double before = NAN;

@@ -1,4 +1,4 @@
-/* Pairs of a task: what they may not do, made where they are first met, and who is in conflict at a node's least. */
+/* Pairs of a task: their forbidden sets, made at their first use, and the pairs in conflict at a node's minimiser. */
 #include "displacement/geometry/anchor_reach.h"
 #include "displacement/prove/optimum/body_contact.h"
 #include "displacement/prove/optimum/tree.h"

@@ -1,8 +1,8 @@
-/* What a tree proves, in the words of the interface (sunder_bound_tree): for a reader who has the layer alone.
+/* What a tree proves, in the types of the interface (sunder_bound_tree): for a checker that has only the layer.
  *
- * All nodes are kept, in their order, so a parent stands before its children; cuts and forces likewise. Of pairs only
- * the pieces that some cut or node names are, with their corners as the layer has them, and not as the tree reckons
- * with them, rounded. */
+ * All nodes are recorded, in order, so a parent stands before its children; cuts and forces likewise. Of pairs only the
+ * pieces named by some cut or node are recorded, with their corners as the layer has them, not rounded as the tree uses
+ * them. */
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/tree.h"
 

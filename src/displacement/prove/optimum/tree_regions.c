@@ -1,8 +1,7 @@
-/* Regions of open nodes, kept until their turn comes.
+/* Regions of open nodes, cached until their turn comes.
  *
- * The state of a node can be made again from the cuts on its path, one clip after the other; kept as it was when the
- * node was opened it is the same, and costs a copy. A tree keeps so much and no more: beyond that it makes them again.
- */
+ * The state of a node can be recomputed from the cuts on its path, one clip after the other; a copy saved when the node
+ * was opened is the same. A tree saves up to a limit: beyond that regions are recomputed. */
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/prove/optimum/tuning.h"
 
