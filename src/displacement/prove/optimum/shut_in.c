@@ -59,7 +59,7 @@ static bool is_open(const looking *l, const double dir[2])
     return !runs_into(l, false, to_p, dir) && !runs_into(l, true, l->offset, back);
 }
 
-/* Is one of DIRECTIONS directions open, straight out first? */
+/* Is one of OUTLOOKS directions open, straight out first? */
 static bool any_is_open(const looking *l)
 {
     double out[2];

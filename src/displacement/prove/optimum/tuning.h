@@ -1,198 +1,201 @@
-/* Numbers of this room that are no error bounds: they decide how near a bound comes to the cost and how long it takes,
+/* Numbers of this room that are not error bounds: they decide how near a bound comes to the cost and how long it takes,
  * never whether it holds. */
 #ifndef SUNDER_I_OPTIMUM_TUNING_H
 #define SUNDER_I_OPTIMUM_TUNING_H
 
 /* ---- Contacts (body_contact.c) ----------------------------------------------------------------------------------- */
 
-/* Bodies are in contact that are farther apart than they owe each other by no more than this share of the gap; at gap 3
- * that is about what the interface says of clusters. */
+/* Bodies are in contact if their distance exceeds the distance owed by at most this share of the gap; at gap 3 that is
+ * about what the interface says of clusters. */
 #define CONTACT 0x1p-21
 
 /* ---- Groups (optimum.c) ------------------------------------------------------------------------------------------ */
 
-/* A group is optimal whose cost is no more than its bound and this share of it and this much; as the interface says. */
+/* A group is optimal if its cost exceeds its bound by at most this share of it plus this amount; as the interface
+ * says. */
 #define OPTIMAL_SHARE 1e-6
 #define OPTIMAL_MORE 1e-7
-/* A layout is cheaper by no less than this share. */
+/* A layout counts as cheaper by at least this share. */
 #define CHEAPER 0x1p-40
-/* A length that does not count, as a share of the gap or, where that is 0, of so much of a body. */
+/* A negligible length, as a share of the gap or, if that is 0, of this share of a body's extent. */
 #define SMALL_LENGTH 0x1p-17
 #define SMALL_EXTENT 0x1p-4
-/* Of groups with more that move blocks are asked, too, and the branching gets of the steps one in so many at first; one
- * in so many in all if it has proved this share of what is to be proved by then; and all of them, without blocks, from
- * this share on, where blocks were never found to prove more. With no more than so many the branching is left alone. */
+/* With more movable bodies than BRANCHED a group is bounded by blocks, too. Branching then gets one in TREE_FIRST of
+ * the steps at first; one in TREE_SECOND in all if it has proved TREE_SECOND_SHARE of the goal by then; and all steps,
+ * without blocks, from TREE_WHOLE_SHARE on, where blocks never proved more. With at most BRANCHED bodies only branching
+ * is used. */
 #define BRANCHED 16
 #define TREE_FIRST 16
 #define TREE_SECOND 4
 #define TREE_SECOND_SHARE 0.4
 #define TREE_WHOLE_SHARE 0.7
-/* Blocks are asked so often, about; where their pairs alone would take all steps, they are not. */
+/* The approximate number of times that blocks are evaluated; they are not used where making their pairs would take all
+ * steps. */
 #define BLOCKS_ASKED 24
 #define FEW 4
-/* A group of which more move is taken in parts of so many bodies. */
+/* A group with more movable bodies is divided into parts of this size. */
 #define MOST_TOGETHER 192
 #define PART 96
-/* A part is looked at with one in so many of its steps first; with all of them if that proves this share of what it
- * costs; a crowd if it does not. */
+/* A part first gets one in QUICK_LOOK of its steps; all of them if that proves QUICK_SHARE of its cost. A crowd gets
+ * them if it does not. */
 #define QUICK_LOOK 16
 #define QUICK_SHARE 0.1
 #define QUICK_AS_MUCH 0.75
-/* A group that is nearly what it was when it was asked (by this share of its cost) keeps what was proved of it; it is
- * shaken with one in so many of the steps. */
+/* A group whose cost is at least this share of what it was when examined keeps its bound; it is perturbed with one in
+ * AGAIN of the steps. */
 #define ASKED_SHARE 0.9
 #define AGAIN 4
-/* Of a group that may go anywhere neither a tree nor blocks are asked if more of it move than this: of no such group of
- * Germany's or Italy's symbols did a tree prove 11 %, of all that are smaller the more the fewer they are; of the bound
- * of the layer, which prices make, they were one part in ten thousand, for a tenth of the time. (With 96 Europe's bound
- * is half a hundredth less.) */
+/* A group without limits gets neither a tree nor blocks if more of its bodies move than this: for no such group of
+ * Germany's or Italy's symbols did a tree prove 11 %, for smaller groups the more the smaller; they made one part in
+ * ten thousand of the layer's bound, which prices make, for a tenth of the time. (With 96 Europe's bound is 0.5 %
+ * less.) */
 #define LARGE_FREE_CROWD 128
-/* A group too large for a tree is crowded that leaves a pair in conflict for every so many of its bodies: of the large
- * groups of real layers within limits none leaves one for ten. It gets one in so many of its steps, and those for
- * blocks alone. A town of terraces of 1,200 houses, of whose conflicts a quarter is left, has a bound of 27 % of its
- * cost then, in 2 s, for 37 % in 54 s; pairs alone prove 11 %. */
+/* A group too large for a tree is crowded if it leaves a pair in conflict for every CROWDED of its bodies: no large
+ * group of real layers within limits leaves one for ten. It gets one in CROWD_LOOK of its steps, for blocks only. A
+ * town of terraces of 1,200 houses, with a quarter of the conflicts left, then has a bound of 27 % of its cost, in 2 s,
+ * instead of 37 % in 54 s; pairs alone prove 11 %. */
 #define CROWDED 2
 #define CROWD_LOOK 16
-/* So many bodies that stand in the way may take part besides. */
+/* At most this many bodies in the way may join. */
 #define MOST_GUESTS 24
 
 /* ---- Places with no room to spare (tight_place.c) ---------------------------------------------------------------- */
 
-/* Of so many bodies at most, and as many outside. No lattice is looked at whose step is less than this share of the
- * bodies' size. What lies on a lattice does so up to this share of the size, but no more than that of the step: so far
- * a tree is off that does not come nearer to a corner by dividing. */
+/* The most bodies, and as many outside. A lattice is ignored if its step is less than this share of the bodies' size.
+ * Coordinates count as multiples of the step up to TIGHT_HAIR of that size, and at most TIGHT_STEP_HAIR of the step:
+ * the error of a tree that does not get nearer to a corner by dividing. */
 #define MOST_TIGHT 24
 #define TIGHT_STEP 0x1p-18
 #define TIGHT_HAIR 0x1p-22
 #define TIGHT_STEP_HAIR 0x1p-8
-/* Where there is room, so many margins are left. */
+/* Margins that are left where there is room. */
 #define TIGHT_MARGIN 4
-/* Rows are drawn away from their contacts so often at most (where two meet at a narrow angle it takes many turns), and
- * brought back by a unit so often; not from a contact along which they hardly move. */
+/* Rows are moved away from their contacts at most TIGHT_TURNS times (where two meet at a narrow angle it takes many
+ * turns), and moved back by a unit at most TIGHT_STEPS_BACK times; not from a contact along which they hardly move. */
 #define TIGHT_TURNS 1000
 /* If the weighted moves of a row add up to at most TIGHT_OFF_CENTRE margins a body, nothing is taken to press on it. */
 #define TIGHT_OFF_CENTRE 16
 #define TIGHT_STEPS_BACK 16
 #define TIGHT_PULL 0x1p-20
-/* Where that does not do, so many units are left of limits, of which rounding takes one at most. */
+/* If that fails, limits are reduced by this many units, one of which covers rounding. */
 #define TIGHT_ROOM 2
 
 /* ---- Large groups (contact_forces.c, blocks.c) ------------------------------------------------------------------- */
 
-/* A contact is missed by less than this share of the layout. */
+/* A contact is violated by less than this share of the layout. */
 #define CONTACT_MISSED 1e-10
-/* Movers of a block, to begin with; with fixed ones no more than so many. How often all blocks may be asked at least.
- * In dense groups of 40 to 100 bodies blocks of 6, asked four times, prove two to five tenths more than such of 9 and
- * more, or than twice as many questions, since their trees come to an end. */
+/* Initial number of movable bodies in a block; its largest number with fixed ones; and how often all blocks are
+ * evaluated at least. In dense groups of 40 to 100 bodies blocks of 6, evaluated four times, prove 20 to 50 % more than
+ * blocks of 9 and more, or than twice as many evaluations, since their trees complete. */
 #define BLOCK 6
 #define MOST_IN_BLOCK 64
 #define ROUNDS 4
-/* The share of each weight that pays for rounding. */
+/* The share of each weight reserved for rounding. */
 #define SPARED 0x1p-30
-/* So small a share of the cost counts for nothing. */
+/* A negligible share of the cost. */
 #define BLOCKS_NEAR 1e-4
-/* The first stride is so wide, as a share of the way on which all that is missing would be proved if it went on as it
- * begins; with it no more than a fraction is promised. */
+/* The first stride, as a share of the way on which everything missing would be proved if the bound kept growing at its
+ * initial rate; that promises only a fraction of it. */
 #define FIRST_STRIDE 0.4
-/* The centre moves where this share of what was promised is proved; else strides are shortened so. Where half of it is
- * they are made longer. */
+/* The centre moves if this share of the promise was proved; otherwise strides are multiplied by SHORTER. If half of it
+ * was proved they are multiplied by LONGER. */
 #define SERIOUS 0.1
 #define SHORTER 0.7
 #define LONGER 2
-/* Shares of what is missing: of a promise of less larger blocks will prove more, if there is time; none is looked into
- * that is less than this. */
+/* Shares of the missing bound: below the first, larger blocks will prove more, if there is time; a promise below the
+ * second is not pursued. */
 #define PROMISED_LITTLE 0.02
 #define PROMISED_NOTHING 0.001
-/* So many looks that together prove less than this share of what is missing are the last. */
+/* If this many evaluations together prove less than this share of the missing bound, they are the last. */
 #define LOOKS 3
 #define PROVED_LITTLE 0x1p-6
 
 /* ---- What cuts promise (bundle.c) -------------------------------------------------------------------------------- */
 
-/* Trades in each block, at most; until slopes differ by no more than this share of the whole. */
+/* The most transfers in each block; they end when slopes differ by at most this share of the whole. */
 #define SWEEPS 200
 #define SWEPT 1e-6
 
 /* ---- Pairs (forbidden.c, tree_cuts.c) ---------------------------------------------------------------------------- */
 
-/* Of a pair with more pieces within reach only nearer ones are heeded. */
+/* For a pair with more pieces within reach only the nearest count. */
 #define MOST_PIECES 4096
-/* With more there is a tree of boxes over them, of so many in a leaf, and what cuts need is looked for when it is
- * needed; so many places that are free may be met on the way to a cut. */
+/* With more pieces there is a tree of boxes over them, with PIECES_IN_LEAF in a leaf, and the data for cuts are
+ * computed on demand; at most MOST_GAPS free places may be met on the way to a cut. */
 #define MANY_PIECES 96
 #define PIECES_IN_LEAF 4
 #define MOST_GAPS 24
-/* The disc in a piece is smaller than it could be by this share, far more than rounding. */
+/* The disc in a piece is made smaller by this share, far more than rounding. */
 #define WITHIN_HAIR 0x1p-20
 
 /* ---- Shares of the size of a pair's forbidden set ---------------------------------------------------------------- */
 
-/* What is this little within it counts as free where cuts are proposed. */
+/* A place this little inside counts as free where cuts are proposed. */
 #define FREE_HAIR 0x1p-37
-/* A cut leaves so much beyond the hull, so that it can be proved, and so much at the second attempt; at the third this
- * share of how far it is from the place that it cuts off. */
+/* A cut leaves CUT_ROOM beyond the hull, so that it can be proved, and CUT_MORE_ROOM at the second attempt; at the
+ * third CUT_FAR_ROOM of its distance from the place that it cuts off. */
 #define CUT_ROOM 0x1p-34
 #define CUT_MORE_ROOM 0x1p-32
 #define CUT_FAR_ROOM 0.04
-/* Deeper in it than this, a pair is in conflict. */
+/* A pair deeper inside than this is in conflict. */
 #define IN_CONFLICT 0x1p-31
 
-/* A cut holds that is missed by no more than this; a limit that is overstepped by no more than this share of it. */
+/* A cut holds if it is violated by at most this; a limit if it is exceeded by at most this share of it. */
 #define HOLDS 0x1p-40
 #define OVERSTEPPED 0x1p-36
 
 /* ---- A node (tree_node.c, tree_cuts.c, tree.c) ------------------------------------------------------------------- */
 
-/* Cuts that are brought into a program one after the other. */
+/* The most cuts added to a program, one after the other. */
 #define MOST_ADDED 4000
-/* Regions of open nodes that are kept together, in bytes: of blocks of six symbols all. */
+/* Bytes for the cached regions of open nodes: enough for all those of blocks of six symbols. */
 #define MOST_KEPT_BYTES (1u << 22)
-/* Rounds of cuts at one node; a cut by a disc that takes away less than this share of its radius is not made. */
+/* Rounds of cuts at one node; a cut by a disc that removes less than this share of its radius is not made. */
 #define MOST_REFINED 12
 #define DISC_SHARE 0.05
-/* A hull that is no farther from u than this, of the pair's size, has it. */
+/* A hull within this distance of u, as a share of the pair's size, contains it. */
 #define IN_HULL 0x1p-31
 
 /* ---- Branches (tree_branch.c) ------------------------------------------------------------------------------------ */
 
 /* Conflicts that are tried as branches. */
 #define TRIED 6
-/* The line on which the other two ways out are: so much nearer than the nearest, of the way. */
+/* The line with the other two ways out is nearer than the nearest by this share of its distance. */
 #define NEARER 0.2
-/* What is no wider than this share of the way ahead is a slot, which rays leave so wide. */
+/* A free strip narrower than this share of the way ahead is a slot; rays leave a slot at this angle. */
 #define IN_SLOT 0x1p-16
 #define BESIDE_SLOT 0x1p-4
-/* So many grains away is no other place. */
+/* Places within this many grains of each other count as one. */
 #define STUCK 16
 
 /* ---- Proofs that a region is covered (covered_region.c) ---------------------------------------------------------- */
 
-/* A piece is left on a line that is this share of the way to the middle within it. */
+/* A piece is left along a line inside it by this share of the way to the middle. */
 #define LEAVING_ROOM 0x1p-10
-/* How often a region is divided; how many looks all that may take: a proof that is not found is asked for again and
- * again, and its branch never closes. */
+/* How often a region is divided, and the most looks that takes. The limit matters, since a proof that is not found is
+ * sought again and again, and its branch never closes. */
 #define COVER_DEPTH 60
 #define COVER_STEPS 200000u
 
 /* ---- Pairs that are shut in (shut_in.c) -------------------------------------------------------------------------- */
 
-/* Directions that are looked along, each turned so far from the one before; pieces of a pair; and in how many parts
- * each way its square is proved. */
+/* Number of directions tried, each turned by this angle from the one before; the most pieces of a pair; and the number
+ * of parts along each axis in which its square is proved. */
 #define OUTLOOKS 16
 #define TURN_COS 0.9238795325112867
 #define TURN_SIN 0.3826834323650898
 #define MOST_SHUT_IN 200000u
 #define SQUARE_PARTS 4
-/* What shadows alone do not cover is left in regions divided so often. */
+/* The part not covered by shadows alone is kept in regions divided this many times. */
 #define LEFT_DEPTH 3
 
 /* ---- Hulls (free_hull.c) ----------------------------------------------------------------------------------------- */
 
-/* Places that are looked at, and pieces on one side of a region; with more it is a guess. */
+/* The most places looked at, and pieces on one side of a region; with more the result is an estimate. */
 #define MOST_EXTREME 512
 #define MOST_SPANS 128
-/* What is so near to a piece, as a share of the set's size, is on its boundary; legs of a way down to a reflex corner,
- * and the least share of a leg that has to lead down. */
+/* A place this near to a piece, as a share of the set's size, is on its boundary; the most legs of a descent to a
+ * reflex corner, and the least share of a leg that has to lead down. */
 #define WALL_HAIR 0x1p-34
 #define MOST_LEGS 6
 #define LEAST_SLOPE 0.02
