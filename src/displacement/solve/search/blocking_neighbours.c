@@ -1,8 +1,9 @@
-/* Who is in the way, and not in conflict.
+/* Neighbours that block a nearer place without being in conflict.
  *
- * What stands about a cluster and is not of it stands still while better sides are looked for, and a body may have
- * been sent far because a neighbour, who could have moved a little, stood where it would have gone. So the nearest
- * place of each body is looked for once as if they were not there; whoever clashes with it there joins the cluster. */
+ * Bodies near a cluster that are not part of it stay in place while better sides are sought. So a body may have been
+ * sent far because a neighbour, which could have moved a little, stood in the nearer place. Therefore the nearest place
+ * of each body is found once as if these neighbours were absent; a neighbour that clashes with it there joins the
+ * cluster. */
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"
 

@@ -1,18 +1,18 @@
 /* Is a solution the cheapest of all, whatever the sides?
  *
- * Let some constraints n.u >= d be such that every solution no dearer than C keeps them, f forces on them, x the moves
- * that these make, and V = sum f d - sum w |x|^2, the value of the dual. Any moves t cost V, and what t - x would cost,
- * and sum f (n.u - d), of which no term is negative for a solution. So where a pair with the relative move u of inverse
- * masses m and force f has a solution no dearer than C, it lies in the disc
+ * Let some constraints n.u >= d be such that every solution that costs at most C keeps them, f forces on them, x the
+ * moves that these cause, and V = sum f d - sum w |x|^2, the value of the dual. The cost of any moves t is V plus that
+ * of t - x plus sum f (n.u - d), and no term of the sum is negative for a solution. So if a pair with the relative move
+ * u, inverse masses m and force f has a solution that costs at most C, u lies in the disc
  *     |u - x_u|^2 + 2 m f (n.u - d) <= 2 m (C - V),   and n.u >= d.
- * Where the obstacles of their pieces cover all of that which lies before another line, every such solution keeps to
- * the other side of it; with that constraint V grows, and the discs shrink. It begins with no constraint, x = 0 and
- * V = 0. If V comes up to the cost of the solution that is asked about, no other sides are any better.
+ * If the obstacles of their pieces cover all of that part which lies before another line, every such solution keeps to
+ * the other side of it; with that constraint V grows, and the discs shrink. It begins without constraints, x = 0 and
+ * V = 0. If V reaches the cost of the given solution, no other sides are better.
  *
- * Lines are asked for that have the normals of the constraints that act on the solution, no farther out than these. On
- * the side of an obstacle that is a single edge within the disc that is the constraint itself; about a round corner the
- * line lies the closer to it, the smaller the disc is. All of it is in doubles: it saves work, and proves nothing in
- * the report. What it takes is not counted as work, so that it takes nothing from a search that goes on. */
+ * Candidate lines have the normals of the constraints that are active in the solution, and lie no farther out than
+ * these. On the side of an obstacle that is a single edge within the disc the line is the constraint itself; about a
+ * round corner it lies the closer to it, the smaller the disc is. All of it is in doubles: it saves work, and proves
+ * nothing in the report. Its cost is not counted as work, so that it takes nothing from a search that goes on. */
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"
 
@@ -42,7 +42,7 @@ typedef struct covering {
     sunder_i_obstacle_edge *edge;
     size_t edges, capacity, first[MOST_COVERING + 1], n; /* the edges of each, one after the other */
     double gap[MOST_COVERING];                           /* what each is grown by */
-    size_t last;                                         /* which covered what was asked last */
+    size_t last;                                         /* the piece that covered the last place tested */
     disc disc;
 } covering;
 
@@ -51,7 +51,7 @@ typedef struct bounding {
     acting *acting; /* [n] */
     size_t n;
     sunder_i_quadratic program; /* of those that are known */
-    double cost, least;         /* of the solution; of any, as far as is known */
+    double cost, least;         /* of the solution; of any solution, as far as is known */
     covering about;
 } bounding;
 
@@ -83,7 +83,7 @@ static bool find_part(const sunder_i_search *s, acting *a)
     return true;
 }
 
-/* False if one is of a kind of which nothing is known here, or there are too many. */
+/* False if a constraint is of a kind that this test does not handle, or there are too many. */
 static bool find_acting(bounding *b)
 {
     const sunder_i_quadratic *program = &b->s->program;
@@ -186,8 +186,8 @@ static bool covers(const covering *o, size_t obstacle, const between *b)
     return true;
 }
 
-/* Of a strip that runs out, from `left` to `right` across: the corners of what the tangents of the arcs in its middle
- * leave of it, or more where one of these and a line meet in it. */
+/* For a strip that runs out, from `left` to `right` across: the corners of the part that the tangents of the arcs in
+ * its middle leave, or more where one of these and a line meet in it. */
 static void find_strip(const between *b, double left, double right, double corner[4][2])
 {
     const double radius = b->disc->radius, middle = (left + right) / 2;
@@ -224,7 +224,7 @@ static double half_chord(const between *b, double out)
     return sqrt(sunder_i_max(0, b->disc->radius * b->disc->radius - out * out));
 }
 
-/* The ends of the outer chord are mostly what is not covered. */
+/* Usually the ends of the outer chord are what is not covered. */
 static bool cover(covering *o, const between *b)
 {
     const double radius = b->disc->radius;
@@ -348,7 +348,8 @@ static double approach(bounding *b, double enough)
     return left;
 }
 
-/* By what share of its cost any solution may be cheaper than s->t, at most; told no more closely than to `enough`. */
+/* A bound on the share of its cost by which any solution may be cheaper than s->t; determined no more closely than to
+ * `enough`. */
 static double find_left(sunder_i_search *s, double enough)
 {
     const uint64_t steps = s->steps;

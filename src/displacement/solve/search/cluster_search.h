@@ -21,10 +21,10 @@ typedef struct sunder_i_search {
     const sunder_i_model *model;
     const uint32_t *body;       /* [n] the bodies; the first `own` may move, unless fixed */
     size_t n, own;              /* ascending up to `own`, and from there on */
-    uint32_t *listed;           /* their list, where it is the search's own */
+    uint32_t *listed;           /* their list, if the search owns it */
     double gap;                 /* the gap and the margin */
     double tolerance;           /* a violation below this counts as none: a quarter of the margin, or ... */
-    bool roughly;               /* ... so much that it is to be made good yet */
+    bool roughly;               /* ... the violation that still has to be repaired */
     double *mass;               /* [n] 1 / (2 weight), or 0 */
     double *place;              /* [2 n] of a large crowd: where each comes from; NULL */
     bool *away;                 /* [n] taken out: not there for others that look for room */
@@ -34,23 +34,24 @@ typedef struct sunder_i_search {
     sunder_i_quadratic program; /* its constraints are kept sorted by key */
     double *next;               /* [2 n] the program's result */
     bool ended;                 /* nothing was in its way but what the program knows, ... */
-    double seen;                /* ... by a look that found this missed there, ... */
-    uint64_t seen_steps;        /* ... which took so many steps */
-    uint32_t tangents;          /* of limits that were added so far, which tells them apart */
+    double seen;                /* ... by a search that found this violation there, ... */
+    uint64_t seen_steps;        /* ... and took this many steps */
+    uint32_t tangents;          /* number of limits added so far, which identifies them */
     sunder_i_constraint *old;   /* the previous round's, for the forces */
     size_t old_n, old_capacity;
-    sunder_i_clash *clash; /* of the last look */
+    sunder_i_clash *clash; /* result of the last search */
     size_t clashes, clash_capacity;
     sunder_i_relaxations relaxations; /* of pairs that this search has given up; they come before those of the model */
     sunder_i_restored *restored;      /* those of the model that do not count; sorted */
     size_t restored_n, restored_capacity;
     double cap; /* no body is sent farther than this, whatever its limit; INFINITY unless set */
     struct sunder_i_neighbourhood *neighbourhood; /* lent: changes are tried in it; NULL: with all */
-    sunder_i_rtree ways;                          /* of a large cluster (visited_boxes.c) ... */
+    sunder_i_rtree ways;                          /* for a large cluster (visited_boxes.c) ... */
     double *went;                                 /* [2 n] ... for where they stood then; NULL: there is none yet */
-    double least_way;                             /* who passed another has gone farther (shadows.c) ... */
-    bool least_known;                             /* ... if that was asked */
-    sunder_i_list about;                          /* of the last question who is about */
+    double least_way;                             /* a body that passed another has moved farther than this (shadows.c)
+                                                   * ... */
+    bool least_known;                             /* ... if it was computed */
+    sunder_i_list about;                          /* neighbours found by the last query */
     sunder_i_scratch scratch;
     sunder_i_obstacles obstacles;    /* about what a free place is looked for */
     sunder_i_grown_cache grown;      /* obstacles of pieces as they stood there */
@@ -62,7 +63,7 @@ typedef struct sunder_i_search {
     double settled;         /* a round that gains less of the cost is the last */
     uint64_t steps, effort; /* work done, in constraints looked at; how much may be done for better sides */
     int clashing;           /* rounds that end in a clash before a descent gives up */
-    uint64_t patience;      /* a descent gives up when so much has been done ... */
+    uint64_t patience;      /* a descent gives up when the work reaches this ... */
     const double *lead;     /* [2 n] pairs that are free here get the sides that they have here; NULL */
     const double *back;     /* [2 n] ... or when it comes back to here; NULL */
     double hope;            /* ... or, from a free position, when it is not going to cost less than this; INFINITY */
@@ -108,8 +109,8 @@ void sunder_i_search_near_or_home(sunder_i_search *search, double reach, sunder_
 
 /* ---- visited_boxes.c: who was where on the way ------------------------------------------------------------------- */
 
-/* The bodies that body i, put anywhere within reach of where it came from, could meet or pass, and perhaps others:
- * their places, ascending, in search->about. False if memory is out. */
+/* The bodies that body i could meet or pass, anywhere within reach of its original place: a superset, as indices in
+ * ascending order, in search->about. False if memory is out. */
 bool sunder_i_search_about(sunder_i_search *search, uint32_t i, double reach);
 
 /* ---- piece_pairs.c: what two bodies owe each other, piece by piece ----------------------------------------------- */

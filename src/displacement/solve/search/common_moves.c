@@ -1,10 +1,10 @@
-/* Who went together goes exactly together.
+/* Bodies that moved together get exactly the same move.
  *
- * A row that was pushed along as a whole has one move, but programs tell each of its bodies a hair another, and
- * rounding makes a unit of that: by which a pair in the row that is left in conflict, and may stand no worse, stands
- * worse. So those that stand near each other and whose moves differ by less than counts as a miss take the move of one
- * of them. In a row of hundreds these hairs add up: what is missed at its ends then is made good by pushing it along.
- * Where that leaves anything in the way all stay as they were. */
+ * A row that was pushed as a whole has one move, but programs give each of its bodies a slightly different one, and
+ * rounding may turn that into one unit in the last place. By that unit a pair in the row that is left in conflict, and
+ * may stand no worse, stands worse. So neighbours whose moves differ by less than the tolerance take the move of one of
+ * them. In a row of hundreds these differences add up: the violation at its ends is then repaired by pushing the row.
+ * If anything is in the way after that, all bodies keep their moves. */
 #include "displacement/solve/search/pushed.h"
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"

@@ -1,9 +1,9 @@
-/* How far it is worth looking for a place of one body beside another, where nothing but a jump takes the two clear of
- * each other (solve/clusters/shut_in_pairs.c).
+/* How far to search for a place of one body beside another, if only a jump separates the two
+ * (solve/clusters/shut_in_pairs.c).
  *
- * Of such two every relative move is forbidden, be it by what they owe each other or by shadows, of which none is ever
- * waived. So the only moves that may be free are those at which some two of their features, held to less than they owe,
- * are nearer than that; and two that were nearer at home than they owe are not so far from there. */
+ * For such a pair every relative move is forbidden, by the distances owed or by shadows, which are never waived. So the
+ * only moves that may be free are those where two of their features, held to less than the full distance, are nearer
+ * than that; and two features that were nearer than they owe at the start bound how far that is. */
 #include "displacement/solve/search/stages.h"
 
 #include "base/extremes.h"

@@ -80,7 +80,7 @@ static void constrain_part(sunder_i_search *s, const sunder_i_piece_pair *part, 
      * sides, would be a contradiction. (What is missed roughly is made good: forgiven each round it would add up.) */
     const double now = h.n[0] * at->u[0] + h.n[1] * at->u[1];
     if (!s->roughly && now < d && now >= d - s->tolerance) d = now;
-    /* What does not move counts where it stands. */
+    /* A body that does not move counts at its place. */
     uint32_t ends[2] = {pair->i, pair->j};
     for (int e = 0; e < 2; e++) {
         const double *t = s->t + 2 * ends[e];
@@ -103,9 +103,9 @@ static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sig
     sunder_i_search_piece_pairs(s, i, j, at->near, at->reach + s->gap, at->yields, constrain_part, &pair);
 }
 
-/* What a free place beside round corners of the pair keeps too much, at most. Who is parted from a wide barrier in a
- * corner between two of its parts stands by so much beside the one, but owes it as much as the other: were it out of
- * reach, the program would send him through it. */
+/* The most by which a free place beside round corners of the pair exceeds the distance owed. A body that is separated
+ * from a wide barrier in a corner between two of its parts exceeds the distance to one part by this, but owes the other
+ * as much: if that part were out of reach, the QP could push the body through it. */
 static double kept_too_much(const sunder_i_search *s, uint32_t i, uint32_t j)
 {
     const sunder_i_model *model = s->model;
@@ -120,7 +120,7 @@ static double kept_too_much(const sunder_i_search *s, uint32_t i, uint32_t j)
 typedef struct around {
     const double *t;
     double reach;
-    bool as_it_stands; /* whatever clashes is parted where it stands: it misses a hair */
+    bool as_it_stands; /* clashing pairs are separated at their present place: they miss only a hair */
     bool clashing;
 } around;
 
@@ -148,7 +148,7 @@ static void constrain(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
     constrain_pair(s, i, j, &(sighting){u, side, reach, yields, NULL, 0});
 }
 
-/* Mostly they are sorted already. */
+/* Usually they are sorted already. */
 static void sort_constraints(sunder_i_search *s)
 {
     const sunder_i_constraint *c = s->program.constraint;
@@ -175,7 +175,7 @@ bool sunder_i_search_constrain(sunder_i_search *s, double reach, bool as_it_stan
     for (size_t k = 0; k < s->old_n && !s->failed; k++)
         if (sunder_i_is_tangent(&s->old[k]) && s->old[k].force > 0) sunder_i_search_add_constraint(s, p->n, &s->old[k]);
     sort_constraints(s);
-    memcpy(s->next, s->t, 2 * s->n * sizeof *s->t); /* who is out of patience by now stays where it stands */
+    memcpy(s->next, s->t, 2 * s->n * sizeof *s->t); /* a search out of patience by now stays in its present place */
     return a.clashing || sunder_i_search_is_beyond(s, s->t);
 }
 

@@ -1,14 +1,14 @@
 /* The sequence of quadratic programs.
  *
- * Around a reference position each pair of convex pieces gives one support constraint (obstacle.c). Its direction is
- * that of the nearest point where the pair stands free; where two bodies clash the directions are taken where the pair
- * would stand if the least translation from here had parted it, so that all pieces of the pair agree on the side. The
- * program's solution is feasible for the true shapes, since support constraints are global; from a feasible position
- * every round is feasible and no dearer than the last. Pieces farther off than the reach are left out until they are
- * found in the way. A large crowd without limits goes down roughly first, and takes its sides from where its way leads;
- * a round that was led in vain is made again.
+ * Around a reference position each pair of convex pieces gives one support constraint (obstacle.c). If the pair is
+ * free, its direction is that of the nearest point; if two bodies clash, directions are taken where the pair would
+ * stand after the least translation that separates it, so that all pieces of the pair agree on the side. The program's
+ * solution is feasible for the true shapes, since support constraints are global; from a feasible position every round
+ * is feasible and costs no more than the last. Pieces beyond the reach are left out until they are found in the way. A
+ * large crowd without limits descends coarsely first, and takes its sides from where its path leads; a round where that
+ * failed is repeated without it.
  *
- * Pairs that clash may ask for contradictory sides. Then the program is solved softly, and the compromise is the next
+ * Pairs that clash may demand contradictory sides. Then the program is solved softly, and the compromise is the next
  * reference position. */
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"
@@ -31,7 +31,7 @@ static double longest_step(const sunder_i_search *s)
     return longest;
 }
 
-/* Have more than half of those that may move done so? */
+/* Have more than half of the movable bodies moved? */
 static bool is_under_way(const sunder_i_search *s)
 {
     size_t moved = 0;
@@ -46,7 +46,7 @@ static double longest_move(const sunder_i_search *s)
     return longest;
 }
 
-/* What does not move stays where it stands, which for a neighbour of the cluster need not be where it came from. */
+/* A fixed body stays at its place, which for a neighbour of the cluster may differ from its original one. */
 static void keep_still(sunder_i_search *s)
 {
     for (size_t k = 0; k < s->n; k++)
@@ -81,9 +81,8 @@ static double solve(sunder_i_search *s, double softness)
     return v;
 }
 
-/* The same of a hard program that was solved, but for what s->next ran into. Within limits what is done about that
- * fades; without, chains of contacts carry it on, and which of many layouts a crowd ends in is as good as drawn
- * anew. */
+/* The same for a hard program that was solved except for the constraints in s->next. Within limits the effect of these
+ * fades; without, chains of contacts carry it on, and the layout that a crowd ends in is arbitrary. */
 static double solve_further(sunder_i_search *s)
 {
     sunder_i_quadratic *p = &s->program;
@@ -109,8 +108,8 @@ static double solve_lazily(sunder_i_search *s, double softness)
     return v;
 }
 
-/* What clashes where the program ends. The last that was done to it was to look there in vain, mostly: what that saw is
- * there still, and counts as work once more. */
+/* Finds the clashes at the end of a program. Usually the last step looked there already and found none: then its result
+ * is still valid, and its work is counted once more. */
 static double look_at_end(sunder_i_search *s)
 {
     if (!s->ended) return sunder_i_search_look(s, s->next);
@@ -118,8 +117,8 @@ static double look_at_end(sunder_i_search *s)
     return s->seen;
 }
 
-/* Around a position with clashes: softly; and in full, if what is missed is little beside how far things go and the
- * full program turns out to have a solution. */
+/* Around a position with clashes: solves softly; and then hard, if the violation is small compared with the moves and
+ * the hard program turns out to have a solution. */
 static double compromise(sunder_i_search *s, double softness)
 {
     const double v = solve_lazily(s, softness);
@@ -228,8 +227,8 @@ static bool descent_init(descent *d, sunder_i_search *s)
     const bool crowd = sunder_i_search_movers(s) > LARGE_CROWD, large = is_large(s);
     const double part = large ? PART_OF_LARGE_CROWD : crowd ? PART_OF_CROWD : SMALL_PART;
     const double farthest = sunder_i_max(s->gap / 2, s->extent / part);
-    /* At least a margin: who was put in a free place stands beside its pieces, a hair farther than is asked. A crowd
-     * that is no longer at home is in contact all over. */
+    /* At least a margin: a body in a free place keeps a hair more than the distance owed from its neighbours. A crowd
+     * away from its original place has contacts everywhere. */
     *d = (descent){.s = s,
                    .best = sunder_i_alloc(2 * s->n, sizeof *d->best),
                    .lead = large ? sunder_i_alloc(2 * s->n, sizeof *d->lead) : NULL,
@@ -379,7 +378,7 @@ static void join_constrained(const sunder_i_search *s, uint32_t *root)
     }
 }
 
-/* Do they make no more than one set? */
+/* Do they form at most one connected set? */
 static bool is_one_part(const sunder_i_search *s, uint32_t *root)
 {
     uint32_t first = SUNDER_I_NOBODY;
@@ -399,7 +398,7 @@ void sunder_i_search_settle_parts(sunder_i_search *s)
     s->failed = s->failed || !root || !unsolved;
     if (!s->failed) sunder_i_search_constrain(s, s->gap, false);
     if (!s->failed) {
-        /* Where one part has no solution the others are to be solved all the same. */
+        /* If one part has no solution the others are still solved. */
         join_constrained(s, root);
         s->program.most_cost = is_one_part(s, root) ? most_cost(s) : 0;
         solve_lazily(s, 0);

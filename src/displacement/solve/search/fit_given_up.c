@@ -1,8 +1,8 @@
-/* Two bodies that were given up, asked once more for all that they owe, up to a little room.
+/* Two bodies that were given up are asked once more for the full distance, up to a small shortfall.
  *
- * What fits exactly has no solution with a margin, and where limits are all used up hardly one without: so the search
- * is for places that miss a little of everything. Whether there are some beside them that miss nothing is for those to
- * say who know the coordinates (../clusters/exact_fits.c). */
+ * An exact fit has no solution with a margin, and hardly one without where limits are used up: so the search accepts
+ * places that miss a little of everything. ../clusters/exact_fits.c, which knows the coordinates, decides whether a
+ * place beside them misses nothing. */
 #include "displacement/solve/search/neighbourhood.h"
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"

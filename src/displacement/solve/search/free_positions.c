@@ -1,4 +1,4 @@
-/* Where there is room in a cluster as it stands: for one of a pair beside the other, for a body among all. */
+/* Where is room in a cluster as it stands: for one body of a pair beside the other, or for a body among all? */
 #include "displacement/geometry/free_places.h"
 #include "displacement/layer/reads.h"
 #include "displacement/solve/search/stages.h"
@@ -202,7 +202,7 @@ static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const s
     sunder_separation least;
     bool beyond = false, overlap = true;
     sunder_status status = SUNDER_OK;
-    /* Most of those that are too near do not overlap, which is told much sooner. */
+    /* Most pairs that are too near do not overlap, which is quicker to find out. */
     if (s->model->rules.gap > 0) status = sunder_i_overlap(p, none, q, from, &overlap, NULL);
     if (!status && !overlap) {
         memcpy(place, from, sizeof from);
@@ -364,7 +364,7 @@ static void surround(others *all, sunder_i_obstacles *o, const double at[2], dou
     }
 }
 
-/* Among very many pieces, shadows of large blocks are left out: whoever is put into one clashes there. */
+/* Among very many pieces, shadows of large blocks are left out: a body that is put into one will clash there. */
 static bool has_shadows(const others *all, const sunder_i_body *p, const sunder_i_body *q)
 {
     return !all->coarse || count_shadows(p, q) <= MANY_SHADOWS;
@@ -412,7 +412,7 @@ static size_t find_among(others *all, const double home[2], double reach, size_t
     return n;
 }
 
-/* Does body i clash with nothing there? All that it was told of beforehand is asked. */
+/* Is body i free of clashes there? All prepared obstacles are tested. */
 static bool is_clear_at(sunder_i_search *s, uint32_t i, const double place[2])
 {
     const double stood[2] = {s->t[2 * i], s->t[2 * i + 1]};

@@ -1,14 +1,15 @@
-/* Clusters without a solution: limits, fixed bodies, or no room between them.
+/* Clusters without a solution: because of limits, fixed bodies, or lack of room.
  *
- * Pairs that clash in the end, and clashed at the start, are relaxed (relaxation.c), a few at a time: all others keep
- * what they owe, and these stand no worse than they stood. Which ones the compromise tells that the search ended in: it
- * misses most where the contradiction is. After each few the search goes on from there, a crowd from home. In the end
- * each is asked for again (take_back.c); and all go down from home once more, since a compromise may have pushed some
- * that nothing needs to move any more.
+ * Pairs that clash at the end, and clashed at the start, are relaxed (relaxation.c), a few at a time: all others keep
+ * their full distance, and relaxed ones stand no worse than at the start. The compromise that the search ended in
+ * selects them: its violations are greatest where the contradiction is. After each few the search continues from there,
+ * in a crowd from the original places. In the end each relaxed pair is asked for again (take_back.c); and all bodies
+ * descend from their original places once more, since a compromise may have moved some that need not move any more.
  *
- * Where that leads nowhere all that still clash are relaxed, and what came into a clash besides goes home, until
- * nothing clashes; in the end all are at home, where every relaxation holds. From there the cluster descends as from
- * any other solution: nobody is pushed to ease a pair that stays in conflict. (retry_cluster.c asks them again.) */
+ * If that fails, all pairs that still clash are relaxed, and further bodies that come to clash go back, until nothing
+ * clashes; at worst all are in their original places, where every relaxation holds. From there the cluster descends as
+ * from any other solution: no body is moved to ease a pair that stays in conflict. (retry_cluster.c asks for the
+ * relaxed pairs again.) */
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"
 
@@ -120,14 +121,16 @@ static void try_from_home(sunder_i_search *s)
     sunder_i_free(stand);
 }
 
-/* What is given up in excess of so many is not all asked for again; yet they are few enough to give up gradually. */
+/* Beyond this number, pairs that were given up in excess are not all asked for again; yet they are few enough to be
+ * given up gradually. */
 static bool is_crowd(const sunder_i_search *s) { return s->n >= CROWD && s->n <= LARGE_CROWD; }
 
-/* Gives up the cheapest pairs, goes on from there, and so on, more at once each time, as far as the effort goes.
+/* Gives up the cheapest pairs, continues from there, and so on, more at once each time, as far as the effort goes.
  * Returns whether nothing clashes in the end.
  *
- * A crowd goes on from home: where it ended hundreds are pushed into each other, those too that were given up and may
- * not stand worse, and the more that is given up the fewer of those that clash there have anything left to give. */
+ * A crowd restarts from its original places: where it ended hundreds are pushed into each other, including pairs that
+ * were given up and may not stand worse, and the more is given up the fewer of the clashing pairs there have anything
+ * left to give. */
 static bool give_up_gradually(sunder_i_search *s, const sunder_i_clash *at_home, size_t n)
 {
     const uint64_t work = sunder_i_search_work(s), times = (GIVE_UP_TIMES - 1) * work;
@@ -199,7 +202,7 @@ void sunder_i_search_lower(sunder_i_search *s)
     sunder_i_free(stand);
 }
 
-/* Who is nearly at home, as only those are whom nothing keeps from it, goes there. */
+/* Bodies that are nearly at their original place, which only unobstructed bodies are, return to it. */
 static void settle_at_home(sunder_i_search *s)
 {
     double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
@@ -235,7 +238,8 @@ static void begin_again(sunder_i_search *s, const double *start)
     if (count_clashes(s, start) < count_clashes(s, s->t)) memcpy(s->t, start, 2 * s->n * sizeof *s->t);
 }
 
-/* Relaxes the pairs that clashed at home of all bodies of which a pair misses at least half of what the worst does. */
+/* Relaxes the pairs that clashed at the start, for all bodies with a pair that misses at least half of what the worst
+ * misses. */
 static void relax_about(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool *about)
 {
     double worst = 0;
@@ -249,8 +253,8 @@ static void relax_about(sunder_i_search *s, const sunder_i_clash *at_home, size_
     if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
 }
 
-/* From where parts were solved that ran into each other: gives up what bodies owe others that still clash, and what
- * those do that clash after that, and so on. Others keep what they have; what is given up in excess is asked for again
+/* From the solutions of parts that ran into each other: gives up the distances of bodies that still clash, then of
+ * those that clash after that, and so on. Other pairs keep theirs; pairs given up in excess are asked for again
  * (retry_cluster.c). Returns whether nothing clashes in the end. */
 static bool give_up_about(sunder_i_search *s, const double *start, const sunder_i_clash *at_home, size_t n)
 {

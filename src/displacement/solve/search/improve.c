@@ -54,8 +54,8 @@ static bool attempt_about(sunder_i_search *s, uint32_t i, uint32_t j, double *be
     return gain > 0;
 }
 
-/* Bodies, or pairs of them, that were put elsewhere in vain since something was last gained, and the work that it took:
- * it would be in vain once more. It counts as done all the same, so that what is left to spend is what it would be. */
+/* Bodies, or pairs of them, whose other places failed since the last gain, and the work it took: they would fail again.
+ * Skipping them counts as the same work, so that the remaining effort is the same. */
 typedef struct vain {
     struct vain_try {
         uint32_t i, j;
@@ -101,10 +101,10 @@ static double longest_move(const sunder_i_search *s, double *below)
     return longest;
 }
 
-/* Once more from where everything came from, with no move longer than the power of two below the longest. Where sides
- * contradict each other the search ends elsewhere then: bodies that were sent far are kept near if that is possible.
- * Only where one has gone much farther than any pair was in conflict by is there anything to be gained; and not by a
- * crowd, of which nobody has room nearer by. */
+/* Once more from the original places, with no move longer than the power of two below the longest. Where sides
+ * contradict each other the search then ends elsewhere: bodies that were sent far stay near if possible. That can only
+ * help if a body has moved much farther than any pair was in conflict; and not in a crowd, where no body has room
+ * nearer by. */
 static void try_near(sunder_i_search *s, double *best, double *cost)
 {
     double below;
@@ -116,7 +116,7 @@ static void try_near(sunder_i_search *s, double *best, double *cost)
         s->patience = sunder_i_search_work(s) + NEAR_PATIENCE + sunder_i_search_work(s) / NEAR_SHARE;
         s->program.n = 0;
         bool found = sunder_i_search_descend(s);
-        /* Who jumps would have to go down, too: in vain, without patience. */
+        /* A body that jumps would have to descend, too, which fails without patience. */
         if (!found && sunder_i_search_work(s) < s->patience && sunder_i_search_jump_soon(s))
             found = sunder_i_search_descend(s);
         s->cap = INFINITY;
@@ -126,9 +126,9 @@ static void try_near(sunder_i_search *s, double *best, double *cost)
     memcpy(s->t, best, 2 * s->n * sizeof *best);
 }
 
-/* Is there any use in going on? Of a small cluster all is tried, and of one that may go as far as it likes: 53,000
- * places of Europe cost 2.6 % more otherwise. Those of a crowd within limits that stand much alike have no better place
- * either, where so many before them had none. */
+/* Is it worth going on? In a small cluster everything is tried, and in one without limits: 53,000 places of Europe cost
+ * 2.6 % more otherwise. In a crowd within limits bodies are alike, and if this many before found no better place the
+ * rest will not either. */
 static bool is_hopeful(const sunder_i_search *s, size_t in_vain)
 {
     return !s->neighbourhood || !(s->program.most_cost > 0) || in_vain < BETTER_IN_VAIN + s->n / BETTER_SHARE;
@@ -256,7 +256,8 @@ static void try_once(sunder_i_search *s, rank *order, vain *v, double *best, dou
     if (s->neighbourhood && !sunder_i_neighbourhood_init(&about, s)) s->failed = true;
     const double start = *cost;
     if (!s->failed) try_places(s, order, v, best, cost);
-    /* All go down, which tells the forces too; unless they are known from when all did, and nobody has moved since. */
+    /* All bodies descend, which also gives the forces; unless these are known from the last full descent, and nothing
+     * has moved since. */
     if (s->neighbourhood && !s->failed && (*cost < start || s->program.n == 0)) sunder_i_search_attempt(s, best, cost);
     if (!s->neighbourhood && !s->failed) {
         sunder_i_search_descend(s);
@@ -295,8 +296,8 @@ static void improve(sunder_i_search *s, rank *order, double *best, double *near)
     const size_t size = 2 * s->n * sizeof *best;
     memcpy(best, s->t, size);
     double cost = sunder_i_search_cost(s, s->t);
-    sunder_i_search_attempt(s, best, &cost); /* what the first solution left when it was good enough */
-    if (!sunder_i_search_goes_down(s) && sunder_i_search_is_cheapest(s)) { /* else it was asked of the first solution */
+    sunder_i_search_attempt(s, best, &cost); /* otherwise it was tested for the first solution */
+    if (!sunder_i_search_goes_down(s) && sunder_i_search_is_cheapest(s)) { /* else done for the first solution */
         memcpy(best, s->t, size);
         return;
     }

@@ -1,5 +1,5 @@
-/* Limits of moves, as constraints of the programs. A limit is a disc; the program has tangents of it, each of which
- * holds wherever the body is, and more of them where its solution oversteps one. */
+/* Limits of moves, as constraints of the programs. A limit is a disc; the program has tangents of it, each of which is
+ * valid wherever the body is, and gets further ones where its solution exceeds one. */
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"
 
@@ -9,9 +9,9 @@
 #include <math.h>
 #include <string.h>
 
-/* By how much a move may be beyond its limit and count as within it: less than what counts as a miss; where coordinates
- * are small a share of the limit that is more than what programs leave, and than the margin of an exact fit, which
- * rounding to the limit then makes good. */
+/* By how much a move may exceed its limit and still count as within it: less than the tolerance; for small coordinates
+ * a share of the limit that is larger than the error of programs, and than the margin of an exact fit, which rounding
+ * to the limit then repairs. */
 static double slack(const sunder_i_search *s, double limit)
 {
     return sunder_i_max(s->tolerance / 2, limit * LIMIT_SLACK);
@@ -64,8 +64,8 @@ static void add_tangent(sunder_i_search *s, size_t before, uint32_t k, const dou
                                .key = UINT64_C(1) << 63 | (uint64_t)k << 32 | s->tangents++});
 }
 
-/* The force on body k but for that of its limit, times its mass: where it would go if nobody else moved. Returns
- * whether its limit acts. */
+/* The force on body k without that of its limit, times its mass: where it would go if no other body moved. Returns
+ * whether its limit is active. */
 static bool push_on(const sunder_i_search *s, size_t before, uint32_t k, double push[2])
 {
     size_t first;
@@ -80,9 +80,9 @@ static bool push_on(const sunder_i_search *s, size_t before, uint32_t k, double 
     return acts;
 }
 
-/* Tangents for what s->next oversteps: where it does, which is right where neighbours tell it where to go; and where it
- * is pushed to, which is right where nothing else holds it. With either alone the other case takes a tangent for each
- * half of what is left to go. Returns whether there were any. */
+/* Tangents where s->next exceeds limits: in the direction of the move, which is right where neighbours determine it;
+ * and in the direction of the push, which is right where nothing else holds the body. With either alone the other case
+ * takes one tangent for each halving of the error. Returns whether there were any. */
 bool sunder_i_search_constrain_limits(sunder_i_search *s)
 {
     const size_t before = s->program.n;

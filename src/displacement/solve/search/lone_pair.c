@@ -1,8 +1,8 @@
-/* Two features that have nobody but each other: the least translation that parts them, which the exact core knows, is
- * shared by their masses. No other moves of the two are cheaper, whatever the sides, so nothing is left to be sought.
- * That is so of most pairs of single buildings. The margin that covers rounding is not needed where rounded moves leave
- * the two apart exactly. Where something else has a say as well (a limit, an anchor that may not be passed) it is seen
- * where the two would stand, and the search begins as it does for all others. */
+/* Two features that only conflict with each other: the exact core gives the least translation that separates them, and
+ * it is shared in proportion to their masses. No other moves of the two are cheaper, whatever the sides, so no search
+ * is needed. Most pairs of single buildings are such. The margin that covers rounding is not needed if rounded moves
+ * leave the two apart exactly. If something else matters as well (a limit, an anchor that may not be passed) it shows
+ * at the computed places, and the search begins as for all other clusters. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/rounding.h"
 #include "displacement/solve/search/stages.h"

@@ -1,6 +1,6 @@
-/* What pairs of bodies miss at relative positions, were none of them relaxed, kept at hand. A pair that stands as it
- * stood misses what it missed: a descent looks where its program ends, looks there once more, and begins the next round
- * there; and while bodies are put elsewhere by turns all others stand as they did. */
+/* A cache of the violations of pairs at relative positions, as if none were relaxed. A pair at an unchanged relative
+ * position has an unchanged violation: a descent evaluates where its program ends, evaluates there once more, and
+ * begins the next round there; and while bodies are moved one at a time all others stay in place. */
 #ifndef SUNDER_I_MEASURES_H
 #define SUNDER_I_MEASURES_H
 
@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 typedef struct sunder_i_measure {
-    uint32_t i, j; /* alike: nobody's */
+    uint32_t i, j; /* i == j: unused */
     double u[2];   /* of j from i */
     double missed;
     uint64_t steps; /* that it took to find: counted again, so that what is kept changes no result */
@@ -21,7 +21,8 @@ typedef struct sunder_i_measures {
 } sunder_i_measures;
 
 void sunder_i_measures_free(sunder_i_measures *measures);
-/* The slot of bodies i and j, of so many, at u: it holds them, or is theirs to fill. NULL if memory is out. */
+/* The slot of bodies i and j, of `bodies` bodies, at u: it holds their value, or the caller fills it. NULL if memory is
+ * out. */
 sunder_i_measure *sunder_i_measures_slot(sunder_i_measures *measures, size_t bodies, uint32_t i, uint32_t j,
                                          const double u[2]);
 

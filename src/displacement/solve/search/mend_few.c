@@ -1,14 +1,14 @@
-/* A crowd in which somebody was sent home is mended about those whom he clashes with.
+/* A crowd in which a body was sent back is repaired around the bodies that it clashes with.
  *
- * Who is sent home by the rule that nothing is made worse (../clusters/uphold.c) stands in the way of some neighbours,
- * in a crowd of thousands that stands otherwise. A program of all of them, to begin with one that is no more than a
- * compromise, takes minutes to find out that they have room, or that they have none. So those that clash are settled
- * with a few about them, and then with more, everybody else standing (neighbourhood.c). Where that is not enough all
- * are asked; but of a crowd so large that this takes longer than all before what still clashes yields (yield.c), which
- * gives up more of the rows that he stood in, and ends.
+ * A body sent back by the rule that nothing becomes worse (../clusters/uphold.c) blocks some neighbours, in a crowd of
+ * thousands that is otherwise settled. A program of all of them, starting from a mere compromise, takes minutes to find
+ * out whether they have room. So the clashing bodies are settled with a few around them, and then with more, while all
+ * others stand (neighbourhood.c). If that is not enough the whole crowd is solved; but in a crowd so large that this
+ * takes longer than all before, the bodies that still clash yield (yield.c), which gives up more pairs of its rows, and
+ * ends.
  *
- * It is no way to solve a crowd: parts that ran into each other, settled so before anybody was sent home, leave 1,204
- * pairs of Germany's symbols within 6 km, where all of it together leaves 349. */
+ * It is no way to solve a crowd: parts that ran into each other, settled like this before any body was sent back, leave
+ * 1,204 pairs of Germany's symbols within 6 km, where solving all together leaves 349. */
 #include "displacement/solve/search/neighbourhood.h"
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"
@@ -94,7 +94,8 @@ bool sunder_i_search_mend_few(sunder_i_search *s)
         return false;
     sunder_i_search_look(s, s->t);
     if (s->failed) return false;
-    /* Of a margin that grew since they were settled all miss most; what they have of it is what was found to do. */
+    /* If the margin has grown since they were settled, most pairs violate it; the part that they keep was found to be
+     * sufficient. */
     s->tolerance *= MARGIN_LEFT;
     sunder_i_clash *list = list_clashes(s, &n);
     s->failed = !list;

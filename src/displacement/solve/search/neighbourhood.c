@@ -1,8 +1,8 @@
-/* A few bodies of a cluster by themselves: they move, those about them stand, nobody else is looked at.
+/* A few bodies of a cluster by themselves: they move, those around them stand, the rest is ignored.
  *
- * Where one pair is tried anew in a cluster of hundreds, most of it has no say. So the pair is tried with the bodies
- * that it could run into, and those that they could, until there are as many as the caller allows. Whoever stands
- * farther off is not known to that search; so what moved is looked at among all before it is believed. */
+ * When one pair is tried anew in a cluster of hundreds, most of it is irrelevant. So the pair is tried with the bodies
+ * that it could run into, and those that these could, up to the number that the caller allows. This search does not
+ * know bodies farther off; so the moved bodies are checked against all before the result is accepted. */
 #include "displacement/solve/search/neighbourhood.h"
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"
@@ -97,7 +97,7 @@ static bool gather(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t mos
     return true;
 }
 
-/* The search among those gathered; what was given up so far is lent by that of the whole. */
+/* The search among those gathered; it borrows the relaxations of the whole search. */
 static bool begin(sunder_i_neighbourhood *v, sunder_i_search *part)
 {
     sunder_i_search *s = v->all;
@@ -118,7 +118,7 @@ static bool begin(sunder_i_neighbourhood *v, sunder_i_search *part)
     part->relaxations = s->relaxations;
     part->restored = s->restored;
     part->restored_n = s->restored_n;
-    part->cache = s->cache; /* and goes back there */
+    part->cache = s->cache; /* and returns there */
     memset(&s->cache, 0, sizeof s->cache);
     part->patience = PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
     return true;
@@ -154,7 +154,7 @@ static bool went_together(const sunder_i_neighbourhood *v, uint32_t i, uint32_t 
     return true;
 }
 
-/* Are those that moved in nobody's way, wherever he stands? */
+/* Are the moved bodies free of clashes with all others? */
 static bool is_free(sunder_i_neighbourhood *v, const double *stood)
 {
     sunder_i_search *s = v->all;

@@ -7,7 +7,7 @@
 typedef struct sunder_i_neighbourhood {
     sunder_i_search *all;
     sunder_i_rtree tree; /* the boxes of all as they stand, from the first body's origin */
-    uint32_t *place;     /* [n] who is in it, by places in `all`; `moving` of them move */
+    uint32_t *place;     /* [n] its members, as indices in `all`; `moving` of them move */
     size_t n, moving;
     bool *moves; /* [all->n] */
     bool wider;  /* there would have been more that could move */
@@ -16,11 +16,11 @@ typedef struct sunder_i_neighbourhood {
     sunder_i_list near;
 } sunder_i_neighbourhood;
 
-/* Of a search that stands without clashes. False if memory is out; is to be freed then, too. */
+/* For a search without clashes. False if memory is out; the caller frees it in any case. */
 bool sunder_i_neighbourhood_init(sunder_i_neighbourhood *neighbourhood, sunder_i_search *all);
 void sunder_i_neighbourhood_free(sunder_i_neighbourhood *neighbourhood);
-/* Is there a place without clashes for bodies i and j and those about them, `most` in all, everybody else standing?
- * They are put there. reach: how far off somebody may be run into. */
+/* Is there a layout without clashes for bodies i and j and those around them, `most` in all, while all others stand?
+ * They are put there. reach: how far away a body may be run into. */
 bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                    double reach);
 /* The same from places that miss no more than hairs, which are made good near by. */
@@ -30,10 +30,10 @@ bool sunder_i_neighbourhood_make_good(sunder_i_neighbourhood *neighbourhood, uin
  * What is cheaper by more than `least` is kept; returns by how much, or 0: then all are as in `best`. */
 double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                       double reach, const double *best, double least);
-/* Puts the n of `place` there, a place for each, if nobody is in their way, who stand about them. They are in nobody's
- * neighbourhood then. */
+/* Puts the n bodies of `place` at their given places, if no body around them is in the way. After that they are in no
+ * neighbourhood. */
 bool sunder_i_neighbourhood_put(sunder_i_neighbourhood *neighbourhood, const double *to);
-/* Who stands within reach of body i, in order of number: into `near`. False if memory is out. */
+/* The bodies within reach of body i, in order of number: into `near`. False if memory is out. */
 bool sunder_i_neighbourhood_look_about(sunder_i_neighbourhood *neighbourhood, uint32_t i, double reach);
 
 #endif

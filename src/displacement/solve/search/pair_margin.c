@@ -1,10 +1,10 @@
-/* A pair that is left in conflict, and that rounding left a hair worse than it stood, is asked for a margin more.
+/* A pair that is left in conflict, and that rounding left slightly worse than at the start, gets a further margin.
  *
- * What a relaxation demands is kept up to the tolerance of the search, and moves are rounded: where nothing else holds
- * the pair there is room for a margin as well. It is asked with nobody but the pair moving, then with more and more of
- * those about it (neighbourhood.c), so that the rest of the solution stays what it is. Others that are left in conflict
- * and have moved, one against the other, move with them, and rounding would take a hair of these as well: so they are
- * asked for the margin, too; or only those that have it. */
+ * A relaxation is kept up to the tolerance of the search, and moves are rounded: if nothing else holds the pair there
+ * is room for a margin as well. It is demanded with only the pair moving, then with more and more bodies around it
+ * (neighbourhood.c), so that the rest of the solution stays as it is. Other pairs left in conflict that have moved
+ * relative to each other move along, and rounding would make these slightly worse, too: so they get the margin, too; or
+ * only those that have it. */
 #include "displacement/solve/search/neighbourhood.h"
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"
@@ -44,7 +44,7 @@ static sunder_i_id_pair in_order(uint32_t p, uint32_t q)
     return p < q ? (sunder_i_id_pair){p, q} : (sunder_i_id_pair){q, p};
 }
 
-/* But for those that have none as they stand. */
+/* Except for those without one at present. */
 static void spare_others(sunder_i_search *s, uint32_t i, uint32_t j)
 {
     sunder_i_search_look(s, s->t);

@@ -143,9 +143,9 @@ static inline void box_of_other(const sunder_i_body *other, const double v[2], d
     for (int c = 0; c < 4; c++) box[c] = other->box[c] + v[c & 1] + (c < 2 ? -grown : grown);
 }
 
-/* Of the parts from `begin` on as many as face the other body in one go: returns with which to go on. Blocks have
- * hundreds of pieces of which few face each other, so those of the other that none of these parts comes near are left
- * out beforehand. */
+/* Takes as many parts from `begin` on as face the other body in one pass: returns where to continue. Blocks have
+ * hundreds of pieces, few of which face each other, so pieces of the other that none of these parts comes near are
+ * dropped beforehand. */
 static inline uint32_t visit_some(const visiting *to, uint32_t begin, const double v[2], double reach)
 {
     sunder_i_search *s = to->s;
@@ -285,7 +285,7 @@ static double owed(const sunder_i_search *s, const sunder_i_piece_pair *part, co
     return sunder_i_min(margin, sunder_i_support_at(edge, n, home).distance);
 }
 
-/* The edges of what is in s->scratch. */
+/* The edges of the obstacle in s->scratch. */
 static const sunder_i_obstacle_edge *take_edges(sunder_i_search *s, size_t *n)
 {
     if (!sunder_i_reserve(&s->shifted, &s->shifted_capacity, *n, sizeof *s->shifted)) return NULL;

@@ -1,11 +1,12 @@
-/* A crowd that has next to no room within its limits.
+/* A crowd that has almost no room within its limits.
  *
- * A compromise of thousands that owe each other more than limits let any of them go has everybody at his limit, pushed
- * into somebody: what to give up is not to be told from there, and each descent that finds that out costs more than all
- * else. So where nobody has moved yet all is given up at first, everybody at home, and what there is room for is taken
- * back by pushing (pushed.c), what misses least first, which costs next to nothing. That goes straight on only, and
- * leaves more than need be; so it is believed where it leaves so much that the crowd is of that kind. Between such
- * rounds all go down to where they cost least, which spreads what is left of the limits. */
+ * In a compromise of thousands of bodies that owe each other more than the limits allow, every body is at its limit,
+ * pushed into others: it does not show what to give up, and each descent that finds this out costs more than all else.
+ * So if nothing has moved yet, all pairs are given up first, with all bodies in their original places, and pushing
+ * (pushed.c) takes back what there is room for, the smallest violations first, at very little cost. Pushing only goes
+ * straight on, and leaves more pairs than necessary; so its result is accepted only if it leaves so many that the crowd
+ * is of that kind. Between such rounds all bodies descend to their least cost, which spreads the remaining slack of the
+ * limits. */
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"
 

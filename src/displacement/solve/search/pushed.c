@@ -1,23 +1,23 @@
-/* Who is pushed when a pair is parted: whole rows are shifted, without a program.
+/* Which bodies are pushed when a pair is separated? Shifts whole rows, without a program.
  *
- * Where limits leave little, a pair in the midst of a grid has a solution only if all of its row gives way, from the
- * pair to either end of the grid, and with it whoever is beside the row and would be run into. That may be thousands.
- * A few bodies about the pair cannot do it, and a program of all of them for each pair takes too long.
+ * Where limits leave little room, a pair in the middle of a grid has a solution only if its whole row gives way, from
+ * the pair to either end of the grid, together with the bodies beside the row that it would run into. That may be
+ * thousands. A few bodies around the pair do not suffice, and a program of all of them for each pair takes too long.
  *
- * So one end of the pair gives way along the line between the two, and the other the other way. Two bodies that keep
- * n.(t_b - t_a) >= d, by `spare` more than that, let a go on along v by x while b stands, if n.v x <= spare; from there
- * on b is pushed. If all that is pushed goes along v, how far each has to go are difference constraints,
+ * So one end of the pair gives way along the line between the two, and the other end the opposite way. Two bodies that
+ * satisfy n.(t_b - t_a) >= d with `spare` to spare let a move along v by x while b stands, if n.v x <= spare; beyond
+ * that b is pushed. If all pushed bodies move along v, their distances satisfy difference constraints,
  *
- *     x_b >= x_a - spare / n.v      (n.v > 0; else a goes away from b, or beside it),
+ *     x_b >= x_a - spare / n.v      (n.v > 0; otherwise a moves away from b, or beside it),
  *
- * and what it takes until b is pushed is a shortest path [Dij59]. How far the end may give way in all is the least, of
- * all who are pushed, of what it takes to reach them and what their limits leave them along v. Where both ends together
- * do not give what the pair misses it is not parted so: that is known as soon as it is so of those looked at, of whom
- * those come first who stand farthest on; so in a row that has given all it has the question ends at the row's ends.
+ * and the distance until b is pushed is a shortest path [Dij59]. How far the end can give way in all is the least, over
+ * all pushed bodies, of the distance to reach them plus what their limits leave them along v. If both ends together do
+ * not give what the pair misses it cannot be separated like this: that is known as soon as it holds for the bodies
+ * examined so far, those farthest on first; so in a row without slack the search ends at the row's ends.
  *
- * The lines are support lines of obstacles (../../README.md), which are kept wherever the bodies stand: lines that were
- * taken elsewhere are no less true, they only say more than need be, and are taken anew where things went far. Nobody
- * gives way but along v, though a little aside might do: that is for programs (neighbourhood.c). */
+ * The lines are support lines of obstacles (../../README.md), which are valid wherever the bodies stand: lines taken
+ * elsewhere are still true, they only demand more than necessary, and are recomputed after long moves. Bodies give way
+ * along v only, though a small step aside might suffice: that is left to programs (neighbourhood.c). */
 #include "displacement/solve/search/pushed.h"
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"

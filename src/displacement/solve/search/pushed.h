@@ -1,13 +1,13 @@
-/* Who is pushed when a pair is parted, one after the other; see pushed.c. */
+/* Which bodies are pushed, one after the other, when a pair is separated? See pushed.c. */
 #ifndef SUNDER_I_PUSHED_H
 #define SUNDER_I_PUSHED_H
 
 #include "displacement/solve/search/neighbourhood.h"
 
-/* Directions of which it is kept what stops bodies there. */
+/* Number of directions for which obstacles are remembered. */
 #define PUSHED_WAYS 64
 
-/* What a body has to keep from another: n.(t_other - t) >= d, whoever of the two moves. */
+/* The distance that a body keeps from another: n.(t_other - t) >= d, whichever of the two moves. */
 typedef struct sunder_i_push_line {
     uint32_t other;
     double n[2], d;
@@ -20,10 +20,10 @@ typedef struct sunder_i_push_lines {
     size_t n, capacity;
     double at[2];
     bool known;
-    bool fresh; /* nobody has gone since it was looked whether they say enough */
+    bool fresh; /* no body has moved since the lines were checked */
 } sunder_i_push_lines;
 
-/* A body that is pushed: from what on, and so far. */
+/* A pushed body: from which distance on, and how far. */
 typedef struct sunder_i_push {
     double spare;    /* what it takes until it is pushed, along the way there */
     double progress; /* how far on it stands */
@@ -34,17 +34,18 @@ typedef struct sunder_i_push {
 typedef struct sunder_i_push_front {
     double along[2];
     double most;         /* how far the side may give way, as far as is known */
-    double *spare;       /* [n] of who was reached; INFINITY */
-    sunder_i_push *heap; /* who is yet to be looked at */
+    double *spare;       /* [n] for the bodies reached; else INFINITY */
+    sunder_i_push *heap; /* bodies still to be examined */
     size_t waiting, capacity;
     uint32_t *reached; /* [n]; `n` of them, in no order */
     size_t n;
 } sunder_i_push_front;
 
-/* Of one direction: what was asked in vain since the ways to those who stop it were looked for, and these. */
+/* For one direction: failed questions since the shortest paths to limits were computed, and these paths. */
 typedef struct sunder_i_push_ways {
     size_t in_vain; /* how many were looked at */
-    uint32_t *next; /* [n] whom a body pushes on the way; SUNDER_I_NOBODY: its own limit stops it. NULL: never looked */
+    uint32_t *next; /* [n] the next body that a body pushes; SUNDER_I_NOBODY: its own limit stops it. NULL: not
+                     * computed */
 } sunder_i_push_ways;
 
 typedef struct sunder_i_pushed {
@@ -56,8 +57,8 @@ typedef struct sunder_i_pushed {
     sunder_i_push_ways ways[PUSHED_WAYS];
 } sunder_i_pushed;
 
-/* Of a search that stands without clashes, in which no pair misses more than `reach`. False if memory is out; is to be
- * freed then, too. */
+/* For a search without clashes, in which no pair misses more than `reach`. False if memory is out; the caller frees it
+ * in any case. */
 bool sunder_i_pushed_init(sunder_i_pushed *pushed, sunder_i_search *all, double reach);
 void sunder_i_pushed_free(sunder_i_pushed *pushed);
 /* What the pair misses of all that it owes, as it stands, and in which direction, from i to j, its pieces that miss
@@ -65,7 +66,7 @@ void sunder_i_pushed_free(sunder_i_pushed *pushed);
 double sunder_i_pushed_missing(sunder_i_pushed *pushed, uint32_t i, uint32_t j, double n[2]);
 /* What the pair is held to is another from now on. */
 void sunder_i_pushed_renew(sunder_i_pushed *pushed, uint32_t i, uint32_t j);
-/* Can the pair, which misses so much in direction n (from i to j), be parted by pushing whoever stands in the way
+/* Can the pair, which misses `missed` in direction n (from i to j), be separated by pushing the bodies in the way
  * straight on, within their limits? */
 bool sunder_i_pushed_reaches(sunder_i_pushed *pushed, uint32_t i, uint32_t j, const double n[2], double missing);
 /* If that was so: puts them there, unless somebody else is in the way. */
@@ -79,7 +80,7 @@ double sunder_i_pushed_room(const sunder_i_pushed *pushed, uint32_t body, const 
 
 /* Is it known that the pair is not parted so, without looking about? */
 bool sunder_i_pushed_is_in_vain(sunder_i_pushed *pushed, uint32_t i, uint32_t j, const double n[2], double missing);
-/* A question with these fronts was in vain. */
+/* Records that a question with these fronts failed. */
 void sunder_i_pushed_note_in_vain(sunder_i_pushed *pushed);
 
 #endif

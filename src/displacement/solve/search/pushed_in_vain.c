@@ -1,15 +1,15 @@
-/* Is pushing in vain? Known for many pairs at once.
+/* Is pushing useless? Decided for many pairs at once.
  *
- * In a crowd that has next to no room hardly any question of pushed.c has an answer, and each looks at hundreds of
- * bodies until it knows. How far a body may give way in a direction is the same for whoever asks,
+ * In a crowd that has almost no room hardly any question of pushed.c succeeds, and each looks at hundreds of bodies
+ * before it fails. How far a body can give way in a direction is the same for all questions,
  *
  *     most(k) = min(what its limit leaves it, spare(k, m) + most(m) of all m that it pushes),
  *
- * so shortest paths from all limits at once [Dij59] tell it of all bodies, and by which way: whom each pushes first,
- * until one comes that is stopped by its own limit. That is done for a few directions, for those of which so much was
- * asked in vain as it takes. A pair follows the way of either end: what that adds up, as all stand now and in the
- * pair's own direction, is as much as the end may give way at most, for any way says so, whichever direction it was the
- * shortest in, and wherever things went since. So nothing is held to be in vain that is not. */
+ * so shortest paths from all limits at once [Dij59] give it for all bodies, with the path: the body that each pushes
+ * first, until one is stopped by its own limit. That is done for a few directions, where the failed questions have cost
+ * as much as it takes. A pair follows the path from either end: the sum along it, in the present layout and in the
+ * pair's own direction, bounds how far that end can give way, since any path gives a bound, whichever direction it was
+ * shortest in and however the layout has changed. So a push that would succeed is never declared useless. */
 #include "displacement/solve/search/pushed.h"
 #include "displacement/solve/search/tuning.h"
 
@@ -124,7 +124,7 @@ static double spare_between(sunder_i_pushed *p, uint32_t k, uint32_t other, cons
     return least;
 }
 
-/* No farther than this does an end give way, if no more than `enough` is asked of it; but: the other end, which it does
+/* A bound on how far an end gives way, determined no more closely than to `enough`; but: the other end, which it does
  * not push. */
 static double most_along(sunder_i_pushed *p, uint32_t end, uint32_t but, const double along[2], double enough)
 {

@@ -1,10 +1,10 @@
 /* Other orders of putting bodies back.
  *
- * The sides that a solution stands on are mostly a matter of who came first. So a few bodies that stand about one of
- * which the sides are in doubt are taken out and put back one by one, each at the free place nearest to where it
- * came from, in another order; all go down from there, and what is cheaper is kept. In doubt are those that
- * overlapped another by much, for which another side is not much farther, and those that went much farther than any
- * pair was in conflict by. */
+ * The sides of a solution mostly depend on the order in which bodies were placed. So a few bodies around one with
+ * uncertain sides are taken out and put back one by one, each at the free place nearest to its origin, in another
+ * order; all bodies descend from there, and a cheaper result is kept. Sides are uncertain for bodies that overlapped
+ * another deeply, for which another side is hardly farther, and for bodies that moved much farther than any pair was in
+ * conflict. */
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"
 
@@ -33,7 +33,7 @@ typedef struct reordering {
     ranked *doubtful, *near; /* [doubtfuls], the costliest first; [moving] */
     size_t doubtfuls, moving;
     uint32_t *out;             /* those that are taken out */
-    double tried[MOST_ORDERS]; /* costs of what was begun with: the same again would end where it did */
+    double tried[MOST_ORDERS]; /* costs of earlier starts: the same start would end in the same layout */
     size_t tries;
     double *best, cost;
 } reordering;
@@ -117,9 +117,9 @@ static bool is_known(const reordering *r, double cost)
     return false;
 }
 
-/* Is there nothing to be had from where all stand? A start that was tried ends where it did; and what clashes, and yet
- * costs less than what stands, is dearer when nothing clashes any more: of 630 such of a town of 100,000 three came to
- * anything, and that was next to nothing. What proofs begin from is sought from these, too. */
+/* Is a start useless? A start that was tried ends where it did; and a start that clashes, yet costs less than the
+ * present layout, is more expensive once nothing clashes: of 630 such starts in a town of 100,000 three led to a gain,
+ * and a tiny one. The start of proofs is searched from these, too. */
 static bool is_in_vain(reordering *r, double start)
 {
     sunder_i_search *s = r->search;
@@ -128,8 +128,8 @@ static bool is_in_vain(reordering *r, double start)
     return !(s->model->rules.effort > 0) && start < r->cost && sunder_i_search_look(s, s->t) > s->tolerance;
 }
 
-/* The n bodies in r->out are taken out and put back in this order, and all go down. Who finds no place stays at
- * home, for all of them to make room. Returns how much of no use that was. */
+/* Takes the n bodies in r->out out, puts them back in this order, and lets all descend. A body without a place returns
+ * to its origin, and all make room for it. Returns how useless that was. */
 static size_t put_back(reordering *r, size_t n)
 {
     sunder_i_search *s = r->search;
@@ -165,7 +165,8 @@ static uint64_t search_work(const sunder_i_search *s)
     return 4 * own * all;
 }
 
-/* A number of orders, from one doubtful body to the next; n: so many are taken out, or 0: first few, then more. */
+/* Tries a number of orders, from one uncertain body to the next; n: how many are taken out, or 0: few at first, then
+ * more. */
 static void try_orders(reordering *r, size_t n, size_t most_useless, uint64_t most_work)
 {
     sunder_i_search *s = r->search;

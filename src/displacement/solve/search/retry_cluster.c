@@ -1,13 +1,13 @@
-/* Pairs that were given up are asked again for all that they owe.
+/* Pairs that were given up are asked again for their full distance.
  *
- * Pairs that were relaxed together (give_up.c) may be more than need be. So once nothing joins clusters any more each
- * is asked by itself, those that overlap first, the rest keeping what they have: blocks of which several members are
- * in conflict for all of these, and then for each, since one may have no solution where others do. At first nobody
- * but the pair moves, then more and more of those about it (neighbourhood.c), at last the whole cluster. What overlaps
- * and finds no solution is asked not to overlap, at least, before any pair that is only too near is asked for anything.
- * All are asked at one stage before any is at the next, so that where the effort ends the small questions have been
- * put; it grows with the number of bodies and of pairs, and with nothing else. A stage ends before its time where so
- * many were in vain, one after the other, or so much was done for them. */
+ * More pairs than necessary may have been relaxed together (give_up.c). So once nothing joins clusters any more each is
+ * asked for separately, overlaps first, while the rest keep what they have: for blocks with several members in conflict
+ * all of these together, and then each, since one may have no solution where others do. At first only the pair moves,
+ * then more and more bodies around it (neighbourhood.c), at last the whole cluster. An overlap without a solution is at
+ * least to be separated, before pairs that are only too close are asked for. All pairs are tried at one stage before
+ * any at the next, so that when the effort ends the small questions have been asked; the effort depends on the numbers
+ * of bodies and of pairs only. A stage ends early after a number of failures in a row, or after a certain amount of
+ * work. */
 #include "displacement/solve/search/neighbourhood.h"
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"
@@ -23,7 +23,7 @@ typedef struct retrying {
     sunder_i_search *search;
     const sunder_i_retry *retry;
     size_t n, moving;
-    bool *settled;         /* [n] nothing is left to be asked */
+    bool *settled;         /* [n] nothing is left to ask for */
     bool *in_vain;         /* [n] with more bodies the question would be the same */
     double *stand;         /* [2 bodies] */
     uint64_t effort;       /* the work done (sunder_i_search_work()) at which asking ends */
@@ -112,8 +112,8 @@ static void resume_overlap(sunder_i_search *s, const sunder_i_retry *x)
 
 /* ---- At one stage ------------------------------------------------------------------------------------------------ */
 
-/* The whole cluster from where it stands: down, and where that is in vain once out of clashes and down again. If that
- * fails too all are put back. */
+/* The whole cluster from its present place: a descent, and if that fails, out of clashes and a second descent. If that
+ * fails too all bodies are put back. */
 static bool settle_all(retrying *p)
 {
     sunder_i_search *s = p->search;
@@ -143,7 +143,7 @@ static bool settle_one(retrying *p, size_t k, size_t level)
     return done;
 }
 
-/* Asks one for all that is owed, or not to overlap. */
+/* Asks for the full distance of one pair, or for no overlap. */
 static bool grant(retrying *p, size_t k, size_t level, bool resolve)
 {
     sunder_i_search *s = p->search;
@@ -160,8 +160,8 @@ static bool grant(retrying *p, size_t k, size_t level, bool resolve)
     return false;
 }
 
-/* What is asked, in this order: as few overlaps as can be, then as few pairs. The relaxations between two bodies are
- * asked about together first; of those of which that had no solution, each. */
+/* The questions in order: as few overlaps as possible, then as few pairs. The relaxations between two bodies are first
+ * asked about together; if that has no solution, each. */
 typedef struct request {
     bool overlap, resolve, part;
 } request;
@@ -184,21 +184,21 @@ static bool is_out(const retrying *p, size_t k, const request *r)
     return known || sunder_i_relaxations_find(&p->search->relaxations, t->a, t->b);
 }
 
-/* What was asked in vain at one stage since something was granted there. */
+/* Failures at one stage since the last success there. */
 typedef struct useless {
     size_t asked;
     uint64_t since; /* the work done when that began */
     size_t most;
 } useless;
 
-/* Is it too much to go on? With few nobody is spared. */
+/* Is it too much to go on? With few questions all are asked. */
 static bool is_useless(const retrying *p, const useless *u, size_t level)
 {
     if (level == 0 || u->asked == 0) return false;
     return u->asked >= u->most || sunder_i_search_work(p->search) > u->since + p->in_vain_most;
 }
 
-/* Puts one question to all whom it concerns, stage by stage. */
+/* Asks one question for all pairs concerned, stage by stage. */
 static void ask_all(retrying *p, const request *r)
 {
     sunder_i_search *s = p->search;
@@ -215,7 +215,7 @@ static void ask_all(retrying *p, const request *r)
             u.asked++;
             if (p->settled[k]) u = (useless){0, sunder_i_search_work(s), most};
         }
-        /* What one stage tells of a crowd in vain the next one will, mostly. */
+        /* A question that fails for a crowd at one stage usually fails at the next. */
         most = any || p->n <= FEW_RETRIES || p->n / SHARE_OF_RETRIES >= RETRIES_IN_VAIN ? RETRIES_IN_VAIN
                                                                                         : p->n / SHARE_OF_RETRIES;
     }
@@ -303,9 +303,9 @@ static void trade(retrying *p)
     }
 }
 
-/* Does nothing clash to begin with? Those who joined the cluster may ask for a wider margin than the others kept. What
- * is missed by a hair, less than half the margin, is none the worse for what is asked here: else one pair that rounding
- * left so would keep a crowd of hundreds from being asked. */
+/* Does nothing clash at the start? Bodies that joined the cluster may demand a wider margin than the others kept. A
+ * violation below half the margin does not harm here: otherwise one pair left so by rounding would keep a crowd of
+ * hundreds from being tried. */
 static bool is_in_order(sunder_i_search *s)
 {
     const double hair = 2 * s->tolerance, missed = sunder_i_search_look(s, s->t);

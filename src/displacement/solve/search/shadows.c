@@ -1,13 +1,13 @@
 /* No jumps, and sides: shadows between bodies, as further pieces of what they owe each other.
  *
- * With a the anchor of a member of one body and B a piece of the other, as they stood, the anchor passes B exactly when
+ * With a the anchor of a member of one body and B a piece of the other, at the start, the anchor passes B exactly when
  * the relative move lies in the shadow of the obstacle K = a + (-B), or B + (-a), from the origin (shadow.c). So a
- * shadow is made as an obstacle is, of an anchor as a piece of one corner. It owes the margin, so that what was rounded
- * stands clear of it; but never more than home has. What holds the anchor has no shadow from it. Likewise of a side
- * anchor and the lines of a part of a barrier that it may not cross (layer/sides.c).
+ * shadow is made like an obstacle, of an anchor as a piece of one corner. It owes the margin, so that a rounded result
+ * stands clear of it; but never more than the start has. A feature that contains the anchor casts no shadow from it.
+ * The same holds for a side anchor and the lines of a part of a barrier that it may not cross (layer/sides.c).
  *
- * Most pairs never come near any of it: relative moves are short, and K lies as far from the origin as the anchor does
- * from B. That is asked of boxes first. */
+ * Most pairs never come near a shadow: relative moves are short, and K lies as far from the origin as the anchor does
+ * from B. Boxes are tested first. */
 #include "displacement/geometry/anchor_reach.h"
 #include "displacement/layer/sides.h"
 #include "displacement/solve/search/cluster_search.h"
@@ -164,8 +164,8 @@ bool sunder_i_search_may_pass(const sunder_i_search *s, const double *t, uint32_
            sunder_i_anchors_may_reach(s->model, p, q, true, offset, way);
 }
 
-/* Who passed another, and stands clear of it by more than the gap, has gone farther than this and the gap: to the
- * nearest of all others that does not hold its anchor; or out of its own box, with its side anchor. */
+/* A body that passed another, and stands clear of it by more than the gap, has moved farther than this plus the gap: to
+ * the nearest feature that does not contain its anchor; or out of its own box, with its side anchor. */
 static double least_way(const sunder_i_search *s)
 {
     double least = INFINITY;
@@ -208,7 +208,7 @@ void sunder_i_search_passing(sunder_i_search *s, const double *t, double reach, 
                              void *context)
 {
     if (!sunder_i_forbids_ways(s->model) || s->n < 2) return;
-    /* Of two that passed, moves together are longer than this. */
+    /* The moves of two bodies that passed each other are together longer than this. */
     if (!s->least_known) s->least_way = least_way(s);
     s->least_known = true;
     const double least = s->least_way + s->model->rules.gap, most = longest(s, t);

@@ -1,22 +1,22 @@
 /* Better layouts of a contact group by iterated local search [LMS03].
  *
- * A descent ends where nothing can be bettered in small: which body passes which on what side was settled early, when
- * most of them still stood in each other's way. In a dense group that may cost a third more than need be. So, again and
- * again: one body and those nearest to it are let go, back towards where they came from and a little beside it, and
- * from there all go down again; what is cheaper stays. A descent that is not going to be cheaper is given up on the way
- * (descend.c), and so is one that takes long. Whoever is let go is drawn at random, from the user's seed
- * and in the order of the group's list, so that a group's result does not depend on others.
+ * A descent ends in a local optimum: which body passes which on what side was settled early, when most of them were
+ * still in each other's way. In a dense group that may cost a third more than necessary. So, repeatedly: one body and
+ * those nearest to it are released, towards their original places and a little beside them, and from there all descend
+ * again; a cheaper result is kept. A descent that will not be cheaper is given up on the way (descend.c), and so is one
+ * that takes long. The released body is drawn at random, from the user's seed and in the order of the group's list, so
+ * that a group's result does not depend on others.
  *
- * Blocks of hundreds of pieces that lay on each other have to go far, and their neighbours with them. Where patience
- * ended every descent it grows until some come to an end. Who pays most is let go most often then, or all that they
- * moved by is turned, so that they go to another side, and everybody looks as far about himself as anybody has gone. In
- * the heaps of Paris what it costs falls by a quarter.
+ * Blocks of hundreds of pieces that lay on each other have to move far, and their neighbours with them. If patience
+ * ended every descent, it grows until some end by themselves. Then the body with the greatest cost is released most
+ * often, or all moves around it are rotated, so that bodies go to another side, and every body looks as far as any has
+ * moved. In the heaps of Paris this reduces the cost by a quarter.
  *
- * Most of the group stays where it was when some are let go. So programs begin with the contacts of the best layout and
- * their forces, which takes half the work.
+ * Most of the group stays in place when some bodies are released. So programs begin with the contacts of the best
+ * layout and their forces, which halves the work.
  *
- * That only those let go and their neighbours go down, while all others stand, was tried: eight times as many descents
- * found less, since in a dense group what one gains by another side all have to make room for.
+ * Letting only the released bodies and their neighbours descend, while all others stand, was tried: eight times as many
+ * descents found less, since in a dense group all have to make room for what one gains by another side.
  *
  * It proves nothing; a tree that starts from a cheaper layout proves more of it (prove/optimum/tree.c). */
 #include "displacement/solve/search/shake.h"
@@ -31,7 +31,7 @@
 #include <string.h>
 
 typedef struct near_body {
-    double square; /* of the distance from the one in the middle */
+    double square; /* distance from the released body */
     uint32_t at;   /* in the group's list */
 } near_body;
 
@@ -78,7 +78,7 @@ static size_t list_near(const shaking *k, uint32_t middle)
     return n;
 }
 
-/* The moves of the n nearest are turned, all by the same angle: who was pushed to the one side goes to another. */
+/* Rotates the moves of the n nearest bodies, all by the same angle: a body pushed to one side goes to another. */
 static void turn(shaking *k, size_t n)
 {
     const double angle = 6.283185307179586 * draw_unit(&k->random), c = cos(angle), s = sin(angle);
@@ -172,7 +172,7 @@ static bool shake_about(shaking *k, uint32_t middle, bool turned)
 
 static uint64_t work_of(uint64_t steps, uint64_t each) { return steps < UINT64_MAX / each ? each * steps : UINT64_MAX; }
 
-/* Until so much work is done, or a good part of it in vain; as long again where no descent came to an end by then. */
+/* Until this much work is done, or a good part of it without a gain; as long again if no descent ended by then. */
 static void shake(shaking *k, uint64_t work)
 {
     sunder_i_search *s = &k->search;
@@ -189,7 +189,7 @@ static void shake(shaking *k, uint64_t work)
     }
 }
 
-/* With patience; until it was in vain so often, or so much work is done. */
+/* With patience; until it has failed this often, or this much work is done. */
 static void shake_patiently(shaking *k, uint64_t work)
 {
     sunder_i_search *s = &k->search;
@@ -204,7 +204,7 @@ static void shake_patiently(shaking *k, uint64_t work)
     }
 }
 
-/* From where the group stands, everybody looking so far about himself at least; what is cheaper goes to the group. */
+/* From the group's present layout, with every body looking at least this far; a cheaper result goes to the group. */
 static sunder_status shake_group(shaking *k, const sunder_i_model *model, const sunder_i_waived *waived,
                                  sunder_i_group *g, double about, uint64_t steps, sunder_error *err)
 {

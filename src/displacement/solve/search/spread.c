@@ -1,11 +1,11 @@
-/* Where nobody may jump: all go straight away from one another, as far as need be.
+/* Without jumps and without limits: all bodies move straight away from a common centre, as far as necessary.
  *
- * If each body goes by so many times its way from one centre to its anchor, any two go straight away from each other's
- * anchors; and whatever is seen whole from its own anchor, as convex features are, then passes nobody. So however
- * crowded a cluster is, without limits there is such a solution for all its features of that kind; from it they come
- * back down as near as their sides let them. It is the last resort, before pairs are given up: by jumps out of clashes,
- * one body at a time, no way may be left between neighbours. Where it fails too (something stands in a yard), the place
- * with the fewest clashes is left, and those are given up. */
+ * If each body moves by a common multiple of the vector from the centre to its anchor, any two move straight away from
+ * each other's anchors; and a feature that is entirely visible from its own anchor, as convex features are, then passes
+ * no other. So however crowded a cluster is, without limits there is such a solution for all its features of that kind;
+ * from it they descend as near as their sides let them. It is the last resort, before pairs are given up: moving one
+ * body at a time out of clashes may leave no way between neighbours. If it fails too (something stands in a yard), the
+ * layout with the fewest clashes is taken, and the clashing pairs are given up. */
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"
 
@@ -30,8 +30,8 @@ static void anchor_of(sunder_i_search *s, uint32_t k, double out[2])
     for (int c = 0; c < 2; c++) out[c] = b->origin[c] - first->origin[c] + (n ? out[c] / n : 0);
 }
 
-/* Who does not move is the centre, if there is such a body; else it is in the middle of those that do. False where a
- * limit would hold some back. */
+/* A fixed body is the centre, if there is one; else the middle of the movable ones. False if a limit would hold some
+ * back. */
 static bool find_centre(sunder_i_search *s, double centre[2])
 {
     double sum[2] = {0, 0}, at[2];

@@ -34,10 +34,10 @@ bool sunder_i_search_constrain_limits(sunder_i_search *search);
 
 /* Constraints by their keys. */
 int sunder_i_by_constraint(const void *a, const void *b);
-/* Adds one to the program, unless one of those from `first` on says as much; a weaker one of these is replaced. */
+/* Adds a constraint to the program, unless one of those from `first` on implies it; a weaker one is replaced. */
 void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const sunder_i_constraint *constraint);
-/* The program of all constraints around t; what clashes is parted where it stands (it misses a hair), or each pair by
- * its least way out. Returns whether a pair clashes there, or a limit is overstepped. */
+/* The program of all constraints around t; clashing pairs are separated at their present place (they miss a hair), or
+ * each by its least translation. Returns whether a pair clashes there, or a limit is exceeded. */
 bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it_stands);
 /* Adds the limits and the pieces that search->next runs into. Returns whether there were any. */
 bool sunder_i_search_constrain_further(sunder_i_search *search);
@@ -47,8 +47,8 @@ bool sunder_i_search_constrain_further(sunder_i_search *search);
 /* From t, the sequence of quadratic programs. True if it ends with no clash; then t is a local optimum. Else t is a
  * compromise. */
 bool sunder_i_search_descend(sunder_i_search *search);
-/* From t, where no more than hairs are missed: the nearest place, but for what is cheaper, that misses nothing on the
- * sides that are taken there. True if there is one; it is t then. */
+/* From t, with violations of at most a hair: finds the nearest layout that violates nothing on the sides taken there,
+ * ignoring cheaper ones. True if there is one; it is t then. */
 bool sunder_i_search_make_good(sunder_i_search *search);
 /* A compromise misses a little everywhere, where there is a contradiction and where there is none. Of the sets of
  * bodies that have nothing to do with each other those go where the program in full sends them, if that solves it for
@@ -67,7 +67,7 @@ bool sunder_i_search_jump_soon(sunder_i_search *search);
 
 /* ---- spread.c: away from one another ----------------------------------------------------------------------------- */
 
-/* Where nobody may jump and nothing is limited: all away from one centre until none clashes, and down from there. */
+/* Without jumps and limits: all move away from one centre until none clashes, and descend from there. */
 bool sunder_i_search_spread(sunder_i_search *search);
 
 /* ---- give_up.c: pairs that no solution was found for ------------------------------------------------------------- */
@@ -78,7 +78,7 @@ void sunder_i_search_give_up(sunder_i_search *search, const double *start);
 /* The same of a crowd that begins at home and has next to no room, before any other search. False: it is no such crowd,
  * as far as is seen; then all is as it was. */
 bool sunder_i_search_give_up_at_home(sunder_i_search *search, const double *start);
-/* Relaxes pairs that, with all at home, miss no more than the margin, which is asked beyond what they owe. Returns
+/* Relaxes pairs that, in the original places, miss no more than the margin demanded beyond the distance owed. Returns
  * whether there were any. */
 bool sunder_i_search_waive_margins(sunder_i_search *search);
 /* Down from a position without clashes, or stay there. */
@@ -111,23 +111,23 @@ void sunder_i_search_go_together(sunder_i_search *search);
 
 /* ---- mend_few.c -------------------------------------------------------------------------------------------------- */
 
-/* A large crowd in which somebody was sent home, and few clash: these are settled with those about them, or yield where
- * it is very large; then nothing clashes. False: it is no such crowd, or they are not settled so; then all is as it
- * was. */
+/* A large crowd in which a body was sent back, with few clashes: these are settled with the bodies around them, or
+ * yield where the crowd is very large; then nothing clashes. False: it is no such crowd, or settling failed; then all
+ * is as before. */
 bool sunder_i_search_mend_few(sunder_i_search *search);
 
 /* ---- push_from_home.c -------------------------------------------------------------------------------------------- */
 
-/* A crowd that began at home, n pairs clashing there: gives up all of these, and takes back by pushing what it can.
- * False: that leaves no more than this share, so there may be more room than it tells, or it is no such crowd; then all
- * is as it was. */
+/* A crowd in its original places, n pairs clashing there: gives up all of these, and takes back by pushing what it can.
+ * False: that leaves at most this share, so there may be more room than pushing shows, or it is no such crowd; then all
+ * is as before. */
 bool sunder_i_search_push_from_home(sunder_i_search *search, const double *start, const sunder_i_clash *at_home,
                                     size_t n, double share);
 
 /* ---- lone_pair.c ------------------------------------------------------------------------------------------------- */
 
-/* If the cluster is two features that need look at nobody else: they stand apart as cheaply as any do, *done; else all
- * is as it was. What was measured for it is in cluster->measured in any case. */
+/* If the cluster is two features that are independent of all others: separates them at the least cost, and sets *done;
+ * else all is as before. The measurements made for it are in cluster->measured in any case. */
 sunder_status sunder_i_search_part_lone_pair(sunder_i_search *search, sunder_i_cluster *cluster, bool *done,
                                              sunder_error *err);
 

@@ -23,9 +23,8 @@ static double mean_move(const sunder_i_model *model, const sunder_i_cluster *clu
     return n ? sum / (double)n : 0;
 }
 
-/* Bodies within reach of the cluster that are not of it, ascending. Each member looks about itself as far as it may
- * be sent by its own move, or by those of the others as they mostly are: one that had to go far does not make all
- * the others look that far. */
+/* Bodies within reach of the cluster that are not in it, ascending. Each member looks as far as its own move may send
+ * it, or the typical move of the others: one that had to go far does not make all the others look that far. */
 static bool find_surroundings(const sunder_i_model *model, const sunder_i_cluster *cluster, const double *own,
                               sunder_i_list *hits)
 {

@@ -1,12 +1,12 @@
-/* Pairs that a search has given up are asked for again, one after the other, from where it stands.
+/* Pairs that a search has given up are asked for again, one after the other, from its present layout.
  *
- * Several are given up at once (give_up.c), and of those that hang together some are given up for others: with the
- * rest out of the way they may have a solution. So bodies between which something is given up owe each other all again,
- * those that overlapped first, then by what is missing: first with a few of those about them, everybody else standing
- * (neighbourhood.c), which finds most of what there is and costs little; what is left after that is asked of the whole,
- * which goes down from there. Where that comes to no end, within what one may take, all is put back as it was. Both end
- * when so many were in vain. At last all are asked by pushing whoever stands in the way straight on (pushed.c), be they
- * hundreds, which needs no program. */
+ * Several pairs are given up at once (give_up.c), and in a connected set some are given up in place of others: with the
+ * rest out of the way they may have a solution. So bodies with a given-up pair owe each other the full distance again,
+ * overlaps first, then by what is missing: first with a few bodies around them, while all others stand
+ * (neighbourhood.c), which succeeds for most that can succeed and costs little; the rest is asked of the whole cluster,
+ * which descends from there. If that does not end within its limit all is put back. Both end after a number of
+ * failures. At last all are tried by pushing the bodies in the way straight on (pushed.c), hundreds if need be, which
+ * needs no program. */
 #include "displacement/solve/search/neighbourhood.h"
 #include "displacement/solve/search/pushed.h"
 #include "displacement/solve/search/stages.h"
@@ -135,8 +135,8 @@ static size_t ask_whole(sunder_i_search *s, const sunder_i_relaxations *all, wis
 
 /* ---- By pushing -------------------------------------------------------------------------------------------------- */
 
-/* Parts a pair that misses no more than `most`, if whoever stands in the way can be pushed along: straight on, else
- * half-way to either side, which for two that stand corner to corner is along a row. Returns whether nothing is missed
+/* Separates a pair that misses at most `most`, if the bodies in the way can be pushed along: straight on, else at half
+ * the angle to either side, which for two that meet corner to corner is along a row. Returns whether nothing is missed
  * then. */
 static bool push(sunder_i_search *s, sunder_i_pushed *p, uint32_t i, uint32_t j, double most)
 {
@@ -152,7 +152,7 @@ static bool push(sunder_i_search *s, sunder_i_pushed *p, uint32_t i, uint32_t j,
     return sunder_i_pushed_missing(p, i, j, n) <= s->tolerance;
 }
 
-/* Asks each that misses no more than that once, up to so much work in all. Returns how many are left: the first of the
+/* Tries each pair that misses at most that once, within this amount of work. Returns how many remain: the first of the
  * list, in order. */
 static size_t push_each(sunder_i_search *s, sunder_i_pushed *p, const sunder_i_relaxations *all, wish *list, size_t n,
                         double most, uint64_t end)

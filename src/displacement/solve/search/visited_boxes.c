@@ -1,8 +1,8 @@
-/* Where the bodies of a search have been on their way, as boxes: an index for those who look for room.
+/* Where the bodies of a search have been on their way, as boxes: an index for the search for room.
  *
- * A body at home, and wherever it may be put within reach, can meet another, or be kept from passing it, only where
- * that one stands, stood, or went along: within the box of its way. Most of a large cluster is ruled out by that at
- * once; of a small one everybody is looked at. */
+ * A body, at its origin or anywhere within reach of it, can meet another, or be kept from passing it, only where that
+ * one stands, stood, or moved: within the box of its path. In a large cluster that rules out most bodies at once; in a
+ * small one all are looked at. */
 #include "displacement/solve/search/stages.h"
 #include "displacement/solve/search/tuning.h"
 

@@ -12,7 +12,8 @@ bool sunder_i_search_send_home(sunder_i_search *s, uint32_t i)
     return true;
 }
 
-/* Who may stand near whom, each where it stands or where it came from: pairs, and of each body which they are. */
+/* Which bodies may come near each other, each at its present or its original place: pairs, and for each body its
+ * pairs. */
 typedef struct neighbours {
     sunder_i_id_pair *pair;
     size_t pairs, capacity;
@@ -52,7 +53,7 @@ static void find_neighbours(sunder_i_search *s, neighbours *g)
     }
 }
 
-/* What clashes now, of the pairs of which one changed: into s->clash. */
+/* The clashes of pairs with a body that changed: into s->clash. */
 static void look_at_changed(sunder_i_search *s, const neighbours *g, const bool *changed)
 {
     s->clashes = 0;
