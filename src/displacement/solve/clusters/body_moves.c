@@ -1,5 +1,5 @@
-/* Moves on their way between the layer and its clusters: where a cluster starts from, and what becomes of what it
- * found. Every move of a body goes through sunder_i_solver_place(), which notes what has to be related anew. */
+/* Moves between the layer and its clusters: where a cluster starts from, and what becomes of its result. Every move of
+ * a body goes through sunder_i_solver_place(), which records what has to be related anew. */
 #include "displacement/layer/rounding.h"
 #include "displacement/solve/clusters/solver.h"
 

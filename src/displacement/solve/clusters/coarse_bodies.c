@@ -1,15 +1,15 @@
-/* Bodies whose moves are coarse are tried as fixed first.
+/* Bodies with coarse moves are tried as fixed first.
  *
  * A move of a body is a multiple of the last place of its largest coordinate (../../layer/rounding.c). One corrupt
- * vertex, at 1e20, makes that 16384 m: to move such a body by what a neighbour misses of the gap throws it, and
- * whatever it runs into, kilometres off, and the margin that its last place asks for throws the neighbour as far.
- * So a body is *held* where its last place is coarse beside a neighbour that it is in conflict with: beside what
- * the neighbour may have to go, which is its size and what is owed, and beside the neighbour's own last place. A
- * held body is fixed for all stages. Where a conflict is left with one, it is let go, and what hangs together with
- * it is solved once more from home.
+ * vertex, at 1e20, makes that 16384 m: moving such a body by the shortfall of a neighbour's gap throws it, and
+ * everything that it runs into, kilometres away, and the margin for its last place throws the neighbour as far. So a
+ * body is *held* if its last place is coarse beside a neighbour that it is in conflict with: beside how far the
+ * neighbour may have to move, which is its size and the distance owed, and beside the neighbour's own last place. A
+ * held body is fixed for all stages. If a conflict with one remains, it is released, and its cluster is solved once
+ * more from the original places.
  *
- * Nothing is proved of a layout with held bodies: a contact group that has one keeps no bound, and the layer's is
- * that of pairs there, in which all bodies may move. */
+ * Nothing is proved of a layout with held bodies: a contact group that has one keeps no bound, and the layer's bound
+ * there is that of pairs, in which all bodies may move. */
 #include "displacement/layer/resolution.h"
 #include "displacement/solve/clusters/stages.h"
 #include "displacement/solve/clusters/tuning.h"

@@ -1,7 +1,7 @@
-/* What hangs together by contact: from what moved, or is in conflict, on and on to what is in contact with such.
+/* Components of contact: starting from bodies that moved, or are in conflict, everything connected to them by contacts.
  *
- * Who is in contact with whom is asked of some thousand bodies at a time, on all threads, and joined when all have been
- * asked, in the order of the bodies. So it depends on no thread; of two that stand near each other one asks. */
+ * Contacts are found for some thousand bodies at a time, on all threads, and joined when all have been found, in the
+ * order of the bodies. So the result does not depend on threads; of two neighbours one looks for the contact. */
 #include "displacement/solve/clusters/contact_flood.h"
 #include "displacement/layer/reads.h"
 #include "displacement/layer/resolution.h"
@@ -13,7 +13,7 @@
 
 #include <string.h>
 
-/* Contacts are looked for of so many bodies, lot by lot, on all threads, before what is found is joined. */
+/* Contacts are found for this many bodies at a time, on all threads, before the results are joined. */
 enum { BODIES_OF_A_LOT = 64, LOTS_AT_ONCE = 64 };
 
 typedef enum standing { ELSEWHERE, WAITS, IN_TURN, LOOKED_AT } standing;
@@ -27,7 +27,7 @@ typedef struct flooding {
     sunder_i_solver *solver;
     sunder_i_flood *out;
     unsigned char *standing; /* [bodies] */
-    size_t turn;             /* the first of those whose turn it is */
+    size_t turn;             /* the first of the current batch */
     contacts lot[LOTS_AT_ONCE];
 } flooding;
 
@@ -40,7 +40,7 @@ static bool count(flooding *f, uint32_t body)
     return sunder_i_list_push(&f->out->body, body);
 }
 
-/* What moved, and what is in conflict. */
+/* The bodies that moved or are in conflict. */
 static bool count_all(flooding *f)
 {
     const sunder_i_solver *s = f->solver;
@@ -55,7 +55,7 @@ static bool count_all(flooding *f)
     return ok;
 }
 
-/* Of two that are looked at the first asks, or of two at a time the lesser. */
+/* Of two bodies in the flood the earlier looks for the contact; of two in one batch the lesser. */
 static bool asks(const flooding *f, uint32_t b, uint32_t other)
 {
     return other != b && f->standing[other] != LOOKED_AT && (f->standing[other] != IN_TURN || b < other);

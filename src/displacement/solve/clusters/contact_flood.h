@@ -7,7 +7,7 @@
 typedef struct sunder_i_flood {
     uint32_t *parent;        /* [bodies] union-find; fixed ones are by themselves */
     sunder_i_list body;      /* that moved, are in conflict, or in contact with such, and may move */
-    sunder_i_id_pair *touch; /* one of these, and a fixed one in contact with it */
+    sunder_i_id_pair *touch; /* one of the flood, and a fixed one in contact with it */
     size_t touches, touch_capacity;
 } sunder_i_flood;
 

@@ -1,9 +1,9 @@
-/* Contact groups: what hangs together by contact in the layout, of what moved or is in conflict, and what stands in
- * contact with such; or what a proof takes together.
+/* Contact groups: the components of contact in the layout, of bodies that moved or are in conflict and bodies in
+ * contact with these; or the sets that a proof treats together.
  *
- * Fixed bodies join none, and are members of all that they are in contact with: they stand in the way of these. A group
- * is known by the least of its bodies that may move, so that its name does not depend on others, and one that did not
- * change from one round to the next keeps its proof. */
+ * Fixed bodies connect nothing, and are members of every group that they touch, as obstacles. A group is identified by
+ * the least of its movable bodies, so its identity does not depend on others, and a group that did not change from one
+ * round to the next keeps its proof. */
 #include "displacement/solve/clusters/contact_flood.h"
 #include "displacement/solve/clusters/stages.h"
 #include "displacement/solve/clusters/tuning.h"
@@ -114,9 +114,8 @@ static uint32_t heir_of(const sunder_i_model *model, const sunder_i_group *old, 
     return heir;
 }
 
-/* What was proved of bodies holds wherever they stand. So a group knows what was proved of all those that went into
- * it, until more is proved of it; one of them that stands alone now is its guest. at: the places of the groups by
- * number. */
+/* A bound proved for bodies holds wherever they stand. So a group inherits the bounds of all groups that merged into
+ * it, until more is proved of it; a body that left is its guest. at: the indices of the groups by number. */
 static bool hand_on(const sunder_i_model *model, sunder_i_groups *old, sunder_i_groups *now, const uint32_t *at)
 {
     bool ok = true;

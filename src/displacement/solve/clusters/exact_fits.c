@@ -1,10 +1,11 @@
-/* What fits exactly: two that limits let part just as far as they owe, a row between a wall and the last one's limit.
+/* Exact fits: two bodies that limits let separate exactly as far as they owe, a row between a wall and the last body's
+ * limit.
  *
- * The search asks for a margin beyond what is owed, so that rounding does not eat into it, and there is none here: it
- * gives such pairs up. But where coordinates and what is owed are multiples of a step that is coarse beside rounding a
- * fit has its places on that lattice, and doubles hold them. So the search is asked for places that miss a little
- * (../search/fit_given_up.c), these are put on the lattice (../../prove/optimum/tight_place.c), and are taken if they
- * hold, exactly, and solve the pair. Elsewhere a fit to the last bit is no more than chance. */
+ * The search demands a margin beyond the distance owed, to cover rounding, and there is no room for it here: it gives
+ * such pairs up. But where coordinates and distances are multiples of a step that is coarse compared with rounding, the
+ * fit has its places on that lattice, and doubles represent them. So the search is asked for places that miss a little
+ * (../search/fit_given_up.c), these are moved to the lattice (../../prove/optimum/tight_place.c), and are taken if they
+ * hold, exactly, and solve the pair. Elsewhere a fit to the last bit would be mere chance. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/solve/clusters/stages.h"
 #include "displacement/solve/clusters/trial.h"
@@ -18,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The bodies that are put on the lattice: who is to move, and what stands still about them. */
+/* The bodies that are moved to the lattice: the movable ones, and fixed ones near them. */
 typedef struct fitting {
     uint32_t *body; /* ascending */
     double *move;
@@ -27,7 +28,7 @@ typedef struct fitting {
 
 static double extent_of(const sunder_i_body *b) { return sunder_i_max(b->box[2] - b->box[0], b->box[3] - b->box[1]); }
 
-/* Is b about any of those that the trial moves, where it moves them? */
+/* Is b near one of the bodies that the trial moves, at its new place? */
 static bool is_about(const sunder_i_model *model, const sunder_i_trial *t, uint32_t b, double reach)
 {
     const double none[2] = {0, 0};

@@ -1,14 +1,14 @@
-/* Crowds take in whom they will run into before any of them is solved.
+/* Crowds absorb the bodies that they will run into before any of them is solved.
  *
- * What lies on each other in thousands comes apart over the ground of hundreds more, which a crowd finds out when it
- * is solved: then all of it begins anew with them, and what was solved so far was in vain. Prices of area, on a coarse
- * grid, tell as much in a fraction of the time: whose rough place is near somebody of another cluster, or alone, takes
- * him in.
- * Of Italy's 10,000 symbols one crowd of 1,750 was solved, then 3,032, and then 4,323; now 4,400 are at once.
+ * Thousands of bodies on top of each other spread over the ground of hundreds more, which a crowd finds out when it is
+ * solved: then all of it starts again with them, and the work so far was wasted. Prices of area, on a coarse grid, tell
+ * the same in a fraction of the time: a body of another cluster, or a single one, near a crowd body's approximate place
+ * is absorbed. Of Italy's 10,000 symbols one crowd of 1,750 was solved, then 3,032, and then 4,323; now 4,400 are at
+ * once.
  *
- * Boxes decide, and nothing is exact: who is taken in without need is solved with the crowd as he would be without it,
- * and who is missed joins in the next round, as anywhere. Only those are taken in that may go anywhere, with all of
- * their clusters: of what is held no crowd begins where prices put it. */
+ * Boxes decide, and nothing is exact: a body absorbed without need is solved with the crowd as it would be without it,
+ * and a body that is missed joins in the next round, as always. Only bodies that may go anywhere are absorbed, with all
+ * of their clusters: a crowd with limited bodies does not start where prices put it. */
 #include "displacement/prove/areas/areas.h"
 #include "displacement/solve/clusters/stages.h"
 #include "displacement/solve/clusters/tuning.h"
@@ -25,7 +25,7 @@ typedef struct growth {
     bool *placed;        /* [bodies] those of crowds that have rough places ... */
     double *box;         /* [4 * bodies] ... and what they occupy there */
     sunder_i_rtree tree; /* of these boxes */
-    bool *held;          /* [bodies] who may not go anywhere, or is of a cluster in which somebody may not */
+    bool *held;          /* [bodies] may not go anywhere, or is in a cluster with such a body */
     sunder_i_list near;  /* scratch */
 } growth;
 
@@ -75,7 +75,8 @@ static bool may_join(const growth *g, uint32_t b, uint32_t other)
            sunder_i_union_find(g->solver->parent, b) != sunder_i_union_find(g->solver->parent, other);
 }
 
-/* Whom a crowd's body runs into at its place: others of crowds at theirs, and all else where it stands. */
+/* The bodies that a crowd's body runs into at its place: those of crowds at theirs, and all others at their present
+ * ones. */
 static bool meet(growth *g, uint32_t b)
 {
     sunder_i_solver *s = g->solver;

@@ -1,10 +1,10 @@
 /* Contact without a margin.
  *
- * The search asks for a margin beyond what pairs owe, so that rounding does not eat into it, and bodies stand that much
- * too far apart. Where coordinates and what is owed are multiples of a step that is coarse beside rounding, doubles
- * hold places in exact contact, and rows of bodies in contact are put there (../../prove/optimum/tight_place.c). A
- * contact group takes these places if they cost less and hold exactly (trial.c). Two features that are alone stand in
- * contact already (../search/lone_pair.c). */
+ * The search demands a margin beyond the distances owed, to cover rounding, and bodies stand that much too far apart.
+ * Where coordinates and distances are multiples of a step that is coarse compared with rounding, doubles can represent
+ * places in exact contact, and rows of bodies in contact are moved there (../../prove/optimum/tight_place.c). A contact
+ * group takes these places if they cost less and hold exactly (trial.c). Two isolated features are in contact already
+ * (../search/lone_pair.c). */
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/solve/clusters/stages.h"
 #include "displacement/solve/clusters/trial.h"

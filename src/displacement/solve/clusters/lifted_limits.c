@@ -1,18 +1,17 @@
 /* Limits of moves: first the layer is solved as if it had none.
  *
- * Whatever keeps its limits in that solution is left as it is: so limits that nothing oversteps make no difference,
- * and a limit is never the reason for a worse solution than is known without it. Only what oversteps them goes back
- * to where it came from, with all that the search found it to hang together with, and is solved again within its
- * limits.
+ * Bodies that keep their limits in that solution are left as they are: so limits that are not exceeded make no
+ * difference, and a limit is never the reason for a worse solution than is known without it. Only bodies that exceed
+ * theirs go back to their original places, with their clusters, and are solved again within their limits.
  *
- * Pairs that no moves within the limits can part would be parted in vain: what hangs together with one at the start
- * is set aside meanwhile. If others run into it, they go back too. So is a cluster that would become part of a crowd
- * from where it costs more than if each of its bodies stood at its limit, which is more than any solution within them
- * costs: it goes home, and pushes nobody about from where it could not stay. (A town of terraces, house by house, grew
- * into one cluster of thousands, all on their way out of town.)
+ * Solving pairs that no moves within the limits can separate would be useless: whatever is connected with one at the
+ * start is set aside meanwhile. If others run into it, they go back too. So does a cluster that would become part of a
+ * crowd, once it costs more than if each of its bodies stood at its limit, which is more than any solution within them
+ * costs: it goes back, and pushes nothing from where it could not stay. (A town of terraces, house by house, grew into
+ * one cluster of thousands, all on their way out of town.)
  *
- * With barriers limits are kept from the start: in a net of roads the free place beyond a limit is mostly several
- * blocks away, and to find it takes long (by measurement; what it would gain is taken back for the limit anyway). */
+ * With barriers limits are kept from the start: in a road network the free place beyond a limit is usually several
+ * blocks away, and finding it takes long (measured; and the limit would undo the gain). */
 #include "displacement/solve/clusters/stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
@@ -180,8 +179,8 @@ static void note_meeting(sunder_i_solver *s, uint32_t i, uint32_t j, bool *root)
     root[sunder_i_union_find(s->parent, i)] = root[sunder_i_union_find(s->parent, j)] = true;
 }
 
-/* Marks the sets, by their roots, of which a body went too far, was set aside, or ran into one that was, or jumped over
- * it. */
+/* Marks the sets, by their roots, with a body that went too far, was set aside, or ran into one that was, or jumped
+ * over it. */
 static void find_offenders(sunder_i_solver *s, bool *root)
 {
     const sunder_i_model *model = &s->model;
@@ -224,8 +223,8 @@ static bool forget(sunder_i_solver *s, const bool *back)
     return sunder_i_relaxations_index(relaxations, model);
 }
 
-/* Within limits more can be proved, and what had a solution without them may have another: whoever hangs together with
- * one that has a limit is asked about again. (What is without limits is left as it was found, whoever has some.) */
+/* Within limits more can be proved, and a pair with a solution without them may have none: every cluster with a limited
+ * body is examined again. (Clusters without limits are left as they are.) */
 static bool doubt(sunder_i_solver *s)
 {
     sunder_i_model *model = &s->model;
@@ -248,7 +247,7 @@ sunder_status sunder_i_solver_begin_again(sunder_i_solver *s, const bool *back, 
 {
     send_home(s, back);
     const sunder_status status = forget(s, back) ? sunder_i_solver_relate(s, err) : sunder_i_no_memory(err);
-    /* Else who once was in a cluster with a fixed body would pass for known to it. */
+    /* Otherwise a body that once was in a cluster with a fixed body would count as already tested against it. */
     return status ? status : sunder_i_solver_gather(s, err);
 }
 

@@ -1,5 +1,5 @@
-/* Pairs that limits cannot part, of which the one may go inside the other: it is sent there, and kept there from
- * then on like what lay in it at the start (inclusion.c). Where that fails it is let go, and the pair becomes one like
+/* Pairs that limits cannot separate, where one may go inside the other: it is sent there, and from then on kept there
+ * like a feature that lay in it at the start (inclusion.c). If that fails it is released, and the pair becomes one like
  * any other. */
 #include "displacement/layer/rounding.h"
 #include "displacement/solve/clusters/stages.h"

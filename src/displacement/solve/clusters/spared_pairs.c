@@ -75,8 +75,8 @@ static sunder_status find_requirements(const sunder_i_solver *s, const sunder_i_
     return status;
 }
 
-/* Is there a conflict to be solved of which it is proved that there is no way? Those of the same two bodies are one
- * question, as all that is not spared has to hold. */
+/* Is there a conflict to be solved that provably has no solution? Conflicts of the same two bodies are one question,
+ * since all that are not spared have to hold. */
 static sunder_status prove(const sunder_i_solver *s, const sunder_i_spared *list, sunder_i_subproblem *q, bool *proved,
                            sunder_error *err)
 {

@@ -6,15 +6,15 @@
 
 /* Pairs that a question leaves as they are, sorted. */
 typedef struct sunder_i_spared {
-    const sunder_i_id_pair *pair; /* of features and barriers, as they were numbered */
+    const sunder_i_id_pair *pair; /* between the numbers of features and barriers in the two orders */
     size_t n;
 } sunder_i_spared;
 
 /* ---- infeasible_pairs.c ------------------------------------------------------------------------------------------ */
 
 /* Finds, exactly, the pairs that cannot be resolved within their limits, and relaxes them; and those that cannot be
- * parted, but may go inside, which are kept there from then on. Before the model is cut. spared: whom the question
- * leaves as they are, which need not be asked; NULL: none. */
+ * separated, but may go inside, which are kept there from then on. Before the model is cut. spared: pairs that the
+ * question leaves as they are, which need no test; NULL: none. */
 sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *solver, const sunder_i_spared *spared,
                                               sunder_error *err);
 
@@ -36,16 +36,16 @@ sunder_status sunder_i_find_unsolvable(const sunder_i_model *model, const sunder
 sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, bool *lifted, sunder_error *err);
 /* As long as they are lifted: clusters that run into others from where they cannot stay go home, and are set aside. */
 sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_error *err);
-/* What went too far goes back where it came from, to be solved within its limits: that is what is wanted from then on.
- */
+/* Bodies that went too far go back to their original places, to be solved within their limits: these are in force from
+ * then on. */
 sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, sunder_error *err);
 
-/* What is marked goes home, forgets what it was joined with and what was given up of it; clusters are gathered anew. */
+/* Marked bodies go back, their joins and relaxations are dropped; clusters are gathered anew. */
 sunder_status sunder_i_solver_begin_again(sunder_i_solver *solver, const bool *back, sunder_error *err);
 
 /* ---- coarse_bodies.c --------------------------------------------------------------------------------------------- */
 
-/* Of two bodies in conflict the one whose moves are coarse beside the other is fixed from now on, if it can be. */
+/* Of two bodies in conflict the one with coarse moves compared with the other is fixed from now on, if possible. */
 void sunder_i_solver_hold(sunder_i_solver *solver, uint32_t i, uint32_t j);
 /* Bodies that are held and still in conflict may move from now on: *any, and then what hangs together with them, which
  * is what is wanted from now on, has begun again. */
@@ -65,7 +65,8 @@ sunder_status sunder_i_solver_choose_holders(sunder_i_solver *solver, sunder_err
 
 /* ---- grow_crowds.c ----------------------------------------------------------------------------------------------- */
 
-/* Crowds that are to be solved take in whom they will run into. After clusters were gathered, and blocks united. */
+/* Crowds that are to be solved absorb the bodies that they will run into. After clusters were gathered, and blocks
+ * united. */
 sunder_status sunder_i_solver_grow_crowds(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- settle.c ---------------------------------------------------------------------------------------------------- */
@@ -82,7 +83,8 @@ sunder_status sunder_i_solver_take_over(sunder_i_solver *solver, sunder_error *e
 
 /* ---- reconsider.c ------------------------------------------------------------------------------------------------ */
 
-/* Looks again at what was given up. What has a solution after all is put there, which is to be settled: *changed. */
+/* Examines given-up pairs again. A pair that has a solution after all is put there, which is to be settled:
+ * *changed. */
 sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed, sunder_error *err);
 
 /* ---- one_by_one.c ------------------------------------------------------------------------------------------------ */
@@ -97,7 +99,7 @@ sunder_status sunder_i_solver_fit_exactly(sunder_i_solver *solver, sunder_error 
 
 /* ---- retry_list.c ------------------------------------------------------------------------------------------------ */
 
-/* Once nothing joins clusters any more: asks what was given up once more, a cluster at a time. */
+/* Once nothing joins clusters any more: asks for given-up pairs once more, a cluster at a time. */
 sunder_status sunder_i_solver_retry(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- better_sides.c ---------------------------------------------------------------------------------------------- */
@@ -120,7 +122,7 @@ void sunder_i_groups_free(sunder_i_groups *groups);
 
 /* ---- optimise.c -------------------------------------------------------------------------------------------------- */
 
-/* What is listed as things stand, and what is asked of it then: s->groups.waived. */
+/* The listed pairs in the present layout, and the demands on them: s->groups.waived. */
 sunder_status sunder_i_solver_waive(sunder_i_solver *solver, sunder_error *err);
 /* Proves of each contact group how little it could cost; what is found to be cheaper is taken. */
 sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *err);
@@ -150,8 +152,8 @@ sunder_status sunder_i_solver_is_worse(sunder_i_solver *solver, const sunder_i_r
 /* For sunder_i_solver_mend(): each cluster has its own, so that what is done for one takes nothing from another. The
  * caller's; NULL: memory is out. */
 size_t *sunder_i_solver_patience(const sunder_i_solver *solver);
-/* Puts one of the two, or a row, a hair beside where it stands, so that the pair stands no worse, and nothing else
- * does: *well, if there is such a place. budget: [bodies] by roots of clusters, how many may yet be moved in vain. */
+/* Moves one of the two, or a row, slightly, so that the pair stands no worse, and nothing else does: *well, if there is
+ * such a place. budget: [bodies] by roots of clusters, how many may still be moved without success. */
 sunder_status sunder_i_solver_mend(sunder_i_solver *solver, const sunder_i_relation *r, size_t *budget, bool *well,
                                    sunder_error *err);
 /* Takes back what rounding made worse, pair by pair. */

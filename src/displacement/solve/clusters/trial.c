@@ -77,7 +77,7 @@ static sunder_status put(sunder_i_trial *t, const double *to, sunder_error *err)
     return status;
 }
 
-/* Who is near the bodies of the trial as they stand. */
+/* The neighbours of the trial's bodies in the present layout. */
 static bool note_about(sunder_i_trial *t)
 {
     const sunder_i_solver *s = t->solver;

@@ -1,5 +1,5 @@
-/* Bodies are tried at another place, exactly: they stay there if no pair of them comes into conflict there that was in
- * none, or stands worse than it stood, and nobody jumps; else all is as it was. */
+/* Bodies are tried at another place, exactly: they stay there if no pair of them comes into conflict that was in none,
+ * or stands worse than at the start, and nothing jumps; otherwise all is as before. */
 #ifndef SUNDER_I_TRIAL_H
 #define SUNDER_I_TRIAL_H
 
@@ -13,11 +13,11 @@ typedef struct sunder_i_trial {
     size_t n, body_capacity, stood_capacity;
     unsigned along; /* which coordinates: bit 0 is x, bit 1 is y */
     double *goal;   /* [2 n] to each its own, in place of one for all; or NULL */
-    bool *taken;    /* [bodies] where many are asked; else NULL */
+    bool *taken;    /* [bodies] if many are tried; else NULL */
     size_t *budget; /* bodies that may yet be moved in vain, for pairs of this cluster */
     const sunder_i_id_pair
-        *parted;               /* bodies of which no pair may be in conflict, but for what is infeasible; or NULL */
-    sunder_i_list near, about; /* scratch; who was near them where they stood */
+        *parted;               /* bodies that may have no pair in conflict, except infeasible ones; or NULL */
+    sunder_i_list near, about; /* scratch; their neighbours in the old layout */
     bool well;                 /* so far */
 } sunder_i_trial;
 
