@@ -9,7 +9,7 @@ enum { PURPOSE_CROSSING = 1, PURPOSE_BOW, PURPOSE_DRIFT, PURPOSE_NAME, PURPOSE_C
 
 /* A block of the lattice, in metres: about what the blocks of a small town in Central Europe measure. */
 static const double BLOCK_WIDTH = 112, BLOCK_HEIGHT = 88;
-/* A new centre every so many blocks: a walk of a quarter of an hour. */
+/* Blocks between two centres: a walk of a quarter of an hour. */
 static const int64_t CENTRE_SPACING = 14;
 
 town_point town_ground_at(const town_ground *ground, double s, double b)

@@ -1,4 +1,4 @@
-/* sunder-town: writes a town that nobody built, of any size, as a layer of buildings and a layer of roads.
+/* sunder-town: writes a synthetic town of any size, as a layer of buildings and a layer of roads.
  *
  * The town grows along a spiral of blocks from the market place until it has the number of buildings asked for. Blocks
  * are drawn one by one and forgotten, so memory does not grow with the town. The same number and seed give the same

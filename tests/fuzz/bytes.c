@@ -69,7 +69,7 @@ fuzz_scale fuzz_choose_scale(fuzz_bytes *bytes)
     return of_doubles == 16 ? FUZZ_ANY : of_doubles % 16 == 8 ? FUZZ_FAR : FUZZ_NEAR;
 }
 
-/* The same number within so many binary orders of magnitude about one; zeros and what is no number stay. */
+/* The same number scaled to within this many binary orders of magnitude about one; zeros, infinities and NaN stay. */
 static double fold(double value, int orders)
 {
     if (value == 0 || !isfinite(value)) return value;

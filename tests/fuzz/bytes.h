@@ -25,9 +25,8 @@ double fuzz_coordinate(fuzz_bytes *bytes, fuzz_scale scale);
 /* From here on allocation number `after` fails, and every one after it; 0: none does. Installs the hooks once. */
 void fuzz_fail_allocations(unsigned after);
 
-/* From here on the library is let go on so many times that it asks, which it does every millisecond or so, and is then
- * told to stop: what it was called for ends with SUNDER_ECANCEL, and so does what it is called for later. So one input
- * takes no hours of the others'. 0: nobody is asked. */
+/* From here on the library may poll this many times, which it does every millisecond or so, and is then told to stop:
+ * the call ends with SUNDER_ECANCEL, and so do later calls. So one input does not take hours. 0: no limit. */
 enum { FUZZ_LOOKS = 400 };
 void fuzz_patience(unsigned looks);
 bool fuzz_is_out_of_patience(void);
@@ -39,8 +38,8 @@ bool fuzz_is_out_of_patience(void);
     } while (0)
 _Noreturn void fuzz_complain(const char *file, int line, const char *statement);
 
-/* A shape of at most so many vertices; NULL where the library refuses it or has no memory for it. Demands that a
- * refusal has a reason and leaves the output untouched. */
+/* A shape of at most this many vertices; NULL if the library refuses it or has no memory for it. Checks that a refusal
+ * has a reason and leaves the output untouched. */
 sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertices);
 
 #endif

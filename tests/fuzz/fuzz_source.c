@@ -34,7 +34,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
     (void)argc, (void)argv;
     GDALAllRegister();
     CPLSetErrorHandler(CPLQuietErrorHandler);
-    CPLSetConfigOption("GDAL_HTTP_PROXY", "127.0.0.1:1"); /* a CRS may be a link: nobody is to be asked for it */
+    CPLSetConfigOption("GDAL_HTTP_PROXY", "127.0.0.1:1"); /* a CRS may be a link: it must not be fetched */
     CPLSetConfigOption("PROJ_NETWORK", "OFF");
     return 0;
 }
@@ -108,7 +108,7 @@ static void ask_feature(OGRFeatureH feature, OGRGeometryH geometry)
     }
 }
 
-/* The values of all fields, of which no two ways may differ. */
+/* The values of all fields, which must be the same in all ways of reading. */
 static void compare_fields(OGRFeatureH p, OGRFeatureH q)
 {
     FUZZ_DEMAND(OGR_F_GetFieldCount(p) == OGR_F_GetFieldCount(q));

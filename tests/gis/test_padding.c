@@ -24,8 +24,8 @@
 
 enum { FULL = 0xff };
 
-/* Two of a list, every bit of which is set, are stored: behind the numbers of all lists they are as the compiler would
- * clear them. */
+/* Two values in a list, with every bit set, are stored: behind the numbers of all lists the bytes are zero, as the
+ * compiler would clear them. */
 #define ASSERT_STORED(type, array, count)                                                                              \
     do {                                                                                                               \
         type thing[2];                                                                                                 \

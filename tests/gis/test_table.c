@@ -79,7 +79,7 @@ static bool count(void *user, const unsigned char *record, gis_error *error)
     return true;
 }
 
-/* On so many threads, into how many chunks. */
+/* For a number of threads, into how many chunks. */
 static bool is_read(const char *name, unsigned threads, size_t *chunks)
 {
     gis_error error = {0};
@@ -105,7 +105,7 @@ static bool is_read_past_gdal(const char *name)
     return read;
 }
 
-/* Each half has chunks of its own, of which the first are the smallest. */
+/* Each half has its own chunks; the first are the smallest. */
 static bool is_read_in_halves(const char *name)
 {
     size_t whole, halves;

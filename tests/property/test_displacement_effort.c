@@ -45,7 +45,7 @@ static void add_box(crowd *c, rng *r, double x, double y)
     c->n++;
 }
 
-/* n boxes in rows of so many, nearer to each other than they are large. */
+/* n boxes in rows of `row`, nearer to each other than they are large. */
 static void gather(crowd *c, rng *r, size_t n, size_t row)
 {
     memset(c, 0, sizeof *c);
@@ -118,7 +118,7 @@ static void test_bounds(void **state)
     assert_true(proved[EFFORTS - 1] > 0.5 * cost && proved[0] < proved[EFFORTS - 1]);
 }
 
-/* So many that they are taken in parts. */
+/* Enough bodies that the group is divided into parts. */
 static void test_hundreds(void **state)
 {
     (void)state;

@@ -1,9 +1,9 @@
 /* Moves without a limit end in exact contact where doubles hold it: no margin is left in them.
  *
- * Rows of boxes on a grid, of which each has to go so many steps away from the one before: in the cheapest solution all
- * neighbours are in contact. A row begins at a fixed box, or is free, and then its moves add up to nothing. They follow
- * from how the row is made: nothing of the library is asked for them. And pairs of boxes of any coordinates, whose
- * relative move is the double by which they miss the gap. */
+ * Rows of boxes on a grid, where each has to move a given number of steps away from the one before: in the cheapest
+ * solution all neighbours are in contact. A row begins at a fixed box, or is free, and then its moves add up to zero.
+ * The moves follow from the construction of the row, without the library. And pairs of boxes with arbitrary
+ * coordinates, whose relative move is the double by which they miss the gap. */
 #include "random.h"
 #include "scene.h"
 

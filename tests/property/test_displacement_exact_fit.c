@@ -1,11 +1,11 @@
-/* What fits exactly between limits is solved, what misses by the last bit of a limit is told from it.
+/* An exact fit within limits is solved, and distinguished from a fit that fails by the last bit of a limit.
  *
- * Rows of shapes along a direction of rational length, all on one grid: each is to go so many steps of the grid, those
- * at the ends as far as they may and no farther, and between neighbours there is what is owed and no more. So there is
- * one solution, whole steps, which doubles hold. Neighbours face each other with whole edges, or with corners across a
- * gap; a row may begin at a barrier, or at a fixed shape, and every limit may be a hair longer than it need be. With
- * the limit at one end a unit in the last place shorter there is none. Whether there is follows from how a row is made:
- * nothing of the library is asked for it. */
+ * Rows of shapes along a direction of rational length, all on one grid: each has to move a given number of grid steps,
+ * those at the ends exactly as far as they may, and neighbours then have exactly the distance owed. So there is one
+ * solution, in whole steps, which doubles hold. Neighbours face each other with whole edges, or with corners across a
+ * gap; a row may begin at a barrier, or at a fixed shape, and every limit may be slightly longer than necessary. With
+ * the limit at one end shorter by one unit in the last place there is no solution. All this follows from the
+ * construction of a row, without the library. */
 #include "random.h"
 #include "run_layer.h"
 
@@ -36,7 +36,7 @@ typedef struct row {
     int64_t p, q, r; /* p^2 + q^2 = r^2: the direction, and its length, in units */
 } row;
 
-/* So many steps along, so many to the left. */
+/* The given numbers of steps along the row and to its left. */
 static void place(const row *w, int64_t along, int64_t left, double xy[2])
 {
     xy[0] = w->origin[0] + (double)(along * w->p - left * w->q) * w->unit;

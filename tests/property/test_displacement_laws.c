@@ -36,8 +36,8 @@
 
 enum { MOST = 48, CORNERS = 8 };
 
-/* A law is asked about so many towns, of so many houses at most: with half as many again they take as long as all
- * others, so they are for those who ask for more towns. */
+/* The number of towns, and the most houses in each: with half as many houses again they take as long as all others, so
+ * that is left to larger runs. */
 enum { TOWNS = 40, HOUSES = 20, MORE_HOUSES = 32 };
 
 typedef struct house {

@@ -1,6 +1,6 @@
-/* Grids of houses that all lack room: what is left is proved to be of a crowd, a few of which cannot all be solved;
- * each proof is followed by code of its own (support/proof_check.c), and without any one of those that it names, but
- * for very few, the rest is solved. */
+/* Grids of houses that all lack room: the remaining conflicts are proved to be crowded, a few features that cannot all
+ * be solved; independent code verifies each proof (support/proof_check.c), and without any one of the features that it
+ * names, with very few exceptions, the rest is solved. */
 #include "proof_town.h"
 #include "random.h"
 
@@ -96,7 +96,7 @@ static void check_grids(void **state)
     assert_true(sum.solved * 50 >= sum.asked * 49);
 }
 
-/* Where all have room, if all go as far as they may, nobody is of a crowd. */
+/* If all have room when all move as far as they may, no pair is crowded. */
 static void check_that_fit(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Layers of which it is known who has no room, and what is to be told of it: each proof followed by code of its own
- * (support/proof_check.c), in rationals. */
+/* Layers where it is known which conflicts have no room, and what is to be reported of them; independent code verifies
+ * each proof (support/proof_check.c), in rationals. */
 #include "proof_town.h"
 #include "random.h"
 
@@ -22,8 +22,8 @@ static const sunder_conflict *find(const sunder_report *report, size_t a, size_t
     return NULL;
 }
 
-/* A square of 10 km at 5,000 km, one side of which overlaps a fixed one by 2^-20 more than it may move, and another
- * fixed one behind it: plain doubles and a slack of a ten-millionth cannot tell. */
+/* A square of 10 km at 5,000 km; one of its sides overlaps a fixed square by 2^-20 more than it may move, and another
+ * fixed one is behind it: plain doubles with a slack of 1e-7 cannot decide this. */
 static void check_huge_and_small(void **state)
 {
     (void)state;

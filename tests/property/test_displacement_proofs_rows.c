@@ -1,6 +1,6 @@
-/* Rows of houses of which limits let a few pairs part: each pair that is left has a proof exactly where a sum along the
- * row says that there is no room, by the houses that it takes and no more; and proofs of rows whose houses are turned
- * hold. Each proof is followed by code of its own (support/proof_check.c). */
+/* Rows of houses where limits let a few pairs separate: each remaining pair has a proof exactly where a sum along the
+ * row shows that there is no room, naming the houses in that sum and no more; and proofs hold for rows of rotated
+ * houses. Independent code verifies each proof (support/proof_check.c). */
 #include "proof_town.h"
 #include "random.h"
 

@@ -25,8 +25,8 @@
 
 enum { MOST = 40, CORNERS = 8 };
 
-/* So many towns, of so many houses at most: with half as many again they take as long as all others, so they are for
- * those who ask for more towns. */
+/* The number of towns, and the most houses in each: with half as many houses again they take as long as all others, so
+ * that is left to larger runs. */
 enum { TOWNS = 60, HOUSES = 28 };
 
 typedef struct house {
@@ -499,7 +499,7 @@ static void check_towns(void **state)
         sunder_layer_summary s;
         sunder_report_summary(one, &s);
         assert_true(s.verified);
-        /* Who may not jump may have to stay in a yard. */
+        /* A feature that may not jump may have to stay in a yard. */
         if (free_to_move && o.allow_jumps && o.contained != SUNDER_CONTAINMENT_IGNORE)
             assert_int_equal(s.after.overlap + s.after.too_close + s.after.contained + s.after.duplicate, 0);
         sunder_report_free(one);

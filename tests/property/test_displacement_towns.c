@@ -68,7 +68,7 @@ static void draw_options(country *c, rng *r)
     c->options.keep_pushes = c->options.keep_trees = true;
 }
 
-/* So many towns in a row, so far from each other. */
+/* The number of towns in a row, and their distance. */
 static void found(country *c, rng *r, size_t towns, size_t houses, double far)
 {
     const int which = (int)rng_int(r, 0, 2); /* limits for all, for some, for none */
@@ -275,8 +275,8 @@ static void found_many(country *c, rng *r, size_t number)
     found(c, r, TOWNS, SMALL, 3000);
 }
 
-/* Of many small towns one or the other gives something up late, or goes back to where it came from for its limits:
- * then the layer's work goes on, and there is nothing in it for those who had done with theirs. */
+/* In some of many small towns a pair is given up late, or a body goes back because of its limit: then the work on the
+ * layer continues, and must not change towns that were finished. */
 static void test_many_towns(void **state)
 {
     (void)state;
@@ -365,8 +365,9 @@ static void test_asked_again(void **state)
     abandon(&c);
 }
 
-/* Countries of which a town was once treated otherwise beside others: one without limits, of which was asked again what
- * had a solution because others have limits; one whose pushes were of another program where others had bounds. */
+/* Countries where a town was once treated differently because of other towns: one without limits, whose solved pairs
+ * were examined again because others have limits; one whose pushes came from another program where others had
+ * bounds. */
 static void test_found_countries(void **state)
 {
     (void)state;

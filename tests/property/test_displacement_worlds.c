@@ -271,7 +271,7 @@ static size_t look_at_part(const field *f, const sunder_report *whole, const boo
     return same;
 }
 
-/* Who says that it is of a block brings all who say so. */
+/* A feature with a block number brings all features with that number. */
 static void add_blocks(const field *f, bool *there)
 {
     for (size_t k = 0; k < f->n; k++)

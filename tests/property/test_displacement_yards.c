@@ -173,7 +173,7 @@ static double clearance(const yard *y)
     return fmin(fmin(b[0] - y->x, y->x + y->w - b[2]), fmin(b[1] - y->y, y->y + y->h - b[3]));
 }
 
-/* What is told of the conflicts that are left, each with a 0 behind whom it names. */
+/* The report on the remaining conflicts, each followed by a 0 and the features it names. */
 static size_t tell(const scene *s, size_t *out)
 {
     size_t n = 0, told = 0;
@@ -189,7 +189,7 @@ static size_t tell(const scene *s, size_t *out)
     return told;
 }
 
-/* The same is told where nobody wants the proofs. */
+/* The report is the same if proofs are not requested. */
 static void check_without_proofs(scene *s)
 {
     size_t with[MOST_TOLD], without[MOST_TOLD];

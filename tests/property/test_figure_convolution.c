@@ -188,7 +188,8 @@ static bool count_look(double fraction, void *user)
     return true;
 }
 
-/* How often the library looks up while it works, by one thread: once in so many steps, the same on every machine. */
+/* How often the library polls the progress function on one thread: once in a fixed number of steps, the same on every
+ * machine. */
 static size_t looks_of(const sunder_shape *p, sunder_operation operation, unsigned segments)
 {
     size_t looks = 0;

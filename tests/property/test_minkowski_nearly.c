@@ -52,7 +52,7 @@ static bool same(char *got, const char *want)
     return equal;
 }
 
-/* NULL, or who says otherwise. */
+/* NULL, or the oracle that disagrees. */
 static const char *roads_differ(const nearly_case *c, const char *sum, bool all, bool shown)
 {
     if (!same(library_sum_text(&c->q, &c->p), sum)) return "Q + P is another sum";

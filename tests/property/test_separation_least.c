@@ -218,7 +218,7 @@ static int kind_of(sunder_contact contact)
     return contact == SUNDER_CONTACT_DEGENERATE_POINT ? 2 : contact == SUNDER_CONTACT_DEGENERATE_SEGMENT ? 1 : 0;
 }
 
-/* By native integers of 64 bits; by big ones; or by native ones of 128, for the same pair so many times as large. */
+/* In 64-bit integers; in big integers; or in 128-bit integers, for the same pair scaled up. */
 typedef enum rung { BRIEF, WIDE, NARROW } rung;
 #define LARGER 2147483659.0 /* odd, so that it does not go into the unit */
 

@@ -63,7 +63,7 @@ static void check_distance(const polyset *p, const polyset *q, const sunder_shap
     if (apart) complain("not apart by a little more", p, q);
 }
 
-/* Asked at once: the same answers, and of a touch nothing that is not so. Translations of which only the difference
+/* Combined questions give the same answers, and never a false touch. Only the difference of the translations
  * matters. */
 static void check_meeting(const polyset *p, const polyset *q, const sunder_shape *a, const sunder_shape *b,
                           const double t[2], bool meet)
@@ -109,8 +109,7 @@ static void check_pair(const polyset *p, const polyset *q, rng *r, tally *t)
     if (answer != in) complain("contained", p, q);
     check_distance(p, q, a, b, meet);
 
-    /* The same pair, said with translations of which only the difference matters; one that makes the lattice
-     * wide too. */
+    /* The same pair, with translations whose difference is the same; one of them makes the lattice wide. */
     const double big = rng_once_in(r, 4) ? 0x1p90 : 0, x = (double)rng_int(r, -9, 9) / 8 + big,
                  y = (double)rng_int(r, -9, 9);
     const double t1[2] = {x, y};

@@ -1,6 +1,6 @@
-/* Round outlines of many corners, whose subsums have so many sides that they are searched by halving, against the same
- * sets cut into triangles, whose subsums have few: the least translations, with a gap and without, are equally long to
- * the last digit, and keep the gap from either. */
+/* Round outlines of many corners, whose subsums have enough sides that they are searched by bisection, compared with
+ * the same sets cut into triangles, whose subsums have few: the least translations, with a gap and without, are equally
+ * long to the last digit, and keep the gap for both. */
 #include "polyset.h"
 #include "random.h"
 #include "sunder.h"

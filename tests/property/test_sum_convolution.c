@@ -109,8 +109,8 @@ static void test_cases(void **state)
         {"POLYGON ((0 0, 40 0, 40 30, 30 30, 30 10, 10 10, 10 30, 0 30))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
         {"POLYGON ((0 0, 40 0, 40 30, 22 30, 22 25, 30 25, 30 10, 10 10, 10 25, 18 25, 18 31, 0 31))",
          "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
-        /* bays of which the floor is shorter than the shape's side along it: between steep walls, between walls so
-         * gentle that the shape rests in both corners, and one of each; and as long as that: an exact fit, or not */
+        /* bays whose floor is shorter than the shape's side along it: between steep walls, between walls so gentle that
+         * the shape rests in both corners, and one of each; and floors of equal length: an exact fit, or not */
         {"POLYGON ((0 0, 40 0, 40 30, 28 30, 22 20, 18 20, 12 30, 0 30))", "POLYGON ((-4 -3, 4 -3, 4 3, -4 3))", true},
         {"POLYGON ((0 0, 40 0, 40 30, 22 20, 18 20, 0 30))", "POLYGON ((-4 -4, 4 -4, 6 0, 4 4, -4 4, -6 0))", true},
         {"POLYGON ((0 0, 40 0, 40 30, 22 20, 18 20, 17 30, 0 30))", "POLYGON ((-4 -4, 4 -4, 6 0, 4 4, -4 4, -6 0))",

@@ -135,8 +135,8 @@ static void test_members(void **state)
     assert_true(all >= n / 5 && some >= n / 20);
 }
 
-/* Three frames, each in the hole of the one before, far enough apart that all holes stay: three components, of which
- * each takes its own hole. */
+/* Three frames, each in the hole of the one before, far enough apart that all holes stay: three components, each with
+ * its own hole. */
 static void test_nested(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Sums of so many subsums that those deep inside are not made: the same, byte for byte, as by a road that makes them
+/* Sums of enough subsums that those deep inside are not made: the same, byte for byte, as by a road that makes them
  * all, on the lattice and on big integers. */
 #include "convex/hertel_mehlhorn.h"
 #include "convex/needed_subsums.h"

@@ -93,7 +93,7 @@ static void test_boards(void **state)
     assert_int_equal(bad, 0);
 }
 
-/* Bars that overlap, meet and lie on each other; so many that it is asked which sums are needed. */
+/* Bars that overlap, touch and coincide; enough of them that only the needed sums are made. */
 static void draw_bars(polyset *set, rng *r, int n, int span)
 {
     polyset_init(set);

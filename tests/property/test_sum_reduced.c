@@ -120,8 +120,8 @@ static void random_round(polyset *p, rng *r, int n, double least, double most)
     free(xy);
 }
 
-/* Operands with some thousand segments, against an arrangement of all subsums: a few stars, of which segments have many
- * stops, and shores of hundreds of vertices by a star, of which the segments are short. */
+/* Operands with some thousand segments, compared with an arrangement of all subsums: a few stars, whose segments have
+ * many stops, and shores of hundreds of vertices plus a star, whose segments are short. */
 static void test_larger(void **state)
 {
     (void)state;

@@ -19,12 +19,12 @@ typedef struct figure {
 
 void figure_open(figure *f, const polyset *p, const polyset *q, double gap);
 void figure_close(figure *f);
-/* For sets of which each corner is at least the gap from all sides of the other: then no sign here is in doubt. */
+/* For sets where each corner is at least the gap from all sides of the other: then no sign here is in doubt. */
 bool interiors_apart(const figure *f, double tx, double ty);
 
 /* ---- Places, in long binary fractions (gap_oracle_places.c) ---- */
 
-enum { SHORT, LONG }; /* so many bits; see precision() */
+enum { SHORT, LONG }; /* number of bits; see precision() */
 
 /* A line n . x = c with |n| = 1, or (n = 0) a circle about (x, y). */
 typedef struct track {
@@ -65,7 +65,7 @@ size_t drop_far_tracks(track *t, size_t n, double limit);
 /* In doubles: false if the place is known to be farther than the limit, or not to be. *sure: x and y are good to 1e-9
  * of the figure. */
 bool rough_place(place *p, double size, double limit, bool *sure);
-/* The place to so many bits; false if there is none. */
+/* The place to that many bits; false if there is none. */
 bool locate(mpf_t x, mpf_t y, const place *p, int level, numbers *w);
 
 #endif

@@ -34,7 +34,7 @@ static stand random_stand(rng *r)
     return (stand){a[0], a[1], a[2], cos(turn), sin(turn), off[rng_int(r, 0, 6)]};
 }
 
-/* By so many units in the last place; of zero, in that of the size. */
+/* Changes a number by some units in the last place; zero by units of the size. */
 static double step(const stand *t, double v, int64_t units)
 {
     if (v == 0) return (double)units * t->size * 0x1p-53;

@@ -34,10 +34,10 @@ typedef struct optimum_problem {
     size_t pieces, room;
 } optimum_problem;
 
-/* What body b with the convex part q may not do to body a with the convex part p, of which one has area: to come nearer
- * than the radius, or (radius 0) to let the interiors meet, or (a negative one) to be so deep in each other that no
- * translation as long as that parts them. Corners counter-clockwise, multiples of 2^-10 below 2^23,
- * so that differences and turns of three are exact. */
+/* What body b with the convex part q may not do to body a with the convex part p, at least one of which has area: come
+ * nearer than the radius; or (radius 0) let the interiors meet; or (negative radius) overlap so deeply that no
+ * translation of that length separates them. Corners counter-clockwise, multiples of 2^-10 below 2^23, so that
+ * differences and turns of three are exact. */
 void optimum_keep_apart(optimum_problem *m, size_t a, size_t b, const double *p, size_t np, const double *q, size_t nq,
                         double radius);
 /* The way of an anchor of body b, relative to body a, may not meet the convex part q of a. The anchor is outside. */

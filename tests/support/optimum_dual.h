@@ -14,7 +14,7 @@ typedef struct optimum_row {
 typedef enum optimum_verdict { OPTIMUM_SOLVED, OPTIMUM_INFEASIBLE, OPTIMUM_STUCK } optimum_verdict;
 
 typedef struct optimum_solution {
-    double t[2 * (OPTIMUM_BODIES + 1)]; /* nobody's is 0 */
+    double t[2 * (OPTIMUM_BODIES + 1)]; /* 0 for fixed ones */
     double cost, bound;                 /* the bound holds whatever the solution is worth */
 } optimum_solution;
 

@@ -1,5 +1,5 @@
-/* Convex sets that a relative move must stay out of, from convex parts: the hull of all differences of corners; and the
- * shadow of a part, { s q : q in part, s >= 1 }, of which the near side is kept. Exact: sums and turns of such
+/* Convex sets that a relative move must avoid, from convex parts: the hull of all differences of corners; and the
+ * shadow of a part, { s q : q in part, s >= 1 }, represented by its near side. Exact: sums and turns of such
  * coordinates are doubles. */
 #include "optimum.h"
 

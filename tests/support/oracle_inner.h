@@ -54,7 +54,7 @@ struct oracle {
 
 /* Operands (oracle_operand.c) */
 void oracle_load(oracle *o, zset *z, const polyset *set);
-/* A set of rationals of which the grid, 1 / factor, makes integers. */
+/* A set of rationals that the grid, 1 / factor, turns into integers. */
 void oracle_load_even_odd(oracle *o, zset *z, const even_odd *set, const mpz_t factor);
 void oracle_unload(zset *z);
 void oracle_triangulate(const oracle *o, zset *z);

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 
 typedef struct checking {
-    const proof_feature *feature; /* [things], of which barriers are those from n on */
+    const proof_feature *feature; /* [things], barriers from n on */
     size_t n, things, conflict;
     double gap;
     const sunder_report *report;

@@ -7,7 +7,7 @@ static void corner_of(vec *v, const proof_feature *f, size_t k) { vec_set_d(v, f
 
 static size_t segments_of(const proof_feature *line) { return line->corners > 1 ? line->corners - 1 : 1; }
 
-/* The square of the distance of the two segments; of which the second, or both, may be points. */
+/* The square of the distance of two segments; the second, or both, may be points. */
 static void square_between(mpq_t square, const double *p, size_t np, const double *q, size_t nq)
 {
     vec zero;

@@ -145,7 +145,7 @@ static const char *check_side_anchor(const checking *c, size_t f, const double a
     return NULL;
 }
 
-/* Is it on an edge of the barrier's area, of which the anchor is strictly on the right? */
+/* Is it on an edge of the barrier's area that has the anchor strictly on its right? */
 static bool is_outer_side(const proof_feature *area, const double side[4], const double anchor[2])
 {
     vec p, q, at;

@@ -20,15 +20,15 @@ typedef struct proof_town {
     bool blocks;
 } proof_town;
 
-/* A feature that is a ring of so many corners; 0: it is fixed. */
+/* A feature that is a ring of this many corners; 0: it is fixed. */
 sunder_feature *proof_town_add(proof_town *t, const double *xy, size_t corners, double limit);
 sunder_feature *proof_town_add_box(proof_town *t, double x, double y, double w, double h, double limit);
 /* A line, a point or (four corners) an area, behind all features. width: a dyadic, like the gap. */
 void proof_town_add_barrier(proof_town *t, const double *xy, size_t corners, double width, double gap, bool sides);
 /* Separated, by the town's gap and blocks; contained ones, too. */
 sunder_report *proof_town_separate(const proof_town *t);
-/* How many conflicts have no room, or none on their side, all of them proved; the others have no proof. *open: so many
- * more are left without a reason. */
+/* How many conflicts have no room, or none on their side, all of them proved; the others have no proof. *open: the
+ * number left without a reason. */
 size_t proof_town_check(const proof_town *t, const sunder_report *report, size_t trial, size_t *open);
 void proof_town_free(proof_town *t);
 

@@ -1,4 +1,4 @@
-/* A scene of which each feature is a body by itself, in their own order, and where they are moved to. */
+/* A scene in which each feature is a body of its own, in their own order, and the features' new places. */
 #ifndef SUNDER_TESTS_SCENE_BOARD_H
 #define SUNDER_TESTS_SCENE_BOARD_H
 

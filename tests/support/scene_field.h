@@ -15,7 +15,7 @@ typedef struct scene_field {
     sunder_i_search search; /* of all of them */
 } scene_field;
 
-/* Room for so many. */
+/* Capacity. */
 scene_field *scene_field_new(size_t most);
 /* One more, from WKT, which goes no farther than that. */
 void scene_field_add(scene_field *field, const char *wkt, double max_shift);

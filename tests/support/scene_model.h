@@ -22,7 +22,7 @@ typedef struct scene_model {
 void scene_model_begin(scene_model *m, const scene *s);
 /* The same, placed and related as at the start of a run, with its seams. */
 void scene_model_related(scene_model *m, const scene *s);
-/* The same of features that are the caller's, of which there may be more than in a scene. */
+/* The same for features that the caller owns; there may be more of them than in a scene. */
 void scene_model_related_features(scene_model *m, const sunder_feature *feature, size_t n,
                                   const sunder_layer_options *options);
 void scene_model_end(scene_model *m);

@@ -7,8 +7,8 @@
 
 #include "displacement/solve/clusters/stages.h"
 
-/* Of a model that is related, which stays the scene's; who is too close hangs together, and no clusters are gathered.
- */
+/* For a model with relations, which the scene keeps; bodies that are too close are joined, and no clusters are
+ * gathered. */
 void scene_solver_begin(sunder_i_solver *solver, scene_model *of);
 /* Before the model ends. */
 void scene_solver_end(sunder_i_solver *solver);

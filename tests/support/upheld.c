@@ -9,8 +9,8 @@ static bool is_within(sunder_conflict_kind kind)
     return kind == SUNDER_CONFLICT_CONTAINED || kind == SUNDER_CONFLICT_DUPLICATE;
 }
 
-/* The kinds of pairs are asked of a check of the layer as it was given: that much of src/ is believed here. Nobody
- * stops it. */
+/* A check of the layer as it was given tells the kinds of pairs: that part of src/ is trusted here. It is not
+ * cancelled. */
 static sunder_report *check(const sunder_feature *feature, size_t n, const sunder_layer_options *options)
 {
     sunder_layer *layer = NULL;

@@ -8,7 +8,7 @@
 
 static double between(rng *r, double low, double high) { return low + (high - low) * rng_unit(r); }
 
-/* A closed wave about a circle: sum of so many harmonics. */
+/* A closed wave about a circle: a sum of this many harmonics. */
 typedef struct wave {
     int n;
     double size[64], phase[64];
@@ -96,7 +96,7 @@ static void track(polyset *set, rng *r, int n)
     polyset_end_polygon(set);
 }
 
-/* A finely flattened round outline with so many places where two neighbours are swapped. */
+/* A finely flattened round outline with two neighbours swapped at this many places. */
 static void bows(polyset *set, int n, double cx, double cy, int swapped)
 {
     for (int i = 0; i < n; i++) {
