@@ -272,7 +272,7 @@ class Checker:
         lay, found = self.layers, {}
         for f in self.moved & known.keys():
             lines = self.side_lines(lay.was[f].box)
-            found[f] = side_anchor(lay.was[f], lines, known[f], lay.unit) if lines else None
+            found[f] = side_anchor([lay.was[f]], lines, known[f], lay.unit) if lines else None
             self.count["cut by sides"] += found[f] is not None
             found[f] = found[f] or known[f]
         return found

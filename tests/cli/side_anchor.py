@@ -2,6 +2,7 @@
 fractions and by other means: the plane in horizontal slabs between all corners, ends and crossings, cells between edges,
 cells that share a piece of a slab's border that no edge covers as one part.
 """
+import math
 from fractions import Fraction
 
 import exact_plane as plane
@@ -38,7 +39,7 @@ def levels_of(edges):
 
 
 class Parts:
-    """outline: the feature; lines: segments, of integers as it."""
+    """outline: a member of the feature; lines: segments, of integers as it."""
 
     def __init__(self, outline, lines):
         self.edges = [(e, True) for e in outline.edges] + [(e, False) for e in lines]
@@ -108,9 +109,8 @@ class Parts:
                 return part
         return None
 
-    def largest(self):
-        areas = [sum(c.area() for c in part) for part in self.parts]
-        return [k for k, area in enumerate(areas) if area == max(areas)]
+    def area(self, k):
+        return sum(c.area() for c in self.parts[k])
 
     def point(self, k):
         y = (min(c.low for c in self.parts[k]) + max(c.high for c in self.parts[k])) / 2
@@ -118,12 +118,12 @@ class Parts:
         return (-left + right) / 2, y
 
 
-def room(point, box, lines):
+def room(point, box, lines, reach):
     """Beyond the point, away from the middle of the box: the square of the way to the first line, if that is no farther
-    than twice the width and height of the box together."""
+    than the reach."""
     px, py = point
     dx, dy = px - Fraction(box[0] + box[2], 2), py - Fraction(box[1] + box[3], 2)
-    best = Fraction(2 * (box[2] - box[0] + box[3] - box[1])) ** 2
+    best = reach * reach
     for (ax, ay), (bx, by) in lines:
         den = dx * (by - ay) - dy * (bx - ax)
         if den == 0:
@@ -135,18 +135,35 @@ def room(point, box, lines):
     return best
 
 
-def side_anchor(outline, lines, plain, unit):
-    """plain: the anchor, as doubles; unit: of the integers, so many to one. None where no line cuts the feature."""
+def size_of(box, unit):
+    """Width and height together, as doubles add them up."""
+    low_x, low_y, high_x, high_y = (float(Fraction(v) / unit) for v in box)
+    return (high_x - low_x) + (high_y - low_y)
+
+
+def side_anchor(members, lines, plain, unit, tolerance=0.0, known=math.inf):
+    """members: outlines of the feature's polygons; lines: all that may cut it or be seen from it; plain: the anchor, as doubles; unit: of
+    the integers, so many to one; tolerance, known (how far lines are known): doubles. None where no line cuts the feature."""
     lines = [e for e in lines if e[0] != e[1]]
-    if not lines or not plane.interiors_meet(outline, plane.Outline(lines=[list(e) for e in lines])):
+    box = plane.box_of([p for o in members for e in o.edges for p in e])
+    about = [e for e in lines if plane.boxes_near(plane.edge_box(e), box)]
+    if not about or not any(plane.interiors_meet(o, plane.Outline(lines=[list(e) for e in about])) for o in members):
         return None
-    parts = Parts(outline, lines)
-    largest = parts.largest()
-    if len(largest) > 1:
-        rooms = {k: room(parts.point(k), outline.box, lines) for k in largest}
-        largest = [k for k in largest if rooms[k] == max(rooms.values())]
-    if parts.holder(*(Fraction(v) * unit for v in plain)) in largest:
+    every = [(cut, k) for cut in (Parts(o, about) for o in members) for k in range(len(cut.parts))]
+    slack, reach = Fraction(tolerance * size_of(box, unit)) * unit * unit, Fraction(min(known, 2 * size_of(box, unit))) * unit
+    left = largest(every, slack)
+    if len(left) > 1:
+        rooms = [room(cut.point(k), box, lines, reach) for cut, k in left]
+        left = largest([part for part, own in zip(left, rooms) if own == max(rooms)], 0)
+    if any(cut.holder(*(Fraction(v) * unit for v in plain)) == k for cut, k in left):
         return plain
-    x, y, part = min((*parts.point(k), k) for k in largest)
+    x, y, at = min((*cut.point(k), n) for n, (cut, k) in enumerate(left))
+    cut, k = left[at]
     near = float(x / unit), float(y / unit)
-    return near if parts.holder(*(Fraction(v) * unit for v in near)) == part else plain
+    return near if cut.holder(*(Fraction(v) * unit for v in near)) == k else plain
+
+
+def largest(parts, slack):
+    """Those that no other exceeds by more than the slack."""
+    areas = [cut.area(k) for cut, k in parts]
+    return [part for part, area in zip(parts, areas) if area + slack >= max(areas)]

@@ -42,9 +42,9 @@ def whole(chain):
 
 
 def wanted(polygons, lines, areas, plain):
-    outline = plane.Outline([whole(r) for rings in polygons for r in rings])
+    members = [plane.Outline([whole(r) for r in rings]) for rings in polygons]
     sides = plane.Outline([whole(r) for area in areas for rings in area for r in rings], [whole(c) for c in lines])
-    return side_anchor(outline, sides.edges, plain, UNIT) or plain
+    return side_anchor(members, sides.edges, plain, UNIT) or plain
 
 
 def anchor_wanted(polygons):
@@ -89,6 +89,8 @@ HAND = [
     ("an area inside", square, [], [[[box(1, 1, 6, 6)]]]),
     ("an area and a line", square, [[(-1, 1), (9, 2)]], [[[box(5, -1, 20, 20)]]]),
     ("two that overlap", [[box(0, 0, 8, 8)], [box(5, 3, 9, 9)]], [], []),
+    ("two that overlap, a line through both", [[box(0, 0, 8, 8)], [box(5, 3, 9, 9)]], [[(6, -1), (7, 14)]], []),
+    ("two that share a wall, a line along it", [[box(0, 0, 8, 8)], [box(8, 0, 5, 8)]], [[(8, -1), (8, 9)]], []),
     ("two that share a wall", [[box(0, 0, 8, 8)], [box(8, 0, 5, 8)]], [], []),
     ("two that share a part of a level wall", [[box(0, 0, 8, 4)], [box(2, 4, 12, 4)]], [], []),
     ("two that meet in a corner at the middle", [[box(0, 0, 8, 4)], [box(8, 4, 8, 4)]], [], []),

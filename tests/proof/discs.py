@@ -65,3 +65,15 @@ def is_outside(corners, square):
         if cross <= 0 or cross * cross < square * ((qx - px) ** 2 + (qy - py) ** 2):
             return False
     return True
+
+
+COSINES = (1.0, 0.9238, 0.7071, 0.3826, 0.0)  # of multiples of pi / 8, not above them
+
+
+def within(tolerance):
+    """The polygon by which a feature is grown that another lies in up to the tolerance (src/displacement/layer/grown_shape.c): corners
+    are multiples of a 64th of the power of two above the tolerance, cut towards the middle."""
+    unit = math.ldexp(1.0, math.frexp(tolerance)[1] - 6)
+    steps = [math.floor(tolerance / unit * c) * unit for c in COSINES]
+    quarter = list(zip(steps, steps[::-1]))[:4]
+    return quarter + [(-y, x) for x, y in quarter] + [(-x, -y) for x, y in quarter] + [(y, -x) for x, y in quarter]

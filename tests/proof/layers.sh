@@ -101,3 +101,51 @@ make_houses() {
 make_through() {
     printf 'WKT,w\n"LINESTRING(-30 3,40 3)",1\n' | layer through.gpkg through LINESTRING
 }
+
+# PLACE: pairs of which one lies in the other, but for a corner where that one, grown by the tolerance (0.3), has one: `at` that corner, whose
+# coordinates are the nearest doubles, or `beyond` it by one unit in the last place.
+make_hanging() {
+    PYTHONPATH=$here python3 -c '
+import sys
+from math import cos, inf, nextafter, sin
+from random import Random
+from discs import within
+r = Random(3)
+print("WKT,w")
+def put(ring): print("\"POLYGON((" + ", ".join(f"{u!r} {v!r}" for u, v in ring) + "))\",1")
+for k in range(6):
+    x, y, a = 600000 + 60 * k, 5000000, r.uniform(0, 6)
+    big = [(x + 10 * cos(a) * u - 10 * sin(a) * v, y + 10 * sin(a) * u + 10 * cos(a) * v) for u, v in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    cx, cy = big[k % 4]
+    dx, dy = max(within(0.3), key=lambda d: d[0] * (cx - x) + d[1] * (cy - y))
+    at = cx + dx, cy + dy
+    if sys.argv[1] == "beyond":
+        at = tuple(nextafter(v, inf if d > 0 else -inf) for v, d in zip(at, (dx, dy)))
+    put(big)
+    put([at] + [(x + 0.6 * (u - x), y + 0.6 * (v - y)) for u, v in (big[(k + 1) % 4], big[k % 4 - 1])])' "$1" | layer "$1.gpkg" buildings POLYGON
+}
+
+# HOW MANY MEMBERS FILE: buildings, of so many members at most, which overlap each other or share walls; half of them are turned.
+make_members() {
+    python3 -c '
+import sys
+from math import cos, sin
+from random import Random
+r = Random(1)
+KINDS = [[(0, 0, 9, 6), (6, 3, 12, 10)], [(0, 0, 6, 6), (6, 0, 11, 6)], [(0, 4, 12, 7), (4, 0, 7, 11), (5, 5, 6, 6)], [(0, 0, 9, 9)]]
+def ring(x, y, a, box):
+    corners = [(box[0], box[1]), (box[2], box[1]), (box[2], box[3]), (box[0], box[3])]
+    return "((" + ", ".join(f"{x + cos(a) * u - sin(a) * v:.2f} {y + sin(a) * u + cos(a) * v:.2f}" for u, v in corners) + "))"
+print("WKT,w")
+for k in range(int(sys.argv[1])):
+    x, y, a = 600000 + 13 * (k % 4) + r.uniform(-2, 2), 5000000 + 13 * (k // 4) + r.uniform(-2, 2), r.choice([0, r.uniform(0, 6)])
+    print("\"MULTIPOLYGON(" + ", ".join(ring(x, y, a, box) for box in KINDS[k % 4][:int(sys.argv[2])]) + f")\",{1 + k % 3}")' "$1" "$2" |
+        layer "$3.gpkg" buildings MULTIPOLYGON
+}
+
+# What stands in their way: a road, and an area of two members that overlap.
+make_among_members() {
+    printf 'WKT,w\n"LINESTRING(599990 5000019,600060 5000021)",1\n' | layer street.gpkg street LINESTRING
+    printf 'WKT,w\n"MULTIPOLYGON(((600051 4999990,600060 4999990,600060 5000010,600051 5000010,600051 4999990)),((600053 5000005,600070 5000005,600070 5000040,600053 5000040,600053 5000005)))",1\n' |
+        layer woods.gpkg woods MULTIPOLYGON
+}

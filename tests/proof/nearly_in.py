@@ -1,56 +1,46 @@
 """Does one set lie in another up to a tolerance? That is, in the other grown by a polygon of 16 corners within the disc of that
-radius, whose corners are the nearest doubles. First by the distances of edges, between a disc of cos(pi / 16) of it and the
-whole one; what lies between the two is asked of that polygon. Integers and fractions alone."""
+radius (discs.within()), the corners of the sum being the nearest doubles. First by the distances of edges, between a disc that this polygon
+contains and the whole one; what lies between the two is asked of the sum itself. Integers and fractions alone."""
 from fractions import Fraction
 
 import discs
 from cover import hull
 from exact import plane
-from pieces import in_union, trapezoids
+from repair import repaired
+from unions import union_outline, union_polygons
 
-SURE = Fraction(98078, 100000)  # less than cos(pi / 16)
-HALVINGS = 12
-HAIR = Fraction(1, 1 << 20)
+SURE = Fraction(93, 100)  # of the radius: a disc of that lies in the polygon
+HALVINGS = 6
 
 
 def lies_in_grown(a, b, d, tolerance, unit):
-    """True, False, or None where rounded corners decide, and b is not convex. d: the tolerance in units of the lattice."""
-    told = nearly_in(a, b, d)
-    if told is not None or not d:
-        return bool(told)
-    disc = [tuple(Fraction(v) * unit for v in corner) for corner in discs.inside(tolerance, 16)]
-    hair = HAIR + Fraction(max(map(abs, a.box + b.box)), 1 << 50) / d
-    parts = trapezoids(a)
-    if hair < 1 and all(in_union(t, grown(b, disc, 1 - hair)) for t in parts):
-        return True
-    if not all(in_union(t, grown(b, disc, 1 + hair)) for t in parts):
-        return False
-    if len(b.rings) != 1 or sorted(hull(b.rings[0])) != sorted(b.rings[0]):
-        return None
-    corners = hull([(p[0] + x, p[1] + y) for p in b.rings[0] for x, y in disc])
-    rounded = [tuple(Fraction(float(v / unit)) * unit for v in p) for p in corners]
-    return all(in_union(t, [outline_of(rounded)]) for t in parts)
+    """d: the tolerance in units of the lattice."""
+    if not d:
+        return plane.lies_in(a, b)
+    told = nearly_in(a, b, d, Fraction(max(map(abs, a.box + b.box)), 1 << 50))
+    return plane.lies_in(a, grown(b, tolerance, unit)) if told is None else told
 
 
-def grown(b, disc, share):
-    """b, and its edges grown by the disc times that."""
-    around = [outline_of(hull([(p[0] + share * x, p[1] + share * y) for p in e for x, y in disc])) for e in b.edges]
-    return [b, *around]
+def grown(b, tolerance, unit):
+    """The sum of b and the polygon, as doubles and by the even-odd rule where that breaks it."""
+    disc = [tuple(Fraction(v) * unit for v in corner) for corner in discs.within(tolerance)]
+    around = [plane.Outline([hull([(p[0] + x, p[1] + y) for p in e for x, y in disc])]) for e in b.edges]
+    outlines = []
+    for rings in union_polygons([b, *around]):
+        rounded = repaired([[tuple(float(v / unit) for v in p) for p in ring] for ring in rings])
+        outlines.append(plane.Outline([[tuple(Fraction(v) * unit for v in p) for p in ring] for ring in rounded]))
+    return union_outline([o for o in outlines if o.box])
 
 
-def outline_of(corners):
-    return plane.Outline([corners])
-
-
-def nearly_in(a, b, d):
-    """True, False, or None where it is not told."""
+def nearly_in(a, b, d, hair):
+    """True, False, or None where it is not told. hair: more than rounding moves a corner."""
     if plane.lies_in(a, b):
         return True
-    if not d or not plane.corners_lie_in(a, b, d):
+    if not plane.corners_lie_in(a, b, d + hair):
         return False
-    told = True if no_room_inside(a, b) else None
+    told = True if no_room_inside(a, b) and hair < d / 1000 else None
     for p, q in a.edges:
-        along = edge_is_near(p, q, b, d, HALVINGS)
+        along = edge_is_near(p, q, b, d + hair, d, HALVINGS)
         if along is False:
             return False
         told = told and along
@@ -64,21 +54,21 @@ def no_room_inside(a, b):
                    for box in boxes)
 
 
-def edge_is_near(p, q, b, d, halvings):
-    """By its middle: no other place of the edge is farther than that by more than half its length."""
+def edge_is_near(p, q, b, most, d, halvings):
+    """By its middle: no other place of the edge is farther than that by more than half its length. most: what is farther is out."""
     middle = Fraction(p[0] + q[0], 2), Fraction(p[1] + q[1], 2)
     square = Fraction(0)
     if plane.locate(b, middle) < 0:
         square = min((Fraction(n) / m for n, m in (plane.square_to_edge(middle, e)
-                                                   for e in plane.near_edges(b, (*middle, *middle), d))), default=None)
-        if square is None or square > d * d:
+                                                   for e in plane.near_edges(b, (*middle, *middle), most))), default=None)
+        if square is None or square > most * most:
             return False
     half = Fraction((p[0] - q[0]) ** 2 + (p[1] - q[1]) ** 2) / 4
     if roots_add_up_to_less(square, half, SURE * d):
         return True
     if not halvings:
         return None
-    halves = [edge_is_near(*ends, b, d, halvings - 1) for ends in ((p, middle), (middle, q))]
+    halves = [edge_is_near(*ends, b, most, d, halvings - 1) for ends in ((p, middle), (middle, q))]
     return False if False in halves else None if None in halves else True
 
 

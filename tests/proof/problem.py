@@ -13,6 +13,7 @@ from blocks import Blocks
 from form import demand
 from pieces import in_polygon, in_union
 from repair import area_of, members_of, repaired
+from unions import union_outline
 
 
 def split_spec(spec):
@@ -28,18 +29,19 @@ class Thing:
     def __init__(self, lattice, polygons, lines):
         self.polygons = [[[lattice.point(p) for p in ring] for ring in polygon] for polygon in polygons]
         self.lines = [[lattice.point(p) for p in line] for line in lines]
-        self.edges = [plane.Outline(p).edges for p in self.polygons]
         self.outlines = [plane.Outline(p) for p in self.polygons]
         self.parts = {}
 
-    def demand_apart(self, key):
-        """What several members cover would count as outside, here."""
-        for k, one in enumerate(self.outlines):
-            for other in self.outlines[:k]:
-                demand(not (one.box and other.box and plane.interiors_meet(one, other)), "members overlap, which is not read:", key)
-
     def whole(self):
+        """The union of its members, whose common walls and what several cover are inside."""
+        members = [o for o in self.outlines if o.box]
+        if any(have_common_walls(one, other) for k, one in enumerate(members) for other in members[:k]):
+            return union_outline(members, self.lines)
         return plane.Outline([r for p in self.polygons for r in p], self.lines)
+
+    def edges_near(self, box, reach):
+        """Of its members and lines."""
+        return [e for o in (*self.outlines, plane.Outline(lines=self.lines)) for e in plane.near_edges(o, box, reach)]
 
     def holds_place(self, p):
         return any(o.box and plane.locate(o, p) >= 0 for o in self.outlines)
@@ -77,6 +79,13 @@ class Lattice:
     @property
     def unit(self):
         return 1 << self.k
+
+
+def have_common_walls(one, other):
+    """Or more in common than that: all but corners that touch."""
+    return plane.boxes_near(one.box, other.box) and (plane.interiors_meet(one, other) or any(
+        plane.side(*e, f[0]) == plane.side(*e, f[1]) == 0 and plane.edges_meet(e, f)
+        for e in plane.near_edges(one, other.box) for f in plane.near_edges(other, one.box)))
 
 
 def symbol_corners(text):
@@ -137,8 +146,6 @@ class Problem:
         self.place = {fid: k for k, fid in enumerate(layer.features)}
         self.skipped = self.ignored | {fid for fid, thing in self.things.items() if not any(o.area for o in thing.outlines)}
         self.owed, self.fixed = {}, fixed
-        for fid, thing in self.things.items():
-            thing.demand_apart(fid)
         self.pairs, self.wholes = set(), {}
         self.listed = {}  # pairs: the kinds of their conflicts
         self.stood = {}   # pairs: see how_it_stood()
@@ -146,7 +153,6 @@ class Problem:
         for key, polygons, lines, width, gap, side in barriers:
             demand(key not in self.things, "two barriers are called", key)
             self.things[key] = Thing(self.lattice, polygons, lines)
-            self.things[key].demand_apart(key)
             self.owed[key] = self.lattice(width / 2) + self.lattice(gap)
             if side:
                 self.sides.add(key)
@@ -340,10 +346,17 @@ class Problem:
         if self.options.symbol:
             return self.points[fid]
         if fid not in self.side_anchors:
-            outline, plain = self.whole(fid), self.anchor(fid)
-            lines = [e for key in self.sides for e in plane.near_edges(self.whole(key), outline.box)]
-            self.side_anchors[fid] = side_anchor(outline, lines, plain, self.lattice.unit) or plain
+            box, plain = self.whole(fid).box, self.anchor(fid)
+            members = [o for o in self.things[fid].outlines if o.box]
+            known = self.lines_known()
+            lines = [e for key in self.sides for e in self.things[key].edges_near(box, 4 * (box[2] - box[0] + box[3] - box[1]))]
+            self.side_anchors[fid] = side_anchor(members, lines, plain, self.lattice.unit, self.tolerance, known) or plain
         return self.side_anchors[fid]
+
+    def lines_known(self):
+        """How far about features lines are looked at: four times the longest limit."""
+        limits = [self.own_limit(fid) for fid in self.place if fid not in self.ignored and fid not in self.fixed]
+        return math.inf if None in limits else 4 * max(limits, default=0.0)
 
     def demand_side(self, key, corners, feature, anchor):
         """A segment of a line of the barrier, none of which the side anchor lies on; or an edge of an area, with the area on
@@ -357,9 +370,9 @@ class Problem:
             demand(not any(plane.on_edge(e, at) for e in lines), "the side anchor of", feature, "lies on", key)
             return p, q
         areas = [o for o in thing.outlines if any(plane.on_edge(e, p) and plane.on_edge(e, q) for e in o.edges)]
-        demand(p != q and len(areas) == 1, "a side is not of", key)
+        demand(p != q and areas, "a side is not of", key)
         middle, along = (p[0] + q[0], p[1] + q[1]), (q[0] - p[0], q[1] - p[1])
-        demand(plane.on_its_left(areas[0].scaled(2), middle, along) and plane.side(p, q, at) < 0,
+        demand(any(plane.on_its_left(o.scaled(2), middle, along) for o in areas) and plane.side(p, q, at) < 0,
                "a side of", key, "faces away from", feature)
         return p, q
 

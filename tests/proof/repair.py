@@ -73,25 +73,31 @@ def turn_rank(back, out):
     return half, dot / cross if cross else 0
 
 
-def follow(boundary):
-    """Rings of directed pieces."""
+def directed(boundary):
+    """The pieces with the inside on their left."""
+    return [(p, q) if is_inside_on_left(boundary, p, q) else (q, p) for p, q in boundary]
+
+
+def follow(pieces, outside=False):
+    """Rings of directed pieces: where several meet, on to the next edge of the same inside, or of the same outside."""
     leaving = {}
-    for p, q in boundary:
-        p, q = (p, q) if is_inside_on_left(boundary, p, q) else (q, p)
+    for p, q in pieces:
         leaving.setdefault(p, []).append(q)
     while leaving:
-        first = min(leaving)
-        ring, p, q = [first], first, leaving[first].pop()
+        p = start = min(leaving)
+        q = leaving[start][0]
+        ring, began = [], q
         while True:
+            leaving[p].remove(q)
             if not leaving[p]:
                 del leaving[p]
-            if q == first:
-                break
-            ring.append(q)
+            ring.append(p)
             back = p[0] - q[0], p[1] - q[1]
-            ways = leaving[q]
-            ways.sort(key=lambda r: turn_rank(back, (r[0] - q[0], r[1] - q[1])), reverse=True)
-            p, q = q, ways.pop()
+            ways = [*leaving.get(q, ()), *([began] if q == start else ())]
+            pick = max if outside else min
+            p, q = q, pick(ways, key=lambda r: turn_rank(back, (r[0] - q[0], r[1] - q[1])))
+            if (p, q) == (start, began):
+                break
         yield ring
 
 
@@ -109,7 +115,7 @@ def exact_rings(rings):
     odd = set()
     for piece in pieces:
         odd ^= {piece}
-    return [without_straight(ring) for ring in follow(sorted(odd))]
+    return [without_straight(ring) for ring in follow(directed(sorted(odd)))]
 
 
 def repaired(rings):

@@ -26,6 +26,14 @@ refuted() {
     cat kinds
 }
 
+# strange NAME SOURCE OPTIONS...: the proof is of another layer, or of other options, and is refused
+strange() {
+    local name=$1 source=$2
+    shift 2
+    python3 "$here/check_proof.py" "$name.jsonl" "$source" --layer buildings "$@" >said 2>&1
+    [ $? = 1 ] && grep -q '^refused: ' said || fail "$name for $source $*: $(cat said)"
+}
+
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
 monuments="kind = 'monument'"
 roads="$town,layer=roads,width=5"
@@ -187,12 +195,38 @@ yard = plane.Outline([[(0, 0), (10, 0), (10, 10), (0, 10)], [(4, 4), (4, 6), (6,
 assert not in_union(part, [yard])
 assert in_union(part, [yard] + boxes((4, 4, 6, 6)))
 
-from nearly_in import nearly_in
+from nearly_in import lies_in_grown
 wide, = boxes((0, 0, 1000, 1000))
-dent = plane.Outline([[(0, 0), (1000, 0), (1000, 1000), (600, 1000), (500, 700), (400, 1000), (0, 1000)]])  # 95 at most from its sides
-assert [nearly_in(wide, dent, d) for d in (97, 96, 95, 94, 40)] == [True, None, None, False, False]
-assert nearly_in(dent, wide, 0)
+dent = plane.Outline([[(0, 0), (1000, 0), (1000, 1000), (600, 1000), (500, 700), (400, 1000), (0, 1000)]])  # 94.9 at most from its sides
+assert [lies_in_grown(wide, dent, d, d, 1) for d in (97, 96, 95, 94, 40)] == [True, True, False, False, False]
+assert lies_in_grown(dent, wide, 0, 0.0, 1)
+from unions import union_polygons
+def corners_of(*sides): return [[len(ring) for ring in rings] for rings in union_polygons(boxes(*sides))]
+assert corners_of((0, 0, 3, 3), (2, 2, 5, 5)) == [[8]]
+assert corners_of((0, 0, 3, 3), (3, 0, 5, 3)) == [[4]]  # a wall in common
+assert corners_of((0, 0, 3, 3), (3, 3, 5, 5)) == [[4], [4]]  # a corner
+assert corners_of((0, 0, 3, 1), (0, 0, 1, 3), (2, 0, 3, 3), (0, 2, 3, 3)) == [[4, 4]]  # a yard
 END
+
+# Whether one lies in another up to the tolerance, by the last digit of a corner of what that is grown to: as it is, and one unit beyond.
+make_hanging at
+make_hanging beyond
+proved beyond beyond.gpkg --gap 3
+proved at at.gpkg --gap 3
+[ "$(grep -c '^{"block"' at.jsonl),$(grep -c '^{"block"' beyond.jsonl)" = 6,0 ] || fail "what hangs over: $(grep -c '^{"block"' at.jsonl beyond.jsonl)"
+strange at beyond.gpkg --gap 3
+strange beyond at.gpkg --gap 3
+
+# Buildings whose members overlap or share walls are their union; so are areas of a barrier.
+make_members 12 3 members
+make_among_members
+members=(--gap 2 --no-blocks --max-shift 3 --barrier street.gpkg,width=2 --barrier woods.gpkg)
+proved members members.gpkg "${members[@]}"
+make_members 12 1 first
+strange members first.gpkg "${members[@]}"
+strange members members.gpkg --gap 2 --no-blocks --max-shift 3 --barrier street.gpkg,width=1 --barrier woods.gpkg
+proved apart members.gpkg --gap 1.5 --max-shift 3 --no-blocks --weight area
+refuted apart members.gpkg --gap 1.5 --max-shift 3 --no-blocks --weight area --need part --need hull --need disc --need heavier
 
 # Symbols of points: five within each other's reach, one of them too far in for its limit.
 printf 'WKT,w\n"POINT(0 0)",1\n"POINT(3 1)",1\n"POINT(1.5 3.1)",1\n"POINT(40 0)",1\n"POINT(40.25 0.5)",1\n' |
