@@ -11,6 +11,7 @@ from fractions import Fraction
 import discs
 from exact import plane
 from form import demand
+from geopackage import value_of
 from nearly_in import lies_in_grown
 
 TOO_MANY = 60_000
@@ -20,7 +21,10 @@ class Blocks:
     """problem: with things, lattice, tolerance (a double), options, attributes, skipped."""
 
     def __init__(self, problem):
-        self.problem, self.of, self.known = problem, {}, {}
+        self.problem, self.of, self.known, options = problem, {}, {}, problem.options
+        # Symbols join by touch only where a tolerance is given.
+        self.touches_join = not options.no_blocks and (not options.points or options.touch_tolerance is not None)
+        self.containment_joins = not options.no_blocks and options.contained == "block"
         disc = discs.inside(problem.tolerance / 2, 16) if problem.tolerance / 2 > 0 else []
         for p in disc:
             for v in p:
@@ -65,14 +69,14 @@ class Blocks:
         field, values = problem.options.block_field, {}
         fids = [f for f in problem.place if f not in problem.skipped]
         for fid in fids:
-            value = problem.attributes[fid][field] if field else None
+            value = value_of(problem.attributes[fid], field)
             if value is not None:
                 values.setdefault(value, []).append(fid)
         for own in values.values():
             for pair in zip(own, own[1:]):
                 seen.add(pair)
                 yield pair
-        if not self.by_place():
+        if not self.touches_join and not self.containment_joins:
             return
         reach = problem.lattice(problem.tolerance) + 1
         boxes = sorted((*self.problem.whole(fid).box, fid) for fid in fids)
@@ -85,21 +89,15 @@ class Blocks:
                     yield pair
             open_ones.append(box)
 
-    def by_place(self):
-        options = self.problem.options
-        if options.no_blocks:
-            return False
-        return not options.symbol or options.touch_tolerance is not None  # symbols join only where that is asked for
-
     # ---- Whether they do
 
     def joins(self, a, b):
         field = self.problem.options.block_field
         if field:
-            values = [self.problem.attributes[f][field] for f in (a, b)]
+            values = [value_of(self.problem.attributes[f], field) for f in (a, b)]
             if values[0] is not None and values[0] == values[1]:
                 return True
-        if not self.by_place():
+        if not self.touches_join and not self.containment_joins:
             return False
         if (a, b) not in self.known:
             self.known[a, b] = self.known[b, a] = self.joins_by_place(a, b)
@@ -108,12 +106,12 @@ class Blocks:
     def joins_by_place(self, a, b):
         p, q, problem = self.problem.whole(a), self.problem.whole(b), self.problem
         if not plane.interiors_meet(p, q):
-            return self.touch(p, q)
+            return self.touches_join and self.touch(p, q)
         tolerance = Fraction(problem.tolerance) * problem.lattice.unit
         for x, y in ((p, q), (q, p)):
             if lies_in_grown(x, y, tolerance, problem.tolerance, problem.lattice.unit):
-                return problem.options.contained == "block"
-        return problem.tolerance > 0 and (self.parted_within(p, q, tolerance) or not self.disc_fits(p, q, a, b))
+                return self.containment_joins
+        return self.touches_join and problem.tolerance > 0 and (self.parted_within(p, q, tolerance) or not self.disc_fits(p, q, a, b))
 
     def touch(self, p, q):
         """Is the nearest double of the distance no more than the tolerance?"""

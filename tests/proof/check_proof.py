@@ -15,7 +15,7 @@ import geopackage  # noqa: E402
 import form  # noqa: E402
 import trees  # noqa: E402
 import verdicts  # noqa: E402
-from form import Refused, demand, shown  # noqa: E402
+from form import NotRead, Refused, demand, shown  # noqa: E402
 from prices import Prices  # noqa: E402
 from problem import Problem  # noqa: E402
 from result import Result  # noqa: E402
@@ -28,21 +28,23 @@ def read_options(words):
     parser.add_argument("--layer")
     parser.add_argument("--result", help="a GeoPackage with what separate wrote: LAYER, LAYER_displacement, "
                         "LAYER_conflicts; its moves cost what they cost")
-    for name in ("where", "fixed-where", "ignore-where", "max-shift-field", "weight-field", "block-field", "symbol"):
+    for name in ("where", "fixed-where", "ignore-where", "max-shift-field", "weight-field", "block-field", "symbol", "symbol-field",
+                 "symbol-size-field", "scale"):
         parser.add_argument("--" + name)
     for name in ("max-shift", "touch-tolerance"):
-        parser.add_argument("--" + name, type=float)
-    parser.add_argument("--gap", type=float, default=0.0)
+        parser.add_argument("--" + name)
+    parser.add_argument("--gap", default="0")
     parser.add_argument("--barrier", action="append", default=[])
-    parser.add_argument("--contained", default="block")
+    parser.add_argument("--contained")
     parser.add_argument("--weight", default="1")
     parser.add_argument("--no-blocks", action="store_true")
     parser.add_argument("--allow-jumps", action="store_true")
-    for name in ("effort", "seed"):
+    for name in ("effort", "seed", "id-field", "threads"):
         parser.add_argument("--" + name, help="no part of what is claimed")
     options = parser.parse_args(words)
-    if options.symbol:  # symbols may always jump, and none is part of another
-        options.allow_jumps, options.contained = True, "separate"
+    options.points = bool(options.symbol or options.symbol_field)  # symbols may always jump
+    options.allow_jumps = options.allow_jumps or options.points
+    options.contained = options.contained or ("separate" if options.points else "block")
     return options
 
 
@@ -58,14 +60,14 @@ class Checker:
     """Of one run's options: any file of --proof may be asked about."""
 
     def __init__(self, options):
-        self.options, self.problem = options, Problem(options.input, options)
+        self.problem = Problem(options.input, options)
         self.known, self.kept, self.held = {}, set(), {}
         self.result = Result(self.problem, options.result) if options.result else None
 
     def check(self, lines):
         """lines: as JSON has them. What holds, in words."""
         proof, problem = form.Proof(lines, self.known), self.problem
-        check_header(proof.head, self.options, problem.name)
+        check_header(proof.head, problem.options, problem.name)
         problem.blocks.demand_all(proof.blocks)
         problem.list_conflicts(proof.conflicts)
         listed = repr(sorted(problem.listed.items()))
@@ -116,7 +118,7 @@ def main(words):
     options, began = read_options(words), time.time()
     try:
         checker = Checker(options)
-    except (Refused, KeyError, ValueError) as why:
+    except (NotRead, Refused, KeyError, ValueError) as why:
         print(f"not asked about: {why}")
         return 2
     status, said = answer(checker, lambda: form.read(options.proof))

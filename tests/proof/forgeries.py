@@ -217,7 +217,7 @@ def wrong_with_options(run, words):
     words = words[:at] + words[at + 2:]
     try:
         checker = check_proof.Checker(check_proof.read_options([run.path, *words]))
-    except (form.Refused, SystemExit):
+    except (form.Refused, form.NotRead, SystemExit):
         return None
     status, said = check_proof.answer(checker, lambda: form.read(run.path))
     if status:

@@ -17,6 +17,10 @@ class Refused(Exception):
     """Something in the proof does not hold."""
 
 
+class NotRead(Exception):
+    """The layer, the barriers or the options are beyond this checker."""
+
+
 def demand(condition, *words):
     if not condition:
         raise Refused(" ".join(map(str, words)))

@@ -1,6 +1,9 @@
 """Features of a GeoPackage, by its SQLite tables and well-known binary; nothing but Python's own library is needed."""
+import re
 import sqlite3
 import struct
+
+from form import NotRead
 
 
 def read_geometry(blob, at=0):
@@ -44,7 +47,7 @@ def read_geometry(blob, at=0):
             polygons += more
             lines += others
         return polygons, lines, at
-    raise SystemExit(f"geopackage.py: geometries of type {kind} are not read")
+    raise NotRead(f"geometries of type {kind} are not read")
 
 
 def read_blob(blob):
@@ -58,6 +61,55 @@ def quoted(name):
     return '"' + name.replace('"', '""') + '"'
 
 
+def value_of(attributes, name):
+    """Of a field, whose name's case does not matter; None: there is no field, or null, or blank."""
+    if name is None:
+        return None
+    own = [k for k in attributes if k == name] or [k for k in attributes if k.lower() == name.lower()]
+    if not own:
+        raise NotRead(f"there is no field {name}")
+    value = attributes[own[0]]
+    return None if isinstance(value, str) and not value.strip(" ") else value
+
+
+def number_of(attributes, name):
+    value = value_of(attributes, name)
+    return None if value is None else float(value)
+
+
+class Crs:
+    """Of a layer, by its row in gpkg_spatial_ref_sys."""
+
+    def __init__(self, base, srs):
+        self.known = srs not in (0, -1)
+        row = base.execute("SELECT organization, organization_coordsys_id, definition FROM gpkg_spatial_ref_sys WHERE srs_id = ?", (srs,))
+        organization, code, self.definition = row.fetchone()
+        self.name = f"{organization.upper()}:{code}"
+
+    def is_same(self, other):
+        """Or taken for the same, where one is not known."""
+        return not (self.known and other.known) or self.name == other.name or self.definition == other.definition
+
+    def is_geographic(self):
+        return self.known and self.definition.startswith("GEOGCS")
+
+    def metres(self):
+        """In its unit of length; None: there is no CRS."""
+        if not self.known:
+            return None
+        inside = re.search(r"(?:PROJCS|LOCAL_CS)\[.*", self.definition, re.DOTALL)
+        depth, found = 0, None
+        for word in re.finditer(r'"[^"]*"|([A-Z_]+)\[|\]', inside[0]) if inside else ():
+            if word[1] == "UNIT" and depth == 1 and found is None:
+                found = re.match(r'UNIT\["[^"]*",([^],]+)', inside[0][word.start():])
+            depth += bool(word[1]) - (word[0] == "]")
+            if depth == 0:
+                break
+        if not found:
+            raise NotRead(f"the unit of {self.name} is not read")
+        return float(found[1])
+
+
 class Layer:
     """A table of features: its name, and {FID: (attributes, polygons, lines)}."""
 
@@ -66,10 +118,9 @@ class Layer:
         tables = base.execute("SELECT table_name, column_name, srs_id FROM gpkg_geometry_columns").fetchall()
         found = [t for t in tables if name is None or t[0] == name]
         if not found:
-            raise SystemExit(f"geopackage.py: {path} has no layer {name}")
+            raise NotRead(f"{path} has no layer {name}")
         self.name, column, srs = found[0]
-        self.crs = base.execute("SELECT organization, organization_coordsys_id FROM gpkg_spatial_ref_sys WHERE srs_id = ?",
-                                (srs,)).fetchone()
+        self.crs = Crs(base, srs)
         keys = [row[1] for row in base.execute(f"PRAGMA table_info({quoted(self.name)})") if row[5]]
         key = keys[0] if keys else "rowid"
         self.select = f"SELECT * FROM {quoted(self.name)}"
@@ -81,6 +132,10 @@ class Layer:
             polygons, lines = read_blob(attributes.pop(column))
             self.features[attributes[key]] = (attributes, polygons, lines)
         base.close()
+
+    def demand_field(self, name):
+        for attributes, _, _ in self.features.values():
+            value_of(attributes, name)
 
     def fids(self, path, where):
         return set(Layer(path, self.name, where).features) if where else set()

@@ -149,3 +149,21 @@ make_among_members() {
     printf 'WKT,w\n"MULTIPOLYGON(((600051 4999990,600060 4999990,600060 5000010,600051 5000010,600051 4999990)),((600053 5000005,600070 5000005,600070 5000040,600053 5000040,600053 5000005)))",1\n' |
         layer woods.gpkg woods MULTIPOLYGON
 }
+
+# Houses beside a street that has degrees for coordinates, another that has those of the houses, and the houses' coordinates as US feet.
+make_abroad() {
+    printf 'WKT,w\n"%s",1\n"%s",2\n"%s",1\n' "POLYGON((600000 5400000,600010 5400000,600010 5400010,600000 5400010))" \
+        "POLYGON((600011 5400001,600021 5400001,600021 5400009,600011 5400009))" \
+        "POLYGON((600000 5400011,600009 5400011,600009 5400020,600000 5400020))" >abroad.csv
+    layer abroad.gpkg buildings POLYGON <abroad.csv
+    layer feet.gpkg buildings POLYGON EPSG:2263 <abroad.csv
+    printf 'WKT,w\n"LINESTRING(599980 5399998.9,600015 5399998.7,600040 5399999.5)",1\n' | layer near.gpkg street LINESTRING
+    ogr2ogr far.gpkg near.gpkg -t_srs EPSG:4326 2>/dev/null || fail "ogr2ogr: near.gpkg"
+}
+
+# Points with a symbol of their own (s), or none, and a factor of it (f); one feature is two points, one is a line.
+make_symbols() {
+    printf '%s\n' WKT,s,f,k '"POINT(0 0)",square:4,,1' '"POINT(3 1)",disc:2m,1.3,2' '"POINT(1.5 3.1)",,0.7,3' '"MULTIPOINT(40 0,42 1)",,2,4' \
+        '"POINT(44.25 0.5)","MULTIPOLYGON(((0 0,4 0,4 4,2 2,1.1 1.3,0 0)),((3 3,6 3,6 6,3 6),(4 4,5 4,5 5)))",1.1,1' \
+        '"LINESTRING(0 0,3 3)",,1,1' | layer symbols.gpkg buildings GEOMETRY
+}

@@ -1,18 +1,20 @@
 """What a proof is about, from the input: things on one lattice of integers, what they owe each other, which of them move,
 how far, and at what price. Nothing of this is taken from the proof but for anchors, and those blocks that touch and overlap
 in ways that are not asked about here; see docs/PROOF.md."""
+import argparse
 import math
-import re
 from fractions import Fraction
 
 from exact import anchor, plane, side_anchor
-import discs
 import geopackage
 from cover import hull
 from blocks import Blocks
 from form import demand
+from lengths import Units
 from pieces import in_polygon, in_union
 from repair import area_of, members_of, repaired
+from reprojected import in_crs_of
+from symbols import Symbols
 from unions import union_outline
 
 
@@ -88,40 +90,15 @@ def have_common_walls(one, other):
         for e in plane.near_edges(one, other.box) for f in plane.near_edges(other, one.box)))
 
 
-def symbol_corners(text):
-    """Of square:SIDE, rectangle:WIDTHxHEIGHT, disc:RADIUS[:SEGMENTS], inside-disc:, or a WKT polygon without holes, in the layer's
-    units."""
-    kind, _, size = text.partition(":")
-    if kind in ("disc", "inside-disc"):
-        radius, _, segments = size.partition(":")
-        return (discs.outside if kind == "disc" else discs.inside)(float(radius), int(segments or 32))
-    if kind in ("square", "rectangle"):
-        width, height = map(float, size.split("x") if kind == "rectangle" else (size, size))
-        return [(x * width / 2, y * height / 2) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-    found = re.fullmatch(r"POLYGON ?\(\(([^()]*)\)\)", text)
-    demand(found, "the symbol", text, "is not read; its corners may be given, as WKT")
-    corners = [tuple(map(float, p.split())) for p in found[1].split(",")]
-    return corners[:-1] if corners[0] == corners[-1] else corners
-
-
-def place_symbols(layer, corners):
-    """The symbol at each point, to the nearest doubles; the points."""
-    points = {}
-    for fid, (attributes, polygons, lines) in layer.features.items():
-        demand(not polygons and len(lines) == 1 and len(lines[0]) == 1, "feature", fid, "is not one point")
-        (px, py), = lines[0]
-        points[fid] = px, py
-        layer.features[fid] = attributes, [[[(px + x, py + y) for x, y in corners]]], []
-    return points
-
-
 class Problem:
     def __init__(self, path, options):
         layer = geopackage.Layer(path, options.layer, options.where)
-        self.crs = layer.crs
-        if options.symbol:
-            self.points = place_symbols(layer, symbol_corners(options.symbol))
-        self.name, self.options = layer.name, options
+        self.crs, self.units = layer.crs, Units(layer.crs, options.scale)
+        self.name, self.options = layer.name, self.in_units(options)
+        options = self.options
+        for name in (options.max_shift_field, options.weight_field, options.block_field):
+            layer.demand_field(name)
+        self.points = Symbols(options, self.units).place(layer) if options.points else {}
         self.tolerance = options.touch_tolerance if options.touch_tolerance is not None else options.gap / 10
         self.given, self.areas, self.median = {fid: f[1] for fid, f in layer.features.items()}, {}, None
         for fid, (attributes, polygons, lines) in layer.features.items():
@@ -160,15 +137,25 @@ class Problem:
         self.blocks = Blocks(self)
         self.blocks.find()
 
+    def in_units(self, options):
+        """The options with lengths as doubles in units of the layer."""
+        own = argparse.Namespace(**vars(options))
+        own.gap = self.units(own.gap, "--gap")
+        for name in ("max_shift", "touch_tolerance"):
+            if getattr(own, name) is not None:
+                setattr(own, name, self.units(getattr(own, name), "--" + name.replace("_", "-")))
+        return own
+
     def read_barriers(self, spec):
         words = split_spec(spec)
         layer = geopackage.Layer(words["path"], words.get("layer"), words["where"])
-        demand(layer.crs == self.crs, "barriers in another CRS are not read:", spec)
-        for fid, (attributes, polygons, lines) in layer.features.items():
+        features = layer.features.items() if layer.crs.is_same(self.crs) else in_crs_of(self.crs, layer, words["path"])
+        width_of_all = self.units(words.get("width", 0), "--barrier " + spec)
+        gap = self.units(words["gap"], "--barrier " + spec) if "gap" in words else self.options.gap
+        for fid, (attributes, polygons, lines) in features:
             if words.get("as") == "boundary":
                 polygons, lines = [], lines + [r + r[:1] for p in polygons for r in p]
-            width = float(attributes[words["width-field"]] or 0 if "width-field" in words else words.get("width", 0))
-            gap = float(words["gap"]) if "gap" in words else self.options.gap
+            width = geopackage.number_of(attributes, words["width-field"]) or 0.0 if "width-field" in words else width_of_all
             if polygons or lines:
                 polygons = [repaired(p) for p in polygons]
                 yield f"{layer.name}:{fid}", polygons, lines, max(width, 0.0), gap, words.get("side", "yes") == "yes"
@@ -193,16 +180,11 @@ class Problem:
     def own_limit(self, fid):
         """A double, or None: no limit. Of what never moves, too."""
         options, found = self.options, self.options.max_shift
-        field = self.number_in(fid, options.max_shift_field)
+        field = geopackage.number_of(self.attributes[fid], options.max_shift_field)
         if field is not None:
             found = field
             demand(0 <= found < math.inf, "the limit of", fid, "is", found)
         return found
-
-    def number_in(self, fid, field):
-        """None: no field, or null, or blank."""
-        value = self.attributes[fid][field] if field else None
-        return None if value is None or value == "" else float(value)
 
     def limit(self, fid):
         return 0.0 if fid in self.fixed or fid in self.skipped else self.own_limit(fid)
@@ -218,7 +200,7 @@ class Problem:
         if options.weight != "1":
             found = self.area(fid) / self.median_area()
             found = math.sqrt(found) if options.weight == "sqrt-area" else found
-        field = self.number_in(fid, options.weight_field)
+        field = geopackage.number_of(self.attributes[fid], options.weight_field)
         found *= 1.0 if field is None else field
         demand(0 < found < math.inf, "the weight of", fid, "is", found)
         return found
@@ -343,8 +325,8 @@ class Problem:
 
     def side_anchor(self, fid):
         """Of a point the point; else as the barriers cut the feature, or the anchor where they do not."""
-        if self.options.symbol:
-            return self.points[fid]
+        if self.options.points:
+            return self.points[fid][0]
         if fid not in self.side_anchors:
             box, plain = self.whole(fid).box, self.anchor(fid)
             members = [o for o in self.things[fid].outlines if o.box]
@@ -355,7 +337,7 @@ class Problem:
 
     def lines_known(self):
         """How far about features lines are looked at: four times the longest limit."""
-        limits = [self.own_limit(fid) for fid in self.place if fid not in self.ignored and fid not in self.fixed]
+        limits = [self.own_limit(fid) for fid in self.place if fid not in self.skipped and fid not in self.fixed]
         return math.inf if None in limits else 4 * max(limits, default=0.0)
 
     def demand_side(self, key, corners, feature, anchor):

@@ -15,7 +15,7 @@ class Result:
     def check(self, conflicts, total):
         """What it costs, in words."""
         demand(set(self.problem.place) <= set(self.moves), "the result has other features")
-        compared = 0 if self.problem.options.symbol else self.check_anchors()
+        compared = 0 if self.problem.options.points else self.check_anchors()
         self.check_moves()
         self.check_conflicts(conflicts)
         cost = sum(Fraction(self.problem.weight(fid)) * self.square(fid) for fid in self.moved())
@@ -51,10 +51,14 @@ class Result:
 
     def check_place(self, fid):
         """Every corner is the double nearest to what it was and the move; not asked of what was repaired."""
-        given, now = self.problem.given[fid], self.main[fid][1]
-        if self.problem.options.symbol or any(a is not b for a, b in zip(given, self.problem.standing[fid])):
-            return
         (dx, dy) = self.moves[fid]
+        if self.problem.options.points:
+            now = sorted(line[0] for line in self.main[fid][2])
+            demand(now == sorted((x + dx, y + dy) for x, y in self.problem.points[fid]), "the result has", fid, "elsewhere")
+            return
+        given, now = self.problem.given[fid], self.main[fid][1]
+        if any(a is not b for a, b in zip(given, self.problem.standing[fid])):
+            return
         moved = [[[(x + dx, y + dy) for x, y in ring] for ring in polygon] for polygon in given]
         demand(moved == now, "the result has", fid, "elsewhere")
 

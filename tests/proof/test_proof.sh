@@ -6,6 +6,7 @@
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 export PYTHONDONTWRITEBYTECODE=1
 here=$SUNDER_SOURCE/tests/proof
+python=$(command -v python3)
 . "$here/layers.sh"
 
 # proved NAME SOURCE OPTIONS...: of separate, but for --layer of `buildings`
@@ -32,6 +33,14 @@ strange() {
     shift 2
     python3 "$here/check_proof.py" "$name.jsonl" "$source" --layer buildings "$@" >said 2>&1
     [ $? = 1 ] && grep -q '^refused: ' said || fail "$name for $source $*: $(cat said)"
+}
+
+# not_asked WORDS NAME SOURCE OPTIONS...: beyond the checker, or what the program never writes a proof for
+not_asked() {
+    local words=$1 name=$2 source=$3
+    shift 3
+    "$python" "$here/check_proof.py" "$name.jsonl" "$source" --layer buildings "$@" >said 2>&1
+    [ $? = 2 ] && [[ $(<said) == "not asked about: "*"$words"* ]] || fail "$name for $source $*: $(cat said)"
 }
 
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
@@ -236,6 +245,41 @@ for symbol in square:4 rectangle:5x3 disc:2.3 inside-disc:2.5:24 'POLYGON ((-2 -
     proved points points.gpkg --gap 0.5 --symbol "$symbol" --max-shift 1.25
     grep -q '"reason": "max_shift".*"proof": ' points.jsonl || fail "symbols: $(cat points.jsonl)"
 done
+
+# Symbols of each point's own, by fields: in units, of several polygons, with a hole, at several points of one feature.
+make_symbols
+own=(--gap 0.5 --symbol square:3 --symbol-field s --symbol-size-field F)
+proved symbols symbols.gpkg "${own[@]}"
+strange symbols symbols.gpkg --gap 0.5 --symbol square:3 --symbol-field s
+strange symbols symbols.gpkg --gap 0.5 --symbol square:3 --symbol-size-field f
+strange symbols symbols.gpkg --gap 0.5 --symbol square:2.9 --symbol-field s --symbol-size-field f
+proved symbols symbols.gpkg --gap 0.5 --symbol disc:1.5:8 --symbol-field s --symbol-size-field f --max-shift 1 --touch-tolerance 0.2
+refuted symbols symbols.gpkg --gap 0.5 --symbol disc:1.5:8 --symbol-field s --symbol-size-field f --max-shift 1 --touch-tolerance 0.2 --need part --need way
+proved symbols symbols.gpkg --gap 0.5 --symbol square:3 --symbol-size-field f --contained block --weight sqrt-area
+
+# A barrier in another CRS, whose doubles are those that ogr2ogr makes of it; the street that it was made of differs in the last digits.
+make_abroad
+abroad=(--gap 2 --max-shift 4 --no-blocks --barrier)
+proved abroad abroad.gpkg "${abroad[@]}" far.gpkg,width=3
+grep -q '"street:1"' abroad.jsonl || fail "no line of a proof names the street"
+ogr2ogr back.gpkg far.gpkg -t_srs EPSG:25832 2>/dev/null || fail "ogr2ogr: far.gpkg"
+python3 "$here/check_proof.py" abroad.jsonl abroad.gpkg --layer buildings "${abroad[@]}" back.gpkg,width=3 >said || fail "brought back: $(cat said)"
+strange abroad abroad.gpkg "${abroad[@]}" near.gpkg,width=3
+PATH=$here not_asked 'ogr2ogr, which does not run' abroad abroad.gpkg "${abroad[@]}" far.gpkg,width=3
+
+# Lengths with units: of the ground, of the sheet, on a layer in feet.
+proved units abroad.gpkg --gap 2.1m --max-shift 0.004km --no-blocks --barrier near.gpkg,width=0.12mm,gap=3ft --scale 1:25000
+strange units abroad.gpkg --gap 2.1m --max-shift 0.004km --no-blocks --barrier near.gpkg,width=0.12mm,gap=3ft --scale 1:20000
+strange units abroad.gpkg --gap 2.1ft --max-shift 0.004km --no-blocks --barrier near.gpkg,width=0.12mm,gap=3ft --scale 1:25000
+for gap in 1m 3ft 3us-ft 0.03mm; do
+    proved feet feet.gpkg --gap "$gap" --max-shift 1m --no-blocks --scale 30000
+done
+not_asked 'there is no --scale' feet feet.gpkg --gap 0.03mm
+ogr2ogr degrees.gpkg abroad.gpkg buildings -t_srs EPSG:4326 2>/dev/null || fail "ogr2ogr: abroad.gpkg"
+proved degrees degrees.gpkg --gap 0m
+not_asked 'coordinates are degrees' degrees degrees.gpkg --gap 1m
+not_asked 'has no layer' degrees degrees.gpkg --layer nowhere
+not_asked 'there is no field' degrees degrees.gpkg --weight-field nothing
 
 # A crowd on one place, of which the price of ground proves more than trees do: symbols; and buildings that lie on each
 # other, some with a corner cut out, three of them one block, some pairs given up.
