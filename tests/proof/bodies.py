@@ -10,7 +10,8 @@ class Bodies:
         self.group, self.bound = told["group"], Fraction(told["bound"])
         self.own_weight = {}
         self.bodies = [self.read_body(b) for b in told["bodies"]]
-        demand(len(set(self.bodies)) == len(self.bodies), "a body is there twice")
+        features = [b for b, t in zip(self.bodies, told["bodies"]) if "features" in t]  # a barrier may be there for each of its parts
+        demand(len(set(features)) == len(features), "a body is there twice")
         self.weights = [self.read_weight(b, k) for k, b in enumerate(told["bodies"])]
         self.shifts = [tuple(map(Fraction, b["shift"])) for b in told["bodies"]]
         for weight, shift in zip(self.weights, self.shifts):

@@ -167,3 +167,13 @@ make_symbols() {
         '"POINT(44.25 0.5)","MULTIPOLYGON(((0 0,4 0,4 4,2 2,1.1 1.3,0 0)),((3 3,6 3,6 6,3 6),(4 4,5 4,5 5)))",1.1,1' \
         '"LINESTRING(0 0,3 3)",,1,1' | layer symbols.gpkg buildings GEOMETRY
 }
+
+# Houses between the two arms of one road, each arm of a dozen segments.
+make_hairpin() {
+    python3 -c '
+print("WKT,w")
+arm = [(4 * k, -0.8 + k % 2 / 8) for k in range(-4, 9)]
+road = arm + [(45, 5)] + [(x, 11.8 - y) for x, y in reversed(arm)]
+print("\"LINESTRING(" + ",".join(f"{x} {y}" for x, y in road) + ")\",1")' | layer hairpin.gpkg hairpin LINESTRING
+    printf 'WKT,w\n"POLYGON((0 0,10 0,10 6,0 6))",1\n"POLYGON((2 5.5,12 5.5,12 11.5,2 11.5))",1\n' | layer between.gpkg buildings POLYGON
+}

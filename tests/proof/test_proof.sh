@@ -75,6 +75,10 @@ beside=(--gap 3 --max-shift 10 --barrier "$roads")
 python3 "$here/check_proof.py" parts.jsonl "$town" --layer buildings "${beside[@]}" --result o.gpkg >said || fail "effort 0, roads: $(cat said)"
 grep -q ' [1-9][0-9]* trees' said || fail "effort 0, roads: $(cat said)"
 proved pairs "$town" --gap 5 --max-shift 1 --barrier "$roads"
+# Two of them may be in one tree.
+make_hairpin
+proved hairpin between.gpkg --no-blocks --max-shift 10 --barrier hairpin.gpkg,width=1,side=no,gap=0.1
+grep -q '"barrier": "hairpin:1".*"barrier": "hairpin:1"' hairpin.jsonl || fail "no tree has two parts of a road"
 
 # What is printed is what the file proves, and no other number without the file.
 same_bound() { # NAME SOURCE OPTIONS...
