@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the documentation as plain HTML pages, from the pages of this folder and the READMEs, by pandoc; the manual by
-# pandoc, too, and the reference of the C library from src/sunder.h by Doxygen.
+# pandoc, too, and the reference of the C library from its headers by Doxygen.
 #
 #   site.sh FOLDER [MANUAL]      replaces FOLDER; MANUAL has the manual pages of single commands, which a build makes;
 #                                `cmake --build build/release --target docs` calls it
@@ -124,11 +124,11 @@ make_page gis/sunder.1 man gis/sunder.1.html
 make_page "$work/manual.md" gfm manual/index.html
 
 # ---- The reference of the library ----
-# Comments of sunder.h are plain ones: a filter has Doxygen read those before a declaration as its description.
+# Comments of the headers are plain ones: a filter has Doxygen read those before a declaration as its description.
 version=$(sed -n 's/^#define SUNDER_VERSION "\(.*\)"/\1/p' src/sunder.h)
 cat >"$work/comments.awk" <<'AWK'
 /^\/\* ----/ { gsub(/^\/\* -+ | -+ \*\/$/, ""); print "/** @name " $0 " */"; next }
-/^#ifndef SUNDER_H/ { body = 1 }
+/^#ifndef SUNDER_.*H$/ { body = 1 }
 body { sub(/^\/\* /, "/** "); sub(/\/\* ([^\/]|\/[^*])*$/, "&") }
 body && /[;,{] +\/\* / { sub(/\/\* /, "/**< ") }
 { print }
@@ -137,7 +137,7 @@ cat >"$work/Doxyfile" <<DOXY
 PROJECT_NAME = "libsunder"
 PROJECT_NUMBER = $version
 PROJECT_BRIEF = "Exact Minkowski sums, least separating translations, displacement of map layers"
-INPUT = src/sunder.h
+INPUT = src/sunder.h src/sunder_proof.h src/sunder_parts.h
 INPUT_FILTER = "awk -f $work/comments.awk"
 FILTER_SOURCE_FILES = NO
 OUTPUT_DIRECTORY = $work
@@ -145,10 +145,11 @@ HTML_OUTPUT = site/reference
 GENERATE_LATEX = NO
 OPTIMIZE_OUTPUT_FOR_C = YES
 EXTRACT_ALL = YES
+EXTRACT_STATIC = YES
 TYPEDEF_HIDES_STRUCT = YES
 MACRO_EXPANSION = YES
 EXPAND_ONLY_PREDEF = YES
-PREDEFINED = SUNDER_API=
+PREDEFINED = SUNDER_API= SUNDER_EXPERIMENTAL=
 MARKDOWN_SUPPORT = NO
 HTML_TIMESTAMP = NO
 SEARCHENGINE = NO

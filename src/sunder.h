@@ -10,7 +10,14 @@
  * Lengths are in the units of the input. Every finite double is taken as the dyadic rational that it is; nothing
  * is rounded on the way in, and on the way out only where a function says so.
  *
- * Keys such as [GRS83] resolve in REFERENCES.md beside this file. */
+ * Functions that are declared SUNDER_API are stable: a program that is compiled with this header runs with every later
+ * library of the same soname. Those that are declared SUNDER_EXPERIMENTAL may change in any version. docs/api.md says
+ * what that promises, and how structs of options grow.
+ *
+ * Proofs have a header of their own, sunder_proof.h, and so have parts of a layer, sunder_parts.h.
+ *
+ * Keys such as [GRS83] resolve in REFERENCES.md. It is installed with the documentation (share/doc/sunder), and so is
+ * api.md; paths that begin with src/ are those of the source code. */
 #ifndef SUNDER_H
 #define SUNDER_H
 
@@ -29,6 +36,7 @@ extern "C" {
 #else
 #define SUNDER_API __attribute__((visibility("default")))
 #endif
+#define SUNDER_EXPERIMENTAL SUNDER_API
 
 /* ---- Status and errors ------------------------------------------------------------------------------------ */
 
@@ -86,6 +94,20 @@ typedef bool (*sunder_progress)(double fraction, void *user);
  * once, until another watch is set, or none (NULL). Calls do not overlap, but may come from threads that the library
  * started on behalf of this one. */
 SUNDER_API void sunder_watch(bool (*go_on)(void *user), void *user);
+
+/* ---- Options ------------------------------------------------------------------------------------------------ */
+
+/* A struct of options begins with its size, so that a later version can add members at its end. The library reads as
+ * many bytes as `size` says. Members beyond them have their defaults; bytes that a newer caller has beyond the
+ * library's own struct must be 0.
+ *
+ * The _init function of a struct sets `size` and the defaults. It is inline, so that it knows the caller's struct; the
+ * _init_sized function below it is the library's, for other languages. Every function that takes options takes NULL for
+ * the defaults.
+ *
+ * Fails  SUNDER_EARG  `size` is 0, no multiple of sizeof(size_t), or above SUNDER_OPTIONS_MAX; or a byte beyond the
+ *                     library's own struct is not 0. */
+#define SUNDER_OPTIONS_MAX 4096
 
 /* ---- Shapes: polygonal sets ------------------------------------------------------------------------------- */
 
@@ -211,8 +233,9 @@ SUNDER_API const char *sunder_decomposition_string(sunder_decomposition decompos
 /* "random", "fat", "given". */
 SUNDER_API const char *sunder_order_string(sunder_order order);
 
-/* All zero: the defaults. */
+/* All zero but the size: the defaults. */
 typedef struct sunder_sum_options {
+    size_t size;              /* sizeof(sunder_sum_options) */
     sunder_progress progress; /* NULL: none */
     void *progress_user;
     sunder_algorithm algorithm;
@@ -223,18 +246,24 @@ typedef struct sunder_sum_options {
     unsigned threads; /* of sunder_morphology(), besides its dilations; 0 or 1: the caller's alone. Results are equal */
 } sunder_sum_options;
 
+SUNDER_API void sunder_sum_options_init_sized(sunder_sum_options *options, size_t size);
+static inline void sunder_sum_options_init(sunder_sum_options *options)
+{
+    sunder_sum_options_init_sized(options, sizeof *options);
+}
+
 typedef struct sunder_sum_size {
     size_t polygons, holes, vertices, degenerate_segments, degenerate_points;
 } sunder_sum_size;
 
 /* Minkowski sum P + Q = { p + q : p in P, q in Q }, exact, of two polygonal sets.
  *
- * p, q  not modified; p == q is fine. An operand without area gives the empty sum.
- * opts  NULL for defaults.
- * out   a new sum, in canonical form: equal point sets compare equal. One polygon for each connected component C of
- *       the interior of P + Q, one ring for each component of the plane minus the closure of C; collinear vertices
- *       merged; a ring starts at its lexicographically smallest vertex, which is not repeated; outer rings
- *       counter-clockwise, holes clockwise; holes and polygons sorted as vertex sequences.
+ * p, q     not modified; p == q is fine. An operand without area gives the empty sum.
+ * options  NULL for defaults.
+ * out      a new sum, in canonical form: equal point sets compare equal. One polygon for each connected component C of
+ *          the interior of P + Q, one ring for each component of the plane minus the closure of C; collinear vertices
+ *          merged; a ring starts at its lexicographically smallest vertex, which is not repeated; outer rings
+ *          counter-clockwise, holes clockwise; holes and polygons sorted as vertex sequences.
  *
  * Degenerate holes (points of the interior of P + Q that are not in int P + int Q) are part of the result: as maximal
  * segments, and as points that lie on no segment.
@@ -243,13 +272,13 @@ typedef struct sunder_sum_size {
  * Source  [GRS83] convolution; [BL11] reduced convolution; [AFH00] the unions of subsums; see src/minkowski/README and
  *         src/unions/README for the roads taken. */
 SUNDER_API sunder_status sunder_minkowski_sum(const sunder_shape *p, const sunder_shape *q,
-                                              const sunder_sum_options *opts, sunder_sum **out, sunder_error *err);
+                                              const sunder_sum_options *options, sunder_sum **out, sunder_error *err);
 SUNDER_API void sunder_sum_free(sunder_sum *sum);
 
 SUNDER_API void sunder_sum_get_size(const sunder_sum *sum, sunder_sum_size *size);
-SUNDER_API void sunder_sum_get_counts(const sunder_sum *sum, sunder_counts *counts);
+SUNDER_EXPERIMENTAL void sunder_sum_get_counts(const sunder_sum *sum, sunder_counts *counts);
 /* Seconds of wall time spent in decomposing, in forming subsums, and in uniting them. */
-SUNDER_API void sunder_sum_seconds(const sunder_sum *sum, double *decompose, double *subsums, double *unite);
+SUNDER_EXPERIMENTAL void sunder_sum_seconds(const sunder_sum *sum, double *decompose, double *subsums, double *unite);
 
 /* What was done. decomposition is AUTO where nothing was decomposed (the convolution's pieces are its own affair), else
  * what was used: Hertel and Mehlhorn's where the one asked for had to fall back on it. */
@@ -262,11 +291,11 @@ typedef struct sunder_sum_method {
 
 typedef enum sunder_phase { SUNDER_PHASE_DECOMPOSE, SUNDER_PHASE_SUBSUMS, SUNDER_PHASE_UNION } sunder_phase;
 /* "decompose", "subsums", "union"; never NULL. */
-SUNDER_API const char *sunder_phase_string(sunder_phase phase);
+SUNDER_EXPERIMENTAL const char *sunder_phase_string(sunder_phase phase);
 
-SUNDER_API void sunder_sum_get_method(const sunder_sum *sum, sunder_sum_method *method);
+SUNDER_EXPERIMENTAL void sunder_sum_get_method(const sunder_sum *sum, sunder_sum_method *method);
 /* Operations of one phase; false, and all zero, if the road has no such phases (the convolution). */
-SUNDER_API bool sunder_sum_phase(const sunder_sum *sum, sunder_phase phase, sunder_counts *counts);
+SUNDER_EXPERIMENTAL bool sunder_sum_phase(const sunder_sum *sum, sunder_phase phase, sunder_counts *counts);
 
 /* Rings of polygon p: 1 + its holes; ring 0 is the outer one. */
 SUNDER_API size_t sunder_sum_rings(const sunder_sum *sum, size_t polygon);
@@ -301,21 +330,22 @@ SUNDER_API const char *sunder_operation_string(sunder_operation operation);
 
 /* Mathematical morphology [Ser82] of two polygonal sets, exact; P, B and every result are closed sets.
  *
- * p, b  not modified; members may overlap, b need be neither convex nor centred. SUNDER_EARG if b has no area.
- * opts  progress (called by one thread at a time), seed and threads; the dilation takes the other ones. NULL: defaults.
- * out   a new sum (sunder_sum_free), in canonical form. Its polygons are the closure of the result's interior. Segments
- *       and points are, of a dilation, its degenerate holes (which belong to it); of an erosion or a closing, its parts
- *       without area; an opening has none.
+ * p, b     not modified; members may overlap, b need be neither convex nor centred. SUNDER_EARG if b has no area.
+ * options  progress (called by one thread at a time), seed and threads; the dilation takes the other ones. NULL: the
+ *          defaults.
+ * out      a new sum (sunder_sum_free), in canonical form. Its polygons are the closure of the result's interior.
+ *          Segments and points are, of a dilation, its degenerate holes (which belong to it); of an erosion or a
+ *          closing, its parts without area; an opening has none.
  *
  * Fails   SUNDER_ENOMEM, SUNDER_ECANCEL, SUNDER_EARG
  * Source  src/morphology/README */
 SUNDER_API sunder_status sunder_morphology(const sunder_shape *p, const sunder_shape *b, sunder_operation operation,
-                                           const sunder_sum_options *opts, sunder_sum **out, sunder_error *err);
+                                           const sunder_sum_options *options, sunder_sum **out, sunder_error *err);
 
 /* The union of a shape's members, exact, as a sum without degenerate parts. It is made of polygons that are valid in
  * the sense of OGC simple features, whatever touched, overlapped or fell apart. SUNDER_ENOMEM, SUNDER_ECANCEL. */
-SUNDER_API sunder_status sunder_shape_union(const sunder_shape *shape, const sunder_sum_options *opts, sunder_sum **out,
-                                            sunder_error *err);
+SUNDER_API sunder_status sunder_shape_union(const sunder_shape *shape, const sunder_sum_options *options,
+                                            sunder_sum **out, sunder_error *err);
 
 /* ---- The planar map beneath a sum --------------------------------------------------------------------------- */
 
@@ -331,35 +361,35 @@ typedef struct sunder_map sunder_map;
 
 #define SUNDER_NOWHERE UINT32_MAX
 
-SUNDER_API const sunder_map *sunder_sum_map(const sunder_sum *sum); /* NULL if it was not kept */
-SUNDER_API size_t sunder_map_vertices(const sunder_map *map);
-SUNDER_API size_t sunder_map_edges(const sunder_map *map);
-SUNDER_API size_t sunder_map_faces(const sunder_map *map);
+SUNDER_EXPERIMENTAL const sunder_map *sunder_sum_map(const sunder_sum *sum); /* NULL if it was not kept */
+SUNDER_EXPERIMENTAL size_t sunder_map_vertices(const sunder_map *map);
+SUNDER_EXPERIMENTAL size_t sunder_map_edges(const sunder_map *map);
+SUNDER_EXPERIMENTAL size_t sunder_map_faces(const sunder_map *map);
 
 /* The coordinates of a vertex, as of a sum's: nearest doubles, and exact texts. */
-SUNDER_API void sunder_map_vertex(const sunder_map *map, uint32_t vertex, double xy[2]);
-SUNDER_API sunder_status sunder_map_vertex_text(const sunder_map *map, uint32_t vertex, char **x, char **y,
-                                                sunder_error *err);
+SUNDER_EXPERIMENTAL void sunder_map_vertex(const sunder_map *map, uint32_t vertex, double xy[2]);
+SUNDER_EXPERIMENTAL sunder_status sunder_map_vertex_text(const sunder_map *map, uint32_t vertex, char **x, char **y,
+                                                         sunder_error *err);
 /* A half-edge out of a vertex; NOWHERE if it is isolated. */
-SUNDER_API uint32_t sunder_map_out(const sunder_map *map, uint32_t vertex);
+SUNDER_EXPERIMENTAL uint32_t sunder_map_out(const sunder_map *map, uint32_t vertex);
 /* The face around a vertex, if it is isolated; else NOWHERE. */
-SUNDER_API uint32_t sunder_map_around(const sunder_map *map, uint32_t vertex);
+SUNDER_EXPERIMENTAL uint32_t sunder_map_around(const sunder_map *map, uint32_t vertex);
 
-SUNDER_API uint32_t sunder_map_origin(const sunder_map *map, uint32_t half);
-SUNDER_API uint32_t sunder_map_twin(uint32_t half);
+SUNDER_EXPERIMENTAL uint32_t sunder_map_origin(const sunder_map *map, uint32_t half);
+SUNDER_EXPERIMENTAL uint32_t sunder_map_twin(uint32_t half);
 /* The next one along the boundary of the face on its left. */
-SUNDER_API uint32_t sunder_map_next(const sunder_map *map, uint32_t half);
+SUNDER_EXPERIMENTAL uint32_t sunder_map_next(const sunder_map *map, uint32_t half);
 /* The next one counter-clockwise around its origin. */
-SUNDER_API uint32_t sunder_map_turn(const sunder_map *map, uint32_t half);
-SUNDER_API uint32_t sunder_map_face(const sunder_map *map, uint32_t half);
+SUNDER_EXPERIMENTAL uint32_t sunder_map_turn(const sunder_map *map, uint32_t half);
+SUNDER_EXPERIMENTAL uint32_t sunder_map_face(const sunder_map *map, uint32_t half);
 
 /* Boundaries of a face, by one half-edge each: the outer one (NOWHERE for face 0), and *n inner ones. */
-SUNDER_API uint32_t sunder_map_outer(const sunder_map *map, uint32_t face);
-SUNDER_API const uint32_t *sunder_map_inner(const sunder_map *map, uint32_t face, size_t *n);
+SUNDER_EXPERIMENTAL uint32_t sunder_map_outer(const sunder_map *map, uint32_t face);
+SUNDER_EXPERIMENTAL const uint32_t *sunder_map_inner(const sunder_map *map, uint32_t face, size_t *n);
 
-SUNDER_API uint32_t sunder_map_vertex_covered(const sunder_map *map, uint32_t vertex);
-SUNDER_API uint32_t sunder_map_edge_covered(const sunder_map *map, uint32_t edge);
-SUNDER_API uint32_t sunder_map_face_covered(const sunder_map *map, uint32_t face);
+SUNDER_EXPERIMENTAL uint32_t sunder_map_vertex_covered(const sunder_map *map, uint32_t vertex);
+SUNDER_EXPERIMENTAL uint32_t sunder_map_edge_covered(const sunder_map *map, uint32_t edge);
+SUNDER_EXPERIMENTAL uint32_t sunder_map_face_covered(const sunder_map *map, uint32_t face);
 
 /* ---- Two features ----------------------------------------------------------------------------------------- */
 
@@ -421,22 +451,6 @@ typedef struct sunder_obstacle {
     size_t lines;
 } sunder_obstacle;
 
-/* ---- Sums of many doubles --------------------------------------------------------------------------------- */
-
-/* What was added to it, exactly: so a sum over parts, in any order, is the whole's. It holds 2^60 addends of any size.
- * Zeroed: 0. Source: the long accumulator of [Kul13, section 8]. */
-typedef struct sunder_total {
-    uint64_t limb[67]; /* two's complement, in units of 2^-2148, lowest first */
-    double beyond;     /* the sum of those that were not finite */
-} sunder_total;
-
-SUNDER_API void sunder_total_add(sunder_total *total, double value);
-/* All that was added to `part`. */
-SUNDER_API void sunder_total_join(sunder_total *total, const sunder_total *part);
-/* The nearest double, and the greatest that is no more. Infinite past the range, or where an addend was. */
-SUNDER_API double sunder_total_nearest(const sunder_total *total);
-SUNDER_API double sunder_total_below(const sunder_total *total);
-
 /* ---- A whole layer ---------------------------------------------------------------------------------------- */
 
 typedef struct sunder_layer sunder_layer;
@@ -451,6 +465,7 @@ typedef enum sunder_containment {
 SUNDER_API const char *sunder_containment_string(sunder_containment containment);
 
 typedef struct sunder_layer_options {
+    size_t size;            /* sizeof(sunder_layer_options) */
     double gap;             /* >= 0 */
     double touch_tolerance; /* >= 0; negative (the default): a tenth of the gap */
     bool no_blocks;         /* nothing joins by touch or containment */
@@ -475,7 +490,11 @@ typedef struct sunder_layer_options {
 } sunder_layer_options;
 
 /* Defaults: gap 0, tolerance a tenth of it, blocks on, one thread, no jumps, effort 1, seed 0. */
-SUNDER_API void sunder_layer_options_init(sunder_layer_options *options);
+SUNDER_API void sunder_layer_options_init_sized(sunder_layer_options *options, size_t size);
+static inline void sunder_layer_options_init(sunder_layer_options *options)
+{
+    sunder_layer_options_init_sized(options, sizeof *options);
+}
 
 /* Weights lie in this range, so that costs, forces and their squares are doubles. */
 #define SUNDER_LEAST_WEIGHT 1e-100
@@ -516,7 +535,8 @@ SUNDER_API sunder_status sunder_layer_set_barriers(sunder_layer *layer, const su
  * as it is, on a line or off the feature, too: see sunder_layer_separate(). xy: two coordinates of each feature, which
  * are copied. Where they are not finite the rule gives that feature's side anchor; xy NULL: the rule gives all.
  * Fails   only for want of memory */
-SUNDER_API sunder_status sunder_layer_set_side_anchors(sunder_layer *layer, const double *xy, sunder_error *err);
+SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_side_anchors(sunder_layer *layer, const double *xy,
+                                                                sunder_error *err);
 
 typedef enum sunder_feature_status {
     SUNDER_FEATURE_UNMOVED,
@@ -634,9 +654,9 @@ SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sun
  * itself: their rigidity is not asked for; nor what cannot be
  * known, the move of a repaired shape of which the repaired form was written. summary.verified: nothing was found.
  * Fails   as sunder_layer_check(); SUNDER_EARG too for layers of different sizes. */
-SUNDER_API sunder_status sunder_layer_check_moves(const sunder_layer *before, const sunder_layer *after,
-                                                  const sunder_layer_options *options, sunder_report **out,
-                                                  sunder_error *err);
+SUNDER_EXPERIMENTAL sunder_status sunder_layer_check_moves(const sunder_layer *before, const sunder_layer *after,
+                                                           const sunder_layer_options *options, sunder_report **out,
+                                                           sunder_error *err);
 
 /* What sunder_layer_separate() does, by the fraction that it tells its progress: it solves up to the first, explains
  * from there to the second, and verifies from there on. */
@@ -665,7 +685,13 @@ SUNDER_API sunder_status sunder_layer_separate(const sunder_layer *layer, const 
                                                sunder_report **out, sunder_error *err);
 SUNDER_API void sunder_report_free(sunder_report *report);
 
-SUNDER_API void sunder_report_summary(const sunder_report *report, sunder_layer_summary *summary);
+/* The summary. A later version may add members at its end: what does not fit in the caller's `size` bytes is left out,
+ * and bytes that the library does not know are set to 0. */
+SUNDER_API void sunder_report_summary_sized(const sunder_report *report, sunder_layer_summary *summary, size_t size);
+static inline void sunder_report_summary(const sunder_report *report, sunder_layer_summary *summary)
+{
+    sunder_report_summary_sized(report, summary, sizeof *summary);
+}
 /* The move of one feature; a coordinate as written is the double nearest to x + dx. */
 SUNDER_API void sunder_report_move(const sunder_report *report, size_t feature, double *dx, double *dy);
 SUNDER_API sunder_feature_status sunder_report_status(const sunder_report *report, size_t feature);
@@ -674,63 +700,6 @@ SUNDER_API int64_t sunder_report_block(const sunder_report *report, size_t featu
 /* The conflicts that remain, sorted by (a, b): those between blocks, the overlaps beyond the tolerance inside blocks
  * and, with list_inside, every pair inside blocks. */
 SUNDER_API const sunder_conflict *sunder_report_conflicts(const sunder_report *report, size_t *n);
-/* The pairs that pair_bound stands on, so that it can be computed again: a feature of each of two blocks, or one
- * that stands alone, least separations rounded down, multipliers. */
-typedef struct sunder_bound_pair {
-    size_t a, b; /* features, one of each block */
-    double least, multiplier;
-} sunder_bound_pair;
-SUNDER_API const sunder_bound_pair *sunder_report_bound_pairs(const sunder_report *report, size_t *n);
-
-/* ---- Parts of a layer ----------------------------------------------------------------------------------------- */
-
-/* Where keep_worlds was asked for.
- *
- * A world is a set of features that had to do with each other: they were solved together, are in conflict or in
- * contact, or it was looked on behalf of some of them where others stood at some time. Its footprints say where it
- * was looked (read), what it has to be known of what is there (seen: blocks that reach there, whole), and where its
- * features stood from the first to the last (wrote), in boxes.
- *
- * Of a layer that is a part of a larger one, with the same options and barriers, and of features with the same
- * block all or none: if it has all features of the larger one that meet what one of its worlds saw, and no other
- * world of the larger one wrote where that one read, then all that is reported of the world's features, of the
- * conflicts between them or with others, and of its proofs, is what is reported of them in the larger layer, to the
- * last bit. */
-typedef struct sunder_footprint {
-    size_t world;
-    /* xmin ymin xmax ymax; all of what was read was seen; what is fixed wrote nothing: xmin > xmax. */
-    double read[4], seen[4], wrote[4];
-} sunder_footprint;
-
-typedef struct sunder_world {
-    size_t first;                 /* the first of its features */
-    size_t footprint, footprints; /* of those of the report */
-    sunder_conflict_counts before, after;
-    size_t thin, clusters, clusters_optimal;
-    size_t bound, bounds; /* of those of the report */
-} sunder_world;
-
-/* By their first features. */
-SUNDER_API const sunder_world *sunder_report_worlds(const sunder_report *report, size_t *n);
-/* By worlds. */
-SUNDER_API const sunder_footprint *sunder_report_footprints(const sunder_report *report, size_t *n);
-/* What is proved of a part of a world, with trees by these where they are kept; and what its pairs prove. */
-typedef struct sunder_world_bound {
-    double proved, by_pairs;
-} sunder_world_bound;
-/* By worlds; lower_bound and pair_bound are the sums of all. */
-SUNDER_API const sunder_world_bound *sunder_report_world_bounds(const sunder_report *report, size_t *n);
-/* The number of the feature's world; SIZE_MAX: it is of none. */
-SUNDER_API size_t sunder_report_world(const sunder_report *report, size_t feature);
-/* Of which world a conflict or a push is, of a feature and a feature or a barrier: of the one that may move, if the
- * other may not. SIZE_MAX: of none. */
-SUNDER_API size_t sunder_report_world_of_pair(const sunder_report *report, size_t a, size_t b);
-/* How many pairs inside its block, of which it is the first, are not the gap apart; 0 where the block is of a world,
- * which has counted them. */
-SUNDER_API size_t sunder_report_inside(const sunder_report *report, size_t feature);
-/* Could its translate not be held in doubles? */
-SUNDER_API bool sunder_report_rounded(const sunder_report *report, size_t feature);
-
 /* How hard two that are in contact in the result press on each other, where keep_pushes was asked for: a multiplier of
  * the program whose least the result is. The sum of force * n over the pushes on a block is twice its weight times its
  * move, where it is at an optimum and not at its limit. In doubles, for people; sorted by (a, b). */
@@ -740,180 +709,7 @@ typedef struct sunder_push {
     double n[2]; /* of length 1: b is pushed that way, and a the other */
 } sunder_push;
 
-SUNDER_API const sunder_push *sunder_report_pushes(const sunder_report *report, size_t *n);
-
-/* What lower_bound stands on, where keep_trees was asked for: trees of branch and bound, one for each contact group of
- * the result, or several that share its bodies. Every number in them means itself, exactly, and rational arithmetic can
- * follow: docs/PROOF.md says what each line of it claims, and why that follows.
- *
- * A tree is about the least of the sum, over its bodies, of weight |t - shift|^2, t their moves. Its cuts say
- * n.(t_j - t_i) >= d; its nodes add cuts to those of their parents, and have forces on some of them, which prove a
- * value by weak duality. */
-typedef struct sunder_bound_body {
-    size_t thing;    /* a member of a block, or a feature by itself; the number of features + k: barrier k */
-    double weight;   /* no more than its own; INFINITY: it does not move */
-    double shift[2]; /* 0 for what does not move */
-} sunder_bound_body;
-
-/* What bodies i and j may not do: their convex parts may not come nearer than they owe, by u = t_j - t_i. */
-typedef struct sunder_bound_piece {
-    size_t i, j;
-    size_t a, b;           /* the features, or barriers, that the parts are of */
-    size_t part_a, part_b; /* their first corners, as they stood at the start */
-    size_t corners_a, corners_b;
-    bool shadow; /* one of the parts is an anchor, which may not jump over the other: see sunder_proof */
-    /* NAN: they owe each other what pairs owe. Else the pair is left in conflict, and held to this: to no more than the
-     * distance that it had; if its interiors met then, and by the kind of the conflict do no more, to 0; if they do
-     * still, to some translation no longer than minus this, no less than the least at the start, that parts them. */
-    double clearance;
-} sunder_bound_piece;
-
-typedef enum sunder_bound_cut_kind {
-    SUNDER_BOUND_CUT_LIMIT, /* of body i, j = SIZE_MAX: no move is longer than allowed */
-    SUNDER_BOUND_CUT_CONE,  /* of a branch: the cones of the children of a node cover the plane */
-    SUNDER_BOUND_CUT_DISC,  /* beyond it all costs the tree's bound, by the forces `by` of its node */
-    SUNDER_BOUND_CUT_HULL   /* what it takes away is covered by its pieces */
-} sunder_bound_cut_kind;
-
-typedef struct sunder_bound_cut {
-    sunder_bound_cut_kind kind;
-    size_t i, j; /* of the tree's bodies */
-    double n[2], d;
-    size_t named, names; /* in sunder_bound_tree.named: its pieces */
-} sunder_bound_cut;
-
-typedef struct sunder_bound_force {
-    size_t cut; /* of all cuts; on the way from the root to the node */
-    double force;
-} sunder_bound_force;
-
-typedef struct sunder_bound_node {
-    size_t parent;        /* an earlier node; of node 0, the root, SIZE_MAX */
-    size_t cut, cuts;     /* in the order in which they were made */
-    size_t force, forces; /* what it proves */
-    size_t by, bys;       /* forces on cuts of the nodes above, which its discs stand on */
-    bool empty;           /* what the cuts leave to bodies i and j is covered by these pieces */
-    size_t i, j, named, names;
-} sunder_bound_node;
-
-/* Prices of area, whole numbers of `unit` a unit of area at the nodes of a lattice, bilinear between them, 0 beyond:
- * node (i, j) is the place side * (x + i, y + j). No two of a tree's bodies share area, so that they cost at least what
- * each pays for moving, and for the area that it stands on, at the least; less the worth of all area. */
-typedef struct sunder_bound_prices {
-    double side, unit; /* powers of 2 */
-    int64_t x, y;
-    size_t columns, rows;
-    const uint32_t *price; /* [columns * rows]; NULL: none */
-} sunder_bound_prices;
-
-typedef struct sunder_bound_tree {
-    size_t group; /* trees of one group follow each other */
-    double bound;
-    const sunder_bound_body *body;
-    const sunder_bound_piece *piece;
-    const sunder_bound_cut *cut;
-    const sunder_bound_force *force;
-    const sunder_bound_node *node;
-    const size_t *named;  /* pieces */
-    const double *corner; /* [2 * corners] */
-    size_t bodies, pieces, cuts, forces, nodes, names, corners;
-    sunder_bound_prices prices; /* where it has such, they prove its bound, and it has no nodes */
-} sunder_bound_tree;
-
-/* They live as long as the report. */
-SUNDER_API const sunder_bound_tree *sunder_report_bound_trees(const sunder_report *report, size_t *n);
-
-/* A proof that a conflict has no solution, which rational arithmetic can follow. Every number in it means itself.
- *
- * Let t be the moves of blocks (a feature that stands alone is one), no longer than the block's limit: the least
- * max_shift of its members, 0 if one is fixed or ignored. The proof is a tree, node 0 its root.
- *
- * An inner node (ways > 0) is about the pair of features a and b, of blocks A and B; let u = t_B - t_A. Its parts are
- * convex polygons within a and b, counter-clockwise, as they stood at the start. Any u at which the second part, moved
- * by it, keeps the clearance from the first, has n.u >= d for at least one of the node's ways. (To keep a clearance c
- * >= 0: disjoint interiors, and a distance of at least c. A clearance c < 0: some translation no longer than -c leaves
- * them disjoint interiors.) The clearance is no more than the pair owes: the gap, if it is the conflict itself, or is
- * not among the conflicts; else what it had at the start, its distance or minus the length of the least translation
- * that parts it. The way's `next` is the node for the case that it is the first of them with n.u >= d, so that n.u < d
- * for those before.
- *
- * Where `shadow`, one of the two parts is a single corner, the anchor of its feature, which the other feature does not
- * hold; the other part is one of that feature. Or b is a barrier, the corner is the side anchor of its feature, and the
- * other part has two: a segment of the barrier's lines, or an edge of its areas, with the area on its left and the
- * anchor on its right. Any u at which the straight way of the anchor, as the other part sees it, does not meet the
- * interior of that part, or that segment, has n.u >= d for at least one of the node's ways: no clearance is asked.
- *
- * Where `chord`, such a side of barrier b and one of barrier c (which may be b) have one end in common, and the other
- * ends on either side of the straight way from the anchor through it. The second part is a segment, one end of which is
- * strictly in the shadow of either side, and which the way passes beyond that common end; so what it shadows is in the
- * shadows of the two sides together.
- *
- * Where `slack`, the clearance is negative, and the pair not the conflict itself. All its parts have one translation
- * v, no longer than minus the clearance, that leaves them disjoint interiors: it is the same at all such nodes of the
- * pair, and their ways are about u = t_B + v - t_A, of which it is asked to leave the parts disjoint interiors.
- *
- * A leaf has forces, positive, each on a way of a node above it: on the one that leads to the leaf (then h = d, m = n),
- * or on one before that (behind; then h = -d, m = -n). So m.u >= h in this case, for all of them. But the sum of force
- * * h is greater than the sum, over blocks, of limit * |sum of force * m, with a minus where the block is A|, and over
- * pairs with slack, of minus the clearance * |sum of force * m|: no such moves are within the limits.
- *
- * Where `held`, the pair is not the conflict itself, and what it is held to is its distance at the start, or minus the
- * length of its least translation then, exactly: what `clearance` says is near to that, and not to be relied on. It is
- * so that a line may pass the place where the two stood: d = 0. Where both `slack` and `held`, the first way says more
- * than its d: n.u >= h, h the greatest of n.(p - q) over corners p of the first part and q of the second.
- *
- * Where a leaf is `still`, two ways that lead to it, line_way of line_node, are about one block and what cannot move,
- * with d = 0, and n opposite to each other (or one is a first way that is held with a slack, and h no less than |n|
- * times the pair's least translation at the start, so that n.u >= 0 without it); so of the block's move only t with n.t
- * = 0 is left. Moves are such that all corners of the block are doubles afterwards. No coordinate of them can leave its
- * binade within the limit; so t is a multiple of the unit there in each coordinate, and the least of these with n.t = 0
- * that is not 0 is beyond the limit. So t = 0, and the limit of the block counts as 0 in that leaf. */
-typedef struct sunder_proof_way {
-    double n[2], d;
-    size_t next;
-} sunder_proof_way;
-
-typedef struct sunder_proof_force {
-    size_t node, way; /* of all ways */
-    bool behind;
-    double force;
-} sunder_proof_force;
-
-typedef struct sunder_proof_node {
-    size_t a, b;           /* features */
-    size_t part_a, part_b; /* the first corners of the parts, of all corners */
-    size_t corners_a, corners_b;
-    double clearance;
-    bool shadow;      /* one of the parts is an anchor: see above */
-    bool slack;       /* the second part is moved by the pair's slack, too: see above */
-    bool held;        /* the clearance is exactly what the pair stood apart at the start: see above */
-    size_t way, ways; /* its first way, and how many; none: a leaf */
-    size_t force, forces;
-    bool still; /* a leaf: a block that is between the lines of two ways stays where it is: see above */
-    size_t line_node[2], line_way[2];
-    bool
-        chord; /* a shadow: the second part is a chord across a corner that a side of b and one of c share: see above */
-    size_t c, sides; /* then: of these two sides the first corner of four, two of b's and two of c's */
-} sunder_proof_node;
-
-typedef struct sunder_proof {
-    const sunder_proof_node *node;
-    const sunder_proof_way *way;
-    const sunder_proof_force *force;
-    const double *corner; /* [2 * corners] */
-    size_t nodes, ways, forces, corners;
-    double within; /* the limit of those that have none; 0: there are none */
-} sunder_proof;
-
-/* The proof of conflict k of sunder_report_conflicts(), or NULL. It lives as long as the report. There is one for
- * each with SUNDER_REASON_NO_ROOM, and each that is crowded; the features of its nodes, but for the two in conflict,
- * are the conflict's blocked_by: none of them could be left out of it. With SUNDER_REASON_SIDE and mostly
- * SUNDER_REASON_JUMP there is one, too: its nodes are about the pair, and about the ways of the members of their two
- * blocks (shadows). Without a limit `within` is one by which the two are apart for certain: farther out nothing but
- * shadows forbids a move, and what is shaded there was shaded before; with SUNDER_REASON_NO_ROOM all nodes are about
- * members of the two blocks then. With SUNDER_REASON_MAX_SHIFT, if keep_trees was asked for and one was found, they
- * are about the pair. */
-SUNDER_API const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k);
+SUNDER_EXPERIMENTAL const sunder_push *sunder_report_pushes(const sunder_report *report, size_t *n);
 
 /* ---- Routes ----------------------------------------------------------------------------------------------- */
 
@@ -923,11 +719,19 @@ typedef struct sunder_place {
     const char *text[2];
 } sunder_place;
 
+/* All zero but the size: the defaults. */
 typedef struct sunder_route_options {
+    size_t size;              /* sizeof(sunder_route_options) */
     double gap;               /* >= 0 and finite; the robot is grown by a polygon of 64 sides around the disc */
     sunder_progress progress; /* NULL: none */
     void *progress_user;
 } sunder_route_options;
+
+SUNDER_API void sunder_route_options_init_sized(sunder_route_options *options, size_t size);
+static inline void sunder_route_options_init(sunder_route_options *options)
+{
+    sunder_route_options_init_sized(options, sizeof *options);
+}
 
 typedef enum sunder_route_status {
     SUNDER_ROUTE_FOUND,

@@ -159,7 +159,8 @@ static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, con
                         in_block *members, size_t *n, double *deviation, gis_error *error)
 {
     part first = {how, 0, find_share};
-    const sunder_sum_options stage = {.progress = tell_part, .progress_user = &first, .threads = how->threads};
+    const sunder_sum_options stage = {
+        .size = sizeof stage, .progress = tell_part, .progress_user = &first, .threads = how->threads};
     sunder_shape *joined;
     sunder_sum *sum = NULL;
     sunder_error why;
@@ -211,7 +212,8 @@ static bool unite_blocks(gis_buffer_set *all, const gis_polygons *polygons, cons
                          gis_error *error)
 {
     part last = {how, find_share + make_share, 1};
-    const sunder_sum_options stage = {.progress = tell_part, .progress_user = &last, .threads = how->threads};
+    const sunder_sum_options stage = {
+        .size = sizeof stage, .progress = tell_part, .progress_user = &last, .threads = how->threads};
     sunder_shape *shape;
     sunder_sum *sum = NULL;
     sunder_error why;
@@ -247,7 +249,8 @@ bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const
         gis_buffer_set block = {.member = feature + i, .members = end - i};
         part middle = {how, find_share + make_share * (double)i / (double)n,
                        find_share + make_share * (double)end / (double)n};
-        const sunder_sum_options stage = {.progress = tell_part, .progress_user = &middle, .threads = how->threads};
+        const sunder_sum_options stage = {
+            .size = sizeof stage, .progress = tell_part, .progress_user = &middle, .threads = how->threads};
         ok = gis_buffer_make_set(buffer, &block, &stage, error) && append_block(set, &block, &polygons, error);
         gis_buffer_set_clear(&block);
     }

@@ -62,8 +62,10 @@ static void *work(void *argument)
     making *m = argument;
     gis_error error;
     gis_watch();
-    const sunder_sum_options how = {
-        .progress = tell_inside, .progress_user = m, .threads = m->buffer->sets == 1 ? m->threads : 1};
+    const sunder_sum_options how = {.size = sizeof how,
+                                    .progress = tell_inside,
+                                    .progress_user = m,
+                                    .threads = m->buffer->sets == 1 ? m->threads : 1};
     while (!atomic_load(&m->stop)) {
         size_t k = atomic_fetch_add(&m->next, 1);
         if (k >= m->buffer->sets) break;

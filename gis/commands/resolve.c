@@ -266,6 +266,7 @@ bool gis_resolve_road(const gis_options *options, sunder_sum_options *out, gis_e
         !resolve_choice(options, OPT_ORDER, order_word, &order, error))
         return false;
     *out = (sunder_sum_options){
+        .size = sizeof(sunder_sum_options),
         .algorithm = (sunder_algorithm)algorithm,
         .decomposition = (sunder_decomposition)decomposition,
         .order = (sunder_order)order,

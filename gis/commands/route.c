@@ -39,7 +39,8 @@ static bool find(route_run *run, gis_error *error)
     sunder_error why;
     gis_progress progress = gis_resolve_progress(run->options);
     gis_progress_stage(&progress, 0, 1);
-    const sunder_route_options how = {run->input.gap, gis_progress_call, &progress};
+    const sunder_route_options how = {
+        .size = sizeof how, .gap = run->input.gap, .progress = gis_progress_call, .progress_user = &progress};
     sunder_status status = sunder_route_find(run->input.obstacle, run->input.n, run->input.robot, &run->request.from.at,
                                              &run->request.to.at, &how, &run->route, &why);
     if (status != SUNDER_OK) return gis_core_failed(error, NULL, &why);

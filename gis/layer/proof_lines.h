@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/json.h"
-#include "sunder.h"
+#include "sunder_proof.h"
 
 #include <stdio.h>
 

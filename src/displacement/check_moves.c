@@ -9,6 +9,7 @@
 #include "displacement/report/report.h"
 
 #include "base/clock.h"
+#include "base/sized_struct.h"
 #include "base/watch.h"
 #include "separation/separation.h"
 
@@ -264,9 +265,10 @@ sunder_status sunder_layer_check_moves(const sunder_layer *before, const sunder_
     sunder_report *report = NULL;
     sunder_layer_options o;
     sunder_layer_options_init(&o);
-    if (options) o = *options;
+    sunder_status status = sunder_i_options_read(&o, sizeof o, options, err);
+    if (status) return status;
     sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
-    const sunder_status status = compare(&c, &o, &report, err);
+    status = compare(&c, &o, &report, err);
     sunder_i_watch_end(&watch);
     clear(&c);
     if (status)

@@ -12,6 +12,7 @@
 #include "displacement/solve/clusters/stages.h"
 
 #include "base/clock.h"
+#include "base/sized_struct.h"
 #include "base/watch.h"
 
 #include <stdlib.h>
@@ -375,9 +376,10 @@ static sunder_status run(run_stages stages, const sunder_layer *layer, const sun
     sunder_report *report = NULL;
     sunder_layer_options o;
     sunder_layer_options_init(&o);
-    if (options) o = *options;
+    sunder_status status = sunder_i_options_read(&o, sizeof o, options, err);
+    if (status) return status;
     sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
-    const sunder_status status = stages(&s, layer, &o, &report, err);
+    status = stages(&s, layer, &o, &report, err);
     sunder_i_watch_end(&watch);
     sunder_i_solver_free(&s);
     if (status)

@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/invariant.h"
+#include "base/sized_struct.h"
 #include "base/watch.h"
 #include "convex/subsums.h"
 #include "minkowski/convex_operands.h"
@@ -148,9 +149,9 @@ static sunder_status check_options(const sunder_sum_options *o, sunder_error *er
 sunder_status sunder_i_minkowski_sum(const sunder_shape *p, const sunder_shape *q, bool force_wide,
                                      const sunder_sum_options *options, sunder_sum **out, sunder_error *err)
 {
-    sunder_sum_options o = {0};
-    if (options) o = *options;
-    sunder_status status = check_options(&o, err);
+    sunder_sum_options o = {.size = sizeof o};
+    sunder_status status = sunder_i_options_read(&o, sizeof o, options, err);
+    if (status == SUNDER_OK) status = check_options(&o, err);
     if (status != SUNDER_OK) return status;
     sunder_sum *sum = sunder_i_calloc(1, sizeof *sum);
     if (!sum) return sunder_i_no_memory(err);
@@ -170,6 +171,12 @@ sunder_status sunder_i_minkowski_sum(const sunder_shape *p, const sunder_shape *
     else
         sunder_sum_free(sum);
     return status;
+}
+
+void sunder_sum_options_init_sized(sunder_sum_options *options, size_t size)
+{
+    static const sunder_sum_options defaults;
+    sunder_i_options_write(options, size, &defaults, sizeof defaults);
 }
 
 sunder_status sunder_minkowski_sum(const sunder_shape *p, const sunder_shape *q, const sunder_sum_options *options,

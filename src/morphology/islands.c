@@ -87,7 +87,7 @@ static sunder_status erode(const islands *all, const sunder_i_figure *figure, co
 static sunder_status one_island(islands *all, const sunder_i_figure *figure, sunder_sum **out, sunder_error *err)
 {
     teller t = {all, figure->sides, 0, all->open ? 0.5 : 1};
-    sunder_sum_options options = {.seed = all->asked->seed};
+    sunder_sum_options options = {.size = sizeof options, .seed = all->asked->seed};
     if (all->asked->progress) {
         options.progress = tell;
         options.progress_user = &t;

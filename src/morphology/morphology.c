@@ -8,6 +8,7 @@
  * All sets here are closed. Each stage reads the corners of the one before as they are, as rationals; nothing is
  * rounded in between. P's members may overlap: an erosion takes their union first. */
 #include "morphology/morphology.h"
+#include "base/sized_struct.h"
 #include "base/watch.h"
 #include "minkowski/minkowski.h"
 
@@ -26,7 +27,7 @@ static bool tell(double fraction, void *user)
 
 static const sunder_sum_options *begin(stage *s, const sunder_sum_options *asked, double from, double to)
 {
-    *s = (stage){asked, from, to, {.seed = asked->seed, .threads = asked->threads}};
+    *s = (stage){asked, from, to, {.size = sizeof s->options, .seed = asked->seed, .threads = asked->threads}};
     if (asked->progress) {
         s->options.progress = tell;
         s->options.progress_user = s;
@@ -67,11 +68,12 @@ static sunder_status shrink(const sunder_shape *p, const sunder_shape *b, sunder
 sunder_status sunder_shape_union(const sunder_shape *shape, const sunder_sum_options *options, sunder_sum **out,
                                  sunder_error *err)
 {
-    sunder_sum_options o = {0};
-    if (options) o = *options;
+    sunder_sum_options o = {.size = sizeof o};
+    sunder_status status = sunder_i_options_read(&o, sizeof o, options, err);
+    if (status != SUNDER_OK) return status;
     sunder_i_watch watch;
     sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
-    const sunder_status status = sunder_i_union_of_members(shape, NULL, &o, out, err);
+    status = sunder_i_union_of_members(shape, NULL, &o, out, err);
     sunder_i_watch_end(&watch);
     return status;
 }
@@ -84,11 +86,12 @@ sunder_status sunder_morphology(const sunder_shape *p, const sunder_shape *b, su
     if ((unsigned)operation > SUNDER_OPERATION_CLOSE)
         return sunder_i_fail(err, SUNDER_EARG, "there is no such operation");
     if (operation == SUNDER_OPERATION_DILATE) return sunder_minkowski_sum(p, b, options, out, err);
-    sunder_sum_options o = {0};
-    if (options) o = *options;
+    sunder_sum_options o = {.size = sizeof o};
+    sunder_status status = sunder_i_options_read(&o, sizeof o, options, err);
+    if (status != SUNDER_OK) return status;
     sunder_i_watch watch;
     sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
-    const sunder_status status = shrink(p, b, operation, &o, out, err);
+    status = shrink(p, b, operation, &o, out, err);
     sunder_i_watch_end(&watch);
     return status;
 }

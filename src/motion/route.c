@@ -3,6 +3,7 @@
 #include "motion/shortest_path.h"
 
 #include "base/extremes.h"
+#include "base/sized_struct.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -162,24 +163,31 @@ static sunder_status find(sunder_route *r, const sunder_place *from, const sunde
     return status;
 }
 
+void sunder_route_options_init_sized(sunder_route_options *options, size_t size)
+{
+    static const sunder_route_options defaults;
+    sunder_i_options_write(options, size, &defaults, sizeof defaults);
+}
+
 sunder_status sunder_route_find(const sunder_obstacle *obstacles, size_t n, const sunder_shape *robot,
                                 const sunder_place *from, const sunder_place *to, const sunder_route_options *options,
                                 sunder_route **out, sunder_error *err)
 {
-    static const sunder_route_options defaults;
-    if (!options) options = &defaults;
-    if (!(options->gap >= 0) || !isfinite(options->gap))
-        return sunder_i_fail(err, SUNDER_EARG, "the gap must be finite and not negative, not %.17g", options->gap);
-    if (sunder_shape_is_empty(robot)) return sunder_i_fail(err, SUNDER_EARG, "the robot encloses nothing");
-    sunder_status status = check_obstacles(obstacles, n, err);
+    sunder_route_options o = {.size = sizeof o};
+    sunder_status status = sunder_i_options_read(&o, sizeof o, options, err);
     if (status != SUNDER_OK) return status;
-    sunder_sum_options how = {.progress = options->progress, .progress_user = options->progress_user};
+    if (!(o.gap >= 0) || !isfinite(o.gap))
+        return sunder_i_fail(err, SUNDER_EARG, "the gap must be finite and not negative, not %.17g", o.gap);
+    if (sunder_shape_is_empty(robot)) return sunder_i_fail(err, SUNDER_EARG, "the robot encloses nothing");
+    status = check_obstacles(obstacles, n, err);
+    if (status != SUNDER_OK) return status;
+    sunder_sum_options how = {.size = sizeof how, .progress = o.progress, .progress_user = o.progress_user};
     sunder_route *r = sunder_i_calloc(1, sizeof *r);
     if (!r) return sunder_i_no_memory(err);
     r->obstacle = SIZE_MAX;
     sunder_i_watch watch;
     sunder_i_watch_begin(&watch, &how.progress, &how.progress_user);
-    status = sunder_i_free_space_build(obstacles, n, robot, options->gap, &how, &r->space, err);
+    status = sunder_i_free_space_build(obstacles, n, robot, o.gap, &how, &r->space, err);
     if (status == SUNDER_OK) status = find(r, from, to, &how, err);
     if (status == SUNDER_OK && r->space.filter.lattice->arena.failed) status = sunder_i_no_memory(err);
     sunder_i_watch_end(&watch);

@@ -1,5 +1,5 @@
 /* The public face of the accumulator: one addend is a product with 1. */
-#include "sunder.h"
+#include "sunder_parts.h"
 
 #include "number/accumulator.h"
 

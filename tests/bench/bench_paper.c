@@ -103,7 +103,8 @@ static sunder_status unite(sunder_i_placed *placed, sunder_i_uniting *u, size_t 
 
 static sunder_status in_order(const sunder_shape *p, const sunder_shape *q, const order *by)
 {
-    const sunder_sum_options options = {.algorithm = SUNDER_ALGORITHM_INCREMENTAL, .order = by->order, .seed = 1};
+    const sunder_sum_options options = {
+        .size = sizeof options, .algorithm = SUNDER_ALGORITHM_INCREMENTAL, .order = by->order, .seed = 1};
     const sunder_i_place_options how = {0};
     sunder_i_placed placed;
     sunder_status status = sunder_i_place(p, q, &how, &placed, NULL);

@@ -5,7 +5,7 @@
 #include "sunder.h"
 #include "wkt_input.h"
 
-static sunder_sum_options how;
+static sunder_sum_options how = {.size = sizeof how};
 
 static __attribute__((noinline)) sunder_status bench_once(const bench_set *p, const bench_set *q, double *seconds,
                                                           sunder_sum_size *counts, sunder_error *err)
@@ -35,7 +35,8 @@ static bool read_road(char **word)
         d++;
     while (o <= SUNDER_ORDER_GIVEN && strcmp(word[2], sunder_order_string((sunder_order)o))) o++;
     if (a > SUNDER_ALGORITHM_DIVIDE || d > SUNDER_DECOMPOSITION_MIXED || o > SUNDER_ORDER_GIVEN) return false;
-    how = (sunder_sum_options){.algorithm = (sunder_algorithm)a,
+    how = (sunder_sum_options){.size = sizeof(sunder_sum_options),
+                               .algorithm = (sunder_algorithm)a,
                                .decomposition = (sunder_decomposition)d,
                                .order = (sunder_order)o,
                                .seed = 1};

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # The documentation can be made (docs/site.sh), no link in it leads nowhere, and what it is to have is there: the guide, the
-# manual, every function of sunder.h with its description.
+# manual, every function of the headers with its description.
 set -eu
 for tool in pandoc doxygen python3; do
     command -v "$tool" >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }
@@ -25,8 +25,12 @@ grep -q -- '--max-shift-field' "$site/gis/sunder.1.html" || fail "the manual lac
 for page in ${manual:+"$manual"/sunder-*.1}; do
     [ ! -f "$page" ] || [ -s "$site/manual/$(basename "$page").html" ] || fail "no page of $(basename "$page")"
 done
-for name in $(grep -o '\bsunder_[a-z_]*(' "$SUNDER_SOURCE/src/sunder.h" | sort -u | tr -d '(' | grep -v '^sunder_i_'); do
-    grep -q "[\";>]$name</a>\|>$name<\| $name " "$site/reference/sunder_8h.html" || fail "the reference lacks $name"
+for header in sunder sunder_proof sunder_parts; do
+    page=$site/reference/${header//_/__}_8h.html
+    for name in $(grep -E '^(SUNDER_API|SUNDER_EXPERIMENTAL|static inline) ' "$SUNDER_SOURCE/src/$header.h" |
+        grep -o 'sunder_[a-z_]*(' | tr -d '('); do
+        grep -q "[\";>]$name</a>\|>$name<\| $name " "$page" || fail "the reference of $header.h lacks $name"
+    done
 done
 grep -q 'Takes the features apart at little cost' "$site/reference/sunder_8h.html" || fail "the reference has no descriptions"
 

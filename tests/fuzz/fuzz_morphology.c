@@ -35,7 +35,7 @@ static bool is_done(sunder_status status)
 /* The set itself is between its opening and its closing. */
 static void demand_between(const sunder_shape *p, const sunder_sum *result, sunder_operation op)
 {
-    const sunder_sum_options options = {0};
+    const sunder_sum_options options = {.size = sizeof options};
     sunder_sum *whole = NULL;
     FUZZ_DEMAND(is_done(sunder_shape_union(p, &options, &whole, NULL)));
     if (whole && op == SUNDER_OPERATION_OPEN) demand_less(result, whole);
@@ -47,7 +47,8 @@ static void demand_between(const sunder_shape *p, const sunder_sum *result, sund
 static void ask(const sunder_shape *p, const sunder_shape *b, unsigned fail, unsigned seed)
 {
     const sunder_operation op = (sunder_operation)(seed % 4);
-    const sunder_sum_options options = {.seed = seed}, other = {.seed = seed + 1, .threads = seed / 4 % 4 == 3 ? 2 : 1};
+    const sunder_sum_options options = {.size = sizeof options, .seed = seed},
+                             other = {.size = sizeof other, .seed = seed + 1, .threads = seed / 4 % 4 == 3 ? 2 : 1};
     sunder_sum *result = NULL, *again = NULL;
     sunder_error error;
     fuzz_fail_allocations(fail < 128 ? fail * 8 : 0);

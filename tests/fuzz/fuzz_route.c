@@ -72,7 +72,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     sunder_route *there = NULL, *back = NULL;
     if (p && robot && !fuzz_is_out_of_patience() && !sunder_shape_is_empty(robot)) {
         const sunder_obstacle obstacle[] = {{p, NULL, NULL, 0}, {NULL, xy, line_end, points ? 2 : 0}};
-        const sunder_route_options options = {.gap = kind & 64 ? ldexp(1, (int)(kind % 5)) : 0};
+        const sunder_route_options options = {.size = sizeof options, .gap = kind & 64 ? ldexp(1, (int)(kind % 5)) : 0};
         sunder_error error;
         fuzz_fail_allocations(fail < 128 ? fail * 8 : 0);
         sunder_status status = sunder_route_find(obstacle, 2, robot, &from, &to, &options, &there, &error);

@@ -7,7 +7,8 @@
 static sunder_sum_options choose_road(fuzz_bytes *bytes)
 {
     unsigned road = fuzz_byte(bytes), order = fuzz_byte(bytes);
-    return (sunder_sum_options){.algorithm = (sunder_algorithm)(road % 5),
+    return (sunder_sum_options){.size = sizeof(sunder_sum_options),
+                                .algorithm = (sunder_algorithm)(road % 5),
                                 .decomposition = (sunder_decomposition)(road / 5 % 7),
                                 .order = (sunder_order)(order % 3),
                                 .seed = order,

@@ -34,8 +34,8 @@ done < <(sources src | grep '\.c$' | sed 's#.*/##' | sort | uniq -d)
 
 # ---- Public enumerators carry the name of their type ----
 while read -r line; do
-    say "src/sunder.h: $line"
-done < <(awk '
+    say "src/$line"
+done < <(cd "$root/src" && awk '
     /^typedef enum sunder_[a-z_]* \{.*\}/ { next } # of one line: three phases, which do
     /^typedef enum sunder_/ { type = $3; open = 1; next }
     /^} sunder_/ { open = 0 }
@@ -45,6 +45,6 @@ done < <(awk '
         word = toupper(type)
         sub(/_(STATUS|KIND)$/, "", word)
         if (word == "SUNDER" || index(name, word "_") == 1) next # the codes of sunder_status have none
-        print name " does not carry the name of " type
-    }' "$root/src/sunder.h")
+        print FILENAME ": " name " does not carry the name of " type
+    }' sunder.h sunder_proof.h sunder_parts.h)
 finish

@@ -1,6 +1,7 @@
 # shellcheck shell=bash
 # Installs to a scratch prefix and builds a small program against what lies there: by pkg-config and by find_package,
-# with the shared and with the static library. The prefix is moved after installing, as packagers do.
+# with the shared and with the static library. The prefix is moved after installing, as packagers do. A second program uses
+# all headers, in C and in C++, and is an older caller, too.
 set -eu
 work=$SUNDER_BUILD/package-test
 rm -rf "$work"
@@ -56,23 +57,62 @@ cmake --build "$work/build" >"$work/build.log"
 expect "find_package, shared" "$work/build/shared"
 expect "find_package, static" "$work/build/static"
 
-# Only what the header declares leaves the shared library.
-if command -v nm >/dev/null; then
-    library=$(find "$prefix" -name 'libsunder.so' | head -n 1)
-    nm -D --defined-only "$library" | awk '$2 ~ /[TDBR]/ {print $3}' | sort >"$work/exported"
-    grep -o 'sunder_[a-z_]*(' "$prefix/include/sunder.h" | tr -d '(' | sort -u >"$work/declared"
-    comm -23 "$work/exported" "$work/declared" >"$work/surplus"
-    if [ -s "$work/surplus" ]; then
-        echo "exported, but not in sunder.h:"
-        cat "$work/surplus"
+# All headers in C and in C++, each of them first, and a user of them all that is an older caller besides.
+libdir=$(dirname "$(find "$prefix" -name 'libsunder.so' | head -n 1)")
+flags=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror "-I$prefix/include")
+link=("-L$libdir" -lsunder -lm)
+said='sizes: 1 1, total 0.25
+moved 1 by 2.000, verified: 1, worlds: 1, trees: 1
+area 16
+refused: the options begin with the size 12345, which no struct of options has: call its _init function, or set `size` to sizeof of the struct'
+interface() { # name of the language, compiler, option of the language, standards...
+    local name=$1 compiler=$2 language=$3 standard header got
+    shift 3
+    for standard in "$@"; do
+        for header in sunder sunder_proof sunder_parts; do
+            printf '#include <%s.h>\n' "$header" >"$work/first.c"
+            "$compiler" -x "$language" "-std=$standard" "${flags[@]}" -fsyntax-only "$work/first.c"
+        done
+        "$compiler" -x "$language" "-std=$standard" "${flags[@]}" "$SUNDER_SOURCE/tests/package/interface.c" -x none \
+            -o "$work/interface" "${link[@]}"
+        got=$(LD_LIBRARY_PATH=$libdir "$work/interface")
+        if [ "$got" != "$said" ]; then
+            echo "the headers in $standard: '$got' instead of '$said'"
+            exit 1
+        fi
+        echo "the headers in $standard: ok"
+    done
+}
+interface C "$cc" c c11 c17
+cxx=$(command -v c++ || command -v g++ || command -v clang++ || true)
+if [ -n "$cxx" ]; then
+    interface C++ "$cxx" c++ c++11 c++17
+else
+    echo "there is no compiler of C++: left out"
+fi
+
+# What the headers refer to is installed.
+for page in REFERENCES.md api.md; do
+    if ! [ -s "$prefix/share/doc/sunder/$page" ]; then
+        echo "$page is named in the headers, and not installed"
         exit 1
     fi
-    # ... and everything that it declares is there (names in comments, and types of functions, are not functions).
-    grep '^SUNDER_API' "$prefix/include/sunder.h" | grep -o 'sunder_[a-z_]*(' | tr -d '(' | sort -u >"$work/promised"
-    comm -13 "$work/exported" "$work/promised" >"$work/missing"
-    if [ -s "$work/missing" ]; then
-        echo "declared in sunder.h, but not in the library:"
-        cat "$work/missing"
+done
+
+# Only what the headers declare leaves the shared library.
+if command -v nm >/dev/null; then
+    nm -D --defined-only "$libdir/libsunder.so" | awk '$2 ~ /[TDBR]/ {print $3}' | sort >"$work/exported"
+    # A declaration says which it is, and each of a header that is experimental as a whole says so.
+    cat "$prefix"/include/sunder*.h >"$work/headers"
+    grep -E '^(SUNDER_API|SUNDER_EXPERIMENTAL) ' "$work/headers" | grep -o 'sunder_[a-z_]*(' | tr -d '(' | sort >"$work/declared"
+    if grep -n '^SUNDER_API' "$prefix/include/sunder_proof.h" "$prefix/include/sunder_parts.h"; then
+        echo "stable, in a header that says that all of it is experimental"
+        exit 1
+    fi
+    comm -3 "$work/exported" "$work/declared" >"$work/differ"
+    if [ -s "$work/differ" ]; then
+        echo "exported, but declared in no header (left), or declared, but not in the library (right):"
+        cat "$work/differ"
         exit 1
     fi
     echo "exports: ok"

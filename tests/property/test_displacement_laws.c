@@ -21,7 +21,7 @@
 #include "random.h"
 #include "run_layer.h"
 
-#include "sunder.h"
+#include "sunder_proof.h"
 
 #include <math.h>
 #include <setjmp.h>

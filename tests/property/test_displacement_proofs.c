@@ -5,6 +5,7 @@
  * no conflict may be said to have no room. Packed: a lane too narrow by little: all that remains has a proof. */
 #include "proof_town.h"
 #include "random.h"
+#include "sunder_proof.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -2,6 +2,7 @@
  * own (support/proof_check.c), in rationals, and untruths about shadows and chords refused. */
 #include "proof_town.h"
 #include "random.h"
+#include "sunder_proof.h"
 
 #include <math.h>
 #include <setjmp.h>

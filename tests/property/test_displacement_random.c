@@ -9,7 +9,7 @@
 #include "random.h"
 #include "run_layer.h"
 
-#include "sunder.h"
+#include "sunder_proof.h"
 
 #include <gmp.h>
 #include <math.h>

@@ -7,6 +7,7 @@
 #include "polyset.h"
 #include "random.h"
 #include "run_layer.h"
+#include "sunder_proof.h"
 
 #include <math.h>
 #include <setjmp.h>

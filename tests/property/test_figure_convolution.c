@@ -143,9 +143,10 @@ static void compare_scene(uint64_t seed, size_t i, scene_kind kind, bool open, t
     sunder_sum *whole;
     sunder_i_morphology_operands o;
     const size_t wrong = t->wrong;
-    assert_int_equal(open ? sunder_i_union_of_members(p, b, &(sunder_sum_options){0}, &whole, NULL)
-                          : sunder_minkowski_sum(p, b, NULL, &whole, NULL),
-                     SUNDER_OK);
+    assert_int_equal(
+        open ? sunder_i_union_of_members(p, b, &(sunder_sum_options){.size = sizeof(sunder_sum_options)}, &whole, NULL)
+             : sunder_minkowski_sum(p, b, NULL, &whole, NULL),
+        SUNDER_OK);
     assert_int_equal(sunder_i_morphology_operands_make(p, b, &o, NULL), SUNDER_OK);
     compare_islands(&o, whole, open, t);
     if (t->wrong > wrong) print_message("case %zu of kind %d, seed %llu\n", i, (int)kind, (unsigned long long)seed);
@@ -193,7 +194,8 @@ static bool count_look(double fraction, void *user)
 static size_t looks_of(const sunder_shape *p, sunder_operation operation, unsigned segments)
 {
     size_t looks = 0;
-    const sunder_sum_options options = {.threads = 1, .progress = count_look, .progress_user = &looks};
+    const sunder_sum_options options = {
+        .size = sizeof options, .threads = 1, .progress = count_look, .progress_user = &looks};
     sunder_shape *b;
     sunder_sum *sum;
     assert_int_equal(sunder_shape_disc(2, segments, false, &b, NULL), SUNDER_OK);

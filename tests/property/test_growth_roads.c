@@ -19,7 +19,8 @@ typedef struct work {
 static work done(const char *family, size_t n, sunder_algorithm algorithm, sunder_order order)
 {
     char *arguments = test_format("%s --size %zu", family, n);
-    const sunder_sum_options options = {.algorithm = algorithm,
+    const sunder_sum_options options = {.size = sizeof options,
+                                        .algorithm = algorithm,
                                         .decomposition = SUNDER_DECOMPOSITION_ANGLE_BISECTOR,
                                         .order = order,
                                         .seed = 1,

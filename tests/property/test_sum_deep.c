@@ -82,7 +82,8 @@ static void test_other_roads(void **state)
         deep_layer(&p, (deep_kind)(i % DEEP_KINDS), (int)rng_int(&r, 8, i % 4 ? 40 : 90), &r);
         random_grower(&q, &r);
         char *ours = library_sum_text(&p, &q);
-        const sunder_sum_options how = {.algorithm = SUNDER_ALGORITHM_INCREMENTAL,
+        const sunder_sum_options how = {.size = sizeof how,
+                                        .algorithm = SUNDER_ALGORITHM_INCREMENTAL,
                                         .decomposition = SUNDER_DECOMPOSITION_VERTICAL,
                                         .order = SUNDER_ORDER_FAT,
                                         .seed = seed};

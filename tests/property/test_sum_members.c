@@ -111,7 +111,8 @@ static void test_members(void **state)
     for (size_t i = 0; i < n && bad < 2; i++) {
         rng r = rng_start(seed * 37, i);
         const kind k = (kind)(i % KINDS);
-        const sunder_sum_options how = {.algorithm = SUNDER_ALGORITHM_DIVIDE,
+        const sunder_sum_options how = {.size = sizeof how,
+                                        .algorithm = SUNDER_ALGORITHM_DIVIDE,
                                         .decomposition = SUNDER_DECOMPOSITION_HERTEL_MEHLHORN};
         polyset many, one;
         draw_many(&many, &r, k);
@@ -149,7 +150,8 @@ static void test_nested(void **state)
     frame(&many, -4, 2, 100, 20);
     polyset_polygon(&one, tile, 3);
     assert_int_equal(left_of(&many, &one), 0);
-    const sunder_sum_options how = {.algorithm = SUNDER_ALGORITHM_ARRANGEMENT,
+    const sunder_sum_options how = {.size = sizeof how,
+                                    .algorithm = SUNDER_ALGORITHM_ARRANGEMENT,
                                     .decomposition = SUNDER_DECOMPOSITION_HERTEL_MEHLHORN};
     char *want = library_sum_text(&many, &one);
     assert_true(want && road_agrees(&many, &one, &how, false, want, true));
@@ -164,7 +166,8 @@ static void test_shut_yard(void **state)
     (void)state;
     const double yard[] = {0, 0, 100, 0, 100, 41, 30, 40, 30, 80, 60, 81, 65, 40.5, 81, 80, 100, 81, 101, 120, -1, 120};
     const double away[] = {300, 0, 330, 1, 310, 30};
-    const sunder_sum_options how = {.algorithm = SUNDER_ALGORITHM_DIVIDE,
+    const sunder_sum_options how = {.size = sizeof how,
+                                    .algorithm = SUNDER_ALGORITHM_DIVIDE,
                                     .decomposition = SUNDER_DECOMPOSITION_HERTEL_MEHLHORN};
     size_t traced = 0;
     for (int i = 1; i <= 64; i++) {

@@ -42,7 +42,8 @@ static void count_needed(const polyset *p, const polyset *q, size_t count[2])
 
 static bool agrees(const polyset *p, const polyset *q, size_t i)
 {
-    const sunder_sum_options how = {.algorithm = SUNDER_ALGORITHM_DIVIDE,
+    const sunder_sum_options how = {.size = sizeof how,
+                                    .algorithm = SUNDER_ALGORITHM_DIVIDE,
                                     .decomposition = i % 2 ? SUNDER_DECOMPOSITION_ANGLE_BISECTOR
                                                            : SUNDER_DECOMPOSITION_HERTEL_MEHLHORN};
     char *want = i % 4 ? library_sum_text(p, q) : library_sum_text_wide(p, q);

@@ -35,7 +35,8 @@ static char *text_by_rectangles(const polyset *p, const polyset *q)
 
 static bool agrees(const polyset *p, const polyset *q, sunder_algorithm algorithm)
 {
-    const sunder_sum_options how = {.algorithm = algorithm, .decomposition = SUNDER_DECOMPOSITION_HERTEL_MEHLHORN};
+    const sunder_sum_options how = {
+        .size = sizeof how, .algorithm = algorithm, .decomposition = SUNDER_DECOMPOSITION_HERTEL_MEHLHORN};
     char *got = text_by_rectangles(p, q);
     assert_non_null(got);
     const bool same = road_agrees(p, q, &how, false, got, true);

@@ -87,7 +87,8 @@ static void test_sums(void **state)
         pair p;
         open_pair(&p, seed, i);
         char *plain = sum_of(p.shape[0], p.shape[1], false, NULL);
-        const sunder_sum_options road = {.algorithm = (sunder_algorithm)(SUNDER_ALGORITHM_ARRANGEMENT + i % 3),
+        const sunder_sum_options road = {.size = sizeof road,
+                                         .algorithm = (sunder_algorithm)(SUNDER_ALGORITHM_ARRANGEMENT + i % 3),
                                          .decomposition = (sunder_decomposition)(i % (SUNDER_DECOMPOSITION_MIXED + 1))};
         expect_same(&p, plain, sum_of(p.shape[0], p.shape[1], true, NULL), "another rung, another sum");
         expect_same(&p, plain, sum_of(p.shape[1], p.shape[0], false, NULL), "P + Q and Q + P differ");

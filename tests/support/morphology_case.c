@@ -15,7 +15,7 @@
 
 sunder_sum *morphology_answer(const polyset *p, const polyset *b, sunder_operation operation)
 {
-    static const sunder_sum_options how = {.threads = 2};
+    static const sunder_sum_options how = {.size = sizeof how, .threads = 2};
     sunder_shape *sp = polyset_shape(p), *sb = polyset_shape(b);
     sunder_sum *sum = NULL;
     sunder_error err = {0};

@@ -4,6 +4,7 @@
 
 #include "proof_check.h"
 #include "rational_plane.h"
+#include "sunder_proof.h"
 
 #include <stdbool.h>
 

@@ -2,6 +2,7 @@
 #include "proof_town.h"
 
 #include "run_layer.h"
+#include "sunder_proof.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

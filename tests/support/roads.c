@@ -10,7 +10,8 @@ sunder_sum_options road_options(size_t i, uint64_t seed)
 {
     const size_t a = i % ROAD_ALGORITHMS, d = i / ROAD_ALGORITHMS % ROAD_DECOMPOSITIONS;
     const size_t o = i / (ROAD_ALGORITHMS * ROAD_DECOMPOSITIONS) % ROAD_ORDERS;
-    return (sunder_sum_options){.algorithm = (sunder_algorithm)(SUNDER_ALGORITHM_ARRANGEMENT + a),
+    return (sunder_sum_options){.size = sizeof(sunder_sum_options),
+                                .algorithm = (sunder_algorithm)(SUNDER_ALGORITHM_ARRANGEMENT + a),
                                 .decomposition = (sunder_decomposition)(SUNDER_DECOMPOSITION_ANGLE_BISECTOR + d),
                                 .order = (sunder_order)(SUNDER_ORDER_RANDOM + o),
                                 .seed = seed};

@@ -1,6 +1,7 @@
 /* Conflicts without room that are proved: of a block of many parts, and in a yard without a limit. */
 #include "random.h"
 #include "scene.h"
+#include "sunder_proof.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -60,7 +60,7 @@ static sunder_status everything(uint64_t seed)
     sunder_status status = scribble(&g, 18, 100, &p);
     if (status == SUNDER_OK) status = scribble(&g, 7, 0x1p-300, &q);
     for (int road = SUNDER_ALGORITHM_CONVOLUTION; road <= SUNDER_ALGORITHM_DIVIDE && status == SUNDER_OK; road++) {
-        const sunder_sum_options options = {.algorithm = (sunder_algorithm)road};
+        const sunder_sum_options options = {.size = sizeof options, .algorithm = (sunder_algorithm)road};
         sunder_sum *sum;
         status = sunder_minkowski_sum(p, q, &options, &sum, NULL);
         if (status == SUNDER_OK) {

@@ -224,7 +224,7 @@ static void test_stopping(void **state)
         int chances = 0;
         for (; status == SUNDER_ECANCEL; chances++) {
             stopping left = {chances, 0};
-            const sunder_sum_options how = {.progress = stop_at, .progress_user = &left};
+            const sunder_sum_options how = {.size = sizeof how, .progress = stop_at, .progress_user = &left};
             sunder_sum *sum = NULL;
             status = sunder_morphology(p, b, (sunder_operation)op, &how, &sum, NULL);
             sunder_sum_free(sum);
@@ -253,7 +253,7 @@ static void test_stopping_a_union(void **state)
     assert_int_equal(sunder_shape_from_rings(xy[0], ring_end, poly_end, MEMBERS, SUNDER_VALIDITY_STRICT, &p, NULL),
                      SUNDER_OK);
     stopping now = {0, 0};
-    const sunder_sum_options how = {.progress = stop_at, .progress_user = &now};
+    const sunder_sum_options how = {.size = sizeof how, .progress = stop_at, .progress_user = &now};
     sunder_sum *sum = NULL;
     assert_int_equal(sunder_shape_union(p, &how, &sum, NULL), SUNDER_ECANCEL);
     assert_null(sum);

@@ -1,7 +1,7 @@
 /* number/accumulator: sums of products of doubles of every size against GMP's rationals. */
 #include "number/accumulator.h"
-#include "sunder.h"
 #include "random.h"
+#include "sunder_parts.h"
 
 #include <float.h>
 #include <gmp.h>

@@ -288,7 +288,7 @@ static void arguments(void **state)
     }
     const double gaps[] = {-1, NAN, INFINITY};
     for (size_t i = 0; i < 3; i++) {
-        const sunder_route_options options = {.gap = gaps[i]};
+        const sunder_route_options options = {.size = sizeof options, .gap = gaps[i]};
         assert_int_equal(sunder_route_find(NULL, 0, q, &good, &good, &options, &r, &err), SUNDER_EARG);
     }
     assert_int_equal(sunder_shape_from_rings(NULL, NULL, NULL, 0, SUNDER_VALIDITY_STRICT, &none, NULL), SUNDER_OK);
@@ -335,7 +335,7 @@ static void stops(void **state)
     sunder_shape *q = shape_of(robot, 4);
     const sunder_obstacle o = {NULL, xy, end, 2000};
     int calls = 0;
-    const sunder_route_options options = {.progress = refuse, .progress_user = &calls};
+    const sunder_route_options options = {.size = sizeof options, .progress = refuse, .progress_user = &calls};
     const sunder_place from = at(-9, -9), to = at(600, 600);
     sunder_route *r = NULL;
     assert_int_equal(sunder_route_find(&o, 1, q, &from, &to, &options, &r, NULL), SUNDER_ECANCEL);
@@ -353,7 +353,7 @@ static bool try_route(void *context)
 {
     const attempt *a = context;
     const sunder_place from = at(0, 0), to = {{6, 0}, {NULL, "1/7"}};
-    const sunder_route_options options = {.gap = a->gap};
+    const sunder_route_options options = {.size = sizeof options, .gap = a->gap};
     sunder_route *r = NULL;
     const sunder_status status = sunder_route_find(a->o, 2, a->robot, &from, &to, &options, &r, NULL);
     assert_true(status == SUNDER_OK || status == SUNDER_ENOMEM);

@@ -178,7 +178,7 @@ static void test_progress(void **state)
     sunder_sum *sum = NULL;
     sunder_error err = {0};
     watch w = {0, 1 << 30, 0, true};
-    sunder_sum_options options = {.progress = watching, .progress_user = &w};
+    sunder_sum_options options = {.size = sizeof options, .progress = watching, .progress_user = &w};
     assert_int_equal(sunder_minkowski_sum(p, q, &options, &sum, &err), SUNDER_OK);
     assert_true(w.calls > 0 && w.monotone && w.last > 0);
     sunder_sum_free(sum);

@@ -175,7 +175,7 @@ static void test_map_of_four(void **state)
     polyset_rectangle(&p, 1, 1, 3, 3);
     polyset_rectangle(&q, 0, 0, 1, 1);
     sunder_shape *a = polyset_shape(&p), *b = polyset_shape(&q);
-    const sunder_sum_options how = {.keep_map = true};
+    const sunder_sum_options how = {.size = sizeof how, .keep_map = true};
     sunder_sum *sum;
     sunder_sum_method method;
     assert_int_equal(sunder_minkowski_sum(a, b, &how, &sum, NULL), SUNDER_OK);
@@ -218,7 +218,7 @@ static void fixture_start(fixture *f, const char *arguments, sunder_order order,
     f->q = polyset_shape(&q);
     polyset_free(&p);
     polyset_free(&q);
-    f->options = (sunder_sum_options){.order = order};
+    f->options = (sunder_sum_options){.size = sizeof(sunder_sum_options), .order = order};
     const sunder_i_place_options place = {.force_wide = false};
     assert_int_equal(sunder_i_place(f->p, f->q, &place, &f->placed, NULL), SUNDER_OK);
     f->u = (sunder_i_uniting){.lattice = &f->placed.lattice, .options = &f->options, .fatness = fatness, .random = 5};
@@ -327,10 +327,11 @@ static void test_options(void **state)
     polyset_init(&square);
     polyset_rectangle(&square, 0, 0, 1, 1);
     sunder_shape *p = polyset_shape(&square);
-    const sunder_sum_options wrong[] = {{.algorithm = (sunder_algorithm)17},
-                                        {.decomposition = (sunder_decomposition)17},
-                                        {.order = (sunder_order)17},
-                                        {.algorithm = SUNDER_ALGORITHM_CONVOLUTION, .keep_map = true}};
+    const size_t size = sizeof(sunder_sum_options);
+    const sunder_sum_options wrong[] = {{.size = size, .algorithm = (sunder_algorithm)17},
+                                        {.size = size, .decomposition = (sunder_decomposition)17},
+                                        {.size = size, .order = (sunder_order)17},
+                                        {.size = size, .algorithm = SUNDER_ALGORITHM_CONVOLUTION, .keep_map = true}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         sunder_sum *sum = NULL;
         sunder_error err;

@@ -102,7 +102,8 @@ static sunder_status read_sum(sunder_sum *sum)
 
 static sunder_status add(operands *o, int how)
 {
-    const sunder_sum_options options = {.algorithm = (sunder_algorithm)(how % 10),
+    const sunder_sum_options options = {.size = sizeof options,
+                                        .algorithm = (sunder_algorithm)(how % 10),
                                         .decomposition = (sunder_decomposition)(how / 10),
                                         .keep_map = how % 10 == SUNDER_ALGORITHM_ARRANGEMENT};
     sunder_sum *sum;
@@ -112,7 +113,7 @@ static sunder_status add(operands *o, int how)
 
 static sunder_status grow(operands *o, int how)
 {
-    static const sunder_sum_options options = {.threads = 1};
+    static const sunder_sum_options options = {.size = sizeof options, .threads = 1};
     sunder_shape *disc = NULL;
     sunder_sum *sum;
     sunder_status status = sunder_shape_disc(3, 16, false, &disc, NULL);
@@ -170,7 +171,7 @@ static sunder_status layer(operands *o, int how)
 static sunder_status route(operands *o, int how)
 {
     const sunder_obstacle obstacle = {.shape = o->shape[0]};
-    const sunder_route_options options = {.gap = how};
+    const sunder_route_options options = {.size = sizeof options, .gap = how};
     sunder_shape *robot = NULL;
     sunder_route *r;
     double box[4];

@@ -4,7 +4,7 @@
 #define GIS_PART_RESULT_H
 
 #include "base/error.h"
-#include "sunder.h"
+#include "sunder_parts.h"
 
 #include <stdint.h>
 

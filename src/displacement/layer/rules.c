@@ -2,23 +2,23 @@
 #include "displacement/layer/layer.h"
 
 #include "base/error.h"
+#include "base/sized_struct.h"
 #include "base/watch.h"
 
 #include <math.h>
-#include <string.h>
 #include <unistd.h>
 
 /* More threads would wait for each other: no layer has that many clusters of significant size. */
 #define MOST_THREADS 256
 
-void sunder_layer_options_init(sunder_layer_options *options)
+void sunder_layer_options_init_sized(sunder_layer_options *options, size_t size)
 {
-    memset(options, 0, sizeof *options);
-    options->touch_tolerance = -1;
-    options->contained = SUNDER_CONTAINMENT_BLOCK;
-    options->threads = 1;
-    options->effort = 1;
-    options->barrier_reach = INFINITY;
+    static const sunder_layer_options defaults = {.touch_tolerance = -1,
+                                                  .contained = SUNDER_CONTAINMENT_BLOCK,
+                                                  .threads = 1,
+                                                  .effort = 1,
+                                                  .barrier_reach = INFINITY};
+    sunder_i_options_write(options, size, &defaults, sizeof defaults);
 }
 
 static unsigned processors(void)

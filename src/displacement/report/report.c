@@ -2,6 +2,8 @@
 #include "displacement/report/report.h"
 #include "displacement/prove/proofs/feasibility.h"
 
+#include "base/sized_struct.h"
+
 #include <math.h>
 
 sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **out, sunder_error *err)
@@ -145,7 +147,10 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
     }
 }
 
-void sunder_report_summary(const sunder_report *report, sunder_layer_summary *summary) { *summary = report->summary; }
+void sunder_report_summary_sized(const sunder_report *report, sunder_layer_summary *summary, size_t size)
+{
+    sunder_i_sized_struct_write(summary, size, &report->summary, sizeof report->summary);
+}
 
 void sunder_report_move(const sunder_report *report, size_t feature, double *dx, double *dy)
 {

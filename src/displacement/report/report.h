@@ -4,6 +4,8 @@
 
 #include "displacement/prove/areas/areas.h"
 #include "displacement/solve/clusters/solver.h"
+#include "sunder_parts.h"
+#include "sunder_proof.h"
 
 /* ---- report.c ---------------------------------------------------------------------------------------------------- */
 

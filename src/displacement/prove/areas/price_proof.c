@@ -12,6 +12,7 @@
 #include "base/extremes.h"
 #include "base/parallel.h"
 #include "base/watch.h"
+#include "sunder_parts.h"
 
 #include <math.h>
 

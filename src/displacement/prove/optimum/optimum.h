@@ -3,6 +3,7 @@
 #define SUNDER_I_OPTIMUM_H
 
 #include "displacement/prove/optimum/forbidden.h"
+#include "sunder_proof.h"
 
 /* Trees that are kept, in the numbers of the work. Zeroed: none. */
 typedef struct sunder_i_bound_trees {

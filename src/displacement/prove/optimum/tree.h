@@ -5,6 +5,7 @@
 #include "displacement/prove/optimum/dual_program.h"
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/region.h"
+#include "sunder_proof.h"
 
 /* min sum w_i |t_i - a_i|^2 over the moves of n bodies by which no pair of them does what it is forbidden. */
 typedef struct sunder_i_task {

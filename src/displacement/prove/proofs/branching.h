@@ -6,6 +6,7 @@
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/prove/proofs/half_planes.h"
 #include "displacement/quadratic/nearest.h"
+#include "sunder_proof.h"
 
 #include <math.h>
 

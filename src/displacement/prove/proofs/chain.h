@@ -3,6 +3,7 @@
 #define SUNDER_I_CHAIN_H
 
 #include "displacement/prove/proofs/branching.h"
+#include "sunder_proof.h"
 
 /* What the limits of two bodies leave of two of their pieces: one way past each other, or what all ways have in
  * common. */

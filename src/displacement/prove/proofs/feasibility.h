@@ -3,6 +3,7 @@
 #define SUNDER_I_FEASIBILITY_H
 
 #include "displacement/layer/requirement.h"
+#include "sunder_proof.h"
 
 typedef enum sunder_i_verdict {
     SUNDER_I_UNKNOWN,    /* the effort ran out, or a limit is infinite */

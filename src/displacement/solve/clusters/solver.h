@@ -11,6 +11,7 @@
 
 #include "base/parallel.h"
 #include "separation/separation.h"
+#include "sunder_proof.h"
 
 typedef struct sunder_i_cluster_member {
     uint32_t root, body;

@@ -3,6 +3,7 @@
 #define SUNDER_I_CLUSTER_H
 
 #include "displacement/layer/model.h"
+#include "sunder_proof.h"
 
 typedef struct sunder_i_cluster {
     uint32_t *body; /* members, ascending; fixed ones too */
