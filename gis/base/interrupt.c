@@ -142,8 +142,6 @@ const char *gis_interruption(void)
     }
 }
 
-bool gis_go_on(gis_error *error) { return !gis_interrupted() || gis_fail(error, GIS_INTERRUPTED); }
-
 static bool go_on(void *user)
 {
     (void)user;
@@ -165,15 +163,6 @@ void gis_release(void)
 }
 
 void gis_set_outcome(gis_outcome now) { atomic_store(&outcome, (int)now); }
-
-bool gis_decide(gis_error *error)
-{
-    gis_hold();
-    bool done = gis_go_on(error);
-    if (done) gis_set_outcome(GIS_DECIDING);
-    gis_release();
-    return done;
-}
 
 static gis_leftover *add(const char *path, const char *back_to, gis_outcome stays)
 {

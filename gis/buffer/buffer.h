@@ -59,9 +59,9 @@ bool gis_buffer_make_set(const gis_buffer *buffer, gis_buffer_set *set, const su
 bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, double *deviation,
                      gis_error *error);
 void gis_buffer_set_clear(gis_buffer_set *set);
-/* --align (align.c): the shape, turned to the main direction of a set. */
+/* --align (turned_shape.c): the shape, turned to the main direction of a set. */
 bool gis_buffer_turned(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, gis_error *error);
-/* --align with --dissolve: makes a set block by block, the shape turned for each. */
+/* --align with --dissolve (align.c): makes a set block by block, the shape turned for each. */
 bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how,
                             gis_error *error);
 void gis_buffer_clear(gis_buffer *buffer);

@@ -4,27 +4,12 @@
 
 #include "base/length.h"
 #include "base/spelling.h"
+#include "read/field_names.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-void gis_field_names(OGRLayerH layer, char *text, size_t size)
-{
-    static const char more[] = ", ...";
-    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer);
-    int n = OGR_FD_GetFieldCount(definition);
-    size_t length = (size_t)snprintf(text, size, n ? "its fields are " : "it has no fields");
-    for (int i = 0; i < n; i++) {
-        const char *name = OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i));
-        if (length + strlen(name) + 2 + sizeof more > size) {
-            snprintf(text + length, size - length, "%s", i ? more : more + 2);
-            return;
-        }
-        length += (size_t)snprintf(text + length, size - length, "%s%s", i ? ", " : "", name);
-    }
-}
 
 bool gis_field_find(const gis_source *source, const char *option, const char *name, int *field, gis_error *error)
 {

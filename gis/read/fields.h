@@ -5,10 +5,6 @@
 #include "base/json.h"
 #include "read/source.h"
 
-/* "its fields are a, b, c", for messages; of very many the first. */
-enum { GIS_FIELD_NAMES_SIZE = 320 };
-void gis_field_names(OGRLayerH layer, char *text, size_t size);
-
 /* The field of a name that an option gives; *field is -1 where the name is NULL. A field that is not there is an error
  * that knows which one was probably meant, and which there are. */
 bool gis_field_find(const gis_source *source, const char *option, const char *name, int *field, gis_error *error);

@@ -481,11 +481,21 @@ bool gis_source_open(const gis_source_request *request, gis_source **out, gis_er
     return true;
 }
 
+static void clear_marks(gis_source_marks *marks)
+{
+    for (size_t k = 0; k < marks->n; k++) {
+        CPLFree(marks->marked[k].where);
+        free(marks->marked[k].range);
+    }
+    free(marks->marked);
+    *marks = (gis_source_marks){0};
+}
+
 void gis_source_close(gis_source *source)
 {
     if (!source) return;
     drop_features(source);
-    gis_source_marks_clear(&source->marks);
+    clear_marks(&source->marks);
     free(source->packed);
     free(source->held);
     free(source->contents);

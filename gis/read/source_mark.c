@@ -76,16 +76,6 @@ static bool mark_by_filter(const gis_source *source, const char *where, bool *ma
 
 /* ---- The same for batches ---------------------------------------------------------------------------------------- */
 
-void gis_source_marks_clear(gis_source_marks *marks)
-{
-    for (size_t k = 0; k < marks->n; k++) {
-        CPLFree(marks->marked[k].where);
-        free(marks->marked[k].range);
-    }
-    free(marks->marked);
-    *marks = (gis_source_marks){0};
-}
-
 static bool take_range(void *user, GIntBig fid)
 {
     gis_marked *marked = user;

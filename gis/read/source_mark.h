@@ -17,8 +17,6 @@ typedef struct gis_source_marks {
     size_t n, capacity;
 } gis_source_marks;
 
-void gis_source_marks_clear(gis_source_marks *marks);
-
 /* NULL: the source is not read by batches. */
 gis_source_marks *gis_source_marks_of(gis_source *source);
 /* Do FIDs tell features apart, as far as is known? */

@@ -4,7 +4,7 @@
 #define _GNU_SOURCE /* strcasestr() */
 #include "read/where.h"
 
-#include "read/fields.h"
+#include "read/field_names.h"
 
 #include <cpl_string.h>
 #include <stdio.h>

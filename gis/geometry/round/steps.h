@@ -13,7 +13,7 @@ typedef struct gis_suspects {
 bool gis_suspect(gis_suspects *suspects, size_t polygon, gis_error *error);
 void gis_suspects_clear(gis_suspects *suspects);
 
-/* The two halves of rounding a sum: polygons that are valid each by itself (round.c), and as one multipolygon
+/* The two halves of rounding a sum: polygons that are valid each by itself (round_polygons.c), and as one multipolygon
  * (mend_multipolygon.c). */
 bool gis_round_polygons(const sunder_sum *sum, gis_rounded *out, gis_suspects *suspects, gis_error *error);
 bool gis_mend_multipolygon(gis_rounded *rounded, gis_suspects *suspects, gis_error *error);
@@ -30,7 +30,7 @@ bool gis_end_valid_polygon(gis_polygons *set, size_t first, double *moved, size_
  * segment ab. Lengths along each axis are in units of its own. */
 double gis_place_along(const double *a, const double *b, const double *c, const double unit[2], double *off);
 static inline bool gis_same_vertex(const double *a, const double *b) { return a[0] == b[0] && a[1] == b[1]; }
-/* The unit in the last place of a double. */
+/* The unit in the last place of a double (deviation.c). */
 double gis_ulp(double x);
 
 #endif

@@ -57,6 +57,9 @@ static inline uint64_t gis_mix_plain(uint64_t so_far, const gis_value *value, co
     }
 }
 
+/* The numbers of a feature of GDAL's, as it is sent or as it reads back; false if memory is out. */
+bool gis_digest_of(gis_digests *all, OGRFeatureH feature, GIntBig fid, bool as_written, gis_digest *out);
+
 /* Compares what is read with what was sent, item by item: a list of its own is kept only from the first difference on.
  * Zeroed: nothing yet. */
 typedef struct gis_digests_read {

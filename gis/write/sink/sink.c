@@ -14,35 +14,6 @@
 #include <string.h>
 #include <time.h>
 
-/* ---- Names ------------------------------------------------------------------------------------------------------- */
-
-char *gis_sink_inside(const gis_sink *sink, const char *file)
-{
-    if (sink->place == GIS_PLACE_DATABASE) return CPLStrdup(sink->request.path);
-    return sink->memory ? gis_printed("%s/%s", sink->memory, file) : gis_stage_inside(sink->stage, file);
-}
-
-char *gis_sink_name_for(const gis_sink *sink, const char *suffix)
-{
-    return gis_printed("%s%s%s", sink->request.main_layer, suffix[0] ? "_" : "", suffix);
-}
-
-static const char *double_ending(const char *name)
-{
-    size_t length = strlen(name);
-    return length > 8 && EQUAL(name + length - 8, ".shp.zip") ? name + length - 8 : NULL;
-}
-
-char *gis_sink_file_for(const gis_sink *sink, const char *suffix)
-{
-    const char *name = gis_path_name(sink->request.path);
-    const char *ending = double_ending(name);
-    if (!ending) ending = strrchr(name, '.');
-    if (!ending) ending = name + strlen(name);
-    if (!suffix[0]) return CPLStrdup(name);
-    return gis_printed("%.*s_%s%s", (int)(ending - name), name, suffix, ending);
-}
-
 /* ---- Life -------------------------------------------------------------------------------------------------------- */
 
 /* SOURCE_DATE_EPOCH (reproducible-builds.org) fixes the dates that GDAL writes into a GeoPackage. */
@@ -152,11 +123,6 @@ bool gis_sink_has_null(const gis_sink_layer *layer)
 }
 
 bool gis_sink_takes_more(const gis_sink *sink) { return !sink->to_stdout; }
-
-bool gis_sink_remembers(const gis_sink *sink)
-{
-    return !sink->format.keeps_doubles && sink->place != GIS_PLACE_DATABASE;
-}
 
 static void free_layer(gis_sink_layer *layer)
 {

@@ -18,18 +18,6 @@
 
 /* ---- What exists ------------------------------------------------------------------------------------------------- */
 
-bool gis_sink_exists(const char *path)
-{
-    VSIStatBufL status;
-    return VSIStatExL(path, &status, VSI_STAT_EXISTS_FLAG) == 0;
-}
-
-bool gis_sink_is_directory(const char *path)
-{
-    VSIStatBufL status;
-    return VSIStatExL(path, &status, VSI_STAT_EXISTS_FLAG | VSI_STAT_NATURE_FLAG) == 0 && VSI_ISDIR(status.st_mode);
-}
-
 static GDALDatasetH open_quietly(const char *path, unsigned flags, const gis_format *format)
 {
     const char *drivers[] = {format ? format->name : NULL, NULL};

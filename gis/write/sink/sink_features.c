@@ -1,4 +1,4 @@
-/* sink_features.c: features on their way out. What is sent is remembered until it has been read back: by a digest where
+/* sink_features.c: one feature given to GDAL. What is sent is remembered until it has been read back: by a digest where
  * the format keeps every value, else as it is. */
 #include "write/sink/sink_internal.h"
 
@@ -9,25 +9,6 @@
 #include <cpl_conv.h>
 #include <inttypes.h>
 #include <stdlib.h>
-
-static bool remember(gis_sink_layer *layer, gis_sent sent, gis_error *error)
-{
-    if (!gis_array_reserve(&layer->sent, &layer->capacity, layer->n_sent + 1, sizeof *layer->sent)) {
-        OGR_G_DestroyGeometry(sent.made);
-        return gis_no_memory(error);
-    }
-    layer->sent[layer->n_sent++] = sent;
-    return true;
-}
-
-void gis_sink_forget_sent(gis_sink_layer *layer)
-{
-    gis_sink_forget_values(layer);
-    for (size_t i = 0; i < layer->n_sent; i++) OGR_G_DestroyGeometry(layer->sent[i].made);
-    free(layer->sent);
-    layer->sent = NULL;
-    layer->n_sent = layer->capacity = 0;
-}
 
 /* ---- Attributes -------------------------------------------------------------------------------------------------- */
 
@@ -141,8 +122,13 @@ static bool send(gis_sink_layer *layer, OGRFeatureH to, const GIntBig *from, gis
            create_feature(layer, to, from, error);
 }
 
-bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geometry, const gis_value *values,
-                    gis_error *error)
+static void look_at_digits(const gis_sink_layer *layer, OGRFeatureH written, bool *more)
+{
+    if (more) *more = layer->can_rewrite && !layer->more_digits && gis_sink_loses_digits(OGR_F_GetGeometryRef(written));
+}
+
+bool gis_sink_put(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geometry, const gis_value *values,
+                  bool *more, gis_error *error)
 {
     OGRFeatureH to = gis_go_on(error) ? OGR_F_Create(OGR_L_GetLayerDefn(layer->layer)) : NULL;
     if (!to) {
@@ -151,52 +137,37 @@ bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geo
     }
     bool done = set_attributes(layer, to, feature, values, error); /* brings the feature's geometry, replaced next */
     if (done && layer->keep_sent)
-        done = remember(layer, (gis_sent){feature, geometry ? OGR_G_Clone(geometry) : NULL, false, 0, 0}, error) &&
+        done = gis_sink_remember(layer, (gis_sent){feature, geometry ? OGR_G_Clone(geometry) : NULL, false, 0, 0},
+                                 error) &&
                gis_sink_remember_values(layer, values, error);
     OGR_F_SetGeometryDirectly(to, geometry);
     const GIntBig from = feature ? OGR_F_GetFID(feature) : OGRNullFID;
-    done = done && send(layer, to, feature ? &from : NULL, error) && gis_sink_watch_digits(layer, to, error);
+    done = done && send(layer, to, feature ? &from : NULL, error);
+    if (done) look_at_digits(layer, to, more);
     OGR_F_Destroy(to);
     return done;
 }
 
-bool gis_sink_write_line(gis_sink_layer *layer, const double from[2], const double to[2], const gis_value *values,
-                         gis_error *error)
-{
-    if (!gis_go_on(error)) return false;
-    const gis_row row = layer->keep_sent ? GIS_ROW_GDAL : gis_sink_line(layer, from, to, values, error);
-    if (row != GIS_ROW_GDAL) return row == GIS_ROW_DONE;
-    OGRGeometryH line = gis_geometry_line(from, to);
-    if (!line) return gis_no_memory(error);
-    const bool done = gis_sink_write(layer, NULL, line, values, error);
-    if (done) gis_sink_row_by_gdal(layer, (GIntBig)layer->written);
-    return done;
-}
-
-bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx, double dy, const gis_value *values,
-                          gis_error *error)
+bool gis_sink_put_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx, double dy, const gis_value *values,
+                        bool *more, gis_error *error)
 {
     OGRFeatureH to = gis_go_on(error) ? OGR_F_Create(OGR_L_GetLayerDefn(layer->layer)) : NULL;
     if (!to) return gis_no_memory(error);
     bool done = set_attributes(layer, to, feature, values, error);
     if (done && layer->keep_sent)
-        done = remember(layer, (gis_sent){feature, NULL, true, dx, dy}, error) &&
+        done = gis_sink_remember(layer, (gis_sent){feature, NULL, true, dx, dy}, error) &&
                gis_sink_remember_values(layer, values, error);
     const GIntBig from = OGR_F_GetFID(feature);
-    done = done && gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error) && send(layer, to, &from, error) &&
-           gis_sink_watch_digits(layer, to, error);
+    done = done && gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error) && send(layer, to, &from, error);
+    if (done) look_at_digits(layer, to, more);
     OGR_F_Destroy(to);
     return done;
 }
 
-bool gis_sink_write_source(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values,
-                           gis_error *error)
+bool gis_sink_put_source(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values,
+                         gis_error *error)
 {
     const gis_source *source = layer->sink->source;
-    if (layer->keep_sent) return gis_sink_write_moved(layer, gis_source_feature(source, i), dx, dy, values, error);
-    if (!gis_go_on(error)) return false;
-    const gis_row row = gis_sink_row(layer, i, dx, dy, values, error);
-    if (row != GIS_ROW_GDAL) return row == GIS_ROW_DONE;
     OGRFeatureH to = OGR_F_Create(OGR_L_GetLayerDefn(layer->layer));
     if (!to) return gis_no_memory(error);
     const GIntBig from = gis_source_fid(source, i);
@@ -206,6 +177,5 @@ bool gis_sink_write_source(gis_sink_layer *layer, size_t i, double dx, double dy
     if (done) set_values(layer, to, values);
     done = done && send(layer, to, &from, error);
     OGR_F_Destroy(to);
-    if (done) gis_sink_row_by_gdal(layer, from);
     return done;
 }

@@ -7,7 +7,15 @@
  *   sink_schema.c      layers made
  *   sink_type.c        ... of which kind of geometry
  *   sink_fields.c      ... with which fields
- *   sink_features.c    features
+ *   sink_write.c       features: past GDAL, by it, or again with more digits
+ *   sink_features.c    ... by GDAL, one by one
+ *   sink_rewrite.c     a layer written again, with more digits
+ *   digits.c           ... which coordinates need them
+ *   sink_sent.c        features kept as they were sent
+ *   sent_digests.c     ... or as two numbers each
+ *   digest_list.c      the list of these
+ *   sink_paths.c       names of files and layers
+ *   sink_messages.c    what is said where features do not read back
  *   sink_rows.c        the same past GDAL, where all is plain
  *   sink_whole.c       what is kept of a layer besides these
  *   sink_registered.c  is it listed in a database, so that a reader finds it?
@@ -19,8 +27,7 @@
  *   digest_rows.c      ... of a GeoPackage past GDAL, where all is plain
  *   compare_features.c the same where coordinates or rings may change
  *   compare_values.c   ... and values
- *   losses.c           what the format dropped
- *   rewrite.c          a layer written again, with more digits */
+ *   losses.c           what the format dropped */
 #ifndef GIS_SINK_INTERNAL_H
 #define GIS_SINK_INTERNAL_H
 
@@ -263,6 +270,8 @@ bool gis_sink_check_whole(const gis_sink_layer *layer, OGRLayerH as_written, gis
 /* For a layer that was added to a database, once all of its rows are written: is it listed as a reader expects? */
 bool gis_sink_check_registered(const gis_sink_layer *layer, gis_error *error);
 
+/* Keeps a feature as it was sent; takes its geometry over, also on failure. */
+bool gis_sink_remember(gis_sink_layer *layer, gis_sent sent, gis_error *error);
 void gis_sink_forget_sent(gis_sink_layer *layer);
 /* Keeps the values of the feature that was remembered last; NULL: it has none of the program's own. */
 bool gis_sink_remember_values(gis_sink_layer *layer, const gis_value *values, gis_error *error);
@@ -271,8 +280,19 @@ void gis_sink_forget_values(gis_sink_layer *layer);
 const gis_value *gis_sink_sent_values(const gis_sink_layer *layer, size_t i);
 /* Would more digits keep what was seen to change? */
 bool gis_sink_may_rewrite(const gis_sink_layer *layer, const gis_sink_result *seen);
-/* After a feature is written and remembered: begins the layer again if its coordinates need more digits. */
-bool gis_sink_watch_digits(gis_sink_layer *layer, OGRFeatureH written, gis_error *error);
+/* Would some coordinate, written with the digits that a layer is begun with, read back as another (digits.c)? */
+bool gis_sink_loses_digits(OGRGeometryH geometry);
+/* One feature, given to GDAL and remembered: as gis_sink_write() and gis_sink_write_moved(), but that the layer is not
+ * begun again; *more: it should be, with more digits. NULL: that is not asked. */
+bool gis_sink_put(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geometry, const gis_value *values,
+                  bool *more, gis_error *error);
+bool gis_sink_put_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx, double dy, const gis_value *values,
+                        bool *more, gis_error *error);
+/* As gis_sink_write_source(), by GDAL, of a layer that keeps nothing of what is sent. */
+bool gis_sink_put_source(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values,
+                         gis_error *error);
+/* Begins the layer, which is closed, with more digits, and sends again what was sent. */
+bool gis_sink_send_again(gis_sink_layer *layer, gis_error *error);
 /* Writes the layer, which is closed, again with more digits, and closes it. */
 bool gis_sink_rewrite(gis_sink_layer *layer, gis_error *error);
 /* The field of exactly this name, else of one that differs in case only; -1: there is none, or the name is empty. */
