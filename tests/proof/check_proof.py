@@ -7,6 +7,7 @@ Nothing is shared with the program; docs/PROOF.md says what is asked, and why th
 """
 import argparse
 import os
+import sqlite3
 import sys
 import time
 
@@ -118,7 +119,7 @@ def main(words):
     options, began = read_options(words), time.time()
     try:
         checker = Checker(options)
-    except (NotRead, Refused, KeyError, ValueError) as why:
+    except (NotRead, Refused, KeyError, ValueError, OSError, sqlite3.Error) as why:
         print(f"not asked about: {why}")
         return 2
     status, said = answer(checker, lambda: form.read(options.proof))

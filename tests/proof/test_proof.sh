@@ -284,6 +284,8 @@ proved degrees degrees.gpkg --gap 0m
 not_asked 'coordinates are degrees' degrees degrees.gpkg --gap 1m
 not_asked 'has no layer' degrees degrees.gpkg --layer nowhere
 not_asked 'there is no field' degrees degrees.gpkg --weight-field nothing
+not_asked 'no such column' degrees degrees.gpkg --where 'colour = 1'
+not_asked 'No such file' symbols symbols.gpkg --symbol @nowhere.wkt
 
 # A crowd on one place, of which the price of ground proves more than trees do: symbols; and buildings that lie on each
 # other, some with a corner cut out, three of them one block, some pairs given up.
