@@ -3,12 +3,12 @@
     python3 forgeries.py RUNS [--draw N] [--seed S] [--need-all] [--own-alone]
 
 RUNS: a JSON list of runs, each with `proof` and the `words` of check_proof.py (--result among them), perhaps `only`: words of the
-lines that are forged. Of each file that holds
-each number is changed, up and down, by a little and by much, to zero, negative, subnormal, huge, infinite, no number; every line,
-member and element is dropped, doubled, swapped with the next, emptied, or made a thing of another kind; indices become -1 and as
-many as there are; and it is handed in for another layer, and with other options. N of all of these are drawn by the seed, or
-all are tried. What is accepted is judged here: by the conflicts that are claimed, the blocks, and by what the result costs, which no
-bound can exceed. With --need-all the runs together have to use every member that the form has.
+lines that are forged. In each file every number is changed, up and down, by a little and by much, to zero, negative, subnormal, huge,
+infinite, no number; every line, member and element is dropped, doubled, swapped with the next, emptied, or made a thing of another
+kind; indices become -1 and as many as there are; and the file is handed in for another layer, and with other options. N of all of
+these are drawn by the seed, or all are tried. What is accepted is judged: the conflicts that are claimed, the blocks and the sum of
+the bounds here, what each line says by judge.py. With --need-all the runs together have to use every member and every kind of cut
+that the form has.
 """
 import argparse
 import json
@@ -19,6 +19,7 @@ from fractions import Fraction
 
 import check_proof
 import form
+from judge import Judge
 
 MARK = "\1"  # stands where what JSON cannot say is written, or what it would not write
 WORDS = {"NaN": "NaN", "Infinity": "Infinity", "-Infinity": "-Infinity", "1e999": "1e999", "-1e400": "-1e400",
@@ -36,6 +37,7 @@ class Run:
         status, self.said = check_proof.answer(self.checker, lambda: self.lines)
         assert status == 0, f"{self.path}: what is true is {self.said}"
         self.claims = claims_of(self.lines)
+        self.judge = Judge(self.checker.problem, self.checker.result, self.lines)
         result, problem = self.checker.result, self.checker.problem
         self.cost = sum((Fraction(problem.weight(f)) * result.square(f) for f in result.moved()), Fraction(0))
 
@@ -51,17 +53,21 @@ class Run:
                     yield k, path, name
                 for name in ("drop", "double", "swap") if path else ():
                     yield k, path, name
+                if path in (("bound",), ("lower_bound",)):
+                    yield k, path, "more than the result"
 
     def of_lines(self):
         for k in range(len(self.lines)):
-            for name in ("drop", "double", "swap", "empty", "drop and count", "double and count"):
+            for name in ("drop", "double", "swap", "empty", "drop and count", "double and count", "double and claim", "another group and claim"):
                 yield k, (), name
 
     def make(self, k, path, name):
         """The lines, as JSON has them or, where they are changed, as text."""
         lines = list(self.lines)
-        if path:
-            lines[k] = changed(json.loads(self.text[k]), path, name)
+        if name == "more than the result":
+            lines[k] = with_place(lines[k], path, math.nextafter(float(self.cost_of(lines[k])), math.inf))
+        elif path:
+            lines[k] = changed(self.lines[k], path, name)
         elif name == "empty":
             lines[k] = "{}"
         elif name == "swap":
@@ -69,9 +75,15 @@ class Run:
             lines[k], lines[other] = lines[other], lines[k]
         elif name.startswith("drop"):
             del lines[k]
+        elif name.startswith("another") and "group" in lines[k]:
+            lines.insert(k + 1, {**lines[k], "group": lines[k]["group"] + 0.5})
         else:
             lines.insert(k, lines[k])
-        return counted(lines) if name.endswith("count") else lines
+        return counted(lines, name.endswith("claim")) if "and" in name else lines
+
+    def cost_of(self, line):
+        """What the bodies of a line, or all, cost in the result."""
+        return self.judge.cost_of(line) if "bodies" in line else self.cost
 
     def wrong_with(self, lines):
         """(None, where it is refused or is no more than true, else what is wrong; whether it is accepted)"""
@@ -79,7 +91,8 @@ class Run:
         if status:
             in_words = said.startswith("refused: ") and "not in the form of a proof" not in said
             return None if status == 1 and in_words else f"refused with {status}, and not in a sentence: {said}", False
-        return self.more_than_true(claims_of(read_lines(lines))), True
+        lines = read_lines(lines)
+        return self.more_than_true(claims_of(lines)) or self.judge.wrong_with(lines), True
 
     def more_than_true(self, found):
         if found["bound"] > self.cost:
@@ -97,22 +110,23 @@ def read_lines(lines):
 
 def claims_of(lines):
     conflicts = [line for line in lines if "conflict" in line]
-    pairs = {key(c): (c["kind"], c["reason"], sorted(map(str, c["blocked_by"]))) for c in conflicts}
+    pairs = sorted((key(c), c["kind"], c["reason"], sorted(map(str, c["blocked_by"])), "inside_block" in c) for c in conflicts)
     return {"bound": Fraction(lines[0]["lower_bound"]), "conflicts": pairs,
             "crowded": {key(c) for c in conflicts if c.get("crowded")},
-            "blocks": {tuple(line["block"]) for line in lines if "block" in line}}
+            "blocks": sorted(tuple(line["block"]) for line in lines if "block" in line)}
 
 
 def key(conflict):
     return tuple(sorted((str(conflict["a"]), str(conflict["b"]))))
 
 
-def counted(lines):
-    """With numbers of conflicts and trees that are those of the lines."""
+def counted(lines, claim):
+    """With numbers of conflicts and trees that are those of the lines; claim: and with the sum of their bounds."""
     told = json.loads(json.dumps(lines))
     if told and "sunder_proof" in told[0]:
         told[0]["conflicts"] = sum("conflict" in t for t in told[1:])
         told[0]["trees"] = sum("group" in t for t in told[1:])
+        told[0]["lower_bound"] = sum(t["bound"] for t in told[1:] if "group" in t) if claim else told[0]["lower_bound"]
     for k, t in enumerate(t for t in told if "conflict" in t):
         t["conflict"] = k
     groups = sorted({t["group"] for t in told if "group" in t})
@@ -156,32 +170,38 @@ CHANGES = {
 
 
 def changed(line, path, name):
-    """The line as text, one place of it changed."""
+    """The line with one place of it changed; as text where JSON would not write it so. What is not on the path is shared."""
     at = line
     for step in path[:-1]:
         at = at[step]
     last = path[-1]
-    if name == "drop":
-        del at[last]
-    elif name == "double":
-        if isinstance(at, list):
-            at.insert(last, at[last])
+    if name in WORDS or (name == "double" and isinstance(at, dict)):
+        text = json.dumps(with_place(line, path, MARK))
+        if name in WORDS:
+            return text.replace(json.dumps(MARK), WORDS[name])
+        value, key = json.dumps(at[last]), json.dumps(last)
+        return text.replace(f"{key}: {json.dumps(MARK)}", f"{key}: {value}, {key}: {value}")
+    if name in ("drop", "double", "swap"):
+        around = at.copy()
+        if name == "drop":
+            del around[last]
+        elif name == "double":
+            around.insert(last, at[last])
         else:
-            value, key = json.dumps(at[last]), json.dumps(last)
-            at[last] = MARK
-            return json.dumps(line).replace(f"{key}: {json.dumps(MARK)}", f"{key}: {value}, {key}: {value}")
-    elif name == "swap":
-        keys = list(at) if isinstance(at, dict) else range(len(at))
-        other = keys[(list(keys).index(last) + 1) % len(keys)]
-        at[last], at[other] = at[other], at[last]
-    elif name in WORDS:
-        at[last] = MARK
-        return json.dumps(line).replace(json.dumps(MARK), WORDS[name])
-    elif name.startswith("size "):
-        at[last] = int(name[5:])
-    else:
-        at[last] = CHANGES[name](at[last])
-    return json.dumps(line)
+            keys = list(at) if isinstance(at, dict) else range(len(at))
+            other = keys[(list(keys).index(last) + 1) % len(keys)]
+            around[last], around[other] = at[other], at[last]
+        return with_place(line, path[:-1], around)
+    return with_place(line, path, int(name[5:]) if name.startswith("size ") else CHANGES[name](at[last]))
+
+
+def with_place(line, path, value):
+    """A copy along the path."""
+    if not path:
+        return value
+    found = line.copy()
+    found[path[0]] = with_place(line[path[0]], path[1:], value)
+    return found
 
 
 # ---- Other layers, other options
@@ -266,6 +286,8 @@ def main(words):
     wrong = []
     if options.need_all:
         wrong += [f"no run has {name}" for name in MEMBERS if name not in members_of(runs)]
+        text = "".join(t for run in runs for t in run.text)
+        wrong += [f"no run has {kind}" for kind in form.CUTS if f'"kind": "{kind}"' not in text]
     drawn = [(k, what) for k, run in enumerate(runs) for what in run.forgeries()]
     every = len(drawn)
     if options.draw:

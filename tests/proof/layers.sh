@@ -57,15 +57,15 @@ for k in range(columns * rows):
     print(f"\"POLYGON(({x} {y},{x + 10} {y},{x + 10} {y + 10},{x} {y + 10}))\",1")' "$@" | layer squares.gpkg buildings POLYGON
 }
 
-# HOW MANY points, nearly on one place.
+# HOW MANY points, nearly on one place; by how much they scatter, 2 unless told.
 make_pile() {
     python3 -c '
 import sys
 from random import Random
-r = Random(7)
+r, wide = Random(7), float(sys.argv[2])
 print("WKT,w")
 for k in range(int(sys.argv[1])):
-    print(f"\"POINT({500000 + r.gauss(0, 2):.3f} {5000000 + r.gauss(0, 2):.3f})\",1")' "$1" | layer pile.gpkg buildings POINT
+    print(f"\"POINT({500000 + r.gauss(0, wide):.3f} {5000000 + r.gauss(0, wide):.3f})\",1")' "$1" "${2:-2}" | layer pile.gpkg buildings POINT
 }
 
 # HOW MANY buildings that lie on each other, some with a corner cut out, three of them one block by k.
@@ -176,4 +176,43 @@ arm = [(4 * k, -0.8 + k % 2 / 8) for k in range(-4, 9)]
 road = arm + [(45, 5)] + [(x, 11.8 - y) for x, y in reversed(arm)]
 print("\"LINESTRING(" + ",".join(f"{x} {y}" for x, y in road) + ")\",1")' | layer hairpin.gpkg hairpin LINESTRING
     printf 'WKT,w\n"POLYGON((0 0,10 0,10 6,0 6))",1\n"POLYGON((2 5.5,12 5.5,12 11.5,2 11.5))",1\n' | layer between.gpkg buildings POLYGON
+}
+
+# NAME OUTER_TOP INNER_TOP OUTER_BOTTOM INNER_BOTTOM: a house in the narrow place between two lines that bend there, by their heights.
+make_wedge() {
+    printf 'WKT,w\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n' "940 $2,1001.1 $3,1060 $2" "940 $4,1001.1 $5,1060 $4" |
+        layer "$1.gpkg" "$1" LINESTRING
+    [ -f wedged.gpkg ] || make_rings wedged.gpkg '1000.1 2000.2,1002.3 2000.4,1002.1 2002.6,999.9 2002.4'
+}
+
+# Two houses, of which one goes as far as its limit.
+make_short() {
+    printf 'WKT,m\n"POLYGON((0 0,10 0,10 10,0 10))",0.1\n"POLYGON((3 10.5,9 10.5,6 20))",9\n' | layer short.gpkg buildings POLYGON
+}
+
+# A triangle that has no room in the hole of another, and leaves it only by a jump.
+make_well() {
+    printf 'WKT,w\n"POLYGON((0 40,-34.64 -20,34.64 -20),(0 8,-6.93 -4,6.93 -4))",1\n"POLYGON((0 -12,10.39 6,-10.39 6))",1\n' |
+        layer well.gpkg buildings POLYGON
+}
+
+# FILE RING...: polygons of one ring each.
+make_rings() {
+    local file=$1
+    shift
+    { echo WKT,w && printf '"POLYGON((%s))",1\n' "$@"; } | layer "$file" buildings POLYGON
+}
+
+# Seven triangles; three of them have no place together, though each two of these have one.
+make_crowd() {
+    make_rings crowd.gpkg '599994.2 5000007.3,599993.9 4999994.2,600005.4 5000000.5' \
+        '600004.8 5000003.8,599997 4999997.6,600006.3 4999993.9' '599996.1 4999990.5,600005 4999995.8,599996 5000000.9' \
+        '599991.4 5000000.8,599995.1 4999990.5,600002.2 4999998.8' '600005.4 5000004,599994.5 5000008.5,599996.1 4999996.8' \
+        '599995.9 4999998.4,600004.4 5000001.6,599997.3 5000007.3' '599995.5 5000005.2,599995.2 4999993.3,600005.7 4999999'
+}
+
+# Three triangles that lie on each other.
+make_three() {
+    make_rings three.gpkg '600001.8 5000002.9,600007.3 4999996.5,600010.1 5000004.5' \
+        '600000.1 5000005.6,600001.1 4999994.4,600010.3 5000000.8' '599999.5 4999988.9,600005.3 4999998.2,599994.3 4999998.5'
 }

@@ -1,6 +1,7 @@
 """The lower bound by prices of area: docs/PROOF.md, section 5, in whole numbers."""
 from array import array
 from fractions import Fraction
+from functools import lru_cache
 from math import isqrt
 
 from bodies import Bodies
@@ -27,22 +28,30 @@ class Prices(Bodies):
     def check(self):
         """Sum of what bodies pay at least, less the worth of all area."""
         self.demand_strangers()
-        lattice, parts = Lattice(self.problem, self.grid.side), PARTS ** 2
-        paid = sum(self.least(lattice, body, weight) for body, weight in zip(self.bodies, self.weights))
+        parts = PARTS ** 2
+        paid = sum(self.least(body, weight) for body, weight in zip(self.bodies, self.weights))
         worth = sum(map(sum, self.grid.price)) << MASS
         proved = (paid - parts * worth) * self.grid.unit * self.grid.side ** 2 / (parts << MASS)
         demand(proved >= self.bound, "the prices prove", shown(proved), "and not", shown(self.bound))
         return self.bound
 
-    def least(self, lattice, body, weight):
-        polygons = [p for fid in body for p in self.problem.things[fid].polygons]
-        squares = in_squares(polygons, lattice)
-        if not squares:
+    def least(self, body, weight):
+        found = self.masses_of(body)
+        if not found:
             return 0
         limit = self.problem.body_limit(body)
         weight = (weight * (1 << MASS) / self.grid.unit).__floor__()
         demand(weight > 0, "a body weighs too little for the unit of prices")
-        return Payer(self.grid, *masses(squares, lattice), weight, limit).least()
+        return Payer(self.grid, *found, weight, limit).least()
+
+    def masses_of(self, body):
+        """What it occupies, by the side of the squares; None: nothing that is asked about."""
+        problem, side = self.problem, self.grid.side
+        if (body, side) not in problem.occupied:
+            lattice = Lattice(problem, side)
+            squares = in_squares([p for fid in body for p in problem.things[fid].polygons], lattice)
+            problem.occupied[body, side] = masses(squares, lattice) if squares else None
+        return problem.occupied[body, side]
 
     # ---- Who owes whom
 
@@ -167,6 +176,7 @@ class Payer:
         return least
 
 
+@lru_cache(1 << 16)
 def least_of_parts(x, y, corners, weight):
     """The least at corners of the parts of a square."""
     a, b, c, d = corners

@@ -126,6 +126,7 @@ class Problem:
         self.pairs, self.wholes = set(), {}
         self.listed = {}  # pairs: the kinds of their conflicts
         self.stood = {}   # pairs: see how_it_stood()
+        self.occupied = {}  # bodies and sides of squares: see prices.py
         self.sides = set()
         for key, polygons, lines, width, gap, side in barriers:
             demand(key not in self.things, "two barriers are called", key)
@@ -241,9 +242,8 @@ class Problem:
         if pair not in self.listed:
             demand(clearance >= 0, "less is asked of", a, b, "than they owe")
             return clearance
-        if pair not in self.stood:
-            self.stood[pair] = self.how_it_stood(a, b)
-        square, depth = self.stood[pair]
+        square, depth, inside = self.how_it_stood(a, b)
+        depth = None if inside else depth
         if clearance >= 0:
             parted = square < 0 and self.listed[pair] in ("too_close", "barrier_drawn", "barrier_near")
             demand(clearance * clearance <= (0 if parted else square), "a listed pair is held to more than it had:", a, b)
@@ -253,13 +253,16 @@ class Problem:
         return clearance
 
     def how_it_stood(self, a, b):
-        """The square of the distance, or -1 and that of the least translation; None: one lay in the other, and may go deeper."""
-        p, q = (self.whole(k) for k in (a, b))
-        inside = any(plane.lies_in(x, y) for x, y, key in ((p, q, a), (q, p, b)) if y.area and not self.is_barrier(key))
-        p, q = (p, q) if p.area else (q, p)
-        if not plane.interiors_meet(p, q):
-            return plane.distance_square(p, q), None
-        return -1, None if inside else plane.least_square(p, q)
+        """The square of the distance, or -1; then that of the least translation, None where it is not known, and whether a feature of
+        the two lay in the other, and may go deeper."""
+        pair = tuple(sorted((str(a), str(b))))
+        if pair not in self.stood:
+            p, q = (self.whole(k) for k in (a, b))
+            inside = any(plane.lies_in(x, y) for x, y, key in ((p, q, a), (q, p, b)) if y.area and not self.is_barrier(key))
+            p, q = (p, q) if p.area else (q, p)
+            meet = plane.interiors_meet(p, q)
+            self.stood[pair] = (-1, plane.least_square(p, q), inside) if meet else (plane.distance_square(p, q), None, inside)
+        return self.stood[pair]
 
     def demand_part(self, key, corners):
         """Corners of a part of it, on the lattice."""

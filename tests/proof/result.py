@@ -8,8 +8,10 @@ from form import demand, shown
 
 class Result:
     def __init__(self, problem, path):
-        self.problem, self.path = problem, path
+        self.problem = problem
         self.main = geopackage.Layer(path, problem.name).features
+        self.lines = geopackage.Layer(path, problem.name + "_displacement").features.values()
+        self.listed = geopackage.Layer(path, problem.name + "_conflicts").features.values()
         self.moves = {fid: tuple(row[c] or 0.0 for c in ("sunder_dx", "sunder_dy")) for fid, (row, _, _) in self.main.items()}
 
     def check(self, conflicts, total):
@@ -31,7 +33,7 @@ class Result:
     def check_anchors(self):
         """The anchors of what moved are the first points of its lines, and the lines are as long as its move."""
         compared, lines_of = 0, {}
-        for row, _, lines in geopackage.Layer(self.path, self.problem.name + "_displacement").features.values():
+        for row, _, lines in self.lines:
             lines_of[row["fid"]] = lines
             demand((row["dx"], row["dy"]) == self.moves.get(row["fid"]), "two moves of", row["fid"])
         for fid in self.moved():
@@ -67,7 +69,7 @@ class Result:
         def key(a, b, *more):
             return (*sorted((str(a), str(b))), *more)
         listed = []
-        for row, _, _ in geopackage.Layer(self.path, self.problem.name + "_conflicts").features.values():
+        for row, _, _ in self.listed:
             other = row["fid_b"] if row["barrier"] is None else f"{row['barrier']}:{row['barr_fid']}"
             listed.append(key(row["fid_a"], other, row["kind"], row["reason"], row["blocked_by"] or ""))
         told = [key(c["a"], c["b"], c["kind"], c["reason"], ",".join(map(str, c["blocked_by"]))) for c in conflicts]

@@ -115,7 +115,6 @@ class Tree(Bodies):
 
     def check(self):
         """What the tree is proved to bound from below."""
-        demand(self.nodes, "a tree without a node")
         children = [[] for _ in self.nodes]
         for k, node in enumerate(self.nodes):
             parent = node["parent"]
@@ -163,8 +162,7 @@ class Tree(Bodies):
                 demand(siblings == 3 and at < 2, "a cone that is no child's first cut")
             elif told["kind"] == "hull":
                 self.demand_covered(clip(region, tuple(-v for v in line)), i, j, told["pieces"])
-            else:
-                demand(told["kind"] == "disc", "a cut of no kind", told["kind"])
+            else:  # a disc
                 if discs is None:
                     discs = Discs(self, *self.forces_below(node))
                     value = max(value, discs.value)

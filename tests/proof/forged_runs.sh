@@ -1,0 +1,58 @@
+# shellcheck shell=bash disable=SC1091
+# Runs whose files of --proof are to be forged, on layers of at most ten features; together they have every member of the form. Sourced after
+# tests/cli/lib.sh.
+export PYTHONDONTWRITEBYTECODE=1
+here=$SUNDER_SOURCE/tests/proof
+. "$here/layers.sh"
+runs=()
+
+# forged NAME SOURCE OPTIONS...: one more run whose file of --proof is to be forged.
+forged() {
+    local name=$1 source=$2
+    shift 2
+    "$SUNDER" separate "$source" "$name.o.gpkg" --overwrite -q -l buildings --layers main,displacement,conflicts --proof "$name.jsonl" "$@" 2>err
+    case $? in 0 | 3) ;; *) fail "$name: status $?" ;; esac
+    runs+=("$(python3 -c 'import json, sys; print(json.dumps({"only": sys.argv[1], "proof": sys.argv[2], "words": sys.argv[3:]}))' \
+        "${only:-}" "$name.jsonl" "$source" --layer buildings --result "$name.o.gpkg" "$@")")
+}
+
+# write_runs FILE: those that were added since the last time.
+write_runs() {
+    (IFS=,; echo "[${runs[*]}]") >"$1"
+    runs=()
+}
+
+forge_generated() {
+    make_side
+    make_wedge wedge 2006.4 2001.95 1996.4 2000.85
+    make_wedge bow 2005.4 2001.844 1997.4 2000.956
+    make_bend
+    make_lane
+    make_pierced
+    make_well
+    make_halves
+    make_three
+    make_crowd
+    make_pile 6 0.5
+    make_mixed
+    make_squares 3 2
+    make_houses
+    make_through
+    make_short
+    forged through houses.gpkg --gap 1 --max-shift 1 --no-blocks --barrier through.gpkg
+    forged side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier side.gpkg
+    forged wedge wedged.gpkg --max-shift 5 --barrier wedge.gpkg
+    forged aside wedged.gpkg --max-shift 1 --barrier bow.gpkg
+    forged bend bent.gpkg --gap 1 --max-shift 1 --barrier bend.gpkg,side=no --barrier edge.gpkg,side=no
+    local -a lane=(--gap 3 --max-shift 2 --no-blocks --block-field k --fixed-where 'w = 2' --allow-jumps --barrier lane.gpkg,width=5,gap=0,side=no)
+    only='"still"' forged lane lanes.gpkg "${lane[@]}"
+    forged pierced pierced.gpkg "${lane[@]}"
+    forged well well.gpkg --no-blocks --contained separate
+    forged halves halves.gpkg --gap 1 --max-shift 25
+    forged three three.gpkg --gap 0.5 --no-blocks --contained separate
+    only='"crowded"' forged crowd crowd.gpkg --gap 0.5 --no-blocks --max-shift 2 --allow-jumps --contained separate --effort 0
+    forged pile pile.gpkg --symbol square:6
+    forged mixed mixed.gpkg --gap 1 --max-shift-field m --fixed-where 'w = 3' --weight sqrt-area --weight-field w --block-field k --contained ignore
+    forged short short.gpkg --gap 1 --no-blocks --max-shift-field m
+    forged shares squares.gpkg --gap 3 --effort 0
+}

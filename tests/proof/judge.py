@@ -1,0 +1,434 @@
+"""Is what an accepted line says true? Each statement is put to a search for what contradicts it.
+
+check_proof.py decides by proofs; here places are tried. Doubles propose a place, integers and fractions decide whether it
+contradicts a statement, so what is found is a contradiction, whatever was rounded. What is not found proves nothing. No code is
+shared with what checks trees, prices and verdicts; the layer and the list of conflicts are those of the checker's problem.
+
+- A tree, or prices: the written result is one of the placements that its bound is about.
+- A group: no more than its bodies cost in the result.
+- A member of a body: what the program said of it. A piece: places that it forbids are forbidden.
+- A hull or an empty node: no allowed place is taken away. A disc, a leaf: no moves within the cuts above cost less (judge_moves.py).
+- A question of a verdict: no allowed place is behind all ways. A leaf: no moves within the limits keep the ways that lead to it.
+"""
+import math
+import random
+from fractions import Fraction
+
+from form import shown
+from judge_moves import cheapest, meeting
+from judge_places import Places, polygon_between
+
+TRIES = 10       # places that are drawn, for a statement
+MOST_NODES = 10  # nodes that are asked about, of those that a change shakes
+
+
+class Judge:
+    def __init__(self, problem, result, lines):
+        self.problem, self.result, self.lines = problem, result, lines
+        self.places, self.unit = Places(problem), problem.lattice.unit
+        self.said = {f["fid"]: f for line in lines for b in line.get("bodies", ()) for f in b.get("features", ())}
+        self.still = {fids(b) for line in lines for b in line.get("bodies", ()) if b["weight"] is None}
+
+    def wrong_with(self, lines):
+        """What the first line says that is found not to be true, or None."""
+        old = {id(line) for line in self.lines}
+        self.places.list_conflicts([line for line in lines if "conflict" in line])
+        by_group = {}
+        for line in lines:
+            if "group" in line:
+                by_group.setdefault(line["group"], []).append(line)
+        for members in by_group.values():
+            wrong = self.wrong_with_group(members)
+            if wrong:
+                return wrong
+        for line in lines:
+            if id(line) not in old:
+                before = next((t for t in self.lines if kind_of(t) == kind_of(line)), None)
+                wrong = self.wrong_with_tree(line, before) if "group" in line else \
+                    self.wrong_with_verdict(line, before) if "proof" in line else None
+                if wrong:
+                    return wrong
+        return None
+
+    # ---- Bounds
+
+    def wrong_with_group(self, trees):
+        if any("barrier" in b and b["weight"] is not None for t in trees for b in t["bodies"]):
+            return "a barrier that moves"
+        own = {fids(b): sum(Fraction(self.said[f["fid"]]["weight"]) for f in b["features"]) for t in trees for b in t["bodies"]
+               if b["weight"] is not None and all(f["fid"] in self.said for f in b["features"])}
+        shares = {}
+        for t in trees:
+            for b in t["bodies"]:
+                if fids(b) in own and b["weight"] is not None:
+                    shares[fids(b)] = shares.get(fids(b), 0) + Fraction(b["weight"])
+        if any(shares[body] > w for body, w in own.items()):
+            return "shares of a body that are more than its weight"
+        if any(b["shift"] != [0, 0] for t in trees for b in t["bodies"]):
+            return None  # what such trees prove together is asked of the sum
+        cost = sum(w * square(self.move(body)) for body, w in own.items())
+        bound = sum(Fraction(t["bound"]) for t in trees)
+        return f"a group of at least {shown(bound)}, which costs {shown(cost)}" if bound > cost else None
+
+    def wrong_with_tree(self, line, before):
+        for body in line["bodies"]:
+            for feature in body.get("features", ()):
+                known = self.said.get(feature["fid"])
+                for key in known or ():
+                    if key in feature and feature[key] != known[key]:
+                        return f"of {feature['fid']} another {key}"
+            if body["weight"] is None and body["shift"] != [0, 0]:
+                return "what stands still is shifted"
+            if body["weight"] is None and "features" in body and (fids(body) not in self.still or self.move(fids(body)) != (0, 0)):
+                return "what moves stands still"
+            own = sum(Fraction(f["weight"]) for f in body.get("features", ()))
+            if body["weight"] is not None and Fraction(body["weight"]) > own:
+                return "a body that weighs more than its members"
+        tree, cost = TreeOf(line), self.cost_of(line)
+        if tree.bound > cost:
+            return f"a bound of {shown(tree.bound)}, where the result costs {shown(cost)}"
+        return self.wrong_with_nodes(tree, before) if "nodes" in line and before and "nodes" in before else None
+
+    def cost_of(self, line):
+        """In the result, by the weights and shifts that the line has."""
+        tree, total = TreeOf(line), Fraction(0)
+        for body, w, a in zip(tree.keys, tree.weights, tree.shifts):
+            if w is not None:
+                x, y = self.move(body)
+                total += w * square((x - a[0], y - a[1]))
+        return total
+
+    def move(self, body):
+        return tuple(map(Fraction, self.result.moves.get(body[0], (0, 0))))
+
+    # ---- Trees
+
+    def wrong_with_nodes(self, tree, before):
+        line = tree.line
+        shaken = line["bound"] > before["bound"] or line["bodies"] != before["bodies"]
+        for k, piece in enumerate(line["pieces"]):
+            if shaken or k >= len(before["pieces"]) or piece != before["pieces"][k]:
+                if self.contradicts_piece(tree, piece):
+                    return f"piece {k} forbids what is allowed"
+        own, changed, cut = [], set(), set()  # nodes that are others; that say something else; of which regions are others
+        for k, node in enumerate(line["nodes"]):
+            old = before["nodes"][k] if k < len(before["nodes"]) and not shaken else {}
+            if node["parent"] in cut or any(node[key] != old.get(key) for key in ("parent", "cuts")):
+                cut.add(k)
+            if node != old and not shaken:
+                own.append(k)
+            if k in cut or node != old or (node["parent"] in changed and "by" not in node):
+                changed.add(k)
+        first = [0]
+        for node in line["nodes"]:
+            first.append(first[-1] + len(node["cuts"]))
+        cuts = [c for node in line["nodes"] for c in node["cuts"]]
+        parents = {node["parent"] for node in line["nodes"]}
+        below = sorted(changed - set(own))
+        for k in own[:MOST_NODES] + random.Random(1).sample(below, min(len(below), MOST_NODES)):
+            wrong = self.wrong_with_node(tree, k, cuts, first, k not in parents)
+            if wrong:
+                return f"node {k}: {wrong}"
+        for parent in {line["nodes"][k]["parent"] for k in changed} - {None}:
+            children = [n["cuts"] for n in line["nodes"] if n["parent"] == parent]
+            if len(children) > 1 and self.leaves_out([own[:2] for own in children]):
+                return f"node {parent}: a place that is in no cone"
+        return None
+
+    def wrong_with_node(self, tree, k, cuts, first, is_last):
+        nodes = tree.line["nodes"]
+        node, above, at = nodes[k], [], nodes[k]["parent"]
+        while at is not None:
+            above += range(first[at], first[at + 1])
+            at = nodes[at]["parent"]
+        for c in range(first[k], first[k + 1]):
+            cut, earlier = cuts[c], [cuts[m] for m in above] + cuts[first[k]:c]
+            if cut["kind"] == "hull":
+                if self.finds_place(tree, cut["i"], cut["j"], earlier, cut):
+                    return "a hull takes away what is allowed"
+            elif cut["kind"] == "disc":
+                parent = nodes[k]["parent"]
+                by = node["by"] if "by" in node else nodes[parent]["forces"]
+                if tree.finds_moves([cuts[m] for m, f in by if m in above], cut):
+                    return "a disc takes away what is cheap"
+            elif cut["kind"] == "limit" and self.is_kept_by_limit(tree, cut):
+                return "a limit's cut takes away what the limit leaves"
+        if "empty" in node:
+            if self.finds_place(tree, node["empty"]["i"], node["empty"]["j"], [cuts[m] for m in above] + cuts[first[k]:first[k + 1]], None):
+                return "an empty node is not"
+        elif is_last and tree.finds_moves([cuts[m] for m in above] + cuts[first[k]:first[k + 1]], None):
+            return "there are cheaper moves"
+        return None
+
+    def is_kept_by_limit(self, tree, cut):
+        limits = [f["max_shift"] for f in tree.line["bodies"][cut["i"]].get("features", ()) if f["max_shift"] is not None]
+        if not limits:
+            return True
+        if math.isinf(math.hypot(*cut["n"])):
+            return False
+        nx, ny = map(Fraction, cut["n"])
+        size = Fraction(math.hypot(*cut["n"]) or 1)
+        t = [v / size * Fraction(min(limits)) * (1 - Fraction(1, 1 << 40)) for v in (nx, ny)]
+        return -nx * t[0] - ny * t[1] < Fraction(cut["d"])
+
+    def leaves_out(self, cones):
+        """Places, of each pair that is named, that miss a side of each."""
+        drawn = random.Random(1)
+        sides = [[((c["i"], c.get("j")), *map(Fraction, c["n"]), Fraction(c["d"])) for c in own] for own in cones]
+        largest = min(max([abs(d) for own in sides for *_, d in own] + [1]), 10 ** 100)
+        for _ in range(60):
+            size = float(largest) * 10 ** drawn.uniform(-4, 4)
+            u = {pair: [Fraction(drawn.gauss(0, size)) for _ in "xy"] for own in sides for pair, *_ in own}
+            if all(any(nx * u[pair][0] + ny * u[pair][1] < d for pair, nx, ny, d in own) for own in sides):
+                return True
+        return False
+
+    def finds_place(self, tree, i, j, earlier, cut):
+        """A place that two bodies may have to each other, within the cuts on them, so cheap, and beyond the one cut."""
+        own = [(*turned(c, i, j), c["d"]) for c in earlier if {c["i"], c.get("j")} == {i, j}]
+        beyond = [] if cut is None else [(-cut["n"][0], -cut["n"][1], -cut["d"])]
+        centre, reach = tree.reach(i, j)
+        corners = polygon_between(centre, min(reach, 10 ** 24) ** 0.5, own + beyond)
+        for u in tried(corners):
+            far = square([Fraction(v) - c for v, c in zip(u, map(Fraction, centre))])
+            if far < reach and all(keeps(c, u) for c in own) and (cut is None or not keeps((*cut["n"], cut["d"]), u)):
+                if self.places.bodies_may(tree.keys[i], tree.keys[j], self.on_lattice(u)):
+                    return True
+        return False
+
+    def contradicts_piece(self, tree, piece):
+        """A place that the piece forbids and its bodies may have."""
+        i, j = piece["i"], piece["j"]
+        if piece["a"] not in tree.keys[i] or piece["b"] not in tree.keys[j]:
+            return True
+        drawn = random.Random(1)
+        owed = float(Fraction(self.places.required(piece["a"], piece["b"])) / self.unit) if "clearance" not in piece else piece["clearance"]
+        for k in range(2 * TRIES):
+            p, q = (inner(drawn, piece[key]) for key in "AB")
+            u = [a - b for a, b in zip(p, q)]
+            if piece.get("shadow"):
+                share = drawn.uniform(0.3, 1)
+                u = [v / share for v in u]
+            elif owed > 0:
+                x, y = drawn.gauss(0, 1), drawn.gauss(0, 1)
+                size = 0.999 * owed * drawn.random() ** 0.2 / ((x * x + y * y) ** 0.5 or 1)
+                u = [u[0] + size * x, u[1] + size * y]
+            if owed < 0 or not all(abs(v) < 1e15 for v in u):
+                continue
+            if self.places.bodies_may(tree.keys[i], tree.keys[j], self.on_lattice(u)):
+                return True
+        return owed < 0 and self.places.depth(piece["a"], piece["b"]) > Fraction(owed) ** 2 * self.unit ** 2
+
+    def on_lattice(self, u):
+        return tuple(int(Fraction(v) * self.unit) for v in u)
+
+    # ---- Verdicts
+
+    def wrong_with_verdict(self, line, before):
+        nodes, old = line["proof"], before["proof"] if before and "proof" in before else []
+        verdict = VerdictOf(line, self.places)
+        changed = {k for k, n in enumerate(nodes) if k >= len(old) or n != old[k]}
+        if any(line.get(key) != before.get(key) for key in ("reason", "crowded", "a", "b", "within")) if before else True:
+            changed = set(range(len(nodes)))
+            if "within" in line and verdict.is_near_beyond(Fraction(line["within"])):
+                return "the two are too near, farther out"
+        for k in sorted(changed):
+            if "ways" in nodes[k] and self.finds_way_out(verdict, nodes[k]):
+                return f"node {k} has no way for a place that is allowed"
+        for path in verdict.paths():
+            if changed & set(n for n, _ in path) or path[-1][1] is None and path[-1][0] in changed:
+                if verdict.finds_moves(path):
+                    return f"leaf {path[-1][0]} is no contradiction"
+        return None
+
+    def finds_way_out(self, verdict, node):
+        """A place that the two of a question may have, and that no way leads to."""
+        ways = [(*w["n"], w["d"]) for w in verdict.ways(node)]
+        if not verdict.asks_no_more(node):
+            return True
+        reach = verdict.reach(node)
+        corners = polygon_between((0.0, 0.0), reach, [(-x, -y, -d) for x, y, d in ways])
+        for u in tried(corners):
+            if not any(keeps(w, u) for w in ways) and verdict.may(node, self.on_lattice(u)):
+                return True
+        return False
+
+
+class TreeOf:
+    """Bodies, by their members; what they weigh, None where they stand still; and what they are shifted by."""
+
+    def __init__(self, line):
+        self.line, self.bound = line, Fraction(line["bound"])
+        self.keys = [fids(b) for b in line["bodies"]]
+        self.weights = [None if b["weight"] is None else Fraction(b["weight"]) for b in line["bodies"]]
+        self.shifts = [tuple(map(Fraction, b["shift"])) for b in line["bodies"]]
+
+    def reach(self, i, j):
+        """Where the relative move of what costs less than the bound is: a centre, and the square of a radius."""
+        mass = sum((1 / self.weights[k] for k in (i, j) if self.weights[k] is not None), Fraction(0))
+        return [float(b - a) for a, b in zip(self.shifts[i], self.shifts[j])], self.bound * mass
+
+    def finds_moves(self, cuts, beyond):
+        """Moves that keep the cuts, are beyond the last, and cost less than the bound."""
+        sides = [side_of(c) for c in cuts]
+        if beyond is not None:
+            terms, d = side_of(beyond)
+            sides.append(([(k, -x, -y) for k, x, y in terms], -d))
+        return cheapest(self.weights, self.shifts, sides, self.bound)
+
+
+class VerdictOf:
+    """What the words of a conflict make of its questions."""
+
+    def __init__(self, line, places):
+        self.line, self.nodes, self.places = line, line["proof"], places
+        self.own = {line["a"], line["b"]}
+        self.crowded, self.reason = bool(line.get("crowded")), line["reason"]
+        self.alone = not self.crowded and self.reason != "no_room"
+
+    def asks_no_more(self, node):
+        """Is the question about what the reason is about?"""
+        if self.alone and not node.get("shadow") and {node["a"], node["b"]} != self.own:
+            return False
+        if self.alone and node.get("shadow") and self.reason == "max_shift":
+            return False
+        used = not node.get("shadow") and (node.get("slack") or not node.get("held"))
+        if used and Fraction(node["clearance"]) * self.places.unit > self.places.required(node["a"], node["b"]):
+            return False
+        depth = node.get("slack") and self.places.depth(node["a"], node["b"])
+        return not node.get("slack") or depth <= Fraction(node["clearance"]) ** 2 * self.places.unit ** 2
+
+    def is_near_beyond(self, within):
+        """Are the two too near each other somewhere, moved by more than that?"""
+        a, b = self.line["a"], self.line["b"]
+        steps = [(x, y) for x in range(-4, 5) for y in range(-4, 5) if max(abs(x), abs(y)) == 4]
+        moves = [[int(within * self.places.unit * v / Fraction(math.hypot(*step))) for v in step] for step in steps]
+        return any(not self.places.pair_may(a, b, u, None) for u in moves)
+
+    def ways(self, node):
+        if not (node.get("slack") and node.get("held")):
+            return node["ways"]
+        first, *rest = node["ways"]
+        x, y = map(Fraction, first["n"])
+        most = max(x * (Fraction(p[0]) - Fraction(q[0])) + y * (Fraction(p[1]) - Fraction(q[1])) for p in node["A"] for q in node["B"])
+        return [{**first, "d": most}, *rest]
+
+    def reach(self, node):
+        p, q = (self.places.box(k) for k in (node["a"], node["b"]))
+        return 3.0 * float(max(max(abs(p[x + 2] - q[x]), abs(p[x] - q[x + 2])) for x in (0, 1)) +
+                           self.places.required(node["a"], node["b"])) / self.places.unit
+
+    def may(self, node, u):
+        a, b = node["a"], node["b"]
+        if node.get("shadow"):
+            others = [b] if "c" not in node else [b, node["c"]]
+            return all(self.places.may_go(a, other, u) for other in others)
+        if node.get("slack"):
+            return not self.places.meet(a, b, u)
+        return self.places.pair_may(a, b, u, None if self.crowded or {a, b} == self.own else self.places.kind(a, b))
+
+    def paths(self):
+        """[(node, its way)] down to each leaf, of which the way is None."""
+        todo = [[(0, None)]]
+        while todo:
+            path = todo.pop()
+            node = self.nodes[path[-1][0]]
+            if "ways" not in node:
+                yield path
+                continue
+            for k, way in enumerate(node["ways"]):
+                if way["next"] < len(self.nodes) and len(path) <= len(self.nodes):
+                    todo.append([*path[:-1], (path[-1][0], k), (way["next"], None)])
+
+    def finds_moves(self, path):
+        """Moves within the limits that keep the ways of a path, and none of those before."""
+        sides, resting = [], self.resting(path)
+        for at, taken in path[:-1]:
+            node = self.nodes[at]
+            ways = self.ways(node)
+            for k, way in enumerate(ways[:taken + 1]):
+                sign = 1 if k == taken else -1
+                x, y = (sign * v for v in way["n"])
+                terms = [(body, s * x, s * y) for body, s in ((self.places.body(node["a"]), -1), (self.places.body(node["b"]), 1))
+                         if not self.places.is_barrier(body[0]) and body != resting]
+                if node.get("slack"):
+                    terms.append((("slack", frozenset((node["a"], node["b"])), node["clearance"]), x, y))
+                sides.append((terms, sign * way["d"]))
+        return meeting(sides, self.limit)
+
+    def resting(self, path):
+        """The body that two opposite lines hold where it stood."""
+        leaf, taken = self.nodes[path[-1][0]], dict(path[:-1])
+        if "still" not in leaf or any(n not in taken or taken[n] != w for n, w in leaf["still"]):
+            return None
+        (m, p), (n, q) = ((self.nodes[n], self.nodes[n]["ways"][w]) for n, w in leaf["still"])
+        if any(Fraction(way["d"]) != 0 and not node.get("slack") for node, way in ((m, p), (n, q))):
+            return None
+        (a, b), (c, d) = (tuple(map(Fraction, v["n"])) for v in (p, q))
+        bodies = [[body for body in (self.places.body(v["a"]), self.places.body(v["b"])) if self.limit(body) != 0] for v in (m, n)]
+        return bodies[0][0] if a * d == b * c and bodies[0] == bodies[1] and len(bodies[0]) == 1 else None
+
+    def limit(self, body):
+        if body[0] == "slack":
+            return -body[2]
+        if self.places.is_barrier(body[0]):
+            return 0
+        limit = self.places.limit(body)
+        return self.line.get("within") if limit is None else limit
+
+
+# ---- Small things
+
+def fids(body):
+    return (body["barrier"],) if "barrier" in body else tuple(f["fid"] for f in body["features"])
+
+
+def kind_of(line):
+    """What tells a line from others."""
+    if "conflict" in line:
+        return "conflict", frozenset((line["a"], line["b"]))
+    return ("group", frozenset(frozenset(fids(b)) for b in line["bodies"])) if "group" in line else None
+
+
+def square(v):
+    return v[0] ** 2 + v[1] ** 2
+
+
+def turned(cut, i, j):
+    return cut["n"] if (cut["i"], cut["j"]) == (i, j) else (-cut["n"][0], -cut["n"][1])
+
+
+def keeps(side, u):
+    terms = float(side[0]) * float(u[0]), float(side[1]) * float(u[1]), -float(side[2])
+    size, found = sum(map(abs, terms)), sum(terms)
+    if 1e-200 < size < 1e200 and abs(found) > 1e-9 * size:
+        return found > 0
+    return Fraction(side[0]) * Fraction(u[0]) + Fraction(side[1]) * Fraction(u[1]) >= Fraction(side[2])
+
+
+def side_of(cut):
+    """Terms (body, x, y) of a sum that is at least d."""
+    (x, y), j = cut["n"], cut.get("j")
+    return [(cut["i"], -x, -y)] + ([] if j is None else [(j, x, y)]), cut["d"]
+
+
+def inner(drawn, corners):
+    """A place of the convex hull of corners, mostly near one of them."""
+    shares = [drawn.random() ** 3 + 1e-9 for _ in corners]
+    shares[drawn.randrange(len(corners))] += drawn.choice((0, 2, 1000))
+    return [sum(s * c[k] for s, c in zip(shares, corners)) / sum(shares) for k in (0, 1)]
+
+
+def tried(corners):
+    """Places of a convex polygon: near its corners, and any."""
+    drawn = random.Random(1)
+    n = len(corners)
+    if n < 3 or not all(math.isfinite(v) for c in corners for v in c):
+        return
+    middle = [sum(c[k] for c in corners) / n for k in (0, 1)]
+    for c in corners:
+        yield [v + (m - v) * 1e-3 for v, m in zip(c, middle)]
+    for k in range(n):
+        yield [(v + w) / 2 + (m - (v + w) / 2) * 1e-3 for v, w, m in zip(corners[k - 1], corners[k], middle)]
+    for _ in range(TRIES):
+        yield inner(drawn, corners)

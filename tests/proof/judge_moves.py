@@ -1,0 +1,77 @@
+"""Moves of several bodies that keep linear sides: proposed in doubles by projections, decided in fractions.
+
+A side is (terms, d): the sum of x t_x + y t_y over its terms (body, x, y) is at least d.
+"""
+import math
+from fractions import Fraction
+
+SWEEPS, ROUNDS, HAIR = 40, 8, 1e-9
+
+
+def cheapest(weights, shifts, sides, bound):
+    """Are there moves that keep all sides for less than bound, the sum of w |t - a|^2? What has no weight stands still."""
+    floats = [([(k, float(x), float(y)) for k, x, y in terms if weights[k] is not None], float(d)) for terms, d in sides]
+    w = [0.0 if v is None else float(v) for v in weights]
+    a = [[float(v) for v in s] for s in shifts]
+    active, forces = [], []
+    t = [list(s) for s in a]
+    for _ in range(ROUNDS + len(sides)):
+        worst = max(range(len(sides)), key=lambda k: missing(floats[k], t), default=None)
+        if worst is None or missing(floats[worst], t) <= 0 or worst in active:
+            break
+        active.append(worst)
+        forces.append(0.0)
+        for _ in range(SWEEPS):
+            for m, k in enumerate(active):
+                terms, d = floats[k]
+                ease = sum((x * x + y * y) / (2 * w[b]) for b, x, y in terms)
+                step = max(missing(floats[k], t) / ease if ease else 0.0, -forces[m])
+                forces[m] += step
+                for b, x, y in terms:
+                    t[b][0] += step * x / (2 * w[b])
+                    t[b][1] += step * y / (2 * w[b])
+    if not all(math.isfinite(v) for p in t for v in p):
+        return False
+    exact = [tuple(map(Fraction, p)) for p in t]
+    cost = sum(v * ((p[0] - s[0]) ** 2 + (p[1] - s[1]) ** 2) for v, p, s in zip(weights, exact, shifts) if v is not None)
+    return cost < bound and keep_all(sides, dict(enumerate(exact)))
+
+
+def missing(side, t):
+    """How much more than the double of d it lacks, with a hair."""
+    terms, d = side
+    return d + HAIR * (abs(d) + 1e-3) - sum(x * t[b][0] + y * t[b][1] for b, x, y in terms)
+
+
+def meeting(sides, limit):
+    """Are there moves within the limits (by body; None: none) that keep all sides?"""
+    t = {body: [0.0, 0.0] for terms, _ in sides for body, _, _ in terms}
+    floats = [([(b, float(x), float(y)) for b, x, y in terms], float(d)) for terms, d in sides]
+    most = {body: limit(body) for body in t}
+    for _ in range(2 * SWEEPS):
+        moved = False
+        for terms, d in floats:
+            lacks = missing((terms, d), t)
+            ease = sum(x * x + y * y for b, x, y in terms if most[b] != 0)
+            if lacks > 0 and ease:
+                moved = True
+                for b, x, y in terms:
+                    if most[b] != 0:
+                        t[b][0] += 1.2 * lacks * x / ease
+                        t[b][1] += 1.2 * lacks * y / ease
+        for b, p in t.items():
+            size = (p[0] ** 2 + p[1] ** 2) ** 0.5
+            if most[b] is not None and size > most[b] * (1 - HAIR):
+                p[0], p[1] = (v / size * most[b] * (1 - 2 * HAIR) for v in p)
+        if not moved:
+            break
+    if not all(math.isfinite(v) for p in t.values() for v in p):
+        return False
+    exact = {b: tuple(map(Fraction, p)) for b, p in t.items()}
+    if any(most[b] is not None and p[0] ** 2 + p[1] ** 2 > Fraction(most[b]) ** 2 for b, p in exact.items()):
+        return False
+    return keep_all(sides, exact)
+
+
+def keep_all(sides, moves):
+    return all(sum(Fraction(x) * moves[b][0] + Fraction(y) * moves[b][1] for b, x, y in terms) >= Fraction(d) for terms, d in sides)
