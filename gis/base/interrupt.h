@@ -32,7 +32,7 @@ void gis_release(void);
 /* Whether the output will be the new one is being decided (a commit is under way, which a second signal may meet), or
  * is decided: from here on a first signal ends nothing any more. */
 typedef enum gis_outcome { GIS_OPEN, GIS_DECIDING, GIS_DECIDED } gis_outcome;
-void gis_set_outcome(gis_outcome outcome);
+void gis_set_outcome(gis_outcome now);
 /* The last look: false if a signal has come; else the outcome is being decided. */
 bool gis_decide(gis_error *error);
 

@@ -59,36 +59,36 @@ gis_side_thread *gis_side_thread_new(void)
     return NULL;
 }
 
-void gis_side_thread_do(gis_side_thread *b, void (*work)(void *context), void *context)
+void gis_side_thread_do(gis_side_thread *beside, void (*work)(void *context), void *context)
 {
-    if (!b) {
+    if (!beside) {
         work(context);
         return;
     }
-    gis_side_thread_wait(b, GIS_SIDE_THREAD_PIECES - 1);
-    pthread_mutex_lock(&b->lock);
-    b->left[b->n++] = (piece){work, context};
-    pthread_cond_broadcast(&b->changed);
-    pthread_mutex_unlock(&b->lock);
+    gis_side_thread_wait(beside, GIS_SIDE_THREAD_PIECES - 1);
+    pthread_mutex_lock(&beside->lock);
+    beside->left[beside->n++] = (piece){work, context};
+    pthread_cond_broadcast(&beside->changed);
+    pthread_mutex_unlock(&beside->lock);
 }
 
-void gis_side_thread_wait(gis_side_thread *b, size_t left)
+void gis_side_thread_wait(gis_side_thread *beside, size_t left)
 {
-    if (!b) return;
-    pthread_mutex_lock(&b->lock);
-    while (b->n > left) pthread_cond_wait(&b->changed, &b->lock);
-    pthread_mutex_unlock(&b->lock);
+    if (!beside) return;
+    pthread_mutex_lock(&beside->lock);
+    while (beside->n > left) pthread_cond_wait(&beside->changed, &beside->lock);
+    pthread_mutex_unlock(&beside->lock);
 }
 
-void gis_side_thread_free(gis_side_thread *b)
+void gis_side_thread_free(gis_side_thread *beside)
 {
-    if (!b) return;
-    pthread_mutex_lock(&b->lock);
-    b->end = true;
-    pthread_cond_broadcast(&b->changed);
-    pthread_mutex_unlock(&b->lock);
-    pthread_join(b->thread, NULL);
-    pthread_cond_destroy(&b->changed);
-    pthread_mutex_destroy(&b->lock);
-    free(b);
+    if (!beside) return;
+    pthread_mutex_lock(&beside->lock);
+    beside->end = true;
+    pthread_cond_broadcast(&beside->changed);
+    pthread_mutex_unlock(&beside->lock);
+    pthread_join(beside->thread, NULL);
+    pthread_cond_destroy(&beside->changed);
+    pthread_mutex_destroy(&beside->lock);
+    free(beside);
 }

@@ -196,33 +196,34 @@ bool gis_sorter_new(const char *directory, const char *parts, size_t most, gis_s
     return true;
 }
 
-bool gis_sorter_add(gis_sorter *s, const void *record, gis_error *error)
+bool gis_sorter_add(gis_sorter *sorter, const void *record, gis_error *error)
 {
     const size_t bytes = (size_t)((const gis_sort_head *)record)->bytes;
-    if (s->places && s->used + bytes > s->most && !write_part(s, error)) return false;
-    if (!make_room(s, bytes, error)) return false;
-    if (!gis_array_reserve(&s->place, &s->place_room, s->places + 1, sizeof *s->place)) return gis_no_memory(error);
-    memcpy(s->part + s->used, record, bytes);
-    s->place[s->places++].with = s->used;
-    s->used += bytes;
+    if (sorter->places && sorter->used + bytes > sorter->most && !write_part(sorter, error)) return false;
+    if (!make_room(sorter, bytes, error)) return false;
+    if (!gis_array_reserve(&sorter->place, &sorter->place_room, sorter->places + 1, sizeof *sorter->place))
+        return gis_no_memory(error);
+    memcpy(sorter->part + sorter->used, record, bytes);
+    sorter->place[sorter->places++].with = sorter->used;
+    sorter->used += bytes;
     return true;
 }
 
-bool gis_sorter_take(gis_sorter *s, gis_sort_take *take, void *user, gis_error *error)
+bool gis_sorter_take(gis_sorter *sorter, gis_sort_take *take, void *user, gis_error *error)
 {
-    if (s->n == 0) return take_part(s, take, user, error);
-    return write_part(s, error) && merge(s, take, user, error);
+    if (sorter->n == 0) return take_part(sorter, take, user, error);
+    return write_part(sorter, error) && merge(sorter, take, user, error);
 }
 
-void gis_sorter_free(gis_sorter *s)
+void gis_sorter_free(gis_sorter *sorter)
 {
-    if (!s) return;
-    for (size_t k = 0; k < s->n; k++) free(s->run[k].at);
-    free(s->run);
-    free(s->part);
-    free(s->place);
-    free(s->directory);
-    free(s->parts);
-    gis_disk_file_close(&s->runs);
-    free(s);
+    if (!sorter) return;
+    for (size_t k = 0; k < sorter->n; k++) free(sorter->run[k].at);
+    free(sorter->run);
+    free(sorter->part);
+    free(sorter->place);
+    free(sorter->directory);
+    free(sorter->parts);
+    gis_disk_file_close(&sorter->runs);
+    free(sorter);
 }

@@ -57,6 +57,6 @@ OGRGeometryH gis_geometry_line(const double from[2], const double to[2]);
 OGRGeometryH gis_geometry_point(const double xy[2]);
 OGRGeometryH gis_geometry_polygons(const gis_polygons *set, bool multi);
 /* One polygon of a set. */
-OGRGeometryH gis_geometry_polygon(const gis_polygons *set, size_t polygon);
+OGRGeometryH gis_geometry_polygon(const gis_polygons *set, size_t p);
 
 #endif

@@ -261,10 +261,10 @@ static bool visit_polygon(const unsigned char **at, gis_packed_ring *visit, void
     return true;
 }
 
-bool gis_packed_visit(const unsigned char *at, gis_packed_ring *visit, void *user)
+bool gis_packed_visit(const unsigned char *geometry, gis_packed_ring *visit, void *user)
 {
-    const unsigned char *inside = at;
-    if (begin_geometry(&inside) == wkbPolygon) return visit_polygon(&at, visit, user);
+    const unsigned char *inside = geometry;
+    if (begin_geometry(&inside) == wkbPolygon) return visit_polygon(&geometry, visit, user);
     for (uint32_t polygons = number_at(&inside); polygons > 0; polygons--)
         if (!visit_polygon(&inside, visit, user)) return false;
     return true;

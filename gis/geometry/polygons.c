@@ -69,9 +69,9 @@ bool gis_polygons_append(gis_polygons *set, const gis_polygons *from, size_t fir
     return gis_polygons_end_polygon(set, error);
 }
 
-bool gis_polygons_append_one(gis_polygons *set, const gis_polygons *from, size_t p, gis_error *error)
+bool gis_polygons_append_one(gis_polygons *set, const gis_polygons *from, size_t polygon, gis_error *error)
 {
-    return gis_polygons_append(set, from, p ? from->poly_end[p - 1] : 0, from->poly_end[p], error);
+    return gis_polygons_append(set, from, polygon ? from->poly_end[polygon - 1] : 0, from->poly_end[polygon], error);
 }
 
 bool gis_polygons_append_all(gis_polygons *set, const gis_polygons *from, gis_error *error)

@@ -36,7 +36,7 @@ const char *gis_barrier_layer(const gis_layer_input *input, const gis_barrier_fe
 /* The type of the id columns, and the user's own key in it; null without --id-field. *copy keeps a text (start with
  * NULL, free at the end). */
 OGRFieldType gis_id_type(const gis_layer_input *input);
-bool gis_id_value(const gis_layer_input *input, size_t feature, char **copy, gis_value *value, gis_error *error);
+bool gis_id_value(const gis_layer_input *input, size_t i, char **copy, gis_value *value, gis_error *error);
 
 /* The input's features and barriers, for rows about them. */
 gis_things gis_things_of(const gis_layer_input *input);

@@ -76,25 +76,25 @@ static bool list_blocks(gis_proof_lines *w, gis_error *error)
     return true;
 }
 
-size_t gis_proof_block(const gis_proof_lines *w, size_t feature)
+size_t gis_proof_block(const gis_proof_lines *lines, size_t feature)
 {
-    const int64_t block = sunder_report_block(w->report, feature);
+    const int64_t block = sunder_report_block(lines->report, feature);
     return block < 0 ? feature : (size_t)block;
 }
 
-bool gis_proof_lines_begin(gis_proof_lines *w, const gis_proof_things *things, const sunder_report *report,
+bool gis_proof_lines_begin(gis_proof_lines *lines, const gis_proof_things *things, const sunder_report *report,
                            gis_error *error)
 {
-    *w = (gis_proof_lines){.things = *things, .report = report};
-    return list_blocks(w, error);
+    *lines = (gis_proof_lines){.things = *things, .report = report};
+    return list_blocks(lines, error);
 }
 
-void gis_proof_lines_clear(gis_proof_lines *w)
+void gis_proof_lines_clear(gis_proof_lines *lines)
 {
-    free(w->next);
-    free(w->first);
-    gis_json_clear(&w->json);
-    *w = (gis_proof_lines){0};
+    free(lines->next);
+    free(lines->first);
+    gis_json_clear(&lines->json);
+    *lines = (gis_proof_lines){0};
 }
 
 /* ---- Conflicts --------------------------------------------------------------------------------------------------- */
@@ -169,23 +169,23 @@ static void put_proof(gis_proof_lines *w, const sunder_proof *proof)
     gis_json_close(&w->json, ']');
 }
 
-void gis_proof_conflict(gis_proof_lines *w, size_t k)
+void gis_proof_conflict(gis_proof_lines *lines, size_t k)
 {
     size_t n;
-    const sunder_conflict *c = &sunder_report_conflicts(w->report, &n)[k];
-    const sunder_proof *proof = sunder_report_proof(w->report, k);
-    put_thing(w, "a", c->a);
-    put_thing(w, "b", c->b);
-    gis_json_put_string(&w->json, "kind", sunder_conflict_kind_string(c->kind));
-    gis_json_put_string(&w->json, "reason", sunder_reason_string(c->reason));
-    if (c->crowded) gis_json_put_bool(&w->json, "crowded", true);
-    if (c->inside_block) gis_json_put_bool(&w->json, "inside_block", true);
-    gis_json_key(&w->json, "blocked_by");
-    gis_json_open(&w->json, '[');
-    for (size_t i = 0; i < c->n_blocked_by; i++) put_thing(w, NULL, c->blocked_by[i]);
-    gis_json_close(&w->json, ']');
-    if (proof && proof->within > 0) gis_json_put_double(&w->json, "within", proof->within);
-    if (proof) put_proof(w, proof);
+    const sunder_conflict *c = &sunder_report_conflicts(lines->report, &n)[k];
+    const sunder_proof *proof = sunder_report_proof(lines->report, k);
+    put_thing(lines, "a", c->a);
+    put_thing(lines, "b", c->b);
+    gis_json_put_string(&lines->json, "kind", sunder_conflict_kind_string(c->kind));
+    gis_json_put_string(&lines->json, "reason", sunder_reason_string(c->reason));
+    if (c->crowded) gis_json_put_bool(&lines->json, "crowded", true);
+    if (c->inside_block) gis_json_put_bool(&lines->json, "inside_block", true);
+    gis_json_key(&lines->json, "blocked_by");
+    gis_json_open(&lines->json, '[');
+    for (size_t i = 0; i < c->n_blocked_by; i++) put_thing(lines, NULL, c->blocked_by[i]);
+    gis_json_close(&lines->json, ']');
+    if (proof && proof->within > 0) gis_json_put_double(&lines->json, "within", proof->within);
+    if (proof) put_proof(lines, proof);
 }
 
 /* ---- Trees ------------------------------------------------------------------------------------------------------- */
@@ -333,28 +333,28 @@ static void put_prices(gis_proof_lines *w, const sunder_bound_prices *prices)
     gis_json_close(&w->json, '}');
 }
 
-bool gis_proof_tree(gis_proof_lines *w, const sunder_bound_tree *tree, gis_error *error)
+bool gis_proof_tree(gis_proof_lines *lines, const sunder_bound_tree *tree, gis_error *error)
 {
-    gis_json_put_double(&w->json, "bound", tree->bound);
-    gis_json_key(&w->json, "bodies");
-    gis_json_open(&w->json, '[');
-    for (size_t k = 0; k < tree->bodies; k++) put_body(w, &tree->body[k]);
-    gis_json_close(&w->json, ']');
+    gis_json_put_double(&lines->json, "bound", tree->bound);
+    gis_json_key(&lines->json, "bodies");
+    gis_json_open(&lines->json, '[');
+    for (size_t k = 0; k < tree->bodies; k++) put_body(lines, &tree->body[k]);
+    gis_json_close(&lines->json, ']');
     if (tree->prices.price) {
-        put_prices(w, &tree->prices);
+        put_prices(lines, &tree->prices);
         return gis_go_on(error);
     }
-    gis_json_key(&w->json, "pieces");
-    gis_json_open(&w->json, '[');
-    for (size_t k = 0; k < tree->pieces; k++) put_piece(w, tree, &tree->piece[k]);
-    gis_json_close(&w->json, ']');
-    gis_json_key(&w->json, "nodes");
-    gis_json_open(&w->json, '[');
+    gis_json_key(&lines->json, "pieces");
+    gis_json_open(&lines->json, '[');
+    for (size_t k = 0; k < tree->pieces; k++) put_piece(lines, tree, &tree->piece[k]);
+    gis_json_close(&lines->json, ']');
+    gis_json_key(&lines->json, "nodes");
+    gis_json_open(&lines->json, '[');
     for (size_t k = 0; k < tree->nodes; k++) {
         if (!gis_go_on(error)) return false;
-        put_node(w, tree, &tree->node[k]);
+        put_node(lines, tree, &tree->node[k]);
     }
-    gis_json_close(&w->json, ']');
+    gis_json_close(&lines->json, ']');
     return true;
 }
 
@@ -427,15 +427,15 @@ static size_t first_of_tree(const gis_proof_lines *w, const sunder_bound_tree *t
     return first;
 }
 
-bool gis_proof_order(const gis_proof_lines *w, gis_proof_place **out, size_t *n, gis_error *error)
+bool gis_proof_order(const gis_proof_lines *lines, gis_proof_place **out, size_t *n, gis_error *error)
 {
-    const sunder_bound_tree *tree = sunder_report_bound_trees(w->report, n);
+    const sunder_bound_tree *tree = sunder_report_bound_trees(lines->report, n);
     gis_proof_place *place = *out = malloc((*n + 1) * sizeof *place);
     if (!place) return gis_no_memory(error);
     for (size_t from = 0, end; from < *n; from = end) {
         size_t first = SIZE_MAX;
         for (end = from; end < *n && tree[end].group == tree[from].group; end++) {
-            const size_t own = first_of_tree(w, &tree[end]);
+            const size_t own = first_of_tree(lines, &tree[end]);
             if (own < first) first = own;
         }
         for (size_t k = from; k < end; k++) place[k] = (gis_proof_place){first, k - from, k};

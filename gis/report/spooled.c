@@ -270,23 +270,25 @@ bool gis_page_spooled_open(gis_shard_run *parts, gis_page_spooled **out, gis_err
     return (s->barrier_place || gis_no_memory(error)) && open_aside(s, error);
 }
 
-gis_page_contents gis_page_contents_of_spool(gis_page_spooled *s)
+gis_page_contents gis_page_contents_of_spool(gis_page_spooled *spooled)
 {
-    const size_t barriers = s->parts->barriers.all ? gis_spool_features(s->parts->barriers.all) : 0;
-    return (gis_page_contents){
-        s,           s->parts->facts.source.features, barriers, fill, fill_barriers, conflicts, shape, geometry, name,
-        barrier_name};
+    const size_t barriers = spooled->parts->barriers.all ? gis_spool_features(spooled->parts->barriers.all) : 0;
+    return (gis_page_contents){spooled,       spooled->parts->facts.source.features,
+                               barriers,      fill,
+                               fill_barriers, conflicts,
+                               shape,         geometry,
+                               name,          barrier_name};
 }
 
-void gis_page_spooled_close(gis_page_spooled *s)
+void gis_page_spooled_close(gis_page_spooled *spooled)
 {
-    if (!s) return;
-    gis_spool_close(s->aside);
-    sunder_shape_free(s->lent);
-    sunder_shape_free(s->lent_barrier);
-    gis_text_clear(&s->text);
-    free(s->conflict);
-    free(s->blocker);
-    free(s->barrier_place);
-    free(s);
+    if (!spooled) return;
+    gis_spool_close(spooled->aside);
+    sunder_shape_free(spooled->lent);
+    sunder_shape_free(spooled->lent_barrier);
+    gis_text_clear(&spooled->text);
+    free(spooled->conflict);
+    free(spooled->blocker);
+    free(spooled->barrier_place);
+    free(spooled);
 }

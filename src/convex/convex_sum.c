@@ -17,7 +17,7 @@ static bool make_room(sunder_i_arena *arena, uint32_t most, sunder_i_convex_sum 
     return !arena->failed;
 }
 
-bool sunder_i_convex_sum_of(sunder_i_lattice *l, const sunder_i_decomposition *p, uint32_t i,
+bool sunder_i_convex_sum_of(sunder_i_lattice *lattice, const sunder_i_decomposition *p, uint32_t i,
                             const sunder_i_decomposition *q, uint32_t j, sunder_i_arena *arena,
                             sunder_i_convex_sum *out)
 {
@@ -26,7 +26,7 @@ bool sunder_i_convex_sum_of(sunder_i_lattice *l, const sunder_i_decomposition *p
     sunder_i_convex_sum s;
     if (!make_room(arena, pe - pf + qe - qf, &s)) return false;
     sunder_i_merge m = sunder_i_merge_of(pe - pf, qe - qf);
-    while (SUNDER_I_MERGE_NEXT(&m, sunder_i_angle_cmp(l, p->along[pf + m.next_a], q->along[qf + m.next_b]))) {
+    while (SUNDER_I_MERGE_NEXT(&m, sunder_i_angle_cmp(lattice, p->along[pf + m.next_a], q->along[qf + m.next_b]))) {
         const uint32_t k = s.corners++;
         s.of_p[k] = p->piece_corner[pf + m.a];
         s.of_q[k] = q->piece_corner[qf + m.b];
@@ -35,7 +35,7 @@ bool sunder_i_convex_sum_of(sunder_i_lattice *l, const sunder_i_decomposition *p
         s.side_q[k] = m.of_b;
         s.along[k] = m.of_a ? p->along[pf + m.a] : q->along[qf + m.b];
     }
-    if (arena->failed || l->arena.failed) return false;
+    if (arena->failed || lattice->arena.failed) return false;
     *out = s;
     return true;
 }

@@ -28,32 +28,33 @@ static bool reserve_slot(sunder_i_subsum_list *l)
     return true;
 }
 
-bool sunder_i_subsum_list_add(sunder_i_subsum_list *l, uint64_t subsum)
+bool sunder_i_subsum_list_add(sunder_i_subsum_list *list, uint64_t subsum)
 {
-    if (!reserve_slot(l) || !sunder_i_reserve(&l->pair, &l->capacity, l->n + 1, sizeof *l->pair)) return false;
-    const size_t at = slot_of(l, subsum);
-    if (l->slot[at]) return true;
-    l->pair[l->n++] = subsum;
-    l->slot[at] = (uint32_t)l->n;
+    if (!reserve_slot(list) || !sunder_i_reserve(&list->pair, &list->capacity, list->n + 1, sizeof *list->pair))
+        return false;
+    const size_t at = slot_of(list, subsum);
+    if (list->slot[at]) return true;
+    list->pair[list->n++] = subsum;
+    list->slot[at] = (uint32_t)list->n;
     return true;
 }
 
-bool sunder_i_subsum_list_has(const sunder_i_subsum_list *l, uint64_t subsum)
+bool sunder_i_subsum_list_has(const sunder_i_subsum_list *list, uint64_t subsum)
 {
-    return l->n > 0 && l->slot[slot_of(l, subsum)];
+    return list->n > 0 && list->slot[slot_of(list, subsum)];
 }
 
-bool sunder_i_subsum_list_finish(sunder_i_subsum_list *l)
+bool sunder_i_subsum_list_finish(sunder_i_subsum_list *list)
 {
-    sunder_i_free(l->slot);
-    l->slot = NULL;
-    l->slots = 0;
-    return sunder_i_sort_keys(l->pair, l->n);
+    sunder_i_free(list->slot);
+    list->slot = NULL;
+    list->slots = 0;
+    return sunder_i_sort_keys(list->pair, list->n);
 }
 
-void sunder_i_subsum_list_free(sunder_i_subsum_list *l)
+void sunder_i_subsum_list_free(sunder_i_subsum_list *list)
 {
-    sunder_i_free(l->pair);
-    sunder_i_free(l->slot);
-    memset(l, 0, sizeof *l);
+    sunder_i_free(list->pair);
+    sunder_i_free(list->slot);
+    memset(list, 0, sizeof *list);
 }

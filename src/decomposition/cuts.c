@@ -55,16 +55,16 @@ bool sunder_i_cut_run(sunder_i_cut *cut, const sunder_i_ray_shooting *rays)
     return true;
 }
 
-int sunder_i_around(sunder_i_lattice *l, sunder_i_point ref, sunder_i_point a, sunder_i_point b)
+int sunder_i_around(sunder_i_lattice *lattice, sunder_i_point ref, sunder_i_point a, sunder_i_point b)
 {
     const sunder_i_point u[2] = {a, b};
     int quarter[2];
     for (int k = 0; k < 2; k++) {
-        const int side = sunder_i_cross_sign(l, ref, u[k]);
-        quarter[k] = side > 0 ? 1 : side < 0 ? 3 : sunder_i_dot_sign(l, ref, u[k]) > 0 ? 0 : 2;
+        const int side = sunder_i_cross_sign(lattice, ref, u[k]);
+        quarter[k] = side > 0 ? 1 : side < 0 ? 3 : sunder_i_dot_sign(lattice, ref, u[k]) > 0 ? 0 : 2;
     }
     if (quarter[0] != quarter[1]) return quarter[0] < quarter[1] ? -1 : 1;
-    return -sunder_i_cross_sign(l, a, b);
+    return -sunder_i_cross_sign(lattice, a, b);
 }
 
 /* The line that the cut ends on. */

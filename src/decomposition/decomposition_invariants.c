@@ -102,20 +102,21 @@ static const char *check_area(sunder_i_lattice *l, const sunder_shape *s, const 
     return NULL;
 }
 
-const char *sunder_i_decomposition_check(sunder_i_lattice *l, const sunder_shape *s, const sunder_i_point *at,
-                                         const sunder_i_decomposition *d)
+const char *sunder_i_decomposition_check(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
+                                         const sunder_i_decomposition *decomposition)
 {
-    const sunder_i_mark mark = sunder_i_arena_mark(&l->arena);
-    const sunder_counts counts = l->counts; /* checks do not count as work */
-    const char *wrong = d->corners < s->vertices ? "vertices are missing" : NULL;
-    for (uint32_t i = 0; i < d->corners && !wrong; i++) wrong = check_corner(l, s, at, d, i);
-    for (uint32_t i = 0; i < d->pieces && !wrong; i++) wrong = check_piece(l, d, i);
+    const sunder_i_mark mark = sunder_i_arena_mark(&lattice->arena);
+    const sunder_counts counts = lattice->counts; /* checks do not count as work */
+    const char *wrong = decomposition->corners < shape->vertices ? "vertices are missing" : NULL;
+    for (uint32_t i = 0; i < decomposition->corners && !wrong; i++)
+        wrong = check_corner(lattice, shape, at, decomposition, i);
+    for (uint32_t i = 0; i < decomposition->pieces && !wrong; i++) wrong = check_piece(lattice, decomposition, i);
     uint32_t i = 0;
-    for (uint32_t polygon = 0; polygon < s->form->cleaned.polygons && !wrong; polygon++)
-        wrong = check_area(l, s, at, d, polygon, &i);
-    if (!wrong && i != d->pieces) wrong = "pieces do not stand in the order of their members";
-    l->counts = counts;
-    if (l->arena.failed) return NULL; /* nothing can be checked */
-    sunder_i_arena_release(&l->arena, mark);
+    for (uint32_t polygon = 0; polygon < shape->form->cleaned.polygons && !wrong; polygon++)
+        wrong = check_area(lattice, shape, at, decomposition, polygon, &i);
+    if (!wrong && i != decomposition->pieces) wrong = "pieces do not stand in the order of their members";
+    lattice->counts = counts;
+    if (lattice->arena.failed) return NULL; /* nothing can be checked */
+    sunder_i_arena_release(&lattice->arena, mark);
     return wrong;
 }

@@ -377,29 +377,30 @@ static bool trace(sunder_i_program *p, uint32_t *diagonals, double *length)
     return !sunder_i_maker_failed(p->m);
 }
 
-bool sunder_i_program_solve(sunder_i_program *p, double each, double by_length, uint32_t *diagonals, double *length)
+bool sunder_i_program_solve(sunder_i_program *program, double each, double by_length, uint32_t *diagonals,
+                            double *length)
 {
-    p->each = each;
-    p->by_length = by_length;
-    for (uint32_t e = 0; e < p->up_first[p->n]; e++) p->within[e] = 0;
-    for (uint32_t i = p->n - 1; i-- > 0 && !sunder_i_maker_failed(p->m);) {
-        const uint32_t first = p->up_first[i], end = p->up_first[i + 1];
-        if (end - first > 1 || p->up[first] > i + 1) grow(p, i, p->up[end - 1]);
+    program->each = each;
+    program->by_length = by_length;
+    for (uint32_t e = 0; e < program->up_first[program->n]; e++) program->within[e] = 0;
+    for (uint32_t i = program->n - 1; i-- > 0 && !sunder_i_maker_failed(program->m);) {
+        const uint32_t first = program->up_first[i], end = program->up_first[i + 1];
+        if (end - first > 1 || program->up[first] > i + 1) grow(program, i, program->up[end - 1]);
     }
-    if (!sunder_i_maker_failed(p->m) && trace(p, diagonals, length)) return true;
-    p->m->scratch.failed = true;
+    if (!sunder_i_maker_failed(program->m) && trace(program, diagonals, length)) return true;
+    program->m->scratch.failed = true;
     return false;
 }
 
-void sunder_i_program_emit(const sunder_i_program *p, sunder_i_maker *m)
+void sunder_i_program_emit(const sunder_i_program *program, sunder_i_maker *m)
 {
-    for (uint32_t i = 0, at = 0; i < p->pieces; at = p->piece_end[i++])
-        sunder_i_maker_add_vertices(m, p->corner + at, p->piece_end[i] - at);
+    for (uint32_t i = 0, at = 0; i < program->pieces; at = program->piece_end[i++])
+        sunder_i_maker_add_vertices(m, program->corner + at, program->piece_end[i] - at);
 }
 
-void sunder_i_program_free(sunder_i_program *p)
+void sunder_i_program_free(sunder_i_program *program)
 {
-    if (!p) return;
-    sunder_i_free(p->chain);
-    sunder_i_free(p->front);
+    if (!program) return;
+    sunder_i_free(program->chain);
+    sunder_i_free(program->front);
 }

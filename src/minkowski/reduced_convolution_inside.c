@@ -38,23 +38,23 @@ static bool order_sides(sunder_i_place_query *in, sunder_i_arena *m)
     return true;
 }
 
-bool sunder_i_place_query_init(sunder_i_place_query *in, sunder_i_reduced *r)
+bool sunder_i_place_query_init(sunder_i_place_query *inside, sunder_i_reduced *r)
 {
     double most[2] = {0, 0};
-    *in = (sunder_i_place_query){.reduced = r,
-                                 .value = sunder_i_arena_alloc(&r->memory, r->operand[1].n, sizeof *in->value)};
+    *inside = (sunder_i_place_query){.reduced = r,
+                                     .value = sunder_i_arena_alloc(&r->memory, r->operand[1].n, sizeof *inside->value)};
     for (int k = 0; k < 2; k++) {
         const sunder_i_chain_operand *o = &r->operand[k];
-        double *xy = in->xy[k] = sunder_i_arena_alloc(&r->memory, 2 * (size_t)o->n, sizeof *xy);
+        double *xy = inside->xy[k] = sunder_i_arena_alloc(&r->memory, 2 * (size_t)o->n, sizeof *xy);
         for (uint32_t i = 0; xy && i < o->n; i++) {
             xy[i] = (double)o->at[i].x;
             xy[o->n + i] = (double)o->at[i].y;
             most[k] = sunder_i_max(most[k], sunder_i_max(fabs(xy[i]), fabs(xy[o->n + i])));
         }
     }
-    in->error = ERROR * (most[0] + most[1]);
-    in->left = PATIENCE * ((size_t)r->operand[0].n + r->operand[1].n);
-    return order_sides(in, &r->memory);
+    inside->error = ERROR * (most[0] + most[1]);
+    inside->left = PATIENCE * ((size_t)r->operand[0].n + r->operand[1].n);
+    return order_sides(inside, &r->memory);
 }
 
 typedef struct place {
@@ -180,13 +180,13 @@ static sunder_i_place_in_sum winding_says(const sunder_i_place_query *in, place 
     return !certain ? SUNDER_I_UNCERTAIN : winding == 0 ? SUNDER_I_NOT_INSIDE : SUNDER_I_INSIDE;
 }
 
-sunder_i_place_in_sum sunder_i_place_query_ask(sunder_i_place_query *in, uint32_t segment, double at)
+sunder_i_place_in_sum sunder_i_place_query_ask(sunder_i_place_query *inside, uint32_t segment, double at)
 {
-    const sunder_i_reduced_segment *s = &in->reduced->segment[segment];
+    const sunder_i_reduced_segment *s = &inside->reduced->segment[segment];
     const place x = {(double)s->from.x + at * (double)s->along.x, (double)s->from.y + at * (double)s->along.y};
-    if (some_sides_cross(in, x)) return SUNDER_I_INSIDE;
-    const size_t all = 4 * (size_t)in->reduced->segments; /* approximate size of the whole convolution */
-    if (in->left < all || !sunder_i_steps(all)) return SUNDER_I_UNCERTAIN;
-    in->left -= all;
-    return winding_says(in, x, s);
+    if (some_sides_cross(inside, x)) return SUNDER_I_INSIDE;
+    const size_t all = 4 * (size_t)inside->reduced->segments; /* approximate size of the whole convolution */
+    if (inside->left < all || !sunder_i_steps(all)) return SUNDER_I_UNCERTAIN;
+    inside->left -= all;
+    return winding_says(inside, x, s);
 }

@@ -45,23 +45,23 @@ static bool is_far(sunder_i_arena *arena, const heading *u, const sunder_i_struc
 /* Sides that turn left from ab are moved to b, the others stay at a. A side parallel to ab and what joins both places
  * make one straight side with a corner inside, which the map allows. Where a is b no side turns left, and the band is
  * the piece at a. */
-size_t sunder_i_band(sunder_i_arena *s, const sunder_i_structuring_element *p, size_t first, size_t end,
+size_t sunder_i_band(sunder_i_arena *arena, const sunder_i_structuring_element *element, size_t first, size_t end,
                      sunder_i_rational_point a, sunder_i_rational_point b, sunder_i_rational_point *out,
                      sunder_i_point *along, bool *known)
 {
-    heading u = {.vector = sunder_i_rational_sub(s, b, a)};
-    u.plain = p->plain && sunder_i_heading(s, u.vector, &u.along);
+    heading u = {.vector = sunder_i_rational_sub(arena, b, a)};
+    u.plain = element->plain && sunder_i_heading(arena, u.vector, &u.along);
     *known = u.plain;
     size_t n = 0;
-    bool before = is_far(s, &u, p, end - 1);
+    bool before = is_far(arena, &u, element, end - 1);
     for (size_t i = first; i < end; i++) {
-        const bool after = is_far(s, &u, p, i);
-        out[n++] = sunder_i_rational_add(s, before ? b : a, p->corner[i]);
+        const bool after = is_far(arena, &u, element, i);
+        out[n++] = sunder_i_rational_add(arena, before ? b : a, element->corner[i]);
         if (after != before) {
             along[n - 1] = u.along;
-            out[n++] = sunder_i_rational_add(s, after ? b : a, p->corner[i]);
+            out[n++] = sunder_i_rational_add(arena, after ? b : a, element->corner[i]);
         }
-        along[n - 1] = p->along[i];
+        along[n - 1] = element->along[i];
         before = after;
     }
     return n;

@@ -23,31 +23,31 @@ enum {
  * 2^-52 M <= e / 2 for rounding, so by less than 3 e. Let S be the sum of the magnitudes of the four differences:
  * their two products are off by 3 e S + 18 e^2 together, and by 2^-51 of the products, whose sum is at most S^2 / 4,
  * for rounding. */
-int sunder_i_curve_side(sunder_i_figure_convolution *c, const sunder_i_curve_corner *a, const sunder_i_curve_corner *b,
-                        const sunder_i_curve_corner *p)
+int sunder_i_curve_side(sunder_i_figure_convolution *curve, const sunder_i_curve_corner *a,
+                        const sunder_i_curve_corner *b, const sunder_i_curve_corner *c)
 {
-    const double ux = b->xy[0] - a->xy[0], uy = b->xy[1] - a->xy[1], vx = p->xy[0] - a->xy[0], vy = p->xy[1] - a->xy[1];
-    const double det = ux * vy - uy * vx, sum = fabs(ux) + fabs(uy) + fabs(vx) + fabs(vy), e = c->error;
+    const double ux = b->xy[0] - a->xy[0], uy = b->xy[1] - a->xy[1], vx = c->xy[0] - a->xy[0], vy = c->xy[1] - a->xy[1];
+    const double det = ux * vy - uy * vx, sum = fabs(ux) + fabs(uy) + fabs(vx) + fabs(vy), e = curve->error;
     const double bound = SUNDER_I_DOUBT(4 * e * (sum + 6 * e) + 0x1p-50 * sum * sum + SUNDER_I_APPROX_UNDERFLOW);
-    c->counts.orientation_tests++;
+    curve->counts.orientation_tests++;
     if (fabs(det) > bound) return det > 0 ? 1 : -1;
-    c->counts.exact_fallbacks++;
-    const sunder_i_mark mark = sunder_i_arena_mark(&c->scratch);
-    const int side = sunder_i_rational_orient(&c->scratch, a->at, b->at, p->at);
-    sunder_i_arena_release(&c->scratch, mark);
+    curve->counts.exact_fallbacks++;
+    const sunder_i_mark mark = sunder_i_arena_mark(&curve->scratch);
+    const int side = sunder_i_rational_orient(&curve->scratch, a->at, b->at, c->at);
+    sunder_i_arena_release(&curve->scratch, mark);
     return side;
 }
 
-int sunder_i_curve_cmp_axis(sunder_i_figure_convolution *c, const sunder_i_curve_corner *a,
+int sunder_i_curve_cmp_axis(sunder_i_figure_convolution *curve, const sunder_i_curve_corner *a,
                             const sunder_i_curve_corner *b, int axis)
 {
     const double ahead = a->xy[axis] - b->xy[axis];
-    c->counts.comparisons++;
-    if (fabs(ahead) > SUNDER_I_DOUBT(3 * c->error)) return ahead > 0 ? 1 : -1;
-    c->counts.exact_fallbacks++;
-    const sunder_i_mark mark = sunder_i_arena_mark(&c->scratch);
-    const int order = sunder_i_rational_cmp(&c->scratch, &a->at, &b->at, axis);
-    sunder_i_arena_release(&c->scratch, mark);
+    curve->counts.comparisons++;
+    if (fabs(ahead) > SUNDER_I_DOUBT(3 * curve->error)) return ahead > 0 ? 1 : -1;
+    curve->counts.exact_fallbacks++;
+    const sunder_i_mark mark = sunder_i_arena_mark(&curve->scratch);
+    const int order = sunder_i_rational_cmp(&curve->scratch, &a->at, &b->at, axis);
+    sunder_i_arena_release(&curve->scratch, mark);
     return order;
 }
 

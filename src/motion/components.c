@@ -107,29 +107,33 @@ static void shoot(const sunder_i_free_space *s, sunder_i_corners *c, const sunde
     if (!any) sunder_i_union_join(c->parent, v, c->vertices + 2);
 }
 
-bool sunder_i_components_find(const sunder_i_free_space *s, sunder_i_corners *c)
+bool sunder_i_components_find(const sunder_i_free_space *space, sunder_i_corners *corners)
 {
-    uint32_t *curve = sunder_i_alloc(c->vertices, sizeof *curve), *least = sunder_i_alloc(c->vertices, sizeof *least);
+    uint32_t *curve = sunder_i_alloc(corners->vertices, sizeof *curve),
+             *least = sunder_i_alloc(corners->vertices, sizeof *least);
     sunder_i_strips t;
-    const bool ok = make_strips(s, c, &t) && curve && least;
-    sunder_i_union_init(c->parent, (size_t)c->vertices + 3);
-    for (size_t i = 0; i < s->stretches; i++) sunder_i_union_join(c->parent, s->stretch[i].from, s->stretch[i].to);
-    for (uint32_t v = 0; ok && v < c->vertices; v++) {
-        const uint32_t r = curve[v] = sunder_i_union_find(c->parent, v);
+    const bool ok = make_strips(space, corners, &t) && curve && least;
+    sunder_i_union_init(corners->parent, (size_t)corners->vertices + 3);
+    for (size_t i = 0; i < space->stretches; i++)
+        sunder_i_union_join(corners->parent, space->stretch[i].from, space->stretch[i].to);
+    for (uint32_t v = 0; ok && v < corners->vertices; v++) {
+        const uint32_t r = curve[v] = sunder_i_union_find(corners->parent, v);
         /* A root is the least number of its tree, so it comes first. */
-        if (r == v || sunder_i_filtered_cmp(&s->filter, &c->place[v], &c->place[least[r]]) < 0) least[r] = v;
+        if (r == v || sunder_i_filtered_cmp(&space->filter, &corners->place[v], &corners->place[least[r]]) < 0)
+            least[r] = v;
     }
     /* Points without stretches are degenerate: no way leads there, and a ray from them goes nowhere. */
-    for (uint32_t v = 0; ok && v < c->vertices; v++)
-        if (curve[v] == v) shoot(s, c, &t, least[v], curve, v);
-    for (uint32_t v = c->vertices; ok && v < c->vertices + 2; v++) shoot(s, c, &t, v, curve, SUNDER_I_NO_PLACE);
+    for (uint32_t v = 0; ok && v < corners->vertices; v++)
+        if (curve[v] == v) shoot(space, corners, &t, least[v], curve, v);
+    for (uint32_t v = corners->vertices; ok && v < corners->vertices + 2; v++)
+        shoot(space, corners, &t, v, curve, SUNDER_I_NO_PLACE);
     sunder_i_free(curve);
     sunder_i_free(least);
     sunder_i_strips_free(&t);
     return ok;
 }
 
-bool sunder_i_corners_connected(sunder_i_corners *c, uint32_t a, uint32_t b)
+bool sunder_i_corners_connected(sunder_i_corners *corners, uint32_t a, uint32_t b)
 {
-    return sunder_i_union_find(c->parent, a) == sunder_i_union_find(c->parent, b);
+    return sunder_i_union_find(corners->parent, a) == sunder_i_union_find(corners->parent, b);
 }

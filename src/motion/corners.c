@@ -7,13 +7,13 @@
 
 #include <string.h>
 
-void sunder_i_corners_free(sunder_i_corners *c)
+void sunder_i_corners_free(sunder_i_corners *corners)
 {
-    sunder_i_free(c->place);
-    sunder_i_free(c->beside);
-    sunder_i_free(c->node);
-    sunder_i_free(c->parent);
-    memset(c, 0, sizeof *c);
+    sunder_i_free(corners->place);
+    sunder_i_free(corners->beside);
+    sunder_i_free(corners->node);
+    sunder_i_free(corners->parent);
+    memset(corners, 0, sizeof *corners);
 }
 
 /* How many stretches end at a vertex, and how many of them have O on both banks. */
@@ -80,11 +80,11 @@ static void keep_reachable(sunder_i_corners *c)
     c->nodes = n;
 }
 
-sunder_status sunder_i_corners_find(const sunder_i_free_space *s, const sunder_i_filtered_point *start,
+sunder_status sunder_i_corners_find(const sunder_i_free_space *space, const sunder_i_filtered_point *start,
                                     const sunder_i_filtered_point *goal, sunder_i_corners *out, sunder_error *err)
 {
     memset(out, 0, sizeof *out);
-    const uint32_t n = out->vertices = s->sum->vertices;
+    const uint32_t n = out->vertices = space->sum->vertices;
     out->place = sunder_i_alloc((size_t)n + 2, sizeof *out->place);
     out->beside = sunder_i_alloc((size_t)n + 2, sizeof *out->beside);
     out->node = sunder_i_alloc((size_t)n + 2, sizeof *out->node);
@@ -92,12 +92,12 @@ sunder_status sunder_i_corners_find(const sunder_i_free_space *s, const sunder_i
     bool ok = out->place && out->beside && out->node && out->parent;
     if (ok) {
         for (uint32_t v = 0; v < n; v++)
-            out->place[v] = sunder_i_filtered_of_vertex(s->filter.lattice, &s->sum->vertex[v]);
+            out->place[v] = sunder_i_filtered_of_vertex(space->filter.lattice, &space->sum->vertex[v]);
         out->place[n] = *start;
         out->place[n + 1] = *goal;
         memset(out->beside, 0xff, ((size_t)n + 2) * sizeof *out->beside);
-        ok = !s->filter.lattice->arena.failed && find_nodes(s, out) && sunder_i_components_find(s, out) &&
-             !s->filter.lattice->arena.failed;
+        ok = !space->filter.lattice->arena.failed && find_nodes(space, out) && sunder_i_components_find(space, out) &&
+             !space->filter.lattice->arena.failed;
     }
     if (ok) {
         keep_reachable(out);

@@ -132,7 +132,7 @@ static bool is_convex(sunder_i_lattice *l, const sunder_i_point q[4])
     return sunder_i_orient(l, q[3], q[0], q[1]) > 0 && sunder_i_orient(l, q[1], q[2], q[3]) > 0;
 }
 
-void sunder_i_diagonals_add(const sunder_i_diagonals *diagonals, sunder_i_lattice *l, const sunder_i_point *at,
+void sunder_i_diagonals_add(const sunder_i_diagonals *diagonals, sunder_i_lattice *lattice, const sunder_i_point *at,
                             sunder_i_convex_pieces *list)
 {
     for (size_t i = 0; i < diagonals->n; i++) {
@@ -140,9 +140,9 @@ void sunder_i_diagonals_add(const sunder_i_diagonals *diagonals, sunder_i_lattic
         const sunder_i_point u = at[corner[0]], v = at[corner[2]];
         sunder_i_point quad[4] = {u, u, v, u};
         /* Near enough to the diagonal it always is. */
-        for (unsigned j = 1; !l->arena.failed; j++) {
-            for (int k = 1; k < 4; k += 2) quad[k] = towards(l, u, v, at[corner[k]], j);
-            if (is_convex(l, quad)) break;
+        for (unsigned j = 1; !lattice->arena.failed; j++) {
+            for (int k = 1; k < 4; k += 2) quad[k] = towards(lattice, u, v, at[corner[k]], j);
+            if (is_convex(lattice, quad)) break;
         }
         for (int k = 0; k < 4; k++) sunder_i_convex_pieces_add_corner(list, quad[k], false);
         list->end[list->n++] = list->corners;

@@ -8,20 +8,20 @@
 
 /* ---- Making places ---- */
 
-sunder_i_filtered_point sunder_i_filtered_make(sunder_i_lattice *l, sunder_i_rational_point at)
+sunder_i_filtered_point sunder_i_filtered_make(sunder_i_lattice *lattice, sunder_i_rational_point at)
 {
     sunder_i_filtered_point p = {at, 0, 0};
-    if (l->arena.failed) return p;
+    if (lattice->arena.failed) return p;
     sunder_i_arena scratch = {0};
-    sunder_i_rational_doubles(&scratch, at, -l->approx_shift, &p.ax, &p.ay);
-    if (scratch.failed) l->arena.failed = true;
+    sunder_i_rational_doubles(&scratch, at, -lattice->approx_shift, &p.ax, &p.ay);
+    if (scratch.failed) lattice->arena.failed = true;
     sunder_i_arena_free(&scratch);
     return p;
 }
 
-sunder_i_filtered_point sunder_i_filtered_of_vertex(sunder_i_lattice *l, const sunder_i_hpoint *vertex)
+sunder_i_filtered_point sunder_i_filtered_of_vertex(sunder_i_lattice *lattice, const sunder_i_hpoint *vertex)
 {
-    return sunder_i_filtered_make(l, sunder_i_hpoint_read(&l->arena, l, vertex));
+    return sunder_i_filtered_make(lattice, sunder_i_hpoint_read(&lattice->arena, lattice, vertex));
 }
 
 static sunder_i_big two_to(sunder_i_arena *arena, sunder_i_big a, long e)
@@ -53,21 +53,22 @@ static sunder_i_ratio on_lattice(const sunder_sum *sum, sunder_i_arena *arena, i
     return sunder_i_ratio_reduced(arena, v);
 }
 
-sunder_i_filtered_point sunder_i_filtered_of_rational(const sunder_sum *sum, sunder_i_lattice *l, sunder_i_ratio x,
-                                                      sunder_i_ratio y)
+sunder_i_filtered_point sunder_i_filtered_of_rational(const sunder_sum *sum, sunder_i_lattice *lattice,
+                                                      sunder_i_ratio x, sunder_i_ratio y)
 {
-    sunder_i_arena *arena = &l->arena;
+    sunder_i_arena *arena = &lattice->arena;
     x = on_lattice(sum, arena, 0, x);
     y = on_lattice(sum, arena, 1, y);
-    return sunder_i_filtered_make(l, (sunder_i_rational_point){sunder_i_big_mul(arena, x.num, y.den),
-                                                               sunder_i_big_mul(arena, y.num, x.den),
-                                                               sunder_i_big_mul(arena, x.den, y.den)});
+    return sunder_i_filtered_make(lattice, (sunder_i_rational_point){sunder_i_big_mul(arena, x.num, y.den),
+                                                                     sunder_i_big_mul(arena, y.num, x.den),
+                                                                     sunder_i_big_mul(arena, x.den, y.den)});
 }
 
-sunder_i_filtered_point sunder_i_filtered_of_double(const sunder_sum *sum, sunder_i_lattice *l, const double xy[2])
+sunder_i_filtered_point sunder_i_filtered_of_double(const sunder_sum *sum, sunder_i_lattice *lattice,
+                                                    const double xy[2])
 {
-    return sunder_i_filtered_of_rational(sum, l, sunder_i_ratio_double(&l->arena, xy[0]),
-                                         sunder_i_ratio_double(&l->arena, xy[1]));
+    return sunder_i_filtered_of_rational(sum, lattice, sunder_i_ratio_double(&lattice->arena, xy[0]),
+                                         sunder_i_ratio_double(&lattice->arena, xy[1]));
 }
 
 /* ---- Order ---- */

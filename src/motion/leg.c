@@ -32,10 +32,10 @@ static void add_part(const void *of, size_t i, double box[4])
     sunder_i_box_join(box, one);
 }
 
-bool sunder_i_part_tree_build(sunder_i_free_space *s)
+bool sunder_i_part_tree_build(sunder_i_free_space *space)
 {
-    sunder_i_part_tree *t = &s->tree;
-    const size_t n = s->part.n;
+    sunder_i_part_tree *t = &space->tree;
+    const size_t n = space->part.n;
     t->boxes = sunder_i_box_tree_of(n, SUNDER_I_LEAF_PARTS);
     t->part = sunder_i_alloc(n, sizeof *t->part);
     t->boxes.box = sunder_i_alloc(2 * t->boxes.leaves, sizeof *t->boxes.box);
@@ -44,7 +44,7 @@ bool sunder_i_part_tree_build(sunder_i_free_space *s)
     bool ok = t->part && t->boxes.box && middle && self;
     for (uint32_t i = 0; ok && i < n; i++) {
         double box[4];
-        part_box(s, i, box);
+        part_box(space, i, box);
         middle[2 * i] = box[0] / 2 + box[2] / 2;
         middle[2 * i + 1] = box[1] / 2 + box[3] / 2;
         t->part[i] = self[i] = i;
@@ -55,7 +55,7 @@ bool sunder_i_part_tree_build(sunder_i_free_space *s)
         ok = !arena.failed;
         sunder_i_arena_free(&arena);
     }
-    if (ok) sunder_i_box_tree_fill(&t->boxes, add_part, s);
+    if (ok) sunder_i_box_tree_fill(&t->boxes, add_part, space);
     sunder_i_free(middle);
     sunder_i_free(self);
     return ok;
@@ -117,12 +117,12 @@ static ray ray_of(const sunder_i_free_space *s, const sunder_i_filtered_point *p
     return r;
 }
 
-bool sunder_i_leg_is_free(const sunder_i_free_space *s, const sunder_i_filtered_point *p,
+bool sunder_i_leg_is_free(const sunder_i_free_space *space, const sunder_i_filtered_point *p,
                           const sunder_i_filtered_point *q, bool least, uint32_t *part)
 {
-    const sunder_i_box_tree *t = &s->tree.boxes;
-    const uint32_t *in = s->tree.part;
-    const ray r = ray_of(s, p, q);
+    const sunder_i_box_tree *t = &space->tree.boxes;
+    const uint32_t *in = space->tree.part;
+    const ray r = ray_of(space, p, q);
     uint32_t found = UINT32_MAX;
     sunder_i_box_walk walk;
     sunder_i_box_walk_start(&walk, t);
@@ -134,7 +134,7 @@ bool sunder_i_leg_is_free(const sunder_i_free_space *s, const sunder_i_filtered_
         }
         const size_t end = sunder_i_box_tree_end(t, i);
         for (size_t k = sunder_i_box_tree_first(t, i); k < end; k++) {
-            if (in[k] > found || !meets(s, in[k], p, q)) continue;
+            if (in[k] > found || !meets(space, in[k], p, q)) continue;
             found = in[k];
             if (!least) {
                 if (part) *part = found;

@@ -48,15 +48,15 @@ bool sunder_i_sector_of(const double (*point)[2], int n, double error, bool at_e
     return out->width < 2;
 }
 
-void sunder_i_shadow_start(sunder_i_shadow *s, sunder_i_sector sector)
+void sunder_i_shadow_start(sunder_i_shadow *shadow, sunder_i_sector sector)
 {
-    s->bins = sector.width >= 4
-                  ? BINS_ALL_ROUND
-                  : (int)sunder_i_min(SUNDER_I_BINS, sunder_i_max(BINS_LEAST, sector.width * SUNDER_I_BINS));
-    s->sector = (sunder_i_sector){wrap(sector.low), sunder_i_min(sector.width, 4)};
-    s->per_turn = s->bins / s->sector.width;
-    for (int k = 0; k <= s->bins; k++) ray_at(s->sector.low + k / s->per_turn, s->ray[k]);
-    for (int k = 0; k < s->bins; k++) s->depth[k] = INFINITY;
+    shadow->bins = sector.width >= 4
+                       ? BINS_ALL_ROUND
+                       : (int)sunder_i_min(SUNDER_I_BINS, sunder_i_max(BINS_LEAST, sector.width * SUNDER_I_BINS));
+    shadow->sector = (sunder_i_sector){wrap(sector.low), sunder_i_min(sector.width, 4)};
+    shadow->per_turn = shadow->bins / shadow->sector.width;
+    for (int k = 0; k <= shadow->bins; k++) ray_at(shadow->sector.low + k / shadow->per_turn, shadow->ray[k]);
+    for (int k = 0; k < shadow->bins; k++) shadow->depth[k] = INFINITY;
 }
 
 /* The parts of a sector within the shadow's, in bins from its start; how many, two at most. */
@@ -136,44 +136,45 @@ static double nearest(const double (*corner)[2], int n, double error)
     return gap;
 }
 
-void sunder_i_shadow_cast(sunder_i_shadow *s, const double (*corner)[2], int n, double error)
+void sunder_i_shadow_cast(sunder_i_shadow *shadow, const double (*corner)[2], int n, double error)
 {
     caster c;
     sunder_i_sector sector;
     double piece[2][2];
     /* Which rays to try; a part that has the eye as a corner is where the others are. */
-    if (!sunder_i_sector_of(corner, n, error, true, &sector)) sector = s->sector;
-    if (!sunder_i_shadow_takes(s, sector) || sunder_i_shadow_hides(s, sector, nearest(corner, n, error))) return;
+    if (!sunder_i_sector_of(corner, n, error, true, &sector)) sector = shadow->sector;
+    if (!sunder_i_shadow_takes(shadow, sector) || sunder_i_shadow_hides(shadow, sector, nearest(corner, n, error)))
+        return;
     if (!prepare(&c, corner, n, error)) return;
-    const int pieces = pieces_of(s, sector, piece);
+    const int pieces = pieces_of(shadow, sector, piece);
     for (int i = 0; i < pieces; i++) {
         double before = INFINITY;
-        const int first = (int)ceil(piece[i][0]), last = (int)sunder_i_min(floor(piece[i][1]), s->bins);
+        const int first = (int)ceil(piece[i][0]), last = (int)sunder_i_min(floor(piece[i][1]), shadow->bins);
         for (int k = first; k <= last; k++) {
-            const double at = entry(&c, s->ray[k]);
+            const double at = entry(&c, shadow->ray[k]);
             const double depth = at > before ? at : before;
-            if (k > first && depth < s->depth[k - 1]) s->depth[k - 1] = depth;
+            if (k > first && depth < shadow->depth[k - 1]) shadow->depth[k - 1] = depth;
             before = at;
         }
     }
 }
 
-bool sunder_i_shadow_takes(const sunder_i_shadow *s, sunder_i_sector sector)
+bool sunder_i_shadow_takes(const sunder_i_shadow *shadow, sunder_i_sector sector)
 {
     double piece[2][2];
-    const int pieces = pieces_of(s, sector, piece);
+    const int pieces = pieces_of(shadow, sector, piece);
     for (int i = 0; i < pieces; i++)
         if (floor(piece[i][1]) > ceil(piece[i][0])) return true;
     return false;
 }
 
-bool sunder_i_shadow_hides(const sunder_i_shadow *s, sunder_i_sector sector, double distance)
+bool sunder_i_shadow_hides(const sunder_i_shadow *shadow, sunder_i_sector sector, double distance)
 {
     double piece[2][2];
-    const int pieces = pieces_of(s, sector, piece);
+    const int pieces = pieces_of(shadow, sector, piece);
     const double near = distance * (1 - 0x1p-40);
     for (int i = 0; i < pieces; i++)
-        for (int k = (int)piece[i][0]; k <= (int)piece[i][1] && k < s->bins; k++)
-            if (!(s->depth[k] < near)) return false;
+        for (int k = (int)piece[i][0]; k <= (int)piece[i][1] && k < shadow->bins; k++)
+            if (!(shadow->depth[k] < near)) return false;
     return true;
 }

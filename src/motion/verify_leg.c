@@ -72,17 +72,17 @@ static bool box_apart(const sunder_i_free_space *s, uint32_t part, const double 
     return left || right || below || above;
 }
 
-bool sunder_i_leg_verified(const sunder_i_free_space *s, const sunder_i_filtered_point *p,
+bool sunder_i_leg_verified(const sunder_i_free_space *space, const sunder_i_filtered_point *p,
                            const sunder_i_filtered_point *q)
 {
-    sunder_i_arena *m = &s->filter.lattice->arena;
-    const double e = 4 * s->filter.error;
+    sunder_i_arena *m = &space->filter.lattice->arena;
+    const double e = 4 * space->filter.error;
     const double low[2] = {sunder_i_min(p->ax, q->ax) - e, sunder_i_min(p->ay, q->ay) - e};
     const double high[2] = {sunder_i_max(p->ax, q->ax) + e, sunder_i_max(p->ay, q->ay) + e};
-    for (uint32_t part = 0; part < s->part.n; part++) {
-        if (box_apart(s, part, low, high)) continue;
+    for (uint32_t part = 0; part < space->part.n; part++) {
+        if (box_apart(space, part, low, high)) continue;
         const sunder_i_mark mark = sunder_i_arena_mark(m);
-        const bool meets = passes(s, part, p, q);
+        const bool meets = passes(space, part, p, q);
         if (m->failed) return false;
         sunder_i_arena_release(m, mark);
         if (meets) return false;

@@ -47,14 +47,14 @@ static void accumulate(sunder_i_accumulator *t, double a, double b, bool minus)
     }
 }
 
-void sunder_i_accumulator_add(sunder_i_accumulator *t, double a, double b) { accumulate(t, a, b, false); }
-void sunder_i_accumulator_sub(sunder_i_accumulator *t, double a, double b) { accumulate(t, a, b, true); }
+void sunder_i_accumulator_add(sunder_i_accumulator *sum, double a, double b) { accumulate(sum, a, b, false); }
+void sunder_i_accumulator_sub(sunder_i_accumulator *sum, double a, double b) { accumulate(sum, a, b, true); }
 
-int sunder_i_accumulator_sign(const sunder_i_accumulator *t)
+int sunder_i_accumulator_sign(const sunder_i_accumulator *sum)
 {
-    if (t->limb[SUNDER_I_ACCUMULATOR_LIMBS - 1] >> 63) return -1;
+    if (sum->limb[SUNDER_I_ACCUMULATOR_LIMBS - 1] >> 63) return -1;
     for (int i = 0; i < SUNDER_I_ACCUMULATOR_LIMBS; i++)
-        if (t->limb[i]) return 1;
+        if (sum->limb[i]) return 1;
     return 0;
 }
 
@@ -76,11 +76,11 @@ static bool any_below(const sunder_i_accumulator *t, long end)
     return false;
 }
 
-double sunder_i_accumulator_double(const sunder_i_accumulator *t, int exponent)
+double sunder_i_accumulator_double(const sunder_i_accumulator *sum, int exponent)
 {
-    const int sign = sunder_i_accumulator_sign(t);
+    const int sign = sunder_i_accumulator_sign(sum);
     if (sign == 0) return 0;
-    sunder_i_accumulator m = *t;
+    sunder_i_accumulator m = *sum;
     if (sign < 0) { /* ~m + 1 */
         uint64_t carry = 1;
         for (int i = 0; i < SUNDER_I_ACCUMULATOR_LIMBS; i++) {

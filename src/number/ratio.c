@@ -41,12 +41,12 @@ sunder_i_ratio sunder_i_ratio_add(sunder_i_arena *arena, sunder_i_ratio a, sunde
         sunder_i_big_mul(arena, a.den, bd)};
 }
 
-sunder_i_ratio sunder_i_ratio_reduced(sunder_i_arena *arena, sunder_i_ratio r)
+sunder_i_ratio sunder_i_ratio_reduced(sunder_i_arena *arena, sunder_i_ratio a)
 {
-    if (sunder_i_big_is_one(r.den)) return r;
-    const sunder_i_big g = sunder_i_big_gcd(arena, r.num, r.den);
-    if (g.size == 0 || r.num.size == 0 || sunder_i_big_is_one(g)) return r;
-    return (sunder_i_ratio){sunder_i_big_div_floor(arena, r.num, g), sunder_i_big_div_floor(arena, r.den, g)};
+    if (sunder_i_big_is_one(a.den)) return a;
+    const sunder_i_big g = sunder_i_big_gcd(arena, a.num, a.den);
+    if (g.size == 0 || a.num.size == 0 || sunder_i_big_is_one(g)) return a;
+    return (sunder_i_ratio){sunder_i_big_div_floor(arena, a.num, g), sunder_i_big_div_floor(arena, a.den, g)};
 }
 
 int sunder_i_ratio_cmp(sunder_i_arena *arena, sunder_i_ratio a, sunder_i_ratio b)

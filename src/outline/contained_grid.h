@@ -26,8 +26,8 @@ typedef struct sunder_i_part_grid {
 
 /* `list` is NULL where the lists would take too much memory, or all coordinates are too small. False if memory is out;
  * the caller frees the grid in any case. */
-bool sunder_i_part_grid_build(sunder_i_part_grid *grid, const sunder_i_convex_pieces *parts);
-void sunder_i_part_grid_free(sunder_i_part_grid *grid);
+bool sunder_i_part_grid_build(sunder_i_part_grid *g, const sunder_i_convex_pieces *parts);
+void sunder_i_part_grid_free(sunder_i_part_grid *g);
 
 static inline uint32_t sunder_i_part_grid_column(const sunder_i_part_grid *grid, int axis, int64_t at)
 {

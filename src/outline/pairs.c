@@ -33,34 +33,34 @@ static bool goes_on(sunder_i_pairs *p, uint32_t line, uint32_t part)
     return true;
 }
 
-bool sunder_i_pairs_begin(sunder_i_pairs *p, uint32_t line, uint32_t part)
+bool sunder_i_pairs_begin(sunder_i_pairs *pairs, uint32_t line, uint32_t part)
 {
-    if (!reserve(p)) return false;
-    if (goes_on(p, line, part)) return sunder_i_pairs_add(p, line, part);
-    p->row = p->n;
-    p->word[p->n++] = part;
-    p->word[p->n++] = line | MARK;
-    p->count++;
+    if (!reserve(pairs)) return false;
+    if (goes_on(pairs, line, part)) return sunder_i_pairs_add(pairs, line, part);
+    pairs->row = pairs->n;
+    pairs->word[pairs->n++] = part;
+    pairs->word[pairs->n++] = line | MARK;
+    pairs->count++;
     return true;
 }
 
-sunder_i_pairs_mark sunder_i_pairs_mark_here(sunder_i_pairs *p)
+sunder_i_pairs_mark sunder_i_pairs_mark_here(sunder_i_pairs *pairs)
 {
-    p->row = SIZE_MAX; /* no row that is there grows */
-    return (sunder_i_pairs_mark){p->n, p->count};
+    pairs->row = SIZE_MAX; /* no row that is there grows */
+    return (sunder_i_pairs_mark){pairs->n, pairs->count};
 }
 
-void sunder_i_pairs_take_back(sunder_i_pairs *p, sunder_i_pairs_mark mark)
+void sunder_i_pairs_take_back(sunder_i_pairs *pairs, sunder_i_pairs_mark mark)
 {
-    p->n = mark.n;
-    p->count = mark.count;
-    p->row = SIZE_MAX;
+    pairs->n = mark.n;
+    pairs->count = mark.count;
+    pairs->row = SIZE_MAX;
 }
 
-void sunder_i_pairs_free(sunder_i_pairs *p)
+void sunder_i_pairs_free(sunder_i_pairs *pairs)
 {
-    sunder_i_free(p->word);
-    memset(p, 0, sizeof *p);
+    sunder_i_free(pairs->word);
+    memset(pairs, 0, sizeof *pairs);
 }
 
 /* ---- Line by line ---- */
@@ -116,17 +116,17 @@ static bool turn_over(const lists *of_part, uint32_t parts, uint32_t lines, sund
     return true;
 }
 
-bool sunder_i_pairs_by_line(const sunder_i_pairs *p, const bool *wanted, uint32_t lines, uint32_t parts,
+bool sunder_i_pairs_by_line(const sunder_i_pairs *pairs, const bool *wanted, uint32_t lines, uint32_t parts,
                             sunder_i_line_parts *out)
 {
     lists of_part = {sunder_i_calloc(parts, sizeof *of_part.end), NULL};
     memset(out, 0, sizeof *out);
     bool ok = of_part.end;
-    if (ok && p->n > 0) {
-        list_lines(p, wanted, &of_part);
+    if (ok && pairs->n > 0) {
+        list_lines(pairs, wanted, &of_part);
         of_part.item = sunder_i_alloc(begin_lists(of_part.end, parts), sizeof *of_part.item);
         ok = of_part.item;
-        if (ok) list_lines(p, wanted, &of_part);
+        if (ok) list_lines(pairs, wanted, &of_part);
     }
     ok = ok && turn_over(&of_part, parts, lines, out);
     sunder_i_free(of_part.end);

@@ -24,77 +24,80 @@ static bool are_plain(const sunder_i_lattice *l, sunder_i_point a, sunder_i_poin
            (sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b) && sunder_i_point_is_plain(c) && !l->pooled);
 }
 
-sunder_i_fraction sunder_i_crossing(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c,
+sunder_i_fraction sunder_i_crossing(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c,
                                     sunder_i_point d)
 {
-    l->counts.segment_intersections++;
-    if (are_plain(l, a, b, c) && (l->narrow || sunder_i_point_is_plain(d))) {
+    lattice->counts.segment_intersections++;
+    if (are_plain(lattice, a, b, c) && (lattice->narrow || sunder_i_point_is_plain(d))) {
         const sunder_i_point w = sunder_i_narrow_sub(d, c);
         return sunder_i_narrow_fraction(sunder_i_narrow_cross(sunder_i_narrow_sub(c, a), w),
                                         sunder_i_narrow_cross(sunder_i_narrow_sub(b, a), w));
     }
-    const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    sunder_i_arena *m = &l->scratch;
-    const sunder_i_rational_point p = sunder_i_rational_get(m, l, a), q = sunder_i_rational_get(m, l, c);
-    const sunder_i_rational_point w = sunder_i_rational_sub(m, sunder_i_rational_get(m, l, d), q);
-    const sunder_i_rational_point u = sunder_i_rational_sub(m, sunder_i_rational_get(m, l, b), p),
+    const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
+    sunder_i_arena *m = &lattice->scratch;
+    const sunder_i_rational_point p = sunder_i_rational_get(m, lattice, a), q = sunder_i_rational_get(m, lattice, c);
+    const sunder_i_rational_point w = sunder_i_rational_sub(m, sunder_i_rational_get(m, lattice, d), q);
+    const sunder_i_rational_point u = sunder_i_rational_sub(m, sunder_i_rational_get(m, lattice, b), p),
                                   v = sunder_i_rational_sub(m, q, p);
-    const sunder_i_fraction f = pooled_fraction(l, sunder_i_times(m, sunder_i_rational_cross(m, v, w), u.w),
+    const sunder_i_fraction f = pooled_fraction(lattice, sunder_i_times(m, sunder_i_rational_cross(m, v, w), u.w),
                                                 sunder_i_times(m, sunder_i_rational_cross(m, u, w), v.w));
-    sunder_i_lattice_end(l, mark);
+    sunder_i_lattice_end(lattice, mark);
     return f;
 }
 
-sunder_i_fraction sunder_i_along(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
+sunder_i_fraction sunder_i_along(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c)
 {
     /* Collinear: the ratio of either coordinate will do; take the longer one. */
-    if (are_plain(l, a, b, c)) {
+    if (are_plain(lattice, a, b, c)) {
         const sunder_i_point u = sunder_i_narrow_sub(b, a), v = sunder_i_narrow_sub(c, a);
         const uint64_t ux = (uint64_t)(u.x < 0 ? -u.x : u.x), uy = (uint64_t)(u.y < 0 ? -u.y : u.y);
         return ux >= uy ? sunder_i_narrow_fraction(v.x, u.x) : sunder_i_narrow_fraction(v.y, u.y);
     }
-    const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    sunder_i_arena *m = &l->scratch;
-    const sunder_i_rational_point u = sunder_i_rational_diff(m, l, b, a), v = sunder_i_rational_diff(m, l, c, a);
+    const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
+    sunder_i_arena *m = &lattice->scratch;
+    const sunder_i_rational_point u = sunder_i_rational_diff(m, lattice, b, a),
+                                  v = sunder_i_rational_diff(m, lattice, c, a);
     const bool by_x = sunder_i_big_sign(u.x) != 0;
     const sunder_i_fraction f =
-        pooled_fraction(l, sunder_i_times(m, by_x ? v.x : v.y, u.w), sunder_i_times(m, by_x ? u.x : u.y, v.w));
-    sunder_i_lattice_end(l, mark);
+        pooled_fraction(lattice, sunder_i_times(m, by_x ? v.x : v.y, u.w), sunder_i_times(m, by_x ? u.x : u.y, v.w));
+    sunder_i_lattice_end(lattice, mark);
     return f;
 }
 
-sunder_i_fraction sunder_i_foot(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
+sunder_i_fraction sunder_i_foot(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c)
 {
-    if (are_plain(l, a, b, c)) {
+    if (are_plain(lattice, a, b, c)) {
         const sunder_i_point u = sunder_i_narrow_sub(b, a);
         return sunder_i_narrow_fraction(sunder_i_narrow_dot(sunder_i_narrow_sub(c, a), u), sunder_i_narrow_dot(u, u));
     }
-    const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    sunder_i_arena *m = &l->scratch;
-    const sunder_i_rational_point u = sunder_i_rational_diff(m, l, b, a), v = sunder_i_rational_diff(m, l, c, a);
-    const sunder_i_fraction f = pooled_fraction(l, sunder_i_times(m, sunder_i_rational_dot(m, v, u), u.w),
+    const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
+    sunder_i_arena *m = &lattice->scratch;
+    const sunder_i_rational_point u = sunder_i_rational_diff(m, lattice, b, a),
+                                  v = sunder_i_rational_diff(m, lattice, c, a);
+    const sunder_i_fraction f = pooled_fraction(lattice, sunder_i_times(m, sunder_i_rational_dot(m, v, u), u.w),
                                                 sunder_i_times(m, sunder_i_rational_dot(m, u, u), v.w));
-    sunder_i_lattice_end(l, mark);
+    sunder_i_lattice_end(lattice, mark);
     return f;
 }
 
-sunder_i_fraction sunder_i_fraction_int(sunder_i_lattice *l, int n)
+sunder_i_fraction sunder_i_fraction_int(sunder_i_lattice *lattice, int n)
 {
-    (void)l;
+    (void)lattice;
     return (sunder_i_fraction){n, 1, n};
 }
 
-sunder_i_ratio sunder_i_fraction_read(sunder_i_arena *arena, const sunder_i_lattice *l, const sunder_i_fraction *t)
+sunder_i_ratio sunder_i_fraction_read(sunder_i_arena *arena, const sunder_i_lattice *lattice,
+                                      const sunder_i_fraction *t)
 {
-    if (t->den == 0) return sunder_i_lattice_read(arena, l, (int64_t)t->num);
+    if (t->den == 0) return sunder_i_lattice_read(arena, lattice, (int64_t)t->num);
     return (sunder_i_ratio){sunder_i_big_i128(arena, sunder_i_det_i128(t->num)),
                             sunder_i_big_i128(arena, sunder_i_det_i128(t->den))};
 }
 
-int sunder_i_fraction_sign(const sunder_i_lattice *l, const sunder_i_fraction *t)
+int sunder_i_fraction_sign(const sunder_i_lattice *lattice, const sunder_i_fraction *t)
 {
     if (t->den != 0) return sunder_i_det_sign(t->num);
-    return sunder_i_big_sign(l->pool[(int64_t)t->num - INT64_MIN].ratio.num);
+    return sunder_i_big_sign(lattice->pool[(int64_t)t->num - INT64_MIN].ratio.num);
 }
 
 /* Of two that doubles leave open: they are no farther apart than `apart`. */
@@ -118,12 +121,12 @@ static __attribute__((noinline)) int exact_fraction_cmp(sunder_i_lattice *l, con
     return c;
 }
 
-int sunder_i_fraction_cmp(sunder_i_lattice *l, const sunder_i_fraction *s, const sunder_i_fraction *t)
+int sunder_i_fraction_cmp(sunder_i_lattice *lattice, const sunder_i_fraction *s, const sunder_i_fraction *t)
 {
-    l->counts.comparisons++;
+    lattice->counts.comparisons++;
     const double d = s->value - t->value;
     const double bound = SUNDER_I_FRACTION_ERROR * (1 + fabs(s->value) + fabs(t->value));
     if (d > bound) return 1;
     if (d < -bound) return -1;
-    return SUNDER_I_DOUBLES_MAY_ERR ? exact_fraction_cmp(l, s, t, 2 * bound) : 0;
+    return SUNDER_I_DOUBLES_MAY_ERR ? exact_fraction_cmp(lattice, s, t, 2 * bound) : 0;
 }

@@ -36,52 +36,56 @@ static sunder_i_hpoint pooled(sunder_i_lattice *l, sunder_i_rational_point v)
     return p;
 }
 
-sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_fraction *t)
+sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b,
+                                   const sunder_i_fraction *t)
 {
-    if (l->narrow || (t->den != 0 && sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b) && !l->pooled)) {
+    if (lattice->narrow ||
+        (t->den != 0 && sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b) && !lattice->pooled)) {
         const sunder_i_point u = sunder_i_narrow_sub(b, a);
         const sunder_i_i128 num = sunder_i_det_i128(t->num), den = sunder_i_det_i128(t->den);
-        return native(l, sunder_i_mul_add(a.x, den, u.x, num), sunder_i_mul_add(a.y, den, u.y, num), den);
+        return native(lattice, sunder_i_mul_add(a.x, den, u.x, num), sunder_i_mul_add(a.y, den, u.y, num), den);
     }
     /* a + (num / den) u with a over v, u = b - a over w: (a w den + u v num) / (v w den), and less where w = v. */
-    const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    sunder_i_arena *m = &l->scratch;
-    const sunder_i_rational_point o = sunder_i_rational_get(m, l, a);
-    const sunder_i_rational_point u = sunder_i_rational_sub(m, sunder_i_rational_get(m, l, b), o);
-    const sunder_i_ratio f = sunder_i_fraction_read(m, l, t);
+    const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
+    sunder_i_arena *m = &lattice->scratch;
+    const sunder_i_rational_point o = sunder_i_rational_get(m, lattice, a);
+    const sunder_i_rational_point u = sunder_i_rational_sub(m, sunder_i_rational_get(m, lattice, b), o);
+    const sunder_i_ratio f = sunder_i_fraction_read(m, lattice, t);
     const bool same = sunder_i_big_cmp(o.w, u.w) == 0;
     const sunder_i_big num = same ? f.num : sunder_i_times(m, f.num, o.w);
     const sunder_i_big by = same ? f.den : sunder_i_times(m, f.den, u.w);
     const sunder_i_hpoint p = pooled(
-        l, (sunder_i_rational_point){sunder_i_big_add(m, sunder_i_big_mul(m, o.x, by), sunder_i_big_mul(m, u.x, num)),
-                                     sunder_i_big_add(m, sunder_i_big_mul(m, o.y, by), sunder_i_big_mul(m, u.y, num)),
-                                     sunder_i_times(m, by, o.w)});
-    sunder_i_lattice_end(l, mark);
+        lattice,
+        (sunder_i_rational_point){sunder_i_big_add(m, sunder_i_big_mul(m, o.x, by), sunder_i_big_mul(m, u.x, num)),
+                                  sunder_i_big_add(m, sunder_i_big_mul(m, o.y, by), sunder_i_big_mul(m, u.y, num)),
+                                  sunder_i_times(m, by, o.w)});
+    sunder_i_lattice_end(lattice, mark);
     return p;
 }
 
-sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *l, sunder_i_point a)
+sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *lattice, sunder_i_point a)
 {
-    if (l->narrow)
+    if (lattice->narrow)
         return (sunder_i_hpoint){sunder_i_narrow_i256(a.x), sunder_i_narrow_i256(a.y), 1, (double)a.x, (double)a.y};
     if (sunder_i_point_is_plain(a))
-        return (sunder_i_hpoint){sunder_i_narrow_i256(a.x), sunder_i_narrow_i256(a.y), 1, sunder_i_approx(l, a.x),
-                                 sunder_i_approx(l, a.y)};
-    const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    const sunder_i_rational_point v = sunder_i_rational_get(&l->scratch, l, a);
+        return (sunder_i_hpoint){sunder_i_narrow_i256(a.x), sunder_i_narrow_i256(a.y), 1, sunder_i_approx(lattice, a.x),
+                                 sunder_i_approx(lattice, a.y)};
+    const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
+    const sunder_i_rational_point v = sunder_i_rational_get(&lattice->scratch, lattice, a);
     sunder_i_hpoint p;
-    if (!sunder_i_is_plain(a.x) && !sunder_i_is_plain(a.y) && l->pool[a.x - INT64_MIN].ratio.den.limb == v.w.limb &&
-        l->pool[a.y - INT64_MIN].ratio.den.limb == v.w.limb) {
+    if (!sunder_i_is_plain(a.x) && !sunder_i_is_plain(a.y) &&
+        lattice->pool[a.x - INT64_MIN].ratio.den.limb == v.w.limb &&
+        lattice->pool[a.y - INT64_MIN].ratio.den.limb == v.w.limb) {
         /* The point's own handles will do. */
         memset(&p, 0, sizeof p);
-        p.ax = sunder_i_approx(l, a.x);
-        p.ay = sunder_i_approx(l, a.y);
+        p.ax = sunder_i_approx(lattice, a.x);
+        p.ay = sunder_i_approx(lattice, a.y);
         p.x.limb[0] = (uint64_t)a.x;
         p.y.limb[0] = (uint64_t)a.y;
     } else {
-        p = pooled(l, v);
+        p = pooled(lattice, v);
     }
-    sunder_i_lattice_end(l, mark);
+    sunder_i_lattice_end(lattice, mark);
     return p;
 }
 
@@ -100,26 +104,28 @@ static bool is_native(const sunder_i_lattice *l, sunder_i_rational_point p)
            (!l->pooled && sunder_i_big_bits(p.x) < 256 && sunder_i_big_bits(p.y) < 256 && sunder_i_big_bits(p.w) < 127);
 }
 
-sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *l, sunder_i_rational_point v)
+sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *lattice, sunder_i_rational_point v)
 {
-    SUNDER_I_ASSERT(l->arena.failed || l->scratch.failed || sunder_i_big_sign(v.w) > 0);
-    if (is_native(l, v)) {
+    SUNDER_I_ASSERT(lattice->arena.failed || lattice->scratch.failed || sunder_i_big_sign(v.w) > 0);
+    if (is_native(lattice, v)) {
         const sunder_i_i256 d = big_i256(v.w);
-        return native(l, big_i256(v.x), big_i256(v.y), (sunder_i_i128)((sunder_i_u128)d.limb[1] << 64 | d.limb[0]));
+        return native(lattice, big_i256(v.x), big_i256(v.y),
+                      (sunder_i_i128)((sunder_i_u128)d.limb[1] << 64 | d.limb[0]));
     }
-    const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    const sunder_i_hpoint p = pooled(l, v);
-    sunder_i_lattice_end(l, mark);
+    const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
+    const sunder_i_hpoint p = pooled(lattice, v);
+    sunder_i_lattice_end(lattice, mark);
     return p;
 }
 
-sunder_i_rational_point sunder_i_hpoint_read(sunder_i_arena *arena, const sunder_i_lattice *l, const sunder_i_hpoint *p)
+sunder_i_rational_point sunder_i_hpoint_read(sunder_i_arena *arena, const sunder_i_lattice *lattice,
+                                             const sunder_i_hpoint *p)
 {
     if (p->w != 0)
         return (sunder_i_rational_point){sunder_i_big_i256(arena, p->x), sunder_i_big_i256(arena, p->y),
                                          sunder_i_big_i128(arena, p->w)};
-    const sunder_i_ratio x = sunder_i_lattice_read(arena, l, (int64_t)p->x.limb[0]);
-    return (sunder_i_rational_point){x.num, sunder_i_lattice_read(arena, l, (int64_t)p->y.limb[0]).num, x.den};
+    const sunder_i_ratio x = sunder_i_lattice_read(arena, lattice, (int64_t)p->x.limb[0]);
+    return (sunder_i_rational_point){x.num, sunder_i_lattice_read(arena, lattice, (int64_t)p->y.limb[0]).num, x.den};
 }
 
 static sunder_i_u128 low_bits(const sunder_i_i256 *a)
@@ -176,36 +182,36 @@ static int filter(double a, double b)
     return d > bound ? 1 : d < -bound ? -1 : 0;
 }
 
-int sunder_i_hpoint_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
+int sunder_i_hpoint_cmp(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
-    l->counts.comparisons++;
+    lattice->counts.comparisons++;
     int c = filter(a->ax, b->ax);
     if (c) return c;
-    c = coordinate_cmp(l, a, b, 0);
+    c = coordinate_cmp(lattice, a, b, 0);
     if (c) return c;
     c = filter(a->ay, b->ay);
-    return c ? c : coordinate_cmp(l, a, b, 1);
+    return c ? c : coordinate_cmp(lattice, a, b, 1);
 }
 
-int sunder_i_hpoint_cmp_x(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
+int sunder_i_hpoint_cmp_x(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
-    l->counts.comparisons++;
+    lattice->counts.comparisons++;
     const int c = filter(a->ax, b->ax);
-    return c ? c : coordinate_cmp(l, a, b, 0);
+    return c ? c : coordinate_cmp(lattice, a, b, 0);
 }
 
-int sunder_i_hpoint_cmp_y(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
+int sunder_i_hpoint_cmp_y(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
-    l->counts.comparisons++;
+    lattice->counts.comparisons++;
     const int c = filter(a->ay, b->ay);
-    return c ? c : coordinate_cmp(l, a, b, 1);
+    return c ? c : coordinate_cmp(lattice, a, b, 1);
 }
 
-bool sunder_i_hpoint_equal(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
+bool sunder_i_hpoint_equal(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
-    l->counts.comparisons++;
+    lattice->counts.comparisons++;
     if (filter(a->ax, b->ax) || filter(a->ay, b->ay)) return false;
-    return coordinate_cmp(l, a, b, 0) == 0 && coordinate_cmp(l, a, b, 1) == 0;
+    return coordinate_cmp(lattice, a, b, 0) == 0 && coordinate_cmp(lattice, a, b, 1) == 0;
 }
 
 /* As in orient.c, the doubles of the point being off by 2^-49 of the largest coordinate: 2^4 times the bound there. */
@@ -227,18 +233,18 @@ static uint64_t mix(uint64_t h, uint64_t v)
 }
 
 /* Of the square of 2^-64 units that the point is in: floor(2^64 x / w) depends on the value of the fraction alone. */
-uint64_t sunder_i_hpoint_hash(sunder_i_lattice *l, const sunder_i_hpoint *p)
+uint64_t sunder_i_hpoint_hash(sunder_i_lattice *lattice, const sunder_i_hpoint *a)
 {
-    const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    sunder_i_arena *m = &l->scratch;
-    const sunder_i_rational_point at = sunder_i_hpoint_read(m, l, p);
+    const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
+    sunder_i_arena *m = &lattice->scratch;
+    const sunder_i_rational_point at = sunder_i_hpoint_read(m, lattice, a);
     uint64_t h = 0;
     for (int k = 0; k < 2; k++) {
         const sunder_i_big v = sunder_i_big_div_floor(m, sunder_i_big_shl(m, sunder_i_rational_axis(&at, k), 64), at.w);
         for (long i = 0; i < labs(v.size); i++) h = mix(h, v.limb[i]);
         h = mix(h, (uint64_t)v.size);
     }
-    sunder_i_lattice_end(l, mark);
+    sunder_i_lattice_end(lattice, mark);
     return h;
 }
 
@@ -255,10 +261,10 @@ static __attribute__((noinline)) int exact_orient_hpoint(sunder_i_lattice *l, su
     return s;
 }
 
-int sunder_i_orient_hpoint(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_hpoint *c)
+int sunder_i_orient_hpoint(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, const sunder_i_hpoint *c)
 {
-    l->counts.orientation_tests++;
-    if (l->arena.failed) return 0;
-    const int s = l->pooled ? 0 : filter_side(l, a, b, c);
-    return s || !SUNDER_I_DOUBLES_MAY_ERR ? s : exact_orient_hpoint(l, a, b, c);
+    lattice->counts.orientation_tests++;
+    if (lattice->arena.failed) return 0;
+    const int s = lattice->pooled ? 0 : filter_side(lattice, a, b, c);
+    return s || !SUNDER_I_DOUBLES_MAY_ERR ? s : exact_orient_hpoint(lattice, a, b, c);
 }

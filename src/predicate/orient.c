@@ -37,26 +37,26 @@ static __attribute__((noinline)) int exact_int_cmp(sunder_i_lattice *l, int64_t 
     return s;
 }
 
-int sunder_i_int_cmp(sunder_i_lattice *l, int64_t a, int64_t b)
+int sunder_i_int_cmp(sunder_i_lattice *lattice, int64_t a, int64_t b)
 {
-    if (l->narrow || (sunder_i_is_plain(a) && sunder_i_is_plain(b))) return (a > b) - (a < b);
-    if (l->arena.failed) return 0;
-    const double x = sunder_i_approx(l, a), y = sunder_i_approx(l, b);
+    if (lattice->narrow || (sunder_i_is_plain(a) && sunder_i_is_plain(b))) return (a > b) - (a < b);
+    if (lattice->arena.failed) return 0;
+    const double x = sunder_i_approx(lattice, a), y = sunder_i_approx(lattice, b);
     const int c = sign_of(x - y, 0x1p-51 * (fabs(x) + fabs(y)) + SMALLEST);
-    return c ? c : exact_int_cmp(l, a, b);
+    return c ? c : exact_int_cmp(lattice, a, b);
 }
 
-int sunder_i_point_cmp(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b)
+int sunder_i_point_cmp(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b)
 {
-    l->counts.comparisons++;
-    const int c = sunder_i_int_cmp(l, a.x, b.x);
-    return c ? c : sunder_i_int_cmp(l, a.y, b.y);
+    lattice->counts.comparisons++;
+    const int c = sunder_i_int_cmp(lattice, a.x, b.x);
+    return c ? c : sunder_i_int_cmp(lattice, a.y, b.y);
 }
 
-bool sunder_i_point_equal(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b)
+bool sunder_i_point_equal(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b)
 {
-    if (l->narrow) return a.x == b.x && a.y == b.y;
-    return sunder_i_int_cmp(l, a.x, b.x) == 0 && sunder_i_int_cmp(l, a.y, b.y) == 0;
+    if (lattice->narrow) return a.x == b.x && a.y == b.y;
+    return sunder_i_int_cmp(lattice, a.x, b.x) == 0 && sunder_i_int_cmp(lattice, a.y, b.y) == 0;
 }
 
 static bool both_plain(sunder_i_point a, sunder_i_point b)
@@ -87,14 +87,14 @@ static sunder_i_point combine(sunder_i_lattice *l, sunder_i_point a, sunder_i_po
     return r;
 }
 
-sunder_i_point sunder_i_point_add(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b)
+sunder_i_point sunder_i_point_add(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b)
 {
-    return l->narrow ? (sunder_i_point){a.x + b.x, a.y + b.y} : combine(l, a, b, 1);
+    return lattice->narrow ? (sunder_i_point){a.x + b.x, a.y + b.y} : combine(lattice, a, b, 1);
 }
 
-sunder_i_point sunder_i_point_sub(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b)
+sunder_i_point sunder_i_point_sub(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b)
 {
-    return l->narrow ? (sunder_i_point){a.x - b.x, a.y - b.y} : combine(l, a, b, -1);
+    return lattice->narrow ? (sunder_i_point){a.x - b.x, a.y - b.y} : combine(lattice, a, b, -1);
 }
 
 static int64_t negated(sunder_i_lattice *l, int64_t n)
@@ -104,24 +104,24 @@ static int64_t negated(sunder_i_lattice *l, int64_t n)
     return sunder_i_lattice_ratio(l, sunder_i_big_neg(r.num), r.den);
 }
 
-sunder_i_point sunder_i_point_neg(sunder_i_lattice *l, sunder_i_point a)
+sunder_i_point sunder_i_point_neg(sunder_i_lattice *lattice, sunder_i_point a)
 {
-    return (sunder_i_point){negated(l, a.x), negated(l, a.y)};
+    return (sunder_i_point){negated(lattice, a.x), negated(lattice, a.y)};
 }
 
-void sunder_i_point_difference(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, double *dx, double *dy)
+void sunder_i_point_difference(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, double *dx, double *dy)
 {
     *dx = *dy = 0;
-    if (l->arena.failed) return;
-    if (l->approx_shift == 0 && (l->narrow || both_plain(a, b))) {
+    if (lattice->arena.failed) return;
+    if (lattice->approx_shift == 0 && (lattice->narrow || both_plain(a, b))) {
         *dx = (double)(a.x - b.x);
         *dy = (double)(a.y - b.y);
         return;
     }
-    const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    const sunder_i_rational_point u = sunder_i_rational_diff(&l->scratch, l, a, b);
-    sunder_i_rational_doubles(&l->scratch, u, -l->approx_shift, dx, dy);
-    sunder_i_lattice_end(l, mark);
+    const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
+    const sunder_i_rational_point u = sunder_i_rational_diff(&lattice->scratch, lattice, a, b);
+    sunder_i_rational_doubles(&lattice->scratch, u, -lattice->approx_shift, dx, dy);
+    sunder_i_lattice_end(lattice, mark);
 }
 
 /* ---- Side ---- */
@@ -154,14 +154,14 @@ static __attribute__((noinline)) int exact_orient(sunder_i_lattice *l, sunder_i_
     return s;
 }
 
-int sunder_i_orient(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
+int sunder_i_orient(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c)
 {
-    l->counts.orientation_tests++;
-    if (l->narrow || (both_plain(a, b) && sunder_i_point_is_plain(c)))
+    lattice->counts.orientation_tests++;
+    if (lattice->narrow || (both_plain(a, b) && sunder_i_point_is_plain(c)))
         return sunder_i_det_sign(sunder_i_narrow_orient(a, b, c));
-    if (l->arena.failed) return 0;
-    const int s = l->pooled ? 0 : filter_orient(l, a, b, c);
-    return s ? s : exact_orient(l, a, b, c);
+    if (lattice->arena.failed) return 0;
+    const int s = lattice->pooled ? 0 : filter_orient(lattice, a, b, c);
+    return s ? s : exact_orient(lattice, a, b, c);
 }
 
 /* ---- Products of two vectors ---- */
@@ -177,25 +177,25 @@ static __attribute__((noinline)) int exact_product(sunder_i_lattice *l, sunder_i
     return s;
 }
 
-int sunder_i_cross_sign(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v)
+int sunder_i_cross_sign(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_point v)
 {
-    l->counts.orientation_tests++;
-    if (l->narrow || both_plain(u, v)) return sunder_i_det_sign(sunder_i_narrow_cross(u, v));
-    if (l->arena.failed) return 0;
-    const int s = l->pooled ? 0
-                            : filter_products(sunder_i_approx(l, u.x) * sunder_i_approx(l, v.y),
-                                              -sunder_i_approx(l, u.y) * sunder_i_approx(l, v.x));
-    return s ? s : exact_product(l, u, v, true);
+    lattice->counts.orientation_tests++;
+    if (lattice->narrow || both_plain(u, v)) return sunder_i_det_sign(sunder_i_narrow_cross(u, v));
+    if (lattice->arena.failed) return 0;
+    const int s = lattice->pooled ? 0
+                                  : filter_products(sunder_i_approx(lattice, u.x) * sunder_i_approx(lattice, v.y),
+                                                    -sunder_i_approx(lattice, u.y) * sunder_i_approx(lattice, v.x));
+    return s ? s : exact_product(lattice, u, v, true);
 }
 
-int sunder_i_dot_sign(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v)
+int sunder_i_dot_sign(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_point v)
 {
-    if (l->narrow || both_plain(u, v)) return sunder_i_det_sign(sunder_i_narrow_dot(u, v));
-    if (l->arena.failed) return 0;
-    const int s = l->pooled ? 0
-                            : filter_products(sunder_i_approx(l, u.x) * sunder_i_approx(l, v.x),
-                                              sunder_i_approx(l, u.y) * sunder_i_approx(l, v.y));
-    return s ? s : exact_product(l, u, v, false);
+    if (lattice->narrow || both_plain(u, v)) return sunder_i_det_sign(sunder_i_narrow_dot(u, v));
+    if (lattice->arena.failed) return 0;
+    const int s = lattice->pooled ? 0
+                                  : filter_products(sunder_i_approx(lattice, u.x) * sunder_i_approx(lattice, v.x),
+                                                    sunder_i_approx(lattice, u.y) * sunder_i_approx(lattice, v.y));
+    return s ? s : exact_product(lattice, u, v, false);
 }
 
 static int number_sign(const sunder_i_lattice *l, int64_t n)
@@ -203,15 +203,15 @@ static int number_sign(const sunder_i_lattice *l, int64_t n)
     return sunder_i_is_plain(n) ? (n > 0) - (n < 0) : sunder_i_big_sign(l->pool[n - INT64_MIN].ratio.num);
 }
 
-int sunder_i_direction_half(sunder_i_lattice *l, sunder_i_point u)
+int sunder_i_direction_half(sunder_i_lattice *lattice, sunder_i_point u)
 {
-    const int sx = number_sign(l, u.x), sy = number_sign(l, u.y);
+    const int sx = number_sign(lattice, u.x), sy = number_sign(lattice, u.y);
     return sy < 0 || (sy == 0 && sx < 0);
 }
 
-int sunder_i_angle_cmp(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v)
+int sunder_i_angle_cmp(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_point v)
 {
-    const int hu = sunder_i_direction_half(l, u), hv = sunder_i_direction_half(l, v);
+    const int hu = sunder_i_direction_half(lattice, u), hv = sunder_i_direction_half(lattice, v);
     if (hu != hv) return hu < hv ? -1 : 1;
-    return -sunder_i_cross_sign(l, u, v);
+    return -sunder_i_cross_sign(lattice, u, v);
 }

@@ -25,28 +25,29 @@ static int sign_beyond(double det, double bound, double sum)
     return det > bound ? 1 : det < -bound ? -1 : SUNDER_I_PASSAGE_UNSURE;
 }
 
-void sunder_i_passage_box(const sunder_i_passage *p, double box[4])
+void sunder_i_passage_box(const sunder_i_passage *passage, double box[4])
 {
     for (int k = 0; k < 2; k++) {
         /* Two roundings, each by u of what is there: 3 u (|a| + |t| + |s|) is more than both. */
-        const double end = p->from[k] + (p->t[k] - p->s[k]);
-        const double slack = 4 * UNIT * (fabs(p->from[k]) + fabs(p->t[k]) + fabs(p->s[k]));
+        const double end = passage->from[k] + (passage->t[k] - passage->s[k]);
+        const double slack = 4 * UNIT * (fabs(passage->from[k]) + fabs(passage->t[k]) + fabs(passage->s[k]));
         const bool known = isfinite(end) && isfinite(slack);
-        box[k] = known ? sunder_i_min(p->from[k], end - slack) : -INFINITY;
-        box[k + 2] = known ? sunder_i_max(p->from[k], end + slack) : INFINITY;
+        box[k] = known ? sunder_i_min(passage->from[k], end - slack) : -INFINITY;
+        box[k + 2] = known ? sunder_i_max(passage->from[k], end + slack) : INFINITY;
     }
 }
 
-int sunder_i_passage_side_filter(const sunder_i_passage *p, const double c[2])
+int sunder_i_passage_side_filter(const sunder_i_passage *passage, const double c[2])
 {
-    const double left = (p->t[0] - p->s[0]) * (c[1] - p->from[1]), right = (p->t[1] - p->s[1]) * (c[0] - p->from[0]);
+    const double left = (passage->t[0] - passage->s[0]) * (c[1] - passage->from[1]),
+                 right = (passage->t[1] - passage->s[1]) * (c[0] - passage->from[0]);
     const double sum = fabs(left) + fabs(right);
     return sign_beyond(left - right, 5 * UNIT * sum, sum);
 }
 
-int sunder_i_passage_side_exact(const sunder_i_passage *p, const double c[2])
+int sunder_i_passage_side_exact(const sunder_i_passage *passage, const double c[2])
 {
-    const double *a = p->from, *t = p->t, *s = p->s;
+    const double *a = passage->from, *t = passage->t, *s = passage->s;
     sunder_i_accumulator det = {{0}};
     sunder_i_accumulator_add(&det, t[0], c[1]);
     sunder_i_accumulator_sub(&det, t[0], a[1]);
@@ -59,19 +60,20 @@ int sunder_i_passage_side_exact(const sunder_i_passage *p, const double c[2])
     return sunder_i_accumulator_sign(&det);
 }
 
-int sunder_i_passage_end_filter(const sunder_i_passage *p, const double c[2], const double d[2])
+int sunder_i_passage_end_filter(const sunder_i_passage *passage, const double c[2], const double d[2])
 {
     const double dx = d[0] - c[0], dy = d[1] - c[1];
-    const double left = dx * (p->from[1] - c[1]), right = dy * (p->from[0] - c[0]);
-    const double left_u = dx * (p->t[1] - p->s[1]), right_u = dy * (p->t[0] - p->s[0]);
+    const double left = dx * (passage->from[1] - c[1]), right = dy * (passage->from[0] - c[0]);
+    const double left_u = dx * (passage->t[1] - passage->s[1]), right_u = dy * (passage->t[0] - passage->s[0]);
     const double sum = (fabs(left) + fabs(right)) + (fabs(left_u) + fabs(right_u));
     return sign_beyond((left - right) + (left_u - right_u), 5 * UNIT * sum, sum);
 }
 
 /* D x e - D x c of the end e = a + t - s, multiplied out; D x c = d x c. */
-int sunder_i_passage_end_exact(const sunder_i_passage *p, const double c[2], const double d[2])
+int sunder_i_passage_end_exact(const sunder_i_passage *passage, const double c[2], const double d[2])
 {
-    const double part[3][2] = {{p->from[0], p->from[1]}, {p->t[0], p->t[1]}, {-p->s[0], -p->s[1]}};
+    const double part[3][2] = {
+        {passage->from[0], passage->from[1]}, {passage->t[0], passage->t[1]}, {-passage->s[0], -passage->s[1]}};
     sunder_i_accumulator det = {{0}};
     for (int k = 0; k < 3; k++) {
         sunder_i_accumulator_add(&det, d[0], part[k][1]);
@@ -131,10 +133,10 @@ static bool share_coordinates(const void *context)
     return true;
 }
 
-bool sunder_i_passage_meets(const sunder_i_passage *p, const double c[2], const double d[2])
+bool sunder_i_passage_meets(const sunder_i_passage *passage, const double c[2], const double d[2])
 {
-    const meeting m = {p, c, d};
-    const int sc = side_of(p, c), sd = side_of(p, d);
+    const meeting m = {passage, c, d};
+    const int sc = side_of(passage, c), sd = side_of(passage, d);
     if (sc * sd > 0) return false;
-    return sunder_i_sides_meet(sc, sd, from_side(p, c, d), end_side(p, c, d), share_coordinates, &m);
+    return sunder_i_sides_meet(sc, sd, from_side(passage, c, d), end_side(passage, c, d), share_coordinates, &m);
 }

@@ -73,7 +73,7 @@ sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *lattice, sunder_i_point a, 
 sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *lattice, sunder_i_point a);
 /* From its integers, which are copied. On a narrow lattice x, y < 2^255 and w < 2^127, as of crossings; on
  * another one that is so stays native too. */
-sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *lattice, sunder_i_rational_point p);
+sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *lattice, sunder_i_rational_point v);
 /* Lexicographic. */
 int sunder_i_hpoint_cmp(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b);
 /* By x alone, and by y. */

@@ -12,9 +12,9 @@ static bool equal(sunder_i_big a, sunder_i_big b)
     return a.size == 1 ? a.limb[0] == b.limb[0] : a.limb == b.limb || sunder_i_big_cmp(a, b) == 0;
 }
 
-sunder_i_rational_point sunder_i_rational_get(sunder_i_arena *arena, const sunder_i_lattice *l, sunder_i_point a)
+sunder_i_rational_point sunder_i_rational_get(sunder_i_arena *arena, const sunder_i_lattice *lattice, sunder_i_point a)
 {
-    const sunder_i_ratio x = sunder_i_lattice_read(arena, l, a.x), y = sunder_i_lattice_read(arena, l, a.y);
+    const sunder_i_ratio x = sunder_i_lattice_read(arena, lattice, a.x), y = sunder_i_lattice_read(arena, lattice, a.y);
     if (equal(x.den, y.den)) return (sunder_i_rational_point){x.num, y.num, x.den};
     /* One of the two is an integer, or they were made apart. */
     return (sunder_i_rational_point){sunder_i_times(arena, x.num, y.den), sunder_i_times(arena, y.num, x.den),
@@ -33,15 +33,15 @@ static bool divides(sunder_i_arena *arena, sunder_i_big w, sunder_i_big *x, sund
     return true;
 }
 
-sunder_i_point sunder_i_rational_put(sunder_i_lattice *l, sunder_i_rational_point u)
+sunder_i_point sunder_i_rational_put(sunder_i_lattice *lattice, sunder_i_rational_point u)
 {
-    sunder_i_arena *arena = &l->arena;
+    sunder_i_arena *arena = &lattice->arena;
     /* Both corners of a side may stand over one crossing, and what they differ by is then a lattice vector. */
-    const bool whole = sunder_i_big_is_one(u.w) || divides(&l->scratch, u.w, &u.x, &u.y);
+    const bool whole = sunder_i_big_is_one(u.w) || divides(&lattice->scratch, u.w, &u.x, &u.y);
     const sunder_i_big x = sunder_i_big_copy(arena, u.x), y = sunder_i_big_copy(arena, u.y);
-    if (whole) return (sunder_i_point){sunder_i_lattice_big(l, x), sunder_i_lattice_big(l, y)};
+    if (whole) return (sunder_i_point){sunder_i_lattice_big(lattice, x), sunder_i_lattice_big(lattice, y)};
     const sunder_i_big w = sunder_i_big_copy(arena, u.w);
-    return (sunder_i_point){sunder_i_lattice_ratio(l, x, w), sunder_i_lattice_ratio(l, y, w)};
+    return (sunder_i_point){sunder_i_lattice_ratio(lattice, x, w), sunder_i_lattice_ratio(lattice, y, w)};
 }
 
 sunder_i_rational_point sunder_i_rational_reduced(sunder_i_arena *arena, sunder_i_rational_point u)
@@ -69,10 +69,11 @@ sunder_i_rational_point sunder_i_rational_sub(sunder_i_arena *arena, sunder_i_ra
     return sunder_i_rational_add(arena, u, sunder_i_rational_neg(v));
 }
 
-sunder_i_rational_point sunder_i_rational_diff(sunder_i_arena *arena, const sunder_i_lattice *l, sunder_i_point b,
+sunder_i_rational_point sunder_i_rational_diff(sunder_i_arena *arena, const sunder_i_lattice *lattice, sunder_i_point b,
                                                sunder_i_point a)
 {
-    return sunder_i_rational_sub(arena, sunder_i_rational_get(arena, l, b), sunder_i_rational_get(arena, l, a));
+    return sunder_i_rational_sub(arena, sunder_i_rational_get(arena, lattice, b),
+                                 sunder_i_rational_get(arena, lattice, a));
 }
 
 int sunder_i_rational_cmp(sunder_i_arena *arena, const sunder_i_rational_point *u, const sunder_i_rational_point *v,

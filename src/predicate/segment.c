@@ -37,15 +37,15 @@ static sunder_i_meeting collinear_meet(sunder_i_lattice *l, sunder_i_point a, su
     return bc == 0 || da == 0 ? SUNDER_I_ENDS_EQUAL : SUNDER_I_OVERLAP;
 }
 
-sunder_i_meeting sunder_i_segments_meet(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c,
+sunder_i_meeting sunder_i_segments_meet(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c,
                                         sunder_i_point d)
 {
-    if (sunder_i_point_equal(l, a, b)) return point_meets(l, a, c, d);
-    if (sunder_i_point_equal(l, c, d)) return point_meets(l, c, a, b);
-    const int oc = sunder_i_orient(l, a, b, c), od = sunder_i_orient(l, a, b, d);
-    if (oc == 0 && od == 0) return collinear_meet(l, a, b, c, d);
+    if (sunder_i_point_equal(lattice, a, b)) return point_meets(lattice, a, c, d);
+    if (sunder_i_point_equal(lattice, c, d)) return point_meets(lattice, c, a, b);
+    const int oc = sunder_i_orient(lattice, a, b, c), od = sunder_i_orient(lattice, a, b, d);
+    if (oc == 0 && od == 0) return collinear_meet(lattice, a, b, c, d);
     if (oc * od > 0) return SUNDER_I_APART;
-    const int oa = sunder_i_orient(l, c, d, a), ob = sunder_i_orient(l, c, d, b);
+    const int oa = sunder_i_orient(lattice, c, d, a), ob = sunder_i_orient(lattice, c, d, b);
     if (oa * ob > 0) return SUNDER_I_APART;
     if (oc && od && oa && ob) return SUNDER_I_CROSS;
     return (oc == 0 || od == 0) && (oa == 0 || ob == 0) ? SUNDER_I_ENDS_EQUAL : SUNDER_I_END_INSIDE;
@@ -106,17 +106,18 @@ static int point_distance_cmp(sunder_i_lattice *l, sunder_i_point p, sunder_i_po
     return l->narrow || plain ? narrow_distance_cmp(p, a, b, gap) : wide_distance_cmp(l, p, a, b, gap);
 }
 
-int sunder_i_segment_distance_cmp(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c,
+int sunder_i_segment_distance_cmp(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c,
                                   sunder_i_point d, int64_t gap)
 {
-    const bool zero_gap = sunder_i_int_cmp(l, gap, 0) == 0;
-    if (sunder_i_segments_meet(l, a, b, c, d) != SUNDER_I_APART) return zero_gap ? 0 : -1;
+    const bool zero_gap = sunder_i_int_cmp(lattice, gap, 0) == 0;
+    if (sunder_i_segments_meet(lattice, a, b, c, d) != SUNDER_I_APART) return zero_gap ? 0 : -1;
     if (zero_gap) return 1;
     /* Apart: the least distance is from an end of one to the other. */
-    int least = point_distance_cmp(l, a, c, d, gap);
+    int least = point_distance_cmp(lattice, a, c, d, gap);
     const sunder_i_point end[3] = {b, c, d};
     for (int i = 0; i < 3 && least >= 0; i++) {
-        const int s = i == 0 ? point_distance_cmp(l, end[i], c, d, gap) : point_distance_cmp(l, end[i], a, b, gap);
+        const int s =
+            i == 0 ? point_distance_cmp(lattice, end[i], c, d, gap) : point_distance_cmp(lattice, end[i], a, b, gap);
         if (s < least) least = s;
     }
     return least;

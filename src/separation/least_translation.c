@@ -9,21 +9,21 @@
 #include <math.h>
 #include <string.h>
 
-sunder_status sunder_i_least(const sunder_shape *p, const sunder_shape *q, const sunder_i_least_options *o,
+sunder_status sunder_i_least(const sunder_shape *p, const sunder_shape *q, const sunder_i_least_options *options,
                              sunder_separation *out, bool *beyond, sunder_error *err)
 {
     sunder_separation result;
     bool far = false;
     memset(&result, 0, sizeof result);
     sunder_status status;
-    if (p->pieces == 0 || q->pieces == 0 || sunder_i_boxes_apart(p, o->tp, q, o->tq, o->gap))
-        status = sunder_i_stay(o->texts, &result, err);
-    else if (o->gap > 0)
-        status = sunder_i_least_with_gap(p, q, o, &result, &far, err);
+    if (p->pieces == 0 || q->pieces == 0 || sunder_i_boxes_apart(p, options->tp, q, options->tq, options->gap))
+        status = sunder_i_stay(options->texts, &result, err);
+    else if (options->gap > 0)
+        status = sunder_i_least_with_gap(p, q, options, &result, &far, err);
     else
-        status = sunder_i_least_without_gap(p, q, o, &result, &far, err);
+        status = sunder_i_least_without_gap(p, q, options, &result, &far, err);
     if (status) return status;
-    SUNDER_I_ASSERT(result.lower_bound <= result.distance || far || o->bound_only);
+    SUNDER_I_ASSERT(result.lower_bound <= result.distance || far || options->bound_only);
     *out = result;
     if (beyond) *beyond = far;
     return SUNDER_OK;

@@ -197,31 +197,33 @@ sunder_status sunder_i_holds(const sunder_shape *p, const double point[2], bool 
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_passes(const sunder_i_passage *way, const sunder_shape *p, bool *passes, sunder_error *err)
+sunder_status sunder_i_passes(const sunder_i_passage *passage, const sunder_shape *p, bool *passes, sunder_error *err)
 {
     double box[4];
     *passes = false;
     if (p->pieces == 0) return SUNDER_OK;
-    sunder_i_passage_box(way, box);
+    sunder_i_passage_box(passage, box);
     if (!sunder_i_box_meet(box, p->box)) return SUNDER_OK;
-    if (p->rational) return ask_rational(way, p, NULL, passes, err);
-    *passes = meets_doubles(way, box, p) && !(box_holds(p->box, way->from) && holds_doubles(p, way->from));
+    if (p->rational) return ask_rational(passage, p, NULL, passes, err);
+    *passes = meets_doubles(passage, box, p) && !(box_holds(p->box, passage->from) && holds_doubles(p, passage->from));
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_enters_by_edge(const sunder_i_passage *way, const sunder_shape *p, uint32_t v, bool *enters,
+sunder_status sunder_i_enters_by_edge(const sunder_i_passage *passage, const sunder_shape *p, uint32_t v, bool *enters,
                                       sunder_error *err)
 {
     const uint32_t end[2] = {v, p->form->cleaned.next[v]};
     if (!p->rational ||
         (p->form->numbers->exact[end[0]].den.size == 0 && p->form->numbers->exact[end[1]].den.size == 0)) {
-        const sunder_point c = point_of(corner(p, end[0])), d = point_of(corner(p, end[1])), at = point_of(way->from);
-        *enters = sunder_orient(&c, &d, &at) < 0 && sunder_i_passage_meets(way, corner(p, end[0]), corner(p, end[1]));
+        const sunder_point c = point_of(corner(p, end[0])), d = point_of(corner(p, end[1])),
+                           at = point_of(passage->from);
+        *enters =
+            sunder_orient(&c, &d, &at) < 0 && sunder_i_passage_meets(passage, corner(p, end[0]), corner(p, end[1]));
         return SUNDER_OK;
     }
     rationals r;
     bool answer = false;
-    if (put(&r, way, p, end, 2))
+    if (put(&r, passage, p, end, 2))
         answer = sunder_i_rational_orient(&r.arena, r.corner[0], r.corner[1], r.from) < 0 && meets_edge(&r, 0, 1);
     const bool failed = r.arena.failed;
     sunder_i_arena_free(&r.arena);

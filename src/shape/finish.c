@@ -179,30 +179,30 @@ static bool *own_marks(sunder_shape *s)
     return sunder_i_is_few_form(s->form) ? NULL : (bool *)s->form->cleaned.shared;
 }
 
-void sunder_i_shape_copy_shared(sunder_shape *s, const bool *shared)
+void sunder_i_shape_copy_shared(sunder_shape *shape, const bool *shared)
 {
-    bool *own = own_marks(s);
-    if (own) copy(own, shared, s->vertices, sizeof *own);
+    bool *own = own_marks(shape);
+    if (own) copy(own, shared, shape->vertices, sizeof *own);
 }
 
-void sunder_i_shape_mark_none_shared(sunder_shape *s)
+void sunder_i_shape_mark_none_shared(sunder_shape *shape)
 {
-    bool *own = own_marks(s);
-    if (own && s->vertices) memset(own, 0, s->vertices * sizeof *own);
+    bool *own = own_marks(shape);
+    if (own && shape->vertices) memset(own, 0, shape->vertices * sizeof *own);
 }
 
-void sunder_i_shape_measure(sunder_shape *s, const sunder_i_extent *known)
+void sunder_i_shape_measure(sunder_shape *shape, const sunder_i_extent *known)
 {
     sunder_i_extent extent = {0};
     if (known)
         extent = *known;
     else
-        sunder_i_extent_add(&extent, s->xy, s->vertices);
-    s->low_bit = extent.low_bit;
-    if (!s->vertices) return;
+        sunder_i_extent_add(&extent, shape->xy, shape->vertices);
+    shape->low_bit = extent.low_bit;
+    if (!shape->vertices) return;
     for (int k = 0; k < 2; k++) {
-        s->box[k] = extent.low[k];
-        s->box[k + 2] = extent.high[k];
+        shape->box[k] = extent.low[k];
+        shape->box[k + 2] = extent.high[k];
     }
 }
 
@@ -228,26 +228,26 @@ static uint32_t place_hash(const double *xy)
     return (uint32_t)(b[0] >> 32);
 }
 
-bool sunder_i_shape_mark_shared(sunder_shape *s, sunder_i_arena *arena)
+bool sunder_i_shape_mark_shared(sunder_shape *shape, sunder_i_arena *arena)
 {
-    bool *const shared = own_marks(s);
-    if (!s->vertices || !shared) return true;
-    memset(shared, 0, s->vertices * sizeof *shared);
-    if (s->vertices <= 16) {
-        for (uint32_t i = 0; i < s->vertices; i++)
-            for (uint32_t j = i + 1; j < s->vertices; j++)
-                if (same_place(s, i, j)) shared[i] = shared[j] = true;
+    bool *const shared = own_marks(shape);
+    if (!shape->vertices || !shared) return true;
+    memset(shared, 0, shape->vertices * sizeof *shared);
+    if (shape->vertices <= 16) {
+        for (uint32_t i = 0; i < shape->vertices; i++)
+            for (uint32_t j = i + 1; j < shape->vertices; j++)
+                if (same_place(shape, i, j)) shared[i] = shared[j] = true;
         return true;
     }
     /* Open addressing, at most half full; the first vertex of each place stands in the table. */
     size_t slots = 32;
-    while (slots < 2 * (size_t)s->vertices) slots *= 2;
+    while (slots < 2 * (size_t)shape->vertices) slots *= 2;
     uint32_t *table = sunder_i_arena_alloc(arena, slots, sizeof *table);
     if (!table) return false;
     memset(table, 0xff, slots * sizeof *table);
-    for (uint32_t i = 0; i < s->vertices; i++) {
-        size_t slot = place_hash(s->xy + 2 * (size_t)i) & (slots - 1);
-        while (table[slot] != SUNDER_I_NONE && !same_place(s, table[slot], i)) slot = (slot + 1) & (slots - 1);
+    for (uint32_t i = 0; i < shape->vertices; i++) {
+        size_t slot = place_hash(shape->xy + 2 * (size_t)i) & (slots - 1);
+        while (table[slot] != SUNDER_I_NONE && !same_place(shape, table[slot], i)) slot = (slot + 1) & (slots - 1);
         if (table[slot] == SUNDER_I_NONE)
             table[slot] = i;
         else

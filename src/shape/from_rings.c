@@ -42,7 +42,7 @@ sunder_i_place_name sunder_i_name_vertex(const sunder_i_input *in, uint32_t vert
     return at;
 }
 
-sunder_status sunder_i_fail_problem(const sunder_i_input *in, const sunder_i_problem *p, sunder_error *err)
+sunder_status sunder_i_fail_problem(const sunder_i_input *in, const sunder_i_problem *problem, sunder_error *err)
 {
     static const char *const what[] = {[SUNDER_I_FEW] = "the ring has under three distinct vertices",
                                        [SUNDER_I_FLAT] = "the ring has no area",
@@ -51,22 +51,22 @@ sunder_status sunder_i_fail_problem(const sunder_i_input *in, const sunder_i_pro
                                        [SUNDER_I_OVERLAPS] = "shares a piece of edge with",
                                        [SUNDER_I_OUTSIDE] = "the hole lies outside",
                                        [SUNDER_I_NESTED] = "the hole lies inside"};
-    if (p->fault == SUNDER_I_EMPTY) {
+    if (problem->fault == SUNDER_I_EMPTY) {
         /* vertex is the number of the raw ring here: it has no vertex to point at. */
         size_t polygon = 0;
-        while (in->poly_end[polygon] <= p->vertex) polygon++;
-        const size_t ring = p->vertex - (polygon ? in->poly_end[polygon - 1] : 0);
+        while (in->poly_end[polygon] <= problem->vertex) polygon++;
+        const size_t ring = problem->vertex - (polygon ? in->poly_end[polygon - 1] : 0);
         return sunder_i_fail_at(err, SUNDER_EINVALID, polygon, ring, SIZE_MAX,
                                 "polygon %zu, ring %zu: the ring is empty", polygon, ring);
     }
-    const sunder_i_place_name at = sunder_i_name_vertex(in, p->vertex);
+    const sunder_i_place_name at = sunder_i_name_vertex(in, problem->vertex);
     char place[160], rest[80] = "";
-    const double *xy = in->xy + 2 * (size_t)p->vertex;
+    const double *xy = in->xy + 2 * (size_t)problem->vertex;
     snprintf(place, sizeof place, "polygon %zu, ring %zu, vertex %zu (%.10g %.10g)", at.polygon, at.ring, at.vertex,
              xy[0], xy[1]);
-    if (p->other != SUNDER_I_NONE) {
-        const sunder_i_place_name o = sunder_i_name_vertex(in, p->other);
-        const bool ring_only = p->fault == SUNDER_I_OUTSIDE || p->fault == SUNDER_I_NESTED;
+    if (problem->other != SUNDER_I_NONE) {
+        const sunder_i_place_name o = sunder_i_name_vertex(in, problem->other);
+        const bool ring_only = problem->fault == SUNDER_I_OUTSIDE || problem->fault == SUNDER_I_NESTED;
         if (ring_only)
             snprintf(rest, sizeof rest, " ring %zu", o.ring);
         else if (o.ring == at.ring)
@@ -74,8 +74,8 @@ sunder_status sunder_i_fail_problem(const sunder_i_input *in, const sunder_i_pro
         else
             snprintf(rest, sizeof rest, " segment %zu of ring %zu", o.vertex, o.ring);
     }
-    return sunder_i_fail_at(err, SUNDER_EINVALID, at.polygon, at.ring, at.vertex, "%s: %s%s", place, what[p->fault],
-                            rest);
+    return sunder_i_fail_at(err, SUNDER_EINVALID, at.polygon, at.ring, at.vertex, "%s: %s%s", place,
+                            what[problem->fault], rest);
 }
 
 /* Does no end come before the one that it follows? */

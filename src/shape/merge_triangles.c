@@ -11,25 +11,25 @@ static bool convex_without(const sunder_i_rings *r, const sunder_i_mesh *m, uint
     return sunder_i_rings_orient(r, before, m->origin[h], after) > 0;
 }
 
-bool sunder_i_mesh_removable(const sunder_i_rings *r, const sunder_i_mesh *m, uint32_t h, uint32_t g)
+bool sunder_i_mesh_removable(const sunder_i_rings *r, const sunder_i_mesh *mesh, uint32_t h, uint32_t g)
 {
-    return convex_without(r, m, h, g) && convex_without(r, m, g, h);
+    return convex_without(r, mesh, h, g) && convex_without(r, mesh, g, h);
 }
 
-void sunder_i_mesh_remove(sunder_i_mesh *m, uint32_t h, uint32_t g)
+void sunder_i_mesh_remove(sunder_i_mesh *mesh, uint32_t h, uint32_t g)
 {
-    m->next[m->prev[h]] = m->next[g];
-    m->prev[m->next[g]] = m->prev[h];
-    m->next[m->prev[g]] = m->next[h];
-    m->prev[m->next[h]] = m->prev[g];
-    m->origin[h] = m->origin[g] = SUNDER_I_NONE; /* gone */
+    mesh->next[mesh->prev[h]] = mesh->next[g];
+    mesh->prev[mesh->next[g]] = mesh->prev[h];
+    mesh->next[mesh->prev[g]] = mesh->next[h];
+    mesh->prev[mesh->next[h]] = mesh->prev[g];
+    mesh->origin[h] = mesh->origin[g] = SUNDER_I_NONE; /* gone */
 }
 
-void sunder_i_mesh_merge(const sunder_i_rings *r, sunder_i_mesh *m)
+void sunder_i_mesh_merge(const sunder_i_rings *r, sunder_i_mesh *mesh)
 {
-    for (uint32_t h = 0; h < m->halves; h++) {
-        const uint32_t g = m->twin[h];
+    for (uint32_t h = 0; h < mesh->halves; h++) {
+        const uint32_t g = mesh->twin[h];
         if (g == SUNDER_I_NONE || g < h) continue;
-        if (sunder_i_mesh_removable(r, m, h, g)) sunder_i_mesh_remove(m, h, g);
+        if (sunder_i_mesh_removable(r, mesh, h, g)) sunder_i_mesh_remove(mesh, h, g);
     }
 }

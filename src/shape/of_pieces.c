@@ -30,12 +30,12 @@ static const double *corner_of(const sunder_i_piece_of *p, uint32_t k, const sun
 
 bool sunder_i_piece_has_area(const sunder_i_piece_of *piece) { return corners_of(piece) > 2; }
 
-void sunder_i_piece_box(const sunder_i_piece_of *p, double box[4])
+void sunder_i_piece_box(const sunder_i_piece_of *piece, double box[4])
 {
     const sunder_i_exact *exact;
     sunder_i_box_clear(box);
-    for (uint32_t k = 0; k < corners_of(p); k++) sunder_i_box_include(box, corner_of(p, k, &exact));
-    if (p->shape && p->shape->rational) sunder_i_box_grow(box, 0, box);
+    for (uint32_t k = 0; k < corners_of(piece); k++) sunder_i_box_include(box, corner_of(piece, k, &exact));
+    if (piece->shape && piece->shape->rational) sunder_i_box_grow(box, 0, box);
 }
 
 /* The arrays that are filled here. */

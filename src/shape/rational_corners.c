@@ -42,12 +42,12 @@ sunder_i_exact sunder_i_exact_make(sunder_i_arena *arena, sunder_i_rational_poin
     return r;
 }
 
-bool sunder_i_exact_is_double(sunder_i_arena *arena, const sunder_i_exact *v)
+bool sunder_i_exact_is_double(sunder_i_arena *arena, const sunder_i_exact *corner)
 {
-    if (sunder_i_big_bits(v->den) != 1) return false;
+    if (sunder_i_big_bits(corner->den) != 1) return false;
     for (int k = 0; k < 2; k++)
-        if (sunder_i_big_ratio_down(arena, v->num[k], v->den, v->exponent) !=
-            sunder_i_big_ratio_up(arena, v->num[k], v->den, v->exponent))
+        if (sunder_i_big_ratio_down(arena, corner->num[k], corner->den, corner->exponent) !=
+            sunder_i_big_ratio_up(arena, corner->num[k], corner->den, corner->exponent))
             return false;
     return true;
 }

@@ -105,7 +105,7 @@ typedef struct sunder_i_place_options {
 
 /* Fails only with SUNDER_ENOMEM. */
 sunder_status sunder_i_place(const sunder_shape *p, const sunder_shape *q, const sunder_i_place_options *options,
-                             sunder_i_placed *out, sunder_error *err);
+                             sunder_i_placed *result, sunder_error *err);
 void sunder_i_placed_free(sunder_i_placed *placed);
 /* A corner that is no pair of doubles, moved by shift (if not NULL) and taken from an origin. The lattice admits
  * ratios. */

@@ -99,16 +99,16 @@ static sunder_i_big units_of(sunder_i_arena *arena, double v, long unit)
     return m.size ? sunder_i_big_shl(arena, m, (unsigned long)(e - unit)) : m;
 }
 
-sunder_i_point sunder_i_place_exact(sunder_i_lattice *l, const sunder_i_exact *corner, const double *shift,
+sunder_i_point sunder_i_place_exact(sunder_i_lattice *lattice, const sunder_i_exact *corner, const double *shift,
                                     const double origin[2])
 {
-    if (l->arena.failed) return (sunder_i_point){0, 0};
-    const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    sunder_i_arena *m = &l->scratch;
+    if (lattice->arena.failed) return (sunder_i_point){0, 0};
+    const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
+    sunder_i_arena *m = &lattice->scratch;
     /* Origin and shift are multiples of the lattice's unit, and a crossing of its lines has no lower bits but in its
      * denominator: if it has (from another lattice), that takes them. */
-    const long unit = corner->exponent < l->exponent ? corner->exponent : l->exponent;
-    const sunder_i_big den = sunder_i_big_shl(m, corner->den, (unsigned long)(l->exponent - unit));
+    const long unit = corner->exponent < lattice->exponent ? corner->exponent : lattice->exponent;
+    const sunder_i_big den = sunder_i_big_shl(m, corner->den, (unsigned long)(lattice->exponent - unit));
     sunder_i_big at[2];
     for (int k = 0; k < 2; k++) {
         sunder_i_big add = sunder_i_big_neg(units_of(m, origin[k], unit));
@@ -116,8 +116,8 @@ sunder_i_point sunder_i_place_exact(sunder_i_lattice *l, const sunder_i_exact *c
         at[k] = sunder_i_big_shl(m, corner->num[k], (unsigned long)(corner->exponent - unit));
         at[k] = sunder_i_big_add(m, at[k], sunder_i_big_mul(m, add, corner->den));
     }
-    const sunder_i_point p = sunder_i_rational_put(l, (sunder_i_rational_point){at[0], at[1], den});
-    sunder_i_lattice_end(l, mark);
+    const sunder_i_point p = sunder_i_rational_put(lattice, (sunder_i_rational_point){at[0], at[1], den});
+    sunder_i_lattice_end(lattice, mark);
     return p;
 }
 

@@ -169,10 +169,10 @@ static void collect(const sunder_i_small_walk *w, mesh *m, sunder_i_pieces *out)
     out->pieces = pieces;
 }
 
-void sunder_i_small_pieces(sunder_i_small_walk *w, sunder_i_pieces *out)
+void sunder_i_small_pieces(sunder_i_small_walk *walk, sunder_i_pieces *out)
 {
     mesh m;
-    triangulate(w, &m);
-    merge(w, &m);
-    collect(w, &m, out);
+    triangulate(walk, &m);
+    merge(walk, &m);
+    collect(walk, &m, out);
 }

@@ -333,10 +333,10 @@ static void find_extremes(search *s, uint32_t *low, uint32_t *high)
     }
 }
 
-void sunder_i_widest_interval_find(const sunder_i_boundary *b, int8_t *side, sunder_i_level_crossing *crossing,
+void sunder_i_widest_interval_find(const sunder_i_boundary *boundary, int8_t *side, sunder_i_level_crossing *crossing,
                                    sunder_i_arena *arena, sunder_i_widest_interval *out)
 {
-    search s = {b, arena, out, side};
+    search s = {boundary, arena, out, side};
     uint32_t low, high;
     find_extremes(&s, &low, &high);
     set_height(&s, low, high);
@@ -345,11 +345,12 @@ void sunder_i_widest_interval_find(const sunder_i_boundary *b, int8_t *side, sun
 
 /* ---- The middle -------------------------------------------------------------------------------------------------- */
 
-sunder_i_rational_point sunder_i_widest_interval_middle(const sunder_i_boundary *b, const sunder_i_widest_interval *i,
-                                                        sunder_i_arena *arena)
+sunder_i_rational_point sunder_i_widest_interval_middle(const sunder_i_boundary *boundary,
+                                                        const sunder_i_widest_interval *interval, sunder_i_arena *arena)
 {
-    const sunder_i_ratio p = x_of(b, i, i->from.edge, arena), q = x_of(b, i, i->to.edge, arena),
-                         y = height_of(b, i, arena);
+    const sunder_i_ratio p = x_of(boundary, interval, interval->from.edge, arena),
+                         q = x_of(boundary, interval, interval->to.edge, arena),
+                         y = height_of(boundary, interval, arena);
     const sunder_i_ratio sum = {
         sunder_i_big_add(arena, sunder_i_big_mul(arena, p.num, q.den), sunder_i_big_mul(arena, q.num, p.den)),
         sunder_i_big_shl(arena, sunder_i_big_mul(arena, p.den, q.den), 1)};
@@ -365,19 +366,19 @@ static bool middle_of(double a, double b, double *out)
     return sum == 0 || (fabs(sum) > 0x1p-1000 && isfinite(sum));
 }
 
-void sunder_i_widest_interval_doubles(const sunder_i_boundary *b, const sunder_i_widest_interval *i,
+void sunder_i_widest_interval_doubles(const sunder_i_boundary *boundary, const sunder_i_widest_interval *interval,
                                       sunder_i_arena *arena, double xy[2])
 {
-    const double o = b->xy[0], c = (i->from.along + i->to.along) / 2,
-                 off = (i->from.off + i->to.off) / 2 + 0x1p-51 * fabs(c);
-    bool sure = middle_of(i->low, i->high, &xy[1]);
-    if (i->from.exact && i->to.exact) {
-        sure = middle_of(i->from.at, i->to.at, &xy[0]) && sure;
+    const double o = boundary->xy[0], c = (interval->from.along + interval->to.along) / 2,
+                 off = (interval->from.off + interval->to.off) / 2 + 0x1p-51 * fabs(c);
+    bool sure = middle_of(interval->low, interval->high, &xy[1]);
+    if (interval->from.exact && interval->to.exact) {
+        sure = middle_of(interval->from.at, interval->to.at, &xy[0]) && sure;
     } else {
         xy[0] = o + (c - off);
         sure = sure && isfinite(xy[0]) && xy[0] == o + (c + off);
     }
     if (sure) return;
-    const sunder_i_rational_point at = sunder_i_widest_interval_middle(b, i, arena);
-    sunder_i_rational_doubles(arena, at, b->unit, &xy[0], &xy[1]);
+    const sunder_i_rational_point at = sunder_i_widest_interval_middle(boundary, interval, arena);
+    sunder_i_rational_doubles(arena, at, boundary->unit, &xy[0], &xy[1]);
 }

@@ -32,39 +32,40 @@ static size_t choose_count(sunder_i_strips *s, const double (*span)[2], size_t n
     }
 }
 
-bool sunder_i_strips_build(sunder_i_strips *s, const double (*span)[2], size_t n, size_t most)
+bool sunder_i_strips_build(sunder_i_strips *strips, const double (*span)[2], size_t n, size_t most)
 {
     double high = -INFINITY;
-    memset(s, 0, sizeof *s);
-    s->low = INFINITY;
+    memset(strips, 0, sizeof *strips);
+    strips->low = INFINITY;
     for (size_t i = 0; i < n; i++) {
-        if (span[i][0] < s->low) s->low = span[i][0];
+        if (span[i][0] < strips->low) strips->low = span[i][0];
         if (span[i][1] > high) high = span[i][1];
     }
-    const size_t entries = choose_count(s, span, n, most, high);
-    s->end = sunder_i_calloc((size_t)s->n + 1, sizeof *s->end);
-    s->item = sunder_i_alloc(entries, sizeof *s->item);
-    if (!s->end || !s->item) return false;
+    const size_t entries = choose_count(strips, span, n, most, high);
+    strips->end = sunder_i_calloc((size_t)strips->n + 1, sizeof *strips->end);
+    strips->item = sunder_i_alloc(entries, sizeof *strips->item);
+    if (!strips->end || !strips->item) return false;
     /* Counts, one place up; a prefix sum then gives the start of each strip, which filling turns into its end. */
     for (size_t i = 0; i < n; i++)
-        for (uint32_t k = strip_of(s, span[i][0]), last = strip_of(s, span[i][1]); k <= last; k++) s->end[k + 1]++;
-    for (uint32_t k = 0; k < s->n; k++) s->end[k + 1] += s->end[k];
+        for (uint32_t k = strip_of(strips, span[i][0]), last = strip_of(strips, span[i][1]); k <= last; k++)
+            strips->end[k + 1]++;
+    for (uint32_t k = 0; k < strips->n; k++) strips->end[k + 1] += strips->end[k];
     for (size_t i = 0; i < n; i++)
-        for (uint32_t k = strip_of(s, span[i][0]), last = strip_of(s, span[i][1]); k <= last; k++)
-            s->item[s->end[k]++] = (uint32_t)i;
+        for (uint32_t k = strip_of(strips, span[i][0]), last = strip_of(strips, span[i][1]); k <= last; k++)
+            strips->item[strips->end[k]++] = (uint32_t)i;
     return true;
 }
 
-void sunder_i_strips_free(sunder_i_strips *s)
+void sunder_i_strips_free(sunder_i_strips *strips)
 {
-    sunder_i_free(s->end);
-    sunder_i_free(s->item);
-    memset(s, 0, sizeof *s);
+    sunder_i_free(strips->end);
+    sunder_i_free(strips->item);
+    memset(strips, 0, sizeof *strips);
 }
 
-void sunder_i_strips_at(const sunder_i_strips *s, double height, size_t *from, size_t *to)
+void sunder_i_strips_at(const sunder_i_strips *strips, double height, size_t *from, size_t *to)
 {
-    const uint32_t k = strip_of(s, height);
-    *from = k ? s->end[k - 1] : 0;
-    *to = s->end[k];
+    const uint32_t k = strip_of(strips, height);
+    *from = k ? strips->end[k - 1] : 0;
+    *to = strips->end[k];
 }

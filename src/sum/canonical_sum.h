@@ -33,7 +33,7 @@ typedef struct sunder_i_found {
 } sunder_i_found;
 
 /* For those that know their vertices as the sum does, which then is the context. */
-int sunder_i_sum_vertex_cmp(void *sum, uint32_t v, uint32_t w);
+int sunder_i_sum_vertex_cmp(void *context, uint32_t v, uint32_t w);
 
 /* Fills rings, polygons, segments and points of an empty sum. False if memory is out. */
 bool sunder_i_canonical(sunder_i_found *found, sunder_sum *out);

@@ -74,17 +74,17 @@ sunder_status sunder_i_map_view_take(sunder_i_planar_map *map, const sunder_sum 
     return status == SUNDER_OK ? sunder_i_no_memory(err) : status;
 }
 
-void sunder_i_map_view_free(sunder_map *m)
+void sunder_i_map_view_free(sunder_map *map)
 {
-    if (!m) return;
-    sunder_i_planar_map_free(m->map);
-    sunder_i_free(m->vertex);
-    sunder_i_free(m->edge);
-    sunder_i_free(m->vertex_of);
-    sunder_i_free(m->edge_of);
-    sunder_i_free(m->inner);
-    sunder_i_free(m->inner_end);
-    sunder_i_free(m);
+    if (!map) return;
+    sunder_i_planar_map_free(map->map);
+    sunder_i_free(map->vertex);
+    sunder_i_free(map->edge);
+    sunder_i_free(map->vertex_of);
+    sunder_i_free(map->edge_of);
+    sunder_i_free(map->inner);
+    sunder_i_free(map->inner_end);
+    sunder_i_free(map);
 }
 
 const sunder_map *sunder_sum_map(const sunder_sum *sum) { return sum->map; }

@@ -33,11 +33,11 @@ bool sunder_sum_phase(const sunder_sum *sum, sunder_phase phase, sunder_counts *
     return sum->method.algorithm != SUNDER_ALGORITHM_CONVOLUTION;
 }
 
-void sunder_sum_seconds(const sunder_sum *sum, double *decompose, double *subsums, double *unite_seconds)
+void sunder_sum_seconds(const sunder_sum *sum, double *decompose, double *subsums, double *unite)
 {
     *decompose = sum->seconds[0];
     *subsums = sum->seconds[1];
-    *unite_seconds = sum->seconds[2];
+    *unite = sum->seconds[2];
 }
 
 static size_t first_ring(const sunder_sum *sum, size_t polygon) { return polygon ? sum->poly_end[polygon - 1] : 0; }

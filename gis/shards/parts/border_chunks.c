@@ -42,17 +42,17 @@ static gis_box_pairs_next want_both(void *user, const gis_paired_box *a, const g
     return GIS_BOX_PAIRS_BOTH;
 }
 
-bool gis_border_chunks_load(gis_border_chunks *h, gis_part_result *held, gis_error *error)
+bool gis_border_chunks_load(gis_border_chunks *chunks, gis_part_result *held, gis_error *error)
 {
     gis_box_pairs pairs = {0};
-    bool done = list_chunks(h, error);
-    for (size_t k = 0; k < h->chunks && done; k++) {
-        h->chunk[k].wanted = of_file(&h->chunk[k])->incomplete;
-        done = gis_box_pairs_add(&pairs, of_file(&h->chunk[k])->box, k, 0, error);
+    bool done = list_chunks(chunks, error);
+    for (size_t k = 0; k < chunks->chunks && done; k++) {
+        chunks->chunk[k].wanted = of_file(&chunks->chunk[k])->incomplete;
+        done = gis_box_pairs_add(&pairs, of_file(&chunks->chunk[k])->box, k, 0, error);
     }
-    if (done) gis_box_pairs_visit(&pairs, want_both, h);
+    if (done) gis_box_pairs_visit(&pairs, want_both, chunks);
     gis_box_pairs_clear(&pairs);
-    return done && load(h, held, error);
+    return done && load(chunks, held, error);
 }
 
 enum { CHUNK, WORLD };
@@ -64,13 +64,13 @@ static gis_box_pairs_next want_chunk(void *user, const gis_paired_box *a, const 
     return GIS_BOX_PAIRS_BOTH;
 }
 
-bool gis_border_chunks_load_new(gis_border_chunks *h, gis_part_result *held, gis_error *error)
+bool gis_border_chunks_load_new(gis_border_chunks *chunks, gis_part_result *held, gis_error *error)
 {
     gis_box_pairs pairs = {0};
     bool done = true;
-    for (size_t k = 0; k < h->chunks && done; k++)
-        if (!h->chunk[k].held) done = gis_box_pairs_add(&pairs, of_file(&h->chunk[k])->box, k, CHUNK, error);
-    for (size_t w = h->seen; w < held->worlds && done; w++) {
+    for (size_t k = 0; k < chunks->chunks && done; k++)
+        if (!chunks->chunk[k].held) done = gis_box_pairs_add(&pairs, of_file(&chunks->chunk[k])->box, k, CHUNK, error);
+    for (size_t w = chunks->seen; w < held->worlds && done; w++) {
         const gis_part_world *world = &held->world[w];
         for (size_t k = 0; k < world->footprints && done; k++) {
             const sunder_footprint *f = &held->footprint[world->footprint + k];
@@ -78,14 +78,14 @@ bool gis_border_chunks_load_new(gis_border_chunks *h, gis_part_result *held, gis
                    gis_box_pairs_add(&pairs, f->wrote, w, WORLD, error);
         }
     }
-    if (done) gis_box_pairs_visit(&pairs, want_chunk, h);
+    if (done) gis_box_pairs_visit(&pairs, want_chunk, chunks);
     gis_box_pairs_clear(&pairs);
-    return done && load(h, held, error);
+    return done && load(chunks, held, error);
 }
 
-void gis_border_chunks_clear(gis_border_chunks *h)
+void gis_border_chunks_clear(gis_border_chunks *chunks)
 {
-    free(h->chunk);
-    h->chunk = NULL;
-    h->chunks = 0;
+    free(chunks->chunk);
+    chunks->chunk = NULL;
+    chunks->chunks = 0;
 }

@@ -145,10 +145,10 @@ static int by_feature(const void *a, const void *b)
     return (p->a > q->a) - (p->a < q->a);
 }
 
-const gis_part_link *gis_joined_block(const gis_joined *j, size_t feature)
+const gis_part_link *gis_joined_block(const gis_joined *joined, size_t feature)
 {
     const gis_part_link key = {feature, 0};
-    return j->blocks ? bsearch(&key, j->block, j->blocks, sizeof key, by_feature) : NULL;
+    return joined->blocks ? bsearch(&key, joined->block, joined->blocks, sizeof key, by_feature) : NULL;
 }
 
 /* Whoever is linked is of one block, which is called by its first. */
@@ -291,15 +291,15 @@ static bool begin(gis_joined *j, const char *directory, gis_error *error)
            gis_sorted_results_begin(&j->trees, directory, "trees", error);
 }
 
-bool gis_joined_lists_make(gis_joined *j, gis_border_chunks *chunks, gis_part_result *held, const char *directory,
+bool gis_joined_lists_make(gis_joined *out, gis_border_chunks *chunks, gis_part_result *held, const char *directory,
                            gis_error *error)
 {
-    gathering g = {.out = j, .file = chunks->file, .files = chunks->files};
-    const bool done = begin(j, directory, error) && put_everything(&g, chunks, held, error) &&
-                      gather_blocks(j, &g.links, error) && sort_everything(&g, error);
+    gathering g = {.out = out, .file = chunks->file, .files = chunks->files};
+    const bool done = begin(out, directory, error) && put_everything(&g, chunks, held, error) &&
+                      gather_blocks(out, &g.links, error) && sort_everything(&g, error);
     gis_part_result_clear(&g.one);
     gis_part_result_clear(&g.links);
-    sunder_layer_summary *s = &j->summary;
+    sunder_layer_summary *s = &out->summary;
     s->lower_bound = sunder_total_below(&g.proved);
     s->pair_bound = sunder_total_below(&g.by_pairs);
     s->total = sunder_total_nearest(&g.total);
@@ -309,19 +309,20 @@ bool gis_joined_lists_make(gis_joined *j, gis_border_chunks *chunks, gis_part_re
     return done;
 }
 
-sunder_feature_status gis_joined_status(const gis_joined *j, const gis_part_still *still)
+sunder_feature_status gis_joined_status(const gis_joined *joined, const gis_part_still *still)
 {
-    const gis_part_link *own = still->status == SUNDER_FEATURE_UNMOVED ? gis_joined_block(j, still->index) : NULL;
-    return own && j->fixed[gis_joined_block(j, own->b) - j->block] ? SUNDER_FEATURE_FIXED : still->status;
+    const gis_part_link *own = still->status == SUNDER_FEATURE_UNMOVED ? gis_joined_block(joined, still->index) : NULL;
+    return own && joined->fixed[gis_joined_block(joined, own->b) - joined->block] ? SUNDER_FEATURE_FIXED
+                                                                                  : still->status;
 }
 
-void gis_joined_clear(gis_joined *j)
+void gis_joined_clear(gis_joined *joined)
 {
-    gis_sorted_results_clear(&j->rows);
-    gis_sorted_results_clear(&j->conflicts);
-    gis_sorted_results_clear(&j->pushes);
-    gis_sorted_results_clear(&j->trees);
-    free(j->block);
-    free(j->fixed);
-    *j = (gis_joined){0};
+    gis_sorted_results_clear(&joined->rows);
+    gis_sorted_results_clear(&joined->conflicts);
+    gis_sorted_results_clear(&joined->pushes);
+    gis_sorted_results_clear(&joined->trees);
+    free(joined->block);
+    free(joined->fixed);
+    *joined = (gis_joined){0};
 }

@@ -140,12 +140,12 @@ static bool write_worlds(gis_part_file *file, const gis_part_result *r, gis_erro
     return done;
 }
 
-bool gis_part_file_add(gis_part_file *file, const gis_part_result *r, gis_error *error)
+bool gis_part_file_add(gis_part_file *file, const gis_part_result *result, gis_error *error)
 {
-    gis_part_result others = {.unverified = r->unverified};
-    bool done = write_worlds(file, r, error);
-    for (size_t k = 0; k < r->stills && done; k++) done = gis_part_copy_still(&others, r, k, error);
-    for (size_t k = 0; k < r->links && done; k++) done = gis_part_copy_link(&others, r, k, error);
+    gis_part_result others = {.unverified = result->unverified};
+    bool done = write_worlds(file, result, error);
+    for (size_t k = 0; k < result->stills && done; k++) done = gis_part_copy_still(&others, result, k, error);
+    for (size_t k = 0; k < result->links && done; k++) done = gis_part_copy_link(&others, result, k, error);
     if (done && (others.stills || others.links || others.unverified)) done = write_chunk(file, &others, error);
     gis_part_result_clear(&others);
     return done;
@@ -253,10 +253,10 @@ static bool check_lines(gis_part_file *file, const gis_part_chunk *chunk, gis_er
     return gis_checksum_of(0, file->bytes, (size_t)chunk->lines) == chunk->lines_checksum || altered(file, error);
 }
 
-bool gis_part_file_check(gis_part_file *file, size_t k, gis_part_result *scratch, gis_error *error)
+bool gis_part_file_check(gis_part_file *file, size_t chunk, gis_part_result *scratch, gis_error *error)
 {
-    return gis_part_file_read(file, k, scratch, error) &&
-           (file->chunk[k].lines == 0 || check_lines(file, &file->chunk[k], error));
+    return gis_part_file_read(file, chunk, scratch, error) &&
+           (file->chunk[chunk].lines == 0 || check_lines(file, &file->chunk[chunk], error));
 }
 
 bool gis_part_file_fetch(gis_part_file *file, size_t n, gis_part_result *to, gis_part_line *line, gis_error *error)

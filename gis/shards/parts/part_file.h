@@ -50,7 +50,7 @@ bool gis_part_file_place(gis_part_file *file, const char *directory, gis_error *
 /* Fails, naming the file, if it is missing, cut off, altered, or was made of something else. */
 bool gis_part_file_open(gis_part_file *file, const char *directory, const gis_part_stamp *stamp, gis_error *error);
 /* In place of what `to` held. */
-bool gis_part_file_read(gis_part_file *file, size_t chunk, gis_part_result *to, gis_error *error);
+bool gis_part_file_read(gis_part_file *file, size_t k, gis_part_result *to, gis_error *error);
 /* Is the chunk as it was written, and are the lines that go with it? */
 bool gis_part_file_check(gis_part_file *file, size_t chunk, gis_part_result *scratch, gis_error *error);
 /* A line that lies in one of n files, which are those of all shards, in their order, becomes the result's own. */

@@ -48,16 +48,16 @@ static void **array_of(gis_part_result *r, int k) { return (void **)((char *)r +
 static size_t *count_of(gis_part_result *r, int k) { return (size_t *)((char *)r + lists[k].count); }
 static size_t *room_of(gis_part_result *r, int k) { return (size_t *)((char *)r + lists[k].room); }
 
-void gis_part_result_clear(gis_part_result *r)
+void gis_part_result_clear(gis_part_result *result)
 {
-    for (int k = 0; k < LISTS; k++) free(*array_of(r, k));
-    *r = (gis_part_result){0};
+    for (int k = 0; k < LISTS; k++) free(*array_of(result, k));
+    *result = (gis_part_result){0};
 }
 
-void gis_part_result_empty(gis_part_result *r)
+void gis_part_result_empty(gis_part_result *result)
 {
-    for (int k = 0; k < LISTS; k++) *count_of(r, k) = 0;
-    r->unverified = false;
+    for (int k = 0; k < LISTS; k++) *count_of(result, k) = 0;
+    result->unverified = false;
 }
 
 bool gis_part_add_text(gis_part_result *to, const char *text, size_t *at, gis_error *error)
@@ -71,7 +71,10 @@ bool gis_part_add_text(gis_part_result *to, const char *text, size_t *at, gis_er
     return true;
 }
 
-const char *gis_part_text(const gis_part_result *r, size_t at) { return at == GIS_NO_TEXT ? NULL : r->text + at; }
+const char *gis_part_text(const gis_part_result *result, size_t at)
+{
+    return at == GIS_NO_TEXT ? NULL : result->text + at;
+}
 
 bool gis_part_add_line(gis_part_result *to, const char *line, size_t bytes, gis_part_line *at, gis_error *error)
 {
@@ -83,7 +86,10 @@ bool gis_part_add_line(gis_part_result *to, const char *line, size_t bytes, gis_
     return true;
 }
 
-const char *gis_part_line_of(const gis_part_result *r, const gis_part_line *line) { return r->line + line->from; }
+const char *gis_part_line_of(const gis_part_result *result, const gis_part_line *line)
+{
+    return result->line + line->from;
+}
 
 /* One that lies in a file stays there. */
 static bool copy_line(gis_part_result *to, const gis_part_result *from, gis_part_line *line, gis_error *error)
@@ -203,24 +209,24 @@ static size_t padded(size_t bytes) { return (bytes + 7) & ~(size_t)7; }
 static const void *read_array(const gis_part_result *r, int k) { return *array_of((gis_part_result *)r, k); }
 static size_t read_count(const gis_part_result *r, int k) { return *count_of((gis_part_result *)r, k); }
 
-size_t gis_part_result_size(const gis_part_result *r)
+size_t gis_part_result_size(const gis_part_result *result)
 {
     size_t bytes = sizeof(stored_head);
-    for (int k = 0; k < LISTS; k++) bytes += padded(read_count(r, k) * lists[k].size);
+    for (int k = 0; k < LISTS; k++) bytes += padded(read_count(result, k) * lists[k].size);
     return bytes;
 }
 
-void gis_part_result_store(const gis_part_result *r, unsigned char *to)
+void gis_part_result_store(const gis_part_result *result, unsigned char *to)
 {
-    stored_head head = {.unverified = r->unverified};
-    for (int k = 0; k < LISTS; k++) head.count[k] = (uint32_t)read_count(r, k);
+    stored_head head = {.unverified = result->unverified};
+    for (int k = 0; k < LISTS; k++) head.count[k] = (uint32_t)read_count(result, k);
     memcpy(to, &head, sizeof head);
     to += sizeof head;
     for (int k = 0; k < LISTS; k++) {
-        const size_t bytes = read_count(r, k) * lists[k].size, room = padded(bytes);
+        const size_t bytes = read_count(result, k) * lists[k].size, room = padded(bytes);
         if (room) memset(to + room - 8, 0, 8);
-        if (bytes) memcpy(to, read_array(r, k), bytes);
-        gis_clear_padding(to, read_count(r, k), lists[k].size, lists[k].hole, lists[k].holes);
+        if (bytes) memcpy(to, read_array(result, k), bytes);
+        gis_clear_padding(to, read_count(result, k), lists[k].size, lists[k].hole, lists[k].holes);
         to += room;
     }
 }

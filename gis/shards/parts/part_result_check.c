@@ -92,8 +92,8 @@ static bool are_others(const gis_part_result *r, uint64_t places)
     return true;
 }
 
-bool gis_part_result_is_sound(const gis_part_result *r, uint64_t places)
+bool gis_part_result_is_sound(const gis_part_result *result, uint64_t places)
 {
-    return (r->texts == 0 || r->text[r->texts - 1] == '\0') && are_worlds(r, places) && are_rows(r, places) &&
-           are_conflicts(r, places) && are_others(r, places);
+    return (result->texts == 0 || result->text[result->texts - 1] == '\0') && are_worlds(result, places) &&
+           are_rows(result, places) && are_conflicts(result, places) && are_others(result, places);
 }

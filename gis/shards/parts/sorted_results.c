@@ -19,22 +19,22 @@ static void name_of(const gis_sorted_results *s, const char *suffix, char name[N
     snprintf(name, NAME, "%s.%s", s->name, suffix);
 }
 
-bool gis_sorted_results_begin(gis_sorted_results *s, const char *directory, const char *called, gis_error *error)
+bool gis_sorted_results_begin(gis_sorted_results *sorted, const char *directory, const char *name, gis_error *error)
 {
     char parts[NAME];
-    *s = (gis_sorted_results){.directory = directory, .name = called};
-    name_of(s, "runs", parts);
-    return gis_sorter_new(directory, parts, RUN, &s->sorter, error);
+    *sorted = (gis_sorted_results){.directory = directory, .name = name};
+    name_of(sorted, "runs", parts);
+    return gis_sorter_new(directory, parts, RUN, &sorted->sorter, error);
 }
 
-bool gis_sorted_results_add(gis_sorted_results *s, uint64_t first, uint64_t second, const gis_part_result *one,
+bool gis_sorted_results_add(gis_sorted_results *sorted, uint64_t first, uint64_t second, const gis_part_result *one,
                             gis_error *error)
 {
     const gis_sort_head head = {sizeof head + gis_part_result_size(one), first, second};
-    if (!gis_array_reserve(&s->record, &s->room, head.bytes, 1)) return gis_no_memory(error);
-    memcpy(s->record, &head, sizeof head);
-    gis_part_result_store(one, s->record + sizeof head);
-    return gis_sorter_add(s->sorter, s->record, error);
+    if (!gis_array_reserve(&sorted->record, &sorted->room, head.bytes, 1)) return gis_no_memory(error);
+    memcpy(sorted->record, &head, sizeof head);
+    gis_part_result_store(one, sorted->record + sizeof head);
+    return gis_sorter_add(sorted->sorter, sorted->record, error);
 }
 
 /* ---- Sorting ----------------------------------------------------------------------------------------------------- */
@@ -65,26 +65,26 @@ static bool take(void *user, const unsigned char *record, gis_error *error)
     return !keep || gis_disk_file_write(&own->out, record, (size_t)s->head.bytes, error);
 }
 
-bool gis_sorted_results_sort(gis_sorted_results *s, gis_sorted_results_keep *keep, void *user, gis_error *error)
+bool gis_sorted_results_sort(gis_sorted_results *sorted, gis_sorted_results_keep *keep, void *user, gis_error *error)
 {
     char name[NAME];
-    sorting own = {.sorted = s, .keep = keep, .user = user};
-    name_of(s, "sorted", name);
-    const bool done = gis_disk_file_create(&own.out, s->directory, name, error) &&
-                      gis_sorter_take(s->sorter, take, &own, error) && gis_disk_file_flush(&own.out, error);
-    gis_sorter_free(s->sorter);
-    s->sorter = NULL;
-    s->file = own.out;
-    gis_sorted_results_rewind(s);
+    sorting own = {.sorted = sorted, .keep = keep, .user = user};
+    name_of(sorted, "sorted", name);
+    const bool done = gis_disk_file_create(&own.out, sorted->directory, name, error) &&
+                      gis_sorter_take(sorted->sorter, take, &own, error) && gis_disk_file_flush(&own.out, error);
+    gis_sorter_free(sorted->sorter);
+    sorted->sorter = NULL;
+    sorted->file = own.out;
+    gis_sorted_results_rewind(sorted);
     return done;
 }
 
 /* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
-void gis_sorted_results_rewind(gis_sorted_results *s)
+void gis_sorted_results_rewind(gis_sorted_results *sorted)
 {
-    s->used = s->filled = 0;
-    s->from = 0;
+    sorted->used = sorted->filled = 0;
+    sorted->from = 0;
 }
 
 /* At least so many bytes in the buffer. */
@@ -105,24 +105,24 @@ static bool fill(gis_sorted_results *s, size_t needed, gis_error *error)
     return true;
 }
 
-bool gis_sorted_results_next(gis_sorted_results *s, bool *any, gis_error *error)
+bool gis_sorted_results_next(gis_sorted_results *sorted, bool *any, gis_error *error)
 {
     gis_sort_head head;
-    *any = s->used < s->filled || s->from < s->file.size;
+    *any = sorted->used < sorted->filled || sorted->from < sorted->file.size;
     if (!*any) return true;
-    if (!fill(s, sizeof head, error)) return false;
-    memcpy(&head, s->buffer + s->used, sizeof head);
-    if (!fill(s, (size_t)head.bytes, error) || !load(s, s->buffer + s->used, error)) return false;
-    s->used += (size_t)head.bytes;
+    if (!fill(sorted, sizeof head, error)) return false;
+    memcpy(&head, sorted->buffer + sorted->used, sizeof head);
+    if (!fill(sorted, (size_t)head.bytes, error) || !load(sorted, sorted->buffer + sorted->used, error)) return false;
+    sorted->used += (size_t)head.bytes;
     return true;
 }
 
-void gis_sorted_results_clear(gis_sorted_results *s)
+void gis_sorted_results_clear(gis_sorted_results *sorted)
 {
-    gis_sorter_free(s->sorter);
-    gis_disk_file_close(&s->file);
-    gis_part_result_clear(&s->one);
-    free(s->record);
-    free(s->buffer);
-    *s = (gis_sorted_results){0};
+    gis_sorter_free(sorted->sorter);
+    gis_disk_file_close(&sorted->file);
+    gis_part_result_clear(&sorted->one);
+    free(sorted->record);
+    free(sorted->buffer);
+    *sorted = (gis_sorted_results){0};
 }

@@ -127,11 +127,11 @@ static bool find_group(gis_shard_run *p, gis_error *error)
 }
 
 /* What hangs together is one part, whatever its size: it is told of before hours are spent on all the rest. */
-void gis_shard_run_warn_of_group(const gis_shard_run *p)
+void gis_shard_run_warn_of_group(const gis_shard_run *parts)
 {
-    const gis_contact_group *t = &p->facts.group;
-    const double bytes = gis_shard_run_bytes(&p->request->rules, (double)t->features, (double)t->vertices);
-    if (bytes > GIS_PART_LARGE * p->layout.memory)
+    const gis_contact_group *t = &parts->facts.group;
+    const double bytes = gis_shard_run_bytes(&parts->request->rules, (double)t->features, (double)t->vertices);
+    if (bytes > GIS_PART_LARGE * parts->layout.memory)
         gis_say_warning(GIS_MESSAGE_MEMORY,
                         "%zu features hang together as they stand, from (%.12g, %.12g) to (%.12g, %.12g), and are one "
                         "piece of work: it takes about %.0f MB, more than --max-memory has it",
@@ -158,22 +158,22 @@ bool gis_shard_run_resume(const gis_layer_input_request *request, const char *di
     return open_spool(out, memory, error);
 }
 
-bool gis_shard_run_open_source(gis_shard_run *p, bool whole, gis_layer_input *out, gis_error *error)
+bool gis_shard_run_open_source(gis_shard_run *parts, bool whole, gis_layer_input *out, gis_error *error)
 {
-    gis_layer_input_request again = *p->request;
-    p->whole = whole;
+    gis_layer_input_request again = *parts->request;
+    parts->whole = whole;
     again.source.batch = whole ? 0 : BATCH;
-    again.source.facts = &p->facts.source;
+    again.source.facts = &parts->facts.source;
     const bool done = gis_layer_begin(&again, true, out, error);
-    out->request = p->request;
-    out->n = p->facts.source.features;
-    out->gap = p->facts.gap;
-    out->max_shift = p->facts.max_shift;
-    out->tolerance = p->facts.tolerance;
-    out->barrier_reach = p->facts.barrier_reach;
-    out->invalid = p->facts.invalid;
-    out->null = p->facts.null;
-    out->other = p->facts.other;
+    out->request = parts->request;
+    out->n = parts->facts.source.features;
+    out->gap = parts->facts.gap;
+    out->max_shift = parts->facts.max_shift;
+    out->tolerance = parts->facts.tolerance;
+    out->barrier_reach = parts->facts.barrier_reach;
+    out->invalid = parts->facts.invalid;
+    out->null = parts->facts.null;
+    out->other = parts->facts.other;
     return done;
 }
 
@@ -221,16 +221,18 @@ static bool separate_parts(gis_shard_run *p, unsigned k, gis_part_file *file, gi
     return done;
 }
 
-bool gis_shard_run_separate(gis_shard_run *p, unsigned k, uint64_t options, gis_progress *progress, gis_error *error)
+bool gis_shard_run_separate(gis_shard_run *parts, unsigned k, uint64_t options, gis_progress *progress,
+                            gis_error *error)
 {
     gis_progress silent;
     gis_part_file file;
-    const gis_part_stamp stamp = stamp_of(p, k, options);
-    begin_listening(p, &silent);
-    const bool done = gis_part_file_create(&file, p->directory, &stamp, error) &&
-                      separate_parts(p, k, &file, progress, error) && gis_part_file_place(&file, p->directory, error);
+    const gis_part_stamp stamp = stamp_of(parts, k, options);
+    begin_listening(parts, &silent);
+    const bool done = gis_part_file_create(&file, parts->directory, &stamp, error) &&
+                      separate_parts(parts, k, &file, progress, error) &&
+                      gis_part_file_place(&file, parts->directory, error);
     gis_part_file_close(&file);
-    end_listening(p);
+    end_listening(parts);
     return done;
 }
 
@@ -250,19 +252,19 @@ static bool is_sound(gis_part_file *file, gis_error *error)
     return done;
 }
 
-bool gis_shard_run_state(const gis_shard_run *p, unsigned k, uint64_t options, gis_shard_state *state, gis_error *why,
-                         gis_error *error)
+bool gis_shard_run_state(const gis_shard_run *parts, unsigned k, uint64_t options, gis_shard_state *state,
+                         gis_error *why, gis_error *error)
 {
     char name[GIS_PART_FILE_NAME];
     gis_part_file file;
-    const gis_part_stamp stamp = stamp_of(p, k, options);
+    const gis_part_stamp stamp = stamp_of(parts, k, options);
     gis_part_file_name(k, name);
     *state = GIS_SHARD_MISSING;
-    char *path = gis_path_join(p->directory, name);
+    char *path = gis_path_join(parts->directory, name);
     const bool missing = access(path, F_OK) != 0 && errno == ENOENT;
     CPLFree(path);
     if (missing) return true;
-    *state = open_shard(p, &stamp, &file, why) && is_sound(&file, why) ? GIS_SHARD_DONE : GIS_SHARD_WRONG;
+    *state = open_shard(parts, &stamp, &file, why) && is_sound(&file, why) ? GIS_SHARD_DONE : GIS_SHARD_WRONG;
     gis_part_file_close(&file);
     return gis_go_on(error);
 }
@@ -283,66 +285,66 @@ static bool join_files(gis_shard_run *p, uint64_t options, gis_error *error)
     return done;
 }
 
-const char *gis_shard_run_scratch(gis_shard_run *p, gis_error *error)
+const char *gis_shard_run_scratch(gis_shard_run *parts, gis_error *error)
 {
-    if (p->scratch) return p->scratch;
-    gis_remove_abandoned(p->directory, "parts");
-    gis_remove_abandoned(p->directory, "shard-");
-    return make_directory(p, p->directory, error) ? p->scratch : NULL;
+    if (parts->scratch) return parts->scratch;
+    gis_remove_abandoned(parts->directory, "parts");
+    gis_remove_abandoned(parts->directory, "shard-");
+    return make_directory(parts, parts->directory, error) ? parts->scratch : NULL;
 }
 
 /* Their spool has the same checksum if they are the same. */
-bool gis_shard_run_compare_barriers(gis_shard_run *p, const gis_layer_input *input, gis_error *error)
+bool gis_shard_run_compare_barriers(gis_shard_run *parts, const gis_layer_input *input, gis_error *error)
 {
-    if (p->request->barriers == 0) return true;
-    if (!gis_shard_run_scratch(p, error)) return false;
+    if (parts->request->barriers == 0) return true;
+    if (!gis_shard_run_scratch(parts, error)) return false;
     gis_spooled_barriers now = {0};
     gis_error why = {0};
-    const bool read = gis_layer_spool_barriers(input, p->facts.barrier_reach, p->spool, p->scratch, &why) &&
-                      gis_barriers_open(p->scratch, &now, &why);
+    const bool read = gis_layer_spool_barriers(input, parts->facts.barrier_reach, parts->spool, parts->scratch, &why) &&
+                      gis_barriers_open(parts->scratch, &now, &why);
     if (!read)
         gis_say_warning(GIS_MESSAGE_INPUT, "whether barriers have changed since the plan was made is not known: %s",
                         why.message);
-    else if (gis_spool_checksum(now.all) != gis_spool_checksum(p->barriers.all))
+    else if (gis_spool_checksum(now.all) != gis_spool_checksum(parts->barriers.all))
         gis_say_warning(GIS_MESSAGE_INPUT,
                         "barriers have changed since the plan was made (%s%s); moves and conflicts are those beside "
                         "the barriers as they were; make the plan anew for others",
-                        p->request->barrier[0].dataset, p->request->barriers > 1 ? ", or another of them" : "");
+                        parts->request->barrier[0].dataset, parts->request->barriers > 1 ? ", or another of them" : "");
     gis_barriers_close(&now);
     return gis_go_on(error);
 }
 
-bool gis_shard_run_join(gis_shard_run *p, uint64_t options, sunder_layer_summary *summary, gis_error *error)
+bool gis_shard_run_join(gis_shard_run *parts, uint64_t options, sunder_layer_summary *summary, gis_error *error)
 {
     gis_progress silent;
-    begin_listening(p, &silent);
-    const bool done = gis_shard_run_scratch(p, error) && join_files(p, options, error);
-    end_listening(p);
-    gis_layout_clear(&p->layout); /* what is written needs memory, too */
+    begin_listening(parts, &silent);
+    const bool done = gis_shard_run_scratch(parts, error) && join_files(parts, options, error);
+    end_listening(parts);
+    gis_layout_clear(&parts->layout); /* what is written needs memory, too */
     gis_memory_back();
-    *summary = p->joined.summary;
-    summary->features = p->facts.source.features;
-    summary->vertices = p->facts.vertices;
-    summary->skipped = p->facts.skipped;
-    summary->seconds_explain = p->explain;
-    summary->seconds_verify = p->verify;
+    *summary = parts->joined.summary;
+    summary->features = parts->facts.source.features;
+    summary->vertices = parts->facts.vertices;
+    summary->skipped = parts->facts.skipped;
+    summary->seconds_explain = parts->explain;
+    summary->seconds_verify = parts->verify;
     return done;
 }
 
-void gis_shard_run_clear(gis_shard_run *p)
+void gis_shard_run_clear(gis_shard_run *parts)
 {
-    gis_joined_clear(&p->joined);
-    gis_layout_clear(&p->layout);
-    gis_spool_close(p->spool);
-    gis_barriers_close(&p->barriers);
-    gis_layer_facts_clear(&p->facts);
-    free(p->block_fid);
-    if (p->scratch) {
-        gis_remove_tree(p->scratch);
-        close(p->scratch_lock);
+    gis_joined_clear(&parts->joined);
+    gis_layout_clear(&parts->layout);
+    gis_spool_close(parts->spool);
+    gis_barriers_close(&parts->barriers);
+    gis_layer_facts_clear(&parts->facts);
+    free(parts->block_fid);
+    if (parts->scratch) {
+        gis_remove_tree(parts->scratch);
+        close(parts->scratch_lock);
     }
-    gis_leftover_forget(p->leftover);
-    CPLFree(p->directory);
-    CPLFree(p->scratch);
-    *p = (gis_shard_run){0};
+    gis_leftover_forget(parts->leftover);
+    CPLFree(parts->directory);
+    CPLFree(parts->scratch);
+    *parts = (gis_shard_run){0};
 }

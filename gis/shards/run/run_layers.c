@@ -235,20 +235,21 @@ static bool write_symbols(gis_shard_run *p, const gis_layer_input *input, gis_si
            gis_write_symbols_anew(sink, input, p->facts.multi, !p->whole, move_of, &m, error);
 }
 
-bool gis_shard_run_write(gis_shard_run *p, const gis_layer_input *input, const gis_shard_run_layers *layers,
+bool gis_shard_run_write(gis_shard_run *parts, const gis_layer_input *input, const gis_shard_run_layers *layers,
                          gis_sink *sink, gis_error *error)
 {
     OGRSpatialReferenceH crs = gis_source_crs(input->source);
     gis_sink_layer *layer = NULL;
-    const OGRFieldType id = p->facts.id_type;
+    const OGRFieldType id = parts->facts.id_type;
     if (layers->main && !gis_main_begin(sink, &layer, error)) return false;
-    if (!write_main(p, input, layer, error)) return false;
+    if (!write_main(parts, input, layer, error)) return false;
     if (layers->displacement &&
-        (!gis_displacement_begin(sink, id, crs, &layer, error) || !write_displacement(p, layer, error)))
+        (!gis_displacement_begin(sink, id, crs, &layer, error) || !write_displacement(parts, layer, error)))
         return false;
     if (layers->conflicts &&
-        (!gis_conflicts_begin(sink, "conflicts", id, crs, &layer, error) || !write_conflicts(p, layer, error)))
+        (!gis_conflicts_begin(sink, "conflicts", id, crs, &layer, error) || !write_conflicts(parts, layer, error)))
         return false;
-    if (layers->pushes && (!gis_pushes_begin(sink, crs, &layer, error) || !write_pushes(p, layer, error))) return false;
-    return !layers->symbols || write_symbols(p, input, sink, error);
+    if (layers->pushes && (!gis_pushes_begin(sink, crs, &layer, error) || !write_pushes(parts, layer, error)))
+        return false;
+    return !layers->symbols || write_symbols(parts, input, sink, error);
 }

@@ -58,16 +58,16 @@ static bool put_trees(gis_shard_run *p, gis_json *json, FILE *to, gis_error *err
     return !any;
 }
 
-bool gis_shard_run_proof(gis_shard_run *p, const gis_layer_input *input, const sunder_layer_summary *summary, FILE *to,
-                         gis_error *error)
+bool gis_shard_run_proof(gis_shard_run *parts, const gis_layer_input *input, const sunder_layer_summary *summary,
+                         FILE *to, gis_error *error)
 {
     gis_json json = {0};
     gis_proof_head head = gis_proof_head_of(input, summary);
-    head.conflicts = p->joined.conflicts.n;
-    head.trees = p->joined.trees.n;
+    head.conflicts = parts->joined.conflicts.n;
+    head.trees = parts->joined.trees.n;
     gis_proof_head_line(&json, &head);
-    const bool done = gis_proof_print(&json, to, error) && put_blocks(p, &json, to, error) &&
-                      put_conflicts(p, &json, to, error) && put_trees(p, &json, to, error);
+    const bool done = gis_proof_print(&json, to, error) && put_blocks(parts, &json, to, error) &&
+                      put_conflicts(parts, &json, to, error) && put_trees(parts, &json, to, error);
     gis_json_clear(&json);
     return done;
 }

@@ -151,37 +151,38 @@ bool gis_barriers_create(const char *directory, double gap, gis_barriers_writer 
     return done;
 }
 
-bool gis_barriers_add(gis_barriers_writer *w, const gis_spooled_barrier *barrier, gis_error *error)
+bool gis_barriers_add(gis_barriers_writer *writer, const gis_spooled_barrier *barrier, gis_error *error)
 {
-    w->n++;
-    return note(w, barrier, error) && add(w->all, barrier, owed(w, &barrier->demands), error);
+    writer->n++;
+    return note(writer, barrier, error) && add(writer->all, barrier, owed(writer, &barrier->demands), error);
 }
 
-bool gis_barriers_finish(gis_barriers_writer *w, gis_error *error)
+bool gis_barriers_finish(gis_barriers_writer *writer, gis_error *error)
 {
-    char *path = gis_disk_path(w->directory, GIS_BARRIERS_EVERYWHERE);
+    char *path = gis_disk_path(writer->directory, GIS_BARRIERS_EVERYWHERE);
     gis_spool_writer *few = NULL;
     bool done =
         (path || gis_no_memory(error)) && make_directory(path, error) && gis_spool_create(path, NULL, &few, error);
     for (int k = 0; k < FACTS && done; k++) {
-        bool again = !w->fact[k].there;
+        bool again = !writer->fact[k].there;
         for (int i = 0; i < k; i++)
-            again = again || (w->fact[i].there && w->fact[i].barrier.number == w->fact[k].barrier.number);
-        if (!again) done = add(few, &w->fact[k].barrier, owed(w, &w->fact[k].barrier.demands), error);
+            again =
+                again || (writer->fact[i].there && writer->fact[i].barrier.number == writer->fact[k].barrier.number);
+        if (!again) done = add(few, &writer->fact[k].barrier, owed(writer, &writer->fact[k].barrier.demands), error);
     }
-    done = done && gis_spool_finish(few, 1, NULL, NULL, error) && gis_spool_finish(w->all, 1, NULL, NULL, error);
+    done = done && gis_spool_finish(few, 1, NULL, NULL, error) && gis_spool_finish(writer->all, 1, NULL, NULL, error);
     gis_spool_writer_free(few);
     free(path);
     return done;
 }
 
-void gis_barriers_writer_free(gis_barriers_writer *w)
+void gis_barriers_writer_free(gis_barriers_writer *writer)
 {
-    if (!w) return;
-    for (int k = 0; k < FACTS; k++) free_barrier(&w->fact[k].barrier);
-    gis_spool_writer_free(w->all);
-    free(w->directory);
-    free(w);
+    if (!writer) return;
+    for (int k = 0; k < FACTS; k++) free_barrier(&writer->fact[k].barrier);
+    gis_spool_writer_free(writer->all);
+    free(writer->directory);
+    free(writer);
 }
 
 /* ---- Reading ----------------------------------------------------------------------------------------------------- */

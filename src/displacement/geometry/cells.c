@@ -121,15 +121,16 @@ static bool enter_obstacle(const sunder_i_obstacles *o, uint32_t k, sunder_i_cel
     return sunder_i_steps(1 + rows);
 }
 
-bool sunder_i_cells_make(const sunder_i_obstacles *o, const double target[2], double limit, sunder_i_cells *cells)
+bool sunder_i_cells_make(const sunder_i_obstacles *obstacles, const double target[2], double limit,
+                         sunder_i_cells *cells)
 {
     double box[4];
     memset(cells, 0, sizeof *cells);
-    if (o->n < FEW_OBSTACLES) return true;
-    const double mean = find_extent(o, target, limit, box), size[2] = {box[2] - box[0], box[3] - box[1]};
+    if (obstacles->n < FEW_OBSTACLES) return true;
+    const double mean = find_extent(obstacles, target, limit, box), size[2] = {box[2] - box[0], box[3] - box[1]};
     if (!(size[0] > 0 && size[1] > 0)) return true;
-    double side = sunder_i_max(mean / CELLS_ACROSS, sqrt(size[0] * size[1] / (CELLS_EACH * (double)o->n)));
-    side = sunder_i_max(side, sunder_i_max(size[0], size[1]) / (CELLS_EACH * (double)o->n));
+    double side = sunder_i_max(mean / CELLS_ACROSS, sqrt(size[0] * size[1] / (CELLS_EACH * (double)obstacles->n)));
+    side = sunder_i_max(side, sunder_i_max(size[0], size[1]) / (CELLS_EACH * (double)obstacles->n));
     /* Cells have to be far larger than the rounding of coordinates. */
     const double far = sunder_i_max(sunder_i_max(fabs(box[0]), fabs(box[2])), sunder_i_max(fabs(box[1]), fabs(box[3])));
     if (!(side > far * CELL_MARGIN) || !isfinite(side)) return true;
@@ -142,9 +143,9 @@ bool sunder_i_cells_make(const sunder_i_obstacles *o, const double target[2], do
     cells->cell = sunder_i_alloc(n, sizeof *cells->cell);
     if (!cells->cell) return false;
     for (size_t k = 0; k < n; k++) cells->cell[k] = (sunder_i_cell){0, 0, SUNDER_I_NO_ENTRY};
-    for (uint32_t k = 0; k < o->n; k++)
-        if (!enter_obstacle(o, k, cells)) return false; /* stopped, or out of memory */
-    return sort_entries(o, cells);
+    for (uint32_t k = 0; k < obstacles->n; k++)
+        if (!enter_obstacle(obstacles, k, cells)) return false; /* stopped, or out of memory */
+    return sort_entries(obstacles, cells);
 }
 
 void sunder_i_cells_free(sunder_i_cells *cells)

@@ -350,26 +350,26 @@ static void shelve(const harvest *h, const near_wall *list, size_t n, walls *all
     all->first[SHELVES] = n;
 }
 
-size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2], double limit, double spread,
+size_t sunder_i_free_places(const sunder_i_obstacles *obstacles, const double target[2], double limit, double spread,
                             size_t most, double (*places)[2], uint64_t *steps, bool *failed)
 {
     double distance[MOST_PLACES];
-    harvest h = {.obstacles = o, .target = target, .limit = limit, .spread = spread, .place = places};
+    harvest h = {.obstacles = obstacles, .target = target, .limit = limit, .spread = spread, .place = places};
     h.distance = distance;
     h.most = most < MOST_PLACES ? most : MOST_PLACES;
     const size_t each = 2 * sizeof(near_wall) + sizeof(sunder_i_obstacle_side) + sizeof(double);
-    char *memory = sunder_i_alloc(o->walls * each + o->n * sizeof *h.order, 1);
-    if (!memory || o->failed) {
+    char *memory = sunder_i_alloc(obstacles->walls * each + obstacles->n * sizeof *h.order, 1);
+    if (!memory || obstacles->failed) {
         *failed = true;
     } else if (h.most) {
         walls all = {.near = (near_wall *)(void *)memory};
-        near_wall *list = all.near + o->walls;
-        all.bare = (sunder_i_obstacle_side *)(void *)(list + o->walls);
-        all.covered = (double *)(void *)(all.bare + o->walls);
-        h.order = (uint32_t *)(void *)(all.covered + o->walls);
-        for (size_t k = 0; k < o->n; k++) h.order[k] = (uint32_t)k;
+        near_wall *list = all.near + obstacles->walls;
+        all.bare = (sunder_i_obstacle_side *)(void *)(list + obstacles->walls);
+        all.covered = (double *)(void *)(all.bare + obstacles->walls);
+        h.order = (uint32_t *)(void *)(all.covered + obstacles->walls);
+        for (size_t k = 0; k < obstacles->n; k++) h.order[k] = (uint32_t)k;
         offer(&h, target);
-        if (h.n == 0 && !sunder_i_cells_make(o, target, limit, &h.cells)) *failed = true;
+        if (h.n == 0 && !sunder_i_cells_make(obstacles, target, limit, &h.cells)) *failed = true;
         if (h.n == 0 && !*failed) {
             shelve(&h, list, gather(&h, list, &all), &all);
             search(&h, &all);
@@ -377,7 +377,7 @@ size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2],
         *failed = *failed || sunder_i_stopped();
     }
     SUNDER_I_CHECK(check(&h), h.n);
-    *steps += h.work + 2 * o->walls;
+    *steps += h.work + 2 * obstacles->walls;
     sunder_i_cells_free(&h.cells);
     sunder_i_free(memory);
     return h.n;

@@ -114,25 +114,26 @@ static void close_walls(sunder_i_obstacles *o, size_t first, double gap)
     end_obstacle(o);
 }
 
-void sunder_i_obstacles_add(sunder_i_obstacles *o, const double *d, size_t n, double gap)
+void sunder_i_obstacles_add(sunder_i_obstacles *obstacles, const double *d, size_t n, double gap)
 {
-    const size_t first = o->walls;
-    if (o->failed || !sunder_i_reserve(&o->obstacle, &o->obstacle_capacity, o->n + 1, sizeof *o->obstacle)) {
-        o->failed = true;
+    const size_t first = obstacles->walls;
+    if (obstacles->failed || !sunder_i_reserve(&obstacles->obstacle, &obstacles->obstacle_capacity, obstacles->n + 1,
+                                               sizeof *obstacles->obstacle)) {
+        obstacles->failed = true;
         return;
     }
-    if (!reserve_walls(o, n)) return;
+    if (!reserve_walls(obstacles, n)) return;
     double before[2] = {0, 0}, first_normal[2] = {0, 0};
     const double *first_corner = d;
     const roundness most = find_roundness(d, n, gap);
     bool any = false;
-    for (size_t k = 0; k < n && !o->failed; k++) {
+    for (size_t k = 0; k < n && !obstacles->failed; k++) {
         const double *p = d + 2 * k, *q = d + 2 * (k + 1 < n ? k + 1 : 0);
         const double ex = q[0] - p[0], ey = q[1] - p[1], length = sqrt(ex * ex + ey * ey);
         if (!(length > 0)) continue;
         const double m[2] = {ey / length, -ex / length};
-        if (any && gap > 0) add_round(o, before, m, p, gap, &most);
-        add_normal(o, m, p, gap);
+        if (any && gap > 0) add_round(obstacles, before, m, p, gap, &most);
+        add_normal(obstacles, m, p, gap);
         if (!any) {
             memcpy(first_normal, m, sizeof m);
             first_corner = p;
@@ -140,33 +141,38 @@ void sunder_i_obstacles_add(sunder_i_obstacles *o, const double *d, size_t n, do
         memcpy(before, m, sizeof m);
         any = true;
     }
-    if (any && gap > 0) add_round(o, before, first_normal, first_corner, gap, &most);
-    if (o->failed) return;
-    if (o->walls - first < 3) {
-        o->walls = first; /* no area, no gap: no obstacle */
+    if (any && gap > 0) add_round(obstacles, before, first_normal, first_corner, gap, &most);
+    if (obstacles->failed) return;
+    if (obstacles->walls - first < 3) {
+        obstacles->walls = first; /* no area, no gap: no obstacle */
         return;
     }
-    if (sunder_i_reserve(&o->line, &o->line_capacity, o->wall_capacity, sizeof *o->line))
-        close_walls(o, first, gap);
+    if (sunder_i_reserve(&obstacles->line, &obstacles->line_capacity, obstacles->wall_capacity,
+                         sizeof *obstacles->line))
+        close_walls(obstacles, first, gap);
     else
-        o->failed = true;
+        obstacles->failed = true;
 }
 
-void sunder_i_obstacles_add_known(sunder_i_obstacles *o, const sunder_i_obstacle_side *wall, uint32_t walls,
+void sunder_i_obstacles_add_known(sunder_i_obstacles *obstacles, const sunder_i_obstacle_side *wall, uint32_t walls,
                                   const double box[4])
 {
-    if (!sunder_i_reserve(&o->obstacle, &o->obstacle_capacity, o->n + 1, sizeof *o->obstacle)) o->failed = true;
-    if (o->failed || !reserve_walls(o, walls)) return;
-    if (!sunder_i_reserve(&o->line, &o->line_capacity, o->wall_capacity, sizeof *o->line)) {
-        o->failed = true;
+    if (!sunder_i_reserve(&obstacles->obstacle, &obstacles->obstacle_capacity, obstacles->n + 1,
+                          sizeof *obstacles->obstacle))
+        obstacles->failed = true;
+    if (obstacles->failed || !reserve_walls(obstacles, walls)) return;
+    if (!sunder_i_reserve(&obstacles->line, &obstacles->line_capacity, obstacles->wall_capacity,
+                          sizeof *obstacles->line)) {
+        obstacles->failed = true;
         return;
     }
-    sunder_i_obstacle *obstacle = &o->obstacle[o->n];
-    obstacle->wall = (uint32_t)o->walls;
+    sunder_i_obstacle *obstacle = &obstacles->obstacle[obstacles->n];
+    obstacle->wall = (uint32_t)obstacles->walls;
     obstacle->walls = walls;
     memcpy(obstacle->box, box, sizeof obstacle->box);
-    memcpy(o->wall + o->walls, wall, walls * sizeof *wall);
-    for (size_t k = o->walls; k < o->walls + walls; k++) o->wall[k].obstacle = (uint32_t)o->n;
-    o->walls += walls;
-    end_obstacle(o);
+    memcpy(obstacles->wall + obstacles->walls, wall, walls * sizeof *wall);
+    for (size_t k = obstacles->walls; k < obstacles->walls + walls; k++)
+        obstacles->wall[k].obstacle = (uint32_t)obstacles->n;
+    obstacles->walls += walls;
+    end_obstacle(obstacles);
 }

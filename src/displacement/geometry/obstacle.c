@@ -22,11 +22,12 @@ double *sunder_i_scratch_reserve(sunder_i_scratch *scratch, size_t n)
     return scratch->xy;
 }
 
-size_t sunder_i_extreme_corner(const double *p, size_t n, double sign)
+size_t sunder_i_extreme_corner(const double *corner, size_t n, double sign)
 {
     size_t best = 0;
     for (size_t k = 1; k < n; k++) {
-        const double dy = sign * (p[2 * k + 1] - p[2 * best + 1]), dx = sign * (p[2 * k] - p[2 * best]);
+        const double dy = sign * (corner[2 * k + 1] - corner[2 * best + 1]),
+                     dx = sign * (corner[2 * k] - corner[2 * best]);
         if (dy < 0 || (dy == 0 && dx < 0)) best = k;
     }
     return best;

@@ -62,21 +62,22 @@ static sunder_status is_on_drawn(const sunder_i_barriers *barriers, uint32_t bar
 }
 
 sunder_status sunder_i_barrier_relate(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
-                                      sunder_i_relation *r, sunder_error *err)
+                                      sunder_i_relation *relation, sunder_error *err)
 {
     const sunder_shape *shape = sunder_i_thing_shape(model, part), *own = facing(feature, shape);
     const uint32_t barrier = sunder_i_barrier_of(model, part);
     const double *required = model->barriers->required[barrier];
     bool apart = false;
-    r->near = r->overlap = r->drawn = r->contained = r->a_in_b = r->duplicate = r->touch = r->kept = false;
-    sunder_status status = sunder_i_overlap(shape, NULL, own, feature->t, &r->overlap, err);
-    if (!status && !r->overlap && required[0] > 0)
+    relation->near = relation->overlap = relation->drawn = relation->contained = relation->a_in_b =
+        relation->duplicate = relation->touch = relation->kept = false;
+    sunder_status status = sunder_i_overlap(shape, NULL, own, feature->t, &relation->overlap, err);
+    if (!status && !relation->overlap && required[0] > 0)
         status = sunder_i_apart_by(shape, NULL, own, feature->t, required, &apart, err);
     else
-        apart = !r->overlap;
-    r->near = !apart;
-    if (status || apart || r->overlap) return status;
-    return is_on_drawn(model->barriers, barrier, shape, own, feature->t, &r->drawn, err);
+        apart = !relation->overlap;
+    relation->near = !apart;
+    if (status || apart || relation->overlap) return status;
+    return is_on_drawn(model->barriers, barrier, shape, own, feature->t, &relation->drawn, err);
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */

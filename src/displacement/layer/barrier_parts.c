@@ -23,17 +23,17 @@
  * town's roads make no more bodies than its houses do. */
 #define PIECES 8
 
-void sunder_i_barriers_free(sunder_i_barriers *b)
+void sunder_i_barriers_free(sunder_i_barriers *barriers)
 {
-    for (uint32_t k = 0; b->shape && k < b->parts; k++) sunder_shape_free(b->shape[k]);
-    sunder_i_free(b->shape);
-    sunder_i_free(b->piece);
-    sunder_i_free(b->piece_end);
-    sunder_i_free(b->barrier);
-    sunder_i_free(b->part_end);
-    sunder_i_free(b->half);
-    sunder_i_free(b->required);
-    memset(b, 0, sizeof *b);
+    for (uint32_t k = 0; barriers->shape && k < barriers->parts; k++) sunder_shape_free(barriers->shape[k]);
+    sunder_i_free(barriers->shape);
+    sunder_i_free(barriers->piece);
+    sunder_i_free(barriers->piece_end);
+    sunder_i_free(barriers->barrier);
+    sunder_i_free(barriers->part_end);
+    sunder_i_free(barriers->half);
+    sunder_i_free(barriers->required);
+    memset(barriers, 0, sizeof *barriers);
 }
 
 /* ---- Pieces ------------------------------------------------------------------------------------------------------ */
@@ -170,11 +170,11 @@ sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, sund
 
 /* ---- What is near ------------------------------------------------------------------------------------------------ */
 
-sunder_status sunder_i_barrier_near(const sunder_i_barriers *b, const sunder_i_rtree *tree, uint32_t first,
+sunder_status sunder_i_barrier_near(const sunder_i_barriers *barriers, const sunder_i_rtree *tree, uint32_t first,
                                     uint32_t barrier, const double box[4], double reach, bool areas, sunder_shape **out,
                                     sunder_error *err)
 {
-    const uint32_t low = barrier ? b->part_end[barrier - 1] : 0, high = b->part_end[barrier];
+    const uint32_t low = barrier ? barriers->part_end[barrier - 1] : 0, high = barriers->part_end[barrier];
     sunder_i_list near = {0};
     double grown[4];
     sunder_i_piece_of *piece = NULL;
@@ -186,12 +186,12 @@ sunder_status sunder_i_barrier_near(const sunder_i_barriers *b, const sunder_i_r
     for (size_t k = 0; ok && k < near.n; k++) {
         if (near.item[k] < first + low || near.item[k] >= first + high) continue;
         const uint32_t part = near.item[k] - first;
-        for (uint32_t i = part ? b->piece_end[part - 1] : 0; ok && i < b->piece_end[part]; i++) {
+        for (uint32_t i = part ? barriers->piece_end[part - 1] : 0; ok && i < barriers->piece_end[part]; i++) {
             double own[4];
-            sunder_i_piece_box(&b->piece[i], own);
-            if (!sunder_i_box_meet(own, grown) || (areas && !sunder_i_piece_has_area(&b->piece[i]))) continue;
+            sunder_i_piece_box(&barriers->piece[i], own);
+            if (!sunder_i_box_meet(own, grown) || (areas && !sunder_i_piece_has_area(&barriers->piece[i]))) continue;
             ok = sunder_i_reserve(&piece, &capacity, n + 1, sizeof *piece);
-            if (ok) piece[n++] = b->piece[i];
+            if (ok) piece[n++] = barriers->piece[i];
         }
     }
     sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);

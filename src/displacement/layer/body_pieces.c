@@ -39,14 +39,14 @@ static inline bool turns(const double *a, const double *b, const double *c)
 }
 
 /* Andrew's monotone chain. */
-size_t sunder_i_convex_hull(double *p, size_t n, double *out)
+size_t sunder_i_convex_hull(double *point, size_t n, double *out)
 {
-    sunder_i_sort_few(p, n, 2 * sizeof *p, by_place);
+    sunder_i_sort_few(point, n, 2 * sizeof *point, by_place);
     size_t m = 0;
     for (int pass = 0; pass < 2; pass++) {
         const size_t bottom = m;
         for (size_t k = 0; k < n; k++) {
-            const double *c = p + 2 * (pass ? n - 1 - k : k);
+            const double *c = point + 2 * (pass ? n - 1 - k : k);
             while (m >= bottom + 2 && !turns(out + 2 * (m - 2), out + 2 * (m - 1), c)) m--;
             memcpy(out + 2 * m++, c, 2 * sizeof *c);
         }

@@ -71,10 +71,10 @@ static sunder_status make_seamless(sunder_i_model *model, sunder_error *err)
                              err);
 }
 
-sunder_i_translate sunder_i_at_home(const sunder_i_model *model, uint32_t f)
+sunder_i_translate sunder_i_at_home(const sunder_i_model *model, uint32_t feature)
 {
-    return (sunder_i_translate){.shape = sunder_i_thing_shape(model, f),
-                                .seamless = model->seamless ? model->seamless[f].shape : NULL};
+    return (sunder_i_translate){.shape = sunder_i_thing_shape(model, feature),
+                                .seamless = model->seamless ? model->seamless[feature].shape : NULL};
 }
 
 typedef struct presence {

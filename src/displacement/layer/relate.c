@@ -86,20 +86,21 @@ static sunder_status distance_between(const sunder_i_translate *a, const sunder_
 }
 
 sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_translate *a, const sunder_i_translate *b,
-                              sunder_i_relation *r, sunder_error *err)
+                              sunder_i_relation *relation, sunder_error *err)
 {
-    r->near = r->overlap = r->drawn = r->contained = r->a_in_b = r->duplicate = r->touch = r->kept = false;
+    relation->near = relation->overlap = relation->drawn = relation->contained = relation->a_in_b =
+        relation->duplicate = relation->touch = relation->kept = false;
     sunder_i_encounter m;
     sunder_status status = sunder_i_meet(a->shape, a->t, b->shape, b->t, rules->gap, rules->tolerance, &m, err);
     if (status) return status;
-    if (m.overlap) return relate_overlapping(rules, a, b, r, err);
-    r->near = !m.apart;
-    r->touch = m.touch;
+    if (m.overlap) return relate_overlapping(rules, a, b, relation, err);
+    relation->near = !m.apart;
+    relation->touch = m.touch;
     /* The tolerance is less than the gap, unless that is 0. */
     if (m.touch || !m.may_touch || (m.apart && rules->gap > 0)) return SUNDER_OK;
     double distance;
     status = distance_between(a, b, &distance, err);
-    if (!status) r->touch = distance <= rules->tolerance;
+    if (!status) relation->touch = distance <= rules->tolerance;
     return status;
 }
 

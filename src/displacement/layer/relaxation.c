@@ -203,9 +203,9 @@ void sunder_i_relaxations_remove(sunder_i_relaxations *relaxations, const sunder
 
 /* ---- Those that were restored ------------------------------------------------------------------------------------ */
 
-int sunder_i_by_restored(const void *x, const void *y)
+int sunder_i_by_restored(const void *a, const void *b)
 {
-    const sunder_i_restored *p = x, *q = y;
+    const sunder_i_restored *p = a, *q = b;
     const int order = sunder_i_by_id_pair(&p->body, &q->body);
     return order ? order : sunder_i_by_id_pair(&p->feature, &q->feature);
 }
@@ -320,11 +320,11 @@ sunder_status sunder_i_relaxation_turn(const sunder_i_model *model, const double
     return status;
 }
 
-bool sunder_i_relaxations_spread(sunder_i_relaxations *out, const sunder_i_model *model,
+bool sunder_i_relaxations_spread(sunder_i_relaxations *relaxations, const sunder_i_model *model,
                                  const sunder_i_relaxation *relaxation, double reach)
 {
     sunder_i_relaxation of_part = *relaxation;
-    if (!sunder_i_is_barrier(model, of_part.b)) return sunder_i_relaxations_add(out, &of_part);
+    if (!sunder_i_is_barrier(model, of_part.b)) return sunder_i_relaxations_add(relaxations, &of_part);
     const uint32_t whole = sunder_i_whole_of(model, of_part.b),
                    end = (uint32_t)model->features + model->barriers->part_end[sunder_i_barrier_of(model, of_part.b)];
     const double limit = sunder_i_limit_of(&model->body[model->body_of[of_part.a]]);
@@ -335,16 +335,16 @@ bool sunder_i_relaxations_spread(sunder_i_relaxations *out, const sunder_i_model
     for (size_t k = 0; k < near.n && ok; k++) {
         if (near.item[k] < whole || near.item[k] >= end) continue;
         of_part.b = near.item[k];
-        ok = sunder_i_relaxations_add(out, &of_part);
+        ok = sunder_i_relaxations_add(relaxations, &of_part);
     }
     sunder_i_free(near.item);
     return ok;
 }
 
-sunder_status sunder_i_relaxations_make(const sunder_i_model *model, uint32_t i, uint32_t j, double reach,
+sunder_status sunder_i_relaxations_make(const sunder_i_model *model, uint32_t body, uint32_t other, double reach,
                                         sunder_i_relaxations *out, sunder_error *err)
 {
-    const sunder_i_body *p = &model->body[i], *q = &model->body[j];
+    const sunder_i_body *p = &model->body[body], *q = &model->body[other];
     sunder_status status = SUNDER_OK;
     for (uint32_t k = 0; k < p->members && !status; k++) {
         const uint32_t f = model->member[p->member + k];

@@ -72,10 +72,10 @@ static bool all_exact(const sunder_i_model *model, const sunder_i_body *body, co
     return true;
 }
 
-bool sunder_i_is_exact_move(const sunder_i_model *model, uint32_t b, const double move[2])
+bool sunder_i_is_exact_move(const sunder_i_model *model, uint32_t body, const double move[2])
 {
     double out[2];
-    return all_exact(model, &model->body[b], move) || sunder_i_round_move(model, b, move, out, NULL);
+    return all_exact(model, &model->body[body], move) || sunder_i_round_move(model, body, move, out, NULL);
 }
 
 bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double move[2], double out[2], double *unit)

@@ -6,7 +6,7 @@
 
 /* Rounds the move of a body so that the coordinates of its members plus the move are doubles, if any near move does;
  * false if none. Never longer than the body's limit. The coarsest unit of a coordinate goes to *unit. */
-bool sunder_i_round_move(const sunder_i_model *model, uint32_t body, const double move[2], double out[2], double *unit);
+bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double move[2], double out[2], double *unit);
 
 /* Are the coordinates of its members plus the move doubles, or those plus what sunder_i_round_move() makes of it? */
 bool sunder_i_is_exact_move(const sunder_i_model *model, uint32_t body, const double move[2]);

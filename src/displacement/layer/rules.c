@@ -27,43 +27,45 @@ static unsigned processors(void)
     return n < 1 ? 1 : n > MOST_THREADS ? MOST_THREADS : (unsigned)n;
 }
 
-sunder_status sunder_i_rules_of(const sunder_layer_options *o, sunder_i_rules *rules, sunder_error *err)
+sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err)
 {
-    if (!(o->gap >= 0) || !isfinite(o->gap))
-        return sunder_i_fail(err, SUNDER_EARG, "the gap, %g, is negative or not finite", o->gap);
-    if (isnan(o->touch_tolerance) || o->touch_tolerance == INFINITY)
-        return sunder_i_fail(err, SUNDER_EARG, "the touch tolerance, %g, is not finite", o->touch_tolerance);
-    const double tolerance = o->touch_tolerance < 0 ? o->gap / 10 : o->touch_tolerance;
-    if (o->gap > 0 && tolerance >= o->gap)
+    if (!(options->gap >= 0) || !isfinite(options->gap))
+        return sunder_i_fail(err, SUNDER_EARG, "the gap, %g, is negative or not finite", options->gap);
+    if (isnan(options->touch_tolerance) || options->touch_tolerance == INFINITY)
+        return sunder_i_fail(err, SUNDER_EARG, "the touch tolerance, %g, is not finite", options->touch_tolerance);
+    const double tolerance = options->touch_tolerance < 0 ? options->gap / 10 : options->touch_tolerance;
+    if (options->gap > 0 && tolerance >= options->gap)
         return sunder_i_fail(err, SUNDER_EARG, "the touch tolerance, %g, is not less than the gap, %g", tolerance,
-                             o->gap);
-    if ((int)o->contained < SUNDER_CONTAINMENT_BLOCK || (int)o->contained > SUNDER_CONTAINMENT_SEPARATE)
-        return sunder_i_fail(err, SUNDER_EARG, "no such treatment of contained features: %d", (int)o->contained);
-    if (!(o->thin >= 0) || !isfinite(o->thin))
-        return sunder_i_fail(err, SUNDER_EARG, "what counts as thin, %g, is negative or not finite", o->thin);
-    if (!(o->effort >= 0) || !isfinite(o->effort))
-        return sunder_i_fail(err, SUNDER_EARG, "the effort, %g, is negative or not finite", o->effort);
-    if (!(o->barrier_reach >= 0))
-        return sunder_i_fail(err, SUNDER_EARG, "the reach of barriers, %g, is negative or no number", o->barrier_reach);
-    rules->gap = o->gap;
+                             options->gap);
+    if ((int)options->contained < SUNDER_CONTAINMENT_BLOCK || (int)options->contained > SUNDER_CONTAINMENT_SEPARATE)
+        return sunder_i_fail(err, SUNDER_EARG, "no such treatment of contained features: %d", (int)options->contained);
+    if (!(options->thin >= 0) || !isfinite(options->thin))
+        return sunder_i_fail(err, SUNDER_EARG, "what counts as thin, %g, is negative or not finite", options->thin);
+    if (!(options->effort >= 0) || !isfinite(options->effort))
+        return sunder_i_fail(err, SUNDER_EARG, "the effort, %g, is negative or not finite", options->effort);
+    if (!(options->barrier_reach >= 0))
+        return sunder_i_fail(err, SUNDER_EARG, "the reach of barriers, %g, is negative or no number",
+                             options->barrier_reach);
+    rules->gap = options->gap;
     rules->tolerance = tolerance;
-    rules->barriers_known = o->barrier_reach;
+    rules->barriers_known = options->barrier_reach;
     rules->disc = NULL; /* until there is a model */
-    rules->touch_joins = !o->no_blocks && !o->no_touch;
-    rules->containment_joins = !o->no_blocks && o->contained == SUNDER_CONTAINMENT_BLOCK;
-    rules->thin = rules->touch_joins && !(tolerance > 0) ? o->thin : 0;
-    rules->list_inside = o->list_inside;
-    rules->jumps = o->allow_jumps;
-    rules->contained = o->contained;
-    rules->effort = o->effort;
-    rules->seed = o->seed;
-    rules->keep_trees = o->keep_trees;
-    rules->keep_pushes = o->keep_pushes;
-    rules->keep_worlds = o->keep_worlds;
-    rules->drop_proofs = o->drop_proofs;
-    rules->threads = o->threads ? o->threads > MOST_THREADS ? MOST_THREADS : o->threads : processors();
-    rules->progress = o->progress;
-    rules->progress_user = o->progress_user;
+    rules->touch_joins = !options->no_blocks && !options->no_touch;
+    rules->containment_joins = !options->no_blocks && options->contained == SUNDER_CONTAINMENT_BLOCK;
+    rules->thin = rules->touch_joins && !(tolerance > 0) ? options->thin : 0;
+    rules->list_inside = options->list_inside;
+    rules->jumps = options->allow_jumps;
+    rules->contained = options->contained;
+    rules->effort = options->effort;
+    rules->seed = options->seed;
+    rules->keep_trees = options->keep_trees;
+    rules->keep_pushes = options->keep_pushes;
+    rules->keep_worlds = options->keep_worlds;
+    rules->drop_proofs = options->drop_proofs;
+    rules->threads =
+        options->threads ? options->threads > MOST_THREADS ? MOST_THREADS : options->threads : processors();
+    rules->progress = options->progress;
+    rules->progress_user = options->progress_user;
     return SUNDER_OK;
 }
 

@@ -74,63 +74,63 @@ static void put_line(sunder_i_side_cut *c, const sunder_i_side *side, sunder_i_r
 }
 
 /* Any doubles, which need not be multiples of the lattice's unit. */
-sunder_i_rational_point sunder_i_side_cut_point(sunder_i_side_cut *c, const double xy[2])
+sunder_i_rational_point sunder_i_side_cut_point(sunder_i_side_cut *cut, const double xy[2])
 {
-    sunder_i_arena *m = &c->arena;
-    long unit = c->lattice.exponent;
+    sunder_i_arena *m = &cut->arena;
+    long unit = cut->lattice.exponent;
     for (int k = 0; k < 2; k++)
         if (xy[k] != 0 && sunder_i_low_bit(xy[k]) < unit) unit = sunder_i_low_bit(xy[k]);
     sunder_i_big at[2];
     for (int k = 0; k < 2; k++) {
         int e, f;
-        sunder_i_big v = sunder_i_big_double(m, xy[k], &e), o = sunder_i_big_double(m, c->origin[k], &f);
+        sunder_i_big v = sunder_i_big_double(m, xy[k], &e), o = sunder_i_big_double(m, cut->origin[k], &f);
         if (v.size) v = sunder_i_big_shl(m, v, (unsigned long)(e - unit));
         if (o.size) o = sunder_i_big_shl(m, o, (unsigned long)(f - unit));
         at[k] = sunder_i_big_sub(m, v, o);
     }
     return (sunder_i_rational_point){
-        at[0], at[1], sunder_i_big_shl(m, sunder_i_big_i64(m, 1), (unsigned long)(c->lattice.exponent - unit))};
+        at[0], at[1], sunder_i_big_shl(m, sunder_i_big_i64(m, 1), (unsigned long)(cut->lattice.exponent - unit))};
 }
 
 /* A length, or with power 2 an area. */
-sunder_i_ratio sunder_i_side_cut_in_units(sunder_i_side_cut *c, double size, int power)
+sunder_i_ratio sunder_i_side_cut_in_units(sunder_i_side_cut *cut, double size, int power)
 {
-    const long by = power * c->lattice.exponent;
-    sunder_i_ratio r = sunder_i_ratio_double(&c->arena, sunder_i_min(size, DBL_MAX));
+    const long by = power * cut->lattice.exponent;
+    sunder_i_ratio r = sunder_i_ratio_double(&cut->arena, sunder_i_min(size, DBL_MAX));
     if (by < 0)
-        r.num = sunder_i_big_shl(&c->arena, r.num, (unsigned long)-by);
+        r.num = sunder_i_big_shl(&cut->arena, r.num, (unsigned long)-by);
     else
-        r.den = sunder_i_big_shl(&c->arena, r.den, (unsigned long)by);
+        r.den = sunder_i_big_shl(&cut->arena, r.den, (unsigned long)by);
     return r;
 }
 
 /* The nearest doubles to a point. */
-void sunder_i_side_cut_doubles(sunder_i_side_cut *c, const sunder_i_rational_point *at, double xy[2])
+void sunder_i_side_cut_doubles(sunder_i_side_cut *cut, const sunder_i_rational_point *at, double xy[2])
 {
-    sunder_i_arena *m = &c->arena;
+    sunder_i_arena *m = &cut->arena;
     for (int k = 0; k < 2; k++) {
         int e;
-        sunder_i_big o = sunder_i_big_double(m, c->origin[k], &e);
-        if (o.size) o = sunder_i_big_shl(m, o, (unsigned long)(e - c->lattice.exponent));
+        sunder_i_big o = sunder_i_big_double(m, cut->origin[k], &e);
+        if (o.size) o = sunder_i_big_shl(m, o, (unsigned long)(e - cut->lattice.exponent));
         const sunder_i_big num = sunder_i_big_add(m, sunder_i_rational_axis(at, k), sunder_i_big_mul(m, o, at->w));
-        xy[k] = sunder_i_big_ratio(m, num, at->w, c->lattice.exponent);
+        xy[k] = sunder_i_big_ratio(m, num, at->w, cut->lattice.exponent);
     }
 }
 
 /* ---- The boundary of a part -------------------------------------------------------------------------------------- */
 
-void sunder_i_side_cut_boundary(sunder_i_side_cut *c, const sunder_i_cut_part *p, sunder_i_visit_side_cut visit,
+void sunder_i_side_cut_boundary(sunder_i_side_cut *cut, const sunder_i_cut_part *part, sunder_i_visit_side_cut visit,
                                 void *context)
 {
     size_t inner;
-    const uint32_t *of = sunder_i_planar_map_face_inner(p->map, p->face, &inner);
+    const uint32_t *of = sunder_i_planar_map_face_inner(part->map, part->face, &inner);
     for (size_t k = 0; k <= inner; k++) {
-        const uint32_t start = k < inner ? of[k] : sunder_i_planar_map_face_outer(p->map, p->face);
+        const uint32_t start = k < inner ? of[k] : sunder_i_planar_map_face_outer(part->map, part->face);
         uint32_t h = start;
         do {
-            const uint32_t next = sunder_i_planar_map_next(p->map, h);
-            visit(c, sunder_i_planar_map_vertex_point(p->map, sunder_i_planar_map_origin(p->map, h)),
-                  sunder_i_planar_map_vertex_point(p->map, sunder_i_planar_map_origin(p->map, next)), context);
+            const uint32_t next = sunder_i_planar_map_next(part->map, h);
+            visit(cut, sunder_i_planar_map_vertex_point(part->map, sunder_i_planar_map_origin(part->map, h)),
+                  sunder_i_planar_map_vertex_point(part->map, sunder_i_planar_map_origin(part->map, next)), context);
             h = next;
         } while (h != start);
     }
@@ -273,44 +273,44 @@ sunder_status sunder_i_side_cut_make(const sunder_shape *shape, const sunder_i_s
     return status;
 }
 
-void sunder_i_side_cut_free(sunder_i_side_cut *c)
+void sunder_i_side_cut_free(sunder_i_side_cut *cut)
 {
-    for (uint32_t k = 0; c->map && k < c->shape->form->cleaned.polygons; k++) sunder_i_planar_map_free(c->map[k]);
-    sunder_i_free(c->map);
-    sunder_i_free(c->part);
-    sunder_i_arena_free(&c->arena);
-    sunder_i_lattice_free(&c->lattice);
+    for (uint32_t k = 0; cut->map && k < cut->shape->form->cleaned.polygons; k++) sunder_i_planar_map_free(cut->map[k]);
+    sunder_i_free(cut->map);
+    sunder_i_free(cut->part);
+    sunder_i_arena_free(&cut->arena);
+    sunder_i_lattice_free(&cut->lattice);
 }
 
-void sunder_i_side_cut_keep_largest(sunder_i_side_cut *c, double slack)
+void sunder_i_side_cut_keep_largest(sunder_i_side_cut *cut, double slack)
 {
-    sunder_i_arena *m = &c->arena;
-    const double twice = ldexp(2 * slack, (int)(-2 * c->lattice.exponent));
+    sunder_i_arena *m = &cut->arena;
+    const double twice = ldexp(2 * slack, (int)(-2 * cut->lattice.exponent));
     double least = -INFINITY;
     size_t n = 0;
-    for (size_t k = 0; k < c->parts; k++) least = sunder_i_max(least, c->part[k].area - c->part[k].off);
-    for (size_t k = 0; k < c->parts; k++)
-        if (!(c->part[k].area + c->part[k].off + 1.0000001 * twice < least)) c->part[n++] = c->part[k];
-    c->parts = n;
+    for (size_t k = 0; k < cut->parts; k++) least = sunder_i_max(least, cut->part[k].area - cut->part[k].off);
+    for (size_t k = 0; k < cut->parts; k++)
+        if (!(cut->part[k].area + cut->part[k].off + 1.0000001 * twice < least)) cut->part[n++] = cut->part[k];
+    cut->parts = n;
     if (n < 2) return;
-    sunder_i_ratio largest = exact_area(c, &c->part[0]);
-    for (size_t k = 1; k < c->parts && !m->failed; k++) {
-        const sunder_i_ratio area = exact_area(c, &c->part[k]);
+    sunder_i_ratio largest = exact_area(cut, &cut->part[0]);
+    for (size_t k = 1; k < cut->parts && !m->failed; k++) {
+        const sunder_i_ratio area = exact_area(cut, &cut->part[k]);
         if (sunder_i_ratio_cmp(m, area, largest) > 0) largest = area;
     }
-    const sunder_i_ratio missing = sunder_i_side_cut_in_units(c, 2 * slack, 2);
+    const sunder_i_ratio missing = sunder_i_side_cut_in_units(cut, 2 * slack, 2);
     n = 0;
-    for (size_t k = 0; k < c->parts && !m->failed; k++)
-        if (sunder_i_ratio_cmp(m, sunder_i_ratio_add(m, exact_area(c, &c->part[k]), missing), largest) >= 0)
-            c->part[n++] = c->part[k];
-    c->parts = n;
+    for (size_t k = 0; k < cut->parts && !m->failed; k++)
+        if (sunder_i_ratio_cmp(m, sunder_i_ratio_add(m, exact_area(cut, &cut->part[k]), missing), largest) >= 0)
+            cut->part[n++] = cut->part[k];
+    cut->parts = n;
 }
 
-sunder_status sunder_i_side_cut_holds(const sunder_i_cut_part *p, sunder_i_rational_point at, bool *in,
+sunder_status sunder_i_side_cut_holds(const sunder_i_cut_part *part, sunder_i_rational_point at, bool *holds,
                                       sunder_error *err)
 {
     sunder_i_location place;
-    const sunder_status status = sunder_i_planar_map_locate(p->map, at, &place, err);
-    *in = !status && place.place == SUNDER_I_IN_FACE && place.face == p->face;
+    const sunder_status status = sunder_i_planar_map_locate(part->map, at, &place, err);
+    *holds = !status && place.place == SUNDER_I_IN_FACE && place.face == part->face;
     return status;
 }

@@ -39,24 +39,24 @@ double sunder_i_side_room_reach(const sunder_shape *shape, double known)
     return sunder_i_min(known, 2 * ((box[2] - box[0]) + (box[3] - box[1])));
 }
 
-sunder_i_ratio sunder_i_side_room(sunder_i_side_cut *c, sunder_i_rational_point p, const sunder_i_side *const *line,
-                                  size_t n, double reach)
+sunder_i_ratio sunder_i_side_room(sunder_i_side_cut *cut, sunder_i_rational_point point,
+                                  const sunder_i_side *const *line, size_t n, double reach)
 {
-    sunder_i_arena *m = &c->arena;
-    const double *box = c->shape->box;
+    sunder_i_arena *m = &cut->arena;
+    const double *box = cut->shape->box;
     const double low[2] = {box[0], box[1]}, high[2] = {box[2], box[3]};
     sunder_i_rational_point middle =
-        sunder_i_rational_add(m, sunder_i_side_cut_point(c, low), sunder_i_side_cut_point(c, high));
+        sunder_i_rational_add(m, sunder_i_side_cut_point(cut, low), sunder_i_side_cut_point(cut, high));
     middle.w = sunder_i_big_shl(m, middle.w, 1);
-    const sunder_i_rational_point d = sunder_i_rational_sub(m, p, middle);
+    const sunder_i_rational_point d = sunder_i_rational_sub(m, point, middle);
     const sunder_i_ratio square = {sunder_i_rational_dot(m, d, d), sunder_i_big_mul(m, d.w, d.w)};
-    const sunder_i_ratio far = sunder_i_side_cut_in_units(c, reach, 1);
+    const sunder_i_ratio far = sunder_i_side_cut_in_units(cut, reach, 1);
     sunder_i_ratio room = times(m, far, far);
     for (size_t k = 0; k < n && !m->failed; k++) {
         sunder_i_ratio at;
-        const sunder_i_rational_point a = sunder_i_side_cut_point(c, line[k]->from),
-                                      b = sunder_i_side_cut_point(c, line[k]->to);
-        if (!meet(m, p, d, a, b, &at)) continue;
+        const sunder_i_rational_point a = sunder_i_side_cut_point(cut, line[k]->from),
+                                      b = sunder_i_side_cut_point(cut, line[k]->to);
+        if (!meet(m, point, d, a, b, &at)) continue;
         at = times(m, times(m, at, at), square);
         if (sunder_i_ratio_cmp(m, at, room) < 0) room = at;
     }

@@ -132,10 +132,10 @@ static bool descend(sunder_i_quadratic *p, equations *e, double softness)
     return true;
 }
 
-bool sunder_i_quadratic_equations(sunder_i_quadratic *p, double softness, double tolerance)
+bool sunder_i_quadratic_equations(sunder_i_quadratic *program, double softness, double tolerance)
 {
     size_t acting = 0;
-    for (size_t k = 0; k < p->n; k++) acting += p->constraint[k].force > 0;
+    for (size_t k = 0; k < program->n; k++) acting += program->constraint[k].force > 0;
     if (acting > MOST_ACTIVE) return true;
     equations e = {.capacity = acting + MORE_ACTIVE};
     e.set = sunder_i_alloc(e.capacity, sizeof *e.set);
@@ -145,12 +145,12 @@ bool sunder_i_quadratic_equations(sunder_i_quadratic *p, double softness, double
     e.factor = sunder_i_calloc(e.capacity * e.capacity, sizeof *e.factor);
     const bool ok = e.set && e.force && e.half && e.row && e.factor;
     for (int round = 0; ok && round < MOST_ADDING; round++) {
-        if (!gather(p, &e) || !descend(p, &e, softness)) break;
-        sunder_i_quadratic_place(p);
-        if (sunder_i_quadratic_worst(p, softness) <= tolerance) break;
+        if (!gather(program, &e) || !descend(program, &e, softness)) break;
+        sunder_i_quadratic_place(program);
+        if (sunder_i_quadratic_worst(program, softness) <= tolerance) break;
         /* Those that the solution violates get a force of their own by a pass or two of the first method. */
-        sunder_i_quadratic_sweep(p, softness);
-        sunder_i_quadratic_sweep(p, softness);
+        sunder_i_quadratic_sweep(program, softness);
+        sunder_i_quadratic_sweep(program, softness);
     }
     sunder_i_free(e.set);
     sunder_i_free(e.force);

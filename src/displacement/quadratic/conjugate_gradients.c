@@ -256,31 +256,31 @@ static void iterate(dual *q, double tolerance, unsigned steps)
     }
 }
 
-bool sunder_i_quadratic_gradient(sunder_i_quadratic *p, double softness, double tolerance, unsigned steps)
+bool sunder_i_quadratic_gradient(sunder_i_quadratic *program, double softness, double tolerance, unsigned steps)
 {
-    if (p->n == 0) return true;
-    const size_t numbers = 5 * p->n + 2 * (p->bodies + 1),
-                 need = numbers * sizeof(double) + p->n * (sizeof(sunder_i_link) + sizeof(uint32_t));
+    if (program->n == 0) return true;
+    const size_t numbers = 5 * program->n + 2 * (program->bodies + 1),
+                 need = numbers * sizeof(double) + program->n * (sizeof(sunder_i_link) + sizeof(uint32_t));
     _Alignas(double) char few[ON_THE_STACK];
     double *memory = need <= sizeof few ? (double *)(void *)few : sunder_i_alloc(need, 1);
     if (!memory) return false;
     memset(memory, 0, numbers * sizeof *memory);
     sunder_i_link *link = (sunder_i_link *)(void *)(memory + numbers);
-    sunder_i_links_make(p, link);
-    dual q = {.p = p,
-              .n = p->n,
+    sunder_i_links_make(program, link);
+    dual q = {.p = program,
+              .n = program->n,
               .softness = softness,
               .scale = memory,
-              .f = memory + p->n,
-              .g = memory + 2 * p->n,
-              .step = memory + 3 * p->n,
-              .gs = memory + 4 * p->n,
-              .t = memory + 5 * p->n,
+              .f = memory + program->n,
+              .g = memory + 2 * program->n,
+              .step = memory + 3 * program->n,
+              .gs = memory + 4 * program->n,
+              .t = memory + 5 * program->n,
               .link = link,
-              .pushing = (uint32_t *)(void *)(link + p->n)};
-    for (size_t k = 0; k < p->n; k++) {
-        const sunder_i_constraint *c = &p->constraint[k];
-        q.scale[k] = sqrt(sunder_i_mass(p, c->i) + sunder_i_mass(p, c->j));
+              .pushing = (uint32_t *)(void *)(link + program->n)};
+    for (size_t k = 0; k < program->n; k++) {
+        const sunder_i_constraint *c = &program->constraint[k];
+        q.scale[k] = sqrt(sunder_i_mass(program, c->i) + sunder_i_mass(program, c->j));
         q.f[k] = q.scale[k] * c->force;
     }
     iterate(&q, tolerance / 2, steps);

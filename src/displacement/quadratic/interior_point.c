@@ -142,13 +142,13 @@ static bool is_beyond(const interior *q, double softness)
     return sunder_i_quadratic_is_beyond(q->p, softness);
 }
 
-bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double tolerance, double scale)
+bool sunder_i_quadratic_interior(sunder_i_quadratic *program, double softness, double tolerance, double scale)
 {
-    if (p->n == 0) return true;
+    if (program->n == 0) return true;
     interior q;
     memset(&q, 0, sizeof q);
-    q.p = p;
-    bool ok = sunder_i_normal_init(&q.normal, p);
+    q.p = program;
+    bool ok = sunder_i_normal_init(&q.normal, program);
     q.n = q.normal.n;
     q.m = q.normal.m;
     if (ok) {
@@ -162,20 +162,22 @@ bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double 
             *vector[v] = next;
             next += v < 2 ? q.n + 2 : q.m;
         }
-        for (size_t b = 0; b < p->bodies; b++)
-            if (p->mass[b] > 0) mean += 2 / p->mass[b] / (double)q.n;
+        for (size_t b = 0; b < program->bodies; b++)
+            if (program->mass[b] > 0) mean += 2 / program->mass[b] / (double)q.n;
         for (size_t c = 0; c < q.m; c++)
-            q.soft[c] = softness * (sunder_i_mass(p, p->constraint[c].i) + sunder_i_mass(p, p->constraint[c].j));
+            q.soft[c] = softness * (sunder_i_mass(program, program->constraint[c].i) +
+                                    sunder_i_mass(program, program->constraint[c].j));
         if (q.n <= 2 * MOST_NEAR)
             begin_near(&q, scale, mean);
         else
             begin_far(&q, scale, mean);
-        for (int k = 0; k < MOST_STEPS && !sunder_i_quadratic_is_done(p) && advance(&q, tolerance, &mu); k++)
+        for (int k = 0; k < MOST_STEPS && !sunder_i_quadratic_is_done(program) && advance(&q, tolerance, &mu); k++)
             if (!sunder_i_look() || is_beyond(&q, softness)) break;
-        for (size_t b = 0; b < p->bodies; b++)
-            for (size_t e = 0; e < 2; e++) p->t[2 * b + e] = p->mass[b] > 0 ? q.x[q.normal.unknown[b] + e] : 0;
+        for (size_t b = 0; b < program->bodies; b++)
+            for (size_t e = 0; e < 2; e++)
+                program->t[2 * b + e] = program->mass[b] > 0 ? q.x[q.normal.unknown[b] + e] : 0;
         /* Forces that fade are of constraints that do not act. */
-        for (size_t c = 0; c < q.m; c++) p->constraint[c].force = q.f[c] > FADED * mean * scale ? q.f[c] : 0;
+        for (size_t c = 0; c < q.m; c++) program->constraint[c].force = q.f[c] > FADED * mean * scale ? q.f[c] : 0;
     }
     interior_free(&q);
     return ok;

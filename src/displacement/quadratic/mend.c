@@ -159,21 +159,21 @@ static bool solve_part(mending *m, double tolerance, double scale, double more, 
     return true;
 }
 
-double sunder_i_quadratic_mend(sunder_i_quadratic *p, double tolerance, double scale, double more)
+double sunder_i_quadratic_mend(sunder_i_quadratic *program, double tolerance, double scale, double more)
 {
-    if (p->n <= MOST_QUICK) return INFINITY;
+    if (program->n <= MOST_QUICK) return INFINITY;
     mending m;
-    bool ok = mending_init(&m, p), solved = false;
+    bool ok = mending_init(&m, program), solved = false;
     if (ok) mark_missed(&m, tolerance);
-    for (uint32_t rings = FIRST_RINGS, ring = 0; ok && !solved && !sunder_i_quadratic_is_done(p); rings *= 2) {
+    for (uint32_t rings = FIRST_RINGS, ring = 0; ok && !solved && !sunder_i_quadratic_is_done(program); rings *= 2) {
         const size_t before = m.part.bodies;
         for (; ring < rings; ring++) mark_next(&m, ring);
         take_bodies(&m);
-        if (m.part.bodies == before || m.part.bodies > p->bodies / MOST_MENDING_SHARE) break;
+        if (m.part.bodies == before || m.part.bodies > program->bodies / MOST_MENDING_SHARE) break;
         take_constraints(&m);
         ok = solve_part(&m, tolerance, scale, more, &solved);
     }
     mending_free(&m);
     if (!ok) return -1;
-    return solved ? sunder_i_max(0, sunder_i_quadratic_worst(p, 0)) : INFINITY;
+    return solved ? sunder_i_max(0, sunder_i_quadratic_worst(program, 0)) : INFINITY;
 }

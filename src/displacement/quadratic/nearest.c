@@ -31,31 +31,31 @@
 /* The square of the rounding error that remains of a normal. */
 #define NOTHING 1e-28
 
-void sunder_i_nearest_free(sunder_i_nearest *w)
+void sunder_i_nearest_free(sunder_i_nearest *nearest)
 {
-    sunder_i_free(w->set);
-    sunder_i_free(w->force);
-    sunder_i_free(w->axis);
-    sunder_i_free(w->factor);
-    sunder_i_free(w->part);
-    sunder_i_free(w->share);
-    sunder_i_free(w->rest);
+    sunder_i_free(nearest->set);
+    sunder_i_free(nearest->force);
+    sunder_i_free(nearest->axis);
+    sunder_i_free(nearest->factor);
+    sunder_i_free(nearest->part);
+    sunder_i_free(nearest->share);
+    sunder_i_free(nearest->rest);
 }
 
-bool sunder_i_nearest_begin(sunder_i_nearest *w, sunder_i_quadratic *p)
+bool sunder_i_nearest_begin(sunder_i_nearest *nearest, sunder_i_quadratic *program)
 {
-    const size_t n = 2 * p->bodies;
-    w->dims = n;
-    w->n = 0;
-    memset(p->t, 0, n * sizeof *p->t);
-    for (size_t k = 0; k < p->n; k++) p->constraint[k].force = 0;
-    return sunder_i_reserve(&w->set, &w->set_capacity, n, sizeof *w->set) &&
-           sunder_i_reserve(&w->force, &w->force_capacity, n, sizeof *w->force) &&
-           sunder_i_reserve(&w->axis, &w->axis_capacity, n * n, sizeof *w->axis) &&
-           sunder_i_reserve(&w->factor, &w->factor_capacity, n * n, sizeof *w->factor) &&
-           sunder_i_reserve(&w->part, &w->part_capacity, n, sizeof *w->part) &&
-           sunder_i_reserve(&w->share, &w->share_capacity, n, sizeof *w->share) &&
-           sunder_i_reserve(&w->rest, &w->rest_capacity, n, sizeof *w->rest);
+    const size_t n = 2 * program->bodies;
+    nearest->dims = n;
+    nearest->n = 0;
+    memset(program->t, 0, n * sizeof *program->t);
+    for (size_t k = 0; k < program->n; k++) program->constraint[k].force = 0;
+    return sunder_i_reserve(&nearest->set, &nearest->set_capacity, n, sizeof *nearest->set) &&
+           sunder_i_reserve(&nearest->force, &nearest->force_capacity, n, sizeof *nearest->force) &&
+           sunder_i_reserve(&nearest->axis, &nearest->axis_capacity, n * n, sizeof *nearest->axis) &&
+           sunder_i_reserve(&nearest->factor, &nearest->factor_capacity, n * n, sizeof *nearest->factor) &&
+           sunder_i_reserve(&nearest->part, &nearest->part_capacity, n, sizeof *nearest->part) &&
+           sunder_i_reserve(&nearest->share, &nearest->share_capacity, n, sizeof *nearest->share) &&
+           sunder_i_reserve(&nearest->rest, &nearest->rest_capacity, n, sizeof *nearest->rest);
 }
 
 /* ---- The factors ------------------------------------------------------------------------------------------------- */
@@ -213,24 +213,24 @@ static sunder_i_nearest_outcome satisfy(sunder_i_nearest *w, sunder_i_quadratic 
     return SUNDER_I_NEAREST_NOT_SURE;
 }
 
-sunder_i_nearest_outcome sunder_i_nearest_go_on(sunder_i_nearest *w, sunder_i_quadratic *p, const double *from,
-                                                const double *limit, double tolerance)
+sunder_i_nearest_outcome sunder_i_nearest_go_on(sunder_i_nearest *nearest, sunder_i_quadratic *program,
+                                                const double *from, const double *limit, double tolerance)
 {
     for (int step = 0; step < MOST_NEAREST; step++) {
-        size_t worst = p->n;
+        size_t worst = program->n;
         double most = tolerance;
-        p->work += p->n;
-        for (size_t k = 0; k < p->n; k++) {
-            const double missed = p->constraint[k].d - sunder_i_stretch(&p->constraint[k], p->t);
+        program->work += program->n;
+        for (size_t k = 0; k < program->n; k++) {
+            const double missed = program->constraint[k].d - sunder_i_stretch(&program->constraint[k], program->t);
             if (!(missed > most)) continue;
             most = missed;
             worst = k;
         }
-        if (worst == p->n) {
-            set_forces(w, p, w->force, 1);
+        if (worst == program->n) {
+            set_forces(nearest, program, nearest->force, 1);
             return SUNDER_I_NEAREST_FOUND;
         }
-        const sunder_i_nearest_outcome outcome = satisfy(w, p, worst, from, limit);
+        const sunder_i_nearest_outcome outcome = satisfy(nearest, program, worst, from, limit);
         if (outcome != SUNDER_I_NEAREST_FOUND) return outcome;
     }
     return SUNDER_I_NEAREST_NOT_SURE;

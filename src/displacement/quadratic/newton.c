@@ -270,19 +270,19 @@ static bool solve_hard(newton *q, double tolerance)
     return false;
 }
 
-bool sunder_i_quadratic_newton(sunder_i_quadratic *p, double softness, double tolerance, bool *solved)
+bool sunder_i_quadratic_newton(sunder_i_quadratic *program, double softness, double tolerance, bool *solved)
 {
     newton q;
     *solved = false;
-    const bool ok = prepare(&q, p);
+    const bool ok = prepare(&q, program);
     if (ok) {
-        sunder_i_quadratic_place(p);
-        for (size_t b = 0; b < p->bodies; b++)
-            if (p->mass[b] > 0) memcpy(q.x + q.normal.unknown[b], p->t + 2 * b, 2 * sizeof *q.x);
+        sunder_i_quadratic_place(program);
+        for (size_t b = 0; b < program->bodies; b++)
+            if (program->mass[b] > 0) memcpy(q.x + q.normal.unknown[b], program->t + 2 * b, 2 * sizeof *q.x);
         *solved = softness > 0 ? solve_soft(&q, softness, tolerance) : solve_hard(&q, tolerance);
-        for (size_t b = 0; b < p->bodies && *solved; b++)
-            if (p->mass[b] > 0) memcpy(p->t + 2 * b, q.x + q.normal.unknown[b], 2 * sizeof *q.x);
-        for (size_t c = 0; c < p->n && !*solved; c++) p->constraint[c].force = q.first[c];
+        for (size_t b = 0; b < program->bodies && *solved; b++)
+            if (program->mass[b] > 0) memcpy(program->t + 2 * b, q.x + q.normal.unknown[b], 2 * sizeof *q.x);
+        for (size_t c = 0; c < program->n && !*solved; c++) program->constraint[c].force = q.first[c];
     }
     sunder_i_normal_free(&q.normal);
     sunder_i_free(q.memory);

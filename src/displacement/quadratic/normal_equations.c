@@ -55,25 +55,25 @@ static void find_blocks(sunder_i_normal *q, sunder_i_normal_row *c)
     c->across = c->i < q->n && c->j < q->n ? sunder_i_sparse_block(&q->matrix, c->i / 2, c->j / 2, &transposed) : spare;
 }
 
-bool sunder_i_normal_init(sunder_i_normal *q, const sunder_i_quadratic *p)
+bool sunder_i_normal_init(sunder_i_normal *q, const sunder_i_quadratic *program)
 {
     memset(q, 0, sizeof *q);
-    q->m = p->n;
-    q->unknown = sunder_i_alloc(p->bodies, sizeof *q->unknown);
+    q->m = program->n;
+    q->unknown = sunder_i_alloc(program->bodies, sizeof *q->unknown);
     q->row = sunder_i_alloc(q->m, sizeof *q->row);
     if (!q->unknown || !q->row) return false;
-    number_unknowns(q, p);
+    number_unknowns(q, program);
     q->h = sunder_i_calloc(q->n + 4, sizeof *q->h);
     if (!q->h) return false;
-    for (size_t b = 0; b < p->bodies; b++)
-        for (size_t e = 0; e < 2 && p->mass[b] > 0; e++) q->h[q->unknown[b] + e] = 1 / p->mass[b];
+    for (size_t b = 0; b < program->bodies; b++)
+        for (size_t e = 0; e < 2 && program->mass[b] > 0; e++) q->h[q->unknown[b] + e] = 1 / program->mass[b];
     for (size_t c = 0; c < q->m; c++) {
-        const sunder_i_constraint *k = &p->constraint[c];
+        const sunder_i_constraint *k = &program->constraint[c];
         q->row[c].i = k->i == SUNDER_I_GROUND ? (uint32_t)q->n : q->unknown[k->i];
         q->row[c].j = k->j == SUNDER_I_GROUND ? (uint32_t)q->n : q->unknown[k->j];
         memcpy(q->row[c].n, k->n, sizeof k->n);
     }
-    if (!shape_matrix(q, p)) return false;
+    if (!shape_matrix(q, program)) return false;
     for (size_t c = 0; c < q->m; c++) find_blocks(q, &q->row[c]);
     return true;
 }

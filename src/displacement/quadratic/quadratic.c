@@ -21,35 +21,36 @@
 #include <math.h>
 #include <string.h>
 
-void sunder_i_quadratic_place(sunder_i_quadratic *p)
+void sunder_i_quadratic_place(sunder_i_quadratic *program)
 {
-    memset(p->t, 0, 2 * p->bodies * sizeof *p->t);
-    for (size_t k = 0; k < p->n; k++)
-        if (p->constraint[k].force > 0) sunder_i_push(p, &p->constraint[k], p->constraint[k].force, p->t);
+    memset(program->t, 0, 2 * program->bodies * sizeof *program->t);
+    for (size_t k = 0; k < program->n; k++)
+        if (program->constraint[k].force > 0)
+            sunder_i_push(program, &program->constraint[k], program->constraint[k].force, program->t);
 }
 
-void sunder_i_quadratic_sweep(sunder_i_quadratic *p, double softness)
+void sunder_i_quadratic_sweep(sunder_i_quadratic *program, double softness)
 {
-    p->work += p->n;
-    for (size_t k = 0; k < p->n; k++) {
-        sunder_i_constraint *c = &p->constraint[k];
-        const double m = sunder_i_mass(p, c->i) + sunder_i_mass(p, c->j);
+    program->work += program->n;
+    for (size_t k = 0; k < program->n; k++) {
+        sunder_i_constraint *c = &program->constraint[k];
+        const double m = sunder_i_mass(program, c->i) + sunder_i_mass(program, c->j);
         if (!(m > 0)) continue;
-        double change = (c->d - sunder_i_stretch(c, p->t) - softness * m * c->force) / (m * (1 + softness));
+        double change = (c->d - sunder_i_stretch(c, program->t) - softness * m * c->force) / (m * (1 + softness));
         if (change < -c->force) change = -c->force;
         if (change == 0) continue;
         c->force += change;
-        sunder_i_push(p, c, change, p->t);
+        sunder_i_push(program, c, change, program->t);
     }
 }
 
-double sunder_i_quadratic_worst(const sunder_i_quadratic *p, double softness)
+double sunder_i_quadratic_worst(const sunder_i_quadratic *program, double softness)
 {
     double v = 0;
-    for (size_t k = 0; k < p->n; k++) {
-        const sunder_i_constraint *c = &p->constraint[k];
-        const double m = sunder_i_mass(p, c->i) + sunder_i_mass(p, c->j);
-        const double missed = c->d - sunder_i_stretch(c, p->t) - softness * m * c->force;
+    for (size_t k = 0; k < program->n; k++) {
+        const sunder_i_constraint *c = &program->constraint[k];
+        const double m = sunder_i_mass(program, c->i) + sunder_i_mass(program, c->j);
+        const double missed = c->d - sunder_i_stretch(c, program->t) - softness * m * c->force;
         if (missed != missed) return INFINITY; /* without a solution forces can outgrow all numbers */
         if (missed > v) v = missed;
     }
@@ -57,21 +58,21 @@ double sunder_i_quadratic_worst(const sunder_i_quadratic *p, double softness)
 }
 
 /* Weak duality: whatever the forces, no solution costs less than sum f d - sum w |t|^2, with t as they send it. */
-bool sunder_i_quadratic_is_beyond(const sunder_i_quadratic *p, double softness)
+bool sunder_i_quadratic_is_beyond(const sunder_i_quadratic *program, double softness)
 {
-    if (softness > 0 || !(p->most_cost > 0)) return false;
-    double *t = sunder_i_calloc(2 * p->bodies, sizeof *t), least = 0;
+    if (softness > 0 || !(program->most_cost > 0)) return false;
+    double *t = sunder_i_calloc(2 * program->bodies, sizeof *t), least = 0;
     if (!t) return false;
-    for (size_t k = 0; k < p->n; k++) {
-        const sunder_i_constraint *c = &p->constraint[k];
+    for (size_t k = 0; k < program->n; k++) {
+        const sunder_i_constraint *c = &program->constraint[k];
         if (!(c->force > 0)) continue;
-        sunder_i_push(p, c, c->force, t);
+        sunder_i_push(program, c, c->force, t);
         least += c->force * c->d;
     }
-    for (size_t b = 0; b < p->bodies; b++)
-        if (p->mass[b] > 0) least -= (t[2 * b] * t[2 * b] + t[2 * b + 1] * t[2 * b + 1]) / (2 * p->mass[b]);
+    for (size_t b = 0; b < program->bodies; b++)
+        if (program->mass[b] > 0) least -= (t[2 * b] * t[2 * b] + t[2 * b + 1] * t[2 * b + 1]) / (2 * program->mass[b]);
     sunder_i_free(t);
-    return least > p->most_cost * (1 + BEYOND);
+    return least > program->most_cost * (1 + BEYOND);
 }
 
 /* ---- Sweeps ------------------------------------------------------------------------------------------------------ */
@@ -197,18 +198,18 @@ static double give_up(sunder_i_quadratic *p)
     return INFINITY;
 }
 
-double sunder_i_quadratic_solve(sunder_i_quadratic *p, double softness, double tolerance, double scale)
+double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, double tolerance, double scale)
 {
     bool solved = false;
-    if (p->most_cost > 0 && p->n > FEWEST_NEWTON && p->n <= MOST_QUICK && p->bodies <= MOST_BODIES_NEWTON &&
-        !sunder_i_quadratic_newton(p, softness, tolerance, &solved))
+    if (program->most_cost > 0 && program->n > FEWEST_NEWTON && program->n <= MOST_QUICK &&
+        program->bodies <= MOST_BODIES_NEWTON && !sunder_i_quadratic_newton(program, softness, tolerance, &solved))
         return -1;
-    if (!solved && p->n <= MOST_QUICK && !solve_quickly(p, softness, tolerance)) return -1;
-    if (p->n <= MOST_QUICK && sunder_i_quadratic_worst(p, softness) <= tolerance) return finish(p);
-    if (solved) return sunder_i_quadratic_is_beyond(p, softness) ? give_up(p) : finish(p);
-    sunder_i_quadratic_place(p);
-    if (sunder_i_quadratic_is_done(p)) return finish(p);
-    if (sunder_i_quadratic_is_beyond(p, softness)) return give_up(p);
-    if (!sunder_i_quadratic_interior(p, softness, tolerance, scale)) return -1;
-    return sunder_i_quadratic_is_beyond(p, softness) ? give_up(p) : finish(p);
+    if (!solved && program->n <= MOST_QUICK && !solve_quickly(program, softness, tolerance)) return -1;
+    if (program->n <= MOST_QUICK && sunder_i_quadratic_worst(program, softness) <= tolerance) return finish(program);
+    if (solved) return sunder_i_quadratic_is_beyond(program, softness) ? give_up(program) : finish(program);
+    sunder_i_quadratic_place(program);
+    if (sunder_i_quadratic_is_done(program)) return finish(program);
+    if (sunder_i_quadratic_is_beyond(program, softness)) return give_up(program);
+    if (!sunder_i_quadratic_interior(program, softness, tolerance, scale)) return -1;
+    return sunder_i_quadratic_is_beyond(program, softness) ? give_up(program) : finish(program);
 }

@@ -10,20 +10,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-void sunder_i_sparse_free(sunder_i_sparse *m)
+void sunder_i_sparse_free(sunder_i_sparse *matrix)
 {
-    sunder_i_free(m->rank);
-    sunder_i_free(m->column);
-    sunder_i_free(m->row);
-    sunder_i_free(m->diagonal);
-    sunder_i_free(m->block);
-    sunder_i_free(m->first);
-    sunder_i_free(m->link);
-    sunder_i_free(m->at);
-    sunder_i_free(m->y);
-    sunder_i_free(m->panel);
-    sunder_i_free(m->across);
-    memset(m, 0, sizeof *m);
+    sunder_i_free(matrix->rank);
+    sunder_i_free(matrix->column);
+    sunder_i_free(matrix->row);
+    sunder_i_free(matrix->diagonal);
+    sunder_i_free(matrix->block);
+    sunder_i_free(matrix->first);
+    sunder_i_free(matrix->link);
+    sunder_i_free(matrix->at);
+    sunder_i_free(matrix->y);
+    sunder_i_free(matrix->panel);
+    sunder_i_free(matrix->across);
+    memset(matrix, 0, sizeof *matrix);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -72,44 +72,50 @@ static const char *check(const sunder_i_sparse *m)
 }
 #endif
 
-bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_id_pair *pair, size_t pairs, const double *place)
+bool sunder_i_sparse_init(sunder_i_sparse *matrix, size_t n, const sunder_i_id_pair *pair, size_t pairs,
+                          const double *place)
 {
-    memset(m, 0, sizeof *m);
-    m->n = n;
-    m->rank = sunder_i_alloc(n, sizeof *m->rank);
-    m->column = sunder_i_calloc(n + 1, sizeof *m->column);
-    m->diagonal = sunder_i_alloc(4 * n, sizeof *m->diagonal);
-    m->first = sunder_i_alloc(n, sizeof *m->first);
-    m->link = sunder_i_alloc(n, sizeof *m->link);
-    m->at = sunder_i_alloc(2 * n, sizeof *m->at);
-    m->y = sunder_i_alloc(2 * n, sizeof *m->y);
-    m->panel = sunder_i_alloc(n, sizeof *m->panel);
-    m->across = sunder_i_alloc(8 * n, sizeof *m->across);
-    if (!m->rank || !m->column || !m->diagonal || !m->first || !m->link || !m->at || !m->y || !m->panel || !m->across)
+    memset(matrix, 0, sizeof *matrix);
+    matrix->n = n;
+    matrix->rank = sunder_i_alloc(n, sizeof *matrix->rank);
+    matrix->column = sunder_i_calloc(n + 1, sizeof *matrix->column);
+    matrix->diagonal = sunder_i_alloc(4 * n, sizeof *matrix->diagonal);
+    matrix->first = sunder_i_alloc(n, sizeof *matrix->first);
+    matrix->link = sunder_i_alloc(n, sizeof *matrix->link);
+    matrix->at = sunder_i_alloc(2 * n, sizeof *matrix->at);
+    matrix->y = sunder_i_alloc(2 * n, sizeof *matrix->y);
+    matrix->panel = sunder_i_alloc(n, sizeof *matrix->panel);
+    matrix->across = sunder_i_alloc(8 * n, sizeof *matrix->across);
+    if (!matrix->rank || !matrix->column || !matrix->diagonal || !matrix->first || !matrix->link || !matrix->at ||
+        !matrix->y || !matrix->panel || !matrix->across)
         return false;
     sunder_i_elimination e;
-    const bool ok =
-        sunder_i_elimination_init(&e, n, pair, pairs, m->rank) && sunder_i_eliminate(&e, place) && fill_columns(m, &e);
+    const bool ok = sunder_i_elimination_init(&e, n, pair, pairs, matrix->rank) && sunder_i_eliminate(&e, place) &&
+                    fill_columns(matrix, &e);
     sunder_i_elimination_free(&e);
-    SUNDER_I_CHECK(ok ? check(m) : NULL, n);
+    SUNDER_I_CHECK(ok ? check(matrix) : NULL, n);
     return ok;
 }
 
 /* ---- Entries ----------------------------------------------------------------------------------------------------- */
 
-void sunder_i_sparse_clear(sunder_i_sparse *m)
+void sunder_i_sparse_clear(sunder_i_sparse *matrix)
 {
-    memset(m->diagonal, 0, 4 * m->n * sizeof *m->diagonal);
-    memset(m->block, 0, 4 * m->column[m->n] * sizeof *m->block);
+    memset(matrix->diagonal, 0, 4 * matrix->n * sizeof *matrix->diagonal);
+    memset(matrix->block, 0, 4 * matrix->column[matrix->n] * sizeof *matrix->block);
 }
 
-double *sunder_i_sparse_diagonal(sunder_i_sparse *m, uint32_t a) { return m->diagonal + 4 * (size_t)m->rank[a]; }
-
-double *sunder_i_sparse_block(sunder_i_sparse *m, uint32_t a, uint32_t b, bool *transposed)
+double *sunder_i_sparse_diagonal(sunder_i_sparse *matrix, uint32_t a)
 {
-    const uint32_t ra = m->rank[a], rb = m->rank[b], low = ra < rb ? ra : rb, high = ra < rb ? rb : ra;
-    const uint32_t *row = m->row + m->column[low];
-    const uint32_t *found = bsearch(&high, row, m->column[low + 1] - m->column[low], sizeof *row, sunder_i_by_number);
+    return matrix->diagonal + 4 * (size_t)matrix->rank[a];
+}
+
+double *sunder_i_sparse_block(sunder_i_sparse *matrix, uint32_t a, uint32_t b, bool *transposed)
+{
+    const uint32_t ra = matrix->rank[a], rb = matrix->rank[b], low = ra < rb ? ra : rb, high = ra < rb ? rb : ra;
+    const uint32_t *row = matrix->row + matrix->column[low];
+    const uint32_t *found =
+        bsearch(&high, row, matrix->column[low + 1] - matrix->column[low], sizeof *row, sunder_i_by_number);
     *transposed = ra > rb; /* column by column it would be the other way round */
-    return m->block + 4 * (size_t)(found - m->row);
+    return matrix->block + 4 * (size_t)(found - matrix->row);
 }

@@ -135,34 +135,34 @@ static bool factor_wide(sunder_i_sparse *m) { return factor(m); }
 static bool is_wide(void) { return false; }
 #endif
 
-bool sunder_i_sparse_factor(sunder_i_sparse *m) { return is_wide() ? factor_wide(m) : factor(m); }
+bool sunder_i_sparse_factor(sunder_i_sparse *matrix) { return is_wide() ? factor_wide(matrix) : factor(matrix); }
 
-void sunder_i_sparse_solve(sunder_i_sparse *m, double *x)
+void sunder_i_sparse_solve(sunder_i_sparse *matrix, double *x)
 {
-    double *y = m->y;
-    for (size_t v = 0; v < m->n; v++) memcpy(y + 2 * (size_t)m->rank[v], x + 2 * v, 2 * sizeof *y);
-    for (size_t j = 0; j < m->n; j++) {
-        const double *d = m->diagonal + 4 * j;
+    double *y = matrix->y;
+    for (size_t v = 0; v < matrix->n; v++) memcpy(y + 2 * (size_t)matrix->rank[v], x + 2 * v, 2 * sizeof *y);
+    for (size_t j = 0; j < matrix->n; j++) {
+        const double *d = matrix->diagonal + 4 * j;
         double *s = y + 2 * j;
         s[0] /= d[0];
         s[1] = (s[1] - d[1] * s[0]) / d[3];
-        for (size_t p = m->column[j]; p < m->column[j + 1]; p++) {
-            const double *b = m->block + 4 * p;
-            double *t = y + 2 * (size_t)m->row[p];
+        for (size_t p = matrix->column[j]; p < matrix->column[j + 1]; p++) {
+            const double *b = matrix->block + 4 * p;
+            double *t = y + 2 * (size_t)matrix->row[p];
             t[0] -= b[0] * s[0] + b[2] * s[1];
             t[1] -= b[1] * s[0] + b[3] * s[1];
         }
     }
-    for (size_t j = m->n; j-- > 0;) {
-        const double *d = m->diagonal + 4 * j;
+    for (size_t j = matrix->n; j-- > 0;) {
+        const double *d = matrix->diagonal + 4 * j;
         double *s = y + 2 * j;
-        for (size_t p = m->column[j]; p < m->column[j + 1]; p++) {
-            const double *b = m->block + 4 * p, *t = y + 2 * (size_t)m->row[p];
+        for (size_t p = matrix->column[j]; p < matrix->column[j + 1]; p++) {
+            const double *b = matrix->block + 4 * p, *t = y + 2 * (size_t)matrix->row[p];
             s[0] -= b[0] * t[0] + b[1] * t[1];
             s[1] -= b[2] * t[0] + b[3] * t[1];
         }
         s[1] /= d[3];
         s[0] = (s[0] - d[1] * s[1]) / d[0];
     }
-    for (size_t v = 0; v < m->n; v++) memcpy(x + 2 * v, y + 2 * (size_t)m->rank[v], 2 * sizeof *y);
+    for (size_t v = 0; v < matrix->n; v++) memcpy(x + 2 * v, y + 2 * (size_t)matrix->rank[v], 2 * sizeof *y);
 }

@@ -138,11 +138,12 @@ static sunder_status ask_crowds(payers *p, sunder_error *err)
     return status;
 }
 
-sunder_status sunder_i_report_area_bounds(sunder_i_solver *s, sunder_i_parts *parts, sunder_error *err)
+sunder_status sunder_i_report_area_bounds(sunder_i_solver *solver, sunder_i_parts *parts, sunder_error *err)
 {
-    if (!(s->model.rules.effort > 0) || s->model.rules.contained == SUNDER_CONTAINMENT_IGNORE) return SUNDER_OK;
-    const size_t n = s->model.bodies;
-    payers p = {.s = s,
+    if (!(solver->model.rules.effort > 0) || solver->model.rules.contained == SUNDER_CONTAINMENT_IGNORE)
+        return SUNDER_OK;
+    const size_t n = solver->model.bodies;
+    payers p = {.s = solver,
                 .parts = parts,
                 .cost = sunder_i_calloc(n, sizeof *p.cost),
                 .crowd = sunder_i_alloc(n, sizeof *p.crowd),
@@ -185,14 +186,14 @@ static bool record(const sunder_i_model *model, sunder_i_area_bound *area, sunde
     return true;
 }
 
-sunder_status sunder_i_report_area_trees(sunder_report *report, const sunder_i_solver *s, sunder_i_parts *parts,
+sunder_status sunder_i_report_area_trees(sunder_report *report, const sunder_i_solver *solver, sunder_i_parts *parts,
                                          sunder_error *err)
 {
     for (size_t k = 0; k < parts->areas; k++) {
         sunder_i_area_bound *area = &parts->area[k];
         sunder_bound_tree *tree = &report->bound_tree[report->bound_trees];
-        if (!record(&s->model, area, tree)) return sunder_i_no_memory(err);
-        tree->group = s->groups.n + area->root;
+        if (!record(&solver->model, area, tree)) return sunder_i_no_memory(err);
+        tree->group = solver->groups.n + area->root;
         report->bound_trees++;
     }
     return SUNDER_OK;

@@ -72,7 +72,7 @@ static bool take_from_proof(const sunder_i_model *model, const sunder_conflict *
     return true;
 }
 
-sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_solver *solver, sunder_error *err)
 {
     sunder_i_list blockers = {0}, near = {0};
     sunder_status status = SUNDER_OK;
@@ -82,8 +82,8 @@ sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_sol
         if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
         if (c->reason == SUNDER_REASON_FIXED || c->reason == SUNDER_REASON_MAX_SHIFT) continue; /* limits alone */
         if (!report->proof[k])
-            status = find_blockers(s, c, &near, &blockers, err);
-        else if (!take_from_proof(&s->model, c, report->proof[k], &blockers))
+            status = find_blockers(solver, c, &near, &blockers, err);
+        else if (!take_from_proof(&solver->model, c, report->proof[k], &blockers))
             status = sunder_i_no_memory(err);
         if (blockers.n == first) continue; /* nothing to name, and perhaps no list yet */
         c->n_blocked_by = sunder_i_set_make(&blockers.item[first], blockers.n - first);

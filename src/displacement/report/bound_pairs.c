@@ -84,23 +84,23 @@ static bool is_left(const sunder_i_solver *s, const sunder_i_relation *r)
 }
 
 /* For each pair of blocks, the pair of members that is hardest to resolve, among those that were resolved. */
-sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver *solver, sunder_error *err)
 {
-    const sunder_i_model *model = &s->model;
+    const sunder_i_model *model = &solver->model;
     size_t n = 0;
-    key_pair *key = sunder_i_alloc(s->start.n, sizeof *key);
-    report->bound_pair = sunder_i_calloc(s->start.n, sizeof *report->bound_pair);
+    key_pair *key = sunder_i_alloc(solver->start.n, sizeof *key);
+    report->bound_pair = sunder_i_calloc(solver->start.n, sizeof *report->bound_pair);
     sunder_status status = key && report->bound_pair ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) {
-        for (size_t k = 0; k < s->start.n; k++) {
-            const sunder_i_relation *r = &s->start.pair[k];
+        for (size_t k = 0; k < solver->start.n; k++) {
+            const sunder_i_relation *r = &solver->start.pair[k];
             const uint32_t b = sunder_i_whole_of(model, r->b);
-            if (!sunder_i_is_conflict_of_bodies(model, r) || is_left(s, r)) continue;
+            if (!sunder_i_is_conflict_of_bodies(model, r) || is_left(solver, r)) continue;
             if (n && report->bound_pair[n - 1].a == r->a && report->bound_pair[n - 1].b == b) continue;
             report->bound_pair[n].a = r->a;
             report->bound_pair[n++].b = b;
         }
-        status = measure(s, report->bound_pair, n, err);
+        status = measure(solver, report->bound_pair, n, err);
     }
     if (!status) {
         for (size_t k = 0; k < n; k++)

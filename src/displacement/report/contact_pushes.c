@@ -197,24 +197,25 @@ static bool append(sunder_report *report, size_t *capacity, const found_pushes *
     return true;
 }
 
-sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *solver, sunder_error *err)
 {
-    if (!s->model.rules.keep_pushes) return SUNDER_OK;
+    if (!solver->model.rules.keep_pushes) return SUNDER_OK;
     /* Without proofs they have not been computed yet. */
-    const sunder_status status = s->groups.waived ? SUNDER_OK : sunder_i_solver_waive(s, err);
+    const sunder_status status = solver->groups.waived ? SUNDER_OK : sunder_i_solver_waive(solver, err);
     if (status) return status;
     found_pushes found[LOTS_AT_ONCE];
     size_t capacity = 0;
     sunder_status pressed = SUNDER_OK;
-    for (size_t first = 0; first < s->groups.n && !pressed; first += LOTS_AT_ONCE * GROUPS_OF_A_LOT) {
-        pressing_lots all = {s, first, found};
+    for (size_t first = 0; first < solver->groups.n && !pressed; first += LOTS_AT_ONCE * GROUPS_OF_A_LOT) {
+        pressing_lots all = {solver, first, found};
         memset(found, 0, sizeof found);
-        pressed = sunder_i_parallel(s->model.rules.threads, LOTS_AT_ONCE, SUNDER_I_GRAIN_WHOLE, press_lots, &all, err);
+        pressed =
+            sunder_i_parallel(solver->model.rules.threads, LOTS_AT_ONCE, SUNDER_I_GRAIN_WHOLE, press_lots, &all, err);
         for (size_t k = 0; k < LOTS_AT_ONCE; k++) {
             if (!pressed && !append(report, &capacity, &found[k])) pressed = sunder_i_no_memory(err);
             sunder_i_free(found[k].push);
         }
-        sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
+        sunder_i_pieces_forget(&solver->model, SUNDER_I_PIECES_HELD);
     }
     return pressed;
 }

@@ -212,24 +212,25 @@ static size_t group(const sunder_i_solver *s, const sunder_report *report, sunde
     return n;
 }
 
-sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver *s, bool crowds, sunder_error *err)
+sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver *solver, bool crowds,
+                                          sunder_error *err)
 {
-    crowd g = {.report = report, .trial = {.solver = s}};
-    if (!s->model.lifted || !(s->model.rules.effort > 0) || report->conflicts == 0) return SUNDER_OK;
+    crowd g = {.report = report, .trial = {.solver = solver}};
+    if (!solver->model.lifted || !(solver->model.rules.effort > 0) || report->conflicts == 0) return SUNDER_OK;
     sunder_i_id_pair *item = sunder_i_alloc(report->conflicts, sizeof *item);
-    double *spread = sunder_i_alloc(2 * s->model.bodies, sizeof *spread);
-    g.taken = sunder_i_calloc(s->model.bodies, sizeof *g.taken);
+    double *spread = sunder_i_alloc(2 * solver->model.bodies, sizeof *spread);
+    g.taken = sunder_i_calloc(solver->model.bodies, sizeof *g.taken);
     g.stays = sunder_i_calloc(report->conflicts, sizeof *g.stays);
     sunder_status status = item && spread && g.taken && g.stays ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) memcpy(spread, s->model.move, 2 * s->model.bodies * sizeof *spread);
-    const size_t n = status ? 0 : group(s, report, item);
+    if (!status) memcpy(spread, solver->model.move, 2 * solver->model.bodies * sizeof *spread);
+    const size_t n = status ? 0 : group(solver, report, item);
     for (size_t k = 0, end; k < n && !status; k = end) {
         bool open = false;
         for (end = k; end < n && item[end].a == item[k].a; end++)
             open = open || isnan(report->conflict[item[end].b].need_shift);
         if (open && (end - k > NEED_PATIENCE) == crowds) status = free_cluster(&g, item + k, end - k, spread, err);
     }
-    sunder_i_changes_clear(&s->changes);
+    sunder_i_changes_clear(&solver->changes);
     sunder_i_trial_free(&g.trial);
     sunder_i_free(g.body.item);
     sunder_i_free(item);

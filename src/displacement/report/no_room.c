@@ -410,10 +410,10 @@ static size_t group(const sunder_i_solver *s, const sunder_report *report, const
     return groups;
 }
 
-sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *s, sunder_i_decide_subproblem decide,
-                                     sunder_error *err)
+sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *solver,
+                                     sunder_i_decide_subproblem decide, sunder_error *err)
 {
-    const unsigned threads = s->model.rules.threads;
+    const unsigned threads = solver->model.rules.threads;
     const size_t most = report->conflicts;
     uint32_t *listed = sunder_i_alloc(most, sizeof *listed);
     matter *list = sunder_i_alloc(most, sizeof *list);
@@ -423,12 +423,12 @@ sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solve
     size_t n = 0;
     for (size_t k = 0; !status && k < most; k++)
         if (!report->conflict[k].inside_block) listed[n++] = (uint32_t)k;
-    const size_t groups = status ? 0 : group(s, report, listed, n, list, first);
+    const size_t groups = status ? 0 : group(solver, report, listed, n, list, first);
     if (groups) {
-        requiring h = {s, report, listed, required};
+        requiring h = {solver, report, listed, required};
         status = sunder_i_parallel(threads, n, SUNDER_I_GRAIN_PAIRS, find_some_requirements, &h, err);
-        const uint64_t times = 1 + (uint64_t)(MORE_EFFORT * sunder_i_min(s->model.rules.effort, MORE_UP_TO));
-        asking g = {s, report, decide, list, first, required, n, times};
+        const uint64_t times = 1 + (uint64_t)(MORE_EFFORT * sunder_i_min(solver->model.rules.effort, MORE_UP_TO));
+        asking g = {solver, report, decide, list, first, required, n, times};
         if (!status) status = sunder_i_parallel(threads, groups, SUNDER_I_GRAIN_WHOLE, ask_clusters, &g, err);
     }
     sunder_i_free(listed);

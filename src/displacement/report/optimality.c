@@ -140,21 +140,21 @@ static void keep_proved(sunder_report *report, double **proved, sunder_i_parts *
     *proved = parts->by_pairs = NULL;
 }
 
-sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver *solver, sunder_error *err)
 {
     sunder_layer_summary *summary = &report->summary;
-    const bool any = s->groups.n && s->model.rules.effort > 0;
-    summary->clusters = s->groups.n;
+    const bool any = solver->groups.n && solver->model.rules.effort > 0;
+    summary->clusters = solver->groups.n;
     if (!any && !report->bound_pairs) return SUNDER_OK;
     sunder_i_parts parts = {0};
-    double *proved = sunder_i_alloc(s->model.bodies, sizeof *proved);
+    double *proved = sunder_i_alloc(solver->model.bodies, sizeof *proved);
     sunder_status status = proved ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status && any) status = count_groups(summary, s, err);
-    if (!status) status = sunder_i_parts_find(&parts, report, s, err);
-    if (!status) status = sunder_i_report_area_bounds(s, &parts, err);
-    if (!status) status = prove_parts(report, s, &parts, proved, err);
-    if (!status) add_up(summary, proved, parts.by_pairs, s->model.bodies);
-    if (!status && s->model.rules.keep_worlds) keep_proved(report, &proved, &parts);
+    if (!status && any) status = count_groups(summary, solver, err);
+    if (!status) status = sunder_i_parts_find(&parts, report, solver, err);
+    if (!status) status = sunder_i_report_area_bounds(solver, &parts, err);
+    if (!status) status = prove_parts(report, solver, &parts, proved, err);
+    if (!status) add_up(summary, proved, parts.by_pairs, solver->model.bodies);
+    if (!status && solver->model.rules.keep_worlds) keep_proved(report, &proved, &parts);
     sunder_i_free(proved);
     sunder_i_parts_free(&parts);
     return status;

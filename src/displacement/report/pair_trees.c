@@ -123,16 +123,16 @@ static sunder_status prove_all(const sunder_report *report, const sunder_i_solve
     return status;
 }
 
-sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_solver *s, sunder_i_parts *parts,
+sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_solver *solver, sunder_i_parts *parts,
                                          sunder_i_bound_trees *trees, sunder_error *err)
 {
     sunder_i_id_pair *which = sunder_i_alloc(report->bound_pairs, sizeof *which);
-    double *load = sunder_i_calloc(s->model.bodies, sizeof *load);
+    double *load = sunder_i_calloc(solver->model.bodies, sizeof *load);
     sunder_status status = which && load ? SUNDER_OK : sunder_i_no_memory(err);
-    const size_t n = status ? 0 : list_pairs(report, &s->model, parts, which);
-    if (!status && n) status = sunder_i_solver_waive(s, err);
-    for (size_t b = 0; b < s->model.bodies; b++) parts->by_trees[b] = 0;
-    if (!status && n) status = prove_all(report, s, which, n, load, parts->by_trees, trees, err);
+    const size_t n = status ? 0 : list_pairs(report, &solver->model, parts, which);
+    if (!status && n) status = sunder_i_solver_waive(solver, err);
+    for (size_t b = 0; b < solver->model.bodies; b++) parts->by_trees[b] = 0;
+    if (!status && n) status = prove_all(report, solver, which, n, load, parts->by_trees, trees, err);
     sunder_i_free(which);
     sunder_i_free(load);
     return status;

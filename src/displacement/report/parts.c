@@ -31,10 +31,10 @@ static void join_pairs(const sunder_i_model *model, const sunder_report *report,
     }
 }
 
-sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *report, const sunder_i_solver *s,
+sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *report, const sunder_i_solver *solver,
                                   sunder_error *err)
 {
-    const sunder_i_model *model = &s->model;
+    const sunder_i_model *model = &solver->model;
     *parts = (sunder_i_parts){.root = sunder_i_alloc(model->bodies, sizeof *parts->root),
                               .by_pairs = sunder_i_calloc(model->bodies, sizeof *parts->by_pairs),
                               .by_trees = sunder_i_alloc(model->bodies, sizeof *parts->by_trees),
@@ -44,10 +44,10 @@ sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *re
         return sunder_i_no_memory(err);
     sunder_i_union_init(parts->root, model->bodies);
     join_pairs(model, report, parts->root);
-    for (size_t k = 0; k < s->groups.n; k++)
-        if (s->groups.group[k].bound > 0) join_group(model, &s->groups.group[k], parts->root);
-    for (size_t k = 0; k < s->groups.n; k++) {
-        const sunder_i_group *g = &s->groups.group[k];
+    for (size_t k = 0; k < solver->groups.n; k++)
+        if (solver->groups.group[k].bound > 0) join_group(model, &solver->groups.group[k], parts->root);
+    for (size_t k = 0; k < solver->groups.n; k++) {
+        const sunder_i_group *g = &solver->groups.group[k];
         if (!(g->bound > 0)) continue;
         double *sum = &parts->by_groups[sunder_i_union_find(parts->root, g->number)];
         *sum = *sum > 0 ? nextafter(*sum + g->bound, -INFINITY) : g->bound;

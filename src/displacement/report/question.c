@@ -26,13 +26,14 @@
 
 /* ---- Who takes part ---------------------------------------------------------------------------------------------- */
 
-void sunder_i_surroundings_clear(sunder_i_surroundings *a)
+void sunder_i_surroundings_clear(sunder_i_surroundings *surroundings)
 {
-    for (size_t k = 0; a->standing && k < a->feature.n; k++) sunder_shape_free(a->standing[k]);
-    sunder_i_free(a->standing);
-    sunder_i_free(a->as);
-    sunder_i_free(a->feature.item);
-    sunder_i_free(a->part.item);
+    for (size_t k = 0; surroundings->standing && k < surroundings->feature.n; k++)
+        sunder_shape_free(surroundings->standing[k]);
+    sunder_i_free(surroundings->standing);
+    sunder_i_free(surroundings->as);
+    sunder_i_free(surroundings->feature.item);
+    sunder_i_free(surroundings->part.item);
 }
 
 /* What the conflict lacks: how far its features have to part. */
@@ -124,31 +125,34 @@ static double gone_already(const sunder_i_model *model, const sunder_conflict *c
     return sunder_i_max(hypot(s[0], s[1]), hypot(t[0], t[1]));
 }
 
-sunder_status sunder_i_surround(const sunder_i_solver *s, const sunder_conflict *c, sunder_i_surroundings *a,
-                                sunder_error *err)
+sunder_status sunder_i_surround(const sunder_i_solver *solver, const sunder_conflict *conflict,
+                                sunder_i_surroundings *surroundings, sunder_error *err)
 {
-    const sunder_i_model *model = &s->model;
-    const double reach = c->required + missing(c);
+    const sunder_i_model *model = &solver->model;
+    const double reach = conflict->required + missing(conflict);
     sunder_i_list moving = {0}, near = {0};
-    bool ok = choose_moving(s, c, reach, &moving);
-    sunder_i_box_clear(a->known);
-    for (size_t k = 0; k < moving.n && ok; k++) ok = append_members(model, moving.item[k], &a->feature);
-    a->moving = a->feature.n;
-    for (size_t k = 0; k < a->moving; k++) sunder_i_box_join(a->known, sunder_i_home_box(model, a->feature.item[k]));
-    a->farthest = NEED_GAPS * c->required + NEED_MISSING * missing(c) + gone_already(model, c);
-    sunder_i_box_grow(a->known, a->farthest + reach, a->known);
-    ok = ok && sunder_i_look_about(&s->model, &s->placement.tree, a->known, &near);
+    bool ok = choose_moving(solver, conflict, reach, &moving);
+    sunder_i_box_clear(surroundings->known);
+    for (size_t k = 0; k < moving.n && ok; k++) ok = append_members(model, moving.item[k], &surroundings->feature);
+    surroundings->moving = surroundings->feature.n;
+    for (size_t k = 0; k < surroundings->moving; k++)
+        sunder_i_box_join(surroundings->known, sunder_i_home_box(model, surroundings->feature.item[k]));
+    surroundings->farthest =
+        NEED_GAPS * conflict->required + NEED_MISSING * missing(conflict) + gone_already(model, conflict);
+    sunder_i_box_grow(surroundings->known, surroundings->farthest + reach, surroundings->known);
+    ok = ok && sunder_i_look_about(&solver->model, &solver->placement.tree, surroundings->known, &near);
     moving.n = sunder_i_set_make(moving.item, moving.n);
     near.n = sunder_i_set_make(near.item, near.n);
     for (size_t k = 0; k < near.n && ok; k++)
         if (!sunder_i_set_has(moving.item, moving.n, model->body_of[near.item[k]]))
-            ok = sunder_i_list_push(sunder_i_is_barrier(model, near.item[k]) ? &a->part : &a->feature, near.item[k]);
+            ok = sunder_i_list_push(
+                sunder_i_is_barrier(model, near.item[k]) ? &surroundings->part : &surroundings->feature, near.item[k]);
     sunder_i_free(moving.item);
     sunder_i_free(near.item);
-    a->as = sunder_i_alloc(a->feature.n, sizeof *a->as);
-    a->standing = sunder_i_calloc(a->feature.n, sizeof *a->standing);
-    sunder_status status = ok && a->as && a->standing ? SUNDER_OK : sunder_i_no_memory(err);
-    for (size_t k = 0; k < a->feature.n && !status; k++) status = take_part(s, a, k, err);
+    surroundings->as = sunder_i_alloc(surroundings->feature.n, sizeof *surroundings->as);
+    surroundings->standing = sunder_i_calloc(surroundings->feature.n, sizeof *surroundings->standing);
+    sunder_status status = ok && surroundings->as && surroundings->standing ? SUNDER_OK : sunder_i_no_memory(err);
+    for (size_t k = 0; k < surroundings->feature.n && !status; k++) status = take_part(solver, surroundings, k, err);
     return status;
 }
 
@@ -410,12 +414,12 @@ static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_sur
     return status;
 }
 
-sunder_status sunder_i_few_are_listed(const sunder_i_questions *g, const sunder_i_surroundings *a,
-                                      const sunder_conflict *c, bool *few, sunder_error *err)
+sunder_status sunder_i_few_are_listed(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
+                                      const sunder_conflict *conflict, bool *few, sunder_error *err)
 {
     sunder_i_id_pair *spared = NULL;
     size_t n = 0;
-    const bool ok = list_spared(g, a, c, SUNDER_I_NOBODY, &spared, &n);
+    const bool ok = list_spared(questions, surroundings, conflict, SUNDER_I_NOBODY, &spared, &n);
     *few = n > 0 && n <= NEED_ALL;
     sunder_i_free(spared);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
@@ -423,17 +427,20 @@ sunder_status sunder_i_few_are_listed(const sunder_i_questions *g, const sunder_
 
 /* Few that are listed besides are asked to be solved, too. Where that has no solution and need not have one, or where
  * they are many, as beside roads, they are left alone. */
-sunder_status sunder_i_ask(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
-                           const sunder_i_supposition *what, sunder_i_patience *proof, bool *yes, double *longest,
-                           sunder_error *err)
+sunder_status sunder_i_ask(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
+                           const sunder_conflict *conflict, const sunder_i_supposition *what, sunder_i_patience *proof,
+                           bool *yes, double *longest, sunder_error *err)
 {
     sunder_i_id_pair *spared = NULL;
     size_t n = 0;
     *yes = false;
-    sunder_status status = list_spared(g, a, c, what->gone, &spared, &n) ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status && n <= NEED_ALL) status = ask_sparing(g, a, c, what, NULL, 0, proof, yes, longest, err);
+    sunder_status status =
+        list_spared(questions, surroundings, conflict, what->gone, &spared, &n) ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status && n <= NEED_ALL)
+        status = ask_sparing(questions, surroundings, conflict, what, NULL, 0, proof, yes, longest, err);
     const bool spares = n > NEED_ALL || (n > 0 && !what->all && !*yes);
-    if (!status && spares) status = ask_sparing(g, a, c, what, spared, n, proof, yes, longest, err);
+    if (!status && spares)
+        status = ask_sparing(questions, surroundings, conflict, what, spared, n, proof, yes, longest, err);
     sunder_i_free(spared);
     return status;
 }

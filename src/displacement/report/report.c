@@ -29,20 +29,22 @@ static void report_blocks(sunder_report *r, const sunder_i_model *model)
     }
 }
 
-sunder_status sunder_i_report_features(sunder_report *r, const sunder_i_model *model, sunder_error *err)
+sunder_status sunder_i_report_features(sunder_report *report, const sunder_i_model *model, sunder_error *err)
 {
     const size_t n = model->features;
-    r->move = sunder_i_calloc(2 * n, sizeof *r->move);
-    r->status = sunder_i_calloc(n, sizeof *r->status);
-    r->block = sunder_i_calloc(n, sizeof *r->block);
-    if (!r->move || !r->status || !r->block) return sunder_i_no_memory(err);
-    report_blocks(r, model);
-    r->summary.vertices = model->vertices;
+    report->move = sunder_i_calloc(2 * n, sizeof *report->move);
+    report->status = sunder_i_calloc(n, sizeof *report->status);
+    report->block = sunder_i_calloc(n, sizeof *report->block);
+    if (!report->move || !report->status || !report->block) return sunder_i_no_memory(err);
+    report_blocks(report, model);
+    report->summary.vertices = model->vertices;
     for (size_t f = 0; f < n; f++) {
         const sunder_feature feature = sunder_i_feature(model->layer, f);
         const bool fixed = model->body[model->body_of[f]].fixed;
-        r->status[f] = feature.ignored ? SUNDER_FEATURE_SKIPPED : fixed ? SUNDER_FEATURE_FIXED : SUNDER_FEATURE_UNMOVED;
-        if (feature.ignored) r->summary.skipped++;
+        report->status[f] = feature.ignored ? SUNDER_FEATURE_SKIPPED
+                            : fixed         ? SUNDER_FEATURE_FIXED
+                                            : SUNDER_FEATURE_UNMOVED;
+        if (feature.ignored) report->summary.skipped++;
     }
     return SUNDER_OK;
 }
@@ -98,31 +100,31 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
     count_statuses(report, model);
 }
 
-void sunder_report_free(sunder_report *r)
+void sunder_report_free(sunder_report *report)
 {
-    if (!r) return;
-    sunder_i_free(r->move);
-    sunder_i_free(r->status);
-    sunder_i_free(r->block);
-    sunder_i_free(r->conflict);
-    sunder_i_free(r->blocker);
-    for (size_t k = 0; r->proof && k < r->conflicts; k++) sunder_i_proof_free(r->proof[k]);
-    sunder_i_free(r->proof);
-    sunder_i_free(r->bound_pair);
-    for (size_t k = 0; k < r->bound_trees; k++) sunder_i_bound_tree_free(&r->bound_tree[k]);
-    sunder_i_free(r->bound_tree);
-    sunder_i_free(r->push);
-    sunder_i_free(r->world);
-    sunder_i_free(r->world_of);
-    sunder_i_free(r->stands);
-    sunder_i_free(r->inside);
-    sunder_i_free(r->inexact);
-    sunder_i_free(r->footprint);
-    sunder_i_free(r->world_bound);
-    sunder_i_free(r->thin);
-    sunder_i_free(r->proved);
-    sunder_i_free(r->by_pairs);
-    sunder_i_free(r);
+    if (!report) return;
+    sunder_i_free(report->move);
+    sunder_i_free(report->status);
+    sunder_i_free(report->block);
+    sunder_i_free(report->conflict);
+    sunder_i_free(report->blocker);
+    for (size_t k = 0; report->proof && k < report->conflicts; k++) sunder_i_proof_free(report->proof[k]);
+    sunder_i_free(report->proof);
+    sunder_i_free(report->bound_pair);
+    for (size_t k = 0; k < report->bound_trees; k++) sunder_i_bound_tree_free(&report->bound_tree[k]);
+    sunder_i_free(report->bound_tree);
+    sunder_i_free(report->push);
+    sunder_i_free(report->world);
+    sunder_i_free(report->world_of);
+    sunder_i_free(report->stands);
+    sunder_i_free(report->inside);
+    sunder_i_free(report->inexact);
+    sunder_i_free(report->footprint);
+    sunder_i_free(report->world_bound);
+    sunder_i_free(report->thin);
+    sunder_i_free(report->proved);
+    sunder_i_free(report->by_pairs);
+    sunder_i_free(report);
 }
 
 void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *conflict)

@@ -150,16 +150,16 @@ static sunder_status find_some(looking *l, sunder_i_model *model, sunder_error *
     return status;
 }
 
-sunder_status sunder_i_report_find_seams(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_report_find_seams(sunder_i_solver *solver, sunder_error *err)
 {
-    looking l = {.solver = s,
-                 .far = sunder_i_alloc(s->model.bodies, sizeof *l.far),
-                 .met = sunder_i_calloc(s->model.bodies, sizeof *l.met),
-                 .gathered = sunder_i_calloc(s->model.bodies, sizeof *l.gathered)};
+    looking l = {.solver = solver,
+                 .far = sunder_i_alloc(solver->model.bodies, sizeof *l.far),
+                 .met = sunder_i_calloc(solver->model.bodies, sizeof *l.met),
+                 .gathered = sunder_i_calloc(solver->model.bodies, sizeof *l.gathered)};
     sunder_status status = l.far && l.met && l.gathered ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) ask_all(&l);
     if (!status && !ask_given_up(&l)) status = sunder_i_no_memory(err);
-    if (!status && l.any) status = find_some(&l, &s->model, err);
+    if (!status && l.any) status = find_some(&l, &solver->model, err);
     sunder_i_free(l.far);
     sunder_i_free(l.met);
     sunder_i_free(l.gathered);

@@ -161,7 +161,7 @@ static sunder_status find_stretch(const sunder_i_solver *s, const sunder_i_list 
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_spread_out(const sunder_i_solver *s, sunder_i_list *body, double *goal, bool *found,
+sunder_status sunder_i_spread_out(const sunder_i_solver *solver, sunder_i_list *body, double *goal, bool *found,
                                   sunder_error *err)
 {
     const size_t most = SPREAD_TIMES * body->n + SPREAD_MOST;
@@ -170,14 +170,14 @@ sunder_status sunder_i_spread_out(const sunder_i_solver *s, sunder_i_list *body,
     *found = true;
     for (size_t n = 0; *found && n != body->n && !status;) {
         n = body->n;
-        status = find_stretch(s, body, &g, found, err);
-        if (!status && *found && !take_in(s, &g, body)) status = sunder_i_no_memory(err);
+        status = find_stretch(solver, body, &g, found, err);
+        if (!status && *found && !take_in(solver, &g, body)) status = sunder_i_no_memory(err);
         *found = *found && body->n <= most;
     }
     const double unit = unit_of(g.middle, g.half, g.factor);
     for (size_t k = 0; k < body->n && *found && !status; k++) {
         double at[2], own[2];
-        box_of(s, body->item[k], at, own);
+        box_of(solver, body->item[k], at, own);
         for (size_t c = 0; c < 2; c++) {
             const double to = (g.factor[c] - 1) * (1 + SPREAD_MARGIN) * (at[c] - g.middle[c]);
             goal[2 * (size_t)body->item[k] + c] = unit * rint(to / unit);

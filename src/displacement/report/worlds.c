@@ -291,12 +291,12 @@ static sunder_status keep_each(sunder_report *report, const gathering *g, sunder
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solver *solver, sunder_error *err)
 {
-    const sunder_i_model *model = &s->model;
+    const sunder_i_model *model = &solver->model;
     if (!model->rules.keep_worlds) return SUNDER_OK;
     const size_t n = model->bodies;
-    gathering g = {.solver = s,
+    gathering g = {.solver = solver,
                    .model = model,
                    .reach = (model->rules.gap + model->rules.tolerance + model->rules.thin) * (1 + HAIR),
                    .root = sunder_i_alloc(n, sizeof *g.root),
@@ -309,9 +309,9 @@ sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solve
         g.root && g.active && g.read && g.seen && g.wrote && world ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) {
         sunder_i_union_init(g.root, n);
-        for (size_t e = 0; e < s->edges; e++) meet(&g, s->edge[e].a, s->edge[e].b);
-        meet_conflicts(&g, &s->start);
-        meet_conflicts(&g, &s->now);
+        for (size_t e = 0; e < solver->edges; e++) meet(&g, solver->edge[e].a, solver->edge[e].b);
+        meet_conflicts(&g, &solver->start);
+        meet_conflicts(&g, &solver->now);
         meet_groups(&g);
         find_boxes(&g);
         status = meet_readers(&g, world, err);

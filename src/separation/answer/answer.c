@@ -11,30 +11,31 @@
 
 static bool fits(const sunder_i_i256 *v) { return !(v->limb[1] | v->limb[2] | v->limb[3]) && v->limb[0] >> 63 == 0; }
 
-bool sunder_i_hpoint_is_short(const sunder_i_hpoint *p)
+bool sunder_i_hpoint_is_short(const sunder_i_hpoint *point)
 {
-    return p->w != 0 && fits(&p->x) && fits(&p->y) && p->w >> 63 == 0;
+    return point->w != 0 && fits(&point->x) && fits(&point->y) && point->w >> 63 == 0;
 }
 
-sunder_i_exact_translation sunder_i_exact_translation_of(sunder_i_operands *g, const sunder_i_hpoint *p)
+sunder_i_exact_translation sunder_i_exact_translation_of(sunder_i_operands *operands, const sunder_i_hpoint *point)
 {
-    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_lattice *l = &operands->placed.lattice;
     sunder_i_exact_translation v;
     memset(&v, 0, sizeof v);
-    if (sunder_i_hpoint_is_short(p)) {
+    if (sunder_i_hpoint_is_short(point)) {
         v.small = true;
-        v.x = (sunder_i_i128)p->x.sign * (int64_t)p->x.limb[0];
-        v.y = (sunder_i_i128)p->y.sign * (int64_t)p->y.limb[0];
-        v.w = p->w;
+        v.x = (sunder_i_i128)point->x.sign * (int64_t)point->x.limb[0];
+        v.y = (sunder_i_i128)point->y.sign * (int64_t)point->y.limb[0];
+        v.w = point->w;
         return v;
     }
-    v.big = sunder_i_hpoint_read(&l->arena, l, p);
+    v.big = sunder_i_hpoint_read(&l->arena, l, point);
     return v;
 }
 
-sunder_i_rational_point sunder_i_exact_translation_point(sunder_i_operands *g, const sunder_i_exact_translation *v)
+sunder_i_rational_point sunder_i_exact_translation_point(sunder_i_operands *operands,
+                                                         const sunder_i_exact_translation *v)
 {
-    sunder_i_arena *a = &g->placed.lattice.arena;
+    sunder_i_arena *a = &operands->placed.lattice.arena;
     if (!v->small) return v->big;
     return (sunder_i_rational_point){sunder_i_big_i128(a, v->x), sunder_i_big_i128(a, v->y),
                                      sunder_i_big_i128(a, v->w)};
@@ -51,15 +52,15 @@ static bool quick_ratio(sunder_i_i128 num, sunder_i_i128 den, long exponent, dou
     return true; /* the quotient lies between 2^-53 and 2^53: scaling is exact */
 }
 
-void sunder_i_answer_numbers(sunder_i_operands *g, const sunder_i_exact_translation *v, sunder_separation *out)
+void sunder_i_answer_numbers(sunder_i_operands *operands, const sunder_i_exact_translation *v, sunder_separation *out)
 {
-    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_lattice *l = &operands->placed.lattice;
     const long e = l->exponent;
     if (v->small && quick_ratio(v->x, v->w, e, &out->dx) && quick_ratio(v->y, v->w, e, &out->dy)) {
         const sunder_i_u128 n = (sunder_i_u128)(v->x * v->x) + (sunder_i_u128)(v->y * v->y);
         if (sunder_i_quick_root(n, (int64_t)v->w, e, &out->distance, &out->lower_bound)) return;
     }
-    const sunder_i_rational_point big = sunder_i_exact_translation_point(g, v);
+    const sunder_i_rational_point big = sunder_i_exact_translation_point(operands, v);
     sunder_i_rational_doubles(&l->arena, big, e, &out->dx, &out->dy);
     sunder_i_root(&l->arena, sunder_i_rational_dot(&l->arena, big, big), big.w, e, &out->distance, &out->lower_bound);
 }
@@ -79,9 +80,9 @@ static sunder_i_big in_units(sunder_i_lattice *l, double v, unsigned long *bits)
     return m;
 }
 
-sunder_i_rational_point sunder_i_doubles_point(sunder_i_operands *g, double dx, double dy)
+sunder_i_rational_point sunder_i_doubles_point(sunder_i_operands *operands, double dx, double dy)
 {
-    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_lattice *l = &operands->placed.lattice;
     unsigned long bx, by;
     const sunder_i_big u = in_units(l, dx, &bx), v = in_units(l, dy, &by);
     const unsigned long bits = bx > by ? bx : by;
@@ -90,9 +91,9 @@ sunder_i_rational_point sunder_i_doubles_point(sunder_i_operands *g, double dx, 
                                      sunder_i_big_shl(&l->arena, sunder_i_big_i64(&l->arena, 1), bits)};
 }
 
-bool sunder_i_answer_exact(sunder_i_operands *g, const sunder_i_exact_translation *v, double dx, double dy)
+bool sunder_i_answer_exact(sunder_i_operands *operands, const sunder_i_exact_translation *v, double dx, double dy)
 {
-    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_lattice *l = &operands->placed.lattice;
     if (!isfinite(dx) || !isfinite(dy)) return false;
     if (v->small && l->exponent > -400 && l->exponent < 400) {
         /* A product with one rounding, against an integer that a double holds. */
@@ -103,7 +104,7 @@ bool sunder_i_answer_exact(sunder_i_operands *g, const sunder_i_exact_translatio
             return fma(dx * scale, w, -(double)(int64_t)v->x) == 0 && fma(dy * scale, w, -(double)(int64_t)v->y) == 0;
         }
     }
-    const sunder_i_rational_point big = sunder_i_exact_translation_point(g, v);
+    const sunder_i_rational_point big = sunder_i_exact_translation_point(operands, v);
     const double d[2] = {dx, dy};
     for (int k = 0; k < 2; k++) {
         unsigned long bits;

@@ -167,11 +167,11 @@ static void long_texts(sunder_i_operands *g, const sunder_i_exact_translation *v
     for (int k = 0; k < 3; k++) sunder_i_free(text[k]);
 }
 
-sunder_status sunder_i_answer_texts(sunder_i_operands *g, const sunder_i_exact_translation *v, sunder_separation *out,
-                                    sunder_error *err)
+sunder_status sunder_i_answer_texts(sunder_i_operands *operands, const sunder_i_exact_translation *v,
+                                    sunder_separation *out, sunder_error *err)
 {
-    if (!short_texts(g, v, out)) long_texts(g, v, out);
-    if (out->dx_text && !g->placed.lattice.arena.failed) return SUNDER_OK;
+    if (!short_texts(operands, v, out)) long_texts(operands, v, out);
+    if (out->dx_text && !operands->placed.lattice.arena.failed) return SUNDER_OK;
     sunder_separation_clear(out);
     return sunder_i_no_memory(err);
 }

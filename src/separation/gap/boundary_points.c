@@ -251,20 +251,20 @@ bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_g
 
 /* ---- The gap ---- */
 
-int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *s, uint32_t k,
+int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
                           const sunder_i_surd_point *at, bool *inward, bool *flat)
 {
     sunder_i_arena *a = arena_of(problem);
     const sunder_i_mark mark = sunder_i_arena_mark(a);
     int order = 1;
-    if (sunder_i_gap_roughly_side(problem, s, k, at, &order, inward, flat)) {
+    if (sunder_i_gap_roughly_side(problem, subsum, k, at, &order, inward, flat)) {
         sunder_i_arena_release(a, mark);
         return order;
     }
-    const sunder_i_point point[2] = {s->corner[k], s->side[k]};
+    const sunder_i_point point[2] = {subsum->corner[k], subsum->side[k]};
     const sunder_i_gap_problem q = over_one(problem, point, 2), *const p = &q;
     const sunder_i_roots *roots = &at->roots;
-    const vec c = get(p, s->corner[k]), d = get(p, s->side[k]);
+    const vec c = get(p, subsum->corner[k]), d = get(p, subsum->side[k]);
     const sunder_i_surd vx = difference(p, in_units(p, at->x), surd(p, mul(p, c.x, at->w)));
     const sunder_i_surd vy = difference(p, in_units(p, at->y), surd(p, mul(p, c.y, at->w)));
     const sunder_i_surd turn = difference(p, scale(p, vy, d.x), scale(p, vx, d.y));
@@ -286,14 +286,14 @@ int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_su
     return order;
 }
 
-int sunder_i_gap_cmp(const sunder_i_gap_problem *p, const sunder_i_subsum *s, const sunder_i_surd_point *at,
+int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_surd_point *at,
                      uint32_t *k, bool *flat)
 {
     bool inside = true;
     int least = 1;
-    for (uint32_t i = 0; i < s->sides && least >= 0; i++) {
+    for (uint32_t i = 0; i < subsum->sides && least >= 0; i++) {
         bool inward, is_flat;
-        const int order = sunder_i_gap_cmp_side(p, s, i, at, &inward, &is_flat);
+        const int order = sunder_i_gap_cmp_side(problem, subsum, i, at, &inward, &is_flat);
         inside = inside && inward;
         if (order >= least) continue;
         least = order;

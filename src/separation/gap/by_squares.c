@@ -212,21 +212,22 @@ static bool take_all(gathering *c)
     return add_boxes(g, &c->q->inner[0], 0) && add_boxes(g, &c->q->inner[1], 1) && number_pairs(c) && take_segments(c);
 }
 
-bool sunder_i_gap_by_squares(sunder_i_gap_problem *p, sunder_i_gap_quadtree *quadtree, bool *done)
+bool sunder_i_gap_by_squares(sunder_i_gap_problem *problem, sunder_i_gap_quadtree *quadtree, bool *done)
 {
-    const double limit = p->limit, reach = p->limit;
-    *quadtree = (sunder_i_gap_quadtree){.reach = reach + 64 * p->operands->error};
+    const double limit = problem->limit, reach = problem->limit;
+    *quadtree = (sunder_i_gap_quadtree){.reach = reach + 64 * problem->operands->error};
     *done = false;
-    gathering c = {.p = p, .q = sunder_i_squares_new(p->operands, reach, p->gap_units), .to = quadtree};
+    gathering c = {
+        .p = problem, .q = sunder_i_squares_new(problem->operands, reach, problem->gap_units), .to = quadtree};
     const bool ok = c.q && look_at_all(&c, done) && (!*done || take_all(&c));
     sunder_i_squares_free(c.q);
     sunder_i_free(c.pair);
     sunder_i_free(c.segment);
     if (ok && *done)
-        p->quadtree = quadtree;
+        problem->quadtree = quadtree;
     else
-        p->limit = limit;
-    return ok && !p->operands->placed.lattice.arena.failed;
+        problem->limit = limit;
+    return ok && !problem->operands->placed.lattice.arena.failed;
 }
 
 void sunder_i_gap_quadtree_free(sunder_i_gap_quadtree *quadtree)
@@ -235,19 +236,19 @@ void sunder_i_gap_quadtree_free(sunder_i_gap_quadtree *quadtree)
     *quadtree = (sunder_i_gap_quadtree){.node = NULL};
 }
 
-const uint32_t *sunder_i_gap_quadtree_near(const sunder_i_gap_quadtree *q, double x, double y, size_t *n)
+const uint32_t *sunder_i_gap_quadtree_near(const sunder_i_gap_quadtree *quadtree, double x, double y, size_t *n)
 {
-    double box[4] = {-q->reach, -q->reach, q->reach, q->reach};
-    const sunder_i_gap_node *at = q->node;
+    double box[4] = {-quadtree->reach, -quadtree->reach, quadtree->reach, quadtree->reach};
+    const sunder_i_gap_node *at = quadtree->node;
     while (at->child) {
         const double mx = box[0] / 2 + box[2] / 2, my = box[1] / 2 + box[3] / 2;
         const int k = (x > mx) + 2 * (y > my);
         double part[4];
         sunder_i_quadtree_quarter(box, k, part);
         memcpy(box, part, sizeof box);
-        at = q->node + at->child + k;
+        at = quadtree->node + at->child + k;
     }
     SUNDER_I_ASSERT(at->from <= at->to);
     *n = at->to - at->from;
-    return q->list + at->from;
+    return quadtree->list + at->from;
 }

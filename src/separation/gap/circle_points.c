@@ -56,9 +56,9 @@ static void cross_arcs(sunder_i_gap_state *s, size_t i, size_t j)
     }
 }
 
-void sunder_i_gap_take_arc(sunder_i_gap_state *s, size_t i)
+void sunder_i_gap_take_arc(sunder_i_gap_state *s, size_t arc)
 {
-    const sunder_i_point a = s->p->center[i];
+    const sunder_i_point a = s->p->center[arc];
     const sunder_i_lattice *l = &s->g->placed.lattice;
     const double x = sunder_i_approx(l, a.x), y = sunder_i_approx(l, a.y), length = sunder_i_gap_length(x, y);
     if (sunder_i_gap_deep_inside(s, x, y)) return;
@@ -69,7 +69,7 @@ void sunder_i_gap_take_arc(sunder_i_gap_state *s, size_t i)
     if (sunder_i_gap_cover(s, p.x, p.y, p.error) < 0) sunder_i_gap_push(s, sunder_i_gap_length(p.x, p.y) - p.error, &p);
     for (size_t k = 0; k < s->arcs_n && !s->failed; k++) {
         s->failed = !sunder_i_step();
-        cross_arcs(s, s->arcs[k], i);
+        cross_arcs(s, s->arcs[k], arc);
     }
-    s->arcs[s->arcs_n++] = i;
+    s->arcs[s->arcs_n++] = arc;
 }

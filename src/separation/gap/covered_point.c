@@ -70,20 +70,20 @@ bool sunder_i_gap_near_box(const sunder_i_gap_state *s, size_t k, double x, doub
 /* Only sides that may see the point from outside can be nearest: those over whose line it stands, or within the error
  * of a height. (The sign alone would not do: outside a sharp corner a point is far away, yet hardly above either side.)
  * A point that is inside and this close to a side's line is as close to a side's foot, and found. */
-double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_subsum *r, double x, double y)
+double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_subsum *piece, double x, double y)
 {
     double least = -1;
-    for (uint32_t i = 0; i < r->n; i++) {
-        double vx = x - r->cx[i], vy = y - r->cy[i];
-        const double length = r->length[i], turn = r->sx[i] * vy - r->sy[i] * vx;
+    for (uint32_t i = 0; i < piece->n; i++) {
+        double vx = x - piece->cx[i], vy = y - piece->cy[i];
+        const double length = piece->length[i], turn = piece->sx[i] * vy - piece->sy[i] * vx;
         if (turn > s->error * length) continue;
-        const double along = r->sx[i] * vx + r->sy[i] * vy;
+        const double along = piece->sx[i] * vx + piece->sy[i] * vy;
         double square;
         if (along <= 0)
             square = vx * vx + vy * vy;
         else if (along >= length * length) {
-            vx -= r->sx[i];
-            vy -= r->sy[i];
+            vx -= piece->sx[i];
+            vy -= piece->sy[i];
             square = vx * vx + vy * vy;
         } else {
             const double height = turn / length;

@@ -85,10 +85,10 @@ bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_g
                            const sunder_i_gap_curve *d, int sign, sunder_i_surd_point *out);
 /* The rational point of a line of rational length that stands along / 2^bits lattice units from the foot of the
  * perpendicular from the origin, in the line's direction; false if the length is irrational. */
-bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *line, sunder_i_big along,
+bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *side, sunder_i_big along,
                         unsigned long bits, sunder_i_surd_point *out);
 /* The position of a point on that line, from the foot, within 4 of it times 2^bits. */
-bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *line,
+bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *side,
                            const sunder_i_surd_point *at, unsigned long bits, sunder_i_big *along);
 /* Is the distance of the point from side k of the subsum, from its first corner (included) to its second (not), below,
  * equal to or above the gap? -1, 0, 1; 1 also where the side's second corner is nearer. *inward: the point lies to the
@@ -114,7 +114,7 @@ static inline sunder_i_rational_point sunder_i_surd_point_of(const sunder_i_surd
 }
 bool sunder_i_surd_point_is_rational(const sunder_i_surd_point *exact);
 /* Order of the distances of two points from the origin, then lexicographic. Exact. */
-int sunder_i_surd_point_cmp(sunder_i_operands *operands, const sunder_i_surd_point *a, const sunder_i_surd_point *b);
+int sunder_i_surd_point_cmp(sunder_i_operands *operands, const sunder_i_surd_point *u, const sunder_i_surd_point *v);
 /* The point's coordinates times 2^bits (lattice units), within 3. */
 void sunder_i_surd_point_scaled(sunder_i_operands *operands, const sunder_i_surd_point *at, unsigned long bits,
                                 sunder_i_big xy[2]);

@@ -139,10 +139,10 @@ static sunder_status conclude(sunder_i_gap_state *s, sunder_i_gap_answer *out, s
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_gap_search(const sunder_i_gap_problem *p, sunder_i_gap_answer *out, sunder_error *err)
+sunder_status sunder_i_gap_search(const sunder_i_gap_problem *problem, sunder_i_gap_answer *out, sunder_error *err)
 {
-    sunder_i_lattice *l = &p->operands->placed.lattice;
-    sunder_i_gap_state s = {.p = p, .g = p->operands};
+    sunder_i_lattice *l = &problem->operands->placed.lattice;
+    sunder_i_gap_state s = {.p = problem, .g = problem->operands};
     if (!set_up(&s)) return sunder_i_no_memory(err);
     fill_heap(&s);
     while (s.heap_n && s.heap[0].key <= s.best && !s.failed && !l->arena.failed) {

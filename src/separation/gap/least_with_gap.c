@@ -192,21 +192,23 @@ static sunder_status set_up(sunder_i_operands *g, sunder_i_gap_problem *problem,
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape *q, const sunder_i_least_options *o,
-                                      sunder_separation *out, bool *beyond, sunder_error *err)
+sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape *q,
+                                      const sunder_i_least_options *options, sunder_separation *out, bool *beyond,
+                                      sunder_error *err)
 {
     sunder_i_operands g;
     sunder_i_gap_problem problem;
-    sunder_status status = set_up(&g, &problem, p, q, o, false, err);
+    sunder_status status = set_up(&g, &problem, p, q, options, false, err);
     if (status) return status;
     if (!(problem.gap_units <= 0x1p400) && !g.placed.lattice.arena.failed) {
         sunder_i_operands_free(&g);
-        status = set_up(&g, &problem, p, q, o, true, err);
+        status = set_up(&g, &problem, p, q, options, true, err);
         if (status) return status;
     }
     sunder_i_operands_admit(&g, problem.gap_units);
     sunder_i_gap_quadtree quadtree = {.node = NULL};
-    status = g.placed.lattice.arena.failed ? sunder_i_no_memory(err) : solve(&problem, o, &quadtree, out, beyond, err);
+    status =
+        g.placed.lattice.arena.failed ? sunder_i_no_memory(err) : solve(&problem, options, &quadtree, out, beyond, err);
     sunder_i_gap_quadtree_free(&quadtree);
     out->counts = g.placed.lattice.counts;
     sunder_i_operands_free(&g);

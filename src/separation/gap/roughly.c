@@ -62,17 +62,17 @@ static rough_vector exact_way(sunder_i_arena *a, const sunder_i_surd_point *at, 
     return over(sunder_i_surd_ball(&at->roots, x), sunder_i_surd_ball(&at->roots, y), sunder_i_times(a, at->w, c.w));
 }
 
-bool sunder_i_gap_roughly_side(const sunder_i_gap_problem *p, const sunder_i_subsum *s, uint32_t k,
+bool sunder_i_gap_roughly_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
                                const sunder_i_surd_point *at, int *order, bool *inward, bool *flat)
 {
-    const sunder_i_lattice *l = &p->operands->placed.lattice;
-    sunder_i_arena *a = &p->operands->placed.lattice.arena;
+    const sunder_i_lattice *l = &problem->operands->placed.lattice;
+    sunder_i_arena *a = &problem->operands->placed.lattice.arena;
     if (a->failed) return false;
-    const sunder_i_rational_point corner = sunder_i_rational_get(a, l, s->corner[k]);
-    const rough_vector c = rough_point(corner), d = rough_point(sunder_i_rational_get(a, l, s->side[k]));
+    const sunder_i_rational_point corner = sunder_i_rational_get(a, l, subsum->corner[k]);
+    const rough_vector c = rough_point(corner), d = rough_point(sunder_i_rational_get(a, l, subsum->side[k]));
     const rough_vector t = over(sunder_i_surd_ball(&at->roots, at->x), sunder_i_surd_ball(&at->roots, at->y), at->w);
     const rough_vector v = {sunder_i_ball_sub(t.x, c.x), sunder_i_ball_sub(t.y, c.y)};
-    if (decide(p, v, d, order, inward, flat)) return true;
+    if (decide(problem, v, d, order, inward, flat)) return true;
     const rough_vector way = exact_way(a, at, corner);
-    return !a->failed && decide(p, way, d, order, inward, flat);
+    return !a->failed && decide(problem, way, d, order, inward, flat);
 }

@@ -87,24 +87,24 @@ static bool may_turn(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, si
     return true;
 }
 
-sunder_i_gap_way sunder_i_gap_way_off(sunder_i_gap_state *s, const sunder_i_gap_free_point *f)
+sunder_i_gap_way sunder_i_gap_way_off(sunder_i_gap_state *s, const sunder_i_gap_free_point *at)
 {
     bool same = true;
-    for (size_t k = 1; k < f->contacts && same; k++)
-        same = sign_of(s, f, 0, k, false) == 0 && sign_of(s, f, 0, k, true) > 0;
+    for (size_t k = 1; k < at->contacts && same; k++)
+        same = sign_of(s, at, 0, k, false) == 0 && sign_of(s, at, 0, k, true) > 0;
     if (same) return (sunder_i_gap_way){SUNDER_I_ROOM_HALF, 0, 0};
     sunder_i_gap_way way = {SUNDER_I_ROOM_OPEN, -1, -1};
-    for (size_t k = 0; k < f->contacts; k++) {
-        if (way.left < 0 && may_turn(s, f, k, 1)) way.left = (long)k;
-        if (way.right < 0 && may_turn(s, f, k, -1)) way.right = (long)k;
+    for (size_t k = 0; k < at->contacts; k++) {
+        if (way.left < 0 && may_turn(s, at, k, 1)) way.left = (long)k;
+        if (way.right < 0 && may_turn(s, at, k, -1)) way.right = (long)k;
     }
     if (way.left < 0 || way.right < 0) {
         way.room = way.left < 0 && way.right < 0 ? SUNDER_I_ROOM_NONE : SUNDER_I_ROOM_LINE;
         return way;
     }
     /* Between the two all is strictly clear, unless some normal is at right angles to both. */
-    for (size_t k = 0; k < f->contacts; k++)
-        if (sign_of(s, f, (size_t)way.left, k, false) == 0 && sign_of(s, f, k, (size_t)way.right, false) == 0)
+    for (size_t k = 0; k < at->contacts; k++)
+        if (sign_of(s, at, (size_t)way.left, k, false) == 0 && sign_of(s, at, k, (size_t)way.right, false) == 0)
             way.room = SUNDER_I_ROOM_LINE;
     return way;
 }
@@ -209,13 +209,14 @@ static bool step_along(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, 
  * an angle of 2^-n is hit with n digits. */
 #define ROUNDS_MAX 12
 
-bool sunder_i_gap_rational_beside(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, const sunder_i_gap_way *way,
-                                  const sunder_i_big xy[2], unsigned long bits, sunder_i_surd_point *out)
+bool sunder_i_gap_rational_beside(sunder_i_gap_state *s, const sunder_i_gap_free_point *found,
+                                  const sunder_i_gap_way *way, const sunder_i_big xy[2], unsigned long bits,
+                                  sunder_i_surd_point *out)
 {
     const long i = way->left, j = way->right;
-    if (way->room == SUNDER_I_ROOM_NONE || f->contacts == 0) return false;
+    if (way->room == SUNDER_I_ROOM_NONE || found->contacts == 0) return false;
     const bool open = way->room == SUNDER_I_ROOM_OPEN || way->room == SUNDER_I_ROOM_HALF;
-    if (open && to_doubles(s, f, f->contact + i, f->contact + j, xy, bits, out)) return true;
+    if (open && to_doubles(s, found, found->contact + i, found->contact + j, xy, bits, out)) return true;
     /* The greater coordinate is at least 2^size. */
     const unsigned long u = sunder_i_big_bits(xy[0]), v = sunder_i_big_bits(xy[1]);
     const long size = (long)(u > v ? u : v) - 2 - (long)bits;
@@ -223,8 +224,8 @@ bool sunder_i_gap_rational_beside(sunder_i_gap_state *s, const sunder_i_gap_free
         const long digits = 64L << round, step = size - 33 - (digits - 64) / 2;
         const long fine = digits - step > 0 ? digits - step : 0;
         if (open)
-            step_off(s, f, (size_t)i, (size_t)j, step, (unsigned long)fine, (unsigned long)digits, out);
-        else if (!step_along(s, f, (size_t)(i >= 0 ? i : j), i >= 0 ? 1 : -1, step, (unsigned long)fine, out))
+            step_off(s, found, (size_t)i, (size_t)j, step, (unsigned long)fine, (unsigned long)digits, out);
+        else if (!step_along(s, found, (size_t)(i >= 0 ? i : j), i >= 0 ? 1 : -1, step, (unsigned long)fine, out))
             return false;
         if (sunder_i_gap_is_free(s, out)) return true;
     }

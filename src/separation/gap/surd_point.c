@@ -5,18 +5,18 @@
 
 #include <math.h>
 
-sunder_i_surd_point sunder_i_surd_point_rational(sunder_i_operands *g, sunder_i_rational_point at)
+sunder_i_surd_point sunder_i_surd_point_rational(sunder_i_operands *operands, sunder_i_rational_point at)
 {
-    sunder_i_arena *a = &g->placed.lattice.arena;
+    sunder_i_arena *a = &operands->placed.lattice.arena;
     return (sunder_i_surd_point){{.n = 0}, sunder_i_surd_big(a, at.x), sunder_i_surd_big(a, at.y), at.w};
 }
 
-sunder_i_surd_point sunder_i_surd_point_doubles(sunder_i_operands *g, double dx, double dy)
+sunder_i_surd_point sunder_i_surd_point_doubles(sunder_i_operands *operands, double dx, double dy)
 {
-    return sunder_i_surd_point_rational(g, sunder_i_doubles_point(g, dx, dy));
+    return sunder_i_surd_point_rational(operands, sunder_i_doubles_point(operands, dx, dy));
 }
 
-bool sunder_i_surd_point_is_rational(const sunder_i_surd_point *s) { return s->roots.n == 0; }
+bool sunder_i_surd_point_is_rational(const sunder_i_surd_point *exact) { return exact->roots.n == 0; }
 
 /* ---- Order, and digits ---- */
 
@@ -34,11 +34,11 @@ static sunder_i_ball rough_norm(const sunder_i_surd_point *u)
                              sunder_i_ball_mul(w, w));
 }
 
-int sunder_i_surd_point_cmp(sunder_i_operands *g, const sunder_i_surd_point *u, const sunder_i_surd_point *v)
+int sunder_i_surd_point_cmp(sunder_i_operands *operands, const sunder_i_surd_point *u, const sunder_i_surd_point *v)
 {
     const int rough = sunder_i_ball_sign(sunder_i_ball_sub(rough_norm(u), rough_norm(v)));
     if (rough) return rough;
-    sunder_i_arena *a = &g->placed.lattice.arena;
+    sunder_i_arena *a = &operands->placed.lattice.arena;
     const sunder_i_mark mark = sunder_i_arena_mark(a);
     sunder_i_roots roots = u->roots;
     int place[SUNDER_I_SURD_ROOTS];
@@ -53,28 +53,28 @@ int sunder_i_surd_point_cmp(sunder_i_operands *g, const sunder_i_surd_point *u, 
     return c;
 }
 
-void sunder_i_surd_point_scaled(sunder_i_operands *g, const sunder_i_surd_point *at, unsigned long bits,
+void sunder_i_surd_point_scaled(sunder_i_operands *operands, const sunder_i_surd_point *at, unsigned long bits,
                                 sunder_i_big xy[2])
 {
-    sunder_i_arena *a = &g->placed.lattice.arena;
+    sunder_i_arena *a = &operands->placed.lattice.arena;
     xy[0] = sunder_i_big_div_floor(a, sunder_i_surd_scaled(a, &at->roots, at->x, bits), at->w);
     xy[1] = sunder_i_big_div_floor(a, sunder_i_surd_scaled(a, &at->roots, at->y, bits), at->w);
 }
 
-unsigned long sunder_i_surd_point_digits(sunder_i_operands *g, const sunder_i_surd_point *at, double about,
+unsigned long sunder_i_surd_point_digits(sunder_i_operands *operands, const sunder_i_surd_point *at, double about,
                                          sunder_i_big xy[2])
 {
-    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_lattice *l = &operands->placed.lattice;
     const long size = about > 0 && about < INFINITY ? ilogb(about) + l->approx_shift : 0;
     for (unsigned long bits = size < 76 ? (unsigned long)(76 - size) : 0;; bits = 2 * bits + 1) {
-        sunder_i_surd_point_scaled(g, at, bits, xy);
+        sunder_i_surd_point_scaled(operands, at, bits, xy);
         if (sunder_i_big_bits(xy[0]) >= 72 || sunder_i_big_bits(xy[1]) >= 72 || l->arena.failed) return bits;
     }
 }
 
-double sunder_i_surd_point_length_down(sunder_i_operands *g, const sunder_i_big xy[2], unsigned long bits)
+double sunder_i_surd_point_length_down(sunder_i_operands *operands, const sunder_i_big xy[2], unsigned long bits)
 {
-    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_lattice *l = &operands->placed.lattice;
     sunder_i_arena *a = &l->arena;
     const sunder_i_big off = sunder_i_big_i64(a, 3), one = sunder_i_big_i64(a, 1);
     sunder_i_big square = {NULL, 0};

@@ -181,15 +181,15 @@ static bool pieces_apart(const checking *c, const sunder_i_operand_piece *p, con
     return off;
 }
 
-bool sunder_i_gap_verify(const sunder_i_gap_problem *p, const sunder_i_surd_point *t)
+bool sunder_i_gap_verify(const sunder_i_gap_problem *problem, const sunder_i_surd_point *t)
 {
-    sunder_i_operands *g = p->operands;
+    sunder_i_operands *g = problem->operands;
     sunder_i_lattice *l = &g->placed.lattice;
-    checking c = {.p = p, .g = g, .t = sunder_i_surd_point_of(t)};
-    c.gap = p->gap_units;
+    checking c = {.p = problem, .g = g, .t = sunder_i_surd_point_of(t)};
+    c.gap = problem->gap_units;
     sunder_i_rational_doubles(&l->arena, c.t, -l->approx_shift, &c.at[0], &c.at[1]);
     c.doubt = 256 * DBL_EPSILON * (g->magnitude + c.gap);
-    const double reach = p->gap_units * (1 + 0x1p-50) + 4 * g->error;
+    const double reach = problem->gap_units * (1 + 0x1p-50) + 4 * g->error;
     for (uint32_t i = 0; i < g->shape[0]->pieces; i++) {
         const sunder_i_operand_piece u = sunder_i_operands_piece(g, 0, i);
         for (uint32_t j = 0; j < g->shape[1]->pieces; j++) {

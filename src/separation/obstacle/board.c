@@ -159,37 +159,37 @@ static bool arrange(sunder_i_board *h, const uint32_t *start)
     return true;
 }
 
-bool sunder_i_board_build(sunder_i_operands *g, double reach)
+bool sunder_i_board_build(sunder_i_operands *operands, double reach)
 {
     uint32_t n = LEAST;
-    while (n < MOST && (size_t)n * n * SUBSUMS_EACH < g->subsums) n *= 2;
+    while (n < MOST && (size_t)n * n * SUBSUMS_EACH < operands->subsums) n *= 2;
     sunder_i_board *h = sunder_i_calloc(1, sizeof *h);
     if (!h) return false;
-    g->board = h;
+    operands->board = h;
     *h = (sunder_i_board){.reach = reach, .per_unit = n / (2 * reach), .n = n};
     const size_t squares = (size_t)n * n;
     h->holder = sunder_i_calloc(squares, sizeof *h->holder);
     h->open_below = sunder_i_alloc((size_t)(n + 1) * (n + 1), sizeof *h->open_below);
     h->list_end = sunder_i_calloc(squares, sizeof *h->list_end);
     uint32_t *start = sunder_i_calloc(squares, sizeof *start);
-    board b = {.g = g, .h = h};
+    board b = {.g = operands, .h = h};
     const bool ok = h->holder && h->open_below && h->list_end && start && descend(&b, start) && arrange(h, start);
     sunder_i_free(b.near);
     sunder_i_free(start);
-    if (!ok) sunder_i_board_free(g);
+    if (!ok) sunder_i_board_free(operands);
     return ok;
 }
 
-void sunder_i_board_free(sunder_i_operands *g)
+void sunder_i_board_free(sunder_i_operands *operands)
 {
-    sunder_i_board *h = g->board;
+    sunder_i_board *h = operands->board;
     if (!h) return;
     sunder_i_free(h->holder);
     sunder_i_free(h->open_below);
     sunder_i_free(h->list_end);
     sunder_i_free(h->list);
     sunder_i_free(h);
-    g->board = NULL;
+    operands->board = NULL;
 }
 
 /* The column or row of a coordinate, those beyond the board clamped to its border. */
@@ -199,12 +199,12 @@ static uint32_t clamped(const sunder_i_board *h, double v)
     return at > 0 ? at < h->n ? (uint32_t)at : h->n - 1 : 0;
 }
 
-bool sunder_i_board_segment(const sunder_i_board *h, double error, double ax, double ay, double dx, double dy)
+bool sunder_i_board_segment(const sunder_i_board *held, double error, double ax, double ay, double dx, double dy)
 {
     const double e = 2 * error, bx = ax + dx, by = ay + dy;
-    const uint32_t x0 = clamped(h, (ax < bx ? ax : bx) - e), x1 = clamped(h, (ax < bx ? bx : ax) + e) + 1;
-    const uint32_t y0 = clamped(h, (ay < by ? ay : by) - e), y1 = clamped(h, (ay < by ? by : ay) + e) + 1;
-    const size_t row = (size_t)h->n + 1;
-    const uint32_t *s = h->open_below;
+    const uint32_t x0 = clamped(held, (ax < bx ? ax : bx) - e), x1 = clamped(held, (ax < bx ? bx : ax) + e) + 1;
+    const uint32_t y0 = clamped(held, (ay < by ? ay : by) - e), y1 = clamped(held, (ay < by ? by : ay) + e) + 1;
+    const size_t row = (size_t)held->n + 1;
+    const uint32_t *s = held->open_below;
     return s[y1 * row + x1] - s[y0 * row + x1] - s[y1 * row + x0] + s[y0 * row + x0] == 0;
 }

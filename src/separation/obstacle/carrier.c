@@ -29,14 +29,14 @@ static inline sunder_i_fraction brief_fraction(int64_t num, int64_t den)
     return (sunder_i_fraction){num, den, (double)num / (double)den};
 }
 
-sunder_i_carrier sunder_i_carrier_make(sunder_i_operands *g, sunder_i_point a, sunder_i_point d)
+sunder_i_carrier sunder_i_carrier_make(sunder_i_operands *operands, sunder_i_point a, sunder_i_point d)
 {
-    const sunder_i_lattice *l = &g->placed.lattice;
+    const sunder_i_lattice *l = &operands->placed.lattice;
     if (l->narrow)
         return (sunder_i_carrier){a,   {a.x + d.x, a.y + d.y}, d, (double)a.x, (double)a.y, (double)d.x, (double)d.y,
                                   true};
     return (sunder_i_carrier){a,
-                              sunder_i_operands_add(g, a, d),
+                              sunder_i_operands_add(operands, a, d),
                               d,
                               sunder_i_approx(l, a.x),
                               sunder_i_approx(l, a.y),
@@ -45,10 +45,10 @@ sunder_i_carrier sunder_i_carrier_make(sunder_i_operands *g, sunder_i_point a, s
                               sunder_i_point_is_plain(a) && sunder_i_point_is_plain(d)};
 }
 
-sunder_i_fraction sunder_i_carrier_foot(sunder_i_operands *g, const sunder_i_carrier *line)
+sunder_i_fraction sunder_i_carrier_foot(sunder_i_operands *operands, const sunder_i_carrier *line)
 {
-    sunder_i_lattice *l = &g->placed.lattice;
-    if (g->brief) {
+    sunder_i_lattice *l = &operands->placed.lattice;
+    if (operands->brief) {
         const int64_t num = -sunder_i_brief_dot(line->a, line->d), den = sunder_i_brief_dot(line->d, line->d);
         if (num <= 0) return (sunder_i_fraction){0, 1, 0};
         if (num >= den) return (sunder_i_fraction){1, 1, 1};
@@ -67,16 +67,16 @@ sunder_i_fraction sunder_i_carrier_foot(sunder_i_operands *g, const sunder_i_car
     return sunder_i_fraction_cmp(l, &foot, &one) >= 0 ? one : foot;
 }
 
-int sunder_i_carrier_cmp(sunder_i_operands *g, const sunder_i_fraction *s, const sunder_i_fraction *t)
+int sunder_i_carrier_cmp(sunder_i_operands *operands, const sunder_i_fraction *s, const sunder_i_fraction *t)
 {
-    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_lattice *l = &operands->placed.lattice;
     if (s->den == 0 || t->den == 0) return sunder_i_fraction_cmp(l, s, t);
     l->counts.comparisons++;
     const double d = s->value - t->value, bound = 0x1p-49 * (fabs(s->value) + fabs(t->value));
     if (d > bound) return 1;
     if (d < -bound) return -1;
     l->counts.exact_fallbacks++;
-    if (g->brief) /* below 2^62 all of them */
+    if (operands->brief) /* below 2^62 all of them */
         return sunder_i_i128_sign((sunder_i_i128)(int64_t)s->num * (int64_t)t->den -
                                   (sunder_i_i128)(int64_t)t->num * (int64_t)s->den);
     return sunder_i_cmp_products(s->num, t->den, t->num, s->den);
@@ -90,25 +90,25 @@ static inline void narrow_linear(const sunder_i_carrier *line, const sunder_i_su
     *b = sunder_i_narrow_cross(s->side[k], line->d);
 }
 
-int sunder_i_carrier_side(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t,
-                          const sunder_i_subsum *s, uint32_t k)
+int sunder_i_carrier_side(sunder_i_operands *operands, const sunder_i_carrier *line, const sunder_i_fraction *t,
+                          const sunder_i_subsum *subsum, uint32_t k)
 {
-    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_lattice *l = &operands->placed.lattice;
     l->counts.orientation_tests++;
     l->counts.exact_fallbacks++;
-    if (g->brief) {
-        const int64_t a = sunder_i_brief_cross(s->side[k], sunder_i_narrow_sub(line->a, s->corner[k]));
-        const int64_t b = sunder_i_brief_cross(s->side[k], line->d);
+    if (operands->brief) {
+        const int64_t a = sunder_i_brief_cross(subsum->side[k], sunder_i_narrow_sub(line->a, subsum->corner[k]));
+        const int64_t b = sunder_i_brief_cross(subsum->side[k], line->d);
         return sunder_i_i128_sign((sunder_i_i128)a * (int64_t)t->den + (sunder_i_i128)b * (int64_t)t->num);
     }
-    if (line->plain && s->plain && t->den != 0) {
+    if (line->plain && subsum->plain && t->den != 0) {
         sunder_i_i128 a, b;
-        narrow_linear(line, s, k, &a, &b);
+        narrow_linear(line, subsum, k, &a, &b);
         if (b == 0) return sunder_i_i128_sign(a);
         return sunder_i_cmp_products(a, t->den, -b, t->num);
     }
     const sunder_i_hpoint x = sunder_i_hpoint_at(l, line->a, line->b, t);
-    return sunder_i_orient_hpoint(l, s->corner[k], s->corner[k + 1 < s->sides ? k + 1 : 0], &x);
+    return sunder_i_orient_hpoint(l, subsum->corner[k], subsum->corner[k + 1 < subsum->sides ? k + 1 : 0], &x);
 }
 
 /* What side k says of the point in doubles: 1 left of it, -1 right, both for certain. */
@@ -223,29 +223,29 @@ static long cover_on_board(sunder_i_operands *g, const sunder_i_carrier *line, c
     return -1;
 }
 
-long sunder_i_carrier_cover(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
-                            double y, size_t *first)
+long sunder_i_carrier_cover(sunder_i_operands *operands, const sunder_i_carrier *line, const sunder_i_fraction *t,
+                            double x, double y, size_t *first)
 {
-    if (g->board) {
-        const uint32_t square = sunder_i_board_square(g->board, x, y);
-        if (square < g->board->n * g->board->n) {
-            const long k = cover_on_board(g, line, t, x, y, square, first ? *first : g->subsums);
+    if (operands->board) {
+        const uint32_t square = sunder_i_board_square(operands->board, x, y);
+        if (square < operands->board->n * operands->board->n) {
+            const long k = cover_on_board(operands, line, t, x, y, square, first ? *first : operands->subsums);
             if (first && k >= 0) *first = (size_t)k;
             return k;
         }
     }
-    size_t k = first && *first < g->subsums ? *first : 0;
-    if (g->subsums - 1 < FEW) {
-        const long found = cover_of_few(g, line, t, x, y, k);
+    size_t k = first && *first < operands->subsums ? *first : 0;
+    if (operands->subsums - 1 < FEW) {
+        const long found = cover_of_few(operands, line, t, x, y, k);
         if (first && found >= 0) *first = (size_t)found;
         return found;
     }
-    for (size_t n = 0; n < g->subsums; n++, k = k + 1 < g->subsums ? k + 1 : 0) {
-        if (covers(g, line, t, x, y, k)) {
+    for (size_t n = 0; n < operands->subsums; n++, k = k + 1 < operands->subsums ? k + 1 : 0) {
+        if (covers(operands, line, t, x, y, k)) {
             if (first) *first = k;
             return (long)k;
         }
-        if (g->placed.lattice.arena.failed) return -1;
+        if (operands->placed.lattice.arena.failed) return -1;
     }
     return -1;
 }
@@ -257,19 +257,19 @@ typedef struct stretch {
     uint32_t first, n;
 } stretch;
 
-uint32_t sunder_i_subsum_lowest(const sunder_i_subsum *s, double dx, double dy)
+uint32_t sunder_i_subsum_lowest(const sunder_i_subsum *subsum, double dx, double dy)
 {
     const bool half = dy < 0 || (dy == 0 && dx < 0);
-    uint32_t low = 0, high = s->sides;
+    uint32_t low = 0, high = subsum->sides;
     while (low < high) {
         const uint32_t k = low + (high - low) / 2;
-        const bool own = s->sy[k] < 0 || (s->sy[k] == 0 && s->sx[k] < 0);
-        if (own != half ? own : dx * s->sy[k] - dy * s->sx[k] > 0)
+        const bool own = subsum->sy[k] < 0 || (subsum->sy[k] == 0 && subsum->sx[k] < 0);
+        if (own != half ? own : dx * subsum->sy[k] - dy * subsum->sx[k] > 0)
             high = k;
         else
             low = k + 1;
     }
-    return low % s->sides;
+    return low % subsum->sides;
 }
 
 /* How far the corner is to the left of the line, times its length. */
@@ -367,23 +367,23 @@ static sunder_i_fraction brief_exit(const sunder_i_carrier *line, const sunder_i
     return b < 0 ? brief_fraction(a, -b) : brief_fraction(-a, b);
 }
 
-sunder_i_fraction sunder_i_carrier_exit(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_subsum *s,
-                                        bool forwards)
+sunder_i_fraction sunder_i_carrier_exit(sunder_i_operands *operands, const sunder_i_carrier *line,
+                                        const sunder_i_subsum *subsum, bool forwards)
 {
-    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_lattice *l = &operands->placed.lattice;
     sunder_i_fraction best = {0, 1, 0};
     bool any = false;
-    const stretch near = leaving(g, line, s, forwards);
+    const stretch near = leaving(operands, line, subsum, forwards);
     l->counts.segment_intersections++;
-    if (g->brief) return brief_exit(line, s, near, forwards);
-    if (line->plain && s->plain) return narrow_exit(line, s, near, forwards);
+    if (operands->brief) return brief_exit(line, subsum, near, forwards);
+    if (line->plain && subsum->plain) return narrow_exit(line, subsum, near, forwards);
     for (uint32_t i = 0; i < near.n; i++) {
-        const uint32_t k = (near.first + i) % s->sides;
-        const int turn = sunder_i_cross_sign(l, s->side[k], line->d);
+        const uint32_t k = (near.first + i) % subsum->sides;
+        const int turn = sunder_i_cross_sign(l, subsum->side[k], line->d);
         if (forwards ? turn >= 0 : turn <= 0) continue;
-        const sunder_i_fraction t =
-            sunder_i_crossing(l, line->a, line->b, s->corner[k], s->corner[k + 1 < s->sides ? k + 1 : 0]);
-        take_first(g, &t, forwards, &best, &any);
+        const sunder_i_fraction t = sunder_i_crossing(l, line->a, line->b, subsum->corner[k],
+                                                      subsum->corner[k + 1 < subsum->sides ? k + 1 : 0]);
+        take_first(operands, &t, forwards, &best, &any);
     }
     SUNDER_I_ASSERT(any || l->arena.failed); /* a line that meets the interior of a bounded set leaves it */
     return best;

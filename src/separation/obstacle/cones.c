@@ -30,11 +30,11 @@ static inline uint32_t direction_number(double dx, double dy, double size)
     return (t ^ left) - left + (left & HALF_TURN);
 }
 
-sunder_i_direction sunder_i_direction_of(const sunder_i_operands *g, double dx, double dy)
+sunder_i_direction sunder_i_direction_of(const sunder_i_operands *operands, double dx, double dy)
 {
     const double size = fabs(dx) + fabs(dy);
     /* A point has no direction, and of an edge whose ends may be as far off as it is long none is known. */
-    if (!(size > 0) || (g->coarse > 0 && !(4 * g->coarse * 0x1p30 < COARSE_SLACK * size)))
+    if (!(size > 0) || (operands->coarse > 0 && !(4 * operands->coarse * 0x1p30 < COARSE_SLACK * size)))
         return (sunder_i_direction){0, true};
     return (sunder_i_direction){direction_number(dx, dy, size), false};
 }
@@ -54,11 +54,11 @@ static inline bool cone_between(uint32_t in, uint32_t out, uint32_t slack, sunde
     return turn <= HALF_TURN + 4 * slack;
 }
 
-bool sunder_i_cone_of(const sunder_i_operands *g, int side, uint32_t v, sunder_i_cone *out)
+bool sunder_i_cone_of(const sunder_i_operands *operands, int side, uint32_t vertex, sunder_i_cone *out)
 {
-    const sunder_i_direction a = edge_direction(g, side, g->shape[side]->form->cleaned.prev[v]),
-                             b = edge_direction(g, side, v);
-    if (!a.vague && !b.vague) return cone_between(a.at, b.at, slack_of(g), out);
+    const sunder_i_direction a = edge_direction(operands, side, operands->shape[side]->form->cleaned.prev[vertex]),
+                             b = edge_direction(operands, side, vertex);
+    if (!a.vague && !b.vague) return cone_between(a.at, b.at, slack_of(operands), out);
     *out = (sunder_i_cone){0, UINT32_MAX};
     return true;
 }
@@ -180,34 +180,35 @@ static bool find_coarse(sunder_i_operands *g, int side, sunder_i_cones *c)
     return true;
 }
 
-bool sunder_i_cones_find(sunder_i_operands *g, int side, sunder_i_cones *c)
+bool sunder_i_cones_find(sunder_i_operands *operands, int side, sunder_i_cones *cones)
 {
-    const uint32_t vertices = g->shape[side]->vertices;
-    if (!make_room(g, vertices, c) || !sunder_i_steps(vertices)) return false;
-    if ((g->coarse > 0 || !find_exact(g, side, c)) && !find_coarse(g, side, c)) return false;
-    return list_sectors(g, c);
+    const uint32_t vertices = operands->shape[side]->vertices;
+    if (!make_room(operands, vertices, cones) || !sunder_i_steps(vertices)) return false;
+    if ((operands->coarse > 0 || !find_exact(operands, side, cones)) && !find_coarse(operands, side, cones))
+        return false;
+    return list_sectors(operands, cones);
 }
 
 /* ---- Asking ---- */
 
-uint32_t sunder_i_cones_met(const sunder_i_cones *c, sunder_i_direction edge, uint32_t *met, uint32_t *looked_at)
+uint32_t sunder_i_cones_met(const sunder_i_cones *cones, sunder_i_direction edge, uint32_t *met, uint32_t *looked_at)
 {
     uint32_t n = 0;
     /* Without branches, since it cannot be predicted which corners pass. */
-    if (c->sectors && !edge.vague) {
-        const uint32_t at = edge.at >> c->shift;
-        const uint32_t first = at ? c->sector_end[at - 1] : 0, last = c->sector_end[at];
+    if (cones->sectors && !edge.vague) {
+        const uint32_t at = edge.at >> cones->shift;
+        const uint32_t first = at ? cones->sector_end[at - 1] : 0, last = cones->sector_end[at];
         for (uint32_t i = first; i < last; i++) {
-            met[n] = c->sector[i];
-            n += sunder_i_cone_meets(cone_at(c, c->sector[i]), edge);
+            met[n] = cones->sector[i];
+            n += sunder_i_cone_meets(cone_at(cones, cones->sector[i]), edge);
         }
         *looked_at = last - first;
         return n;
     }
-    const uint32_t all = *looked_at = c->n;
+    const uint32_t all = *looked_at = cones->n;
     for (uint32_t k = 0; k < all; k++) {
         met[n] = k;
-        n += sunder_i_cone_meets(cone_at(c, k), edge);
+        n += sunder_i_cone_meets(cone_at(cones, k), edge);
     }
     return n;
 }

@@ -21,10 +21,10 @@ static bool make_room(sunder_i_operands *g, sunder_i_candidates *h, uint32_t n)
            sunder_i_arena_reserve(&g->placed.lattice.arena, &h->item, &h->capacity, h->n + n, sizeof *h->item);
 }
 
-bool sunder_i_candidates_push(sunder_i_operands *g, sunder_i_candidates *h, sunder_i_candidate c)
+bool sunder_i_candidates_push(sunder_i_operands *operands, sunder_i_candidates *heap, sunder_i_candidate candidate)
 {
-    if (!make_room(g, h, 1)) return false;
-    h->item[h->n++] = c;
+    if (!make_room(operands, heap, 1)) return false;
+    heap->item[heap->n++] = candidate;
     return true;
 }
 
@@ -147,33 +147,35 @@ static bool before(const void *a, const void *b)
     return ((const sunder_i_candidate *)a)->square < ((const sunder_i_candidate *)b)->square;
 }
 
-void sunder_i_candidates_order(sunder_i_candidates *h)
+void sunder_i_candidates_order(sunder_i_candidates *heap)
 {
     sunder_i_candidate scratch;
-    sunder_i_heap_make(h->item, h->n, sizeof scratch, &scratch, before);
+    sunder_i_heap_make(heap->item, heap->n, sizeof scratch, &scratch, before);
 }
 
-bool sunder_i_candidates_find(sunder_i_operands *g, double limit, sunder_i_candidates *h)
+bool sunder_i_candidates_find(sunder_i_operands *operands, double limit, sunder_i_candidates *out)
 {
     sunder_i_cones p, q;
-    *h = (sunder_i_candidates){NULL, 0, 0};
-    if (!sunder_i_cones_find(g, 0, &p) || !sunder_i_cones_find(g, 1, &q)) return false;
-    if (!pair_edges(g, 0, &p, &q, limit, h) || !pair_edges(g, 1, &q, &p, limit, h)) return false;
-    sunder_i_candidates_order(h);
+    *out = (sunder_i_candidates){NULL, 0, 0};
+    if (!sunder_i_cones_find(operands, 0, &p) || !sunder_i_cones_find(operands, 1, &q)) return false;
+    if (!pair_edges(operands, 0, &p, &q, limit, out) || !pair_edges(operands, 1, &q, &p, limit, out)) return false;
+    sunder_i_candidates_order(out);
     return true;
 }
 
-sunder_i_candidate sunder_i_candidates_pop(sunder_i_candidates *h)
+sunder_i_candidate sunder_i_candidates_pop(sunder_i_candidates *heap)
 {
     sunder_i_candidate top;
-    sunder_i_heap_pop(h->item, &h->n, sizeof top, &top, before);
+    sunder_i_heap_pop(heap->item, &heap->n, sizeof top, &top, before);
     return top;
 }
 
-sunder_i_carrier sunder_i_candidate_carrier(sunder_i_operands *g, const sunder_i_candidate *c)
+sunder_i_carrier sunder_i_candidate_carrier(sunder_i_operands *operands, const sunder_i_candidate *candidate)
 {
-    const sunder_i_point *at = g->at[c->side];
-    const uint32_t next = g->shape[c->side]->form->cleaned.next[c->edge];
-    return sunder_i_carrier_make(g, sunder_i_operands_add(g, at[c->edge], g->at[!c->side][c->vertex]),
-                                 sunder_i_operands_diff(g, at[next], at[c->edge]));
+    const sunder_i_point *at = operands->at[candidate->side];
+    const uint32_t next = operands->shape[candidate->side]->form->cleaned.next[candidate->edge];
+    return sunder_i_carrier_make(
+        operands,
+        sunder_i_operands_add(operands, at[candidate->edge], operands->at[!candidate->side][candidate->vertex]),
+        sunder_i_operands_diff(operands, at[next], at[candidate->edge]));
 }

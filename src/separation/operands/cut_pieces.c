@@ -56,14 +56,14 @@ static bool cut_operand(sunder_i_operands *g, int side)
     return true;
 }
 
-bool sunder_i_operands_cut(sunder_i_operands *g) { return cut_operand(g, 0) && cut_operand(g, 1); }
+bool sunder_i_operands_cut(sunder_i_operands *operands) { return cut_operand(operands, 0) && cut_operand(operands, 1); }
 
-void sunder_i_operands_uncut(sunder_i_operands *g, const sunder_i_operands *before)
+void sunder_i_operands_uncut(sunder_i_operands *operands, const sunder_i_operands *before)
 {
     for (int k = 0; k < 2; k++) {
-        g->shape[k] = before->shape[k];
-        g->piece_box[k] = before->piece_box[k];
-        g->turned[k] = before->turned[k];
+        operands->shape[k] = before->shape[k];
+        operands->piece_box[k] = before->piece_box[k];
+        operands->turned[k] = before->turned[k];
     }
 }
 
@@ -75,4 +75,7 @@ static uint64_t parts_of(const sunder_shape *s)
     return parts;
 }
 
-uint64_t sunder_i_operands_parts(const sunder_i_operands *g) { return parts_of(g->shape[0]) * parts_of(g->shape[1]); }
+uint64_t sunder_i_operands_parts(const sunder_i_operands *operands)
+{
+    return parts_of(operands->shape[0]) * parts_of(operands->shape[1]);
+}

@@ -25,10 +25,12 @@ static bool side_parts(sunder_i_operands *g, int side, uint32_t i, uint32_t j)
     return false;
 }
 
-bool sunder_i_pieces_overlap(sunder_i_operands *g, uint32_t i, uint32_t j)
+bool sunder_i_pieces_overlap(sunder_i_operands *operands, uint32_t i, uint32_t j)
 {
-    if (!sunder_i_box_near(g->piece_box[0] + 4 * (size_t)i, g->piece_box[1] + 4 * (size_t)j, g->error)) return false;
-    return !side_parts(g, 0, i, j) && !side_parts(g, 1, j, i);
+    if (!sunder_i_box_near(operands->piece_box[0] + 4 * (size_t)i, operands->piece_box[1] + 4 * (size_t)j,
+                           operands->error))
+        return false;
+    return !side_parts(operands, 0, i, j) && !side_parts(operands, 1, j, i);
 }
 
 /* The pieces of one operand whose boxes come within `reach` of the other operand's box. */
@@ -43,13 +45,14 @@ static uint32_t *pieces_near(sunder_i_operands *g, int side, double reach, uint3
     return list;
 }
 
-bool sunder_i_operands_overlap(sunder_i_operands *g)
+bool sunder_i_operands_overlap(sunder_i_operands *operands)
 {
     uint32_t m, n;
-    const uint32_t *p = pieces_near(g, 0, g->error, &m), *q = pieces_near(g, 1, g->error, &n);
+    const uint32_t *p = pieces_near(operands, 0, operands->error, &m),
+                   *q = pieces_near(operands, 1, operands->error, &n);
     if (!p || !q) return false;
     for (uint32_t i = 0; i < m; i++)
         for (uint32_t j = 0; j < n; j++)
-            if (sunder_i_pieces_overlap(g, p[i], q[j])) return true;
+            if (sunder_i_pieces_overlap(operands, p[i], q[j])) return true;
     return false;
 }

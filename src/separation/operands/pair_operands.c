@@ -17,10 +17,10 @@
  * is within 2^-47 M; the rest is slack, which costs nothing but a few exact evaluations. */
 #define COORDINATE_ERROR 0x1p-45
 
-void sunder_i_operands_fill_boxes(sunder_i_operands *g, int side)
+void sunder_i_operands_fill_boxes(sunder_i_operands *operands, int side)
 {
-    const sunder_shape *s = g->shape[side];
-    const double *xy = g->xy[side];
+    const sunder_shape *s = operands->shape[side];
+    const double *xy = operands->xy[side];
     double all[4];
     sunder_i_box_clear(all);
     const uint32_t *corner = sunder_i_piece_vertices(s);
@@ -30,13 +30,13 @@ void sunder_i_operands_fill_boxes(sunder_i_operands *g, int side)
         sunder_i_box_clear(box);
         for (; corner < end; corner++) sunder_i_box_include(box, xy + 2 * (size_t)*corner);
         sunder_i_box_join(all, box);
-        memcpy(g->piece_box[side] + 4 * (size_t)i, box, sizeof box);
-        g->turned[side][i].n = 0;
+        memcpy(operands->piece_box[side] + 4 * (size_t)i, box, sizeof box);
+        operands->turned[side][i].n = 0;
     }
-    memcpy(g->box[side], all, sizeof all);
-    double most = g->magnitude;
+    memcpy(operands->box[side], all, sizeof all);
+    double most = operands->magnitude;
     for (int k = 0; k < 4; k++) most = fabs(all[k]) > most ? fabs(all[k]) : most;
-    g->magnitude = most;
+    operands->magnitude = most;
 }
 
 static void fill_doubles(sunder_i_operands *g, int side)
@@ -223,46 +223,46 @@ static sunder_status place(sunder_i_operands *g, const sunder_i_operands_options
     return SUNDER_OK;
 }
 
-void sunder_i_operands_admit(sunder_i_operands *g, double magnitude)
+void sunder_i_operands_admit(sunder_i_operands *operands, double magnitude)
 {
-    g->magnitude = sunder_i_max(g->magnitude, magnitude);
-    g->error = sunder_i_max(g->error, COORDINATE_ERROR * g->magnitude);
+    operands->magnitude = sunder_i_max(operands->magnitude, magnitude);
+    operands->error = sunder_i_max(operands->error, COORDINATE_ERROR * operands->magnitude);
 }
 
-sunder_status sunder_i_operands_init(sunder_i_operands *g, const sunder_shape *p, const sunder_shape *q,
+sunder_status sunder_i_operands_init(sunder_i_operands *operands, const sunder_shape *p, const sunder_shape *q,
                                      const sunder_i_operands_options *options, sunder_error *err)
 {
-    memset(g, 0, sizeof *g);
-    g->shape[0] = p;
-    g->shape[1] = q;
-    const sunder_status status = place(g, options, err);
+    memset(operands, 0, sizeof *operands);
+    operands->shape[0] = p;
+    operands->shape[1] = q;
+    const sunder_status status = place(operands, options, err);
     if (status) return status;
-    sunder_i_lattice *l = &g->placed.lattice;
-    sunder_i_operands_fill_boxes(g, 0);
-    sunder_i_operands_fill_boxes(g, 1);
-    g->brief = l->narrow && g->magnitude < 0x1p28;
-    sunder_i_operands_admit(g, 0);
+    sunder_i_lattice *l = &operands->placed.lattice;
+    sunder_i_operands_fill_boxes(operands, 0);
+    sunder_i_operands_fill_boxes(operands, 1);
+    operands->brief = l->narrow && operands->magnitude < 0x1p28;
+    sunder_i_operands_admit(operands, 0);
     /* Doubles of differences are the nearest ones, but for what a scaled lattice loses below all doubles. */
-    g->rough = l->approx_shift == 0 ? 0 : 0x1p-1000;
-    g->coarse = l->narrow && g->magnitude < 0x1p52 ? 0 : g->error;
-    g->unit = sunder_i_power_of_two(l->exponent + l->approx_shift);
+    operands->rough = l->approx_shift == 0 ? 0 : 0x1p-1000;
+    operands->coarse = l->narrow && operands->magnitude < 0x1p52 ? 0 : operands->error;
+    operands->unit = sunder_i_power_of_two(l->exponent + l->approx_shift);
     return SUNDER_OK;
 }
 
 void sunder_i_operands_free(sunder_i_operands *operands) { sunder_i_placed_free(&operands->placed); }
 
-sunder_status sunder_i_operands_end(sunder_i_operands *g, sunder_error *err)
+sunder_status sunder_i_operands_end(sunder_i_operands *operands, sunder_error *err)
 {
-    const bool failed = g->placed.lattice.arena.failed;
-    sunder_i_operands_free(g);
+    const bool failed = operands->placed.lattice.arena.failed;
+    sunder_i_operands_free(operands);
     return failed ? sunder_i_no_memory(err) : SUNDER_OK;
 }
 
-double sunder_i_operands_way_out(const sunder_i_operands *g)
+double sunder_i_operands_way_out(const sunder_i_operands *operands)
 {
     double d = INFINITY;
     for (int k = 0; k < 4; k++) {
-        const double way = fabs(g->box[0][k] + g->box[1][k]);
+        const double way = fabs(operands->box[0][k] + operands->box[1][k]);
         if (way < d) d = way;
     }
     return d;

@@ -110,24 +110,24 @@ static bool list_near(const sunder_i_operands *g, double reach, uint64_t *pair, 
     return true;
 }
 
-bool sunder_i_operands_reach(sunder_i_operands *g, double radius)
+bool sunder_i_operands_reach(sunder_i_operands *operands, double radius)
 {
-    sunder_i_arena *arena = &g->placed.lattice.arena;
-    const double reach = radius + 2 * g->error;
-    size_t room = (size_t)g->shape[0]->pieces * g->shape[1]->pieces;
+    sunder_i_arena *arena = &operands->placed.lattice.arena;
+    const double reach = radius + 2 * operands->error;
+    size_t room = (size_t)operands->shape[0]->pieces * operands->shape[1]->pieces;
     const bool many = room > PAIRS_AT_ONCE;
-    if (many && !count_near(g, reach, &room)) return false;
-    g->subsum = sunder_i_arena_alloc(arena, room + 1, sizeof *g->subsum);
+    if (many && !count_near(operands, reach, &room)) return false;
+    operands->subsum = sunder_i_arena_alloc(arena, room + 1, sizeof *operands->subsum);
     uint64_t *pair = sunder_i_arena_alloc(arena, room + 1, sizeof *pair); /* one is written past the last */
-    if (!g->subsum || !pair || !list_near(g, reach, pair, &g->subsums)) return false;
-    for (size_t k = 0; k < g->subsums; k++) {
-        sunder_i_subsum *s = g->subsum + k;
+    if (!operands->subsum || !pair || !list_near(operands, reach, pair, &operands->subsums)) return false;
+    for (size_t k = 0; k < operands->subsums; k++) {
+        sunder_i_subsum *s = operands->subsum + k;
         s->i = (uint32_t)(pair[k] >> 32);
         s->j = (uint32_t)pair[k];
         s->sides = 0;
-        sunder_i_box_sum(g->piece_box[0] + 4 * (size_t)s->i, g->piece_box[1] + 4 * (size_t)s->j, s->box);
+        sunder_i_box_sum(operands->piece_box[0] + 4 * (size_t)s->i, operands->piece_box[1] + 4 * (size_t)s->j, s->box);
     }
-    return !many || sort_by_size(g);
+    return !many || sort_by_size(operands);
 }
 
 /* ---- Pieces turned so that they start at their lowest corner (of those the leftmost) ---- */
@@ -194,11 +194,11 @@ static const sunder_i_turned_piece *turn_piece(sunder_i_operands *g, int side, u
     return r;
 }
 
-bool sunder_i_operands_turn(sunder_i_operands *g)
+bool sunder_i_operands_turn(sunder_i_operands *operands)
 {
     for (int side = 0; side < 2; side++)
-        for (uint32_t i = 0; i < g->shape[side]->pieces; i++)
-            if (!turn_piece(g, side, i)) return false;
+        for (uint32_t i = 0; i < operands->shape[side]->pieces; i++)
+            if (!turn_piece(operands, side, i)) return false;
     return true;
 }
 
@@ -303,34 +303,34 @@ static void fill_doubles(const sunder_i_operands *g, sunder_i_subsum *s, uint32_
     }
 }
 
-bool sunder_i_subsum_make(sunder_i_operands *g, sunder_i_subsum *s)
+bool sunder_i_subsum_make(sunder_i_operands *operands, sunder_i_subsum *subsum)
 {
-    sunder_i_lattice *l = &g->placed.lattice;
-    const sunder_i_turned_piece *a = turn_piece(g, 0, s->i), *b = turn_piece(g, 1, s->j);
+    sunder_i_lattice *l = &operands->placed.lattice;
+    const sunder_i_turned_piece *a = turn_piece(operands, 0, subsum->i), *b = turn_piece(operands, 1, subsum->j);
     if (!a || !b) return false;
     const size_t most = ((size_t)a->n + b->n + SUNDER_I_DOUBLES - 1) & ~(size_t)(SUNDER_I_DOUBLES - 1);
-    sunder_i_point *points = sunder_i_arena_alloc(&l->arena, most, 2 * sizeof *points + 5 * sizeof *s->cx);
+    sunder_i_point *points = sunder_i_arena_alloc(&l->arena, most, 2 * sizeof *points + 5 * sizeof *subsum->cx);
     if (!points) return false;
-    s->corner = points;
-    s->side = points + most;
-    s->cx = (double *)(points + 2 * most);
-    s->cy = s->cx + most;
-    s->sx = s->cy + most;
-    s->sy = s->sx + most;
-    s->bound = s->sy + most;
-    const uint32_t n = g->brief    ? narrow_merge(a, b, true, s->corner, s->side)
-                       : l->narrow ? narrow_merge(a, b, false, s->corner, s->side)
-                                   : merge(g, a, b, s->corner, s->side);
+    subsum->corner = points;
+    subsum->side = points + most;
+    subsum->cx = (double *)(points + 2 * most);
+    subsum->cy = subsum->cx + most;
+    subsum->sx = subsum->cy + most;
+    subsum->sy = subsum->sx + most;
+    subsum->bound = subsum->sy + most;
+    const uint32_t n = operands->brief ? narrow_merge(a, b, true, subsum->corner, subsum->side)
+                       : l->narrow     ? narrow_merge(a, b, false, subsum->corner, subsum->side)
+                                       : merge(operands, a, b, subsum->corner, subsum->side);
     if (l->narrow)
-        narrow_doubles(g, s, n);
+        narrow_doubles(operands, subsum, n);
     else
-        fill_doubles(g, s, n);
+        fill_doubles(operands, subsum, n);
     if (n % SUNDER_I_DOUBLES) { /* most of these is a corner far below of a side to the right */
-        s->cx[n] = s->sy[n] = s->bound[n] = 0;
-        s->cy[n] = -DBL_MAX;
-        s->sx[n] = 1;
+        subsum->cx[n] = subsum->sy[n] = subsum->bound[n] = 0;
+        subsum->cy[n] = -DBL_MAX;
+        subsum->sx[n] = 1;
     }
-    s->sides = n;
-    SUNDER_I_CHECK(check(g, s), n);
+    subsum->sides = n;
+    SUNDER_I_CHECK(check(operands, subsum), n);
     return !l->arena.failed;
 }

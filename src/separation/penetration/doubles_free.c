@@ -103,23 +103,23 @@ static bool is_inside(sunder_i_operands *g, const dyadic *d, const sunder_i_subs
     return true;
 }
 
-bool sunder_i_doubles_free(sunder_i_operands *g, const sunder_i_free_point *f, const sunder_i_near_subsums *near,
-                           double dx, double dy)
+bool sunder_i_doubles_free(sunder_i_operands *operands, const sunder_i_free_point *nearest,
+                           const sunder_i_near_subsums *near, double dx, double dy)
 {
     if (!isfinite(dx) || !isfinite(dy)) return false;
-    const dyadic d = dyadic_of(g, dx, dy);
+    const dyadic d = dyadic_of(operands, dx, dy);
     /* As near to the point as the point is known, which doubles that are not at the end of their range are, and so off
      * all that the point is off. */
-    if (fabs(d.ax - f->x) <= g->error / 2 && fabs(d.ay - f->y) <= g->error / 2) {
+    if (fabs(d.ax - nearest->x) <= operands->error / 2 && fabs(d.ay - nearest->y) <= operands->error / 2) {
         for (size_t n = 0; n < near->n; n++)
-            if (is_inside(g, &d, g->subsum + near->subsum[n])) return false;
+            if (is_inside(operands, &d, operands->subsum + near->subsum[n])) return false;
         return true;
     }
-    for (size_t n = 0; n < g->subsums; n++) {
-        sunder_i_subsum *s = g->subsum + n;
-        if (!sunder_i_box_near_point(s->box, d.ax, d.ay, g->error)) continue;
-        if (!s->sides && !sunder_i_subsum_make(g, s)) return false;
-        if (is_inside(g, &d, s)) return false;
+    for (size_t n = 0; n < operands->subsums; n++) {
+        sunder_i_subsum *s = operands->subsum + n;
+        if (!sunder_i_box_near_point(s->box, d.ax, d.ay, operands->error)) continue;
+        if (!s->sides && !sunder_i_subsum_make(operands, s)) return false;
+        if (is_inside(operands, &d, s)) return false;
     }
     return true;
 }

@@ -125,25 +125,25 @@ static sunder_contact classify(sunder_i_operands *g, const cone *cones, size_t n
     return SUNDER_CONTACT_VERTEX;
 }
 
-sunder_contact sunder_i_free_point_contact(sunder_i_operands *g, const sunder_i_free_point *f,
+sunder_contact sunder_i_free_point_contact(sunder_i_operands *operands, const sunder_i_free_point *nearest,
                                            sunder_i_near_subsums *near)
 {
     size_t n = 0;
-    sunder_i_arena *arena = &g->placed.lattice.arena;
-    cone *cones = sunder_i_arena_alloc(arena, g->subsums + 1, sizeof *cones + sizeof *near->subsum);
+    sunder_i_arena *arena = &operands->placed.lattice.arena;
+    cone *cones = sunder_i_arena_alloc(arena, operands->subsums + 1, sizeof *cones + sizeof *near->subsum);
     *near = (sunder_i_near_subsums){.n = 0};
     if (!cones) return SUNDER_CONTACT_VERTEX;
-    near->subsum = (uint32_t *)(cones + g->subsums + 1);
+    near->subsum = (uint32_t *)(cones + operands->subsums + 1);
     bool flat = true;
-    for (size_t k = 0; k < g->subsums; k++) {
-        const where at = cone_of(g, f, g->subsum + k, cones + n);
+    for (size_t k = 0; k < operands->subsums; k++) {
+        const where at = cone_of(operands, nearest, operands->subsum + k, cones + n);
         if (at == OFF) continue;
         near->subsum[near->n++] = (uint32_t)k;
         if (at == BESIDE) continue;
-        flat = flat && opposite_or_same(g, cones[n].from, cones[n].to) < 0 &&
-               opposite_or_same(g, cones[0].from, cones[n].from) > 0;
+        flat = flat && opposite_or_same(operands, cones[n].from, cones[n].to) < 0 &&
+               opposite_or_same(operands, cones[0].from, cones[n].from) > 0;
         n++;
     }
     if (flat && n > 0) return SUNDER_CONTACT_EDGE;
-    return classify(g, cones, n);
+    return classify(operands, cones, n);
 }

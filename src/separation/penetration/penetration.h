@@ -6,8 +6,7 @@
 #include "separation/answer/answer.h"
 
 /* Of two sets that are not empty; out is zero at first. As sunder_i_least(). */
-sunder_status sunder_i_least_without_gap(const sunder_shape *p, const sunder_shape *q,
-                                         const sunder_i_least_options *options, sunder_separation *out, bool *beyond,
-                                         sunder_error *err);
+sunder_status sunder_i_least_without_gap(const sunder_shape *p, const sunder_shape *q, const sunder_i_least_options *o,
+                                         sunder_separation *out, bool *beyond, sunder_error *err);
 
 #endif

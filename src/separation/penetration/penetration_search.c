@@ -284,10 +284,10 @@ static search begin(sunder_i_operands *g, double limit)
                     .one = sunder_i_fraction_int(&g->placed.lattice, 1)};
 }
 
-sunder_status sunder_i_nearest_by_squares(sunder_i_operands *g, double limit, bool *done, sunder_i_free_point *out,
-                                          sunder_error *err)
+sunder_status sunder_i_nearest_by_squares(sunder_i_operands *operands, double limit, bool *done,
+                                          sunder_i_free_point *out, sunder_error *err)
 {
-    search s = begin(g, limit);
+    search s = begin(operands, limit);
     *done = false;
     if (!by_squares(&s, done)) return sunder_i_no_memory(err);
     *out = s.best;
@@ -316,17 +316,17 @@ static sunder_status by_parts(sunder_i_operands *g, double limit, bool *done, su
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_nearest_free_point(sunder_i_operands *g, double limit, sunder_i_free_point *out,
+sunder_status sunder_i_nearest_free_point(sunder_i_operands *operands, double limit, sunder_i_free_point *out,
                                           sunder_error *err)
 {
-    sunder_i_lattice *l = &g->placed.lattice;
-    const bool many = sunder_i_squares_worth(g, SQUARES_FROM);
+    sunder_i_lattice *l = &operands->placed.lattice;
+    const bool many = sunder_i_squares_worth(operands, SQUARES_FROM);
     if (many) {
         bool done = false;
-        const sunder_status status = by_parts(g, limit, &done, out, err);
+        const sunder_status status = by_parts(operands, limit, &done, out, err);
         if (status || done) return status;
     }
-    search s = begin(g, limit);
+    search s = begin(operands, limit);
     const double whole = s.limit;
     for (int times = many ? WIDEN_TIMES : 0; times >= 0 && !s.best.found; times--) {
         double disc = whole;
@@ -335,7 +335,7 @@ sunder_status sunder_i_nearest_free_point(sunder_i_operands *g, double limit, su
         s.first = 0;
         if (!nearest_within(&s) || l->arena.failed) return sunder_i_no_memory(err);
         /* So close to the rim, a nearer point may have been taken for one outside. */
-        if (times && !s.best.origin && s.best.distance + 16 * g->error > disc)
+        if (times && !s.best.origin && s.best.distance + 16 * operands->error > disc)
             s.best = (sunder_i_free_point){.found = false};
         s.best_point_known = s.best_point_known && s.best.found;
     }

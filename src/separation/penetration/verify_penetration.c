@@ -207,12 +207,12 @@ static bool verify_many(sunder_i_operands *g, const sunder_i_free_point *f)
 
 #define MANY 4096 /* pairs, from which on sorting pays */
 
-bool sunder_i_free_point_verify(sunder_i_operands *g, const sunder_i_free_point *f)
+bool sunder_i_free_point_verify(sunder_i_operands *operands, const sunder_i_free_point *nearest)
 {
-    const uint32_t m = g->shape[0]->pieces, n = g->shape[1]->pieces;
-    if ((uint64_t)m * n > MANY) return verify_many(g, f);
+    const uint32_t m = operands->shape[0]->pieces, n = operands->shape[1]->pieces;
+    if ((uint64_t)m * n > MANY) return verify_many(operands, nearest);
     for (uint32_t i = 0; i < m; i++)
         for (uint32_t j = 0; j < n; j++)
-            if (!parted(g, f, i, j)) return false;
+            if (!parted(operands, nearest, i, j)) return false;
     return true;
 }

@@ -43,10 +43,10 @@ static bool boxes_cover(sunder_i_squares *q, const double at[4], int32_t a, cons
     return false;
 }
 
-bool sunder_i_squares_boxes_cover(sunder_i_squares *q, const double at[4])
+bool sunder_i_squares_boxes_cover(sunder_i_squares *squares, const double square[4])
 {
-    q->tries = 0;
-    return boxes_cover(q, at, 0, q->quadtree[0].box, 0, q->quadtree[1].box);
+    squares->tries = 0;
+    return boxes_cover(squares, square, 0, squares->quadtree[0].box, 0, squares->quadtree[1].box);
 }
 
 /* ---- Sums of convex sets ---- */
@@ -55,12 +55,12 @@ bool sunder_i_squares_boxes_cover(sunder_i_squares *q, const double at[4])
  * if the sum itself covers the square shrunk by that; somewhat less than that, for rounding. */
 #define SQUARE_IN_DISC 0.70
 
-void sunder_i_squares_query(sunder_i_squares *q, const double at[4], double less[4])
+void sunder_i_squares_query(sunder_i_squares *squares, const double square[4], double less[4])
 {
-    const double by = SQUARE_IN_DISC * q->gap;
-    for (int k = 0; k < 4; k++) less[k] = k < 2 ? at[k] + by : at[k] - by;
-    q->query = sunder_i_inner_convex_query(q->g, less);
-    q->at = less;
+    const double by = SQUARE_IN_DISC * squares->gap;
+    for (int k = 0; k < 4; k++) less[k] = k < 2 ? square[k] + by : square[k] - by;
+    squares->query = sunder_i_inner_convex_query(squares->g, less);
+    squares->at = less;
 }
 
 /* Does the sum of the chiefs of two nodes cover the square? It is remembered whose does, or most nearly does. */
@@ -148,19 +148,19 @@ static sunder_i_covering search_nodes(sunder_i_squares *q, const uint32_t first[
     return SUNDER_I_COVERING_NONE;
 }
 
-sunder_i_covering sunder_i_squares_one_covers(sunder_i_squares *q, const double at[4], const uint32_t first[2],
-                                              uint32_t tries)
+sunder_i_covering sunder_i_squares_one_covers(sunder_i_squares *squares, const double square[4],
+                                              const uint32_t first[2], uint32_t tries)
 {
     double less[4];
-    sunder_i_squares_query(q, at, less);
-    q->dop = sunder_i_dop_query(q->g, less, 0);
-    q->tries = tries;
-    q->best_depth = -INFINITY;
-    q->best[0] = q->best[1] = 1;
-    const sunder_i_covering how = search_nodes(q, first);
-    q->covered = how == SUNDER_I_COVERING_FOUND;
-    if (!q->covered) return how;
-    memcpy(remembered(q), q->best, sizeof q->best);
-    for (int k = 0; k < 2; k++) q->covering[k] = q->inner[k].node[q->best[k]].chief;
+    sunder_i_squares_query(squares, square, less);
+    squares->dop = sunder_i_dop_query(squares->g, less, 0);
+    squares->tries = tries;
+    squares->best_depth = -INFINITY;
+    squares->best[0] = squares->best[1] = 1;
+    const sunder_i_covering how = search_nodes(squares, first);
+    squares->covered = how == SUNDER_I_COVERING_FOUND;
+    if (!squares->covered) return how;
+    memcpy(remembered(squares), squares->best, sizeof squares->best);
+    for (int k = 0; k < 2; k++) squares->covering[k] = squares->inner[k].node[squares->best[k]].chief;
     return how;
 }

@@ -18,21 +18,22 @@ static const double WAY[SUNDER_I_DOP_WAYS][2] = {{1, 0},
                                                  {-0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bcdp-1},
                                                  {-0x1.d906bcf328d46p-1, 0x1.87de2a6aea963p-2}};
 
-double sunder_i_float_scale(const sunder_i_operands *g) { return ldexp(1, -ilogb(g->magnitude)); }
+double sunder_i_float_scale(const sunder_i_operands *operands) { return ldexp(1, -ilogb(operands->magnitude)); }
 
 /* With coordinates up to M, themselves floats, a bound of a set is below 1.42 M and off by 2^-24 of 2.9 M; so is that
  * of the other, and their sum by 2^-24 of 2.9 M. Squares reach to 2 M, so their bounds to 2.9 M, with the same error
  * again; doubles and the rounding of the ways are nothing beside this. Together that is less than 2^-24 * 12 M. */
 #define FLOAT_ERROR 0x1p-20
 
-sunder_i_dop sunder_i_dop_query(const sunder_i_operands *g, const double at[4], double by)
+sunder_i_dop sunder_i_dop_query(const sunder_i_operands *operands, const double square[4], double by)
 {
-    const double x = at[0] / 2 + at[2] / 2, y = at[1] / 2 + at[3] / 2;
-    const double hx = at[2] / 2 - at[0] / 2, hy = at[3] / 2 - at[1] / 2, scale = sunder_i_float_scale(g);
+    const double x = square[0] / 2 + square[2] / 2, y = square[1] / 2 + square[3] / 2;
+    const double hx = square[2] / 2 - square[0] / 2, hy = square[3] / 2 - square[1] / 2,
+                 scale = sunder_i_float_scale(operands);
     sunder_i_dop out;
     for (int k = 0; k < SUNDER_I_DOP_WAYS; k++) {
         const double middle = x * WAY[k][0] + y * WAY[k][1];
-        const double reach = hx * fabs(WAY[k][0]) + hy * fabs(WAY[k][1]) + FLOAT_ERROR * g->magnitude + by;
+        const double reach = hx * fabs(WAY[k][0]) + hy * fabs(WAY[k][1]) + FLOAT_ERROR * operands->magnitude + by;
         out.low[k] = (float)(scale * (middle - reach));
         out.high[k] = (float)(scale * (middle + reach));
     }
@@ -53,11 +54,11 @@ static void include(sunder_i_dop *all, const sunder_i_dop *one)
 
 sunder_i_dop sunder_i_dop_nowhere(void) { return NOWHERE; }
 
-void sunder_i_dop_add(sunder_i_dop *all, float x, float y)
+void sunder_i_dop_add(sunder_i_dop *extents, float x, float y)
 {
     sunder_i_dop at;
     for (int k = 0; k < SUNDER_I_DOP_WAYS; k++) at.low[k] = at.high[k] = (float)(x * WAY[k][0] + y * WAY[k][1]);
-    include(all, &at);
+    include(extents, &at);
 }
 
 typedef struct planter {

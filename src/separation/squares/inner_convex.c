@@ -179,40 +179,41 @@ static bool plant(sunder_i_inner_convex *b, uint32_t pieces)
     return ok;
 }
 
-bool sunder_i_inner_convex_build(sunder_i_inner_convex *b, const sunder_i_operands *g, int side,
+bool sunder_i_inner_convex_build(sunder_i_inner_convex *inner, const sunder_i_operands *operands, int side,
                                  const sunder_i_quadtree *quadtree)
 {
-    const sunder_shape *s = g->shape[side];
+    const sunder_shape *s = operands->shape[side];
     const uint32_t boxes = s->pieces / 4 + BOXES_LEAST;
     const size_t n = (size_t)s->pieces + boxes, blocks = s->piece_end[s->pieces - 1] / 4 + n;
-    *b = (sunder_i_inner_convex){.end = sunder_i_alloc(n, sizeof *b->end),
-                                 .block = sunder_i_alloc(blocks, sizeof *b->block),
-                                 .vague = sunder_i_alloc(n, sizeof *b->vague),
-                                 .box = sunder_i_alloc(boxes, 4 * sizeof *b->box)};
-    if (!b->end || !b->block || !b->vague || !b->box) return false;
-    add_pieces(b, g, side);
-    return add_boxes(b, g, quadtree, boxes) && plant(b, s->pieces);
+    *inner = (sunder_i_inner_convex){.end = sunder_i_alloc(n, sizeof *inner->end),
+                                     .block = sunder_i_alloc(blocks, sizeof *inner->block),
+                                     .vague = sunder_i_alloc(n, sizeof *inner->vague),
+                                     .box = sunder_i_alloc(boxes, 4 * sizeof *inner->box)};
+    if (!inner->end || !inner->block || !inner->vague || !inner->box) return false;
+    add_pieces(inner, operands, side);
+    return add_boxes(inner, operands, quadtree, boxes) && plant(inner, s->pieces);
 }
 
-void sunder_i_inner_convex_free(sunder_i_inner_convex *b)
+void sunder_i_inner_convex_free(sunder_i_inner_convex *inner)
 {
-    sunder_i_free(b->end);
-    sunder_i_free(b->block);
-    sunder_i_free(b->vague);
-    sunder_i_free(b->box);
-    sunder_i_dop_tree_free(&b->pieces);
-    sunder_i_dop_tree_free(&b->all);
-    sunder_i_free(b->node);
-    memset(b, 0, sizeof *b);
+    sunder_i_free(inner->end);
+    sunder_i_free(inner->block);
+    sunder_i_free(inner->vague);
+    sunder_i_free(inner->box);
+    sunder_i_dop_tree_free(&inner->pieces);
+    sunder_i_dop_tree_free(&inner->all);
+    sunder_i_free(inner->node);
+    memset(inner, 0, sizeof *inner);
 }
 
 /* ---- Depths ---- */
 
-sunder_i_square_query sunder_i_inner_convex_query(const sunder_i_operands *g, const double at[4])
+sunder_i_square_query sunder_i_inner_convex_query(const sunder_i_operands *operands, const double square[4])
 {
-    const double scale = sunder_i_float_scale(g);
-    return (sunder_i_square_query){(float)(scale * (at[0] / 2 + at[2] / 2)), (float)(scale * (at[1] / 2 + at[3] / 2)),
-                                   (float)(scale * (at[2] / 2 - at[0] / 2)), (float)(scale * (at[3] / 2 - at[1] / 2))};
+    const double scale = sunder_i_float_scale(operands);
+    return (sunder_i_square_query){
+        (float)(scale * (square[0] / 2 + square[2] / 2)), (float)(scale * (square[1] / 2 + square[3] / 2)),
+        (float)(scale * (square[2] / 2 - square[0] / 2)), (float)(scale * (square[3] / 2 - square[1] / 2))};
 }
 
 /* The sides of one set, each at the corner of the other that is farthest out. Four at a time, without branches. */
@@ -246,16 +247,16 @@ static sunder_i_floats reach_of(const sunder_i_inner_convex *b, uint32_t i)
     return r;
 }
 
-sunder_i_square_depth sunder_i_inner_convex_depth(const sunder_i_inner_convex b[2], uint32_t i, uint32_t j,
+sunder_i_square_depth sunder_i_inner_convex_depth(const sunder_i_inner_convex inner[2], uint32_t i, uint32_t j,
                                                   const sunder_i_square_query *query)
 {
     sunder_i_floats in = {INFINITY, INFINITY, INFINITY, INFINITY}, touch = in;
-    below_sides(b, i, b + 1, j, query, &in, &touch);
-    below_sides(b + 1, j, b, i, query, &in, &touch);
+    below_sides(inner, i, inner + 1, j, query, &in, &touch);
+    below_sides(inner + 1, j, inner, i, query, &in, &touch);
     if (query->hx < 0) { /* the square's sides are sides of the sum, too */
         const sunder_i_floats at = {query->x + query->hx, query->y + query->hy, query->hx - query->x,
                                     query->hy - query->y};
-        in = sunder_i_floats_min(in, reach_of(b, i) + reach_of(b + 1, j) - at);
+        in = sunder_i_floats_min(in, reach_of(inner, i) + reach_of(inner + 1, j) - at);
     }
     return (sunder_i_square_depth){sunder_i_floats_least(in), sunder_i_floats_least(touch)};
 }

@@ -57,12 +57,12 @@ static bool gather(sunder_i_squares *q, uint32_t a, uint32_t b, size_t most)
     return gather(q, part[0][0], part[0][1], most) && gather(q, part[1][0], part[1][1], most);
 }
 
-bool sunder_i_squares_gather(sunder_i_squares *q, const double at[4], size_t most)
+bool sunder_i_squares_gather(sunder_i_squares *squares, const double square[4], size_t most)
 {
     double less[4];
-    sunder_i_squares_query(q, at, less);
-    q->dop = sunder_i_dop_query(q->g, at, q->gap);
-    q->pairs = 0;
-    q->covered = false;
-    return gather(q, 1, 1, most);
+    sunder_i_squares_query(squares, square, less);
+    squares->dop = sunder_i_dop_query(squares->g, square, squares->gap);
+    squares->pairs = 0;
+    squares->covered = false;
+    return gather(squares, 1, 1, most);
 }

@@ -56,26 +56,28 @@ static bool add_edges(sunder_i_squares *q, const double at[4], double reach, int
     return true;
 }
 
-bool sunder_i_squares_take_subsums(sunder_i_squares *q)
+bool sunder_i_squares_take_subsums(sunder_i_squares *squares)
 {
-    sunder_i_operands *g = q->g;
-    g->subsum = sunder_i_arena_alloc(&g->placed.lattice.arena, q->pairs + 1, sizeof *g->subsum);
-    g->subsums = g->subsum ? q->pairs : 0;
+    sunder_i_operands *g = squares->g;
+    g->subsum = sunder_i_arena_alloc(&g->placed.lattice.arena, squares->pairs + 1, sizeof *g->subsum);
+    g->subsums = g->subsum ? squares->pairs : 0;
     for (size_t k = 0; k < g->subsums; k++) {
         sunder_i_subsum *s = g->subsum + k;
-        *s = (sunder_i_subsum){.i = q->pair[k][0], .j = q->pair[k][1]};
+        *s = (sunder_i_subsum){.i = squares->pair[k][0], .j = squares->pair[k][1]};
         sunder_i_box_sum(g->piece_box[0] + 4 * (size_t)s->i, g->piece_box[1] + 4 * (size_t)s->j, s->box);
     }
     return g->subsum != NULL;
 }
 
-bool sunder_i_squares_take_candidates(sunder_i_squares *q, const double at[4], double limit, sunder_i_candidates *out)
+bool sunder_i_squares_take_candidates(sunder_i_squares *squares, const double square[4], double limit,
+                                      sunder_i_candidates *out)
 {
-    const double reach = limit + 8 * q->g->error;
+    const double reach = limit + 8 * squares->g->error;
     *out = (sunder_i_candidates){NULL, 0, 0};
-    for (size_t k = 0; k < q->pairs; k++) {
-        const uint32_t i = q->pair[k][0], j = q->pair[k][1];
-        if (!add_edges(q, at, reach, 0, i, j, out) || !add_edges(q, at, reach, 1, j, i, out)) return false;
+    for (size_t k = 0; k < squares->pairs; k++) {
+        const uint32_t i = squares->pair[k][0], j = squares->pair[k][1];
+        if (!add_edges(squares, square, reach, 0, i, j, out) || !add_edges(squares, square, reach, 1, j, i, out))
+            return false;
     }
     sunder_i_candidates_order(out);
     return true;

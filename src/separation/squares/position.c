@@ -29,10 +29,11 @@ static sunder_i_square_position position_to_sides(const sunder_i_operands *g, co
     return where;
 }
 
-sunder_i_square_position sunder_i_squares_position(const sunder_i_squares *q, const double at[4], uint32_t i,
+sunder_i_square_position sunder_i_squares_position(const sunder_i_squares *squares, const double square[4], uint32_t i,
                                                    uint32_t j)
 {
-    const sunder_i_square_position p = position_to_sides(q->g, at, 0, i, j);
-    const sunder_i_square_position r = p == SUNDER_I_POSITION_OUTSIDE ? p : position_to_sides(q->g, at, 1, j, i);
+    const sunder_i_square_position p = position_to_sides(squares->g, square, 0, i, j);
+    const sunder_i_square_position r =
+        p == SUNDER_I_POSITION_OUTSIDE ? p : position_to_sides(squares->g, square, 1, j, i);
     return p < r ? p : r;
 }

@@ -164,10 +164,10 @@ static int depth_for(const sunder_i_operands *g, int side)
     return depth;
 }
 
-bool sunder_i_quadtree_build(sunder_i_quadtree *quadtree, const sunder_i_operands *g, int side)
+bool sunder_i_quadtree_build(sunder_i_quadtree *quadtree, const sunder_i_operands *operands, int side)
 {
     memset(quadtree, 0, sizeof *quadtree);
-    builder b = {.out = quadtree, .g = g, .side = side, .deepest = depth_for(g, side)};
+    builder b = {.out = quadtree, .g = operands, .side = side, .deepest = depth_for(operands, side)};
     const bool ok = quarter_all(&b);
     if (ok) drop_rest(quadtree);
     sunder_i_free(b.edges);

@@ -75,25 +75,25 @@ static void free_masses(sunder_i_climb *l)
     l->payers = 0;
 }
 
-sunder_status sunder_i_climb_init(sunder_i_climb *l, const sunder_i_model *model, const uint32_t *body, size_t n,
+sunder_status sunder_i_climb_init(sunder_i_climb *climb, const sunder_i_model *model, const uint32_t *body, size_t n,
                                   double about, sunder_error *err)
 {
-    *l = (sunder_i_climb){.model = model, .body = body, .n = n};
-    l->outline = sunder_i_calloc(n, sizeof *l->outline);
-    l->payer = sunder_i_calloc(n, sizeof *l->payer);
-    sunder_status status = l->outline && l->payer ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) status = find_outlines(l, about, err);
-    if (!status && l->size > 0) choose_sides(l);
+    *climb = (sunder_i_climb){.model = model, .body = body, .n = n};
+    climb->outline = sunder_i_calloc(n, sizeof *climb->outline);
+    climb->payer = sunder_i_calloc(n, sizeof *climb->payer);
+    sunder_status status = climb->outline && climb->payer ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) status = find_outlines(climb, about, err);
+    if (!status && climb->size > 0) choose_sides(climb);
     return status;
 }
 
-void sunder_i_climb_free(sunder_i_climb *l)
+void sunder_i_climb_free(sunder_i_climb *climb)
 {
-    for (size_t k = 0; k < l->n && l->outline; k++) sunder_i_outline_free(&l->outline[k]);
-    free_masses(l);
-    sunder_i_free(l->outline);
-    sunder_i_free(l->payer);
-    sunder_i_free(l->price);
+    for (size_t k = 0; k < climb->n && climb->outline; k++) sunder_i_outline_free(&climb->outline[k]);
+    free_masses(climb);
+    sunder_i_free(climb->outline);
+    sunder_i_free(climb->payer);
+    sunder_i_free(climb->price);
 }
 
 static bool spans_too_much(const sunder_i_outline *o, double side)
@@ -139,19 +139,19 @@ static float *refine(const sunder_i_climb *l, const sunder_i_grid *fine)
     return out;
 }
 
-bool sunder_i_climb_on(sunder_i_climb *l)
+bool sunder_i_climb_on(sunder_i_climb *climb)
 {
     static const unsigned rounds[LEVELS + 1] = ROUNDS;
     sunder_i_grid grid;
-    l->left--;
-    if (!lay_grid(l, l->side, 1u << l->left, &grid) || !make_payers(l, &grid)) return false;
-    float *price = refine(l, &grid);
-    sunder_i_free(l->price);
-    l->price = price;
-    l->grid = grid;
-    const double across = l->size / l->side;
-    l->patience = PATIENCE * across * across;
-    l->side /= 2;
-    return price && sunder_i_prices_ascend(&grid, l->payer, l->payers, l->patience, rounds[LEVELS - l->left],
-                                           l->model->rules.threads, price);
+    climb->left--;
+    if (!lay_grid(climb, climb->side, 1u << climb->left, &grid) || !make_payers(climb, &grid)) return false;
+    float *price = refine(climb, &grid);
+    sunder_i_free(climb->price);
+    climb->price = price;
+    climb->grid = grid;
+    const double across = climb->size / climb->side;
+    climb->patience = PATIENCE * across * across;
+    climb->side /= 2;
+    return price && sunder_i_prices_ascend(&grid, climb->payer, climb->payers, climb->patience,
+                                           rounds[LEVELS - climb->left], climb->model->rules.threads, price);
 }

@@ -129,12 +129,12 @@ static void settle(const spreading *s, double doubt_each, sunder_i_masses *masse
     masses->slack = (int64_t)(2 * most) + 1;
 }
 
-bool sunder_i_masses_make(const sunder_i_outline *o, const sunder_i_grid *grid, sunder_i_masses *masses)
+bool sunder_i_masses_make(const sunder_i_outline *outline, const sunder_i_grid *grid, sunder_i_masses *masses)
 {
     const double side = grid->side;
-    const double x = floor(o->box[0] / side), y = floor(o->box[1] / side);
-    spreading s = {.columns = (size_t)(ceil(o->box[2] / side) - x) + 1,
-                   .rows = (size_t)(ceil(o->box[3] / side) - y) + 1};
+    const double x = floor(outline->box[0] / side), y = floor(outline->box[1] / side);
+    spreading s = {.columns = (size_t)(ceil(outline->box[2] / side) - x) + 1,
+                   .rows = (size_t)(ceil(outline->box[3] / side) - y) + 1};
     const size_t nodes = s.columns * s.rows;
     *masses = (sunder_i_masses){.at = sunder_i_calloc(nodes, sizeof *masses->at),
                                 .x = (int64_t)x - grid->x,
@@ -144,14 +144,14 @@ bool sunder_i_masses_make(const sunder_i_outline *o, const sunder_i_grid *grid, 
     s.mass = sunder_i_calloc(nodes, sizeof *s.mass);
     s.doubt = sunder_i_calloc(nodes, sizeof *s.doubt);
     bool ok = masses->at && s.mass && s.doubt;
-    for (size_t r = 0, from = 0; ok && r < o->rings; from = o->ring_end[r++]) {
+    for (size_t r = 0, from = 0; ok && r < outline->rings; from = outline->ring_end[r++]) {
         s.whole.n = 0;
-        for (size_t k = from; ok && k < o->ring_end[r]; k++)
-            ok = push(&s.whole, o->xy[2 * k] / side - x, o->xy[2 * k + 1] / side - y);
+        for (size_t k = from; ok && k < outline->ring_end[r]; k++)
+            ok = push(&s.whole, outline->xy[2 * k] / side - x, outline->xy[2 * k + 1] / side - y);
         ok = ok && spread(&s);
     }
     double far = 0;
-    for (int k = 0; k < 4; k++) far = sunder_i_max(far, fabs(o->box[k]) / side);
+    for (int k = 0; k < 4; k++) far = sunder_i_max(far, fabs(outline->box[k]) / side);
     if (ok) settle(&s, CORNER_DOUBT + far * 0x1p-30, masses);
     sunder_i_free(s.whole.xy);
     sunder_i_free(s.row.xy);

@@ -77,17 +77,18 @@ static bool grow_block(sunder_i_lagrangian *d, size_t seed)
     return true;
 }
 
-bool sunder_i_make_blocks(sunder_i_lagrangian *d)
+bool sunder_i_make_blocks(sunder_i_lagrangian *lagrangian)
 {
-    const sunder_i_contact_forces *c = &d->contacts;
-    for (size_t k = 0; k < c->n; k++) d->home[k] = SUNDER_I_NOBODY;
+    const sunder_i_contact_forces *c = &lagrangian->contacts;
+    for (size_t k = 0; k < c->n; k++) lagrangian->home[k] = SUNDER_I_NOBODY;
     for (;;) {
         size_t seed = SIZE_MAX;
         for (size_t k = 0; k < c->n; k++)
-            if (c->force[k] > 0 && d->home[k] == SUNDER_I_NOBODY && (seed == SIZE_MAX || c->force[k] > c->force[seed]))
+            if (c->force[k] > 0 && lagrangian->home[k] == SUNDER_I_NOBODY &&
+                (seed == SIZE_MAX || c->force[k] > c->force[seed]))
                 seed = k;
-        d->steps += c->n;
+        lagrangian->steps += c->n;
         if (seed == SIZE_MAX) return true;
-        if (!grow_block(d, seed)) return false;
+        if (!grow_block(lagrangian, seed)) return false;
     }
 }

@@ -23,23 +23,23 @@
 
 #define NO_CUT UINT32_MAX
 
-bool sunder_i_bundle_init(sunder_i_bundle *b)
+bool sunder_i_bundle_init(sunder_i_bundle *bundle)
 {
-    b->mix = sunder_i_alloc(2 * b->copies, sizeof *b->mix);
-    b->mean = sunder_i_alloc(2 * b->members, sizeof *b->mean);
-    b->last = sunder_i_alloc(b->blocks, sizeof *b->last);
-    for (size_t k = 0; b->last && k < b->blocks; k++) b->last[k] = NO_CUT;
-    return b->mix && b->mean && b->last;
+    bundle->mix = sunder_i_alloc(2 * bundle->copies, sizeof *bundle->mix);
+    bundle->mean = sunder_i_alloc(2 * bundle->members, sizeof *bundle->mean);
+    bundle->last = sunder_i_alloc(bundle->blocks, sizeof *bundle->last);
+    for (size_t k = 0; bundle->last && k < bundle->blocks; k++) bundle->last[k] = NO_CUT;
+    return bundle->mix && bundle->mean && bundle->last;
 }
 
-void sunder_i_bundle_free(sunder_i_bundle *b)
+void sunder_i_bundle_free(sunder_i_bundle *bundle)
 {
-    sunder_i_free(b->cut);
-    sunder_i_free(b->t);
-    sunder_i_free(b->mix);
-    sunder_i_free(b->mean);
-    sunder_i_free(b->last);
-    *b = (sunder_i_bundle){0};
+    sunder_i_free(bundle->cut);
+    sunder_i_free(bundle->t);
+    sunder_i_free(bundle->mix);
+    sunder_i_free(bundle->mean);
+    sunder_i_free(bundle->last);
+    *bundle = (sunder_i_bundle){0};
 }
 
 static double product(const double *a, const double *b, size_t n)
@@ -49,20 +49,20 @@ static double product(const double *a, const double *b, size_t n)
     return sum;
 }
 
-bool sunder_i_bundle_add(sunder_i_bundle *b, size_t block, double value, const double *x, const double *t)
+bool sunder_i_bundle_add(sunder_i_bundle *bundle, size_t block, double value, const double *x, const double *t)
 {
-    const size_t from = b->first[block], n = 2 * (b->first[block + 1] - from);
-    if (!sunder_i_reserve(&b->cut, &b->cut_capacity, b->cuts + 1, sizeof *b->cut) ||
-        !sunder_i_reserve(&b->t, &b->capacity, b->numbers + n, sizeof *b->t))
+    const size_t from = bundle->first[block], n = 2 * (bundle->first[block + 1] - from);
+    if (!sunder_i_reserve(&bundle->cut, &bundle->cut_capacity, bundle->cuts + 1, sizeof *bundle->cut) ||
+        !sunder_i_reserve(&bundle->t, &bundle->capacity, bundle->numbers + n, sizeof *bundle->t))
         return false;
-    b->cut[b->cuts] = (sunder_i_bundle_cut){.block = (uint32_t)block,
-                                            .before = b->last[block],
-                                            .at_rest = value + 2 * product(x, t, n),
-                                            .t = b->numbers,
-                                            .share = b->last[block] == NO_CUT};
-    b->last[block] = (uint32_t)b->cuts++;
-    memcpy(b->t + b->numbers, t, n * sizeof *t);
-    b->numbers += n;
+    bundle->cut[bundle->cuts] = (sunder_i_bundle_cut){.block = (uint32_t)block,
+                                                      .before = bundle->last[block],
+                                                      .at_rest = value + 2 * product(x, t, n),
+                                                      .t = bundle->numbers,
+                                                      .share = bundle->last[block] == NO_CUT};
+    bundle->last[block] = (uint32_t)bundle->cuts++;
+    memcpy(bundle->t + bundle->numbers, t, n * sizeof *t);
+    bundle->numbers += n;
     return true;
 }
 
@@ -145,20 +145,20 @@ static bool settle(sunder_i_bundle *b, const double *centre, double stride)
     return true;
 }
 
-bool sunder_i_bundle_propose(sunder_i_bundle *b, const double *centre, double stride, double *x, double *promise)
+bool sunder_i_bundle_propose(sunder_i_bundle *bundle, const double *centre, double stride, double *x, double *promise)
 {
     double square = 0;
-    mix_all(b);
-    if (!settle(b, centre, stride)) return false;
+    mix_all(bundle);
+    if (!settle(bundle, centre, stride)) return false;
     *promise = 0;
-    for (size_t k = 0; k < b->cuts; k++) {
-        const sunder_i_bundle_cut *cut = &b->cut[k];
-        const size_t from = b->first[cut->block], n = b->first[cut->block + 1] - from;
-        *promise += cut->share * (cut->at_rest - 2 * product(centre + 2 * from, b->t + cut->t, 2 * n));
+    for (size_t k = 0; k < bundle->cuts; k++) {
+        const sunder_i_bundle_cut *cut = &bundle->cut[k];
+        const size_t from = bundle->first[cut->block], n = bundle->first[cut->block + 1] - from;
+        *promise += cut->share * (cut->at_rest - 2 * product(centre + 2 * from, bundle->t + cut->t, 2 * n));
     }
-    for (size_t m = 0; m < b->copies; m++)
+    for (size_t m = 0; m < bundle->copies; m++)
         for (size_t c = 0; c < 2; c++) {
-            const double off = apart(b, m, c);
+            const double off = apart(bundle, m, c);
             x[2 * m + c] = centre[2 * m + c] - 2 * stride * off;
             square += off * off;
         }

@@ -91,30 +91,31 @@ static bool solve(sunder_i_contact_forces *c, const sunder_i_group *g)
     return true;
 }
 
-bool sunder_i_contact_forces_find(sunder_i_contact_forces *c, const sunder_i_model *model,
-                                  const sunder_i_waived *waived, const sunder_i_group *g, const double *weight,
+bool sunder_i_contact_forces_find(sunder_i_contact_forces *contacts, const sunder_i_model *model,
+                                  const sunder_i_waived *waived, const sunder_i_group *group, const double *weight,
                                   const double *mass, const double *anchor)
 {
-    memset(c, 0, sizeof *c);
-    c->model = model;
-    c->waived = waived;
-    if (!sunder_i_dual_init(&c->program, g->n) || !find(c, g)) return false;
-    c->program.weight = weight;
-    c->program.mass = mass;
-    c->program.anchor = anchor;
-    c->program.cut = c->cut;
-    if (!sunder_i_dual_load(&c->program, NULL, 0) || !solve(c, g)) return false;
-    c->force = sunder_i_calloc(c->n, sizeof *c->force);
-    if (!c->force) return false;
-    for (size_t k = 0; k < c->program.acting_n; k++) c->force[c->program.acting[k].cut] = c->program.acting[k].force;
+    memset(contacts, 0, sizeof *contacts);
+    contacts->model = model;
+    contacts->waived = waived;
+    if (!sunder_i_dual_init(&contacts->program, group->n) || !find(contacts, group)) return false;
+    contacts->program.weight = weight;
+    contacts->program.mass = mass;
+    contacts->program.anchor = anchor;
+    contacts->program.cut = contacts->cut;
+    if (!sunder_i_dual_load(&contacts->program, NULL, 0) || !solve(contacts, group)) return false;
+    contacts->force = sunder_i_calloc(contacts->n, sizeof *contacts->force);
+    if (!contacts->force) return false;
+    for (size_t k = 0; k < contacts->program.acting_n; k++)
+        contacts->force[contacts->program.acting[k].cut] = contacts->program.acting[k].force;
     return true;
 }
 
-void sunder_i_contact_forces_free(sunder_i_contact_forces *c)
+void sunder_i_contact_forces_free(sunder_i_contact_forces *contacts)
 {
-    sunder_i_free(c->cut);
-    sunder_i_free(c->force);
-    sunder_i_free(c->touch.item);
-    sunder_i_dual_free(&c->program);
-    memset(c, 0, sizeof *c);
+    sunder_i_free(contacts->cut);
+    sunder_i_free(contacts->force);
+    sunder_i_free(contacts->touch.item);
+    sunder_i_dual_free(&contacts->program);
+    memset(contacts, 0, sizeof *contacts);
 }

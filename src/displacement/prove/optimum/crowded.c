@@ -27,20 +27,20 @@ static size_t count_listed(const sunder_i_model *model, const sunder_i_waived *w
     return listed;
 }
 
-size_t sunder_i_group_listed(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g)
+size_t sunder_i_group_listed(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *group)
 {
     size_t listed = 0;
-    for (size_t k = 0; k < g->n; k++) {
-        const sunder_i_body *b = &model->body[g->body[k]];
+    for (size_t k = 0; k < group->n; k++) {
+        const sunder_i_body *b = &model->body[group->body[k]];
         for (uint32_t m = 0; m < b->members && !b->fixed; m++)
-            listed += count_listed(model, waived, g, model->member[b->member + m]);
+            listed += count_listed(model, waived, group, model->member[b->member + m]);
     }
     return listed;
 }
 
-bool sunder_i_group_is_crowded(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g)
+bool sunder_i_group_is_crowded(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *group)
 {
     size_t movers = 0;
-    for (size_t k = 0; k < g->n; k++) movers += !model->body[g->body[k]].fixed;
-    return movers > BRANCHED && sunder_i_group_listed(model, waived, g) * CROWDED >= movers;
+    for (size_t k = 0; k < group->n; k++) movers += !model->body[group->body[k]].fixed;
+    return movers > BRANCHED && sunder_i_group_listed(model, waived, group) * CROWDED >= movers;
 }

@@ -30,23 +30,23 @@
 #define NO_FACTOR 1e-9
 #define FEWEST_ROWS 32
 
-bool sunder_i_dual_init(sunder_i_dual_program *p, size_t bodies)
+bool sunder_i_dual_init(sunder_i_dual_program *program, size_t bodies)
 {
-    memset(p, 0, sizeof *p);
-    p->bodies = bodies;
-    p->t = sunder_i_alloc(2 * bodies, sizeof *p->t);
-    p->net = sunder_i_alloc(3 * bodies, sizeof *p->net);
-    return p->t && p->net;
+    memset(program, 0, sizeof *program);
+    program->bodies = bodies;
+    program->t = sunder_i_alloc(2 * bodies, sizeof *program->t);
+    program->net = sunder_i_alloc(3 * bodies, sizeof *program->net);
+    return program->t && program->net;
 }
 
-void sunder_i_dual_free(sunder_i_dual_program *p)
+void sunder_i_dual_free(sunder_i_dual_program *program)
 {
-    sunder_i_free(p->acting);
-    sunder_i_free(p->factor);
-    sunder_i_free(p->t);
-    sunder_i_free(p->net);
-    sunder_i_free(p->scratch);
-    memset(p, 0, sizeof *p);
+    sunder_i_free(program->acting);
+    sunder_i_free(program->factor);
+    sunder_i_free(program->t);
+    sunder_i_free(program->net);
+    sunder_i_free(program->scratch);
+    memset(program, 0, sizeof *program);
 }
 
 /* Reserves room for n rows; the factor is laid out again. */
@@ -90,11 +90,11 @@ static double at_anchor(const sunder_i_dual_program *p, const sunder_i_move_cut 
     return v;
 }
 
-double sunder_i_dual_missing(const sunder_i_dual_program *p, const sunder_i_move_cut *c)
+double sunder_i_dual_missing(const sunder_i_dual_program *program, const sunder_i_move_cut *cut)
 {
-    double v = c->d;
-    if (c->j != SUNDER_I_GROUND) v -= c->n[0] * p->t[2 * c->j] + c->n[1] * p->t[2 * c->j + 1];
-    if (c->i != SUNDER_I_GROUND) v += c->n[0] * p->t[2 * c->i] + c->n[1] * p->t[2 * c->i + 1];
+    double v = cut->d;
+    if (cut->j != SUNDER_I_GROUND) v -= cut->n[0] * program->t[2 * cut->j] + cut->n[1] * program->t[2 * cut->j + 1];
+    if (cut->i != SUNDER_I_GROUND) v += cut->n[0] * program->t[2 * cut->i] + cut->n[1] * program->t[2 * cut->i + 1];
     return v;
 }
 
@@ -157,17 +157,17 @@ static void take_out(sunder_i_dual_program *p, size_t at)
 
 /* ---- Forces ------------------------------------------------------------------------------------------------------ */
 
-void sunder_i_dual_place(sunder_i_dual_program *p)
+void sunder_i_dual_place(sunder_i_dual_program *program)
 {
-    memcpy(p->t, p->anchor, 2 * p->bodies * sizeof *p->t);
-    for (size_t k = 0; k < p->acting_n; k++) {
-        const sunder_i_move_cut *c = &p->cut[p->acting[k].cut];
+    memcpy(program->t, program->anchor, 2 * program->bodies * sizeof *program->t);
+    for (size_t k = 0; k < program->acting_n; k++) {
+        const sunder_i_move_cut *c = &program->cut[program->acting[k].cut];
         for (int e = 0; e < 2; e++) {
             const uint32_t b = e ? c->j : c->i;
             if (b == SUNDER_I_GROUND) continue;
-            const double push = (e ? p->acting[k].force : -p->acting[k].force) * p->mass[b];
-            p->t[2 * b] += push * c->n[0];
-            p->t[2 * b + 1] += push * c->n[1];
+            const double push = (e ? program->acting[k].force : -program->acting[k].force) * program->mass[b];
+            program->t[2 * b] += push * c->n[0];
+            program->t[2 * b + 1] += push * c->n[1];
         }
     }
 }
@@ -188,24 +188,24 @@ static void balance(sunder_i_dual_program *p)
     p->steps += 1 + p->acting_n * p->acting_n / 8;
 }
 
-bool sunder_i_dual_load(sunder_i_dual_program *p, const sunder_i_cut_force *acting, size_t n)
+bool sunder_i_dual_load(sunder_i_dual_program *program, const sunder_i_cut_force *acting, size_t n)
 {
-    if (!reserve(p, n + 1)) return false;
-    p->acting_n = 0;
+    if (!reserve(program, n + 1)) return false;
+    program->acting_n = 0;
     for (size_t k = 0; k < n; k++) {
         double square;
-        const double left = make_row(p, &p->cut[acting[k].cut], p->scratch, &square);
-        if (left > DEPENDENT * square) append(p, acting[k].cut, acting[k].force, p->scratch, sqrt(left));
+        const double left = make_row(program, &program->cut[acting[k].cut], program->scratch, &square);
+        if (left > DEPENDENT * square) append(program, acting[k].cut, acting[k].force, program->scratch, sqrt(left));
     }
     for (;;) {
         size_t worst = 0;
-        balance(p);
-        for (size_t k = 1; k < p->acting_n; k++)
-            if (p->acting[k].force < p->acting[worst].force) worst = k;
-        if (p->acting_n == 0 || p->acting[worst].force >= 0) break;
-        take_out(p, worst);
+        balance(program);
+        for (size_t k = 1; k < program->acting_n; k++)
+            if (program->acting[k].force < program->acting[worst].force) worst = k;
+        if (program->acting_n == 0 || program->acting[worst].force >= 0) break;
+        take_out(program, worst);
     }
-    sunder_i_dual_place(p);
+    sunder_i_dual_place(program);
     return true;
 }
 
@@ -252,48 +252,50 @@ static double least_factor(const sunder_i_dual_program *p, const double *r)
     return NO_FACTOR * most;
 }
 
-sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *p, uint32_t cut, double enough, bool *failed)
+sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *program, uint32_t cut, double enough, bool *failed)
 {
-    const sunder_i_move_cut *c = &p->cut[cut];
+    const sunder_i_move_cut *c = &program->cut[cut];
     double force = 0;
-    *failed = !reserve(p, p->acting_n + 2);
+    *failed = !reserve(program, program->acting_n + 2);
     if (*failed) return SUNDER_I_DUAL_STUCK;
-    for (size_t round = 0; round < 4 * p->acting_n + 64; round++) {
-        double *row = p->scratch, *r = p->scratch + p->capacity, square;
-        const double left = make_row(p, c, row, &square);
+    for (size_t round = 0; round < 4 * program->acting_n + 64; round++) {
+        double *row = program->scratch, *r = program->scratch + program->capacity, square;
+        const double left = make_row(program, c, row, &square);
         const bool dependent = !(left > DEPENDENT * square);
-        sunder_i_dual_place(p);
+        sunder_i_dual_place(program);
         /* t without the new force. */
-        double missing = c->d - at_anchor(p, c);
+        double missing = c->d - at_anchor(program, c);
         for (int e = 0; e < 2; e++) {
             const uint32_t b = e ? c->j : c->i;
             if (b == SUNDER_I_GROUND) continue;
-            const double v =
-                c->n[0] * (p->t[2 * b] - p->anchor[2 * b]) + c->n[1] * (p->t[2 * b + 1] - p->anchor[2 * b + 1]);
+            const double v = c->n[0] * (program->t[2 * b] - program->anchor[2 * b]) +
+                             c->n[1] * (program->t[2 * b + 1] - program->anchor[2 * b + 1]);
             missing -= e ? v : -v;
         }
         missing -= force * square;
-        solve_back(p, row, r);
+        solve_back(program, row, r);
         double longest;
-        const size_t leaves = find_leaving(p, r, dependent ? least_factor(p, r) : 1e-13 * fabs(square), &longest);
+        const size_t leaves =
+            find_leaving(program, r, dependent ? least_factor(program, r) : 1e-13 * fabs(square), &longest);
         if (dependent && leaves == SIZE_MAX) {
             if (!(missing > 0)) break;
-            return contradict(p, cut, force, missing, r, enough);
+            return contradict(program, cut, force, missing, r, enough);
         }
         const double whole = dependent ? INFINITY : sunder_i_max(0, missing) / left,
                      step = sunder_i_min(whole, longest);
-        for (size_t k = 0; k < p->acting_n; k++) p->acting[k].force = sunder_i_max(0, p->acting[k].force - step * r[k]);
+        for (size_t k = 0; k < program->acting_n; k++)
+            program->acting[k].force = sunder_i_max(0, program->acting[k].force - step * r[k]);
         force += step;
         if (whole <= longest) {
-            append(p, cut, force, row, sqrt(left));
-            sunder_i_dual_place(p);
+            append(program, cut, force, row, sqrt(left));
+            sunder_i_dual_place(program);
             return SUNDER_I_DUAL_SOLVED;
         }
-        take_out(p, leaves);
+        take_out(program, leaves);
     }
-    balance(p);
-    for (size_t k = 0; k < p->acting_n; k++) p->acting[k].force = sunder_i_max(0, p->acting[k].force);
-    sunder_i_dual_place(p);
+    balance(program);
+    for (size_t k = 0; k < program->acting_n; k++) program->acting[k].force = sunder_i_max(0, program->acting[k].force);
+    sunder_i_dual_place(program);
     return SUNDER_I_DUAL_STUCK;
 }
 
@@ -304,30 +306,30 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *p, uint32_t cut, 
  * again. A component of g is off by (N + 1) e of the sum of |f n|, which is `weight` below, and |g|^2 / (4 w) takes
  * four roundings. Four times all that is used, so that these sums may be rounded themselves; and 2^-900 for
  * underflow. */
-double sunder_i_dual_value(sunder_i_dual_program *p)
+double sunder_i_dual_value(sunder_i_dual_program *program)
 {
-    const double unit = 4 * ((double)(p->acting_n + p->bodies) + 16) * 0x1p-53;
-    double value = 0, magnitude = 0, taken = 0, *net = p->net;
-    memset(net, 0, 3 * p->bodies * sizeof *net);
-    for (size_t k = 0; k < p->acting_n; k++) {
-        const sunder_i_move_cut *c = &p->cut[p->acting[k].cut];
-        const double f = p->acting[k].force;
+    const double unit = 4 * ((double)(program->acting_n + program->bodies) + 16) * 0x1p-53;
+    double value = 0, magnitude = 0, taken = 0, *net = program->net;
+    memset(net, 0, 3 * program->bodies * sizeof *net);
+    for (size_t k = 0; k < program->acting_n; k++) {
+        const sunder_i_move_cut *c = &program->cut[program->acting[k].cut];
+        const double f = program->acting[k].force;
         double part = fabs(c->d);
         for (int e = 0; e < 2; e++) {
             const uint32_t b = e ? c->j : c->i;
             if (b == SUNDER_I_GROUND) continue;
-            part += fabs(c->n[0] * p->anchor[2 * b]) + fabs(c->n[1] * p->anchor[2 * b + 1]);
+            part += fabs(c->n[0] * program->anchor[2 * b]) + fabs(c->n[1] * program->anchor[2 * b + 1]);
             net[3 * b] += e ? f * c->n[0] : -f * c->n[0];
             net[3 * b + 1] += e ? f * c->n[1] : -f * c->n[1];
             net[3 * b + 2] += f * (fabs(c->n[0]) + fabs(c->n[1]));
         }
-        value += f * (c->d - at_anchor(p, c));
+        value += f * (c->d - at_anchor(program, c));
         magnitude += f * part;
     }
-    for (size_t b = 0; b < p->bodies; b++) {
-        if (!(p->mass[b] > 0) || !(net[3 * b + 2] > 0)) continue;
+    for (size_t b = 0; b < program->bodies; b++) {
+        if (!(program->mass[b] > 0) || !(net[3 * b + 2] > 0)) continue;
         const double x = fabs(net[3 * b]) + unit * net[3 * b + 2], y = fabs(net[3 * b + 1]) + unit * net[3 * b + 2];
-        taken += (x * x + y * y) / (4 * p->weight[b]);
+        taken += (x * x + y * y) / (4 * program->weight[b]);
     }
     return value - taken - unit * (magnitude + fabs(value) + taken) - 0x1p-900;
 }

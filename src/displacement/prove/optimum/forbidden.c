@@ -29,12 +29,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-void sunder_i_forbidden_free(sunder_i_forbidden *f)
+void sunder_i_forbidden_free(sunder_i_forbidden *forbidden)
 {
-    sunder_i_free(f->piece);
-    sunder_i_free(f->edge);
-    sunder_i_free(f->tree.box);
-    *f = (sunder_i_forbidden){0};
+    sunder_i_free(forbidden->piece);
+    sunder_i_free(forbidden->edge);
+    sunder_i_free(forbidden->tree.box);
+    *forbidden = (sunder_i_forbidden){0};
 }
 
 typedef struct listing {
@@ -52,11 +52,12 @@ typedef struct listing {
     size_t drawn_capacity, hull_capacity;
 } listing;
 
-const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sunder_i_waived *w, uint32_t a, uint32_t b)
+const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sunder_i_waived *waived, uint32_t a,
+                                          uint32_t b)
 {
     const uint32_t f = sunder_i_whole_of(model, a), g = sunder_i_whole_of(model, b);
     const sunder_i_waiver key = {.a = f < g ? f : g, .b = f < g ? g : f};
-    return w->n ? bsearch(&key, w->pair, w->n, sizeof key, sunder_i_by_id_pair) : NULL;
+    return waived->n ? bsearch(&key, waived->pair, waived->n, sizeof key, sunder_i_by_id_pair) : NULL;
 }
 
 /* Do the two owe each other anything? waiver: NULL, or the pair's. */
@@ -398,24 +399,25 @@ static bool list_within(listing *l, uint32_t p, uint32_t q)
     return ok;
 }
 
-bool sunder_i_forbidden_init(sunder_i_forbidden *f, const sunder_i_model *model, const sunder_i_waived *waived,
+bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model *model, const sunder_i_waived *waived,
                              uint32_t p, uint32_t q, double reach)
 {
-    listing l = {.out = f, .model = model, .waived = waived, .reach = reach, .most = MOST_PIECES};
+    listing l = {.out = forbidden, .model = model, .waived = waived, .reach = reach, .most = MOST_PIECES};
     return list_within(&l, p, q);
 }
 
-bool sunder_i_forbidden_without_ways(sunder_i_forbidden *f, const sunder_i_model *model, const sunder_i_waived *waived,
-                                     uint32_t p, uint32_t q, double reach)
+bool sunder_i_forbidden_without_ways(sunder_i_forbidden *forbidden, const sunder_i_model *model,
+                                     const sunder_i_waived *waived, uint32_t p, uint32_t q, double reach)
 {
-    listing l = {.out = f, .model = model, .waived = waived, .reach = reach, .most = MOST_PIECES, .no_ways = true};
+    listing l = {
+        .out = forbidden, .model = model, .waived = waived, .reach = reach, .most = MOST_PIECES, .no_ways = true};
     return list_within(&l, p, q);
 }
 
-bool sunder_i_forbidden_init_near(sunder_i_forbidden *f, const sunder_i_model *model, const sunder_i_waived *waived,
-                                  uint32_t p, uint32_t q, const double u[2], double hair)
+bool sunder_i_forbidden_init_near(sunder_i_forbidden *forbidden, const sunder_i_model *model,
+                                  const sunder_i_waived *waived, uint32_t p, uint32_t q, const double u[2], double hair)
 {
-    listing l = {.out = f, .model = model, .waived = waived, .most = SIZE_MAX};
+    listing l = {.out = forbidden, .model = model, .waived = waived, .most = SIZE_MAX};
     l.reach = fabs(u[0]) + fabs(u[1]) + hair;
     const bool begun = begin(&l, p, q);
     for (size_t c = 0; c < 4; c++) l.window[c] = u[c & 1] + (c < 2 ? -hair : hair);
@@ -424,11 +426,11 @@ bool sunder_i_forbidden_init_near(sunder_i_forbidden *f, const sunder_i_model *m
     return ok;
 }
 
-bool sunder_i_forbidden_with_seams(sunder_i_forbidden *f, const sunder_i_model *model, uint32_t p, uint32_t q,
+bool sunder_i_forbidden_with_seams(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t p, uint32_t q,
                                    double reach, size_t most)
 {
     const sunder_i_waived none = {0};
-    listing l = {.out = f, .model = model, .waived = &none, .reach = reach, .most = most, .seams = true};
+    listing l = {.out = forbidden, .model = model, .waived = &none, .reach = reach, .most = most, .seams = true};
     const bool ok = begin(&l, p, q) && add_all(&l);
     end(&l, reach);
     return ok;

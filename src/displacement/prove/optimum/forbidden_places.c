@@ -21,56 +21,57 @@ static void add_box(const void *of, size_t k, double box[4])
     sunder_i_box_join(box, f->piece[k].box);
 }
 
-bool sunder_i_forbidden_index(sunder_i_forbidden *f)
+bool sunder_i_forbidden_index(sunder_i_forbidden *forbidden)
 {
-    if (f->pieces <= MANY_PIECES) return true;
-    if (!sunder_i_curve_sort_records(f->piece, f->pieces, sizeof *f->piece, offsetof(sunder_i_forbidden_piece, box)))
+    if (forbidden->pieces <= MANY_PIECES) return true;
+    if (!sunder_i_curve_sort_records(forbidden->piece, forbidden->pieces, sizeof *forbidden->piece,
+                                     offsetof(sunder_i_forbidden_piece, box)))
         return false;
-    f->tree = sunder_i_box_tree_of(f->pieces, PIECES_IN_LEAF);
-    f->tree.box = sunder_i_alloc(2 * f->tree.leaves, sizeof *f->tree.box);
-    if (f->tree.box) sunder_i_box_tree_fill(&f->tree, add_box, f);
-    return f->tree.box;
+    forbidden->tree = sunder_i_box_tree_of(forbidden->pieces, PIECES_IN_LEAF);
+    forbidden->tree.box = sunder_i_alloc(2 * forbidden->tree.leaves, sizeof *forbidden->tree.box);
+    if (forbidden->tree.box) sunder_i_box_tree_fill(&forbidden->tree, add_box, forbidden);
+    return forbidden->tree.box;
 }
 
-void sunder_i_forbidden_start(sunder_i_forbidden_walk *w, const sunder_i_forbidden *f)
+void sunder_i_forbidden_start(sunder_i_forbidden_walk *walk, const sunder_i_forbidden *forbidden)
 {
-    w->looks = 0;
-    w->at = sunder_i_forbidden_is_many(f) ? f->tree.n : 0;
-    w->end = f->pieces;
-    if (sunder_i_forbidden_is_many(f))
-        sunder_i_box_walk_start(&w->waiting, &f->tree);
+    walk->looks = 0;
+    walk->at = sunder_i_forbidden_is_many(forbidden) ? forbidden->tree.n : 0;
+    walk->end = forbidden->pieces;
+    if (sunder_i_forbidden_is_many(forbidden))
+        sunder_i_box_walk_start(&walk->waiting, &forbidden->tree);
     else
-        w->waiting.n = 0;
+        walk->waiting.n = 0;
 }
 
-const sunder_i_forbidden_piece *sunder_i_forbidden_next(sunder_i_forbidden_walk *w, const sunder_i_forbidden *f,
-                                                        const double box[4])
+const sunder_i_forbidden_piece *sunder_i_forbidden_next(sunder_i_forbidden_walk *walk,
+                                                        const sunder_i_forbidden *forbidden, const double box[4])
 {
     for (;;) {
-        while (w->at < w->end) {
-            const sunder_i_forbidden_piece *piece = &f->piece[w->at++];
-            w->looks++;
+        while (walk->at < walk->end) {
+            const sunder_i_forbidden_piece *piece = &forbidden->piece[walk->at++];
+            walk->looks++;
             if (sunder_i_box_meet(piece->box, box)) return piece;
         }
         size_t node;
-        if (!sunder_i_box_walk_next(&w->waiting, &node)) return NULL;
-        w->looks++;
-        if (!sunder_i_box_meet(f->tree.box[node], box)) continue;
-        if (node < f->tree.leaves) {
-            sunder_i_box_walk_open(&w->waiting, 2 * node, 2 * node + 1);
+        if (!sunder_i_box_walk_next(&walk->waiting, &node)) return NULL;
+        walk->looks++;
+        if (!sunder_i_box_meet(forbidden->tree.box[node], box)) continue;
+        if (node < forbidden->tree.leaves) {
+            sunder_i_box_walk_open(&walk->waiting, 2 * node, 2 * node + 1);
             continue;
         }
-        w->at = sunder_i_box_tree_first(&f->tree, node);
-        w->end = sunder_i_box_tree_end(&f->tree, node);
+        walk->at = sunder_i_box_tree_first(&forbidden->tree, node);
+        walk->end = sunder_i_box_tree_end(&forbidden->tree, node);
     }
 }
 
 /* ---- One piece --------------------------------------------------------------------------------------------------- */
 
-double sunder_i_forbidden_distance(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece,
+double sunder_i_forbidden_distance(const sunder_i_forbidden *forbidden, const sunder_i_forbidden_piece *piece,
                                    const double u[2])
 {
-    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
+    const sunder_i_obstacle_edge *edge = forbidden->edge + piece->edge;
     double inside = -INFINITY, nearest = INFINITY; /* the latter squared */
     for (uint32_t k = 0; k < piece->edges; k++) {
         const sunder_i_obstacle_edge *e = &edge[k];
@@ -90,11 +91,11 @@ double sunder_i_forbidden_distance(const sunder_i_forbidden *f, const sunder_i_f
     return inside <= 0 ? inside : sqrt(nearest);
 }
 
-double sunder_i_forbidden_normal(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece, const double u[2],
-                                 double n[2])
+double sunder_i_forbidden_normal(const sunder_i_forbidden *forbidden, const sunder_i_forbidden_piece *piece,
+                                 const double u[2], double n[2])
 {
-    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
-    const double distance = sunder_i_forbidden_distance(f, piece, u);
+    const sunder_i_obstacle_edge *edge = forbidden->edge + piece->edge;
+    const double distance = sunder_i_forbidden_distance(forbidden, piece, u);
     double best = INFINITY;
     for (uint32_t k = 0; k < piece->edges; k++) {
         const sunder_i_obstacle_edge *e = &edge[k];
@@ -167,11 +168,11 @@ static void cross(const crossing *c, const sunder_i_obstacle_edge *e, double off
 /* The line meets the grown piece, if at all, in a segment; its ends are on offset edges, or on discs about corners, and
  * everything there is in the piece. Most edges lie on one side of the line, with both corners and the discs about them,
  * and need no further test. */
-bool sunder_i_forbidden_span(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece, const double from[2],
-                             const double dir[2], double span[2])
+bool sunder_i_forbidden_span(const sunder_i_forbidden *forbidden, const sunder_i_forbidden_piece *piece,
+                             const double from[2], const double dir[2], double span[2])
 {
-    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
-    const crossing c = {from, dir, piece->radius, f->grain, piece->radius + CLEAR_GRAINS * f->grain};
+    const sunder_i_obstacle_edge *edge = forbidden->edge + piece->edge;
+    const crossing c = {from, dir, piece->radius, forbidden->grain, piece->radius + CLEAR_GRAINS * forbidden->grain};
     span[0] = INFINITY;
     span[1] = -INFINITY;
     for (size_t at = 0; at < piece->edges; at += EDGES_AT_ONCE) {
@@ -188,14 +189,14 @@ bool sunder_i_forbidden_span(const sunder_i_forbidden *f, const sunder_i_forbidd
 
 /* ---- All of them ------------------------------------------------------------------------------------------------- */
 
-double sunder_i_forbidden_depth(const sunder_i_forbidden *f, const double u[2])
+double sunder_i_forbidden_depth(const sunder_i_forbidden *forbidden, const double u[2])
 {
     const double at[4] = {u[0], u[1], u[0], u[1]};
     double depth = 0;
     sunder_i_forbidden_walk walk;
-    sunder_i_forbidden_start(&walk, f);
-    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, at));) {
-        const double d = p->radius - sunder_i_forbidden_distance(f, p, u);
+    sunder_i_forbidden_start(&walk, forbidden);
+    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, forbidden, at));) {
+        const double d = p->radius - sunder_i_forbidden_distance(forbidden, p, u);
         if (d > depth) depth = d;
     }
     return depth;
@@ -209,25 +210,25 @@ static bool piece_is_deeper(const sunder_i_forbidden *f, const sunder_i_forbidde
     return (safe > 0 && x * x + y * y < safe * safe) || p->radius - sunder_i_forbidden_distance(f, p, u) > hair;
 }
 
-bool sunder_i_forbidden_is_deeper(const sunder_i_forbidden *f, const double u[2], double hair, size_t *guess)
+bool sunder_i_forbidden_is_deeper(const sunder_i_forbidden *forbidden, const double u[2], double hair, size_t *guess)
 {
     const double at[4] = {u[0], u[1], u[0], u[1]};
-    if (*guess < f->pieces && piece_is_deeper(f, &f->piece[*guess], u, hair)) return true;
+    if (*guess < forbidden->pieces && piece_is_deeper(forbidden, &forbidden->piece[*guess], u, hair)) return true;
     sunder_i_forbidden_walk walk;
-    sunder_i_forbidden_start(&walk, f);
-    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, at));) {
-        if (!piece_is_deeper(f, p, u, hair)) continue;
-        *guess = (size_t)(p - f->piece);
+    sunder_i_forbidden_start(&walk, forbidden);
+    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, forbidden, at));) {
+        if (!piece_is_deeper(forbidden, p, u, hair)) continue;
+        *guess = (size_t)(p - forbidden->piece);
         return true;
     }
     return false;
 }
 
-bool sunder_i_forbidden_is_near(const sunder_i_forbidden *f, const double u[2], double hair)
+bool sunder_i_forbidden_is_near(const sunder_i_forbidden *forbidden, const double u[2], double hair)
 {
-    for (size_t k = 0; k < f->pieces; k++)
-        if (sunder_i_box_near_point(f->piece[k].box, u[0], u[1], hair) &&
-            sunder_i_forbidden_distance(f, &f->piece[k], u) < f->piece[k].radius + hair)
+    for (size_t k = 0; k < forbidden->pieces; k++)
+        if (sunder_i_box_near_point(forbidden->piece[k].box, u[0], u[1], hair) &&
+            sunder_i_forbidden_distance(forbidden, &forbidden->piece[k], u) < forbidden->piece[k].radius + hair)
             return true;
     return false;
 }
@@ -244,22 +245,23 @@ static bool is_within(const sunder_i_forbidden *f, const double u[2], const doub
     return false;
 }
 
-double sunder_i_forbidden_exit(const sunder_i_forbidden *f, const double u[2], const double dir[2], double most)
+double sunder_i_forbidden_exit(const sunder_i_forbidden *forbidden, const double u[2], const double dir[2], double most)
 {
     const double to[2] = {u[0] + most * dir[0], u[1] + most * dir[1]};
-    if (most < INFINITY && is_within(f, u, to)) return most;
+    if (most < INFINITY && is_within(forbidden, u, to)) return most;
     double s = 0;
     const sunder_i_forbidden_piece *left = NULL; /* the last one: it is left for good */
     for (bool again = true; again && s < most;) {
         again = false;
         const double x = u[0] + s * dir[0], y = u[1] + s * dir[1], at[4] = {x, y, x, y};
         sunder_i_forbidden_walk walk;
-        sunder_i_forbidden_start(&walk, f);
-        for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, at));) {
+        sunder_i_forbidden_start(&walk, forbidden);
+        for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, forbidden, at));) {
             double span[2];
-            if (p == left || !sunder_i_forbidden_span(f, p, u, dir, span) || span[0] > s + f->grain || span[1] <= s)
+            if (p == left || !sunder_i_forbidden_span(forbidden, p, u, dir, span) || span[0] > s + forbidden->grain ||
+                span[1] <= s)
                 continue;
-            if (span[1] > s + f->grain) again = true;
+            if (span[1] > s + forbidden->grain) again = true;
             s = span[1];
             left = p;
         }
@@ -267,18 +269,18 @@ double sunder_i_forbidden_exit(const sunder_i_forbidden *f, const double u[2], c
     return s;
 }
 
-double sunder_i_forbidden_entry(const sunder_i_forbidden *f, const double u[2], const double dir[2], double most,
-                                uint64_t *steps)
+double sunder_i_forbidden_entry(const sunder_i_forbidden *forbidden, const double u[2], const double dir[2],
+                                double most, uint64_t *steps)
 {
     const double to[2] = {u[0] + most * dir[0], u[1] + most * dir[1]};
     double box[4], first = most;
     sunder_i_box_of_segment(u, to, box);
     sunder_i_forbidden_walk walk;
-    sunder_i_forbidden_start(&walk, f);
-    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, box));) {
+    sunder_i_forbidden_start(&walk, forbidden);
+    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, forbidden, box));) {
         double span[2];
         *steps += p->edges;
-        if (!sunder_i_forbidden_span(f, p, u, dir, span) || !(span[1] > f->grain)) continue;
+        if (!sunder_i_forbidden_span(forbidden, p, u, dir, span) || !(span[1] > forbidden->grain)) continue;
         first = sunder_i_min(first, sunder_i_max(0, span[0]));
     }
     *steps += walk.looks;

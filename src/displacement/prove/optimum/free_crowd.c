@@ -8,22 +8,23 @@
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/tuning.h"
 
-bool sunder_i_group_is_free_crowd(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g)
+bool sunder_i_group_is_free_crowd(const sunder_i_model *model, const sunder_i_waived *waived,
+                                  const sunder_i_group *group)
 {
-    if (g->n <= BRANCHED || sunder_i_forbids_ways(model) || model->rules.contained == SUNDER_CONTAINMENT_IGNORE)
+    if (group->n <= BRANCHED || sunder_i_forbids_ways(model) || model->rules.contained == SUNDER_CONTAINMENT_IGNORE)
         return false;
-    for (size_t k = 0; k < g->n; k++) {
-        const sunder_i_body *b = &model->body[g->body[k]];
-        if (!sunder_i_may_move(b) || b->limit < INFINITY || !sunder_i_model_shape(model, g->body[k])) return false;
+    for (size_t k = 0; k < group->n; k++) {
+        const sunder_i_body *b = &model->body[group->body[k]];
+        if (!sunder_i_may_move(b) || b->limit < INFINITY || !sunder_i_model_shape(model, group->body[k])) return false;
     }
-    return sunder_i_group_listed(model, waived, g) == 0;
+    return sunder_i_group_listed(model, waived, group) == 0;
 }
 
-sunder_status sunder_i_group_ask_prices(const sunder_i_model *model, const sunder_i_group *g, double *bound,
+sunder_status sunder_i_group_ask_prices(const sunder_i_model *model, const sunder_i_group *group, double *bound,
                                         sunder_error *err)
 {
     sunder_i_prices prices;
-    const sunder_status status = sunder_i_areas_bound(model, g->body, g->n, &prices, bound, err);
+    const sunder_status status = sunder_i_areas_bound(model, group->body, group->n, &prices, bound, err);
     if (!status) sunder_i_free(prices.price);
     return status;
 }

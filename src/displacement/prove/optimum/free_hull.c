@@ -81,16 +81,16 @@ static bool cross_arcs(sunder_i_reflex *out, const sunder_i_forbidden *f, const 
     return true;
 }
 
-bool sunder_i_reflex_find(sunder_i_reflex *out, const sunder_i_forbidden *f, uint64_t *steps)
+bool sunder_i_reflex_find(sunder_i_reflex *reflex, const sunder_i_forbidden *forbidden, uint64_t *steps)
 {
-    for (size_t k = 0; k < f->pieces; k++)
-        for (size_t l = k + 1; l < f->pieces; l++) {
+    for (size_t k = 0; k < forbidden->pieces; k++)
+        for (size_t l = k + 1; l < forbidden->pieces; l++) {
             const uint64_t before = *steps;
-            const sunder_i_forbidden_piece *p = &f->piece[k], *q = &f->piece[l];
+            const sunder_i_forbidden_piece *p = &forbidden->piece[k], *q = &forbidden->piece[l];
             *steps += 1;
             if (!sunder_i_box_meet(p->box, q->box)) continue;
-            if (!cross_edges(out, f, p, q, steps) || !cross_edges(out, f, q, p, steps) ||
-                !cross_arcs(out, f, p, q, steps) || !sunder_i_steps(1 + (size_t)(*steps - before) / 64))
+            if (!cross_edges(reflex, forbidden, p, q, steps) || !cross_edges(reflex, forbidden, q, p, steps) ||
+                !cross_arcs(reflex, forbidden, p, q, steps) || !sunder_i_steps(1 + (size_t)(*steps - before) / 64))
                 return false;
         }
     return true;
@@ -130,23 +130,23 @@ static bool find_wall(const sunder_i_forbidden *f, const double p[2], double n[2
     return any;
 }
 
-bool sunder_i_reflex_seek(sunder_i_reflex *out, const sunder_i_forbidden *f, const sunder_i_region *r,
+bool sunder_i_reflex_seek(sunder_i_reflex *reflex, const sunder_i_forbidden *forbidden, const sunder_i_region *region,
                           const double from[2], const double down[2], uint64_t *steps)
 {
     double p[2] = {from[0], from[1]}, dir[2] = {down[0], down[1]}, n[2];
     /* Straight down to a wall, then along walls, as long as they lead down. */
     for (int leg = 0; leg < MOST_LEGS; leg++) {
-        const double way = sunder_i_forbidden_entry(f, p, dir, way_out(r, p, dir), steps);
+        const double way = sunder_i_forbidden_entry(forbidden, p, dir, way_out(region, p, dir), steps);
         for (int c = 0; c < 2; c++) p[c] += way * dir[c];
-        if (!find_wall(f, p, n, steps)) break;
+        if (!find_wall(forbidden, p, n, steps)) break;
         const double along = -n[1] * down[0] + n[0] * down[1], side = along > 0 ? 1 : -1;
         if (!(fabs(along) > LEAST_SLOPE)) break;
         dir[0] = -side * n[1];
         dir[1] = side * n[0];
         /* A hair off the wall, or it is entered at once. */
-        for (int c = 0; c < 2; c++) p[c] += WALL_HAIR * f->size * n[c];
+        for (int c = 0; c < 2; c++) p[c] += WALL_HAIR * forbidden->size * n[c];
     }
-    return note(out, f, p[0], p[1], steps) && note(out, f, from[0], from[1], steps);
+    return note(reflex, forbidden, p[0], p[1], steps) && note(reflex, forbidden, from[0], from[1], steps);
 }
 
 /* ---- The hull ---------------------------------------------------------------------------------------------------- */
@@ -322,38 +322,38 @@ static void gather_known(gathering *g, const sunder_i_free_sides *known, uint32_
     *steps += known->steps[side];
 }
 
-bool sunder_i_free_sides_find(sunder_i_free_sides *s, const sunder_i_free_sides *known, const sunder_i_region *r,
-                              const sunder_i_forbidden *f, uint64_t *steps)
+bool sunder_i_free_sides_find(sunder_i_free_sides *sides, const sunder_i_free_sides *known,
+                              const sunder_i_region *region, const sunder_i_forbidden *forbidden, uint64_t *steps)
 {
     double at[MOST_EXTREME][2];
     uint32_t first[SUNDER_I_REGION_CORNERS + 1] = {0};
     uint64_t took[SUNDER_I_REGION_CORNERS] = {0};
     gathering g = {at, 0};
-    if (is_known(s, r)) return true;
-    for (uint32_t k = 0, from = 0; k < r->n; k++) {
-        const uint32_t side = find_side(known, r, k, from);
+    if (is_known(sides, region)) return true;
+    for (uint32_t k = 0, from = 0; k < region->n; k++) {
+        const uint32_t side = find_side(known, region, k, from);
         if (side != UINT32_MAX) {
             gather_known(&g, known, side, &took[k]);
             from = side + 1;
-        } else if (sunder_i_forbidden_is_many(f)) {
-            gather_ends(&g, r, k, f, &took[k]);
+        } else if (sunder_i_forbidden_is_many(forbidden)) {
+            gather_ends(&g, region, k, forbidden, &took[k]);
         } else {
-            gather_side(&g, r, k, f, &took[k]);
+            gather_side(&g, region, k, forbidden, &took[k]);
         }
         *steps += took[k];
         first[k + 1] = (uint32_t)g.n;
     }
-    if (!sunder_i_reserve(&s->place, &s->capacity, g.n, sizeof *s->place)) return false;
-    if (g.n) memcpy(s->place, at, g.n * sizeof *at);
-    s->n = g.n;
-    s->region = *r;
-    memcpy(s->first, first, sizeof first);
-    memcpy(s->steps, took, sizeof took);
-    s->any = true;
+    if (!sunder_i_reserve(&sides->place, &sides->capacity, g.n, sizeof *sides->place)) return false;
+    if (g.n) memcpy(sides->place, at, g.n * sizeof *at);
+    sides->n = g.n;
+    sides->region = *region;
+    memcpy(sides->first, first, sizeof first);
+    memcpy(sides->steps, took, sizeof took);
+    sides->any = true;
     return true;
 }
 
-bool sunder_i_free_hull_nearest(const sunder_i_free_sides *sides, const sunder_i_forbidden *f,
+bool sunder_i_free_hull_nearest(const sunder_i_free_sides *sides, const sunder_i_forbidden *forbidden,
                                 const sunder_i_reflex *reflex, const double u[2], double place[2], uint64_t *steps)
 {
     double at[MOST_EXTREME][2];
@@ -361,7 +361,7 @@ bool sunder_i_free_hull_nearest(const sunder_i_free_sides *sides, const sunder_i
     if (sides->n) memcpy(at, sides->place, sides->n * sizeof *at);
     *steps += sides->n + reflex->n;
     for (size_t k = 0; k < reflex->n; k++)
-        if (holds(&sides->region, reflex->place[k], FREE_HAIR * f->size))
+        if (holds(&sides->region, reflex->place[k], FREE_HAIR * forbidden->size))
             gather(&g, reflex->place[k][0], reflex->place[k][1]);
     if (g.n == 0) return false;
     nearest_of_hull(&g, u, place);

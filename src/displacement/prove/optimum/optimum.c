@@ -15,19 +15,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool sunder_i_group_is_optimal(const sunder_i_group *g)
+bool sunder_i_group_is_optimal(const sunder_i_group *group)
 {
-    return g->cost - g->bound <= OPTIMAL_SHARE * g->cost + OPTIMAL_MORE;
+    return group->cost - group->bound <= OPTIMAL_SHARE * group->cost + OPTIMAL_MORE;
 }
 
-void sunder_i_group_free(sunder_i_group *g)
+void sunder_i_group_free(sunder_i_group *group)
 {
-    sunder_i_free(g->body);
-    sunder_i_free(g->move);
-    sunder_i_free(g->guests.item);
-    sunder_i_free(g->joins.item);
-    sunder_i_bound_trees_free(&g->trees);
-    *g = (sunder_i_group){0};
+    sunder_i_free(group->body);
+    sunder_i_free(group->move);
+    sunder_i_free(group->guests.item);
+    sunder_i_free(group->joins.item);
+    sunder_i_bound_trees_free(&group->trees);
+    *group = (sunder_i_group){0};
 }
 
 /* Upwards. */
@@ -116,11 +116,11 @@ static sunder_status attempt(const sunder_i_model *model, const sunder_i_waived 
     return status;
 }
 
-sunder_status sunder_i_group_descend(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+sunder_status sunder_i_group_descend(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *group,
                                      const double *t, sunder_error *err)
 {
     bool better;
-    return attempt(model, waived, g, g->body, t, g->n, false, &better, err);
+    return attempt(model, waived, group, group->body, t, group->n, false, &better, err);
 }
 
 /* Blocks make their pairs afresh whenever they are asked: is that too dear for as often as they would have to be? */
@@ -318,18 +318,18 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
 }
 
 sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
-                                   sunder_i_group *g, uint64_t steps, sunder_error *err)
+                                   sunder_i_group *group, uint64_t steps, sunder_error *err)
 {
-    sunder_i_group known = {.bound = g->bound, .guests = g->guests, .trees = g->trees};
-    g->bound = 0;
-    g->guests = (sunder_i_list){0};
-    g->trees = (sunder_i_bound_trees){0};
-    const sunder_status status = prove_afresh(model, waived, group_of, g, known.bound, steps, err);
-    if (!status && known.bound > g->bound) {
-        const sunder_i_group less = {.guests = g->guests, .trees = g->trees};
-        g->bound = known.bound;
-        g->guests = known.guests;
-        g->trees = known.trees;
+    sunder_i_group known = {.bound = group->bound, .guests = group->guests, .trees = group->trees};
+    group->bound = 0;
+    group->guests = (sunder_i_list){0};
+    group->trees = (sunder_i_bound_trees){0};
+    const sunder_status status = prove_afresh(model, waived, group_of, group, known.bound, steps, err);
+    if (!status && known.bound > group->bound) {
+        const sunder_i_group less = {.guests = group->guests, .trees = group->trees};
+        group->bound = known.bound;
+        group->guests = known.guests;
+        group->trees = known.trees;
         known = less;
     }
     sunder_i_group_free(&known);

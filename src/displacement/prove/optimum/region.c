@@ -15,14 +15,14 @@
 #include <math.h>
 #include <string.h>
 
-void sunder_i_region_init(sunder_i_region *r, const double c[2], double reach)
+void sunder_i_region_init(sunder_i_region *region, const double centre[2], double reach)
 {
-    const double square[8] = {c[0] - reach, c[1] - reach, c[0] + reach, c[1] - reach,
-                              c[0] + reach, c[1] + reach, c[0] - reach, c[1] + reach};
-    r->n = 4;
-    memcpy(r->xy, square, sizeof square);
-    for (int k = 0; k < 4; k++) r->cut[k] = SUNDER_I_NO_CUT;
-    r->blur = 0x1p-50 * (fabs(c[0]) + fabs(c[1]) + reach);
+    const double square[8] = {centre[0] - reach, centre[1] - reach, centre[0] + reach, centre[1] - reach,
+                              centre[0] + reach, centre[1] + reach, centre[0] - reach, centre[1] + reach};
+    region->n = 4;
+    memcpy(region->xy, square, sizeof square);
+    for (int k = 0; k < 4; k++) region->cut[k] = SUNDER_I_NO_CUT;
+    region->blur = 0x1p-50 * (fabs(centre[0]) + fabs(centre[1]) + reach);
 }
 
 typedef struct clipping {
@@ -52,12 +52,12 @@ static void add(clipping *c, double x, double y, uint32_t cut)
     c->cut[c->n++] = cut;
 }
 
-void sunder_i_region_clip(sunder_i_region *r, const double n[2], double d, uint32_t cut, double grain)
+void sunder_i_region_clip(sunder_i_region *region, const double n[2], double d, uint32_t cut, double grain)
 {
     double s[SUNDER_I_REGION_CORNERS];
     bool any = false;
-    for (uint32_t k = 0; k < r->n; k++) {
-        s[k] = n[0] * r->xy[2 * k] + n[1] * r->xy[2 * k + 1] - d + r->blur + 2 * grain;
+    for (uint32_t k = 0; k < region->n; k++) {
+        s[k] = n[0] * region->xy[2 * k] + n[1] * region->xy[2 * k + 1] - d + region->blur + 2 * grain;
         any = any || s[k] < 0;
     }
     if (!any) return;
@@ -65,34 +65,34 @@ void sunder_i_region_clip(sunder_i_region *r, const double n[2], double d, uint3
     c.n = 0;
     c.grain = grain;
     c.full = c.merged = false;
-    for (uint32_t k = 0; k < r->n; k++) {
-        const uint32_t l = k + 1 < r->n ? k + 1 : 0;
-        const double *p = r->xy + 2 * k, *q = r->xy + 2 * l;
-        if (s[k] >= 0) add(&c, p[0], p[1], r->cut[k]);
+    for (uint32_t k = 0; k < region->n; k++) {
+        const uint32_t l = k + 1 < region->n ? k + 1 : 0;
+        const double *p = region->xy + 2 * k, *q = region->xy + 2 * l;
+        if (s[k] >= 0) add(&c, p[0], p[1], region->cut[k]);
         if ((s[k] >= 0) == (s[l] >= 0)) continue;
         const double share = s[k] / (s[k] - s[l]);
         /* Where the boundary leaves, the line begins; where it comes back, the side that it comes along. */
-        add(&c, p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]), s[k] >= 0 ? cut : r->cut[k]);
+        add(&c, p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]), s[k] >= 0 ? cut : region->cut[k]);
     }
     if (c.full) return;
-    r->n = c.n;
-    memcpy(r->xy, c.xy, 2 * c.n * sizeof *c.xy);
-    memcpy(r->cut, c.cut, c.n * sizeof *c.cut);
-    r->blur += (c.merged ? 2 : 1) * grain;
+    region->n = c.n;
+    memcpy(region->xy, c.xy, 2 * c.n * sizeof *c.xy);
+    memcpy(region->cut, c.cut, c.n * sizeof *c.cut);
+    region->blur += (c.merged ? 2 : 1) * grain;
 }
 
-double sunder_i_region_beyond(const sunder_i_region *r, const double u[2], uint32_t *cut)
+double sunder_i_region_beyond(const sunder_i_region *region, const double u[2], uint32_t *cut)
 {
     double most = 0;
-    for (uint32_t k = 0; k < r->n; k++) {
-        if (r->cut[k] == SUNDER_I_NO_CUT) continue;
-        const double *p = r->xy + 2 * k, *q = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
+    for (uint32_t k = 0; k < region->n; k++) {
+        if (region->cut[k] == SUNDER_I_NO_CUT) continue;
+        const double *p = region->xy + 2 * k, *q = region->xy + 2 * (k + 1 < region->n ? k + 1 : 0);
         const double ex = q[0] - p[0], ey = q[1] - p[1], product = (u[0] - p[0]) * ey - (u[1] - p[1]) * ex;
         if (!(product > 0)) continue;
         const double length = sqrt(ex * ex + ey * ey), beyond = length > 0 ? product / length : 0;
         if (beyond <= most) continue;
         most = beyond;
-        *cut = r->cut[k];
+        *cut = region->cut[k];
     }
     return most;
 }

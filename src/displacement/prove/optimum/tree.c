@@ -37,94 +37,97 @@ static void set_body(sunder_i_tree *t, size_t k, uint32_t body, double weight)
     t->limit[k] = sunder_i_limit_of(b);
 }
 
-void sunder_i_tree_invite(sunder_i_tree *t, uint32_t body)
+void sunder_i_tree_invite(sunder_i_tree *tree, uint32_t body)
 {
-    const size_t n = t->task.n;
-    if (n == t->capacity) return;
-    set_body(t, n, body, sunder_i_weight_below(t->task.model, &t->task.model->body[body]));
-    t->anchor[2 * n] = t->anchor[2 * n + 1] = 0;
-    t->task.n = n + 1;
-    lend(t);
-    sunder_i_dual_place(&t->program);
+    const size_t n = tree->task.n;
+    if (n == tree->capacity) return;
+    set_body(tree, n, body, sunder_i_weight_below(tree->task.model, &tree->task.model->body[body]));
+    tree->anchor[2 * n] = tree->anchor[2 * n + 1] = 0;
+    tree->task.n = n + 1;
+    lend(tree);
+    sunder_i_dual_place(&tree->program);
 }
 
-bool sunder_i_tree_init(sunder_i_tree *t, const sunder_i_task *task)
+bool sunder_i_tree_init(sunder_i_tree *tree, const sunder_i_task *task)
 {
-    memset(t, 0, sizeof *t);
-    const size_t n = task->n, most = t->capacity = n + MOST_GUESTS;
-    t->task = *task;
-    t->leaf = INFINITY;
+    memset(tree, 0, sizeof *tree);
+    const size_t n = task->n, most = tree->capacity = n + MOST_GUESTS;
+    tree->task = *task;
+    tree->leaf = INFINITY;
     for (int k = 0; k < SUNDER_I_TREE_RAYS; k++) {
         const double angle = 6.283185307179586 * k / SUNDER_I_TREE_RAYS;
-        t->ray[k][0] = cos(angle);
-        t->ray[k][1] = sin(angle);
+        tree->ray[k][0] = cos(angle);
+        tree->ray[k][1] = sin(angle);
     }
-    t->body = sunder_i_alloc(most, sizeof *t->body);
-    t->weight = sunder_i_alloc(most, sizeof *t->weight);
-    t->anchor = sunder_i_calloc(2 * most, sizeof *t->anchor);
-    t->mass = sunder_i_alloc(most, sizeof *t->mass);
-    t->limit = sunder_i_alloc(most, sizeof *t->limit);
-    t->pair_at = sunder_i_alloc(most * most, sizeof *t->pair_at);
-    if (!sunder_i_dual_init(&t->program, most) || !t->body || !t->weight || !t->anchor || !t->mass || !t->limit ||
-        !t->pair_at)
+    tree->body = sunder_i_alloc(most, sizeof *tree->body);
+    tree->weight = sunder_i_alloc(most, sizeof *tree->weight);
+    tree->anchor = sunder_i_calloc(2 * most, sizeof *tree->anchor);
+    tree->mass = sunder_i_alloc(most, sizeof *tree->mass);
+    tree->limit = sunder_i_alloc(most, sizeof *tree->limit);
+    tree->pair_at = sunder_i_alloc(most * most, sizeof *tree->pair_at);
+    if (!sunder_i_dual_init(&tree->program, most) || !tree->body || !tree->weight || !tree->anchor || !tree->mass ||
+        !tree->limit || !tree->pair_at)
         return false;
-    for (size_t k = 0; k < most * most; k++) t->pair_at[k] = UINT32_MAX;
+    for (size_t k = 0; k < most * most; k++) tree->pair_at[k] = UINT32_MAX;
     for (size_t k = 0; k < n; k++)
-        set_body(t, k, task->body[k],
+        set_body(tree, k, task->body[k],
                  task->weight ? task->weight[k]
                               : sunder_i_weight_below(task->model, &task->model->body[task->body[k]]));
-    if (task->anchor) memcpy(t->anchor, task->anchor, 2 * n * sizeof *t->anchor);
-    lend(t);
-    if (!sunder_i_dual_load(&t->program, NULL, 0)) return false;
-    const uint32_t root = sunder_i_tree_add_node(t, SUNDER_I_NO_NODE, 0);
+    if (task->anchor) memcpy(tree->anchor, task->anchor, 2 * n * sizeof *tree->anchor);
+    lend(tree);
+    if (!sunder_i_dual_load(&tree->program, NULL, 0)) return false;
+    const uint32_t root = sunder_i_tree_add_node(tree, SUNDER_I_NO_NODE, 0);
     const sunder_i_open open = {0, root};
-    if (t->failed || !sunder_i_reserve(&t->open, &t->open_capacity, 1, sizeof open)) return false;
-    t->open[t->opens++] = open;
+    if (tree->failed || !sunder_i_reserve(&tree->open, &tree->open_capacity, 1, sizeof open)) return false;
+    tree->open[tree->opens++] = open;
     return true;
 }
 
-void sunder_i_tree_free(sunder_i_tree *t)
+void sunder_i_tree_free(sunder_i_tree *tree)
 {
-    for (size_t k = 0; k < t->pairs; k++) {
-        sunder_i_forbidden_free(&t->pair[k].forbidden);
-        sunder_i_free(t->pair[k].reflex.place);
-        sunder_i_free(t->pair[k].sides.place);
+    for (size_t k = 0; k < tree->pairs; k++) {
+        sunder_i_forbidden_free(&tree->pair[k].forbidden);
+        sunder_i_free(tree->pair[k].reflex.place);
+        sunder_i_free(tree->pair[k].sides.place);
     }
-    for (size_t k = 0; k < t->nodes; k++) sunder_i_free(t->node[k].regions);
-    sunder_i_free(t->body);
-    sunder_i_free(t->weight);
-    sunder_i_free(t->anchor);
-    sunder_i_free(t->mass);
-    sunder_i_free(t->limit);
-    sunder_i_free(t->pair_at);
-    sunder_i_free(t->pair);
-    sunder_i_free(t->cut);
-    sunder_i_free(t->note);
-    sunder_i_free(t->force);
-    sunder_i_free(t->node);
-    sunder_i_free(t->open);
-    sunder_i_free(t->path.item);
-    sunder_i_free(t->touched.item);
-    sunder_i_free(t->near.item);
-    sunder_i_free(t->joins.item);
-    sunder_i_free(t->named.item);
-    sunder_i_free(t->used);
-    sunder_i_free(t->conflict);
-    sunder_i_free(t->tried.place);
-    sunder_i_free(t->kept);
-    sunder_i_free(t->kept_factor);
-    sunder_i_dual_free(&t->program);
-    memset(t, 0, sizeof *t);
+    for (size_t k = 0; k < tree->nodes; k++) sunder_i_free(tree->node[k].regions);
+    sunder_i_free(tree->body);
+    sunder_i_free(tree->weight);
+    sunder_i_free(tree->anchor);
+    sunder_i_free(tree->mass);
+    sunder_i_free(tree->limit);
+    sunder_i_free(tree->pair_at);
+    sunder_i_free(tree->pair);
+    sunder_i_free(tree->cut);
+    sunder_i_free(tree->note);
+    sunder_i_free(tree->force);
+    sunder_i_free(tree->node);
+    sunder_i_free(tree->open);
+    sunder_i_free(tree->path.item);
+    sunder_i_free(tree->touched.item);
+    sunder_i_free(tree->near.item);
+    sunder_i_free(tree->joins.item);
+    sunder_i_free(tree->named.item);
+    sunder_i_free(tree->used);
+    sunder_i_free(tree->conflict);
+    sunder_i_free(tree->tried.place);
+    sunder_i_free(tree->kept);
+    sunder_i_free(tree->kept_factor);
+    sunder_i_dual_free(&tree->program);
+    memset(tree, 0, sizeof *tree);
 }
 
-double sunder_i_tree_bound(const sunder_i_tree *t)
+double sunder_i_tree_bound(const sunder_i_tree *tree)
 {
-    double bound = sunder_i_min(t->task.goal, t->leaf);
-    if (t->opens) bound = sunder_i_min(bound, t->open[0].value);
+    double bound = sunder_i_min(tree->task.goal, tree->leaf);
+    if (tree->opens) bound = sunder_i_min(bound, tree->open[0].value);
     return bound;
 }
 
-void sunder_i_tree_lower_goal(sunder_i_tree *t, double goal) { t->task.goal = sunder_i_min(t->task.goal, goal); }
+void sunder_i_tree_lower_goal(sunder_i_tree *tree, double goal)
+{
+    tree->task.goal = sunder_i_min(tree->task.goal, goal);
+}
 
 /* Looks into one node. True if its least has no conflicts, or none that a division tells more of: *leaf is what that is
  * proved to cost. */
@@ -169,20 +172,20 @@ static bool look_into(sunder_i_tree *t, uint32_t node, double *leaf)
     return !t->failed && t->node[node].state == SUNDER_I_LEAF;
 }
 
-sunder_i_tree_outcome sunder_i_tree_run(sunder_i_tree *t, uint64_t steps)
+sunder_i_tree_outcome sunder_i_tree_run(sunder_i_tree *tree, uint64_t steps)
 {
-    while (t->opens && !t->failed) {
-        if (t->open[0].value >= sunder_i_min(t->task.goal, t->leaf)) return SUNDER_I_TREE_PROVED;
-        if (t->steps > steps) return SUNDER_I_TREE_SPENT;
+    while (tree->opens && !tree->failed) {
+        if (tree->open[0].value >= sunder_i_min(tree->task.goal, tree->leaf)) return SUNDER_I_TREE_PROVED;
+        if (tree->steps > steps) return SUNDER_I_TREE_SPENT;
         sunder_i_open next;
-        sunder_i_heap_pop(t->open, &t->opens, sizeof next, &next, sunder_i_opens_first);
-        const uint64_t before = t->steps;
+        sunder_i_heap_pop(tree->open, &tree->opens, sizeof next, &next, sunder_i_opens_first);
+        const uint64_t before = tree->steps;
         double leaf = INFINITY;
-        const bool found = look_into(t, next.node, &leaf);
-        if (!sunder_i_steps(1 + (size_t)(t->steps - before) / 64)) t->failed = true;
+        const bool found = look_into(tree, next.node, &leaf);
+        if (!sunder_i_steps(1 + (size_t)(tree->steps - before) / 64)) tree->failed = true;
         if (!found) continue;
-        t->leaf = sunder_i_min(t->leaf, leaf);
-        return t->joins.n ? SUNDER_I_TREE_JOINED : SUNDER_I_TREE_FOUND;
+        tree->leaf = sunder_i_min(tree->leaf, leaf);
+        return tree->joins.n ? SUNDER_I_TREE_JOINED : SUNDER_I_TREE_FOUND;
     }
     return SUNDER_I_TREE_PROVED;
 }

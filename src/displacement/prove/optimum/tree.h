@@ -161,7 +161,7 @@ void sunder_i_tree_meet(sunder_i_tree *tree);
 /* ---- tree_node.c ------------------------------------------------------------------------------------------------- */
 
 /* The program's forces, added to the record. */
-void sunder_i_tree_note_forces(sunder_i_tree *tree, uint32_t *first, uint32_t *n);
+void sunder_i_tree_note_forces(sunder_i_tree *tree, uint32_t *first, uint32_t *count);
 /* Adds a cut to the last node, and to the pair's region. Its number. */
 uint32_t sunder_i_tree_cut(sunder_i_tree *tree, sunder_i_cut_kind kind, uint32_t pair, const double n[2], double d);
 /* A node with the program's forces; the cuts that follow are its. */

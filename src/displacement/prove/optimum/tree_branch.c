@@ -144,47 +144,47 @@ static void leave_out_stuck(sunder_i_tree *t, uint32_t node)
     }
 }
 
-void sunder_i_tree_divide(sunder_i_tree *t, uint32_t node)
+void sunder_i_tree_divide(sunder_i_tree *tree, uint32_t node)
 {
-    const double value = t->node[node].value;
+    const double value = tree->node[node].value;
     branching_rays rays = {0};
-    leave_out_stuck(t, node);
-    if (t->conflicts == 0) sunder_i_tree_meet(t);
-    if (t->conflicts == 0 || t->failed) {
-        t->node[node].state = SUNDER_I_LEAF;
+    leave_out_stuck(tree, node);
+    if (tree->conflicts == 0) sunder_i_tree_meet(tree);
+    if (tree->conflicts == 0 || tree->failed) {
+        tree->node[node].state = SUNDER_I_LEAF;
         return;
     }
-    const sunder_i_tree_conflict c = choose(t, value, &rays);
-    if (t->failed) return;
-    t->node[node].state = SUNDER_I_DIVIDED;
-    t->node[node].pair = c.pair;
-    const sunder_i_region region = t->pair[c.pair].region;
-    for (int k = 0; k < 3 && !t->failed; k++) {
+    const sunder_i_tree_conflict c = choose(tree, value, &rays);
+    if (tree->failed) return;
+    tree->node[node].state = SUNDER_I_DIVIDED;
+    tree->node[node].pair = c.pair;
+    const sunder_i_region region = tree->pair[c.pair].region;
+    for (int k = 0; k < 3 && !tree->failed; k++) {
         double n[2][2], d[2];
         bool empty = false;
-        const uint32_t child = sunder_i_tree_add_node(t, node, value);
-        if (t->failed) return;
-        cone_cuts(t, &c, &rays, k, n, d);
-        for (int e = 0; e < 2 && !t->failed; e++) sunder_i_tree_cut(t, SUNDER_I_CUT_CONE, c.pair, n[e], d[e]);
-        const bool cut = !t->failed && sunder_i_tree_cut_hull(t, c.pair, c.u, &empty);
-        if (t->failed) return;
+        const uint32_t child = sunder_i_tree_add_node(tree, node, value);
+        if (tree->failed) return;
+        cone_cuts(tree, &c, &rays, k, n, d);
+        for (int e = 0; e < 2 && !tree->failed; e++) sunder_i_tree_cut(tree, SUNDER_I_CUT_CONE, c.pair, n[e], d[e]);
+        const bool cut = !tree->failed && sunder_i_tree_cut_hull(tree, c.pair, c.u, &empty);
+        if (tree->failed) return;
         if (empty) {
-            t->node[child].state = SUNDER_I_EMPTY;
+            tree->node[child].state = SUNDER_I_EMPTY;
         } else {
-            t->node[child].value = sunder_i_max(value, sunder_i_tree_solve(t));
-            sunder_i_tree_keep_forces(t, child);
-            t->node[child].stuck = !cut && is_stuck(t, &c);
-            if (t->node[child].value >= t->task.goal) t->node[child].state = SUNDER_I_CLOSED;
+            tree->node[child].value = sunder_i_max(value, sunder_i_tree_solve(tree));
+            sunder_i_tree_keep_forces(tree, child);
+            tree->node[child].stuck = !cut && is_stuck(tree, &c);
+            if (tree->node[child].value >= tree->task.goal) tree->node[child].state = SUNDER_I_CLOSED;
         }
-        if (t->node[child].state == SUNDER_I_OPEN) {
-            const sunder_i_open open = {t->node[child].value, child};
-            if (!sunder_i_reserve(&t->open, &t->open_capacity, t->opens + 1, sizeof *t->open))
-                t->failed = true;
+        if (tree->node[child].state == SUNDER_I_OPEN) {
+            const sunder_i_open open = {tree->node[child].value, child};
+            if (!sunder_i_reserve(&tree->open, &tree->open_capacity, tree->opens + 1, sizeof *tree->open))
+                tree->failed = true;
             else
-                sunder_i_heap_push(t->open, &t->opens, sizeof *t->open, &open, sunder_i_opens_first);
-            sunder_i_tree_keep_regions(t, child);
+                sunder_i_heap_push(tree->open, &tree->opens, sizeof *tree->open, &open, sunder_i_opens_first);
+            sunder_i_tree_keep_regions(tree, child);
         }
-        t->pair[c.pair].region = region;
-        sunder_i_tree_restore_program(t);
+        tree->pair[c.pair].region = region;
+        sunder_i_tree_restore_program(tree);
     }
 }

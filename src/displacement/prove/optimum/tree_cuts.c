@@ -57,21 +57,21 @@ static bool know_reflex(sunder_i_tree *t, sunder_i_tree_pair *p)
     return !t->failed;
 }
 
-bool sunder_i_tree_propose(sunder_i_tree *t, uint32_t pair, const sunder_i_region *region, const double u[2],
+bool sunder_i_tree_propose(sunder_i_tree *tree, uint32_t pair, const sunder_i_region *region, const double u[2],
                            double n[2], double *d, bool *none)
 {
-    sunder_i_tree_pair *p = &t->pair[pair];
+    sunder_i_tree_pair *p = &tree->pair[pair];
     double place[2];
     *none = region->n == 0;
-    if (*none || !know_reflex(t, p)) return false;
+    if (*none || !know_reflex(tree, p)) return false;
     /* A trial does not change what is known of the pair's own region. */
-    sunder_i_free_sides *sides = region == &p->region ? &p->sides : &t->tried;
-    if (sides == &t->tried) sides->any = false;
-    if (!sunder_i_free_sides_find(sides, &p->sides, region, &p->forbidden, &t->steps)) {
-        t->failed = true;
+    sunder_i_free_sides *sides = region == &p->region ? &p->sides : &tree->tried;
+    if (sides == &tree->tried) sides->any = false;
+    if (!sunder_i_free_sides_find(sides, &p->sides, region, &p->forbidden, &tree->steps)) {
+        tree->failed = true;
         return false;
     }
-    if (!sunder_i_free_hull_nearest(sides, &p->forbidden, &p->reflex, u, place, &t->steps)) {
+    if (!sunder_i_free_hull_nearest(sides, &p->forbidden, &p->reflex, u, place, &tree->steps)) {
         *none = true;
         return false;
     }
@@ -142,48 +142,48 @@ static bool try_rooms(sunder_i_tree *t, uint32_t pair, const double u[2], const 
 
 /* A proposal is based on the known reflex corners: some of them for many pieces, for a few pieces all except those in
  * gaps without width. If a free place refutes it, that place leads to one more corner. */
-bool sunder_i_tree_cut_hull(sunder_i_tree *t, uint32_t pair, const double u[2], bool *empty)
+bool sunder_i_tree_cut_hull(sunder_i_tree *tree, uint32_t pair, const double u[2], bool *empty)
 {
     double before = NAN;
     *empty = false;
-    for (int tries = 0; tries < MOST_GAPS && !t->failed; tries++) {
-        sunder_i_tree_pair *p = &t->pair[pair];
+    for (int tries = 0; tries < MOST_GAPS && !tree->failed; tries++) {
+        sunder_i_tree_pair *p = &tree->pair[pair];
         double n[2], d, gap[2];
         bool none;
-        if (sunder_i_tree_propose(t, pair, &p->region, u, n, &d, &none)) {
+        if (sunder_i_tree_propose(tree, pair, &p->region, u, n, &d, &none)) {
             if (d == before) return false; /* the same again */
             before = d;
-            if (try_rooms(t, pair, u, n, d, gap)) return true;
+            if (try_rooms(tree, pair, u, n, d, gap)) return true;
         } else {
-            *empty = none && is_empty(t, pair, gap);
+            *empty = none && is_empty(tree, pair, gap);
             if (!none || *empty) return false;
             for (int c = 0; c < 2; c++) n[c] = gap[c] - u[c];
             const double length = sqrt(n[0] * n[0] + n[1] * n[1]);
             if (!(length > 0)) return false;
             for (int c = 0; c < 2; c++) n[c] /= length;
         }
-        if (t->failed || !(fabs(gap[0]) < INFINITY)) return false;
+        if (tree->failed || !(fabs(gap[0]) < INFINITY)) return false;
         const double down[2] = {-n[0], -n[1]};
         const size_t known = p->reflex.n;
-        p = &t->pair[pair];
-        if (!sunder_i_reflex_seek(&p->reflex, &p->forbidden, &p->region, gap, down, &t->steps)) t->failed = true;
+        p = &tree->pair[pair];
+        if (!sunder_i_reflex_seek(&p->reflex, &p->forbidden, &p->region, gap, down, &tree->steps)) tree->failed = true;
         if (p->reflex.n == known) return false;
     }
     return false;
 }
 
-size_t sunder_i_tree_refine(sunder_i_tree *t, double value, bool *empty)
+size_t sunder_i_tree_refine(sunder_i_tree *tree, double value, bool *empty)
 {
     size_t made = 0, discs = 0;
-    sunder_i_tree_node *node = &t->node[t->nodes - 1];
+    sunder_i_tree_node *node = &tree->node[tree->nodes - 1];
     *empty = false;
-    for (size_t k = 0; k < t->conflicts && !*empty && !t->failed; k++) {
-        const sunder_i_tree_conflict c = t->conflict[k];
-        const uint64_t before = t->steps;
-        discs += cut_disc(t, c.pair, c.u, value);
-        made += sunder_i_tree_cut_hull(t, c.pair, c.u, empty);
-        if (!sunder_i_steps(1 + (size_t)(t->steps - before) / 64)) t->failed = true;
+    for (size_t k = 0; k < tree->conflicts && !*empty && !tree->failed; k++) {
+        const sunder_i_tree_conflict c = tree->conflict[k];
+        const uint64_t before = tree->steps;
+        discs += cut_disc(tree, c.pair, c.u, value);
+        made += sunder_i_tree_cut_hull(tree, c.pair, c.u, empty);
+        if (!sunder_i_steps(1 + (size_t)(tree->steps - before) / 64)) tree->failed = true;
     }
-    if (t->task.keep && discs && !t->failed) sunder_i_tree_note_forces(t, &node->by, &node->bys);
+    if (tree->task.keep && discs && !tree->failed) sunder_i_tree_note_forces(tree, &node->by, &node->bys);
     return made;
 }

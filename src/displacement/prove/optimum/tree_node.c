@@ -28,99 +28,99 @@ static void apply(sunder_i_tree *t, uint32_t cut, bool kept)
     sunder_i_region_clip(&p->region, t->cut[cut].n, t->cut[cut].d, cut, p->forbidden.grain);
 }
 
-uint32_t sunder_i_tree_cut(sunder_i_tree *t, sunder_i_cut_kind kind, uint32_t pair, const double n[2], double d)
+uint32_t sunder_i_tree_cut(sunder_i_tree *tree, sunder_i_cut_kind kind, uint32_t pair, const double n[2], double d)
 {
-    const bool room = sunder_i_reserve(&t->cut, &t->cut_capacity, t->cuts + 1, sizeof *t->cut) &&
-                      sunder_i_reserve(&t->note, &t->note_capacity, t->cuts + 1, sizeof *t->note);
-    t->program.cut = t->cut; /* they may have gone elsewhere where there was no room for the note, too */
+    const bool room = sunder_i_reserve(&tree->cut, &tree->cut_capacity, tree->cuts + 1, sizeof *tree->cut) &&
+                      sunder_i_reserve(&tree->note, &tree->note_capacity, tree->cuts + 1, sizeof *tree->note);
+    tree->program.cut = tree->cut; /* they may have gone elsewhere where there was no room for the note, too */
     if (!room) {
-        t->failed = true;
+        tree->failed = true;
         return 0;
     }
-    const uint32_t cut = (uint32_t)t->cuts++;
+    const uint32_t cut = (uint32_t)tree->cuts++;
     const bool ball = kind == SUNDER_I_CUT_LIMIT;
-    t->cut[cut] =
-        (sunder_i_move_cut){ball ? pair : t->pair[pair].i, ball ? SUNDER_I_GROUND : t->pair[pair].j, {n[0], n[1]}, d};
-    t->note[cut] = (sunder_i_cut_note){.kind = kind, .pair = pair};
-    if (t->nodes) t->node[t->nodes - 1].cuts++;
-    apply(t, cut, false);
+    tree->cut[cut] = (sunder_i_move_cut){
+        ball ? pair : tree->pair[pair].i, ball ? SUNDER_I_GROUND : tree->pair[pair].j, {n[0], n[1]}, d};
+    tree->note[cut] = (sunder_i_cut_note){.kind = kind, .pair = pair};
+    if (tree->nodes) tree->node[tree->nodes - 1].cuts++;
+    apply(tree, cut, false);
     return cut;
 }
 
-void sunder_i_tree_note_forces(sunder_i_tree *t, uint32_t *first, uint32_t *count)
+void sunder_i_tree_note_forces(sunder_i_tree *tree, uint32_t *first, uint32_t *count)
 {
-    const size_t n = t->program.acting_n;
-    if (!sunder_i_reserve(&t->force, &t->force_capacity, t->forces + n, sizeof *t->force)) {
-        t->failed = true;
+    const size_t n = tree->program.acting_n;
+    if (!sunder_i_reserve(&tree->force, &tree->force_capacity, tree->forces + n, sizeof *tree->force)) {
+        tree->failed = true;
         return;
     }
-    *first = (uint32_t)t->forces;
+    *first = (uint32_t)tree->forces;
     *count = (uint32_t)n;
-    if (n) memcpy(t->force + t->forces, t->program.acting, n * sizeof *t->force);
-    t->forces += n;
+    if (n) memcpy(tree->force + tree->forces, tree->program.acting, n * sizeof *tree->force);
+    tree->forces += n;
 }
 
-void sunder_i_tree_keep_forces(sunder_i_tree *t, uint32_t node)
+void sunder_i_tree_keep_forces(sunder_i_tree *tree, uint32_t node)
 {
-    sunder_i_tree_note_forces(t, &t->node[node].force, &t->node[node].forces);
+    sunder_i_tree_note_forces(tree, &tree->node[node].force, &tree->node[node].forces);
 }
 
-uint32_t sunder_i_tree_add_node(sunder_i_tree *t, uint32_t parent, double value)
+uint32_t sunder_i_tree_add_node(sunder_i_tree *tree, uint32_t parent, double value)
 {
-    if (!sunder_i_reserve(&t->node, &t->node_capacity, t->nodes + 1, sizeof *t->node)) {
-        t->failed = true;
+    if (!sunder_i_reserve(&tree->node, &tree->node_capacity, tree->nodes + 1, sizeof *tree->node)) {
+        tree->failed = true;
         return 0;
     }
-    t->node[t->nodes] = (sunder_i_tree_node){.parent = parent, .cut = (uint32_t)t->cuts, .value = value};
-    return (uint32_t)t->nodes++;
+    tree->node[tree->nodes] = (sunder_i_tree_node){.parent = parent, .cut = (uint32_t)tree->cuts, .value = value};
+    return (uint32_t)tree->nodes++;
 }
 
-void sunder_i_tree_load(sunder_i_tree *t, uint32_t node)
+void sunder_i_tree_load(sunder_i_tree *tree, uint32_t node)
 {
-    for (size_t k = 0; k < t->touched.n; k++) {
-        sunder_i_tree_pair *p = &t->pair[t->touched.item[k]];
+    for (size_t k = 0; k < tree->touched.n; k++) {
+        sunder_i_tree_pair *p = &tree->pair[tree->touched.item[k]];
         sunder_i_region_init(&p->region, p->centre, p->reach);
         p->touched = false;
     }
-    t->touched.n = t->path.n = 0;
-    for (uint32_t at = node; at != SUNDER_I_NO_NODE; at = t->node[at].parent)
-        if (!sunder_i_list_push(&t->path, at)) t->failed = true;
-    const bool kept = t->node[node].regions;
-    for (size_t k = t->path.n; k-- > 0 && !t->failed;) {
-        const sunder_i_tree_node *n = &t->node[t->path.item[k]];
-        for (uint32_t c = n->cut; c < n->cut + n->cuts; c++) apply(t, c, kept);
-        t->steps += 2 * n->cuts;
+    tree->touched.n = tree->path.n = 0;
+    for (uint32_t at = node; at != SUNDER_I_NO_NODE; at = tree->node[at].parent)
+        if (!sunder_i_list_push(&tree->path, at)) tree->failed = true;
+    const bool kept = tree->node[node].regions;
+    for (size_t k = tree->path.n; k-- > 0 && !tree->failed;) {
+        const sunder_i_tree_node *n = &tree->node[tree->path.item[k]];
+        for (uint32_t c = n->cut; c < n->cut + n->cuts; c++) apply(tree, c, kept);
+        tree->steps += 2 * n->cuts;
     }
-    if (kept && !t->failed) sunder_i_tree_take_regions(t, node);
-    const sunder_i_tree_node *n = &t->node[node];
-    const sunder_i_cut_force *force = n->forces ? t->force + n->force : NULL; /* the list may be empty */
-    if (!t->failed && !sunder_i_dual_load(&t->program, force, n->forces)) t->failed = true;
+    if (kept && !tree->failed) sunder_i_tree_take_regions(tree, node);
+    const sunder_i_tree_node *n = &tree->node[node];
+    const sunder_i_cut_force *force = n->forces ? tree->force + n->force : NULL; /* the list may be empty */
+    if (!tree->failed && !sunder_i_dual_load(&tree->program, force, n->forces)) tree->failed = true;
 }
 
-void sunder_i_tree_keep_program(sunder_i_tree *t)
+void sunder_i_tree_keep_program(sunder_i_tree *tree)
 {
-    const sunder_i_dual_program *p = &t->program;
-    t->kept_n = p->acting_n;
-    if (!sunder_i_reserve(&t->kept, &t->kept_capacity, p->acting_n, sizeof *t->kept) ||
-        !sunder_i_reserve(&t->kept_factor, &t->kept_factor_capacity, p->acting_n * p->acting_n,
-                          sizeof *t->kept_factor)) {
-        t->failed = true;
+    const sunder_i_dual_program *p = &tree->program;
+    tree->kept_n = p->acting_n;
+    if (!sunder_i_reserve(&tree->kept, &tree->kept_capacity, p->acting_n, sizeof *tree->kept) ||
+        !sunder_i_reserve(&tree->kept_factor, &tree->kept_factor_capacity, p->acting_n * p->acting_n,
+                          sizeof *tree->kept_factor)) {
+        tree->failed = true;
         return;
     }
     for (size_t k = 0; k < p->acting_n; k++) {
-        t->kept[k] = p->acting[k];
-        memcpy(t->kept_factor + k * p->acting_n, p->factor + k * p->capacity, (k + 1) * sizeof *t->kept_factor);
+        tree->kept[k] = p->acting[k];
+        memcpy(tree->kept_factor + k * p->acting_n, p->factor + k * p->capacity, (k + 1) * sizeof *tree->kept_factor);
     }
 }
 
-void sunder_i_tree_restore_program(sunder_i_tree *t)
+void sunder_i_tree_restore_program(sunder_i_tree *tree)
 {
-    sunder_i_dual_program *p = &t->program;
-    if (t->failed) return;
-    p->acting_n = t->kept_n;
+    sunder_i_dual_program *p = &tree->program;
+    if (tree->failed) return;
+    p->acting_n = tree->kept_n;
     for (size_t k = 0; k < p->acting_n; k++) {
-        p->acting[k] = t->kept[k];
-        memcpy(p->factor + k * p->capacity, t->kept_factor + k * p->acting_n, (k + 1) * sizeof *p->factor);
+        p->acting[k] = tree->kept[k];
+        memcpy(p->factor + k * p->capacity, tree->kept_factor + k * p->acting_n, (k + 1) * sizeof *p->factor);
     }
     sunder_i_dual_place(p);
 }
@@ -168,21 +168,21 @@ static uint32_t find_overstepped(sunder_i_tree *t)
     return sunder_i_tree_cut(t, SUNDER_I_CUT_LIMIT, worst, n, -t->limit[worst] * (1 + 0x1p-49));
 }
 
-double sunder_i_tree_solve(sunder_i_tree *t)
+double sunder_i_tree_solve(sunder_i_tree *tree)
 {
-    double value = sunder_i_dual_value(&t->program);
-    for (size_t round = 0; round < MOST_ADDED && !t->failed && value < t->task.goal; round++) {
-        uint32_t cut = find_missed(t);
-        if (cut == UINT32_MAX) cut = find_overstepped(t);
+    double value = sunder_i_dual_value(&tree->program);
+    for (size_t round = 0; round < MOST_ADDED && !tree->failed && value < tree->task.goal; round++) {
+        uint32_t cut = find_missed(tree);
+        if (cut == UINT32_MAX) cut = find_overstepped(tree);
         if (cut == UINT32_MAX) break;
         bool failed;
-        const uint64_t before = t->program.steps;
-        const sunder_i_dual_outcome outcome = sunder_i_dual_add(&t->program, cut, t->task.goal, &failed);
-        t->steps += t->program.steps - before;
-        if (failed || !sunder_i_steps(1 + t->program.acting_n / 4)) t->failed = true;
-        value = sunder_i_max(value, sunder_i_dual_value(&t->program));
+        const uint64_t before = tree->program.steps;
+        const sunder_i_dual_outcome outcome = sunder_i_dual_add(&tree->program, cut, tree->task.goal, &failed);
+        tree->steps += tree->program.steps - before;
+        if (failed || !sunder_i_steps(1 + tree->program.acting_n / 4)) tree->failed = true;
+        value = sunder_i_max(value, sunder_i_dual_value(&tree->program));
         if (outcome == SUNDER_I_DUAL_STUCK) break;
     }
     /* The last value is that of the forces at hand: D never falls but by rounding. */
-    return sunder_i_dual_value(&t->program);
+    return sunder_i_dual_value(&tree->program);
 }

@@ -29,24 +29,24 @@ static void set_root(const sunder_i_tree *t, sunder_i_tree_pair *p)
 
 static uint32_t *place_of(sunder_i_tree *t, uint32_t i, uint32_t j) { return &t->pair_at[(size_t)i * t->capacity + j]; }
 
-sunder_i_tree_pair *sunder_i_tree_pair_of(sunder_i_tree *t, uint32_t i, uint32_t j)
+sunder_i_tree_pair *sunder_i_tree_pair_of(sunder_i_tree *tree, uint32_t i, uint32_t j)
 {
-    uint32_t *at = place_of(t, i, j);
-    if (*at != UINT32_MAX) return &t->pair[*at];
-    if (!sunder_i_reserve(&t->pair, &t->pair_capacity, t->pairs + 1, sizeof *t->pair)) {
-        t->failed = true;
+    uint32_t *at = place_of(tree, i, j);
+    if (*at != UINT32_MAX) return &tree->pair[*at];
+    if (!sunder_i_reserve(&tree->pair, &tree->pair_capacity, tree->pairs + 1, sizeof *tree->pair)) {
+        tree->failed = true;
         return NULL;
     }
-    sunder_i_tree_pair *p = &t->pair[t->pairs];
-    *p = (sunder_i_tree_pair){.i = i, .j = j, .slackness = slackness_of(t, i, j)};
-    *at = (uint32_t)t->pairs++;
-    set_root(t, p);
+    sunder_i_tree_pair *p = &tree->pair[tree->pairs];
+    *p = (sunder_i_tree_pair){.i = i, .j = j, .slackness = slackness_of(tree, i, j)};
+    *at = (uint32_t)tree->pairs++;
+    set_root(tree, p);
     const double far = fabs(p->centre[0]) + fabs(p->centre[1]) + 2 * p->reach;
-    const bool listed = (t->task.no_ways ? sunder_i_forbidden_without_ways : sunder_i_forbidden_init)(
-        &p->forbidden, t->task.model, t->task.waived, t->task.body[i], t->task.body[j], far);
-    if (!listed || !sunder_i_forbidden_index(&p->forbidden)) t->failed = true;
-    t->steps += 8 * p->forbidden.edges;
-    t->pair_steps += 8 * p->forbidden.edges;
+    const bool listed = (tree->task.no_ways ? sunder_i_forbidden_without_ways : sunder_i_forbidden_init)(
+        &p->forbidden, tree->task.model, tree->task.waived, tree->task.body[i], tree->task.body[j], far);
+    if (!listed || !sunder_i_forbidden_index(&p->forbidden)) tree->failed = true;
+    tree->steps += 8 * p->forbidden.edges;
+    tree->pair_steps += 8 * p->forbidden.edges;
     sunder_i_region_init(&p->region, p->centre, p->reach);
     return p;
 }
@@ -96,14 +96,14 @@ static void look_at(sunder_i_tree *t, uint32_t i, uint32_t j)
         t->conflict[t->conflicts++] = (sunder_i_tree_conflict){(uint32_t)(p - t->pair), depth, {u[0], u[1]}};
 }
 
-void sunder_i_tree_find_conflicts(sunder_i_tree *t)
+void sunder_i_tree_find_conflicts(sunder_i_tree *tree)
 {
-    t->conflicts = 0;
-    for (uint32_t i = 0; i < t->task.n && !t->failed; i++) {
-        if (!sunder_i_steps(1 + t->task.n / 64)) t->failed = true;
-        for (uint32_t j = i + 1; j < t->task.n && !t->failed; j++) look_at(t, i, j);
+    tree->conflicts = 0;
+    for (uint32_t i = 0; i < tree->task.n && !tree->failed; i++) {
+        if (!sunder_i_steps(1 + tree->task.n / 64)) tree->failed = true;
+        for (uint32_t j = i + 1; j < tree->task.n && !tree->failed; j++) look_at(tree, i, j);
     }
-    t->steps += t->task.n * t->task.n / 16;
+    tree->steps += tree->task.n * tree->task.n / 16;
 }
 
 /* ---- Those outside ----------------------------------------------------------------------------------------------- */
@@ -138,20 +138,20 @@ static void find_near(sunder_i_tree *t, uint32_t i)
     t->steps += 16 + t->near.n * t->task.n / 8;
 }
 
-void sunder_i_tree_meet(sunder_i_tree *t)
+void sunder_i_tree_meet(sunder_i_tree *tree)
 {
-    const size_t n = t->task.n;
-    for (uint32_t i = 0; i < n && !t->failed && t->task.group_of; i++) {
-        if (!(t->mass[i] > 0)) continue;
-        find_near(t, i);
-        for (size_t k = 0; k < t->near.n && !t->failed; k++) {
-            const uint32_t other = t->near.item[k];
-            if (takes_part(t, other) || !runs_into(t, i, other)) continue;
-            if (t->task.group_of[other] == SUNDER_I_NOBODY && t->task.n < t->capacity) {
-                sunder_i_tree_invite(t, other);
-                look_at(t, i, (uint32_t)t->task.n - 1);
-            } else if (!sunder_i_list_push(&t->joins, other)) {
-                t->failed = true;
+    const size_t n = tree->task.n;
+    for (uint32_t i = 0; i < n && !tree->failed && tree->task.group_of; i++) {
+        if (!(tree->mass[i] > 0)) continue;
+        find_near(tree, i);
+        for (size_t k = 0; k < tree->near.n && !tree->failed; k++) {
+            const uint32_t other = tree->near.item[k];
+            if (takes_part(tree, other) || !runs_into(tree, i, other)) continue;
+            if (tree->task.group_of[other] == SUNDER_I_NOBODY && tree->task.n < tree->capacity) {
+                sunder_i_tree_invite(tree, other);
+                look_at(tree, i, (uint32_t)tree->task.n - 1);
+            } else if (!sunder_i_list_push(&tree->joins, other)) {
+                tree->failed = true;
             }
         }
     }

@@ -163,17 +163,18 @@ static bool record_nodes(recording *r)
     return true;
 }
 
-bool sunder_i_tree_record(const sunder_i_tree *t, sunder_bound_tree *out)
+bool sunder_i_tree_record(const sunder_i_tree *tree, sunder_bound_tree *out)
 {
-    recording r = {.tree = t, .out = out};
-    *out = (sunder_bound_tree){.bound = sunder_i_tree_bound(t)};
+    recording r = {.tree = tree, .out = out};
+    *out = (sunder_bound_tree){.bound = sunder_i_tree_bound(tree)};
     bool ok = reserve(&r);
-    for (size_t k = 0; ok && k < t->task.n; k++)
-        r.body[k] = (sunder_bound_body){.thing = t->task.model->member[t->task.model->body[t->body[k]].member],
-                                        .weight = t->weight[k],
-                                        .shift = {t->anchor[2 * k], t->anchor[2 * k + 1]}};
-    for (size_t k = 0; ok && k < t->forces; k++) r.force[k] = (sunder_bound_force){t->force[k].cut, t->force[k].force};
-    for (size_t k = 0; ok && k < t->named.n; k++) r.named[k] = 0;
+    for (size_t k = 0; ok && k < tree->task.n; k++)
+        r.body[k] = (sunder_bound_body){.thing = tree->task.model->member[tree->task.model->body[tree->body[k]].member],
+                                        .weight = tree->weight[k],
+                                        .shift = {tree->anchor[2 * k], tree->anchor[2 * k + 1]}};
+    for (size_t k = 0; ok && k < tree->forces; k++)
+        r.force[k] = (sunder_bound_force){tree->force[k].cut, tree->force[k].force};
+    for (size_t k = 0; ok && k < tree->named.n; k++) r.named[k] = 0;
     ok = ok && record_cuts(&r) && record_nodes(&r);
     sunder_i_free(r.place);
     sunder_i_free(r.as);
@@ -181,18 +182,18 @@ bool sunder_i_tree_record(const sunder_i_tree *t, sunder_bound_tree *out)
         sunder_i_bound_tree_free(out);
         return false;
     }
-    out->bodies = t->task.n;
-    out->cuts = t->cuts;
-    out->forces = t->forces;
-    out->nodes = t->nodes;
-    out->names = t->named.n;
+    out->bodies = tree->task.n;
+    out->cuts = tree->cuts;
+    out->forces = tree->forces;
+    out->nodes = tree->nodes;
+    out->names = tree->named.n;
     return true;
 }
 
-bool sunder_i_tree_keep(const sunder_i_tree *t, sunder_i_bound_trees *trees)
+bool sunder_i_tree_keep(const sunder_i_tree *tree, sunder_i_bound_trees *trees)
 {
     if (!sunder_i_reserve(&trees->tree, &trees->capacity, trees->n + 1, sizeof *trees->tree) ||
-        !sunder_i_tree_record(t, &trees->tree[trees->n]))
+        !sunder_i_tree_record(tree, &trees->tree[trees->n]))
         return false;
     trees->n++;
     return true;

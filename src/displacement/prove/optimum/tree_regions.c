@@ -19,22 +19,22 @@ static size_t size_of(uint32_t corners)
     return sizeof(kept_region) + 2 * corners * sizeof(double) + cuts + (odd ? sizeof(double) - odd : 0);
 }
 
-void sunder_i_tree_keep_regions(sunder_i_tree *t, uint32_t node)
+void sunder_i_tree_keep_regions(sunder_i_tree *tree, uint32_t node)
 {
     size_t size = 0;
-    for (size_t k = 0; k < t->touched.n; k++) size += size_of(t->pair[t->touched.item[k]].region.n);
-    if (size == 0 || t->kept_bytes + size > MOST_KEPT_BYTES) return;
+    for (size_t k = 0; k < tree->touched.n; k++) size += size_of(tree->pair[tree->touched.item[k]].region.n);
+    if (size == 0 || tree->kept_bytes + size > MOST_KEPT_BYTES) return;
     char *at = sunder_i_alloc(size, 1);
     if (!at) {
-        t->failed = true;
+        tree->failed = true;
         return;
     }
-    t->node[node].regions = at;
-    t->node[node].regions_size = size;
-    t->kept_bytes += size;
-    for (size_t k = 0; k < t->touched.n; k++) {
-        const uint32_t pair = t->touched.item[k];
-        const sunder_i_region *r = &t->pair[pair].region;
+    tree->node[node].regions = at;
+    tree->node[node].regions_size = size;
+    tree->kept_bytes += size;
+    for (size_t k = 0; k < tree->touched.n; k++) {
+        const uint32_t pair = tree->touched.item[k];
+        const sunder_i_region *r = &tree->pair[pair].region;
         const kept_region head = {pair, r->n, r->blur};
         memcpy(at, &head, sizeof head);
         memcpy(at + sizeof head, r->xy, 2 * r->n * sizeof *r->xy);
@@ -43,15 +43,15 @@ void sunder_i_tree_keep_regions(sunder_i_tree *t, uint32_t node)
     }
 }
 
-void sunder_i_tree_take_regions(sunder_i_tree *t, uint32_t node)
+void sunder_i_tree_take_regions(sunder_i_tree *tree, uint32_t node)
 {
-    const char *at = t->node[node].regions, *end = at + t->node[node].regions_size;
+    const char *at = tree->node[node].regions, *end = at + tree->node[node].regions_size;
     while (at < end) {
         kept_region head;
         memcpy(&head, at, sizeof head);
-        sunder_i_region *r = &t->pair[head.pair].region;
+        sunder_i_region *r = &tree->pair[head.pair].region;
         /* Those that a trial alone had cut are as they begin. */
-        if (t->pair[head.pair].touched) {
+        if (tree->pair[head.pair].touched) {
             r->n = head.n;
             r->blur = head.blur;
             memcpy(r->xy, at + sizeof head, 2 * head.n * sizeof *r->xy);
@@ -59,13 +59,13 @@ void sunder_i_tree_take_regions(sunder_i_tree *t, uint32_t node)
         }
         at += size_of(head.n);
     }
-    sunder_i_tree_drop_regions(t, node);
+    sunder_i_tree_drop_regions(tree, node);
 }
 
-void sunder_i_tree_drop_regions(sunder_i_tree *t, uint32_t node)
+void sunder_i_tree_drop_regions(sunder_i_tree *tree, uint32_t node)
 {
-    sunder_i_free(t->node[node].regions);
-    t->kept_bytes -= t->node[node].regions_size;
-    t->node[node].regions = NULL;
-    t->node[node].regions_size = 0;
+    sunder_i_free(tree->node[node].regions);
+    tree->kept_bytes -= tree->node[node].regions_size;
+    tree->node[node].regions = NULL;
+    tree->node[node].regions_size = 0;
 }

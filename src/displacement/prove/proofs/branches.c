@@ -107,71 +107,81 @@ static sunder_i_node *add_node(sunder_i_branching *c)
     return node;
 }
 
-bool sunder_i_branching_add_leaf(sunder_i_branching *c, sunder_i_levels *levels, size_t *root)
+bool sunder_i_branching_add_leaf(sunder_i_branching *branching, sunder_i_levels *levels, size_t *root)
 {
-    *root = c->nodes;
+    *root = branching->nodes;
     memset(levels, 0, sizeof *levels);
-    sunder_i_node *node = add_node(c);
-    if (!node || !sunder_i_reserve(&c->force, &c->force_capacity, c->forces + c->claims, sizeof *c->force))
+    sunder_i_node *node = add_node(branching);
+    if (!node || !sunder_i_reserve(&branching->force, &branching->force_capacity, branching->forces + branching->claims,
+                                   sizeof *branching->force))
         return false;
     bool still = false;
-    for (size_t k = 0; k < c->claims; k++) {
-        const sunder_i_claim *s = &c->claim[k];
+    for (size_t k = 0; k < branching->claims; k++) {
+        const sunder_i_claim *s = &branching->claim[k];
         if (!(s->force > 0)) continue;
         sunder_i_levels_add(levels, s->level);
-        c->force[c->forces++] = (sunder_proof_force){s->node, s->way, s->behind, s->force};
+        branching->force[branching->forces++] = (sunder_proof_force){s->node, s->way, s->behind, s->force};
         node->forces++;
-        const uint32_t between = c->still ? sunder_i_branching_place(c, c->between) : SUNDER_I_GROUND;
-        still = still || (c->still && (s->i == between || s->j == between));
+        const uint32_t between =
+            branching->still ? sunder_i_branching_place(branching, branching->between) : SUNDER_I_GROUND;
+        still = still || (branching->still && (s->i == between || s->j == between));
     }
     node->still = still;
     for (unsigned k = 0; k < 2 && still; k++) {
-        sunder_i_levels_add(levels, c->claim[k].level);
-        node->line_node[k] = c->claim[k].node;
-        node->line_way[k] = c->claim[k].way;
+        sunder_i_levels_add(levels, branching->claim[k].level);
+        node->line_node[k] = branching->claim[k].node;
+        node->line_way[k] = branching->claim[k].way;
     }
     return true;
 }
 
-bool sunder_i_branching_add_branch(sunder_i_branching *c, const sunder_i_violation *o, size_t ways, size_t *root)
+bool sunder_i_branching_add_branch(sunder_i_branching *branching, const sunder_i_violation *violation, size_t ways,
+                                   size_t *root)
 {
-    *root = c->nodes;
-    sunder_i_node *node = add_node(c);
-    if (!node || !sunder_i_reserve(&c->way, &c->way_capacity, c->ways + ways, sizeof *c->way)) return false;
-    if (o->chord) {
-        if (!sunder_i_reserve(&c->chord, &c->chord_capacity, c->chords + 1, sizeof *c->chord)) return false;
-        node->chord = c->chords;
-        c->chord[c->chords++] = *o->chord;
+    *root = branching->nodes;
+    sunder_i_node *node = add_node(branching);
+    if (!node ||
+        !sunder_i_reserve(&branching->way, &branching->way_capacity, branching->ways + ways, sizeof *branching->way))
+        return false;
+    if (violation->chord) {
+        if (!sunder_i_reserve(&branching->chord, &branching->chord_capacity, branching->chords + 1,
+                              sizeof *branching->chord))
+            return false;
+        node->chord = branching->chords;
+        branching->chord[branching->chords++] = *violation->chord;
     }
-    node->a = o->a->feature;
-    node->b = o->b->feature;
-    node->part_a = o->a;
-    node->part_b = o->b;
-    node->clearance = o->clearance;
-    node->shadow = o->shadow;
-    node->slack = o->slack != NULL;
-    node->held = o->held;
+    node->a = violation->a->feature;
+    node->b = violation->b->feature;
+    node->part_a = violation->a;
+    node->part_b = violation->b;
+    node->clearance = violation->clearance;
+    node->shadow = violation->shadow;
+    node->slack = violation->slack != NULL;
+    node->held = violation->held;
     node->ways = ways;
-    memcpy(c->way + c->ways, c->scratch, ways * sizeof *c->way);
-    c->ways += ways;
+    memcpy(branching->way + branching->ways, branching->scratch, ways * sizeof *branching->way);
+    branching->ways += ways;
     return true;
 }
 
-bool sunder_i_branching_push(sunder_i_branching *c, uint32_t i, uint32_t j, size_t node, size_t way, bool behind,
-                             unsigned level)
+bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t j, size_t node, size_t way,
+                             bool behind, unsigned level)
 {
-    if (!sunder_i_reserve(&c->claim, &c->claim_capacity, c->claims + 1, sizeof *c->claim)) return false;
-    const sunder_i_half_plane *w = &c->way[way];
+    if (!sunder_i_reserve(&branching->claim, &branching->claim_capacity, branching->claims + 1,
+                          sizeof *branching->claim))
+        return false;
+    const sunder_i_half_plane *w = &branching->way[way];
     const double sign = behind ? -1 : 1;
-    SUNDER_I_ASSERT(level < SUNDER_I_LEVELS && i < c->bodies && (j < c->bodies || j == SUNDER_I_GROUND) && i != j);
-    c->claim[c->claims++] = (sunder_i_claim){.i = i,
-                                             .j = j,
-                                             .n = {sign * w->n[0], sign * w->n[1]},
-                                             .d = sign * w->d,
-                                             .node = node,
-                                             .way = way,
-                                             .behind = behind,
-                                             .level = level};
+    SUNDER_I_ASSERT(level < SUNDER_I_LEVELS && i < branching->bodies &&
+                    (j < branching->bodies || j == SUNDER_I_GROUND) && i != j);
+    branching->claim[branching->claims++] = (sunder_i_claim){.i = i,
+                                                             .j = j,
+                                                             .n = {sign * w->n[0], sign * w->n[1]},
+                                                             .d = sign * w->d,
+                                                             .node = node,
+                                                             .way = way,
+                                                             .behind = behind,
+                                                             .level = level};
     return true;
 }
 
@@ -306,28 +316,32 @@ static sunder_status branch(sunder_i_branching *c, const sunder_i_violation *o, 
     return search_cases(c, o, node, level, verdict, levels, root, err);
 }
 
-sunder_status sunder_i_branching_search(sunder_i_branching *c, unsigned level, sunder_i_verdict *verdict,
+sunder_status sunder_i_branching_search(sunder_i_branching *branching, unsigned level, sunder_i_verdict *verdict,
                                         sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
     sunder_i_node_outcome outcome;
     *verdict = SUNDER_I_UNKNOWN;
-    if (level < c->walls) return search_wall(c, level, verdict, levels, root, err);
-    sunder_status status = sunder_i_branching_solve(c, &outcome, err);
+    if (level < branching->walls) return search_wall(branching, level, verdict, levels, root, err);
+    sunder_status status = sunder_i_branching_solve(branching, &outcome, err);
     if (status || outcome == SUNDER_I_NODE_UNDECIDED) return status;
     if (outcome == SUNDER_I_NODE_INFEASIBLE) {
         *verdict = SUNDER_I_INFEASIBLE;
-        return sunder_i_branching_add_leaf(c, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
+        return sunder_i_branching_add_leaf(branching, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
     }
     sunder_i_violation deepest[SUNDER_I_CHOICES];
-    if (!c->still && find_left(c, &deepest[0])) return branch(c, &deepest[0], level, verdict, levels, root, err);
-    if (c->failed) return sunder_i_no_memory(err);
-    size_t n = look(c, deepest);
-    while (n == 0 && !c->failed && !sunder_i_branching_is_over(c) && sunder_i_branching_widen(c)) n = look(c, deepest);
-    if (n == 0 && !c->failed) *verdict = SUNDER_I_FEASIBLE;
-    if (n == 0 || c->failed || level == SUNDER_I_LEVELS || sunder_i_branching_is_over(c))
-        return c->failed ? sunder_i_no_memory(err) : SUNDER_OK;
+    if (!branching->still && find_left(branching, &deepest[0]))
+        return branch(branching, &deepest[0], level, verdict, levels, root, err);
+    if (branching->failed) return sunder_i_no_memory(err);
+    size_t n = look(branching, deepest);
+    while (n == 0 && !branching->failed && !sunder_i_branching_is_over(branching) &&
+           sunder_i_branching_widen(branching))
+        n = look(branching, deepest);
+    if (n == 0 && !branching->failed) *verdict = SUNDER_I_FEASIBLE;
+    if (n == 0 || branching->failed || level == SUNDER_I_LEVELS || sunder_i_branching_is_over(branching))
+        return branching->failed ? sunder_i_no_memory(err) : SUNDER_OK;
     size_t ways, node;
-    const size_t best = choose(c, deepest, n, &ways);
-    if (c->failed || !sunder_i_branching_add_branch(c, &deepest[best], ways, &node)) return sunder_i_no_memory(err);
-    return search_cases(c, &deepest[best], node, level, verdict, levels, root, err);
+    const size_t best = choose(branching, deepest, n, &ways);
+    if (branching->failed || !sunder_i_branching_add_branch(branching, &deepest[best], ways, &node))
+        return sunder_i_no_memory(err);
+    return search_cases(branching, &deepest[best], node, level, verdict, levels, root, err);
 }

@@ -264,7 +264,7 @@ typedef struct sunder_i_plane_answer {
 /* The question of the one body of a subproblem that may move, among what stands, or of its two. */
 sunder_status sunder_i_branching_plane(sunder_i_branching *branching, sunder_i_plane_answer *answer, sunder_error *err);
 /* The same of some places alone: feasible if nothing is in the way at one of them, else unknown. */
-sunder_status sunder_i_branching_plane_try(sunder_i_branching *branching, const double (*place)[2], size_t n,
+sunder_status sunder_i_branching_plane_try(sunder_i_branching *branching, const double (*at)[2], size_t n,
                                            sunder_i_plane_answer *answer, sunder_error *err);
 /* The bodies that the plane is about; false: it is about none. */
 bool sunder_i_branching_plane_bodies(const sunder_i_branching *branching, uint32_t *p, uint32_t *q);

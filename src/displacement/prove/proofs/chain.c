@@ -307,19 +307,20 @@ static bool ask_parts(finding *f, uint32_t a, uint32_t barrier)
     return ok;
 }
 
-sunder_status sunder_i_chains_decide(sunder_i_chains *g, const sunder_i_subproblem *q, sunder_i_decision *decision,
-                                     size_t *links, sunder_error *err)
+sunder_status sunder_i_chains_decide(sunder_i_chains *chains, const sunder_i_subproblem *subproblem,
+                                     sunder_i_decision *decision, size_t *links, sunder_error *err)
 {
-    const sunder_i_model *model = g->of.model;
-    finding f = {.g = g, .q = q, .decision = decision, .links = links};
-    const uint64_t before = g->work + sunder_i_branching_work(&g->branching);
+    const sunder_i_model *model = chains->of.model;
+    finding f = {.g = chains, .q = subproblem, .decision = decision, .links = links};
+    const uint64_t before = chains->work + sunder_i_branching_work(&chains->branching);
     *decision = (sunder_i_decision){.verdict = SUNDER_I_UNKNOWN};
     *links = 0;
-    const bool stands = model->body[model->body_of[q->a]].fixed;
-    const bool ok = sunder_i_is_barrier(model, q->b) ? ask_parts(&f, q->a, q->b)
-                                                     : ask_things(&f, stands ? q->b : q->a, stands ? q->a : q->b);
+    const bool stands = model->body[model->body_of[subproblem->a]].fixed;
+    const bool ok = sunder_i_is_barrier(model, subproblem->b) ? ask_parts(&f, subproblem->a, subproblem->b)
+                                                              : ask_things(&f, stands ? subproblem->b : subproblem->a,
+                                                                           stands ? subproblem->a : subproblem->b);
     if (decision->proof) decision->verdict = SUNDER_I_INFEASIBLE;
-    decision->work = g->work + sunder_i_branching_work(&g->branching) - before;
+    decision->work = chains->work + sunder_i_branching_work(&chains->branching) - before;
     for (size_t e = 0; e < 2; e++) {
         sunder_i_free(f.half[e].link);
         sunder_i_free(f.half[e].end);
@@ -347,14 +348,14 @@ sunder_i_chains *sunder_i_chains_new(const sunder_i_subproblem *cluster, bool al
     return NULL;
 }
 
-void sunder_i_chains_free(sunder_i_chains *g)
+void sunder_i_chains_free(sunder_i_chains *chains)
 {
-    if (!g) return;
-    sunder_i_free(g->branching.scratch);
-    sunder_i_free(g->branching.near.item);
-    sunder_i_free(g->body);
-    sunder_i_free(g->link);
-    sunder_i_free(g->step);
-    sunder_i_free(g->heap);
-    sunder_i_free(g);
+    if (!chains) return;
+    sunder_i_free(chains->branching.scratch);
+    sunder_i_free(chains->branching.near.item);
+    sunder_i_free(chains->body);
+    sunder_i_free(chains->link);
+    sunder_i_free(chains->step);
+    sunder_i_free(chains->heap);
+    sunder_i_free(chains);
 }

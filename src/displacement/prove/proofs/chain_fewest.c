@@ -205,18 +205,18 @@ static bool try_chain(const sunder_i_chains *g, const sunder_i_chain_link *pair,
     return true;
 }
 
-bool sunder_i_chain_fewest(sunder_i_chains *g, const sunder_i_chain_link *pair, const sunder_i_half_plane *way,
+bool sunder_i_chain_fewest(sunder_i_chains *chains, const sunder_i_chain_link *pair, const sunder_i_half_plane *way,
                            sunder_i_pushing *chain, bool *found)
 {
     reach *of = sunder_i_alloc(2, sizeof *of);
     bool ok = of != NULL;
     *found = false;
-    if (ok) begin(g, &of[0], pair->j, way->n[0], way->n[1], -way->d - limit_of(g, pair->i));
-    if (ok) begin(g, &of[1], pair->i, -way->n[0], -way->n[1], -way->d - limit_of(g, pair->j));
+    if (ok) begin(chains, &of[0], pair->j, way->n[0], way->n[1], -way->d - limit_of(chains, pair->i));
+    if (ok) begin(chains, &of[1], pair->i, -way->n[0], -way->n[1], -way->d - limit_of(chains, pair->j));
     for (size_t n = 0; n <= FEWEST_MOST && ok && !*found; n++) {
         for (size_t right = 0; right <= n && ok && !*found; right++)
-            ok = try_chain(g, pair, way, of, right, n - right, chain, found);
-        if (n < FEWEST_MOST && ok && !*found) ok = go_on(g, &of[0], pair->i) && go_on(g, &of[1], pair->j);
+            ok = try_chain(chains, pair, way, of, right, n - right, chain, found);
+        if (n < FEWEST_MOST && ok && !*found) ok = go_on(chains, &of[0], pair->i) && go_on(chains, &of[1], pair->j);
     }
     sunder_i_free(of);
     return ok;

@@ -15,21 +15,21 @@ static double at(const double n[2], const double *u) { return n[0] * u[0] + n[1]
 
 /* ---- Ways that are left ------------------------------------------------------------------------------------------ */
 
-bool sunder_i_chain_is_open(const sunder_i_half_plane *w, double reach)
+bool sunder_i_chain_is_open(const sunder_i_half_plane *way, double reach)
 {
-    return w->d <= reach + CHAIN_HAIR * (reach + fabs(w->d));
+    return way->d <= reach + CHAIN_HAIR * (reach + fabs(way->d));
 }
 
 /* The farthest that a relative move within reach goes along the one, and not as far as the other says. */
-bool sunder_i_chain_is_open_behind(const sunder_i_half_plane *w, const sunder_i_half_plane *behind, double reach)
+bool sunder_i_chain_is_open_behind(const sunder_i_half_plane *way, const sunder_i_half_plane *behind, double reach)
 {
-    if (!sunder_i_chain_is_open(w, reach)) return false;
-    const double cosine = w->n[0] * behind->n[0] + w->n[1] * behind->n[1];
+    if (!sunder_i_chain_is_open(way, reach)) return false;
+    const double cosine = way->n[0] * behind->n[0] + way->n[1] * behind->n[1];
     if (behind->d < -reach) return false;
     if (reach * cosine <= behind->d) return true;
     const double sine = sqrt(sunder_i_max(0, 1 - cosine * cosine)),
                  across = sqrt(sunder_i_max(0, reach * reach - behind->d * behind->d));
-    return w->d <= behind->d * cosine + across * sine + CHAIN_HAIR * (reach + fabs(w->d));
+    return way->d <= behind->d * cosine + across * sine + CHAIN_HAIR * (reach + fabs(way->d));
 }
 
 bool sunder_i_chain_only_way(sunder_i_half_plane *way, size_t n, double reach)
@@ -78,17 +78,17 @@ static bool make_chord(const sunder_i_half_plane *way, size_t n, double reach, s
     return true;
 }
 
-size_t sunder_i_chain_ways(sunder_i_branching *c, size_t n, double reach)
+size_t sunder_i_chain_ways(sunder_i_branching *branching, size_t n, double reach)
 {
     sunder_i_half_plane chord;
-    if (sunder_i_chain_only_way(c->scratch, n, reach)) return n;
-    if (!make_chord(c->scratch, n, reach, &chord)) return 0;
-    if (!sunder_i_reserve(&c->scratch, &c->scratch_capacity, n + 1, sizeof *c->scratch)) {
-        c->failed = true;
+    if (sunder_i_chain_only_way(branching->scratch, n, reach)) return n;
+    if (!make_chord(branching->scratch, n, reach, &chord)) return 0;
+    if (!sunder_i_reserve(&branching->scratch, &branching->scratch_capacity, n + 1, sizeof *branching->scratch)) {
+        branching->failed = true;
         return 0;
     }
-    memmove(c->scratch + 1, c->scratch, n * sizeof *c->scratch);
-    c->scratch[0] = chord;
+    memmove(branching->scratch + 1, branching->scratch, n * sizeof *branching->scratch);
+    branching->scratch[0] = chord;
     return n + 1;
 }
 
@@ -99,11 +99,11 @@ static uint32_t *find(const sunder_i_chains *g, uint32_t body)
     return g->of.reserves ? bsearch(&body, g->of.reserve, g->of.reserves, sizeof body, sunder_i_by_number) : NULL;
 }
 
-void sunder_i_chains_stand(const sunder_i_chains *g, uint32_t body, double t[2])
+void sunder_i_chains_stand(const sunder_i_chains *chains, uint32_t body, double t[2])
 {
-    const bool moves = !g->all && find(g, body) && !g->of.model->body[body].fixed;
-    t[0] = moves ? g->of.model->move[2 * (size_t)body] : 0;
-    t[1] = moves ? g->of.model->move[2 * (size_t)body + 1] : 0;
+    const bool moves = !chains->all && find(chains, body) && !chains->of.model->body[body].fixed;
+    t[0] = moves ? chains->of.model->move[2 * (size_t)body] : 0;
+    t[1] = moves ? chains->of.model->move[2 * (size_t)body + 1] : 0;
 }
 
 /* Those that a body may meet, or that stand, in near, ascending. */
@@ -182,18 +182,18 @@ static bool link_bodies(sunder_i_chains *g, uint32_t i, uint32_t j)
     return true;
 }
 
-const sunder_i_chain_links *sunder_i_chains_find(sunder_i_chains *g, uint32_t body)
+const sunder_i_chain_links *sunder_i_chains_find(sunder_i_chains *chains, uint32_t body)
 {
     static const sunder_i_chain_links none = {.known = true};
-    const uint32_t *place = find(g, body);
+    const uint32_t *place = find(chains, body);
     if (!place) return &none;
-    sunder_i_chain_links *of = &g->body[place - g->of.reserve];
+    sunder_i_chain_links *of = &chains->body[place - chains->of.reserve];
     if (of->known) return of;
-    of->first = g->links;
-    if (!find_near(g, body)) return NULL;
-    for (size_t k = 0; k < g->branching.near.n; k++)
-        if (!link_bodies(g, body, g->branching.near.item[k])) return NULL;
-    of->n = g->links - of->first;
+    of->first = chains->links;
+    if (!find_near(chains, body)) return NULL;
+    for (size_t k = 0; k < chains->branching.near.n; k++)
+        if (!link_bodies(chains, body, chains->branching.near.item[k])) return NULL;
+    of->n = chains->links - of->first;
     of->known = true;
     return of;
 }

@@ -146,23 +146,23 @@ static void clear(sunder_i_branching *c)
     sunder_i_free(c->scratch);
 }
 
-sunder_proof *sunder_i_chain_prove(sunder_i_chains *g, const sunder_i_subproblem *subproblem,
+sunder_proof *sunder_i_chain_prove(sunder_i_chains *chains, const sunder_i_subproblem *subproblem,
                                    const sunder_i_chain_link *pair, const sunder_i_half_plane *way, size_t ways,
                                    const sunder_i_pushing *chain, size_t n, bool *failed)
 {
     sunder_i_subproblem of = *subproblem;
     sunder_i_branching c = {.subproblem = &of, .model = of.model};
     builder b = {.c = &c, .open = SIZE_MAX};
-    of.coarse = g->of.coarse;
+    of.coarse = chains->of.coarse;
     sunder_proof *proof = NULL;
     size_t *behind = sunder_i_alloc(n + 1, sizeof *behind);
-    if (must(&b, behind != NULL) && build(&b, g, pair, way, ways, chain, behind)) {
+    if (must(&b, behind != NULL) && build(&b, chains, pair, way, ways, chain, behind)) {
         proof = sunder_i_proof_of(&c, b.root);
         must(&b, proof != NULL);
     }
     sunder_i_free(behind);
     *failed = c.failed;
-    g->work += sunder_i_branching_work(&c);
+    chains->work += sunder_i_branching_work(&c);
     sunder_i_free(b.claim);
     clear(&c);
     return proof;

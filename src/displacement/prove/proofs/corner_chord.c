@@ -81,8 +81,8 @@ bool sunder_i_branching_make_chord(const double a[2], const double b[2], const d
     return is_behind(a, b, p, q, chord);
 }
 
-size_t sunder_i_branching_chord_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *anchor,
-                                     const sunder_i_body *q, const double chord[4])
+size_t sunder_i_branching_chord_ways(sunder_i_branching *branching, const sunder_i_body *p,
+                                     const sunder_i_body_piece *anchor, const sunder_i_body *q, const double chord[4])
 {
     double at[4];
     for (int k = 0; k < 4; k++) at[k] = chord[k] - q->origin[k & 1];
@@ -92,12 +92,12 @@ size_t sunder_i_branching_chord_ways(sunder_i_branching *c, const sunder_i_body 
                                       .nb = 2,
                                       .offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}};
     const size_t most = SUNDER_I_HALF_PLANES_A_CORNER * 3 + SUNDER_I_HALF_PLANES_MORE;
-    c->looked += most;
-    if (!sunder_i_reserve(&c->scratch, &c->scratch_capacity, most, sizeof *c->scratch)) {
-        c->failed = true;
+    branching->looked += most;
+    if (!sunder_i_reserve(&branching->scratch, &branching->scratch_capacity, most, sizeof *branching->scratch)) {
+        branching->failed = true;
         return 0;
     }
-    return sunder_i_half_planes_past(&parting, c->scratch);
+    return sunder_i_half_planes_past(&parting, branching->scratch);
 }
 
 /* ---- In the plane of one move ------------------------------------------------------------------------------------ */
@@ -149,20 +149,21 @@ static bool shuts(sunder_i_plane *g, const spoke *s, const spoke *r, const doubl
     return !g->c->failed && sunder_i_branching_depth(g->c, *ways, u) > 0;
 }
 
-const sunder_i_plane_obstacle *sunder_i_plane_find_chord(sunder_i_plane *g, const double u[2], sunder_i_chord *chord,
-                                                         size_t *ways)
+const sunder_i_plane_obstacle *sunder_i_plane_find_chord(sunder_i_plane *plane, const double u[2],
+                                                         sunder_i_chord *chord, size_t *ways)
 {
-    const struct sunder_i_plane_kept *kept = g->kept;
+    const struct sunder_i_plane_kept *kept = plane->kept;
     spoke spokes[SPOKES];
     size_t n = 0;
-    g->c->looked += g->obstacles;
-    for (size_t r = 0; r < g->runs; r++) {
-        const sunder_i_plane_run *run = &kept->run[g->run[r]];
+    plane->c->looked += plane->obstacles;
+    for (size_t r = 0; r < plane->runs; r++) {
+        const sunder_i_plane_run *run = &kept->run[plane->run[r]];
         if (!run->side) continue;
         for (size_t k = run->first; k < run->end && n < SPOKES; k++) {
-            if (kept->box[4 * k] > kept->box[4 * k + 2] || !find_spoke(g, &kept->obstacle[k], u, &spokes[n])) continue;
-            for (size_t i = 0; i < n && !g->c->failed; i++)
-                if (shuts(g, &spokes[i], &spokes[n], u, chord, ways)) return spokes[i].of;
+            if (kept->box[4 * k] > kept->box[4 * k + 2] || !find_spoke(plane, &kept->obstacle[k], u, &spokes[n]))
+                continue;
+            for (size_t i = 0; i < n && !plane->c->failed; i++)
+                if (shuts(plane, &spokes[i], &spokes[n], u, chord, ways)) return spokes[i].of;
             n++;
         }
     }

@@ -414,39 +414,40 @@ static bool choose(const looking *g, bool slack, sunder_i_corridor_wall out[2])
     return false;
 }
 
-sunder_status sunder_i_branching_find_corridor(sunder_i_branching *c, uint32_t body, sunder_error *err)
+sunder_status sunder_i_branching_find_corridor(sunder_i_branching *branching, uint32_t body, sunder_error *err)
 {
-    const sunder_i_model *model = c->model;
-    const sunder_i_subproblem *q = c->subproblem;
-    looking g = {.branching = c, .mover = body, .err = err};
+    const sunder_i_model *model = branching->model;
+    const sunder_i_subproblem *q = branching->subproblem;
+    looking g = {.branching = branching, .mover = body, .err = err};
     for (size_t k = 0; k < q->required_n && !g.status; k++)
         if (is_of(model, q->required[k].a, body) || is_of(model, q->required[k].b, body))
             look_at_requirement(&g, &q->required[k]);
-    if (!g.status && (choose(&g, false, c->wall) || choose(&g, true, c->wall))) {
-        c->walls = 2;
-        c->between = body;
+    if (!g.status && (choose(&g, false, branching->wall) || choose(&g, true, branching->wall))) {
+        branching->walls = 2;
+        branching->between = body;
     }
     sunder_i_free(g.line);
     return g.status;
 }
 
-size_t sunder_i_branching_wall_ways(sunder_i_branching *c, const sunder_i_corridor_wall *wall)
+size_t sunder_i_branching_wall_ways(sunder_i_branching *branching, const sunder_i_corridor_wall *wall)
 {
-    const sunder_i_body *p = &c->model->body[c->between], *q = &c->model->body[c->model->body_of[wall->b->feature]];
+    const sunder_i_body *p = &branching->model->body[branching->between],
+                        *q = &branching->model->body[branching->model->body_of[wall->b->feature]];
     const size_t n =
-        sunder_i_branching_fill_ways(c, p, wall->a, q, wall->b, wall->slack ? 0 : wall->clearance, false, NULL);
+        sunder_i_branching_fill_ways(branching, p, wall->a, q, wall->b, wall->slack ? 0 : wall->clearance, false, NULL);
     const double length = hypot(wall->n[0], wall->n[1]);
     size_t at = n;
     for (size_t k = 0; k < n; k++) {
-        const sunder_i_half_plane *w = &c->scratch[k];
+        const sunder_i_half_plane *w = &branching->scratch[k];
         const double sine = (w->n[0] * wall->n[1] - w->n[1] * wall->n[0]) / length;
-        if (dot(w->n, wall->n) > 0 && fabs(sine) < 0x1p-40 && fabs(w->d - wall->d / length) <= 4 * c->hair) {
+        if (dot(w->n, wall->n) > 0 && fabs(sine) < 0x1p-40 && fabs(w->d - wall->d / length) <= 4 * branching->hair) {
             if (at < n) return 0;
             at = k;
         }
     }
     if (at == n) return 0;
-    c->scratch[at] = c->scratch[0];
-    c->scratch[0] = (sunder_i_half_plane){.n = {wall->n[0], wall->n[1]}, .d = wall->d};
+    branching->scratch[at] = branching->scratch[0];
+    branching->scratch[0] = (sunder_i_half_plane){.n = {wall->n[0], wall->n[1]}, .d = wall->d};
     return n;
 }

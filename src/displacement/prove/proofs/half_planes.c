@@ -241,24 +241,25 @@ static void corner(const sunder_i_parting *p, size_t a, size_t b, double out[2])
     for (size_t c = 0; c < 2; c++) out[c] = p->a[2 * a + c] - p->b[2 * b + c] - p->offset[c];
 }
 
-size_t sunder_i_half_planes_between(const sunder_i_parting *p, sunder_i_half_plane *out)
+size_t sunder_i_half_planes_between(const sunder_i_parting *parting, sunder_i_half_plane *out)
 {
-    walk w = {.parting = p, .way = out, .holds = true};
+    walk w = {.parting = parting, .way = out, .holds = true};
     measure(&w);
     /* From the lowest corner of A less the highest of B, both sequences of edges turn from direction 0 to 2 pi. */
-    const size_t a0 = sunder_i_extreme_corner(p->a, p->na, 1), b0 = sunder_i_extreme_corner(p->b, p->nb, -1);
-    sunder_i_merge m = sunder_i_merge_of((uint32_t)p->na, (uint32_t)p->nb);
+    const size_t a0 = sunder_i_extreme_corner(parting->a, parting->na, 1),
+                 b0 = sunder_i_extreme_corner(parting->b, parting->nb, -1);
+    sunder_i_merge m = sunder_i_merge_of((uint32_t)parting->na, (uint32_t)parting->nb);
     run first = {.edges = 0}, last = first;
     double from[2], to[2];
-    corner(p, a0, b0, from);
+    corner(parting, a0, b0, from);
     for (;; from[0] = to[0], from[1] = to[1]) {
-        const size_t a = (a0 + m.next_a) % p->na, a1 = (a + 1) % p->na, b = (b0 + m.next_b) % p->nb,
-                     b1 = (b + 1) % p->nb;
-        const double u[2] = {p->a[2 * a1] - p->a[2 * a], p->a[2 * a1 + 1] - p->a[2 * a + 1]};
-        const double v[2] = {p->b[2 * b] - p->b[2 * b1], p->b[2 * b + 1] - p->b[2 * b1 + 1]};
+        const size_t a = (a0 + m.next_a) % parting->na, a1 = (a + 1) % parting->na, b = (b0 + m.next_b) % parting->nb,
+                     b1 = (b + 1) % parting->nb;
+        const double u[2] = {parting->a[2 * a1] - parting->a[2 * a], parting->a[2 * a1 + 1] - parting->a[2 * a + 1]};
+        const double v[2] = {parting->b[2 * b] - parting->b[2 * b1], parting->b[2 * b + 1] - parting->b[2 * b1 + 1]};
         if (!SUNDER_I_MERGE_NEXT(&m, sunder_i_turns_first(u, v) ? -1 : 1)) break;
         const double *e = m.of_a ? u : v, length = sqrt(dot(e, e));
-        corner(p, (a0 + m.next_a) % p->na, (b0 + m.next_b) % p->nb, to);
+        corner(parting, (a0 + m.next_a) % parting->na, (b0 + m.next_b) % parting->nb, to);
         if (!(length > 0)) continue;
         run now;
         begin_run(&now, from, to, &(side){{e[1] / length, -e[0] / length}, w.slack / length});

@@ -29,11 +29,11 @@ static size_t place_of(const sunder_i_body_piece *a, const sunder_i_body_piece *
     return (size_t)((mixed * UINT64_C(0xd1342543de82ef95)) >> (64 - WAYS_KEPT_BITS));
 }
 
-void sunder_i_branching_forget_ways(sunder_i_branching *c)
+void sunder_i_branching_forget_ways(sunder_i_branching *branching)
 {
-    for (size_t k = 0; k < (size_t)1 << WAYS_KEPT_BITS && c->kept; k++) sunder_i_free(c->kept[k].way);
-    sunder_i_free(c->kept);
-    c->kept = NULL;
+    for (size_t k = 0; k < (size_t)1 << WAYS_KEPT_BITS && branching->kept; k++) sunder_i_free(branching->kept[k].way);
+    sunder_i_free(branching->kept);
+    branching->kept = NULL;
 }
 
 /* Makes them, and keeps them here; false if memory is out. */
@@ -51,19 +51,19 @@ static bool keep(sunder_i_branching *c, struct sunder_i_half_planes_kept *here, 
     return true;
 }
 
-const sunder_i_half_plane *sunder_i_branching_keep_ways(sunder_i_branching *c, const sunder_i_body *p,
+const sunder_i_half_plane *sunder_i_branching_keep_ways(sunder_i_branching *branching, const sunder_i_body *p,
                                                         const sunder_i_body_piece *a, const sunder_i_body *q,
                                                         const sunder_i_body_piece *b, double clearance, bool shadow,
                                                         size_t *n)
 {
     const struct sunder_i_half_planes_kept asked = {.a = a, .b = b, .clearance = clearance, .shadow = shadow};
     *n = 0;
-    if (!c->kept) c->kept = sunder_i_calloc((size_t)1 << WAYS_KEPT_BITS, sizeof *c->kept);
-    struct sunder_i_half_planes_kept *here = c->kept ? &c->kept[place_of(a, b)] : NULL;
+    if (!branching->kept) branching->kept = sunder_i_calloc((size_t)1 << WAYS_KEPT_BITS, sizeof *branching->kept);
+    struct sunder_i_half_planes_kept *here = branching->kept ? &branching->kept[place_of(a, b)] : NULL;
     if (here && here->a == a && here->b == b && here->clearance == clearance && here->shadow == shadow) {
-        c->looked += a->corners + b->corners;
-    } else if (!here || !keep(c, here, p, q, &asked)) {
-        c->failed = true;
+        branching->looked += a->corners + b->corners;
+    } else if (!here || !keep(branching, here, p, q, &asked)) {
+        branching->failed = true;
         return NULL;
     }
     *n = here->n;

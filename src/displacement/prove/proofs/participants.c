@@ -20,10 +20,10 @@ static void set_scale(sunder_i_branching *c, const sunder_i_body *b, double limi
     c->hair = sunder_i_max(c->hair, sunder_i_max(c->longest * 0x1p-40, (size + c->model->rules.gap) * 0x1p-47));
 }
 
-uint32_t sunder_i_branching_place(const sunder_i_branching *c, uint32_t body)
+uint32_t sunder_i_branching_place(const sunder_i_branching *branching, uint32_t body)
 {
-    for (uint32_t k = 0; k < c->bodies; k++)
-        if (c->body[k] == body) return k;
+    for (uint32_t k = 0; k < branching->bodies; k++)
+        if (branching->body[k] == body) return k;
     return SUNDER_I_GROUND;
 }
 
@@ -47,13 +47,13 @@ static uint32_t add(sunder_i_branching *c, uint32_t body, double limit)
     return at;
 }
 
-uint32_t sunder_i_branching_join(sunder_i_branching *c, uint32_t body)
+uint32_t sunder_i_branching_join(sunder_i_branching *branching, uint32_t body)
 {
-    const uint32_t known = sunder_i_branching_place(c, body);
-    const double limit = sunder_i_branching_limit(c, &c->model->body[body]);
+    const uint32_t known = sunder_i_branching_place(branching, body);
+    const double limit = sunder_i_branching_limit(branching, &branching->model->body[body]);
     if (known != SUNDER_I_GROUND) return known;
-    set_scale(c, &c->model->body[body], limit);
-    return limit > 0 ? add(c, body, limit) : SUNDER_I_GROUND;
+    set_scale(branching, &branching->model->body[body], limit);
+    return limit > 0 ? add(branching, body, limit) : SUNDER_I_GROUND;
 }
 
 static bool is_overlap(const sunder_i_model *model, const sunder_i_requirement *r)
@@ -61,43 +61,45 @@ static bool is_overlap(const sunder_i_model *model, const sunder_i_requirement *
     return r->clearance < 0 && r->clearance > -INFINITY && sunder_i_is_barrier(model, r->b);
 }
 
-bool sunder_i_may_have_slack(const sunder_i_subproblem *q)
+bool sunder_i_may_have_slack(const sunder_i_subproblem *subproblem)
 {
-    for (size_t k = 0; k < q->required_n; k++)
-        if (is_overlap(q->model, &q->required[k])) return true;
+    for (size_t k = 0; k < subproblem->required_n; k++)
+        if (is_overlap(subproblem->model, &subproblem->required[k])) return true;
     return false;
 }
 
-uint32_t sunder_i_branching_slack(const sunder_i_branching *c, const sunder_i_requirement *required)
+uint32_t sunder_i_branching_slack(const sunder_i_branching *branching, const sunder_i_requirement *required)
 {
-    for (size_t k = 0; k < c->slacks; k++)
-        if (c->slack[k].required == required) return c->slack[k].place;
+    for (size_t k = 0; k < branching->slacks; k++)
+        if (branching->slack[k].required == required) return branching->slack[k].place;
     return SUNDER_I_GROUND;
 }
 
-uint32_t sunder_i_branching_join_slack(sunder_i_branching *c, const sunder_i_requirement *required)
+uint32_t sunder_i_branching_join_slack(sunder_i_branching *branching, const sunder_i_requirement *required)
 {
-    const uint32_t known = sunder_i_branching_slack(c, required);
+    const uint32_t known = sunder_i_branching_slack(branching, required);
     if (known != SUNDER_I_GROUND) return known;
-    if (!sunder_i_reserve(&c->slack, &c->slack_capacity, c->slacks + 1, sizeof *c->slack)) {
-        c->failed = true;
+    if (!sunder_i_reserve(&branching->slack, &branching->slack_capacity, branching->slacks + 1,
+                          sizeof *branching->slack)) {
+        branching->failed = true;
         return 0;
     }
-    c->longest = sunder_i_max(c->longest, -required->clearance);
-    c->hair = sunder_i_max(c->hair, c->longest * 0x1p-40);
-    const uint32_t place = add(c, SUNDER_I_NOBODY, -required->clearance);
-    if (c->failed) return 0;
-    c->slack[c->slacks++] = (sunder_i_slack){required, place};
-    sunder_i_branching_begin(c, place);
+    branching->longest = sunder_i_max(branching->longest, -required->clearance);
+    branching->hair = sunder_i_max(branching->hair, branching->longest * 0x1p-40);
+    const uint32_t place = add(branching, SUNDER_I_NOBODY, -required->clearance);
+    if (branching->failed) return 0;
+    branching->slack[branching->slacks++] = (sunder_i_slack){required, place};
+    sunder_i_branching_begin(branching, place);
     return place;
 }
 
-void sunder_i_branching_begin(sunder_i_branching *c, size_t first)
+void sunder_i_branching_begin(sunder_i_branching *branching, size_t first)
 {
-    memset(c->t + 2 * first, 0, 2 * (c->bodies - first) * sizeof *c->t);
-    for (size_t k = 0; k < c->slacks; k++)
-        if (c->slack[k].place >= first)
-            memcpy(c->t + 2 * (size_t)c->slack[k].place, c->slack[k].required->shift, 2 * sizeof *c->t);
+    memset(branching->t + 2 * first, 0, 2 * (branching->bodies - first) * sizeof *branching->t);
+    for (size_t k = 0; k < branching->slacks; k++)
+        if (branching->slack[k].place >= first)
+            memcpy(branching->t + 2 * (size_t)branching->slack[k].place, branching->slack[k].required->shift,
+                   2 * sizeof *branching->t);
 }
 
 /* Could the two, moving as far as they may, come nearer than the gap? By their boxes. */
@@ -134,15 +136,17 @@ static bool find_in_reach(sunder_i_branching *c, uint32_t of)
     return true;
 }
 
-bool sunder_i_branching_widen(sunder_i_branching *c)
+bool sunder_i_branching_widen(sunder_i_branching *branching)
 {
-    const size_t before = c->bodies;
-    c->near.n = 0;
-    for (size_t i = 0; i < before && c->subproblem->reserves && !c->failed; i++)
-        if (c->body[i] != SUNDER_I_NOBODY && !find_in_reach(c, c->body[i])) c->failed = true;
-    c->near.n = sunder_i_set_make(c->near.item, c->near.n);
-    for (size_t k = 0; k < c->near.n && !c->failed; k++) sunder_i_branching_join(c, c->near.item[k]);
-    return c->bodies > before;
+    const size_t before = branching->bodies;
+    branching->near.n = 0;
+    for (size_t i = 0; i < before && branching->subproblem->reserves && !branching->failed; i++)
+        if (branching->body[i] != SUNDER_I_NOBODY && !find_in_reach(branching, branching->body[i]))
+            branching->failed = true;
+    branching->near.n = sunder_i_set_make(branching->near.item, branching->near.n);
+    for (size_t k = 0; k < branching->near.n && !branching->failed; k++)
+        sunder_i_branching_join(branching, branching->near.item[k]);
+    return branching->bodies > before;
 }
 
 static bool is_heeded(const sunder_i_branching *c, uint32_t f)
@@ -160,30 +164,30 @@ static bool can_move(const sunder_i_branching *c, uint32_t f, uint32_t g, double
     return p != r && *reach > 0 && isfinite(*reach);
 }
 
-bool sunder_i_branching_is_way_heeded(const sunder_i_branching *c, uint32_t f)
+bool sunder_i_branching_is_way_heeded(const sunder_i_branching *branching, uint32_t f)
 {
-    const sunder_i_subproblem *q = c->subproblem;
+    const sunder_i_subproblem *q = branching->subproblem;
     for (size_t k = 0; k < q->bodies && q->every_way; k++)
-        if (q->body[k] == c->model->body_of[f]) return true;
-    return is_heeded(c, f);
+        if (q->body[k] == branching->model->body_of[f]) return true;
+    return is_heeded(branching, f);
 }
 
-bool sunder_i_branching_shades(const sunder_i_branching *c, uint32_t f, uint32_t g)
+bool sunder_i_branching_shades(const sunder_i_branching *branching, uint32_t f, uint32_t g)
 {
-    const bool side = sunder_i_is_barrier(c->model, g);
+    const bool side = sunder_i_is_barrier(branching->model, g);
     double reach;
-    return can_move(c, f, g, &reach) && sunder_i_branching_is_way_heeded(c, f) &&
-           ((side && c->subproblem->every_side) || sunder_i_branching_is_way_heeded(c, g)) &&
-           (side || !sunder_i_is_held(c->model, f, g));
+    return can_move(branching, f, g, &reach) && sunder_i_branching_is_way_heeded(branching, f) &&
+           ((side && branching->subproblem->every_side) || sunder_i_branching_is_way_heeded(branching, g)) &&
+           (side || !sunder_i_is_held(branching->model, f, g));
 }
 
-bool sunder_i_branching_owe(const sunder_i_branching *c, uint32_t f, uint32_t g, double *clearance)
+bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uint32_t g, double *clearance)
 {
-    const sunder_i_model *model = c->model;
-    const sunder_i_subproblem *q = c->subproblem;
+    const sunder_i_model *model = branching->model;
+    const sunder_i_subproblem *q = branching->subproblem;
     const uint32_t whole[2] = {sunder_i_whole_of(model, f), sunder_i_whole_of(model, g)};
     double reach;
-    if (!can_move(c, f, g, &reach) || !is_heeded(c, f) || !is_heeded(c, g)) return false;
+    if (!can_move(branching, f, g, &reach) || !is_heeded(branching, f) || !is_heeded(branching, g)) return false;
     if (!sunder_i_is_barrier(model, f > g ? f : g) &&
         sunder_i_may_get_inside(&model->rules, sunder_i_home_box(model, f), sunder_i_home_box(model, g),
                                 nextafter(reach, INFINITY)))

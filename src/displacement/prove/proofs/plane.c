@@ -285,13 +285,13 @@ static void end(sunder_i_branching *c, sunder_i_plane *g, sunder_i_planes *own, 
     sunder_i_plane_choices_free(&g->made);
 }
 
-sunder_status sunder_i_branching_plane(sunder_i_branching *c, sunder_i_plane_answer *answer, sunder_error *err)
+sunder_status sunder_i_branching_plane(sunder_i_branching *branching, sunder_i_plane_answer *answer, sunder_error *err)
 {
     *answer = (sunder_i_plane_answer){.verdict = SUNDER_I_UNKNOWN};
-    sunder_i_plane g = {.c = c};
+    sunder_i_plane g = {.c = branching};
     sunder_i_planes own = {0};
-    if (!find_bodies(c, &g)) return SUNDER_OK;
-    const bool ok = begin(c, &g, &own) && sunder_i_plane_choices_begin(&g);
+    if (!find_bodies(branching, &g)) return SUNDER_OK;
+    const bool ok = begin(branching, &g, &own) && sunder_i_plane_choices_begin(&g);
     sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
     if (ok) {
         sunder_i_levels levels;
@@ -300,32 +300,32 @@ sunder_status sunder_i_branching_plane(sunder_i_branching *c, sunder_i_plane_ans
         if (!status && !sunder_i_plane_choices_end(&g, answer->verdict == SUNDER_I_INFEASIBLE))
             status = sunder_i_no_memory(err);
     }
-    end(c, &g, &own, answer);
+    end(branching, &g, &own, answer);
     return status;
 }
 
-sunder_status sunder_i_branching_plane_try(sunder_i_branching *c, const double (*at)[2], size_t n,
+sunder_status sunder_i_branching_plane_try(sunder_i_branching *branching, const double (*at)[2], size_t n,
                                            sunder_i_plane_answer *answer, sunder_error *err)
 {
     *answer = (sunder_i_plane_answer){.verdict = SUNDER_I_UNKNOWN};
-    sunder_i_plane g = {.c = c};
+    sunder_i_plane g = {.c = branching};
     sunder_i_planes own = {0};
-    if (!n || !find_bodies(c, &g)) return SUNDER_OK;
-    const bool ok = begin(c, &g, &own);
-    for (size_t k = 0; k < n && ok && !c->failed && answer->verdict == SUNDER_I_UNKNOWN; k++) {
+    if (!n || !find_bodies(branching, &g)) return SUNDER_OK;
+    const bool ok = begin(branching, &g, &own);
+    for (size_t k = 0; k < n && ok && !branching->failed && answer->verdict == SUNDER_I_UNKNOWN; k++) {
         if (!sunder_i_plane_is_free(&g, at[k])) continue;
         answer->verdict = SUNDER_I_FEASIBLE;
         memcpy(g.free, at[k], sizeof g.free);
     }
-    const sunder_status status = ok && !c->failed ? SUNDER_OK : sunder_i_no_memory(err);
-    end(c, &g, &own, answer);
+    const sunder_status status = ok && !branching->failed ? SUNDER_OK : sunder_i_no_memory(err);
+    end(branching, &g, &own, answer);
     return status;
 }
 
-bool sunder_i_branching_plane_bodies(const sunder_i_branching *c, uint32_t *p, uint32_t *q)
+bool sunder_i_branching_plane_bodies(const sunder_i_branching *branching, uint32_t *p, uint32_t *q)
 {
     sunder_i_plane g = {.c = NULL};
-    if (!find_bodies(c, &g)) return false;
+    if (!find_bodies(branching, &g)) return false;
     *p = g.p;
     *q = g.q;
     return true;

@@ -35,41 +35,43 @@ static size_t count_fresh(const sunder_i_plane *g, const sunder_i_plane_choices 
     return n;
 }
 
-bool sunder_i_plane_choices_begin(sunder_i_plane *g)
+bool sunder_i_plane_choices_begin(sunder_i_plane *plane)
 {
-    struct sunder_i_plane_kept *kept = g->kept;
-    sunder_i_plane_choices *made = &g->made;
-    if (g->obstacles > kept->most_asked) kept->most_asked = g->obstacles;
+    struct sunder_i_plane_kept *kept = plane->kept;
+    sunder_i_plane_choices *made = &plane->made;
+    if (plane->obstacles > kept->most_asked) kept->most_asked = plane->obstacles;
     if (!sunder_i_reserve(&made->region, &made->region_capacity, 1, sizeof *made->region)) return false;
     made->region[made->regions++] = SUNDER_I_NO_CHOICE;
-    for (size_t k = 2; k-- > 0 && !g->known;)
-        if (kept->proofs[k].n && count_fresh(g, &kept->proofs[k]) <= g->obstacles / PLANE_FRESH)
-            g->known = &kept->proofs[k];
+    for (size_t k = 2; k-- > 0 && !plane->known;)
+        if (kept->proofs[k].n && count_fresh(plane, &kept->proofs[k]) <= plane->obstacles / PLANE_FRESH)
+            plane->known = &kept->proofs[k];
     bool ok = true;
-    for (size_t k = 0; k < g->runs && g->known && ok; k++)
-        if (is_fresh(g->known, g->run[k]))
-            ok = sunder_i_plane_index_list(kept, &kept->run[g->run[k]], &g->fresh, &g->freshes, &g->fresh_capacity);
+    for (size_t k = 0; k < plane->runs && plane->known && ok; k++)
+        if (is_fresh(plane->known, plane->run[k]))
+            ok = sunder_i_plane_index_list(kept, &kept->run[plane->run[k]], &plane->fresh, &plane->freshes,
+                                           &plane->fresh_capacity);
     return ok;
 }
 
-const sunder_i_plane_choice *sunder_i_plane_choices_known(const sunder_i_plane *g, uint32_t region)
+const sunder_i_plane_choice *sunder_i_plane_choices_known(const sunder_i_plane *plane, uint32_t region)
 {
-    if (!g->known || region == SUNDER_I_NO_CHOICE || g->known->region[region] == SUNDER_I_NO_CHOICE) return NULL;
-    const sunder_i_plane_choice *choice = &g->known->choice[g->known->region[region]];
+    if (!plane->known || region == SUNDER_I_NO_CHOICE || plane->known->region[region] == SUNDER_I_NO_CHOICE)
+        return NULL;
+    const sunder_i_plane_choice *choice = &plane->known->choice[plane->known->region[region]];
     if (choice->obstacle == SUNDER_I_NO_CHOICE) return choice;
-    return g->kept->run[g->kept->obstacle[choice->obstacle].run].asked ? choice : NULL;
+    return plane->kept->run[plane->kept->obstacle[choice->obstacle].run].asked ? choice : NULL;
 }
 
-uint32_t sunder_i_plane_choices_below(const sunder_i_plane *g, uint32_t region, uint32_t obstacle)
+uint32_t sunder_i_plane_choices_below(const sunder_i_plane *plane, uint32_t region, uint32_t obstacle)
 {
-    const sunder_i_plane_choice *choice = sunder_i_plane_choices_known(g, region);
+    const sunder_i_plane_choice *choice = sunder_i_plane_choices_known(plane, region);
     return choice && choice->obstacle == obstacle ? choice->below : SUNDER_I_NO_CHOICE;
 }
 
-bool sunder_i_plane_choices_add(sunder_i_plane *g, uint32_t region, uint32_t obstacle, size_t ways, double share,
+bool sunder_i_plane_choices_add(sunder_i_plane *plane, uint32_t region, uint32_t obstacle, size_t ways, double share,
                                 uint32_t *below)
 {
-    sunder_i_plane_choices *made = &g->made;
+    sunder_i_plane_choices *made = &plane->made;
     if (region == SUNDER_I_NO_CHOICE) {
         *below = SUNDER_I_NO_CHOICE;
         return true;
@@ -84,15 +86,15 @@ bool sunder_i_plane_choices_add(sunder_i_plane *g, uint32_t region, uint32_t obs
     return true;
 }
 
-bool sunder_i_plane_choices_end(sunder_i_plane *g, bool proved)
+bool sunder_i_plane_choices_end(sunder_i_plane *plane, bool proved)
 {
-    struct sunder_i_plane_kept *kept = g->kept;
-    sunder_i_plane_choices *made = &g->made;
+    struct sunder_i_plane_kept *kept = plane->kept;
+    sunder_i_plane_choices *made = &plane->made;
     if (!proved || !made->n) return true;
     if (!sunder_i_reserve(&made->asked, &made->run_capacity, kept->runs, sizeof *made->asked)) return false;
     for (size_t k = 0; k < kept->runs; k++) made->asked[k] = kept->run[k].asked;
     made->runs = kept->runs;
-    sunder_i_plane_choices *to = &kept->proofs[2 * g->obstacles < kept->most_asked ? FEW : MANY];
+    sunder_i_plane_choices *to = &kept->proofs[2 * plane->obstacles < kept->most_asked ? FEW : MANY];
     sunder_i_plane_choices_free(to);
     *to = *made;
     memset(made, 0, sizeof *made);

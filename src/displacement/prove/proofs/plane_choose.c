@@ -59,34 +59,34 @@ static void weigh(sunder_i_plane *g, const sunder_i_plane_region *r, const doubl
     to->best = o;
 }
 
-const sunder_i_plane_obstacle *sunder_i_plane_choose(sunder_i_plane *g, const sunder_i_plane_region *r,
+const sunder_i_plane_obstacle *sunder_i_plane_choose(sunder_i_plane *plane, const sunder_i_plane_region *region,
                                                      const double u[2], const sunder_i_plane_choice *known,
                                                      double *share)
 {
-    sunder_i_branching *c = g->c;
+    sunder_i_branching *c = plane->c;
     choice to = {.share = -1};
     sunder_i_box_clear(to.box);
-    for (uint32_t k = 0; k < r->n; k++) sunder_i_box_include(to.box, r->xy + 2 * k);
-    to.whole = sunder_i_plane_area(r) * (1 - 0x1p-30); /* a piece that covers this much covers all */
-    if (g->thin) to.about = 2 * SLIVER * g->reach;     /* what begins in a seam does not cover it */
+    for (uint32_t k = 0; k < region->n; k++) sunder_i_box_include(to.box, region->xy + 2 * k);
+    to.whole = sunder_i_plane_area(region) * (1 - 0x1p-30); /* a piece that covers this much covers all */
+    if (plane->thin) to.about = 2 * SLIVER * plane->reach;  /* what begins in a seam does not cover it */
     if (known) {
         to.share = known->share;
-        to.best = known->obstacle == SUNDER_I_NO_CHOICE ? NULL : &g->kept->obstacle[known->obstacle];
-        for (size_t k = 0; k < g->freshes; k++)
-            if (sunder_i_plane_is_in(g->fresh[k].box, u)) weigh(g, r, u, &g->fresh[k], &to);
-    } else if (sunder_i_plane_index_find(g, u)) {
-        for (size_t k = 0; k < g->about_place; k++) weigh(g, r, u, g->place[k], &to);
+        to.best = known->obstacle == SUNDER_I_NO_CHOICE ? NULL : &plane->kept->obstacle[known->obstacle];
+        for (size_t k = 0; k < plane->freshes; k++)
+            if (sunder_i_plane_is_in(plane->fresh[k].box, u)) weigh(plane, region, u, &plane->fresh[k], &to);
+    } else if (sunder_i_plane_index_find(plane, u)) {
+        for (size_t k = 0; k < plane->about_place; k++) weigh(plane, region, u, plane->place[k], &to);
     } else {
         c->failed = true;
     }
-    c->looked += PLACE_LOOK + g->obstacles / BOXES_A_STEP;
+    c->looked += PLACE_LOOK + plane->obstacles / BOXES_A_STEP;
     *share = to.share;
     if (!to.best || c->failed) return NULL;
     if (!sunder_i_reserve(&c->scratch, &c->scratch_capacity, to.best->ways, sizeof *c->scratch)) {
         c->failed = true;
         return NULL;
     }
-    memcpy(c->scratch, g->kept->way + to.best->way, to.best->ways * sizeof *c->scratch);
+    memcpy(c->scratch, plane->kept->way + to.best->way, to.best->ways * sizeof *c->scratch);
     return to.best;
 }
 
@@ -104,27 +104,27 @@ static bool holds_closely(sunder_i_plane *g, size_t at, const double u[2], size_
     return c->failed || sunder_i_branching_depth(c, *ways, u) > 2 * c->hair;
 }
 
-const sunder_i_plane_obstacle *sunder_i_plane_choose_closely(sunder_i_plane *g, const double u[2], size_t *ways)
+const sunder_i_plane_obstacle *sunder_i_plane_choose_closely(sunder_i_plane *plane, const double u[2], size_t *ways)
 {
-    const struct sunder_i_plane_kept *kept = g->kept;
-    for (size_t r = 0; r < g->runs; r++) {
-        const sunder_i_plane_run *run = &kept->run[g->run[r]];
+    const struct sunder_i_plane_kept *kept = plane->kept;
+    for (size_t r = 0; r < plane->runs; r++) {
+        const sunder_i_plane_run *run = &kept->run[plane->run[r]];
         if (run->shadow || !(run->clearance > 0)) continue;
         for (size_t k = run->first; k < run->end; k++)
-            if (kept->box[4 * k] <= kept->box[4 * k + 2] && holds_closely(g, k, u, ways)) return &kept->obstacle[k];
+            if (kept->box[4 * k] <= kept->box[4 * k + 2] && holds_closely(plane, k, u, ways)) return &kept->obstacle[k];
     }
     return NULL;
 }
 
-bool sunder_i_plane_is_free(sunder_i_plane *g, const double u[2])
+bool sunder_i_plane_is_free(sunder_i_plane *plane, const double u[2])
 {
     sunder_i_chord chord;
     size_t ways;
-    if (hypot(u[0], u[1]) > g->reach) return false;
-    if (!sunder_i_plane_index_find(g, u)) g->c->failed = true;
-    g->c->looked += PLACE_LOOK + g->obstacles / BOXES_A_STEP;
-    for (size_t k = 0; k < g->about_place && !g->c->failed; k++)
-        if (holds(g, g->place[k], u, 0)) return false;
-    return !g->c->failed && !sunder_i_plane_find_chord(g, u, &chord, &ways) &&
-           !sunder_i_plane_choose_closely(g, u, &ways);
+    if (hypot(u[0], u[1]) > plane->reach) return false;
+    if (!sunder_i_plane_index_find(plane, u)) plane->c->failed = true;
+    plane->c->looked += PLACE_LOOK + plane->obstacles / BOXES_A_STEP;
+    for (size_t k = 0; k < plane->about_place && !plane->c->failed; k++)
+        if (holds(plane, plane->place[k], u, 0)) return false;
+    return !plane->c->failed && !sunder_i_plane_find_chord(plane, u, &chord, &ways) &&
+           !sunder_i_plane_choose_closely(plane, u, &ways);
 }

@@ -66,11 +66,11 @@ static bool list_all(sunder_i_plane *g)
     return true;
 }
 
-bool sunder_i_plane_index_begin(sunder_i_plane *g)
+bool sunder_i_plane_index_begin(sunder_i_plane *plane)
 {
-    struct sunder_i_plane_kept *kept = g->kept;
-    g->are_few = g->obstacles <= PLANE_FEW || g->obstacles < kept->items / PLANE_PART;
-    if (g->are_few) return list_all(g);
+    struct sunder_i_plane_kept *kept = plane->kept;
+    plane->are_few = plane->obstacles <= PLANE_FEW || plane->obstacles < kept->items / PLANE_PART;
+    if (plane->are_few) return list_all(plane);
     if (kept->items - kept->tree.n > PLANE_FEW + kept->tree.n / PLANE_LATE && !build(kept)) return false;
     return true;
 }
@@ -111,13 +111,14 @@ static void walk_tree(sunder_i_plane *g, const double u[2])
     take(g, kept->item + tree->n, kept->item + kept->items, u);
 }
 
-bool sunder_i_plane_index_find(sunder_i_plane *g, const double u[2])
+bool sunder_i_plane_index_find(sunder_i_plane *plane, const double u[2])
 {
-    if (!sunder_i_reserve(&g->place, &g->place_capacity, g->obstacles + 1, sizeof *g->place)) return false;
-    g->about_place = 0;
-    if (g->are_few)
-        take_few(g, u);
+    if (!sunder_i_reserve(&plane->place, &plane->place_capacity, plane->obstacles + 1, sizeof *plane->place))
+        return false;
+    plane->about_place = 0;
+    if (plane->are_few)
+        take_few(plane, u);
     else
-        walk_tree(g, u);
+        walk_tree(plane, u);
     return true;
 }

@@ -31,12 +31,12 @@ static bool is_of(const struct sunder_i_plane_kept *kept, const sunder_i_plane *
 }
 
 /* The most recently used one stands first. */
-struct sunder_i_plane_kept *sunder_i_planes_take(sunder_i_planes *planes, const sunder_i_plane *g)
+struct sunder_i_plane_kept *sunder_i_planes_take(sunder_i_planes *planes, const sunder_i_plane *plane)
 {
     size_t at = 0;
-    while (at + 1 < SUNDER_I_PLANES_KEPT && planes->plane[at] && !is_of(planes->plane[at], g)) at++;
+    while (at + 1 < SUNDER_I_PLANES_KEPT && planes->plane[at] && !is_of(planes->plane[at], plane)) at++;
     struct sunder_i_plane_kept *found = planes->plane[at];
-    if (found && !is_of(found, g)) {
+    if (found && !is_of(found, plane)) {
         free_kept(found);
         found = NULL;
     }
@@ -45,10 +45,10 @@ struct sunder_i_plane_kept *sunder_i_planes_take(sunder_i_planes *planes, const 
     if (found) return found;
     found = sunder_i_calloc(1, sizeof *found);
     if (!found) return NULL;
-    found->p = g->p;
-    found->q = g->q;
-    found->reach = g->reach;
-    found->coarse = g->c->subproblem->coarse;
+    found->p = plane->p;
+    found->q = plane->q;
+    found->reach = plane->reach;
+    found->coarse = plane->c->subproblem->coarse;
     planes->plane[0] = found;
-    return sunder_i_plane_find(g, found) ? found : NULL;
+    return sunder_i_plane_find(plane, found) ? found : NULL;
 }

@@ -196,10 +196,10 @@ static bool join_runs(struct sunder_i_plane_kept *kept)
     return true;
 }
 
-bool sunder_i_plane_find(const sunder_i_plane *g, struct sunder_i_plane_kept *kept)
+bool sunder_i_plane_find(const sunder_i_plane *plane, struct sunder_i_plane_kept *kept)
 {
-    const finding w = {g->c->model, g->p, g->reach, kept};
-    return (g->q == SUNDER_I_GROUND ? find_on_ground(&w) : find_beside(&w, g->q)) && join_runs(kept) &&
+    const finding w = {plane->c->model, plane->p, plane->reach, kept};
+    return (plane->q == SUNDER_I_GROUND ? find_on_ground(&w) : find_beside(&w, plane->q)) && join_runs(kept) &&
            sunder_i_reserve(&kept->box, &kept->box_capacity, 4 * kept->n, sizeof *kept->box);
 }
 
@@ -207,20 +207,21 @@ bool sunder_i_plane_find(const sunder_i_plane *g, struct sunder_i_plane_kept *ke
 
 /* A box such that every relative move within the limits outside of it is behind all ways of an obstacle: its ways cover
  * A + (-B) with its clearance, or its shadow, i.e. the part of it up to a bounded multiple of its distance. */
-void sunder_i_plane_bound(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, double clearance, double box[4])
+void sunder_i_plane_bound(const sunder_i_plane *plane, const sunder_i_plane_obstacle *obstacle, double clearance,
+                          double box[4])
 {
-    const sunder_i_body *body = g->c->model->body;
-    const double far = g->disc.xy[0] * (1 + 0x1p-20);
+    const sunder_i_body *body = plane->c->model->body;
+    const double far = plane->disc.xy[0] * (1 + 0x1p-20);
     double square = 0;
     for (uint32_t x = 0; x < 2; x++) {
-        const double offset = body[o->q].origin[x] - body[g->p].origin[x];
-        box[x] = o->a->box[x] - o->b->box[x + 2] - offset;
-        box[x + 2] = o->a->box[x + 2] - o->b->box[x] - offset;
+        const double offset = body[obstacle->q].origin[x] - body[plane->p].origin[x];
+        box[x] = obstacle->a->box[x] - obstacle->b->box[x + 2] - offset;
+        box[x + 2] = obstacle->a->box[x + 2] - obstacle->b->box[x] - offset;
         const double off = sunder_i_max(sunder_i_max(box[x], -box[x + 2]), 0);
         square += off * off;
     }
-    const double times = o->shadow ? far / sqrt(square) : 1,
-                 margin = sunder_i_max(o->shadow ? 0 : clearance, 0) + BOX_MARGIN * far;
+    const double times = obstacle->shadow ? far / sqrt(square) : 1,
+                 margin = sunder_i_max(obstacle->shadow ? 0 : clearance, 0) + BOX_MARGIN * far;
     for (uint32_t x = 0; x < 2; x++) {
         if (times > 1) {
             if (box[x] < 0) box[x] *= times;
@@ -248,28 +249,28 @@ static bool is_within_reach(const sunder_i_plane *g, size_t ways, double box[4])
     return ways > 0;
 }
 
-bool sunder_i_plane_make_ways(sunder_i_plane *g, size_t at)
+bool sunder_i_plane_make_ways(sunder_i_plane *plane, size_t at)
 {
-    struct sunder_i_plane_kept *kept = g->kept;
-    const sunder_i_model *model = g->c->model;
+    struct sunder_i_plane_kept *kept = plane->kept;
+    const sunder_i_model *model = plane->c->model;
     sunder_i_plane_obstacle *o = &kept->obstacle[at];
-    const uint64_t looked = g->c->looked;
+    const uint64_t looked = plane->c->looked;
     double box[4];
-    const size_t ways = sunder_i_branching_fill_ways(g->c, &model->body[g->p], o->a, &model->body[o->q], o->b,
+    const size_t ways = sunder_i_branching_fill_ways(plane->c, &model->body[plane->p], o->a, &model->body[o->q], o->b,
                                                      o->clearance, o->shadow, NULL);
-    g->c->looked = looked; /* it was counted when it was listed */
+    plane->c->looked = looked; /* it was counted when it was listed */
     o->made = true;
     o->ways = 0;
-    if (g->c->failed || !is_within_reach(g, ways, box)) return !g->c->failed;
+    if (plane->c->failed || !is_within_reach(plane, ways, box)) return !plane->c->failed;
     if (!sunder_i_reserve(&kept->way, &kept->way_capacity, kept->ways + ways, sizeof *kept->way)) {
-        g->c->failed = true;
+        plane->c->failed = true;
         return false;
     }
     memcpy(kept->box + 4 * at, box, sizeof box);
     o->way = kept->ways;
     o->ways = ways;
     kept->ways += ways;
-    memcpy(kept->way + o->way, g->c->scratch, ways * sizeof *kept->way);
+    memcpy(kept->way + o->way, plane->c->scratch, ways * sizeof *kept->way);
     return true;
 }
 
@@ -334,10 +335,10 @@ static bool list_run(sunder_i_plane *g, size_t at, double clearance)
     return true;
 }
 
-bool sunder_i_plane_list(sunder_i_plane *g)
+bool sunder_i_plane_list(sunder_i_plane *plane)
 {
-    sunder_i_branching *c = g->c;
-    struct sunder_i_plane_kept *kept = g->kept;
+    sunder_i_branching *c = plane->c;
+    struct sunder_i_plane_kept *kept = plane->kept;
     const sunder_i_subproblem *asked = c->subproblem;
     const bool sides = !asked->any_way, jumps = sides && !asked->any_jump;
     bool ok = true, heeded = false;
@@ -350,7 +351,7 @@ bool sunder_i_plane_list(sunder_i_plane *g)
         if (!heeded || (run->shadow && !(run->side ? sides : jumps))) continue;
         if (run->shadow ? sunder_i_branching_shades(c, run->f, run->g)
                         : sunder_i_branching_owe(c, run->f, run->g, &clearance))
-            ok = list_run(g, k, clearance);
+            ok = list_run(plane, k, clearance);
     }
     return ok;
 }

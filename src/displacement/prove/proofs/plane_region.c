@@ -8,24 +8,24 @@
 
 #define TURN 6.28318530717958647692
 
-void sunder_i_plane_disc(sunder_i_plane_region *r, double radius)
+void sunder_i_plane_disc(sunder_i_plane_region *region, double radius)
 {
     const double far = radius / cos(TURN / (2 * PLANE_SIDES));
-    r->n = PLANE_SIDES;
+    region->n = PLANE_SIDES;
     for (int k = 0; k < PLANE_SIDES; k++) {
-        r->xy[2 * k] = far * cos(TURN * k / PLANE_SIDES);
-        r->xy[2 * k + 1] = far * sin(TURN * k / PLANE_SIDES);
-        r->claim[k] = SUNDER_I_NO_CLAIM;
+        region->xy[2 * k] = far * cos(TURN * k / PLANE_SIDES);
+        region->xy[2 * k + 1] = far * sin(TURN * k / PLANE_SIDES);
+        region->claim[k] = SUNDER_I_NO_CLAIM;
     }
 }
 
-bool sunder_i_plane_clip(sunder_i_plane_region *r, const double n[2], double d, uint32_t claim, uint32_t by[2])
+bool sunder_i_plane_clip(sunder_i_plane_region *region, const double n[2], double d, uint32_t claim, uint32_t by[2])
 {
     double at[PLANE_CORNERS], greatest = -INFINITY;
     uint32_t nearest = 0;
     bool cut = false;
-    for (uint32_t k = 0; k < r->n; k++) {
-        at[k] = sunder_i_plane_at(n, r->xy + 2 * k);
+    for (uint32_t k = 0; k < region->n; k++) {
+        at[k] = sunder_i_plane_at(n, region->xy + 2 * k);
         cut = cut || !(at[k] - d >= 0);
         if (!(at[k] > greatest)) continue;
         greatest = at[k];
@@ -34,42 +34,43 @@ bool sunder_i_plane_clip(sunder_i_plane_region *r, const double n[2], double d, 
     if (!cut) return true;
     sunder_i_plane_region out;
     out.n = 0;
-    for (uint32_t k = 0; k < r->n; k++) {
-        const double *u = r->xy + 2 * k, *v = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
-        const double s = at[k] - d, t = at[k + 1 < r->n ? k + 1 : 0] - d;
+    for (uint32_t k = 0; k < region->n; k++) {
+        const double *u = region->xy + 2 * k, *v = region->xy + 2 * (k + 1 < region->n ? k + 1 : 0);
+        const double s = at[k] - d, t = at[k + 1 < region->n ? k + 1 : 0] - d;
         if (out.n + 2 > PLANE_CORNERS) return true; /* too many corners: it is left as large as it was */
         if (s >= 0) {
             memcpy(out.xy + 2 * out.n, u, 2 * sizeof *u);
-            out.claim[out.n++] = s == 0 && t < 0 ? claim : r->claim[k];
+            out.claim[out.n++] = s == 0 && t < 0 ? claim : region->claim[k];
         }
         if ((s > 0 && t < 0) || (s < 0 && t > 0)) {
             const double share = s / (s - t);
             for (size_t x = 0; x < 2; x++) out.xy[2 * out.n + x] = u[x] + share * (v[x] - u[x]);
-            out.claim[out.n++] = s > 0 ? claim : r->claim[k];
+            out.claim[out.n++] = s > 0 ? claim : region->claim[k];
         }
     }
-    by[0] = r->claim[nearest ? nearest - 1 : r->n - 1];
-    by[1] = r->claim[nearest];
+    by[0] = region->claim[nearest ? nearest - 1 : region->n - 1];
+    by[1] = region->claim[nearest];
     if (out.n < 3) return false;
-    r->n = out.n;
-    memcpy(r->xy, out.xy, 2 * out.n * sizeof *r->xy);
-    memcpy(r->claim, out.claim, out.n * sizeof *r->claim);
+    region->n = out.n;
+    memcpy(region->xy, out.xy, 2 * out.n * sizeof *region->xy);
+    memcpy(region->claim, out.claim, out.n * sizeof *region->claim);
     return true;
 }
 
-bool sunder_i_plane_clip_behind(sunder_i_plane_polygon *r, const sunder_i_half_plane *way)
+bool sunder_i_plane_clip_behind(sunder_i_plane_polygon *polygon, const sunder_i_half_plane *way)
 {
     double off[PLANE_CORNERS + 1], out[2 * PLANE_CORNERS]; /* off: how far corners are behind it */
     uint32_t n = 0;
     bool cut = false;
-    for (uint32_t k = 0; k < r->n; k++) {
-        off[k] = way->d - sunder_i_plane_at(way->n, r->xy + 2 * k);
+    for (uint32_t k = 0; k < polygon->n; k++) {
+        off[k] = way->d - sunder_i_plane_at(way->n, polygon->xy + 2 * k);
         cut = cut || !(off[k] >= 0);
     }
     if (!cut) return true;
-    off[r->n] = off[0];
-    for (uint32_t k = 0; k < r->n; k++) {
-        const double *u = r->xy + 2 * k, *v = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0), s = off[k], t = off[k + 1];
+    off[polygon->n] = off[0];
+    for (uint32_t k = 0; k < polygon->n; k++) {
+        const double *u = polygon->xy + 2 * k, *v = polygon->xy + 2 * (k + 1 < polygon->n ? k + 1 : 0), s = off[k],
+                     t = off[k + 1];
         if (n + 2 > PLANE_CORNERS) return true; /* as above */
         if (s >= 0) {
             out[2 * n] = u[0];
@@ -81,8 +82,8 @@ bool sunder_i_plane_clip_behind(sunder_i_plane_polygon *r, const sunder_i_half_p
         out[2 * n++ + 1] = u[1] + share * (v[1] - u[1]);
     }
     if (n < 3) return false;
-    r->n = n;
-    memcpy(r->xy, out, 2 * n * sizeof *out);
+    polygon->n = n;
+    memcpy(polygon->xy, out, 2 * n * sizeof *out);
     return true;
 }
 
@@ -96,15 +97,15 @@ static double area_of(const double *xy, uint32_t n)
     return sum / 2;
 }
 
-double sunder_i_plane_area_of(const sunder_i_plane_polygon *r) { return area_of(r->xy, r->n); }
+double sunder_i_plane_area_of(const sunder_i_plane_polygon *polygon) { return area_of(polygon->xy, polygon->n); }
 
-double sunder_i_plane_distance(const sunder_i_plane_region *r, double place[2], uint32_t by[2])
+double sunder_i_plane_distance(const sunder_i_plane_region *region, double place[2], uint32_t by[2])
 {
     double least = INFINITY;
     bool inside = true;
-    for (uint32_t k = 0; k < r->n; k++) {
-        const uint32_t before = k ? k - 1 : r->n - 1;
-        const double *u = r->xy + 2 * k, *v = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
+    for (uint32_t k = 0; k < region->n; k++) {
+        const uint32_t before = k ? k - 1 : region->n - 1;
+        const double *u = region->xy + 2 * k, *v = region->xy + 2 * (k + 1 < region->n ? k + 1 : 0);
         const double e[2] = {v[0] - u[0], v[1] - u[1]}, square = sunder_i_plane_at(e, e),
                      along = -sunder_i_plane_at(e, u);
         if (e[0] * u[1] - e[1] * u[0] > 0) inside = false; /* the origin is to the right */
@@ -113,20 +114,20 @@ double sunder_i_plane_distance(const sunder_i_plane_region *r, double place[2], 
         if (!(off < least)) continue;
         least = off;
         memcpy(place, w, sizeof w);
-        by[0] = share > 0 ? r->claim[k] : r->claim[before];
-        by[1] = share < 1 ? r->claim[k] : r->claim[k + 1 < r->n ? k + 1 : 0];
+        by[0] = share > 0 ? region->claim[k] : region->claim[before];
+        by[1] = share < 1 ? region->claim[k] : region->claim[k + 1 < region->n ? k + 1 : 0];
     }
     if (inside) place[0] = place[1] = least = 0;
     return least;
 }
 
-double sunder_i_plane_area(const sunder_i_plane_region *r) { return area_of(r->xy, r->n); }
+double sunder_i_plane_area(const sunder_i_plane_region *region) { return area_of(region->xy, region->n); }
 
-void sunder_i_plane_middle(const sunder_i_plane_region *r, const double nearest[2], double reach, double out[2])
+void sunder_i_plane_middle(const sunder_i_plane_region *region, const double nearest[2], double reach, double out[2])
 {
     out[0] = out[1] = 0;
-    for (uint32_t k = 0; k < r->n; k++)
-        for (size_t x = 0; x < 2; x++) out[x] += r->xy[2 * k + x] / r->n;
+    for (uint32_t k = 0; k < region->n; k++)
+        for (size_t x = 0; x < 2; x++) out[x] += region->xy[2 * k + x] / region->n;
     for (int k = 0; k < 30 && hypot(out[0], out[1]) > reach; k++)
         for (size_t x = 0; x < 2; x++) out[x] = (out[x] + nearest[x]) / 2;
 }

@@ -41,27 +41,27 @@ static double take_lost(sunder_i_branching *c, uint32_t b, double share)
 /* Rounding, with e = 2^-53 and N claims, |n| <= 1 + 4 e: a sum of N products is off by (N + 1) e of the sum of their
  * magnitudes, and that by as much of itself. A body's net force is so off by 2 (N + 2) e of its weight, the sum of the
  * forces on it, each way. What follows takes four times that, and 2^-1000 for what falls below the normal numbers. */
-bool sunder_i_branching_is_contradiction(sunder_i_branching *c)
+bool sunder_i_branching_is_contradiction(sunder_i_branching *branching)
 {
-    const double share = (double)(c->claims + c->bodies + 8) * 0x1p-50;
+    const double share = (double)(branching->claims + branching->bodies + 8) * 0x1p-50;
     double won = 0, all = 0, lost = 0;
-    for (size_t k = 0; k < c->claims; k++) begin(c, &c->claim[k]);
-    for (size_t k = 0; k < c->claims; k++) {
-        const sunder_i_claim *s = &c->claim[k];
+    for (size_t k = 0; k < branching->claims; k++) begin(branching, &branching->claim[k]);
+    for (size_t k = 0; k < branching->claims; k++) {
+        const sunder_i_claim *s = &branching->claim[k];
         if (!(s->force > 0)) continue;
         won += s->force * s->d;
         all += s->force * fabs(s->d);
-        for (size_t x = 0; x < 2; x++) c->net[2 * s->i + x] -= s->force * s->n[x];
-        c->weight[s->i] += s->force;
+        for (size_t x = 0; x < 2; x++) branching->net[2 * s->i + x] -= s->force * s->n[x];
+        branching->weight[s->i] += s->force;
         if (s->j == SUNDER_I_GROUND) continue;
-        for (size_t x = 0; x < 2; x++) c->net[2 * s->j + x] += s->force * s->n[x];
-        c->weight[s->j] += s->force;
+        for (size_t x = 0; x < 2; x++) branching->net[2 * s->j + x] += s->force * s->n[x];
+        branching->weight[s->j] += s->force;
     }
-    for (size_t k = 0; k < c->claims; k++) {
-        const sunder_i_claim *s = &c->claim[k];
+    for (size_t k = 0; k < branching->claims; k++) {
+        const sunder_i_claim *s = &branching->claim[k];
         if (!(s->force > 0)) continue;
-        lost += take_lost(c, s->i, share);
-        if (s->j != SUNDER_I_GROUND) lost += take_lost(c, s->j, share);
+        lost += take_lost(branching, s->i, share);
+        if (s->j != SUNDER_I_GROUND) lost += take_lost(branching, s->j, share);
     }
     return isfinite(all) && won - share * all - 0x1p-1000 > lost * (1 + share);
 }
@@ -80,17 +80,17 @@ static bool balance(sunder_i_claim *p, sunder_i_claim *q)
     return true;
 }
 
-bool sunder_i_branching_is_dead_end(sunder_i_branching *c)
+bool sunder_i_branching_is_dead_end(sunder_i_branching *branching)
 {
-    sunder_i_claim *last = &c->claim[c->claims - 1];
-    const double reach = c->limit[last->i] + (last->j == SUNDER_I_GROUND ? 0 : c->limit[last->j]);
-    for (size_t k = 0; k < c->claims; k++) c->claim[k].force = 0;
+    sunder_i_claim *last = &branching->claim[branching->claims - 1];
+    const double reach = branching->limit[last->i] + (last->j == SUNDER_I_GROUND ? 0 : branching->limit[last->j]);
+    for (size_t k = 0; k < branching->claims; k++) branching->claim[k].force = 0;
     last->force = 1;
-    if (last->d > reach && sunder_i_branching_is_contradiction(c)) return true;
-    for (size_t k = 0; k + 1 < c->claims; k++) {
-        sunder_i_claim *other = &c->claim[k];
+    if (last->d > reach && sunder_i_branching_is_contradiction(branching)) return true;
+    for (size_t k = 0; k + 1 < branching->claims; k++) {
+        sunder_i_claim *other = &branching->claim[k];
         if (!(other->i == last->i && other->j == last->j) && !(other->i == last->j && other->j == last->i)) continue;
-        if (balance(last, other) && sunder_i_branching_is_contradiction(c)) return true;
+        if (balance(last, other) && sunder_i_branching_is_contradiction(branching)) return true;
         other->force = 0;
     }
     return false;
@@ -107,14 +107,15 @@ static bool balance_three(sunder_i_claim *p, sunder_i_claim *q, sunder_i_claim *
     return p->force > 0 && q->force > 0 && r->force > 0;
 }
 
-bool sunder_i_branching_contradict(sunder_i_branching *c, const uint32_t *of, size_t n)
+bool sunder_i_branching_contradict(sunder_i_branching *branching, const uint32_t *claim, size_t n)
 {
     bool is_set = n == 1;
-    for (size_t k = 0; k < c->claims; k++) c->claim[k].force = 0;
-    if (n == 1) c->claim[of[0]].force = 1;
-    if (n == 2) is_set = balance(&c->claim[of[0]], &c->claim[of[1]]);
-    if (n == 3) is_set = balance_three(&c->claim[of[0]], &c->claim[of[1]], &c->claim[of[2]]);
-    return is_set && sunder_i_branching_is_contradiction(c);
+    for (size_t k = 0; k < branching->claims; k++) branching->claim[k].force = 0;
+    if (n == 1) branching->claim[claim[0]].force = 1;
+    if (n == 2) is_set = balance(&branching->claim[claim[0]], &branching->claim[claim[1]]);
+    if (n == 3)
+        is_set = balance_three(&branching->claim[claim[0]], &branching->claim[claim[1]], &branching->claim[claim[2]]);
+    return is_set && sunder_i_branching_is_contradiction(branching);
 }
 
 /* ---- The program ------------------------------------------------------------------------------------------------- */
@@ -199,14 +200,14 @@ static sunder_i_node_outcome solve(sunder_i_branching *c)
     return outcome == SUNDER_I_NEAREST_FOUND && is_candidate(c) ? SUNDER_I_NODE_CANDIDATE : SUNDER_I_NODE_UNDECIDED;
 }
 
-sunder_status sunder_i_branching_solve(sunder_i_branching *c, sunder_i_node_outcome *outcome, sunder_error *err)
+sunder_status sunder_i_branching_solve(sunder_i_branching *branching, sunder_i_node_outcome *outcome, sunder_error *err)
 {
     *outcome = SUNDER_I_NODE_UNDECIDED;
     static const double hairs[] = {1, 0, -0.5};
     for (size_t k = 0; k < sizeof hairs / sizeof *hairs && *outcome == SUNDER_I_NODE_UNDECIDED; k++) {
-        if (!load(c, hairs[k] * c->hair)) return sunder_i_no_memory(err);
-        *outcome = solve(c);
-        if (c->failed || !sunder_i_look()) return sunder_i_no_memory(err);
+        if (!load(branching, hairs[k] * branching->hair)) return sunder_i_no_memory(err);
+        *outcome = solve(branching);
+        if (branching->failed || !sunder_i_look()) return sunder_i_no_memory(err);
     }
     return SUNDER_OK;
 }

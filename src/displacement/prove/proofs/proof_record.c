@@ -117,14 +117,14 @@ static size_t copy(copying *g, size_t at, size_t depth)
     return number;
 }
 
-sunder_proof *sunder_i_proof_of(const sunder_i_branching *c, size_t root)
+sunder_proof *sunder_i_proof_of(const sunder_i_branching *branching, size_t root)
 {
     sunder_proof size = {0};
     size_t deepest = 0;
-    count(c, root, 0, &size, &deepest);
+    count(branching, root, 0, &size, &deepest);
     sunder_proof *proof = sunder_i_calloc(1, sizeof *proof);
     if (!proof) return NULL;
-    copying g = {c,
+    copying g = {branching,
                  proof,
                  sunder_i_alloc(size.nodes, sizeof *g.node),
                  sunder_i_alloc(size.ways, sizeof *g.way),
@@ -136,7 +136,7 @@ sunder_proof *sunder_i_proof_of(const sunder_i_branching *c, size_t root)
     proof->way = g.way;
     proof->force = g.force;
     proof->corner = g.corner;
-    proof->within = c->subproblem->instead;
+    proof->within = branching->subproblem->instead;
     const bool ok = g.node && g.way && g.force && g.corner && g.path && g.path_copy;
     if (ok) {
         copy(&g, root, 0);

@@ -72,26 +72,26 @@ static sunder_i_half_plane beside(const double l[2], double sign, double tilt)
     return (sunder_i_half_plane){.n = {n[0] / norm, n[1] / norm}, .d = 0};
 }
 
-size_t sunder_i_half_planes_past(const sunder_i_parting *p, sunder_i_half_plane *out)
+size_t sunder_i_half_planes_past(const sunder_i_parting *parting, sunder_i_half_plane *out)
 {
-    const size_t n = p->na > 1 ? p->na : p->nb;
-    const double slack = UNIT * size_of(p);
+    const size_t n = parting->na > 1 ? parting->na : parting->nb;
+    const double slack = UNIT * size_of(parting);
     double middle[2] = {0, 0}, least = INFINITY, u[2], v[2];
     size_t ways = 0;
     for (size_t k = 0; k < n; k++) {
-        corner(p, k, u);
+        corner(parting, k, u);
         least = sunder_i_min(least, sqrt(dot(u, u)));
         for (int c = 0; c < 2; c++) middle[c] += 2 * u[c] / (double)n; /* well within the shadow */
     }
     if (!(least >= FAR_ENOUGH * slack)) return 0;
     const double tilt = TILT * slack / least;
-    corner(p, tangent(p, n, -1), u);
+    corner(parting, tangent(parting, n, -1), u);
     out[ways++] = beside(u, 1, tilt);
-    corner(p, tangent(p, n, 1), u);
+    corner(parting, tangent(parting, n, 1), u);
     out[ways++] = beside(u, -1, tilt);
     for (size_t k = 0; k < n; k++) {
-        corner(p, k, u);
-        corner(p, k + 1 < n ? k + 1 : 0, v);
+        corner(parting, k, u);
+        corner(parting, k + 1 < n ? k + 1 : 0, v);
         const double e[2] = {v[0] - u[0], v[1] - u[1]}, length = sqrt(dot(e, e));
         const double m[2] = {e[1] / length, -e[0] / length};
         if (!(length > 0)) continue;

@@ -25,13 +25,13 @@ static const sunder_i_body_pieces *pieces_of(sunder_i_branching *c, const sunder
     return pieces;
 }
 
-size_t sunder_i_branching_fill_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
+size_t sunder_i_branching_fill_ways(sunder_i_branching *branching, const sunder_i_body *p, const sunder_i_body_piece *a,
                                     const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
                                     const double *at)
 {
-    const sunder_i_model *model = c->model;
-    const double reach = sunder_i_branching_limit(c, p) + sunder_i_branching_limit(c, q),
-                 coarse = isfinite(reach) ? c->subproblem->coarse * reach : 0;
+    const sunder_i_model *model = branching->model;
+    const double reach = sunder_i_branching_limit(branching, p) + sunder_i_branching_limit(branching, q),
+                 coarse = isfinite(reach) ? branching->subproblem->coarse * reach : 0;
     sunder_i_parting parting = {.a = a->corner,
                                 .b = b->corner,
                                 .na = a->corners,
@@ -46,20 +46,20 @@ size_t sunder_i_branching_fill_ways(sunder_i_branching *c, const sunder_i_body *
         if (is_rational(model, b->feature)) parting.vague += fabs(q->origin[x & 1]) + fabs(b->box[x]);
     }
     const size_t most = SUNDER_I_HALF_PLANES_A_CORNER * (parting.na + parting.nb) + SUNDER_I_HALF_PLANES_MORE;
-    c->looked += parting.na + parting.nb;
-    if (!sunder_i_reserve(&c->scratch, &c->scratch_capacity, most, sizeof *c->scratch)) {
-        c->failed = true;
+    branching->looked += parting.na + parting.nb;
+    if (!sunder_i_reserve(&branching->scratch, &branching->scratch_capacity, most, sizeof *branching->scratch)) {
+        branching->failed = true;
         return 0;
     }
-    return shadow ? sunder_i_half_planes_past(&parting, c->scratch)
-                  : sunder_i_half_planes_between(&parting, c->scratch);
+    return shadow ? sunder_i_half_planes_past(&parting, branching->scratch)
+                  : sunder_i_half_planes_between(&parting, branching->scratch);
 }
 
-double sunder_i_branching_depth(const sunder_i_branching *c, size_t ways, const double u[2])
+double sunder_i_branching_depth(const sunder_i_branching *branching, size_t ways, const double u[2])
 {
     double at = -INFINITY;
     for (size_t k = 0; k < ways; k++) {
-        sunder_i_half_plane *w = &c->scratch[k];
+        sunder_i_half_plane *w = &branching->scratch[k];
         w->at = w->n[0] * u[0] + w->n[1] * u[1] - w->d;
         at = sunder_i_max(at, w->at);
     }
@@ -336,28 +336,28 @@ static size_t look_at_slacks(sunder_i_branching *c, const standing *s, sunder_i_
     return n;
 }
 
-size_t sunder_i_branching_violations(sunder_i_branching *c, sunder_i_violation deepest[SUNDER_I_CHOICES])
+size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_violation deepest[SUNDER_I_CHOICES])
 {
     size_t n = 0;
-    for (uint32_t i = 0; i < c->bodies; i++) {
-        if (c->body[i] == SUNDER_I_NOBODY) continue;
-        const standing s = stand(c, c->body[i]);
-        n = look_at_slacks(c, &s, deepest, n);
-        for (uint32_t j = i + 1; j < c->bodies; j++) {
-            if (c->body[j] == SUNDER_I_NOBODY) continue;
-            sunder_i_violation o = {.depth = 2 * c->hair};
-            const standing r = stand(c, c->body[j]);
-            look_at_all(c, &s, &r, &o);
+    for (uint32_t i = 0; i < branching->bodies; i++) {
+        if (branching->body[i] == SUNDER_I_NOBODY) continue;
+        const standing s = stand(branching, branching->body[i]);
+        n = look_at_slacks(branching, &s, deepest, n);
+        for (uint32_t j = i + 1; j < branching->bodies; j++) {
+            if (branching->body[j] == SUNDER_I_NOBODY) continue;
+            sunder_i_violation o = {.depth = 2 * branching->hair};
+            const standing r = stand(branching, branching->body[j]);
+            look_at_all(branching, &s, &r, &o);
             o.known = true;
             n = insert(deepest, n, &o);
         }
         /* The others stand where they were. */
-        if (!find_near(c, &s)) c->failed = true;
-        for (size_t k = 0; k < c->near.n && !c->failed; k++) {
-            sunder_i_violation o = {.depth = 2 * c->hair};
-            if (sunder_i_branching_place(c, c->near.item[k]) != SUNDER_I_GROUND) continue;
-            const standing r = stand(c, c->near.item[k]);
-            look_at_all(c, &s, &r, &o);
+        if (!find_near(branching, &s)) branching->failed = true;
+        for (size_t k = 0; k < branching->near.n && !branching->failed; k++) {
+            sunder_i_violation o = {.depth = 2 * branching->hair};
+            if (sunder_i_branching_place(branching, branching->near.item[k]) != SUNDER_I_GROUND) continue;
+            const standing r = stand(branching, branching->near.item[k]);
+            look_at_all(branching, &s, &r, &o);
             o.known = !(sunder_i_limit_of(r.body) > 0);
             n = insert(deepest, n, &o);
         }
@@ -383,18 +383,19 @@ static size_t take_ways(sunder_i_branching *c, const sunder_i_body *p, const sun
     return c->failed ? 0 : n;
 }
 
-size_t sunder_i_branching_ways(sunder_i_branching *c, const sunder_i_violation *o)
+size_t sunder_i_branching_ways(sunder_i_branching *branching, const sunder_i_violation *violation)
 {
-    const standing s = stand(c, o->p), r = stand(c, o->q);
+    const standing s = stand(branching, violation->p), r = stand(branching, violation->q);
     double u[2] = {r.t[0] - s.t[0], r.t[1] - s.t[1]};
-    if (o->slack) move_of_slack(c, o->slack, s.t, u);
-    const double clearance = o->slack ? 0 : o->clearance;
+    if (violation->slack) move_of_slack(branching, violation->slack, s.t, u);
+    const double clearance = violation->slack ? 0 : violation->clearance;
     size_t n;
-    if (o->closely)
-        n = sunder_i_branching_fill_ways(c, s.body, o->a, r.body, o->b, clearance, o->shadow, u);
+    if (violation->closely)
+        n = sunder_i_branching_fill_ways(branching, s.body, violation->a, r.body, violation->b, clearance,
+                                         violation->shadow, u);
     else
-        n = take_ways(c, s.body, o->a, r.body, o->b, clearance, o->shadow);
-    sunder_i_branching_depth(c, n, u);
-    if (n) qsort(c->scratch, n, sizeof *c->scratch, by_nearness);
+        n = take_ways(branching, s.body, violation->a, r.body, violation->b, clearance, violation->shadow);
+    sunder_i_branching_depth(branching, n, u);
+    if (n) qsort(branching->scratch, n, sizeof *branching->scratch, by_nearness);
     return n;
 }

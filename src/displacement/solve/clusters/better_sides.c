@@ -18,14 +18,14 @@ static bool is_improved(const sunder_i_solver *s, const sunder_i_cluster *c)
     return improved || cheapest;
 }
 
-sunder_status sunder_i_solver_is_improved(const sunder_i_solver *s, bool *improved, sunder_error *err)
+sunder_status sunder_i_solver_is_improved(const sunder_i_solver *solver, bool *improved, sunder_error *err)
 {
-    bool *wanted = sunder_i_solver_who_hang_with(s, s->wanted);
+    bool *wanted = sunder_i_solver_who_hang_with(solver, solver->wanted);
     *improved = true;
-    for (size_t e = 0; e < s->edges && wanted; e++)
+    for (size_t e = 0; e < solver->edges && wanted; e++)
         for (int k = 0; k < 2; k++) {
-            const uint32_t b = k ? s->edge[e].b : s->edge[e].a;
-            if (!s->improved[b] && wanted[b]) *improved = false;
+            const uint32_t b = k ? solver->edge[e].b : solver->edge[e].a;
+            if (!solver->improved[b] && wanted[b]) *improved = false;
         }
     sunder_i_free(wanted);
     return wanted ? SUNDER_OK : sunder_i_no_memory(err);
@@ -79,19 +79,19 @@ static sunder_status join_guests(sunder_i_solver *s, sunder_error *err)
     return status || !any ? status : sunder_i_solver_gather(s, err);
 }
 
-sunder_status sunder_i_solver_improve(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_improve(sunder_i_solver *solver, sunder_error *err)
 {
-    sunder_status status = sunder_i_solver_gather(s, err);
-    if (!status) status = join_guests(s, err);
-    if (!status) status = sunder_i_solver_unite_blocks(s, err);
-    if (!status) status = sunder_i_solver_for_clusters(s, improve_clusters, s, err);
+    sunder_status status = sunder_i_solver_gather(solver, err);
+    if (!status) status = join_guests(solver, err);
+    if (!status) status = sunder_i_solver_unite_blocks(solver, err);
+    if (!status) status = sunder_i_solver_for_clusters(solver, improve_clusters, solver, err);
     if (status) return status;
-    sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
-    status = sunder_i_solver_commit(s, err);
-    for (size_t k = 0; k < s->clusters && !status; k++) {
-        const sunder_i_cluster *c = &s->cluster[k];
-        if (!sunder_i_solver_any_of(s, c->body, c->n, s->wanted)) continue;
-        for (size_t m = 0; m < c->n; m++) s->improved[c->body[m]] = true;
+    sunder_i_pieces_forget(&solver->model, SUNDER_I_PIECES_HELD);
+    status = sunder_i_solver_commit(solver, err);
+    for (size_t k = 0; k < solver->clusters && !status; k++) {
+        const sunder_i_cluster *c = &solver->cluster[k];
+        if (!sunder_i_solver_any_of(solver, c->body, c->n, solver->wanted)) continue;
+        for (size_t m = 0; m < c->n; m++) solver->improved[c->body[m]] = true;
     }
-    return status ? status : sunder_i_solver_relate(s, err);
+    return status ? status : sunder_i_solver_relate(solver, err);
 }

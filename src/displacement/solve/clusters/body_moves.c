@@ -7,12 +7,12 @@
 
 #include <string.h>
 
-double *sunder_i_solver_load_moves(const sunder_i_solver *s, const sunder_i_cluster *c)
+double *sunder_i_solver_load_moves(const sunder_i_solver *solver, const sunder_i_cluster *cluster)
 {
-    double *move = s->move + 2 * (size_t)(c->body - s->body);
-    for (size_t k = 0; k < c->n; k++) {
-        const uint32_t b = c->body[k], from = s->carrier[b] == SUNDER_I_NOBODY ? b : s->carrier[b];
-        memcpy(move + 2 * k, s->model.move + 2 * (size_t)from, 2 * sizeof *move);
+    double *move = solver->move + 2 * (size_t)(cluster->body - solver->body);
+    for (size_t k = 0; k < cluster->n; k++) {
+        const uint32_t b = cluster->body[k], from = solver->carrier[b] == SUNDER_I_NOBODY ? b : solver->carrier[b];
+        memcpy(move + 2 * k, solver->model.move + 2 * (size_t)from, 2 * sizeof *move);
     }
     return move;
 }
@@ -37,9 +37,9 @@ static void place(sunder_i_solver *s, uint32_t b, const double *to, bool exact)
     }
 }
 
-void sunder_i_solver_place(sunder_i_solver *s, uint32_t b, const double *to)
+void sunder_i_solver_place(sunder_i_solver *solver, uint32_t b, const double *move)
 {
-    if (goes_elsewhere(s, b, to)) place(s, b, to, sunder_i_is_exact_move(&s->model, b, to));
+    if (goes_elsewhere(solver, b, move)) place(solver, b, move, sunder_i_is_exact_move(&solver->model, b, move));
 }
 
 typedef struct committing {
@@ -69,30 +69,32 @@ static void take_moves(sunder_i_solver *s, const sunder_i_cluster *c, const bool
         if (goes_elsewhere(s, s->body[k], s->move + 2 * k)) place(s, s->body[k], s->move + 2 * k, exact[k]);
 }
 
-sunder_status sunder_i_solver_commit(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_commit(sunder_i_solver *solver, sunder_error *err)
 {
-    committing c = {s, sunder_i_alloc(s->members, sizeof *c.exact)};
+    committing c = {solver, sunder_i_alloc(solver->members, sizeof *c.exact)};
     sunder_status status = c.exact ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status)
-        status = sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_LOOKS, find_some_exact, &c, err);
-    sunder_i_changes_clear(&s->changes);
-    for (size_t i = 0; i < s->clusters && !status; i++)
-        if (s->cluster[i].worked_on) take_moves(s, &s->cluster[i], c.exact);
+        status = sunder_i_parallel(solver->model.rules.threads, solver->clusters, SUNDER_I_GRAIN_LOOKS, find_some_exact,
+                                   &c, err);
+    sunder_i_changes_clear(&solver->changes);
+    for (size_t i = 0; i < solver->clusters && !status; i++)
+        if (solver->cluster[i].worked_on) take_moves(solver, &solver->cluster[i], c.exact);
     sunder_i_free(c.exact);
     return status;
 }
 
-sunder_status sunder_i_solver_relate(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_relate(sunder_i_solver *solver, sunder_error *err)
 {
-    return sunder_i_solver_relate_near(s, NULL, err);
+    return sunder_i_solver_relate_near(solver, NULL, err);
 }
 
-sunder_status sunder_i_solver_relate_near(sunder_i_solver *s, const sunder_i_list *things, sunder_error *err)
+sunder_status sunder_i_solver_relate_near(sunder_i_solver *solver, const sunder_i_list *things, sunder_error *err)
 {
-    if (!sunder_i_changes_sort(&s->changes)) return sunder_i_no_memory(err);
-    sunder_status status = sunder_i_placement_move(&s->model, &s->placement, &s->changes, err);
+    if (!sunder_i_changes_sort(&solver->changes)) return sunder_i_no_memory(err);
+    sunder_status status = sunder_i_placement_move(&solver->model, &solver->placement, &solver->changes, err);
     if (status) return status;
-    status = sunder_i_jumps_update(&s->jumps, &s->model, &s->changes, err);
+    status = sunder_i_jumps_update(&solver->jumps, &solver->model, &solver->changes, err);
     if (status) return status;
-    return sunder_i_placement_relate_again(&s->model, &s->placement, &s->changes, things, &s->now, err);
+    return sunder_i_placement_relate_again(&solver->model, &solver->placement, &solver->changes, things, &solver->now,
+                                           err);
 }

@@ -25,86 +25,86 @@ static void free_clusters(sunder_i_solver *s)
     s->clusters = 0;
 }
 
-void sunder_i_solver_free(sunder_i_solver *s)
+void sunder_i_solver_free(sunder_i_solver *solver)
 {
-    sunder_i_jumps_free(&s->jumps);
-    sunder_i_placement_free(&s->model, &s->placement);
-    sunder_i_model_free(&s->model);
-    sunder_i_free(s->start.pair);
-    sunder_i_free(s->depth);
-    sunder_i_free(s->depth_at);
-    sunder_i_free(s->now.pair);
-    sunder_i_free(s->entry);
-    sunder_i_free(s->edge);
-    sunder_i_free(s->conflict_root);
-    sunder_i_free(s->parent);
-    sunder_i_free(s->dirty);
-    sunder_i_free(s->widened);
-    sunder_i_changes_free(&s->changes);
-    sunder_i_free(s->reconsidered);
-    sunder_i_free(s->alone);
-    sunder_i_free(s->alone_work);
-    sunder_i_free(s->wanted);
-    sunder_i_free(s->doubtful);
-    sunder_i_free(s->gave_up);
-    sunder_i_free(s->crowd);
-    sunder_i_free(s->measured);
-    sunder_i_free(s->improved);
-    sunder_i_free(s->cheapest);
-    sunder_i_free(s->limit);
-    sunder_i_free(s->aside);
-    sunder_i_free(s->let_go);
-    sunder_i_free(s->went);
-    sunder_i_relaxations_free(&s->waiting);
-    sunder_i_free(s->carrier);
-    sunder_i_free(s->member);
-    sunder_i_free(s->body);
-    sunder_i_free(s->move);
-    free_clusters(s);
-    sunder_i_free(s->cluster);
-    sunder_i_groups_free(&s->groups);
-    sunder_i_ordered_clear(&s->layer);
-    sunder_i_barriers_free(&s->barriers);
-    memset(s, 0, sizeof *s);
+    sunder_i_jumps_free(&solver->jumps);
+    sunder_i_placement_free(&solver->model, &solver->placement);
+    sunder_i_model_free(&solver->model);
+    sunder_i_free(solver->start.pair);
+    sunder_i_free(solver->depth);
+    sunder_i_free(solver->depth_at);
+    sunder_i_free(solver->now.pair);
+    sunder_i_free(solver->entry);
+    sunder_i_free(solver->edge);
+    sunder_i_free(solver->conflict_root);
+    sunder_i_free(solver->parent);
+    sunder_i_free(solver->dirty);
+    sunder_i_free(solver->widened);
+    sunder_i_changes_free(&solver->changes);
+    sunder_i_free(solver->reconsidered);
+    sunder_i_free(solver->alone);
+    sunder_i_free(solver->alone_work);
+    sunder_i_free(solver->wanted);
+    sunder_i_free(solver->doubtful);
+    sunder_i_free(solver->gave_up);
+    sunder_i_free(solver->crowd);
+    sunder_i_free(solver->measured);
+    sunder_i_free(solver->improved);
+    sunder_i_free(solver->cheapest);
+    sunder_i_free(solver->limit);
+    sunder_i_free(solver->aside);
+    sunder_i_free(solver->let_go);
+    sunder_i_free(solver->went);
+    sunder_i_relaxations_free(&solver->waiting);
+    sunder_i_free(solver->carrier);
+    sunder_i_free(solver->member);
+    sunder_i_free(solver->body);
+    sunder_i_free(solver->move);
+    free_clusters(solver);
+    sunder_i_free(solver->cluster);
+    sunder_i_groups_free(&solver->groups);
+    sunder_i_ordered_clear(&solver->layer);
+    sunder_i_barriers_free(&solver->barriers);
+    memset(solver, 0, sizeof *solver);
 }
 
-sunder_status sunder_i_solver_init(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_init(sunder_i_solver *solver, sunder_error *err)
 {
-    const size_t n = s->model.bodies;
-    s->parent = sunder_i_alloc(n, sizeof *s->parent);
-    s->dirty = sunder_i_calloc(n, sizeof *s->dirty);
-    s->widened = sunder_i_calloc(n, sizeof *s->widened);
-    s->reconsidered = sunder_i_calloc(n, sizeof *s->reconsidered);
-    s->improved = sunder_i_calloc(n, sizeof *s->improved);
-    s->cheapest = sunder_i_calloc(n, sizeof *s->cheapest);
-    s->carrier = sunder_i_alloc(n, sizeof *s->carrier);
-    s->wanted = sunder_i_alloc(n, sizeof *s->wanted);
-    s->doubtful = sunder_i_alloc(n, sizeof *s->doubtful);
-    s->gave_up = sunder_i_calloc(n, sizeof *s->gave_up);
-    s->crowd = sunder_i_calloc(n, sizeof *s->crowd);
-    if (!s->wanted || !s->doubtful || !s->gave_up || !s->crowd) return sunder_i_no_memory(err);
-    if (!s->improved || !s->cheapest || !s->parent || !s->dirty || !s->widened || !s->reconsidered || !s->carrier ||
-        !sunder_i_changes_init(&s->changes, s->model.things))
+    const size_t n = solver->model.bodies;
+    solver->parent = sunder_i_alloc(n, sizeof *solver->parent);
+    solver->dirty = sunder_i_calloc(n, sizeof *solver->dirty);
+    solver->widened = sunder_i_calloc(n, sizeof *solver->widened);
+    solver->reconsidered = sunder_i_calloc(n, sizeof *solver->reconsidered);
+    solver->improved = sunder_i_calloc(n, sizeof *solver->improved);
+    solver->cheapest = sunder_i_calloc(n, sizeof *solver->cheapest);
+    solver->carrier = sunder_i_alloc(n, sizeof *solver->carrier);
+    solver->wanted = sunder_i_alloc(n, sizeof *solver->wanted);
+    solver->doubtful = sunder_i_alloc(n, sizeof *solver->doubtful);
+    solver->gave_up = sunder_i_calloc(n, sizeof *solver->gave_up);
+    solver->crowd = sunder_i_calloc(n, sizeof *solver->crowd);
+    if (!solver->wanted || !solver->doubtful || !solver->gave_up || !solver->crowd) return sunder_i_no_memory(err);
+    if (!solver->improved || !solver->cheapest || !solver->parent || !solver->dirty || !solver->widened ||
+        !solver->reconsidered || !solver->carrier || !sunder_i_changes_init(&solver->changes, solver->model.things))
         return sunder_i_no_memory(err);
-    sunder_i_union_init(s->parent, n);
+    sunder_i_union_init(solver->parent, n);
     for (size_t b = 0; b < n; b++) {
-        s->carrier[b] = SUNDER_I_NOBODY;
-        s->wanted[b] = s->doubtful[b] = true;
+        solver->carrier[b] = SUNDER_I_NOBODY;
+        solver->wanted[b] = solver->doubtful[b] = true;
     }
     return SUNDER_OK;
 }
 
 /* ---- Conflicts and edges ----------------------------------------------------------------------------------------- */
 
-const uint32_t *sunder_i_solver_conflict_roots(sunder_i_solver *s)
+const uint32_t *sunder_i_solver_conflict_roots(sunder_i_solver *solver)
 {
-    const sunder_i_model *model = &s->model;
-    if (s->conflict_root) return s->conflict_root;
-    uint32_t *root = s->conflict_root = sunder_i_alloc(model->bodies, sizeof *root);
+    const sunder_i_model *model = &solver->model;
+    if (solver->conflict_root) return solver->conflict_root;
+    uint32_t *root = solver->conflict_root = sunder_i_alloc(model->bodies, sizeof *root);
     if (!root) return NULL;
     sunder_i_union_init(root, model->bodies);
-    for (size_t k = 0; k < s->start.n; k++) {
-        const sunder_i_relation *r = &s->start.pair[k];
+    for (size_t k = 0; k < solver->start.n; k++) {
+        const sunder_i_relation *r = &solver->start.pair[k];
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
         if (!sunder_i_is_conflict_of_bodies(model, r) || model->body[i].fixed || model->body[j].fixed) continue;
         sunder_i_union_join(root, i, j);
@@ -115,21 +115,21 @@ const uint32_t *sunder_i_solver_conflict_roots(sunder_i_solver *s)
 
 /* ---- Clusters ---------------------------------------------------------------------------------------------------- */
 
-bool sunder_i_solver_add_edge(sunder_i_solver *s, uint32_t i, uint32_t j)
+bool sunder_i_solver_add_edge(sunder_i_solver *solver, uint32_t i, uint32_t j)
 {
-    if (!sunder_i_reserve(&s->edge, &s->edge_capacity, s->edges + 1, sizeof *s->edge)) return false;
-    s->edge[s->edges++] = (sunder_i_id_pair){i, j};
-    const bool fi = s->model.body[i].fixed, fj = s->model.body[j].fixed;
-    if (!fi) s->dirty[i] = true;
-    if (!fj) s->dirty[j] = true;
-    if (!fi && !fj) sunder_i_union_join(s->parent, i, j);
+    if (!sunder_i_reserve(&solver->edge, &solver->edge_capacity, solver->edges + 1, sizeof *solver->edge)) return false;
+    solver->edge[solver->edges++] = (sunder_i_id_pair){i, j};
+    const bool fi = solver->model.body[i].fixed, fj = solver->model.body[j].fixed;
+    if (!fi) solver->dirty[i] = true;
+    if (!fj) solver->dirty[j] = true;
+    if (!fi && !fj) sunder_i_union_join(solver->parent, i, j);
     return true;
 }
 
-bool sunder_i_solver_has_member(const sunder_i_solver *s, uint32_t root, uint32_t body)
+bool sunder_i_solver_has_member(const sunder_i_solver *solver, uint32_t root, uint32_t body)
 {
     const sunder_i_cluster_member wanted = {root, body};
-    return s->members && bsearch(&wanted, s->member, s->members, sizeof wanted, sunder_i_by_id_pair);
+    return solver->members && bsearch(&wanted, solver->member, solver->members, sizeof wanted, sunder_i_by_id_pair);
 }
 
 /* The first member of the cluster of that root, or of a later one. */
@@ -139,69 +139,70 @@ static size_t first_member(const sunder_i_solver *s, uint32_t root)
     return sunder_i_lower_bound(&first, s->member, s->members, sizeof first, sunder_i_by_id_pair);
 }
 
-const uint32_t *sunder_i_solver_members(const sunder_i_solver *s, uint32_t root, size_t *n)
+const uint32_t *sunder_i_solver_members(const sunder_i_solver *solver, uint32_t root, size_t *n)
 {
-    const size_t first = first_member(s, root);
-    *n = first_member(s, root + 1) - first;
-    return *n ? s->body + first : NULL;
+    const size_t first = first_member(solver, root);
+    *n = first_member(solver, root + 1) - first;
+    return *n ? solver->body + first : NULL;
 }
 
-sunder_i_cluster *sunder_i_solver_cluster_with(const sunder_i_solver *s, uint32_t root)
+sunder_i_cluster *sunder_i_solver_cluster_with(const sunder_i_solver *solver, uint32_t root)
 {
-    size_t n, low = 0, high = s->clusters;
-    const uint32_t *member = sunder_i_solver_members(s, root, &n);
+    size_t n, low = 0, high = solver->clusters;
+    const uint32_t *member = sunder_i_solver_members(solver, root, &n);
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        if (s->cluster[middle].body < member)
+        if (solver->cluster[middle].body < member)
             low = middle + 1;
         else
             high = middle;
     }
-    return n && low < s->clusters && s->cluster[low].body == member ? &s->cluster[low] : NULL;
+    return n && low < solver->clusters && solver->cluster[low].body == member ? &solver->cluster[low] : NULL;
 }
 
-sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *s, uint32_t body)
+sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *solver, uint32_t body)
 {
-    return sunder_i_solver_cluster_with(s, sunder_i_union_find(s->parent, body));
+    return sunder_i_solver_cluster_with(solver, sunder_i_union_find(solver->parent, body));
 }
 
 /* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: a
  * power of two, two to four units in the last place of the largest coordinate; four times as much for each failed
  * check. So where a shift keeps coordinates in their binades the search, which reckons from the bodies' own origins,
  * does the same. */
-double sunder_i_solver_margin(const sunder_i_solver *s, const uint32_t *b, size_t n)
+double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, size_t n)
 {
     double largest = 0;
     unsigned widened = 0;
     for (size_t k = 0; k < n; k++) {
-        const sunder_i_body *body = &s->model.body[b[k]];
+        const sunder_i_body *body = &solver->model.body[b[k]];
         if (body->pieces == 0 || body->held) continue;
         for (int c = 0; c < 4; c++) {
             const double far = fabs(body->origin[c & 1]) + fabs(body->box[c]);
             if (far > largest) largest = far;
         }
-        if (s->widened[b[k]] > widened) widened = s->widened[b[k]];
+        if (solver->widened[b[k]] > widened) widened = solver->widened[b[k]];
     }
     int exponent;
-    frexp(largest + sunder_i_max(s->model.rules.gap, s->barriers.farthest), &exponent);
+    frexp(largest + sunder_i_max(solver->model.rules.gap, solver->barriers.farthest), &exponent);
     return ldexp(1, exponent - 51 + 2 * (int)widened);
 }
 
-bool sunder_i_solver_any_of(const sunder_i_solver *s, const uint32_t *body, size_t n, const bool *flag)
+bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body, size_t n, const bool *flag)
 {
     for (size_t k = 0; k < n; k++)
-        if (flag[body[k]] && !s->model.body[body[k]].fixed) return true;
+        if (flag[body[k]] && !solver->model.body[body[k]].fixed) return true;
     return false;
 }
 
-bool *sunder_i_solver_who_hang_with(const sunder_i_solver *s, const bool *flag)
+bool *sunder_i_solver_who_hang_with(const sunder_i_solver *solver, const bool *flag)
 {
-    const sunder_i_body *body = s->model.body;
-    bool *root = sunder_i_calloc(s->model.bodies, sizeof *root), *out = sunder_i_calloc(s->model.bodies, sizeof *out);
-    for (uint32_t b = 0; b < s->model.bodies && root && out; b++)
-        if (flag[b] && !body[b].fixed) root[sunder_i_union_find(s->parent, b)] = true;
-    for (uint32_t b = 0; b < s->model.bodies && root && out; b++)
-        out[b] = !body[b].fixed && root[sunder_i_union_find(s->parent, b)];
+    const sunder_i_body *body = solver->model.body;
+    bool *root = sunder_i_calloc(solver->model.bodies, sizeof *root),
+         *out = sunder_i_calloc(solver->model.bodies, sizeof *out);
+    for (uint32_t b = 0; b < solver->model.bodies && root && out; b++)
+        if (flag[b] && !body[b].fixed) root[sunder_i_union_find(solver->parent, b)] = true;
+    for (uint32_t b = 0; b < solver->model.bodies && root && out; b++)
+        out[b] = !body[b].fixed && root[sunder_i_union_find(solver->parent, b)];
     if (!root) sunder_i_free(out);
     const bool ok = root != NULL;
     sunder_i_free(root);
@@ -226,13 +227,13 @@ static const char *check(const sunder_i_solver *s)
 }
 #endif
 
-void sunder_i_solver_forget_clusters(sunder_i_solver *s)
+void sunder_i_solver_forget_clusters(sunder_i_solver *solver)
 {
-    free_clusters(s);
-    sunder_i_free(s->cluster);
-    sunder_i_free(s->move);
-    s->cluster = NULL;
-    s->move = NULL;
+    free_clusters(solver);
+    sunder_i_free(solver->cluster);
+    sunder_i_free(solver->move);
+    solver->cluster = NULL;
+    solver->move = NULL;
 }
 
 /* Room for what comes of so many edges. What is there is lost where it is too small. */
@@ -291,55 +292,56 @@ static bool is_new_crowd(const sunder_i_solver *s, const sunder_i_cluster *c)
 }
 
 /* Clusters from the edges, afresh. */
-sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err)
 {
-    free_clusters(s);
-    if (!make_room(s) || !list_members(s)) {
-        s->members = 0;
+    free_clusters(solver);
+    if (!make_room(solver) || !list_members(solver)) {
+        solver->members = 0;
         return sunder_i_no_memory(err);
     }
-    for (size_t first = 0, end; first < s->members; first = end) {
-        sunder_i_cluster *c = &s->cluster[s->clusters++];
+    for (size_t first = 0, end; first < solver->members; first = end) {
+        sunder_i_cluster *c = &solver->cluster[solver->clusters++];
         *c = (sunder_i_cluster){.touching = true};
-        for (end = first; end < s->members && s->member[end].root == s->member[first].root; end++) {
-            const sunder_i_body *body = &s->model.body[s->member[end].body];
-            c->touching = c->touching && s->widened[s->member[end].body] == 0;
-            c->limited =
-                c->limited || body->fixed || body->pinned || body->limit < INFINITY || sunder_i_forbids_ways(&s->model);
+        for (end = first; end < solver->members && solver->member[end].root == solver->member[first].root; end++) {
+            const sunder_i_body *body = &solver->model.body[solver->member[end].body];
+            c->touching = c->touching && solver->widened[solver->member[end].body] == 0;
+            c->limited = c->limited || body->fixed || body->pinned || body->limit < INFINITY ||
+                         sunder_i_forbids_ways(&solver->model);
         }
-        c->brief = s->brief;
-        c->body = s->body + first;
+        c->brief = solver->brief;
+        c->body = solver->body + first;
         c->n = end - first;
-        c->margin = sunder_i_solver_margin(s, c->body, c->n);
-        c->crowd = is_new_crowd(s, c);
+        c->margin = sunder_i_solver_margin(solver, c->body, c->n);
+        c->crowd = is_new_crowd(solver, c);
     }
-    SUNDER_I_CHECK(check(s), s->members);
+    SUNDER_I_CHECK(check(solver), solver->members);
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *s, sunder_i_work work, void *context,
+sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder_i_work work, void *context,
                                            sunder_error *err)
 {
-    size_t *size = sunder_i_alloc(s->clusters, sizeof *size);
+    size_t *size = sunder_i_alloc(solver->clusters, sizeof *size);
     if (!size) return sunder_i_no_memory(err);
-    for (size_t k = 0; k < s->clusters; k++) size[k] = s->cluster[k].n;
+    for (size_t k = 0; k < solver->clusters; k++) size[k] = solver->cluster[k].n;
     const sunder_status status =
-        sunder_i_parallel_largest_first(s->model.rules.threads, size, s->clusters, work, context, err);
+        sunder_i_parallel_largest_first(solver->model.rules.threads, size, solver->clusters, work, context, err);
     sunder_i_free(size);
     return status;
 }
 
-sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *solver, sunder_error *err)
 {
-    bool *seen = sunder_i_calloc(s->model.bodies, sizeof *seen);
-    uint32_t *body = sunder_i_alloc(s->members, sizeof *body);
+    bool *seen = sunder_i_calloc(solver->model.bodies, sizeof *seen);
+    uint32_t *body = sunder_i_alloc(solver->members, sizeof *body);
     sunder_status status = seen && body ? SUNDER_OK : sunder_i_no_memory(err);
     size_t n = 0;
-    for (size_t k = 0; !status && k < s->members; k++) {
-        if (!seen[s->body[k]] && sunder_i_cluster_may_want_shape(&s->model, s->body[k])) body[n++] = s->body[k];
-        seen[s->body[k]] = true;
+    for (size_t k = 0; !status && k < solver->members; k++) {
+        if (!seen[solver->body[k]] && sunder_i_cluster_may_want_shape(&solver->model, solver->body[k]))
+            body[n++] = solver->body[k];
+        seen[solver->body[k]] = true;
     }
-    if (!status) status = sunder_i_model_unite(&s->model, body, n, err);
+    if (!status) status = sunder_i_model_unite(&solver->model, body, n, err);
     sunder_i_free(seen);
     sunder_i_free(body);
     return status;

@@ -58,55 +58,55 @@ static void hold(sunder_i_solver *s, uint32_t b, const sunder_i_body *other)
     sunder_i_pieces_forget(&s->model, 0);
 }
 
-void sunder_i_solver_hold(sunder_i_solver *s, uint32_t i, uint32_t j)
+void sunder_i_solver_hold(sunder_i_solver *solver, uint32_t i, uint32_t j)
 {
-    sunder_i_body *body = s->model.body;
-    if (!s->let_go || body[i].fixed || body[j].fixed) return;
+    sunder_i_body *body = solver->model.body;
+    if (!solver->let_go || body[i].fixed || body[j].fixed) return;
     for (int e = 0; e < 2; e++) {
         const uint32_t b = e ? j : i;
-        if (is_coarse_beside(&s->model, &body[b], &body[e ? i : j]) && is_free_to_hold(s, b))
-            hold(s, b, &body[e ? i : j]);
+        if (is_coarse_beside(&solver->model, &body[b], &body[e ? i : j]) && is_free_to_hold(solver, b))
+            hold(solver, b, &body[e ? i : j]);
     }
 }
 
-sunder_status sunder_i_solver_let_go(sunder_i_solver *s, bool *any, sunder_error *err)
+sunder_status sunder_i_solver_let_go(sunder_i_solver *solver, bool *any, sunder_error *err)
 {
-    sunder_i_model *model = &s->model;
+    sunder_i_model *model = &solver->model;
     bool *root = sunder_i_calloc(model->bodies, sizeof *root);
     *any = false;
     if (!root) return sunder_i_no_memory(err);
-    for (size_t k = 0; k < s->now.n; k++) {
-        const sunder_i_relation *r = &s->now.pair[k];
+    for (size_t k = 0; k < solver->now.n; k++) {
+        const sunder_i_relation *r = &solver->now.pair[k];
         const uint32_t pair[2] = {model->body_of[r->a], model->body_of[r->b]};
         if (!sunder_i_is_conflict_of_bodies(model, r)) continue;
         for (int e = 0; e < 2; e++) {
             sunder_i_body *body = &model->body[pair[e]];
-            if (!body->held && !s->let_go[pair[e]]) continue;
+            if (!body->held && !solver->let_go[pair[e]]) continue;
             *any = *any || body->held;
             if (body->held) body->held = body->fixed = false;
-            s->let_go[pair[e]] = root[sunder_i_union_find(s->parent, pair[0])] =
-                root[sunder_i_union_find(s->parent, pair[1])] = true;
+            solver->let_go[pair[e]] = root[sunder_i_union_find(solver->parent, pair[0])] =
+                root[sunder_i_union_find(solver->parent, pair[1])] = true;
         }
     }
     sunder_status status = SUNDER_OK;
     if (*any) {
         for (uint32_t b = 0; b < model->bodies; b++) {
-            s->wanted[b] = !model->body[b].fixed && root[sunder_i_union_find(s->parent, b)];
-            s->reconsidered[b] = s->reconsidered[b] && !s->wanted[b];
+            solver->wanted[b] = !model->body[b].fixed && root[sunder_i_union_find(solver->parent, b)];
+            solver->reconsidered[b] = solver->reconsidered[b] && !solver->wanted[b];
         }
-        status = sunder_i_solver_begin_again(s, s->wanted, err);
+        status = sunder_i_solver_begin_again(solver, solver->wanted, err);
     }
     sunder_i_free(root);
     return status;
 }
 
-void sunder_i_solver_end_holding(sunder_i_solver *s)
+void sunder_i_solver_end_holding(sunder_i_solver *solver)
 {
-    for (size_t k = 0; k < s->groups.n; k++) {
-        sunder_i_group *g = &s->groups.group[k];
+    for (size_t k = 0; k < solver->groups.n; k++) {
+        sunder_i_group *g = &solver->groups.group[k];
         for (size_t m = 0; m < g->n + g->guests.n; m++)
-            if (s->model.body[m < g->n ? g->body[m] : g->guests.item[m - g->n]].held) g->bound = 0;
+            if (solver->model.body[m < g->n ? g->body[m] : g->guests.item[m - g->n]].held) g->bound = 0;
     }
-    for (size_t b = 0; b < s->model.bodies; b++)
-        if (s->model.body[b].held) s->model.body[b].fixed = false;
+    for (size_t b = 0; b < solver->model.bodies; b++)
+        if (solver->model.body[b].held) solver->model.body[b].fixed = false;
 }

@@ -159,20 +159,20 @@ static sunder_status flood(flooding *f, sunder_error *err)
     return status;
 }
 
-sunder_status sunder_i_flood_contacts(sunder_i_solver *s, sunder_i_flood *out, sunder_error *err)
+sunder_status sunder_i_flood_contacts(sunder_i_solver *solver, sunder_i_flood *out, sunder_error *err)
 {
-    flooding f = {.solver = s, .out = out, .standing = sunder_i_calloc(s->model.bodies, sizeof *f.standing)};
-    *out = (sunder_i_flood){.parent = sunder_i_alloc(s->model.bodies, sizeof *out->parent)};
+    flooding f = {.solver = solver, .out = out, .standing = sunder_i_calloc(solver->model.bodies, sizeof *f.standing)};
+    *out = (sunder_i_flood){.parent = sunder_i_alloc(solver->model.bodies, sizeof *out->parent)};
     const sunder_status status = f.standing && out->parent ? flood(&f, err) : sunder_i_no_memory(err);
     for (size_t k = 0; k < LOTS_AT_ONCE; k++) sunder_i_free(f.lot[k].pair);
     sunder_i_free(f.standing);
     return status;
 }
 
-void sunder_i_flood_free(sunder_i_flood *f)
+void sunder_i_flood_free(sunder_i_flood *flood)
 {
-    sunder_i_free(f->parent);
-    sunder_i_free(f->body.item);
-    sunder_i_free(f->touch);
-    memset(f, 0, sizeof *f);
+    sunder_i_free(flood->parent);
+    sunder_i_free(flood->body.item);
+    sunder_i_free(flood->touch);
+    memset(flood, 0, sizeof *flood);
 }

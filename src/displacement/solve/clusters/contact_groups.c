@@ -14,18 +14,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-void sunder_i_groups_free(sunder_i_groups *g)
+void sunder_i_groups_free(sunder_i_groups *groups)
 {
-    for (size_t k = 0; k < g->n; k++) sunder_i_group_free(&g->group[k]);
-    sunder_i_free(g->group);
-    sunder_i_free(g->of);
-    sunder_i_free(g->waived);
-    sunder_i_free(g->joined);
-    sunder_i_free(g->spent);
-    sunder_i_free(g->blunt);
-    sunder_i_free(g->shaken);
-    sunder_i_free(g->seamed);
-    memset(g, 0, sizeof *g);
+    for (size_t k = 0; k < groups->n; k++) sunder_i_group_free(&groups->group[k]);
+    sunder_i_free(groups->group);
+    sunder_i_free(groups->of);
+    sunder_i_free(groups->waived);
+    sunder_i_free(groups->joined);
+    sunder_i_free(groups->spent);
+    sunder_i_free(groups->blunt);
+    sunder_i_free(groups->shaken);
+    sunder_i_free(groups->seamed);
+    memset(groups, 0, sizeof *groups);
 }
 
 typedef struct gathering {
@@ -190,17 +190,21 @@ static sunder_status make_groups(const gathering *g, sunder_i_groups *groups, su
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_solver_gather_groups(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_gather_groups(sunder_i_solver *solver, sunder_error *err)
 {
-    gathering g = {.solver = s};
-    if (!s->groups.spent) s->groups.spent = sunder_i_calloc(s->model.bodies, sizeof *s->groups.spent);
-    if (!s->groups.blunt) s->groups.blunt = sunder_i_calloc(s->model.bodies, sizeof *s->groups.blunt);
-    if (!s->groups.shaken) s->groups.shaken = sunder_i_calloc(s->model.bodies, sizeof *s->groups.shaken);
-    if (!s->groups.seamed) s->groups.seamed = sunder_i_calloc(s->model.bodies, sizeof *s->groups.seamed);
-    const bool ok = s->groups.spent && s->groups.blunt && s->groups.shaken && s->groups.seamed;
-    sunder_status status = ok ? sunder_i_flood_contacts(s, &g.flood, err) : sunder_i_no_memory(err);
+    gathering g = {.solver = solver};
+    if (!solver->groups.spent)
+        solver->groups.spent = sunder_i_calloc(solver->model.bodies, sizeof *solver->groups.spent);
+    if (!solver->groups.blunt)
+        solver->groups.blunt = sunder_i_calloc(solver->model.bodies, sizeof *solver->groups.blunt);
+    if (!solver->groups.shaken)
+        solver->groups.shaken = sunder_i_calloc(solver->model.bodies, sizeof *solver->groups.shaken);
+    if (!solver->groups.seamed)
+        solver->groups.seamed = sunder_i_calloc(solver->model.bodies, sizeof *solver->groups.seamed);
+    const bool ok = solver->groups.spent && solver->groups.blunt && solver->groups.shaken && solver->groups.seamed;
+    sunder_status status = ok ? sunder_i_flood_contacts(solver, &g.flood, err) : sunder_i_no_memory(err);
     if (!status && !list_members(&g)) status = sunder_i_no_memory(err);
-    if (!status) status = make_groups(&g, &s->groups, err);
+    if (!status) status = make_groups(&g, &solver->groups, err);
     sunder_i_flood_free(&g.flood);
     sunder_i_free(g.member);
     return status;

@@ -193,17 +193,17 @@ static sunder_status fit_all(sunder_i_solver *s, const sunder_i_id_pair *pair, s
     return status;
 }
 
-sunder_status sunder_i_solver_fit_exactly(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_fit_exactly(sunder_i_solver *solver, sunder_error *err)
 {
-    const size_t n = s->model.given_up_n;
+    const size_t n = solver->model.given_up_n;
     if (n == 0) return SUNDER_OK;
-    sunder_status status = sunder_i_solver_gather(s, err);
-    if (!status) status = sunder_i_solver_unite_blocks(s, err);
-    unsigned *in_vain = sunder_i_calloc(s->clusters, sizeof *in_vain);
+    sunder_status status = sunder_i_solver_gather(solver, err);
+    if (!status) status = sunder_i_solver_unite_blocks(solver, err);
+    unsigned *in_vain = sunder_i_calloc(solver->clusters, sizeof *in_vain);
     sunder_i_id_pair *pair = sunder_i_alloc(n, sizeof *pair);
     if (!status && (!in_vain || !pair)) status = sunder_i_no_memory(err);
-    if (!status) memcpy(pair, s->model.given_up, n * sizeof *pair);
-    if (!status) status = fit_all(s, pair, n, in_vain, err);
+    if (!status) memcpy(pair, solver->model.given_up, n * sizeof *pair);
+    if (!status) status = fit_all(solver, pair, n, in_vain, err);
     sunder_i_free(in_vain);
     sunder_i_free(pair);
     return status;

@@ -71,8 +71,8 @@ static bool take_relaxations(sunder_i_solver *s)
     return sunder_i_relaxations_index(all, model);
 }
 
-sunder_status sunder_i_solver_take_over(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_take_over(sunder_i_solver *solver, sunder_error *err)
 {
-    const bool ok = restore(&s->model, s->cluster, s->clusters) && take_relaxations(s);
+    const bool ok = restore(&solver->model, solver->cluster, solver->clusters) && take_relaxations(solver);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }

@@ -138,13 +138,13 @@ static bool any_large_crowd(const sunder_i_solver *s)
     return false;
 }
 
-sunder_status sunder_i_solver_grow_crowds(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_grow_crowds(sunder_i_solver *solver, sunder_error *err)
 {
-    if (!any_large_crowd(s)) return SUNDER_OK;
-    growth g = {.solver = s,
-                .placed = sunder_i_alloc(s->model.bodies, sizeof *g.placed),
-                .box = sunder_i_alloc(4 * s->model.bodies, sizeof *g.box),
-                .held = sunder_i_alloc(s->model.bodies, sizeof *g.held)};
+    if (!any_large_crowd(solver)) return SUNDER_OK;
+    growth g = {.solver = solver,
+                .placed = sunder_i_alloc(solver->model.bodies, sizeof *g.placed),
+                .box = sunder_i_alloc(4 * solver->model.bodies, sizeof *g.box),
+                .held = sunder_i_alloc(solver->model.bodies, sizeof *g.held)};
     sunder_status status = g.placed && g.box && g.held ? SUNDER_OK : sunder_i_no_memory(err);
     bool any = true;
     for (int k = 0; k < CROWDS_GROWN && any && !status; k++) status = grow(&g, &any, err);

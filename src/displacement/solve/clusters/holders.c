@@ -10,17 +10,18 @@ static bool is_settled(const sunder_i_solver *s, const uint32_t pair[2])
     return sunder_i_solver_any_of(s, pair, 2, s->improved);
 }
 
-sunder_status sunder_i_solver_choose_holders(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_choose_holders(sunder_i_solver *solver, sunder_error *err)
 {
-    if (s->model.inclusions == 0) return SUNDER_OK;
-    bool *conflict = sunder_i_calloc(s->start.n, sizeof *conflict);
+    if (solver->model.inclusions == 0) return SUNDER_OK;
+    bool *conflict = sunder_i_calloc(solver->start.n, sizeof *conflict);
     if (!conflict) return sunder_i_no_memory(err);
-    for (size_t k = 0; k < s->start.n; k++) {
-        const uint32_t pair[2] = {s->model.body_of[s->start.pair[k].a], s->model.body_of[s->start.pair[k].b]};
-        conflict[k] = sunder_i_solver_any_of(s, pair, 2, s->wanted) && !is_settled(s, pair) &&
-                      sunder_i_is_open_conflict(&s->model, &s->start.pair[k]);
+    for (size_t k = 0; k < solver->start.n; k++) {
+        const uint32_t pair[2] = {solver->model.body_of[solver->start.pair[k].a],
+                                  solver->model.body_of[solver->start.pair[k].b]};
+        conflict[k] = sunder_i_solver_any_of(solver, pair, 2, solver->wanted) && !is_settled(solver, pair) &&
+                      sunder_i_is_open_conflict(&solver->model, &solver->start.pair[k]);
     }
-    const sunder_status status = sunder_i_inclusions_choose(&s->model, &s->start, conflict, err);
+    const sunder_status status = sunder_i_inclusions_choose(&solver->model, &solver->start, conflict, err);
     sunder_i_free(conflict);
     return status;
 }

@@ -67,13 +67,13 @@ static bool has_moved(const sunder_i_model *model, const sunder_i_group *g)
     return false;
 }
 
-sunder_status sunder_i_solver_put_in_contact(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_put_in_contact(sunder_i_solver *solver, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
-    for (size_t k = 0; k < s->groups.n && !status; k++) {
-        const sunder_i_group *g = &s->groups.group[k];
-        if (sunder_i_solver_any_of(s, g->body, g->n, s->wanted) && has_moved(&s->model, g))
-            status = put_in_contact(s, g, err);
+    for (size_t k = 0; k < solver->groups.n && !status; k++) {
+        const sunder_i_group *g = &solver->groups.group[k];
+        if (sunder_i_solver_any_of(solver, g->body, g->n, solver->wanted) && has_moved(&solver->model, g))
+            status = put_in_contact(solver, g, err);
     }
     return status;
 }

@@ -82,21 +82,22 @@ static sunder_status note(sunder_i_solver *s, const sunder_i_relation *r, const 
     return sunder_i_inclusions_add(model, r->a, r->b, resolution->a_inside, err);
 }
 
-sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *s, const sunder_i_spared *spared, sunder_error *err)
+sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *solver, const sunder_i_spared *spared, sunder_error *err)
 {
-    const size_t n = s->start.n;
-    judging g = {.solver = s,
-                 .model = &s->model,
+    const size_t n = solver->start.n;
+    judging g = {.solver = solver,
+                 .model = &solver->model,
                  .spared = spared,
-                 .start = &s->start,
+                 .start = &solver->start,
                  .relaxation = sunder_i_calloc(n, sizeof *g.relaxation),
                  .resolution = sunder_i_calloc(n, sizeof *g.resolution)};
     sunder_status status = g.relaxation && g.resolution ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) status = sunder_i_inclusions_note_nested(&s->model, &s->start, err);
-    if (!status) status = sunder_i_parallel(s->model.rules.threads, n, SUNDER_I_GRAIN_PAIRS, judge, &g, err);
+    if (!status) status = sunder_i_inclusions_note_nested(&solver->model, &solver->start, err);
+    if (!status) status = sunder_i_parallel(solver->model.rules.threads, n, SUNDER_I_GRAIN_PAIRS, judge, &g, err);
     for (size_t k = 0; !status && k < n; k++)
-        status = note(s, &s->start.pair[k], &g.relaxation[k], &g.resolution[k], err);
-    if (!status && !sunder_i_relaxations_index(&s->model.relaxations, &s->model)) status = sunder_i_no_memory(err);
+        status = note(solver, &solver->start.pair[k], &g.relaxation[k], &g.resolution[k], err);
+    if (!status && !sunder_i_relaxations_index(&solver->model.relaxations, &solver->model))
+        status = sunder_i_no_memory(err);
     sunder_i_free(g.relaxation);
     sunder_i_free(g.resolution);
     return status;

@@ -44,20 +44,20 @@ static bool set_aside(sunder_i_solver *s)
     return ok;
 }
 
-sunder_status sunder_i_solver_lift_limits(sunder_i_solver *s, bool *lifted, sunder_error *err)
+sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, bool *lifted, sunder_error *err)
 {
-    sunder_i_model *model = &s->model;
+    sunder_i_model *model = &solver->model;
     *lifted = false;
     for (size_t b = 0; b < model->bodies; b++)
         *lifted = *lifted || (!model->body[b].fixed && model->body[b].limit < INFINITY);
-    *lifted = *lifted && s->barriers.parts == 0;
+    *lifted = *lifted && solver->barriers.parts == 0;
     if (!*lifted) return SUNDER_OK;
-    s->limit = sunder_i_alloc(model->bodies, sizeof *s->limit);
-    s->aside = sunder_i_calloc(model->bodies, sizeof *s->aside);
-    s->went = sunder_i_calloc(2 * model->bodies, sizeof *s->went);
-    if (!s->limit || !s->aside || !s->went || !set_aside(s)) return sunder_i_no_memory(err);
+    solver->limit = sunder_i_alloc(model->bodies, sizeof *solver->limit);
+    solver->aside = sunder_i_calloc(model->bodies, sizeof *solver->aside);
+    solver->went = sunder_i_calloc(2 * model->bodies, sizeof *solver->went);
+    if (!solver->limit || !solver->aside || !solver->went || !set_aside(solver)) return sunder_i_no_memory(err);
     for (size_t b = 0; b < model->bodies; b++) {
-        s->limit[b] = model->body[b].limit;
+        solver->limit[b] = model->body[b].limit;
         if (!model->body[b].fixed) model->body[b].limit = INFINITY;
     }
     return SUNDER_OK;
@@ -148,19 +148,19 @@ static bool set_running_aside(sunder_i_solver *s, const bool *running, bool *bac
     return any;
 }
 
-sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_error *err)
 {
-    const size_t n = s->model.bodies;
-    if (!s->aside || s->model.lifted) return SUNDER_OK;
+    const size_t n = solver->model.bodies;
+    if (!solver->aside || solver->model.lifted) return SUNDER_OK;
     uint32_t *root = sunder_i_alloc(n, sizeof *root);
     size_t *size = sunder_i_calloc(n, sizeof *size);
     bool *running = sunder_i_calloc(n, sizeof *running), *back = sunder_i_calloc(n, sizeof *back);
     sunder_status status = root && size && running && back ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) {
-        find_running(s, root, size, running);
-        if (set_running_aside(s, running, back)) {
-            send_home(s, back);
-            status = sunder_i_solver_relate(s, err);
+        find_running(solver, root, size, running);
+        if (set_running_aside(solver, running, back)) {
+            send_home(solver, back);
+            status = sunder_i_solver_relate(solver, err);
         }
     }
     sunder_i_free(root);
@@ -243,33 +243,34 @@ static bool doubt(sunder_i_solver *s)
     return true;
 }
 
-sunder_status sunder_i_solver_begin_again(sunder_i_solver *s, const bool *back, sunder_error *err)
+sunder_status sunder_i_solver_begin_again(sunder_i_solver *solver, const bool *back, sunder_error *err)
 {
-    send_home(s, back);
-    const sunder_status status = forget(s, back) ? sunder_i_solver_relate(s, err) : sunder_i_no_memory(err);
+    send_home(solver, back);
+    const sunder_status status = forget(solver, back) ? sunder_i_solver_relate(solver, err) : sunder_i_no_memory(err);
     /* Otherwise a body that once was in a cluster with a fixed body would count as already tested against it. */
-    return status ? status : sunder_i_solver_gather(s, err);
+    return status ? status : sunder_i_solver_gather(solver, err);
 }
 
-sunder_status sunder_i_solver_restore_limits(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, sunder_error *err)
 {
-    sunder_i_model *model = &s->model;
-    bool *root = sunder_i_calloc(model->bodies, sizeof *root), *back = s->wanted;
+    sunder_i_model *model = &solver->model;
+    bool *root = sunder_i_calloc(model->bodies, sizeof *root), *back = solver->wanted;
     sunder_status status = root ? SUNDER_OK : sunder_i_no_memory(err);
-    model->lifted = s->went; /* of those that were set aside, and all others as they stand */
-    s->went = NULL;
+    model->lifted = solver->went; /* of those that were set aside, and all others as they stand */
+    solver->went = NULL;
     for (uint32_t b = 0; b < model->bodies; b++)
-        if (!s->aside[b]) memcpy(model->lifted + 2 * (size_t)b, model->move + 2 * (size_t)b, 2 * sizeof *model->move);
-    for (size_t b = 0; b < model->bodies; b++) model->body[b].limit = s->limit[b];
-    if (!status && !doubt(s)) status = sunder_i_no_memory(err);
+        if (!solver->aside[b])
+            memcpy(model->lifted + 2 * (size_t)b, model->move + 2 * (size_t)b, 2 * sizeof *model->move);
+    for (size_t b = 0; b < model->bodies; b++) model->body[b].limit = solver->limit[b];
+    if (!status && !doubt(solver)) status = sunder_i_no_memory(err);
     if (!status) {
-        find_offenders(s, root);
+        find_offenders(solver, root);
         for (uint32_t b = 0; b < model->bodies; b++) {
-            back[b] = !model->body[b].fixed && root[sunder_i_union_find(s->parent, b)];
-            s->doubtful[b] = s->doubtful[b] || back[b];
+            back[b] = !model->body[b].fixed && root[sunder_i_union_find(solver->parent, b)];
+            solver->doubtful[b] = solver->doubtful[b] || back[b];
         }
-        memset(s->aside, 0, model->bodies * sizeof *s->aside);
-        status = sunder_i_solver_begin_again(s, back, err);
+        memset(solver->aside, 0, model->bodies * sizeof *solver->aside);
+        status = sunder_i_solver_begin_again(solver, back, err);
     }
     sunder_i_free(root);
     return status;

@@ -26,14 +26,14 @@ static void send(sunder_i_solver *s, const sunder_i_entry *e)
     }
 }
 
-sunder_status sunder_i_solver_move_inside(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_move_inside(sunder_i_solver *solver, sunder_error *err)
 {
-    if (s->entries == 0) return SUNDER_OK;
-    sunder_i_changes_clear(&s->changes);
-    for (size_t k = 0; k < s->entries; k++) {
-        const uint32_t i = s->model.body_of[s->entry[k].a], j = s->model.body_of[s->entry[k].b];
-        send(s, &s->entry[k]);
-        if (!sunder_i_solver_add_edge(s, i, j)) return sunder_i_no_memory(err);
+    if (solver->entries == 0) return SUNDER_OK;
+    sunder_i_changes_clear(&solver->changes);
+    for (size_t k = 0; k < solver->entries; k++) {
+        const uint32_t i = solver->model.body_of[solver->entry[k].a], j = solver->model.body_of[solver->entry[k].b];
+        send(solver, &solver->entry[k]);
+        if (!sunder_i_solver_add_edge(solver, i, j)) return sunder_i_no_memory(err);
     }
-    return sunder_i_solver_relate(s, err);
+    return sunder_i_solver_relate(solver, err);
 }

@@ -398,25 +398,26 @@ static sunder_status go_on(sunder_i_solver *s, const asking *asked, size_t clust
     return status;
 }
 
-sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *s, bool *changed, sunder_error *err)
+sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *solver, bool *changed, sunder_error *err)
 {
-    const size_t n = s->model.relaxations.n;
+    const size_t n = solver->model.relaxations.n;
     *changed = false;
-    if (s->model.given_up_n == 0) return SUNDER_OK;
-    sunder_status status = sunder_i_solver_gather(s, err);
+    if (solver->model.given_up_n == 0) return SUNDER_OK;
+    sunder_status status = sunder_i_solver_gather(solver, err);
     question *list = sunder_i_alloc(n, sizeof *list);
     size_t *first = sunder_i_alloc(n + 1, sizeof *first), clusters = 0;
     sunder_i_requirement *required = sunder_i_alloc(n, sizeof *required);
-    bool *asked = sunder_i_calloc(n, sizeof *asked), *wanted = sunder_i_solver_who_hang_with(s, s->wanted);
+    bool *asked = sunder_i_calloc(n, sizeof *asked), *wanted = sunder_i_solver_who_hang_with(solver, solver->wanted);
     sunder_i_decision *decision = sunder_i_calloc(n, sizeof *decision);
-    if (!s->alone_work) s->alone_work = sunder_i_calloc(s->model.bodies, sizeof *s->alone_work);
-    if (!status && (!list || !first || !required || !asked || !wanted || !decision || !s->alone_work))
+    if (!solver->alone_work) solver->alone_work = sunder_i_calloc(solver->model.bodies, sizeof *solver->alone_work);
+    if (!status && (!list || !first || !required || !asked || !wanted || !decision || !solver->alone_work))
         status = sunder_i_no_memory(err);
     if (!status) {
-        list_questions(s, wanted, list, first, &clusters);
-        asking g = {s, list, first, required, list_requirements(s, required), asked, s->alone_work, decision};
-        status = sunder_i_parallel(s->model.rules.threads, clusters, SUNDER_I_GRAIN_WHOLE, ask_clusters, &g, err);
-        if (!status) status = go_on(s, &g, clusters, changed, err);
+        list_questions(solver, wanted, list, first, &clusters);
+        asking g = {solver,  list, first, required, list_requirements(solver, required), asked, solver->alone_work,
+                    decision};
+        status = sunder_i_parallel(solver->model.rules.threads, clusters, SUNDER_I_GRAIN_WHOLE, ask_clusters, &g, err);
+        if (!status) status = go_on(solver, &g, clusters, changed, err);
     }
     for (size_t k = 0; k < clusters && decision; k++) sunder_i_decision_clear(&decision[k]);
     sunder_i_free(list);

@@ -80,17 +80,18 @@ static sunder_status list_pair(sunder_i_solver *s, const sunder_i_relation *r, c
     return status;
 }
 
-sunder_status sunder_i_solver_waive(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_waive(sunder_i_solver *solver, sunder_error *err)
 {
-    sunder_i_groups *groups = &s->groups;
+    sunder_i_groups *groups = &solver->groups;
     sunder_i_waiver *before = groups->waived;
     const size_t n = groups->waived_n;
     groups->waived_n = 0;
-    groups->waived = sunder_i_alloc(s->now.n, sizeof *groups->waived);
+    groups->waived = sunder_i_alloc(solver->now.n, sizeof *groups->waived);
     sunder_status status = groups->waived ? SUNDER_OK : sunder_i_no_memory(err);
-    for (size_t k = 0; k < s->now.n && !status; k++)
-        if (sunder_i_is_conflict(&s->now.pair[k])) status = list_pair(s, &s->now.pair[k], before, n, err);
-    if (!status && !forget_proofs(s, before, n)) status = sunder_i_no_memory(err);
+    for (size_t k = 0; k < solver->now.n && !status; k++)
+        if (sunder_i_is_conflict(&solver->now.pair[k]))
+            status = list_pair(solver, &solver->now.pair[k], before, n, err);
+    if (!status && !forget_proofs(solver, before, n)) status = sunder_i_no_memory(err);
     sunder_i_free(before);
     return status;
 }
@@ -402,17 +403,17 @@ static sunder_status prove_all(sunder_i_solver *s, bool *again, sunder_error *er
     return status;
 }
 
-sunder_status sunder_i_solver_optimise(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *err)
 {
-    bool again = s->model.rules.effort > 0;
+    bool again = solver->model.rules.effort > 0;
     if (!again) return SUNDER_OK;
-    sunder_status status = sunder_i_solver_waive(s, err);
-    if (!status) status = sunder_i_solver_gather_groups(s, err);
+    sunder_status status = sunder_i_solver_waive(solver, err);
+    if (!status) status = sunder_i_solver_gather_groups(solver, err);
     for (int round = 0; round < OPTIMISED && again && !status; round++) {
-        if (s->groups.any_seamed) status = sunder_i_model_find_seams(&s->model, err);
-        if (!status) status = prove_all(s, &again, err);
-        if (again && !status) status = sunder_i_solver_waive(s, err);
-        if (again && !status) status = sunder_i_solver_gather_groups(s, err);
+        if (solver->groups.any_seamed) status = sunder_i_model_find_seams(&solver->model, err);
+        if (!status) status = prove_all(solver, &again, err);
+        if (again && !status) status = sunder_i_solver_waive(solver, err);
+        if (again && !status) status = sunder_i_solver_gather_groups(solver, err);
     }
     return status;
 }

@@ -224,35 +224,35 @@ static bool go_on_from(sunder_i_solver *s, const component *c, const sunder_i_so
     return ok;
 }
 
-sunder_status sunder_i_solver_reconsider(sunder_i_solver *s, bool *changed, sunder_error *err)
+sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed, sunder_error *err)
 {
     *changed = false;
-    if (s->model.given_up_n == 0) return SUNDER_OK;
+    if (solver->model.given_up_n == 0) return SUNDER_OK;
     components all;
-    sunder_status status = find_components(s, &all, err);
-    if (!status) status = sunder_i_solver_gather(s, err);
+    sunder_status status = find_components(solver, &all, err);
+    if (!status) status = sunder_i_solver_gather(solver, err);
     bool *asked = sunder_i_calloc(all.n, sizeof *asked);
     sunder_i_decision *decision = sunder_i_calloc(all.n, sizeof *decision);
-    sunder_i_requirement *required = sunder_i_alloc(s->model.relaxations.n, sizeof *required);
+    sunder_i_requirement *required = sunder_i_alloc(solver->model.relaxations.n, sizeof *required);
     if (!status && (!asked || !decision || !required)) status = sunder_i_no_memory(err);
-    if (!status) status = ask(s, &all, asked, err);
+    if (!status) status = ask(solver, &all, asked, err);
     if (!status) {
-        asking g = {s, all.component, asked, required, list_requirements(&s->model, required), decision};
-        status = sunder_i_parallel(s->model.rules.threads, all.n, SUNDER_I_GRAIN_WHOLE, decide_some, &g, err);
+        asking g = {solver, all.component, asked, required, list_requirements(&solver->model, required), decision};
+        status = sunder_i_parallel(solver->model.rules.threads, all.n, SUNDER_I_GRAIN_WHOLE, decide_some, &g, err);
     }
-    if (!status) sunder_i_changes_clear(&s->changes);
+    if (!status) sunder_i_changes_clear(&solver->changes);
     for (size_t k = 0; k < all.n && !status; k++) {
         if (decision[k].verdict != SUNDER_I_FEASIBLE) {
-            s->reconsidered[all.component[k].root] |= asked[k];
+            solver->reconsidered[all.component[k].root] |= asked[k];
             continue;
         }
         *changed = true;
-        if (!go_on_from(s, &all.component[k], &decision[k].solution)) status = sunder_i_no_memory(err);
+        if (!go_on_from(solver, &all.component[k], &decision[k].solution)) status = sunder_i_no_memory(err);
     }
     for (size_t k = 0; k < all.n && decision; k++) sunder_i_decision_clear(&decision[k]);
     sunder_i_free(asked);
     sunder_i_free(decision);
     sunder_i_free(required);
     free_components(&all);
-    return !status && *changed ? sunder_i_solver_relate(s, err) : status;
+    return !status && *changed ? sunder_i_solver_relate(solver, err) : status;
 }

@@ -218,20 +218,21 @@ static sunder_status join_all(sunder_i_solver *s, sunder_error *err)
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-sunder_status sunder_i_solver_retry(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_retry(sunder_i_solver *solver, sunder_error *err)
 {
     retries all = {0};
-    if (s->model.relaxations.n == 0) return SUNDER_OK;
-    sunder_status status = join_all(s, err);
-    if (!status) status = sunder_i_solver_gather(s, err);
-    if (!status) status = sunder_i_solver_unite_blocks(s, err);
-    if (!status && !list_retries(s, &all)) status = sunder_i_no_memory(err);
-    asking g = {s, &all};
+    if (solver->model.relaxations.n == 0) return SUNDER_OK;
+    sunder_status status = join_all(solver, err);
+    if (!status) status = sunder_i_solver_gather(solver, err);
+    if (!status) status = sunder_i_solver_unite_blocks(solver, err);
+    if (!status && !list_retries(solver, &all)) status = sunder_i_no_memory(err);
+    asking g = {solver, &all};
     if (!status)
-        status = sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, retry_clusters, &g, err);
+        status = sunder_i_parallel(solver->model.rules.threads, solver->clusters, SUNDER_I_GRAIN_WHOLE, retry_clusters,
+                                   &g, err);
     sunder_i_free(all.retry);
     sunder_i_free(all.relaxation);
-    if (!status) status = sunder_i_solver_commit(s, err);
-    if (!status) status = sunder_i_solver_take_over(s, err);
-    return status ? status : sunder_i_solver_relate(s, err);
+    if (!status) status = sunder_i_solver_commit(solver, err);
+    if (!status) status = sunder_i_solver_take_over(solver, err);
+    return status ? status : sunder_i_solver_relate(solver, err);
 }

@@ -164,27 +164,28 @@ static bool is_hopeless(const sunder_i_solver *s)
     return false;
 }
 
-sunder_status sunder_i_solver_settle(sunder_i_solver *s, double from, double to, sunder_error *err)
+sunder_status sunder_i_solver_settle(sunder_i_solver *solver, double from, double to, sunder_error *err)
 {
     bool any;
-    sunder_status status = find_work(s, &any, err);
+    sunder_status status = find_work(solver, &any, err);
     for (size_t round = 0; !status && any; round++) {
-        if (!sunder_i_progress(&s->model.rules, from + (to - from) * (1 - 1 / (1 + SHARE_OF_ROUND * (double)round))))
+        if (!sunder_i_progress(&solver->model.rules,
+                               from + (to - from) * (1 - 1 / (1 + SHARE_OF_ROUND * (double)round))))
             return sunder_i_cancelled(err);
-        status = sunder_i_solver_gather(s, err);
-        if (!status) status = sunder_i_solver_unite_blocks(s, err);
-        if (!status) status = sunder_i_solver_grow_crowds(s, err);
-        if (!status) status = sunder_i_solver_for_clusters(s, solve_clusters, s, err);
-        s->hopeless = !status && is_hopeless(s);
-        if (status || s->hopeless) return status;
-        sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
-        status = sunder_i_solver_commit(s, err);
-        if (!status) status = note_solved(s, err);
-        for (size_t k = 0; k < s->members; k++) s->carrier[s->body[k]] = SUNDER_I_NOBODY;
-        if (!status) status = sunder_i_solver_take_over(s, err);
-        if (!status) status = sunder_i_solver_relate(s, err);
-        if (!status) status = sunder_i_solver_set_far_aside(s, err);
-        if (!status) status = find_work(s, &any, err);
+        status = sunder_i_solver_gather(solver, err);
+        if (!status) status = sunder_i_solver_unite_blocks(solver, err);
+        if (!status) status = sunder_i_solver_grow_crowds(solver, err);
+        if (!status) status = sunder_i_solver_for_clusters(solver, solve_clusters, solver, err);
+        solver->hopeless = !status && is_hopeless(solver);
+        if (status || solver->hopeless) return status;
+        sunder_i_pieces_forget(&solver->model, SUNDER_I_PIECES_HELD);
+        status = sunder_i_solver_commit(solver, err);
+        if (!status) status = note_solved(solver, err);
+        for (size_t k = 0; k < solver->members; k++) solver->carrier[solver->body[k]] = SUNDER_I_NOBODY;
+        if (!status) status = sunder_i_solver_take_over(solver, err);
+        if (!status) status = sunder_i_solver_relate(solver, err);
+        if (!status) status = sunder_i_solver_set_far_aside(solver, err);
+        if (!status) status = find_work(solver, &any, err);
     }
     return status;
 }

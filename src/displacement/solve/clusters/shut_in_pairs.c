@@ -198,13 +198,13 @@ static sunder_status find_seams(sunder_i_model *model, const sunder_i_id_pair *p
     return status;
 }
 
-sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *solver, sunder_error *err)
 {
-    sunder_i_model *model = &s->model;
+    sunder_i_model *model = &solver->model;
     if (model->rules.jumps) return SUNDER_OK;
-    sunder_i_id_pair *pair = sunder_i_alloc(s->start.n, sizeof *pair);
+    sunder_i_id_pair *pair = sunder_i_alloc(solver->start.n, sizeof *pair);
     if (!pair) return sunder_i_no_memory(err);
-    size_t n = list_pairs(s, pair);
+    size_t n = list_pairs(solver, pair);
     judging g = {model, pair, sunder_i_calloc(n, sizeof *g.shut)};
     sunder_status status = g.shut ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_TESTS, suspect, &g, err);
@@ -213,7 +213,7 @@ sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *s, sunder_error *err
     if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_WHOLE, judge, &g, err);
     const size_t out = status ? 0 : keep_shut(pair, g.shut, n);
     if (!status && out) {
-        status = relax(s, pair, out, err);
+        status = relax(solver, pair, out, err);
         sunder_i_id_pair *confined = sunder_i_realloc(pair, out, sizeof *pair);
         model->confined = confined ? confined : pair;
         model->confined_n = out;

@@ -116,7 +116,7 @@ bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body,
  * with nobody. NULL if memory is out. */
 bool *sunder_i_solver_who_hang_with(const sunder_i_solver *solver, const bool *flag);
 /* What is asked of these bodies beyond the gap. */
-double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *body, size_t n);
+double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, size_t n);
 /* Who stands for the cluster where it is noted what was looked at for it: one that is of no other. */
 static inline uint32_t sunder_i_reader_for(const sunder_i_solver *solver, const sunder_i_cluster *cluster)
 {

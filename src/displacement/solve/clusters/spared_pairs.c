@@ -8,21 +8,22 @@
 
 #include <stdlib.h>
 
-bool sunder_i_solver_is_spared(const sunder_i_solver *s, const sunder_i_spared *list, uint32_t a, uint32_t b)
+bool sunder_i_solver_is_spared(const sunder_i_solver *solver, const sunder_i_spared *spared, uint32_t a, uint32_t b)
 {
-    const uint32_t p = s->layer.number[a], q = s->layer.number[b];
+    const uint32_t p = solver->layer.number[a], q = solver->layer.number[b];
     const sunder_i_id_pair key = {p < q ? p : q, p < q ? q : p};
-    return list->n && bsearch(&key, list->pair, list->n, sizeof key, sunder_i_by_id_pair);
+    return spared->n && bsearch(&key, spared->pair, spared->n, sizeof key, sunder_i_by_id_pair);
 }
 
-sunder_status sunder_i_solver_spare(sunder_i_solver *s, const sunder_i_spared *list, sunder_error *err)
+sunder_status sunder_i_solver_spare(sunder_i_solver *solver, const sunder_i_spared *spared, sunder_error *err)
 {
-    sunder_i_model *model = &s->model;
+    sunder_i_model *model = &solver->model;
     sunder_status status = SUNDER_OK;
-    for (size_t k = 0; k < s->start.n && list->n && !status; k++) {
-        const sunder_i_relation *r = &s->start.pair[k];
+    for (size_t k = 0; k < solver->start.n && spared->n && !status; k++) {
+        const sunder_i_relation *r = &solver->start.pair[k];
         sunder_i_relaxation relaxation;
-        if (!sunder_i_is_conflict_of_bodies(model, r) || !sunder_i_solver_is_spared(s, list, r->a, r->b)) continue;
+        if (!sunder_i_is_conflict_of_bodies(model, r) || !sunder_i_solver_is_spared(solver, spared, r->a, r->b))
+            continue;
         status = sunder_i_relaxation_of(model, r->a, r->b, &relaxation, err);
         relaxation.infeasible = true;
         if (!status && !sunder_i_relaxations_spread(&model->relaxations, model, &relaxation, model->rules.gap))
@@ -32,12 +33,12 @@ sunder_status sunder_i_solver_spare(sunder_i_solver *s, const sunder_i_spared *l
     return status;
 }
 
-bool sunder_i_solver_is_beyond_limits(const sunder_i_solver *s, const sunder_i_spared *list)
+bool sunder_i_solver_is_beyond_limits(const sunder_i_solver *solver, const sunder_i_spared *spared)
 {
-    const sunder_i_model *model = &s->model;
+    const sunder_i_model *model = &solver->model;
     for (size_t k = 0; k < model->relaxations.n; k++) {
         const sunder_i_relaxation *t = &model->relaxations.item[k];
-        if (sunder_i_solver_is_spared(s, list, t->a, t->b)) continue;
+        if (sunder_i_solver_is_spared(solver, spared, t->a, t->b)) continue;
         if (sunder_i_may_move(&model->body[model->body_of[t->a]]) ||
             sunder_i_may_move(&model->body[model->body_of[t->b]]))
             return true;
@@ -105,23 +106,23 @@ static sunder_status prove(const sunder_i_solver *s, const sunder_i_spared *list
     return status;
 }
 
-sunder_status sunder_i_solver_is_proved_hopeless(const sunder_i_solver *s, const sunder_i_spared *list, bool *proved,
-                                                 sunder_error *err)
+sunder_status sunder_i_solver_is_proved_hopeless(const sunder_i_solver *solver, const sunder_i_spared *spared,
+                                                 bool *proved, sunder_error *err)
 {
     sunder_i_planes planes = {0};
-    sunder_i_requirement *required = sunder_i_alloc(s->start.n, sizeof *required);
+    sunder_i_requirement *required = sunder_i_alloc(solver->start.n, sizeof *required);
     size_t n = 0;
-    sunder_status status = required ? find_requirements(s, list, required, &n, err) : sunder_i_no_memory(err);
+    sunder_status status = required ? find_requirements(solver, spared, required, &n, err) : sunder_i_no_memory(err);
     *proved = false;
     if (!status) {
-        sunder_i_subproblem q = {.model = &s->model,
+        sunder_i_subproblem q = {.model = &solver->model,
                                  .a = SUNDER_I_NOBODY,
                                  .b = SUNDER_I_NOBODY,
                                  .required = required,
                                  .required_n = n,
                                  .planes = &planes,
                                  .most = MOST_BODIES};
-        status = prove(s, list, &q, proved, err);
+        status = prove(solver, spared, &q, proved, err);
     }
     sunder_i_planes_clear(&planes);
     sunder_i_free(required);

@@ -13,14 +13,14 @@ static void goal_of(const sunder_i_trial *t, size_t k, const double to[2], doubl
         goal[c] = t->goal ? t->goal[2 * k + c] : t->along >> c & 1 ? to[c] : t->stood[2 * k + c];
 }
 
-bool sunder_i_trial_take(sunder_i_trial *t, uint32_t b)
+bool sunder_i_trial_take(sunder_i_trial *trial, uint32_t body)
 {
-    const double *move = t->solver->model.move + 2 * (size_t)b;
-    if (!sunder_i_reserve(&t->body, &t->body_capacity, t->n + 1, sizeof *t->body) ||
-        !sunder_i_reserve(&t->stood, &t->stood_capacity, 2 * (t->n + 1), sizeof *t->stood))
+    const double *move = trial->solver->model.move + 2 * (size_t)body;
+    if (!sunder_i_reserve(&trial->body, &trial->body_capacity, trial->n + 1, sizeof *trial->body) ||
+        !sunder_i_reserve(&trial->stood, &trial->stood_capacity, 2 * (trial->n + 1), sizeof *trial->stood))
         return false;
-    t->body[t->n] = b;
-    memcpy(t->stood + 2 * t->n++, move, 2 * sizeof *move);
+    trial->body[trial->n] = body;
+    memcpy(trial->stood + 2 * trial->n++, move, 2 * sizeof *move);
     return true;
 }
 
@@ -94,46 +94,47 @@ static bool note_about(sunder_i_trial *t)
 }
 
 /* Tries one place for them all: they stay there if all is well, else go back. */
-sunder_status sunder_i_trial_place(sunder_i_trial *t, const double to[2], sunder_error *err)
+sunder_status sunder_i_trial_place(sunder_i_trial *trial, const double to[2], sunder_error *err)
 {
-    sunder_i_solver *s = t->solver;
-    t->well = false;
-    if (!can_go(t, to)) return SUNDER_OK;
-    t->well = true;
-    t->about.n = 0;
-    sunder_status status = note_about(t) ? put(t, to, err) : sunder_i_no_memory(err);
-    for (size_t k = 0; k < t->n && t->well && !status; k++)
-        status = sunder_i_placement_visit(&s->model, &s->placement, t->body[k], &t->near, look_at_pair, t, err);
-    for (size_t k = 0; k < t->n && t->well && !status; k++) {
+    sunder_i_solver *s = trial->solver;
+    trial->well = false;
+    if (!can_go(trial, to)) return SUNDER_OK;
+    trial->well = true;
+    trial->about.n = 0;
+    sunder_status status = note_about(trial) ? put(trial, to, err) : sunder_i_no_memory(err);
+    for (size_t k = 0; k < trial->n && trial->well && !status; k++)
+        status =
+            sunder_i_placement_visit(&s->model, &s->placement, trial->body[k], &trial->near, look_at_pair, trial, err);
+    for (size_t k = 0; k < trial->n && trial->well && !status; k++) {
         bool jumps;
-        status = sunder_i_jumps_of_body(&s->jumps, &s->model, t->body[k], &t->near, &jumps, err);
-        t->well = !jumps;
+        status = sunder_i_jumps_of_body(&s->jumps, &s->model, trial->body[k], &trial->near, &jumps, err);
+        trial->well = !jumps;
     }
     if (status) return status;
-    return t->well ? sunder_i_solver_relate_near(s, &t->about, err) : put(t, NULL, err);
+    return trial->well ? sunder_i_solver_relate_near(s, &trial->about, err) : put(trial, NULL, err);
 }
 
-bool sunder_i_trial_take_moved(sunder_i_trial *t, const sunder_i_cluster *c, const double *move)
+bool sunder_i_trial_take_moved(sunder_i_trial *trial, const sunder_i_cluster *cluster, const double *move)
 {
-    const sunder_i_solver *s = t->solver;
-    t->goal = sunder_i_alloc(2 * c->n, sizeof *t->goal);
-    for (size_t k = 0; k < c->n && t->goal; k++) {
-        const uint32_t b = c->body[k];
+    const sunder_i_solver *s = trial->solver;
+    trial->goal = sunder_i_alloc(2 * cluster->n, sizeof *trial->goal);
+    for (size_t k = 0; k < cluster->n && trial->goal; k++) {
+        const uint32_t b = cluster->body[k];
         if (!sunder_i_may_move(&s->model.body[b]) ||
             memcmp(move + 2 * k, s->model.move + 2 * (size_t)b, 2 * sizeof *move) == 0)
             continue;
-        if (!sunder_i_trial_take(t, b)) return false;
-        memcpy(t->goal + 2 * (t->n - 1), move + 2 * k, 2 * sizeof *move);
+        if (!sunder_i_trial_take(trial, b)) return false;
+        memcpy(trial->goal + 2 * (trial->n - 1), move + 2 * k, 2 * sizeof *move);
     }
-    return t->goal != NULL;
+    return trial->goal != NULL;
 }
 
-void sunder_i_trial_free(sunder_i_trial *t)
+void sunder_i_trial_free(sunder_i_trial *trial)
 {
-    sunder_i_free(t->body);
-    sunder_i_free(t->stood);
-    sunder_i_free(t->goal);
-    sunder_i_free(t->taken);
-    sunder_i_free(t->near.item);
-    sunder_i_free(t->about.item);
+    sunder_i_free(trial->body);
+    sunder_i_free(trial->stood);
+    sunder_i_free(trial->goal);
+    sunder_i_free(trial->taken);
+    sunder_i_free(trial->near.item);
+    sunder_i_free(trial->about.item);
 }

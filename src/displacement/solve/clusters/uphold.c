@@ -68,41 +68,43 @@ static sunder_i_depth *depth_of(sunder_i_solver *s, const sunder_i_relation *was
     return &s->depth[*at - 1];
 }
 
-sunder_status sunder_i_solver_is_worse(sunder_i_solver *s, const sunder_i_relation *r, bool *worse, sunder_error *err)
+sunder_status sunder_i_solver_is_worse(sunder_i_solver *solver, const sunder_i_relation *r, bool *worse,
+                                       sunder_error *err)
 {
-    const sunder_i_relation *was = sunder_i_relations_find(&s->start, r->a, r->b);
+    const sunder_i_relation *was = sunder_i_relations_find(&solver->start, r->a, r->b);
     *worse = !was || !sunder_i_is_conflict(was);
-    if (sunder_i_is_barrier(&s->model, r->b)) return is_worse_to_barrier(s, r, worse, err);
-    if (*worse || stand_as_they_did(s, r) || (was->contained && r->contained)) return SUNDER_OK;
-    const sunder_i_translate a = sunder_i_standing(&s->model, &s->placement, r->a),
-                             b = sunder_i_standing(&s->model, &s->placement, r->b);
-    const sunder_i_pair before = {sunder_i_thing_shape(&s->model, r->a), sunder_i_thing_shape(&s->model, r->b), NULL,
-                                  NULL},
+    if (sunder_i_is_barrier(&solver->model, r->b)) return is_worse_to_barrier(solver, r, worse, err);
+    if (*worse || stand_as_they_did(solver, r) || (was->contained && r->contained)) return SUNDER_OK;
+    const sunder_i_translate a = sunder_i_standing(&solver->model, &solver->placement, r->a),
+                             b = sunder_i_standing(&solver->model, &solver->placement, r->b);
+    const sunder_i_pair before = {sunder_i_thing_shape(&solver->model, r->a),
+                                  sunder_i_thing_shape(&solver->model, r->b), NULL, NULL},
                         now = {a.shape, b.shape, a.t, b.t};
-    sunder_i_depth *depth = depth_of(s, was);
+    sunder_i_depth *depth = depth_of(solver, was);
     return depth ? sunder_i_pair_worsened_since(&before, depth, &now, worse, err) : sunder_i_no_memory(err);
 }
 
 /* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */
-bool sunder_i_solver_is_always_listed(const sunder_i_solver *s, const sunder_i_relation *r)
+bool sunder_i_solver_is_always_listed(const sunder_i_solver *solver, const sunder_i_relation *r)
 {
-    return sunder_i_is_conflict(r) && (s->model.body_of[r->a] != s->model.body_of[r->b] || (r->overlap && !r->touch));
+    return sunder_i_is_conflict(r) &&
+           (solver->model.body_of[r->a] != solver->model.body_of[r->b] || (r->overlap && !r->touch));
 }
 
-sunder_status sunder_i_solver_breaks_rule(sunder_i_solver *s, const sunder_i_relation *r, bool *breaks,
+sunder_status sunder_i_solver_breaks_rule(sunder_i_solver *solver, const sunder_i_relation *r, bool *breaks,
                                           sunder_error *err)
 {
     *breaks = false;
-    return sunder_i_solver_is_always_listed(s, r) ? sunder_i_solver_is_worse(s, r, breaks, err) : SUNDER_OK;
+    return sunder_i_solver_is_always_listed(solver, r) ? sunder_i_solver_is_worse(solver, r, breaks, err) : SUNDER_OK;
 }
 
-sunder_status sunder_i_solver_is_upheld(sunder_i_solver *s, bool *upheld, sunder_error *err)
+sunder_status sunder_i_solver_is_upheld(sunder_i_solver *solver, bool *upheld, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
-    *upheld = s->jumps.n == 0;
-    for (size_t k = 0; k < s->now.n && *upheld && !status; k++) {
+    *upheld = solver->jumps.n == 0;
+    for (size_t k = 0; k < solver->now.n && *upheld && !status; k++) {
         bool breaks;
-        status = sunder_i_solver_breaks_rule(s, &s->now.pair[k], &breaks, err);
+        status = sunder_i_solver_breaks_rule(solver, &solver->now.pair[k], &breaks, err);
         *upheld = !status && !breaks;
     }
     return status;
@@ -210,26 +212,26 @@ static const struct {
     unsigned along;
 } ways[] = {{NEARBY, 3}, {PARTNER, 3}, {PARTNER, 1}, {PARTNER, 2}, {TOGETHER, 3}, {TOGETHER, 1}, {TOGETHER, 2}};
 
-size_t *sunder_i_solver_patience(const sunder_i_solver *s)
+size_t *sunder_i_solver_patience(const sunder_i_solver *solver)
 {
-    size_t *budget = sunder_i_alloc(s->model.bodies, sizeof *budget);
-    for (size_t b = 0; b < s->model.bodies && budget; b++) budget[b] = IN_VAIN;
+    size_t *budget = sunder_i_alloc(solver->model.bodies, sizeof *budget);
+    for (size_t b = 0; b < solver->model.bodies && budget; b++) budget[b] = IN_VAIN;
     return budget;
 }
 
-sunder_status sunder_i_solver_mend(sunder_i_solver *s, const sunder_i_relation *r, size_t *budget, bool *well,
+sunder_status sunder_i_solver_mend(sunder_i_solver *solver, const sunder_i_relation *r, size_t *budget, bool *well,
                                    sunder_error *err)
 {
-    const uint32_t pair[2] = {s->model.body_of[r->a], s->model.body_of[r->b]};
-    sunder_i_trial t = {.solver = s};
+    const uint32_t pair[2] = {solver->model.body_of[r->a], solver->model.body_of[r->b]};
+    sunder_i_trial t = {.solver = solver};
     sunder_status status = SUNDER_OK;
     for (size_t k = 0; k < sizeof ways / sizeof *ways && !t.well && !status; k++)
         for (int e = 0; e < 2 && !t.well && !status; e++) {
-            const double *other = s->model.move + 2 * (size_t)pair[1 - e], to[2] = {other[0], other[1]};
+            const double *other = solver->model.move + 2 * (size_t)pair[1 - e], to[2] = {other[0], other[1]};
             t.n = 0;
             t.along = ways[k].along;
-            if (!sunder_i_may_move(&s->model.body[pair[e]])) continue;
-            t.budget = &budget[sunder_i_union_find(s->parent, pair[e])];
+            if (!sunder_i_may_move(&solver->model.body[pair[e]])) continue;
+            t.budget = &budget[sunder_i_union_find(solver->parent, pair[e])];
             if (!sunder_i_trial_take(&t, pair[e])) status = sunder_i_no_memory(err);
             if (!status && ways[k].way == NEARBY) status = try_nearby(&t, err);
             if (!status && ways[k].way == PARTNER) status = sunder_i_trial_place(&t, to, err);
@@ -370,39 +372,40 @@ static size_t first_after(const sunder_i_solver *s, sunder_i_id_pair last)
     return at < s->now.n && s->now.pair[at].a == last.a && s->now.pair[at].b == last.b ? at + 1 : at;
 }
 
-sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_uphold(sunder_i_solver *solver, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
-    size_t *budget = sunder_i_solver_patience(s);
+    size_t *budget = sunder_i_solver_patience(solver);
     waiting held;
-    if (!waiting_init(&held, s->model.bodies) || !budget) status = sunder_i_no_memory(err);
-    for (bool any = s->now.n + s->jumps.n > 0, pinned; any && !status;) {
+    if (!waiting_init(&held, solver->model.bodies) || !budget) status = sunder_i_no_memory(err);
+    for (bool any = solver->now.n + solver->jumps.n > 0, pinned; any && !status;) {
         any = pinned = false;
-        begin_pass(s, &held);
-        status = pin_jumps(s, &pinned, err);
+        begin_pass(solver, &held);
+        status = pin_jumps(solver, &pinned, err);
         any = pinned;
         sunder_i_id_pair last = {0, 0}; /* no pair */
-        for (size_t k; (k = first_after(s, last)) < s->now.n && !status;) {
-            const sunder_i_relation r = s->now.pair[k];
+        for (size_t k; (k = first_after(solver, last)) < solver->now.n && !status;) {
+            const sunder_i_relation r = solver->now.pair[k];
             last = (sunder_i_id_pair){r.a, r.b};
-            const uint32_t i = s->model.body_of[r.a], j = s->model.body_of[r.b];
+            const uint32_t i = solver->model.body_of[r.a], j = solver->model.body_of[r.b];
             bool breaks, well = false;
-            status = sunder_i_solver_breaks_rule(s, &r, &breaks, err);
-            if (status || !breaks || (!sunder_i_may_move(&s->model.body[i]) && !sunder_i_may_move(&s->model.body[j])))
+            status = sunder_i_solver_breaks_rule(solver, &r, &breaks, err);
+            if (status || !breaks ||
+                (!sunder_i_may_move(&solver->model.body[i]) && !sunder_i_may_move(&solver->model.body[j])))
                 continue;
             any = true;
-            if (is_held(s, &held, i) || is_held(s, &held, j)) continue;
-            status = sunder_i_solver_mend(s, &r, budget, &well, err);
-            if (!status && !well) status = ease_either_way(s, &r, &held, &well, err);
+            if (is_held(solver, &held, i) || is_held(solver, &held, j)) continue;
+            status = sunder_i_solver_mend(solver, &r, budget, &well, err);
+            if (!status && !well) status = ease_either_way(solver, &r, &held, &well, err);
             if (status || well) continue;
             pinned = true;
-            status = pin(s, i, j, err);
-            hold(s, &held, i);
-            hold(s, &held, j);
+            status = pin(solver, i, j, err);
+            hold(solver, &held, i);
+            hold(solver, &held, j);
         }
-        if (pinned && !status) status = sunder_i_solver_settle(s, SOUGHT, SOUGHT, err);
+        if (pinned && !status) status = sunder_i_solver_settle(solver, SOUGHT, SOUGHT, err);
     }
-    for (size_t b = 0; b < s->model.bodies; b++) s->model.body[b].pinned = false;
+    for (size_t b = 0; b < solver->model.bodies; b++) solver->model.body[b].pinned = false;
     waiting_free(&held);
     sunder_i_free(budget);
     return status;

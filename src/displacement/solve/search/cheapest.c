@@ -405,10 +405,10 @@ static bool is_cheapest_below(sunder_i_search *s)
     return cheapest;
 }
 
-bool sunder_i_search_is_cheapest(sunder_i_search *s)
+bool sunder_i_search_is_cheapest(sunder_i_search *search)
 {
-    const bool down = sunder_i_search_goes_down(s);
-    const double enough = down ? NEARLY_CHEAPEST : CHEAPEST, left = find_left(s, enough);
-    if (s->failed || left > enough) return false;
-    return left <= CHEAPEST || is_cheapest_below(s);
+    const bool down = sunder_i_search_goes_down(search);
+    const double enough = down ? NEARLY_CHEAPEST : CHEAPEST, left = find_left(search, enough);
+    if (search->failed || left > enough) return false;
+    return left <= CHEAPEST || is_cheapest_below(search);
 }

@@ -23,39 +23,39 @@ static void look_at(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
     s->clash[s->clashes++] = (sunder_i_clash){i, j, v};
 }
 
-void sunder_i_search_look_at(sunder_i_search *s, const double *t, uint32_t i, uint32_t j)
+void sunder_i_search_look_at(sunder_i_search *search, const double *t, uint32_t i, uint32_t j)
 {
     look l = {t, 0};
-    look_at(s, i, j, &l);
+    look_at(search, i, j, &l);
 }
 
-double sunder_i_search_look(sunder_i_search *s, const double *t)
+double sunder_i_search_look(sunder_i_search *search, const double *t)
 {
     look l = {t, 0};
-    s->clashes = 0;
-    sunder_i_search_near(s, t, s->gap, look_at, &l);
-    sunder_i_search_passing(s, t, s->gap, look_at, &l);
-    for (uint32_t k = 0; k < s->n; k++) l.worst = sunder_i_max(l.worst, sunder_i_search_overstep(s, k, t));
+    search->clashes = 0;
+    sunder_i_search_near(search, t, search->gap, look_at, &l);
+    sunder_i_search_passing(search, t, search->gap, look_at, &l);
+    for (uint32_t k = 0; k < search->n; k++) l.worst = sunder_i_max(l.worst, sunder_i_search_overstep(search, k, t));
     return l.worst;
 }
 
-void sunder_i_search_look_again(sunder_i_search *s, const double *t, uint32_t i)
+void sunder_i_search_look_again(sunder_i_search *search, const double *t, uint32_t i)
 {
     size_t out = 0;
-    for (size_t k = 0; k < s->clashes; k++)
-        if (s->clash[k].i != i && s->clash[k].j != i) s->clash[out++] = s->clash[k];
-    s->clashes = out;
+    for (size_t k = 0; k < search->clashes; k++)
+        if (search->clash[k].i != i && search->clash[k].j != i) search->clash[out++] = search->clash[k];
+    search->clashes = out;
     look l = {t, 0};
-    const sunder_i_body *p = &s->model->body[s->body[i]];
+    const sunder_i_body *p = &search->model->body[search->body[i]];
     if (p->pieces == 0) return;
-    for (uint32_t j = 0; j < s->n && !s->failed; j++) {
-        const sunder_i_body *q = &s->model->body[s->body[j]];
+    for (uint32_t j = 0; j < search->n && !search->failed; j++) {
+        const sunder_i_body *q = &search->model->body[search->body[j]];
         if (j == i || q->pieces == 0) continue;
         double box[4];
         for (size_t c = 0; c < 4; c++)
             box[c] = p->box[c] + p->origin[c & 1] + t[2 * i + (c & 1)] - q->origin[c & 1] - t[2 * j + (c & 1)] +
-                     (c < 2 ? -s->gap : s->gap);
-        if (sunder_i_box_meet(box, q->box) || sunder_i_search_may_pass(s, t, i, j, s->gap))
-            look_at(s, i < j ? i : j, i < j ? j : i, &l);
+                     (c < 2 ? -search->gap : search->gap);
+        if (sunder_i_box_meet(box, q->box) || sunder_i_search_may_pass(search, t, i, j, search->gap))
+            look_at(search, i < j ? i : j, i < j ? j : i, &l);
     }
 }

@@ -42,19 +42,19 @@ static bool push_apart(sunder_i_search *s)
     return !s->failed && sunder_i_search_look(s, s->t) <= s->tolerance;
 }
 
-void sunder_i_search_go_together(sunder_i_search *s)
+void sunder_i_search_go_together(sunder_i_search *search)
 {
-    const size_t size = 2 * s->n * sizeof *s->t;
-    uint32_t *root = sunder_i_alloc(s->n, sizeof *root);
-    double *stood = sunder_i_alloc(2 * s->n, sizeof *stood);
-    s->failed = s->failed || !root || !stood;
-    if (!s->failed) {
-        memcpy(stood, s->t, size);
-        sunder_i_union_init(root, s->n);
-        sunder_i_search_near(s, s->t, 2 * s->gap, join_alike, root);
-        for (uint32_t k = 0; k < s->n; k++)
-            memcpy(s->t + 2 * (size_t)k, stood + 2 * (size_t)sunder_i_union_find(root, k), 2 * sizeof *s->t);
-        if (!s->failed && !push_apart(s)) memcpy(s->t, stood, size);
+    const size_t size = 2 * search->n * sizeof *search->t;
+    uint32_t *root = sunder_i_alloc(search->n, sizeof *root);
+    double *stood = sunder_i_alloc(2 * search->n, sizeof *stood);
+    search->failed = search->failed || !root || !stood;
+    if (!search->failed) {
+        memcpy(stood, search->t, size);
+        sunder_i_union_init(root, search->n);
+        sunder_i_search_near(search, search->t, 2 * search->gap, join_alike, root);
+        for (uint32_t k = 0; k < search->n; k++)
+            memcpy(search->t + 2 * (size_t)k, stood + 2 * (size_t)sunder_i_union_find(root, k), 2 * sizeof *search->t);
+        if (!search->failed && !push_apart(search)) memcpy(search->t, stood, size);
     }
     sunder_i_free(root);
     sunder_i_free(stood);

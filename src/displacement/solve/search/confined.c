@@ -37,10 +37,12 @@ static double farthest_of(const sunder_i_search *s, const sunder_i_relaxations *
     return farthest;
 }
 
-bool sunder_i_search_is_confined(const sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double *farthest)
+bool sunder_i_search_is_confined(const sunder_i_search *search, uint32_t i, uint32_t j, const double u[2],
+                                 double *farthest)
 {
-    const uint32_t p = s->body[i], q = s->body[j];
-    if (!sunder_i_are_confined(s->model, p, q)) return false;
-    *farthest = sunder_i_max(farthest_of(s, &s->relaxations, p, q, u), farthest_of(s, &s->model->relaxations, p, q, u));
+    const uint32_t p = search->body[i], q = search->body[j];
+    if (!sunder_i_are_confined(search->model, p, q)) return false;
+    *farthest = sunder_i_max(farthest_of(search, &search->relaxations, p, q, u),
+                             farthest_of(search, &search->model->relaxations, p, q, u));
     return true;
 }

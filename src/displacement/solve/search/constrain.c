@@ -26,24 +26,25 @@ static const sunder_i_constraint *look_up(const sunder_i_constraint *c, size_t n
 }
 
 /* Pieces of one wall give the same line many times. */
-void sunder_i_search_add_constraint(sunder_i_search *s, size_t first, const sunder_i_constraint *c)
+void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const sunder_i_constraint *constraint)
 {
-    sunder_i_quadratic *p = &s->program;
+    sunder_i_quadratic *p = &search->program;
     for (size_t k = first; k < p->n; k++) {
         sunder_i_constraint *other = &p->constraint[k];
-        if (fabs(other->n[0] - c->n[0]) > SAME_NORMAL || fabs(other->n[1] - c->n[1]) > SAME_NORMAL) continue;
-        if (other->d < c->d) {
-            const double force = other->force + c->force;
-            *other = *c;
+        if (fabs(other->n[0] - constraint->n[0]) > SAME_NORMAL || fabs(other->n[1] - constraint->n[1]) > SAME_NORMAL)
+            continue;
+        if (other->d < constraint->d) {
+            const double force = other->force + constraint->force;
+            *other = *constraint;
             other->force = force;
         }
         return;
     }
     if (!sunder_i_reserve(&p->constraint, &p->capacity, p->n + 1, sizeof *p->constraint)) {
-        s->failed = true;
+        search->failed = true;
         return;
     }
-    p->constraint[p->n++] = *c;
+    p->constraint[p->n++] = *constraint;
 }
 
 /* The constraints of pair (i, j): of the pieces that stand no farther apart than gap + reach at relative position near,
@@ -157,26 +158,28 @@ static void sort_constraints(sunder_i_search *s)
     if (k < s->program.n) sunder_i_sort_few(s->program.constraint, s->program.n, sizeof *s->program.constraint, by_key);
 }
 
-bool sunder_i_search_constrain(sunder_i_search *s, double reach, bool as_it_stands)
+bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it_stands)
 {
-    sunder_i_quadratic *p = &s->program;
+    sunder_i_quadratic *p = &search->program;
     /* The last round's constraints become the old ones. */
-    sunder_i_constraint *swap = s->old;
-    const size_t capacity = s->old_capacity;
-    s->old = p->constraint;
-    s->old_n = p->n;
-    s->old_capacity = p->capacity;
+    sunder_i_constraint *swap = search->old;
+    const size_t capacity = search->old_capacity;
+    search->old = p->constraint;
+    search->old_n = p->n;
+    search->old_capacity = p->capacity;
     p->constraint = swap;
     p->capacity = capacity;
     p->n = 0;
-    around a = {.t = s->t, .reach = reach, .as_it_stands = as_it_stands};
-    sunder_i_search_near(s, s->t, s->gap + reach, constrain, &a);
-    sunder_i_search_passing(s, s->t, s->gap + reach, constrain, &a);
-    for (size_t k = 0; k < s->old_n && !s->failed; k++)
-        if (sunder_i_is_tangent(&s->old[k]) && s->old[k].force > 0) sunder_i_search_add_constraint(s, p->n, &s->old[k]);
-    sort_constraints(s);
-    memcpy(s->next, s->t, 2 * s->n * sizeof *s->t); /* a search out of patience by now stays in its present place */
-    return a.clashing || sunder_i_search_is_beyond(s, s->t);
+    around a = {.t = search->t, .reach = reach, .as_it_stands = as_it_stands};
+    sunder_i_search_near(search, search->t, search->gap + reach, constrain, &a);
+    sunder_i_search_passing(search, search->t, search->gap + reach, constrain, &a);
+    for (size_t k = 0; k < search->old_n && !search->failed; k++)
+        if (sunder_i_is_tangent(&search->old[k]) && search->old[k].force > 0)
+            sunder_i_search_add_constraint(search, p->n, &search->old[k]);
+    sort_constraints(search);
+    memcpy(search->next, search->t,
+           2 * search->n * sizeof *search->t); /* a search out of patience by now stays in its present place */
+    return a.clashing || sunder_i_search_is_beyond(search, search->t);
 }
 
 /* Pieces in the way of s->next that the sorted `known` does not hold: their sides are those of the reference position,
@@ -197,20 +200,20 @@ static void constrain_met(sunder_i_search *s, const sunder_i_constraint *known, 
     }
 }
 
-bool sunder_i_search_constrain_further(sunder_i_search *s)
+bool sunder_i_search_constrain_further(sunder_i_search *search)
 {
-    const bool beyond = sunder_i_search_constrain_limits(s);
-    sort_constraints(s);
-    const size_t before = s->program.n;
+    const bool beyond = sunder_i_search_constrain_limits(search);
+    sort_constraints(search);
+    const size_t before = search->program.n;
     sunder_i_constraint few[FEW_KNOWN], *known = before <= FEW_KNOWN ? few : sunder_i_alloc(before, sizeof *known);
     if (!known) {
-        s->failed = true;
+        search->failed = true;
         return false;
     }
-    if (before) memcpy(known, s->program.constraint, before * sizeof *known);
-    constrain_met(s, known, before);
-    const bool more = beyond || s->program.n > before;
+    if (before) memcpy(known, search->program.constraint, before * sizeof *known);
+    constrain_met(search, known, before);
+    const bool more = beyond || search->program.n > before;
     if (known != few) sunder_i_free(known);
-    sort_constraints(s);
+    sort_constraints(search);
     return more;
 }

@@ -339,31 +339,32 @@ static bool go_down(sunder_i_search *s)
     return last == SETTLED_DOWN || (d.is_free && !s->failed);
 }
 
-bool sunder_i_search_descend(sunder_i_search *s)
+bool sunder_i_search_descend(sunder_i_search *search)
 {
-    const double tolerance = s->tolerance, settled = s->settled;
-    s->program.most_cost = most_cost(s);
-    if (!is_large(s)) return go_down(s);
-    s->tolerance = sunder_i_max(tolerance, ROUGHLY * s->extent);
-    s->settled = sunder_i_max(settled, ROUGHLY_SETTLED);
-    s->roughly = true;
-    const bool found = go_down(s);
-    s->roughly = false;
-    s->tolerance = tolerance;
-    s->settled = settled;
-    return found && go_down(s);
+    const double tolerance = search->tolerance, settled = search->settled;
+    search->program.most_cost = most_cost(search);
+    if (!is_large(search)) return go_down(search);
+    search->tolerance = sunder_i_max(tolerance, ROUGHLY * search->extent);
+    search->settled = sunder_i_max(settled, ROUGHLY_SETTLED);
+    search->roughly = true;
+    const bool found = go_down(search);
+    search->roughly = false;
+    search->tolerance = tolerance;
+    search->settled = settled;
+    return found && go_down(search);
 }
 
-bool sunder_i_search_make_good(sunder_i_search *s)
+bool sunder_i_search_make_good(sunder_i_search *search)
 {
     double left = INFINITY;
-    for (int round = 0; round < MOST_MENDING && left > s->tolerance && !s->failed; round++) {
-        sunder_i_search_constrain(s, s->gap / LEAST_REACH, true);
-        if (s->failed || !(solve_lazily(s, 0) <= s->tolerance) || is_out_of_patience(s)) return false;
-        left = look_at_end(s);
-        memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
+    for (int round = 0; round < MOST_MENDING && left > search->tolerance && !search->failed; round++) {
+        sunder_i_search_constrain(search, search->gap / LEAST_REACH, true);
+        if (search->failed || !(solve_lazily(search, 0) <= search->tolerance) || is_out_of_patience(search))
+            return false;
+        left = look_at_end(search);
+        memcpy(search->t, search->next, 2 * search->n * sizeof *search->t);
     }
-    return left <= s->tolerance && !s->failed;
+    return left <= search->tolerance && !search->failed;
 }
 
 /* ---- Where it ended in a compromise ------------------------------------------------------------------------------ */
@@ -391,26 +392,27 @@ static bool is_one_part(const sunder_i_search *s, uint32_t *root)
     return true;
 }
 
-void sunder_i_search_settle_parts(sunder_i_search *s)
+void sunder_i_search_settle_parts(sunder_i_search *search)
 {
-    uint32_t *root = sunder_i_alloc(s->n, sizeof *root);
-    bool *unsolved = sunder_i_calloc(s->n, sizeof *unsolved);
-    s->failed = s->failed || !root || !unsolved;
-    if (!s->failed) sunder_i_search_constrain(s, s->gap, false);
-    if (!s->failed) {
+    uint32_t *root = sunder_i_alloc(search->n, sizeof *root);
+    bool *unsolved = sunder_i_calloc(search->n, sizeof *unsolved);
+    search->failed = search->failed || !root || !unsolved;
+    if (!search->failed) sunder_i_search_constrain(search, search->gap, false);
+    if (!search->failed) {
         /* If one part has no solution the others are still solved. */
-        join_constrained(s, root);
-        s->program.most_cost = is_one_part(s, root) ? most_cost(s) : 0;
-        solve_lazily(s, 0);
-        join_constrained(s, root);
-        for (size_t k = 0; k < s->program.n; k++) {
-            const sunder_i_constraint *c = &s->program.constraint[k];
+        join_constrained(search, root);
+        search->program.most_cost = is_one_part(search, root) ? most_cost(search) : 0;
+        solve_lazily(search, 0);
+        join_constrained(search, root);
+        for (size_t k = 0; k < search->program.n; k++) {
+            const sunder_i_constraint *c = &search->program.constraint[k];
             const uint32_t of = c->j == SUNDER_I_GROUND ? c->i : c->j;
-            if (!(sunder_i_stretch(c, s->next) >= c->d - s->tolerance)) unsolved[sunder_i_union_find(root, of)] = true;
+            if (!(sunder_i_stretch(c, search->next) >= c->d - search->tolerance))
+                unsolved[sunder_i_union_find(root, of)] = true;
         }
-        for (uint32_t k = 0; k < s->n; k++)
-            if (s->mass[k] > 0 && !unsolved[sunder_i_union_find(root, k)])
-                memcpy(s->t + 2 * k, s->next + 2 * k, 2 * sizeof *s->t);
+        for (uint32_t k = 0; k < search->n; k++)
+            if (search->mass[k] > 0 && !unsolved[sunder_i_union_find(root, k)])
+                memcpy(search->t + 2 * k, search->next + 2 * k, 2 * sizeof *search->t);
     }
     sunder_i_free(root);
     sunder_i_free(unsolved);

@@ -249,30 +249,31 @@ bool sunder_i_cluster_may_want_shape(const sunder_i_model *model, uint32_t body)
     return are_many(model->body[body].pieces, model->most_pieces);
 }
 
-size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double target[2], double spread,
+size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double target[2], double spread,
                                  size_t most, double (*places)[2])
 {
-    const sunder_i_model *model = s->model;
-    const sunder_i_body *p = &model->body[s->body[i]], *q = &model->body[s->body[j]];
+    const sunder_i_model *model = search->model;
+    const sunder_i_body *p = &model->body[search->body[i]], *q = &model->body[search->body[j]];
     const double none[2] = {0, 0};
     const bool many = are_many(p->pieces, q->pieces);
-    const sunder_shape *ps = sunder_i_model_shape(model, s->body[i]), *qs = sunder_i_model_shape(model, s->body[j]);
+    const sunder_shape *ps = sunder_i_model_shape(model, search->body[i]),
+                       *qs = sunder_i_model_shape(model, search->body[j]);
     double shift;
-    const bool relaxed = sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift);
+    const bool relaxed = sunder_i_search_is_relaxed(search, search->body[i], search->body[j], &shift);
     /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
-    const double shallow = sunder_i_max(2 * s->gap, SHALLOW * sunder_i_min(extent(p->box), extent(q->box)));
+    const double shallow = sunder_i_max(2 * search->gap, SHALLOW * sunder_i_min(extent(p->box), extent(q->box)));
     if (many && most == 1 && model->inclusions == 0 && !relaxed && ps && qs && !ps->flat && !qs->flat &&
-        free_pair_exactly(s, ps, qs, target, shallow, places[0]) && !is_shaded(s, p, none, q, places[0]))
+        free_pair_exactly(search, ps, qs, target, shallow, places[0]) && !is_shaded(search, p, none, q, places[0]))
         return 1;
-    double all = BEYOND_ALL * (extent(p->box) + extent(q->box) + s->gap);
-    const bool confined = sunder_i_search_is_confined(s, i, j, target, &all);
-    double reach = sunder_i_max(2 * s->gap, PAIR_REACH * sunder_i_min(extent(p->box), extent(q->box)));
+    double all = BEYOND_ALL * (extent(p->box) + extent(q->box) + search->gap);
+    const bool confined = sunder_i_search_is_confined(search, i, j, target, &all);
+    double reach = sunder_i_max(2 * search->gap, PAIR_REACH * sunder_i_min(extent(p->box), extent(q->box)));
     /* Beside a point, to which no gap is owed, it begins with the other one's size: from 0 it would not grow. */
     if (!(reach > 0)) reach = PAIR_REACH * sunder_i_max(extent(p->box), extent(q->box));
     for (;; reach *= PAIR_GROWTH) {
         if (confined) reach = sunder_i_min(reach, all);
-        const size_t n = find_beside(s, p, q, many, target, reach, spread, !confined && reach > all, most, places);
-        if (n || s->failed) return n;
+        const size_t n = find_beside(search, p, q, many, target, reach, spread, !confined && reach > all, most, places);
+        if (n || search->failed) return n;
         if (reach > all || (confined && reach == all) || !(reach > 0)) return 0;
     }
 }
@@ -452,12 +453,14 @@ static double beyond_all(const sunder_i_search *s, uint32_t i)
            (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(s->model->body[s->body[i]].box) + s->gap);
 }
 
-bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, double place[2])
+bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit, double place[2])
 {
-    const double now = hypot(s->t[2 * i], s->t[2 * i + 1]), size = extent(s->model->body[s->body[i]].box);
-    double all = beyond_all(s, i);
-    if (!s->model->rules.jumps) all = sunder_i_min(all, now + FARTHEST_LEAP * (sunder_i_min(size, s->extent) + s->gap));
-    return find_free_place(s, i, limit, all, false, place);
+    const double now = hypot(search->t[2 * i], search->t[2 * i + 1]),
+                 size = extent(search->model->body[search->body[i]].box);
+    double all = beyond_all(search, i);
+    if (!search->model->rules.jumps)
+        all = sunder_i_min(all, now + FARTHEST_LEAP * (sunder_i_min(size, search->extent) + search->gap));
+    return find_free_place(search, i, limit, all, false, place);
 }
 
 bool sunder_i_search_free_body_anywhere(sunder_i_search *s, uint32_t i, double place[2])

@@ -21,14 +21,15 @@
 #include <string.h>
 
 /* A relaxation for pair (i, j), if there is none by this search yet. */
-bool sunder_i_search_relax(sunder_i_search *s, uint32_t i, uint32_t j)
+bool sunder_i_search_relax(sunder_i_search *search, uint32_t i, uint32_t j)
 {
-    const uint32_t p = s->body[i], q = s->body[j];
-    if (sunder_i_relaxations_between(&s->relaxations, p, q)) return false;
-    const size_t before = s->relaxations.n;
+    const uint32_t p = search->body[i], q = search->body[j];
+    if (sunder_i_relaxations_between(&search->relaxations, p, q)) return false;
+    const size_t before = search->relaxations.n;
     /* All that is within what the search asks for: the gap and its margin. */
-    if (sunder_i_relaxations_make(s->model, p, q, s->gap + 2 * s->tolerance, &s->relaxations, NULL)) s->failed = true;
-    return s->relaxations.n > before;
+    if (sunder_i_relaxations_make(search->model, p, q, search->gap + 2 * search->tolerance, &search->relaxations, NULL))
+        search->failed = true;
+    return search->relaxations.n > before;
 }
 
 /* ---- One at a time ----------------------------------------------------------------------------------------------- */
@@ -159,45 +160,47 @@ static bool give_up_gradually(sunder_i_search *s, const sunder_i_clash *at_home,
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
 
-sunder_i_clash *sunder_i_search_at_home(sunder_i_search *s, size_t *n)
+sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n)
 {
-    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
+    double *stand = sunder_i_alloc(2 * search->n, sizeof *stand);
     if (!stand) return NULL;
-    memcpy(stand, s->t, 2 * s->n * sizeof *stand);
-    for (uint32_t k = 0; k < s->n; k++) sunder_i_search_send_home(s, k);
-    sunder_i_search_look(s, s->t);
-    memcpy(s->t, stand, 2 * s->n * sizeof *stand);
+    memcpy(stand, search->t, 2 * search->n * sizeof *stand);
+    for (uint32_t k = 0; k < search->n; k++) sunder_i_search_send_home(search, k);
+    sunder_i_search_look(search, search->t);
+    memcpy(search->t, stand, 2 * search->n * sizeof *stand);
     sunder_i_free(stand);
-    *n = s->clashes;
+    *n = search->clashes;
     sunder_i_clash *at_home = sunder_i_alloc(*n, sizeof *at_home);
-    if (at_home && *n) memcpy(at_home, s->clash, *n * sizeof *at_home);
+    if (at_home && *n) memcpy(at_home, search->clash, *n * sizeof *at_home);
     if (at_home && *n) qsort(at_home, *n, sizeof *at_home, sunder_i_by_id_pair);
     return at_home;
 }
 
-bool sunder_i_search_waive_margins(sunder_i_search *s)
+bool sunder_i_search_waive_margins(sunder_i_search *search)
 {
     size_t n = 0;
-    sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
-    const size_t before = s->relaxations.n;
-    const double margin = s->gap - s->model->rules.gap;
-    if (!at_home) s->failed = true;
-    for (size_t k = 0; k < n && !s->failed; k++)
-        if (at_home[k].violation <= margin + s->tolerance) sunder_i_search_relax(s, at_home[k].i, at_home[k].j);
+    sunder_i_clash *at_home = sunder_i_search_at_home(search, &n);
+    const size_t before = search->relaxations.n;
+    const double margin = search->gap - search->model->rules.gap;
+    if (!at_home) search->failed = true;
+    for (size_t k = 0; k < n && !search->failed; k++)
+        if (at_home[k].violation <= margin + search->tolerance)
+            sunder_i_search_relax(search, at_home[k].i, at_home[k].j);
     sunder_i_free(at_home);
-    if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
-    return !s->failed && s->relaxations.n > before;
+    if (search->relaxations.n > before && !sunder_i_relaxations_index(&search->relaxations, search->model))
+        search->failed = true;
+    return !search->failed && search->relaxations.n > before;
 }
 
-void sunder_i_search_lower(sunder_i_search *s)
+void sunder_i_search_lower(sunder_i_search *search)
 {
-    const size_t size = 2 * s->n * sizeof *s->t;
-    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
-    s->failed = s->failed || !stand;
-    if (!s->failed && sunder_i_search_look(s, s->t) <= s->tolerance) {
-        memcpy(stand, s->t, size);
-        s->program.n = 0;
-        if (!sunder_i_search_descend(s)) memcpy(s->t, stand, size);
+    const size_t size = 2 * search->n * sizeof *search->t;
+    double *stand = sunder_i_alloc(2 * search->n, sizeof *stand);
+    search->failed = search->failed || !stand;
+    if (!search->failed && sunder_i_search_look(search, search->t) <= search->tolerance) {
+        memcpy(stand, search->t, size);
+        search->program.n = 0;
+        if (!sunder_i_search_descend(search)) memcpy(search->t, stand, size);
     }
     sunder_i_free(stand);
 }
@@ -284,40 +287,40 @@ static void end_free(sunder_i_search *s, const sunder_i_clash *at_home, size_t n
     if (pushed && !s->failed) sunder_i_search_go_together(s);
 }
 
-bool sunder_i_search_give_up_at_home(sunder_i_search *s, const double *start)
+bool sunder_i_search_give_up_at_home(sunder_i_search *search, const double *start)
 {
     size_t n = 0;
-    if (s->failed || sunder_i_search_movers(s) <= LARGE_CROWD) return false;
-    sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
-    s->failed = !at_home;
-    const bool pushed = !s->failed && sunder_i_search_push_from_home(s, start, at_home, n, LEFT_AT_HOME);
-    if (pushed) end_free(s, at_home, n, true, true);
+    if (search->failed || sunder_i_search_movers(search) <= LARGE_CROWD) return false;
+    sunder_i_clash *at_home = sunder_i_search_at_home(search, &n);
+    search->failed = !at_home;
+    const bool pushed = !search->failed && sunder_i_search_push_from_home(search, start, at_home, n, LEFT_AT_HOME);
+    if (pushed) end_free(search, at_home, n, true, true);
     sunder_i_free(at_home);
     return pushed;
 }
 
-void sunder_i_search_give_up(sunder_i_search *s, const double *start)
+void sunder_i_search_give_up(sunder_i_search *search, const double *start)
 {
     size_t n = 0;
     bool done = false;
-    sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
-    s->failed = s->failed || !at_home;
-    const bool parts = !s->failed && s->n >= CROWD && was_solved_in_parts(s, start, n);
-    const bool pushed = !s->failed && sunder_i_search_push_from_home(s, start, at_home, n, LEFT_BY_PUSHING);
-    if (!s->failed) done = pushed;
-    if (!s->failed && !done && s->n > LARGE_CROWD) begin_again(s, start);
-    if (!s->failed && !done && (!parts || is_crowd(s))) done = give_up_gradually(s, at_home, n);
-    if (!s->failed && !done && !parts) begin_again(s, start);
-    if (!s->failed && !done && parts) {
-        sunder_i_relaxations_free(&s->relaxations);
-        done = give_up_about(s, start, at_home, n);
+    sunder_i_clash *at_home = sunder_i_search_at_home(search, &n);
+    search->failed = search->failed || !at_home;
+    const bool parts = !search->failed && search->n >= CROWD && was_solved_in_parts(search, start, n);
+    const bool pushed = !search->failed && sunder_i_search_push_from_home(search, start, at_home, n, LEFT_BY_PUSHING);
+    if (!search->failed) done = pushed;
+    if (!search->failed && !done && search->n > LARGE_CROWD) begin_again(search, start);
+    if (!search->failed && !done && (!parts || is_crowd(search))) done = give_up_gradually(search, at_home, n);
+    if (!search->failed && !done && !parts) begin_again(search, start);
+    if (!search->failed && !done && parts) {
+        sunder_i_relaxations_free(&search->relaxations);
+        done = give_up_about(search, start, at_home, n);
     }
-    if (!s->failed && !done) sunder_i_search_clip(s);
-    if (!s->failed && !done) {
+    if (!search->failed && !done) sunder_i_search_clip(search);
+    if (!search->failed && !done) {
         /* What rounding took of what was solved before is no reason to give anything up. */
-        sunder_i_search_yield(s, at_home, n, MENDED * s->tolerance);
-        if (!s->failed) sunder_i_search_make_good(s);
+        sunder_i_search_yield(search, at_home, n, MENDED * search->tolerance);
+        if (!search->failed) sunder_i_search_make_good(search);
     }
-    end_free(s, at_home, n, done, pushed);
+    end_free(search, at_home, n, done, pushed);
     sunder_i_free(at_home);
 }

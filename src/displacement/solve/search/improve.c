@@ -24,21 +24,21 @@ static int by_cost(const void *a, const void *b)
 
 static bool has_time(const sunder_i_search *s) { return sunder_i_search_work(s) < s->effort; }
 
-bool sunder_i_search_attempt(sunder_i_search *s, double *best, double *cost)
+bool sunder_i_search_attempt(sunder_i_search *search, double *best, double *cost)
 {
-    const size_t size = 2 * s->n * sizeof *best;
-    s->hope = *cost;
-    s->back = best;
-    const bool free_now = sunder_i_search_descend(s);
-    s->back = NULL;
-    s->hope = INFINITY;
-    const double now = sunder_i_search_cost(s, s->t);
-    if (!s->failed && free_now && now < *cost * (1 - CHEAPER)) {
-        memcpy(best, s->t, size);
+    const size_t size = 2 * search->n * sizeof *best;
+    search->hope = *cost;
+    search->back = best;
+    const bool free_now = sunder_i_search_descend(search);
+    search->back = NULL;
+    search->hope = INFINITY;
+    const double now = sunder_i_search_cost(search, search->t);
+    if (!search->failed && free_now && now < *cost * (1 - CHEAPER)) {
+        memcpy(best, search->t, size);
         *cost = now;
         return true;
     }
-    memcpy(s->t, best, size);
+    memcpy(search->t, best, size);
     return false;
 }
 

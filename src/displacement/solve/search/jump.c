@@ -7,13 +7,14 @@
 #include <math.h>
 #include <string.h>
 
-void sunder_i_search_clip(sunder_i_search *s)
+void sunder_i_search_clip(sunder_i_search *search)
 {
-    for (size_t k = 0; k < s->n; k++) {
-        const double limit = sunder_i_search_limit(s, (uint32_t)k), length = hypot(s->t[2 * k], s->t[2 * k + 1]);
-        if (!(s->mass[k] > 0) || !(length > limit)) continue;
-        s->t[2 * k] *= limit / length;
-        s->t[2 * k + 1] *= limit / length;
+    for (size_t k = 0; k < search->n; k++) {
+        const double limit = sunder_i_search_limit(search, (uint32_t)k),
+                     length = hypot(search->t[2 * k], search->t[2 * k + 1]);
+        if (!(search->mass[k] > 0) || !(length > limit)) continue;
+        search->t[2 * k] *= limit / length;
+        search->t[2 * k + 1] *= limit / length;
     }
 }
 
@@ -33,37 +34,39 @@ static uint32_t find_room(sunder_i_search *s, const sunder_i_clash *clash, bool 
     return SUNDER_I_NOBODY;
 }
 
-bool sunder_i_search_jump(sunder_i_search *s)
+bool sunder_i_search_jump(sunder_i_search *search)
 {
-    s->program.n = 0; /* the forces belong to places that are left */
-    sunder_i_search_clip(s);
-    bool *stuck = sunder_i_calloc(s->n, sizeof *stuck);
-    if (!stuck) s->failed = true;
-    if (!s->failed) sunder_i_search_look(s, s->t);
+    search->program.n = 0; /* the forces belong to places that are left */
+    sunder_i_search_clip(search);
+    bool *stuck = sunder_i_calloc(search->n, sizeof *stuck);
+    if (!stuck) search->failed = true;
+    if (!search->failed) sunder_i_search_look(search, search->t);
     /* A body that jumps clashes with nothing where it lands, so the number of clashing bodies falls each time. */
     size_t at = 0;
-    for (size_t k = 0; k <= 2 * s->n && at < s->clashes && sunder_i_search_work(s) < s->patience && !s->failed; k++) {
+    for (size_t k = 0; k <= 2 * search->n && at < search->clashes && sunder_i_search_work(search) < search->patience &&
+                       !search->failed;
+         k++) {
         double place[2];
-        const uint32_t who = find_room(s, &s->clash[at], stuck, place);
+        const uint32_t who = find_room(search, &search->clash[at], stuck, place);
         if (who == SUNDER_I_NOBODY) {
             at++;
             continue;
         }
-        memcpy(s->t + 2 * who, place, sizeof place);
-        sunder_i_search_look_again(s, s->t, who);
+        memcpy(search->t + 2 * who, place, sizeof place);
+        sunder_i_search_look_again(search, search->t, who);
         at = 0;
     }
     sunder_i_free(stuck);
-    if (s->failed) return false;
-    SUNDER_I_CHECK(sunder_i_search_check(s), s->n);
-    return sunder_i_search_look(s, s->t) <= s->tolerance;
+    if (search->failed) return false;
+    SUNDER_I_CHECK(sunder_i_search_check(search), search->n);
+    return sunder_i_search_look(search, search->t) <= search->tolerance;
 }
 
-bool sunder_i_search_jump_soon(sunder_i_search *s)
+bool sunder_i_search_jump_soon(sunder_i_search *search)
 {
-    const uint64_t patience = s->patience;
-    s->patience = sunder_i_search_work(s) + LEAP_PATIENCE;
-    const bool clear = sunder_i_search_jump(s);
-    s->patience = patience;
+    const uint64_t patience = search->patience;
+    search->patience = sunder_i_search_work(search) + LEAP_PATIENCE;
+    const bool clear = sunder_i_search_jump(search);
+    search->patience = patience;
     return clear;
 }

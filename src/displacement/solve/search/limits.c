@@ -17,18 +17,18 @@ static double slack(const sunder_i_search *s, double limit)
     return sunder_i_max(s->tolerance / 2, limit * LIMIT_SLACK);
 }
 
-double sunder_i_search_overstep(const sunder_i_search *s, uint32_t k, const double *t)
+double sunder_i_search_overstep(const sunder_i_search *search, uint32_t i, const double *t)
 {
-    const double limit = sunder_i_search_limit(s, k);
-    if (!(s->mass[k] > 0) || limit == INFINITY) return 0;
-    const double over = hypot(t[2 * k], t[2 * k + 1]) - limit;
-    return over > slack(s, limit) ? over : 0;
+    const double limit = sunder_i_search_limit(search, i);
+    if (!(search->mass[i] > 0) || limit == INFINITY) return 0;
+    const double over = hypot(t[2 * i], t[2 * i + 1]) - limit;
+    return over > slack(search, limit) ? over : 0;
 }
 
-bool sunder_i_search_is_beyond(const sunder_i_search *s, const double *t)
+bool sunder_i_search_is_beyond(const sunder_i_search *search, const double *t)
 {
-    for (uint32_t k = 0; k < s->n; k++)
-        if (sunder_i_search_overstep(s, k, t) > 0) return true;
+    for (uint32_t k = 0; k < search->n; k++)
+        if (sunder_i_search_overstep(search, k, t) > 0) return true;
     return false;
 }
 
@@ -83,15 +83,15 @@ static bool push_on(const sunder_i_search *s, size_t before, uint32_t k, double 
 /* Tangents where s->next exceeds limits: in the direction of the move, which is right where neighbours determine it;
  * and in the direction of the push, which is right where nothing else holds the body. With either alone the other case
  * takes one tangent for each halving of the error. Returns whether there were any. */
-bool sunder_i_search_constrain_limits(sunder_i_search *s)
+bool sunder_i_search_constrain_limits(sunder_i_search *search)
 {
-    const size_t before = s->program.n;
-    for (uint32_t k = 0; k < s->n; k++) {
+    const size_t before = search->program.n;
+    for (uint32_t k = 0; k < search->n; k++) {
         double push[2];
-        if (!(sunder_i_search_overstep(s, k, s->next) > 0)) continue;
-        const bool acts = push_on(s, before, k, push);
-        add_tangent(s, before, k, s->next + 2 * k);
-        if (acts) add_tangent(s, before, k, push);
+        if (!(sunder_i_search_overstep(search, k, search->next) > 0)) continue;
+        const bool acts = push_on(search, before, k, push);
+        add_tangent(search, before, k, search->next + 2 * k);
+        if (acts) add_tangent(search, before, k, push);
     }
-    return s->program.n > before;
+    return search->program.n > before;
 }

@@ -115,21 +115,22 @@ static sunder_status stand_in_contact(sunder_i_search *s, const sunder_bound_pai
     return status;
 }
 
-sunder_status sunder_i_search_part_lone_pair(sunder_i_search *s, sunder_i_cluster *cluster, bool *done,
+sunder_status sunder_i_search_part_lone_pair(sunder_i_search *search, sunder_i_cluster *cluster, bool *done,
                                              sunder_error *err)
 {
     *done = false;
-    if (s->failed || !is_lone_pair(s, cluster)) return SUNDER_OK;
-    const sunder_bound_pair pair = {.a = only_feature(s->model, s->body[0]), .b = only_feature(s->model, s->body[1])};
-    const double stood[4] = {s->t[0], s->t[1], s->t[2], s->t[3]};
+    if (search->failed || !is_lone_pair(search, cluster)) return SUNDER_OK;
+    const sunder_bound_pair pair = {.a = only_feature(search->model, search->body[0]),
+                                    .b = only_feature(search->model, search->body[1])};
+    const double stood[4] = {search->t[0], search->t[1], search->t[2], search->t[3]};
     sunder_i_resolution r;
-    const sunder_status status = sunder_i_resolve_things(s->model, pair.a, pair.b, farthest(s), &r, err);
+    const sunder_status status = sunder_i_resolve_things(search->model, pair.a, pair.b, farthest(search), &r, err);
     if (status || r.beyond || !(r.least > 0)) return status;
     cluster->measured = pair;
     cluster->measured.least = r.least;
-    *done = stand_apart(s, r.away);
-    if (!*done) memcpy(s->t, stood, sizeof stood);
+    *done = stand_apart(search, r.away);
+    if (!*done) memcpy(search->t, stood, sizeof stood);
     if (!*done || !cluster->touching) return SUNDER_OK;
     bool in_contact;
-    return stand_in_contact(s, &pair, r.away, &in_contact, err);
+    return stand_in_contact(search, &pair, r.away, &in_contact, err);
 }

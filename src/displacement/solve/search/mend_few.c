@@ -84,23 +84,23 @@ static sunder_i_clash *list_clashes(sunder_i_search *s, size_t *n)
     return list;
 }
 
-bool sunder_i_search_mend_few(sunder_i_search *s)
+bool sunder_i_search_mend_few(sunder_i_search *search)
 {
-    const double tolerance = s->tolerance;
+    const double tolerance = search->tolerance;
     size_t n = 0;
     bool done = false;
-    if (s->failed || sunder_i_search_movers(s) <= LARGE_CROWD || !anybody_is_pinned(s) ||
-        sunder_i_search_is_beyond(s, s->t))
+    if (search->failed || sunder_i_search_movers(search) <= LARGE_CROWD || !anybody_is_pinned(search) ||
+        sunder_i_search_is_beyond(search, search->t))
         return false;
-    sunder_i_search_look(s, s->t);
-    if (s->failed) return false;
+    sunder_i_search_look(search, search->t);
+    if (search->failed) return false;
     /* If the margin has grown since they were settled, most pairs violate it; the part that they keep was found to be
      * sufficient. */
-    s->tolerance *= MARGIN_LEFT;
-    sunder_i_clash *list = list_clashes(s, &n);
-    s->failed = !list;
-    if (!s->failed && n && n <= s->n / FEW_CLASHES) done = mend(s, list, n);
-    s->tolerance = tolerance;
+    search->tolerance *= MARGIN_LEFT;
+    sunder_i_clash *list = list_clashes(search, &n);
+    search->failed = !list;
+    if (!search->failed && n && n <= search->n / FEW_CLASHES) done = mend(search, list, n);
+    search->tolerance = tolerance;
     sunder_i_free(list);
-    return done && !s->failed;
+    return done && !search->failed;
 }

@@ -18,45 +18,45 @@ static void box_at(const sunder_i_search *s, uint32_t i, double grown, double bo
             b->box[c] + (b->origin[c & 1] - first->origin[c & 1]) + s->t[2 * i + (c & 1)] + (c < 2 ? -grown : grown);
 }
 
-bool sunder_i_neighbourhood_init(sunder_i_neighbourhood *v, sunder_i_search *s)
+bool sunder_i_neighbourhood_init(sunder_i_neighbourhood *neighbourhood, sunder_i_search *all)
 {
-    memset(v, 0, sizeof *v);
-    v->all = s;
-    double *box = sunder_i_alloc(4 * s->n, sizeof *box);
-    bool *present = sunder_i_alloc(s->n, sizeof *present);
-    v->place = sunder_i_alloc(s->n, sizeof *v->place);
-    v->moves = sunder_i_calloc(s->n, sizeof *v->moves);
-    v->body = sunder_i_alloc(s->n, sizeof *v->body);
-    v->t = sunder_i_alloc(2 * s->n, sizeof *v->t);
-    bool ok = box && present && v->place && v->moves && v->body && v->t;
-    for (uint32_t i = 0; i < s->n && ok; i++) {
-        box_at(s, i, 0, box + 4 * i);
-        present[i] = s->model->body[s->body[i]].pieces > 0;
+    memset(neighbourhood, 0, sizeof *neighbourhood);
+    neighbourhood->all = all;
+    double *box = sunder_i_alloc(4 * all->n, sizeof *box);
+    bool *present = sunder_i_alloc(all->n, sizeof *present);
+    neighbourhood->place = sunder_i_alloc(all->n, sizeof *neighbourhood->place);
+    neighbourhood->moves = sunder_i_calloc(all->n, sizeof *neighbourhood->moves);
+    neighbourhood->body = sunder_i_alloc(all->n, sizeof *neighbourhood->body);
+    neighbourhood->t = sunder_i_alloc(2 * all->n, sizeof *neighbourhood->t);
+    bool ok = box && present && neighbourhood->place && neighbourhood->moves && neighbourhood->body && neighbourhood->t;
+    for (uint32_t i = 0; i < all->n && ok; i++) {
+        box_at(all, i, 0, box + 4 * i);
+        present[i] = all->model->body[all->body[i]].pieces > 0;
     }
-    ok = ok && !sunder_i_rtree_build(box, present, s->n, &v->tree, NULL);
+    ok = ok && !sunder_i_rtree_build(box, present, all->n, &neighbourhood->tree, NULL);
     sunder_i_free(box);
     sunder_i_free(present);
     return ok;
 }
 
-void sunder_i_neighbourhood_free(sunder_i_neighbourhood *v)
+void sunder_i_neighbourhood_free(sunder_i_neighbourhood *neighbourhood)
 {
-    sunder_i_rtree_free(&v->tree);
-    sunder_i_free(v->place);
-    sunder_i_free(v->moves);
-    sunder_i_free(v->body);
-    sunder_i_free(v->t);
-    sunder_i_free(v->near.item);
-    memset(v, 0, sizeof *v);
+    sunder_i_rtree_free(&neighbourhood->tree);
+    sunder_i_free(neighbourhood->place);
+    sunder_i_free(neighbourhood->moves);
+    sunder_i_free(neighbourhood->body);
+    sunder_i_free(neighbourhood->t);
+    sunder_i_free(neighbourhood->near.item);
+    memset(neighbourhood, 0, sizeof *neighbourhood);
 }
 
-bool sunder_i_neighbourhood_look_about(sunder_i_neighbourhood *v, uint32_t i, double reach)
+bool sunder_i_neighbourhood_look_about(sunder_i_neighbourhood *neighbourhood, uint32_t i, double reach)
 {
     double box[4];
-    box_at(v->all, i, reach, box);
-    v->near.n = 0;
-    if (!sunder_i_rtree_query(&v->tree, box, &v->near)) return false;
-    v->near.n = sunder_i_set_make(v->near.item, v->near.n);
+    box_at(neighbourhood->all, i, reach, box);
+    neighbourhood->near.n = 0;
+    if (!sunder_i_rtree_query(&neighbourhood->tree, box, &neighbourhood->near)) return false;
+    neighbourhood->near.n = sunder_i_set_make(neighbourhood->near.item, neighbourhood->near.n);
     return true;
 }
 
@@ -209,25 +209,27 @@ static bool end_where_it_went(sunder_i_neighbourhood *v, sunder_i_search *part, 
     return done && !v->all->failed;
 }
 
-bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach)
+bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
+                                   double reach)
 {
     sunder_i_search part;
-    if (!open_part(v, i, j, most, reach, &part)) return false;
-    bool done = v->moving > 0 && sunder_i_search_descend(&part);
-    if (!done && v->moving && !part.failed && sunder_i_search_jump_soon(&part)) {
-        part.patience += PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
+    if (!open_part(neighbourhood, i, j, most, reach, &part)) return false;
+    bool done = neighbourhood->moving > 0 && sunder_i_search_descend(&part);
+    if (!done && neighbourhood->moving && !part.failed && sunder_i_search_jump_soon(&part)) {
+        part.patience += PATIENCE + PATIENCE_EACH * (uint64_t)neighbourhood->n;
         done = sunder_i_search_descend(&part);
     }
-    return end_where_it_went(v, &part, done);
+    return end_where_it_went(neighbourhood, &part, done);
 }
 
-bool sunder_i_neighbourhood_make_good(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach)
+bool sunder_i_neighbourhood_make_good(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
+                                      double reach)
 {
     sunder_i_search part;
-    if (!open_part(v, i, j, most, reach, &part)) return false;
+    if (!open_part(neighbourhood, i, j, most, reach, &part)) return false;
     part.patience *= MENDING_TIMES;
-    const bool done = v->moving > 0 && sunder_i_search_make_good(&part);
-    return end_where_it_went(v, &part, done);
+    const bool done = neighbourhood->moving > 0 && sunder_i_search_make_good(&part);
+    return end_where_it_went(neighbourhood, &part, done);
 }
 
 /* What those that move cost, standing at t, a place for each of v->place, less what they cost at `best`, one for
@@ -244,48 +246,49 @@ static double costs_more(const sunder_i_neighbourhood *v, const double *t, const
     return sum;
 }
 
-double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach,
-                                      const double *best, double least)
+double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
+                                      double reach, const double *best, double least)
 {
     sunder_i_search part;
     double gain = 0;
-    if (!open_part(v, i, j, most, reach, &part)) return 0;
-    for (size_t k = 0; k < v->n; k++) memcpy(v->t + 2 * k, best + 2 * (size_t)v->place[k], 2 * sizeof *v->t);
-    part.settled = v->all->settled;
-    part.patience = part.steps + SHORT_PATIENCE + SHORT_PATIENCE_EACH * (uint64_t)v->n;
-    part.hope = sunder_i_search_cost(&part, v->t);
-    if (sunder_i_search_descend(&part) && !part.failed) gain = -costs_more(v, part.t, best);
+    if (!open_part(neighbourhood, i, j, most, reach, &part)) return 0;
+    for (size_t k = 0; k < neighbourhood->n; k++)
+        memcpy(neighbourhood->t + 2 * k, best + 2 * (size_t)neighbourhood->place[k], 2 * sizeof *neighbourhood->t);
+    part.settled = neighbourhood->all->settled;
+    part.patience = part.steps + SHORT_PATIENCE + SHORT_PATIENCE_EACH * (uint64_t)neighbourhood->n;
+    part.hope = sunder_i_search_cost(&part, neighbourhood->t);
+    if (sunder_i_search_descend(&part) && !part.failed) gain = -costs_more(neighbourhood, part.t, best);
     if (gain > least) {
-        give_back_cache(v, &part);
-        put(v, part.t);
-        if (!is_free(v, NULL)) gain = 0;
+        give_back_cache(neighbourhood, &part);
+        put(neighbourhood, part.t);
+        if (!is_free(neighbourhood, NULL)) gain = 0;
     }
     if (!(gain > least)) {
-        put(v, v->t);
+        put(neighbourhood, neighbourhood->t);
         gain = 0;
     }
-    end(v, &part);
+    end(neighbourhood, &part);
     return gain;
 }
 
-bool sunder_i_neighbourhood_put(sunder_i_neighbourhood *v, const double *to)
+bool sunder_i_neighbourhood_put(sunder_i_neighbourhood *neighbourhood, const double *to)
 {
-    sunder_i_search *s = v->all;
-    for (size_t k = 0; k < v->n; k++) {
-        const size_t i = v->place[k];
-        v->moves[i] = true;
-        v->body[k] = s->body[i];
-        memcpy(v->t + 2 * i, s->t + 2 * i, 2 * sizeof *v->t);
+    sunder_i_search *s = neighbourhood->all;
+    for (size_t k = 0; k < neighbourhood->n; k++) {
+        const size_t i = neighbourhood->place[k];
+        neighbourhood->moves[i] = true;
+        neighbourhood->body[k] = s->body[i];
+        memcpy(neighbourhood->t + 2 * i, s->t + 2 * i, 2 * sizeof *neighbourhood->t);
     }
-    put(v, to);
-    const bool free = is_free(v, v->t);
-    for (size_t k = 0; k < v->n && !free; k++) {
-        const uint32_t i = v->place[k];
+    put(neighbourhood, to);
+    const bool free = is_free(neighbourhood, neighbourhood->t);
+    for (size_t k = 0; k < neighbourhood->n && !free; k++) {
+        const uint32_t i = neighbourhood->place[k];
         double box[4];
-        memcpy(s->t + 2 * (size_t)i, v->t + 2 * (size_t)i, 2 * sizeof *v->t);
+        memcpy(s->t + 2 * (size_t)i, neighbourhood->t + 2 * (size_t)i, 2 * sizeof *neighbourhood->t);
         box_at(s, i, 0, box);
-        if (s->model->body[s->body[i]].pieces) sunder_i_rtree_move(&v->tree, i, box);
+        if (s->model->body[s->body[i]].pieces) sunder_i_rtree_move(&neighbourhood->tree, i, box);
     }
-    for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = false;
+    for (size_t k = 0; k < neighbourhood->n; k++) neighbourhood->moves[neighbourhood->place[k]] = false;
     return free;
 }

@@ -8,10 +8,11 @@
 
 #include <math.h>
 
-double sunder_i_search_owed(const sunder_i_search *s, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
+double sunder_i_search_owed(const sunder_i_search *search, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
 {
-    if (!sunder_i_is_barrier(s->model, a->feature) && !sunder_i_is_barrier(s->model, b->feature)) return s->gap;
-    return s->gap + (sunder_i_owed_above(s->model, a->feature, b->feature) - s->model->rules.gap);
+    if (!sunder_i_is_barrier(search->model, a->feature) && !sunder_i_is_barrier(search->model, b->feature))
+        return search->gap;
+    return search->gap + (sunder_i_owed_above(search->model, a->feature, b->feature) - search->model->rules.gap);
 }
 
 /* Is it one of the model's relaxations that still counts here? */
@@ -33,25 +34,25 @@ static bool all_restored(const sunder_i_search *s, const sunder_i_relaxed_bodies
                                 relaxed->n;
 }
 
-bool sunder_i_search_is_relaxed(const sunder_i_search *s, uint32_t body, uint32_t other, double *reach)
+bool sunder_i_search_is_relaxed(const sunder_i_search *search, uint32_t body, uint32_t other, double *reach)
 {
     *reach = 0;
-    if (s->relaxations.n + s->model->relaxations.n == 0) return false;
-    const sunder_i_relaxed_bodies *own = sunder_i_relaxations_between(&s->relaxations, body, other),
-                                  *all = sunder_i_relaxations_between(&s->model->relaxations, body, other);
-    if (all && all_restored(s, all)) all = NULL;
+    if (search->relaxations.n + search->model->relaxations.n == 0) return false;
+    const sunder_i_relaxed_bodies *own = sunder_i_relaxations_between(&search->relaxations, body, other),
+                                  *all = sunder_i_relaxations_between(&search->model->relaxations, body, other);
+    if (all && all_restored(search, all)) all = NULL;
     if (own) *reach = own->reach;
     if (all) *reach = sunder_i_max(*reach, all->reach);
     return own || all;
 }
 
-const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *s, const sunder_i_body_piece *a,
+const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *search, const sunder_i_body_piece *a,
                                                       const sunder_i_body_piece *b)
 {
-    const sunder_i_relaxation *relaxation = sunder_i_relaxations_find(&s->relaxations, a->feature, b->feature);
+    const sunder_i_relaxation *relaxation = sunder_i_relaxations_find(&search->relaxations, a->feature, b->feature);
     if (relaxation) return relaxation;
-    relaxation = sunder_i_relaxations_find(&s->model->relaxations, a->feature, b->feature);
-    return relaxation && still_counts(s, relaxation) ? relaxation : NULL;
+    relaxation = sunder_i_relaxations_find(&search->model->relaxations, a->feature, b->feature);
+    return relaxation && still_counts(search, relaxation) ? relaxation : NULL;
 }
 
 /* Does the wall keep the piece inside, by the rules or by a relaxation? */
@@ -197,14 +198,14 @@ static inline void visit_all(const visiting *to, const double v[2], double reach
         for (uint32_t k = 0; k < to->n;) k = visit_some(to, k, v, reach);
 }
 
-void sunder_i_search_walls(sunder_i_search *s, const sunder_i_body *holder, const sunder_i_body *other,
+void sunder_i_search_walls(sunder_i_search *search, const sunder_i_body *holder, const sunder_i_body *other,
                            const double v[2], double reach, sunder_i_piece_pair *part, bool swapped,
                            sunder_i_visit_piece_pair visit, void *context)
 {
-    const sunder_i_body_pieces *facing = sunder_i_pieces_of(s->model, other);
-    const visiting to = {.s = s,
+    const sunder_i_body_pieces *facing = sunder_i_pieces_of(search->model, other);
+    const visiting to = {.s = search,
                          .part = part,
-                         .from = s->model->wall + holder->has->wall,
+                         .from = search->model->wall + holder->has->wall,
                          .n = holder->has->walls,
                          .first = holder->has->wall,
                          .other = other,
@@ -215,7 +216,7 @@ void sunder_i_search_walls(sunder_i_search *s, const sunder_i_body *holder, cons
     if (facing)
         visit_all(&to, v, reach);
     else
-        s->failed = true;
+        search->failed = true;
 }
 
 /* The same of pieces of both. */
@@ -240,23 +241,23 @@ static void visit_pieces(sunder_i_search *s, const sunder_i_body *p, const sunde
     visit_all(&to, v, reach);
 }
 
-void sunder_i_search_piece_pairs(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach,
+void sunder_i_search_piece_pairs(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
                                  bool yields, sunder_i_visit_piece_pair visit, void *context)
 {
-    const sunder_i_model *model = s->model;
-    const sunder_i_body *p = &model->body[s->body[i]], *q = &model->body[s->body[j]];
+    const sunder_i_model *model = search->model;
+    const sunder_i_body *p = &model->body[search->body[i]], *q = &model->body[search->body[j]];
     sunder_i_piece_pair part = {.offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}};
     const double v[2] = {part.offset[0] + u[0], part.offset[1] + u[1]}, back[2] = {-v[0], -v[1]};
     double shift = 0;
-    part.relaxed = yields && sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift);
+    part.relaxed = yields && sunder_i_search_is_relaxed(search, search->body[i], search->body[j], &shift);
     reach += shift;
-    visit_pieces(s, p, q, v, reach, &part, visit, context);
+    visit_pieces(search, p, q, v, reach, &part, visit, context);
     /* Shadows are seldom in the way: no more of them than that are looked for ahead. */
-    const double ahead = sunder_i_min(reach - shift - s->gap, s->gap / LEAST_REACH);
-    sunder_i_search_body_shadows(s, p, q, u, s->gap - model->rules.gap + ahead, visit, context);
+    const double ahead = sunder_i_min(reach - shift - search->gap, search->gap / LEAST_REACH);
+    sunder_i_search_body_shadows(search, p, q, u, search->gap - model->rules.gap + ahead, visit, context);
     if (!part.relaxed && model->inclusions == 0) return;
-    if (p->has->walls) sunder_i_search_walls(s, p, q, v, reach, &part, false, visit, context);
-    if (q->has->walls) sunder_i_search_walls(s, q, p, back, reach, &part, true, visit, context);
+    if (p->has->walls) sunder_i_search_walls(search, p, q, v, reach, &part, false, visit, context);
+    if (q->has->walls) sunder_i_search_walls(search, q, p, back, reach, &part, true, visit, context);
 }
 
 double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double *corner, size_t n)
@@ -310,36 +311,36 @@ static const sunder_i_obstacle_edge *shadow_edges(sunder_i_search *s, const sund
     return s->shifted;
 }
 
-const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *s, const sunder_i_piece_pair *part, size_t *n,
+const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_piece_pair *part, size_t *n,
                                                     double *gap)
 {
-    if (part->shadow) return shadow_edges(s, part, n, gap);
+    if (part->shadow) return shadow_edges(search, part, n, gap);
     const sunder_i_obstacle_edge *edge =
-        part->relaxation ? NULL : sunder_i_obstacle_cache_find(&s->cache, part->key, n);
-    *gap = s->gap;
-    s->steps++;
+        part->relaxation ? NULL : sunder_i_obstacle_cache_find(&search->cache, part->key, n);
+    *gap = search->gap;
+    search->steps++;
     if (!edge) {
-        *n = make_obstacle(s, part);
+        *n = make_obstacle(search, part);
         if (*n && part->relaxation) {
-            *gap = sunder_i_min(sunder_i_search_owed(s, part->a, part->b),
-                                sunder_i_search_shift(part->relaxation, part->b->feature, s->scratch.xy, *n));
-            edge = take_edges(s, n);
+            *gap = sunder_i_min(sunder_i_search_owed(search, part->a, part->b),
+                                sunder_i_search_shift(part->relaxation, part->b->feature, search->scratch.xy, *n));
+            edge = take_edges(search, n);
         } else if (*n) {
-            edge = sunder_i_obstacle_cache_add(&s->cache, part->key, s->scratch.xy, n);
+            edge = sunder_i_obstacle_cache_add(&search->cache, part->key, search->scratch.xy, n);
         }
     }
-    if (!edge || !sunder_i_steps(1 + *n / 8)) s->failed = true;
-    if (edge && !part->relaxation) *gap = owed(s, part, edge, *n);
+    if (!edge || !sunder_i_steps(1 + *n / 8)) search->failed = true;
+    if (edge && !part->relaxation) *gap = owed(search, part, edge, *n);
     return edge;
 }
 
-size_t sunder_i_search_obstacle(sunder_i_search *s, const sunder_i_piece_pair *part, double *gap)
+size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pair *part, double *gap)
 {
     size_t n = 0;
-    sunder_i_search_edges(s, part, &n, gap);
-    n = s->failed ? 0 : make_obstacle(s, part);
-    if (n && part->relaxation) sunder_i_search_shift(part->relaxation, part->b->feature, s->scratch.xy, n);
-    if (n == 0) s->failed = true;
+    sunder_i_search_edges(search, part, &n, gap);
+    n = search->failed ? 0 : make_obstacle(search, part);
+    if (n && part->relaxation) sunder_i_search_shift(part->relaxation, part->b->feature, search->scratch.xy, n);
+    if (n == 0) search->failed = true;
     return n;
 }
 
@@ -378,14 +379,15 @@ static double measure(sunder_i_search *s, uint32_t i, uint32_t j, const double u
     return m.worst;
 }
 
-double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], bool *yields)
+double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], bool *yields)
 {
-    missing m = {u, measure(s, i, j, u)};
+    missing m = {u, measure(search, i, j, u)};
     double shift;
     *yields = false;
-    if (m.worst <= s->tolerance || !sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift)) return m.worst;
+    if (m.worst <= search->tolerance || !sunder_i_search_is_relaxed(search, search->body[i], search->body[j], &shift))
+        return m.worst;
     *yields = true;
     m.worst = 0;
-    sunder_i_search_piece_pairs(s, i, j, u, s->gap, true, measure_part, &m);
+    sunder_i_search_piece_pairs(search, i, j, u, search->gap, true, measure_part, &m);
     return m.worst;
 }

@@ -52,23 +52,23 @@ static bool push_all(sunder_i_search *s, double share)
     return !s->failed;
 }
 
-bool sunder_i_search_push_from_home(sunder_i_search *s, const double *start, const sunder_i_clash *at_home, size_t n,
-                                    double share)
+bool sunder_i_search_push_from_home(sunder_i_search *search, const double *start, const sunder_i_clash *at_home,
+                                    size_t n, double share)
 {
-    if (s->n < CROWD || n == 0 || !begins_at_home(s, start)) return false;
-    const size_t size = 2 * s->n * sizeof *s->t;
-    double *stood = sunder_i_alloc(2 * s->n, sizeof *stood);
-    s->failed = s->failed || !stood;
-    if (s->failed) return false;
-    memcpy(stood, s->t, size);
-    const sunder_i_relaxations given_up = s->relaxations;
-    memset(&s->relaxations, 0, sizeof s->relaxations);
-    const bool done = give_up_all(s, start, at_home, n) && push_all(s, share);
-    sunder_i_relaxations other = done ? given_up : s->relaxations;
+    if (search->n < CROWD || n == 0 || !begins_at_home(search, start)) return false;
+    const size_t size = 2 * search->n * sizeof *search->t;
+    double *stood = sunder_i_alloc(2 * search->n, sizeof *stood);
+    search->failed = search->failed || !stood;
+    if (search->failed) return false;
+    memcpy(stood, search->t, size);
+    const sunder_i_relaxations given_up = search->relaxations;
+    memset(&search->relaxations, 0, sizeof search->relaxations);
+    const bool done = give_up_all(search, start, at_home, n) && push_all(search, share);
+    sunder_i_relaxations other = done ? given_up : search->relaxations;
     if (!done) {
-        s->relaxations = given_up;
-        memcpy(s->t, stood, size);
-        s->program.n = 0;
+        search->relaxations = given_up;
+        memcpy(search->t, stood, size);
+        search->program.n = 0;
     }
     sunder_i_relaxations_free(&other);
     sunder_i_free(stood);

@@ -32,36 +32,37 @@ static double at(const double n[2], const double *u) { return n[0] * u[0] + n[1]
 
 /* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
-bool sunder_i_pushed_init(sunder_i_pushed *p, sunder_i_search *s, double reach)
+bool sunder_i_pushed_init(sunder_i_pushed *pushed, sunder_i_search *all, double reach)
 {
-    memset(p, 0, sizeof *p);
-    p->reach = reach;
-    bool ok = sunder_i_neighbourhood_init(&p->about, s);
-    p->of = sunder_i_calloc(s->n, sizeof *p->of);
-    p->to = sunder_i_alloc(2 * s->n, sizeof *p->to);
+    memset(pushed, 0, sizeof *pushed);
+    pushed->reach = reach;
+    bool ok = sunder_i_neighbourhood_init(&pushed->about, all);
+    pushed->of = sunder_i_calloc(all->n, sizeof *pushed->of);
+    pushed->to = sunder_i_alloc(2 * all->n, sizeof *pushed->to);
     for (size_t e = 0; e < 2; e++) {
-        sunder_i_push_front *f = &p->front[e];
-        f->spare = sunder_i_alloc(s->n, sizeof *f->spare);
-        f->reached = sunder_i_alloc(s->n, sizeof *f->reached);
+        sunder_i_push_front *f = &pushed->front[e];
+        f->spare = sunder_i_alloc(all->n, sizeof *f->spare);
+        f->reached = sunder_i_alloc(all->n, sizeof *f->reached);
         ok = ok && f->spare && f->reached;
-        for (size_t k = 0; k < s->n && ok; k++) f->spare[k] = INFINITY;
+        for (size_t k = 0; k < all->n && ok; k++) f->spare[k] = INFINITY;
     }
-    return ok && p->of && p->to;
+    return ok && pushed->of && pushed->to;
 }
 
-void sunder_i_pushed_free(sunder_i_pushed *p)
+void sunder_i_pushed_free(sunder_i_pushed *pushed)
 {
-    for (size_t k = 0; p->of && p->about.all && k < p->about.all->n; k++) sunder_i_free(p->of[k].line);
+    for (size_t k = 0; pushed->of && pushed->about.all && k < pushed->about.all->n; k++)
+        sunder_i_free(pushed->of[k].line);
     for (size_t e = 0; e < 2; e++) {
-        sunder_i_free(p->front[e].spare);
-        sunder_i_free(p->front[e].reached);
-        sunder_i_free(p->front[e].heap);
+        sunder_i_free(pushed->front[e].spare);
+        sunder_i_free(pushed->front[e].reached);
+        sunder_i_free(pushed->front[e].heap);
     }
-    for (size_t w = 0; w < PUSHED_WAYS; w++) sunder_i_free(p->ways[w].next);
-    sunder_i_free(p->of);
-    sunder_i_free(p->to);
-    sunder_i_neighbourhood_free(&p->about);
-    memset(p, 0, sizeof *p);
+    for (size_t w = 0; w < PUSHED_WAYS; w++) sunder_i_free(pushed->ways[w].next);
+    sunder_i_free(pushed->of);
+    sunder_i_free(pushed->to);
+    sunder_i_neighbourhood_free(&pushed->about);
+    memset(pushed, 0, sizeof *pushed);
 }
 
 /* ---- Lines ------------------------------------------------------------------------------------------------------- */
@@ -127,11 +128,11 @@ static bool is_stale(const sunder_i_pushed *p, uint32_t i)
     return false;
 }
 
-const sunder_i_push_lines *sunder_i_pushed_lines(sunder_i_pushed *p, uint32_t i)
+const sunder_i_push_lines *sunder_i_pushed_lines(sunder_i_pushed *pushed, uint32_t body)
 {
-    if (!p->of[i].fresh && is_stale(p, i)) take_lines(p, i);
-    p->of[i].fresh = true;
-    return &p->of[i];
+    if (!pushed->of[body].fresh && is_stale(pushed, body)) take_lines(pushed, body);
+    pushed->of[body].fresh = true;
+    return &pushed->of[body];
 }
 
 typedef struct worst {
@@ -151,9 +152,9 @@ static void note_worst(sunder_i_search *s, const sunder_i_piece_pair *part, void
     *w = (worst){w->u, gap - h.distance, {h.n[0], h.n[1]}};
 }
 
-double sunder_i_pushed_missing(sunder_i_pushed *p, uint32_t i, uint32_t j, double n[2])
+double sunder_i_pushed_missing(sunder_i_pushed *pushed, uint32_t i, uint32_t j, double n[2])
 {
-    sunder_i_search *s = p->about.all;
+    sunder_i_search *s = pushed->about.all;
     const double u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
     worst w = {u, 0, {1, 0}};
     sunder_i_search_piece_pairs(s, i, j, u, s->gap, false, note_worst, &w);
@@ -161,10 +162,10 @@ double sunder_i_pushed_missing(sunder_i_pushed *p, uint32_t i, uint32_t j, doubl
     return w.missing;
 }
 
-void sunder_i_pushed_renew(sunder_i_pushed *p, uint32_t i, uint32_t j)
+void sunder_i_pushed_renew(sunder_i_pushed *pushed, uint32_t i, uint32_t j)
 {
-    p->of[i].known = p->of[j].known = false;
-    p->of[i].fresh = p->of[j].fresh = false;
+    pushed->of[i].known = pushed->of[j].known = false;
+    pushed->of[i].fresh = pushed->of[j].fresh = false;
 }
 
 /* ---- Fronts ------------------------------------------------------------------------------------------------------ */
@@ -176,11 +177,11 @@ static bool comes_before(const void *a, const void *b)
     return p->progress != q->progress ? p->progress > q->progress : p->body < q->body;
 }
 
-double sunder_i_pushed_room(const sunder_i_pushed *p, uint32_t k, const double along[2])
+double sunder_i_pushed_room(const sunder_i_pushed *pushed, uint32_t body, const double along[2])
 {
-    const sunder_i_search *s = p->about.all;
-    const double limit = sunder_i_search_limit(s, k), *t = s->t + 2 * (size_t)k;
-    if (!(s->mass[k] > 0)) return 0;
+    const sunder_i_search *s = pushed->about.all;
+    const double limit = sunder_i_search_limit(s, body), *t = s->t + 2 * (size_t)body;
+    if (!(s->mass[body] > 0)) return 0;
     if (limit == INFINITY) return INFINITY;
     const double on = at(along, t), left = limit * limit - at(t, t);
     return sunder_i_max(0, sqrt(sunder_i_max(0, on * on + left)) - on);
@@ -235,20 +236,20 @@ static bool go_on(sunder_i_pushed *p, sunder_i_push_front *f, uint32_t end, uint
     return true;
 }
 
-bool sunder_i_pushed_reaches(sunder_i_pushed *p, uint32_t i, uint32_t j, const double n[2], double missing)
+bool sunder_i_pushed_reaches(sunder_i_pushed *pushed, uint32_t i, uint32_t j, const double n[2], double missing)
 {
     const double back[2] = {-n[0], -n[1]};
-    sunder_i_push_front *f = p->front;
-    if (sunder_i_pushed_is_in_vain(p, i, j, n, missing)) return false;
-    begin(p, &f[0], j, n, missing);
-    begin(p, &f[1], i, back, missing);
+    sunder_i_push_front *f = pushed->front;
+    if (sunder_i_pushed_is_in_vain(pushed, i, j, n, missing)) return false;
+    begin(pushed, &f[0], j, n, missing);
+    begin(pushed, &f[1], i, back, missing);
     bool any = true;
-    while (any && f[0].most + f[1].most >= missing && !p->about.all->failed) {
-        any = go_on(p, &f[0], j, i);
-        any = go_on(p, &f[1], i, j) || any;
+    while (any && f[0].most + f[1].most >= missing && !pushed->about.all->failed) {
+        any = go_on(pushed, &f[0], j, i);
+        any = go_on(pushed, &f[1], i, j) || any;
     }
-    if (f[0].most + f[1].most >= missing && !p->about.all->failed) return true;
-    sunder_i_pushed_note_in_vain(p);
+    if (f[0].most + f[1].most >= missing && !pushed->about.all->failed) return true;
+    sunder_i_pushed_note_in_vain(pushed);
     return false;
 }
 
@@ -281,25 +282,25 @@ static void note_gone(sunder_i_pushed *p)
     }
 }
 
-bool sunder_i_pushed_part(sunder_i_pushed *p, double missing)
+bool sunder_i_pushed_part(sunder_i_pushed *pushed, double missing)
 {
-    sunder_i_search *s = p->about.all;
+    sunder_i_search *s = pushed->about.all;
     double share[2];
-    divide(p->front, missing, share);
-    p->about.n = 0;
+    divide(pushed->front, missing, share);
+    pushed->about.n = 0;
     for (size_t e = 0; e < 2; e++) {
-        const sunder_i_push_front *f = &p->front[e];
+        const sunder_i_push_front *f = &pushed->front[e];
         for (size_t k = 0; k < f->n; k++) {
             const uint32_t b = f->reached[k];
             const double by = share[e] - f->spare[b];
             if (!(by > 0)) continue;
-            if (e == 1 && p->front[0].spare[b] < share[0]) return false; /* it cannot go both ways */
-            double *to = p->to + 2 * p->about.n;
-            p->about.place[p->about.n++] = b;
+            if (e == 1 && pushed->front[0].spare[b] < share[0]) return false; /* it cannot go both ways */
+            double *to = pushed->to + 2 * pushed->about.n;
+            pushed->about.place[pushed->about.n++] = b;
             for (int x = 0; x < 2; x++) to[x] = s->t[2 * (size_t)b + (size_t)x] + by * f->along[x];
         }
     }
-    if (!sunder_i_neighbourhood_put(&p->about, p->to)) return false;
-    note_gone(p);
+    if (!sunder_i_neighbourhood_put(&pushed->about, pushed->to)) return false;
+    note_gone(pushed);
     return true;
 }

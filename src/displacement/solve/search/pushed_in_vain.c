@@ -141,17 +141,18 @@ static double most_along(sunder_i_pushed *p, uint32_t end, uint32_t but, const d
     return most;
 }
 
-bool sunder_i_pushed_is_in_vain(sunder_i_pushed *p, uint32_t i, uint32_t j, const double n[2], double missing)
+bool sunder_i_pushed_is_in_vain(sunder_i_pushed *pushed, uint32_t i, uint32_t j, const double n[2], double missing)
 {
-    const double back[2] = {-n[0], -n[1]}, most = most_along(p, j, i, n, missing);
-    return !(most + most_along(p, i, j, back, missing) >= missing);
+    const double back[2] = {-n[0], -n[1]}, most = most_along(pushed, j, i, n, missing);
+    return !(most + most_along(pushed, i, j, back, missing) >= missing);
 }
 
-void sunder_i_pushed_note_in_vain(sunder_i_pushed *p)
+void sunder_i_pushed_note_in_vain(sunder_i_pushed *pushed)
 {
     for (size_t e = 0; e < 2; e++) {
-        const size_t way = way_along(p->front[e].along);
-        p->ways[way].in_vain += p->front[e].n;
-        if (p->ways[way].in_vain > PUSHED_SURVEY * p->about.all->n && !p->about.all->failed) look_for_ways(p, way);
+        const size_t way = way_along(pushed->front[e].along);
+        pushed->ways[way].in_vain += pushed->front[e].n;
+        if (pushed->ways[way].in_vain > PUSHED_SURVEY * pushed->about.all->n && !pushed->about.all->failed)
+            look_for_ways(pushed, way);
     }
 }

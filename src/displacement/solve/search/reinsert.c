@@ -185,20 +185,20 @@ static void try_orders(reordering *r, size_t n, size_t most_useless, uint64_t mo
     }
 }
 
-void sunder_i_search_reorder(sunder_i_search *s, double *best, double *cost)
+void sunder_i_search_reorder(sunder_i_search *search, double *best, double *cost)
 {
-    reordering r = {.search = s, .best = best, .cost = *cost, .moving = sunder_i_search_movers(s)};
-    const uint64_t work = sunder_i_search_work(s);
+    reordering r = {.search = search, .best = best, .cost = *cost, .moving = sunder_i_search_movers(search)};
+    const uint64_t work = sunder_i_search_work(search);
     if (r.moving < 3 || r.moving > MOST_MOVING) return; /* pairs were tried on all sides */
     r.doubtful = sunder_i_alloc(r.moving, sizeof *r.doubtful);
     r.near = sunder_i_alloc(r.moving, sizeof *r.near);
     r.out = sunder_i_alloc(r.moving, sizeof *r.out);
-    if (!r.doubtful || !r.near || !r.out || !find_doubtful(&r)) s->failed = true;
+    if (!r.doubtful || !r.near || !r.out || !find_doubtful(&r)) search->failed = true;
     if (r.doubtfuls) {
         try_orders(&r, 0, MOST_USELESS, (1 + MOST_TIMES) * work);
-    } else if (!s->failed && r.moving <= SURE_MOVING) {
-        for (uint32_t k = 0; k < s->n; k++)
-            if (s->mass[k] > 0) r.doubtful[r.doubtfuls++] = (ranked){0, k};
+    } else if (!search->failed && r.moving <= SURE_MOVING) {
+        for (uint32_t k = 0; k < search->n; k++)
+            if (search->mass[k] > 0) r.doubtful[r.doubtfuls++] = (ranked){0, k};
         try_orders(&r, r.moving, SURE_USELESS, work + work / SURE_SHARE);
     }
     *cost = r.cost;

@@ -32,11 +32,12 @@ typedef struct retrying {
     sunder_i_neighbourhood neighbourhood;
 } retrying;
 
-bool sunder_i_can_be_disjoint(const sunder_i_model *model, const sunder_i_relaxation *t)
+bool sunder_i_can_be_disjoint(const sunder_i_model *model, const sunder_i_relaxation *relaxation)
 {
-    const sunder_i_body *p = &model->body[model->body_of[t->a]], *q = &model->body[model->body_of[t->b]];
-    const double depth = hypot(t->shift[0], t->shift[1]);
-    return depth > 0 && sunder_i_owed_above(model, t->a, t->b) > 0 &&
+    const sunder_i_body *p = &model->body[model->body_of[relaxation->a]],
+                        *q = &model->body[model->body_of[relaxation->b]];
+    const double depth = hypot(relaxation->shift[0], relaxation->shift[1]);
+    return depth > 0 && sunder_i_owed_above(model, relaxation->a, relaxation->b) > 0 &&
            depth <= sunder_i_limit_of(p) + sunder_i_limit_of(q);
 }
 

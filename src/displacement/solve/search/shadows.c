@@ -102,7 +102,7 @@ static bool may_jump(const sunder_i_model *model, const sunder_i_body *p, const 
     return !model->rules.jumps && !sunder_i_is_barrier_body(model, p) && !sunder_i_is_barrier_body(model, q);
 }
 
-void sunder_i_search_visit_shadows(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *q,
+void sunder_i_search_visit_shadows(sunder_i_search *search, const sunder_i_body *p, const sunder_i_body *q,
                                    const double u[2], double reach, sunder_i_visit_piece_pair visit, void *context)
 {
     const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
@@ -110,20 +110,21 @@ void sunder_i_search_visit_shadows(sunder_i_search *s, const sunder_i_body *p, c
     double way[4];
     bool swapped;
     sunder_i_shadow_way(u, reach, way);
-    const bool crosses = may_cross(s->model, p, q, offset, way, &swapped), jumps = may_jump(s->model, p, q),
-               from_p = jumps && p->clear <= far && sunder_i_anchors_may_reach(s->model, p, q, false, offset, way),
-               from_q = jumps && q->clear <= far && sunder_i_anchors_may_reach(s->model, p, q, true, offset, way);
+    const bool crosses = may_cross(search->model, p, q, offset, way, &swapped), jumps = may_jump(search->model, p, q),
+               from_p = jumps && p->clear <= far && sunder_i_anchors_may_reach(search->model, p, q, false, offset, way),
+               from_q = jumps && q->clear <= far && sunder_i_anchors_may_reach(search->model, p, q, true, offset, way);
     if (!crosses && !from_p && !from_q) return;
     sunder_i_piece_pair part = {.offset = {offset[0], offset[1]}, .inclusion = SUNDER_I_LAPSED, .shadow = true};
-    if (crosses) visit_sides(s, swapped ? q : p, swapped ? p : q, way, &part, swapped, visit, context);
-    if (from_p) visit_from(s, p, q, way, far, &part, false, visit, context);
-    if (from_q) visit_from(s, q, p, way, far, &part, true, visit, context);
+    if (crosses) visit_sides(search, swapped ? q : p, swapped ? p : q, way, &part, swapped, visit, context);
+    if (from_p) visit_from(search, p, q, way, far, &part, false, visit, context);
+    if (from_q) visit_from(search, q, p, way, far, &part, true, visit, context);
 }
 
-void sunder_i_search_shadows(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach,
+void sunder_i_search_shadows(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
                              sunder_i_visit_piece_pair visit, void *context)
 {
-    sunder_i_search_body_shadows(s, &s->model->body[s->body[i]], &s->model->body[s->body[j]], u, reach, visit, context);
+    sunder_i_search_body_shadows(search, &search->model->body[search->body[i]], &search->model->body[search->body[j]],
+                                 u, reach, visit, context);
 }
 
 /* ---- Who may have passed whom ------------------------------------------------------------------------------------ */
@@ -149,19 +150,19 @@ static bool are_near(const sunder_i_search *s, const double *t, uint32_t i, uint
     return sunder_i_box_meet(box, q->box);
 }
 
-bool sunder_i_search_may_pass(const sunder_i_search *s, const double *t, uint32_t i, uint32_t j, double reach)
+bool sunder_i_search_may_pass(const sunder_i_search *search, const double *t, uint32_t i, uint32_t j, double reach)
 {
-    const sunder_i_body *p = &s->model->body[s->body[i]], *q = &s->model->body[s->body[j]];
+    const sunder_i_body *p = &search->model->body[search->body[i]], *q = &search->model->body[search->body[j]];
     const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
     const double u[2] = {t[2 * j] - t[2 * i], t[2 * j + 1] - t[2 * i + 1]};
     double way[4];
     bool swapped;
-    if (!sunder_i_forbids_ways(s->model)) return false;
-    sunder_i_shadow_way(u, reach - s->model->rules.gap, way);
-    if (may_cross(s->model, p, q, offset, way, &swapped)) return true;
-    if (!may_jump(s->model, p, q)) return false;
-    return sunder_i_anchors_may_reach(s->model, p, q, false, offset, way) ||
-           sunder_i_anchors_may_reach(s->model, p, q, true, offset, way);
+    if (!sunder_i_forbids_ways(search->model)) return false;
+    sunder_i_shadow_way(u, reach - search->model->rules.gap, way);
+    if (may_cross(search->model, p, q, offset, way, &swapped)) return true;
+    if (!may_jump(search->model, p, q)) return false;
+    return sunder_i_anchors_may_reach(search->model, p, q, false, offset, way) ||
+           sunder_i_anchors_may_reach(search->model, p, q, true, offset, way);
 }
 
 /* A body that passed another, and stands clear of it by more than the gap, has moved farther than this plus the gap: to
@@ -204,34 +205,34 @@ static int by_left(const void *a, const void *b)
     return p->body < q->body ? -1 : p->body > q->body;
 }
 
-void sunder_i_search_passing(sunder_i_search *s, const double *t, double reach, sunder_i_visit_pair visit,
+void sunder_i_search_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
                              void *context)
 {
-    if (!sunder_i_forbids_ways(s->model) || s->n < 2) return;
+    if (!sunder_i_forbids_ways(search->model) || search->n < 2) return;
     /* The moves of two bodies that passed each other are together longer than this. */
-    if (!s->least_known) s->least_way = least_way(s);
-    s->least_known = true;
-    const double least = s->least_way + s->model->rules.gap, most = longest(s, t);
+    if (!search->least_known) search->least_way = least_way(search);
+    search->least_known = true;
+    const double least = search->least_way + search->model->rules.gap, most = longest(search, t);
     if (2 * most < least) return;
-    swept *list = sunder_i_alloc(s->n, sizeof *list);
+    swept *list = sunder_i_alloc(search->n, sizeof *list);
     if (!list) {
-        s->failed = true;
+        search->failed = true;
         return;
     }
     size_t n = 0;
-    for (uint32_t k = 0; k < s->n; k++) {
+    for (uint32_t k = 0; k < search->n; k++) {
         if (length_of(t, k) + most < least) continue;
-        box_of_body(s, t, k, list[n].box);
+        box_of_body(search, t, k, list[n].box);
         list[n++].body = k;
     }
     sunder_i_sort_few(list, n, sizeof *list, by_left);
-    for (size_t x = 0; x < n && !s->failed; x++)
-        for (size_t y = x + 1; y < n && list[y].box[0] <= list[x].box[2] && !s->failed; y++) {
+    for (size_t x = 0; x < n && !search->failed; x++)
+        for (size_t y = x + 1; y < n && list[y].box[0] <= list[x].box[2] && !search->failed; y++) {
             const uint32_t i = list[x].body < list[y].body ? list[x].body : list[y].body,
                            j = list[x].body ^ list[y].body ^ i;
             if (list[y].box[1] > list[x].box[3] || list[x].box[1] > list[y].box[3]) continue;
-            if (!(s->mass[i] + s->mass[j] > 0) || are_near(s, t, i, j, reach)) continue;
-            if (sunder_i_search_may_pass(s, t, i, j, reach)) visit(s, i, j, context);
+            if (!(search->mass[i] + search->mass[j] > 0) || are_near(search, t, i, j, reach)) continue;
+            if (sunder_i_search_may_pass(search, t, i, j, reach)) visit(search, i, j, context);
         }
     sunder_i_free(list);
 }

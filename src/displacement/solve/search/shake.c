@@ -234,19 +234,19 @@ static sunder_status shake_group(shaking *k, const sunder_i_model *model, const 
     return status;
 }
 
-sunder_status sunder_i_group_shake(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+sunder_status sunder_i_group_shake(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *group,
                                    uint64_t steps, sunder_error *err)
 {
-    if (g->held || g->n < 2) return SUNDER_OK;
-    shaking k = {.n = g->n, .random = model->rules.seed, .times = 1 + g->n * g->n / PAIRS_A_SHAKE};
+    if (group->held || group->n < 2) return SUNDER_OK;
+    shaking k = {.n = group->n, .random = model->rules.seed, .times = 1 + group->n * group->n / PAIRS_A_SHAKE};
     double farthest = 0;
-    for (size_t m = 0; m < 2 * g->n; m++) farthest = sunder_i_max(farthest, fabs(g->move[m]));
+    for (size_t m = 0; m < 2 * group->n; m++) farthest = sunder_i_max(farthest, fabs(group->move[m]));
     k.near = sunder_i_alloc(k.n, sizeof *k.near);
     sunder_status status = k.near ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) status = shake_group(&k, model, waived, g, 0, steps, err);
-    if (!status && k.ended == 0 && !g->tired && g->n > HEAP) {
-        status = shake_group(&k, model, waived, g, farthest / 2, steps, err);
-        g->shaken = true;
+    if (!status) status = shake_group(&k, model, waived, group, 0, steps, err);
+    if (!status && k.ended == 0 && !group->tired && group->n > HEAP) {
+        status = shake_group(&k, model, waived, group, farthest / 2, steps, err);
+        group->shaken = true;
     }
     sunder_i_free(k.near);
     return status;

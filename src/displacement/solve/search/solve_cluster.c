@@ -9,21 +9,22 @@
 
 #include <string.h>
 
-void sunder_i_search_round(const sunder_i_search *s, double *move)
+void sunder_i_search_round(const sunder_i_search *search, double *move)
 {
-    SUNDER_I_CHECK(sunder_i_search_check(s), s->n);
-    for (size_t k = 0; k < s->n; k++)
-        if (s->mass[k] > 0) sunder_i_round_move(s->model, s->body[k], s->t + 2 * k, move + 2 * k, NULL);
+    SUNDER_I_CHECK(sunder_i_search_check(search), search->n);
+    for (size_t k = 0; k < search->n; k++)
+        if (search->mass[k] > 0)
+            sunder_i_round_move(search->model, search->body[k], search->t + 2 * k, move + 2 * k, NULL);
 }
 
-void sunder_i_search_hand_over(sunder_i_search *s, sunder_i_cluster *cluster)
+void sunder_i_search_hand_over(sunder_i_search *search, sunder_i_cluster *cluster)
 {
-    cluster->relaxations = s->relaxations;
-    cluster->restored = s->restored;
-    cluster->restored_n = s->restored_n;
-    memset(&s->relaxations, 0, sizeof s->relaxations);
-    s->restored = NULL;
-    s->restored_n = s->restored_capacity = 0;
+    cluster->relaxations = search->relaxations;
+    cluster->restored = search->restored;
+    cluster->restored_n = search->restored_n;
+    memset(&search->relaxations, 0, sizeof search->relaxations);
+    search->restored = NULL;
+    search->restored_n = search->restored_capacity = 0;
 }
 
 /* Descends, and where sides contradict each other jumps and descends again; as long as jumps help, or once more. */

@@ -67,25 +67,25 @@ static bool try_share(sunder_i_search *s, const double centre[2], double share)
     return (clear || (share >= ENOUGH_SPREAD && sunder_i_search_jump(s))) && sunder_i_search_descend(s);
 }
 
-bool sunder_i_search_spread(sunder_i_search *s)
+bool sunder_i_search_spread(sunder_i_search *search)
 {
     double centre[2];
-    if (s->model->rules.jumps || !find_centre(s, centre)) return false;
-    const size_t size = 2 * s->n * sizeof *s->t;
-    double *best = sunder_i_alloc(2 * s->n, sizeof *best);
-    if (!best) s->failed = true;
-    if (s->failed) return false;
-    memcpy(best, s->t, size);
-    sunder_i_search_look(s, s->t);
-    size_t least = s->clashes;
+    if (search->model->rules.jumps || !find_centre(search, centre)) return false;
+    const size_t size = 2 * search->n * sizeof *search->t;
+    double *best = sunder_i_alloc(2 * search->n, sizeof *best);
+    if (!best) search->failed = true;
+    if (search->failed) return false;
+    memcpy(best, search->t, size);
+    sunder_i_search_look(search, search->t);
+    size_t least = search->clashes;
     bool done = false;
-    for (double share = LEAST_SPREAD; share <= MOST_SPREAD && !done && !s->failed; share *= 2) {
-        done = try_share(s, centre, share);
-        if (!done) sunder_i_search_look(s, s->t);
-        if (done || s->clashes < least) memcpy(best, s->t, size);
-        if (s->clashes < least) least = s->clashes;
+    for (double share = LEAST_SPREAD; share <= MOST_SPREAD && !done && !search->failed; share *= 2) {
+        done = try_share(search, centre, share);
+        if (!done) sunder_i_search_look(search, search->t);
+        if (done || search->clashes < least) memcpy(best, search->t, size);
+        if (search->clashes < least) least = search->clashes;
     }
-    memcpy(s->t, best, size);
+    memcpy(search->t, best, size);
     sunder_i_free(best);
     return done;
 }

@@ -46,11 +46,11 @@ static bool find_surroundings(const sunder_i_model *model, const sunder_i_cluste
     return true;
 }
 
-bool sunder_i_search_init_about(sunder_i_search *s, const sunder_i_model *model, const sunder_i_cluster *cluster,
+bool sunder_i_search_init_about(sunder_i_search *search, const sunder_i_model *model, const sunder_i_cluster *cluster,
                                 const double *move)
 {
     sunder_i_list hits = {0};
-    memset(s, 0, sizeof *s);
+    memset(search, 0, sizeof *search);
     bool ok = find_surroundings(model, cluster, move, &hits);
     const size_t own = cluster->n, n = own + hits.n;
     uint32_t *body = sunder_i_alloc(n, sizeof *body);
@@ -63,11 +63,11 @@ bool sunder_i_search_init_about(sunder_i_search *s, const sunder_i_model *model,
             body[k] = hits.item[k - own];
             memcpy(stand + 2 * k, model->move + 2 * (size_t)body[k], 2 * sizeof *stand);
         }
-        ok = sunder_i_search_init(s, model, body, n, cluster->margin, stand);
+        ok = sunder_i_search_init(search, model, body, n, cluster->margin, stand);
     }
-    s->listed = body;
-    s->own = own;
-    for (size_t k = own; ok && k < n; k++) s->mass[k] = 0;
+    search->listed = body;
+    search->own = own;
+    for (size_t k = own; ok && k < n; k++) search->mass[k] = 0;
     sunder_i_free(stand);
     sunder_i_free(hits.item);
     return ok;

@@ -224,6 +224,6 @@ static void begin(sunder_i_search *s, bool by_pushing_alone)
     sunder_i_free(list);
 }
 
-void sunder_i_search_take_back(sunder_i_search *s) { begin(s, false); }
+void sunder_i_search_take_back(sunder_i_search *search) { begin(search, false); }
 
-void sunder_i_search_push_back(sunder_i_search *s) { begin(s, true); }
+void sunder_i_search_push_back(sunder_i_search *search) { begin(search, true); }

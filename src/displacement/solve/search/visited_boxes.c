@@ -55,20 +55,20 @@ static bool bring_up_to_date(sunder_i_search *s)
     return !sunder_i_rtree_is_worn(&s->ways) || build(s);
 }
 
-bool sunder_i_search_about(sunder_i_search *s, uint32_t i, double reach)
+bool sunder_i_search_about(sunder_i_search *search, uint32_t i, double reach)
 {
-    sunder_i_list *about = &s->about;
-    const sunder_i_body *p = &s->model->body[s->body[i]], *first = &s->model->body[s->body[0]];
+    sunder_i_list *about = &search->about;
+    const sunder_i_body *p = &search->model->body[search->body[i]], *first = &search->model->body[search->body[0]];
     double box[4];
     about->n = 0;
-    if (s->n <= MANY) {
-        for (uint32_t k = 0; k < s->n; k++)
+    if (search->n <= MANY) {
+        for (uint32_t k = 0; k < search->n; k++)
             if (!sunder_i_list_push(about, k)) return false;
         return true;
     }
     for (uint32_t c = 0; c < 4; c++)
         box[c] = p->box[c] + (p->origin[c & 1] - first->origin[c & 1]) + (c < 2 ? -reach : reach);
-    if (!bring_up_to_date(s) || !sunder_i_rtree_query(&s->ways, box, about)) return false;
+    if (!bring_up_to_date(search) || !sunder_i_rtree_query(&search->ways, box, about)) return false;
     about->n = sunder_i_set_make(about->item, about->n);
     return true;
 }

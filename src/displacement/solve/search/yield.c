@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool sunder_i_search_send_home(sunder_i_search *s, uint32_t i)
+bool sunder_i_search_send_home(sunder_i_search *search, uint32_t i)
 {
-    if (!(s->mass[i] > 0) || (s->t[2 * i] == 0 && s->t[2 * i + 1] == 0)) return false;
-    s->t[2 * i] = s->t[2 * i + 1] = 0;
+    if (!(search->mass[i] > 0) || (search->t[2 * i] == 0 && search->t[2 * i + 1] == 0)) return false;
+    search->t[2 * i] = search->t[2 * i + 1] = 0;
     return true;
 }
 
@@ -86,15 +86,15 @@ static bool yield_once(sunder_i_search *s, const sunder_i_clash *at_home, size_t
     return any;
 }
 
-void sunder_i_search_yield(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double hair)
+void sunder_i_search_yield(sunder_i_search *search, const sunder_i_clash *at_home, size_t n, double hair)
 {
     neighbours near = {0};
-    bool *changed = sunder_i_alloc(s->n, sizeof *changed);
-    s->failed = s->failed || !changed;
-    if (!s->failed) sunder_i_search_look(s, s->t);
-    while (!s->failed && yield_once(s, at_home, n, hair, changed)) {
-        if (!near.first) find_neighbours(s, &near);
-        if (!s->failed) look_at_changed(s, &near, changed);
+    bool *changed = sunder_i_alloc(search->n, sizeof *changed);
+    search->failed = search->failed || !changed;
+    if (!search->failed) sunder_i_search_look(search, search->t);
+    while (!search->failed && yield_once(search, at_home, n, hair, changed)) {
+        if (!near.first) find_neighbours(search, &near);
+        if (!search->failed) look_at_changed(search, &near, changed);
     }
     free_neighbours(&near);
     sunder_i_free(changed);
