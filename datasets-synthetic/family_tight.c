@@ -1,7 +1,7 @@
 /* Tight passages: rooms that Q, turned by half a turn, can enter only along a straight line.
  *
  * P is a block with rooms in a row. A passage leads in from the left and from each room to the next; every passage is
- * as wide as Q is high, exactly, so that the mover's placements in it are one segment; the last room has a blind
+ * as wide as Q is high, exactly, so that the mover's placements in it are one segment. The last room has a blind
  * passage besides, whose segment hangs off a hole of the sum. The rooms are holes of the sum, and without the
  * degenerate segments nothing would tell that one can go in and come out again. Q is any convex polygon: a passage
  * longer than Q is wide leaves a segment.
@@ -13,7 +13,7 @@
  *                    +-----+       +-+ |
  *      +-------+     |     |       |   |
  *      |       +-----+     +-------+   |
- *      +-------------------------------+                                                            */
+ *      +-------------------------------+ */
 #include "family.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* message.c: one line a message. Texts from elsewhere (a driver, a broken file) may hold line breaks and other control
- * characters; a script that reads stderr line by line must still see one message as one line, and a terminal must not
+ * characters. A script that reads stderr line by line must still see one message as one line, and a terminal must not
  * be told what to do by a file. */
 #include "base/message.h"
 

@@ -2,7 +2,7 @@
  * its place.
  *
  * The order in which equal items come out is part of the contract, since a search may depend on it: a new item climbs
- * past items that it comes before, and past no equals; an item that sinks goes below the right child where that comes
+ * past items that it comes before, and past no equals. An item that sinks goes below the right child where that comes
  * before the left one, else below the left child, and stops above its equals. If no two items are equal, this does not
  * matter.
  *

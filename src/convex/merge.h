@@ -2,11 +2,11 @@
  *
  * A piece is a counter-clockwise list of sides, each begun by a corner. Both pieces start with the side of the least
  * angle from some direction on, the same one for both, so that angles do not fall within one turn. The sides of the sum
- * are those of both in the order of their angles; the side at hand is the earlier one of the two next sides, or both as
+ * are those of both in the order of their angles. The side at hand is the earlier one of the two next sides, or both as
  * one where they have one direction, and starts at the sum of the corners at which the two next sides start.
  *
- * Invariant: that sum of corners is where the sides taken so far end, if they are put end to end; and it is a corner of
- * the sum, for it is extreme in all directions normal to the angles between the side taken last and the next.
+ * Invariant: that sum of corners is where the sides taken so far end, if they are put end to end. It is a corner of the
+ * sum, for it is extreme in all directions normal to the angles between the side taken last and the next.
  *
  *     sunder_i_merge m = sunder_i_merge_of(n, k);
  *     while (SUNDER_I_MERGE_NEXT(&m, compare(p[m.next_a], q[m.next_b])))

@@ -2,7 +2,7 @@
  * found without making the others.
  *
  * The box of the whole sum is halved into cells. The subsums that may reach into a cell are kept as pairs of groups of
- * pieces (piece_tree.h), one group of each operand; a pair stands for all sums of pieces of the two, and is opened as
+ * pieces (piece_tree.h), one group of each operand. A pair stands for all sums of pieces of the two, and is opened as
  * cells become small. A cell that lies inside one subsum is finished: that subsum is needed, and no other is needed for
  * this cell. In a cell that few subsums reach into, all of them are needed. So every subsum is covered, cell by cell,
  * by needed ones; and since cells are closed and their holders open, the union is the same set, degenerate holes

@@ -2,32 +2,32 @@
  * diagonal weighs one. Dynamic programming in the manner of Greene and of Keil [Gre83, Kei85], arranged so that a
  * vertex and an edge are looked at together once.
  *
- * Vertices are 0 .. n - 1 around the ring. A *link* (u, v), u < v, is an edge of the polygon or a diagonal; W(u, v)
- * is the least weight of diagonals inside the part of the polygon that the vertices u .. v bound, the link itself
- * not counted. The piece that rests on the link (i, j) from inside is a convex chain of links i = v0 < v1 < ... < vk
- * = j, and
+ * Vertices are 0 .. n - 1 around the ring. A *link* (u, v), u < v, is an edge of the polygon or a diagonal. W(u, v) is
+ * the least weight of diagonals inside the part of the polygon that the vertices u .. v bound, the link itself not
+ * counted. The piece that rests on the link (i, j) from inside is a convex chain of links i = v0 < v1 < ... < vk = j,
+ * and
  *
  *     W(i, j) = min over such chains of the sum over its links of W(v, v') + weight(v, v').
  *
  * For each i, from the last vertex to the first, all chains that start there are grown at once, u ascending: what
- * arrives at u over a link (t, u) may leave over (u, v) if the corner at u is convex. Around u, vertices seen stand
- * in the order of their angles; so for v ascending the t allowed are a growing range (two pointers), and what is
- * kept of it is the best alone. Best in which sense: if i is convex, of least weight. If i is reflex, the chain's
- * first link matters too, since the angle at i from there to j must not exceed pi: later first links are better, and
- * what is kept are the chains that no other beats in both (a front). Where each diagonal weighs one, a chain to u that
- * is not lighter than the link (i, u) itself is beaten by that, so fronts are short. With other weights fronts are cut
- * off at FRONT_MOST, and the result may not quite be the least.
+ * arrives at u over a link (t, u) may leave over (u, v) if the corner at u is convex. Around u, vertices seen stand in
+ * the order of their angles; so for v ascending the t allowed are a growing range (two pointers), and what is kept of
+ * it is the best alone. Best in which sense: if i is convex, of least weight. If i is reflex, the chain's first link
+ * matters too, since the angle at i from there to j must not exceed pi: later first links are better, and what is kept
+ * are the chains that no other beats in both (a front). Where each diagonal weighs one, a chain to u that is not
+ * lighter than the link (i, u) itself is beaten by that, so fronts are short. With other weights fronts are cut off at
+ * FRONT_MOST, and the result may not quite be the least.
  *
  * A chain is given up when the way back to i is no left turn, or the angle at i exceeds pi: both only get worse.
  *
- * Diagonals between two convex vertices are left out: taking one away leaves convex corners. Corners of pieces may
- * be straight: a vertex that touches a line between two others divides it in two diagonals. (So the optimum is at
- * most what decompositions into strictly convex pieces with matching sides have.) A closing link is never
- * degenerate, since a diagonal meets no vertex between its ends.
+ * Diagonals between two convex vertices are left out: taking one away leaves convex corners. Corners of pieces may be
+ * straight: a vertex that touches a line between two others divides it in two diagonals. (So the optimum is at most
+ * what decompositions into strictly convex pieces with matching sides have.) A closing link is never degenerate, since
+ * a diagonal meets no vertex between its ends.
  *
  * Weights are sums of doubles, exact where each diagonal weighs one. All decisions about shape are orientations of
- * vertices (degree 2). Cost: for each vertex that some diagonal leaves upwards, the links among what it sees: O(r n
- * n) at worst and far less as a rule; memory O(r n). */
+ * vertices (degree 2). Cost: for each vertex that some diagonal leaves upwards, the links among what it sees: O(r n n)
+ * at worst and far less as a rule; memory O(r n). */
 #include "decomposition/maker.h"
 
 #include "base/watch.h"

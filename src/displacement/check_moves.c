@@ -1,8 +1,8 @@
 /* What broke a rule on the way from one layer to another, whoever moved it.
  *
  * Features are matched by their places in the two layers. Each has to be a translate, as doubles hold it; its move is
- * then asked for its limit, with all others for the rule against jumps, and for the sides of barriers; and no pair that
- * is in conflict afterwards may stand worse than it did. Blocks, limits and what is fixed are those of the layer as it
+ * then asked for its limit, with all others for the rule against jumps, and for the sides of barriers. No pair that is
+ * in conflict afterwards may stand worse than it did. Blocks, limits and what is fixed are those of the layer as it
  * was. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/rounding.h"

@@ -249,7 +249,7 @@ static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_
 }
 
 /* Relations once more of all that does not stand as it was given, so that the verdict leans on none that was found on
- * the way; two that do stand so are what they were found to be when nothing had moved. */
+ * the way. Two that do stand so are what they were found to be when nothing had moved. */
 static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
 {
     sunder_i_changes elsewhere;

@@ -12,7 +12,7 @@ typedef struct sunder_i_members_left {
 } sunder_i_members_left;
 
 /* Traces, by the convolution, the sums with `one` of those members of the set `many` whose sums touch no other
- * member's, or only few; the result goes into an empty sum that stands on a lattice that both operands are placed on.
+ * member's, or only few. The result goes into an empty sum that stands on a lattice that both operands are placed on.
  * *left: the members left out; their sums are disjoint from what is traced. If all are left out the sum stays empty.
  * Fails only with SUNDER_ENOMEM. */
 sunder_status sunder_i_members_sum(sunder_sum *sum, const sunder_shape *many, const sunder_i_point *at_many,

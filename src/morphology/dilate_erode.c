@@ -83,7 +83,7 @@ static unsigned round_of(uint64_t *random)
 }
 
 /* An order of n things that follow each other along rings; NULL if memory is out. Rounds of twice as many things each
- * time, drawn at random, keep the expected costs of a random order within a factor; within a round things stand in
+ * time, drawn at random, keep the expected costs of a random order within a factor. Within a round things stand in
  * their own order, so that the next one goes in near the last, where the map is at hand already [ACR03]. Half the time
  * of a random order on coasts of a hundred thousand vertices. */
 static uint64_t *biased_order(uint64_t *random, uint64_t n)

@@ -8,8 +8,8 @@
  *
  * Let x be a place of a candidate that no band covers. x - int C is connected and meets no side of P, so it lies inside
  * P, and x in the erosion, or outside. Which of the two does not change from x to the next such place, so one question
- * is enough for all stretches that hang together. Mostly it is inside, for near what x - C touches P is on its side;
- * but the end of a moved side may touch a corner of P from outside, and so may more where a corner stands on a side.
+ * is enough for all stretches that hang together. Mostly it is inside, for near what x - C touches P is on its side.
+ * But the end of a moved side may touch a corner of P from outside, and so may more where a corner stands on a side.
  * The erosion is on the side of each stretch that no band covers.
  *
  * Nothing is missed: a place on the boundary of the complement's sum is on a candidate, since that is what the reduced

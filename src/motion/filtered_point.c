@@ -112,7 +112,7 @@ int sunder_i_filtered_cmp(const sunder_i_filter *g, const sunder_i_filtered_poin
 /* ---- Sides ---- */
 
 /* Sign of cross(b - a, c - a) where doubles settle it, else 0. Each coordinate is off by at most e, so a difference by
- * at most 2 e + u |difference|, u = DBL_EPSILON / 2; with f = 2 e + 2 u |.| for both that and the roundings behind it,
+ * at most 2 e + u |difference|, u = DBL_EPSILON / 2. With f = 2 e + 2 u |.| for both that and the roundings behind it,
  * the two products are off by at most f (|p| + |q|) + f^2 and a rounding each. */
 static int filter_orient(const sunder_i_filter *g, const double a[2], const double b[2], const double c[2])
 {

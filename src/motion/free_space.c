@@ -1,7 +1,7 @@
 /* Free space is what the parts leave over.
  *
  * Obstacles, the robot turned by half a turn, and a disc if there is a gap, all become lists of convex pieces on one
- * lattice that holds the sums of all three; directions are ranked once, so that pieces are summed by merging. The sums
+ * lattice that holds the sums of all three. Directions are ranked once, so that pieces are summed by merging. The sums
  * of obstacle pieces and robot pieces are the parts. Their outline is found by the stages of outline/, all at once, and
  * its stretches are kept: their ends are where shortest paths can bend.
  *

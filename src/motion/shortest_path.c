@@ -336,7 +336,7 @@ static void find(search *s)
     s->all_round = !s->at[s->goal].known;
     if (s->all_round) run(s, HASTE, INFINITY);
     s->all_round = false;
-    /* Lengths are of places less the start. No place on a path of at most this length is farther from there; with two
+    /* Lengths are of places less the start. No place on a path of at most this length is farther from there. With two
      * such coordinates a leg, each off by 2^-51 of itself or by what is too small for doubles, and roundings, lengths
      * are off by less than this. Twice, for both of two that are compared. */
     const double some = s->at[s->goal].length;

@@ -2,7 +2,7 @@
  *
  * Finite doubles are dyadic rationals, so the coordinates of a problem are integer multiples of one power of two. Taken
  * from an origin near the features, map coordinates fit in 60 bits almost always. Two kinds of numbers stand on a
- * lattice, and both are an int64_t: a *plain* integer, below 2^61 in magnitude, is itself; anything else (a longer
+ * lattice, and both are an int64_t: a *plain* integer, below 2^61 in magnitude, is itself. Anything else (a longer
  * integer, or a corner of a repaired shape, which is the crossing of two lattice segments and has a denominator) is a
  * *handle* of a ratio of big integers in the lattice's pool. No denominator is common to anything.
  *

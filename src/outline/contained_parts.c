@@ -1,5 +1,5 @@
 /* When many members are grown by one shape and overlap, most of their sides lie inside some other part, and the cells
- * (culling.h) would spend most of their time on those sides; when members nearly coincide, no cell separates them, and
+ * (culling.h) would spend most of their time on those sides. When members nearly coincide, no cell separates them, and
  * all their sides would meet all parts along their lines. Among ragged operands, one in five subsums lies inside
  * another. An open convex set holds a side if it holds both its ends, and a part if it holds its corners; a grid tells
  * which parts may hold them. This is a filter: the cells find what it misses. */

@@ -1,5 +1,5 @@
 /* The hierarchy of cells, from the root down: a cell is halved; each part is tested against each half (is the half
- * outside it, inside it, or do sides of it pass?); and each half is closed, kept as a leaf, or pushed on the stack
+ * outside it, inside it, or do sides of it pass?). Each half is closed, kept as a leaf, or pushed on the stack
  * (culling.h tells what becomes of it). tuning.h holds the numbers that decide when a cell is split further. */
 #include "outline/culling_inner.h"
 

@@ -53,7 +53,7 @@
 /* Initial credit: SIDES_ON_TRUST sides at LOOKS looks each, and LOOKS_ON_TRUST looks for each part. */
 #define SIDES_ON_TRUST 4
 #define LOOKS_ON_TRUST 4
-/* Initial credit of looks for each part, to find a part that holds it, including the parts listed at its corners; a
+/* Initial credit of looks for each part, to find a part that holds it, including the parts listed at its corners. A
  * part that is dropped earns PART_LOOKS_SAVED looks for each of its corners: half of what a corner costs in the
  * cells. */
 #define PART_LOOKS_ON_TRUST 16

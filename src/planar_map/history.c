@@ -1,7 +1,7 @@
 /* The history: every trapezoid there ever was, and what became of it [Mul90, Sei91; BKOS08, section 6.2].
  *
  * A leaf is a trapezoid of today. When one goes, its leaf becomes the node that tells its successors apart: by a vertex
- * whose wall was put up in it (AT), by the line of an edge drawn through it (BY); where several were merged, several
+ * whose wall was put up in it (AT), by the line of an edge drawn through it (BY). Where several were merged, several
  * nodes lead to one leaf. Removal adds to the history too: a trapezoid that a removed edge bounded is succeeded by a
  * row of trapezoids, told apart by the vertices between them; one that lost a wall by its union with the neighbour
  * (ALIAS). Nodes name lines and vertices, never edges: these may be split or gone by the time the node is asked, but

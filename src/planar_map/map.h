@@ -234,13 +234,13 @@ void sunder_i_edge_merge(sunder_i_planar_map *map, uint32_t v);       /* mergeab
 uint32_t sunder_i_map_vertex_at(sunder_i_planar_map *map, const sunder_i_site *site);
 /* The same in the trapezoid that the history leads to. */
 uint32_t sunder_i_map_vertex_in(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *site);
-/* Follows the segment from a point inside trapezoid *t, or at its left wall, to a site further right, drawing nothing;
- * for each trapezoid entered 2 * its id + (is it below the wall's vertex that it is entered?) goes to the list, and *t
+/* Follows the segment from a point inside trapezoid *t, or at its left wall, to a site further right, drawing nothing.
+ * For each trapezoid entered 2 * its id + (is it below the wall's vertex that it is entered?) goes to the list, and *t
  * is the last one. False at the first vertex or edge in the way. */
 bool sunder_i_map_glide(sunder_i_planar_map *map, uint32_t *t, const sunder_i_site *target,
                         const sunder_i_map_line *line, sunder_i_list *list);
 /* Walks from vertex v to a site to the right of it (whose numbers are in map->arena), along the line through both, and
- * draws the edges; returns the vertex there. up, down: regions that end here from above and from below. record: edges
+ * draws the edges. Returns the vertex there. up, down: regions that end here from above and from below. record: edges
  * go to map->ring, as the half-edges with the region on their left. */
 uint32_t sunder_i_map_walk(sunder_i_planar_map *map, uint32_t v, const sunder_i_site *target, uint32_t line,
                            uint32_t up, uint32_t down, bool record);

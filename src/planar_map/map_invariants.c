@@ -1,8 +1,8 @@
 /* The checker: every invariant, proved exactly; the list is in README.md.
  *
  * Geometry is proved by the trapezoids: each is bounded by a bottom strictly below its top over its whole width, has
- * its vertices on its walls, and knows the neighbour across each part of a wall that has length, which knows it; the
- * trapezoids along each side of each edge follow each other from end to end; and there are as many as there must be. So
+ * its vertices on its walls, and knows the neighbour across each part of a wall that has length, which knows it. The
+ * trapezoids along each side of each edge follow each other from end to end. There are as many as there must be. So
  * they tile the plane, and no edge meets another but in a common end. */
 #include "planar_map/map.h"
 

@@ -80,10 +80,10 @@ sunder_status sunder_i_planar_map_overlay(sunder_i_planar_map *map, const sunder
 sunder_status sunder_i_planar_map_mark(sunder_i_planar_map *map, sunder_error *err);
 
 /* Makes the map that of the union of all its regions, degenerate holes kept. mark() must have been called since the
- * last insertion (unite_polygon() needs no such call).
- *  - Every edge and vertex with covered >= 1 is removed; so all that remain have covered = 0.
- *  - Vertices that have become needless are merged: two edges on one line with equal counts on each side.
- *  - The union counts as one region from then on: covered of faces is 0 or 1, sides and below likewise. */
+ * last insertion (unite_polygon() needs no such call). - Every edge and vertex with covered >= 1 is removed. So all
+ * that remain have covered = 0. - Vertices that have become needless are merged: two edges on one line with equal
+ * counts on each side. - The union counts as one region from then on: covered of faces is 0 or 1, sides and below
+ * likewise. */
 sunder_status sunder_i_planar_map_clean(sunder_i_planar_map *map, sunder_error *err);
 
 /* insert_polygon(), then clean() where the polygon changed something: the step of the incremental union. The map must

@@ -126,8 +126,8 @@ void sunder_i_point_difference(sunder_i_lattice *lattice, sunder_i_point a, sund
 
 /* ---- Side ---- */
 
-/* Each double is off by at most u M, M the largest of them (half an ulp); so differences, which are below 2 M, are off
- * by 2 u M and their own rounding, 4 u M together; each product by 2 * 2 M * 4 u M, and by the square of that error; so
+/* Each double is off by at most u M, M the largest of them (half an ulp). So differences, which are below 2 M, are off
+ * by 2 u M and their own rounding, 4 u M together; each product by 2 * 2 M * 4 u M, and by the square of that error. So
  * the determinant by 32 u M^2 and its roundings, 3 u * 8 M^2: below 64 u M^2. */
 #define SIDE_ERROR 0x1p-47
 

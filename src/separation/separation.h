@@ -2,7 +2,7 @@
  * are in sunder.h; these are the same questions for shapes moved by exact vectors.
  *
  * P may also be flat, made of pieces without area, segments and points (shape/of_pieces.h): then statements about its
- * interior hold for all of P, which the interior of Q may not meet; and Q's interior is taken as the union of the
+ * interior hold for all of P, which the interior of Q may not meet. And Q's interior is taken as the union of the
  * interiors of its pieces, which have to cover it (displacement/layer/seamless.h). */
 #ifndef SUNDER_I_SEPARATION_H
 #define SUNDER_I_SEPARATION_H

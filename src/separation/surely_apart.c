@@ -52,8 +52,8 @@ static double beyond(const corners *p, const corners *q, const double n[2])
 
 /* Tests the edges of one set that face the other; their middles tell the direction. A product of n with a corner is off
  * by |n| (in the sum of its coordinates) times the corner's error and 2^-51 of its size, so the difference of two by
- * twice 2^-50 of that; and the difference itself rounds by less than once more. The length of n and the required
- * distance are off by 2^-50 of themselves. */
+ * twice 2^-50 of that. The difference itself rounds by less than once more. The length of n and the required distance
+ * are off by 2^-50 of themselves. */
 static bool parts_along(const sunder_shape *s, const corners *at, const corners *p, const corners *q,
                         const double way[2], double far, double size)
 {

@@ -55,7 +55,7 @@ static square end_square(sunder_i_operands *g, int side, uint32_t v, uint32_t ed
 }
 
 /* All ends against all edges: the least distance in doubles first, then exactly for those that may be the least. A
- * coordinate in doubles is off by g->error at most; with u = 2^-53 and coordinates of at most M, the foot of the
+ * coordinate in doubles is off by g->error at most. With u = 2^-53 and coordinates of at most M, the foot of the
  * perpendicular is off by less than 16 u M besides, and a distance by at most 8 g->error + 32 u M. */
 static square least_square(sunder_i_operands *g)
 {

@@ -1,6 +1,6 @@
 /* The arrangement of the edges of a polygon, as arcs between its points.
  *
- * Where two edges meet is found by all candidate pairs of the tree of boxes; the points (vertices and crossings) are
+ * Where two edges meet is found by all candidate pairs of the tree of boxes. The points (vertices and crossings) are
  * sorted exactly and numbered lexicographically, equal ones the same, and from then on the order along an edge is the
  * order of numbers. Coincident arcs cancel in pairs: a place is inside by the even-odd rule as often as arcs are
  * crossed on the way to it. */

@@ -16,9 +16,9 @@
  *
  * Convex corners take turns in rounds; in one round no two neighbours are cut, so that triangles do not fan out from
  * one vertex. Corners that are not convex cost nothing until they become so, and never come back. While they last they
- * stand in a list, or for many in a tree of boxes, built anew whenever half of them have gone; a triangle is
- * compared with boxes by its own box and by the lines of its sides, so that long thin triangles find their few
- * candidates too. */
+ * stand in a list, or for many in a tree of boxes, built anew whenever half of them have gone. A triangle is compared
+ * with boxes by its own box and by the lines of its sides, so that long thin triangles find their few candidates
+ * too. */
 #include "shape/ears.h"
 
 #include "base/watch.h"

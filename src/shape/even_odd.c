@@ -10,7 +10,7 @@
  *           \   /               from one to the other. So rings touch in points only, and a vertex stands for one
  *             p                 sector.
  *
- * The first arc of a ring, in the order by lo and then from the bottom, starts at the ring's smallest point; the ring
+ * The first arc of a ring, in the order by lo and then from the bottom, starts at the ring's smallest point. The ring
  * is an outer one if the inside is above it, else a hole, and belongs to the polygon whose ring is next below. */
 #include "shape/even_odd.h"
 

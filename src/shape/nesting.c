@@ -3,7 +3,7 @@
  * The rings neither cross nor overlap, so each ring by itself has winding number 0 or +-1 everywhere. Take the lowest
  * place of a ring (of several the leftmost) and there the direction d that comes first counter-clockwise from the
  * positive x axis. The point q just left of d, infinitely near the place, is inside the ring. So the ring is
- * counter-clockwise exactly when d leaves the place; and with outer ring and holes turned the right way, the polygon is
+ * counter-clockwise exactly when d leaves the place. With outer ring and holes turned the right way, the polygon is
  * sound exactly when the winding number of all rings together at q is 1 for the outer ring and 0 for each hole: it is
  * [q in the outer ring] - (holes that contain q), and a hole contains its own q.
  *

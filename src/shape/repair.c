@@ -1,4 +1,4 @@
-/* An invalid polygon gives way to the even-odd set of its rings; so does a valid one whose rings touch, which changes
+/* An invalid polygon gives way to the even-odd set of its rings. So does a valid one whose rings touch, which changes
  * its rings but not the set: they are traced anew so that each vertex stands for one sector of the interior, and an
  * edge that a vertex touches from inside is split there. */
 #include "shape/repair.h"

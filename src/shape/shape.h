@@ -9,11 +9,11 @@
  * Rings may touch at points, themselves too, in one way only: each vertex stands for one sector of the interior, from
  * the edge that leaves it counter-clockwise to the edge that comes in, and sectors of one polygon at one place are
  * disjoint. So where touching cuts an interior in two there are two polygons; where a hole touches its outer ring they
- * are one ring; and where a vertex touches an edge from inside, the edge has a vertex of its own there (both are
- * `shared`). A vertex may touch an edge from outside.
+ * are one ring. Where a vertex touches an edge from inside, the edge has a vertex of its own there (both are `shared`).
+ * A vertex may touch an edge from outside.
  *
  * The convex pieces are a decomposition of each member without added vertices (triangulation, merged after Hertel and
- * Mehlhorn): counter-clockwise lists of vertex numbers, strictly convex; interiors of pieces of one member are
+ * Mehlhorn): counter-clockwise lists of vertex numbers, strictly convex. Interiors of pieces of one member are
  * disjoint, and the closure of their union is the member. Different members may overlap. */
 #ifndef SUNDER_I_SHAPE_H
 #define SUNDER_I_SHAPE_H

@@ -1,8 +1,8 @@
 /* Shapes on a lattice.
  *
- * A point of an operand with exact shift s stands at x + s - o for the origin o. On a small lattice o - s is split
- * into a double c and an exact remainder d (two-sum), so that x - c is small and all integers fit; the remainder's size
- * is part of what the lattice is asked to hold. Elsewhere the three are simply added. Corners that are no doubles
+ * A point of an operand with exact shift s stands at x + s - o for the origin o. On a small lattice o - s is split into
+ * a double c and an exact remainder d (two-sum), so that x - c is small and all integers fit. The remainder's size is
+ * part of what the lattice is asked to hold. Elsewhere the three are simply added. Corners that are no doubles
  * (crossings of a repaired shape) keep a denominator each. */
 #include "shape/shape.h"
 

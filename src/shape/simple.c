@@ -6,7 +6,7 @@
  * edges need no care. The edges that the line crosses stand in order from below, in a tree whose shape is random (a
  * treap [SA96]) and threaded along that order. Edges that become neighbours are compared. Were there edges that meet,
  * those through the first point where some do would be neighbours just before it, or a corner would be found on an edge
- * as its place is sought; nothing has gone wrong in the order before that. */
+ * as its place is sought. Nothing has gone wrong in the order before that. */
 #include "shape/build.h"
 
 #include "base/random.h"

@@ -4,13 +4,13 @@
  *
  * A point of the line is inside the set if what is just above and what is just below it is. So the edges that reach
  * above the line are sorted along it, by x and then by direction, and between the first that opens and the one that
- * closes last the set is covered; the same is done below it, and the intervals are what is covered on both sides. Edges
+ * closes last the set is covered. The same is done below it, and the intervals are what is covered on both sides. Edges
  * in one place that run against each other are the wall of two members that touch, and no gap. Corners on the line and
  * level edges need no care.
  *
  * Everything is decided exactly, and in doubles first. With eps = 2^-53 and the middle m of low and high, the side of a
  * corner is the sign of 2 y - (low + high): that of 2 y less the rounded sum, or of the rounding error. On an edge from
- * a to b with p = a.y - m, which is off by 3 eps (high - low) at most, x is a.x + (b.x - a.x) p / (a.y - b.y); so less
+ * a to b with p = a.y - m, which is off by 3 eps (high - low) at most, x is a.x + (b.x - a.x) p / (a.y - b.y). So less
  * an origin it is off by some 8 eps of |a.x - origin| + |b.x - a.x| (1 + (high - low) / |a.y - b.y|), and 16 eps of
  * what is computed for that are beyond it. Numbers are kept off the ends of the range of doubles. */
 #include "shape/widest_interval.h"

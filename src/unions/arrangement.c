@@ -1,6 +1,6 @@
 /* Union by arrangement [AFH00, section 2].
  *
- * All subsums go into one arrangement, whole polygons in random order; its vertical decomposition is kept as they go
+ * All subsums go into one arrangement, whole polygons in random order. Its vertical decomposition is kept as they go
  * in, so the first corner of each is found in expected logarithmic time and its sides are walked from trapezoid to
  * trapezoid. When all are in, one traversal from the outermost face marks every cell with the number of subsums that
  * cover it: it differs across an edge by the subsums that end there, known from the edge. What no subsum covers and

@@ -1,7 +1,7 @@
-/* Reads lines "NAME SET" and prints "NAME x y", the anchor of each set; and lines "NAME SET LINES { CORNERS { x y } }
- * AREAS { SET }" and prints "NAME x y x y", its anchor and its side anchor, where these lines and areas are barriers. A
- * SET is "POLYGONS { RINGS { CORNERS { x y } } }". The rule for anchors says "an interior point", and the library
- * chooses: rules.py asks for its choice here, and sees for itself that it is one. The side anchor is asked for by
+/* Reads lines "NAME SET" and prints "NAME x y", the anchor of each set. Lines "NAME SET LINES { CORNERS { x y } } AREAS
+ * { SET }" and prints "NAME x y x y", its anchor and its side anchor, where these lines and areas are barriers. A SET
+ * is "POLYGONS { RINGS { CORNERS { x y } } }". The rule for anchors says "an interior point", and the library chooses:
+ * rules.py asks for its choice here, and sees for itself that it is one. The side anchor is asked for by
  * side_anchor_cases.py, which knows its rule. */
 #include "displacement/layer/sides.h"
 

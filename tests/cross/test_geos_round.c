@@ -7,7 +7,7 @@
  *     G(r)  <=  A(r)  <=  G(r / c),  c = cos(45 degrees / q).
  *
  * The N-gon around the disc lies in the disc of R / cos(180 degrees / N), but for the unit that its corners are rounded
- * to, below a millionth of R; the one inside holds the disc of R cos(180 degrees / N), but for that. So
+ * to, below a millionth of R. The one inside holds the disc of R cos(180 degrees / N), but for that. So
  *
  *     G(R (1 - m) k)  <=  A(R (1 - m) k)  <=  I  <=  A(R)  <=  G(R / c)           k = cos(180 degrees / N), m = 1e-6
  *     G(R)  <=  A(R)  <=  D  <=  A(R (1 + m) / k)  <=  G(R (1 + m) / (k c)),

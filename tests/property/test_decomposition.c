@@ -1,8 +1,8 @@
 /* Convex decompositions of random sets, proved right in GMP rationals: every piece is strictly convex and
- * counter-clockwise; no edge of its member runs through its inside and its centroid lies in the member, so it lies
- * in the member; pieces of one member are kept apart by a line; their areas add up to the member's. Together: they
- * are the member. Besides, at random rational points the number of pieces around them is that of the input polygons,
- * by the even-odd rule on the raw rings. And the counts are what theory says. */
+ * counter-clockwise; no edge of its member runs through its inside and its centroid lies in the member, so it lies in
+ * the member. Pieces of one member are kept apart by a line; their areas add up to the member's. Together: they are the
+ * member. Besides, at random rational points the number of pieces around them is that of the input polygons, by the
+ * even-odd rule on the raw rings. And the counts are what theory says. */
 #include "decomposition/maker.h"
 #include "generate.h"
 #include "gmp_numbers.h"

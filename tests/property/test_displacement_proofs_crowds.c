@@ -1,5 +1,5 @@
 /* Grids of houses that all lack room: the remaining conflicts are proved to be crowded, a few features that cannot all
- * be solved; independent code verifies each proof (support/proof_check.c), and without any one of the features that it
+ * be solved. Independent code verifies each proof (support/proof_check.c), and without any one of the features that it
  * names, with very few exceptions, the rest is solved. */
 #include "proof_town.h"
 #include "random.h"

@@ -1,6 +1,6 @@
 /* Rows of houses where limits let a few pairs separate: each remaining pair has a proof exactly where a sum along the
- * row shows that there is no room, naming the houses in that sum and no more; and proofs hold for rows of rotated
- * houses. Independent code verifies each proof (support/proof_check.c). */
+ * row shows that there is no room, naming the houses in that sum and no more. Proofs hold for rows of rotated houses.
+ * Independent code verifies each proof (support/proof_check.c). */
 #include "proof_town.h"
 #include "random.h"
 

@@ -1,6 +1,6 @@
-/* Worlds are all there is to their bodies: a part of a layer that holds everything that a world of it saw tells of
- * it what the whole layer tells, to the last bit, if no other world of that wrote there; and what is told of worlds,
- * of blocks that nothing happened to and of moves adds up to what is told of the layer.
+/* Worlds are all there is to their bodies: a part of a layer that holds everything that a world of it saw tells of it
+ * what the whole layer tells, to the last bit, if no other world of that wrote there. What is told of worlds, of blocks
+ * that nothing happened to and of moves adds up to what is told of the layer.
  *
  * Layers are fields of slanted boxes, most of them apart, some with fixed ones, limits, blocks, and barriers: roads
  * across all of it, and ponds. */

@@ -1,8 +1,8 @@
 /* Huts in yards, with known answers: a yard is closed, or has a gate, and is as wide as its hut needs or is not.
  *
  * The yard is a rectangle, within one wall with a hole or within several that touch: side by side, mitred, cut in two.
- * The hut is a rectangle too, so it has a place in the yard exactly if both sides leave the gap twice; and it may leave
- * by the gate exactly if some ray from its anchor goes through without touching the gate's corners, and no anchor of a
+ * The hut is a rectangle too, so it has a place in the yard exactly if both sides leave the gap twice. It may leave by
+ * the gate exactly if some ray from its anchor goes through without touching the gate's corners, and no anchor of a
  * wall would go over the hut, as that sees it. Then no conflict is proved to need a jump. Else each that is left is, of
  * a wall all around; beside one of several walls the hut may have room, as the reason asks, though not beside them all.
  * All lengths are eighths. */

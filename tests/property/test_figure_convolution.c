@@ -1,5 +1,5 @@
 /* The convolution's curve against bands in a map: one stage of a closing or an opening, made along both roads, is the
- * same sum, exactly; and a closing by an n-gon takes work that grows with n as the dilation does.
+ * same sum, exactly. A closing by an n-gon takes work that grows with n as the dilation does.
  *
  * Huts are rectangles at all angles on a fine grid, rows of boxes on a coarse one meet in the places where the curve
  * has to decline. */

@@ -1,5 +1,5 @@
 /* Sums and unions of operands whose members nearly coincide: the sum by every road, on every rung and with the operands
- * exchanged is the same, byte for byte; of small ones it is the oracle's; the union's area is that found by slabs. */
+ * exchanged is the same, byte for byte; of small ones it is the oracle's. The union's area is that found by slabs. */
 #include "generate_nearly.h"
 #include "oracle.h"
 #include "roads.h"

@@ -1,7 +1,7 @@
 /* The least separating translation against brute force in rationals that shares no code with the library.
  *
  * The oracle: a free placement nearest to the origin lies on a line on which a vertex of one operand touches an edge of
- * the other; so it is the foot of a perpendicular on such a line, or a crossing of two, or an end of a contact segment.
+ * the other. So it is the foot of a perpendicular on such a line, or a crossing of two, or an end of a contact segment.
  * All are made, sorted by length, and the first free one is the answer; of several of that length the lexicographically
  * smallest. Free is decided by cutting both sets into vertical slabs. */
 #include "generate.h"

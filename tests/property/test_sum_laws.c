@@ -1,5 +1,5 @@
 /* Laws of Minkowski sums, exactly: P + Q = Q + P; translation; scaling by powers of two; the hull of the sum is the sum
- * of the hulls; the area is that of the polygons; the operands said otherwise give the same bytes; reflection. */
+ * of the hulls. The area is that of the polygons; the operands said otherwise give the same bytes; reflection. */
 #include "expect.h"
 #include "generate.h"
 #include "sum_text.h"

@@ -1,5 +1,5 @@
 /* Sums of several members with one polygon: what is apart is traced by itself, what overlaps a little together, what
- * cannot be traced goes the general road; all of it is the same, byte for byte, as by a road that knows no members. */
+ * cannot be traced goes the general road. All of it is the same, byte for byte, as by a road that knows no members. */
 #include "generate.h"
 #include "minkowski/members.h"
 #include "roads.h"

@@ -1,5 +1,5 @@
 /* Operands repaired by the even-odd rule, of every kind, against exact brute force (even_odd.h, oracle.h): sums;
- * whether the interiors meet; least translations without a gap, to the digit; those with a gap, by the brute force for
+ * whether the interiors meet; least translations without a gap, to the digit. Those with a gap, by the brute force for
  * gaps, on the operands times a number that makes integers of their corners; what obstacles are to a robot, and that a
  * route past them stays free. */
 #include "even_odd.h"

@@ -66,7 +66,7 @@ typedef enum hamlet_rules {
 
 /* The whole layer, but that listed pairs (their ways excepted) are to stand no worse: to keep the distance that they
  * had, where they did not overlap. Where they did, the list counts, if `besides` is NULL: those that it says to be too
- * close are to be disjoint; those that overlap still no deeper in each other, unless one could go deeper as it lay in
+ * close are to be disjoint. Those that overlap still no deeper in each other, unless one could go deeper as it lay in
  * the other. Else `besides` owes all that it owes, and those that overlapped nothing. */
 void hamlet_pose(const hamlet *t, const sunder_conflict *listed, size_t n, const sunder_conflict *besides,
                  optimum_problem *m);

@@ -1,5 +1,5 @@
 /* contact_group.c: see contact_group.h. Cell by cell along the curve lots are made of features. Those features that
- * come near a cell that is still to be looked at are remembered until the last of these was; so what is remembered at a
+ * come near a cell that is still to be looked at are remembered until the last of these was. So what is remembered at a
  * time lies along the border between what was looked at and what was not. */
 #include "shards/parts/contact_group.h"
 

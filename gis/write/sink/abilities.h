@@ -1,5 +1,5 @@
 /* abilities.h: what each of GDAL's drivers can hold, in one table. It is consulted before the work, so that an output
- * that the driver would reject is refused at once, or written in another way, with a message; tests/cli/test_drivers.sh
+ * that the driver would reject is refused at once, or written in another way, with a message. Tests/cli/test_drivers.sh
  * compares the table with the drivers that GDAL has. */
 #ifndef GIS_ABILITIES_H
 #define GIS_ABILITIES_H

@@ -2,7 +2,7 @@
  *
  * A SQLite file (a GeoPackage) is written in place: renaming a copy over it would lose what other programs write
  * meanwhile, and a log that another program keeps beside it would be applied to the new file. The write lock is taken
- * first, by a statement that changes nothing (GDAL begins its transactions without a lock); then the schema that GDAL
+ * first, by a statement that changes nothing (GDAL begins its transactions without a lock). Then the schema that GDAL
  * read when it opened the file is checked to be current, else the file is opened again. From there to the end no other
  * program writes. The journal mode stays, and so does SQLite's syncing: an interrupted transaction is rolled back by
  * the next program that opens the database. */

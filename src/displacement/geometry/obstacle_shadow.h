@@ -6,7 +6,7 @@
 
 /* Edges of { s k : k in K, s >= 1 } for the convex polygon K of n corners, counter-clockwise; K may be a point or a
  * segment. The first and the last edge are rays that begin at K: seen outward, the shadow lies to the right of the
- * first and to the left of the last; between them are the sides of K that face the origin. Returns how many, at most n
+ * first and to the left of the last. Between them are the sides of K that face the origin. Returns how many, at most n
  * + 1; 0 where the origin is in K, or too near to tell. edge: room for n + 1. */
 size_t sunder_i_shadow_edges(const double *k, size_t n, sunder_i_obstacle_edge *edge);
 /* The support line of such a shadow that is farthest below u. */

@@ -1,6 +1,6 @@
 /* Anchors, the features that contain them, and how much room they have: a feature whose anchor lies in another, closed,
- * feature may leave that feature; and a feature that moves by less than the distance to its nearest neighbour cannot
- * jump over any.
+ * feature may leave that feature. A feature that moves by less than the distance to its nearest neighbour cannot jump
+ * over any.
  *
  * An anchor is the nearest doubles to an interior point (sunder_shape_anchor()); for a sliver they may lie beside it.
  * The rule refers to the anchor as those doubles give it, so it is exact in any case; an anchor never lies outside its

@@ -3,7 +3,7 @@
  * If some t makes every sum x + t exact, it is the move: no vertex was rounded. It is found first, since a shorter t
  * that rounds to the same vertices would hide a rule broken by a unit in the last place. Where sums were rounded, each
  * vertex allows an interval of t, about as wide as a unit in the last place of x + t. Candidates are the ends and the
- * middle of the common interval of all vertices, and the difference at the vertex with the smallest unit; the shortest
+ * middle of the common interval of all vertices, and the difference at the vertex with the smallest unit. The shortest
  * that fits is the move, so that rounding alone never counts as a broken rule. Each candidate is tested at every
  * vertex. */
 #include "displacement/layer/rounding.h"

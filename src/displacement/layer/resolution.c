@@ -45,10 +45,10 @@ typedef struct nearest {
     double place[2];
 } nearest;
 
-/* The foot p + s e of the perpendicular from the origin, e = q - p, s cut to 0 .. 1. With u = 2^-53 and ends of no
- * more than M each way: the ends are off by u M (they are nearest doubles); e is a rounded difference, off by u |e|,
- * so s |e| is off by 6 u M at most, and the place by 3 u M more. Together less than 16 u M; the distance is off by
- * no more, as a wrong foot can only be farther. */
+/* The foot p + s e of the perpendicular from the origin, e = q - p, s cut to 0 .. 1. With u = 2^-53 and ends of no more
+ * than M each way: the ends are off by u M (they are nearest doubles). E is a rounded difference, off by u |e|, so s
+ * |e| is off by 6 u M at most, and the place by 3 u M more. Together less than 16 u M; the distance is off by no more,
+ * as a wrong foot can only be farther. */
 static void take_segment(nearest *n, const double p[2], const double q[2])
 {
     const double e[2] = {q[0] - p[0], q[1] - p[1]}, square = e[0] * e[0] + e[1] * e[1];

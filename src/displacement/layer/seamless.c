@@ -1,7 +1,7 @@
 /* A set whose pieces leave nothing out.
  *
  * The interiors of the convex pieces of a shape leave out the diagonals between them, and walls that members share.
- * Against a set with area this does not matter, since it also meets the neighbourhood of a diagonal; but a segment or a
+ * Against a set with area this does not matter, since it also meets the neighbourhood of a diagonal. But a segment or a
  * point could lie along a diagonal and meet no piece (motion/diagonals.h, which finds diagonals, and handles lattices
  * that can be made finer). Here members are united first, and each diagonal uv gets a convex quadrilateral u - q - v -
  * p, of doubles: p is a corner w of the piece on its right, or a double near the middle m of uv on the way to w, and q

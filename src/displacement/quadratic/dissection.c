@@ -3,7 +3,7 @@
  * Bodies in contact are next to each other, so among thousands only few have a contact across a given straight line.
  * These few separate the others into two independent halves. They are eliminated after both halves, and each half is
  * divided in the same way. For a square grid that is optimal up to a constant: for a grid of 20,000 bodies, each with
- * eight contacts, it takes 27 million products where minimum degree takes 48, and 0.08 s to find instead of 0.52; below
+ * eight contacts, it takes 27 million products where minimum degree takes 48, and 0.08 s to find instead of 0.52. Below
  * some thousands of bodies there is little difference. A body with hundreds of contacts, such as an outline that
  * contains a quarter of the town, leaves no small separator: minimum degree is used there. */
 #include "displacement/quadratic/elimination.h"

@@ -39,7 +39,7 @@ INLINE void list_across(sunder_i_sparse *m, uint32_t from, uint32_t last, size_t
     }
 }
 
-/* c -= sum of a_k b_k' over columns from..last of a panel, for n rows from q on, to which c points; b_k lies in
+/* c -= sum of a_k b_k' over columns from..last of a panel, for n rows from q on, to which c points. b_k lies in
  * m->across. n is a number that the compiler knows: sums stay in registers. */
 INLINE void subtract_products(const sunder_i_sparse *m, double *const *c, size_t n, uint32_t from, uint32_t last,
                               size_t q)

@@ -326,7 +326,7 @@ static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_
 }
 
 /* All open conflicts of a cluster at one level of effort, before any at the next level. If `patience` questions in a
- * row get no answer, the cluster is too entangled for a proof, and the level is the last; the number falls with each
+ * row get no answer, the cluster is too entangled for a proof, and the level is the last. The number falls with each
  * level, since each costs more, and for a crowd where the first level answers nothing. */
 static sunder_status ask_cluster(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
                                  sunder_error *err)

@@ -4,8 +4,8 @@
  * The bound from pairs is sum l d - sum (sum l)^2 / (4 w), by multipliers l (bound.c). A body's weight is divided among
  * its pairs in proportion to their multipliers: w_ij = w l_ij / sum l. Then the least of w_ij |t_i|^2 + w_ji |t_j|^2
  * over the admissible relative moves of the pair is at least its part of that sum, l d - l^2 / (4 w_ij) - l^2 / (4
- * w_ji), by weak duality; and the trees of one group add up if their weights for a body sum to at most its own. So
- * there is a tree of two bodies for each pair, and the trees of a part are one group.
+ * w_ji), by weak duality. The trees of one group add up if their weights for a body sum to at most its own. So there is
+ * a tree of two bodies for each pair, and the trees of a part are one group.
  *
  * Such trees prove slightly less, by a share of some 2^-31 that counts as free. They ignore a pair where one may get
  * inside the other, since the two owe each other nothing then. Jumps and sides are not considered, as in the least

@@ -4,11 +4,11 @@
  *     whoever stands about these                                    where they stand in the result, and stays there
  *
  * and the answer is yes if nothing that moves there is left in conflict but pairs that are in the result, too, and are
- * no worse than they stood; none came to where somebody might be whom that layer does not know, and none jumps over
+ * no worse than they stood. None came to where somebody might be whom that layer does not know, and none jumps over
  * anybody as all of them moved. So what is said has a solution: with all others as in the result, the pair is solved,
- * and its neighbours are as is owed to them. That a smaller change would not do is not said.
- * Neighbours are few, and so are the questions; what it costs grows with the number of conflicts, and a conflict's
- * answers depend on what stands about it alone. */
+ * and its neighbours are as is owed to them. That a smaller change would not do is not said. Neighbours are few, and so
+ * are the questions; what it costs grows with the number of conflicts, and a conflict's answers depend on what stands
+ * about it alone. */
 #include "displacement/report/question.h"
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/reads.h"

@@ -2,8 +2,8 @@
  * about its middle, by one factor along x and one along y; each body moves with the centre of its box.
  *
  * Two boxes that must be a gap apart are so along x if sx is at least the required distance divided by that of their
- * centres, or along y if sy is; and a pair that was apart along an axis comes no nearer along it. So every conflict
- * demands an sx or an sy,
+ * centres, or along y if sy is. A pair that was apart along an axis comes no nearer along it. So every conflict demands
+ * an sx or an sy,
  *
  *       sy |  x               and any (sx, sy) is sufficient that has each of the points to its left or below it: of
  *          |    x   x         the corners of that staircase the one is taken for which the body farthest from the

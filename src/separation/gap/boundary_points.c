@@ -1,5 +1,5 @@
 /* Points of the boundary of the grown obstacle, exactly, and the exact test of the gap. With N = 2^gap_bits the gap is
- * G / N; a side a + t d of length L = sqrt(q) has the normal n = (d.y, -d.x) and the moved line N n.x = C, where C = N
+ * G / N. A side a + t d of length L = sqrt(q) has the normal n = (d.y, -d.x) and the moved line N n.x = C, where C = N
  * n.a + G L. So feet and crossings are fractions with integers and one or two square roots: L of each line, and the
  * half chord of a circle. Wherever the point is rational these roots are integers, which makes rational points simple:
  * no rational point lies on a line of irrational length, since N n.x would be rational and C is not. */

@@ -1,6 +1,6 @@
 /* The search with a gap: along moved sides, past what covers them. Certain steps first: from a point that a grown
  * subsum covers to another one that it covers, since it is convex. The walk ends at the exact place where the line
- * leaves the last subsum; points.c decides about it, and if it is covered after all, by less than the margin, the walk
+ * leaves the last subsum. points.c decides about it, and if it is covered after all, by less than the margin, the walk
  * continues exactly from there, subsum by subsum, until certain steps are possible again. */
 #include "separation/gap/gap_search.h"
 

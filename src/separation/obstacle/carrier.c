@@ -281,7 +281,7 @@ static double height(const sunder_i_carrier *line, const sunder_i_subsum *s, uin
 
 /* Counter-clockwise round a convex polygon whose interior a line meets, there is one run of corners to its right and
  * one to its left. So between any corner that is certainly to its right and one that is certainly to its left there is
- * one side through which it leaves, found by bisection; that leaves only corners that doubles cannot place, and the
+ * one side through which it leaves, found by bisection. That leaves only corners that doubles cannot place, and the
  * sides at them. Backwards it is the other way round. */
 static stretch leaving(const sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_subsum *s,
                        bool forwards)

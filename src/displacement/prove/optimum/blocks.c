@@ -10,7 +10,7 @@
  * shares and places: so these are doubles as computed, v_i is nearly 0, and its term is rounded against us.
  *
  * Good places make the layout itself the best for each block alone: then nothing is lost. With F_i^S the forces of the
- * block's contacts on a body (contact_forces.c), it is at rest at a_i^S = t_i - F_i^S / (2 w_i^S); so the blocks
+ * block's contacts on a body (contact_forces.c), it is at rest at a_i^S = t_i - F_i^S / (2 w_i^S). So the blocks
  * together hold all contacts that push, each once (block_cover.c). In a loose group these places are as good as any. In
  * a dense one they are worse than none, since under such pressure a block alone moves around obstacles in a way that
  * its neighbours would prevent; places have to be searched for. A better layout of a block is a cut, which bounds what

@@ -5,7 +5,7 @@
  * leaves the corner that is farthest outside, so that pieces which overlap in a strip have to meet there and nowhere
  * else; or, if that line hardly cuts the region, across its longest extent. If the middle of a part is in no piece the
  * answer is no. A region is known up to its blur, a piece's polygon up to its own, and a distance up to a grain: so
- * corners have to be inside by all of these together; then the disc of radius blur about each is in the true piece
+ * corners have to be inside by all of these together. Then the disc of radius blur about each is in the true piece
  * (forbidden.c), and so is everything between them.
  *
  * A region that touches the boundary of the union from within cannot be shown to be covered: callers leave some room.

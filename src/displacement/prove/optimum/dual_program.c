@@ -12,7 +12,7 @@
  * The method: the active cuts are equations, their forces positive, and t is the minimiser for them. A cut that t
  * violates gets a growing force until it holds, or until another's force vanishes, which is then released. D never
  * falls. If the new cut is a combination of active ones and none can be released, no t keeps them all: then forces
- * along that combination prove any value, and they are taken so large that evaluation proves `enough`; if that fails
+ * along that combination prove any value, and they are taken so large that evaluation proves `enough`. If that fails
  * the cut is ignored.
  *
  * The products of the active cuts are kept as a Cholesky factor, which grows by a row, and loses one by rotations. */
@@ -301,8 +301,8 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *program, uint32_t
 
 /* ---- What the forces prove --------------------------------------------------------------------------------------- */
 
-/* Rounding, with e = 2^-53 and N forces. A term f (d - n.a) is off by at most 8 e of the sum of its parts' magnitudes;
- * a sum of N by N e of the sum of magnitudes more: (N + 9) e of it is enough, and summing the magnitudes adds as much
+/* Rounding, with e = 2^-53 and N forces. A term f (d - n.a) is off by at most 8 e of the sum of its parts' magnitudes.
+ * A sum of N by N e of the sum of magnitudes more: (N + 9) e of it is enough, and summing the magnitudes adds as much
  * again. A component of g is off by (N + 1) e of the sum of |f n|, which is `weight` below, and |g|^2 / (4 w) takes
  * four roundings. Four times all that is used, so that these sums may be rounded themselves; and 2^-900 for
  * underflow. */

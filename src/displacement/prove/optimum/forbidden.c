@@ -2,7 +2,7 @@
  *
  * Where convex pieces A and B of two bodies owe each other the distance g, the relative move u may not be in the open
  * set (A + (-B)) grown by the disc of radius g. So the forbidden set of two bodies is a union of such pieces, arcs
- * included. Listed pairs must stand no nearer than at the start; if they still overlap, as at the start, some
+ * included. Listed pairs must stand no nearer than at the start. If they still overlap, as at the start, some
  * translation no longer than the one that separated them must leave them disjoint: u may not be where the disc of that
  * radius about it lies in the union of the pair's open pieces, in particular where it lies in one of them. Pairs where
  * one lies in the other, or could get there, with leave to overlap, are omitted, which makes the set smaller and a

@@ -1,8 +1,8 @@
 /* A contact group: what is proved of it, and what its branching finds.
  *
  * Any layout costs at least the sum over disjoint groups of what each alone cannot do without. So a group whose layout
- * costs what is proved of it cannot be bettered, wherever the others go; and what a branching finds that is cheaper
- * goes down from there to where it is free of all neighbours, as they stand, and is taken. If it runs into one the two
+ * costs what is proved of it cannot be bettered, wherever the others go. What a branching finds that is cheaper goes
+ * down from there to where it is free of all neighbours, as they stand, and is taken. If it runs into one the two
  * belong together. What the branching does not end with is bounded by blocks (blocks.c). */
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/blocks.h"

@@ -3,10 +3,10 @@
  * Invariant: the true region T, of all u that keep the cuts exactly, lies in P + B(blur), P the convex hull of the
  * corners as they are. A clip by n.u >= d preserves it: u in T is p + e with p in P, |e| <= blur, so n.p >= d - blur.
  * The signs of n.p - d + blur + 2 grain at the corners are right up to grain (which is more than the rounding of a
- * product, region.h), so a corner that is dropped has n.p < d - blur; and where an edge crosses the line the computed
- * place is one of the edge whose product is right up to grain, rounded by less than grain. So the part that P loses is
- * beyond the line, or within a grain of the rest, and blur grows by that. Where the line is nearly parallel to an edge
- * a place may be far from the true crossing, but then everything between the two is within a grain of the line.
+ * product, region.h), so a corner that is dropped has n.p < d - blur. Where an edge crosses the line the computed place
+ * is one of the edge whose product is right up to grain, rounded by less than grain. So the part that P loses is beyond
+ * the line, or within a grain of the rest, and blur grows by that. Where the line is nearly parallel to an edge a place
+ * may be far from the true crossing, but then everything between the two is within a grain of the line.
  *
  * A polygon that would have too many corners is left as it was, and corners within a grain of each other are merged:
  * the region is larger then, or blur is. */

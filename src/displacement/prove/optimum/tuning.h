@@ -46,7 +46,7 @@
 #define ASKED_SHARE 0.9
 #define AGAIN 4
 /* A group without limits gets neither a tree nor blocks if more of its bodies move than this: for no such group of
- * Germany's or Italy's symbols did a tree prove 11 %, for smaller groups the more the smaller; they made one part in
+ * Germany's or Italy's symbols did a tree prove 11 %, for smaller groups the more the smaller. They made one part in
  * ten thousand of the layer's bound, which prices make, for a tenth of the time. (With 96 Europe's bound is 0.5 %
  * less.) */
 #define LARGE_FREE_CROWD 128
@@ -121,7 +121,7 @@
 /* For a pair with more pieces within reach only the nearest count. */
 #define MOST_PIECES 4096
 /* With more pieces there is a tree of boxes over them, with PIECES_IN_LEAF in a leaf, and the data for cuts are
- * computed on demand; at most MOST_GAPS free places may be met on the way to a cut. */
+ * computed on demand. At most MOST_GAPS free places may be met on the way to a cut. */
 #define MANY_PIECES 96
 #define PIECES_IN_LEAF 4
 #define MOST_GAPS 24

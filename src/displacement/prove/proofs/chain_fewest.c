@@ -3,7 +3,7 @@
  *
  * No positions are known here, and the sums are those at the start: along a row the d of each link, less L |n - n'| at
  * each body between two and L at the end (chain.c). The gain of a link may have either sign, so there are no
- * potentials; but chains are short, and are built one link at a time from either end of the pair: of the chains of k
+ * potentials. But chains are short, and are built one link at a time from either end of the pair: of the chains of k
  * links the best few are kept. The shortest pair of ends that together have a positive sum are the chain,
  *
  *       o <- o <- (i   j) -> o -> o -> o

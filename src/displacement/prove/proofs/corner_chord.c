@@ -10,7 +10,7 @@
  * p' and q' are. Its ways are claims like others; and its lines pass the gap well to the left and the right.
  *
  * The corner is cut off by a little (CHORD of the sides), and the chord is moved away from the anchor until it passes
- * beyond b, and a little more (BEYOND), so that rounding to doubles does no harm; predicates test the required
+ * beyond b, and a little more (BEYOND), so that rounding to doubles does no harm. Predicates test the required
  * properties on the doubles. The sliver between b and the chord is not covered. */
 #include "displacement/prove/proofs/plane.h"
 #include "displacement/prove/proofs/tuning.h"

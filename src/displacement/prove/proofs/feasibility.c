@@ -6,7 +6,7 @@
  * that is never met stays in place and is irrelevant. So the size of a branch and bound is that of the conflict.
  *
  * The question never demands more than a solution owes: pairs that are held to less, pairs that may overlap (one lies,
- * or could come to lie, in the other, and the rules allow it) and bodies without a limit are left out; gaps and limits
+ * or could come to lie, in the other, and the rules allow it) and bodies without a limit are left out. Gaps and limits
  * are round where a line touches them and cut off inside elsewhere. So nothing that has a solution is ever called
  * infeasible; and every figure that supports a verdict is rounded against it. */
 #include "displacement/prove/proofs/branching.h"

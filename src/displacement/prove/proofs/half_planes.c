@@ -26,7 +26,7 @@
  *
  * Rounding, with e = 2^-53 and S the sum over both coordinates of the greatest |a| + |b| + |offset|: corners less their
  * origin are off by e of themselves, and P = (a - b) - offset takes two more roundings: 3 e S in all, for both
- * coordinates; n.P adds 3 e |P|, and the last sum one more. So 8 e S = 2^-50 S is enough. The direction of an edge of
+ * coordinates. n.P adds 3 e |P|, and the last sum one more. So 8 e S = 2^-50 S is enough. The direction of an edge of
  * length l is off by at most 2^-50 S / l, its tilt: the point Q + g n1 of the true n1 is within the line's offset up to
  * a share of its square, an arc's up to its own size. */
 #include "displacement/prove/proofs/half_planes.h"
@@ -108,7 +108,7 @@ static void join(run *r, const run *next)
 }
 
 /* Every corner of the run is beyond its line, and so is everything at the gap's distance from it along any normal of
- * the run; these normals agree with the line's up to a share of the square of their turn. */
+ * the run. These normals agree with the line's up to a share of the square of their turn. */
 static void add_run(walk *w, const run *r)
 {
     const double g = w->parting->clearance, *p = r->corner, *q = r->corner + 2 * r->edges;

@@ -27,7 +27,7 @@ typedef struct sunder_i_half_plane {
 #define SUNDER_I_HALF_PLANES_MORE 8
 
 /* Half-planes such that every u outside the shadow of A + (-B) from the origin (geometry/obstacle_shadow.h), or on its
- * boundary, lies in one of them, exactly; one of the two is an anchor, of one corner, and the clearance does not apply.
+ * boundary, lies in one of them, exactly. One of the two is an anchor, of one corner, and the clearance does not apply.
  * Room and answer as below; also 0 where the origin is too near to the obstacle. */
 size_t sunder_i_half_planes_past(const sunder_i_parting *parting, sunder_i_half_plane *out);
 

@@ -3,7 +3,7 @@
  * A conflict that has none by itself is left for good. Most of the others have none either, since the rest of the two
  * blocks is in the way: that is proved in the plane of their relative move (prove/proofs/plane.c), with all other
  * conflicts between the two held no worse than at the start. Later stages never demand less of them, since only pairs
- * in conflict at the start are ever left so; so a conflict without a solution here has none at all, and is not asked
+ * in conflict at the start are ever left so. So a conflict without a solution here has none at all, and is not asked
  * for again, in clusters of dozens of bodies. An overlap may still be separated by less than the gap: the stage that
  * asks for that (../search/retry_cluster.c) asks in any case. */
 #include "displacement/prove/proofs/feasibility.h"

@@ -3,7 +3,7 @@
  *
  * For such a pair every relative move is forbidden, by the distances owed or by shadows, which are never waived. So the
  * only moves that may be free are those where two of their features, held to less than the full distance, are nearer
- * than that; and two features that were nearer than they owe at the start bound how far that is. */
+ * than that. Two features that were nearer than they owe at the start bound how far that is. */
 #include "displacement/solve/search/stages.h"
 
 #include "base/extremes.h"

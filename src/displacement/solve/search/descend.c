@@ -1,7 +1,7 @@
 /* The sequence of quadratic programs.
  *
  * Around a reference position each pair of convex pieces gives one support constraint (obstacle.c). If the pair is
- * free, its direction is that of the nearest point; if two bodies clash, directions are taken where the pair would
+ * free, its direction is that of the nearest point. If two bodies clash, directions are taken where the pair would
  * stand after the least translation that separates it, so that all pieces of the pair agree on the side. The program's
  * solution is feasible for the true shapes, since support constraints are global; from a feasible position every round
  * is feasible and costs no more than the last. Pieces beyond the reach are left out until they are found in the way. A

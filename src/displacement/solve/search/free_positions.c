@@ -424,7 +424,7 @@ static bool is_clear_at(sunder_i_search *s, uint32_t i, const double place[2])
 }
 
 /* The free place nearest to where body i began, no farther than `all`, or a little, and within a limit. clear: the
- * nearest of several where it clashes with nothing; between shadows with a common corner there is a ray in neither. */
+ * nearest of several where it clashes with nothing. Between shadows with a common corner there is a ray in neither. */
 static bool find_free_place(sunder_i_search *s, uint32_t i, double limit, double all, bool clear, double place[2])
 {
     const sunder_i_body *p = &s->model->body[s->body[i]];

@@ -1,6 +1,6 @@
 /* A cache of the violations of pairs at relative positions, as if none were relaxed. A pair at an unchanged relative
  * position has an unchanged violation: a descent evaluates where its program ends, evaluates there once more, and
- * begins the next round there; and while bodies are moved one at a time all others stay in place. */
+ * begins the next round there. While bodies are moved one at a time all others stay in place. */
 #ifndef SUNDER_I_MEASURES_H
 #define SUNDER_I_MEASURES_H
 

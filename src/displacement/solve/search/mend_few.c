@@ -3,7 +3,7 @@
  * A body sent back by the rule that nothing becomes worse (../clusters/uphold.c) blocks some neighbours, in a crowd of
  * thousands that is otherwise settled. A program of all of them, starting from a mere compromise, takes minutes to find
  * out whether they have room. So the clashing bodies are settled with a few around them, and then with more, while all
- * others stand (neighbourhood.c). If that is not enough the whole crowd is solved; but in a crowd so large that this
+ * others stand (neighbourhood.c). If that is not enough the whole crowd is solved. But in a crowd so large that this
  * takes longer than all before, the bodies that still clash yield (yield.c), which gives up more pairs of its rows, and
  * ends.
  *

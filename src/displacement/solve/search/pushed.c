@@ -13,7 +13,7 @@
  * and the distance until b is pushed is a shortest path [Dij59]. How far the end can give way in all is the least, over
  * all pushed bodies, of the distance to reach them plus what their limits leave them along v. If both ends together do
  * not give what the pair misses it cannot be separated like this: that is known as soon as it holds for the bodies
- * examined so far, those farthest on first; so in a row without slack the search ends at the row's ends.
+ * examined so far, those farthest on first. So in a row without slack the search ends at the row's ends.
  *
  * The lines are support lines of obstacles (../../README.md), which are valid wherever the bodies stand: lines taken
  * elsewhere are still true, they only demand more than necessary, and are recomputed after long moves. Bodies give way

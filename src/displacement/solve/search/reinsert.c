@@ -2,7 +2,7 @@
  *
  * The sides of a solution mostly depend on the order in which bodies were placed. So a few bodies around one with
  * uncertain sides are taken out and put back one by one, each at the free place nearest to its origin, in another
- * order; all bodies descend from there, and a cheaper result is kept. Sides are uncertain for bodies that overlapped
+ * order. All bodies descend from there, and a cheaper result is kept. Sides are uncertain for bodies that overlapped
  * another deeply, for which another side is hardly farther, and for bodies that moved much farther than any pair was in
  * conflict. */
 #include "displacement/solve/search/stages.h"
@@ -117,9 +117,9 @@ static bool is_known(const reordering *r, double cost)
     return false;
 }
 
-/* Is a start useless? A start that was tried ends where it did; and a start that clashes, yet costs less than the
- * present layout, is more expensive once nothing clashes: of 630 such starts in a town of 100,000 three led to a gain,
- * and a tiny one. The start of proofs is searched from these, too. */
+/* Is a start useless? A start that was tried ends where it did. A start that clashes, yet costs less than the present
+ * layout, is more expensive once nothing clashes: of 630 such starts in a town of 100,000 three led to a gain, and a
+ * tiny one. The start of proofs is searched from these, too. */
 static bool is_in_vain(reordering *r, double start)
 {
     sunder_i_search *s = r->search;

@@ -1,8 +1,8 @@
 /* Without jumps and without limits: all bodies move straight away from a common centre, as far as necessary.
  *
  * If each body moves by a common multiple of the vector from the centre to its anchor, any two move straight away from
- * each other's anchors; and a feature that is entirely visible from its own anchor, as convex features are, then passes
- * no other. So however crowded a cluster is, without limits there is such a solution for all its features of that kind;
+ * each other's anchors. A feature that is entirely visible from its own anchor, as convex features are, then passes no
+ * other. So however crowded a cluster is, without limits there is such a solution for all its features of that kind;
  * from it they descend as near as their sides let them. It is the last resort, before pairs are given up: moving one
  * body at a time out of clashes may leave no way between neighbours. If it fails too (something stands in a yard), the
  * layout with the fewest clashes is taken, and the clashing pairs are given up. */

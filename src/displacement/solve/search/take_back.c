@@ -3,7 +3,7 @@
  * Several pairs are given up at once (give_up.c), and in a connected set some are given up in place of others: with the
  * rest out of the way they may have a solution. So bodies with a given-up pair owe each other the full distance again,
  * overlaps first, then by what is missing: first with a few bodies around them, while all others stand
- * (neighbourhood.c), which succeeds for most that can succeed and costs little; the rest is asked of the whole cluster,
+ * (neighbourhood.c), which succeeds for most that can succeed and costs little. The rest is asked of the whole cluster,
  * which descends from there. If that does not end within its limit all is put back. Both end after a number of
  * failures. At last all are tried by pushing the bodies in the way straight on (pushed.c), hundreds if need be, which
  * needs no program. */

@@ -375,7 +375,7 @@
 /* ---- Better layouts of a contact group (shake.c) ----------------------------------------------------------------- */
 
 /* Perturbation takes this much work (constraints looked at) for each step that it is given, and SHAKE_AGAIN times that
- * if no descent ended; a descent takes at most SHAKE_PATIENCE plus a part for each body, and ends with a round that
+ * if no descent ended. A descent takes at most SHAKE_PATIENCE plus a part for each body, and ends with a round that
  * gains less than SHAKE_SETTLED: kept results descend again to the end. SHAKEN bodies are released at most; one
  * perturbation for PAIRS_A_SHAKE ordered pairs of bodies, since a small group has few variants. Jakarta's group of 93
  * bodies costs 2,738 m2; begun without forces 2,811 with a work of 3, 2,738 with 4 and no less with 16. */
