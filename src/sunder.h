@@ -46,7 +46,7 @@ typedef enum sunder_status {
     SUNDER_EARG,     /* an option or argument out of its range */
     SUNDER_ERANGE,   /* a result that doubles cannot hold */
     SUNDER_ENOMEM,   /* an allocation failed; everything made so far has been released */
-    SUNDER_ECANCEL,  /* a progress callback, or what watches the thread, asked to stop */
+    SUNDER_ECANCEL,  /* a progress callback, or the watch of the thread, asked to stop */
     SUNDER_ESIZE,    /* more parts than can be numbered: vertices, pairs of convex pieces, corners of a sum */
     SUNDER_EFAULT    /* a result failed the library's own exact check, and is withheld: a defect to be reported */
 } sunder_status;
@@ -89,10 +89,10 @@ typedef struct sunder_counts {
  * of them, and from the answer to the return, there is never more than some milliseconds' work (tests count it). */
 typedef bool (*sunder_progress)(double fraction, void *user);
 
-/* Watches the calling thread, for functions that take no progress: whatever of this library the thread calls asks
- * go_on(user) as often as that, and fails with SUNDER_ECANCEL once the answer was false, as does every later call, at
- * once, until another watch is set, or none (NULL). Calls do not overlap, but may come from threads that the library
- * started on behalf of this one. */
+/* Watches the calling thread, for functions without a progress argument: every function of this library that the thread
+ * calls polls go_on(user) as often as a progress function, and fails with SUNDER_ECANCEL once it returned false. So
+ * does every later call, at once, until another watch is set, or none (NULL). Polls do not overlap, but may come from
+ * threads that the library started on behalf of this one. */
 SUNDER_API void sunder_watch(bool (*go_on)(void *user), void *user);
 
 /* ---- Options ------------------------------------------------------------------------------------------------ */
@@ -189,9 +189,9 @@ SUNDER_API void sunder_shape_box(const sunder_shape *shape, double box[4]);
  * they need is on the stack, or was worked out when the shape was made. */
 SUNDER_API double sunder_shape_area(const sunder_shape *shape);
 /* An interior point by a fixed exact rule, as the nearest doubles to it; (0, 0) for the empty set. It depends on the
- * point set alone, not on how its rings are written. The rule: the middle of the widest interval that the interior of
- * the union of all members has on the horizontal line through the middle of its height, the first from the left of
- * equal ones; if it has none there, the same of what of it lies below that line. */
+ * point set alone, not on how its rings are written. The rule: take the intervals of the interior of the union of all
+ * members on the horizontal line at half its height; the point is the middle of the widest interval, the leftmost of
+ * equal ones. If there are none on that line, the rule applies to the part of the interior below it. */
 SUNDER_API void sunder_shape_anchor(const sunder_shape *shape, double xy[2]);
 
 /* ---- Minkowski sums --------------------------------------------------------------------------------------- */
@@ -216,14 +216,15 @@ typedef enum sunder_decomposition {
     SUNDER_DECOMPOSITION_HERTEL_MEHLHORN, /* a triangulation without its needless diagonals */
     SUNDER_DECOMPOSITION_OPTIMAL,         /* fewest pieces without new vertices; members with holes, or over 500
                                      vertices, fall back to Hertel and Mehlhorn's */
-    SUNDER_DECOMPOSITION_MIXED /* both together: least length of all subsums' boundaries; falls back likewise */
+    SUNDER_DECOMPOSITION_MIXED /* both operands: least total length of the subsums' boundaries; same
+                                * fallback */
 } sunder_decomposition;
 
 /* In what order subsums go in; for all roads but the convolution. */
 typedef enum sunder_order {
     SUNDER_ORDER_RANDOM,
     SUNDER_ORDER_FAT,  /* descending fatness, see src/unions/README */
-    SUNDER_ORDER_GIVEN /* as the pieces come */
+    SUNDER_ORDER_GIVEN /* in the order of the pieces */
 } sunder_order;
 
 /* "auto", "convolution", "arrangement", "incremental", "divide". */
@@ -241,7 +242,7 @@ typedef struct sunder_sum_options {
     sunder_algorithm algorithm;
     sunder_decomposition decomposition;
     sunder_order order;
-    uint64_t seed;    /* of the random order, and of what is drawn besides */
+    uint64_t seed;    /* seed of random orders */
     bool keep_map;    /* for sunder_sum_map(); SUNDER_EARG with the convolution, which makes none */
     unsigned threads; /* of sunder_morphology(), besides its dilations; 0 or 1: the caller's alone. Results are equal */
 } sunder_sum_options;
@@ -280,8 +281,8 @@ SUNDER_EXPERIMENTAL void sunder_sum_get_counts(const sunder_sum *sum, sunder_cou
 /* Seconds of wall time spent in decomposing, in forming subsums, and in uniting them. */
 SUNDER_EXPERIMENTAL void sunder_sum_seconds(const sunder_sum *sum, double *decompose, double *subsums, double *unite);
 
-/* What was done. decomposition is AUTO where nothing was decomposed (the convolution's pieces are its own affair), else
- * what was used: Hertel and Mehlhorn's where the one asked for had to fall back on it. */
+/* What was done. decomposition is AUTO if nothing was decomposed (the convolution has its own pieces), else the one
+ * used: Hertel and Mehlhorn's if the requested one had to fall back on it. */
 typedef struct sunder_sum_method {
     sunder_algorithm algorithm; /* never AUTO */
     sunder_decomposition decomposition;
@@ -349,14 +350,14 @@ SUNDER_API sunder_status sunder_shape_union(const sunder_shape *shape, const sun
 
 /* ---- The planar map beneath a sum --------------------------------------------------------------------------- */
 
-/* The subdivision of the plane that a union of subsums was read from, if sunder_sum_options.keep_map asked for it: of
- * the arrangement road the whole arrangement of all subsums, else the map of the union. Each face, edge and vertex is
- * covered by so many regions: open subsums, or, where the union is one region by then, 0 or 1. Edges and vertices
- * between covered faces that no region covers are the degenerate holes.
+/* The subdivision of the plane that a union of subsums was read from, if sunder_sum_options.keep_map asked for it: on
+ * the arrangement road the whole arrangement of all subsums, else the map of the union. Each face, edge and vertex has
+ * a count of the regions that cover it: open subsums, or, if the union is one region by then, 0 or 1. Edges and
+ * vertices between covered faces that no region covers are the degenerate holes.
  *
  * Vertices, edges and faces are numbered from 0; face 0 is the outermost one. Edge e is two half-edges, 2 e from its
- * lexicographically smaller end to the greater and 2 e + 1 back; each has its face on the left. Lives as long as the
- * sum. */
+ * lexicographically smaller end to the greater and 2 e + 1 back; each has its face on the left. The map lives as long
+ * as the sum. */
 typedef struct sunder_map sunder_map;
 
 #define SUNDER_NOWHERE UINT32_MAX
@@ -484,8 +485,8 @@ typedef struct sunder_layer_options {
     bool keep_pushes; /* for sunder_report_pushes() */
     bool keep_worlds; /* for sunder_report_worlds() */
     bool drop_proofs; /* sunder_report_proof() has none: of each only its features are kept, for blocked_by */
-    /* Barriers may have been left out that no feature comes too near to, nor crosses, by a move no longer than this;
-     * INFINITY (the default): none were. No less than the longest max_shift; need_shift is no more. */
+    /* Barriers may have been left out if no feature comes too near to them, or crosses them, by a move no longer than
+     * this; INFINITY (the default): none were. At least the longest max_shift; need_shift is at most this. */
     double barrier_reach;
 } sunder_layer_options;
 
@@ -557,9 +558,9 @@ typedef enum sunder_conflict_kind {
     SUNDER_CONFLICT_BARRIER_NEAR,  /* it does neither, but is nearer than it should be */
     SUNDER_CONFLICT_CONTAINED,
     SUNDER_CONFLICT_DUPLICATE,
-    /* What sunder_layer_check_moves() finds, and nobody else; of one feature alone where b is SIZE_MAX: */
+    /* Found by sunder_layer_check_moves() only; about one feature where b is SIZE_MAX: */
     SUNDER_CONFLICT_WORSE,          /* in conflict, and worse than it stood */
-    SUNDER_CONFLICT_LIMIT,          /* a moved by `distance`, and was allowed no more than `required` */
+    SUNDER_CONFLICT_LIMIT,          /* a moved by `distance`, and at most `required` was allowed */
     SUNDER_CONFLICT_SIDE,           /* a crossed a side of barrier b, on the way `from` - `to` of its side anchor */
     SUNDER_CONFLICT_JUMP,           /* a jumped over b, on the way `from` - `to` as b sees it */
     SUNDER_CONFLICT_NOT_A_TRANSLATE /* no move of a makes its coordinates what they are now */
@@ -570,7 +571,7 @@ typedef enum sunder_conflict_kind {
 SUNDER_API const char *sunder_conflict_kind_string(sunder_conflict_kind kind);
 
 typedef enum sunder_reason {
-    SUNDER_REASON_NONE,       /* of check: nothing was tried */
+    SUNDER_REASON_NONE,       /* of a check: no solution was tried */
     SUNDER_REASON_MAX_SHIFT,  /* proved: the pair cannot be parted, or brought inside, within both limits together */
     SUNDER_REASON_FIXED,      /* neither may move */
     SUNDER_REASON_SIDE,       /* proved: no solution of the pair alone, each with its block, crosses no side */
@@ -592,7 +593,7 @@ typedef struct sunder_conflict {
     double distance; /* now; 0 where they overlap */
     double before;   /* at the start */
     double depth;    /* length of the least translation that takes the interiors apart now; 0 where disjoint */
-    double required; /* the gap asked for; of a barrier half its width besides */
+    double required; /* the gap asked for; for a barrier plus half its width */
     /* How much of `required` is missing: required - distance, and where interiors meet required + depth. NAN where
      * nothing is owed: inside a block, where the pair may overlap, and of kinds that ask for no distance. */
     double missing;
@@ -606,8 +607,8 @@ typedef struct sunder_conflict {
      * all of it, if one is known. */
     double need_shift, need_gap;
     size_t need_gone;
-    /* Of one that is unresolved, proved: all pairs of its two features and those of blocked_by, listed or not, cannot
-     * be solved together, whatever is left elsewhere. So some of these have to stay, though it need not be this one. */
+    /* For an unresolved one, proved: the pairs of its two features and those of blocked_by, listed or not, cannot all
+     * be solved together, whatever else remains. So some of these have to remain, though it need not be this one. */
     bool crowded;
 } sunder_conflict;
 
@@ -619,12 +620,12 @@ typedef struct sunder_report sunder_report;
 
 typedef struct sunder_layer_summary {
     size_t features, vertices, blocks, clusters, pairs_tested;
-    size_t clusters_optimal; /* of the contact groups, those of which it is proved that nothing costs less */
-    sunder_conflict_counts before, after; /* of check: both the same */
+    size_t clusters_optimal; /* contact groups whose cost is proved to be least */
+    sunder_conflict_counts before, after; /* of a check: both the same */
     size_t thin;                          /* pairs between blocks that overlap by no more than options.thin, before */
     size_t inside_overlaps;               /* pairs inside blocks that are listed as overlaps, after */
-    size_t moved, blocked, skipped;       /* features of that status */
-    size_t blocked_moved;                 /* of the blocked, those that moved: because of other conflicts */
+    size_t moved, blocked, skipped;       /* number of features with that status */
+    size_t blocked_moved;                 /* blocked ones that moved, because of other conflicts */
     size_t rounded;
     double total, mean, max; /* of the lengths of moves; mean over all that moved, blocked ones among them */
     size_t max_feature;      /* the first whose move is longest; SIZE_MAX if nothing moved */
@@ -637,8 +638,8 @@ typedef struct sunder_layer_summary {
     /* Every pair but those listed and those in blocks was proved apart (or inside, where that may overlap), and none
      * listed stands worse. */
     bool verified;
-    /* Up to the last move; for what is known of the result (the list of conflicts, reasons and what would free them,
-     * bounds and pushes); and for the exact checks of all pairs after the last move. Of a check all is the last. */
+    /* Seconds until the last move; for the statements about the result (the list of conflicts, reasons and needs,
+     * bounds and pushes); and for the exact checks of all pairs after the last move. A check has the last one only. */
     double seconds_solve, seconds_explain, seconds_verify;
 } sunder_layer_summary;
 
@@ -648,11 +649,11 @@ typedef struct sunder_layer_summary {
 SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_options *options,
                                             sunder_report **out, sunder_error *err);
 
-/* What broke a rule on the way from `before` to `after`, two layers of the same features in the same order, whoever
- * moved them: as the report's conflicts, of the five kinds from SUNDER_CONFLICT_WORSE on. Limits, blocks and what is
- * fixed or ignored are those of `before`; options as for what moved it. Features of a block may have moved each by
- * itself: their rigidity is not asked for; nor what cannot be
- * known, the move of a repaired shape of which the repaired form was written. summary.verified: nothing was found.
+/* Which rules were broken on the way from `before` to `after`, two layers of the same features in the same order,
+ * whatever moved them: like the report's conflicts, of the five kinds from SUNDER_CONFLICT_WORSE on. Limits, blocks and
+ * fixed or ignored features are those of `before`; options as for the run that moved it. Features of a block may have
+ * moved separately: rigidity of blocks is not checked. The move of a repaired shape whose repaired form was written is
+ * not known, and not checked either. summary.verified: nothing was found.
  * Fails   as sunder_layer_check(); SUNDER_EARG too for layers of different sizes. */
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_check_moves(const sunder_layer *before, const sunder_layer *after,
                                                            const sunder_layer_options *options, sunder_report **out,
@@ -663,24 +664,25 @@ SUNDER_EXPERIMENTAL sunder_status sunder_layer_check_moves(const sunder_layer *b
 #define SUNDER_PROGRESS_SOLVED 0.8
 #define SUNDER_PROGRESS_EXPLAINED 0.98
 
-/* Takes the features apart at little cost; src/displacement/README tells how.
+/* Separates the features at little cost; src/displacement/README tells how.
  *
- * Every move is such that its feature's vertices plus the move are doubles again, exactly, where any such move will do
- * (else summary.rounded counts the feature, and the vertices as rounded are what is verified). What remains in conflict
- * is listed, and stands no worse than it stood: no nearer, and no deeper in each other by the least translation that
- * parts the two. Nobody moves to ease it.
+ * Every move is such that its feature's vertices plus the move are doubles again, exactly, if there is any such move
+ * (else summary.rounded counts the feature, and the rounded vertices are verified). What remains in conflict is listed,
+ * and stands no worse than at the start: no nearer, and no deeper in each other by the least translation that separates
+ * the two. Other features do not move to ease it.
  *
  * Unless allow_jumps, no feature jumps over another: for every feature A with the anchor a (sunder_shape_anchor()) and
- * the move t, and every other B with the move s, that is neither ignored nor of A's block and does not hold a, the
- * closed segment from a to a + t - s, not rounded, does not meet B where it stood. So what stands in a yard that has no
+ * the move t, and every other B with the move s that is neither ignored nor of A's block and does not contain a, the
+ * closed segment from a to a + t - s, not rounded, does not meet B's old outline. So a feature in a yard that has no
  * room for it keeps its conflict, whatever its limit.
  *
  * Nor does a feature cross a barrier that has sides: with c its side anchor, the closed segment from c to c + t meets
- * none of the barrier's lines but such as c lies on, and none of its areas' edges of which c lies strictly on the outer
- * side: so what stands in an area may leave it, and not come in again. The side anchor is that of
- * sunder_layer_set_side_anchors(), such as the point that a symbol is drawn at; else it is an interior point of the
- * largest part that all such lines and edges leave of the feature, of parts equal within the tolerance the one with the
- * most room; the anchor, where none of them meets its interior: src/displacement/layer/side_anchor.c has the rule. */
+ * none of the barrier's lines except those that c lies on, and none of its areas' edges that have c strictly on the
+ * outer side. So a feature inside an area may leave it, and not come in again. The side anchor is that of
+ * sunder_layer_set_side_anchors(), e.g. the point that a symbol is drawn at; otherwise it is the anchor, if no such
+ * line or edge meets its interior; otherwise an interior point of the largest part that all of them leave of the
+ * feature, among parts that are equal within the tolerance the one with the most room:
+ * src/displacement/layer/side_anchor.c has the rule. */
 SUNDER_API sunder_status sunder_layer_separate(const sunder_layer *layer, const sunder_layer_options *options,
                                                sunder_report **out, sunder_error *err);
 SUNDER_API void sunder_report_free(sunder_report *report);
@@ -700,9 +702,9 @@ SUNDER_API int64_t sunder_report_block(const sunder_report *report, size_t featu
 /* The conflicts that remain, sorted by (a, b): those between blocks, the overlaps beyond the tolerance inside blocks
  * and, with list_inside, every pair inside blocks. */
 SUNDER_API const sunder_conflict *sunder_report_conflicts(const sunder_report *report, size_t *n);
-/* How hard two that are in contact in the result press on each other, where keep_pushes was asked for: a multiplier of
- * the program whose least the result is. The sum of force * n over the pushes on a block is twice its weight times its
- * move, where it is at an optimum and not at its limit. In doubles, for people; sorted by (a, b). */
+/* The force between two features in contact in the result, if keep_pushes was asked for: a multiplier of the program
+ * whose optimum the result is. The sum of force * n over the pushes on a block is twice its weight times its move, at
+ * an optimum and below its limit. In doubles, for display; sorted by (a, b). */
 typedef struct sunder_push {
     size_t a, b; /* features, or for b the number of features + k for barrier k */
     double force;
@@ -748,20 +750,20 @@ typedef struct sunder_route sunder_route;
 /* A shortest path along which the robot can be moved, by translations, among the obstacles.
  *
  * Free space is the complement of the union of the open sets O_i + int(-robot) and so is closed: contact is allowed,
- * and passages that the robot fits exactly are passages; an exact fit in a keyhole is a place. The path is that of the
- * robot's own origin. Of several shortest paths the lexicographically smallest, as sequences of vertices; lengths are
- * told apart up to 2^-256 of themselves. Each leg is proved, by a test of its own, to keep the interior of the robot
- * off every obstacle all the way.
+ * and passages that the robot fits exactly are passages. An exact fit in a keyhole is a place. The path is that of the
+ * robot's own origin. Of several shortest paths it is the lexicographically smallest, as sequences of vertices; lengths
+ * are compared up to 2^-256 of themselves. A separate test proves that each leg keeps the interior of the robot off
+ * every obstacle all the way.
  *
- * robot      not empty, else SUNDER_EARG. Members may touch and overlap, holes are fine. (One exception, for obstacles
- *            without area alone: where members cross in places that no doubles hold, walls that two share are no part
- *            of the interior.)
- * out        on success, also where there is no route: see sunder_route_reason().
+ * robot      not empty, else SUNDER_EARG. Members may touch and overlap, holes are allowed. (One exception, for
+ *            obstacles without area only: where members cross in places that are not doubles, walls that two share do
+ *            not count as interior.)
+ * out        on success, also if there is no route: see sunder_route_reason().
  * Fails      SUNDER_EARG for an argument out of its range, SUNDER_ENOMEM, SUNDER_ECANCEL; SUNDER_EINVALID for an
  *            obstacle with a coordinate that is not finite, SUNDER_ERANGE for a place too far away to be compared.
  * Source     [LW79] for the graph, [HNR68] for the search; see src/motion/README.
- * Cost       the outline of the union as of a sum; then A* over the corners, of which only edges that may belong to a
- *            shortest path are looked at. */
+ * Cost       the outline of the union as for a sum; then A* over the corners, looking only at edges that may belong to
+ *            a shortest path. */
 SUNDER_API sunder_status sunder_route_find(const sunder_obstacle *obstacles, size_t n, const sunder_shape *robot,
                                            const sunder_place *from, const sunder_place *to,
                                            const sunder_route_options *options, sunder_route **out, sunder_error *err);

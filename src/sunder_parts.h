@@ -29,21 +29,20 @@ SUNDER_EXPERIMENTAL double sunder_total_below(const sunder_total *total);
 
 /* ---- Parts of a layer ----------------------------------------------------------------------------------------- */
 
-/* Where keep_worlds was asked for.
+/* Available if keep_worlds was asked for.
  *
- * A world is a set of features that had to do with each other: they were solved together, are in conflict or in
- * contact, or it was looked on behalf of some of them where others stood at some time. Its footprints say where it
- * was looked (read), what it has to be known of what is there (seen: blocks that reach there, whole), and where its
- * features stood from the first to the last (wrote), in boxes.
+ * A world is a set of features that influenced each other: they were solved together, are in conflict or in contact, or
+ * a place read on behalf of some of them was one where others stood at some time. Its footprints are boxes: the places
+ * that were read, the contents that must be known there (seen: blocks that reach there, whole), and where its features
+ * stood from the first moment to the last (wrote).
  *
- * Of a layer that is a part of a larger one, with the same options and barriers, and of features with the same
- * block all or none: if it has all features of the larger one that meet what one of its worlds saw, and no other
- * world of the larger one wrote where that one read, then all that is reported of the world's features, of the
- * conflicts between them or with others, and of its proofs, is what is reported of them in the larger layer, to the
- * last bit. */
+ * Consider a part of a larger layer, with the same options and barriers, which has either all features of a block or
+ * none. If it has all features of the larger layer that meet what one of its worlds saw, and no other world of the
+ * larger one wrote where that one read, then everything reported of the world's features, of the conflicts between them
+ * or with others, and of its proofs, is what is reported of them in the larger layer, to the last bit. */
 typedef struct sunder_footprint {
     size_t world;
-    /* xmin ymin xmax ymax; all of what was read was seen; what is fixed wrote nothing: xmin > xmax. */
+    /* xmin ymin xmax ymax; everything read was seen. A fixed feature wrote nothing: xmin > xmax. */
     double read[4], seen[4], wrote[4];
 } sunder_footprint;
 
@@ -63,14 +62,14 @@ SUNDER_EXPERIMENTAL const sunder_footprint *sunder_report_footprints(const sunde
 typedef struct sunder_world_bound {
     double proved, by_pairs;
 } sunder_world_bound;
-/* By worlds; lower_bound and pair_bound are the sums of all. */
+/* By worlds; lower_bound and pair_bound are the sums over all. */
 SUNDER_EXPERIMENTAL const sunder_world_bound *sunder_report_world_bounds(const sunder_report *report, size_t *n);
 /* The number of the feature's world; SIZE_MAX: it is of none. */
 SUNDER_EXPERIMENTAL size_t sunder_report_world(const sunder_report *report, size_t feature);
-/* Of which world a conflict or a push is, of a feature and a feature or a barrier: of the one that may move, if the
- * other may not. SIZE_MAX: of none. */
+/* The world that a conflict or a push belongs to, of two features or a feature and a barrier: that of the movable one,
+ * if the other is fixed. SIZE_MAX: none. */
 SUNDER_EXPERIMENTAL size_t sunder_report_world_of_pair(const sunder_report *report, size_t a, size_t b);
-/* How many pairs inside its block, of which it is the first, are not the gap apart; 0 where the block is of a world,
+/* How many pairs inside the block whose first feature this is are not the gap apart; 0 where the block is in a world,
  * which has counted them. */
 SUNDER_EXPERIMENTAL size_t sunder_report_inside(const sunder_report *report, size_t feature);
 /* Could its translate not be held in doubles? */

@@ -32,7 +32,7 @@ SUNDER_EXPERIMENTAL const sunder_bound_pair *sunder_report_bound_pairs(const sun
  * value by weak duality. */
 typedef struct sunder_bound_body {
     size_t thing;    /* a member of a block, or a feature by itself; the number of features + k: barrier k */
-    double weight;   /* no more than its own; INFINITY: it does not move */
+    double weight;   /* at most its own; INFINITY: it does not move */
     double shift[2]; /* 0 for what does not move */
 } sunder_bound_body;
 
@@ -43,9 +43,10 @@ typedef struct sunder_bound_piece {
     size_t part_a, part_b; /* their first corners, as they stood at the start */
     size_t corners_a, corners_b;
     bool shadow; /* one of the parts is an anchor, which may not jump over the other: see sunder_proof */
-    /* NAN: they owe each other what pairs owe. Else the pair is left in conflict, and held to this: to no more than the
-     * distance that it had; if its interiors met then, and by the kind of the conflict do no more, to 0; if they do
-     * still, to some translation no longer than minus this, no less than the least at the start, that parts them. */
+    /* NAN: the pair owes its full distance. Otherwise the pair is left in conflict, and held to this: to at most the
+     * distance that it had; if its interiors met then, and by the kind of the conflict no longer do, to 0; if they
+     * still do, to some translation that separates them, no longer than minus this, which is no less than the least at
+     * the start. */
     double clearance;
 } sunder_bound_piece;
 
@@ -106,58 +107,58 @@ SUNDER_EXPERIMENTAL const sunder_bound_tree *sunder_report_bound_trees(const sun
 
 /* ---- Conflicts without a solution ------------------------------------------------------------------------- */
 
-/* A proof that a conflict has no solution, which rational arithmetic can follow. Every number in it means itself.
+/* A proof that a conflict has no solution, which can be verified in rational arithmetic. Every number in it is exact.
  *
  * Let t be the moves of blocks (a feature that stands alone is one), no longer than the block's limit: the least
  * max_shift of its members, 0 if one is fixed or ignored. The proof is a tree, node 0 its root.
  *
  * An inner node (ways > 0) is about the pair of features a and b, of blocks A and B; let u = t_B - t_A. Its parts are
- * convex polygons within a and b, counter-clockwise, as they stood at the start. Any u at which the second part, moved
- * by it, keeps the clearance from the first, has n.u >= d for at least one of the node's ways. (To keep a clearance c
- * >= 0: disjoint interiors, and a distance of at least c. A clearance c < 0: some translation no longer than -c leaves
- * them disjoint interiors.) The clearance is no more than the pair owes: the gap, if it is the conflict itself, or is
- * not among the conflicts; else what it had at the start, its distance or minus the length of the least translation
- * that parts it. The way's `next` is the node for the case that it is the first of them with n.u >= d, so that n.u < d
- * for those before.
+ * convex polygons within a and b, counter-clockwise, at their original places. Any u at which the second part, moved by
+ * it, keeps the clearance from the first, has n.u >= d for at least one of the node's ways. (To keep a clearance c >=
+ * 0: disjoint interiors, and a distance of at least c. A clearance c < 0: some translation no longer than -c makes
+ * their interiors disjoint.) The clearance is at most what the pair owes: the gap, if it is the conflict itself, or is
+ * not among the conflicts; otherwise its value at the start, the distance or minus the length of the least translation
+ * that separates it. The way's `next` is the node for the case that it is the first of them with n.u >= d, so that n.u
+ * < d for those before.
  *
- * Where `shadow`, one of the two parts is a single corner, the anchor of its feature, which the other feature does not
- * hold; the other part is one of that feature. Or b is a barrier, the corner is the side anchor of its feature, and the
- * other part has two: a segment of the barrier's lines, or an edge of its areas, with the area on its left and the
- * anchor on its right. Any u at which the straight way of the anchor, as the other part sees it, does not meet the
- * interior of that part, or that segment, has n.u >= d for at least one of the node's ways: no clearance is asked.
+ * With `shadow`, one of the two parts is a single corner, the anchor of its feature, which the other feature does not
+ * contain; the other part is one of that feature. Or b is a barrier, the corner is the side anchor of its feature, and
+ * the other part has two: a segment of the barrier's lines, or an edge of its areas, with the area on its left and the
+ * anchor on its right. Any u at which the straight path of the anchor, relative to the other part, does not meet the
+ * interior of that part, or that segment, has n.u >= d for at least one of the node's ways: there is no clearance.
  *
- * Where `chord`, such a side of barrier b and one of barrier c (which may be b) have one end in common, and the other
- * ends on either side of the straight way from the anchor through it. The second part is a segment, one end of which is
- * strictly in the shadow of either side, and which the way passes beyond that common end; so what it shadows is in the
- * shadows of the two sides together.
+ * With `chord`, such a side of barrier b and one of barrier c (which may be b) have one end in common, and the other
+ * ends on either side of the straight path from the anchor through it. The second part is a segment, one end of which
+ * is strictly in the shadow of either side, and which the path crosses beyond that common end; so what it shadows is in
+ * the shadows of the two sides together.
  *
- * Where `slack`, the clearance is negative, and the pair not the conflict itself. All its parts have one translation
- * v, no longer than minus the clearance, that leaves them disjoint interiors: it is the same at all such nodes of the
- * pair, and their ways are about u = t_B + v - t_A, of which it is asked to leave the parts disjoint interiors.
+ * With `slack`, the clearance is negative, and the pair not the conflict itself. All its parts have one translation v,
+ * no longer than minus the clearance, that makes their interiors disjoint: it is the same at all such nodes of the
+ * pair, and their ways are about u = t_B + v - t_A, which has to make the interiors of the parts disjoint.
  *
  * A leaf has forces, positive, each on a way of a node above it: on the one that leads to the leaf (then h = d, m = n),
  * or on one before that (behind; then h = -d, m = -n). So m.u >= h in this case, for all of them. But the sum of force
  * * h is greater than the sum, over blocks, of limit * |sum of force * m, with a minus where the block is A|, and over
  * pairs with slack, of minus the clearance * |sum of force * m|: no such moves are within the limits.
  *
- * Where `held`, the pair is not the conflict itself, and what it is held to is its distance at the start, or minus the
- * length of its least translation then, exactly: what `clearance` says is near to that, and not to be relied on. It is
- * so that a line may pass the place where the two stood: d = 0. Where both `slack` and `held`, the first way says more
- * than its d: n.u >= h, h the greatest of n.(p - q) over corners p of the first part and q of the second.
+ * With `held`, the pair is not the conflict itself, and is held to its distance at the start, or minus the length of
+ * its least translation then, exactly: `clearance` is only near to that. This lets a line pass through the original
+ * place of the two: d = 0. With both `slack` and `held`, the first way says more than its d: n.u >= h, h the greatest
+ * of n.(p - q) over corners p of the first part and q of the second.
  *
- * Where a leaf is `still`, two ways that lead to it, line_way of line_node, are about one block and what cannot move,
- * with d = 0, and n opposite to each other (or one is a first way that is held with a slack, and h no less than |n|
- * times the pair's least translation at the start, so that n.u >= 0 without it); so of the block's move only t with n.t
- * = 0 is left. Moves are such that all corners of the block are doubles afterwards. No coordinate of them can leave its
- * binade within the limit; so t is a multiple of the unit there in each coordinate, and the least of these with n.t = 0
- * that is not 0 is beyond the limit. So t = 0, and the limit of the block counts as 0 in that leaf. */
+ * If a leaf is `still`, two ways that lead to it, line_way of line_node, are about one block and a fixed thing, with d
+ * = 0, and n opposite to each other (or one is a first way that is held with a slack, and h is no less than |n| times
+ * the pair's least translation at the start, so that n.u >= 0 without it). So the block's move satisfies n.t = 0. After
+ * a move all corners of the block are doubles. No coordinate of them can leave its binade within the limit; so t is a
+ * multiple of the unit there in each coordinate, and the least of these with n.t = 0 that is not 0 is beyond the limit.
+ * So t = 0, and the limit of the block counts as 0 in that leaf. */
 typedef struct sunder_proof_way {
     double n[2], d;
     size_t next;
 } sunder_proof_way;
 
 typedef struct sunder_proof_force {
-    size_t node, way; /* of all ways */
+    size_t node, way; /* number of all ways */
     bool behind;
     double force;
 } sunder_proof_force;
@@ -185,17 +186,17 @@ typedef struct sunder_proof {
     const sunder_proof_force *force;
     const double *corner; /* [2 * corners] */
     size_t nodes, ways, forces, corners;
-    double within; /* the limit of those that have none; 0: there are none */
+    double within; /* the limit assumed for features without one; 0: there are none */
 } sunder_proof;
 
-/* The proof of conflict k of sunder_report_conflicts(), or NULL. It lives as long as the report. There is one for
- * each with SUNDER_REASON_NO_ROOM, and each that is crowded; the features of its nodes, but for the two in conflict,
- * are the conflict's blocked_by: none of them could be left out of it. With SUNDER_REASON_SIDE and mostly
- * SUNDER_REASON_JUMP there is one, too: its nodes are about the pair, and about the ways of the members of their two
- * blocks (shadows). Without a limit `within` is one by which the two are apart for certain: farther out nothing but
- * shadows forbids a move, and what is shaded there was shaded before; with SUNDER_REASON_NO_ROOM all nodes are about
- * members of the two blocks then. With SUNDER_REASON_MAX_SHIFT, if keep_trees was asked for and one was found, they
- * are about the pair. */
+/* The proof of conflict k of sunder_report_conflicts(), or NULL. It lives as long as the report. There is one for each
+ * conflict with SUNDER_REASON_NO_ROOM, and for each that is crowded; the features of its nodes, except the two in
+ * conflict, are the conflict's blocked_by: the proof needs all of them. Conflicts with SUNDER_REASON_SIDE, and most
+ * with SUNDER_REASON_JUMP, have one, too: its nodes are about the pair, and about the shadows of the members of their
+ * two blocks. For features without a limit, `within` is a distance at which the two are certainly apart: farther out
+ * nothing but shadows forbids a move, and what is shaded there was shaded before. With SUNDER_REASON_NO_ROOM all nodes
+ * are about members of the two blocks then. With SUNDER_REASON_MAX_SHIFT, if keep_trees was asked for and one was
+ * found, they are about the pair. */
 SUNDER_EXPERIMENTAL const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k);
 
 #ifdef __cplusplus
