@@ -32,7 +32,7 @@ for header in sunder sunder_proof sunder_parts; do
         grep -q "[\";>]$name</a>\|>$name<\| $name " "$page" || fail "the reference of $header.h lacks $name"
     done
 done
-grep -q 'Takes the features apart at little cost' "$site/reference/sunder_8h.html" || fail "the reference has no descriptions"
+grep -q 'Separates the features at little cost' "$site/reference/sunder_8h.html" || fail "the reference has no descriptions"
 
 # A page that leads nowhere is found out, by its file and by its part.
 cp -r "$site" "$work/wrong"
