@@ -486,9 +486,14 @@ typedef struct sunder_layer_options {
     bool keep_worlds; /* for sunder_report_worlds() */
     bool drop_proofs; /* sunder_report_proof() has none: of each only its features are kept, for blocked_by */
     /* Barriers may have been left out if no feature comes too near to them, or crosses them, by a move no longer than
-     * this; INFINITY (the default): none were. At least the longest max_shift; need_shift is at most this. */
+     * this; INFINITY (the default): none were. At least the longest max_shift; need_shift is at most this. Barriers
+     * with sides may not be left out where they are within sunder_side_reach() of a feature's box. */
     double barrier_reach;
 } sunder_layer_options;
+
+/* How far about its box (xmin, ymin, xmax, ymax) barriers decide on which side of them a feature is: twice the width
+ * and the height of the box together. */
+SUNDER_API double sunder_side_reach(const double box[4]);
 
 /* Defaults: gap 0, tolerance a tenth of it, blocks on, one thread, no jumps, effort 1, seed 0. */
 SUNDER_API void sunder_layer_options_init_sized(sunder_layer_options *options, size_t size);

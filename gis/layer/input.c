@@ -147,19 +147,31 @@ static bool box_of_ways(const gis_layer_input *input, size_t i, double box[4])
     return true;
 }
 
+/* How far about a feature barriers decide on its side; a point has the side that it stands on. */
+static double side_reach(const gis_layer_input *input, size_t i)
+{
+    double box[4];
+    return !input->points && feature_box(input, i, box) ? sunder_side_reach(box) : 0;
+}
+
 /* Where barriers matter: about each feature; or anywhere between where all are and where all were, for a check. */
 static gis_barrier_targets *find_targets(const gis_layer_input *input)
 {
     const double *also = input->request->also;
-    double(*box)[4] = calloc(input->n + 1, sizeof *box), all[4];
+    double(*box)[4] = calloc(input->n + 1, sizeof *box), all[4], farthest = 0;
     size_t n = 0;
     if (!box) return NULL;
     gis_layer_box(input, all);
     if (also) {
         for (int k = 0; k < 4; k++) box[0][k] = k < 2 ? fmin(all[k], also[k]) : fmax(all[k], also[k]);
+        for (size_t i = 0; i < input->n; i++) farthest = fmax(farthest, side_reach(input, i));
+        gis_barrier_target_grow(box[0], farthest, input->barrier_reach);
         n = box[0][0] <= box[0][2];
     }
-    for (size_t i = 0; !also && i < input->n; i++) n += box_of_ways(input, i, box[n]);
+    for (size_t i = 0; !also && i < input->n; i++) {
+        if (!box_of_ways(input, i, box[n])) continue;
+        gis_barrier_target_grow(box[n++], side_reach(input, i), input->barrier_reach);
+    }
     gis_barrier_targets *targets = gis_barrier_targets_new((const double(*)[4])box, n);
     free(box);
     return targets;
@@ -169,9 +181,9 @@ static bool read_barriers(gis_layer_input *input, gis_error *error)
 {
     const gis_layer_input_request *request = input->request;
     if (request->barriers == 0) return true;
+    input->barrier_reach = gis_layer_barrier_reach(longest_limit(input));
     gis_barrier_targets *targets = find_targets(input);
     if (!targets) return gis_no_memory(error);
-    input->barrier_reach = gis_layer_barrier_reach(longest_limit(input));
     const gis_barrier_surroundings around = {
         .crs = gis_source_crs(input->source),
         .units = &input->units,

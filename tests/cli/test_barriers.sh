@@ -110,7 +110,7 @@ id,WKT
 1,"POLYGON((-200 0,-190 0,-190 10,-200 10,-200 0))"
 2,"POLYGON((200 300,210 300,210 310,200 310,200 300))"
 X
-expect 0 check apart.gpkg --barrier tie.gpkg,gap=150 --invalid fail
+expect 0 check apart.gpkg --barrier tie.gpkg,gap=149 --invalid fail
 refused 1 'layer tie, FID 1' check apart.gpkg --barrier tie.gpkg,gap=220 --invalid fail
 layer wide.gpkg w GEOMETRY <<'X'
 id,w,WKT

@@ -27,10 +27,14 @@ void gis_barrier_request_clear(gis_barrier_request *request);
 /* Boxes of what barriers may be in the way of. NULL: memory is out. */
 typedef struct gis_barrier_targets gis_barrier_targets;
 gis_barrier_targets *gis_barrier_targets_new(const double (*box)[4], size_t n);
+/* Barriers decide on which side of them a feature is as far about it as sunder_side_reach() says, and all of these are
+ * needed, whatever the limits are. Grows the box by what a reach of moves lacks for a feature with that side reach. */
+void gis_barrier_target_grow(double box[4], double side_reach, double reach);
 /* Boxes that lie in cells somewhere else, and are read a cell at a time. */
 typedef struct gis_box_cells {
     void *of; /* borrowed; handed to each function */
     size_t cells;
+    double reach; /* of moves: boxes are grown as by gis_barrier_target_grow() for features of their size */
     const double *(*around)(void *of, size_t cell); /* a box around all of the cell; [0] > [2]: the cell is empty */
     size_t (*boxes)(void *of, size_t cell);         /* the most boxes that read() fills in */
     bool (*read)(void *of, size_t cell, double (*box)[4], size_t *n, gis_error *error);

@@ -1,8 +1,8 @@
 /* barrier_reach.c: what of a barrier layer may be in the way of anything. A barrier is within reach if some feature
- * that goes as far as any may comes as near to it as half its width and its distance. That is asked of boxes in a tree,
- * so that what lies between features far from each other is not read for both. Where the features lie in cells on disk
- * the tree is that of the cells, and the boxes of a cell's features are read when they are asked for; CELLS_HELD cells
- * are kept. */
+ * that goes as far as any may comes as near to it as half its width and its distance, or if it may decide on which side
+ * of it a feature is (sunder_side_reach()). That is asked of boxes in a tree, so that what lies between features far
+ * from each other is not read for both. Where the features lie in cells on disk the tree is that of the cells, and the
+ * boxes of a cell's features are read when they are asked for; CELLS_HELD cells are kept. */
 #include "layer/barriers/barrier.h"
 
 #include "base/interrupt.h"
@@ -41,6 +41,13 @@ static void bounds_of(const void *box, CPLRectObj *out)
     *out = (CPLRectObj){b[0], b[1], b[2], b[3]};
 }
 
+void gis_barrier_target_grow(double box[4], double side_reach, double reach)
+{
+    const double by = side_reach - reach;
+    if (by > 0)
+        for (int k = 0; k < 4; k++) box[k] += k < 2 ? -by : by;
+}
+
 gis_barrier_targets *gis_barrier_targets_new(const double (*box)[4], size_t n)
 {
     gis_barrier_targets *targets = calloc(1, sizeof *targets);
@@ -75,6 +82,39 @@ static void free_cells(looked_up *cells)
     free(cells);
 }
 
+static bool look_up(looked_up *cells, size_t cell)
+{
+    size_t *place = &cells->held[cells->at];
+    if (cells->box[cell]) return true;
+    if (*place != SIZE_MAX) {
+        free(cells->box[*place]);
+        cells->box[*place] = NULL;
+    }
+    cells->at = (cells->at + 1) % CELLS_HELD;
+    *place = cell;
+    cells->box[cell] = malloc((cells->from.boxes(cells->from.of, cell) + 1) * sizeof **cells->box);
+    if (!cells->box[cell])
+        gis_no_memory(&cells->error);
+    else if (cells->from.read(cells->from.of, cell, cells->box[cell], &cells->n[cell], &cells->error)) {
+        for (size_t k = 0; k < cells->n[cell]; k++) {
+            double *box = cells->box[cell][k];
+            gis_barrier_target_grow(box, sunder_side_reach(box), cells->from.reach);
+        }
+        return true;
+    }
+    cells->failed = true;
+    return false;
+}
+
+/* A box around the boxes of the cell, grown as they are. */
+static void box_of_cell(looked_up *cells, size_t cell, double out[4])
+{
+    memcpy(out, cells->from.around(cells->from.of, cell), 4 * sizeof *out);
+    if (!(sunder_side_reach(out) > cells->from.reach) || !look_up(cells, cell)) return; /* none grows */
+    for (size_t k = 0; k < cells->n[cell]; k++)
+        for (int c = 0; c < 4; c++) out[c] = (c < 2 ? fmin : fmax)(out[c], cells->box[cell][k][c]);
+}
+
 /* Those that hold anything. *box: their boxes. */
 static looked_up *list_cells(const gis_box_cells *from, double (*box)[4], size_t *n)
 {
@@ -94,7 +134,7 @@ static looked_up *list_cells(const gis_box_cells *from, double (*box)[4], size_t
     for (size_t k = 0; k < cells; k++) {
         const double *own = from->around(from->of, k);
         if (!(own[0] <= own[2])) continue;
-        memcpy(box[*n], own, sizeof *box);
+        box_of_cell(out, k, box[*n]);
         out->number[(*n)++] = k;
     }
     return out;
@@ -118,25 +158,6 @@ bool gis_barrier_targets_sound(const gis_barrier_targets *targets, gis_error *er
 {
     if (!targets->cells || !targets->cells->failed) return true;
     *error = targets->cells->error;
-    return false;
-}
-
-static bool look_up(looked_up *cells, size_t cell)
-{
-    size_t *place = &cells->held[cells->at];
-    if (cells->box[cell]) return true;
-    if (*place != SIZE_MAX) {
-        free(cells->box[*place]);
-        cells->box[*place] = NULL;
-    }
-    cells->at = (cells->at + 1) % CELLS_HELD;
-    *place = cell;
-    cells->box[cell] = malloc((cells->from.boxes(cells->from.of, cell) + 1) * sizeof **cells->box);
-    if (!cells->box[cell])
-        gis_no_memory(&cells->error);
-    else if (cells->from.read(cells->from.of, cell, cells->box[cell], &cells->n[cell], &cells->error))
-        return true;
-    cells->failed = true;
     return false;
 }
 

@@ -59,8 +59,8 @@ static bool read_boxes(void *spool, size_t cell, double (*box)[4], size_t *n, gi
     return gis_spool_boxes(spool, cell, box, n, error);
 }
 
-gis_barrier_targets *gis_barrier_targets_of_spool(gis_spool *spool)
+gis_barrier_targets *gis_barrier_targets_of_spool(gis_spool *spool, double reach)
 {
-    const gis_box_cells cells = {spool, gis_spool_cells(spool), box_of_cell, features_of_cell, read_boxes};
+    const gis_box_cells cells = {spool, gis_spool_cells(spool), reach, box_of_cell, features_of_cell, read_boxes};
     return gis_barrier_targets_of_cells(&cells);
 }

@@ -55,7 +55,6 @@ static inline bool sunder_i_is_present(const sunder_feature *feature)
 /* The options with every default filled in. */
 typedef struct sunder_i_rules {
     double gap, tolerance;
-    double barriers_known;    /* distances between features matter up to this; INFINITY: all */
     const sunder_shape *disc; /* with the tolerance's diameter, for sunder_i_overlap_is_thin(); the model's */
     bool touch_joins, containment_joins, list_inside;
     double thin; /* 0: joining by tolerance is not needed */

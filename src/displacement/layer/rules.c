@@ -48,7 +48,6 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
                              options->barrier_reach);
     rules->gap = options->gap;
     rules->tolerance = tolerance;
-    rules->barriers_known = options->barrier_reach;
     rules->disc = NULL; /* until there is a model */
     rules->touch_joins = !options->no_blocks && !options->no_touch;
     rules->containment_joins = !options->no_blocks && options->contained == SUNDER_CONTAINMENT_BLOCK;

@@ -186,7 +186,7 @@ static bool misses(const sunder_shape *s, const sunder_i_side *side)
 /* Leaves only the parts with the most room. */
 static sunder_status keep_roomiest(sunder_i_side_cut *c, const sunder_i_side_scope *scope, sunder_error *err)
 {
-    const double reach = sunder_i_side_room_reach(c->shape, scope->known);
+    const double reach = sunder_side_reach(c->shape->box);
     const sunder_i_side *const *line;
     sunder_i_ratio most = {.den = {NULL, 0}};
     double box[4];

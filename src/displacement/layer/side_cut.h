@@ -46,8 +46,7 @@ sunder_status sunder_i_side_cut_holds(const sunder_i_cut_part *part, sunder_i_ra
                                       sunder_error *err);
 /* ---- side_room.c: the room that the feature has beyond a point of it, as a square in units of the lattice ---- */
 
-/* How far it is looked, and which lines have to be known: those as near to the shape's box. */
-double sunder_i_side_room_reach(const sunder_shape *shape, double known);
+/* Lines: those within the reach, sunder_side_reach(), of the shape's box. */
 sunder_i_ratio sunder_i_side_room(sunder_i_side_cut *cut, sunder_i_rational_point point,
                                   const sunder_i_side *const *line, size_t n, double reach);
 

@@ -1,11 +1,10 @@
 /* How much room has a feature on the side of one of its parts? Straight on from the middle of the feature's box through
- * the part's point it is asked which line comes first, and how far that is from the point: no farther than twice the
- * width and height of the box together, nor than barriers are known. Beyond that there is room enough, and all is
- * alike; so it is where the point is the middle itself. That sum is computed in doubles, and of ends of lines that are
- * none the nearest doubles count; the rest is exact. */
+ * the part's point it is asked which line comes first, and how far that is from the point, up to sunder_side_reach(). A
+ * line farther off counts as at that distance, and so does the case that the point is the middle itself. The reach
+ * depends on the feature's box alone: the side of a feature is the same for all limits of moves. The reach is computed
+ * in doubles, and of ends of lines that are none the nearest doubles count; the rest is exact. */
 #include "displacement/layer/side_cut.h"
 
-#include "base/extremes.h"
 #include "shape/shape.h"
 
 /* From p on along d, where the line from a to b is met, in parts of d; false where it is not, beyond p. */
@@ -33,11 +32,7 @@ static sunder_i_ratio times(sunder_i_arena *m, sunder_i_ratio a, sunder_i_ratio 
     return (sunder_i_ratio){sunder_i_big_mul(m, a.num, b.num), sunder_i_big_mul(m, a.den, b.den)};
 }
 
-double sunder_i_side_room_reach(const sunder_shape *shape, double known)
-{
-    const double *box = shape->box;
-    return sunder_i_min(known, 2 * ((box[2] - box[0]) + (box[3] - box[1])));
-}
+double sunder_side_reach(const double box[4]) { return 2 * ((box[2] - box[0]) + (box[3] - box[1])); }
 
 sunder_i_ratio sunder_i_side_room(sunder_i_side_cut *cut, sunder_i_rational_point point,
                                   const sunder_i_side *const *line, size_t n, double reach)

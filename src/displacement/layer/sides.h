@@ -21,7 +21,6 @@ bool sunder_i_side_faces(const sunder_i_model *model, const sunder_i_side *side,
 /* What a side anchor is chosen by, besides the lines about the feature. */
 typedef struct sunder_i_side_scope {
     double tolerance; /* of touching */
-    double known;     /* lines are known as far as this about features */
     /* Those that meet a box, until it is called again. False if memory is out. */
     bool (*find)(void *user, const double box[4], const sunder_i_side *const **line, size_t *n);
     void *user;
