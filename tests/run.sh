@@ -35,6 +35,7 @@ if [ "$all" ]; then
     setup_want "pandoc" pandoc pandoc --version
     setup_want "Doxygen" doxygen doxygen --version
     setup_want "QGIS's Python module" "qgis python3-qgis" /usr/bin/python3 -c "import qgis.core"
+    setup_want "PyQt6" python3-pyqt6 /usr/bin/python3 -c "import PyQt6.QtGui, PyQt6.QtXml"
     setup_want "Xvfb, for QGIS's window" "xvfb xauth" xvfb-run --help
     setup_want "PostGIS" postgresql-postgis bash -c 'compgen -G "/usr/share/postgresql/*/extension/postgis.control"'
     setup_want "PostGIS" postgresql-postgis compgen -G '/usr/lib/postgresql/*/lib/postgis-3.so'
