@@ -222,8 +222,8 @@ static void test_limit_in_a_row(void **state)
     scene_end(&s);
 }
 
-/* Two that would jump over each other where each goes when the other stands as it does now, which is far from there. */
-static void test_two_groups_that_jump(void **state)
+/* Two that overlap each other and a fixed one, with jumps forbidden: what is found is proved to be the least. */
+static void test_two_on_a_fixed_one(void **state)
 {
     (void)state;
     scene s;
@@ -494,7 +494,7 @@ int main(void)
         cmocka_unit_test(test_limit_in_a_row),
         cmocka_unit_test(test_beside_a_point),
         cmocka_unit_test(test_small_move_beside_what_is_long),
-        cmocka_unit_test(test_two_groups_that_jump),
+        cmocka_unit_test(test_two_on_a_fixed_one),
         cmocka_unit_test(test_slot_beside_a_stranger),
         cmocka_unit_test(test_limit_beside_a_line),
         cmocka_unit_test(test_by_a_corner),
