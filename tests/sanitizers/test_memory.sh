@@ -40,7 +40,8 @@ chmod +x "$work/bin/sunder"
 told() { echo "$1: asked; complaints so far: $(find "$logs" -type f -size +0 | wc -l)"; }
 
 programs=$(find "$SUNDER_BUILD/tests" -maxdepth 1 -name 'test_*' -type f -perm -u+x | LC_ALL=C sort)
-units=$(for file in "$SUNDER_SOURCE"/tests/unit/test_*.c; do basename "$file" .c; done | LC_ALL=C sort | awk -v part="$part" 'NR % part == 1')
+units=$(cd "$SUNDER_SOURCE/tests/unit" && find . -name 'test_*.c' | # number/test_big.c: test_number_big
+    sed 's|^\./||; s|^\(.*/\)test_|test_\1|; s|/|_|g; s|\.c$||' | LC_ALL=C sort | awk -v part="$part" 'NR % part == 1')
 asked=0
 for name in test_golden $units; do
     [[ $name =~ $only ]] && grep -q "/$name\$" <<<"$programs" || continue

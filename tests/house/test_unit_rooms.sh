@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Unit tests lie in folders named like the rooms of src/, and each is named for the file that it asks about: number/test_big.c
+# for number/big.c. What follows the name, as in displacement/test_separate_layer_memory.c, says which question it asks. Files
+# at the top ask the whole library.
+set -euo pipefail
+cd "${SUNDER_SOURCE:?}/tests/unit"
+tests=0 wrong=0
+while read -r file; do
+    room=$(dirname "$file") name=$(basename "$file" .c)
+    name=${name#test_}
+    tests=$((tests + 1))
+    while [[ ! -f ../../src/$room/$name.c && ! -f ../../src/$room/$name.h && $name == *_* ]]; do name=${name%_*}; done
+    if [[ ! -f ../../src/$room/$name.c && ! -f ../../src/$room/$name.h ]]; then
+        echo "tests/unit/$file is named for no file of src/$room"
+        wrong=$((wrong + 1))
+    fi
+done < <(find . -mindepth 2 -name '*.c' | sed 's|^\./||' | sort)
+((tests > 80)) || { echo "only $tests unit tests were found"; exit 1; }
+exit $((wrong > 0))
